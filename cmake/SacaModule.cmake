@@ -1,0 +1,66 @@
+# Flags of this project's own targets. PRIVATE, so they never reach those who link to saca.
+add_library(saca_flags INTERFACE)
+target_compile_options(saca_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
+  -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion
+  $<$<BOOL:${SACA_DEVELOPER}>:-Werror>)
+
+# saca_module(<name> [SOURCES <a.cpp>...] [DEPS <module>...])
+#
+# Makes the library saca::<name> from the current folder. Every <a>_test.cpp in the folder becomes
+# the test <name>.<a>; a source without one stops the configuration. Every <a>_bench.cpp becomes a
+# benchmark, run for an instant as a test so that it cannot rot. One more test checks that the folder
+# includes only the modules in DEPS.
+function(saca_module name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPS")
+  if(arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "saca_module(${name}): what is `${arg_UNPARSED_ARGUMENTS}`?")
+  endif()
+
+  foreach(module IN LISTS arg_DEPS)
+    if(NOT TARGET saca::${module})
+      message(FATAL_ERROR "saca_module(${name}): ${module} stands below it, or is no module")
+    endif()
+  endforeach()
+
+  add_library(saca_${name} STATIC ${arg_SOURCES})
+  add_library(saca::${name} ALIAS saca_${name})
+  target_include_directories(saca_${name} PUBLIC ${PROJECT_SOURCE_DIR})
+  list(TRANSFORM arg_DEPS PREPEND saca:: OUTPUT_VARIABLE libraries)
+  target_link_libraries(saca_${name} PUBLIC ${libraries} PRIVATE saca_flags)
+  if(NOT SACA_DEVELOPER)
+    return()
+  endif()
+
+  foreach(source IN LISTS arg_SOURCES)
+    cmake_path(GET source STEM stem)
+    if(NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${stem}_test.cpp)
+      message(FATAL_ERROR "saca/${name}/${source} has no ${stem}_test.cpp beside it")
+    endif()
+  endforeach()
+
+  file(GLOB tests CONFIGURE_DEPENDS *_test.cpp)
+  foreach(test IN LISTS tests)
+    cmake_path(GET test STEM stem)
+    add_executable(${name}_${stem} ${test})
+    target_link_libraries(${name}_${stem} PRIVATE saca::${name} saca_flags GTest::gmock_main)
+    string(REPLACE _test "" unit ${stem})
+    add_test(NAME ${name}.${unit} COMMAND ${name}_${stem})
+    set_tests_properties(${name}.${unit} PROPERTIES LABELS ${name} TIMEOUT 60)
+  endforeach()
+
+  file(GLOB benches CONFIGURE_DEPENDS *_bench.cpp)
+  foreach(bench IN LISTS benches)
+    cmake_path(GET bench STEM stem)
+    add_executable(${name}_${stem} ${bench})
+    target_link_libraries(${name}_${stem} PRIVATE saca::${name} saca_flags benchmark::benchmark_main)
+    add_test(NAME ${name}.${stem} COMMAND ${name}_${stem} --benchmark_min_time=0.001)
+    set_tests_properties(${name}.${stem} PROPERTIES LABELS bench TIMEOUT 60)
+  endforeach()
+
+  list(JOIN arg_DEPS "," allowed)
+  add_test(NAME ${name}.layers COMMAND ${CMAKE_COMMAND}
+    -DFOLDER=${CMAKE_CURRENT_SOURCE_DIR} -DALLOWED=${name},${allowed}
+    -P ${PROJECT_SOURCE_DIR}/cmake/CheckLayers.cmake)
+  set_tests_properties(${name}.layers PROPERTIES LABELS ${name})
+endfunction()

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <chrono>
+
+namespace saca {
+
+/// Real time since some fixed start. Comes in as an argument everywhere; simulated time is
+/// something else (a step count), and the two never mix.
+class Clock {
+ public:
+  using Time = std::chrono::nanoseconds;
+
+  Clock() = default;
+  Clock(const Clock&) = delete;
+  Clock& operator=(const Clock&) = delete;
+  virtual ~Clock() = default;
+
+  [[nodiscard]] virtual Time now() const noexcept = 0;
+  /// Returns at `time` or later; at once if it has passed.
+  virtual void wait_until(Time time) noexcept = 0;
+};
+
+/// The machine's monotonic clock.
+class SteadyClock final : public Clock {
+ public:
+  [[nodiscard]] Time now() const noexcept override;
+  void wait_until(Time time) noexcept override;
+};
+
+/// Stands still until told; waiting moves it on. For tests.
+class ManualClock final : public Clock {
+ public:
+  [[nodiscard]] Time now() const noexcept override { return now_; }
+  void wait_until(Time time) noexcept override;
+  void advance(Time by) noexcept { now_ += by; }
+
+ private:
+  Time now_{0};
+};
+
+}  // namespace saca

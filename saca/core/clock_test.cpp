@@ -1,0 +1,29 @@
+#include "saca/core/clock.h"
+
+#include <gtest/gtest.h>
+
+namespace saca {
+namespace {
+
+using std::chrono::milliseconds;
+
+TEST(ManualClock, MovesOnlyWhenTold) {
+  ManualClock clock;
+  EXPECT_EQ(clock.now(), milliseconds(0));
+  clock.advance(milliseconds(5));
+  EXPECT_EQ(clock.now(), milliseconds(5));
+  clock.wait_until(milliseconds(9));
+  EXPECT_EQ(clock.now(), milliseconds(9));
+  clock.wait_until(milliseconds(3));  // has passed
+  EXPECT_EQ(clock.now(), milliseconds(9));
+}
+
+TEST(SteadyClock, NeverRunsBackAndWaitsLongEnough) {
+  SteadyClock clock;
+  const Clock::Time start = clock.now();
+  clock.wait_until(start + milliseconds(1));
+  EXPECT_GE(clock.now() - start, milliseconds(1));
+}
+
+}  // namespace
+}  // namespace saca

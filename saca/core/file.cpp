@@ -1,0 +1,72 @@
+#include "saca/core/file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+namespace saca {
+namespace {
+
+std::string reason() {
+  return std::strerror(errno);  // NOLINT(concurrency-mt-unsafe): glibc's is thread-safe
+}
+
+/// Writes all of `text` to the file and forces it to the disk.
+bool write_all(int file, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(file, text.data(), text.size());
+    if (written < 0 && errno != EINTR) {
+      return false;
+    }
+    text.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(written, 0)));
+  }
+  return ::fsync(file) == 0;
+}
+
+}  // namespace
+
+Result<std::string> read_file(const std::filesystem::path& path) {
+  std::error_code problem;
+  if (std::filesystem::is_directory(path, problem)) {
+    return Error{Error::Code::unreadable, path.string() + ": is a folder, want a file"};
+  }
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    return Error{Error::Code::unreadable, path.string() + ": cannot be opened: " + reason()};
+  }
+  std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (file.bad()) {
+    return Error{Error::Code::unreadable, path.string() + ": cannot be read: " + reason()};
+  }
+  return text;
+}
+
+std::optional<Error> write_file(const std::filesystem::path& path, std::string_view text) {
+  std::string draft = path.string() + ".XXXXXX";
+  const int file = ::mkstemp(draft.data());
+  if (file < 0) {
+    return Error{Error::Code::unwritable, path.string() + ": cannot be created: " + reason()};
+  }
+  constexpr mode_t readable_by_all = 0644;
+  bool good = ::fchmod(file, readable_by_all) == 0 && write_all(file, text);
+  std::string why = good ? "" : reason();
+  good = ::close(file) == 0 && good;
+  if (good && ::rename(draft.c_str(), path.c_str()) == 0) {
+    return std::nullopt;
+  }
+  if (why.empty()) {
+    why = reason();
+  }
+  ::unlink(draft.c_str());
+  return Error{Error::Code::unwritable, path.string() + ": cannot be written: " + why};
+}
+
+}  // namespace saca

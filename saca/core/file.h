@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "saca/core/result.h"
+
+namespace saca {
+
+/// The whole file as bytes.
+/// @return  Error::Code::unreadable, naming the path and the system's reason
+[[nodiscard]] Result<std::string> read_file(const std::filesystem::path& path);
+
+/// Puts `text` at `path` in one step: a reader sees the old file or the whole new one, also after a
+/// crash or on a full disk, where the old file stays and nothing half-written is left.
+///
+/// @return  nullopt when the file is on the disk, else the error (Error::Code::unwritable)
+[[nodiscard]] std::optional<Error> write_file(const std::filesystem::path& path,
+                                              std::string_view text);
+
+}  // namespace saca

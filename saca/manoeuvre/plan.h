@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace saca::manoeuvre {
+
+/// The policy library: Table I of the paper (arXiv 2504.00115). The number is the paper's ID.
+enum class PolicyId : std::uint8_t {
+  aeb = 0,              ///< full braking, lane kept
+  aes_left = 1,         ///< lane change to the left at constant speed, direction recovered
+  aes_right = 2,        ///< likewise to the right
+  es_b_left = 3,        ///< lane change to the left while braking to a target speed
+  es_b_right = 4,       ///< likewise to the right
+  t_drift_left = 5,     ///< induced rear slip to a stop across the lane, facing left
+  t_drift_right = 6,    ///< likewise facing right
+  no_intervention = 7,  ///< lane and speed kept
+};
+
+constexpr std::size_t num_policies = 8;
+constexpr std::array<PolicyId, num_policies> all_policies{
+    PolicyId::aeb,           PolicyId::aes_left,       PolicyId::aes_right,
+    PolicyId::es_b_left,     PolicyId::es_b_right,     PolicyId::t_drift_left,
+    PolicyId::t_drift_right, PolicyId::no_intervention};
+
+constexpr std::size_t index(PolicyId policy) {
+  return static_cast<std::size_t>(policy);
+}
+
+/// The paper's short name: "AEB", "AES-L", ..., "NI".
+[[nodiscard]] std::string_view name(PolicyId policy);
+
+/// @param id  0 to 7; nullopt for any other number
+[[nodiscard]] std::optional<PolicyId> policy_from(int id);
+
+/// A complete manoeuvre: which policy, and for policies 3 and 4 down to which speed.
+struct Plan {
+  PolicyId policy = PolicyId::aeb;
+  std::optional<double> target_speed;  ///< [m/s], >= 0; only 3 and 4 have one
+
+  bool operator==(const Plan&) const = default;
+};
+
+/// The plan of a policy begun at `speed` [m/s]: 3 and 4 brake to half of it.
+[[nodiscard]] Plan default_plan(PolicyId policy, double speed);
+
+}  // namespace saca::manoeuvre

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "saca/manoeuvre/drive.h"
+#include "saca/outcome/harm.h"
+#include "saca/world/scene.h"
+#include "saca/world/track.h"
+
+namespace saca::outcome {
+
+/// The side of a body that is struck.
+enum class Face : std::uint8_t { front, left, right, rear };
+[[nodiscard]] std::string_view name(Face face);
+
+/// The first touch of the ego with somebody or with what stands beyond the road's edge.
+struct Contact {
+  double time = 0.0;                 ///< exact to 1 mm of travel [s]
+  std::optional<std::size_t> actor;  ///< index into scene.actors; nullopt: the edge of the road
+  Face ego_face = Face::front;
+  Face other_face = Face::front;
+  Vec2 p_W;                     ///< where they touch [m]
+  Vec2 v_rel_W;                 ///< velocity of the other's centre minus that of the ego's [m/s]
+  double relative_speed = 0.0;  ///< size of v_rel_W [m/s]
+  double ego_delta_v = 0.0;     ///< [m/s], >= 0
+  double other_delta_v = 0.0;   ///< [m/s], >= 0
+};
+
+/// What a manoeuvre ends in.
+struct Outcome {
+  std::optional<Contact> contact;
+  double collision_loss = 0.0;  ///< the paper's: relative speed x 0.41 side, 0.35 front, 0.21 rear
+  double harm = 0.0;  ///< expected severely injured and killed people, weighted: data/harm.toml
+  double clearance =
+      0.0;  ///< smallest distance to anybody or an edge with something beyond; 0 with contact [m]
+  double end_time = 0.0;  ///< of the contact, or when the motion ended [s]
+};
+
+/// First contact and its cost when the ego moves as given and the others follow their tracks.
+///
+/// @param tracks  one per actor of the scene, in its order; each may be shorter than the motion
+/// @throws ContractViolation  if tracks and actors differ in number
+///
+/// Invariant to the world frame and mirror-symmetric. One contact: what follows it is not looked
+/// at.
+[[nodiscard]] Outcome judge(const manoeuvre::EgoMotion& motion, const world::Scene& scene,
+                            std::span<const world::Track> tracks, const HarmModel& harm);
+
+/// What happens if `plan` is carried out in this scene: full dynamics to rest or a recovered lane.
+/// @param grip  true friction coefficient
+/// @throws ContractViolation  if refusal(plan, scene) has a reason
+[[nodiscard]] Outcome roll_out(const vehicle::Vehicle& car, const manoeuvre::Plan& plan,
+                               const world::Scene& scene, std::span<const world::Track> tracks,
+                               double grip, const HarmModel& harm);
+
+}  // namespace saca::outcome

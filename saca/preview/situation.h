@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "saca/intent/intention.h"
+#include "saca/manoeuvre/plan.h"
+#include "saca/outcome/outcome.h"
+#include "saca/reach/risk.h"
+#include "saca/world/scene.h"
+
+namespace saca::preview {
+
+/// What one policy is forecast to end in; why it cannot be driven, where it cannot.
+struct PolicyFacts {
+  manoeuvre::Plan plan;
+  std::string refusal;       ///< empty when the plan can be driven
+  outcome::Outcome outcome;  ///< meaningless when refused
+};
+
+/// A likely situation at the trigger: the forecast scene, with all that is computed about it.
+struct Situation {
+  world::Scene scene_at_trigger;
+  double probability = 0.0;                         ///< of this combination of intentions
+  std::vector<intent::Intention> intentions;        ///< one per actor: the combination itself
+  std::vector<intent::IntentPosterior> posteriors;  ///< one per actor, when the preview was made
+  std::vector<reach::ObstacleRisk> risks;           ///< one per actor, at the trigger
+  std::vector<world::Track> tracks;                 ///< one per actor, from the trigger on
+  std::array<PolicyFacts, manoeuvre::num_policies> facts;
+};
+
+}  // namespace saca::preview
