@@ -19,9 +19,9 @@ struct Range {
 
 struct DocumentState;
 
-/// One table of a TOML document, read strictly: the first thing that is wrong is remembered and told
-/// by `Document::error()`; until then the reads below return values inside their ranges, so that a
-/// reader can be written without a branch per key.
+/// One table of a TOML document, read strictly: the first thing that is wrong is remembered and
+/// told by `Document::error()`; until then the reads below return values inside their ranges, so
+/// that a reader can be written without a branch per key.
 class Table {
  public:
   /// A finite number (integer or float) in `range`; the key must be there.

@@ -1,0 +1,136 @@
+#include "saca/config/config.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+namespace saca::config {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// What is wrong with `text` when it is read by `read`; empty when nothing is.
+std::string problem(std::string_view text, const std::function<void(Table&)>& read) {
+  const auto document = Document::parse(text, "car.toml");
+  if (!document.has_value()) {
+    return document.error().message;
+  }
+  Table root = document.value().root();
+  read(root);
+  const auto error = document.value().error();
+  return error ? error->message : "";
+}
+
+TEST(Config, ReadsEveryKindOfValue) {
+  const auto document = Document::parse(R"(
+mass_kg = 1700
+grip = 0.9
+name = "a car"
+electric = true
+arms_m = [1.35, 1.45]
+[road]
+width_m = 3.5
+[[actor]]
+id = 1
+[[actor]]
+id = 2
+)",
+                                        "car.toml");
+  Table root = document.value().root();
+  EXPECT_EQ(root.number("mass_kg"), 1700.0);
+  EXPECT_EQ(root.number("grip", {0.0, 1.2}), 0.9);
+  EXPECT_EQ(root.text("name"), "a car");
+  EXPECT_TRUE(root.flag("electric", false));
+  EXPECT_THAT(root.numbers("arms_m", {0.0, 5.0}, 2), ElementsAre(1.35, 1.45));
+  EXPECT_EQ(root.table("road").number("width_m"), 3.5);
+  auto actors = root.tables("actor");
+  ASSERT_EQ(actors.size(), 2U);
+  EXPECT_EQ(actors[0].integer("id", 1, 9), 1);
+  EXPECT_EQ(actors[1].integer("id", 1, 9), 2);
+  EXPECT_EQ(root.optional_number("drag"), std::nullopt);
+  EXPECT_EQ(root.optional_text("note"), std::nullopt);
+  EXPECT_FALSE(root.optional_table("nothing").has_value());
+  EXPECT_EQ(document.value().error(), std::nullopt);
+}
+
+TEST(Config, NamesFileLineKeyAndWhatWasWanted) {
+  EXPECT_EQ(problem("a = 1\nmass_kg = -3\n",
+                    [](Table& t) {
+                      (void)t.number("a");
+                      (void)t.number("mass_kg", {0.0, 9000.0});
+                    }),
+            "car.toml:2: mass_kg: want 0 to 9000, got -3");
+}
+
+TEST(Config, RefusesNaNAndInfinity) {
+  for (const char* text : {"x_m = nan", "x_m = inf", "x_m = -inf"}) {
+    EXPECT_THAT(problem(text, [](Table& t) { (void)t.number("x_m"); }), HasSubstr("x_m: want"));
+  }
+  EXPECT_THAT(problem("x_m = [1, nan]", [](Table& t) { (void)t.numbers("x_m"); }),
+              HasSubstr("x_m: want"));
+}
+
+TEST(Config, RefusesAnUnknownKeyAtAnyDepth) {
+  const auto read = [](Table& t) { (void)t.table("road").number("width_m"); };
+  EXPECT_EQ(problem("[road]\nwidth_m = 3\nlenght_m = 2\n", read),
+            "car.toml:3: lenght_m: unknown key");
+  EXPECT_EQ(problem("typo = 1\n[road]\nwidth_m = 3\n", read), "car.toml:1: typo: unknown key");
+}
+
+TEST(Config, SuspectsAnotherUnit) {
+  EXPECT_THAT(problem("speed_kmh = 50", [](Table& t) { (void)t.number("speed_mps"); }),
+              HasSubstr("speed_mps: missing; is `speed_kmh` meant, in another unit?"));
+}
+
+TEST(Config, RefusesTheWrongType) {
+  EXPECT_THAT(problem("a = \"1\"", [](Table& t) { (void)t.number("a"); }),
+              HasSubstr("want a number, got a string"));
+  EXPECT_THAT(problem("a = 1", [](Table& t) { (void)t.text("a"); }), HasSubstr("want a text"));
+  EXPECT_THAT(problem("a = 1", [](Table& t) { (void)t.flag("a", true); }),
+              HasSubstr("true or false"));
+  EXPECT_THAT(problem("a = 1.5", [](Table& t) { (void)t.integer("a", 0, 2); }),
+              HasSubstr("want an integer"));
+  EXPECT_THAT(problem("a = 7", [](Table& t) { (void)t.integer("a", 0, 2); }),
+              HasSubstr("want 0 to 2, got 7"));
+  EXPECT_THAT(problem("a = 1", [](Table& t) { (void)t.table("a"); }), HasSubstr("want a table"));
+  EXPECT_THAT(problem("a = 1", [](Table& t) { (void)t.tables("a"); }), HasSubstr("want [[a]]"));
+  EXPECT_THAT(problem("a = [1]", [](Table& t) { (void)t.numbers("a", {}, 2); }),
+              HasSubstr("want [2 numbers], got 1"));
+  EXPECT_THAT(problem("a = [1]", [](Table& t) { (void)t.tables("a"); }), HasSubstr("want a table"));
+}
+
+TEST(Config, TellsOnlyTheFirstProblem) {
+  EXPECT_THAT(problem("b = 1\n",
+                      [](Table& t) {
+                        (void)t.number("a");
+                        (void)t.text("b");
+                      }),
+              HasSubstr("a: missing"));
+}
+
+TEST(Config, ReadsStayInRangeAfterAnError) {
+  const auto document = Document::parse("", "car.toml");
+  Table root = document.value().root();
+  EXPECT_EQ(root.number("mass_kg", {500.0, 9000.0}), 500.0);
+  EXPECT_EQ(root.numbers("arms", {1.0, 2.0}, 3).size(), 3U);
+  EXPECT_EQ(root.table("road").number("w", {2.0, 3.0}), 2.0);
+}
+
+TEST(Config, ARuleOverSeveralKeysCanBeRejected) {
+  EXPECT_EQ(problem("a = 1\nb = 2",
+                    [](Table& t) {
+                      (void)t.number("a");
+                      (void)t.number("b");
+                      t.reject("b", "want less than a");
+                    }),
+            "car.toml:2: b: want less than a");
+}
+
+TEST(Config, SaysWhereItIsNotToml) {
+  EXPECT_THAT(problem("a = 1\nb = = 2", [](Table&) {}), HasSubstr("car.toml:2: not TOML:"));
+}
+
+}  // namespace
+}  // namespace saca::config
