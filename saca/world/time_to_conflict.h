@@ -7,21 +7,31 @@
 
 namespace saca::world {
 
-/// The ego as it goes on: constant speed along the lane it is in, its lateral offset kept; its
-/// heading is that of the lane. At rest it stays.
-/// @return  poses at `step` from `scene.time` to `scene.time + horizon`
-[[nodiscard]] Track ego_goes_on(const Scene& scene, double horizon, double step);
+/// The ego going on as it does, `after` seconds from scene.time: constant speed along its lane, its
+/// lateral offset kept, its heading that of the lane.
+[[nodiscard]] Pose ego_going_on(const Scene& scene, double after);
+
+/// The actor going on as it does, `after` seconds from scene.time: it keeps the arc that its
+/// velocity and turning rate describe, and its acceleration along it until it is at rest. Actors
+/// below 0.1 m/s stay where they are.
+[[nodiscard]] Pose actor_going_on(const Actor& actor, double after);
+
+/// The actor's path crosses that of the ego: their courses differ by 30 to 150 deg, and it moves.
+[[nodiscard]] bool is_crossing(const Scene& scene, const Actor& actor);
 
 /// First contact of the ego, going on as it does, with an actor that follows `track`.
 ///
 /// @param horizon  how far to look [s], > 0
-/// @return         seconds from scene.time; 0 when they touch now; nullopt when there is none
+/// @return         seconds from scene.time, exact to 10 ms; 0 when they touch now; nullopt when
+/// there
+///                 is none
 /// @throws ContractViolation  if the track is empty or the horizon not > 0
 [[nodiscard]] std::optional<double> time_to_collision(const Scene& scene, const Actor& actor,
                                                       const Track& track, double horizon);
 
 /// Earliest t at which the ego, going on as it does, covers ground that the actor covers at some t'
-/// with |t - t'| <= tolerance. Tolerance 0 is `time_to_collision`.
+/// with |t - t'| <= tolerance. Tolerance 0 is `time_to_collision`, and is what counts for traffic
+/// in the ego's own direction: a follower drives, two seconds later, where the ego is now.
 ///
 /// @param tolerance  [s], >= 0: 2 s for the preview of crossing traffic, 0.5 s for the trigger
 /// @return           seconds from scene.time, exact to 10 ms; nullopt when there is none
@@ -29,10 +39,8 @@ namespace saca::world {
                                                      const Track& track, double horizon,
                                                      double tolerance);
 
-/// The same without memory or long loops, for the reflex plane: the actor keeps its velocity,
-/// acceleration (until rest) and turning rate.
-/// Allocates nothing.
-[[nodiscard]] std::optional<double> time_to_conflict_now(const Scene& scene, const Actor& actor,
-                                                         double horizon, double tolerance) noexcept;
+/// The same for an actor that goes on as it does. Allocates nothing: for the reflex plane.
+[[nodiscard]] std::optional<double> time_to_conflict(const Scene& scene, const Actor& actor,
+                                                     double horizon, double tolerance);
 
 }  // namespace saca::world

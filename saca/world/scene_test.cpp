@@ -1,0 +1,67 @@
+#include "saca/world/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <type_traits>
+#include <vector>
+
+namespace saca::world {
+namespace {
+
+Actor car(std::uint8_t id) {
+  return {.id = id, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1'500.0};
+}
+
+Scene good_scene() {
+  Scene scene;
+  scene.ego_footprint = {.length = 4.7, .width = 1.9};
+  scene.ego_mass = 1'700.0;
+  scene.actors.push_back(car(1));
+  scene.actors.push_back(car(2));
+  return scene;
+}
+
+TEST(Scene, CrossesBetweenPlanesByteByByte) {
+  EXPECT_TRUE(std::is_trivially_copyable_v<Scene>);
+}
+
+TEST(Scene, AGoodSceneBreaksNoRule) {
+  EXPECT_EQ(broken_rule(good_scene()), std::nullopt);
+}
+
+TEST(Scene, EachRuleIsChecked) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<std::function<void(Scene&)>> breaks{
+      [](Scene& s) { s.time = nan; },
+      [](Scene& s) { s.ego.v_B.x = nan; },
+      [](Scene& s) { s.ego.X_WB.yaw = std::numeric_limits<double>::infinity(); },
+      [](Scene& s) { s.ego_footprint.width = 0.0; },
+      [](Scene& s) { s.ego_mass = -1.0; },
+      [](Scene& s) { s.road.lane_width = nan; },
+      [](Scene& s) { s.road.left_edge = -1.0; },
+      [](Scene& s) { s.road.right_edge = 1.0; },
+      [](Scene& s) { s.grip = 0.0; },
+      [](Scene& s) { s.grip = nan; },
+      [](Scene& s) { s.actors[1].v_W.y = nan; },
+      [](Scene& s) { s.actors[1].mass = 0.0; },
+      [](Scene& s) { s.actors[1].existence = 1.1; },
+      [](Scene& s) { s.actors[1].position_sd = nan; },
+      [](Scene& s) { s.actors[1].id = 1; },
+  };
+  for (std::size_t i = 0; i < breaks.size(); ++i) {
+    Scene scene = good_scene();
+    breaks[i](scene);
+    EXPECT_NE(broken_rule(scene), std::nullopt) << "rule " << i;
+  }
+}
+
+TEST(Scene, NamesGoThereAndBack) {
+  EXPECT_EQ(actor_kind_from(name(ActorKind::truck)), ActorKind::truck);
+  EXPECT_EQ(actor_kind_from("tank"), std::nullopt);
+  EXPECT_EQ(actor_name(car(3)), "car3");
+}
+
+}  // namespace
+}  // namespace saca::world
