@@ -3,6 +3,7 @@ add_library(saca_flags INTERFACE)
 target_compile_options(saca_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
   -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion
+  -Wno-missing-field-initializers  # a field with a default may be left out of {.a = 1}
   $<$<BOOL:${SACA_DEVELOPER}>:-Werror>)
 
 # saca_module(<name> [SOURCES <a.cpp>...] [DEPS <module>...])
