@@ -14,8 +14,8 @@ using world::Actor;
 using world::Scene;
 using world::Track;
 
-constexpr double after_trigger = 8.0;     // [s] of tracks beyond the trigger: any stop from 25 m/s
-constexpr double slope_time = 0.05;       // [s] over which an acceleration is read off a track
+constexpr double after_trigger = 8.0;  // [s] of tracks beyond the trigger: any stop from 25 m/s
+constexpr double slope_time = 0.05;    // [s] over which an acceleration is read off a track
 constexpr std::size_t num_candidates = 24;  // combinations that are looked at for conflicts
 
 /// One intention for each actor.
@@ -145,8 +145,8 @@ manoeuvre::PolicyId best_by_forecast(
     const std::array<PolicyFacts, manoeuvre::num_policies>& facts) {
   const PolicyFacts* best = &facts[manoeuvre::index(manoeuvre::PolicyId::aeb)];
   for (const PolicyFacts& fact : facts) {
-    if (!fact.refusal && outcome::better(fact.outcome, fact.plan.policy, best->outcome,
-                                         best->plan.policy)) {
+    if (!fact.refusal &&
+        outcome::better(fact.outcome, fact.plan.policy, best->outcome, best->plan.policy)) {
       best = &fact;
     }
   }

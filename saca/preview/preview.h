@@ -32,8 +32,8 @@ constexpr std::size_t max_situations = 3;
 
 /// What each policy ends in when it begins in `scene` and the actors follow their tracks.
 [[nodiscard]] std::array<PolicyFacts, manoeuvre::num_policies> policy_facts(
-    const world::Scene& scene, const std::vector<world::Track>& tracks,
-    const vehicle::Vehicle& car, const outcome::HarmModel& harm);
+    const world::Scene& scene, const std::vector<world::Track>& tracks, const vehicle::Vehicle& car,
+    const outcome::HarmModel& harm);
 
 /// The policy whose forecast is best by the one ordering; ties go to the milder.
 [[nodiscard]] manoeuvre::PolicyId best_by_forecast(

@@ -39,16 +39,14 @@ std::optional<Threat> previewed_threat(const world::Scene& scene, const Threshol
       continue;
     }
     const intent::IntentPosterior posterior = intent::posterior(scene, actor);
-    const double slack =
-        world::is_crossing(scene, actor) ? thresholds.preview_tolerance : 0.0;
+    const double slack = world::is_crossing(scene, actor) ? thresholds.preview_tolerance : 0.0;
     for (const intent::Intention intention : intent::all_intentions) {
       if (posterior[static_cast<std::size_t>(intention)] < thresholds.least_posterior) {
         continue;
       }
       const world::Track track =
           intent::predicted_track(scene, actor, intention, thresholds.preview);
-      const auto time =
-          world::time_to_conflict(scene, actor, track, thresholds.preview, slack);
+      const auto time = world::time_to_conflict(scene, actor, track, thresholds.preview, slack);
       if (time && (!nearest || *time < nearest->time)) {
         nearest = Threat{.actor = i, .time = *time};
       }

@@ -6,8 +6,8 @@
 
 namespace saca::preview {
 
-/// When SACA wakes and when it acts: the paper's T1 and T2, and how near in time two paths must cross
-/// to count.
+/// When SACA wakes and when it acts: the paper's T1 and T2, and how near in time two paths must
+/// cross to count.
 struct Thresholds {
   double trigger = 1.3;            ///< T1 [s]
   double preview = 5.5;            ///< T2 [s]
@@ -16,8 +16,8 @@ struct Thresholds {
   double least_posterior = 0.05;   ///< intentions below this do not start a preview [-]
 };
 
-/// The actor comes up from behind the ego in its own direction: braking and swerving for it would be
-/// wrong, and it never triggers.
+/// The actor comes up from behind the ego in its own direction: braking and swerving for it would
+/// be wrong, and it never triggers.
 [[nodiscard]] bool is_behind(const world::Scene& scene, const world::Actor& actor);
 
 /// An actor that the ego is in conflict with.

@@ -29,10 +29,11 @@ Actor car(std::uint8_t id, Vec2 p_W, Vec2 v_W) {
 
 TEST(NearestThreat, IsTheEarliestOfAll) {
   Scene scene = ego_at(20.0);
-  scene.actors.push_back(car(1, {84.0, 0.0}, {}));         // 80 m: 4 s
-  scene.actors.push_back(car(2, {64.0, 0.0}, {5.0, 0.0}));  // 60 m at 15 m/s: 4 s, a tie kept by order
-  scene.actors.push_back(car(3, {44.0, 0.0}, {}));         // 40 m: 2 s
-  scene.actors.push_back(car(4, {10.0, 3.5}, {}));         // beside the lane
+  scene.actors.push_back(car(1, {84.0, 0.0}, {}));  // 80 m: 4 s
+  scene.actors.push_back(
+      car(2, {64.0, 0.0}, {5.0, 0.0}));             // 60 m at 15 m/s: 4 s, a tie kept by order
+  scene.actors.push_back(car(3, {44.0, 0.0}, {}));  // 40 m: 2 s
+  scene.actors.push_back(car(4, {10.0, 3.5}, {}));  // beside the lane
   const auto threat = nearest_threat(scene, 5.5, 0.5);
   ASSERT_TRUE(threat.has_value());
   EXPECT_EQ(threat->actor, 2U);
