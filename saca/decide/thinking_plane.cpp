@@ -250,7 +250,7 @@ void ThinkingPlane::settle(Preview& preview, PolicyId policy, Source source, dou
                    fmt::format("rollout check {}: {}", preview.check->passed ? "passed" : "failed",
                                preview.check->text)});
   }
-  if (fact.refusal || (needs_check && !preview.check->passed)) {
+  if (!fact.refusal.empty() || (needs_check && !preview.check->passed)) {
     preview.plan.reset();
     preview.ready.reset();
     publish(ready);

@@ -26,8 +26,8 @@ std::array<Hindsight, manoeuvre::num_policies> hindsight(const world::Scene& at_
   for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
     Hindsight& one = all[manoeuvre::index(policy)];
     one.facts.plan = manoeuvre::default_plan(policy, norm(at_trigger.ego.v_B));
-    one.facts.refusal = manoeuvre::refusal(one.facts.plan, at_trigger);
-    if (one.facts.refusal) {
+    one.facts.refusal = manoeuvre::refusal(one.facts.plan, at_trigger).value_or("");
+    if (!one.facts.refusal.empty()) {
       continue;
     }
     one.motion = manoeuvre::drive(car, one.facts.plan, at_trigger, grip, horizon);

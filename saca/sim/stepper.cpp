@@ -39,7 +39,7 @@ Stepper::Stepper(const Scenario& scenario, const vehicle::Vehicle& car)
 
 void Stepper::take_the_wheel() {
   expects(!driven_, "the wheel is taken once");
-  state_ = manoeuvre::rolling_state(car_, ego_at(scenario_, time()));
+  state_ = manoeuvre::rolling_state(car_, ego_at(scenario_, time()), scenario_.grip);
   driven_ = true;
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "saca/manoeuvre/controller.h"
+#include "saca/manoeuvre/ego.h"
 #include "saca/sim/scenario.h"
 #include "saca/vehicle/vehicle.h"
 #include "saca/world/scene.h"
