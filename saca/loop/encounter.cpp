@@ -313,15 +313,7 @@ void Encounter::execute(const Scene& scene) {
   decide::Decision decision = *reflex_.decision();
   tell(Plane::reflex, EventKind::trigger,
        fmt::format("T1: {:.1f} s to the conflict", setup_.thresholds.trigger));
-  std::string match = "no plan is cached";
-  if (decision.similarity) {
-    match = fmt::format("forecast {} is {:.0f} % alike", *decision.preview + 1,
-                        100.0 * *decision.similarity);
-  }
-  if (decision.gave_way_to_aeb) {
-    match += "; its plan is forecast to be worse than braking";
-  }
-  tell(Plane::reflex, EventKind::match, match);
+  tell(Plane::reflex, EventKind::match, decision_text(decision));
   if (decision.source == decide::Source::forced) {
     decision.plan = manoeuvre::default_plan(decision.plan.policy, norm(scene.ego.v_B));
   }
@@ -398,8 +390,11 @@ void Encounter::compare_with_driver() {
   sim::Stepper replay(*setup_.scenario, *setup_.car);
   Witness witness(*setup_.harm);
   while (!replay.over() && replay.time() <= recorded_until) {
-    if (replay.time() >= *woke_ && witness.look(replay)) {
-      break;
+    if (replay.time() >= *woke_) {
+      if (const auto met = witness.look(replay)) {
+        record_.met_by_driver.assign(met->actors.begin(), met->actors.end());
+        break;
+      }
     }
     for (int k = 0; k < steps_per_look; ++k) {
       replay.advance({});
@@ -441,6 +436,24 @@ std::string_view name(Pace pace) {
 
 std::string_view name(Phase phase) {
   return name_of(phase, phase_names);
+}
+
+std::string decision_text(const decide::Decision& decision) {
+  using decide::Source;
+  if (decision.source == Source::forced) {
+    return "asked for by the user";
+  }
+  if (!decision.similarity) {
+    return "no plan is cached: emergency braking";
+  }
+  std::string text = fmt::format("the scene is {:.0f} % like forecast {}",
+                                 100.0 * *decision.similarity, *decision.preview + 1);
+  if (decision.source != Source::fallback) {
+    return text + fmt::format(": its plan, from {}, is taken", name(decision.source));
+  }
+  return text + (decision.gave_way_to_aeb
+                     ? ", whose plan is now forecast to be no better than emergency braking"
+                     : ", not more than 90 %: emergency braking");
 }
 
 Result<Record> run(const Setup& setup, Listener& listener) {

@@ -84,6 +84,7 @@ struct Record {
   std::optional<std::array<Hindsight, manoeuvre::num_policies>> hindsight;  ///< if triggered
   std::optional<manoeuvre::PolicyId> best;
   std::optional<outcome::Outcome> driver;  ///< what the recorded driver's own motion led to
+  std::vector<world::Actor> met_by_driver;  ///< the actors that driver->contact counts in
   std::optional<memory::CaseId> stored;    ///< the case that memory learnt
   ReflexTiming reflex;
   int deadline_misses = 0;
@@ -93,6 +94,9 @@ struct Record {
 /// from there SACA drives.
 /// @return  Error::Code::out_of_range when the scenario cannot be played with this car
 [[nodiscard]] Result<Record> run(const Setup& setup, Listener& listener);
+
+/// Why this was done, in one line.
+[[nodiscard]] std::string decision_text(const decide::Decision& decision);
 
 /// The record as one JSON document, schema saca.record/1 of docs/formats.md.
 [[nodiscard]] std::string record_json(const Setup& setup, const Record& record);
