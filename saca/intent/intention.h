@@ -15,11 +15,14 @@ enum class Intention : std::uint8_t {
   lane_left,    ///< LC
   lane_right,   ///< RC
   brake,        ///< FB
-  brake_left,   ///< LB: braking while moving to the left
+  brake_left,   ///< LB: braking while changing to the left
   brake_right,  ///< RB
 };
 
 constexpr std::size_t num_intentions = 6;
+constexpr std::array<Intention, num_intentions> all_intentions{
+    Intention::maintain, Intention::lane_left,  Intention::lane_right,
+    Intention::brake,    Intention::brake_left, Intention::brake_right};
 
 /// The paper's letters: "M", "LC", "RC", "FB", "LB", "RB".
 [[nodiscard]] std::string_view name(Intention intention);
@@ -27,15 +30,27 @@ constexpr std::size_t num_intentions = 6;
 /// Probability of each intention, in the order of the enumeration; they sum to 1.
 using IntentPosterior = std::array<double, num_intentions>;
 
-/// The likeliest intention.
+/// The likeliest intention; among equals the first.
 [[nodiscard]] Intention likeliest(const IntentPosterior& posterior);
 
-/// Probabilities from the actor's measured acceleration and lateral motion, by a stated rule: see
-/// the source. Obstacles and actors at rest maintain.
+/// Probabilities from what is measured now: deceleration along the actor's course, and its lateral
+/// speed across the lane (of an actor that crosses the lane: the turn of its own course).
+///
+/// P(brakes) rises from 10 % to 95 % about 2 m/s^2 of deceleration; P(moves left), P(moves right)
+/// rise from 2 % to 90 % about 0.5 m/s of lateral speed; the two are taken as independent. The
+/// thresholds are assumptions, but for 2 m/s^2, the project's own mark of braking. Obstacles and
+/// actors at rest maintain; pedestrians only maintain or stop.
 [[nodiscard]] IntentPosterior posterior(const world::Scene& scene, const world::Actor& actor);
 
-/// The actor's motion under an intention, from its state in the scene, at 50 ms steps.
+/// The actor's motion under an intention, from its state in the scene on.
+///
+/// Maintaining keeps the speed; braking uses the measured deceleration, or 6 m/s^2 while less than
+/// 2 m/s^2 are measured, until rest. Actors along the lane follow it, others the arc that their
+/// velocity and turning rate describe. A lane change takes 4 s to the next lane's centre. (6 m/s^2
+/// and 4 s are assumptions.)
+///
 /// @param horizon  [s], > 0
+/// @return         poses every 50 ms from scene.time on
 [[nodiscard]] world::Track predicted_track(const world::Scene& scene, const world::Actor& actor,
                                            Intention intention, double horizon);
 

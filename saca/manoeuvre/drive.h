@@ -11,9 +11,6 @@
 
 namespace saca::manoeuvre {
 
-/// What a controller remembers between two calls. Set to `begin(...)` when the manoeuvre starts.
-struct ControllerState;
-
 /// Why a plan cannot be driven from here; nullopt when it can.
 ///
 /// Domain: policies 0, 1, 2, 3, 4, 7; 5 to 25 m/s (0 and 7 from rest); grip 0.3 to 1.0.

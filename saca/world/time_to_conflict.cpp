@@ -138,8 +138,8 @@ bool is_crossing(const Scene& scene, const Actor& actor) {
     return false;
   }
   const double course = std::atan2(actor.v_W.y, actor.v_W.x);
-  const double lane_course = ego_going_on(scene, 0.0).yaw;
-  return std::abs(std::sin(course - lane_course)) > std::sin(from_degrees(30.0));
+  const LanePose there = to_lane(scene.road, {actor.X_WA.p, course});
+  return std::abs(std::sin(there.heading)) > std::sin(from_degrees(30.0));
 }
 
 std::optional<double> time_to_collision(const Scene& scene, const Actor& actor, const Track& track,

@@ -16,7 +16,8 @@ namespace saca::world {
 /// below 0.1 m/s stay where they are.
 [[nodiscard]] Pose actor_going_on(const Actor& actor, double after);
 
-/// The actor's path crosses that of the ego: their courses differ by 30 to 150 deg, and it moves.
+/// The actor crosses the road: it moves, and its course differs by 30 to 150 deg from that of the
+/// lane where it is.
 [[nodiscard]] bool is_crossing(const Scene& scene, const Actor& actor);
 
 /// First contact of the ego, going on as it does, with an actor that follows `track`.

@@ -1,0 +1,174 @@
+#include "saca/world/time_to_conflict.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <numbers>
+#include <random>
+
+#include "saca/core/contract.h"
+
+namespace saca::world {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double exactness = 0.0101;  // 10 ms as stated, and rounding
+
+/// Ego 4 m x 2 m at the origin facing east at `speed`, on a straight road.
+Scene ego_at(double speed) {
+  Scene scene;
+  scene.ego.v_B = {speed, 0.0};
+  scene.ego_footprint = {.length = 4.0, .width = 2.0};
+  scene.ego_mass = 1'700.0;
+  return scene;
+}
+
+Actor car_at(Vec2 p_W, Vec2 v_W) {
+  Actor actor{.id = 1, .footprint = {.length = 4.0, .width = 2.0}, .mass = 1'500.0};
+  actor.X_WA = {p_W, norm(v_W) > 0.0 ? std::atan2(v_W.y, v_W.x) : 0.0};
+  actor.v_W = v_W;
+  return actor;
+}
+
+Scene turned(Scene scene, Actor& actor, double angle) {
+  const Pose X_VW{{30.0, -20.0}, angle};  // another world
+  scene.ego.X_WB = X_VW * scene.ego.X_WB;
+  scene.road.X_WL = X_VW * scene.road.X_WL;
+  actor.X_WA = X_VW * actor.X_WA;
+  actor.v_W = rotated(actor.v_W, angle);
+  actor.a_W = rotated(actor.a_W, angle);
+  return scene;
+}
+
+TEST(TimeToConflict, IsGapOverClosingSpeedInLine) {
+  const Scene scene = ego_at(20.0);
+  const Actor lead = car_at({34.0, 0.0}, {5.0, 0.0});  // gap 30 m, closing at 15 m/s
+  EXPECT_NEAR(time_to_conflict(scene, lead, 5.0, 0.0).value(), 2.0, exactness);
+  EXPECT_EQ(time_to_conflict(scene, lead, 1.9, 0.0), std::nullopt);
+}
+
+TEST(TimeToConflict, KnowsABrakingLead) {
+  Scene scene = ego_at(20.0);
+  Actor lead = car_at({24.0, 0.0}, {20.0, 0.0});  // same speed, gap 20 m
+  EXPECT_EQ(time_to_conflict(scene, lead, 5.0, 0.0), std::nullopt);
+  lead.a_W = {-5.0, 0.0};  // gap closes as 2.5 t^2 while it brakes (4 s): t = sqrt(8)
+  EXPECT_NEAR(time_to_conflict(scene, lead, 5.0, 0.0).value(), std::sqrt(8.0), exactness);
+}
+
+TEST(TimeToConflict, ABrakingLeadStopsAndDoesNotReverse) {
+  const Scene scene = ego_at(2.0);
+  Actor lead = car_at({24.0, 0.0}, {10.0, 0.0});
+  lead.a_W = {-5.0, 0.0};  // stops after 10 m: 30 m of room at 2 m/s
+  EXPECT_NEAR(time_to_conflict(scene, lead, 20.0, 0.0).value(), 15.0, exactness);
+}
+
+// The paper's truck passes behind the ego; with a tolerance their paths are in conflict.
+TEST(TimeToConflict, ToleranceFindsCrossingTrafficThatWouldJustMiss) {
+  const Scene scene = ego_at(10.0);
+  // Crosses the ego's path x = 30 from the left: its front is at y = 1 (the ego's side) after 4.0
+  // s, while the ego has left (x - 2 > 31) after 3.3 s.
+  const Actor crossing = car_at({30.0, 43.0}, {0.0, -10.0});
+  EXPECT_EQ(time_to_conflict(scene, crossing, 8.0, 0.0), std::nullopt);
+  // The ego is there from t = 2.7 (front at 29) to 3.3; the actor arrives at 4.0: |4.0 - t| <= 1.
+  EXPECT_NEAR(time_to_conflict(scene, crossing, 8.0, 1.0).value(), 3.0, exactness);
+  EXPECT_NEAR(time_to_conflict(scene, crossing, 8.0, 2.0).value(), 2.7, exactness);
+}
+
+TEST(TimeToConflict, ACarBesideIsNone) {
+  EXPECT_EQ(time_to_conflict(ego_at(20.0), car_at({10.0, 3.5}, {15.0, 0.0}), 10.0, 0.0),
+            std::nullopt);
+}
+
+TEST(TimeToConflict, TouchingIsNow) {
+  EXPECT_EQ(time_to_conflict(ego_at(5.0), car_at({3.0, 0.0}, {}), 5.0, 0.0), 0.0);
+}
+
+TEST(TimeToConflict, AtRestNothingHappens) {
+  EXPECT_EQ(time_to_conflict(ego_at(0.0), car_at({30.0, 0.0}, {}), 5.0, 2.0), std::nullopt);
+}
+
+TEST(TimeToConflict, FollowsTheLane) {
+  Scene scene = ego_at(10.0);
+  scene.road.curvature = 0.02;  // radius 50 m to the left
+  // A quarter of the circle is 78.5 m; an obstacle there, 4 m of half lengths before it.
+  Actor obstacle = car_at({50.0, 50.0}, {});
+  obstacle.X_WA.yaw = pi / 2.0;
+  EXPECT_NEAR(time_to_conflict(scene, obstacle, 10.0, 0.0).value(), (25.0 * pi - 4.0) / 10.0, 0.02);
+  EXPECT_EQ(time_to_conflict(scene, car_at({70.0, 0.0}, {}), 10.0, 0.0), std::nullopt);
+}
+
+TEST(TimeToConflict, IsTheSameInEveryWorldFrameAndMirrored) {
+  std::mt19937 rng(5);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  for (int i = 0; i < 200; ++i) {
+    const Scene scene = ego_at(15.0 + 5.0 * u(rng));
+    const Actor actor = car_at({40.0 + 20.0 * u(rng), 30.0 * u(rng)}, {8.0 * u(rng), 8.0 * u(rng)});
+    const auto expected = time_to_conflict(scene, actor, 6.0, 0.5);
+    Actor there = actor;
+    const Scene other = turned(scene, there, pi / 2.0);
+    EXPECT_NEAR(time_to_conflict(other, there, 6.0, 0.5).value_or(-1.0), expected.value_or(-1.0),
+                exactness);
+    Actor mirrored = actor;
+    mirrored.X_WA = {{actor.X_WA.p.x, -actor.X_WA.p.y}, -actor.X_WA.yaw};
+    mirrored.v_W.y = -actor.v_W.y;
+    EXPECT_NEAR(time_to_conflict(scene, mirrored, 6.0, 0.5).value_or(-1.0), expected.value_or(-1.0),
+                exactness);
+  }
+}
+
+// Oracle: every pair of 10 ms instants.
+TEST(TimeToConflict, AgreesWithLookingAtEveryInstant) {
+  std::mt19937 rng(6);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  constexpr double horizon = 3.0;
+  for (int i = 0; i < 40; ++i) {
+    const Scene scene = ego_at(15.0);
+    const Actor actor = car_at({25.0 + 10.0 * u(rng), 12.0 * u(rng)}, {8.0 * u(rng), 8.0 * u(rng)});
+    const double tolerance = i % 2 == 0 ? 0.0 : 0.3;
+    double expected = -1.0;
+    const int window = static_cast<int>(std::lround(tolerance / 0.01));
+    for (int k = 0; k <= 300 && expected < 0.0; ++k) {
+      for (int j = std::max(0, k - window); j <= k + window; ++j) {
+        const Pose X_WB = ego_going_on(scene, 0.01 * k);
+        const Pose X_WA = actor_going_on(actor, 0.01 * j);
+        if (separation(scene.ego_footprint, X_WB, actor.footprint, X_WA).distance <= 0.0) {
+          expected = 0.01 * k;
+          break;
+        }
+      }
+    }
+    EXPECT_NEAR(time_to_conflict(scene, actor, horizon, tolerance).value_or(-1.0), expected, 0.0201)
+        << "encounter " << i;
+  }
+}
+
+TEST(TimeToConflict, ATrackAndItsOwnMotionAgree) {
+  const Scene scene = ego_at(12.0);
+  const Actor actor = car_at({40.0, -16.0}, {0.0, 5.0});
+  Track track{.start = scene.time, .step = 0.05, .X_WA = {}};
+  for (int k = 0; k <= 120; ++k) {
+    track.X_WA.push_back(actor_going_on(actor, 0.05 * k));
+  }
+  EXPECT_NEAR(time_to_conflict(scene, actor, track, 6.0, 0.5).value(),
+              time_to_conflict(scene, actor, 6.0, 0.5).value(), exactness);
+}
+
+TEST(IsCrossing, LooksAtTheCourseAgainstTheLane) {
+  const Scene scene = ego_at(10.0);
+  EXPECT_TRUE(is_crossing(scene, car_at({30.0, 10.0}, {0.0, -5.0})));
+  EXPECT_FALSE(is_crossing(scene, car_at({30.0, 0.0}, {5.0, 0.0})));
+  EXPECT_FALSE(is_crossing(scene, car_at({30.0, 0.0}, {-5.0, 0.0})));
+  EXPECT_FALSE(is_crossing(scene, car_at({30.0, 0.0}, {})));
+}
+
+TEST(TimeToConflict, RefusesWhatHasNoMeaning) {
+  EXPECT_THROW((void)time_to_conflict(ego_at(5.0), car_at({30.0, 0.0}, {}), 0.0, 0.0),
+               ContractViolation);
+  EXPECT_THROW((void)time_to_conflict(ego_at(5.0), car_at({30.0, 0.0}, {}), 1.0, std::nan("")),
+               ContractViolation);
+  EXPECT_THROW((void)time_to_collision(ego_at(5.0), car_at({30.0, 0.0}, {}), Track{}, 1.0),
+               ContractViolation);
+}
+
+}  // namespace
+}  // namespace saca::world
