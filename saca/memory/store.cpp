@@ -1,12 +1,12 @@
 #include "saca/memory/store.h"
 
 #include <cmath>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "saca/core/contract.h"
+#include "saca/memory/feature_index.h"
 #include "saca/memory/scene_json.h"
 #include "saca/memory/similarity.h"
 #include "saca/memory/sqlite.h"
@@ -176,11 +176,7 @@ struct Store::State {
   Database database;
   std::string name;  ///< of the file, as the caller gave it
 
-  // What `nearest` compares: the actors of case i are [first_actor[i], first_actor[i + 1]).
-  std::vector<CaseId> ids;
-  std::vector<EgoFeatures> egos;
-  std::vector<ActorFeatures> actors;
-  std::vector<std::size_t> first_actor{0};
+  FeatureIndex index;  ///< of the cases that were in the file when it was last looked at
 
   [[nodiscard]] Error problem(Access access) const {
     return sqlite_problem(database.get(), name, access);
@@ -280,40 +276,7 @@ struct Store::State {
 
   /// Learns the features of cases that it does not know yet.
   std::optional<Error> catch_up() {
-    return each_after(ids.empty() ? 0 : ids.back(), [this](const Case& one) {
-      const Features known = features(one.scene);
-      ids.push_back(one.id);
-      egos.push_back(known.ego);
-      actors.insert(actors.end(), known.actors.begin(), known.actors.end());
-      first_actor.push_back(actors.size());
-    });
-  }
-
-  void forget() {
-    ids.clear();
-    egos.clear();
-    actors.clear();
-    first_actor = {0};
-  }
-
-  struct Nearest {
-    CaseId id = 0;
-    double difference = 0.0;
-  };
-
-  [[nodiscard]] std::optional<Nearest> nearest(const Features& wanted) const {
-    std::optional<Nearest> best;
-    double limit = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-      const std::span known(actors.data() + first_actor[i], first_actor[i + 1] - first_actor[i]);
-      const double apart = difference(wanted.ego, {wanted.actors.begin(), wanted.actors.size()},
-                                      egos[i], known, limit);
-      if (apart < limit) {
-        limit = apart;
-        best = {ids[i], apart};
-      }
-    }
-    return best;
+    return each_after(index.last_id(), [this](const Case& one) { index.add(one.id, one.scene); });
   }
 };
 
@@ -414,7 +377,7 @@ Result<std::optional<Match>> Store::nearest(const world::Scene& scene) {
     if (auto error = state_->catch_up()) {
       return *error;
     }
-    const auto best = state_->nearest(wanted);
+    const auto best = state_->index.nearest(wanted);
     if (!best) {
       return std::optional<Match>();
     }
@@ -425,12 +388,12 @@ Result<std::optional<Match>> Store::nearest(const world::Scene& scene) {
     if (found.value()) {
       return std::optional(Match{*std::move(found).value(), similarity_at(best->difference)});
     }
-    state_->forget();  // somebody has deleted it: look again, at all
+    state_->index = {};  // somebody has deleted it: look again, at all
   }
 }
 
 std::size_t Store::size() const noexcept {
-  return state_->ids.size();
+  return state_->index.size();
 }
 
 }  // namespace saca::memory
