@@ -10,7 +10,7 @@
 namespace saca::manoeuvre {
 namespace {
 
-constexpr double dt = 1e-3;        // [s] of the integration
+constexpr double dt = 1e-3;  // [s] of the integration
 constexpr int steps_per_pose = 10;
 
 // "<what> <value> <rest>"; std::format is not there yet.
@@ -40,8 +40,7 @@ std::optional<std::string> wrong_motion(const Plan& plan, const world::EgoState&
       !is_finite(ego.a_B)) {
     return "the ego's state is not finite";
   }
-  const bool from_rest =
-      plan.policy == PolicyId::aeb || plan.policy == PolicyId::no_intervention;
+  const bool from_rest = plan.policy == PolicyId::aeb || plan.policy == PolicyId::no_intervention;
   const double least = from_rest ? 0.0 : 5.0;
   if (!(ego.v_B.x >= least)) {
     return std::string(name(plan.policy)) +
