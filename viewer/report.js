@@ -1,0 +1,190 @@
+// The page: time, playback, keys, theme; joins the plan view, the time line and the panels.
+
+const record = read_record(by_id("record").textContent);
+
+const page = {
+  t: record.t1 ?? record.start,
+  playing: false,
+  poster: true,  // nobody has moved the cursor yet: the first play starts with the story
+  told: null,    // the event that was asked for, among several at one time
+
+  show() {
+    const frame = frame_at(record, page.t);
+    plan.draw(page.t);
+    time_line.show(page.t, frame);
+    show_now(frame);
+    show_caption();
+  },
+
+  seek(t, event = null) {
+    page.poster = false;
+    page.told = event;
+    page.t = Math.min(Math.max(t, record.start), record.end);
+    if (page.t < time_line.from - 1e-9) toggle_window();
+    page.show();
+  },
+
+  play(on) {
+    if (on && (page.poster || page.t >= record.end - 1e-6)) page.seek(time_line.from);
+    page.playing = on && record.end > record.start;
+    by_id("play").textContent = page.playing ? "Pause" : "Play";
+    if (page.playing) requestAnimationFrame((now) => page.step(now, now));
+  },
+
+  step(now, before) {
+    if (!page.playing) return;
+    page.seek(page.t + ((now - before) / 1000) * Number(by_id("rate").value));
+    if (page.t >= record.end - 1e-6) page.play(false);
+    else requestAnimationFrame((next) => page.step(next, now));
+  },
+};
+
+const plan = new PlanView(by_id("plan"), record);
+const time_line = new TimeLine(by_id("strips"), record, (t, event) => page.seek(t, event));
+
+function show_now(frame) {
+  const ego = frame?.ego;
+  const rows = [
+    ["Time", frame ? num(page.t, 2, "s") : none, "big"],
+    ["Speed", num(ego?.speed_mps, 1, "m/s"), "big"],
+    ["Time to conflict", num(frame?.conflict_s, 2, "s"), ""],
+    ["Yaw rate", sided(ego?.yaw_rate_degps, 1, "°/s"), ""],
+    ["Sideslip", sided(ego?.sideslip_deg, 1, "°"), ""],
+    ["Steering", sided(ego?.steering_deg, 1, "°"), ""]];
+  by_id("now").replaceChildren(...rows.map(([k, v, kind]) => el("div", { class: kind }, el("dt", { text: k }), el("dd", { text: v }))));
+  const phases = { recorded: "As recorded", driving: "Driving on while previewing", manoeuvre: `Manoeuvre ${record.decision?.name ?? ""}` };
+  by_id("phase").textContent = frame ? phases[frame.phase] ?? frame.phase : "No frames in this record";
+  by_id("phase").className = `on-plan phase-${frame?.phase ?? "none"}`;
+  by_id("clock").textContent = frame && is_number(record.t1) ? `T1 ${signed(page.t - record.t1)}\u00A0s` : "";
+}
+
+function show_caption() {
+  const before = record.events.filter((e) => e.t_s <= page.t + 1e-9);
+  const event = page.told ?? before[before.length - 1];
+  const box = by_id("caption");
+  box.replaceChildren();
+  if (event) box.append(el("b", { text: `${event_words[event.kind] ?? event.kind}` }), ` ${num(event.t_s, 2, "s")}${event.text ? ` – ${event.text}` : ""}`);
+}
+
+// --- overlays -------------------------------------------------------------------------------------
+
+function show_overlays() {
+  const box = by_id("overlays");
+  if (record.previews.length) {
+    const options = [["", "none"], ...record.previews.map((p, k) => [String(k), `preview ${k + 1} (${percent(p.probability)})`])];
+    plan.ghost_preview = record.decision?.preview ?? 0;
+    box.append(el("label", { class: "field" }, "Forecast of T1 ", el("select", { id: "forecast", onchange: (e) => {
+      plan.ghost_preview = e.target.value === "" ? null : Number(e.target.value);
+      page.show();
+    } }, options.map(([value, text]) => el("option", { value, text, selected: value === String(plan.ghost_preview) })))));
+  }
+  const able = record.hindsight.filter((row) => list(row.path).length > 1);
+  if (!able.length) return;
+  box.append(el("p", { class: "field", id: "ghosts-name", text: "Had it done" }));
+  box.append(el("div", { class: "chips", role: "group", "aria-labelledby": "ghosts-name" }, able.map((row) => {
+    const on = row.policy === record.best && row.policy !== record.decision?.policy;
+    if (on) plan.ghost_policies.add(row.policy);
+    return el("button", { type: "button", class: "chip", "aria-pressed": String(on), title: policy_words[row.policy], text: row.name, onclick: (e) => {
+      const pressed = e.currentTarget.getAttribute("aria-pressed") !== "true";
+      e.currentTarget.setAttribute("aria-pressed", String(pressed));
+      if (pressed) plan.ghost_policies.add(row.policy); else plan.ghost_policies.delete(row.policy);
+      page.show();
+    } });
+  })));
+}
+
+function show_in_plan(k) {
+  plan.ghost_preview = k;
+  by_id("forecast").value = String(k);
+  page.seek(record.t1 ?? record.end);
+  by_id("stage").scrollIntoView({ block: "start", behavior: calm() ? "auto" : "smooth" });
+}
+
+function show_legend() {
+  const { road } = record, key = (kind, text) => el("span", { class: "key" }, el("i", { class: `swatch ${kind}`, "aria-hidden": "true" }), text);
+  const edge = (side, what, at) => (what ? `${side} edge ${num(Math.abs(at), 1, "m")}: ${what === "unmarked" ? "open ground" : what}` : null);
+  const words = [road.topology === "intersection" ? "intersection (the record does not hold the other road)" : road.topology,
+    is_number(road.lane_width_m) ? `lane ${num(road.lane_width_m, 1, "m")}` : null, edge("left", road.left_beyond, road.left_edge_m),
+    edge("right", road.right_beyond, road.right_edge_m), is_number(record.grip) ? `grip ${num(record.grip, 2)}` : null].filter(Boolean).join(" · ");
+  by_id("legend").append(key("ego", "ego"), key("threat", "actor at risk ≥ 0.5"), key("actor", "other actor"),
+    record.previews.length ? key("forecast", "forecast") : "", record.hindsight.length ? key("hindsight", "had it done …") : "",
+    record.result.contact ? key("contact", "contact") : "", el("span", { text: `arrows: way in ${arrow_seconds} s` }), el("span", { class: "road-words", text: words }));
+}
+
+// --- theme, window, keys --------------------------------------------------------------------------
+
+const calm = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
+const dark_wanted = matchMedia("(prefers-color-scheme: dark)");
+const is_dark = () => (document.documentElement.dataset.theme ?? (dark_wanted.matches ? "dark" : "light")) === "dark";
+
+function show_theme() {
+  by_id("theme").textContent = is_dark() ? "Light" : "Dark";
+  plan.read_colours();
+  page.show();
+}
+
+function toggle_window() {
+  time_line.whole = !time_line.whole;
+  show_window();
+  time_line.layout();
+}
+
+function show_window() {
+  by_id("window").hidden = !time_line.has_more;
+  by_id("window").textContent = time_line.whole ? "From T2" : "Whole run";
+}
+
+function on_key(event) {
+  if (event.ctrlKey || event.metaKey || event.altKey) return;
+  const inside = event.target.closest("button, input, select, summary, [role=region]");
+  const free = !inside || inside.id === "scrub";
+  const step = event.shiftKey ? 0.5 : 0.05;
+  if (event.key === " " && (free || inside.matches(".event"))) page.play(!page.playing);
+  else if (event.key === "ArrowRight" && free) page.seek(page.t + step);
+  else if (event.key === "ArrowLeft" && free) page.seek(page.t - step);
+  else if (event.key === "Home" && free) page.seek(time_line.from);
+  else if (event.key === "End" && free) page.seek(record.end);
+  else return;
+  event.preventDefault();
+}
+
+function on_resize() {
+  plan.resize();
+  time_line.layout();
+  page.show();
+}
+
+function start() {
+  show_header(record);
+  show_decision(record);
+  show_driver(record);
+  show_result(record);
+  show_previews(record, show_in_plan);
+  show_run(record);
+  show_events(record, (t, event) => page.seek(t, event));
+  show_overlays();
+  show_legend();
+  show_window();
+  by_id("play").addEventListener("click", () => page.play(!page.playing));
+  by_id("back").addEventListener("click", () => page.seek(page.t - 0.05));
+  by_id("forth").addEventListener("click", () => page.seek(page.t + 0.05));
+  by_id("window").addEventListener("click", () => { toggle_window(); page.show(); });
+  for (const [id, factor] of [["zoom-in", 1.25], ["zoom-out", 0.8]]) {
+    by_id(id).addEventListener("click", () => { plan.zoom = Math.min(4, Math.max(0.25, plan.zoom * factor)); page.show(); });
+  }
+  by_id("theme").addEventListener("click", () => { document.documentElement.dataset.theme = is_dark() ? "light" : "dark"; show_theme(); });
+  dark_wanted.addEventListener("change", show_theme);
+  document.addEventListener("keydown", on_key);
+  new ResizeObserver(on_resize).observe(by_id("plan-box"));
+  new ResizeObserver(on_resize).observe(by_id("strips"));
+  let before_print = null;
+  window.addEventListener("beforeprint", () => { before_print = document.documentElement.dataset.theme ?? ""; document.documentElement.dataset.theme = "light"; show_theme(); });
+  window.addEventListener("afterprint", () => {
+    if (before_print) document.documentElement.dataset.theme = before_print; else delete document.documentElement.dataset.theme;
+    show_theme();
+  });
+  on_resize();
+  show_theme();
+}
+
+start();
