@@ -24,7 +24,7 @@ function show_header(record) {
     el("span", { class: "tile-name", text: name }), el("b", { class: "tile-value", text: value }), el("small", { text: note }));
   by_id("tiles").append(
     decision ? tile("Decision", decision.name ?? String(decision.policy), source_words[decision.source] ?? decision.source ?? "", "tile-decision")
-      : tile("Decision", "none", "there was no trigger", "tile-decision"),
+      : tile("Decision", "none", "nothing was triggered"),
     contact ? tile("Contact", `✕ ${num(contact.relative_speed_mps, 1, "m/s")}`, [contact.with, contact.ego_face].filter(Boolean).join(" · "), "tile-bad")
       : tile("Contact", "✓ none", is_number(result.clearance_m) ? `smallest gap ${num(result.clearance_m, 2, "m")}` : "nobody came near", "tile-good"),
     tile("Harm", num(result.harm, 3), `Collision Loss ${num(result.collision_loss, 2)}`),

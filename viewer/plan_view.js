@@ -40,7 +40,7 @@ class PlanView {
     const long = this.upright ? this.height : this.width, wide = this.upright ? this.width : this.height;
     const wanted = this.record.frames.map((frame) => {
       const own = to_lane(this.road.road, { x: frame.ego.x_m, y: frame.ego.y_m });
-      let scale = this.upright ? 9 : 14;
+      let scale = this.upright ? 10 : 18;
       for (const actor of list(frame.actors)) {
         const at = to_lane(this.road.road, { x: actor.x_m, y: actor.y_m });
         const ahead = at.s - own.s, aside = Math.abs(at.d - own.d);
@@ -115,7 +115,7 @@ class PlanView {
     this.velocity(g, { ...frame.ego, heading_deg: frame.ego.heading_deg + (frame.ego.sideslip_deg || 0) }, view, true);
     for (const actor of list(frame.actors)) this.actor(g, actor, view);
     this.ego(g, frame.ego);
-    this.forecast(g, t, view);
+    this.forecast(g, t, view, frame);
     this.contact(g, t, view);
     this.pixel_units(g);
     this.strangers(g, frame, view);
@@ -255,19 +255,21 @@ class PlanView {
     }
   }
 
-  forecast(g, t, view) {
+  forecast(g, t, view, frame) {
     const preview = this.record.previews[this.ghost_preview];
     if (!preview?.scene || (is_number(this.record.t2) && t < this.record.t2)) return;
     const px = 1 / view.scale;
     g.strokeStyle = this.colours.forecast;
     g.lineWidth = 2 * px;
     g.setLineDash([5 * px, 3 * px]);
+    const bodies_now = new Map([["", frame.ego], ...list(frame.actors).map((a) => [a.id, a])]);
     const bodies = [[preview.scene.ego, { ...this.record.ego }, "ego at T1"], ...list(preview.scene.actors).map((a) => [a, this.record.shape_of.get(a.id), `${a.id} at T1`])];
     for (const [body, shape, name] of bodies) {
       if (!body || !shape || !is_number(body.x_m)) continue;
       this.outline(g, body, shape, shape.centre_x_m || 0);
       g.stroke();
-      const p = this.to_screen(view, body.x_m, body.y_m);
+      const p = this.to_screen(view, body.x_m, body.y_m), now = bodies_now.get(body.id ?? "");
+      if (now && Math.hypot(now.x_m - body.x_m, now.y_m - body.y_m) < 2.5) continue;  // it stands on its body: no second name
       this.labels.push({ ...p, text: name, reach: -(shape.width_m / 2) * view.scale - 5, weight: 0, colour: this.colours.forecast });
     }
     g.setLineDash([]);
@@ -297,7 +299,8 @@ class PlanView {
       if (!this.is_threat(actor.id)) continue;
       const p = this.to_screen(view, actor.x_m, actor.y_m), margin = 16;
       const x = Math.min(Math.max(p.x, margin), this.width - margin), y = Math.min(Math.max(p.y, margin), this.height - margin);
-      if (x === p.x && y === p.y) continue;
+      const shape = this.record.shape_of.get(actor.id), half = ((shape?.length_m || 1) / 2) * view.scale;
+      if (Math.hypot(p.x - x, p.y - y) < half + margin) continue;  // part of it is in the picture
       const a = Math.atan2(p.y - y, p.x - x);
       g.beginPath();
       for (const [r, turn] of [[9, 0], [7, 2.4], [7, -2.4]]) g.lineTo(x + r * Math.cos(a + turn), y + r * Math.sin(a + turn));

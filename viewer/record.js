@@ -40,6 +40,13 @@ function read_record(text) {
   return record;
 }
 
+/** Id of the actor with the largest risk in the preview that counts, or null. */
+function most_dangerous(record) {
+  let most = null;
+  for (const [id, risk] of record.risk_of) if (is_number(risk) && risk > (record.risk_of.get(most) ?? 0)) most = id;
+  return most;
+}
+
 function mix(a, b, share) {
   if (!is_number(a) || !is_number(b)) return is_number(a) ? a : null;
   return a + (b - a) * share;

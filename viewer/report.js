@@ -5,8 +5,9 @@ const record = read_record(by_id("record").textContent);
 const page = {
   t: record.t1 ?? record.start,
   playing: false,
+  next: 0,       // the animation frame that was asked for
   poster: true,  // nobody has moved the cursor yet: the first play starts with the story
-  told: null,    // the event that was asked for, among several at one time
+  told: first_event(record, "trigger"),  // the event that was asked for, among several at one time
 
   show() {
     const frame = frame_at(record, page.t);
@@ -28,14 +29,15 @@ const page = {
     if (on && (page.poster || page.t >= record.end - 1e-6)) page.seek(time_line.from);
     page.playing = on && record.end > record.start;
     by_id("play").textContent = page.playing ? "Pause" : "Play";
-    if (page.playing) requestAnimationFrame((now) => page.step(now, now));
+    cancelAnimationFrame(page.next);
+    if (page.playing) page.next = requestAnimationFrame((now) => page.step(now, now));
   },
 
   step(now, before) {
     if (!page.playing) return;
     page.seek(page.t + ((now - before) / 1000) * Number(by_id("rate").value));
     if (page.t >= record.end - 1e-6) page.play(false);
-    else requestAnimationFrame((next) => page.step(next, now));
+    else page.next = requestAnimationFrame((next) => page.step(next, now));
   },
 };
 
@@ -68,19 +70,21 @@ function show_caption() {
 
 // --- overlays -------------------------------------------------------------------------------------
 
+const swatch = (kind) => el("i", { class: `swatch ${kind}`, "aria-hidden": "true" });
+
 function show_overlays() {
   const box = by_id("overlays");
   if (record.previews.length) {
-    const options = [["", "none"], ...record.previews.map((p, k) => [String(k), `preview ${k + 1} (${percent(p.probability)})`])];
+    const options = [["", "none"], ...record.previews.map((p, k) => [String(k), `preview ${k + 1} · ${percent(p.probability)}`])];
     plan.ghost_preview = record.decision?.preview ?? 0;
-    box.append(el("label", { class: "field" }, "Forecast of T1 ", el("select", { id: "forecast", onchange: (e) => {
+    box.append(el("label", { class: "field" }, swatch("forecast"), "Forecast", el("select", { id: "forecast", onchange: (e) => {
       plan.ghost_preview = e.target.value === "" ? null : Number(e.target.value);
       page.show();
     } }, options.map(([value, text]) => el("option", { value, text, selected: value === String(plan.ghost_preview) })))));
   }
   const able = record.hindsight.filter((row) => list(row.path).length > 1);
   if (!able.length) return;
-  box.append(el("p", { class: "field", id: "ghosts-name", text: "Had it done" }));
+  box.append(el("p", { class: "field", id: "ghosts-name" }, swatch("hindsight"), "Had it done"));
   box.append(el("div", { class: "chips", role: "group", "aria-labelledby": "ghosts-name" }, able.map((row) => {
     const on = row.policy === record.best && row.policy !== record.decision?.policy;
     if (on) plan.ghost_policies.add(row.policy);
@@ -101,13 +105,13 @@ function show_in_plan(k) {
 }
 
 function show_legend() {
-  const { road } = record, key = (kind, text) => el("span", { class: "key" }, el("i", { class: `swatch ${kind}`, "aria-hidden": "true" }), text);
+  const { road } = record, key = (kind, text) => el("span", { class: "key" }, swatch(kind), text);
   const edge = (side, what, at) => (what ? `${side} edge ${num(Math.abs(at), 1, "m")}: ${what === "unmarked" ? "open ground" : what}` : null);
-  const words = [road.topology === "intersection" ? "intersection (the record does not hold the other road)" : road.topology,
+  const words = [road.topology === "intersection" ? "intersection (other road not recorded)" : road.topology,
     is_number(road.lane_width_m) ? `lane ${num(road.lane_width_m, 1, "m")}` : null, edge("left", road.left_beyond, road.left_edge_m),
     edge("right", road.right_beyond, road.right_edge_m), is_number(record.grip) ? `grip ${num(record.grip, 2)}` : null].filter(Boolean).join(" · ");
-  by_id("legend").append(key("ego", "ego"), key("threat", "actor at risk ≥ 0.5"), key("actor", "other actor"),
-    record.previews.length ? key("forecast", "forecast") : "", record.hindsight.length ? key("hindsight", "had it done …") : "",
+  const plan_has_threat = record.actors.some((actor) => plan.is_threat(actor.id));
+  by_id("legend").append(key("ego", "ego"), plan_has_threat ? key("threat", `at risk ≥ ${risk_shown}, or hit`) : "", record.actors.length ? key("actor", plan_has_threat ? "other actor" : "actor") : "",
     record.result.contact ? key("contact", "contact") : "", el("span", { text: `arrows: way in ${arrow_seconds} s` }), el("span", { class: "road-words", text: words }));
 }
 
@@ -154,6 +158,16 @@ function on_resize() {
   page.show();
 }
 
+/** Lays out anew when a box changes its size (of the strips only the width: their height follows from it). */
+function watch_size(box, size) {
+  let before = size(box);
+  new ResizeObserver(() => {
+    if (size(box) === before) return;
+    before = size(box);
+    on_resize();
+  }).observe(box);
+}
+
 function start() {
   show_header(record);
   show_decision(record);
@@ -165,6 +179,7 @@ function start() {
   show_overlays();
   show_legend();
   show_window();
+  for (const id of ["play", "back", "forth", "scrub", "rate"]) by_id(id).disabled = record.end <= record.start;
   by_id("play").addEventListener("click", () => page.play(!page.playing));
   by_id("back").addEventListener("click", () => page.seek(page.t - 0.05));
   by_id("forth").addEventListener("click", () => page.seek(page.t + 0.05));
@@ -175,8 +190,8 @@ function start() {
   by_id("theme").addEventListener("click", () => { document.documentElement.dataset.theme = is_dark() ? "light" : "dark"; show_theme(); });
   dark_wanted.addEventListener("change", show_theme);
   document.addEventListener("keydown", on_key);
-  new ResizeObserver(on_resize).observe(by_id("plan-box"));
-  new ResizeObserver(on_resize).observe(by_id("strips"));
+  watch_size(by_id("plan-box"), (box) => `${box.clientWidth} ${box.clientHeight}`);
+  watch_size(by_id("strips"), (box) => box.clientWidth);
   let before_print = null;
   window.addEventListener("beforeprint", () => { before_print = document.documentElement.dataset.theme ?? ""; document.documentElement.dataset.theme = "light"; show_theme(); });
   window.addEventListener("afterprint", () => {

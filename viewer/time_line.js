@@ -1,11 +1,11 @@
 // Scrubber, phases, the lanes of both planes and the charts: strips over one time axis with one cursor.
 
 const lanes = [
-  { plane: "reflex", name: "Reflex plane", note: "no model, no waiting" },
-  { plane: "thinking", name: "Thinking plane", note: "may be slow, may fail" },
+  { plane: "reflex", name: "Reflex plane", note: "never waits" },
+  { plane: "thinking", name: "Thinking plane", note: "may be late" },
   { plane: "world", name: "World", note: "" }];
-const label_height = 22;
-const chart_height = 96;
+const label_height = 20;
+const chart_height = 88;
 
 class TimeLine {
   /** @param seek  called with a time when the reader goes somewhere */
@@ -14,6 +14,8 @@ class TimeLine {
     this.record = record;
     this.seek = seek;
     this.whole = false;
+    this.threat = record.result.contact?.with ?? most_dangerous(record);  // whose speed is drawn beside the ego's
+    if (!record.shape_of.has(this.threat)) this.threat = null;
     this.story_start = is_number(record.t2) ? Math.max(record.start, record.t2 - 2) : record.start;
     this.scrub = el("input", { type: "range", id: "scrub", min: "0", max: "1000", step: "any", value: "0", "aria-label": "Time",
       oninput: () => this.seek(this.from + (Number(this.scrub.value) / 1000) * (this.to - this.from)) });
@@ -40,7 +42,8 @@ class TimeLine {
     this.phase_track = strip("Phase", "", "phases").track;
     this.lane_tracks = lanes.map((lane) => strip(lane.name, lane.note, `lane ${lane.plane}`).track);
     this.charts = [
-      { ...strip("Speed", "", "chart"), key: "speed", unit: "m/s", read: (f) => f.ego.speed_mps, limits: [] },
+      { ...strip("Speed", "", "chart"), key: "speed", unit: "m/s", read: (f) => f.ego.speed_mps, limits: [],
+        other: this.threat === null ? null : (f) => list(f.actors).find((a) => a.id === this.threat)?.speed_mps },
       { ...strip("Time to conflict", "", "chart"), key: "conflict", unit: "s", read: (f) => f.conflict_s, top: 8,
         limits: [["T2", this.record.thresholds.preview_s], ["T1", this.record.thresholds.trigger_s]] }];
     this.axis_track = strip("", "", "axis").track;
@@ -88,9 +91,9 @@ class TimeLine {
   draw_phases() {
     this.phase_track.replaceChildren(...this.phases().filter((s) => s.to > this.from).map((span) => {
       const left = Math.max(0, this.x(span.from)), width = this.x(span.to) - left;
-      const words = { recorded: "as recorded", driving: "driving on, previewing", manoeuvre: this.record.decision?.name ?? "manoeuvre" };
+      const words = { recorded: "as recorded", driving: width > 160 ? "driving on, previewing" : "previewing", manoeuvre: this.record.decision?.name ?? "manoeuvre" };
       return el("span", { class: `phase phase-${span.phase}`, style: { left: `${left}px`, width: `${Math.max(2, width)}px` },
-        title: span.phase, text: width > 56 ? words[span.phase] ?? span.phase : "" });
+        title: span.phase, text: width > 80 ? words[span.phase] ?? span.phase : "" });
     }));
   }
 
@@ -144,26 +147,33 @@ class TimeLine {
   }
 
   draw_chart(chart) {
-    const { frames } = this.record, w = this.width, h = chart_height, pad = 8;
+    const { frames } = this.record, w = this.width, h = chart_height;
     const values = frames.filter((f) => f.t_s >= this.from).map(chart.read).filter(is_number);
     const most = Math.max(1, ...values, ...chart.limits.map((l) => l[1] || 0));
     const step = [1, 2, 5, 10, 20].find((s) => most / s <= 4) || 50;
     const top = chart.top ? Math.min(chart.top, Math.ceil(most / step) * step) : Math.ceil(most / step) * step;
-    const y = (v) => pad + (1 - Math.min(Math.max(v, 0), top) / top) * (h - 2 * pad);
+    const y = (v) => 16 + (1 - Math.min(Math.max(v, 0), top) / top) * (h - 22);
     const lines = [];
     for (let v = 0; v <= top; v += step) lines.push(svg("line", { x1: 0, x2: w, y1: y(v), y2: y(v), class: "grid" }), svg("text", { x: 3, y: y(v) - 3, class: "tick", text: v === 0 ? "0" : `${v} ${chart.unit}` }));
     for (const [name, v] of chart.limits) {
       if (is_number(v) && v <= top) lines.push(svg("line", { x1: 0, x2: w, y1: y(v), y2: y(v), class: "limit" }), svg("text", { x: w - 4, y: y(v) - 4, class: "limit-name", text: `${name} = ${num(v, 1)} s` }));
     }
+    const other = chart.other ? this.curve((f) => chart.other(f), y, top) : "";
+    if (other) lines.push(svg("path", { d: other, class: "curve other" }), svg("text", { x: w - 4, y: h - 10, class: "other-name", text: `dotted: ${this.threat}` }));
+    chart.track.replaceChildren(svg("svg", { width: w, height: h, viewBox: `0 0 ${w} ${h}`, role: "img",
+      "aria-label": `${chart.key === "speed" ? "Speed of the ego" : "Time to conflict"} over time` }, lines, svg("path", { d: this.curve(chart.read, y, chart.top ? top : Infinity), class: "curve" })));
+  }
+
+  /** SVG path of a value over time; a gap where there is none, or where it is above `most`. */
+  curve(read, y, most) {
     let path = "", pen = false;
-    for (const frame of frames) {
-      const v = chart.read(frame);
-      if (frame.t_s < this.from - 0.05 || !is_number(v) || (chart.top && v > top)) { pen = false; continue; }
+    for (const frame of this.record.frames) {
+      const v = read(frame);
+      if (frame.t_s < this.from - 0.05 || !is_number(v) || v > most) { pen = false; continue; }
       path += `${pen ? "L" : "M"}${this.x(frame.t_s).toFixed(1)} ${y(v).toFixed(1)}`;
       pen = true;
     }
-    chart.track.replaceChildren(svg("svg", { width: w, height: h, viewBox: `0 0 ${w} ${h}`, role: "img",
-      "aria-label": `${chart.key === "speed" ? "Speed of the ego" : "Time to conflict"} over time` }, lines, svg("path", { d: path, class: "curve" })));
+    return path;
   }
 
   draw_axis() {

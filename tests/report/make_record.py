@@ -226,8 +226,8 @@ def preview(index, encounter, s, trigger, ready, policy, share, gate):
         actors.append({"id": m.name, "intention": intention,
                        "posterior": {i: w / sum(weights) for i, w in zip(INTENTIONS, weights)}, "risk": risk,
                        "risk_text": f"test data: needs {20 * risk:.1f} m of 20.0 m"})
-    scene = {"ego": pose_fields(encounter.road.to_world(s - 0.4 * index, 0.0), encounter.speed),
-             "actors": [{"id": m.name, **pose_fields(encounter.road.to_world(a[0] + 1.5 * index, *a[1:3]), a[3])}
+    scene = {"ego": pose_fields(encounter.road.to_world(s - 0.5 - 0.4 * index, 0.0), encounter.speed),
+             "actors": [{"id": m.name, **pose_fields(encounter.road.to_world(a[0] + 0.8 + 1.5 * index, *a[1:3]), a[3])}
                         for m in movers for a in [m.at(trigger)]]}
     lines = "\n".join(f"{f['policy']} {f['name']}: {f['text']}" for f in facts_of(rows, encounter.speed))
     prompt = ("AUTONOMOUS DRIVING COLLISION AVOIDANCE SCENARIO (SYNTHETIC TEST DATA)\n## Ego Vehicle:\n"
