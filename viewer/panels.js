@@ -28,7 +28,7 @@ function show_header(record) {
     contact ? tile("Contact", `✕ ${num(contact.relative_speed_mps, 1, "m/s")}`, [contact.with, contact.ego_face].filter(Boolean).join(" · "), "tile-bad")
       : tile("Contact", "✓ none", is_number(result.clearance_m) ? `smallest gap ${num(result.clearance_m, 2, "m")}` : "nobody came near", "tile-good"),
     tile("Harm", num(result.harm, 3), `Collision Loss ${num(result.collision_loss, 2)}`),
-    tile("Best in hindsight", best ? best.name : none, best ? (decision && best.policy === decision.policy ? "was carried out" : `harm ${num(best.harm, 3)}`) : "not judged"));
+    tile("Best in hindsight", best ? best.name : none, best ? (decision && best.policy === decision.policy ? "was carried out" : num(best.harm, 3) === num(result.harm, 3) ? "with equal harm" : `harm ${num(best.harm, 3)}`) : "not judged"));
 }
 
 function show_decision(record) {

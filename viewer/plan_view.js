@@ -320,7 +320,8 @@ class PlanView {
     for (const label of this.labels.sort((a, b) => b.weight - a.weight)) {
       g.font = `${label.bold ? 600 : 400} 12px system-ui, sans-serif`;
       const half = g.measureText(label.text).width / 2 + 3;
-      const x = label.x, y = label.y + (label.reach >= 0 ? -label.reach - 7 : -label.reach + 7);
+      const seen = label.x > 0 && label.x < this.width;
+      const x = seen ? Math.min(Math.max(label.x, half + 2), this.width - half - 2) : label.x, y = label.y + (label.reach >= 0 ? -label.reach - 7 : -label.reach + 7);
       if (x + half < 0 || x - half > this.width || y < 4 || y > this.height - 4) continue;
       if (taken.some((b) => Math.abs(b.x - x) < b.half + half && Math.abs(b.y - y) < 14)) continue;
       taken.push({ x, y, half });

@@ -30,7 +30,9 @@ function read_record(text) {
     actors: list(raw.actors), previews: list(raw.previews), decision: raw.decision ?? null, result: dict(raw.result),
     hindsight: list(raw.hindsight), timing: dict(raw.timing), thresholds: dict(raw.thresholds) };
   record.start = frames.length ? frames[0].t_s : 0;
-  record.end = frames.length ? frames[frames.length - 1].t_s : 0;
+  // A contact lies between frames, a late answer may come after the last one.
+  record.end = Math.max(record.start, ...frames.slice(-1).map((f) => f.t_s), ...(frames.length ? events : []).map((e) => e.t_s),
+    frames.length && is_number(record.result.contact?.time_s) ? record.result.contact.time_s : record.start);
   record.t2 = first_event(record, "preview")?.t_s ?? null;
   record.t1 = first_event(record, "trigger")?.t_s ?? record.decision?.time_s ?? null;
   record.shape_of = new Map(record.actors.map((a) => [a.id, a]));

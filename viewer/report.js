@@ -75,7 +75,7 @@ const swatch = (kind) => el("i", { class: `swatch ${kind}`, "aria-hidden": "true
 function show_overlays() {
   const box = by_id("overlays");
   if (record.previews.length) {
-    const options = [["", "none"], ...record.previews.map((p, k) => [String(k), `preview ${k + 1} · ${percent(p.probability)}`])];
+    const options = [["", "none"], ...record.previews.map((p, k) => [String(k), `${k + 1} · ${percent(p.probability)}`])];
     plan.ghost_preview = record.decision?.preview ?? 0;
     box.append(el("label", { class: "field" }, swatch("forecast"), "Forecast", el("select", { id: "forecast", onchange: (e) => {
       plan.ghost_preview = e.target.value === "" ? null : Number(e.target.value);
@@ -140,10 +140,10 @@ function show_window() {
 
 function on_key(event) {
   if (event.ctrlKey || event.metaKey || event.altKey) return;
-  const inside = event.target.closest("button, input, select, summary, [role=region]");
-  const free = !inside || inside.id === "scrub";
+  const at = event.target.closest("button, input, select, summary, pre, [role=region]");  // may want the key itself
+  const free = !at || at.id === "scrub" || (at.matches("button") && at.role !== "tab");
   const step = event.shiftKey ? 0.5 : 0.05;
-  if (event.key === " " && (free || inside.matches(".event"))) page.play(!page.playing);
+  if (event.key === " " && (!at || at.id === "scrub")) page.play(!page.playing);
   else if (event.key === "ArrowRight" && free) page.seek(page.t + step);
   else if (event.key === "ArrowLeft" && free) page.seek(page.t - step);
   else if (event.key === "Home" && free) page.seek(time_line.from);
@@ -167,6 +167,28 @@ function watch_size(box, size) {
     on_resize();
   }).observe(box);
 }
+
+/** Printing: light, in the width of the paper, nothing folded away. */
+const paper = {
+  on() {
+    const root = document.documentElement;
+    paper.theme = root.dataset.theme;
+    paper.folded = [...document.querySelectorAll("details:not([open])")];
+    for (const box of paper.folded) box.open = true;
+    root.dataset.theme = "light";
+    root.classList.add("paper");
+    plan.read_colours();
+    on_resize();
+  },
+  off() {
+    const root = document.documentElement;
+    for (const box of paper.folded) box.open = false;
+    if (paper.theme) root.dataset.theme = paper.theme; else delete root.dataset.theme;
+    root.classList.remove("paper");
+    show_theme();
+    on_resize();
+  },
+};
 
 function start() {
   show_header(record);
@@ -192,12 +214,8 @@ function start() {
   document.addEventListener("keydown", on_key);
   watch_size(by_id("plan-box"), (box) => `${box.clientWidth} ${box.clientHeight}`);
   watch_size(by_id("strips"), (box) => box.clientWidth);
-  let before_print = null;
-  window.addEventListener("beforeprint", () => { before_print = document.documentElement.dataset.theme ?? ""; document.documentElement.dataset.theme = "light"; show_theme(); });
-  window.addEventListener("afterprint", () => {
-    if (before_print) document.documentElement.dataset.theme = before_print; else delete document.documentElement.dataset.theme;
-    show_theme();
-  });
+  window.addEventListener("beforeprint", paper.on);
+  window.addEventListener("afterprint", paper.off);
   on_resize();
   show_theme();
 }

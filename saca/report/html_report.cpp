@@ -35,7 +35,8 @@ std::optional<Error> problem(std::string_view record_json) {
 /// The same JSON without the characters that mean something to HTML or to old JavaScript. They
 /// occur inside strings only, where JSON allows the escape.
 std::string harmless(std::string_view json) {
-  // U+2028 and U+2029, which JavaScript once took for line ends, are E2 80 A8 and E2 80 A9 in UTF-8.
+  // U+2028 and U+2029, which JavaScript once took for line ends, are E2 80 A8 and E2 80 A9 in
+  // UTF-8.
   constexpr std::string_view separator = "\xE2\x80";
   std::string text;
   text.reserve(json.size() + json.size() / 64);

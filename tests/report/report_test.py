@@ -220,8 +220,10 @@ def test_keys_step_and_play(show):
     page.run("page.seek(4)")
     page.key("ArrowRight")
     assert page.run("page.t") == pytest.approx(4.05)
+    page.run("by_id('play').focus()")
     page.key("ArrowLeft")
     page.key("ArrowLeft")
+    page.run("document.activeElement.blur()")
     assert page.run("page.t") == pytest.approx(3.95)
     page.key(" ", "Space", " ")
     assert page.run("page.playing")
@@ -300,6 +302,16 @@ def test_the_contact_is_marked_from_its_time_on(show):
         page.run(f"page.seek({t})")
         page.settle()
         assert like(pixel(page, *on_screen(page, contact["x_m"], contact["y_m"])), colour(page, "contact")) == marked, t
+
+
+def test_a_contact_after_the_last_frame_is_marked_too(show):
+    record = copy.deepcopy(RECORDS["contact"])
+    record["result"]["contact"]["time_s"] += 0.013
+    page = show(record)
+    page.run("page.seek(record.end)")
+    page.settle()
+    contact = record["result"]["contact"]
+    assert like(pixel(page, *on_screen(page, contact["x_m"], contact["y_m"])), colour(page, "contact"))
 
 
 def test_ghosts_come_and_go(show):
