@@ -31,7 +31,9 @@ constexpr double front_limit = 0.97;     // share of the front tyres' peak that 
 constexpr double guard_from = 0.55;      // rear slip over its peak, where turning in is cut back
 constexpr double guard_to = 1.0;         // likewise, where none is left
 constexpr double combined_share = 0.92;  // of the grip, for braking and steering together
-constexpr double crawl = 1.5;            // [m/s] below it steering fades out
+constexpr double least_stop_share =
+    0.6;                       // of the grip, that a stop brakes with whatever the path asks
+constexpr double crawl = 1.5;  // [m/s] below it steering fades out
 
 bool changes_lane(PolicyId policy) {
   return policy == PolicyId::aes_left || policy == PolicyId::aes_right ||
@@ -190,8 +192,9 @@ void command_speed(const Vehicle& car, const Plan& plan, double grip, const Vehi
   constexpr double approach = 0.25;  // [s]: the last of the braking fades within the brakes' delay
   double wanted = 0.0;
   if (stops) {
+    // Where a bend needs all the grip, only less speed helps: a stop always brakes.
     const double share = plan.policy == PolicyId::aeb ? 1.0 : combined_share;
-    wanted = deceleration_left(share, grip, sideways);
+    wanted = std::max(deceleration_left(share, grip, sideways), least_stop_share * grip * gravity);
   } else if (brakes_to_speed(plan.policy) && state.v_B.x > memory.speed + 0.3) {
     wanted = std::min(deceleration_left(combined_share, grip, sideways),
                       (state.v_B.x - memory.speed) / approach);
@@ -236,7 +239,9 @@ ControllerState begin(const Vehicle& car, const Plan& plan, const world::Scene& 
   if (changes_lane(plan.policy)) {
     const double side = goes_left(plan.policy) ? 1.0 : -1.0;
     memory.end_d = side * scene.road.lane_width;
-    const double given_up = fast_less * std::max(0.0, ego.v_B.x - fast);
+    const double bend = std::abs(scene.road.curvature) * ego.v_B.x * ego.v_B.x;
+    const double given_up =
+        fast_less * std::max(0.0, ego.v_B.x - fast) + bend / (scene.grip * gravity);
     const double share = (brakes_to_speed(plan.policy) ? braked_share : swerve_share) - given_up;
     memory.shift = followable_shift(car, start, memory.end_d, share, scene.grip,
                                     slowest_speed(plan, ego.v_B.x, scene.grip));

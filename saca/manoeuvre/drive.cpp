@@ -1,5 +1,6 @@
 #include "saca/manoeuvre/drive.h"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -54,6 +55,24 @@ std::optional<std::string> wrong_motion(const Plan& plan, const world::EgoState&
   return std::nullopt;
 }
 
+std::optional<std::string> wrong_road(const Plan& plan, const world::Scene& scene) {
+  const world::Road& road = scene.road;
+  if (!is_finite(road.X_WL) || !std::isfinite(road.curvature) ||
+      !(road.lane_width >= 2.0 && road.lane_width <= 6.0)) {
+    return with_number("the road must be finite, its lane 2 to 6 m wide, is %.2f", road.lane_width);
+  }
+  // A swerve out of a bend adds to what the bend itself takes.
+  constexpr double most_share = 0.5;
+  const double share = std::abs(road.curvature) * scene.ego.v_B.x * scene.ego.v_B.x /
+                       (scene.grip * vehicle::gravity);
+  const bool stays = plan.policy == PolicyId::aeb || plan.policy == PolicyId::no_intervention;
+  if (!stays && !(share <= most_share)) {
+    return std::string(name(plan.policy)) +
+           with_number(" needs half of the grip, the road's bend takes %.0f %%", 100.0 * share);
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<std::string> refusal(const Plan& plan, const world::Scene& scene) {
@@ -69,7 +88,10 @@ std::optional<std::string> refusal(const Plan& plan, const world::Scene& scene) 
   if (!(scene.grip >= 0.3 && scene.grip <= 1.0)) {
     return with_number("grip must be 0.3 to 1.0, is %.3f", scene.grip);
   }
-  return wrong_motion(plan, scene.ego);
+  if (const auto problem = wrong_motion(plan, scene.ego)) {
+    return problem;
+  }
+  return wrong_road(plan, scene);
 }
 
 EgoMotion drive(const vehicle::Vehicle& car, const Plan& plan, const world::Scene& scene,
