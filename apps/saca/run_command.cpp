@@ -127,7 +127,7 @@ int run(const RunOptions& options) {
     memory = std::make_unique<memory::Store>(std::move(opened).value());
   }
   SteadyClock clock;
-  auto model = open_model(*places, options.model, options.record_replies, clock);
+  auto model = open_model(*places, options.model, clock);
   if (!model.has_value()) {
     complain(model.error().message);
     return bad_input;
@@ -153,10 +153,6 @@ int run(const RunOptions& options) {
   if (!record.has_value()) {
     complain(record.error().message);
     return bad_input;
-  }
-  if (const auto problem = save_replies(*model.value(), options.record_replies)) {
-    complain(problem->message);
-    return cannot_write;
   }
   const std::string text = loop::record_json(setup, record.value());
   const fs::path folder = fs::path(options.output) / inputs.value().scenario.name;

@@ -1,0 +1,2 @@
+#include "apps/saca/commands.h"
+namespace saca::app { void add_bench(CLI::App&, int&) {} }
