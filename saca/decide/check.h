@@ -8,8 +8,8 @@
 
 namespace saca::decide {
 
-/// The rollout check of a chosen policy: it can be driven here, and its forecast is not worse than
-/// that of emergency braking, by the one ordering of harm.
+/// The rollout check of a chosen policy: it can be driven here, and emergency braking is not forecast
+/// to be better, by the one ordering of outcome/ordering.h: less harm, or the same by milder means.
 struct Check {
   bool passed = false;
   std::string text;  ///< why, in one line

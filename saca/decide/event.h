@@ -50,7 +50,9 @@ struct Event {
 /// Everything that was thought about one forecast.
 struct Preview {
   std::int32_t number = 0;
-  preview::Situation situation;
+  preview::Situation situation;  ///< as it was thought about
+  world::Scene
+      newest_scene;  ///< the same situation as last forecast: the trigger is matched with it
   std::optional<memory::Match> nearest;
   memory::Gate gate = memory::Gate::reason;
   std::string prompt;                   ///< the scene part; empty when the model was not asked
@@ -59,6 +61,7 @@ struct Preview {
   std::optional<Check> check;           ///< of the last policy that was chosen
   std::optional<manoeuvre::Plan> plan;  ///< what was cached in the end
   Source source = Source::model;
+  bool worse_than_aeb = false;  ///< the plan, by the last forecast
   std::optional<double> ready;  ///< when it was cached [s]
 };
 

@@ -17,7 +17,7 @@ namespace {
 using manoeuvre::PolicyId;
 using Seconds = std::chrono::duration<double>;
 
-constexpr double provided_similarity = 0.97;  // well inside what the trigger will accept
+constexpr double provided_similarity = 0.95;  // well inside what the trigger will accept
 constexpr double least_thinking_time = 0.15;  // [s]: a model asked later than this cannot answer
 constexpr double handover_margin = 0.05;  // [s] before the trigger at which the model must be done
 
@@ -88,7 +88,7 @@ bool ThinkingPlane::think(const world::Scene& scene, Clock::Time scene_at) {
   if (!threat) {
     return false;
   }
-  Round round{scene, scene_at, *tools_.clock};
+  const Round round{scene, scene_at, *tools_.clock};
   if (previews_.empty()) {
     describe_scene(round, *threat);
   }
@@ -97,7 +97,8 @@ bool ThinkingPlane::think(const world::Scene& scene, Clock::Time scene_at) {
   for (preview::Situation& situation :
        preview::situations(scene, thresholds_, *tools_.car, *tools_.harm)) {
     if (Preview* const known = provided_for(situation)) {
-      known->situation = std::move(situation);
+      known->newest_scene = situation.scene_at_trigger;
+      known->worse_than_aeb = known->plan && !check(known->plan->policy, situation).passed;
       now.push_back(static_cast<std::size_t>(known - previews_.data()));
       continue;
     }
@@ -105,6 +106,7 @@ bool ThinkingPlane::think(const world::Scene& scene, Clock::Time scene_at) {
     now.push_back(previews_.size());
     Preview preview;
     preview.number = static_cast<std::int32_t>(previews_.size());
+    preview.newest_scene = situation.scene_at_trigger;
     preview.situation = std::move(situation);
     previews_.push_back(std::move(preview));
   }
@@ -141,16 +143,15 @@ bool ThinkingPlane::think(const world::Scene& scene, Clock::Time scene_at) {
 
 Preview* ThinkingPlane::provided_for(const preview::Situation& situation) {
   for (Preview& preview : previews_) {
-    const bool same = memory::similarity(situation.scene_at_trigger,
-                                         preview.situation.scene_at_trigger) > provided_similarity;
-    if (same && (!preview.plan || check(preview.plan->policy, situation).passed)) {
+    if (memory::similarity(situation.scene_at_trigger, preview.situation.scene_at_trigger) >
+        provided_similarity) {
       return &preview;
     }
   }
   return nullptr;
 }
 
-void ThinkingPlane::consult_memory(Round& round, Preview& preview) {
+void ThinkingPlane::consult_memory(const Round& round, Preview& preview) {
   if (tools_.memory == nullptr) {
     return;
   }
@@ -170,12 +171,11 @@ void ThinkingPlane::consult_memory(Round& round, Preview& preview) {
        fmt::format("case {} is {:.0f} % alike, best was {} {}", preview.nearest->found.id,
                    100.0 * preview.nearest->similarity, manoeuvre::index(policy), name(policy)));
   if (preview.gate != memory::Gate::reason) {
-    settle(round, preview, policy, Source::memory, round.now(),
-           preview.gate == memory::Gate::check);
+    settle(preview, policy, Source::memory, round.now(), preview.gate == memory::Gate::check);
   }
 }
 
-void ThinkingPlane::ask_model(Round& round, const std::vector<std::size_t>& which) {
+void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>& which) {
   double trigger = previews_[which.front()].situation.scene_at_trigger.time;
   std::vector<std::string> scenes;
   for (const std::size_t i : which) {
@@ -226,7 +226,8 @@ void ThinkingPlane::ask_model(Round& round, const std::vector<std::size_t>& whic
   }
 }
 
-void ThinkingPlane::take_answer(Round& round, Preview& preview, const reason::Answer& answer) {
+void ThinkingPlane::take_answer(const Round& round, Preview& preview,
+                                const reason::Answer& answer) {
   const PolicyId policy = choice(answer);
   const double time = round.time_of(answer.time);
   preview.reply.answers.push_back(answer);
@@ -237,11 +238,11 @@ void ThinkingPlane::take_answer(Round& round, Preview& preview, const reason::An
        fmt::format("forecast {}: the model says {} {} ({:.0f} %)", preview.number + 1,
                    manoeuvre::index(policy), name(policy),
                    100.0 * answer.probability[manoeuvre::index(policy)])});
-  settle(round, preview, policy, Source::model, time, true);
+  settle(preview, policy, Source::model, time, true);
 }
 
-void ThinkingPlane::settle(Round& round, Preview& preview, PolicyId policy, Source source,
-                           double ready, bool needs_check) {
+void ThinkingPlane::settle(Preview& preview, PolicyId policy, Source source, double ready,
+                           bool needs_check) {
   const preview::PolicyFacts& fact = preview.situation.facts[manoeuvre::index(policy)];
   preview.check = check(policy, preview.situation);
   if (needs_check || !preview.check->passed) {
@@ -249,7 +250,7 @@ void ThinkingPlane::settle(Round& round, Preview& preview, PolicyId policy, Sour
                    fmt::format("rollout check {}: {}", preview.check->passed ? "passed" : "failed",
                                preview.check->text)});
   }
-  if (fact.refusal || (needs_check && !preview.check->passed)) {
+  if (!fact.refusal.empty() || (needs_check && !preview.check->passed)) {
     preview.plan.reset();
     preview.ready.reset();
     publish(ready);
@@ -261,10 +262,10 @@ void ThinkingPlane::settle(Round& round, Preview& preview, PolicyId policy, Sour
                                manoeuvre::index(policy), name(policy))});
   }
   preview.plan = fact.plan;
+  preview.worse_than_aeb = !preview.check->passed;
   preview.source = source;
   preview.ready = ready;
   publish(ready);
-  (void)round;
 }
 
 void ThinkingPlane::publish(double ready) const {
@@ -274,10 +275,10 @@ void ThinkingPlane::publish(double ready) const {
     if (!preview.plan || cache.full()) {
       continue;
     }
-    cache.push_back({.scene_at_trigger = preview.situation.scene_at_trigger,
+    cache.push_back({.scene_at_trigger = preview.newest_scene,
                      .plan = *preview.plan,
                      .source = preview.source,
-                     .worse_than_aeb = !preview.check->passed,
+                     .worse_than_aeb = preview.worse_than_aeb,
                      .preview = preview.number});
   }
   output_.publish(cache, ready);

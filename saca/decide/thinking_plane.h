@@ -60,11 +60,11 @@ class ThinkingPlane {
   void tell(const Round& round, EventKind kind, std::string text) const;
   void describe_scene(const Round& round, const preview::Threat& threat) const;
   [[nodiscard]] Preview* provided_for(const preview::Situation& situation);
-  void consult_memory(Round& round, Preview& preview);
-  void ask_model(Round& round, const std::vector<std::size_t>& which);
-  void take_answer(Round& round, Preview& preview, const reason::Answer& answer);
-  void settle(Round& round, Preview& preview, manoeuvre::PolicyId policy, Source source,
-              double ready, bool needs_check);
+  void consult_memory(const Round& round, Preview& preview);
+  void ask_model(const Round& round, const std::vector<std::size_t>& which);
+  void take_answer(const Round& round, Preview& preview, const reason::Answer& answer);
+  void settle(Preview& preview, manoeuvre::PolicyId policy, Source source, double ready,
+              bool needs_check);
   void publish(double ready) const;
 
   ThinkingTools tools_;

@@ -10,22 +10,30 @@ namespace saca::manoeuvre {
 namespace {
 
 using vehicle::Command;
+using vehicle::gravity;
 using vehicle::Vehicle;
 using vehicle::VehicleState;
-using vehicle::gravity;
 
 // The numbers below were found by simulation over 5 to 25 m/s and grip 0.3 to 1.0, with the grip
 // estimate up to 6 % off; they have no other source.
-constexpr double swerve_share = 0.85;    // of the grip, for a lane change without braking
-constexpr double braked_share = 0.65;    // of the grip, for one with braking
+constexpr double swerve_share = 0.84;    // of the grip, for a lane change without braking
+constexpr double fast_less = 0.03;       // [s/m] of it given up for each m/s above `fast`
+constexpr double fast = 18.0;            // [m/s] above which yaw is damped too weakly for all of it
+constexpr double braked_share = 0.70;    // of the grip, for one with braking
 constexpr double keep_share = 0.3;       // of the grip, to take up a wrong direction in the lane
 constexpr double least_ramp = 0.12;      // [s], steering and yaw cannot follow faster
-constexpr double most_heading = 0.6;     // [rad] against the lane during a lane change
-constexpr double path_frequency = 5.0;   // [rad/s] of the return to the path
-constexpr double path_damping = 0.8;     // [-] of it
+constexpr double steering_use = 1.0;     // of the steering's rate, for the path's ramps
+constexpr double most_heading = 0.5;     // [rad] against the lane during a lane change
+constexpr double path_lag = 0.05;        // [s] from a steering command to its force
+constexpr double path_frequency = 7.0;   // [rad/s] of the return to the path
+constexpr double path_damping = 0.9;     // [-] of it
 constexpr double front_limit = 0.97;     // share of the front tyres' peak that steering may ask for
+constexpr double guard_from = 0.55;      // rear slip over its peak, where turning in is cut back
+constexpr double guard_to = 1.0;         // likewise, where none is left
 constexpr double combined_share = 0.92;  // of the grip, for braking and steering together
-constexpr double crawl = 1.5;            // [m/s] below it steering fades out
+constexpr double least_stop_share =
+    0.6;                       // of the grip, that a stop brakes with whatever the path asks
+constexpr double crawl = 1.5;  // [m/s] below it steering fades out
 
 bool changes_lane(PolicyId policy) {
   return policy == PolicyId::aes_left || policy == PolicyId::aes_right ||
@@ -71,14 +79,20 @@ LaneShift followable_shift(const Vehicle& car, const PathPoint& start, double en
   const double turning = slowest * slowest * std::tan(0.8 * car.steering_limit) / wheelbase;
   double amplitude = std::min(share * grip * gravity, turning);
   LaneShift shift;
-  for (int i = 0; i < 40; ++i) {
-    const double swing = steering_for(car, amplitude, slowest) / (0.8 * car.steering_rate);
-    const double ramp = std::max(least_ramp, swing);
+  for (int i = 0; i < 60; ++i) {
+    const double slip =
+        vehicle::slip_for(car.tyre, grip, std::min(1.0, amplitude / (grip * gravity)));
+    const double angle = steering_for(car, amplitude, slowest) + slip;
+    const double ramp = std::max(least_ramp, angle / (steering_use * car.steering_rate));
     shift = lane_shift(start.d, start.v_L.y, end_d, amplitude, ramp);
-    if (largest_rate(shift) <= slowest * std::sin(most_heading)) {
+    const double sine = largest_rate(shift) / slowest;
+    // Across the lane, the tyres' sideways force points partly backwards.
+    const bool has_grip =
+        amplitude <= share * grip * gravity * std::sqrt(std::max(0.0, 1.0 - sine * sine));
+    if (sine <= std::sin(most_heading) && has_grip) {
       break;
     }
-    amplitude *= 0.9;
+    amplitude *= 0.95;
   }
   return shift;
 }
@@ -98,14 +112,32 @@ double sideways_demand(const Vehicle& car, const world::Road& road, const Vehicl
                        const ControllerState& memory, const PathPoint& point) {
   // The steering follows late: its cause leads, and the path is expected as much later.
   const double a = at(memory.shift, memory.time).a;
-  const Lateral path = at(memory.shift, memory.time - car.steering_lag);
-  const double along_lane = a + 2.0 * path_damping * path_frequency * (path.v - point.v_L.y) +
-                            path_frequency * path_frequency * (path.d - point.d) +
-                            road.curvature * point.v_L.x * point.v_L.x /
-                                std::max(0.1, 1.0 - road.curvature * point.d);
+  const Lateral path = at(memory.shift, memory.time - path_lag);
+  const double along_lane =
+      a + 2.0 * path_damping * path_frequency * (path.v - point.v_L.y) +
+      path_frequency * path_frequency * (path.d - point.d) +
+      road.curvature * point.v_L.x * point.v_L.x / std::max(0.1, 1.0 - road.curvature * point.d);
   const double ahead = state.a_B.x - state.yaw_rate * state.yaw_rate * percussion_arm(car);
   const double cosine = std::max(0.3, std::cos(point.heading));
   return (along_lane - ahead * std::sin(point.heading)) / cosine;
+}
+
+// How much of the front tyres' force may push to either side, in [-1, 1].
+struct Sides {
+  double left;
+  double right;
+};
+
+// The rear must keep grip: once it slips near its peak, the front may not turn the car further in,
+// and past the peak it must turn it back.
+Sides turning_allowed(const Vehicle& car, const VehicleState& state, double grip) {
+  const double vy_rear = state.v_B.y - car.rear_arm * state.yaw_rate;
+  const double slip = vy_rear / std::max(state.v_B.x, vehicle::slip_speed_floor);
+  const double peak = vehicle::slip_for(car.tyre, grip, 1.0);
+  const double excess = (std::abs(slip) / peak - guard_from) / (guard_to - guard_from);
+  const double allowed = std::clamp(1.0 - excess, -0.5, 1.0);
+  // A rear that slides to the right carries force to the left: the car turns left.
+  return slip < 0.0 ? Sides{.left = allowed, .right = 1.0} : Sides{.left = 1.0, .right = allowed};
 }
 
 // Angle of the road wheels at which the front tyres push with the force that gives the demand.
@@ -115,14 +147,16 @@ double steering_angle(const Vehicle& car, const VehicleState& state, double grip
   const double load = loads[vehicle::front_left] + loads[vehicle::front_right];
   const double peak = vehicle::peak_friction(car.tyre, 0.5 * load, grip);
   const double most = front_limit * peak * load;
-  const double braking =
-      std::min((state.brake_torque[vehicle::front_left] + state.brake_torque[vehicle::front_right]) /
-                   car.wheel_radius,
-               0.98 * most);
+  const double braking = std::min(
+      (state.brake_torque[vehicle::front_left] + state.brake_torque[vehicle::front_right]) /
+          car.wheel_radius,
+      0.98 * most);
   const double F_B = car.mass * car.rear_arm / wheelbase * demand;
   const double room = std::sqrt(most * most - braking * braking);
-  const double F_T = std::clamp((F_B + braking * std::sin(state.steering)) /
-                                    std::cos(state.steering), -room, room);
+  const Sides allowed = turning_allowed(car, state, grip);
+  const double F_T =
+      std::clamp((F_B + braking * std::sin(state.steering)) / std::cos(state.steering),
+                 -room * allowed.right, room * allowed.left);
   const double force = std::hypot(F_T, braking);
   if (force <= 0.0) {
     return std::atan2(state.v_B.y + car.front_arm * state.yaw_rate, state.v_B.x);
@@ -144,7 +178,8 @@ double holding_torque(const Vehicle& car, const VehicleState& state, double spee
   constexpr double gain = 2.0;         // [1/s]
   constexpr double rear_share = 0.25;  // of the rear grip: the rest is for the path
   const double rear_load = car.mass * gravity * car.front_arm / (car.front_arm + car.rear_arm);
-  const double most = rear_share * grip * rear_load;
+  const double left_over = deceleration_left(1.0, grip, state.a_B.y) / (grip * gravity);
+  const double most = rear_share * left_over * grip * rear_load;
   const double force = std::clamp(gain * car.mass * (speed - state.v_B.x), -most, most);
   return force * car.wheel_radius;
 }
@@ -157,15 +192,15 @@ void command_speed(const Vehicle& car, const Plan& plan, double grip, const Vehi
   constexpr double approach = 0.25;  // [s]: the last of the braking fades within the brakes' delay
   double wanted = 0.0;
   if (stops) {
+    // Where a bend needs all the grip, only less speed helps: a stop always brakes.
     const double share = plan.policy == PolicyId::aeb ? 1.0 : combined_share;
-    wanted = deceleration_left(share, grip, sideways);
+    wanted = std::max(deceleration_left(share, grip, sideways), least_stop_share * grip * gravity);
   } else if (brakes_to_speed(plan.policy) && state.v_B.x > memory.speed + 0.3) {
     wanted = std::min(deceleration_left(combined_share, grip, sideways),
                       (state.v_B.x - memory.speed) / approach);
   }
   if (wanted > 0.0 || stops) {
-    command.brake_torque =
-        vehicle::deployed_brakes(car, state, wanted, grip, dt, memory.abs);
+    command.brake_torque = vehicle::deployed_brakes(car, state, wanted, grip, dt, memory.abs);
     return;
   }
   memory.abs = vehicle::begin_abs(state.v_B.x);
@@ -174,20 +209,19 @@ void command_speed(const Vehicle& car, const Plan& plan, double grip, const Vehi
 
 void watch_recovery(const Plan& plan, const PathPoint& point, const VehicleState& state, double dt,
                     const Vehicle& car, ControllerState& memory) {
-  constexpr double near_d = 0.2;                     // [m]
-  constexpr double near_speed = 1.0;                 // [m/s]
+  constexpr double near_d = 0.2;      // [m]
+  constexpr double near_speed = 1.0;  // [m/s]
   const double near_heading = from_degrees(2.0);
   const double d = point.d - percussion_arm(car) * std::sin(point.heading);
-  const bool slow_enough =
-      !brakes_to_speed(plan.policy) || state.v_B.x < memory.speed + near_speed;
-  const bool recovered = std::abs(d - memory.end_d) < near_d &&
-                         std::abs(point.heading) < near_heading && slow_enough;
+  const bool slow_enough = !brakes_to_speed(plan.policy) || state.v_B.x < memory.speed + near_speed;
+  const bool recovered =
+      std::abs(d - memory.end_d) < near_d && std::abs(point.heading) < near_heading && slow_enough;
   memory.recovered_for = recovered ? memory.recovered_for + dt : 0.0;
 }
 
 bool is_finite(const VehicleState& state, double grip) {
-  return saca::is_finite(state.X_WB) && saca::is_finite(state.v_B) &&
-         saca::is_finite(state.a_B) && std::isfinite(state.yaw_rate + state.steering + grip);
+  return saca::is_finite(state.X_WB) && saca::is_finite(state.v_B) && saca::is_finite(state.a_B) &&
+         std::isfinite(state.yaw_rate + state.steering + grip);
 }
 
 }  // namespace
@@ -205,14 +239,17 @@ ControllerState begin(const Vehicle& car, const Plan& plan, const world::Scene& 
   if (changes_lane(plan.policy)) {
     const double side = goes_left(plan.policy) ? 1.0 : -1.0;
     memory.end_d = side * scene.road.lane_width;
-    const double share = brakes_to_speed(plan.policy) ? braked_share : swerve_share;
+    const double bend = std::abs(scene.road.curvature) * ego.v_B.x * ego.v_B.x;
+    const double given_up =
+        fast_less * std::max(0.0, ego.v_B.x - fast) + bend / (scene.grip * gravity);
+    const double share = (brakes_to_speed(plan.policy) ? braked_share : swerve_share) - given_up;
     memory.shift = followable_shift(car, start, memory.end_d, share, scene.grip,
                                     slowest_speed(plan, ego.v_B.x, scene.grip));
   } else {
     constexpr double coming_to = 0.5;  // [s] within which a wrong direction is taken up
     memory.end_d = start.d + coming_to * start.v_L.y;
-    memory.shift = lane_shift(start.d, start.v_L.y, memory.end_d,
-                              keep_share * scene.grip * gravity, least_ramp);
+    memory.shift = lane_shift(start.d, start.v_L.y, memory.end_d, keep_share * scene.grip * gravity,
+                              least_ramp);
   }
   return memory;
 }

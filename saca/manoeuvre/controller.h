@@ -13,10 +13,10 @@ namespace saca::manoeuvre {
 
 /// What a controller remembers between two calls. Set to `begin(...)` when the manoeuvre starts.
 struct ControllerState {
-  LaneShift shift;             ///< of the controlled point, which lies ahead of the centre of mass
-  double end_d = 0.0;          ///< lane offset where the shift ends [m]
-  double time = 0.0;           ///< since the start [s]
-  double speed = 0.0;          ///< to keep [m/s]: the initial one, or the plan's target
+  LaneShift shift;     ///< of the controlled point, which lies ahead of the centre of mass
+  double end_d = 0.0;  ///< lane offset where the shift ends [m]
+  double time = 0.0;   ///< since the start [s]
+  double speed = 0.0;  ///< to keep [m/s]: the initial one, or the plan's target
   vehicle::AbsState abs;
   double recovered_for = 0.0;  ///< how long lane, direction and speed have been right [s]
 };
@@ -45,9 +45,9 @@ static_assert(std::is_trivially_copyable_v<ControllerState>);
                                        double dt) noexcept;
 
 /// Whether the manoeuvre has reached its safe end: at rest for policy 0 (and 3, 4 with target 0);
-/// for the others with a lane change: lane offset within 0.2 m, direction within 2 degrees and speed
-/// within 1 m/s of the wanted ones for 0.2 s, from where `control` keeps the lane at that speed. No
-/// intervention never ends.
+/// for the others with a lane change: lane offset within 0.2 m, direction within 2 degrees and
+/// speed within 1 m/s of the wanted ones for 0.2 s, from where `control` keeps the lane at that
+/// speed. No intervention never ends.
 [[nodiscard]] bool finished(const Plan& plan, const vehicle::VehicleState& state,
                             const ControllerState& memory) noexcept;
 

@@ -1,5 +1,6 @@
 #include "saca/manoeuvre/drive.h"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -10,7 +11,7 @@
 namespace saca::manoeuvre {
 namespace {
 
-constexpr double dt = 1e-3;        // [s] of the integration
+constexpr double dt = 1e-3;  // [s] of the integration
 constexpr int steps_per_pose = 10;
 
 // "<what> <value> <rest>"; std::format is not there yet.
@@ -40,8 +41,7 @@ std::optional<std::string> wrong_motion(const Plan& plan, const world::EgoState&
       !is_finite(ego.a_B)) {
     return "the ego's state is not finite";
   }
-  const bool from_rest =
-      plan.policy == PolicyId::aeb || plan.policy == PolicyId::no_intervention;
+  const bool from_rest = plan.policy == PolicyId::aeb || plan.policy == PolicyId::no_intervention;
   const double least = from_rest ? 0.0 : 5.0;
   if (!(ego.v_B.x >= least)) {
     return std::string(name(plan.policy)) +
@@ -51,6 +51,24 @@ std::optional<std::string> wrong_motion(const Plan& plan, const world::EgoState&
   }
   if (!(ego.v_B.x <= 25.0)) {
     return with_number("speed must be at most 25 m/s, is %.2f", ego.v_B.x);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> wrong_road(const Plan& plan, const world::Scene& scene) {
+  const world::Road& road = scene.road;
+  if (!is_finite(road.X_WL) || !std::isfinite(road.curvature) ||
+      !(road.lane_width >= 2.0 && road.lane_width <= 6.0)) {
+    return with_number("the road must be finite, its lane 2 to 6 m wide, is %.2f", road.lane_width);
+  }
+  // A swerve out of a bend adds to what the bend itself takes.
+  constexpr double most_share = 0.5;
+  const double share = std::abs(road.curvature) * scene.ego.v_B.x * scene.ego.v_B.x /
+                       (scene.grip * vehicle::gravity);
+  const bool stays = plan.policy == PolicyId::aeb || plan.policy == PolicyId::no_intervention;
+  if (!stays && !(share <= most_share)) {
+    return std::string(name(plan.policy)) +
+           with_number(" needs half of the grip, the road's bend takes %.0f %%", 100.0 * share);
   }
   return std::nullopt;
 }
@@ -70,7 +88,10 @@ std::optional<std::string> refusal(const Plan& plan, const world::Scene& scene) 
   if (!(scene.grip >= 0.3 && scene.grip <= 1.0)) {
     return with_number("grip must be 0.3 to 1.0, is %.3f", scene.grip);
   }
-  return wrong_motion(plan, scene.ego);
+  if (const auto problem = wrong_motion(plan, scene.ego)) {
+    return problem;
+  }
+  return wrong_road(plan, scene);
 }
 
 EgoMotion drive(const vehicle::Vehicle& car, const Plan& plan, const world::Scene& scene,

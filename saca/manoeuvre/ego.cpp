@@ -12,7 +12,7 @@ using vehicle::PerWheel;
 using vehicle::Vehicle;
 using vehicle::VehicleState;
 
-constexpr double standing = 0.5;  // [m/s] below it neither steering nor pedals can be told
+constexpr double standing = 0.5;     // [m/s] below it neither steering nor pedals can be told
 constexpr double most_share = 0.95;  // of a tyre's peak: what nobody drives at without control
 
 // Angle at which the front tyres give their share of the turning that the ego does.
@@ -74,10 +74,8 @@ VehicleState rolling_state(const Vehicle& car, const world::EgoState& ego, doubl
     const double slip = std::copysign(vehicle::slip_for(car.tyre, peak, share), forces[i]);
     const double speed = std::max(norm(v_B), vehicle::slip_speed_floor);
     state.wheel_speed[i] = (v_T.x + slip * speed) / car.wheel_radius;
-    const double inertia =
-        p_B.x > 0.0 ? car.front_wheel_inertia : car.rear_wheel_inertia;
-    const double torque =
-        forces[i] * car.wheel_radius + inertia * state.a_B.x / car.wheel_radius;
+    const double inertia = p_B.x > 0.0 ? car.front_wheel_inertia : car.rear_wheel_inertia;
+    const double torque = forces[i] * car.wheel_radius + inertia * state.a_B.x / car.wheel_radius;
     if (state.a_B.x < 0.0) {
       state.brake_torque[i] = std::clamp(-torque, 0.0, car.brake_limit);
     } else if (p_B.x < 0.0) {

@@ -96,8 +96,7 @@ LaneShift lane_shift(double start_d, double start_v, double end_d, double amplit
 
 double largest_rate(const LaneShift& shift) noexcept {
   // The rate turns where the acceleration crosses zero: in the middle of the swing.
-  return std::max(std::abs(shift.start_v),
-                  std::abs(at(shift, 2.0 * shift.ramp + shift.first).v));
+  return std::max(std::abs(shift.start_v), std::abs(at(shift, 2.0 * shift.ramp + shift.first).v));
 }
 
 }  // namespace saca::manoeuvre

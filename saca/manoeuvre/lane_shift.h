@@ -29,7 +29,8 @@ struct LaneShift {
 [[nodiscard]] Lateral at(const LaneShift& shift, double time) noexcept;
 
 /// The shift from an offset and a rate to rest at another offset.
-/// @param amplitude  size of the acceleration to use [m/s^2], > 0; less is used where the way is too
+/// @param amplitude  size of the acceleration to use [m/s^2], > 0; less is used where the way is
+/// too
 ///                   short for the ramps
 /// @param ramp       [s], > 0
 [[nodiscard]] LaneShift lane_shift(double start_d, double start_v, double end_d, double amplitude,

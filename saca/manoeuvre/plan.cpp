@@ -3,8 +3,8 @@
 namespace saca::manoeuvre {
 
 std::string_view name(PolicyId policy) {
-  constexpr std::array<std::string_view, num_policies> names{
-      "AEB", "AES-L", "AES-R", "ES-B-L", "ES-B-R", "T-D-L", "T-D-R", "NI"};
+  constexpr std::array<std::string_view, num_policies> names{"AEB",    "AES-L", "AES-R", "ES-B-L",
+                                                             "ES-B-R", "T-D-L", "T-D-R", "NI"};
   return names[index(policy)];
 }
 
@@ -20,7 +20,8 @@ Plan default_plan(PolicyId policy, double speed) {
   if (!brakes_to_speed) {
     return {.policy = policy, .target_speed = std::nullopt};
   }
-  return {.policy = policy, .target_speed = 0.5 * speed};  // half: an assumption, the paper gives none
+  return {.policy = policy,
+          .target_speed = 0.5 * speed};  // half: an assumption, the paper gives none
 }
 
 }  // namespace saca::manoeuvre

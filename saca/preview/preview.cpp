@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "saca/manoeuvre/drive.h"
+#include "saca/outcome/ordering.h"
 #include "saca/world/time_to_conflict.h"
 
 namespace saca::preview {
@@ -133,8 +134,8 @@ std::array<PolicyFacts, manoeuvre::num_policies> policy_facts(const Scene& scene
   for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
     PolicyFacts& fact = facts[manoeuvre::index(policy)];
     fact.plan = manoeuvre::default_plan(policy, norm(scene.ego.v_B));
-    fact.refusal = manoeuvre::refusal(fact.plan, scene);
-    if (!fact.refusal) {
+    fact.refusal = manoeuvre::refusal(fact.plan, scene).value_or("");
+    if (fact.refusal.empty()) {
       fact.outcome = outcome::roll_out(car, fact.plan, scene, tracks, scene.grip, harm);
     }
   }
@@ -145,7 +146,7 @@ manoeuvre::PolicyId best_by_forecast(
     const std::array<PolicyFacts, manoeuvre::num_policies>& facts) {
   const PolicyFacts* best = &facts[manoeuvre::index(manoeuvre::PolicyId::aeb)];
   for (const PolicyFacts& fact : facts) {
-    if (!fact.refusal &&
+    if (fact.refusal.empty() &&
         outcome::better(fact.outcome, fact.plan.policy, best->outcome, best->plan.policy)) {
       best = &fact;
     }

@@ -6,8 +6,8 @@
 namespace saca::vehicle {
 namespace {
 
-// Brakes follow commands 0.1 s late, and a braking car's rear wheels unload: each wheel gets what it
-// can take both now and once the load has moved.
+// Brakes follow commands 0.1 s late, and a braking car's rear wheels unload: each wheel gets what
+// it can take both now and once the load has moved.
 PerWheel lasting_loads(const Vehicle& car, Vec2 a_now_B, double deceleration) {
   PerWheel now = wheel_loads(car, a_now_B);
   const PerWheel then = wheel_loads(car, {-deceleration, a_now_B.y});
@@ -68,19 +68,18 @@ PerWheel deployed_brakes(const Vehicle& car, const VehicleState& state, double d
                          double grip, double dt, AbsState& abs) noexcept {
   // Gains found by simulation over 5 to 25 m/s and grip 0.3 to 1.0 with the estimate wrong by up to
   // 20 %; they have no other source.
-  constexpr double model_share = 0.95;     // of the estimated peak: where the controller starts
+  constexpr double model_share = 0.95;      // of the estimated peak: where the controller starts
   constexpr double wanted_dry_slip = 0.10;  // at grip 1: 96 % of the peak force, on its safe side
-  constexpr double lead = 0.06;            // [s] by which slip is foreseen, for the brakes' delay
-  constexpr double raise = 0.5;            // [1/s] share won back at no slip
-  constexpr double lower = 4.0;            // [1/s] share given up at twice the wanted slip
-  constexpr double release = 0.35;         // share released at once at twice the wanted slip
-  constexpr double least_speed = 1.0;      // [m/s] below it slip means nothing and wheels may lock
+  constexpr double lead = 0.06;             // [s] by which slip is foreseen, for the brakes' delay
+  constexpr double raise = 0.5;             // [1/s] share won back at no slip
+  constexpr double lower = 4.0;             // [1/s] share given up at twice the wanted slip
+  constexpr double release = 0.35;          // share released at once at twice the wanted slip
+  constexpr double least_speed = 1.0;       // [m/s] below it slip means nothing and wheels may lock
 
   abs.speed = std::max(0.0, abs.speed + dt * (state.a_B.x + state.yaw_rate * state.v_B.y));
   const PerWheel slips = estimated_slip(car, state, abs.speed);
   const double most = grip * gravity;
-  const PerWheel loads =
-      lasting_loads(car, state.a_B, std::min(deceleration, most));
+  const PerWheel loads = lasting_loads(car, state.a_B, std::min(deceleration, most));
   const double wanted_slip = wanted_dry_slip * grip;
   const double wanted = std::min(deceleration / most, model_share);
   const bool all_wanted = deceleration >= model_share * most;
@@ -91,12 +90,15 @@ PerWheel deployed_brakes(const Vehicle& car, const VehicleState& state, double d
     abs.slip[i] = slips[i];
     const double foreseen = slips[i] + lead * growth;
     const double excess = std::clamp(foreseen / wanted_slip - 1.0, -1.0, 2.0);
-    // Little slip means unused grip only where all of it is wanted; else the model's torque will do.
+    // Little slip means unused grip only where all of it is wanted; else the model's torque will
+    // do.
     const double rest = all_wanted ? -raise * excess : raise * (1.0 - abs.share[i]);
     const double learning = excess > 0.0 ? -lower * excess : rest;
     abs.share[i] = std::clamp(abs.share[i] + dt * learning, 0.2, 1.4);
-    const double now = abs.speed < least_speed ? 1.0 : abs.share[i] - release * std::max(0.0, excess);
-    const double full = wanted * (grip * loads[i] * car.wheel_radius + slowing_torque(car, i, most));
+    const double now =
+        abs.speed < least_speed ? 1.0 : abs.share[i] - release * std::max(0.0, excess);
+    const double full =
+        wanted * (grip * loads[i] * car.wheel_radius + slowing_torque(car, i, most));
     torque[i] = std::max(0.0, now) * full;
   }
   return torque;

@@ -9,8 +9,8 @@ namespace saca::vehicle {
 /// Wheel frame T (ISO 8855): x forward, y left. The force points against the sliding velocity of
 /// the contact patch; its size follows the magic formula D sin(C atan(B s)).
 struct Tyre {
-  double stiffness;         ///< slope of force over load at zero slip [-], > 0
-  double shape;             ///< C of the magic formula [-], in (1, 2): above 1 it falls after the peak
+  double stiffness;  ///< slope of force over load at zero slip [-], > 0
+  double shape;      ///< C of the magic formula [-], in (1, 2): above 1 it falls after the peak
   double load_sensitivity;  ///< share of friction lost when the load doubles [-], in [0, 0.3]
   double nominal_load;      ///< load at which the road's grip holds exactly [N], > 0
 };

@@ -16,7 +16,21 @@ constexpr double brake_stiffness = 1000.0;  // [1/s]
 
 // What the integrator sees of a state: everything that has a rate.
 struct Flow {
-  enum : std::size_t { x, y, yaw, vx, vy, yaw_rate, wheel, steering = wheel + 4, brake, motor = brake + 4, ax, ay, size };
+  enum : std::size_t {
+    x,
+    y,
+    yaw,
+    vx,
+    vy,
+    yaw_rate,
+    wheel,
+    steering = wheel + 4,
+    brake,
+    motor = brake + 4,
+    ax,
+    ay,
+    size
+  };
   std::array<double, size> value{};
 
   double& operator[](std::size_t i) { return value[i]; }
@@ -65,7 +79,7 @@ void put(const Flow& flow, VehicleState& state) {
 
 // What does not change within a step.
 struct Held {
-  Command command;        // limited, the brakes' part delayed
+  Command command;  // limited, the brakes' part delayed
   double grip;
   std::array<bool, num_wheels> locked{};
   bool at_rest = false;
@@ -84,9 +98,24 @@ double motor_share(std::size_t wheel) {
 }
 
 struct Direction {
-  double cosine;
-  double sine;
+  double cosine = 1.0;
+  double sine = 0.0;
 };
+using Directions = std::array<Direction, num_wheels>;
+
+// Ackermann: the axes of the front wheels meet on the rear axle's line, so the inner one turns
+// more.
+Directions wheel_directions(const Vehicle& car, double steering) {
+  const double wheelbase = car.front_arm + car.rear_arm;
+  const double middle = std::tan(steering);
+  Directions directions;
+  for (const std::size_t i : {front_left, front_right}) {
+    const double tangent = wheelbase * middle / (wheelbase - wheel_position(car, i).y * middle);
+    const double cosine = 1.0 / std::sqrt(1.0 + tangent * tangent);
+    directions[i] = {cosine, tangent * cosine};
+  }
+  return directions;
+}
 
 // Sliding and force of one wheel; `wheel_speed` apart, so that a locked wheel can be asked too.
 Contact contact(const Vehicle& car, Vec2 v_wheel_T, double wheel_speed, double load, double grip) {
@@ -98,24 +127,20 @@ Contact contact(const Vehicle& car, Vec2 v_wheel_T, double wheel_speed, double l
           .peak_force = peak_friction(car.tyre, load, grip) * load};
 }
 
-Vec2 wheel_velocity(const Vehicle& car, const Flow& flow, std::size_t wheel, Direction steering) {
+Vec2 wheel_velocity(const Vehicle& car, const Flow& flow, std::size_t wheel, Direction along) {
   const Vec2 p_B = wheel_position(car, wheel);
   const Vec2 v_B{flow[Flow::vx] - flow[Flow::yaw_rate] * p_B.y,
                  flow[Flow::vy] + flow[Flow::yaw_rate] * p_B.x};
-  if (!is_front(wheel)) {
-    return v_B;
-  }
-  return {steering.cosine * v_B.x + steering.sine * v_B.y,
-          steering.cosine * v_B.y - steering.sine * v_B.x};
+  return {along.cosine * v_B.x + along.sine * v_B.y, along.cosine * v_B.y - along.sine * v_B.x};
 }
 
-Contacts contacts_of(const Vehicle& car, const Flow& flow, double grip) {
-  const Direction steering{std::cos(flow[Flow::steering]), std::sin(flow[Flow::steering])};
+Contacts contacts_of(const Vehicle& car, const Flow& flow, const Directions& directions,
+                     double grip) {
   const PerWheel loads = wheel_loads(car, {flow[Flow::ax], flow[Flow::ay]});
   Contacts all;
   for (std::size_t i = 0; i < num_wheels; ++i) {
-    all[i] = contact(car, wheel_velocity(car, flow, i, steering), flow[Flow::wheel + i], loads[i],
-                     grip);
+    all[i] = contact(car, wheel_velocity(car, flow, i, directions[i]), flow[Flow::wheel + i],
+                     loads[i], grip);
   }
   return all;
 }
@@ -125,8 +150,7 @@ void actuator_rates(const Vehicle& car, const Flow& flow, const Held& held, Flow
       std::clamp((held.command.steering - flow[Flow::steering]) / car.steering_lag,
                  -car.steering_rate, car.steering_rate);
   for (std::size_t i = 0; i < num_wheels; ++i) {
-    rate[Flow::brake + i] =
-        (held.command.brake_torque[i] - flow[Flow::brake + i]) / car.brake_lag;
+    rate[Flow::brake + i] = (held.command.brake_torque[i] - flow[Flow::brake + i]) / car.brake_lag;
   }
   rate[Flow::motor] = (held.command.motor_torque - flow[Flow::motor]) / car.motor_lag;
 }
@@ -137,13 +161,13 @@ Flow rates(const Vehicle& car, const Flow& flow, const Held& held) {
   Vec2 F_B;
   double torque = 0.0;
   if (!held.at_rest) {
-    const Contacts all = contacts_of(car, flow, held.grip);
-    const Direction steering{std::cos(flow[Flow::steering]), std::sin(flow[Flow::steering])};
+    const Directions directions = wheel_directions(car, flow[Flow::steering]);
+    const Contacts all = contacts_of(car, flow, directions, held.grip);
     for (std::size_t i = 0; i < num_wheels; ++i) {
       const Vec2 F_T = all[i].F_T;
-      const Vec2 F_wheel_B = is_front(i) ? Vec2{steering.cosine * F_T.x - steering.sine * F_T.y,
-                                                steering.sine * F_T.x + steering.cosine * F_T.y}
-                                         : F_T;
+      const Direction along = directions[i];
+      const Vec2 F_wheel_B{along.cosine * F_T.x - along.sine * F_T.y,
+                           along.sine * F_T.x + along.cosine * F_T.y};
       const Vec2 p_B = wheel_position(car, i);
       F_B = F_B + F_wheel_B;
       torque += p_B.x * F_wheel_B.y - p_B.y * F_wheel_B.x;
@@ -151,8 +175,8 @@ Flow rates(const Vehicle& car, const Flow& flow, const Held& held) {
         const double inertia = wheel_inertia(car, i);
         const double brake = std::clamp(brake_stiffness * inertia * flow[Flow::wheel + i],
                                         -flow[Flow::brake + i], flow[Flow::brake + i]);
-        rate[Flow::wheel + i] = (motor_share(i) * flow[Flow::motor] - brake -
-                                 car.wheel_radius * F_T.x) / inertia;
+        rate[Flow::wheel + i] =
+            (motor_share(i) * flow[Flow::motor] - brake - car.wheel_radius * F_T.x) / inertia;
       }
     }
     const Vec2 v_B{flow[Flow::vx], flow[Flow::vy]};
@@ -193,8 +217,8 @@ PerWheel after_dead_time(const Vehicle& car, const PerWheel& commanded, BrakeLin
 
 // The brakes hold a slow car when they can take more than its motor gives.
 bool is_held(const Vehicle& car, const VehicleState& state) {
-  const double brakes = state.brake_torque[0] + state.brake_torque[1] + state.brake_torque[2] +
-                        state.brake_torque[3];
+  const double brakes =
+      state.brake_torque[0] + state.brake_torque[1] + state.brake_torque[2] + state.brake_torque[3];
   constexpr double least = 50.0;  // [N m]: brakes that merely linger do not hold
   const double arm = car.front_arm + car.rear_arm;
   return norm(state.v_B) < hold_speed && std::abs(state.yaw_rate) * arm < hold_speed &&
@@ -216,9 +240,8 @@ void lock_wheels(const Vehicle& car, VehicleState& state, Held& held) {
     }
     Flow flow = flow_of(state);
     flow[Flow::wheel + i] = 0.0;
-    const Contacts all = contacts_of(car, flow, held.grip);
-    const double turning =
-        motor_share(i) * state.motor_torque - car.wheel_radius * all[i].F_T.x;
+    const Contacts all = contacts_of(car, flow, wheel_directions(car, state.steering), held.grip);
+    const double turning = motor_share(i) * state.motor_torque - car.wheel_radius * all[i].F_T.x;
     if (std::abs(turning) < brake) {
       state.wheel_speed[i] = 0.0;
       held.locked[i] = true;
@@ -253,12 +276,12 @@ PerWheel wheel_loads(const Vehicle& car, Vec2 a_B) {
 
 Contacts contacts(const Vehicle& car, const VehicleState& state, double grip) {
   expects(grip > 0.0 && grip <= 1.2, "grip in (0, 1.2]");
-  return contacts_of(car, flow_of(state), grip);
+  return contacts_of(car, flow_of(state), wheel_directions(car, state.steering), grip);
 }
 
 double kinetic_energy(const Vehicle& car, const VehicleState& state) {
-  double twice = car.mass * dot(state.v_B, state.v_B) +
-                 car.yaw_inertia * state.yaw_rate * state.yaw_rate;
+  double twice =
+      car.mass * dot(state.v_B, state.v_B) + car.yaw_inertia * state.yaw_rate * state.yaw_rate;
   for (std::size_t i = 0; i < num_wheels; ++i) {
     twice += wheel_inertia(car, i) * state.wheel_speed[i] * state.wheel_speed[i];
   }
@@ -279,8 +302,7 @@ VehicleState step(const Vehicle& car, const VehicleState& state, const Command& 
 
   VehicleState next = state;
   Held held{.command = command, .grip = grip};
-  held.command.steering =
-      std::clamp(command.steering, -car.steering_limit, car.steering_limit);
+  held.command.steering = std::clamp(command.steering, -car.steering_limit, car.steering_limit);
   held.command.motor_torque = std::clamp(command.motor_torque, -car.motor_limit, car.motor_limit);
   held.command.brake_torque = after_dead_time(car, command.brake_torque, next.brake_line);
   for (double& torque : held.command.brake_torque) {

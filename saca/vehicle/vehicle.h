@@ -50,9 +50,9 @@ struct Vehicle {
 
 /// What the car is told to do, held for one step.
 struct Command {
-  double steering = 0.0;       ///< angle of the road wheels [rad], > 0 to the left
-  PerWheel brake_torque{};     ///< [N m], each >= 0
-  double motor_torque = 0.0;   ///< at the rear axle, shared equally by its wheels [N m]
+  double steering = 0.0;      ///< angle of the road wheels [rad], > 0 to the left
+  PerWheel brake_torque{};    ///< [N m], each >= 0
+  double motor_torque = 0.0;  ///< at the rear axle, shared equally by its wheels [N m]
 };
 
 /// Brake commands on their way: what was commanded in the last milliseconds. The brakes' bus runs
@@ -68,15 +68,15 @@ struct BrakeLine {
 /// Everything that changes while the car moves. Trivially copyable: two equal states stay equal,
 /// byte for byte, under equal commands.
 struct VehicleState {
-  Pose X_WB;                   ///< B at the centre of mass
-  Vec2 v_B;                    ///< over ground [m/s]
-  double yaw_rate = 0.0;       ///< [rad/s]
-  PerWheel wheel_speed{};      ///< > 0 rolls forward [rad/s]
-  double steering = 0.0;       ///< of the road wheels [rad]
-  PerWheel brake_torque{};     ///< at the wheels [N m], >= 0
-  double motor_torque = 0.0;   ///< at the rear axle [N m]
-  Vec2 transfer_a_B;           ///< acceleration that the wheel loads answer to, lagged [m/s^2]
-  Vec2 a_B;                    ///< of the centre of mass at the end of the last step [m/s^2]
+  Pose X_WB;                  ///< B at the centre of mass
+  Vec2 v_B;                   ///< over ground [m/s]
+  double yaw_rate = 0.0;      ///< [rad/s]
+  PerWheel wheel_speed{};     ///< > 0 rolls forward [rad/s]
+  double steering = 0.0;      ///< of the road wheels, between the two [rad]
+  PerWheel brake_torque{};    ///< at the wheels [N m], >= 0
+  double motor_torque = 0.0;  ///< at the rear axle [N m]
+  Vec2 transfer_a_B;          ///< acceleration that the wheel loads answer to, lagged [m/s^2]
+  Vec2 a_B;                   ///< of the centre of mass at the end of the last step [m/s^2]
   BrakeLine brake_line;
 };
 static_assert(std::is_trivially_copyable_v<VehicleState>);
@@ -117,10 +117,10 @@ constexpr double hold_speed = 0.05;
 /// @throws ContractViolation  if anything is not finite or outside its range
 ///
 /// Planar double track on a level road: four wheel speeds, lagged load transfer, air drag,
-/// actuators with lag, rate, limit and dead time. Commands beyond a limit act at the limit.
-/// Classical Runge-Kutta of fourth order. A wheel that its brake would stop within 1 ms, and whose
-/// brake holds more than the road turns, is locked; a car that its brakes hold below `hold_speed`
-/// is at rest. Allocates nothing.
+/// Ackermann steering, actuators with lag, rate, limit and dead time. Commands beyond a limit act
+/// at the limit. Classical Runge-Kutta of fourth order. A wheel that its brake would stop within 1
+/// ms, and whose brake holds more than the road turns, is locked; a car that its brakes hold below
+/// `hold_speed` is at rest. Allocates nothing.
 [[nodiscard]] VehicleState step(const Vehicle& car, const VehicleState& state,
                                 const Command& command, double grip, double dt);
 

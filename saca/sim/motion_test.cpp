@@ -1,0 +1,141 @@
+#include "saca/sim/motion.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "saca/core/contract.h"
+
+namespace saca::sim {
+namespace {
+
+constexpr double step = 0.01;
+
+Scenario with(const std::variant<Script, Recording>& motion) {
+  Scenario scenario;
+  scenario.duration = 6.0;
+  ScenarioActor actor;
+  actor.footprint = {world::Shape::box, 4.6, 1.8, 0.0};
+  actor.motion = motion;
+  scenario.actors.push_back(actor);
+  return scenario;
+}
+
+Script script(double speed, Behaviour behaviour, double acceleration = 0.0, double from = 0.0) {
+  return {.start = {10.0, 1.0, 0.0},
+          .speed = speed,
+          .behaviour = behaviour,
+          .acceleration = acceleration,
+          .from = from};
+}
+
+double x_at(const Scenario& scenario, double time) {
+  return pose_at(actor_track(scenario, 0, step), time).p.x;
+}
+
+TEST(ActorTrack, HoldsOrGoesOn) {
+  EXPECT_DOUBLE_EQ(x_at(with(script(0.0, Behaviour::hold)), 5.0), 10.0);
+  EXPECT_NEAR(x_at(with(script(8.0, Behaviour::constant_velocity)), 5.0), 50.0, 1e-12);
+}
+
+TEST(ActorTrack, AcceleratesUntilRest) {
+  // v^2 / 2a = 64 / 8 = 8 m, reached after 2 s.
+  const Scenario slowing = with(script(8.0, Behaviour::accelerate, -4.0));
+  EXPECT_NEAR(x_at(slowing, 1.0), 10.0 + 8.0 - 2.0, 1e-12);
+  EXPECT_NEAR(x_at(slowing, 2.0), 18.0, 1e-12);
+  EXPECT_NEAR(x_at(slowing, 5.0), 18.0, 1e-12);
+  EXPECT_NEAR(x_at(with(script(1.0, Behaviour::accelerate, 2.0)), 3.0), 10.0 + 3.0 + 9.0, 1e-12);
+}
+
+TEST(ActorTrack, BrakesWhenToldTo) {
+  // 1.5 s at 8 m/s, then 8 m of braking.
+  const Scenario scenario = with(script(8.0, Behaviour::brake, 4.0, 1.5));
+  EXPECT_NEAR(x_at(scenario, 1.5), 22.0, 1e-12);
+  EXPECT_NEAR(x_at(scenario, 6.0), 30.0, 1e-12);
+  EXPECT_GT(velocity_at(actor_track(scenario, 0, step), 1.0).x, 7.9);
+  EXPECT_EQ(velocity_at(actor_track(scenario, 0, step), 5.0).x, 0.0);
+}
+
+TEST(ActorTrack, CrossesTheRoadStraight) {
+  Script crossing = script(7.5, Behaviour::constant_velocity);
+  crossing.start = {55.0, 43.0, -std::numbers::pi / 2.0};
+  const Pose end = pose_at(actor_track(with(crossing), 0, step), 4.0);
+  EXPECT_NEAR(end.p.x, 55.0, 1e-9);
+  EXPECT_NEAR(end.p.y, 13.0, 1e-9);
+}
+
+// On a circle of radius 50 m about (0, 50), an actor 1 m to the left runs on 49 m: its way is the
+// arc 49 * angle.
+TEST(ActorTrack, FollowsACurvedLane) {
+  Scenario scenario = with(script(7.0, Behaviour::constant_velocity));
+  scenario.road.curvature = 1.0 / 50.0;
+  const world::Track track = actor_track(scenario, 0, step);
+  for (const double time : {0.0, 2.0, 5.0}) {
+    const Pose at = pose_at(track, time);
+    EXPECT_NEAR(std::hypot(at.p.x, at.p.y - 50.0), 49.0, 1e-4);  // chords of 7 cm
+    EXPECT_NEAR(at.yaw, 10.0 / 50.0 + 7.0 * time / 49.0, 1e-9);
+  }
+}
+
+TEST(ActorTrack, GoesAgainstTheLane) {
+  Script oncoming = script(7.0, Behaviour::constant_velocity);
+  oncoming.start = {50.0, 3.5, std::numbers::pi};
+  const Pose at = pose_at(actor_track(with(oncoming), 0, step), 2.0);
+  EXPECT_NEAR(at.p.x, 36.0, 1e-9);
+  EXPECT_NEAR(at.p.y, 3.5, 1e-9);
+}
+
+TEST(ActorTrack, FollowsItsRecordingAndThenItsLastSpeed) {
+  const Recording moving{{1.0, {{10.0, 0.0}, 0.0}, 5.0, 0.0}, {2.0, {{16.0, 1.0}, 0.0}, 7.0, 0.0}};
+  const world::Track track = actor_track(with(moving), 0, step);
+  EXPECT_EQ(track.start, 1.0);  // it is not there before
+  EXPECT_NEAR(pose_at(track, 1.5).p.x, 13.0, 1e-9);
+  EXPECT_NEAR(pose_at(track, 1.5).p.y, 0.5, 1e-9);
+  EXPECT_NEAR(pose_at(track, 4.0).p.x, 16.0 + 14.0, 1e-9);
+  EXPECT_GE(end_time(track), 6.0);
+  EXPECT_LT(end_time(track), 6.0 + step);
+}
+
+TEST(ActorTrack, StaysWhereItStopped) {
+  const Recording stopping{{0.0, {{10.0, 0.0}, 0.0}, 1.0, 0.0},
+                           {1.0, {{10.5, 0.0}, 0.0}, 0.1, 0.0}};
+  EXPECT_NEAR(pose_at(actor_track(with(stopping), 0, step), 6.0).p.x, 10.5, 1e-12);
+}
+
+TEST(ActorTrack, RefusesWhatIsNotThere) {
+  const Scenario scenario = with(script(1.0, Behaviour::constant_velocity));
+  EXPECT_THROW((void)actor_track(scenario, 1, step), ContractViolation);
+  EXPECT_THROW((void)actor_track(scenario, 0, 0.0), ContractViolation);
+}
+
+TEST(EgoAt, IsInterpolatedBetweenSamples) {
+  Scenario scenario;
+  scenario.ego = Recording{{0.0, {{0.0, 0.0}, 0.0}, 10.0, 0.0},
+                           {0.1, {{1.0, 0.0}, 0.02}, 9.6, 0.2},
+                           {0.2, {{1.9, 0.1}, 0.04}, 9.0, 0.2}};
+  const world::EgoState ego = ego_at(scenario, 0.05);
+  EXPECT_NEAR(ego.X_WB.p.x, 0.5, 1e-12);
+  EXPECT_NEAR(ego.X_WB.yaw, 0.01, 1e-12);
+  EXPECT_NEAR(ego.v_B.x, 9.8, 1e-12);
+  EXPECT_NEAR(ego.a_B.x, -4.0, 1e-12);
+  EXPECT_NEAR(ego.yaw_rate, 0.1, 1e-12);
+  EXPECT_NEAR(ego_at(scenario, 1.2).v_B.x, 9.0, 1e-12);
+  EXPECT_NEAR(ego_at(scenario, 1.2).X_WB.p.x, 1.9 + 9.0 * std::cos(0.04), 1e-12);
+}
+
+TEST(EgoAt, GoesOnAlongItsLane) {
+  Scenario scenario;
+  scenario.road.curvature = 0.01;
+  scenario.ego = EgoStart{{0.0, 0.0, 0.0}, 20.0};
+  const world::EgoState ego = ego_at(scenario, 3.0);  // 60 m on a circle of 100 m
+  EXPECT_NEAR(ego.X_WB.yaw, 0.6, 1e-12);
+  EXPECT_NEAR(ego.X_WB.p.x, 100.0 * std::sin(0.6), 1e-9);
+  EXPECT_NEAR(ego.yaw_rate, 0.2, 1e-12);
+  EXPECT_NEAR(ego.a_B.y, 4.0, 1e-12);  // v^2 / r
+  EXPECT_THROW((void)ego_at(scenario, std::numeric_limits<double>::quiet_NaN()), ContractViolation);
+}
+
+}  // namespace
+}  // namespace saca::sim
