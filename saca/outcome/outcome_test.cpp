@@ -214,17 +214,46 @@ TEST(Judge, OverlapAtTheStartIsContactAtOnce) {
   EXPECT_EQ(encounter.judged(harm()).harm, 0.0);
 }
 
-TEST(Judge, AnEgoAtRestCanStillBeRunInto) {
+TEST(Judge, AnEgoThatEndedAtRestCanStillBeRunInto) {
   Encounter encounter = driving(0.0, 0.5);
+  encounter.motion.ended = true;
   encounter.add_car({{-30.0, 0.0}, 0.0}, {10.0, 0.0});
   const Outcome outcome = encounter.judged(harm());
   ASSERT_TRUE(outcome.contact);
   EXPECT_NEAR(outcome.contact->time, 2.53, 1e-4);
   EXPECT_EQ(outcome.contact->ego_face, Face::rear);
   EXPECT_NEAR(outcome.contact->relative_speed, 10.0, 1e-9);
-  // One that drives on leaves the scene with its motion.
-  encounter.motion = steady_ego({}, {1.0, 0.0}, 0.0, 0.5);
+  // A motion that is cut short says nothing of what comes after.
+  encounter.motion.ended = false;
   EXPECT_FALSE(encounter.judged(harm()).contact);
+}
+
+TEST(Judge, AnEgoThatRecoveredItsLaneGoesOnAlongIt) {
+  Encounter encounter = driving(10.0, 1.0);
+  encounter.scene.road.curvature = 0.02;
+  encounter.motion.track = {};
+  for (int k = 0; k <= 100; ++k) {
+    encounter.motion.track.X_WA.push_back(from_lane(encounter.scene.road, {0.1 * k, 0.0, 0.0}));
+  }
+  encounter.motion.ended = true;
+  // 25 m along the bend stands a post; its near side is 24.9 m on, the ego's bumper 2.35 m ahead.
+  const Pose X_WP = from_lane(encounter.scene.road, {25.0, 0.0, 0.0});
+  encounter.add(ActorKind::obstacle, {.shape = world::Shape::ellipse, .length = 0.2, .width = 0.2},
+                1.0, X_WP, {});
+  const Outcome outcome = encounter.judged(harm());
+  ASSERT_TRUE(outcome.contact);
+  EXPECT_NEAR(outcome.contact->time, (25.0 - 0.1 - 2.35) / 10.0, 0.01);  // the bend's chord
+  EXPECT_NEAR(outcome.contact->relative_speed, 10.0, 1e-9);
+  encounter.motion.ended = false;
+  EXPECT_FALSE(encounter.judged(harm()).contact);
+}
+
+TEST(Judge, AnActorStillMovingWhenItsTrackEndsIsNotInventedFurther) {
+  Encounter encounter = driving(15.0, 5.0);
+  encounter.add(ActorKind::car, encounter.scene.ego_footprint, 1700.0, {{20.0, 0.0}, 0.0},
+                {15.0, 0.0}, 0.0, 2.0);
+  EXPECT_FALSE(encounter.judged(harm()).contact);  // as far ahead as ever when last heard of
+  EXPECT_NEAR(encounter.judged(harm()).clearance, 20.0 - 4.7, 1e-3);
 }
 
 TEST(Judge, WithoutContactTellsTheClearance) {
