@@ -162,7 +162,8 @@ Approach approach(const Mover& a, const Mover& b, double start, double end, doub
   Moment now = moment(a, b, start);
   while (true) {
     const double distance = now.gap.distance;
-    const double spare = distance - found.distance;  // may be used up and nothing be missed
+    // May be used up and nothing be missed, neither a smaller distance nor a touch.
+    const double spare = distance - std::max(found.distance, 0.5 * touching);
     found.distance = std::min(found.distance, distance);
     if (distance <= touching) {
       found.contact = now.time;
@@ -193,7 +194,7 @@ Touch touch(const Footprint& a, const Pose& X_WA, const Footprint& b, const Pose
             double depth) {
   expects(depth > 0.0, "depth > 0");
   Separation gap = separation(a, X_WA, b, X_WB);
-  if (gap.distance > 0.0) {
+  if (gap.distance > 1e-6) {  // below, rounding spoils the direction
     const Vec2 n_W = (1.0 / gap.distance) * (gap.p_b_W - gap.p_a_W);
     const Vec2 t_W{-n_W.y, n_W.x};
     const Span of_a = front(a, X_WA, n_W, t_W, depth);
@@ -206,7 +207,7 @@ Touch touch(const Footprint& a, const Pose& X_WA, const Footprint& b, const Pose
   for (int i = 0; i < 30; ++i) {
     const double share = 0.5 * (apart + overlapping);
     gap = separation(shrunk(a, share), X_WA, shrunk(b, share), X_WB);
-    (gap.distance > 0.0 ? apart : overlapping) = share;
+    (gap.distance > 1e-6 ? apart : overlapping) = share;
   }
   if (apart < 1e-6) {
     const Vec2 p_W = X_WA * Vec2{a.centre_x, 0.0};

@@ -122,6 +122,19 @@ TEST(Approach, OverlapAtTheStartIsContactThen) {
   EXPECT_EQ(found.contact, 0.0);
 }
 
+// Only contact is asked for: the search takes its longest strides, and still stops before overlap.
+TEST(Approach, AskedForContactOnlyFindsTheSame) {
+  const Footprint person{.shape = Shape::ellipse, .length = 0.3, .width = 0.5};
+  for (const double yaw : {0.0, 0.2, 0.7, 1.3}) {
+    const Track X_WA = moving({{}, yaw}, rotated({15.0, 0.0}, yaw), 0.0, 4.0);
+    const Track X_WB = moving({rotated({40.0, 0.0}, yaw), 0.3}, {}, 0.0, 4.0);
+    const Approach found = meet(car, X_WA, person, X_WB, 0.0);
+    ASSERT_TRUE(found.contact);
+    EXPECT_NEAR(*found.contact, *meet(car, X_WA, person, X_WB).contact, touching / 15.0);
+    EXPECT_GT(separation(car, pose_at(X_WA, *found.contact), person, X_WB.X_WA[0]).distance, 1e-5);
+  }
+}
+
 TEST(Approach, AStoppedTrackStaysWhereItEnds) {
   // The other stops at x = 20 after 1 s; the ego arrives later.
   const Approach found = meet(car, moving({}, {5.0, 0.0}, 0.0, 6.0), car,

@@ -18,7 +18,8 @@ std::string describe(const Outcome& outcome, std::span<const world::Actor> actor
 }
 
 std::string describe(const Outcome& outcome, const world::Scene& scene) {
-  return describe(outcome, std::span<const world::Actor>(scene.actors.begin(), scene.actors.size()));
+  return describe(outcome,
+                  std::span<const world::Actor>(scene.actors.begin(), scene.actors.size()));
 }
 
 }  // namespace saca::outcome

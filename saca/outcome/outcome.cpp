@@ -18,8 +18,37 @@ using world::Beyond;
 using world::Scene;
 using world::Track;
 
-// An ego slower than this at the end of its motion stands [m/s].
+// Slower than this, a body stands [m/s].
 constexpr double at_rest = 0.05;
+
+// How long an ego that has recovered its lane is followed along it [s]. An assumption: enough to
+// pass what it went around and to see what comes towards it; what is farther off is another
+// encounter.
+constexpr double goes_on = 2.0;
+
+bool moves_at_end(const EgoMotion& motion) {
+  return norm(motion.v_B.back()) > at_rest;
+}
+bool moves_at_end(const Track& track) {
+  const auto& poses = track.X_WA;
+  return poses.size() > 1 &&
+         norm(poses.back().p - poses[poses.size() - 2].p) > at_rest * track.step;
+}
+
+// The motion, followed by going on along the lane at the speed and offset of its end.
+EgoMotion carried_on(EgoMotion motion, const world::Road& road) {
+  const world::LanePose last = to_lane(road, motion.track.X_WA.back());
+  const double speed = norm(motion.v_B.back());
+  const double along = speed / (1.0 - road.curvature * last.d);  // what s gains per second
+  const int num_steps = static_cast<int>(std::ceil(goes_on / motion.track.step));
+  for (int k = 1; k <= num_steps; ++k) {
+    const double s = last.s + along * (k * motion.track.step);
+    motion.track.X_WA.push_back(from_lane(road, {s, last.d, last.heading}));
+    motion.v_B.push_back(rotated({speed, 0.0}, -last.heading));
+    motion.yaw_rate.push_back(along * road.curvature);
+  }
+  return motion;
+}
 
 // How the ego moves at one instant.
 struct Instant {
@@ -119,9 +148,6 @@ Cost meet(const EgoMotion& motion, const Scene& scene, std::size_t index, const 
 Beyond beyond(const world::Road& road, Side side) {
   return side == Side::left ? road.left_beyond : road.right_beyond;
 }
-bool stops(Beyond beyond) {
-  return beyond == Beyond::barrier || beyond == Beyond::trees;
-}
 
 Cost leave(const EgoMotion& motion, const Scene& scene, Side side, double time,
            const HarmModel& model) {
@@ -173,7 +199,7 @@ void search_edges(const EgoMotion& motion, const Scene& scene, const HarmModel& 
     if (!edge.crossing) {
       continue;
     }
-    if (!stops(what)) {
+    if (!stops_the_ego(what)) {
       search.crossed[static_cast<std::size_t>(side)] =
           leave(motion, scene, side, *edge.crossing, model);
     } else if (!search.last || *edge.crossing < search.until) {
@@ -189,7 +215,12 @@ void search_actors(const EgoMotion& motion, const Scene& scene, std::span<const 
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     const Mover other(scene.actors[i].footprint, tracks[i]);
     const double of_interest = search.last ? 0.0 : search.clearance;
-    const Approach found = approach(ego, other, motion.track.start, search.until, of_interest);
+    const double known = moves_at_end(tracks[i]) ? end_time(tracks[i]) : search.until;
+    if (known < motion.track.start) {
+      continue;
+    }
+    const Approach found =
+        approach(ego, other, motion.track.start, std::min(known, search.until), of_interest);
     search.clearance = std::min(search.clearance, found.distance);
     if (found.contact && (!search.last || *found.contact < search.until)) {
       search.last = meet(motion, scene, i, tracks[i], *found.contact, model);
@@ -200,7 +231,7 @@ void search_actors(const EgoMotion& motion, const Scene& scene, std::span<const 
 
 double last_time(const EgoMotion& motion, std::span<const Track> tracks) {
   double time = end_time(motion.track);
-  if (norm(motion.v_B.back()) <= at_rest) {
+  if (motion.ended && !moves_at_end(motion)) {
     for (const Track& track : tracks) {
       time = std::max(time, end_time(track));
     }
@@ -208,16 +239,9 @@ double last_time(const EgoMotion& motion, std::span<const Track> tracks) {
   return time;
 }
 
-}  // namespace
-
-Outcome judge(const EgoMotion& motion, const Scene& scene, std::span<const Track> tracks,
-              const HarmModel& harm) {
-  expects(tracks.size() == scene.actors.size(), "one track per actor");
-  expects(!motion.track.X_WA.empty(), "the motion has at least one pose");
-  expects(motion.v_B.size() == motion.track.X_WA.size() &&
-              motion.yaw_rate.size() == motion.track.X_WA.size(),
-          "one velocity and one yaw rate per pose");
-
+// The motion as given, or continued, judged.
+Outcome judge_all(const EgoMotion& motion, const Scene& scene, std::span<const Track> tracks,
+                  const HarmModel& harm) {
   Search search;
   search.until = last_time(motion, tracks);
   search_edges(motion, scene, harm, search);
@@ -243,6 +267,29 @@ Outcome judge(const EgoMotion& motion, const Scene& scene, std::span<const Track
     outcome.contact = reported->contact;
     outcome.collision_loss = reported->loss;
     outcome.clearance = 0.0;
+  }
+  return outcome;
+}
+
+}  // namespace
+
+bool stops_the_ego(world::Beyond beyond) {
+  return beyond == Beyond::barrier || beyond == Beyond::trees;
+}
+
+Outcome judge(const EgoMotion& motion, const Scene& scene, std::span<const Track> tracks,
+              const HarmModel& harm) {
+  expects(tracks.size() == scene.actors.size(), "one track per actor");
+  expects(!motion.track.X_WA.empty(), "the motion has at least one pose");
+  expects(motion.v_B.size() == motion.track.X_WA.size() &&
+              motion.yaw_rate.size() == motion.track.X_WA.size(),
+          "one velocity and one yaw rate per pose");
+  if (!motion.ended || !moves_at_end(motion)) {
+    return judge_all(motion, scene, tracks, harm);
+  }
+  Outcome outcome = judge_all(carried_on(motion, scene.road), scene, tracks, harm);
+  if (!outcome.contact) {
+    outcome.end_time = end_time(motion.track);
   }
   return outcome;
 }

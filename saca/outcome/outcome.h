@@ -32,6 +32,9 @@ struct Contact {
 /// Distances beyond this are not told apart [m].
 constexpr double far_away = 100.0;
 
+/// Does what stands beyond an edge end the ego's motion? Kerbs and open ground do not.
+[[nodiscard]] bool stops_the_ego(world::Beyond beyond);
+
 /// What a manoeuvre ends in.
 struct Outcome {
   std::optional<Contact> contact;
@@ -50,8 +53,11 @@ struct Outcome {
 ///                            one velocity and yaw rate for each
 ///
 /// Invariant to the world frame and mirror-symmetric. One contact: what follows it is not looked
-/// at. An ego that ends at rest stays there until the last track ends: it can still be run into.
-/// Bodies that overlap at the start are in contact then.
+/// at. Bodies that overlap at the start are in contact then.
+///
+/// When the motion has `ended`: an ego at rest stays there until the last track ends, since it can
+/// still be run into; one that has recovered a lane goes on along it for 2 s. An actor that still
+/// moves when its track ends is not looked at beyond that.
 ///
 /// Kerbs and open ground do not stop the ego. Crossing such an edge does the harm that
 /// data/harm.toml states and is the contact that is reported only when no other follows; harm is

@@ -3,8 +3,8 @@
 
 namespace saca::outcome {
 
-// Longer than any manoeuvre of the library: 25 m/s at grip 0.3 takes 9 s to rest.
-constexpr double longest = 12.0;
+// Longer than any manoeuvre of the library: 25 m/s at grip 0.3 takes 9 s to rest [s].
+constexpr double longest = 10.0;
 
 Outcome roll_out(const vehicle::Vehicle& car, const manoeuvre::Plan& plan,
                  const world::Scene& scene, std::span<const world::Track> tracks, double grip,

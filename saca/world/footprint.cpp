@@ -135,8 +135,8 @@ Facing widest(const Body& a, const Body& b, Facing now) {
       best = now;
     }
     const double bend = now.gap + curvature_radius(a, now.n) + curvature_radius(b, now.n);
-    if (now.gap > 0.0 && std::abs(slope) <= 1e-9 * bend) {
-      break;
+    if (now.gap > 0.0 && std::abs(slope) <= 1e-12 * bend + 1e-14 * now.gap) {
+      return now;
     }
     // A gap <= 0 says only that the step went too far from `best`, to the side it stands on.
     const bool ahead = now.gap > 0.0 ? slope > 0.0 : dot(left_of(now.n), best.n) > 0.0;
@@ -187,10 +187,8 @@ Separation with_ellipse(const Body& a, const Body& b) {
     return {};
   }
   found = widest(a, b, found);
-  if (length_of(found.between()) - found.gap <= 1e-9) {
-    return {found.gap, found.p_a, found.p_b};
-  }
-  // The ellipse lies before the very end of a face: n has stopped between that face and its corner.
+  // The ellipse's point and n leave no doubt about the other point, not even where n has stopped
+  // between a face and its corner, or where the gap is no wider than what rounding moves a point.
   if (a.shape == Shape::ellipse) {
     return {found.gap, found.p_a, found.p_a + found.gap * found.n};
   }

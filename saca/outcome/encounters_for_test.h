@@ -1,0 +1,73 @@
+#pragma once
+
+// Encounters by construction, for the tests and the benchmark of this module.
+
+#include <cmath>
+#include <filesystem>
+#include <vector>
+
+#include "saca/outcome/outcome.h"
+
+namespace saca::outcome {
+
+inline HarmModel shipped_harm() {
+  return read_harm(std::filesystem::path(__FILE__).parent_path() / "../../data/harm.toml").value();
+}
+
+/// A wide road, so that edges do not matter unless a test narrows it.
+inline world::Scene empty_scene() {
+  world::Scene scene;
+  scene.ego_footprint = {.length = 4.7, .width = 1.9};
+  scene.ego_mass = 1700.0;
+  scene.road.left_edge = 200.0;
+  scene.road.right_edge = -200.0;
+  return scene;
+}
+
+/// A body that keeps its velocity and turning rate.
+inline world::Track steady(Pose X_WA, Vec2 v_W, double yaw_rate, double duration) {
+  world::Track track;
+  const int num_steps = static_cast<int>(std::lround(duration / track.step));
+  for (int k = 0; k <= num_steps; ++k) {
+    const double t = k * track.step;
+    track.X_WA.push_back({X_WA.p + t * v_W, wrap_angle(X_WA.yaw + t * yaw_rate)});
+  }
+  return track;
+}
+
+inline manoeuvre::EgoMotion steady_ego(Pose X_WB, Vec2 v_W, double yaw_rate, double duration) {
+  manoeuvre::EgoMotion motion;
+  motion.track = steady(X_WB, v_W, yaw_rate, duration);
+  for (const Pose& pose : motion.track.X_WA) {
+    motion.v_B.push_back(rotated(v_W, -pose.yaw));
+    motion.yaw_rate.push_back(yaw_rate);
+  }
+  return motion;
+}
+
+/// An encounter to be judged.
+struct Encounter {
+  world::Scene scene = empty_scene();
+  manoeuvre::EgoMotion motion;
+  std::vector<world::Track> tracks;
+
+  void add(world::ActorKind kind, world::Footprint footprint, double mass, Pose X_WA, Vec2 v_W,
+           double yaw_rate = 0.0, double duration = 5.0) {
+    world::Actor actor;
+    actor.kind = kind;
+    actor.footprint = footprint;
+    actor.mass = mass;
+    actor.X_WA = X_WA;
+    actor.v_W = v_W;
+    scene.actors.push_back(actor);
+    tracks.push_back(steady(X_WA, v_W, yaw_rate, duration));
+  }
+  void add_car(Pose X_WA, Vec2 v_W, double yaw_rate = 0.0) {
+    add(world::ActorKind::car, {.length = 4.7, .width = 1.9}, 1700.0, X_WA, v_W, yaw_rate);
+  }
+  [[nodiscard]] Outcome judged(const HarmModel& harm) const {
+    return judge(motion, scene, tracks, harm);
+  }
+};
+
+}  // namespace saca::outcome

@@ -1,0 +1,97 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <vector>
+
+#include "saca/core/contract.h"
+#include "saca/outcome/encounters_for_test.h"
+#include "saca/outcome/outcome.h"
+#include "saca/vehicle/parameters.h"
+
+namespace saca::outcome {
+namespace {
+
+using manoeuvre::PolicyId;
+using world::ActorKind;
+
+const vehicle::Vehicle& car() {
+  static const vehicle::Vehicle it =
+      vehicle::read_vehicle(std::filesystem::path(__FILE__).parent_path() /
+                            "../../data/vehicles/compact_rwd_ev.toml")
+          .value();
+  return it;
+}
+
+// A wreck stands `gap` ahead of the ego's bumper; the next lane is to the left.
+struct Ahead {
+  world::Scene scene = empty_scene();
+  std::vector<world::Track> tracks;
+
+  Ahead(double speed, double gap) {
+    scene.ego.v_B = {speed, 0.0};
+    scene.road.left_edge = 5.25;
+    scene.road.right_edge = -1.75;
+    world::Actor wreck;
+    wreck.kind = ActorKind::obstacle;
+    wreck.footprint = {.length = 2.0, .width = 2.1};
+    wreck.mass = 1000.0;
+    wreck.X_WA = {{2.35 + gap + 1.0, 0.0}, 0.0};
+    scene.actors.push_back(wreck);
+    tracks.push_back({.start = 0.0, .step = 0.01, .X_WA = {wreck.X_WA}});
+  }
+  [[nodiscard]] Outcome after(PolicyId policy, double grip) const {
+    const manoeuvre::Plan plan = manoeuvre::default_plan(policy, norm(scene.ego.v_B));
+    return roll_out(car(), plan, scene, tracks, grip, shipped_harm());
+  }
+};
+
+// Braking from 14 m/s takes 12.70 m (-3 / +12 %) at grip 0.9, 21.52 m at 0.5: the design's table of
+// stopping distances, from an independent vehicle model.
+TEST(RollOut, BrakingStopsWhereTheStoppingDistanceSays) {
+  const Outcome dry = Ahead(14.0, 20.0).after(PolicyId::aeb, 0.9);
+  EXPECT_FALSE(dry.contact);
+  EXPECT_EQ(dry.harm, 0.0);
+  EXPECT_GT(dry.clearance, 20.0 - 1.12 * 12.70);
+  EXPECT_LT(dry.clearance, 20.0 - 0.97 * 12.70);
+  const Outcome wet = Ahead(14.0, 20.0).after(PolicyId::aeb, 0.5);
+  ASSERT_TRUE(wet.contact);
+  EXPECT_EQ(wet.contact->ego_face, Face::front);
+}
+
+// Nothing done, nothing lost but to drag: 20 m at close to 14 m/s.
+TEST(RollOut, GoingOnMeetsTheWreckAtSpeed) {
+  const Outcome outcome = Ahead(14.0, 20.0).after(PolicyId::no_intervention, 0.9);
+  ASSERT_TRUE(outcome.contact);
+  EXPECT_NEAR(outcome.contact->time, 20.0 / 14.0, 0.03);
+  EXPECT_NEAR(outcome.contact->relative_speed, 14.0, 0.3);
+  EXPECT_NEAR(outcome.collision_loss, 0.35 * outcome.contact->relative_speed, 1e-9);
+}
+
+// Too near to stop: after 10 of 12.70 m, v^2 = 14^2 (1 - 10 / 12.70) if it fell evenly; the brakes
+// build up first, so a little more.
+TEST(RollOut, BrakingTooLateStillTakesSpeedAndHarmOff) {
+  const Ahead near(14.0, 10.0);
+  const Outcome braked = near.after(PolicyId::aeb, 0.9);
+  const Outcome not_braked = near.after(PolicyId::no_intervention, 0.9);
+  ASSERT_TRUE(braked.contact && not_braked.contact);
+  const double evenly = 14.0 * std::sqrt(1.0 - 10.0 / 12.70);
+  EXPECT_GT(braked.contact->relative_speed, evenly - 0.3);
+  EXPECT_LT(braked.contact->relative_speed, evenly + 1.2);
+  EXPECT_TRUE(better(braked, PolicyId::aeb, not_braked, PolicyId::no_intervention));
+  EXPECT_TRUE(strictly_less_harm(braked, not_braked));
+}
+
+TEST(RollOut, ALaneChangePassesTheWreck) {
+  const Outcome outcome = Ahead(14.0, 35.0).after(PolicyId::aes_left, 0.9);
+  EXPECT_FALSE(outcome.contact);
+  // It passes 3.5 m aside, which leaves 3.5 - 0.95 - 1.05, up to how well the lane is met.
+  EXPECT_NEAR(outcome.clearance, 1.5, 0.2);
+}
+
+TEST(RollOut, RefusesWhatCannotBeDriven) {
+  EXPECT_THROW((void)Ahead(14.0, 20.0).after(PolicyId::t_drift_left, 0.9), ContractViolation);
+}
+
+}  // namespace
+}  // namespace saca::outcome
