@@ -11,8 +11,13 @@
 namespace saca::manoeuvre {
 namespace {
 
+const std::vector<Figure>& figures() {
+  static const std::vector<Figure> all = physics_figures(vehicle::default_car());
+  return all;
+}
+
 TEST(PhysicsFigures, AllLieInTheirBands) {
-  for (const Figure& figure : physics_figures(vehicle::default_car())) {
+  for (const Figure& figure : figures()) {
     EXPECT_TRUE(in_band(figure)) << figure.name << " = " << figure.value << ", want " << figure.low
                                  << " to " << figure.high;
   }
@@ -20,7 +25,7 @@ TEST(PhysicsFigures, AllLieInTheirBands) {
 
 TEST(PhysicsFigures, HaveDifferentNames) {
   std::set<std::string> names;
-  for (const Figure& figure : physics_figures(vehicle::default_car())) {
+  for (const Figure& figure : figures()) {
     EXPECT_TRUE(names.insert(figure.name).second) << figure.name;
   }
   EXPECT_THAT(names, testing::Contains("physics.aeb.stop_distance_m.v14.mu0.9"));
