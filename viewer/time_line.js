@@ -42,7 +42,7 @@ class TimeLine {
     this.phase_track = strip("Phase", "", "phases").track;
     this.lane_tracks = lanes.map((lane) => strip(lane.name, lane.note, `lane ${lane.plane}`).track);
     this.charts = [
-      { ...strip("Speed", "", "chart"), key: "speed", unit: "m/s", read: (f) => f.ego.speed_mps, limits: [],
+      { ...strip("Speed", this.threat ? `dotted: ${this.threat}` : "", "chart"), key: "speed", unit: "m/s", read: (f) => f.ego.speed_mps, limits: [],
         other: this.threat === null ? null : (f) => list(f.actors).find((a) => a.id === this.threat)?.speed_mps },
       { ...strip("Time to conflict", "", "chart"), key: "conflict", unit: "s", read: (f) => f.conflict_s, top: 8,
         limits: [["T2", this.record.thresholds.preview_s], ["T1", this.record.thresholds.trigger_s]] }];
@@ -159,7 +159,7 @@ class TimeLine {
       if (is_number(v) && v <= top) lines.push(svg("line", { x1: 0, x2: w, y1: y(v), y2: y(v), class: "limit" }), svg("text", { x: w - 4, y: y(v) - 4, class: "limit-name", text: `${name} = ${num(v, 1)} s` }));
     }
     const other = chart.other ? this.curve((f) => chart.other(f), y, top) : "";
-    if (other) lines.push(svg("path", { d: other, class: "curve other" }), svg("text", { x: w - 4, y: h - 10, class: "other-name", text: `dotted: ${this.threat}` }));
+    if (other) lines.push(svg("path", { d: other, class: "curve other" }));
     chart.track.replaceChildren(svg("svg", { width: w, height: h, viewBox: `0 0 ${w} ${h}`, role: "img",
       "aria-label": `${chart.key === "speed" ? "Speed of the ego" : "Time to conflict"} over time` }, lines, svg("path", { d: this.curve(chart.read, y, chart.top ? top : Infinity), class: "curve" })));
   }

@@ -3,7 +3,6 @@
 #include <array>
 
 #include "saca/core/names.h"
-#include "saca/memory/similarity.h"
 
 namespace saca::decide {
 namespace {
@@ -20,11 +19,20 @@ std::string_view name(Source source) {
   return name_of(source, source_names);
 }
 
+void ReflexPlane::receive(const PlanCache& plans) noexcept {
+  plans_ = plans;
+  for (std::size_t i = 0; i < plans_.size(); ++i) {
+    features_[i] = memory::features(plans_[i].scene_at_trigger);
+  }
+}
+
 Decision ReflexPlane::decide(const world::Scene& scene) const noexcept {
   Decision decision{.plan = {manoeuvre::PolicyId::aeb, std::nullopt}, .time = scene.time};
   const CachedPlan* best = nullptr;
-  for (const CachedPlan& cached : plans_) {
-    const double similarity = memory::similarity(scene, cached.scene_at_trigger);
+  const memory::Features here = memory::features(scene);
+  for (std::size_t i = 0; i < plans_.size(); ++i) {
+    const CachedPlan& cached = plans_[i];
+    const double similarity = memory::similarity(here, features_[i]);
     if (!decision.similarity || similarity > *decision.similarity) {
       decision.similarity = similarity;
       decision.preview = cached.preview;

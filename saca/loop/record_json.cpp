@@ -3,6 +3,7 @@
 
 #include "saca/core/units.h"
 #include "saca/loop/encounter.h"
+#include "saca/manoeuvre/ego.h"
 #include "saca/outcome/describe.h"
 #include "saca/reason/prompt.h"
 
@@ -245,7 +246,13 @@ std::string record_json(const Setup& setup, const Record& record) {
       {"grip", scenario.grip},
       {"thresholds", {{"trigger_s", setup.thresholds.trigger}, {"preview_s", setup.thresholds.preview}}},
       {"road", road_json(scenario.road)},
-      {"ego", {{"length_m", body.length}, {"width_m", body.width}, {"centre_x_m", body.centre_x}}},
+      {"ego",
+       {{"length_m", body.length},
+        {"width_m", body.width},
+        {"centre_x_m", body.centre_x},
+        {"front_axle_x_m", setup.car->front_arm},
+        {"rear_axle_x_m", -setup.car->rear_arm},
+        {"track_m", setup.car->track_width}}},
       {"actors", actor_bodies_json(scenario)},
       {"frames", frames},
       {"events", events},

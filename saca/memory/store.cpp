@@ -182,7 +182,7 @@ struct Store::State {
     return sqlite_problem(database.get(), name, access);
   }
 
-  std::optional<Error> run(const char* sql, Access access) const {
+  [[nodiscard]] std::optional<Error> run(const char* sql, Access access) const {
     if (sqlite3_exec(database.get(), sql, nullptr, nullptr, nullptr) != SQLITE_OK) {
       return problem(access);
     }
@@ -209,7 +209,7 @@ struct Store::State {
     return contents.value() == 0;
   }
 
-  std::optional<Error> create_if_new() {
+  [[nodiscard]] std::optional<Error> create_if_new() const {
     auto is_empty = is_new();
     if (!is_empty.has_value()) {
       return is_empty.error();
@@ -260,7 +260,7 @@ struct Store::State {
 
   /// Calls `take` with each case after `last`, in order.
   template <class Take>
-  std::optional<Error> each_after(CaseId last, Take take) const {
+  [[nodiscard]] std::optional<Error> each_after(CaseId last, Take take) const {
     Statement statement(database.get(), select_after);
     statement.bind(1, last);
     int code = statement.step();
@@ -275,7 +275,7 @@ struct Store::State {
   }
 
   /// Learns the features of cases that it does not know yet.
-  std::optional<Error> catch_up() {
+  [[nodiscard]] std::optional<Error> catch_up() {
     return each_after(index.last_id(), [this](const Case& one) { index.add(one.id, one.scene); });
   }
 };

@@ -18,16 +18,50 @@ using world::Track;
 constexpr double distance_accuracy = 5e-4;  // of the smallest distance; half the promised 1 mm
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Bound on how fast the distance can shrink from `from` to `to`, within which both move straight
-// and turn evenly.
-double closing_speed(const Mover& a, const Mover& b, double from, double to, const Pose& X_WA,
-                     const Pose& X_WB, Vec2 n_W) {
-  const Pose later_a = pose_at(a.track(), to);
-  const Pose later_b = pose_at(b.track(), to);
-  const double closing = dot(n_W, (later_a.p - X_WA.p) - (later_b.p - X_WB.p));
-  const double turning = std::abs(wrap_angle(later_a.yaw - X_WA.yaw)) * a.reach() +
-                         std::abs(wrap_angle(later_b.yaw - X_WB.yaw)) * b.reach();
-  return (closing + turning) / (to - from);
+// Both bodies at one time.
+struct Moment {
+  double time = 0.0;
+  Pose X_WA;
+  Pose X_WB;
+  Separation gap;
+};
+
+Moment moment(const Mover& a, const Mover& b, double time) {
+  const Pose X_WA = pose_at(a.track(), time);
+  const Pose X_WB = pose_at(b.track(), time);
+  return {time, X_WA, X_WB, separation(a.footprint(), X_WA, b.footprint(), X_WB)};
+}
+
+// Bound on how fast the distance shrinks on the way from one moment to another, forwards or
+// backwards in time, within which both bodies move straight and turn evenly [m/s].
+double closing_speed(const Mover& a, const Mover& b, const Moment& from, const Moment& to) {
+  const Vec2 n_W = (1.0 / from.gap.distance) * (from.gap.p_b_W - from.gap.p_a_W);
+  const double closing = dot(n_W, (to.X_WA.p - from.X_WA.p) - (to.X_WB.p - from.X_WB.p));
+  const double turning = std::abs(wrap_angle(to.X_WA.yaw - from.X_WA.yaw)) * a.reach() +
+                         std::abs(wrap_angle(to.X_WB.yaw - from.X_WB.yaw)) * b.reach();
+  return (closing + turning) / std::abs(to.time - from.time);
+}
+
+// The smallest distance between two moments of a straight segment, as far as it is below `best`.
+// The distance lies above a line that falls from either end; where the lines meet too low, look
+// there.
+double least_between(const Mover& a, const Mover& b, const Moment& from, const Moment& to,
+                     double best, int depth) {
+  best = std::min({best, from.gap.distance, to.gap.distance});
+  const double forward = closing_speed(a, b, from, to);
+  const double backward = closing_speed(a, b, to, from);
+  if (depth == 0 || forward <= 0.0 || backward <= 0.0) {
+    return best;
+  }
+  const double span = to.time - from.time;
+  const double meet = std::clamp(
+      (from.gap.distance - to.gap.distance + backward * span) / (forward + backward), 0.0, span);
+  if (from.gap.distance - forward * meet >= best - distance_accuracy) {
+    return best;
+  }
+  const Moment middle = moment(a, b, from.time + 0.5 * span);
+  best = least_between(a, b, from, middle, best, depth - 1);
+  return least_between(a, b, middle, to, best, depth - 1);
 }
 
 // Where along t_W the points lie that are within `depth` of the foremost along n_W.
@@ -125,32 +159,33 @@ Approach approach(const Mover& a, const Mover& b, double start, double end, doub
   expects(of_interest >= 0.0, "of_interest >= 0");
   const double top_speed = a.top_speed() + b.top_speed();
   Approach found{std::nullopt, of_interest};
-  double time = start;
+  Moment now = moment(a, b, start);
   while (true) {
-    const Pose X_WA = pose_at(a.track(), time);
-    const Pose X_WB = pose_at(b.track(), time);
-    const Separation gap = separation(a.footprint(), X_WA, b.footprint(), X_WB);
-    found.distance = std::min(found.distance, gap.distance);
-    if (gap.distance <= touching) {
-      found.contact = time;
+    const double distance = now.gap.distance;
+    const double spare = distance - found.distance;  // may be used up and nothing be missed
+    found.distance = std::min(found.distance, distance);
+    if (distance <= touching) {
+      found.contact = now.time;
       return found;
     }
-    if (time >= end) {
+    if (now.time >= end || (spare > 0.0 && top_speed * (end - now.time) <= spare)) {
       return found;
     }
-    // As long as this much is not used up, the distance stays above what is asked for.
-    const double room = gap.distance - std::max(found.distance - distance_accuracy, 0.5 * touching);
-    const double corner = std::min({a.next_sample(time), b.next_sample(time), end});
-    double next = corner;
-    const Vec2 n_W = (1.0 / gap.distance) * (gap.p_b_W - gap.p_a_W);
-    const double closing = closing_speed(a, b, time, corner, X_WA, X_WB, n_W);
-    if (closing * (corner - time) > room) {
-      next = time + room / closing;
+    const double corner = std::min({a.next_sample(now.time), b.next_sample(now.time), end});
+    if (spare > touching && now.time + spare / top_speed > corner) {
+      now = moment(a, b, now.time + spare / top_speed);
+      continue;
     }
-    if (top_speed * (next - time) < room) {  // nothing bends in between that could matter
-      next = std::min(end, top_speed * (end - time) <= room ? end : time + room / top_speed);
+    Moment next = moment(a, b, corner);
+    const double closing = closing_speed(a, b, now, next);
+    const double room = distance - 0.5 * touching;
+    if (closing * (corner - now.time) > room) {
+      next = moment(a, b, now.time + room / closing);
     }
-    time = next;
+    if (next.gap.distance > 0.0) {
+      found.distance = least_between(a, b, now, next, found.distance, 10);
+    }
+    now = next;
   }
 }
 

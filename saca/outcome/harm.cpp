@@ -1,5 +1,6 @@
 #include "saca/outcome/harm.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -131,8 +132,9 @@ double unprotected_harm(const HarmModel& model, ActorKind kind, double closing_s
   const UnprotectedRisk& risk = kind == ActorKind::pedestrian ? model.pedestrian
                                 : kind == ActorKind::bicycle  ? model.cyclist
                                                               : model.motorcyclist;
-  return weighted(model, attributable(risk.severe, closing_speed),
-                  attributable(risk.killed, closing_speed));
+  const double by_curves = weighted(model, attributable(risk.severe, closing_speed),
+                                    attributable(risk.killed, closing_speed));
+  return std::max(by_curves, occupant_harm(model, Face::left, closing_speed));
 }
 
 }  // namespace saca::outcome

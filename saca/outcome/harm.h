@@ -64,7 +64,8 @@ struct HarmModel {
 /// Is somebody of this kind outside a vehicle?
 [[nodiscard]] bool unprotected(world::ActorKind kind);
 
-/// Weighted harm of one person outside a vehicle.
+/// Weighted harm of one person outside a vehicle: by the curves, but never less than that of an
+/// occupant struck in the side who suffers the closing speed as delta-v.
 /// @param kind           pedestrian, bicycle or motorcycle
 /// @param closing_speed  [m/s], >= 0; 0 does no harm
 [[nodiscard]] double unprotected_harm(const HarmModel& model, world::ActorKind kind,

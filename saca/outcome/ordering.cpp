@@ -4,10 +4,20 @@
 #include <tuple>
 
 #include "saca/core/contract.h"
+#include "saca/outcome/outcome.h"
 
 namespace saca::outcome {
 
 using manoeuvre::PolicyId;
+
+namespace {
+
+double harm_class(const Outcome& outcome) {
+  expects(outcome.harm >= 0.0 && std::isfinite(outcome.harm), "harm >= 0");
+  return std::round(outcome.harm / harm_tie);
+}
+
+}  // namespace
 
 int severity(PolicyId policy) {
   switch (policy) {
@@ -34,12 +44,14 @@ bool milder(PolicyId a, PolicyId b) {
 
 bool better(const Outcome& a, PolicyId policy_a, const Outcome& b, PolicyId policy_b) {
   const auto key = [](const Outcome& outcome, PolicyId policy) {
-    expects(outcome.harm >= 0.0 && std::isfinite(outcome.harm), "harm >= 0");
-    expects(outcome.clearance >= 0.0, "clearance >= 0");
-    return std::tuple{std::round(outcome.harm / harm_tie), severity(policy),
-                      -std::round(outcome.clearance / 1e-3)};
+    expects(outcome.clearance >= 0.0 && std::isfinite(outcome.clearance), "clearance >= 0");
+    return std::tuple{harm_class(outcome), severity(policy), -std::round(outcome.clearance / 1e-3)};
   };
   return key(a, policy_a) < key(b, policy_b);
+}
+
+bool strictly_less_harm(const Outcome& a, const Outcome& b) {
+  return harm_class(a) < harm_class(b);
 }
 
 }  // namespace saca::outcome

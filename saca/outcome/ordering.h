@@ -1,9 +1,10 @@
 #pragma once
 
 #include "saca/manoeuvre/plan.h"
-#include "saca/outcome/outcome.h"
 
 namespace saca::outcome {
+
+struct Outcome;
 
 /// How much a policy takes out of the driver's and the others' hands: a rank, not a quantity.
 ///
@@ -25,8 +26,11 @@ constexpr double harm_tie = 1e-4;
 /// of harm, round(harm / harm_tie); the milder policy; the larger clearance, to the millimetre.
 /// Classes rather than differences, so that the relation is a strict weak order: it can sort, and
 /// the best of many does not depend on the order in which they come.
-/// @throws ContractViolation  if a harm is not a number >= 0
+/// @throws ContractViolation  if a harm or a clearance is not a number >= 0
 [[nodiscard]] bool better(const Outcome& a, manoeuvre::PolicyId policy_a, const Outcome& b,
                           manoeuvre::PolicyId policy_b);
+
+/// Is the harm of `a` of a lower class than that of `b`, whatever the policies?
+[[nodiscard]] bool strictly_less_harm(const Outcome& a, const Outcome& b);
 
 }  // namespace saca::outcome

@@ -8,6 +8,7 @@
 #include "saca/outcome/edge.h"
 #include "saca/outcome/face.h"
 #include "saca/outcome/harm.h"
+#include "saca/outcome/ordering.h"
 #include "saca/world/scene.h"
 #include "saca/world/track.h"
 
@@ -38,7 +39,7 @@ struct Outcome {
   double harm = 0.0;  ///< expected severely injured and killed people, weighted: data/harm.toml
   double clearance = far_away;  ///< smallest distance to anybody or an edge with something beyond,
                                 ///< at most `far_away`; 0 with contact [m]
-  double end_time = 0.0;  ///< of the contact, or when the motion ended [s]
+  double end_time = 0.0;        ///< of the contact, or when the motion ended [s]
 };
 
 /// First contact and its cost when the ego moves as given and the others follow their tracks.

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
-#include <regex>
+#include <string>
 
 #include "saca/report/page.h"
 
@@ -66,9 +66,10 @@ TEST(HtmlReport, LoadsNothing) {
   const auto made = html_report(record_with_title("t"));
   ASSERT_TRUE(made.has_value());
   const std::string& page = made.value();
-  const std::regex loads(R"((src|href)\s*=|@import|url\s*\(|fetch\s*\(|XMLHttpRequest|import\s*\()",
-                         std::regex::icase);
-  EXPECT_FALSE(std::regex_search(page, loads));
+  for (const char* loads : {" src=", " href=", "@import", "url(", "fetch(", "XMLHttpRequest",
+                            "import(", "WebSocket", "sendBeacon", "<link", "<iframe"}) {
+    EXPECT_EQ(count(page, loads), 0U) << loads;
+  }
   // The only address in the page names the SVG vocabulary; it is not fetched.
   EXPECT_EQ(count(page, "http://") + count(page, "https://"),
             count(page, "http://www.w3.org/2000/svg"));

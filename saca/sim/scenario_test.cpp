@@ -17,7 +17,7 @@ name = "crossing_1"
 title = "A truck crosses"
 source = "written for this test"
 licence = "CC0-1.0"
-car = "compact_rear_drive"
+car = "compact_rwd_ev"
 grip = 0.9
 duration_s = 8
 

@@ -12,6 +12,9 @@ namespace {
 
 /// The shortest decimal that reads back as the same number.
 std::string decimal(double value) {
+  if (value == 0.0) {
+    return "0";  // also for -0, which TOML's integers do not have
+  }
   std::array<char, 32> digits{};
   const auto [end, problem] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
   return {digits.data(), end};

@@ -23,7 +23,7 @@ Scenario drawn(unsigned seed) {
   scenario.title = "Quotes \" and \\, a tab \t, a bell \a, \xc3\xa9";
   scenario.source = "line one\nline \"\"\"two\"\"\"\n";
   scenario.licence = "CC0";
-  scenario.car = "compact_rear_drive";
+  scenario.car = "compact_rwd_ev";
   scenario.grip = 0.3 + 0.6 * any(rng);
   scenario.provenance = Provenance{8911, 5, 77};
   scenario.road.curvature = 0.01 * any(rng);

@@ -287,6 +287,18 @@ def test_the_ego_is_drawn_where_it_is_as_large_as_it_is(show, kind, t):
     assert like(nose, colour(page, "halo"), 12) and like(tail, blue)
 
 
+def test_the_road_bends_as_recorded(show):
+    page, record = show(RECORDS["clear"]), RECORDS["clear"]
+    page.run("plan.ghost_preview = null; plan.ghost_policies.clear(); page.seek(5.9)")
+    page.settle()
+    road, s = make_record.Road(**record["road"]), page.run("plan.last_view.s")
+    edges = record["road"]["right_edge_m"], record["road"]["left_edge_m"]
+    for ahead in (-10, 30):
+        for d, name in ((edges[0] - 0.4, "ground"), (edges[0] + 0.8, "road"), (edges[1] - 0.8, "road"), (edges[1] + 0.15, "ground")):
+            seen = pixel(page, *on_screen(page, *road.to_world(s + ahead, d)[:2]))
+            assert like(seen, colour(page, name)), f"{ahead} m ahead, d = {d}: {seen}, want {name}"
+
+
 def test_others_are_drawn_where_they_are(show):
     for kind, t, actor, name in (("clear", 5.9, "truck1", "threat"), ("crowd", 5.0, "car1", "actor"), ("crowd", 5.0, "van3", "actor")):
         page, record = show(RECORDS[kind]), RECORDS[kind]
@@ -389,6 +401,20 @@ def test_paper_shows_all_previews_and_no_buttons(show):
     finally:
         page.call("Emulation.setEmulatedMedia", media="")
     assert page.problems == []
+
+
+def test_printing_is_light_unfolds_all_and_leaves_no_trace(show):
+    page = show(RECORDS["contact"])
+    page.run("by_id('theme').click()")
+    state = "[is_dark(), document.querySelectorAll('details[open]').length, plan.width, time_line.width]"
+    before = page.run(state)
+    page.run("window.dispatchEvent(new Event('beforeprint'))")
+    dark, unfolded, *_ = page.run(state)
+    assert not dark and unfolded == page.run("document.querySelectorAll('details').length")
+    assert page.run("document.querySelector('main').clientWidth") == 1040, "what A4 holds across"
+    page.run("window.dispatchEvent(new Event('afterprint'))")
+    page.settle()
+    assert page.run(state) == before and before[0]
 
 
 def test_whatever_can_be_pressed_is_a_control_with_a_name(show):

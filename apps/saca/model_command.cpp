@@ -1,0 +1,60 @@
+#include <fmt/core.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/saca/commands.h"
+#include "apps/saca/model.h"
+#include "apps/saca/places.h"
+
+namespace saca::app {
+namespace {
+
+int model_info(bool as_json) {
+  const auto places = find_places();
+  if (!places) {
+    complain("data/harm.toml is neither beside the program's build folder nor in share/saca");
+    return bad_input;
+  }
+  SteadyClock clock;
+  const auto model = open_local_model(*places, clock);
+  if (!model.has_value()) {
+    complain(model.error().message);
+    return bad_input;
+  }
+  const auto info = model.value()->info(clock.now() + std::chrono::seconds(30));
+  if (!info.has_value()) {
+    complain(info.error().message);
+    return bad_input;
+  }
+  constexpr double mebi = 1024.0 * 1024.0;
+  const nlohmann::json out{
+      {"description", info.value().description},
+      {"file", info.value().file},
+      {"weights_mib", static_cast<double>(info.value().weight_bytes) / mebi},
+      {"resident_mib", static_cast<double>(info.value().resident_bytes) / mebi},
+      {"threads", info.value().threads},
+      {"load_s", model.value()->figures().load_time},
+      {"system_tokens", model.value()->figures().system_tokens}};
+  if (as_json) {
+    fmt::print("{}\n", out.dump(1));
+    return success;
+  }
+  for (const auto& [key, value] : out.items()) {
+    fmt::print("{:14} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+  }
+  return success;
+}
+
+}  // namespace
+
+void add_model(CLI::App& line, int& exit_code) {
+  CLI::App* const command = line.add_subcommand("model", "The local language model");
+  command->require_subcommand(1);
+  CLI::App* const info = command->add_subcommand("info", "Which it is, its size, how fast it loads");
+  const auto as_json = std::make_shared<bool>(false);
+  info->add_flag("--json", *as_json, "For programs");
+  info->callback([as_json, &exit_code] { exit_code = model_info(*as_json); });
+}
+
+}  // namespace saca::app

@@ -1,0 +1,55 @@
+#include "saca/loop/witness.h"
+
+#include <gtest/gtest.h>
+
+#include "saca/vehicle/parameters.h"
+
+namespace saca::loop {
+namespace {
+
+/// Ego at 20 m/s towards a standing car whose centre is 50 m ahead of it.
+sim::Scenario drive_at_a_wreck(double d) {
+  sim::Scenario scenario{.name = "wreck", .car = "compact_rwd_ev", .grip = 0.9, .duration = 6.0};
+  scenario.road.left_edge = 8.75;
+  scenario.ego = sim::EgoStart{.pose = {}, .speed = 20.0};
+  sim::ScenarioActor wreck{.id = 1,
+                           .footprint = {.length = 4.5, .width = 1.8},
+                           .mass = 1'500.0,
+                           .motion = sim::Script{.start = {.s = 50.0, .d = d},
+                                                 .behaviour = sim::Behaviour::hold}};
+  scenario.actors.push_back(wreck);
+  return scenario;
+}
+
+/// Looks every 10 ms until contact or the end.
+Witness watch(const sim::Scenario& scenario, const outcome::HarmModel& harm) {
+  const auto car = vehicle::read_vehicle("data/vehicles/compact_rwd_ev.toml").value();
+  sim::Stepper stepper(scenario, car);
+  Witness witness(harm);
+  while (!stepper.over() && !witness.look(stepper)) {
+    for (int k = 0; k < 10; ++k) {
+      stepper.advance({});
+    }
+  }
+  return witness;
+}
+
+TEST(Witness, SeesTheContactWhereGeometrySays) {
+  const auto harm = outcome::read_harm("data/harm.toml").value();
+  const outcome::Outcome seen = watch(drive_at_a_wreck(0.0), harm).outcome();
+  ASSERT_TRUE(seen.contact.has_value());
+  // The ego's front is 2.25 m ahead of its centre of mass, half a wreck is 2.25 m.
+  EXPECT_NEAR(seen.contact->time, (50.0 - 2.25 - 2.25) / 20.0, 1e-4);
+  EXPECT_NEAR(seen.contact->relative_speed, 20.0, 1e-6);
+  EXPECT_EQ(seen.clearance, 0.0);
+}
+
+TEST(Witness, KeepsTheSmallestClearance) {
+  const auto harm = outcome::read_harm("data/harm.toml").value();
+  const outcome::Outcome seen = watch(drive_at_a_wreck(3.5), harm).outcome();
+  EXPECT_FALSE(seen.contact.has_value());
+  EXPECT_NEAR(seen.clearance, 3.5 - 0.95 - 0.9, 1e-3);  // the two half widths
+}
+
+}  // namespace
+}  // namespace saca::loop

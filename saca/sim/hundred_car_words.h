@@ -1,0 +1,62 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "saca/sim/hundred_car.h"
+
+namespace saca::sim {
+
+// What the study says in words, as numbers of ours: every one an assumption, told in the notes.
+
+/// Width of a lane: 12 ft. Source: AASHTO, A Policy on Geometric Design of Highways and Streets:
+/// the usual width on the study's kind of roads. The study measured none that could be trusted.
+constexpr double assumed_lane_width = 3.66;
+
+/// Size and mass of a body of a type that the study names; typical of such vehicles on US roads
+/// about 2003, not measured.
+struct AssumedBody {
+  world::ActorKind kind = world::ActorKind::car;
+  double length = 0.0;  ///< [m]
+  double width = 0.0;   ///< [m]
+  double mass = 0.0;    ///< [kg]
+};
+[[nodiscard]] AssumedBody assumed_body(std::string_view type);
+
+/// Friction coefficient of a surface condition. Source: J. Y. Wong, Theory of Ground Vehicles,
+/// table of average peak values (Taborek 1957): asphalt dry 0.8-0.9, wet 0.5-0.7, hard snow 0.2,
+/// ice 0.1.
+[[nodiscard]] double assumed_grip(std::string_view surface);
+
+/// Lanes to the left of the ego's, which is taken to be the right-most one.
+struct LanesAround {
+  int left = 0;
+  bool divided = false;        ///< a median or barrier ends the road on the left
+  bool oncoming_left = false;  ///< the next lane is oncoming traffic's
+};
+[[nodiscard]] LanesAround lanes_around(const HundredCarEvent& event);
+
+/// What was measured of the driver's braking.
+struct DriverAction {
+  double deceleration = 0.0;         ///< the largest, of the smoothed speed [m/s^2], >= 0
+  double hardest_time = 0.0;         ///< when [s]
+  std::optional<double> brake_time;  ///< when the brake lights came on for it [s]
+};
+
+/// Fills the scenario's texts: name, title, source, licence, driver, notes, car.
+void describe(Scenario& scenario, const HundredCarEvent& event, const HundredCarRequest& request,
+              const HundredCarReport& report, const DriverAction& action);
+
+/// Where the event's data lie.
+struct HundredCarFiles {
+  std::vector<std::filesystem::path> series;  ///< to be tried in turn
+  std::filesystem::path table;
+  std::string problem;  ///< what was not found, in words; empty when all is well
+};
+[[nodiscard]] HundredCarFiles find_hundred_car_files(const std::filesystem::path& path,
+                                                     std::int64_t event);
+
+}  // namespace saca::sim
