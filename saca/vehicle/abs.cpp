@@ -33,6 +33,20 @@ double slowing_torque(const Vehicle& car, std::size_t wheel, double deceleration
   return inertia * deceleration / car.wheel_radius;
 }
 
+// The estimate of the speed ahead, `dt` on: acceleration integrated; while nothing brakes the front
+// wheels, which have no motor, they roll and tell the speed itself.
+double followed_speed(const Vehicle& car, const VehicleState& state, double dt, double speed) {
+  constexpr double trust = 0.01;    // [s] within which rolling wheels are believed
+  constexpr double rolling = 20.0;  // [N m]: of both: hardly any slip
+  double followed = speed + dt * (state.a_B.x + state.yaw_rate * state.v_B.y);
+  if (state.brake_torque[front_left] + state.brake_torque[front_right] < rolling) {
+    const double wheels = 0.5 * (state.wheel_speed[front_left] + state.wheel_speed[front_right]) *
+                          car.wheel_radius * std::cos(state.steering);
+    followed += std::min(1.0, dt / trust) * (wheels - followed);
+  }
+  return std::max(0.0, followed);
+}
+
 // Slip of each wheel along its own plane, against a speed that does not come from the wheels.
 PerWheel estimated_slip(const Vehicle& car, const VehicleState& state, double speed) {
   PerWheel slip{};
@@ -76,7 +90,7 @@ PerWheel deployed_brakes(const Vehicle& car, const VehicleState& state, double d
   constexpr double release = 0.35;          // share released at once at twice the wanted slip
   constexpr double least_speed = 1.0;       // [m/s] below it slip means nothing and wheels may lock
 
-  abs.speed = std::max(0.0, abs.speed + dt * (state.a_B.x + state.yaw_rate * state.v_B.y));
+  abs.speed = followed_speed(car, state, dt, abs.speed);
   const PerWheel slips = estimated_slip(car, state, abs.speed);
   const double most = grip * gravity;
   const PerWheel loads = lasting_loads(car, state.a_B, std::min(deceleration, most));

@@ -31,7 +31,7 @@ struct AbsState {
 /// @return              [N m], each >= 0
 ///
 /// Measures wheel speeds, acceleration, yaw rate and steering angle; the speed over ground is
-/// integrated from acceleration. Allocates nothing.
+/// integrated from acceleration while the wheels brake. Allocates nothing.
 [[nodiscard]] PerWheel deployed_brakes(const Vehicle& car, const VehicleState& state,
                                        double deceleration, double grip, double dt,
                                        AbsState& abs) noexcept;

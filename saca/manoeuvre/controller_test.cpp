@@ -1,0 +1,142 @@
+#include "saca/manoeuvre/controller.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <new>
+
+#include "saca/core/contract.h"
+#include "saca/manoeuvre/drive.h"
+#include "saca/manoeuvre/ego.h"
+#include "saca/vehicle/default_car.h"
+
+namespace {
+std::size_t allocations = 0;
+}  // namespace
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size)) {  // NOLINT: what operator new is made of
+    return memory;
+  }
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);  // NOLINT
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);  // NOLINT
+}
+
+namespace saca::manoeuvre {
+namespace {
+
+constexpr double dt = 1e-3;
+
+class Controller : public testing::Test {
+ protected:
+  static world::Scene scene_at(double speed, double grip) {
+    world::Scene scene;
+    scene.ego.v_B = {speed, 0.0};
+    scene.grip = grip;
+    return scene;
+  }
+
+  const vehicle::Vehicle car_ = vehicle::default_car();
+};
+
+TEST_F(Controller, AllocatesNothingAndNeitherDoesTheCar) {
+  const world::Scene scene = scene_at(14.0, 0.9);
+  for (const PolicyId policy : {PolicyId::aeb, PolicyId::es_b_left, PolicyId::no_intervention}) {
+    const Plan plan = default_plan(policy, 14.0);
+    ControllerState memory = begin(car_, plan, scene);
+    vehicle::VehicleState state = rolling_state(car_, scene.ego, 0.9);
+    bool ended = false;
+    const std::size_t before = allocations;
+    for (int i = 0; i < 500; ++i) {
+      state = vehicle::step(car_, state, control(car_, plan, scene.road, 0.9, state, memory, dt),
+                            0.9, dt);
+      ended = ended || finished(plan, state, memory);
+    }
+    EXPECT_EQ(allocations - before, 0U);
+    EXPECT_FALSE(ended);
+  }
+  static_assert(noexcept(control(car_, Plan{}, scene.road, 0.9, vehicle::VehicleState{},
+                                 std::declval<ControllerState&>(), dt)));
+}
+
+// One physics, one controller: the simulator's loop and `drive` give the same motion.
+TEST_F(Controller, StepByStepIsDrive) {
+  const world::Scene scene = scene_at(17.0, 0.6);
+  const Plan plan = default_plan(PolicyId::es_b_right, 17.0);
+  const EgoMotion motion = drive(car_, plan, scene, 0.6, 1.0);
+  ControllerState memory = begin(car_, plan, scene);
+  vehicle::VehicleState state = rolling_state(car_, scene.ego, 0.6);
+  for (int i = 0; i < 1000; ++i) {
+    state = vehicle::step(car_, state, control(car_, plan, scene.road, 0.6, state, memory, dt), 0.6,
+                          dt);
+  }
+  EXPECT_EQ(state.X_WB.p.x, motion.track.X_WA.back().p.x);
+  EXPECT_EQ(state.X_WB.yaw, motion.track.X_WA.back().yaw);
+}
+
+TEST_F(Controller, KeepsTheNewLaneAfterItsEnd) {
+  const world::Scene scene = scene_at(14.0, 0.9);
+  const Plan plan{PolicyId::aes_left, {}};
+  ControllerState memory = begin(car_, plan, scene);
+  vehicle::VehicleState state = rolling_state(car_, scene.ego, 0.9);
+  for (int i = 0; i < 8000; ++i) {
+    state = vehicle::step(car_, state, control(car_, plan, scene.road, 0.9, state, memory, dt), 0.9,
+                          dt);
+  }
+  EXPECT_TRUE(finished(plan, state, memory));
+  EXPECT_NEAR(state.X_WB.p.y, 3.5, 0.02);
+  EXPECT_NEAR(state.X_WB.yaw, 0.0, 1e-3);
+  EXPECT_NEAR(state.v_B.x, 14.0, 0.1);
+}
+
+// The wheels' forces, all together, stay inside the circle that the road gives; steering has its
+// part first, so the lane is changed as planned while the brakes take the rest.
+TEST_F(Controller, UsesTheCircleWithoutLeavingIt) {
+  const world::Scene scene = scene_at(20.0, 0.8);
+  const Plan plan = default_plan(PolicyId::es_b_left, 20.0);
+  ControllerState memory = begin(car_, plan, scene);
+  vehicle::VehicleState state = rolling_state(car_, scene.ego, 0.8);
+  double most = 0.0;
+  double deepest_slip = 0.0;
+  for (int i = 0; i < 2500; ++i) {
+    state = vehicle::step(car_, state, control(car_, plan, scene.road, 0.8, state, memory, dt), 0.8,
+                          dt);
+    most = std::max(most, norm(state.a_B) / (0.8 * vehicle::gravity));
+    for (const vehicle::Contact& wheel : vehicle::contacts(car_, state, 0.8)) {
+      EXPECT_LE(norm(wheel.F_T), wheel.peak_force * (1.0 + 1e-12));
+      deepest_slip = std::max(deepest_slip, wheel.slip);
+    }
+  }
+  EXPECT_GT(most, 0.8);
+  EXPECT_LT(most, 1.02);  // air drag comes on top of the tyres
+  // Below the peak of the curve: no wheel slides.
+  EXPECT_LT(deepest_slip, vehicle::slip_for(car_.tyre, 0.8, 1.0));
+}
+
+TEST_F(Controller, BrakesHardAndStraightWhenItsSensorsFail) {
+  const world::Scene scene = scene_at(14.0, 0.9);
+  const Plan plan{PolicyId::aes_left, {}};
+  ControllerState memory = begin(car_, plan, scene);
+  vehicle::VehicleState state = rolling_state(car_, scene.ego, 0.9);
+  state.v_B.y = std::numeric_limits<double>::quiet_NaN();
+  const vehicle::Command command = control(car_, plan, scene.road, 0.9, state, memory, dt);
+  EXPECT_EQ(command.steering, 0.0);
+  EXPECT_EQ(command.motor_torque, 0.0);
+  EXPECT_GT(command.brake_torque[vehicle::rear_left], 0.0);
+}
+
+TEST_F(Controller, RefusesToBeginWhatCannotBeDriven) {
+  EXPECT_THROW((void)begin(car_, {PolicyId::t_drift_left, {}}, scene_at(14.0, 0.9)),
+               ContractViolation);
+}
+
+}  // namespace
+}  // namespace saca::manoeuvre

@@ -1,0 +1,179 @@
+#include "saca/manoeuvre/physics_figures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "saca/core/contract.h"
+#include "saca/core/units.h"
+#include "saca/manoeuvre/controller.h"
+#include "saca/manoeuvre/ego.h"
+
+namespace saca::manoeuvre {
+namespace {
+
+using vehicle::Vehicle;
+using vehicle::VehicleState;
+
+constexpr double dt = 1e-3;  // [s]
+
+// The independent prototype: double track, combined slip, Runge-Kutta at 1 ms, inputs optimised
+// offline. Distance of the centre of mass, and time.
+struct StopReference {
+  double speed, grip, distance, time;
+};
+constexpr std::array<StopReference, 10> stop_references{{{8, 0.9, 4.55, 1.04},
+                                                         {10, 0.9, 6.81, 1.27},
+                                                         {12, 0.9, 9.53, 1.50},
+                                                         {14, 0.9, 12.70, 1.73},
+                                                         {16, 0.9, 16.32, 1.95},
+                                                         {20, 0.9, 24.88, 2.41},
+                                                         {25, 0.9, 38.08, 2.97},
+                                                         {10, 0.5, 11.34, 2.16},
+                                                         {14, 0.5, 21.52, 2.97},
+                                                         {20, 0.5, 42.74, 4.19}}};
+struct GripReference {
+  double grip, deceleration;
+};
+constexpr std::array<GripReference, 3> peak_references{{{0.9, 8.7}, {0.5, 4.9}, {0.3, 3.0}}};
+struct SpeedReference {
+  double speed, time;
+};
+constexpr std::array<SpeedReference, 3> settled_references{{{10, 1.47}, {14, 1.35}, {20, 1.45}}};
+// Given as 0.91 to 0.87 s over 10 to 15 m/s; the ends are taken as they stand.
+constexpr std::array<SpeedReference, 2> side_references{{{10, 0.91}, {15, 0.87}}};
+
+std::string with_condition(const char* quantity, double speed, double grip) {
+  std::array<char, 120> text{};
+  (void)std::snprintf(text.data(), text.size(), "physics.%s.v%g.mu%.1f", quantity, speed, grip);
+  return text.data();
+}
+
+world::Scene straight_scene(double speed, double grip) {
+  world::Scene scene;
+  scene.ego.v_B = {speed, 0.0};
+  scene.grip = grip;
+  return scene;
+}
+
+constexpr Plan swerve{.policy = PolicyId::aes_left, .target_speed = std::nullopt};
+
+// Commands every millisecond, integrated in `parts` steps each.
+VehicleState one_millisecond(const Vehicle& car, VehicleState state, const world::Scene& scene,
+                             ControllerState& memory, int parts) {
+  const auto command = control(car, swerve, scene.road, scene.grip, state, memory, dt);
+  for (int i = 0; i < parts; ++i) {
+    state = vehicle::step(car, state, command, scene.grip, dt / parts);
+  }
+  return state;
+}
+
+void add_stops(const Vehicle& car, std::vector<Figure>& figures) {
+  for (const auto& [speed, grip, distance, time] : stop_references) {
+    const Stop ideal = stop_straight(car, Abs::ideal, speed, grip);
+    const Stop deployed = stop_straight(car, Abs::deployed, speed, grip);
+    figures.push_back({with_condition("aeb_ideal.stop_distance_m", speed, grip), ideal.distance,
+                       distance, 0.95 * distance, 1.05 * distance});
+    figures.push_back({with_condition("aeb_ideal.stop_time_s", speed, grip), ideal.time, time,
+                       0.95 * time, 1.05 * time});
+    figures.push_back({with_condition("aeb.stop_distance_m", speed, grip), deployed.distance,
+                       distance, 0.97 * distance, 1.12 * distance});
+    figures.push_back({with_condition("aeb.stop_time_s", speed, grip), deployed.time, time,
+                       0.97 * time, 1.12 * time});
+  }
+  for (const auto& [grip, peak] : peak_references) {
+    figures.push_back({with_condition("aeb_ideal.peak_deceleration_mps2", 14.0, grip),
+                       stop_straight(car, Abs::ideal, 14.0, grip).peak_deceleration, peak,
+                       0.95 * peak, 1.05 * peak});
+  }
+}
+
+void add_lane_changes(const Vehicle& car, std::vector<Figure>& figures) {
+  constexpr double grip = 0.9;
+  for (const auto& [speed, time] : settled_references) {
+    figures.push_back({with_condition("lane_change.settled_s", speed, grip),
+                       change_lane(car, speed, grip).settled, time, 0.0, 1.25 * time});
+  }
+  for (const auto& [speed, time] : side_references) {
+    figures.push_back({with_condition("lane_change.to_2.1m_s", speed, grip),
+                       change_lane(car, speed, grip).to_2_1_m, time, 0.0, 1.20 * time});
+  }
+}
+
+}  // namespace
+
+bool in_band(const Figure& figure) {
+  return figure.value >= figure.low && figure.value <= figure.high;
+}
+
+Stop stop_straight(const Vehicle& car, Abs abs, double speed, double grip) {
+  expects(speed > 0.0 && speed <= 25.0, "speed in (0, 25] m/s");
+  expects(grip >= 0.3 && grip <= 1.0, "grip in [0.3, 1.0]");
+  constexpr int most_steps = 20'000;
+  const Plan plan{.policy = PolicyId::aeb, .target_speed = std::nullopt};
+  const world::Scene scene = straight_scene(speed, grip);
+  VehicleState state = rolling_state(car, scene.ego, grip);
+  ControllerState memory = begin(car, plan, scene);
+  Stop stop;
+  for (int i = 1; i <= most_steps && !vehicle::at_rest(state); ++i) {
+    vehicle::Command command = control(car, plan, scene.road, grip, state, memory, dt);
+    if (abs == Abs::ideal) {
+      command.brake_torque = vehicle::ideal_brakes(car, state, grip);
+    }
+    state = vehicle::step(car, state, command, grip, dt);
+    stop.time = i * dt;
+    stop.peak_deceleration = std::max(stop.peak_deceleration, -state.a_B.x);
+  }
+  stop.distance = state.X_WB.p.x;
+  return stop;
+}
+
+LaneChange change_lane(const Vehicle& car, double speed, double grip) {
+  constexpr int num_steps = 5'000;  // long enough to see that it stays
+  const world::Scene scene = straight_scene(speed, grip);
+  VehicleState state = rolling_state(car, scene.ego, grip);
+  ControllerState memory = begin(car, swerve, scene);
+  LaneChange change;
+  for (int i = 1; i <= num_steps; ++i) {
+    state = one_millisecond(car, state, scene, memory, 1);
+    const bool settled = std::abs(state.X_WB.p.y - scene.road.lane_width) <= 0.2 &&
+                         std::abs(state.X_WB.yaw) <= from_degrees(2.0);
+    if (!settled) {
+      change.settled = (i + 1) * dt;
+    }
+    if (state.X_WB.p.y < 2.1 && change.to_2_1_m <= (i - 1) * dt) {
+      change.to_2_1_m = i * dt;
+    }
+  }
+  return change;
+}
+
+IntegrationError integration_error(const Vehicle& car) {
+  constexpr int num_steps = 2'000;
+  const world::Scene scene = straight_scene(14.0, 0.9);
+  VehicleState coarse = rolling_state(car, scene.ego, scene.grip);
+  VehicleState fine = coarse;
+  ControllerState coarse_memory = begin(car, swerve, scene);
+  ControllerState fine_memory = coarse_memory;
+  for (int i = 0; i < num_steps; ++i) {
+    coarse = one_millisecond(car, coarse, scene, coarse_memory, 1);
+    fine = one_millisecond(car, fine, scene, fine_memory, 4);
+  }
+  return {.position = norm(coarse.X_WB.p - fine.X_WB.p),
+          .heading = std::abs(wrap_angle(coarse.X_WB.yaw - fine.X_WB.yaw))};
+}
+
+std::vector<Figure> physics_figures(const Vehicle& car) {
+  std::vector<Figure> figures;
+  add_stops(car, figures);
+  add_lane_changes(car, figures);
+  const IntegrationError error = integration_error(car);
+  figures.push_back({"physics.rk4.position_error_m", error.position, std::nullopt, 0.0, 0.008});
+  figures.push_back(
+      {"physics.rk4.heading_error_deg", to_degrees(error.heading), std::nullopt, 0.0, 0.08});
+  return figures;
+}
+
+}  // namespace saca::manoeuvre

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "saca/vehicle/vehicle.h"
+
+namespace saca::manoeuvre {
+
+/// A measured quantity of the car beside what an independent prototype found.
+struct Figure {
+  std::string name;  ///< e.g. "physics.aeb.stop_distance_m.v14.mu0.9"; the unit is in the name
+  double value = 0.0;
+  std::optional<double> reference;  ///< nullopt where there is only a limit
+  double low = 0.0;                 ///< band that the value should lie in
+  double high = 0.0;
+};
+
+[[nodiscard]] bool in_band(const Figure& figure);
+
+/// One full stop straight ahead.
+struct Stop {
+  double distance = 0.0;           ///< of the centre of mass [m]
+  double time = 0.0;               ///< [s]
+  double peak_deceleration = 0.0;  ///< [m/s^2], >= 0
+};
+
+enum class Abs { ideal, deployed };
+
+/// @param speed  [m/s], > 0
+/// @param grip   friction coefficient [-], in [0.3, 1.0]; known exactly
+[[nodiscard]] Stop stop_straight(const vehicle::Vehicle& car, Abs abs, double speed, double grip);
+
+/// A lane change of 3.5 m without braking: policy 1.
+struct LaneChange {
+  double settled = 0.0;   ///< from when on it stays within 0.2 m and 2 degrees of its end [s]
+  double to_2_1_m = 0.0;  ///< until 2.1 m to the side, enough to pass a car's width [s]
+};
+[[nodiscard]] LaneChange change_lane(const vehicle::Vehicle& car, double speed, double grip);
+
+/// How far steps of 1 ms end from steps of 0.25 ms after 2 s of a lane change at 14 m/s.
+struct IntegrationError {
+  double position = 0.0;  ///< [m]
+  double heading = 0.0;   ///< [rad]
+};
+[[nodiscard]] IntegrationError integration_error(const vehicle::Vehicle& car);
+
+/// The rows of the vehicle's table: stops with both anti-lock brakes, peak decelerations, lane
+/// changes, integration. Takes a few seconds of simulated driving per row, milliseconds of real
+/// time.
+[[nodiscard]] std::vector<Figure> physics_figures(const vehicle::Vehicle& car);
+
+}  // namespace saca::manoeuvre
