@@ -11,7 +11,7 @@ target_compile_options(saca_flags INTERFACE
 # Makes the library saca::<name> from the current folder. Every <a>_test.cpp in the folder becomes
 # the test <name>.<a>; a source without one stops the configuration. Every <a>_bench.cpp becomes a
 # benchmark, run for an instant as a test so that it cannot rot. One more test checks that the folder
-# includes only the modules in DEPS.
+# includes only the modules in DEPS. Tests run in the project's folder.
 function(saca_module name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPS")
   if(arg_UNPARSED_ARGUMENTS)
@@ -26,9 +26,16 @@ function(saca_module name)
 
   add_library(saca_${name} STATIC ${arg_SOURCES})
   add_library(saca::${name} ALIAS saca_${name})
-  target_include_directories(saca_${name} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_include_directories(saca_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include>)
+  target_compile_features(saca_${name} PUBLIC cxx_std_20)
+  target_compile_options(saca_${name} PRIVATE -ffp-contract=off)  # same bytes at every level
   list(TRANSFORM arg_DEPS PREPEND saca:: OUTPUT_VARIABLE libraries)
-  target_link_libraries(saca_${name} PUBLIC ${libraries} PRIVATE saca_flags)
+  target_link_libraries(saca_${name} PUBLIC ${libraries} PRIVATE $<BUILD_INTERFACE:saca_flags>)
+  set_target_properties(saca_${name} PROPERTIES EXPORT_NAME ${name})
+  install(TARGETS saca_${name} EXPORT saca_targets)
+  file(GLOB headers *.h)
+  install(FILES ${headers} DESTINATION include/saca/${name})
   if(NOT SACA_DEVELOPER)
     return()
   endif()
@@ -46,8 +53,8 @@ function(saca_module name)
     add_executable(${name}_${stem} ${test})
     target_link_libraries(${name}_${stem} PRIVATE saca::${name} saca_flags GTest::gmock_main)
     string(REPLACE _test "" unit ${stem})
-    add_test(NAME ${name}.${unit} COMMAND ${name}_${stem})
-    set_tests_properties(${name}.${unit} PROPERTIES LABELS ${name} TIMEOUT 60)
+    add_test(NAME ${name}.${unit} COMMAND ${name}_${stem} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+    set_tests_properties(${name}.${unit} PROPERTIES LABELS ${name} TIMEOUT 120)
   endforeach()
 
   file(GLOB benches CONFIGURE_DEPENDS *_bench.cpp)
@@ -55,8 +62,9 @@ function(saca_module name)
     cmake_path(GET bench STEM stem)
     add_executable(${name}_${stem} ${bench})
     target_link_libraries(${name}_${stem} PRIVATE saca::${name} saca_flags benchmark::benchmark_main)
-    add_test(NAME ${name}.${stem} COMMAND ${name}_${stem} --benchmark_min_time=0.001)
-    set_tests_properties(${name}.${stem} PROPERTIES LABELS bench TIMEOUT 60)
+    add_test(NAME ${name}.${stem} COMMAND ${name}_${stem} --benchmark_min_time=0.001
+      WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+    set_tests_properties(${name}.${stem} PROPERTIES LABELS bench TIMEOUT 120)
   endforeach()
 
   list(JOIN arg_DEPS "," allowed)

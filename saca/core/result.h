@@ -30,9 +30,14 @@ class [[nodiscard]] Result {
   [[nodiscard]] bool has_value() const noexcept { return std::holds_alternative<T>(state_); }
 
   /// @throws ContractViolation  if there is no value: check has_value() first
-  [[nodiscard]] const T& value() const {
+  [[nodiscard]] const T& value() const& {
     expects(has_value(), "has_value()");
     return std::get<T>(state_);
+  }
+  /// Likewise, moved out of a result that is not needed any more.
+  [[nodiscard]] T value() && {
+    expects(has_value(), "has_value()");
+    return std::get<T>(std::move(state_));
   }
 
   /// @throws ContractViolation  if there is a value

@@ -27,19 +27,19 @@ class StaticVector {
   }
   constexpr void clear() { size_ = 0; }
 
-  constexpr const T& operator[](std::size_t i) const {
+  [[nodiscard]] constexpr const T& operator[](std::size_t i) const {
     expects(i < size_, "index < size");
     return items_[i];
   }
-  constexpr T& operator[](std::size_t i) {
+  [[nodiscard]] constexpr T& operator[](std::size_t i) {
     expects(i < size_, "index < size");
     return items_[i];
   }
 
-  constexpr const T* begin() const { return items_.data(); }
-  constexpr const T* end() const { return items_.data() + size_; }
-  constexpr T* begin() { return items_.data(); }
-  constexpr T* end() { return items_.data() + size_; }
+  [[nodiscard]] constexpr const T* begin() const { return items_.data(); }
+  [[nodiscard]] constexpr const T* end() const { return items_.data() + size_; }
+  [[nodiscard]] constexpr T* begin() { return items_.data(); }
+  [[nodiscard]] constexpr T* end() { return items_.data() + size_; }
 
  private:
   std::array<T, capacity_> items_{};

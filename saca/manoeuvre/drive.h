@@ -11,12 +11,10 @@
 
 namespace saca::manoeuvre {
 
-/// What a controller remembers between two calls. Set to `begin(...)` when the manoeuvre starts.
-struct ControllerState;
-
 /// Why a plan cannot be driven from here; nullopt when it can.
 ///
-/// Domain: policies 0, 1, 2, 3, 4, 7; 5 to 25 m/s (0 and 7 from rest); grip 0.3 to 1.0.
+/// Domain: policies 0, 1, 2, 3, 4, 7; 5 to 25 m/s (0 and 7 from rest); grip 0.3 to 1.0; lanes 2 to
+/// 6 m wide; for a lane change a bend that takes at most half of the grip.
 [[nodiscard]] std::optional<std::string> refusal(const Plan& plan, const world::Scene& scene);
 
 /// How the ego moves: poses of B at equal steps and, with them, velocity and turning.

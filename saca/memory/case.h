@@ -24,8 +24,4 @@ struct Case {
   std::string source;  ///< scenario and run it came from
 };
 
-/// How alike two scenes are for the choice of a manoeuvre, in [0, 1]; 1 for the same scene seen
-/// from any world frame. Uncalibrated: see docs/decisions.
-[[nodiscard]] double similarity(const world::Scene& a, const world::Scene& b);
-
 }  // namespace saca::memory

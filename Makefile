@@ -1,0 +1,35 @@
+# The README's commands. Beneath lie CMake presets: whoever knows CMake never needs make.
+#
+#   make run     set up, build, and play a recorded emergency
+#   make test    set up, then everything that CI checks
+#   make build   leaves build/release/saca
+#   make model   the local language model: libraries, weights, the choice for this processor
+#   make bench   every figure of docs/results.md
+.PHONY: run test build model bench setup soak
+
+SCENARIO ?= 100car_8463
+
+run: build model
+	build/release/saca run $(SCENARIO)
+
+setup:
+	@tools/setup.sh
+
+# The model's libraries come first: the program that runs the model is built with them.
+build: setup
+	@tools/model/setup.sh llama
+	@cmake --preset release > /dev/null
+	@cmake --build --preset release
+
+model: setup
+	@tools/model/setup.sh all
+
+test: setup model
+	@tools/check.sh
+
+bench: build model
+	@tools/bench.sh
+
+soak: setup
+	@cmake --preset dev > /dev/null && cmake --build --preset dev
+	@ctest --preset soak

@@ -1,0 +1,479 @@
+#include "engine.h"
+
+#include <llama.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "utf8.h"
+
+namespace saca::model_host {
+namespace {
+
+using Tokens = std::vector<llama_token>;
+
+// One sequence of the cache for each scene, each beginning with the evaluated system part, which
+// stays there from one ask to the next. Each has its own stretch of the cache, so that a scene's
+// attention does not pass over the other scenes' cells. A look at the answer is put behind the text
+// and removed again.
+constexpr llama_seq_id sequence(std::size_t scene) {
+  return static_cast<llama_seq_id>(scene);
+}
+
+constexpr int batch_capacity = 512;
+// What a step or an answer is taken to cost is this many times the dearest of the last ones: on a
+// busy machine steps vary by about two.
+constexpr double reserve_factor = 2.0;
+
+// Asked after what was generated so far. The tokeniser splits ": 6" into ":", " " and "6", so that
+// the space is forced and the digits compare at equal footing.
+constexpr std::string_view answer_stem = " Response to user:";
+constexpr std::string_view stated_answer = "Response to user:";
+
+double seconds(Clock::Time time) {
+  return std::chrono::duration<double>(time).count();
+}
+Clock::Time from_seconds(double time) {
+  return std::chrono::duration_cast<Clock::Time>(std::chrono::duration<double>(time));
+}
+
+Tokens tokenised(const llama_vocab* vocab, std::string_view text, bool with_special) {
+  Tokens tokens(text.size() + 8);
+  const int n =
+      llama_tokenize(vocab, text.data(), static_cast<std::int32_t>(text.size()), tokens.data(),
+                     static_cast<std::int32_t>(tokens.size()), false, with_special);
+  tokens.resize(n > 0 ? static_cast<std::size_t>(n) : 0);
+  return tokens;
+}
+
+std::string piece(const llama_vocab* vocab, llama_token token) {
+  std::array<char, 256> buffer{};
+  const int n = llama_token_to_piece(vocab, token, buffer.data(),
+                                     static_cast<std::int32_t>(buffer.size()), 0, false);
+  return n > 0 ? std::string(buffer.data(), static_cast<std::size_t>(n)) : std::string();
+}
+
+// Owns a llama_batch and the rule that its tokens are put in one by one.
+class Batch {
+ public:
+  Batch() : batch_(llama_batch_init(batch_capacity, 0, 1)) {}
+  Batch(const Batch&) = delete;
+  Batch& operator=(const Batch&) = delete;
+  ~Batch() { llama_batch_free(batch_); }
+
+  void clear() { batch_.n_tokens = 0; }
+  [[nodiscard]] int size() const { return batch_.n_tokens; }
+  [[nodiscard]] bool full() const { return batch_.n_tokens == batch_capacity; }
+  [[nodiscard]] const llama_batch& get() const { return batch_; }
+
+  /// @return  index of the token in the batch, under which its logits are found
+  int add(llama_token token, llama_pos position, llama_seq_id sequence, bool with_logits) {
+    const int i = batch_.n_tokens++;
+    batch_.token[i] = token;
+    batch_.pos[i] = position;
+    batch_.n_seq_id[i] = 1;
+    batch_.seq_id[i][0] = sequence;
+    batch_.logits[i] = with_logits ? 1 : 0;
+    return i;
+  }
+
+ private:
+  llama_batch batch_;
+};
+
+// Largest cost of the last steps, forgotten slowly [s].
+class RecentCost {
+ public:
+  void add(double cost) { cost_ = std::max(cost, forgetting * cost_); }
+  [[nodiscard]] double get() const { return cost_; }
+
+ private:
+  static constexpr double forgetting = 0.95;  // half forgotten after 14 steps
+  double cost_ = 0.0;
+};
+
+// One scene while it is thought about.
+struct Thought {
+  std::size_t scene = 0;
+  llama_pos position = 0;  // of the next token in its sequence
+  llama_token next = 0;    // greedy choice, not yet evaluated
+  int tokens = 0;
+  std::string text;
+  Utf8Splitter splitter;
+  bool begun = false;      // the prompt is evaluated
+  bool reasoning = false;  // the next token is wanted
+  bool answered = false;   // for good
+  AnswerKind end = AnswerKind::forced;
+};
+
+}  // namespace
+
+struct Engine::State {
+  EngineSettings settings;
+  llama_model* model = nullptr;
+  llama_context* context = nullptr;
+  const llama_vocab* vocab = nullptr;
+  std::array<llama_token, num_answers> digits{};
+  Tokens stem;         // " Response to user:" and the space
+  Tokens prompt_tail;  // what stands between a scene and its reply
+  llama_pos system_tokens = 0;
+  Batch batch;
+  // Outlive an ask: the first step of the next one is planned with them.
+  RecentCost step_cost;
+  RecentCost answer_cost;  // of one scene
+
+  // Read by the abort callback inside a step.
+  Clock* clock = nullptr;
+  Clock::Time stop_at{0};
+
+  State() = default;
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+  ~State() {
+    llama_free(context);
+    llama_model_free(model);
+  }
+
+  [[nodiscard]] llama_memory_t memory() const { return llama_get_memory(context); }
+
+  static bool is_late(void* self) {
+    const auto* state = static_cast<const State*>(self);
+    return state->clock != nullptr && state->clock->now() >= state->stop_at;
+  }
+
+  // Evaluates the batch, or stops at `until`. False when stopped or failed.
+  bool evaluate(Clock::Time until) {
+    stop_at = until;
+    return llama_decode(context, batch.get()) == 0;
+  }
+
+  [[nodiscard]] llama_token likeliest(int batch_index) const {
+    const float* logits = llama_get_logits_ith(context, batch_index);
+    const float* end = logits + llama_vocab_n_tokens(vocab);
+    return static_cast<llama_token>(std::max_element(logits, end) - logits);
+  }
+
+  [[nodiscard]] std::vector<double> digit_logits(int batch_index) const {
+    const float* logits = llama_get_logits_ith(context, batch_index);
+    std::vector<double> result;
+    for (const llama_token digit : digits) {
+      result.push_back(static_cast<double>(logits[digit]));
+    }
+    return result;
+  }
+
+  // Evaluates `tokens` from `position` on. The last one's logits are kept when `with_logits`.
+  // @return  batch index of the last token; -1 when stopped
+  int evaluate_run(const Tokens& tokens, llama_pos position, llama_seq_id sequence,
+                   bool with_logits, Clock::Time until) {
+    int last = -1;
+    for (std::size_t i = 0; i < tokens.size();) {
+      batch.clear();
+      while (i < tokens.size() && !batch.full()) {
+        const bool is_last = i + 1 == tokens.size();
+        last = batch.add(tokens[i], position++, sequence, with_logits && is_last);
+        ++i;
+      }
+      if (!evaluate(until)) {
+        return -1;
+      }
+    }
+    return last;
+  }
+
+  void forget_from(std::size_t scene, llama_pos position) const {
+    llama_memory_seq_rm(memory(), sequence(scene), position, -1);
+  }
+
+  // What is asked after the text so far: nothing but the space where the text asks it itself.
+  [[nodiscard]] Tokens question(const Thought& thought) const {
+    return thought.end == AnswerKind::ended && thought.text.ends_with(stated_answer)
+               ? Tokens{stem.back()}
+               : stem;
+  }
+
+  // Looks at the answers of some scenes, all in one step, and forgets that it asked.
+  // @return  false when the deadline came first
+  bool read_answers(const std::vector<Thought*>& thoughts, AnswerKind kind, Clock::Time deadline,
+                    const EngineEvents& events) {
+    if (thoughts.empty()) {
+      return true;
+    }
+    const Clock::Time begin = clock->now();
+    batch.clear();
+    std::vector<int> at;
+    for (const Thought* thought : thoughts) {
+      const Tokens tokens = question(*thought);
+      for (std::size_t i = 0; i < tokens.size(); ++i) {
+        at.push_back(batch.add(tokens[i], thought->position + static_cast<llama_pos>(i),
+                               sequence(thought->scene), i + 1 == tokens.size()));
+      }
+      at.erase(at.end() - static_cast<std::ptrdiff_t>(tokens.size()), at.end() - 1);
+    }
+    const bool done = evaluate(deadline);
+    for (std::size_t i = 0; done && i < thoughts.size(); ++i) {
+      events.answer(thoughts[i]->scene, kind, digit_logits(at[i]));
+    }
+    for (const Thought* thought : thoughts) {
+      forget_from(thought->scene, thought->position);
+    }
+    answer_cost.add(seconds(clock->now() - begin) / static_cast<double>(thoughts.size()));
+    return done;
+  }
+
+  // Until when something else than reading the answers of so many scenes may go on.
+  [[nodiscard]] Clock::Time reserved(Clock::Time deadline, std::size_t scenes) const {
+    const double reserve = reserve_factor * answer_cost.get() * static_cast<double>(scenes);
+    return deadline - from_seconds(reserve);
+  }
+
+  // Takes the chosen token into the text. Sets `reasoning` to false when the reply ends here.
+  void take(Thought& thought, int max_tokens, const EngineEvents& events) const {
+    if (llama_vocab_is_eog(vocab, thought.next)) {
+      thought.reasoning = false;
+      thought.end = AnswerKind::ended;
+      return;
+    }
+    if (thought.tokens == max_tokens) {
+      thought.reasoning = false;
+      return;
+    }
+    const std::string raw = piece(vocab, thought.next);
+    thought.text += raw;
+    ++thought.tokens;
+    if (const std::string whole = thought.splitter.take(raw); !whole.empty()) {
+      events.text(thought.scene, whole);
+    }
+    if (thought.text.ends_with(stated_answer)) {
+      thought.end = AnswerKind::ended;  // its token is still evaluated, then the answer is read
+    }
+  }
+
+  // One token for each scene that still reasons.
+  // @return  false when the deadline leaves time for the final answers only
+  bool reason_on(std::vector<Thought>& thoughts, int max_tokens, Clock::Time deadline,
+                 AskFigures& figures, const EngineEvents& events) {
+    const Clock::Time stop = reserved(deadline, thoughts.size());
+    const Clock::Time begin = clock->now();
+    if (begin + from_seconds(reserve_factor * step_cost.get()) >= stop) {
+      return false;
+    }
+    batch.clear();
+    std::vector<std::pair<Thought*, int>> running;
+    for (Thought& thought : thoughts) {
+      if (!thought.reasoning) {
+        continue;
+      }
+      take(thought, max_tokens, events);
+      if (thought.reasoning) {
+        running.emplace_back(
+            &thought, batch.add(thought.next, thought.position, sequence(thought.scene), true));
+      }
+    }
+    if (running.empty()) {
+      return true;
+    }
+    if (!evaluate(stop)) {
+      for (const auto& [thought, at] : running) {  // nothing half done stays in the cache
+        forget_from(thought->scene, thought->position);
+        thought->end = AnswerKind::forced;
+      }
+      return false;
+    }
+    const double cost = seconds(clock->now() - begin);
+    step_cost.add(cost);
+    figures.reply_seconds += cost;
+    for (const auto& [thought, at] : running) {
+      ++thought->position;
+      thought->next = likeliest(at);
+      thought->reasoning = thought->end != AnswerKind::ended;
+    }
+    return true;
+  }
+
+  // The last answers of those whose reply came to its end in this way.
+  bool conclude(std::vector<Thought>& thoughts, AnswerKind kind, Clock::Time deadline,
+                const EngineEvents& events) {
+    std::vector<Thought*> these;
+    for (Thought& thought : thoughts) {
+      const bool ended = thought.end == AnswerKind::ended && !thought.reasoning;
+      if (thought.begun && !thought.answered && ended == (kind == AnswerKind::ended)) {
+        thought.answered = true;
+        these.push_back(&thought);
+      }
+    }
+    return read_answers(these, kind, deadline, events);
+  }
+
+  // Evaluates a scene's prompt and reads its first answer. False when the deadline came first.
+  bool begin_scene(Thought& thought, const Tokens& prompt, Clock::Time deadline,
+                   AskFigures& figures, const EngineEvents& events) {
+    const Clock::Time begin = clock->now();
+    const int last = evaluate_run(prompt, system_tokens, sequence(thought.scene), true,
+                                  reserved(deadline, thought.scene + 1));
+    figures.prompt_seconds += seconds(clock->now() - begin);
+    if (last < 0) {
+      return false;
+    }
+    figures.prompt_tokens[thought.scene] = static_cast<int>(prompt.size());
+    events.prompt_read(thought.scene, static_cast<int>(prompt.size()));
+    thought.position = system_tokens + static_cast<llama_pos>(prompt.size());
+    thought.next = likeliest(last);
+    thought.begun = true;
+    thought.reasoning = true;
+    return read_answers({&thought}, AnswerKind::first, deadline, events);
+  }
+
+  [[nodiscard]] Result<std::vector<Tokens>> prompts(const std::vector<std::string>& scenes,
+                                                    int max_tokens) const {
+    std::vector<Tokens> result;
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      // Markers of the chat form are never read from a scene: they stay plain text.
+      Tokens tokens = tokenised(vocab, scenes[i], false);
+      tokens.insert(tokens.end(), prompt_tail.begin(), prompt_tail.end());
+      const std::size_t room = static_cast<std::size_t>(system_tokens) + tokens.size() +
+                               static_cast<std::size_t>(max_tokens) + stem.size();
+      if (room > static_cast<std::size_t>(settings.context)) {
+        return Error{Error::Code::malformed, "scene " + std::to_string(i) + ": want at most " +
+                                                 std::to_string(settings.context) +
+                                                 " tokens with the reply, got " +
+                                                 std::to_string(room)};
+      }
+      result.push_back(std::move(tokens));
+    }
+    return result;
+  }
+};
+
+Engine::Engine(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Engine::~Engine() = default;
+
+Result<std::shared_ptr<Engine>> Engine::load(const EngineSettings& settings) {
+  expects(settings.threads > 0 && settings.context > 0, "threads > 0 and context > 0");
+  llama_backend_init();
+  auto state = std::make_unique<State>();
+  state->settings = settings;
+  llama_model_params model_params = llama_model_default_params();
+  model_params.n_gpu_layers = 0;
+  state->model = llama_model_load_from_file(settings.model_path.c_str(), model_params);
+  if (state->model == nullptr) {
+    return Error{Error::Code::unreadable, settings.model_path + ": want a GGUF model, cannot load"};
+  }
+  state->vocab = llama_model_get_vocab(state->model);
+
+  llama_context_params params = llama_context_default_params();
+  params.n_ctx = static_cast<std::uint32_t>(settings.context) * max_scenes;
+  params.n_batch = batch_capacity;
+  params.n_ubatch = batch_capacity;
+  params.n_seq_max = max_scenes;
+  params.n_threads = settings.threads;
+  params.n_threads_batch = settings.threads;
+  params.kv_unified = false;
+  params.flash_attn_type = LLAMA_FLASH_ATTN_TYPE_DISABLED;  // slower per reply token on AVX2
+  params.abort_callback = State::is_late;
+  params.abort_callback_data = state.get();
+  state->context = llama_init_from_model(state->model, params);
+  if (state->context == nullptr) {
+    return Error{Error::Code::unreadable, settings.model_path + ": no memory for its context"};
+  }
+
+  for (std::size_t digit = 0; digit < num_answers; ++digit) {
+    const Tokens tokens = tokenised(state->vocab, std::to_string(digit), false);
+    if (tokens.size() != 1) {
+      return Error{Error::Code::malformed,
+                   settings.model_path + ": want one token for each digit 0 to 7"};
+    }
+    state->digits[digit] = tokens.front();
+  }
+  state->stem = tokenised(state->vocab, answer_stem, false);
+  const Tokens space = tokenised(state->vocab, " ", false);
+  state->stem.insert(state->stem.end(), space.begin(), space.end());
+  state->prompt_tail = tokenised(state->vocab, "<|im_end|>\n<|im_start|>assistant\n", true);
+  if (space.size() != 1 || !llama_vocab_is_control(state->vocab, state->prompt_tail.front())) {
+    return Error{Error::Code::malformed,
+                 settings.model_path + ": want a chat model with <|im_start|> and <|im_end|>"};
+  }
+  return std::shared_ptr<Engine>(new Engine(std::move(state)));
+}
+
+Result<int> Engine::set_system(std::string_view text, Clock& clock) {
+  State& s = *state_;
+  Tokens tokens = tokenised(s.vocab, "<|im_start|>system\n", true);
+  const Tokens body = tokenised(s.vocab, text, false);
+  const Tokens end = tokenised(s.vocab, "<|im_end|>\n<|im_start|>user\n", true);
+  tokens.insert(tokens.end(), body.begin(), body.end());
+  tokens.insert(tokens.end(), end.begin(), end.end());
+  if (tokens.size() >= static_cast<std::size_t>(s.settings.context)) {
+    return Error{Error::Code::malformed, "system part: want fewer than " +
+                                             std::to_string(s.settings.context) + " tokens, got " +
+                                             std::to_string(tokens.size())};
+  }
+  llama_memory_clear(s.memory(), true);
+  s.system_tokens = 0;
+  s.clock = nullptr;  // nothing to be late for
+  if (s.evaluate_run(tokens, 0, sequence(0), false, Clock::Time::max()) < 0) {
+    return Error{Error::Code::malformed, "system part: cannot be evaluated"};
+  }
+  for (std::size_t scene = 1; scene < max_scenes; ++scene) {
+    llama_memory_seq_cp(s.memory(), sequence(0), sequence(scene), -1, -1);
+  }
+  s.system_tokens = static_cast<llama_pos>(tokens.size());
+  // Warms the caches up, and tells what a step and an answer cost before time matters.
+  const EngineEvents nobody{[](std::size_t, int) {}, [](std::size_t, std::string_view) {},
+                            [](std::size_t, AnswerKind, const std::vector<double>&) {}};
+  const Result<AskFigures> rehearsal =
+      ask({max_scenes, "Ready?"}, Clock::Time::max(), 2, clock, nobody);
+  if (!rehearsal.has_value()) {
+    return rehearsal.error();
+  }
+  return static_cast<int>(tokens.size());
+}
+
+Result<AskFigures> Engine::ask(const std::vector<std::string>& scenes, Clock::Time deadline,
+                               int max_tokens, Clock& clock, const EngineEvents& events) {
+  expects(!scenes.empty() && scenes.size() <= max_scenes, "1 to 3 scenes");
+  expects(max_tokens >= 0, "max_tokens >= 0");
+  State& s = *state_;
+  if (s.system_tokens == 0) {
+    return Error{Error::Code::malformed, "ask: want a system part first"};
+  }
+  const Result<std::vector<Tokens>> prompts = s.prompts(scenes, max_tokens);
+  if (!prompts.has_value()) {
+    return prompts.error();
+  }
+  s.clock = &clock;
+  AskFigures figures;
+  figures.prompt_tokens.resize(scenes.size());
+  std::vector<Thought> thoughts(scenes.size());
+  bool in_time = true;
+  for (std::size_t i = 0; in_time && i < scenes.size(); ++i) {
+    thoughts[i].scene = i;
+    in_time = s.begin_scene(thoughts[i], prompts.value()[i], deadline, figures, events);
+  }
+  const auto reasons = [](const Thought& thought) { return thought.reasoning; };
+  while (in_time && std::any_of(thoughts.begin(), thoughts.end(), reasons)) {
+    in_time = s.reason_on(thoughts, max_tokens, deadline, figures, events);
+    // Who has ended says so at once: the others may still take long.
+    figures.overran |= !s.conclude(thoughts, AnswerKind::ended, deadline, events);
+  }
+  figures.overran |= !s.conclude(thoughts, AnswerKind::forced, deadline, events);
+  for (const Thought& thought : thoughts) {
+    figures.reply_tokens.push_back(thought.tokens);
+    s.forget_from(thought.scene, s.system_tokens);
+  }
+  s.clock = nullptr;
+  return figures;
+}
+
+std::string Engine::description() const {
+  std::array<char, 256> buffer{};
+  const int n = llama_model_desc(state_->model, buffer.data(), buffer.size());
+  return {buffer.data(), static_cast<std::size_t>(std::clamp(n, 0, 255))};
+}
+
+std::uint64_t Engine::weight_bytes() const {
+  return llama_model_size(state_->model);
+}
+
+}  // namespace saca::model_host

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "saca/core/clock.h"
+#include "saca/core/result.h"
+#include "saca/manoeuvre/plan.h"
+#include "saca/reason/language_model.h"
+
+namespace saca::model_host {
+
+/// How the weights are run.
+struct EngineSettings {
+  std::string model_path;  ///< a GGUF file whose chat form is <|im_start|> ... <|im_end|>
+  int threads = 2;         ///< > 0
+  int context = 1536;      ///< room for the tokens of the system part, one scene and its reply
+};
+
+using AnswerKind = reason::Answer::Kind;
+
+/// What happens while scenes are thought about; called on the asking thread.
+struct EngineEvents {
+  std::function<void(std::size_t scene, int tokens)> prompt_read;
+  std::function<void(std::size_t scene, std::string_view text)> text;  ///< whole UTF-8 characters
+  std::function<void(std::size_t scene, AnswerKind kind, const std::vector<double>& log_weight)>
+      answer;  ///< one logit for each digit 0 to 7
+};
+
+/// Figures of one `ask`.
+struct AskFigures {
+  std::vector<int> prompt_tokens;  ///< one per scene, 0 where the prompt was not evaluated
+  std::vector<int> reply_tokens;   ///< one per scene
+  double prompt_seconds = 0.0;     ///< spent in evaluating prompts [s]
+  double reply_seconds = 0.0;      ///< spent in steps of reasoning [s]
+  bool overran = false;            ///< the deadline passed before the last answer was there
+};
+
+constexpr std::size_t max_scenes = 3;
+constexpr std::size_t num_answers = manoeuvre::num_policies;
+
+/// A language model in this process, through llama.cpp. Greedy: the same weights, system part,
+/// scenes and order of calls give the same text; the deadline decides only where it is cut.
+class Engine {
+ public:
+  /// @return  Error::Code::unreadable or malformed, naming the file
+  [[nodiscard]] static Result<std::shared_ptr<Engine>> load(const EngineSettings& settings);
+
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+  ~Engine();
+
+  /// Evaluates the part of the prompt that all scenes share; it stays evaluated. Then rehearses a
+  /// short ask, so that the first real one knows what its steps cost.
+  /// @return  its number of tokens, or an error when it does not fit
+  [[nodiscard]] Result<int> set_system(std::string_view text, Clock& clock);
+
+  /// Thinks about up to three scenes until each reply has ended, `max_tokens` are reached, or the
+  /// deadline leaves just the time to read the final answers: that reserve follows what the last
+  /// steps cost.
+  ///
+  /// For each scene in turn the prompt is evaluated and its first answer read; then all reason
+  /// together; each final answer is read from the eight digits' logits after what was generated.
+  ///
+  /// @param max_tokens  of reasoning per scene, >= 0
+  /// @return            malformed when a prompt does not fit or no system part is set
+  [[nodiscard]] Result<AskFigures> ask(const std::vector<std::string>& scenes, Clock::Time deadline,
+                                       int max_tokens, Clock& clock, const EngineEvents& events);
+
+  /// What the file says of itself: name and type of weights, e.g. "SmolLM2 135M, Q8_0".
+  [[nodiscard]] std::string description() const;
+  /// Bytes of the weights [B].
+  [[nodiscard]] std::uint64_t weight_bytes() const;
+
+ private:
+  struct State;
+  explicit Engine(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace saca::model_host

@@ -1,0 +1,69 @@
+// saca-model-host: the process in which the language model runs, so that nothing it does (hang, run
+// out of memory, be killed) can touch the process that steers.
+//
+//   saca-model-host --model FILE [--threads N] [--context N]
+//       reads requests from standard input and writes events to standard output, one JSON object a
+//       line (docs/model-protocol.md); ends when its input ends, or with the process that began it
+//   saca-model-host --model FILE --bench N [--json]
+//       measures itself through the same child process that SACA uses
+//
+// Exit codes: 0 input ended; 1 the model cannot be loaded; 2 wrong arguments.
+#include <llama.h>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <csignal>
+#include <iostream>
+#include <thread>
+
+#include "bench.h"
+#include "service.h"
+
+namespace {
+
+pid_t parent_at_start = 0;
+
+// The signal comes when the *thread* that began this process ends; only a lost process matters.
+extern "C" void parent_thread_ended(int) {
+  if (getppid() != parent_at_start) {
+    _exit(0);
+  }
+}
+
+void end_with_parent() {
+  parent_at_start = getppid();
+  struct sigaction action {};
+  action.sa_handler = parent_thread_ended;
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGUSR1, &action, nullptr);
+  prctl(PR_SET_PDEATHSIG, SIGUSR1);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  saca::model_host::EngineSettings settings;
+  settings.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 8U));
+  int bench_runs = 0;
+  bool json = false;
+  CLI::App app("Runs SACA's language model in a process of its own");
+  app.add_option("--model", settings.model_path, "GGUF file")->required();
+  app.add_option("--threads", settings.threads)->check(CLI::Range(1, 64));
+  app.add_option("--context", settings.context, "tokens of system part, scene and reply")
+      ->check(CLI::Range(256, 8192));
+  app.add_option("--bench", bench_runs, "measure: how often to ask")->check(CLI::Range(1, 10000));
+  app.add_flag("--json", json, "figures as one flat object");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  if (bench_runs > 0) {
+    return saca::model_host::bench(settings, bench_runs, json, std::cout);
+  }
+  end_with_parent();
+  llama_log_set([](ggml_log_level, const char*, void*) {}, nullptr);
+  return saca::model_host::serve(settings, std::cin, std::cout);
+}

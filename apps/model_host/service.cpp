@@ -1,0 +1,129 @@
+#include "service.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <istream>
+#include <ostream>
+
+#include "saca/reason/protocol.h"
+
+namespace saca::model_host {
+namespace {
+
+namespace protocol = reason::protocol;
+
+double seconds(Clock::Time time) {
+  return std::chrono::duration<double>(time).count();
+}
+
+std::uint64_t resident_bytes() {
+  std::ifstream file("/proc/self/statm");
+  std::uint64_t total = 0;
+  std::uint64_t resident = 0;
+  file >> total >> resident;
+  return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+std::array<double, num_answers> softmax(const std::vector<double>& logits) {
+  const double top = *std::max_element(logits.begin(), logits.end());
+  std::array<double, num_answers> result{};
+  double sum = 0.0;
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    result[i] = std::exp(logits[i] - top);
+    sum += result[i];
+  }
+  for (double& p : result) {
+    p /= sum;
+  }
+  return result;
+}
+
+class Service {
+ public:
+  Service(const EngineSettings& settings, std::ostream& out)
+      : settings_(settings), out_(out), begin_(clock_.now()) {}
+
+  bool load() {
+    const auto loaded = Engine::load(settings_);
+    if (!loaded.has_value()) {
+      say(protocol::Failed{std::nullopt, loaded.error().message});
+      return false;
+    }
+    engine_ = loaded.value();
+    return true;
+  }
+
+  void handle(const protocol::Start& start) {
+    const auto tokens = engine_->set_system(start.system, clock_);
+    if (!tokens.has_value()) {
+      say(protocol::Failed{std::nullopt, tokens.error().message});
+      return;
+    }
+    say(protocol::Ready{engine_->description(), tokens.value(), seconds(clock_.now() - begin_)});
+  }
+
+  void handle(const protocol::Ask& ask) {
+    const Clock::Time arrival = clock_.now();
+    if (ask.scenes.empty() || ask.scenes.size() > max_scenes || ask.max_tokens > 4096) {
+      say(protocol::Failed{ask.id, "ask: want 1 to 3 scenes and at most 4096 tokens each"});
+      return;
+    }
+    const EngineEvents events{
+        [&](std::size_t scene, int tokens) {
+          say(protocol::PromptRead{ask.id, scene, tokens});
+        },
+        [&](std::size_t scene, std::string_view text) {
+          say(protocol::Text{ask.id, scene, std::string(text)});
+        },
+        [&](std::size_t scene, AnswerKind kind, const std::vector<double>& logits) {
+          say(protocol::Answered{ask.id, scene, kind, softmax(logits)});
+        }};
+    const double longest = 3600.0;  // [s]: nobody waits longer, and the sum below stays in range
+    const auto budget = std::chrono::duration_cast<Clock::Time>(
+        std::chrono::duration<double>(std::min(ask.budget, longest)));
+    const auto figures = engine_->ask(ask.scenes, arrival + budget, ask.max_tokens, clock_, events);
+    if (!figures.has_value()) {
+      say(protocol::Failed{ask.id, figures.error().message});
+      return;
+    }
+    say(protocol::Done{ask.id, figures.value().reply_tokens, figures.value().prompt_seconds,
+                       figures.value().reply_seconds, figures.value().overran});
+  }
+
+  void handle(const protocol::InfoRequest&) {
+    say(protocol::Info{engine_->description(), settings_.model_path, engine_->weight_bytes(),
+                       resident_bytes(), settings_.threads});
+  }
+
+  void say(const protocol::Event& event) { out_ << protocol::line(event) << '\n' << std::flush; }
+
+ private:
+  EngineSettings settings_;
+  std::ostream& out_;
+  SteadyClock clock_;
+  Clock::Time begin_;
+  std::shared_ptr<Engine> engine_;
+};
+
+}  // namespace
+
+int serve(const EngineSettings& settings, std::istream& in, std::ostream& out) {
+  Service service(settings, out);
+  if (!service.load()) {
+    return 1;
+  }
+  for (std::string line; std::getline(in, line);) {
+    const auto request = protocol::request_from(line);
+    if (!request.has_value()) {
+      service.say(protocol::Failed{std::nullopt, request.error().message});
+      continue;
+    }
+    std::visit([&](const auto& r) { service.handle(r); }, request.value());
+  }
+  return 0;
+}
+
+}  // namespace saca::model_host

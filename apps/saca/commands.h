@@ -1,0 +1,17 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace saca::app {
+
+// Each adds one command to the line; what it is to return as exit code comes out of `exit_code` when
+// that command was the one.
+
+void add_run(CLI::App& line, int& exit_code);
+void add_scenarios(CLI::App& line, int& exit_code);
+void add_import(CLI::App& line, int& exit_code);
+void add_memory(CLI::App& line, int& exit_code);
+void add_model(CLI::App& line, int& exit_code);
+void add_bench(CLI::App& line, int& exit_code);
+
+}  // namespace saca::app

@@ -1,0 +1,30 @@
+#include <exception>
+
+#include "apps/saca/commands.h"
+#include "apps/saca/places.h"
+
+int main(int argc, char** argv) {
+  using namespace saca::app;
+  try {
+    CLI::App line{"SACA chooses, in the last seconds before a crash, the manoeuvre that harms least."};
+    line.set_version_flag("--version", SACA_VERSION);
+    line.require_subcommand(1);
+    int exit_code = success;
+    add_run(line, exit_code);
+    add_scenarios(line, exit_code);
+    add_import(line, exit_code);
+    add_memory(line, exit_code);
+    add_model(line, exit_code);
+    add_bench(line, exit_code);
+    try {
+      line.parse(argc, argv);
+    } catch (const CLI::ParseError& problem) {
+      const bool asked_for_help = line.exit(problem) == 0;
+      return asked_for_help ? success : wrong_command_line;
+    }
+    return exit_code;
+  } catch (const std::exception& problem) {
+    complain(std::string("internal error, please report it: ") + problem.what());
+    return internal_error;
+  }
+}

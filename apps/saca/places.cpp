@@ -1,0 +1,58 @@
+#include "apps/saca/places.h"
+
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "saca/core/file.h"
+
+namespace saca::app {
+
+namespace fs = std::filesystem;
+
+std::optional<Places> find_places() {
+  std::error_code problem;
+  const fs::path program = fs::read_symlink("/proc/self/exe", problem);
+  if (problem) {
+    return std::nullopt;
+  }
+  const fs::path folder = program.parent_path();
+  for (const fs::path& root : {folder / "../share/saca", folder / "../.."}) {
+    if (fs::exists(root / "data" / "harm.toml", problem)) {
+      return Places{.root = fs::weakly_canonical(root, problem),
+                    .model_host = folder / "saca-model-host"};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<fs::path> find_weights(const Places& places) {
+  const fs::path folder = places.root / "third_party" / "models";
+  const auto choice = read_file(folder / "choice.json");
+  if (!choice.has_value()) {
+    return std::nullopt;
+  }
+  const auto parsed = nlohmann::json::parse(choice.value(), nullptr, false);
+  if (!parsed.is_object() || !parsed.contains("weights") || !parsed["weights"].is_string()) {
+    return std::nullopt;
+  }
+  const fs::path weights = folder / parsed["weights"].get<std::string>();
+  std::error_code problem;
+  return fs::exists(weights, problem) ? std::optional(weights) : std::nullopt;
+}
+
+fs::path find_scenario(const Places& places, const std::string& name) {
+  std::error_code problem;
+  if (fs::exists(name, problem)) {
+    return name;
+  }
+  const fs::path shipped = places.root / "scenarios" / (name + ".toml");
+  return fs::exists(shipped, problem) ? shipped : fs::path(name);
+}
+
+void complain(const std::string& message) {
+  fmt::print(stderr, "saca: {}\n", message);
+}
+
+}  // namespace saca::app

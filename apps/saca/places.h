@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace saca::app {
+
+/// Exit codes, as docs/formats.md tells them.
+enum ExitCode : int {
+  success = 0,
+  internal_error = 1,
+  wrong_command_line = 2,
+  bad_input = 3,
+  cannot_write = 4,
+};
+
+/// Where the program's own files are: beside it in the build tree, or in share/saca of an
+/// installation.
+struct Places {
+  std::filesystem::path root;        ///< holds data/ and scenarios/
+  std::filesystem::path model_host;  ///< program that runs the language model; may be missing
+};
+
+/// @return  nullopt when neither place has data/harm.toml
+[[nodiscard]] std::optional<Places> find_places();
+
+/// The weights that `make model` chose for this processor, else any that it left; nullopt: none.
+[[nodiscard]] std::optional<std::filesystem::path> find_weights(const Places& places);
+
+/// A scenario by its path, or by the name of a shipped one (with or without ".toml").
+[[nodiscard]] std::filesystem::path find_scenario(const Places& places, const std::string& name);
+
+/// Says what is wrong on the error stream.
+void complain(const std::string& message);
+
+}  // namespace saca::app

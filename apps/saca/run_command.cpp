@@ -1,0 +1,212 @@
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "apps/saca/commands.h"
+#include "apps/saca/model.h"
+#include "apps/saca/places.h"
+#include "apps/saca/story.h"
+#include "saca/core/file.h"
+#include "saca/loop/encounter.h"
+#include "saca/memory/store.h"
+#include "saca/report/html_report.h"
+#include "saca/vehicle/parameters.h"
+
+namespace saca::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RunOptions {
+  std::string scenario;
+  std::string pace = "real";
+  std::string model = "local";
+  std::string record_replies;
+  std::optional<int> policy;
+  std::string memory = "runs/memory.sqlite";
+  bool no_memory = false;
+  std::string output = "runs";
+  std::string report;
+  bool as_json = false;
+};
+
+/// Everything that a run reads before it begins.
+struct Inputs {
+  sim::Scenario scenario;
+  vehicle::Vehicle car;
+  outcome::HarmModel harm;
+  loop::ThinkingCosts costs;
+};
+
+Result<Inputs> read_inputs(const Places& places, const RunOptions& options) {
+  Inputs inputs;
+  const auto scenario = sim::load_scenario(find_scenario(places, options.scenario));
+  if (!scenario.has_value()) {
+    return scenario.error();
+  }
+  inputs.scenario = scenario.value();
+  const auto car =
+      vehicle::read_vehicle(places.root / "data" / "vehicles" / (inputs.scenario.car + ".toml"));
+  if (!car.has_value()) {
+    return car.error();
+  }
+  inputs.car = car.value();
+  const auto harm = outcome::read_harm(places.root / "data" / "harm.toml");
+  if (!harm.has_value()) {
+    return harm.error();
+  }
+  inputs.harm = harm.value();
+  const fs::path costs_file = places.root / "data" / "thinking_costs.toml";
+  const auto costs_text = read_file(costs_file);
+  if (!costs_text.has_value()) {
+    return costs_text.error();
+  }
+  const auto costs = loop::read_thinking_costs(costs_text.value(), costs_file.string());
+  if (!costs.has_value()) {
+    return costs.error();
+  }
+  inputs.costs = costs.value();
+  return inputs;
+}
+
+/// Makes the folder that `file` is to lie in.
+std::optional<Error> make_folder_of(const fs::path& file) {
+  std::error_code problem;
+  if (file.has_parent_path()) {
+    fs::create_directories(file.parent_path(), problem);
+  }
+  if (problem) {
+    return Error{Error::Code::unwritable,
+                 file.parent_path().string() + ": cannot be made: " + problem.message()};
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> write_outputs(const std::string& record, const fs::path& folder,
+                                   const fs::path& report) {
+  for (const fs::path& file : {folder / "record.json", report}) {
+    if (const auto problem = make_folder_of(file)) {
+      return problem;
+    }
+  }
+  if (const auto problem = write_file(folder / "record.json", record)) {
+    return problem;
+  }
+  const auto page = report::html_report(record);
+  if (!page.has_value()) {
+    return page.error();
+  }
+  return write_file(report, page.value());
+}
+
+int run(const RunOptions& options) {
+  const auto places = find_places();
+  if (!places) {
+    complain("data/harm.toml is neither beside the program's build folder nor in share/saca");
+    return bad_input;
+  }
+  const auto inputs = read_inputs(*places, options);
+  if (!inputs.has_value()) {
+    complain(inputs.error().message);
+    return bad_input;
+  }
+  std::unique_ptr<memory::Store> memory;
+  if (!options.no_memory) {
+    if (const auto problem = make_folder_of(options.memory)) {
+      complain(problem->message);
+      return cannot_write;
+    }
+    auto opened = memory::Store::open(options.memory);
+    if (!opened.has_value()) {
+      complain(opened.error().message + " (move the file away, or run with --no-memory)");
+      return bad_input;
+    }
+    memory = std::make_unique<memory::Store>(std::move(opened).value());
+  }
+  SteadyClock clock;
+  auto model = open_model(*places, options.model, options.record_replies, clock);
+  if (!model.has_value()) {
+    complain(model.error().message);
+    return bad_input;
+  }
+
+  const loop::Setup setup{
+      .scenario = &inputs.value().scenario,
+      .car = &inputs.value().car,
+      .harm = &inputs.value().harm,
+      .pace = options.pace == "real" ? loop::Pace::real : loop::Pace::lockstep,
+      .costs = inputs.value().costs,
+      .model = model.value().get(),
+      .memory = memory.get(),
+      .forced = options.policy ? manoeuvre::policy_from(*options.policy) : std::nullopt,
+      .clock = &clock};
+  Story story(stdout, isatty(STDOUT_FILENO) != 0);
+  Silence silence;
+  if (!options.as_json) {
+    story.headline(inputs.value().scenario, setup);
+  }
+  const auto record = loop::run(
+      setup, options.as_json ? static_cast<loop::Listener&>(silence) : story);
+  if (!record.has_value()) {
+    complain(record.error().message);
+    return bad_input;
+  }
+  if (const auto problem = save_replies(*model.value(), options.record_replies)) {
+    complain(problem->message);
+    return cannot_write;
+  }
+  const std::string text = loop::record_json(setup, record.value());
+  const fs::path folder = fs::path(options.output) / inputs.value().scenario.name;
+  const fs::path report = options.report.empty() ? folder / "report.html" : fs::path(options.report);
+  const auto problem = write_outputs(text, folder, report);
+  if (options.as_json) {
+    fmt::print("{}\n", text);
+  } else {
+    story.ending(inputs.value().scenario, record.value());
+    if (!problem) {
+      fmt::print("Report: {}\n", fs::absolute(report).string());
+    }
+  }
+  if (problem) {
+    complain(problem->message);
+    return cannot_write;
+  }
+  return success;
+}
+
+}  // namespace
+
+void add_run(CLI::App& line, int& exit_code) {
+  CLI::App* const command = line.add_subcommand("run", "Play one emergency and report on it");
+  const auto options = std::make_shared<RunOptions>();
+  command->add_option("scenario", options->scenario, "A scenario file, or the name of a shipped one")
+      ->required();
+  command
+      ->add_option("--pace", options->pace,
+                   "real: the world goes on while SACA thinks; lockstep: fast and repeatable")
+      ->check(CLI::IsMember({"real", "lockstep"}))
+      ->capture_default_str();
+  command
+      ->add_option("--llm", options->model,
+                   "local: the language model of `make model`; off: none; replay:FILE: recorded "
+                   "replies")
+      ->capture_default_str();
+  command->add_option("--record-replies", options->record_replies,
+                      "Write the model's replies to a file for --llm replay:FILE");
+  command
+      ->add_option("--policy", options->policy,
+                   "Carry out this policy (0-7) at the trigger, whatever was thought")
+      ->check(CLI::Range(0, 7));
+  command->add_option("--memory", options->memory, "The memory bank")->capture_default_str();
+  command->add_flag("--no-memory", options->no_memory, "Neither ask nor fill a memory");
+  command->add_option("--output", options->output, "Folder for records and reports")
+      ->capture_default_str();
+  command->add_option("--report", options->report, "Where the HTML report goes");
+  command->add_flag("--json", options->as_json, "Print the record, for programs");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace saca::app

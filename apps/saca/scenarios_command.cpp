@@ -1,0 +1,61 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "apps/saca/commands.h"
+#include "apps/saca/places.h"
+#include "saca/sim/scenario.h"
+
+namespace saca::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+int list_scenarios(bool as_json) {
+  const auto places = find_places();
+  if (!places) {
+    complain("data/harm.toml is neither beside the program's build folder nor in share/saca");
+    return bad_input;
+  }
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(places->root / "scenarios")) {
+    if (entry.path().extension() == ".toml") {
+      files.push_back(entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  nlohmann::json list = nlohmann::json::array();
+  int code = success;
+  for (const fs::path& file : files) {
+    const auto scenario = sim::load_scenario(file);
+    if (!scenario.has_value()) {
+      complain(scenario.error().message);
+      code = bad_input;
+      continue;
+    }
+    list.push_back({{"name", scenario.value().name},
+                    {"title", scenario.value().title},
+                    {"source", scenario.value().source}});
+    if (!as_json) {
+      fmt::print("{:28} {}\n", scenario.value().name, scenario.value().title);
+    }
+  }
+  if (as_json) {
+    fmt::print("{}\n", list.dump(1));
+  }
+  return code;
+}
+
+}  // namespace
+
+void add_scenarios(CLI::App& line, int& exit_code) {
+  CLI::App* const command = line.add_subcommand("scenarios", "List the shipped scenarios");
+  const auto as_json = std::make_shared<bool>(false);
+  command->add_flag("--json", *as_json, "For programs");
+  command->callback([as_json, &exit_code] { exit_code = list_scenarios(*as_json); });
+}
+
+}  // namespace saca::app

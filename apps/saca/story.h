@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdio>
+#include <mutex>
+
+#include "saca/loop/encounter.h"
+
+namespace saca::app {
+
+/// Tells an encounter on a stream while it happens.
+class Story final : public loop::Listener {
+ public:
+  /// @param colour  whether the stream understands terminal colours
+  Story(std::FILE* stream, bool colour) : stream_(stream), colour_(colour) {}
+
+  void on_event(const decide::Event& event) override;
+  void on_reasoning(std::int32_t preview, std::string_view text) override;
+
+  void headline(const sim::Scenario& scenario, const loop::Setup& setup);
+  void ending(const sim::Scenario& scenario, const loop::Record& record);
+
+ private:
+  std::FILE* stream_;
+  bool colour_;
+  std::mutex lock_;
+};
+
+/// For programs that read: says nothing.
+class Silence final : public loop::Listener {
+ public:
+  void on_event(const decide::Event&) override {}
+  void on_reasoning(std::int32_t, std::string_view) override {}
+};
+
+}  // namespace saca::app

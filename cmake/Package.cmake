@@ -1,0 +1,13 @@
+# What `cmake --install` leaves: libraries and headers that find_package(saca) finds, the program,
+# and its data and scenarios in share/saca.
+include(CMakePackageConfigHelpers)
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/saca)
+install(EXPORT saca_targets NAMESPACE saca:: DESTINATION ${package})
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/sacaConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/sacaConfig.cmake INSTALL_DESTINATION ${package})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/sacaConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/sacaConfig.cmake ${PROJECT_BINARY_DIR}/sacaConfigVersion.cmake
+  DESTINATION ${package})
+install(DIRECTORY data scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/saca)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/saca)

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "saca/decide/check.h"
+#include "saca/decide/plan_cache.h"
+#include "saca/memory/case.h"
+#include "saca/memory/store.h"
+#include "saca/preview/situation.h"
+#include "saca/reason/language_model.h"
+
+namespace saca::decide {
+
+enum class Plane : std::uint8_t { world, reflex, thinking };
+[[nodiscard]] std::string_view name(Plane plane);
+
+/// What can happen, in about the order in which it does.
+enum class EventKind : std::uint8_t {
+  preview,
+  risk,
+  intention,
+  forecast,
+  memory,
+  ask,
+  first_answer,
+  answer,
+  check,
+  cached,
+  trigger,
+  match,
+  execute,
+  contact,
+  rest,
+  fault,
+};
+[[nodiscard]] std::string_view name(EventKind kind);
+
+/// One line of the story.
+struct Event {
+  double time = 0.0;  ///< in the scene's time [s]
+  Plane plane = Plane::world;
+  EventKind kind = EventKind::preview;
+  std::string text;
+};
+
+/// Everything that was thought about one forecast.
+struct Preview {
+  std::int32_t number = 0;
+  preview::Situation situation;  ///< as it was thought about
+  world::Scene
+      newest_scene;  ///< the same situation as last forecast: the trigger is matched with it
+  std::optional<memory::Match> nearest;
+  memory::Gate gate = memory::Gate::reason;
+  std::string prompt;                   ///< the scene part; empty when the model was not asked
+  reason::Reply reply;                  ///< answer times in the scene's time
+  std::optional<double> faithful;       ///< share of quoted numbers that the prompt holds
+  std::optional<Check> check;           ///< of the last policy that was chosen
+  std::optional<manoeuvre::Plan> plan;  ///< what was cached in the end
+  Source source = Source::model;
+  bool worse_than_aeb = false;  ///< the plan, by the last forecast
+  std::optional<double> ready;  ///< when it was cached [s]
+};
+
+}  // namespace saca::decide

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "saca/core/static_vector.h"
+#include "saca/manoeuvre/plan.h"
+#include "saca/world/scene.h"
+
+namespace saca::decide {
+
+/// Where an executed plan came from.
+enum class Source : std::uint8_t {
+  fallback,  ///< no cached plan matched: emergency braking
+  memory,    ///< the policy of a stored case
+  model,     ///< chosen by the language model, checked by rollout
+  forced,    ///< the user asked for it
+};
+[[nodiscard]] std::string_view name(Source source);
+
+/// A checked plan, ready for the situation that it was made for.
+struct CachedPlan {
+  world::Scene scene_at_trigger;  ///< the forecast that it belongs to
+  manoeuvre::Plan plan;
+  Source source = Source::model;
+  bool worse_than_aeb = false;  ///< by forecast, by the one ordering of harm
+  std::int32_t preview = 0;     ///< number of the preview in the record
+};
+
+/// What the thinking plane hands over: all plans that are ready now.
+using PlanCache = StaticVector<CachedPlan, 6>;
+
+}  // namespace saca::decide

@@ -1,0 +1,74 @@
+#include "saca/decide/reflex_plane.h"
+
+#include <array>
+
+#include "saca/core/names.h"
+
+namespace saca::decide {
+namespace {
+
+constexpr std::array<std::string_view, 4> source_names{"fallback", "memory", "model", "forced"};
+
+bool is_within(const std::optional<preview::Threat>& threat, double horizon) {
+  return threat && threat->time <= horizon;
+}
+
+}  // namespace
+
+std::string_view name(Source source) {
+  return name_of(source, source_names);
+}
+
+void ReflexPlane::receive(const PlanCache& plans) noexcept {
+  plans_ = plans;
+  for (std::size_t i = 0; i < plans_.size(); ++i) {
+    features_[i] = memory::features(plans_[i].scene_at_trigger);
+  }
+}
+
+Decision ReflexPlane::decide(const world::Scene& scene) const noexcept {
+  Decision decision{.plan = {manoeuvre::PolicyId::aeb, std::nullopt}, .time = scene.time};
+  const CachedPlan* best = nullptr;
+  const memory::Features here = memory::features(scene);
+  for (std::size_t i = 0; i < plans_.size(); ++i) {
+    const CachedPlan& cached = plans_[i];
+    const double similarity = memory::similarity(here, features_[i]);
+    if (!decision.similarity || similarity > *decision.similarity) {
+      decision.similarity = similarity;
+      decision.preview = cached.preview;
+      best = &cached;
+    }
+  }
+  if (forced_) {
+    decision.plan = *forced_;
+    decision.source = Source::forced;
+  } else if (best != nullptr && *decision.similarity > match_similarity) {
+    decision.gave_way_to_aeb = best->worse_than_aeb;
+    if (!best->worse_than_aeb) {
+      decision.plan = best->plan;
+      decision.source = best->source;
+    }
+  }
+  return decision;
+}
+
+Reflex ReflexPlane::step(const world::Scene& scene) noexcept {
+  Reflex reflex;
+  if (decision_) {
+    reflex.plan = decision_->plan;
+  }
+  if (world::broken_rule(scene)) {
+    reflex.refused_scene = true;
+    return reflex;
+  }
+  reflex.threat =
+      preview::nearest_threat(scene, thresholds_.preview, thresholds_.trigger_tolerance);
+  if (!decision_ && is_within(reflex.threat, thresholds_.trigger)) {
+    decision_ = decide(scene);
+    reflex.plan = decision_->plan;
+    reflex.triggered = true;
+  }
+  return reflex;
+}
+
+}  // namespace saca::decide

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "saca/decide/plan_cache.h"
+#include "saca/manoeuvre/plan.h"
+#include "saca/memory/similarity.h"
+#include "saca/preview/threat.h"
+#include "saca/world/scene.h"
+
+namespace saca::decide {
+
+/// Similarity above which a cached plan is taken for the scene at hand (the paper: 90 %).
+constexpr double match_similarity = 0.90;
+
+/// What was decided at the trigger, and why.
+struct Decision {
+  manoeuvre::Plan plan;
+  Source source = Source::fallback;
+  std::optional<double> similarity;  ///< to the best cached situation; nullopt when there was none
+  std::optional<std::int32_t> preview;  ///< whose plan it is, or would have been
+  bool gave_way_to_aeb = false;         ///< a plan matched, but its forecast was worse than AEB's
+  double time = 0.0;                    ///< of the trigger [s], in the scene's time
+};
+
+/// What the reflex plane says to one scene.
+struct Reflex {
+  manoeuvre::Plan plan{manoeuvre::PolicyId::no_intervention,
+                       std::nullopt};     ///< valid at every instant
+  std::optional<preview::Threat> threat;  ///< nearest conflict within T2, all going on as they do
+  bool triggered = false;                 ///< in this very call
+  bool refused_scene = false;             ///< the scene broke a rule and was left aside
+};
+
+/// The plane that is always in time: a scene in, a plan out. One thread; no lock, no allocation, no
+/// system call. Once triggered it keeps its plan.
+class ReflexPlane {
+ public:
+  /// @param forced  what to carry out at the trigger whatever was thought
+  explicit ReflexPlane(const preview::Thresholds& thresholds,
+                       std::optional<manoeuvre::Plan> forced = std::nullopt) noexcept
+      : thresholds_(thresholds), forced_(forced) {}
+
+  /// Takes over the newest plans.
+  void receive(const PlanCache& plans) noexcept;
+
+  [[nodiscard]] Reflex step(const world::Scene& scene) noexcept;
+
+  /// nullopt before the trigger.
+  [[nodiscard]] const std::optional<Decision>& decision() const noexcept { return decision_; }
+
+ private:
+  [[nodiscard]] Decision decide(const world::Scene& scene) const noexcept;
+
+  preview::Thresholds thresholds_;
+  std::optional<manoeuvre::Plan> forced_;
+  PlanCache plans_;
+  std::array<memory::Features, PlanCache::capacity()> features_;  ///< of each plan's situation
+  std::optional<Decision> decision_;
+};
+
+}  // namespace saca::decide

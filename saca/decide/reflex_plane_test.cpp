@@ -1,0 +1,174 @@
+#include "saca/decide/reflex_plane.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <new>
+
+// Counts what the reflex plane takes from the heap: it must be nothing.
+namespace {
+thread_local std::size_t num_allocations = 0;
+}  // namespace
+
+void* operator new(std::size_t size) {
+  ++num_allocations;
+  if (void* const memory = std::malloc(size)) {  // NOLINT
+    return memory;
+  }
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);  // NOLINT
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);  // NOLINT
+}
+
+namespace saca::decide {
+namespace {
+
+using manoeuvre::PolicyId;
+using world::Actor;
+using world::Scene;
+
+Scene motorway(double speed) {
+  Scene scene;
+  scene.ego.v_B = {speed, 0.0};
+  scene.ego_footprint = {.length = 4.7, .width = 1.9, .centre_x = -0.1};
+  scene.ego_mass = 1'700.0;
+  scene.road.left_edge = 8.75;
+  return scene;
+}
+
+Actor car(std::uint8_t id, Vec2 p_W, Vec2 v_W = {}) {
+  Actor actor{.id = id, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1'500.0};
+  actor.X_WA.p = p_W;
+  actor.v_W = v_W;
+  return actor;
+}
+
+/// A wreck that the ego reaches after `time` at 20 m/s: half a wreck and the ego's front lie between.
+Scene wreck_in(double time) {
+  Scene scene = motorway(20.0);
+  scene.actors.push_back(car(1, {20.0 * time + 4.5, 0.0}));
+  return scene;
+}
+
+PlanCache one_plan(const Scene& scene_at_trigger, PolicyId policy, bool worse = false) {
+  PlanCache cache;
+  cache.push_back({.scene_at_trigger = scene_at_trigger,
+                   .plan = {policy, std::nullopt},
+                   .source = Source::model,
+                   .worse_than_aeb = worse,
+                   .preview = 3});
+  return cache;
+}
+
+TEST(ReflexPlane, DoesNothingBeforeTheTrigger) {
+  ReflexPlane plane({});
+  const Reflex reflex = plane.step(wreck_in(1.4));
+  EXPECT_FALSE(reflex.triggered);
+  EXPECT_EQ(reflex.plan.policy, PolicyId::no_intervention);
+  EXPECT_NEAR(reflex.threat->time, 1.4, 0.011);
+  EXPECT_EQ(plane.decision(), std::nullopt);
+}
+
+TEST(ReflexPlane, BrakesWhenNothingWasThought) {
+  ReflexPlane plane({});
+  const Reflex reflex = plane.step(wreck_in(1.28));
+  EXPECT_TRUE(reflex.triggered);
+  EXPECT_EQ(reflex.plan.policy, PolicyId::aeb);
+  EXPECT_EQ(plane.decision()->source, Source::fallback);
+  EXPECT_EQ(plane.decision()->similarity, std::nullopt);
+}
+
+TEST(ReflexPlane, CarriesOutThePlanOfTheSituationThatCame) {
+  ReflexPlane plane({});
+  plane.receive(one_plan(wreck_in(1.3), PolicyId::aes_left));
+  const Reflex reflex = plane.step(wreck_in(1.29));
+  EXPECT_EQ(reflex.plan.policy, PolicyId::aes_left);
+  EXPECT_EQ(plane.decision()->source, Source::model);
+  EXPECT_EQ(plane.decision()->preview, 3);
+  EXPECT_GT(plane.decision()->similarity.value(), match_similarity);
+}
+
+TEST(ReflexPlane, BrakesWhenAnotherSituationCame) {
+  ReflexPlane plane({});
+  Scene other = wreck_in(1.3);
+  other.actors[0].kind = world::ActorKind::truck;
+  other.actors[0].v_W = {0.0, -9.0};
+  plane.receive(one_plan(other, PolicyId::aes_left));
+  const Reflex reflex = plane.step(wreck_in(1.29));
+  EXPECT_EQ(reflex.plan.policy, PolicyId::aeb);
+  EXPECT_EQ(plane.decision()->source, Source::fallback);
+  EXPECT_TRUE(plane.decision()->similarity.has_value());
+}
+
+TEST(ReflexPlane, IsNeverKnowinglyWorseThanBraking) {
+  ReflexPlane plane({});
+  plane.receive(one_plan(wreck_in(1.3), PolicyId::aes_left, true));
+  EXPECT_EQ(plane.step(wreck_in(1.29)).plan.policy, PolicyId::aeb);
+  EXPECT_TRUE(plane.decision()->gave_way_to_aeb);
+}
+
+TEST(ReflexPlane, TakesTheMostSimilarOfSeveral) {
+  Scene other = wreck_in(1.3);
+  other.actors[0].X_WA.p.y = 0.4;
+  PlanCache cache = one_plan(other, PolicyId::aes_right);
+  cache.push_back(one_plan(wreck_in(1.29), PolicyId::aes_left)[0]);
+  ReflexPlane plane({});
+  plane.receive(cache);
+  EXPECT_EQ(plane.step(wreck_in(1.29)).plan.policy, PolicyId::aes_left);
+}
+
+TEST(ReflexPlane, KeepsItsPlan) {
+  ReflexPlane plane({});
+  (void)plane.step(wreck_in(1.2));
+  plane.receive(one_plan(wreck_in(1.0), PolicyId::aes_left));
+  const Reflex later = plane.step(wreck_in(1.0));
+  EXPECT_FALSE(later.triggered);
+  EXPECT_EQ(later.plan.policy, PolicyId::aeb);
+}
+
+TEST(ReflexPlane, DoesWhatTheUserAsksFor) {
+  ReflexPlane plane({}, manoeuvre::Plan{PolicyId::no_intervention, std::nullopt});
+  plane.receive(one_plan(wreck_in(1.3), PolicyId::aes_left));
+  EXPECT_EQ(plane.step(wreck_in(1.2)).plan.policy, PolicyId::no_intervention);
+  EXPECT_EQ(plane.decision()->source, Source::forced);
+}
+
+TEST(ReflexPlane, LeavesABrokenSceneAside) {
+  ReflexPlane plane({});
+  Scene broken = wreck_in(0.5);
+  broken.actors[0].v_W.x = std::numeric_limits<double>::quiet_NaN();
+  const Reflex reflex = plane.step(broken);
+  EXPECT_TRUE(reflex.refused_scene);
+  EXPECT_EQ(reflex.plan.policy, PolicyId::no_intervention);
+  EXPECT_TRUE(plane.step(wreck_in(0.5)).triggered);  // the next good one counts
+  EXPECT_EQ(plane.step(broken).plan.policy, PolicyId::aeb);
+}
+
+TEST(ReflexPlane, AllocatesNothing) {
+  Scene crowded = wreck_in(2.0);
+  for (std::uint8_t id = 2; id <= world::max_actors; ++id) {
+    crowded.actors.push_back(car(id, {30.0 + 6.0 * id, id % 2 == 0 ? 3.5 : -4.0}, {10.0, 0.3}));
+  }
+  PlanCache cache;
+  while (!cache.full()) {
+    cache.push_back(one_plan(crowded, PolicyId::aes_left)[0]);
+  }
+  Scene now = crowded;
+  now.actors[0].X_WA.p.x -= 15.0;
+  ReflexPlane plane({});
+  const std::size_t before = num_allocations;
+  plane.receive(cache);
+  (void)plane.step(crowded);
+  const Reflex reflex = plane.step(now);
+  EXPECT_EQ(num_allocations, before);
+  EXPECT_TRUE(reflex.triggered);
+}
+
+}  // namespace
+}  // namespace saca::decide

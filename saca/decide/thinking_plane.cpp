@@ -1,0 +1,287 @@
+#include "saca/decide/thinking_plane.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "saca/core/contract.h"
+#include "saca/decide/reflex_plane.h"
+#include "saca/memory/similarity.h"
+#include "saca/reason/prompt.h"
+#include "saca/reason/reply.h"
+
+namespace saca::decide {
+namespace {
+
+using manoeuvre::PolicyId;
+using Seconds = std::chrono::duration<double>;
+
+constexpr double provided_similarity = 0.95;  // well inside what the trigger will accept
+constexpr double least_thinking_time = 0.15;  // [s]: a model asked later than this cannot answer
+constexpr double handover_margin = 0.05;  // [s] before the trigger at which the model must be done
+
+std::string probabilities(const intent::IntentPosterior& posterior) {
+  std::string text;
+  for (const intent::Intention intention : intent::all_intentions) {
+    const double p = posterior[static_cast<std::size_t>(intention)];
+    if (p >= 0.05) {
+      text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", name(intention), 100.0 * p);
+    }
+  }
+  return text;
+}
+
+PolicyId choice(const reason::Answer& answer) {
+  const auto best = std::max_element(answer.probability.begin(), answer.probability.end());
+  return manoeuvre::all_policies[static_cast<std::size_t>(best - answer.probability.begin())];
+}
+
+}  // namespace
+
+/// What one round shares among its steps.
+struct ThinkingPlane::Round {
+  const world::Scene& scene;
+  Clock::Time scene_at;
+  const Clock& clock;
+
+  [[nodiscard]] double time_of(Clock::Time at) const {
+    return scene.time + Seconds(at - scene_at).count();
+  }
+  [[nodiscard]] double now() const { return time_of(clock.now()); }
+  [[nodiscard]] Clock::Time clock_at(double time) const {
+    return scene_at + std::chrono::duration_cast<Clock::Time>(Seconds(time - scene.time));
+  }
+};
+
+ThinkingPlane::ThinkingPlane(const ThinkingTools& tools, const preview::Thresholds& thresholds,
+                             ThinkingOutput output)
+    : tools_(tools), thresholds_(thresholds), output_(std::move(output)) {
+  expects(tools.car != nullptr && tools.harm != nullptr && tools.clock != nullptr,
+          "car, harm and clock are given");
+  expects(output_.publish && output_.event && output_.reasoning, "every output goes somewhere");
+}
+
+void ThinkingPlane::tell(const Round& round, EventKind kind, std::string text) const {
+  output_.event({round.now(), Plane::thinking, kind, std::move(text)});
+}
+
+void ThinkingPlane::describe_scene(const Round& round, const preview::Threat& threat) const {
+  const world::Scene& scene = round.scene;
+  tell(round, EventKind::preview,
+       fmt::format("{} may be in conflict with the ego in {:.1f} s: preview starts",
+                   actor_name(scene.actors[threat.actor]), threat.time));
+  for (const world::Actor& actor : scene.actors) {
+    const reach::ObstacleRisk risk = reach::obstacle_risk(scene, actor);
+    tell(round, EventKind::risk,
+         fmt::format("{}: risk {:.2f}, {}", actor_name(actor), risk.risk, explanation(risk)));
+    tell(round, EventKind::intention,
+         fmt::format("{}: {}", actor_name(actor), probabilities(intent::posterior(scene, actor))));
+  }
+}
+
+bool ThinkingPlane::think(const world::Scene& scene, Clock::Time scene_at) {
+  if (world::broken_rule(scene)) {
+    return false;
+  }
+  const auto threat = preview::previewed_threat(scene, thresholds_);
+  if (!threat) {
+    return false;
+  }
+  const Round round{scene, scene_at, *tools_.clock};
+  if (previews_.empty()) {
+    describe_scene(round, *threat);
+  }
+  std::vector<std::size_t> fresh;
+  std::vector<std::size_t> now;
+  for (preview::Situation& situation :
+       preview::situations(scene, thresholds_, *tools_.car, *tools_.harm)) {
+    if (Preview* const known = provided_for(situation)) {
+      known->newest_scene = situation.scene_at_trigger;
+      known->worse_than_aeb = known->plan && !check(known->plan->policy, situation).passed;
+      now.push_back(static_cast<std::size_t>(known - previews_.data()));
+      continue;
+    }
+    fresh.push_back(previews_.size());
+    now.push_back(previews_.size());
+    Preview preview;
+    preview.number = static_cast<std::int32_t>(previews_.size());
+    preview.newest_scene = situation.scene_at_trigger;
+    preview.situation = std::move(situation);
+    previews_.push_back(std::move(preview));
+  }
+  current_.insert(current_.begin(), now.begin(), now.end());
+  for (std::size_t i = 0; i < current_.size(); ++i) {  // newest first, each once
+    current_.erase(std::remove(current_.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                               current_.end(), current_[i]),
+                   current_.end());
+  }
+
+  std::vector<std::size_t> unanswered;
+  for (const std::size_t i : fresh) {
+    Preview& preview = previews_[i];
+    std::string combination;
+    for (std::size_t k = 0; k < scene.actors.size(); ++k) {
+      combination += fmt::format("{}{} {}", k == 0 ? "" : ", ", actor_name(scene.actors[k]),
+                                 name(preview.situation.intentions[k]));
+    }
+    tell(round, EventKind::forecast,
+         fmt::format("forecast {} ({:.0f} %): {}; trigger at {:.2f} s", preview.number + 1,
+                     100.0 * preview.situation.probability, combination,
+                     preview.situation.scene_at_trigger.time));
+    consult_memory(round, preview);
+    if (!preview.plan) {
+      unanswered.push_back(i);
+    }
+  }
+  publish(round.now());
+  if (!unanswered.empty() && tools_.model != nullptr) {
+    ask_model(round, unanswered);
+  }
+  return true;
+}
+
+Preview* ThinkingPlane::provided_for(const preview::Situation& situation) {
+  for (Preview& preview : previews_) {
+    if (memory::similarity(situation.scene_at_trigger, preview.situation.scene_at_trigger) >
+        provided_similarity) {
+      return &preview;
+    }
+  }
+  return nullptr;
+}
+
+void ThinkingPlane::consult_memory(const Round& round, Preview& preview) {
+  if (tools_.memory == nullptr) {
+    return;
+  }
+  const auto nearest = tools_.memory->nearest(preview.situation.scene_at_trigger);
+  if (!nearest.has_value()) {
+    tell(round, EventKind::fault, "memory: " + nearest.error().message);
+    return;
+  }
+  if (!nearest.value()) {
+    tell(round, EventKind::memory, "memory is empty");
+    return;
+  }
+  preview.nearest = *nearest.value();
+  preview.gate = memory::gate(preview.nearest->similarity);
+  const PolicyId policy = preview.nearest->found.best;
+  tell(round, EventKind::memory,
+       fmt::format("case {} is {:.0f} % alike, best was {} {}", preview.nearest->found.id,
+                   100.0 * preview.nearest->similarity, manoeuvre::index(policy), name(policy)));
+  if (preview.gate != memory::Gate::reason) {
+    settle(preview, policy, Source::memory, round.now(), preview.gate == memory::Gate::check);
+  }
+}
+
+void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>& which) {
+  double trigger = previews_[which.front()].situation.scene_at_trigger.time;
+  std::vector<std::string> scenes;
+  for (const std::size_t i : which) {
+    Preview& preview = previews_[i];
+    trigger = std::min(trigger, preview.situation.scene_at_trigger.time);
+    std::optional<memory::Case> nearest;
+    if (preview.nearest) {
+      nearest = preview.nearest->found;
+    }
+    preview.prompt = reason::scene_part(preview.situation, nearest,
+                                        preview.nearest ? preview.nearest->similarity : 0.0);
+    scenes.push_back(preview.prompt);
+  }
+  const double left = trigger - handover_margin - round.now();
+  if (left < least_thinking_time) {
+    tell(round, EventKind::ask, fmt::format("{:.2f} s to the trigger: too late to ask", left));
+    return;
+  }
+  tell(round, EventKind::ask,
+       fmt::format("the model is asked about {} forecast{}, {:.1f} s left", scenes.size(),
+                   scenes.size() == 1 ? "" : "s", left));
+  const auto progress = [&](const reason::Progress& news) {
+    if (news.prompt >= which.size()) {
+      return;
+    }
+    Preview& preview = previews_[which[news.prompt]];
+    if (!news.text.empty()) {
+      output_.reasoning(preview.number, news.text);
+    }
+    if (news.answer != nullptr) {
+      take_answer(round, preview, *news.answer);
+    }
+  };
+  const auto replies =
+      tools_.model->ask(scenes, round.clock_at(trigger - handover_margin), progress);
+  if (!replies.has_value()) {
+    ++deadline_misses_;
+    tell(round, EventKind::fault, "model: " + replies.error().message);
+    return;
+  }
+  for (std::size_t k = 0; k < replies.value().size() && k < which.size(); ++k) {
+    Preview& preview = previews_[which[k]];
+    const reason::Reply& reply = replies.value()[k];
+    preview.reply.reasoning = reply.reasoning;
+    preview.reply.prompt_tokens = reply.prompt_tokens;
+    preview.reply.reply_tokens = reply.reply_tokens;
+    preview.faithful = reason::faithful_share(reply.reasoning, preview.prompt);
+  }
+}
+
+void ThinkingPlane::take_answer(const Round& round, Preview& preview,
+                                const reason::Answer& answer) {
+  const PolicyId policy = choice(answer);
+  const double time = round.time_of(answer.time);
+  preview.reply.answers.push_back(answer);
+  preview.reply.answers.back().time = std::chrono::duration_cast<Clock::Time>(Seconds(time));
+  output_.event(
+      {time, Plane::thinking,
+       answer.kind == reason::Answer::Kind::first ? EventKind::first_answer : EventKind::answer,
+       fmt::format("forecast {}: the model says {} {} ({:.0f} %)", preview.number + 1,
+                   manoeuvre::index(policy), name(policy),
+                   100.0 * answer.probability[manoeuvre::index(policy)])});
+  settle(preview, policy, Source::model, time, true);
+}
+
+void ThinkingPlane::settle(Preview& preview, PolicyId policy, Source source, double ready,
+                           bool needs_check) {
+  const preview::PolicyFacts& fact = preview.situation.facts[manoeuvre::index(policy)];
+  preview.check = check(policy, preview.situation);
+  if (needs_check || !preview.check->passed) {
+    output_.event({ready, Plane::thinking, EventKind::check,
+                   fmt::format("rollout check {}: {}", preview.check->passed ? "passed" : "failed",
+                               preview.check->text)});
+  }
+  if (!fact.refusal.empty() || (needs_check && !preview.check->passed)) {
+    preview.plan.reset();
+    preview.ready.reset();
+    publish(ready);
+    return;
+  }
+  if (preview.plan != fact.plan) {
+    output_.event({ready, Plane::thinking, EventKind::cached,
+                   fmt::format("forecast {}: {} {} is ready", preview.number + 1,
+                               manoeuvre::index(policy), name(policy))});
+  }
+  preview.plan = fact.plan;
+  preview.worse_than_aeb = !preview.check->passed;
+  preview.source = source;
+  preview.ready = ready;
+  publish(ready);
+}
+
+void ThinkingPlane::publish(double ready) const {
+  PlanCache cache;
+  for (const std::size_t i : current_) {
+    const Preview& preview = previews_[i];
+    if (!preview.plan || cache.full()) {
+      continue;
+    }
+    cache.push_back({.scene_at_trigger = preview.newest_scene,
+                     .plan = *preview.plan,
+                     .source = preview.source,
+                     .worse_than_aeb = preview.worse_than_aeb,
+                     .preview = preview.number});
+  }
+  output_.publish(cache, ready);
+}
+
+}  // namespace saca::decide

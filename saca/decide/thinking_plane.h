@@ -1,0 +1,78 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "saca/core/clock.h"
+#include "saca/decide/event.h"
+#include "saca/decide/plan_cache.h"
+#include "saca/memory/store.h"
+#include "saca/outcome/harm.h"
+#include "saca/preview/preview.h"
+#include "saca/preview/threat.h"
+#include "saca/reason/language_model.h"
+#include "saca/vehicle/vehicle.h"
+
+namespace saca::decide {
+
+/// What the thinking plane works with. Whatever it points to outlives the plane.
+struct ThinkingTools {
+  const vehicle::Vehicle* car = nullptr;
+  const outcome::HarmModel* harm = nullptr;
+  memory::Store* memory = nullptr;         ///< nullptr: without memory
+  reason::LanguageModel* model = nullptr;  ///< nullptr: without language model
+  Clock* clock = nullptr;                  ///< the one that the model's deadlines are on
+};
+
+/// Where what was thought goes; called on the thread that thinks.
+struct ThinkingOutput {
+  std::function<void(const PlanCache&, double ready)> publish;  ///< plans, and since when [s]
+  std::function<void(const Event&)> event;
+  std::function<void(std::int32_t preview, std::string_view text)> reasoning;  ///< streamed
+};
+
+/// The plane that may be slow and may fail. Each round looks at the newest scene, forecasts the
+/// likely situations at the trigger, and finds a plan for each that is not yet provided for: from
+/// memory, or by asking the language model.
+///
+/// Algorithm 1 of the paper, its first half. Not thread-safe: one thread thinks.
+class ThinkingPlane {
+ public:
+  ThinkingPlane(const ThinkingTools& tools, const preview::Thresholds& thresholds,
+                ThinkingOutput output);
+
+  /// One round.
+  ///
+  /// @param scene     the newest one
+  /// @param scene_at  when, on the clock, scene.time was
+  /// @return          false when nothing threatens within T2: nothing was done
+  bool think(const world::Scene& scene, Clock::Time scene_at);
+
+  /// All that was thought so far, in order.
+  [[nodiscard]] const std::vector<Preview>& previews() const { return previews_; }
+
+  /// How often the model had no answer in time.
+  [[nodiscard]] int deadline_misses() const { return deadline_misses_; }
+
+ private:
+  struct Round;
+
+  void tell(const Round& round, EventKind kind, std::string text) const;
+  void describe_scene(const Round& round, const preview::Threat& threat) const;
+  [[nodiscard]] Preview* provided_for(const preview::Situation& situation);
+  void consult_memory(const Round& round, Preview& preview);
+  void ask_model(const Round& round, const std::vector<std::size_t>& which);
+  void take_answer(const Round& round, Preview& preview, const reason::Answer& answer);
+  void settle(Preview& preview, manoeuvre::PolicyId policy, Source source, double ready,
+              bool needs_check);
+  void publish(double ready) const;
+
+  ThinkingTools tools_;
+  preview::Thresholds thresholds_;
+  ThinkingOutput output_;
+  std::vector<Preview> previews_;
+  std::vector<std::size_t> current_;  ///< indices into previews_, those of the last round
+  int deadline_misses_ = 0;
+};
+
+}  // namespace saca::decide

@@ -1,0 +1,221 @@
+#include "saca/decide/thinking_plane.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "saca/manoeuvre/ego.h"
+#include "saca/vehicle/parameters.h"
+
+namespace saca::decide {
+namespace {
+
+using manoeuvre::PolicyId;
+using reason::Answer;
+using testing::HasSubstr;
+using world::Actor;
+using world::Scene;
+
+/// Answers with one policy, first and at the end; or not at all.
+class FixedModel final : public reason::LanguageModel {
+ public:
+  explicit FixedModel(std::optional<PolicyId> says, Clock& clock) : says_(says), clock_(clock) {}
+
+  Result<std::vector<reason::Reply>> ask(
+      const std::vector<std::string>& scenes, Clock::Time deadline,
+      const std::function<void(const reason::Progress&)>& progress) override {
+    ++num_asked;
+    last_deadline = deadline;
+    prompts = scenes;
+    if (!says_) {
+      return Error{Error::Code::too_late, "no answer"};
+    }
+    std::vector<reason::Reply> replies;
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      Answer answer{.time = clock_.now(), .kind = Answer::Kind::first};
+      answer.probability.fill(0.02);
+      answer.probability[manoeuvre::index(*says_)] = 0.86;
+      progress({.prompt = i, .text = {}, .answer = &answer});
+      progress({.prompt = i, .text = "because."});
+      answer.kind = Answer::Kind::ended;
+      progress({.prompt = i, .text = {}, .answer = &answer});
+      replies.push_back({.reasoning = "because.", .answers = {answer}, .reply_tokens = 2});
+    }
+    return replies;
+  }
+  [[nodiscard]] std::string description() const override { return "fixed"; }
+
+  int num_asked = 0;
+  Clock::Time last_deadline{0};
+  std::vector<std::string> prompts;
+
+ private:
+  std::optional<PolicyId> says_;
+  Clock& clock_;
+};
+
+class Thinking : public testing::Test {
+ protected:
+  /// A wreck that fills the ego's lane, 70 m ahead at 20 m/s; one lane to the left, one to the right.
+  static Scene wreck_ahead() {
+    Scene scene;
+    scene.ego.v_B = {20.0, 0.0};
+    scene.ego_footprint = manoeuvre::footprint(car());
+    scene.ego_mass = car().mass;
+    scene.road.left_edge = 5.25;
+    scene.road.right_edge = -5.25;
+    scene.grip = 0.5;  // braking alone does not stop in 26 m
+    Actor wreck{.id = 1, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1'500.0};
+    wreck.X_WA.p = {70.0, 0.0};
+    scene.actors.push_back(wreck);
+    return scene;
+  }
+  static const vehicle::Vehicle& car() {
+    static const vehicle::Vehicle it =
+        vehicle::read_vehicle("data/vehicles/compact_rwd_ev.toml").value();
+    return it;
+  }
+
+  ThinkingPlane plane(reason::LanguageModel* model, memory::Store* memory = nullptr) {
+    return {{.car = &car(), .harm = &harm_, .memory = memory, .model = model, .clock = &clock_},
+            {},
+            {.publish = [this](const PlanCache& plans, double) { published_.push_back(plans); },
+             .event = [this](const Event& event) { events_.push_back(event); },
+             .reasoning = [this](std::int32_t, std::string_view text) { text_ += text; }}};
+  }
+  [[nodiscard]] std::size_t count(EventKind kind) const {
+    return static_cast<std::size_t>(
+        std::count_if(events_.begin(), events_.end(),
+                      [&](const Event& event) { return event.kind == kind; }));
+  }
+
+  ManualClock clock_;
+  outcome::HarmModel harm_ = outcome::read_harm("data/harm.toml").value();
+  std::vector<PlanCache> published_;
+  std::vector<Event> events_;
+  std::string text_;
+};
+
+TEST_F(Thinking, StaysSilentWhereNothingThreatens) {
+  FixedModel model(PolicyId::aeb, clock_);
+  ThinkingPlane thinking = plane(&model);
+  Scene empty = wreck_ahead();
+  empty.actors.clear();
+  EXPECT_FALSE(thinking.think(empty, clock_.now()));
+  EXPECT_EQ(model.num_asked, 0);
+  EXPECT_TRUE(events_.empty());
+}
+
+TEST_F(Thinking, CachesWhatTheModelChoosesAndTheRolloutConfirms) {
+  FixedModel model(PolicyId::aes_left, clock_);
+  ThinkingPlane thinking = plane(&model);
+  EXPECT_TRUE(thinking.think(wreck_ahead(), clock_.now()));
+  ASSERT_EQ(thinking.previews().size(), 1U);
+  const Preview& preview = thinking.previews()[0];
+  ASSERT_TRUE(preview.check->passed) << preview.check->text;
+  EXPECT_EQ(preview.plan->policy, PolicyId::aes_left);
+  EXPECT_EQ(preview.reply.answers.size(), 2U);
+  ASSERT_EQ(published_.back().size(), 1U);
+  EXPECT_EQ(published_.back()[0].plan.policy, PolicyId::aes_left);
+  EXPECT_FALSE(published_.back()[0].worse_than_aeb);
+  EXPECT_EQ(text_, "because.");
+}
+
+TEST_F(Thinking, NeverCachesWhatFailsTheCheck) {
+  FixedModel model(PolicyId::no_intervention, clock_);  // drives into the wreck at 20 m/s
+  ThinkingPlane thinking = plane(&model);
+  thinking.think(wreck_ahead(), clock_.now());
+  EXPECT_FALSE(thinking.previews()[0].check->passed);
+  EXPECT_FALSE(thinking.previews()[0].plan.has_value());
+  EXPECT_TRUE(published_.back().empty());
+}
+
+TEST_F(Thinking, NeverCachesWhatCannotBeDriven) {
+  FixedModel model(PolicyId::t_drift_right, clock_);
+  ThinkingPlane thinking = plane(&model);
+  thinking.think(wreck_ahead(), clock_.now());
+  EXPECT_FALSE(thinking.previews()[0].plan.has_value());
+}
+
+TEST_F(Thinking, ASilentModelLeavesNothingBehindButARecord) {
+  FixedModel model(std::nullopt, clock_);
+  ThinkingPlane thinking = plane(&model);
+  EXPECT_TRUE(thinking.think(wreck_ahead(), clock_.now()));
+  EXPECT_EQ(thinking.deadline_misses(), 1);
+  EXPECT_EQ(count(EventKind::fault), 1U);
+  EXPECT_TRUE(published_.back().empty());
+}
+
+TEST_F(Thinking, TheDeadlineIsTheTrigger) {
+  FixedModel model(PolicyId::aeb, clock_);
+  ThinkingPlane thinking = plane(&model);
+  thinking.think(wreck_ahead(), clock_.now());
+  const double deadline = std::chrono::duration<double>(model.last_deadline).count();
+  // 70 m less half a wreck and the ego's front, at 20 m/s, less T1 and the margin of 50 ms.
+  EXPECT_NEAR(deadline, (70.0 - 4.5) / 20.0 - 1.3 - 0.05, 0.011);
+}
+
+TEST_F(Thinking, DoesNotAskTwiceAboutTheSameSituation) {
+  FixedModel model(PolicyId::aes_left, clock_);
+  ThinkingPlane thinking = plane(&model);
+  Scene scene = wreck_ahead();
+  for (int k = 0; k < 5; ++k) {
+    thinking.think(scene, clock_.now());
+    scene.time += 0.1;
+    scene.ego.X_WB.p.x += 2.0;
+    clock_.advance(std::chrono::milliseconds(100));
+  }
+  EXPECT_EQ(model.num_asked, 1);
+  EXPECT_EQ(thinking.previews().size(), 1U);
+  EXPECT_EQ(published_.back().size(), 1U);
+}
+
+TEST_F(Thinking, IsNotAskedWhenItWouldBeTooLate) {
+  FixedModel model(PolicyId::aes_left, clock_);
+  ThinkingPlane thinking = plane(&model);
+  Scene scene = wreck_ahead();
+  scene.actors[0].X_WA.p.x = 31.0;  // 26.5 m, 1.33 s
+  thinking.think(scene, clock_.now());
+  EXPECT_EQ(model.num_asked, 0);
+}
+
+TEST_F(Thinking, UsesAKnownCaseWithoutAsking) {
+  const std::filesystem::path file =
+      std::filesystem::path(testing::TempDir()) / "saca_thinking.sqlite";
+  std::filesystem::remove(file);
+  auto opened = memory::Store::open(file);
+  ASSERT_TRUE(opened.has_value());
+  memory::Store store = std::move(opened).value();
+  FixedModel model(PolicyId::aeb, clock_);
+  {
+    ThinkingPlane before = plane(&model, &store);  // to learn what the trigger looks like
+    before.think(wreck_ahead(), clock_.now());
+    ASSERT_EQ(model.num_asked, 1);
+    ASSERT_TRUE(store
+                    .add({.scene = before.previews()[0].situation.scene_at_trigger,
+                          .plan = {PolicyId::aeb, std::nullopt},
+                          .best = PolicyId::aes_left,
+                          .review = "",
+                          .source = "test"})
+                    .has_value());
+  }
+  ThinkingPlane thinking = plane(&model, &store);
+  thinking.think(wreck_ahead(), clock_.now());
+  EXPECT_EQ(model.num_asked, 1);
+  EXPECT_EQ(thinking.previews()[0].gate, memory::Gate::cache);
+  EXPECT_EQ(thinking.previews()[0].source, Source::memory);
+  EXPECT_EQ(published_.back()[0].plan.policy, PolicyId::aes_left);
+  std::filesystem::remove(file);
+}
+
+TEST_F(Thinking, RefusesABrokenScene) {
+  ThinkingPlane thinking = plane(nullptr);
+  Scene broken = wreck_ahead();
+  broken.grip = std::nan("");
+  EXPECT_FALSE(thinking.think(broken, clock_.now()));
+}
+
+}  // namespace
+}  // namespace saca::decide

@@ -1,0 +1,466 @@
+#include "saca/loop/encounter.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "saca/core/latest_slot.h"
+#include "saca/core/names.h"
+#include "saca/decide/thinking_plane.h"
+#include "saca/loop/thinking_thread.h"
+#include "saca/loop/witness.h"
+#include "saca/manoeuvre/controller.h"
+#include "saca/manoeuvre/drive.h"
+#include "saca/outcome/describe.h"
+#include "saca/preview/preview.h"
+#include "saca/sim/stepper.h"
+
+namespace saca::loop {
+namespace {
+
+using decide::Event;
+using decide::EventKind;
+using decide::Plane;
+using manoeuvre::PolicyId;
+using world::Scene;
+
+constexpr std::array<std::string_view, 2> pace_names{"real", "lockstep"};
+constexpr std::array<std::string_view, 3> phase_names{"recorded", "driving", "manoeuvre"};
+
+constexpr int steps_per_look = 10;    // 100 Hz
+constexpr int looks_per_frame = 2;    // 50 Hz
+constexpr double rest_after_end = 1.0;  // [s] that the film goes on after a manoeuvre's end
+
+Clock::Time duration(double seconds) {
+  return std::chrono::duration_cast<Clock::Time>(std::chrono::duration<double>(seconds));
+}
+
+std::string policy_text(const manoeuvre::Plan& plan) {
+  std::string text = fmt::format("{} {}", manoeuvre::index(plan.policy), name(plan.policy));
+  if (plan.target_speed) {
+    text += fmt::format(" to {:.1f} m/s", *plan.target_speed);
+  }
+  return text;
+}
+
+/// Thinking in pace `lockstep`: on the same thread, its results held back until their time.
+class ChargedThinking {
+ public:
+  ChargedThinking(const Setup& setup, ManualClock& clock) : setup_(setup), clock_(clock) {}
+
+  /// Thinks about the scene unless the last round is still being charged.
+  void think(decide::ThinkingPlane& plane, const Scene& scene) {
+    if (scene.time < free_at_) {
+      return;
+    }
+    clock_.wait_until(duration(scene.time + setup_.costs.preview));
+    if (plane.think(scene, duration(scene.time))) {
+      free_at_ = std::max(free_at_, scene.time + std::max(setup_.costs.preview, shortest_round));
+    }
+  }
+  void publish(const decide::PlanCache& plans, double ready) {
+    waiting_.emplace_back(ready, plans);
+    free_at_ = std::max(free_at_, ready);
+  }
+  /// The newest plans that are ready by now.
+  std::optional<decide::PlanCache> take(double now) {
+    std::optional<decide::PlanCache> newest;
+    while (!waiting_.empty() && waiting_.front().first <= now) {
+      newest = waiting_.front().second;
+      waiting_.pop_front();
+    }
+    return newest;
+  }
+
+ private:
+  static constexpr double shortest_round = 0.05;  // [s]
+
+  const Setup& setup_;
+  ManualClock& clock_;
+  std::deque<std::pair<double, decide::PlanCache>> waiting_;
+  double free_at_ = 0.0;
+};
+
+/// One encounter under way.
+class Encounter {
+ public:
+  Encounter(const Setup& setup, Listener& listener)
+      : setup_(setup),
+        listener_(listener),
+        charged_model_(setup.model == nullptr
+                           ? nullptr
+                           : std::make_unique<ChargedModel>(*setup.model, setup.costs,
+                                                            *setup.clock, simulated_clock_)),
+        charged_(setup, simulated_clock_),
+        stepper_(*setup.scenario, *setup.car),
+        witness_(*setup.harm),
+        reflex_(setup.thresholds, forced_plan(setup)),
+        plane_(tools(), setup.thresholds, output()) {}
+
+  Result<Record> play();
+
+ private:
+  [[nodiscard]] bool real() const { return setup_.pace == Pace::real; }
+  static std::optional<manoeuvre::Plan> forced_plan(const Setup& setup);
+  [[nodiscard]] decide::ThinkingTools tools();
+  [[nodiscard]] decide::ThinkingOutput output();
+
+  void tell(Plane plane, EventKind kind, std::string text);
+  [[nodiscard]] std::optional<Error> look();
+  [[nodiscard]] std::optional<Error> wake(const Scene& scene);
+  decide::Reflex react(const Scene& scene);
+  void hand_over_plans();
+  void execute(const Scene& scene);
+  void film(const Scene& scene, const decide::Reflex& reflex);
+  [[nodiscard]] bool over() const;
+  void conclude();
+  void compare_with_driver();
+  void learn();
+
+  const Setup& setup_;
+  Listener& listener_;
+  Record record_;
+  ManualClock simulated_clock_;
+  std::unique_ptr<ChargedModel> charged_model_;
+  ChargedThinking charged_;
+  sim::Stepper stepper_;
+  Witness witness_;
+  decide::ReflexPlane reflex_;
+  LatestSlot<TimedScene> scenes_;
+  LatestSlot<decide::PlanCache> plans_;
+  std::mutex thinking_events_lock_;  // of the thinking thread and the end of the run only
+  std::vector<Event> thinking_events_;
+  decide::ThinkingPlane plane_;
+
+  Clock::Time start_{0};
+  int num_looks_ = 0;
+  std::optional<double> woke_;   ///< when SACA took the wheel [s]
+  std::optional<double> ended_;  ///< when the manoeuvre was finished [s]
+  bool contact_ = false;
+  manoeuvre::Plan plan_{PolicyId::no_intervention, std::nullopt};
+  manoeuvre::ControllerState controller_;
+  std::vector<double> reflex_times_;
+  std::vector<world::Track> tracks_at_trigger_;
+};
+
+std::optional<manoeuvre::Plan> Encounter::forced_plan(const Setup& setup) {
+  if (!setup.forced) {
+    return std::nullopt;
+  }
+  return manoeuvre::Plan{*setup.forced, std::nullopt};  // its target speed is set at the trigger
+}
+
+decide::ThinkingTools Encounter::tools() {
+  decide::ThinkingTools tools{.car = setup_.car,
+                              .harm = setup_.harm,
+                              .memory = setup_.memory,
+                              .model = setup_.model,
+                              .clock = setup_.clock};
+  if (!real()) {
+    tools.model = charged_model_.get();
+    tools.clock = &simulated_clock_;
+  }
+  return tools;
+}
+
+decide::ThinkingOutput Encounter::output() {
+  return {.publish =
+              [this](const decide::PlanCache& plans, double ready) {
+                real() ? plans_.publish(plans) : charged_.publish(plans, ready);
+              },
+          .event =
+              [this](const Event& event) {
+                {
+                  const std::lock_guard guard(thinking_events_lock_);
+                  thinking_events_.push_back(event);
+                }
+                listener_.on_event(event);
+              },
+          .reasoning =
+              [this](std::int32_t preview, std::string_view text) {
+                listener_.on_reasoning(preview, text);
+              }};
+}
+
+void Encounter::tell(Plane plane, EventKind kind, std::string text) {
+  record_.events.push_back({stepper_.time(), plane, kind, std::move(text)});
+  listener_.on_event(record_.events.back());
+}
+
+Result<Record> Encounter::play() {
+  reflex_times_.reserve(static_cast<std::size_t>(setup_.scenario->duration * 100.0) + 2);
+  start_ = setup_.clock->now();
+  {
+    std::unique_ptr<ThinkingThread> thread;
+    if (real()) {
+      thread = std::make_unique<ThinkingThread>(plane_, scenes_, *setup_.clock);
+    }
+    while (!over()) {
+      if (const auto problem = look()) {
+        return *problem;
+      }
+      for (int k = 0; k < steps_per_look; ++k) {
+        vehicle::Command command;
+        if (stepper_.driven()) {
+          command = manoeuvre::control(*setup_.car, plan_, setup_.scenario->road,
+                                       setup_.scenario->grip, stepper_.car_state(), controller_,
+                                       sim::Stepper::step);
+        }
+        stepper_.advance(command);
+      }
+      if (real()) {
+        setup_.clock->wait_until(start_ + duration(stepper_.time()));
+      }
+    }
+  }
+  conclude();
+  return std::move(record_);
+}
+
+std::optional<Error> Encounter::look() {
+  const Scene scene = stepper_.scene();
+  if (const auto rule = world::broken_rule(scene)) {
+    return Error{Error::Code::out_of_range, setup_.scenario->name + ": at " +
+                                                fmt::format("{:.2f} s", scene.time) +
+                                                ": a scene must hold: " + std::string(*rule)};
+  }
+  if (!woke_) {
+    if (const auto problem = wake(scene)) {
+      return problem;
+    }
+  }
+  const decide::Reflex reflex = react(scene);
+  if (reflex.triggered) {
+    execute(scene);
+  }
+  if (woke_) {
+    if (const auto met = witness_.look(stepper_)) {
+      contact_ = true;
+      record_.met.assign(met->actors.begin(), met->actors.end());
+    }
+  }
+  if (num_looks_ % looks_per_frame == 0 || contact_ || reflex.triggered) {
+    film(scene, reflex);
+  }
+  if (record_.decision && !ended_ &&
+      manoeuvre::finished(plan_, stepper_.car_state(), controller_)) {
+    ended_ = scene.time;
+    tell(Plane::world, EventKind::rest,
+         norm(scene.ego.v_B) < 0.1 ? "the ego is at rest"
+                                   : fmt::format("lane change recovered at {:.1f} m/s",
+                                                 norm(scene.ego.v_B)));
+  }
+  ++num_looks_;
+  return std::nullopt;
+}
+
+std::optional<Error> Encounter::wake(const Scene& scene) {
+  const auto threat = preview::previewed_threat(scene, setup_.thresholds);
+  if (!threat) {
+    return std::nullopt;
+  }
+  if (const auto refused = manoeuvre::refusal(plan_, scene)) {
+    return Error{Error::Code::out_of_range, setup_.scenario->name + ": SACA cannot drive from " +
+                                                fmt::format("{:.2f} s", scene.time) + " on: " +
+                                                *refused};
+  }
+  woke_ = scene.time;
+  stepper_.take_the_wheel();
+  controller_ = manoeuvre::begin(*setup_.car, plan_, scene);
+  tell(Plane::world, EventKind::preview,
+       fmt::format("T2: {} within {:.1f} s of a conflict; SACA drives from here, at {:.1f} m/s",
+                   actor_name(scene.actors[threat->actor]), threat->time, norm(scene.ego.v_B)));
+  return std::nullopt;
+}
+
+decide::Reflex Encounter::react(const Scene& scene) {
+  if (woke_ && !record_.decision) {
+    if (real()) {
+      scenes_.publish({scene, start_ + duration(scene.time)});
+    } else {
+      charged_.think(plane_, scene);
+    }
+  }
+  hand_over_plans();
+  const Clock::Time before = setup_.clock->now();
+  const decide::Reflex reflex = woke_ ? reflex_.step(scene) : decide::Reflex{};
+  if (woke_) {
+    reflex_times_.push_back(
+        std::chrono::duration<double>(setup_.clock->now() - before).count());
+  }
+  return reflex;
+}
+
+void Encounter::hand_over_plans() {
+  if (!real()) {
+    if (const auto plans = charged_.take(stepper_.time())) {
+      reflex_.receive(*plans);
+    }
+    return;
+  }
+  decide::PlanCache plans;
+  if (plans_.take(plans)) {
+    reflex_.receive(plans);
+  }
+}
+
+void Encounter::execute(const Scene& scene) {
+  decide::Decision decision = *reflex_.decision();
+  tell(Plane::reflex, EventKind::trigger,
+       fmt::format("T1: {:.1f} s to the conflict", setup_.thresholds.trigger));
+  tell(Plane::reflex, EventKind::match, decision_text(decision));
+  if (decision.source == decide::Source::forced) {
+    decision.plan = manoeuvre::default_plan(decision.plan.policy, norm(scene.ego.v_B));
+  }
+  if (const auto refused = manoeuvre::refusal(decision.plan, scene)) {
+    tell(Plane::reflex, EventKind::fault,
+         policy_text(decision.plan) + " cannot be driven: " + *refused);
+    decision.plan = {PolicyId::aeb, std::nullopt};
+    decision.source = decide::Source::fallback;
+  }
+  plan_ = decision.plan;
+  controller_ = manoeuvre::begin(*setup_.car, plan_, scene);
+  tell(Plane::reflex, EventKind::execute,
+       fmt::format("policy {} ({})", policy_text(plan_), name(decision.source)));
+  record_.decision = decision;
+  record_.at_trigger = scene;
+  tracks_at_trigger_ = stepper_.tracks();
+}
+
+void Encounter::film(const Scene& scene, const decide::Reflex& reflex) {
+  const Phase phase = record_.decision ? Phase::manoeuvre
+                      : woke_          ? Phase::driving
+                                       : Phase::recorded;
+  std::optional<double> conflict;
+  if (reflex.threat) {
+    conflict = reflex.threat->time;
+  }
+  record_.frames.push_back({.phase = phase,
+                            .scene = scene,
+                            .steering = stepper_.driven() ? stepper_.car_state().steering : 0.0,
+                            .conflict = conflict});
+}
+
+bool Encounter::over() const {
+  return contact_ || stepper_.over() || (ended_ && stepper_.time() > *ended_ + rest_after_end);
+}
+
+void Encounter::conclude() {
+  record_.result = witness_.outcome();
+  if (contact_) {
+    tell(Plane::world, EventKind::contact,
+         outcome::describe(record_.result, record_.met));
+  }
+  if (record_.decision) {
+    record_.hindsight = hindsight(*record_.at_trigger, tracks_at_trigger_, setup_.scenario->grip,
+                                  *setup_.car, *setup_.harm);
+    std::array<preview::PolicyFacts, manoeuvre::num_policies> facts;
+    std::transform(record_.hindsight->begin(), record_.hindsight->end(), facts.begin(),
+                   [](const Hindsight& one) { return one.facts; });
+    record_.best = preview::best_by_forecast(facts);
+  }
+  compare_with_driver();
+  {
+    const std::lock_guard guard(thinking_events_lock_);
+    record_.events.insert(record_.events.end(), thinking_events_.begin(), thinking_events_.end());
+  }
+  std::stable_sort(record_.events.begin(), record_.events.end(),
+                   [](const Event& a, const Event& b) { return a.time < b.time; });
+  record_.previews = plane_.previews();
+  record_.deadline_misses = plane_.deadline_misses();
+  if (!reflex_times_.empty()) {
+    std::sort(reflex_times_.begin(), reflex_times_.end());
+    record_.reflex = {reflex_times_.size(), reflex_times_[reflex_times_.size() / 2],
+                      reflex_times_.back()};
+  }
+  learn();
+}
+
+/// The recorded driver's own way through the same scene, from where SACA took the wheel.
+void Encounter::compare_with_driver() {
+  if (!woke_ || !std::holds_alternative<sim::Recording>(setup_.scenario->ego)) {
+    return;
+  }
+  const double recorded_until = std::get<sim::Recording>(setup_.scenario->ego).back().time;
+  sim::Stepper replay(*setup_.scenario, *setup_.car);
+  Witness witness(*setup_.harm);
+  while (!replay.over() && replay.time() <= recorded_until) {
+    if (replay.time() >= *woke_) {
+      if (const auto met = witness.look(replay)) {
+        record_.met_by_driver.assign(met->actors.begin(), met->actors.end());
+        break;
+      }
+    }
+    for (int k = 0; k < steps_per_look; ++k) {
+      replay.advance({});
+    }
+  }
+  record_.driver = witness.outcome();
+}
+
+void Encounter::learn() {
+  if (setup_.memory == nullptr || !record_.decision) {
+    return;
+  }
+  const preview::PolicyFacts& best = (*record_.hindsight)[manoeuvre::index(*record_.best)].facts;
+  const memory::Case learnt{
+      .scene = *record_.at_trigger,
+      .plan = record_.decision->plan,
+      .best = *record_.best,
+      .harm = record_.result.harm,
+      .best_harm = best.outcome.harm,
+      .collision_loss = record_.result.collision_loss,
+      .review = fmt::format("{}: {}; best {}: {}", name(record_.decision->plan.policy),
+                            outcome::describe(record_.result, record_.met), name(*record_.best),
+                            outcome::describe(best.outcome, *record_.at_trigger)),
+      .source = setup_.scenario->name};
+  const auto id = setup_.memory->add(learnt);
+  if (id.has_value()) {
+    record_.stored = id.value();
+    tell(Plane::thinking, EventKind::memory, fmt::format("stored as case {}", id.value()));
+  } else {
+    tell(Plane::thinking, EventKind::fault, "memory: " + id.error().message);
+  }
+}
+
+}  // namespace
+
+std::string_view name(Pace pace) {
+  return name_of(pace, pace_names);
+}
+
+std::string_view name(Phase phase) {
+  return name_of(phase, phase_names);
+}
+
+std::string decision_text(const decide::Decision& decision) {
+  using decide::Source;
+  if (decision.source == Source::forced) {
+    return "asked for by the user";
+  }
+  if (!decision.similarity) {
+    return "no plan is cached: emergency braking";
+  }
+  std::string text = fmt::format("the scene is {:.0f} % like forecast {}",
+                                 100.0 * *decision.similarity, *decision.preview + 1);
+  if (decision.source != Source::fallback) {
+    return text + fmt::format(": its plan, from {}, is taken", name(decision.source));
+  }
+  return text + (decision.gave_way_to_aeb
+                     ? ", whose plan is now forecast to be no better than emergency braking"
+                     : ", not more than 90 %: emergency braking");
+}
+
+Result<Record> run(const Setup& setup, Listener& listener) {
+  expects(setup.scenario != nullptr && setup.car != nullptr && setup.harm != nullptr &&
+              setup.clock != nullptr,
+          "scenario, car, harm and clock are given");
+  return Encounter(setup, listener).play();
+}
+
+}  // namespace saca::loop

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "saca/core/clock.h"
+#include "saca/core/result.h"
+#include "saca/decide/event.h"
+#include "saca/decide/reflex_plane.h"
+#include "saca/loop/charged_model.h"
+#include "saca/loop/hindsight.h"
+#include "saca/memory/store.h"
+#include "saca/outcome/harm.h"
+#include "saca/preview/threat.h"
+#include "saca/reason/language_model.h"
+#include "saca/sim/scenario.h"
+#include "saca/vehicle/vehicle.h"
+
+namespace saca::loop {
+
+/// How simulated and real time go together.
+enum class Pace : std::uint8_t {
+  real,      ///< the world goes on at wall-clock speed while SACA thinks
+  lockstep,  ///< the world waits; thinking is charged to simulated time: fast and repeatable
+};
+[[nodiscard]] std::string_view name(Pace pace);
+
+/// Everything that an encounter is run with. What it points to outlives the run.
+struct Setup {
+  const sim::Scenario* scenario = nullptr;
+  const vehicle::Vehicle* car = nullptr;
+  const outcome::HarmModel* harm = nullptr;
+  preview::Thresholds thresholds;
+  Pace pace = Pace::lockstep;
+  ThinkingCosts costs;                        ///< for lockstep
+  reason::LanguageModel* model = nullptr;     ///< nullptr: without; deadlines on `clock`
+  memory::Store* memory = nullptr;            ///< nullptr: without
+  std::optional<manoeuvre::PolicyId> forced;  ///< carried out at the trigger, whatever was thought
+  Clock* clock = nullptr;                     ///< real time
+};
+
+/// Hears the story while it happens. In pace `real` two threads call it.
+class Listener {
+ public:
+  Listener() = default;
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
+  virtual ~Listener() = default;
+  virtual void on_event(const decide::Event& event) = 0;
+  virtual void on_reasoning(std::int32_t preview, std::string_view text) = 0;
+};
+
+enum class Phase : std::uint8_t { recorded, driving, manoeuvre };
+[[nodiscard]] std::string_view name(Phase phase);
+
+/// One picture of the film, every 20 ms.
+struct Frame {
+  Phase phase = Phase::recorded;
+  world::Scene scene;
+  double steering = 0.0;            ///< of the road wheels [rad]
+  std::optional<double> conflict;   ///< time to conflict [s]
+};
+
+/// How long the reflex plane took.
+struct ReflexTiming {
+  std::size_t calls = 0;
+  double p50 = 0.0;  ///< [s]
+  double max = 0.0;  ///< [s]
+};
+
+/// One encounter from start to rest, with everything that led there.
+struct Record {
+  std::vector<Frame> frames;
+  std::vector<decide::Event> events;  ///< by time
+  std::vector<decide::Preview> previews;
+  std::optional<decide::Decision> decision;
+  std::optional<world::Scene> at_trigger;
+  outcome::Outcome result;
+  std::vector<world::Actor> met;  ///< the actors that result.contact counts in
+  std::optional<std::array<Hindsight, manoeuvre::num_policies>> hindsight;  ///< if triggered
+  std::optional<manoeuvre::PolicyId> best;
+  std::optional<outcome::Outcome> driver;  ///< what the recorded driver's own motion led to
+  std::vector<world::Actor> met_by_driver;  ///< the actors that driver->contact counts in
+  std::optional<memory::CaseId> stored;    ///< the case that memory learnt
+  ReflexTiming reflex;
+  int deadline_misses = 0;
+};
+
+/// Plays the encounter. The ego follows what the scenario gives until something threatens within T2;
+/// from there SACA drives.
+/// @return  Error::Code::out_of_range when the scenario cannot be played with this car
+[[nodiscard]] Result<Record> run(const Setup& setup, Listener& listener);
+
+/// Why this was done, in one line.
+[[nodiscard]] std::string decision_text(const decide::Decision& decision);
+
+/// The record as one JSON document, schema saca.record/1 of docs/formats.md.
+[[nodiscard]] std::string record_json(const Setup& setup, const Record& record);
+
+}  // namespace saca::loop

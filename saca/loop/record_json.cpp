@@ -1,0 +1,275 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "saca/core/units.h"
+#include "saca/loop/encounter.h"
+#include "saca/manoeuvre/ego.h"
+#include "saca/outcome/describe.h"
+#include "saca/reason/prompt.h"
+
+namespace saca::loop {
+namespace {
+
+using nlohmann::json;
+
+constexpr double path_step = 0.05;  // [s] between the points of a hindsight path
+
+json number_or_null(const std::optional<double>& number) {
+  return number ? json(*number) : json(nullptr);
+}
+
+json road_json(const world::Road& road) {
+  return {{"topology", name(road.topology)},
+          {"x_m", road.X_WL.p.x},
+          {"y_m", road.X_WL.p.y},
+          {"heading_deg", to_degrees(road.X_WL.yaw)},
+          {"curvature_1pm", road.curvature},
+          {"lane_width_m", road.lane_width},
+          {"left_edge_m", road.left_edge},
+          {"right_edge_m", road.right_edge},
+          {"left_beyond", name(road.left_beyond)},
+          {"right_beyond", name(road.right_beyond)},
+          {"oncoming_left", road.oncoming_left},
+          {"oncoming_right", road.oncoming_right}};
+}
+
+json ego_json(const world::EgoState& ego, double steering) {
+  const double speed = norm(ego.v_B);
+  constexpr double slow = 0.5;  // below, a sideslip angle says nothing
+  return {{"x_m", ego.X_WB.p.x},
+          {"y_m", ego.X_WB.p.y},
+          {"heading_deg", to_degrees(ego.X_WB.yaw)},
+          {"speed_mps", speed},
+          {"sideslip_deg", speed > slow ? to_degrees(std::atan2(ego.v_B.y, ego.v_B.x)) : 0.0},
+          {"yaw_rate_degps", to_degrees(ego.yaw_rate)},
+          {"steering_deg", to_degrees(steering)}};
+}
+
+json actors_json(const world::Scene& scene) {
+  json actors = json::array();
+  for (const world::Actor& actor : scene.actors) {
+    actors.push_back({{"id", actor_name(actor)},
+                      {"x_m", actor.X_WA.p.x},
+                      {"y_m", actor.X_WA.p.y},
+                      {"heading_deg", to_degrees(actor.X_WA.yaw)},
+                      {"speed_mps", norm(actor.v_W)}});
+  }
+  return actors;
+}
+
+json frame_json(const Frame& frame) {
+  return {{"t_s", frame.scene.time},
+          {"phase", name(frame.phase)},
+          {"ego", ego_json(frame.scene.ego, frame.steering)},
+          {"actors", actors_json(frame.scene)},
+          {"conflict_s", number_or_null(frame.conflict)}};
+}
+
+json contact_json(const outcome::Outcome& outcome, std::span<const world::Actor> actors) {
+  if (!outcome.contact) {
+    return nullptr;
+  }
+  const outcome::Contact& contact = *outcome.contact;
+  return {{"time_s", contact.time},
+          {"with", contact.actor ? actor_name(actors[*contact.actor]) : "edge"},
+          {"ego_face", name(contact.ego_face)},
+          {"other_face", contact.actor ? json(name(contact.other_face)) : json(nullptr)},
+          {"relative_speed_mps", contact.relative_speed},
+          {"x_m", contact.p_W.x},
+          {"y_m", contact.p_W.y},
+          {"ego_delta_v_mps", contact.ego_delta_v},
+          {"other_delta_v_mps", contact.other_delta_v}};
+}
+
+std::span<const world::Actor> actors_of(const world::Scene& scene) {
+  return {scene.actors.begin(), scene.actors.size()};
+}
+
+/// What a policy is forecast, or known, to end in.
+json facts_json(const preview::PolicyFacts& facts, const world::Scene& scene) {
+  const bool driven = facts.refusal.empty();
+  return {{"policy", manoeuvre::index(facts.plan.policy)},
+          {"name", name(facts.plan.policy)},
+          {"target_speed_mps", number_or_null(facts.plan.target_speed)},
+          {"refusal", driven ? json(nullptr) : json(facts.refusal)},
+          {"text", driven ? outcome::describe(facts.outcome, scene) : facts.refusal},
+          {"contact", driven ? contact_json(facts.outcome, actors_of(scene)) : json(nullptr)},
+          {"clearance_m", driven ? json(facts.outcome.clearance) : json(nullptr)},
+          {"collision_loss", driven ? json(facts.outcome.collision_loss) : json(nullptr)},
+          {"harm", driven ? json(facts.outcome.harm) : json(nullptr)}};
+}
+
+json plan_json(const manoeuvre::Plan& plan) {
+  return {{"policy", manoeuvre::index(plan.policy)},
+          {"name", name(plan.policy)},
+          {"target_speed_mps", number_or_null(plan.target_speed)}};
+}
+
+json answer_json(const reason::Answer& answer) {
+  constexpr std::array<std::string_view, 3> kinds{"first", "ended", "forced"};
+  return {{"t_s", std::chrono::duration<double>(answer.time).count()},
+          {"kind", kinds[static_cast<std::size_t>(answer.kind)]},
+          {"probability", answer.probability}};
+}
+
+json memory_json(const decide::Preview& preview) {
+  constexpr std::array<std::string_view, 3> gates{"cache", "check", "reason"};
+  return {{"case", preview.nearest ? json(preview.nearest->found.id) : json(nullptr)},
+          {"similarity", preview.nearest ? preview.nearest->similarity : 0.0},
+          {"gate", gates[static_cast<std::size_t>(preview.gate)]}};
+}
+
+json preview_json(const decide::Preview& preview) {
+  const preview::Situation& situation = preview.situation;
+  const world::Scene& scene = situation.scene_at_trigger;
+  json actors = json::array();
+  for (std::size_t i = 0; i < scene.actors.size(); ++i) {
+    json posterior;
+    for (const intent::Intention intention : intent::all_intentions) {
+      posterior[std::string(name(intention))] =
+          situation.posteriors[i][static_cast<std::size_t>(intention)];
+    }
+    actors.push_back({{"id", actor_name(scene.actors[i])},
+                      {"intention", name(situation.intentions[i])},
+                      {"posterior", posterior},
+                      {"risk", situation.risks[i].risk},
+                      {"risk_text", explanation(situation.risks[i])}});
+  }
+  json facts = json::array();
+  for (const preview::PolicyFacts& fact : situation.facts) {
+    facts.push_back(facts_json(fact, scene));
+  }
+  json answers = json::array();
+  std::transform(preview.reply.answers.begin(), preview.reply.answers.end(),
+                 std::back_inserter(answers), answer_json);
+  return {{"probability", situation.probability},
+          {"ready_s", number_or_null(preview.ready)},
+          {"scene",
+           {{"t_s", scene.time}, {"ego", ego_json(scene.ego, 0.0)}, {"actors", actors_json(scene)}}},
+          {"actors", actors},
+          {"facts", facts},
+          {"memory", memory_json(preview)},
+          {"prompt", preview.prompt},
+          {"reasoning", preview.reply.reasoning},
+          {"faithful", number_or_null(preview.faithful)},
+          {"answers", answers},
+          {"check", preview.check ? json{{"passed", preview.check->passed},
+                                         {"text", preview.check->text}}
+                                  : json(nullptr)},
+          {"plan", preview.plan ? plan_json(*preview.plan) : json(nullptr)}};
+}
+
+json decision_json(const Record& record) {
+  if (!record.decision) {
+    return nullptr;
+  }
+  const decide::Decision& decision = *record.decision;
+  json out = plan_json(decision.plan);
+  out["source"] = name(decision.source);
+  out["similarity"] = number_or_null(decision.similarity);
+  out["preview"] = decision.preview ? json(*decision.preview) : json(nullptr);
+  out["time_s"] = decision.time;
+  out["gave_way_to_aeb"] = decision.gave_way_to_aeb;
+  out["text"] = decision_text(decision);
+  return out;
+}
+
+json hindsight_json(const Record& record) {
+  json all = json::array();
+  if (!record.hindsight) {
+    return all;
+  }
+  for (const Hindsight& one : *record.hindsight) {
+    json entry = facts_json(one.facts, *record.at_trigger);
+    json path = json::array();
+    const auto stride = std::max<std::size_t>(
+        1, static_cast<std::size_t>(std::lround(path_step / one.motion.track.step)));
+    for (std::size_t k = 0; k < one.motion.track.X_WA.size(); k += stride) {
+      const Pose& X = one.motion.track.X_WA[k];
+      path.push_back({X.p.x, X.p.y, to_degrees(X.yaw)});
+    }
+    entry["path"] = path;
+    all.push_back(entry);
+  }
+  return all;
+}
+
+json outcome_json(const outcome::Outcome& outcome, std::span<const world::Actor> actors) {
+  return {{"contact", contact_json(outcome, actors)},
+          {"collision_loss", outcome.collision_loss},
+          {"harm", outcome.harm},
+          {"clearance_m", outcome.clearance},
+          {"text", outcome::describe(outcome, actors)}};
+}
+
+json actor_bodies_json(const sim::Scenario& scenario) {
+  json actors = json::array();
+  for (const sim::ScenarioActor& actor : scenario.actors) {
+    actors.push_back(
+        {{"id", actor_name(world::Actor{.id = actor.id, .kind = actor.kind})},
+         {"kind", name(actor.kind)},
+         {"shape", actor.footprint.shape == world::Shape::box ? "box" : "ellipse"},
+         {"length_m", actor.footprint.length},
+         {"width_m", actor.footprint.width}});
+  }
+  return actors;
+}
+
+}  // namespace
+
+std::string record_json(const Setup& setup, const Record& record) {
+  const sim::Scenario& scenario = *setup.scenario;
+  const world::Footprint body = manoeuvre::footprint(*setup.car);
+  json frames = json::array();
+  std::transform(record.frames.begin(), record.frames.end(), std::back_inserter(frames),
+                 frame_json);
+  json events = json::array();
+  for (const decide::Event& event : record.events) {
+    events.push_back({{"t_s", event.time},
+                      {"plane", name(event.plane)},
+                      {"kind", name(event.kind)},
+                      {"text", event.text}});
+  }
+  json previews = json::array();
+  std::transform(record.previews.begin(), record.previews.end(), std::back_inserter(previews),
+                 preview_json);
+  const json out{
+      {"schema", "saca.record/1"},
+      {"scenario",
+       {{"name", scenario.name},
+        {"title", scenario.title},
+        {"source", scenario.source},
+        {"licence", scenario.licence},
+        {"driver", scenario.driver.empty() ? json(nullptr) : json(scenario.driver)}}},
+      {"pace", name(setup.pace)},
+      {"model", setup.model == nullptr ? "off" : setup.model->description()},
+      {"grip", scenario.grip},
+      {"thresholds", {{"trigger_s", setup.thresholds.trigger}, {"preview_s", setup.thresholds.preview}}},
+      {"road", road_json(scenario.road)},
+      {"ego",
+       {{"length_m", body.length},
+        {"width_m", body.width},
+        {"centre_x_m", body.centre_x},
+        {"front_axle_x_m", setup.car->front_arm},
+        {"rear_axle_x_m", -setup.car->rear_arm},
+        {"track_m", setup.car->track_width}}},
+      {"actors", actor_bodies_json(scenario)},
+      {"frames", frames},
+      {"events", events},
+      {"previews", previews},
+      {"decision", decision_json(record)},
+      {"result", outcome_json(record.result, record.met)},
+      {"driver", record.driver ? outcome_json(*record.driver, record.met_by_driver)
+                               : json(nullptr)},
+      {"hindsight", hindsight_json(record)},
+      {"best", record.best ? json(manoeuvre::index(*record.best)) : json(nullptr)},
+      {"case", record.stored ? json(*record.stored) : json(nullptr)},
+      {"timing",
+       {{"reflex_calls", record.reflex.calls},
+        {"reflex_us_p50", 1e6 * record.reflex.p50},
+        {"reflex_us_max", 1e6 * record.reflex.max},
+        {"deadline_misses", record.deadline_misses}}}};
+  return out.dump(1, ' ', false, json::error_handler_t::replace);
+}
+
+}  // namespace saca::loop

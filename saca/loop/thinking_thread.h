@@ -1,0 +1,40 @@
+#pragma once
+
+#include <atomic>
+#include <thread>
+
+#include "saca/core/clock.h"
+#include "saca/core/latest_slot.h"
+#include "saca/decide/thinking_plane.h"
+#include "saca/world/scene.h"
+
+namespace saca::loop {
+
+/// A scene and when it was true.
+struct TimedScene {
+  world::Scene scene;
+  Clock::Time at{0};
+};
+
+/// Runs a thinking plane beside the reflex plane: takes the newest scene, thinks, takes the next.
+/// Nobody ever waits for it but its destructor.
+class ThinkingThread {
+ public:
+  /// All three outlive the thread.
+  ThinkingThread(decide::ThinkingPlane& plane, LatestSlot<TimedScene>& scenes, Clock& clock);
+  ThinkingThread(const ThinkingThread&) = delete;
+  ThinkingThread& operator=(const ThinkingThread&) = delete;
+  /// Waits for the round under way: at most until its deadline, which is the trigger.
+  ~ThinkingThread();
+
+ private:
+  void run();
+
+  decide::ThinkingPlane& plane_;
+  LatestSlot<TimedScene>& scenes_;
+  Clock& clock_;
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+}  // namespace saca::loop

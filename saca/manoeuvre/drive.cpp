@@ -1,0 +1,126 @@
+#include "saca/manoeuvre/drive.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "saca/core/contract.h"
+#include "saca/manoeuvre/controller.h"
+#include "saca/manoeuvre/ego.h"
+
+namespace saca::manoeuvre {
+namespace {
+
+constexpr double dt = 1e-3;  // [s] of the integration
+constexpr int steps_per_pose = 10;
+
+// "<what> <value> <rest>"; std::format is not there yet.
+std::string with_number(const char* pattern, double value) {
+  std::array<char, 160> text{};
+  (void)std::snprintf(text.data(), text.size(), pattern, value);
+  return text.data();
+}
+
+bool brakes_to_speed(PolicyId policy) {
+  return policy == PolicyId::es_b_left || policy == PolicyId::es_b_right;
+}
+
+std::optional<std::string> wrong_target(const Plan& plan) {
+  if (brakes_to_speed(plan.policy) != plan.target_speed.has_value()) {
+    return std::string(name(plan.policy)) +
+           (plan.target_speed ? " takes no target speed" : " needs a target speed");
+  }
+  if (plan.target_speed && !(*plan.target_speed >= 0.0 && *plan.target_speed <= 25.0)) {
+    return with_number("target speed must be 0 to 25 m/s, is %.2f", *plan.target_speed);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> wrong_motion(const Plan& plan, const world::EgoState& ego) {
+  if (!is_finite(ego.X_WB) || !is_finite(ego.v_B) || !std::isfinite(ego.yaw_rate) ||
+      !is_finite(ego.a_B)) {
+    return "the ego's state is not finite";
+  }
+  const bool from_rest = plan.policy == PolicyId::aeb || plan.policy == PolicyId::no_intervention;
+  const double least = from_rest ? 0.0 : 5.0;
+  if (!(ego.v_B.x >= least)) {
+    return std::string(name(plan.policy)) +
+           with_number(from_rest ? " needs a speed of 0 to 25 m/s ahead, is %.2f"
+                                 : " needs a speed of 5 to 25 m/s ahead, is %.2f",
+                       ego.v_B.x);
+  }
+  if (!(ego.v_B.x <= 25.0)) {
+    return with_number("speed must be at most 25 m/s, is %.2f", ego.v_B.x);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> wrong_road(const Plan& plan, const world::Scene& scene) {
+  const world::Road& road = scene.road;
+  if (!is_finite(road.X_WL) || !std::isfinite(road.curvature) ||
+      !(road.lane_width >= 2.0 && road.lane_width <= 6.0)) {
+    return with_number("the road must be finite, its lane 2 to 6 m wide, is %.2f", road.lane_width);
+  }
+  // A swerve out of a bend adds to what the bend itself takes.
+  constexpr double most_share = 0.5;
+  const double share = std::abs(road.curvature) * scene.ego.v_B.x * scene.ego.v_B.x /
+                       (scene.grip * vehicle::gravity);
+  const bool stays = plan.policy == PolicyId::aeb || plan.policy == PolicyId::no_intervention;
+  if (!stays && !(share <= most_share)) {
+    return std::string(name(plan.policy)) +
+           with_number(" needs half of the grip, the road's bend takes %.0f %%", 100.0 * share);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> refusal(const Plan& plan, const world::Scene& scene) {
+  if (index(plan.policy) >= num_policies) {
+    return "no such policy";
+  }
+  if (plan.policy == PolicyId::t_drift_left || plan.policy == PolicyId::t_drift_right) {
+    return std::string(name(plan.policy)) + " is not built yet: it needs tuned drift tables";
+  }
+  if (const auto problem = wrong_target(plan)) {
+    return problem;
+  }
+  if (!(scene.grip >= 0.3 && scene.grip <= 1.0)) {
+    return with_number("grip must be 0.3 to 1.0, is %.3f", scene.grip);
+  }
+  if (const auto problem = wrong_motion(plan, scene.ego)) {
+    return problem;
+  }
+  return wrong_road(plan, scene);
+}
+
+EgoMotion drive(const vehicle::Vehicle& car, const Plan& plan, const world::Scene& scene,
+                double grip, double horizon) {
+  expects(grip > 0.0 && grip <= 1.2, "grip in (0, 1.2]");
+  expects(horizon >= 0.0 && horizon <= 3600.0, "horizon in [0, 3600] s");
+  ControllerState memory = begin(car, plan, scene);
+  vehicle::VehicleState state = rolling_state(car, scene.ego, grip);
+  const int num_poses = static_cast<int>(std::lround(horizon / (dt * steps_per_pose)));
+  EgoMotion motion;
+  motion.track.start = scene.time;
+  motion.track.step = dt * steps_per_pose;
+  const auto note = [&] {
+    motion.track.X_WA.push_back(state.X_WB);
+    motion.v_B.push_back(state.v_B);
+    motion.yaw_rate.push_back(state.yaw_rate);
+  };
+  note();
+  motion.ended = finished(plan, state, memory);
+  for (int pose = 0; pose < num_poses && !motion.ended; ++pose) {
+    for (int i = 0; i < steps_per_pose; ++i) {
+      const vehicle::Command command =
+          control(car, plan, scene.road, scene.grip, state, memory, dt);
+      state = vehicle::step(car, state, command, grip, dt);
+    }
+    note();
+    motion.ended = finished(plan, state, memory);
+  }
+  return motion;
+}
+
+}  // namespace saca::manoeuvre

@@ -1,0 +1,337 @@
+#include "saca/memory/scene_json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "saca/core/contract.h"
+
+namespace saca::memory {
+namespace {
+
+using nlohmann::json;
+using world::Actor;
+using world::EgoState;
+using world::Footprint;
+using world::Road;
+using world::Scene;
+using world::Shape;
+
+constexpr std::string_view schema = "saca.scene/1";
+
+std::string_view shape_name(Shape shape) {
+  return shape == Shape::box ? "box" : "ellipse";
+}
+
+std::optional<Shape> shape_from(std::string_view name) {
+  if (name == "box") {
+    return Shape::box;
+  }
+  return name == "ellipse" ? std::optional(Shape::ellipse) : std::nullopt;
+}
+
+json footprint_json(const Footprint& footprint) {
+  return {{"shape", shape_name(footprint.shape)},
+          {"length_m", footprint.length},
+          {"width_m", footprint.width},
+          {"centre_x_m", footprint.centre_x}};
+}
+
+json ego_json(const Scene& scene) {
+  const EgoState& ego = scene.ego;
+  return {{"x_m", ego.X_WB.p.x},         {"y_m", ego.X_WB.p.y},
+          {"heading_rad", ego.X_WB.yaw}, {"forward_mps", ego.v_B.x},
+          {"leftward_mps", ego.v_B.y},   {"yaw_rate_radps", ego.yaw_rate},
+          {"forward_mps2", ego.a_B.x},   {"leftward_mps2", ego.a_B.y},
+          {"mass_kg", scene.ego_mass},   {"footprint", footprint_json(scene.ego_footprint)}};
+}
+
+json actor_json(const Actor& actor) {
+  return {{"id", actor.id},
+          {"kind", world::name(actor.kind)},
+          {"footprint", footprint_json(actor.footprint)},
+          {"mass_kg", actor.mass},
+          {"x_m", actor.X_WA.p.x},
+          {"y_m", actor.X_WA.p.y},
+          {"heading_rad", actor.X_WA.yaw},
+          {"vx_mps", actor.v_W.x},
+          {"vy_mps", actor.v_W.y},
+          {"ax_mps2", actor.a_W.x},
+          {"ay_mps2", actor.a_W.y},
+          {"yaw_rate_radps", actor.yaw_rate},
+          {"position_sd_m", actor.position_sd},
+          {"velocity_sd_mps", actor.velocity_sd},
+          {"existence", actor.existence},
+          {"age_s", actor.age},
+          {"occluded", actor.occluded}};
+}
+
+json road_json(const Road& road) {
+  return {{"topology", world::name(road.topology)},
+          {"x_m", road.X_WL.p.x},
+          {"y_m", road.X_WL.p.y},
+          {"heading_rad", road.X_WL.yaw},
+          {"curvature_1pm", road.curvature},
+          {"lane_width_m", road.lane_width},
+          {"left_edge_m", road.left_edge},
+          {"right_edge_m", road.right_edge},
+          {"left_beyond", world::name(road.left_beyond)},
+          {"right_beyond", world::name(road.right_beyond)},
+          {"oncoming_left", road.oncoming_left},
+          {"oncoming_right", road.oncoming_right}};
+}
+
+/// A value that came instead of the one wanted, short enough for a message.
+std::string shown(const json& value) {
+  constexpr std::size_t longest = 40;
+  std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
+  if (text.size() > longest) {
+    text.resize(longest);
+    text += "...";
+  }
+  return text;
+}
+
+/// One object of the document. The first thing wrong is remembered for all; what is read after it
+/// means nothing.
+class Reader {
+ public:
+  Reader(const json& node, std::string path, std::optional<Error>& problem)
+      : node_(node), path_(std::move(path)), problem_(problem) {
+    if (!node.is_object()) {
+      reject("", "want an object, got " + shown(node));
+    }
+  }
+
+  double number(std::string_view key) {
+    const json* value = find(key);
+    if (value == nullptr) {
+      return 0.0;
+    }
+    if (!value->is_number() || !std::isfinite(value->get<double>())) {
+      reject(key, "want a finite number, got " + shown(*value));
+      return 0.0;
+    }
+    return value->get<double>();
+  }
+
+  bool flag(std::string_view key) {
+    const json* value = find(key);
+    if (value != nullptr && !value->is_boolean()) {
+      reject(key, "want true or false, got " + shown(*value));
+    }
+    return value != nullptr && value->is_boolean() && value->get<bool>();
+  }
+
+  std::uint8_t small_integer(std::string_view key) {
+    const json* value = find(key);
+    constexpr std::uint64_t largest = 255;
+    if (value == nullptr ||
+        (value->is_number_unsigned() && value->get<std::uint64_t>() <= largest)) {
+      return value == nullptr ? std::uint8_t{0} : value->get<std::uint8_t>();
+    }
+    reject(key, "want an integer from 0 to 255, got " + shown(*value));
+    return 0;
+  }
+
+  /// A word that `from` knows.
+  template <class Value>
+  Value word(std::string_view key, std::optional<Value> (*from)(std::string_view),
+             std::string_view known) {
+    const json* value = find(key);
+    if (value == nullptr) {
+      return Value{};
+    }
+    const auto found =
+        value->is_string() ? from(value->get_ref<const std::string&>()) : std::optional<Value>();
+    if (!found) {
+      reject(key, "want " + std::string(known) + ", got " + shown(*value));
+    }
+    return found.value_or(Value{});
+  }
+
+  Reader object(std::string_view key) {
+    static const json nothing = json::object();
+    const json* value = find(key);
+    return {value == nullptr ? nothing : *value, name_of(key), problem_};
+  }
+
+  /// The array under `key`; nullptr when there is none.
+  const json* list(std::string_view key) {
+    const json* value = find(key);
+    if (value != nullptr && !value->is_array()) {
+      reject(key, "want an array, got " + shown(*value));
+    }
+    return value != nullptr && value->is_array() ? value : nullptr;
+  }
+
+  void reject(std::string_view key, const std::string& why) {
+    if (!problem_) {
+      const std::string name = name_of(key);
+      problem_ = Error{Error::Code::malformed, (name.empty() ? "scene" : name) + ": " + why};
+    }
+  }
+
+  /// Call it last: a key that nobody asked for is refused.
+  void refuse_others() {
+    if (problem_ || node_.size() == asked_.size()) {
+      return;
+    }
+    for (const auto& [key, value] : node_.items()) {
+      if (std::find(asked_.begin(), asked_.end(), key) == asked_.end()) {
+        reject(key, "is not known");
+      }
+    }
+  }
+
+ private:
+  const json* find(std::string_view key) {
+    if (problem_) {
+      return nullptr;
+    }
+    asked_.emplace_back(key);
+    const auto found = node_.find(asked_.back());
+    if (found == node_.end()) {
+      reject(key, "is missing");
+      return nullptr;
+    }
+    return &*found;
+  }
+
+  [[nodiscard]] std::string name_of(std::string_view key) const {
+    return path_.empty() || key.empty() ? path_ + std::string(key) : path_ + "." + std::string(key);
+  }
+
+  const json& node_;
+  std::string path_;
+  std::optional<Error>& problem_;
+  std::vector<std::string> asked_;
+};
+
+Pose read_pose(Reader& reader) {
+  return {{reader.number("x_m"), reader.number("y_m")}, reader.number("heading_rad")};
+}
+
+Footprint read_footprint(Reader reader) {
+  const Footprint footprint{.shape = reader.word("shape", shape_from, "box or ellipse"),
+                            .length = reader.number("length_m"),
+                            .width = reader.number("width_m"),
+                            .centre_x = reader.number("centre_x_m")};
+  reader.refuse_others();
+  return footprint;
+}
+
+void read_ego(Reader reader, Scene& scene) {
+  scene.ego.X_WB = read_pose(reader);
+  scene.ego.v_B = {reader.number("forward_mps"), reader.number("leftward_mps")};
+  scene.ego.yaw_rate = reader.number("yaw_rate_radps");
+  scene.ego.a_B = {reader.number("forward_mps2"), reader.number("leftward_mps2")};
+  scene.ego_mass = reader.number("mass_kg");
+  scene.ego_footprint = read_footprint(reader.object("footprint"));
+  reader.refuse_others();
+}
+
+Actor read_actor(Reader reader) {
+  Actor actor;
+  actor.id = reader.small_integer("id");
+  actor.kind = reader.word("kind", world::actor_kind_from,
+                           "car, van, truck, motorcycle, bicycle, pedestrian or obstacle");
+  actor.footprint = read_footprint(reader.object("footprint"));
+  actor.mass = reader.number("mass_kg");
+  actor.X_WA = read_pose(reader);
+  actor.v_W = {reader.number("vx_mps"), reader.number("vy_mps")};
+  actor.a_W = {reader.number("ax_mps2"), reader.number("ay_mps2")};
+  actor.yaw_rate = reader.number("yaw_rate_radps");
+  actor.position_sd = reader.number("position_sd_m");
+  actor.velocity_sd = reader.number("velocity_sd_mps");
+  actor.existence = reader.number("existence");
+  actor.age = reader.number("age_s");
+  actor.occluded = reader.flag("occluded");
+  reader.refuse_others();
+  return actor;
+}
+
+Road read_road(Reader reader) {
+  constexpr std::string_view beyonds = "unmarked, kerb, barrier or trees";
+  Road road;
+  road.topology =
+      reader.word("topology", world::topology_from, "straight, intersection or one_way");
+  road.X_WL = read_pose(reader);
+  road.curvature = reader.number("curvature_1pm");
+  road.lane_width = reader.number("lane_width_m");
+  road.left_edge = reader.number("left_edge_m");
+  road.right_edge = reader.number("right_edge_m");
+  road.left_beyond = reader.word("left_beyond", world::beyond_from, beyonds);
+  road.right_beyond = reader.word("right_beyond", world::beyond_from, beyonds);
+  road.oncoming_left = reader.flag("oncoming_left");
+  road.oncoming_right = reader.flag("oncoming_right");
+  reader.refuse_others();
+  return road;
+}
+
+std::optional<std::string_view> schema_from(std::string_view name) {
+  return name == schema ? std::optional(schema) : std::nullopt;
+}
+
+void read_actors(Reader& reader, Scene& scene, std::optional<Error>& problem) {
+  const json* actors = reader.list("actors");
+  if (actors == nullptr) {
+    return;
+  }
+  if (actors->size() > world::max_actors) {
+    reader.reject("actors", "want at most " + std::to_string(world::max_actors) + ", got " +
+                                std::to_string(actors->size()));
+    return;
+  }
+  for (std::size_t i = 0; i < actors->size(); ++i) {
+    scene.actors.push_back(
+        read_actor({(*actors)[i], "actors[" + std::to_string(i) + "]", problem}));
+  }
+}
+
+}  // namespace
+
+json to_json(const Scene& scene) {
+  const auto rule = world::broken_rule(scene);
+  expects(!rule, rule.value_or(""));
+  json actors = json::array();
+  for (const Actor& actor : scene.actors) {
+    actors.push_back(actor_json(actor));
+  }
+  return {{"schema", schema},
+          {"time_s", scene.time},
+          {"grip", scene.grip},
+          {"grip_sd", scene.grip_sd},
+          {"ego", ego_json(scene)},
+          {"actors", std::move(actors)},
+          {"road", road_json(scene.road)}};
+}
+
+Result<Scene> scene_from_json(const json& document) {
+  std::optional<Error> problem;
+  Reader reader(document, "", problem);
+  Scene scene;
+  (void)reader.word("schema", schema_from, schema);
+  scene.time = reader.number("time_s");
+  scene.grip = reader.number("grip");
+  scene.grip_sd = reader.number("grip_sd");
+  read_ego(reader.object("ego"), scene);
+  scene.road = read_road(reader.object("road"));
+  read_actors(reader, scene, problem);
+  reader.refuse_others();
+  if (problem) {
+    return *problem;
+  }
+  if (const auto rule = world::broken_rule(scene)) {
+    return Error{Error::Code::malformed, "scene: want that " + std::string(*rule)};
+  }
+  return scene;
+}
+
+}  // namespace saca::memory

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <limits>
+#include <span>
+
+#include "saca/core/static_vector.h"
+#include "saca/core/vec2.h"
+#include "saca/world/scene.h"
+
+namespace saca::memory {
+
+// What of a scene matters to the choice of a manoeuvre, seen from the ego along its lane: s ahead,
+// d to the left. Formula and scales, with their reasons: docs/decisions/0003-similarity.md.
+
+/// The ego and its road.
+struct EgoFeatures {
+  bool usable = false;  ///< false for a scene that breaks a rule: it is like no other
+  Vec2 v_L;             ///< over ground [m/s]
+  double offset = 0.0;  ///< d of the centre of mass [m]
+  double heading = 0.0;
+  double yaw_rate = 0.0;
+  double length = 0.0;
+  double width = 0.0;
+  double log_grip = 0.0;
+  double lane_width = 0.0;
+  double curve = 0.0;       ///< acceleration that following the lane takes [m/s^2], > 0 to the left
+  double room_left = 0.0;   ///< from the centre of mass to the edge, at most `ample_room` [m]
+  double room_right = 0.0;  ///< likewise
+  world::Topology topology = world::Topology::straight;
+  world::Beyond left_beyond = world::Beyond::unmarked;
+  world::Beyond right_beyond = world::Beyond::unmarked;
+  bool oncoming_left = false;
+  bool oncoming_right = false;
+};
+
+/// One actor.
+struct ActorFeatures {
+  Vec2 p_rel_L;    ///< (s, d) along the lane, minus the ego's [m]
+  Vec2 v_rel_L;    ///< likewise [m/s]
+  Vec2 forward_L;  ///< unit vector of its heading
+  double length = 0.0;
+  double width = 0.0;
+  double threat = 0.0;  ///< the difference that its absence makes, in [0, 4]
+  world::ActorKind kind = world::ActorKind::car;
+};
+
+struct Features {
+  EgoFeatures ego;
+  StaticVector<ActorFeatures, world::max_actors> actors;
+};
+
+/// Allocates nothing.
+[[nodiscard]] Features features(const world::Scene& scene) noexcept;
+
+/// How far apart two scenes are, in units of what a stored plan may bear unchecked: sums of squares
+/// over the ego and its road, and, of all actors, the one that differs most under the best
+/// assignment of one scene's actors to the other's, which may leave any of them unmatched.
+///
+/// @param limit  where the caller stops caring: any number >= limit may come back instead of a
+///               larger one
+/// @return       >= 0, 0 for the same scene; infinite when one of them is not usable
+///
+/// Symmetric to the last bit. Exact for any number of actors; allocates nothing.
+[[nodiscard]] double difference(const EgoFeatures& ego_a, std::span<const ActorFeatures> actors_a,
+                                const EgoFeatures& ego_b, std::span<const ActorFeatures> actors_b,
+                                double limit = std::numeric_limits<double>::infinity()) noexcept;
+
+/// 0.9 to the power of the difference: 1 at 0, 0.9 at 1, 0.7 at 3.4.
+[[nodiscard]] double similarity_at(double difference) noexcept;
+
+/// How alike two scenes are for the choice of a manoeuvre, in [0, 1]; 1 for the same scene seen
+/// from any world frame. Not calibrated. 0 when either breaks a rule of `world::broken_rule`.
+/// Allocates nothing; whoever compares one scene with many keeps its features.
+[[nodiscard]] double similarity(const Features& a, const Features& b) noexcept;
+[[nodiscard]] double similarity(const world::Scene& a, const world::Scene& b) noexcept;
+
+}  // namespace saca::memory

@@ -1,0 +1,399 @@
+#include "saca/memory/store.h"
+
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "saca/core/contract.h"
+#include "saca/memory/feature_index.h"
+#include "saca/memory/scene_json.h"
+#include "saca/memory/similarity.h"
+#include "saca/memory/sqlite.h"
+
+namespace saca::memory {
+namespace {
+
+constexpr std::int64_t application_id = 0x53414341;  // "SACA"
+constexpr std::int64_t version = 1;
+
+// synchronous = EXTRA: with FULL, a power cut just after a commit may bring back the journal and
+// with it the state before. A rollback journal, not WAL: one file, readable where nothing may be
+// written. The last two are SQLite's advice for files that somebody else may have damaged.
+constexpr const char* set_up =
+    "PRAGMA journal_mode = DELETE; PRAGMA synchronous = EXTRA;"
+    "PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON;";
+
+constexpr const char* create =
+    "CREATE TABLE cases ("
+    " id INTEGER PRIMARY KEY AUTOINCREMENT,"
+    " policy INTEGER NOT NULL,"
+    " target_speed_mps REAL,"
+    " best_policy INTEGER NOT NULL,"
+    " harm REAL NOT NULL,"
+    " best_harm REAL NOT NULL,"
+    " collision_loss REAL NOT NULL,"
+    " review TEXT NOT NULL,"
+    " source TEXT NOT NULL,"
+    " scene TEXT NOT NULL"
+    ") STRICT;"
+    "PRAGMA application_id = 1396785985;"
+    "PRAGMA user_version = 1;";
+
+constexpr const char* insert =
+    "INSERT INTO cases (policy, target_speed_mps, best_policy, harm, best_harm, collision_loss,"
+    " review, source, scene) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9)";
+
+// In the order of `Column`.
+constexpr const char* select_after =
+    "SELECT id, policy, target_speed_mps, best_policy, harm, best_harm, collision_loss, review,"
+    " source, scene FROM cases WHERE id > ?1 ORDER BY id";
+constexpr const char* select_one =
+    "SELECT id, policy, target_speed_mps, best_policy, harm, best_harm, collision_loss, review,"
+    " source, scene FROM cases WHERE id = ?1";
+
+/// Also the number of its parameter in `insert`.
+enum Column : int {
+  id_column,
+  policy_column,
+  target_speed_column,
+  best_policy_column,
+  harm_column,
+  best_harm_column,
+  collision_loss_column,
+  review_column,
+  source_column,
+  scene_column,
+};
+
+/// Reads the columns of the row at which a statement stands; the first thing wrong is kept.
+class Row {
+ public:
+  Row(const Statement& statement, const std::string& file) : statement_(statement), file_(file) {}
+
+  /// @return  in [0, 7]
+  manoeuvre::PolicyId policy(Column column) {
+    const std::int64_t number = statement_.integer(column);
+    if (statement_.type(column) != SQLITE_INTEGER || number < 0 ||
+        number >= static_cast<std::int64_t>(manoeuvre::num_policies)) {
+      reject(column, "want an integer from 0 to 7, got " + statement_.text(column));
+      return manoeuvre::PolicyId::aeb;
+    }
+    return manoeuvre::all_policies[static_cast<std::size_t>(number)];
+  }
+
+  double amount(Column column) {
+    const int type = statement_.type(column);
+    const double number = statement_.number(column);
+    if ((type != SQLITE_FLOAT && type != SQLITE_INTEGER) || !std::isfinite(number) ||
+        number < 0.0) {
+      reject(column, "want a finite number >= 0, got " +
+                         (type == SQLITE_NULL ? "nothing" : statement_.text(column)));
+    }
+    return number;
+  }
+
+  std::optional<double> optional_amount(Column column) {
+    return statement_.type(column) == SQLITE_NULL ? std::nullopt : std::optional(amount(column));
+  }
+
+  std::string text(Column column) {
+    if (statement_.type(column) != SQLITE_TEXT) {
+      reject(column, "want text");
+    }
+    return statement_.text(column);
+  }
+
+  world::Scene scene(Column column) {
+    const nlohmann::json json = nlohmann::json::parse(text(column), nullptr, false);
+    if (json.is_discarded()) {
+      reject(column, "is not JSON");
+      return {};
+    }
+    Result<world::Scene> scene = scene_from_json(json);
+    if (!scene.has_value()) {
+      reject(column, scene.error().message);
+      return {};
+    }
+    return std::move(scene).value();
+  }
+
+  void reject(Column column, const std::string& why) {
+    if (!problem_) {
+      problem_ = Error{Error::Code::malformed, file_ + ": table cases, id " +
+                                                   std::to_string(statement_.integer(id_column)) +
+                                                   ": " + statement_.name(column) + ": " + why};
+    }
+  }
+
+  [[nodiscard]] const std::optional<Error>& problem() const { return problem_; }
+
+ private:
+  const Statement& statement_;
+  const std::string& file_;
+  std::optional<Error> problem_;
+};
+
+/// Policies 3 and 4 only have a target speed.
+bool may_have_target_speed(manoeuvre::PolicyId policy) {
+  return policy == manoeuvre::PolicyId::es_b_left || policy == manoeuvre::PolicyId::es_b_right;
+}
+
+Result<Case> case_at(const Statement& statement, const std::string& file) {
+  Row row(statement, file);
+  Case one{.id = statement.integer(id_column),
+           .scene = row.scene(scene_column),
+           .plan = {row.policy(policy_column), row.optional_amount(target_speed_column)},
+           .best = row.policy(best_policy_column),
+           .harm = row.amount(harm_column),
+           .best_harm = row.amount(best_harm_column),
+           .collision_loss = row.amount(collision_loss_column),
+           .review = row.text(review_column),
+           .source = row.text(source_column)};
+  if (one.plan.target_speed && !may_have_target_speed(one.plan.policy)) {
+    row.reject(target_speed_column, "only policies 3 and 4 have one");
+  }
+  if (row.problem()) {
+    return *row.problem();
+  }
+  return one;
+}
+
+bool is_amount(double number) {
+  return std::isfinite(number) && number >= 0.0;
+}
+
+}  // namespace
+
+Gate gate(double similarity) noexcept {
+  if (similarity > 0.90) {
+    return Gate::cache;
+  }
+  return similarity > 0.70 ? Gate::check : Gate::reason;
+}
+
+struct Store::State {
+  Database database;
+  std::string name;  ///< of the file, as the caller gave it
+
+  FeatureIndex index;  ///< of the cases that were in the file when it was last looked at
+
+  [[nodiscard]] Error problem(Access access) const {
+    return sqlite_problem(database.get(), name, access);
+  }
+
+  [[nodiscard]] std::optional<Error> run(const char* sql, Access access) const {
+    if (sqlite3_exec(database.get(), sql, nullptr, nullptr, nullptr) != SQLITE_OK) {
+      return problem(access);
+    }
+    return std::nullopt;
+  }
+
+  /// The one integer that a statement returns.
+  [[nodiscard]] Result<std::int64_t> integer(const char* sql) const {
+    Statement statement(database.get(), sql);
+    if (statement.step() != SQLITE_ROW) {
+      return problem(Access::read);
+    }
+    return statement.integer(0);
+  }
+
+  [[nodiscard]] Result<bool> is_new() const {
+    const auto contents = integer(
+        "SELECT (SELECT count(*) FROM sqlite_schema)"
+        " + (SELECT application_id FROM pragma_application_id)"
+        " + (SELECT user_version FROM pragma_user_version)");
+    if (!contents.has_value()) {
+      return contents.error();
+    }
+    return contents.value() == 0;
+  }
+
+  [[nodiscard]] std::optional<Error> create_if_new() const {
+    auto is_empty = is_new();
+    if (!is_empty.has_value()) {
+      return is_empty.error();
+    }
+    if (!is_empty.value()) {
+      return std::nullopt;
+    }
+    if (auto error = run("BEGIN IMMEDIATE", Access::write)) {
+      return error;
+    }
+    is_empty = is_new();  // another process may have been faster
+    auto error = is_empty.has_value() ? std::nullopt : std::optional(is_empty.error());
+    if (!error && is_empty.value()) {
+      error = run(create, Access::write);
+    }
+    if (!error) {
+      error = run("COMMIT", Access::write);
+    }
+    if (error) {
+      (void)run("ROLLBACK", Access::write);
+    }
+    return error;
+  }
+
+  [[nodiscard]] std::optional<Error> wrong_kind() const {
+    const auto owner = integer("PRAGMA application_id");
+    const auto found = integer("PRAGMA user_version");
+    if (!owner.has_value() || !found.has_value()) {
+      return owner.has_value() ? found.error() : owner.error();
+    }
+    if (owner.value() != application_id) {
+      return Error{Error::Code::malformed,
+                   name + ": want a memory bank, got a database of another program"};
+    }
+    if (found.value() != version) {
+      return Error{Error::Code::malformed, name + ": want version " + std::to_string(version) +
+                                               ", got version " + std::to_string(found.value())};
+    }
+    Statement check(database.get(), "PRAGMA quick_check(1)");
+    if (check.step() != SQLITE_ROW) {
+      return problem(Access::read);
+    }
+    if (check.text(0) != "ok") {
+      return Error{Error::Code::malformed, name + ": is damaged: " + check.text(0)};
+    }
+    return std::nullopt;
+  }
+
+  /// Calls `take` with each case after `last`, in order.
+  template <class Take>
+  [[nodiscard]] std::optional<Error> each_after(CaseId last, Take take) const {
+    Statement statement(database.get(), select_after);
+    statement.bind(1, last);
+    int code = statement.step();
+    for (; code == SQLITE_ROW; code = statement.step()) {
+      Result<Case> one = case_at(statement, name);
+      if (!one.has_value()) {
+        return one.error();
+      }
+      take(std::move(one).value());
+    }
+    return code == SQLITE_DONE ? std::nullopt : std::optional(problem(Access::read));
+  }
+
+  /// Learns the features of cases that it does not know yet.
+  [[nodiscard]] std::optional<Error> catch_up() {
+    return each_after(index.last_id(), [this](const Case& one) { index.add(one.id, one.scene); });
+  }
+};
+
+Store::Store(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Store::Store(Store&&) noexcept = default;
+Store& Store::operator=(Store&&) noexcept = default;
+Store::~Store() = default;
+
+Result<Store> Store::open(const std::filesystem::path& path) {
+  auto state = std::make_unique<State>();
+  state->name = path.string();
+  // Absolute, so that no name is special to SQLite (":memory:", "file:...").
+  std::error_code no_folder;
+  const std::string file = std::filesystem::absolute(path, no_folder).string();
+  sqlite3* database = nullptr;
+  const int code =
+      sqlite3_open_v2(file.c_str(), &database, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
+  state->database.reset(database);
+  if (database == nullptr || path.empty()) {
+    return Error{Error::Code::unreadable, state->name + ": want a file"};
+  }
+  if (code != SQLITE_OK) {
+    return state->problem(Access::read);
+  }
+  sqlite3_busy_timeout(database, busy_timeout_s * 1000);
+  auto error = state->run(set_up, Access::read);
+  if (!error) {
+    error = state->create_if_new();
+  }
+  if (!error) {
+    error = state->wrong_kind();
+  }
+  if (!error) {
+    error = state->catch_up();
+  }
+  if (error) {
+    return *error;
+  }
+  return Store(std::move(state));
+}
+
+Result<CaseId> Store::add(const Case& one) {
+  expects(is_amount(one.harm), "harm is finite and >= 0");
+  expects(is_amount(one.best_harm), "best_harm is finite and >= 0");
+  expects(is_amount(one.collision_loss), "collision_loss is finite and >= 0");
+  expects(!one.plan.target_speed ||
+              (is_amount(*one.plan.target_speed) && may_have_target_speed(one.plan.policy)),
+          "only policies 3 and 4 have a target_speed, finite and >= 0");
+  const std::string scene = to_json(one.scene).dump();
+
+  Statement statement(state_->database.get(), insert);
+  statement.bind(policy_column, static_cast<std::int64_t>(one.plan.policy))
+      .bind(best_policy_column, static_cast<std::int64_t>(one.best))
+      .bind(harm_column, one.harm)
+      .bind(best_harm_column, one.best_harm)
+      .bind(collision_loss_column, one.collision_loss)
+      .bind(review_column, one.review)
+      .bind(source_column, one.source)
+      .bind(scene_column, scene);
+  if (one.plan.target_speed) {
+    statement.bind(target_speed_column, *one.plan.target_speed);
+  }
+  if (statement.step() != SQLITE_DONE) {
+    return state_->problem(Access::write);
+  }
+  return CaseId{sqlite3_last_insert_rowid(state_->database.get())};
+}
+
+Result<std::vector<Case>> Store::all() {
+  std::vector<Case> cases;
+  if (auto error = state_->each_after(0, [&cases](Case one) { cases.push_back(std::move(one)); })) {
+    return *error;
+  }
+  return cases;
+}
+
+Result<std::optional<Case>> Store::find(CaseId id) {
+  Statement statement(state_->database.get(), select_one);
+  switch (statement.bind(1, id).step()) {
+    case SQLITE_ROW: {
+      Result<Case> one = case_at(statement, state_->name);
+      if (!one.has_value()) {
+        return one.error();
+      }
+      return std::optional(std::move(one).value());
+    }
+    case SQLITE_DONE:
+      return std::optional<Case>();
+    default:
+      return state_->problem(Access::read);
+  }
+}
+
+Result<std::optional<Match>> Store::nearest(const world::Scene& scene) {
+  const Features wanted = features(scene);
+  expects(wanted.ego.usable, "the scene breaks no rule");
+  while (true) {
+    if (auto error = state_->catch_up()) {
+      return *error;
+    }
+    const auto best = state_->index.nearest(wanted);
+    if (!best) {
+      return std::optional<Match>();
+    }
+    Result<std::optional<Case>> found = find(best->id);
+    if (!found.has_value()) {
+      return found.error();
+    }
+    if (found.value()) {
+      return std::optional(Match{*std::move(found).value(), similarity_at(best->difference)});
+    }
+    state_->index = {};  // somebody has deleted it: look again, at all
+  }
+}
+
+std::size_t Store::size() const noexcept {
+  return state_->index.size();
+}
+
+}  // namespace saca::memory

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "saca/core/result.h"
+#include "saca/memory/case.h"
+#include "saca/world/scene.h"
+
+namespace saca::memory {
+
+/// What the paper's Algorithm 1 does with the nearest stored case.
+enum class Gate : std::uint8_t {
+  cache,   ///< above 0.90: its plan is used as it is
+  check,   ///< above 0.70: its plan is used if a rollout confirms it
+  reason,  ///< the language model is asked
+};
+
+[[nodiscard]] Gate gate(double similarity) noexcept;
+
+/// A stored case and how alike its scene is, in [0, 1].
+struct Match {
+  Case found;
+  double similarity = 0.0;
+};
+
+/// The memory bank: one SQLite file, which several processes may have open.
+///
+/// One thread at a time. It waits for the disk, and up to 5 s for another process (then: too_late),
+/// so it belongs to the thinking plane. What other processes add is seen by the next call. Movable,
+/// not copyable. Table and versions: docs/formats.md.
+///
+/// Every error names the file and, where one row is at fault, table, id and key.
+class Store {
+ public:
+  /// Opens the file, or makes it where there is none. Its features are read into memory, so a
+  /// damaged row is told here.
+  ///
+  /// A file that may only be read is opened for reading: `add` then returns unwritable.
+  /// @return  unreadable when it cannot be opened; malformed when it is damaged, is no memory bank,
+  ///          has another version, or a row cannot be used
+  [[nodiscard]] static Result<Store> open(const std::filesystem::path& path);
+
+  Store(Store&&) noexcept;
+  Store& operator=(Store&&) noexcept;
+  ~Store();
+
+  /// Puts a case on the disk. When this returns an id, the case outlives a killed process and a
+  /// lost power supply; when it returns an error, the file is as it was before.
+  ///
+  /// @param one  its `id` is not looked at
+  /// @return     the id given to it; unwritable when the disk is full or the file read-only
+  /// @throws ContractViolation  if the scene breaks a rule or harm or loss is not finite and >= 0
+  [[nodiscard]] Result<CaseId> add(const Case& one);
+
+  /// All cases, oldest first.
+  [[nodiscard]] Result<std::vector<Case>> all();
+
+  /// @return  nullopt when there is no case of this id
+  [[nodiscard]] Result<std::optional<Case>> find(CaseId id);
+
+  /// The stored case whose scene is most alike, the oldest of equals; nullopt when the memory is
+  /// empty. Linear scan over features in memory, then one row is read.
+  /// @throws ContractViolation  if the scene breaks a rule of `world::broken_rule`
+  [[nodiscard]] Result<std::optional<Match>> nearest(const world::Scene& scene);
+
+  /// How many cases were in the file when it was last looked at.
+  [[nodiscard]] std::size_t size() const noexcept;
+
+ private:
+  struct State;
+  explicit Store(std::unique_ptr<State> state);
+
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace saca::memory

@@ -1,0 +1,66 @@
+#include "saca/memory/store.h"
+
+#include <benchmark/benchmark.h>
+
+#include <unistd.h>
+
+#include "saca/memory/example_scenes.h"
+
+namespace saca::memory {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A file of its own for one benchmark.
+class Bank {
+ public:
+  Bank() : path_(fs::temp_directory_path() / ("saca_bank_" + std::to_string(::getpid()) + ".db")) {
+    fs::remove(path_);
+  }
+  ~Bank() { fs::remove(path_); }
+  Bank(const Bank&) = delete;
+  Bank& operator=(const Bank&) = delete;
+
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+Case case_of(std::mt19937& rng) {
+  Case one;
+  one.scene = random_scene(rng, static_cast<int>(rng() % 9));
+  return one;
+}
+
+// To the disk and back, per case: no more than a few per minute are ever added.
+void add_one_case(benchmark::State& state) {
+  const Bank bank;
+  Store store = Store::open(bank.path()).value();
+  std::mt19937 rng(1);
+  const Case one = case_of(rng);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(store.add(one).has_value());
+  }
+}
+BENCHMARK(add_one_case)->Unit(benchmark::kMillisecond);
+
+void nearest_of(benchmark::State& state) {
+  const Bank bank;
+  Store store = Store::open(bank.path()).value();
+  std::mt19937 rng(2);
+  for (int i = 0; i < state.range(0); ++i) {
+    if (!store.add(case_of(rng)).has_value()) {
+      state.SkipWithError("the disk is full");
+      return;
+    }
+  }
+  for (auto _ : state) {
+    const world::Scene scene = random_scene(rng, static_cast<int>(rng() % 9));
+    benchmark::DoNotOptimize(store.nearest(scene).has_value());
+  }
+}
+BENCHMARK(nearest_of)->Arg(100)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace saca::memory

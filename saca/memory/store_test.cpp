@@ -1,0 +1,518 @@
+#include "saca/memory/store.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+#include <sys/mount.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <functional>
+#include <limits>
+#include <map>
+#include <string>
+
+#include "saca/core/contract.h"
+#include "saca/core/file.h"
+#include "saca/memory/example_scenes.h"
+#include "saca/memory/scene_json.h"
+#include "saca/memory/similarity.h"
+
+namespace saca::memory {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using world::Scene;
+
+Case example_case(std::uint32_t seed) {
+  std::mt19937 rng(seed);
+  Case one;
+  one.scene = random_scene(rng, static_cast<int>(seed % 9));
+  one.plan = {manoeuvre::PolicyId::es_b_right, 0.1 * seed};
+  one.best = manoeuvre::PolicyId::aeb;
+  one.harm = 0.3 / (seed + 1.0);
+  one.best_harm = 0.1 / (seed + 1.0);
+  one.collision_loss = 1.0 / 3.0;
+  one.review = "stopped 0.4 m later than forecast; \"wet\" – 'perhaps'";
+  one.source = "case " + std::to_string(seed);
+  return one;
+}
+
+void expect_same(const Case& a, const Case& b) {
+  EXPECT_EQ(to_json(a.scene), to_json(b.scene));  // all numbers to the last bit, see its own test
+  EXPECT_EQ(a.plan, b.plan);
+  EXPECT_EQ(a.best, b.best);
+  EXPECT_EQ(a.harm, b.harm);
+  EXPECT_EQ(a.best_harm, b.best_harm);
+  EXPECT_EQ(a.collision_loss, b.collision_loss);
+  EXPECT_EQ(a.review, b.review);
+  EXPECT_EQ(a.source, b.source);
+}
+
+/// What somebody with the sqlite3 shell would do.
+std::string shell(const fs::path& path, const std::string& sql) {
+  sqlite3* database = nullptr;
+  EXPECT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);
+  std::string answer;
+  char* problem = nullptr;
+  const auto append = [](void* text, int, char** values, char**) {
+    *static_cast<std::string*>(text) += values[0] == nullptr ? "" : values[0];
+    return 0;
+  };
+  EXPECT_EQ(sqlite3_exec(database, sql.c_str(), append, &answer, &problem), SQLITE_OK)
+      << sql << ": " << problem;
+  sqlite3_free(problem);
+  sqlite3_close(database);
+  return answer;
+}
+
+class Memory : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    // A disk in memory where there is one, to be quick: what a killed process had written is not
+    // lost with it on any disk.
+    const fs::path quick = "/dev/shm";
+    folder_ = (::access(quick.c_str(), W_OK) == 0 ? quick : fs::path(testing::TempDir())) /
+              ("saca_memory_" + std::string(test->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    path_ = folder_ / "bank.db";
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] Store opened() const { return Store::open(path_).value(); }
+  [[nodiscard]] Error error_of_opening() const {
+    const auto store = Store::open(path_);
+    EXPECT_FALSE(store.has_value());
+    return store.has_value() ? Error{} : store.error();
+  }
+  [[nodiscard]] std::string integrity() const { return shell(path_, "PRAGMA integrity_check"); }
+
+  fs::path folder_;
+  fs::path path_;
+};
+
+TEST(Gates, AreThoseOfThePaper) {
+  EXPECT_EQ(gate(1.0), Gate::cache);
+  EXPECT_EQ(gate(0.9001), Gate::cache);
+  EXPECT_EQ(gate(0.9), Gate::check);
+  EXPECT_EQ(gate(0.7001), Gate::check);
+  EXPECT_EQ(gate(0.7), Gate::reason);
+  EXPECT_EQ(gate(0.0), Gate::reason);
+  EXPECT_EQ(gate(std::numeric_limits<double>::quiet_NaN()), Gate::reason);
+}
+
+// ---- Coming back
+
+TEST_F(Memory, IsEmptyAtFirst) {
+  Store store = opened();
+  EXPECT_TRUE(store.all().value().empty());
+  EXPECT_EQ(store.find(1).value().has_value(), false);
+  EXPECT_EQ(store.nearest(crossing_truck()).value().has_value(), false);
+}
+
+TEST_F(Memory, GivesBackEveryCaseToTheLastBit) {
+  std::vector<CaseId> ids;
+  for (std::uint32_t i = 0; i < 10; ++i) {
+    ids.push_back(opened().add(example_case(i)).value());  // opened anew each time
+  }
+  Store store = opened();
+  EXPECT_EQ(store.size(), 10U);
+  const std::vector<Case> cases = store.all().value();
+  ASSERT_EQ(cases.size(), 10U);
+  for (std::uint32_t i = 0; i < 10; ++i) {
+    EXPECT_EQ(cases[i].id, ids[i]);
+    expect_same(cases[i], example_case(i));
+    expect_same(store.find(ids[i]).value().value(), example_case(i));
+  }
+}
+
+TEST_F(Memory, KeepsAPlanWithoutATargetSpeed) {
+  Case one = example_case(1);
+  one.plan = {manoeuvre::PolicyId::aes_left, std::nullopt};
+  Store store = opened();
+  EXPECT_EQ(store.find(store.add(one).value()).value().value().plan, one.plan);
+}
+
+TEST_F(Memory, IsReadableInTheShell) {
+  ASSERT_TRUE(opened().add(example_case(3)).has_value());
+  EXPECT_EQ(shell(path_, "SELECT policy FROM cases"), "4");
+  EXPECT_EQ(shell(path_, "SELECT scene ->> '$.schema' FROM cases"), "saca.scene/1");
+  EXPECT_EQ(shell(path_, "SELECT json_array_length(scene, '$.actors') FROM cases"), "3");
+}
+
+TEST_F(Memory, FindsTheNearestLikeALinearScan) {
+  Store store = opened();
+  for (std::uint32_t i = 0; i < 30; ++i) {
+    ASSERT_TRUE(store.add(example_case(i)).has_value());
+  }
+  const std::vector<Case> cases = store.all().value();
+  for (std::uint32_t i = 100; i < 120; ++i) {
+    const Scene scene = example_case(i).scene;
+    const Case* best = &cases.front();
+    for (const Case& one : cases) {
+      best = similarity(one.scene, scene) > similarity(best->scene, scene) ? &one : best;
+    }
+    const Match match = store.nearest(scene).value().value();
+    EXPECT_EQ(match.found.id, best->id);
+    EXPECT_DOUBLE_EQ(match.similarity, similarity(best->scene, scene));
+    expect_same(match.found, *best);
+  }
+  EXPECT_EQ(store.nearest(cases[7].scene).value().value().similarity, 1.0);
+}
+
+TEST_F(Memory, RefusesWhatIsNoCase) {
+  Store store = opened();
+  Case bad = example_case(1);
+  bad.harm = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW((void)store.add(bad), ContractViolation);
+  bad = example_case(1);
+  bad.scene.grip = 0.0;
+  EXPECT_THROW((void)store.add(bad), ContractViolation);
+  EXPECT_THROW((void)store.nearest(bad.scene), ContractViolation);
+  bad = example_case(1);
+  bad.plan.policy = manoeuvre::PolicyId::aeb;
+  EXPECT_THROW((void)store.add(bad), ContractViolation);
+  EXPECT_TRUE(store.all().value().empty());
+}
+
+// ---- Files that are not what they should be
+
+TEST_F(Memory, SaysWhatItCannotOpen) {
+  path_ = folder_ / "missing" / "bank.db";
+  EXPECT_EQ(error_of_opening().code, Error::Code::unreadable);
+  EXPECT_THAT(error_of_opening().message, HasSubstr("missing/bank.db: cannot be read"));
+  path_ = folder_;
+  EXPECT_EQ(error_of_opening().code, Error::Code::unreadable);
+  path_ = "";
+  EXPECT_EQ(error_of_opening().code, Error::Code::unreadable);
+}
+
+TEST_F(Memory, RefusesAFileThatIsNoDatabase) {
+  ASSERT_EQ(write_file(path_, std::string(5000, 'x')), std::nullopt);
+  EXPECT_EQ(error_of_opening().code, Error::Code::malformed);
+  EXPECT_THAT(error_of_opening().message, HasSubstr("bank.db: want a memory bank"));
+  EXPECT_EQ(read_file(path_).value(), std::string(5000, 'x'));  // and leaves it alone
+}
+
+TEST_F(Memory, RefusesADatabaseOfAnotherProgram) {
+  shell(path_, "CREATE TABLE cases (id INTEGER PRIMARY KEY); PRAGMA user_version = 1");
+  EXPECT_EQ(error_of_opening().code, Error::Code::malformed);
+  EXPECT_THAT(error_of_opening().message, HasSubstr("another program"));
+}
+
+TEST_F(Memory, RefusesAnUnknownVersion) {
+  ASSERT_TRUE(opened().add(example_case(1)).has_value());
+  shell(path_, "PRAGMA user_version = 2");
+  EXPECT_EQ(error_of_opening().code, Error::Code::malformed);
+  EXPECT_THAT(error_of_opening().message, HasSubstr("want version 1, got version 2"));
+}
+
+TEST_F(Memory, RefusesAFileThatIsDamagedOrCutShort) {
+  {
+    Store store = opened();
+    for (std::uint32_t i = 0; i < 20; ++i) {
+      ASSERT_TRUE(store.add(example_case(i)).has_value());
+    }
+  }
+  const std::string good = read_file(path_).value();
+  const std::size_t page = 4096;
+  ASSERT_GT(good.size(), 4 * page);
+  std::string bad = good;
+  bad.replace(2 * page, page, std::string(page, '\xff'));
+  ASSERT_EQ(write_file(path_, bad), std::nullopt);
+  EXPECT_EQ(error_of_opening().code, Error::Code::malformed);
+  EXPECT_THAT(error_of_opening().message, HasSubstr("bank.db"));
+  ASSERT_EQ(write_file(path_, good.substr(0, good.size() / 2)), std::nullopt);
+  EXPECT_EQ(error_of_opening().code, Error::Code::malformed);
+}
+
+// Fuzz: whatever bytes are wrong, opening ends with a store or an error.
+TEST_F(Memory, SurvivesAnyFlippedBytes) {
+  ASSERT_TRUE(opened().add(example_case(8)).has_value());
+  const std::string good = read_file(path_).value();
+  std::mt19937 rng(1);
+  int num_refused = 0;
+  for (int i = 0; i < 60; ++i) {
+    std::string bad = good;
+    for (int flip = 0; flip < 8; ++flip) {
+      const std::size_t where = flip % 2 == 0 ? rng() % 200 : rng() % bad.size();
+      bad[where] = static_cast<char>(rng());
+    }
+    ASSERT_EQ(write_file(path_, bad), std::nullopt);
+    auto store = Store::open(path_);
+    if (store.has_value()) {
+      (void)std::move(store).value().all();
+    } else {
+      EXPECT_THAT(store.error().message, HasSubstr("bank.db"));
+      ++num_refused;
+    }
+  }
+  EXPECT_GT(num_refused, 30);
+}
+
+TEST_F(Memory, NamesTheRowThatSomebodyEditedWrongly) {
+  const std::vector<std::pair<const char*, const char*>> edits{
+      {"policy = 8", "policy: want an integer from 0 to 7, got 8"},
+      {"policy = -1", "policy: want"},
+      {"policy = 0", "target_speed_mps: only policies 3 and 4 have one"},
+      {"best_policy = 99", "best_policy: want"},
+      {"target_speed_mps = -1.0", "target_speed_mps: want a finite number >= 0"},
+      {"harm = 9e999", "harm: want a finite number >= 0"},
+      {"collision_loss = -0.5", "collision_loss: want"},
+      {"scene = 'once upon a time'", "scene: is not JSON"},
+      {"scene = json_remove(scene, '$.grip')", "scene: grip: is missing"},
+      {"scene = json_set(scene, '$.grip', null)", "scene: grip: want a finite number, got null"},
+      {"scene = replace(scene, 'saca.scene/1', 'saca.scene/7')", "scene: schema: want"},
+      {"scene = json_set(scene, '$.actors[0].kind', 'tank')", "scene: actors[0].kind: want car"},
+      {"scene = json_set(scene, '$.ego.mass_kg', -5)", "scene: scene: want that"},
+      {"scene = json_set(scene, '$.x', 1)", "scene: x: is not known"},
+  };
+  for (const auto& [edit, message] : edits) {
+    fs::remove(path_);
+    {
+      Store store = opened();
+      ASSERT_TRUE(store.add(example_case(3)).has_value());
+      ASSERT_TRUE(store.add(example_case(4)).has_value());
+    }
+    shell(path_, "UPDATE cases SET " + std::string(edit) + " WHERE id = 2");
+    EXPECT_EQ(error_of_opening().code, Error::Code::malformed) << edit;
+    EXPECT_THAT(error_of_opening().message, HasSubstr("bank.db: table cases, id 2: ")) << edit;
+    EXPECT_THAT(error_of_opening().message, HasSubstr(message)) << edit;
+  }
+}
+
+TEST_F(Memory, RefusesATableThatLacksAColumn) {
+  ASSERT_TRUE(opened().add(example_case(1)).has_value());
+  shell(path_, "ALTER TABLE cases DROP COLUMN harm");
+  EXPECT_EQ(error_of_opening().code, Error::Code::malformed);
+  EXPECT_THAT(error_of_opening().message, HasSubstr("no such column: harm"));
+}
+
+// ---- Nowhere to write
+
+/// Not root for a while: root may write to everything.
+class AsNobody {
+ public:
+  AsNobody() {
+    constexpr uid_t nobody = 65534;
+    dropped_ = ::geteuid() == 0 && ::seteuid(nobody) == 0;
+  }
+  ~AsNobody() {
+    if (dropped_) {
+      EXPECT_EQ(::seteuid(0), 0);
+    }
+  }
+  AsNobody(const AsNobody&) = delete;
+  AsNobody& operator=(const AsNobody&) = delete;
+
+ private:
+  bool dropped_ = false;
+};
+
+TEST_F(Memory, OpensAReadOnlyFileForReading) {
+  ASSERT_TRUE(opened().add(example_case(5)).has_value());
+  fs::permissions(path_, fs::perms(0444));
+  fs::permissions(folder_, fs::perms(0555));
+  {
+    const AsNobody nobody;
+    Store store = opened();
+    expect_same(store.nearest(example_case(5).scene).value().value().found, example_case(5));
+    const auto added = store.add(example_case(6));
+    ASSERT_FALSE(added.has_value());
+    EXPECT_EQ(added.error().code, Error::Code::unwritable);
+    EXPECT_THAT(added.error().message, HasSubstr("bank.db: cannot be written"));
+    EXPECT_THAT(added.error().message, HasSubstr("readonly"));
+    EXPECT_EQ(store.all().value().size(), 1U);
+  }
+  fs::permissions(folder_, fs::perms(0755));
+}
+
+/// Adds until that fails; what was added before must be there, then and afterwards.
+void fill(const fs::path& path, const std::function<void()>& make_room) {
+  Store store = Store::open(path).value();
+  CaseId last = 0;
+  std::optional<Error> error;
+  for (std::uint32_t i = 0; i < 1000 && !error; ++i) {
+    const auto added = store.add(example_case(i));
+    if (added.has_value()) {
+      last = added.value();
+    } else {
+      error = added.error();
+    }
+  }
+  ASSERT_TRUE(error.has_value());
+  ASSERT_GT(last, 3);
+  EXPECT_EQ(error->code, Error::Code::unwritable);
+  EXPECT_THAT(error->message, HasSubstr("bank.db: cannot be written"));
+  EXPECT_EQ(static_cast<CaseId>(store.all().value().size()), last);
+  make_room();
+  EXPECT_EQ(store.add(example_case(1)).value(), last + 1);
+  EXPECT_EQ(static_cast<CaseId>(Store::open(path).value().all().value().size()), last + 1);
+  EXPECT_EQ(shell(path, "PRAGMA integrity_check"), "ok");
+}
+
+TEST_F(Memory, LosesNothingWhenTheFileMayNotGrow) {
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit small{.rlim_cur = 60'000, .rlim_max = before.rlim_max};
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const auto make_room = [&] { ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0); };
+  fill(path_, make_room);
+  make_room();
+  std::signal(SIGXFSZ, handler);
+}
+
+TEST_F(Memory, LosesNothingOnAFullDisk) {
+  const fs::path disk = folder_ / "disk";
+  fs::create_directories(disk);
+  if (::mount("none", disk.c_str(), "tmpfs", 0, "size=128k") != 0) {
+    GTEST_SKIP() << "a small disk needs the right to mount";
+  }
+  const auto make_room = [&] {
+    EXPECT_EQ(::mount("none", disk.c_str(), "tmpfs", MS_REMOUNT, "size=1m"), 0);
+  };
+  fill(disk / "bank.db", make_room);
+  EXPECT_EQ(::umount(disk.c_str()), 0);
+}
+
+// ---- Several processes
+
+/// A process that adds cases and reports the id of each, once it is safe, through a pipe.
+class Adder {
+ public:
+  Adder(const fs::path& path, int num_cases) {
+    std::array<int, 2> ends{};
+    EXPECT_EQ(::pipe(ends.data()), 0);
+    process_ = ::fork();
+    if (process_ == 0) {
+      auto opened = Store::open(path);
+      if (!opened.has_value()) {
+        ::_exit(2);
+      }
+      Store store = std::move(opened).value();
+      for (int i = 0; i < num_cases; ++i) {
+        const auto id = store.add(example_case(static_cast<std::uint32_t>(i)));
+        if (!id.has_value() || ::write(ends[1], &id.value(), sizeof(CaseId)) != sizeof(CaseId)) {
+          ::_exit(1);
+        }
+      }
+      ::_exit(0);
+    }
+    ::close(ends[1]);
+    report_ = ends[0];
+  }
+  ~Adder() { ::close(report_); }
+  Adder(const Adder&) = delete;
+  Adder& operator=(const Adder&) = delete;
+
+  /// The next id; nullopt when the process has ended.
+  std::optional<CaseId> next() {
+    CaseId id = 0;
+    return ::read(report_, &id, sizeof(id)) == sizeof(id) ? std::optional(id) : std::nullopt;
+  }
+
+  void kill_after(std::chrono::microseconds delay) {
+    const timespec pause{0, std::chrono::nanoseconds(delay).count()};
+    ::nanosleep(&pause, nullptr);
+    ::kill(process_, SIGKILL);
+  }
+
+  /// @return  its exit status; -1 when it was killed
+  int wait() {
+    int status = 0;
+    ::waitpid(process_, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+ private:
+  pid_t process_ = 0;
+  int report_ = -1;
+};
+
+TEST_F(Memory, SeesWhatAnotherProcessAdds) {
+  Store store = opened();
+  ASSERT_TRUE(store.add(example_case(50)).has_value());
+  ASSERT_EQ(store.nearest(example_case(4).scene).value().value().found.id, 1);
+  Adder other(path_, 5);
+  EXPECT_EQ(other.wait(), 0);
+  const Match match = store.nearest(example_case(4).scene).value().value();
+  EXPECT_EQ(match.similarity, 1.0);
+  expect_same(match.found, example_case(4));
+}
+
+TEST_F(Memory, ForgetsWhatAnotherProcessDeletes) {
+  Store store = opened();
+  ASSERT_TRUE(store.add(example_case(1)).has_value());
+  ASSERT_TRUE(store.add(example_case(2)).has_value());
+  ASSERT_EQ(store.nearest(example_case(1).scene).value().value().found.id, 1);
+  shell(path_, "DELETE FROM cases WHERE id = 1");
+  EXPECT_EQ(store.nearest(example_case(1).scene).value().value().found.id, 2);
+  shell(path_, "DELETE FROM cases");
+  EXPECT_FALSE(store.nearest(example_case(1).scene).value().has_value());
+}
+
+TEST_F(Memory, TakesCasesFromTwoProcessesAtOnce) {
+  constexpr int num_cases = 20;
+  {
+    Adder one(path_, num_cases);  // the file is not there yet: they also race to make it
+    Adder other(path_, num_cases);
+    EXPECT_EQ(one.wait(), 0);
+    EXPECT_EQ(other.wait(), 0);
+  }
+  const std::vector<Case> cases = opened().all().value();
+  EXPECT_EQ(cases.size(), 2U * num_cases);
+  std::map<std::string, int> num_of;
+  for (const Case& one : cases) {
+    ++num_of[one.source];
+  }
+  EXPECT_EQ(num_of.size(), std::size_t{num_cases});
+  for (const auto& [source, count] : num_of) {
+    EXPECT_EQ(count, 2) << source;
+  }
+  EXPECT_EQ(integrity(), "ok");
+}
+
+// The promise of `add`: what was reported is there after SIGKILL at any time. Kills per run:
+// SACA_SOAK_KILLS, else few, to be quick.
+TEST_F(Memory, KeepsEveryReportedCaseWhenItsProcessIsKilled) {
+  const char* wanted = std::getenv("SACA_SOAK_KILLS");
+  const int num_kills = wanted == nullptr ? 12 : std::atoi(wanted);
+  std::mt19937 rng(1);
+  std::uniform_int_distribution<int> delay(0, 20'000);  // [us]: about ten additions
+  std::vector<CaseId> reported;
+  for (int i = 0; i < num_kills; ++i) {
+    Adder adder(path_, 1'000'000);
+    if (i % 3 != 0) {
+      reported.push_back(adder.next().value());  // not before it is at work
+    }
+    adder.kill_after(std::chrono::microseconds(delay(rng)));
+    EXPECT_EQ(adder.wait(), -1);
+    while (const auto id = adder.next()) {
+      reported.push_back(*id);
+    }
+    if (i % 100 == 99 || i + 1 == num_kills) {
+      Store store = opened();
+      for (const CaseId id : reported) {
+        ASSERT_TRUE(store.find(id).value().has_value()) << "case " << id << " after kill " << i;
+      }
+      for (const Case& one : store.all().value()) {
+        expect_same(one, example_case(static_cast<std::uint32_t>(std::stoi(one.source.substr(5)))));
+      }
+      ASSERT_EQ(integrity(), "ok");
+    }
+  }
+  EXPECT_GT(reported.size(), static_cast<std::size_t>(num_kills) / 2);
+  RecordProperty("reported", static_cast<int>(reported.size()));
+}
+
+}  // namespace
+}  // namespace saca::memory

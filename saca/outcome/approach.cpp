@@ -1,0 +1,219 @@
+#include "saca/outcome/approach.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "saca/core/contract.h"
+
+namespace saca::outcome {
+namespace {
+
+using world::Footprint;
+using world::Separation;
+using world::Shape;
+using world::Track;
+
+constexpr double distance_accuracy = 5e-4;  // of the smallest distance; half the promised 1 mm
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Both bodies at one time.
+struct Moment {
+  double time = 0.0;
+  Pose X_WA;
+  Pose X_WB;
+  Separation gap;
+};
+
+Moment moment(const Mover& a, const Mover& b, double time) {
+  const Pose X_WA = pose_at(a.track(), time);
+  const Pose X_WB = pose_at(b.track(), time);
+  return {time, X_WA, X_WB, separation(a.footprint(), X_WA, b.footprint(), X_WB)};
+}
+
+// Bound on how fast the distance shrinks on the way from one moment to another, forwards or
+// backwards in time, within which both bodies move straight and turn evenly [m/s].
+double closing_speed(const Mover& a, const Mover& b, const Moment& from, const Moment& to) {
+  const Vec2 n_W = (1.0 / from.gap.distance) * (from.gap.p_b_W - from.gap.p_a_W);
+  const double closing = dot(n_W, (to.X_WA.p - from.X_WA.p) - (to.X_WB.p - from.X_WB.p));
+  const double turning = std::abs(wrap_angle(to.X_WA.yaw - from.X_WA.yaw)) * a.reach() +
+                         std::abs(wrap_angle(to.X_WB.yaw - from.X_WB.yaw)) * b.reach();
+  return (closing + turning) / std::abs(to.time - from.time);
+}
+
+// The smallest distance between two moments of a straight segment, as far as it is below `best`.
+// The distance lies above a line that falls from either end; where the lines meet too low, look
+// there.
+double least_between(const Mover& a, const Mover& b, const Moment& from, const Moment& to,
+                     double best, int depth) {
+  best = std::min({best, from.gap.distance, to.gap.distance});
+  const double forward = closing_speed(a, b, from, to);
+  const double backward = closing_speed(a, b, to, from);
+  if (depth == 0 || forward <= 0.0 || backward <= 0.0) {
+    return best;
+  }
+  const double span = to.time - from.time;
+  const double meet = std::clamp(
+      (from.gap.distance - to.gap.distance + backward * span) / (forward + backward), 0.0, span);
+  if (from.gap.distance - forward * meet >= best - distance_accuracy) {
+    return best;
+  }
+  const Moment middle = moment(a, b, from.time + 0.5 * span);
+  best = least_between(a, b, from, middle, best, depth - 1);
+  return least_between(a, b, middle, to, best, depth - 1);
+}
+
+// Where along t_W the points lie that are within `depth` of the foremost along n_W.
+struct Span {
+  double low = infinity;
+  double high = -infinity;
+
+  void add(double at) {
+    low = std::min(low, at);
+    high = std::max(high, at);
+  }
+};
+
+Span front_of_box(const Footprint& box, const Pose& X_WB, Vec2 n_W, Vec2 t_W, double depth) {
+  const double a = 0.5 * box.length;
+  const double b = 0.5 * box.width;
+  std::array<Vec2, 4> corners{Vec2{a, b}, Vec2{-a, b}, Vec2{-a, -b}, Vec2{a, -b}};
+  for (Vec2& corner : corners) {
+    corner = X_WB * (corner + Vec2{box.centre_x, 0.0});
+  }
+  const double limit = dot(n_W, support(box, X_WB, n_W)) - depth;
+  Span span;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec2 p = corners[i];
+    const Vec2 q = corners[(i + 1) % 4];
+    const double above_p = dot(n_W, p) - limit;
+    const double above_q = dot(n_W, q) - limit;
+    if (above_p >= 0.0) {
+      span.add(dot(t_W, p));
+    }
+    if ((above_p >= 0.0) != (above_q >= 0.0)) {
+      const double share = above_p / (above_p - above_q);
+      span.add(dot(t_W, p + share * (q - p)));
+    }
+  }
+  return span;
+}
+
+// On the unit circle that the ellipse is an image of, the limit is a chord.
+Span front_of_ellipse(const Footprint& ellipse, const Pose& X_WB, Vec2 n_W, Vec2 t_W,
+                      double depth) {
+  const double a = 0.5 * ellipse.length;
+  const double b = 0.5 * ellipse.width;
+  const Vec2 n_B = rotated(n_W, -X_WB.yaw);
+  const Vec2 m{a * n_B.x, b * n_B.y};
+  const double height = norm(m);
+  const Vec2 top = (1.0 / height) * m;
+  const double chord = std::max(1.0 - depth / height, 0.0);
+  const double half = std::sqrt(1.0 - chord * chord);
+  Span span;
+  for (const double side : {-half, half}) {
+    const Vec2 u = chord * top + side * Vec2{-top.y, top.x};
+    span.add(dot(t_W, X_WB * (Vec2{a * u.x, b * u.y} + Vec2{ellipse.centre_x, 0.0})));
+  }
+  return span;
+}
+
+Span front(const Footprint& body, const Pose& X_WB, Vec2 n_W, Vec2 t_W, double depth) {
+  return body.shape == Shape::box ? front_of_box(body, X_WB, n_W, t_W, depth)
+                                  : front_of_ellipse(body, X_WB, n_W, t_W, depth);
+}
+
+Footprint shrunk(Footprint body, double share) {
+  body.length *= share;
+  body.width *= share;
+  return body;
+}
+
+}  // namespace
+
+Mover::Mover(const Footprint& footprint, const Track& X_WA)
+    : footprint_(&footprint), track_(&X_WA), reach_(bounding_radius(footprint)) {
+  expects(!X_WA.X_WA.empty(), "a track has at least one pose");
+  expects(X_WA.step > 0.0 && std::isfinite(X_WA.start), "step > 0 and start is finite");
+  const auto& poses = X_WA.X_WA;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    expects(is_finite(poses[i]), "every pose is finite");
+    if (i > 0) {
+      const double turn = std::abs(wrap_angle(poses[i].yaw - poses[i - 1].yaw));
+      const double way = norm(poses[i].p - poses[i - 1].p) + turn * reach_;
+      top_speed_ = std::max(top_speed_, way / X_WA.step);
+    }
+  }
+}
+
+double Mover::next_sample(double time) const {
+  // A time that rounding left just before a sample stands for that sample.
+  const double sample = std::floor((time - track_->start) / track_->step + 1e-6) + 1.0;
+  const auto last = static_cast<double>(track_->X_WA.size() - 1);
+  return sample > last ? infinity : track_->start + std::max(sample, 0.0) * track_->step;
+}
+
+Approach approach(const Mover& a, const Mover& b, double start, double end, double of_interest) {
+  expects(std::isfinite(start) && start <= end && std::isfinite(end), "start <= end");
+  expects(of_interest >= 0.0, "of_interest >= 0");
+  const double top_speed = a.top_speed() + b.top_speed();
+  Approach found{std::nullopt, of_interest};
+  Moment now = moment(a, b, start);
+  while (true) {
+    const double distance = now.gap.distance;
+    const double spare = distance - found.distance;  // may be used up and nothing be missed
+    found.distance = std::min(found.distance, distance);
+    if (distance <= touching) {
+      found.contact = now.time;
+      return found;
+    }
+    if (now.time >= end || (spare > 0.0 && top_speed * (end - now.time) <= spare)) {
+      return found;
+    }
+    const double corner = std::min({a.next_sample(now.time), b.next_sample(now.time), end});
+    if (spare > touching && now.time + spare / top_speed > corner) {
+      now = moment(a, b, now.time + spare / top_speed);
+      continue;
+    }
+    Moment next = moment(a, b, corner);
+    const double closing = closing_speed(a, b, now, next);
+    const double room = distance - 0.5 * touching;
+    if (closing * (corner - now.time) > room) {
+      next = moment(a, b, now.time + room / closing);
+    }
+    if (next.gap.distance > 0.0) {
+      found.distance = least_between(a, b, now, next, found.distance, 10);
+    }
+    now = next;
+  }
+}
+
+Touch touch(const Footprint& a, const Pose& X_WA, const Footprint& b, const Pose& X_WB,
+            double depth) {
+  expects(depth > 0.0, "depth > 0");
+  Separation gap = separation(a, X_WA, b, X_WB);
+  if (gap.distance > 0.0) {
+    const Vec2 n_W = (1.0 / gap.distance) * (gap.p_b_W - gap.p_a_W);
+    const Vec2 t_W{-n_W.y, n_W.x};
+    const Span of_a = front(a, X_WA, n_W, t_W, depth);
+    const Span of_b = front(b, X_WB, -n_W, t_W, depth);
+    const double middle = 0.5 * (std::max(of_a.low, of_b.low) + std::min(of_a.high, of_b.high));
+    return {0.5 * dot(n_W, gap.p_a_W + gap.p_b_W) * n_W + middle * t_W, n_W};
+  }
+  double apart = 0.0;  // concentric bodies never part
+  double overlapping = 1.0;
+  for (int i = 0; i < 30; ++i) {
+    const double share = 0.5 * (apart + overlapping);
+    gap = separation(shrunk(a, share), X_WA, shrunk(b, share), X_WB);
+    (gap.distance > 0.0 ? apart : overlapping) = share;
+  }
+  if (apart < 1e-6) {
+    const Vec2 p_W = X_WA * Vec2{a.centre_x, 0.0};
+    return {p_W, rotated({1.0, 0.0}, X_WA.yaw)};  // no side is nearer than another: ahead
+  }
+  // One per cent more, so that the gap is wide enough to have a direction.
+  return touch(shrunk(a, 0.99 * apart), X_WA, shrunk(b, 0.99 * apart), X_WB, depth);
+}
+
+}  // namespace saca::outcome

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "saca/outcome/outcome.h"
+#include "saca/world/scene.h"
+
+namespace saca::outcome {
+
+/// An outcome in one line, e.g. "clear by 1.2 m" or "hits car1 with its front at 4.2 m/s".
+/// @param actors  those that outcome.contact counts in
+[[nodiscard]] std::string describe(const Outcome& outcome, std::span<const world::Actor> actors);
+[[nodiscard]] std::string describe(const Outcome& outcome, const world::Scene& scene);
+
+}  // namespace saca::outcome

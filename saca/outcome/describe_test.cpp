@@ -1,0 +1,28 @@
+#include "saca/outcome/describe.h"
+
+#include <gtest/gtest.h>
+
+namespace saca::outcome {
+namespace {
+
+world::Scene scene_with_a_truck() {
+  world::Scene scene;
+  scene.actors.push_back({.id = 2, .kind = world::ActorKind::truck});
+  return scene;
+}
+
+TEST(Describe, SaysHowFarItStayedClear) {
+  EXPECT_EQ(describe(Outcome{.clearance = 1.24}, scene_with_a_truck()), "clear by 1.2 m");
+}
+
+TEST(Describe, NamesWhoIsHitWhereAndHowFast) {
+  Contact contact{.actor = 0, .ego_face = Face::rear, .relative_speed = 4.21};
+  EXPECT_EQ(describe(Outcome{.contact = contact}, scene_with_a_truck()),
+            "hits truck2 with its rear at 4.2 m/s");
+  contact.actor.reset();
+  EXPECT_EQ(describe(Outcome{.contact = contact}, scene_with_a_truck()),
+            "leaves the road with its rear at 4.2 m/s");
+}
+
+}  // namespace
+}  // namespace saca::outcome

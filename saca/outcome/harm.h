@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string_view>
+
+#include "saca/core/result.h"
+#include "saca/outcome/face.h"
+#include "saca/outcome/impact.h"
+#include "saca/world/road.h"
+#include "saca/world/scene.h"
+
+namespace saca::outcome {
+
+/// Probability 1 / (1 + exp(-(intercept + slope x))).
+struct RiskCurve {
+  double intercept = 0.0;  ///< [-]
+  double slope = 0.0;      ///< per unit of x, here [s/m], > 0
+};
+
+/// @param x  [m/s]
+[[nodiscard]] double probability(const RiskCurve& curve, double x);
+
+/// What of the probability is due to x: (P(x) - P(0)) / (1 - P(0)); 0 at x = 0.
+/// @param x  [m/s], >= 0
+[[nodiscard]] double attributable(const RiskCurve& curve, double x);
+
+/// Risks of somebody outside a vehicle over the closing speed.
+struct UnprotectedRisk {
+  RiskCurve severe;  ///< MAIS 3 or worse, the killed among them
+  RiskCurve killed;
+};
+
+constexpr std::size_t num_actor_kinds = 7;
+constexpr std::size_t num_beyond = 4;
+
+/// How contact becomes harm: data/harm.toml, which says where each number comes from.
+struct HarmModel {
+  double severe_weight = 0.0;  ///< of one expected MAIS 3+ [-], >= 0
+  double killed_weight = 0.0;  ///< of one expected death, on top [-], >= 0
+  RiskCurve occupant;          ///< MAIS 3+ over delta-v, struck in front
+  double side = 0.0;           ///< added to the intercept when struck there [-]
+  double rear = 0.0;           ///< likewise
+  double killed_share = 0.0;   ///< of occupants MAIS 3+, in [0, 1]
+  UnprotectedRisk pedestrian;
+  UnprotectedRisk cyclist;
+  UnprotectedRisk motorcyclist;
+  double ego_people = 0.0;                       ///< in the ego, >= 0
+  std::array<double, num_actor_kinds> people{};  ///< by ActorKind, >= 0
+  ImpactLaw law;                                 ///< between vehicles; people do not rebound
+  double depth = 0.0;                            ///< of `touch` [m], > 0
+  std::array<double, num_beyond> speed_share{};  ///< stopped, by Beyond; barrier: 1, not used
+};
+
+/// @param source  name for messages, usually the path
+/// @return        Error::Code::malformed or out_of_range, naming source, line and key
+[[nodiscard]] Result<HarmModel> parse_harm(std::string_view text, std::string_view source);
+[[nodiscard]] Result<HarmModel> read_harm(const std::filesystem::path& path);
+
+/// Weighted harm of one occupant of a vehicle.
+/// @param delta_v  [m/s], >= 0; 0 does no harm
+[[nodiscard]] double occupant_harm(const HarmModel& model, Face struck, double delta_v);
+
+/// Is somebody of this kind outside a vehicle?
+[[nodiscard]] bool unprotected(world::ActorKind kind);
+
+/// Weighted harm of one person outside a vehicle: by the curves, but never less than that of an
+/// occupant struck in the side who suffers the closing speed as delta-v.
+/// @param kind           pedestrian, bicycle or motorcycle
+/// @param closing_speed  [m/s], >= 0; 0 does no harm
+[[nodiscard]] double unprotected_harm(const HarmModel& model, world::ActorKind kind,
+                                      double closing_speed);
+
+}  // namespace saca::outcome

@@ -1,0 +1,57 @@
+#include "saca/outcome/ordering.h"
+
+#include <cmath>
+#include <tuple>
+
+#include "saca/core/contract.h"
+#include "saca/outcome/outcome.h"
+
+namespace saca::outcome {
+
+using manoeuvre::PolicyId;
+
+namespace {
+
+double harm_class(const Outcome& outcome) {
+  expects(outcome.harm >= 0.0 && std::isfinite(outcome.harm), "harm >= 0");
+  return std::round(outcome.harm / harm_tie);
+}
+
+}  // namespace
+
+int severity(PolicyId policy) {
+  switch (policy) {
+    case PolicyId::no_intervention:
+      return 0;
+    case PolicyId::aeb:
+      return 1;
+    case PolicyId::es_b_left:
+    case PolicyId::es_b_right:
+      return 2;
+    case PolicyId::aes_left:
+    case PolicyId::aes_right:
+      return 3;
+    case PolicyId::t_drift_left:
+    case PolicyId::t_drift_right:
+      break;
+  }
+  return 4;
+}
+
+bool milder(PolicyId a, PolicyId b) {
+  return severity(a) < severity(b);
+}
+
+bool better(const Outcome& a, PolicyId policy_a, const Outcome& b, PolicyId policy_b) {
+  const auto key = [](const Outcome& outcome, PolicyId policy) {
+    expects(outcome.clearance >= 0.0 && std::isfinite(outcome.clearance), "clearance >= 0");
+    return std::tuple{harm_class(outcome), severity(policy), -std::round(outcome.clearance / 1e-3)};
+  };
+  return key(a, policy_a) < key(b, policy_b);
+}
+
+bool strictly_less_harm(const Outcome& a, const Outcome& b) {
+  return harm_class(a) < harm_class(b);
+}
+
+}  // namespace saca::outcome

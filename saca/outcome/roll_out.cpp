@@ -1,0 +1,15 @@
+#include "saca/manoeuvre/drive.h"
+#include "saca/outcome/outcome.h"
+
+namespace saca::outcome {
+
+// Longer than any manoeuvre of the library: 25 m/s at grip 0.3 takes 9 s to rest.
+constexpr double longest = 12.0;
+
+Outcome roll_out(const vehicle::Vehicle& car, const manoeuvre::Plan& plan,
+                 const world::Scene& scene, std::span<const world::Track> tracks, double grip,
+                 const HarmModel& harm) {
+  return judge(drive(car, plan, scene, grip, longest), scene, tracks, harm);
+}
+
+}  // namespace saca::outcome

@@ -1,0 +1,58 @@
+#include "saca/preview/threat.h"
+
+#include "saca/intent/intention.h"
+#include "saca/world/time_to_conflict.h"
+
+namespace saca::preview {
+
+bool is_behind(const world::Scene& scene, const world::Actor& actor) {
+  const double ego_s = world::to_lane(scene.road, scene.ego.X_WB).s;
+  return world::to_lane(scene.road, actor.X_WA).s < ego_s && !world::is_crossing(scene, actor);
+}
+
+std::optional<Threat> nearest_threat(const world::Scene& scene, double horizon, double tolerance) {
+  std::optional<Threat> nearest;
+  for (std::size_t i = 0; i < scene.actors.size(); ++i) {
+    const world::Actor& actor = scene.actors[i];
+    if (is_behind(scene, actor)) {
+      continue;
+    }
+    const double slack = world::is_crossing(scene, actor) ? tolerance : 0.0;
+    const auto time =
+        world::time_to_conflict(scene, actor, nearest ? nearest->time : horizon, slack);
+    if (time && (!nearest || *time < nearest->time)) {
+      nearest = Threat{.actor = i, .time = *time};
+      if (nearest->time <= 0.0) {
+        break;  // nothing is nearer than now
+      }
+    }
+  }
+  return nearest;
+}
+
+std::optional<Threat> previewed_threat(const world::Scene& scene, const Thresholds& thresholds) {
+  std::optional<Threat> nearest =
+      nearest_threat(scene, thresholds.preview, thresholds.preview_tolerance);
+  for (std::size_t i = 0; i < scene.actors.size(); ++i) {
+    const world::Actor& actor = scene.actors[i];
+    if (is_behind(scene, actor)) {
+      continue;
+    }
+    const intent::IntentPosterior posterior = intent::posterior(scene, actor);
+    const double slack = world::is_crossing(scene, actor) ? thresholds.preview_tolerance : 0.0;
+    for (const intent::Intention intention : intent::all_intentions) {
+      if (posterior[static_cast<std::size_t>(intention)] < thresholds.least_posterior) {
+        continue;
+      }
+      const world::Track track =
+          intent::predicted_track(scene, actor, intention, thresholds.preview);
+      const auto time = world::time_to_conflict(scene, actor, track, thresholds.preview, slack);
+      if (time && (!nearest || *time < nearest->time)) {
+        nearest = Threat{.actor = i, .time = *time};
+      }
+    }
+  }
+  return nearest;
+}
+
+}  // namespace saca::preview

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+
+#include "saca/world/scene.h"
+
+namespace saca::preview {
+
+/// When SACA wakes and when it acts: the paper's T1 and T2, and how near in time two paths must
+/// cross to count.
+struct Thresholds {
+  double trigger = 1.3;            ///< T1 [s]
+  double preview = 5.5;            ///< T2 [s]
+  double trigger_tolerance = 0.5;  ///< of crossing traffic at the trigger [s]
+  double preview_tolerance = 2.0;  ///< of crossing traffic at the preview [s]
+  double least_posterior = 0.05;   ///< intentions below this do not start a preview [-]
+};
+
+/// The actor comes up from behind the ego in its own direction: braking and swerving for it would
+/// be wrong, and it never triggers.
+[[nodiscard]] bool is_behind(const world::Scene& scene, const world::Actor& actor);
+
+/// An actor that the ego is in conflict with.
+struct Threat {
+  std::size_t actor = 0;  ///< index into scene.actors
+  double time = 0.0;      ///< to the conflict [s], >= 0
+};
+
+/// The nearest conflict in time within `horizon` if all go on as they do.
+/// @param tolerance  of crossing traffic [s]; other traffic has none
+/// Allocates nothing: for the reflex plane.
+[[nodiscard]] std::optional<Threat> nearest_threat(const world::Scene& scene, double horizon,
+                                                   double tolerance);
+
+/// The nearest conflict under any intention that is likely enough, crossing traffic with the wide
+/// tolerance; within thresholds.preview.
+[[nodiscard]] std::optional<Threat> previewed_threat(const world::Scene& scene,
+                                                     const Thresholds& thresholds);
+
+}  // namespace saca::preview

@@ -1,0 +1,82 @@
+#include "saca/preview/threat.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace saca::preview {
+namespace {
+
+using world::Actor;
+using world::Scene;
+
+constexpr double exactness = 0.0101;  // conflicts are found to 10 ms
+
+Scene ego_at(double speed) {
+  Scene scene;
+  scene.ego.v_B = {speed, 0.0};
+  scene.ego_footprint = {.length = 4.0, .width = 2.0};
+  scene.ego_mass = 1'700.0;
+  return scene;
+}
+
+Actor car(std::uint8_t id, Vec2 p_W, Vec2 v_W) {
+  Actor actor{.id = id, .footprint = {.length = 4.0, .width = 2.0}, .mass = 1'500.0};
+  actor.X_WA = {p_W, norm(v_W) > 0.0 ? std::atan2(v_W.y, v_W.x) : 0.0};
+  actor.v_W = v_W;
+  return actor;
+}
+
+TEST(NearestThreat, IsTheEarliestOfAll) {
+  Scene scene = ego_at(20.0);
+  scene.actors.push_back(car(1, {84.0, 0.0}, {}));  // 80 m: 4 s
+  scene.actors.push_back(
+      car(2, {64.0, 0.0}, {5.0, 0.0}));             // 60 m at 15 m/s: 4 s, a tie kept by order
+  scene.actors.push_back(car(3, {44.0, 0.0}, {}));  // 40 m: 2 s
+  scene.actors.push_back(car(4, {10.0, 3.5}, {}));  // beside the lane
+  const auto threat = nearest_threat(scene, 5.5, 0.5);
+  ASSERT_TRUE(threat.has_value());
+  EXPECT_EQ(threat->actor, 2U);
+  EXPECT_NEAR(threat->time, 2.0, exactness);
+}
+
+TEST(NearestThreat, EmptySceneHasNone) {
+  EXPECT_FALSE(nearest_threat(ego_at(20.0), 5.5, 2.0).has_value());
+  EXPECT_FALSE(previewed_threat(ego_at(20.0), {}).has_value());
+}
+
+TEST(NearestThreat, AFollowerNeverTriggers) {
+  Scene scene = ego_at(10.0);
+  scene.actors.push_back(car(1, {-14.0, 0.0}, {25.0, 0.0}));
+  EXPECT_TRUE(is_behind(scene, scene.actors[0]));
+  EXPECT_FALSE(nearest_threat(scene, 5.5, 0.5).has_value());
+  EXPECT_FALSE(previewed_threat(scene, {}).has_value());
+}
+
+// The paper's scene at T2: at constant speed the truck passes behind the ego. The wide tolerance
+// starts the preview, the narrow one does not trigger.
+TEST(PreviewedThreat, SeesThePapersTruck) {
+  Scene scene = ego_at(14.0);
+  Actor truck = car(1, {55.0, 43.0}, {0.0, -7.5});
+  truck.kind = world::ActorKind::truck;
+  truck.footprint = {.length = 8.0, .width = 2.5};
+  scene.actors.push_back(truck);
+  EXPECT_FALSE(nearest_threat(scene, 5.5, 0.5).has_value());
+  const auto threat = previewed_threat(scene, {});
+  ASSERT_TRUE(threat.has_value());
+  EXPECT_LT(threat->time, 5.5);
+}
+
+// Nothing happens if the lead keeps its speed; it may brake (10 %), and that counts.
+TEST(PreviewedThreat, LooksAtEveryLikelyIntention) {
+  Scene scene = ego_at(20.0);
+  scene.actors.push_back(car(1, {24.0, 0.0}, {20.0, 0.0}));
+  EXPECT_FALSE(nearest_threat(scene, 5.5, 2.0).has_value());
+  const auto threat = previewed_threat(scene, {});
+  ASSERT_TRUE(threat.has_value());
+  EXPECT_NEAR(threat->time, std::sqrt(2.0 * 20.0 / 6.0), exactness);  // the assumed 6 m/s^2
+  EXPECT_FALSE(previewed_threat(scene, {.least_posterior = 0.2}).has_value());
+}
+
+}  // namespace
+}  // namespace saca::preview

@@ -1,0 +1,17 @@
+# cmake -DFOLDER=<viewer> -DSCRIPTS=<a.js>,... -DOUTPUT=<page.cpp> -P EmbedPage.cmake
+# Writes the page's sources as byte arrays: string literals would need escaping and have a length limit.
+string(REPLACE "," ";" SCRIPTS "${SCRIPTS}")
+file(READ ${FOLDER}/report.html html HEX)
+file(READ ${FOLDER}/report.css css HEX)
+foreach(script IN LISTS SCRIPTS)
+  file(READ ${FOLDER}/${script} bytes HEX)
+  string(APPEND js "${bytes}")
+endforeach()
+set(code "// Made from the files in viewer/ by EmbedPage.cmake.\n#include \"saca/report/page.h\"\n\nnamespace saca::report {\n")
+foreach(part html css js)
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "'\\\\x\\1'," bytes "${${part}}")
+  string(APPEND code "static constexpr char ${part}_bytes[] = {${bytes}};\n")
+  string(APPEND code "const std::string_view page_${part}{${part}_bytes, sizeof ${part}_bytes};\n")
+endforeach()
+string(APPEND code "}  // namespace saca::report\n")
+file(WRITE ${OUTPUT} "${code}")

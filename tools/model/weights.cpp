@@ -1,0 +1,220 @@
+// saca-weights make TYPE IN OUT           rewrites weights as q8_0 or bf16
+// saca-weights choose PROMPTS OUT REFERENCE [CANDIDATE...]
+//   measures each file on this processor and writes to OUT which one to use: the fastest of those
+//   that decide as REFERENCE does. PROMPTS: the system part, then scenes, parted by lines "====".
+#include <llama.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <thread>
+
+#include "engine.h"
+
+namespace {
+
+using saca::model_host::AskFigures;
+using saca::model_host::Engine;
+
+constexpr int rounds = 2;         // the best of them counts: the machine may be busy
+constexpr int reply_tokens = 40;  // per scene and round
+// Largest change of an answer's probability that still counts as deciding alike: rounding alone
+// moves the untuned model's flat distribution by 0.03.
+constexpr double probability_tolerance = 0.05;
+
+struct Measurement {
+  std::string path;
+  std::vector<std::vector<double>> probabilities;  // per scene, of the eight answers
+  double prompt_rate = 0.0;                        // [tokens/s]
+  double reply_rate = 0.0;                         // three scenes together [tokens/s]
+  double seconds = 1e9;                            // the three scenes, prompts and replies
+};
+
+std::vector<double> softmax(std::vector<double> logits) {
+  const double top = *std::max_element(logits.begin(), logits.end());
+  double sum = 0.0;
+  for (double& x : logits) {
+    x = std::exp(x - top);
+    sum += x;
+  }
+  for (double& x : logits) {
+    x /= sum;
+  }
+  return logits;
+}
+
+std::vector<std::string> parts(const std::string& path) {
+  std::ifstream file(path);
+  std::vector<std::string> result(1);
+  for (std::string line; std::getline(file, line);) {
+    if (line == "====") {
+      result.emplace_back();
+    } else {
+      result.back() += line + '\n';
+    }
+  }
+  return result;
+}
+
+int fail(const std::string& message) {
+  std::cerr << "saca-weights: " << message << '\n';
+  return 1;
+}
+
+int make(const std::string& type, const std::string& in, const std::string& out) {
+  const std::map<std::string, llama_ftype> types{{"q8_0", LLAMA_FTYPE_MOSTLY_Q8_0},
+                                                 {"bf16", LLAMA_FTYPE_MOSTLY_BF16}};
+  if (!types.contains(type)) {
+    return fail("make: want q8_0 or bf16, got " + type);
+  }
+  llama_model_quantize_params params = llama_model_quantize_default_params();
+  params.allow_requantize = true;
+  params.pure = true;
+  params.ftype = types.at(type);
+  const std::string unfinished = out + ".part";
+  if (llama_model_quantize(in.c_str(), unfinished.c_str(), &params) != 0) {
+    return fail("cannot rewrite " + in + " as " + unfinished);
+  }
+  std::filesystem::rename(unfinished, out);
+  return 0;
+}
+
+// One round of a file: its best figures so far are kept. Empty, or what went wrong.
+std::string measure(Engine& engine, const std::vector<std::string>& scenes, Measurement& m) {
+  saca::SteadyClock clock;
+  m.probabilities.resize(scenes.size());
+  const saca::model_host::EngineEvents events{
+      [](std::size_t, int) {}, [](std::size_t, std::string_view) {},
+      [&](std::size_t scene, saca::model_host::AnswerKind kind, const std::vector<double>& logits) {
+        if (kind == saca::model_host::AnswerKind::first) {
+          m.probabilities[scene] = softmax(logits);
+        }
+      }};
+  const auto begin = clock.now();
+  const auto asked = engine.ask(scenes, saca::Clock::Time::max(), reply_tokens, clock, events);
+  if (!asked.has_value()) {
+    return asked.error().message;
+  }
+  const AskFigures& f = asked.value();
+  const int prompt = std::accumulate(f.prompt_tokens.begin(), f.prompt_tokens.end(), 0);
+  const int reply = std::accumulate(f.reply_tokens.begin(), f.reply_tokens.end(), 0);
+  m.prompt_rate = std::max(m.prompt_rate, prompt / f.prompt_seconds);
+  m.reply_rate = std::max(m.reply_rate, reply / f.reply_seconds);
+  m.seconds = std::min(m.seconds, std::chrono::duration<double>(clock.now() - begin).count());
+  return {};
+}
+
+// All files turn by turn, so that a machine that gets busy slows them all.
+std::string measure_all(const std::vector<std::string>& prompts, std::vector<Measurement>& all) {
+  saca::SteadyClock clock;
+  std::vector<std::shared_ptr<Engine>> engines;
+  const int threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 8U));
+  for (const Measurement& m : all) {
+    const auto loaded = Engine::load({.model_path = m.path, .threads = threads});
+    if (!loaded.has_value()) {
+      return loaded.error().message;
+    }
+    engines.push_back(loaded.value());
+    if (const auto system = engines.back()->set_system(prompts.front(), clock);
+        !system.has_value()) {
+      return system.error().message;
+    }
+  }
+  const std::vector<std::string> scenes(prompts.begin() + 1, prompts.end());
+  for (int round = 0; round < rounds; ++round) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (std::string error = measure(*engines[i], scenes, all[i]); !error.empty()) {
+        return error;
+      }
+    }
+  }
+  return {};
+}
+
+std::string processor() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("model name")) {
+      return line.substr(line.find(':') + 2);
+    }
+  }
+  return "unknown";
+}
+
+std::vector<std::ptrdiff_t> decisions(const Measurement& m) {
+  std::vector<std::ptrdiff_t> result;
+  for (const std::vector<double>& p : m.probabilities) {
+    result.push_back(std::max_element(p.begin(), p.end()) - p.begin());
+  }
+  return result;
+}
+
+double largest_shift(const Measurement& a, const Measurement& b) {
+  double shift = 0.0;
+  for (std::size_t scene = 0; scene < a.probabilities.size(); ++scene) {
+    for (std::size_t i = 0; i < a.probabilities[scene].size(); ++i) {
+      shift = std::max(shift, std::abs(a.probabilities[scene][i] - b.probabilities[scene][i]));
+    }
+  }
+  return shift;
+}
+
+int choose(const std::string& prompt_file, const std::string& out,
+           const std::vector<std::string>& files) {
+  const std::vector<std::string> prompts = parts(prompt_file);
+  if (prompts.size() < 2 || prompts.size() > 1 + saca::model_host::max_scenes) {
+    return fail(prompt_file + ": want a system part and 1 to 3 scenes");
+  }
+  std::vector<Measurement> all;
+  for (const std::string& file : files) {
+    all.push_back({.path = file});
+  }
+  if (const std::string error = measure_all(prompts, all); !error.empty()) {
+    return fail(error);
+  }
+  const Measurement* best = &all.front();
+  nlohmann::ordered_json json{{"schema", "saca.weights/1"}, {"processor", processor()}};
+  for (const Measurement& m : all) {
+    const double shift = largest_shift(m, all.front());
+    const bool same = shift <= probability_tolerance && decisions(m) == decisions(all.front());
+    if (same && m.seconds < best->seconds) {
+      best = &m;
+    }
+    json["measured"].push_back({{"file", std::filesystem::path(m.path).filename()},
+                                {"prompt_tokens_per_s", std::round(m.prompt_rate)},
+                                {"reply_tokens_per_s", std::round(m.reply_rate)},
+                                {"three_scenes_s", std::round(m.seconds * 1e3) / 1e3},
+                                {"largest_probability_shift", shift},
+                                {"decides_alike", same}});
+  }
+  json["file"] = std::filesystem::path(best->path).filename();
+  std::ofstream(out + ".part") << json.dump(2) << '\n';
+  std::filesystem::rename(out + ".part", out);
+  std::cout << json.dump(2) << '\n';
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  llama_log_set(
+      [](ggml_log_level level, const char* text, void*) {
+        if (level == GGML_LOG_LEVEL_ERROR) {
+          std::cerr << text;
+        }
+      },
+      nullptr);
+  const std::vector<std::string> args(argv + 1, argv + argc);
+  if (args.size() == 4 && args[0] == "make") {
+    return make(args[1], args[2], args[3]);
+  }
+  if (args.size() >= 4 && args[0] == "choose") {
+    return choose(args[1], args[2], {args.begin() + 3, args.end()});
+  }
+  return fail("want: make TYPE IN OUT, or choose PROMPTS OUT REFERENCE [CANDIDATE...]");
+}

@@ -1,0 +1,180 @@
+// Everything that does not move: header, decision, driver, result with hindsight, previews, run.
+
+const policy_cell = (id, name, ...marks) => el("span", { class: "policy" },
+  el("b", { text: `${id} ${name ?? ""}` }), ...marks, el("small", { text: policy_words[id] ?? "" }));
+
+const contact_cell = (contact) => (contact
+  ? el("span", { class: "hit" }, "✕ ", contact_words(contact)) : el("span", { class: "free", text: "✓ none" }));
+
+const source_words = {
+  memory: "from memory", model: "from the language model", fallback: "rule-based fallback", forced: "ordered by the user" };
+const gate_words = {
+  cache: "similar enough: the stored policy is cached as it is", check: "similar: the stored policy must pass a rollout",
+  reason: "nothing similar enough: the model is asked" };
+const answer_words = { first: "right after the prompt", ended: "reply ended", forced: "cut by the deadline" };
+
+function show_header(record) {
+  const { scenario, result, decision } = record, contact = result.contact;
+  by_id("title").textContent = scenario.title || scenario.name || "Encounter";
+  document.title = `${scenario.title || scenario.name || "Encounter"} – SACA`;
+  by_id("origin").textContent = scenario.source ? `· ${scenario.source}` : "";
+  by_id("sentence").textContent = result.text || "The record holds no result.";
+  const best = record.hindsight.find((row) => row.policy === record.best);
+  const tile = (name, value, note, kind = "") => el("div", { class: `tile ${kind}` },
+    el("span", { class: "tile-name", text: name }), el("b", { class: "tile-value", text: value }), el("small", { text: note }));
+  by_id("tiles").append(
+    decision ? tile("Decision", decision.name ?? String(decision.policy), source_words[decision.source] ?? decision.source ?? "", "tile-decision")
+      : tile("Decision", "none", "nothing was triggered"),
+    contact ? tile("Contact", `✕ ${num(contact.relative_speed_mps, 1, "m/s")}`, [contact.with, contact.ego_face].filter(Boolean).join(" · "), "tile-bad")
+      : tile("Contact", "✓ none", is_number(result.clearance_m) ? `smallest gap ${num(result.clearance_m, 2, "m")}` : "nobody came near", "tile-good"),
+    tile("Harm", num(result.harm, 3), `Collision Loss ${num(result.collision_loss, 2)}`),
+    tile("Best in hindsight", best ? best.name : none, best ? (decision && best.policy === decision.policy ? "was carried out" : num(best.harm, 3) === num(result.harm, 3) ? "with equal harm" : `harm ${num(best.harm, 3)}`) : "not judged"));
+}
+
+function show_decision(record) {
+  const { decision } = record, panel = by_id("decision");
+  if (!decision) {
+    panel.append(el("p", { text: "No manoeuvre was triggered in this encounter." }));
+    return;
+  }
+  const match = is_number(decision.preview) ? `preview ${decision.preview + 1}${is_number(decision.similarity) ? `, ${percent(decision.similarity)} alike` : ""}` : "no preview matched";
+  panel.append(
+    el("p", { class: "lead" }, el("b", { text: `${decision.policy} ${decision.name ?? ""}` }), ` – ${plan_words(decision.policy, decision.name, decision.target_speed_mps)}`),
+    el("p", {}, tag(source_words[decision.source] ?? String(decision.source), "strong"), " ", tag(match), " ", tag(`at ${num(decision.time_s, 2, "s")}`)),
+    el("p", { text: decision.text || "The record gives no reason." }));
+}
+
+function show_driver(record) {
+  by_id("driver").append(el("p", { text: record.scenario.driver || "The record does not know: this encounter has no recorded driver." }));
+}
+
+function show_result(record) {
+  const panel = by_id("result"), { result, decision } = record;
+  const rows = record.hindsight.map((row) => {
+    const marks = [row.policy === record.best ? tag("best", "good") : null, row.policy === decision?.policy ? tag("carried out", "strong") : null];
+    const name = policy_cell(row.policy, row.name, ...marks);
+    if (row.refusal) return { class: "refused", cells: [name, el("span", { text: `refused: ${row.refusal}` }), none, none, none] };
+    return { class: row.policy === decision?.policy ? "chosen" : "", cells: [name, contact_cell(row.contact),
+      { class: "n", content: num(row.clearance_m, 2) }, { class: "n", content: num(row.collision_loss, 2) }, { class: "n", content: num(row.harm, 3) }] };
+  });
+  const hit = result.contact;
+  panel.append(el("dl", { class: "facts" }, ...[
+    ["Contact", hit ? contact_words(hit) : "none"],
+    hit ? ["Face of the other", hit.other_face ?? none] : null,
+    hit ? ["Change of speed, ego / other", `${num(hit.ego_delta_v_mps, 1)} / ${num(hit.other_delta_v_mps, 1, "m/s")}`] : null,
+    ["Smallest gap", num(result.clearance_m, 2, "m")], ["Collision Loss", num(result.collision_loss, 2)], ["Harm", num(result.harm, 3)],
+  ].filter(Boolean).map(([k, v]) => el("div", {}, el("dt", { text: k }), el("dd", { text: v })))));
+  panel.append(rows.length
+    ? table("Outcome of each policy from the trigger on", ["Policy", "Contact", "Gap [m]", "Collision Loss", "Harm"], rows)
+    : el("p", { class: "soft", text: "The record holds no hindsight." }));
+}
+
+// --- previews -------------------------------------------------------------------------------------
+
+function posterior_bars(posterior, likeliest) {
+  return el("span", { class: "posterior" }, Object.entries(dict(posterior)).map(([name, p]) => el("span", {
+    class: `intent ${name === likeliest ? "likeliest" : ""}`, title: `${intention_words[name] ?? name}: ${percent(p)}` },
+    el("span", { class: "intent-bar", "aria-hidden": "true" }, el("span", { style: { height: `${Math.round(100 * (p || 0))}%` } })),
+    el("span", { text: name }), el("span", { class: "hidden", text: percent(p) }))));
+}
+
+function preview_actors(preview) {
+  const rows = list(preview.actors).map((actor) => ({ cells: [el("b", { text: actor.id }),
+    el("span", {}, intention_words[actor.intention] ?? actor.intention ?? none, el("br"), posterior_bars(actor.posterior, actor.intention)),
+    el("span", {}, bar(actor.risk, num(actor.risk, 2), actor.risk >= risk_shown ? "danger" : ""), el("small", { text: actor.risk_text ?? "" }))] }));
+  return rows.length ? table("Actors, their intentions and risks", ["Actor", "Intention in this preview, and all six", "Risk"], rows)
+    : el("p", { class: "soft", text: "No actors." });
+}
+
+function preview_facts(preview) {
+  const rows = list(preview.facts).map((fact) => {
+    const chosen = preview.plan && preview.plan.policy === fact.policy;
+    const name = policy_cell(fact.policy, fact.name, chosen ? tag("planned", "strong") : null);
+    if (fact.refusal) return { class: "refused", cells: [name, `refused: ${fact.refusal}`, none, none] };
+    return { class: chosen ? "chosen" : "", cells: [name, el("span", { class: fact.contact ? "hit" : "free" }, fact.contact ? "✕ " : "✓ ", fact.text || contact_words(fact.contact)),
+      { class: "n", content: num(fact.collision_loss, 2) }, { class: "n", content: num(fact.harm, 3) }] };
+  });
+  return table("Forecast of each policy", ["Policy", "Forecast", "Loss", "Harm"], rows);
+}
+
+function preview_answers(preview, record) {
+  const answers = list(preview.answers);
+  if (!answers.length) return el("p", { class: "soft", text: record.model === "off" ? "The model was off." : "The model gave no answer." });
+  const name = (p) => list(preview.facts).find((f) => f.policy === p)?.name ?? "";
+  const headings = ["Policy", ...answers.map((a) => `${answer_words[a.kind] ?? a.kind}, ${num(a.t_s, 2, "s")}`)];
+  const rows = policy_words.map((_, p) => ({ cells: [`${p} ${name(p)}`, ...answers.map((answer) => {
+    const chances = list(answer.probability), top = chances[p] === Math.max(...chances);
+    return bar(chances[p], percent(chances[p]), top ? "top" : "");
+  })] }));
+  return table("Probability of each policy over time", headings, rows);
+}
+
+function preview_steps(preview, record) {
+  const { memory, check, plan } = preview, gate = memory?.gate;
+  const step = (name, state, ...content) => el("li", { class: `step ${state}` }, el("h4", { text: name }), ...content);
+  const case_words = memory?.case === null || memory?.case === undefined ? "no case" : `case ${memory.case}`;
+  const faithful = is_number(preview.faithful) ? `${percent(preview.faithful)} of the numbers quoted in the reply stand in the prompt` : null;
+  return el("ol", { class: "steps" },
+    step("Memory", "done", memory ? el("p", {}, bar(memory.similarity, `${percent(memory.similarity)} · ${case_words}`), el("small", { text: gate_words[gate] ?? gate ?? "" })) : el("p", { class: "soft", text: "not asked" })),
+    step("Language model", list(preview.answers).length ? "done" : "skipped", preview_answers(preview, record),
+      preview.reasoning ? el("pre", { class: "reasoning", text: preview.reasoning }) : null,
+      faithful ? el("p", {}, tag(faithful, preview.faithful >= 0.999 ? "good" : "warn")) : null,
+      preview.prompt ? el("details", {}, el("summary", { text: "Prompt" }), el("pre", { class: "prompt", tabindex: "0", text: preview.prompt })) : null),
+    step("Rollout check", check ? (check.passed ? "done" : "failed") : "skipped",
+      check ? el("p", {}, tag(check.passed ? "✓ passed" : "✕ failed", check.passed ? "good" : "bad"), " ", check.text ?? "") : el("p", { class: "soft", text: "not needed, or not reached" })),
+    step("Plan", plan ? "done" : "skipped", el("p", {}, plan
+      ? el("span", {}, el("b", { text: `${plan.policy} ${list(preview.facts).find((f) => f.policy === plan.policy)?.name ?? ""}` }), ` ${plan_words(plan.policy, "", plan.target_speed_mps)}`,
+        is_number(preview.ready_s) ? el("small", { text: ` cached at ${num(preview.ready_s, 2, "s")}` }) : null)
+      : el("span", { class: "soft", text: "none was cached" }))));
+}
+
+/** Tabs, one per preview; on paper all are shown. */
+function show_previews(record, show_in_plan) {
+  const panel = by_id("previews"), chosen = record.decision?.preview ?? 0;
+  if (!record.previews.length) {
+    panel.append(el("p", { class: "soft", text: "No situation at the trigger was forecast in this encounter." }));
+    return;
+  }
+  const tabs = el("div", { class: "tabs", role: "tablist", "aria-label": "Previews" }), bodies = [];
+  const select = (k, focus) => {
+    [...tabs.children].forEach((tab, i) => { tab.setAttribute("aria-selected", String(i === k)); tab.tabIndex = i === k ? 0 : -1; if (i === k && focus) tab.focus(); });
+    bodies.forEach((body, i) => body.classList.toggle("closed", i !== k));
+  };
+  record.previews.forEach((preview, k) => {
+    const matched = record.decision?.preview === k;
+    tabs.append(el("button", { type: "button", role: "tab", id: `tab-${k}`, "aria-controls": `preview-${k}`, onclick: () => select(k, false),
+      onkeydown: (e) => {
+        const step = { ArrowRight: 1, ArrowLeft: -1 }[e.key];
+        if (step) { select((k + step + bodies.length) % bodies.length, true); e.stopPropagation(); e.preventDefault(); }
+      } },
+    el("b", { text: `Preview ${k + 1}` }), ` ${percent(preview.probability)}`, matched ? tag("matched", "strong") : null));
+    bodies.push(el("div", { class: "preview", role: "tabpanel", id: `preview-${k}`, "aria-labelledby": `tab-${k}` },
+      el("div", { class: "preview-head" }, el("h3", { text: `Preview ${k + 1}: probability ${percent(preview.probability)}` }),
+        el("button", { type: "button", class: "quiet", text: "Show in plan view", onclick: () => show_in_plan(k) })),
+      el("div", { class: "columns" },
+        el("div", {}, el("h4", { text: "Who, and what they may do" }), preview_actors(preview), el("h4", { text: "What each policy is forecast to bring" }), preview_facts(preview)),
+        el("div", {}, el("h4", { text: "How the plan came about" }), preview_steps(preview, record)))));
+  });
+  panel.append(tabs, ...bodies);
+  select(Math.min(chosen, bodies.length - 1), false);
+}
+
+function show_run(record) {
+  const { timing, scenario } = record;
+  const rows = [["Scenario", scenario.name], ["Source", scenario.source], ["Pace", record.pace], ["Language model", record.model],
+    ["Grip", num(record.grip, 2)], ["Stored in memory as", record.case === null || record.case === undefined ? "not stored" : `case ${record.case}`],
+    ["Reflex calls", is_number(timing.reflex_calls) ? String(timing.reflex_calls) : none],
+    ["Reflex call, median / longest", `${num(timing.reflex_us_p50, 1)} / ${num(timing.reflex_us_max, 1, "µs")}`],
+    ["Preview / first answer / answer after T2", `${num(timing.preview_s, 2)} / ${num(timing.first_answer_s, 2)} / ${num(timing.answer_s, 2, "s")}`],
+    ["Deadlines missed", is_number(timing.deadline_misses) ? String(timing.deadline_misses) : none]];
+  by_id("run").append(el("dl", { class: "facts" }, rows.map(([k, v]) => el("div", {}, el("dt", { text: k }), el("dd", { text: v ?? none })))));
+}
+
+function show_events(record, seek) {
+  const box = by_id("event-list");
+  box.querySelector("summary").textContent = `All events (${record.events.length})`;
+  box.querySelector(".scroll").append(el("table", {}, el("thead", {}, el("tr", {}, ["Time", "Plane", "Event", "What"].map((h) => el("th", { scope: "col", text: h })))),
+    el("tbody", {}, record.events.map((event) => el("tr", {},
+      el("td", {}, el("button", { type: "button", class: "link", text: num(event.t_s, 2, "s"), onclick: () => seek(event.t_s, event) })),
+      el("td", { text: event.plane }), el("td", { text: event_words[event.kind] ?? event.kind }), el("td", { text: event.text ?? "" }))))));
+}

@@ -1,0 +1,105 @@
+// The record (docs/formats.md) with its gaps filled by null and empty lists, and read at any time.
+
+const policy_words = [
+  "full braking in the lane", "lane change left at constant speed", "lane change right at constant speed",
+  "lane change left while braking", "lane change right while braking", "drift to a stop, turned left",
+  "drift to a stop, turned right", "no intervention"];
+
+const intention_words = {
+  M: "goes on", LC: "changes to the left", RC: "changes to the right", FB: "brakes", LB: "brakes and moves left",
+  RB: "brakes and moves right" };
+
+const event_words = {
+  preview: "T2 preview", risk: "risk", intention: "intention", forecast: "forecast", memory: "memory", ask: "ask model",
+  first_answer: "first answer", answer: "answer", check: "check", cached: "plan cached", trigger: "T1 trigger",
+  match: "match", execute: "execute", contact: "contact", rest: "rest", fault: "fault" };
+
+const radians = (degrees) => (degrees * Math.PI) / 180;
+const list = (value) => (Array.isArray(value) ? value : []);
+const dict = (value) => (value && typeof value === "object" && !Array.isArray(value) ? value : {});
+
+/** Event of a kind; the first, or null. */
+const first_event = (record, kind) => record.events.find((e) => e.kind === kind) ?? null;
+
+function read_record(text) {
+  const raw = dict(JSON.parse(text));
+  const frames = list(raw.frames).filter((f) => is_number(f.t_s) && f.ego && is_number(f.ego.x_m) && is_number(f.ego.y_m));
+  const events = list(raw.events).filter((e) => is_number(e.t_s)).sort((a, b) => a.t_s - b.t_s);
+  const record = {
+    ...raw, frames, events, scenario: dict(raw.scenario), road: dict(raw.road), ego: dict(raw.ego),
+    actors: list(raw.actors), previews: list(raw.previews), decision: raw.decision ?? null, result: dict(raw.result),
+    hindsight: list(raw.hindsight), timing: dict(raw.timing), thresholds: dict(raw.thresholds) };
+  record.start = frames.length ? frames[0].t_s : 0;
+  // A contact lies between frames, a late answer may come after the last one.
+  record.end = Math.max(record.start, ...frames.slice(-1).map((f) => f.t_s), ...(frames.length ? events : []).map((e) => e.t_s),
+    frames.length && is_number(record.result.contact?.time_s) ? record.result.contact.time_s : record.start);
+  record.t2 = first_event(record, "preview")?.t_s ?? null;
+  record.t1 = first_event(record, "trigger")?.t_s ?? record.decision?.time_s ?? null;
+  record.shape_of = new Map(record.actors.map((a) => [a.id, a]));
+  record.risk_of = new Map();
+  const told = record.previews[record.decision?.preview ?? 0] ?? null;
+  for (const actor of list(told?.actors)) record.risk_of.set(actor.id, actor.risk);
+  return record;
+}
+
+/** Id of the actor with the largest risk in the preview that counts, or null. */
+function most_dangerous(record) {
+  let most = null;
+  for (const [id, risk] of record.risk_of) if (is_number(risk) && risk > (record.risk_of.get(most) ?? 0)) most = id;
+  return most;
+}
+
+function mix(a, b, share) {
+  if (!is_number(a) || !is_number(b)) return is_number(a) ? a : null;
+  return a + (b - a) * share;
+}
+
+function mix_angle(a, b, share) {
+  if (!is_number(a) || !is_number(b)) return is_number(a) ? a : null;
+  return a + ((((b - a) % 360) + 540) % 360 - 180) * share;
+}
+
+function mix_body(a, b, share) {
+  const body = { ...a };
+  for (const key of Object.keys(a)) {
+    if (key === "heading_deg") body[key] = mix_angle(a[key], b[key], share);
+    else if (is_number(a[key])) body[key] = mix(a[key], b[key], share);
+  }
+  return body;
+}
+
+/** Index of the last frame at or before t. */
+function frame_index(frames, t) {
+  let low = 0, high = frames.length - 1;
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (frames[middle].t_s <= t + 1e-9) low = middle; else high = middle - 1;
+  }
+  return low;
+}
+
+/** The frame at t, straight between its neighbours; null without frames. */
+function frame_at(record, t) {
+  const { frames } = record;
+  if (!frames.length) return null;
+  const k = frame_index(frames, t), a = frames[k], b = frames[Math.min(k + 1, frames.length - 1)];
+  const share = b.t_s > a.t_s ? Math.min(1, Math.max(0, (t - a.t_s) / (b.t_s - a.t_s))) : 0;
+  const next = new Map(list(b.actors).map((actor) => [actor.id, actor]));
+  return {
+    ...a, t_s: t, ego: mix_body(a.ego, b.ego, share),
+    actors: list(a.actors).map((actor) => (next.has(actor.id) ? mix_body(actor, next.get(actor.id), share) : actor)),
+    conflict_s: is_number(a.conflict_s) && is_number(b.conflict_s) ? mix(a.conflict_s, b.conflict_s, share) : a.conflict_s };
+}
+
+/** "car1 · front · 7.2 m/s" */
+function contact_words(contact) {
+  if (!contact) return "none";
+  const face = contact.ego_face ? `${contact.ego_face} of the ego` : null;
+  return [contact.with, face, is_number(contact.relative_speed_mps) ? num(contact.relative_speed_mps, 1, "m/s") : null]
+    .filter(Boolean).join(" · ");
+}
+
+function plan_words(policy, name, target_speed) {
+  const words = policy_words[policy] ?? "";
+  return is_number(target_speed) ? `${words} to ${num(target_speed, 1, "m/s")}` : words;
+}

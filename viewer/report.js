@@ -1,0 +1,223 @@
+// The page: time, playback, keys, theme; joins the plan view, the time line and the panels.
+
+const record = read_record(by_id("record").textContent);
+
+const page = {
+  t: record.t1 ?? record.start,
+  playing: false,
+  next: 0,       // the animation frame that was asked for
+  poster: true,  // nobody has moved the cursor yet: the first play starts with the story
+  told: first_event(record, "trigger"),  // the event that was asked for, among several at one time
+
+  show() {
+    const frame = frame_at(record, page.t);
+    plan.draw(page.t);
+    time_line.show(page.t, frame);
+    show_now(frame);
+    show_caption();
+  },
+
+  seek(t, event = null) {
+    page.poster = false;
+    page.told = event;
+    page.t = Math.min(Math.max(t, record.start), record.end);
+    if (page.t < time_line.from - 1e-9) toggle_window();
+    page.show();
+  },
+
+  play(on) {
+    if (on && (page.poster || page.t >= record.end - 1e-6)) page.seek(time_line.from);
+    page.playing = on && record.end > record.start;
+    by_id("play").textContent = page.playing ? "Pause" : "Play";
+    cancelAnimationFrame(page.next);
+    if (page.playing) page.next = requestAnimationFrame((now) => page.step(now, now));
+  },
+
+  step(now, before) {
+    if (!page.playing) return;
+    page.seek(page.t + ((now - before) / 1000) * Number(by_id("rate").value));
+    if (page.t >= record.end - 1e-6) page.play(false);
+    else page.next = requestAnimationFrame((next) => page.step(next, now));
+  },
+};
+
+const plan = new PlanView(by_id("plan"), record);
+const time_line = new TimeLine(by_id("strips"), record, (t, event) => page.seek(t, event));
+
+function show_now(frame) {
+  const ego = frame?.ego;
+  const rows = [
+    ["Time", frame ? num(page.t, 2, "s") : none, "big"],
+    ["Speed", num(ego?.speed_mps, 1, "m/s"), "big"],
+    ["Time to conflict", num(frame?.conflict_s, 2, "s"), ""],
+    ["Yaw rate", sided(ego?.yaw_rate_degps, 1, "°/s"), ""],
+    ["Sideslip", sided(ego?.sideslip_deg, 1, "°"), ""],
+    ["Steering", sided(ego?.steering_deg, 1, "°"), ""]];
+  by_id("now").replaceChildren(...rows.map(([k, v, kind]) => el("div", { class: kind }, el("dt", { text: k }), el("dd", { text: v }))));
+  const phases = { recorded: "As recorded", driving: "Driving on while previewing", manoeuvre: `Manoeuvre ${record.decision?.name ?? ""}` };
+  by_id("phase").textContent = frame ? phases[frame.phase] ?? frame.phase : "No frames in this record";
+  by_id("phase").className = `on-plan phase-${frame?.phase ?? "none"}`;
+  by_id("clock").textContent = frame && is_number(record.t1) ? `T1 ${signed(page.t - record.t1)}\u00A0s` : "";
+}
+
+function show_caption() {
+  const before = record.events.filter((e) => e.t_s <= page.t + 1e-9);
+  const event = page.told ?? before[before.length - 1];
+  const box = by_id("caption");
+  box.replaceChildren();
+  if (event) box.append(el("b", { text: `${event_words[event.kind] ?? event.kind}` }), ` ${num(event.t_s, 2, "s")}${event.text ? ` – ${event.text}` : ""}`);
+}
+
+// --- overlays -------------------------------------------------------------------------------------
+
+const swatch = (kind) => el("i", { class: `swatch ${kind}`, "aria-hidden": "true" });
+
+function show_overlays() {
+  const box = by_id("overlays");
+  if (record.previews.length) {
+    const options = [["", "none"], ...record.previews.map((p, k) => [String(k), `${k + 1} · ${percent(p.probability)}`])];
+    plan.ghost_preview = record.decision?.preview ?? 0;
+    box.append(el("label", { class: "field" }, swatch("forecast"), "Forecast", el("select", { id: "forecast", onchange: (e) => {
+      plan.ghost_preview = e.target.value === "" ? null : Number(e.target.value);
+      page.show();
+    } }, options.map(([value, text]) => el("option", { value, text, selected: value === String(plan.ghost_preview) })))));
+  }
+  const able = record.hindsight.filter((row) => list(row.path).length > 1);
+  if (!able.length) return;
+  box.append(el("p", { class: "field", id: "ghosts-name" }, swatch("hindsight"), "Had it done"));
+  box.append(el("div", { class: "chips", role: "group", "aria-labelledby": "ghosts-name" }, able.map((row) => {
+    const on = row.policy === record.best && row.policy !== record.decision?.policy;
+    if (on) plan.ghost_policies.add(row.policy);
+    return el("button", { type: "button", class: "chip", "aria-pressed": String(on), title: policy_words[row.policy], text: row.name, onclick: (e) => {
+      const pressed = e.currentTarget.getAttribute("aria-pressed") !== "true";
+      e.currentTarget.setAttribute("aria-pressed", String(pressed));
+      if (pressed) plan.ghost_policies.add(row.policy); else plan.ghost_policies.delete(row.policy);
+      page.show();
+    } });
+  })));
+}
+
+function show_in_plan(k) {
+  plan.ghost_preview = k;
+  by_id("forecast").value = String(k);
+  page.seek(record.t1 ?? record.end);
+  by_id("stage").scrollIntoView({ block: "start", behavior: calm() ? "auto" : "smooth" });
+}
+
+function show_legend() {
+  const { road } = record, key = (kind, text) => el("span", { class: "key" }, swatch(kind), text);
+  const edge = (side, what, at) => (what ? `${side} edge ${num(Math.abs(at), 1, "m")}: ${what === "unmarked" ? "open ground" : what}` : null);
+  const words = [road.topology === "intersection" ? "intersection (other road not recorded)" : road.topology,
+    is_number(road.lane_width_m) ? `lane ${num(road.lane_width_m, 1, "m")}` : null, edge("left", road.left_beyond, road.left_edge_m),
+    edge("right", road.right_beyond, road.right_edge_m), is_number(record.grip) ? `grip ${num(record.grip, 2)}` : null].filter(Boolean).join(" · ");
+  const plan_has_threat = record.actors.some((actor) => plan.is_threat(actor.id));
+  by_id("legend").append(key("ego", "ego"), plan_has_threat ? key("threat", `at risk ≥ ${risk_shown}, or hit`) : "", record.actors.length ? key("actor", plan_has_threat ? "other actor" : "actor") : "",
+    record.result.contact ? key("contact", "contact") : "", el("span", { text: `arrows: way in ${arrow_seconds} s` }), el("span", { class: "road-words", text: words }));
+}
+
+// --- theme, window, keys --------------------------------------------------------------------------
+
+const calm = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
+const dark_wanted = matchMedia("(prefers-color-scheme: dark)");
+const is_dark = () => (document.documentElement.dataset.theme ?? (dark_wanted.matches ? "dark" : "light")) === "dark";
+
+function show_theme() {
+  by_id("theme").textContent = is_dark() ? "Light" : "Dark";
+  plan.read_colours();
+  page.show();
+}
+
+function toggle_window() {
+  time_line.whole = !time_line.whole;
+  show_window();
+  time_line.layout();
+}
+
+function show_window() {
+  by_id("window").hidden = !time_line.has_more;
+  by_id("window").textContent = time_line.whole ? "From T2" : "Whole run";
+}
+
+function on_key(event) {
+  if (event.ctrlKey || event.metaKey || event.altKey) return;
+  const at = event.target.closest("button, input, select, summary, pre, [role=region]");  // may want the key itself
+  const free = !at || at.id === "scrub" || (at.matches("button") && at.role !== "tab");
+  const step = event.shiftKey ? 0.5 : 0.05;
+  if (event.key === " " && (!at || at.id === "scrub")) page.play(!page.playing);
+  else if (event.key === "ArrowRight" && free) page.seek(page.t + step);
+  else if (event.key === "ArrowLeft" && free) page.seek(page.t - step);
+  else if (event.key === "Home" && free) page.seek(time_line.from);
+  else if (event.key === "End" && free) page.seek(record.end);
+  else return;
+  event.preventDefault();
+}
+
+function on_resize() {
+  plan.resize();
+  time_line.layout();
+  page.show();
+}
+
+/** Lays out anew when a box changes its size (of the strips only the width: their height follows from it). */
+function watch_size(box, size) {
+  let before = size(box);
+  new ResizeObserver(() => {
+    if (size(box) === before) return;
+    before = size(box);
+    on_resize();
+  }).observe(box);
+}
+
+/** Printing: light, in the width of the paper, nothing folded away. */
+const paper = {
+  on() {
+    const root = document.documentElement;
+    paper.theme = root.dataset.theme;
+    paper.folded = [...document.querySelectorAll("details:not([open])")];
+    for (const box of paper.folded) box.open = true;
+    root.dataset.theme = "light";
+    root.classList.add("paper");
+    plan.read_colours();
+    on_resize();
+  },
+  off() {
+    const root = document.documentElement;
+    for (const box of paper.folded) box.open = false;
+    if (paper.theme) root.dataset.theme = paper.theme; else delete root.dataset.theme;
+    root.classList.remove("paper");
+    show_theme();
+    on_resize();
+  },
+};
+
+function start() {
+  show_header(record);
+  show_decision(record);
+  show_driver(record);
+  show_result(record);
+  show_previews(record, show_in_plan);
+  show_run(record);
+  show_events(record, (t, event) => page.seek(t, event));
+  show_overlays();
+  show_legend();
+  show_window();
+  for (const id of ["play", "back", "forth", "scrub", "rate"]) by_id(id).disabled = record.end <= record.start;
+  by_id("play").addEventListener("click", () => page.play(!page.playing));
+  by_id("back").addEventListener("click", () => page.seek(page.t - 0.05));
+  by_id("forth").addEventListener("click", () => page.seek(page.t + 0.05));
+  by_id("window").addEventListener("click", () => { toggle_window(); page.show(); });
+  for (const [id, factor] of [["zoom-in", 1.25], ["zoom-out", 0.8]]) {
+    by_id(id).addEventListener("click", () => { plan.zoom = Math.min(4, Math.max(0.25, plan.zoom * factor)); page.show(); });
+  }
+  by_id("theme").addEventListener("click", () => { document.documentElement.dataset.theme = is_dark() ? "light" : "dark"; show_theme(); });
+  dark_wanted.addEventListener("change", show_theme);
+  document.addEventListener("keydown", on_key);
+  watch_size(by_id("plan-box"), (box) => `${box.clientWidth} ${box.clientHeight}`);
+  watch_size(by_id("strips"), (box) => box.clientWidth);
+  window.addEventListener("beforeprint", paper.on);
+  window.addEventListener("afterprint", paper.off);
+  on_resize();
+  show_theme();
+}
+
+start();
