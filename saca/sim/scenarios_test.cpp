@@ -1,0 +1,110 @@
+// The scenarios that are committed: all read, none edited after the importer, and the recorded ones
+// are what they claim to be.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "saca/core/file.h"
+#include "saca/sim/motion.h"
+#include "saca/sim/scenario.h"
+
+namespace saca::sim {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path folder = "scenarios";  // tests run in the project folder
+
+Scenario loaded(const std::string& name) {
+  const Result<Scenario> result = load_scenario(folder / (name + ".toml"));
+  EXPECT_TRUE(result.has_value()) << result.error().message;
+  return result.value();
+}
+
+TEST(Scenarios, AllReadAndComeBackTheSame) {
+  std::size_t num_files = 0;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() != ".toml") {
+      continue;
+    }
+    const Scenario scenario = loaded(entry.path().stem());
+    EXPECT_EQ(scenario.name, entry.path().stem());
+    const std::string written = write_scenario(scenario);
+    const Result<Scenario> again = read_scenario(written, "again");
+    ASSERT_TRUE(again.has_value()) << again.error().message;
+    EXPECT_EQ(write_scenario(again.value()), written);
+    if (scenario.provenance) {
+      EXPECT_EQ(read_file(entry.path()).value(), written) << "edited by hand?";
+    }
+    ++num_files;
+  }
+  EXPECT_GE(num_files, 5U);
+}
+
+/// Distance between the ego's nose and the tail of the vehicle ahead, when the ego goes on from
+/// `since` at its speed of then [m]. Straight roads only.
+double gap_going_on(const Scenario& scenario, double since, double time) {
+  const world::EgoState ego = ego_at(scenario, since);
+  const double nose = ego.X_WB.p.x + ego.v_B.x * (time - since) + 2.25;
+  return pose_at(actor_track(scenario, 0, 0.1), time).p.x -
+         0.5 * scenario.actors[0].footprint.length - nose;
+}
+
+/// Time to collision at constant speeds [s].
+double conflict(const Scenario& scenario, double since, double time) {
+  const double lead = velocity_at(actor_track(scenario, 0, 0.1), time).x;
+  const double closing = ego_at(scenario, since).v_B.x - lead;
+  return closing > 0.0 ? gap_going_on(scenario, since, time) / closing : 1e9;
+}
+
+/// First time at which the recorded ego is `limit` seconds from the vehicle ahead.
+double first_below(const Scenario& scenario, double limit) {
+  double time = 0.0;
+  while (conflict(scenario, time, time) > limit) {
+    time += 0.1;
+  }
+  return time;
+}
+
+TEST(Scenarios, TheNearCrashesLeadToAContactWhenTheEgoGoesOn) {
+  for (const char* name : {"100car_8911", "100car_9018"}) {
+    const Scenario scenario = loaded(name);
+    const double preview = first_below(scenario, 5.5);
+    EXPECT_GT(preview, 1.0) << name;  // the preview does not begin at once
+    EXPECT_GT(ego_at(scenario, preview).v_B.x, 12.0) << name;
+    double trigger = preview;
+    while (conflict(scenario, preview, trigger) > 1.3 && trigger < preview + 6.0) {
+      trigger += 0.1;
+    }
+    EXPECT_GT(trigger, preview + 1.0) << name;
+    EXPECT_LT(trigger, preview + 5.5) << name;
+    EXPECT_LT(gap_going_on(scenario, preview, preview + 6.0), 0.0) << name;
+    // The driver got away with it: recorded, they never touch.
+    const auto& lead = std::get<Recording>(scenario.actors[0].motion);
+    for (const Sample& sample : lead) {
+      EXPECT_GT(gap_going_on(scenario, sample.time, sample.time), 0.0) << name;
+    }
+  }
+}
+
+TEST(Scenarios, TheCrashEndsInContact) {
+  const Scenario scenario = loaded("100car_8676");
+  const double end = std::get<Recording>(scenario.actors[0].motion).back().time;
+  EXPECT_NEAR(gap_going_on(scenario, end, end), 0.0, 0.3);  // the radar's last range
+  EXPECT_GT(ego_at(scenario, end).v_B.x, 4.0);
+}
+
+// Facts of the paper: at T2 the ego is at 55 m after 55 / 14 = 3.9 s, the truck at the ego's lane
+// after 43 / 7.5 = 5.7 s.
+TEST(Scenarios, TheIntersectionIsAsPrinted) {
+  const Scenario t2 = loaded("intersection_t2");
+  EXPECT_NEAR(pose_at(actor_track(t2, 0, 0.01), 43.0 / 7.5).p.y, 0.0, 1e-9);
+  EXPECT_NEAR(ego_at(t2, 55.0 / 14.0).X_WB.p.x, 55.0, 1e-9);
+  EXPECT_NEAR(pose_at(actor_track(t2, 1, 0.01), 4.2).p.y, 4.0, 1e-9);  // as at T1
+  const Scenario t1 = loaded("intersection_t1");
+  EXPECT_EQ(pose_at(actor_track(t1, 0, 0.01), 0.0).p.x, 16.0);
+  EXPECT_EQ(pose_at(actor_track(t1, 1, 0.01), 5.0).p.y, 4.0);
+}
+
+}  // namespace
+}  // namespace saca::sim
