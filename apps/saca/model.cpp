@@ -1,18 +1,96 @@
 #include "apps/saca/model.h"
 
+#include <fmt/core.h>
+
+#include <string_view>
+#include <utility>
+
+#include "saca/core/file.h"
 #include "saca/reason/prompt.h"
 
 namespace saca::app {
+namespace {
 
-Result<std::unique_ptr<reason::ChildModel>> open_local_model(const Places& places, Clock& clock) {
-  (void)places; (void)clock;
-  return Error{Error::Code::unreadable, "stub"};
+constexpr Clock::Time loading_time = std::chrono::seconds(60);  // a cold disk included
+constexpr std::string_view replay_prefix = "replay:";
+
+Result<std::unique_ptr<reason::LanguageModel>> open_replay(const std::string& file,
+                                                           loop::Pace pace, Clock& clock) {
+  const auto text = read_file(file);
+  if (!text.has_value()) {
+    return text.error();
+  }
+  auto replies = reason::parse_replies(text.value(), file);
+  if (!replies.has_value()) {
+    return replies.error();
+  }
+  const auto when =
+      pace == loop::Pace::real ? reason::ReplayPace::as_recorded : reason::ReplayPace::at_once;
+  return std::unique_ptr<reason::LanguageModel>(
+      std::make_unique<reason::ReplayModel>(std::move(replies).value(), when, clock));
 }
 
-Result<std::unique_ptr<reason::LanguageModel>> open_model(const Places& places,
-                                                          const std::string& choice, Clock& clock) {
-  (void)places; (void)clock; (void)choice;
-  return std::unique_ptr<reason::LanguageModel>();
+}  // namespace
+
+Result<std::unique_ptr<reason::ChildModel>> open_local_model(const Places& places, Clock& clock) {
+  std::error_code problem;
+  if (!std::filesystem::exists(places.model_host, problem)) {
+    return Error{Error::Code::unreadable,
+                 places.model_host.string() +
+                     ": the program that runs the language model is missing; `make model` and "
+                     "`make build` make it"};
+  }
+  const auto weights = find_weights(places);
+  if (!weights) {
+    return Error{Error::Code::unreadable,
+                 (places.root / "third_party" / "models" / "choice.json").string() +
+                     ": no language model is set up; `make model` gets it"};
+  }
+  auto model = std::make_unique<reason::ChildModel>(
+      reason::ChildModelSettings{
+          .command = {places.model_host.string(), "--model", weights->string()},
+          .system = reason::system_part(),
+          .identity = weights->filename().string()},
+      clock);
+  if (const auto failure = model->wait_until_ready(clock.now() + loading_time)) {
+    return *failure;
+  }
+  return model;
+}
+
+Result<ChosenModel> ChosenModel::open(const Places& places, const std::string& choice,
+                                      const std::string& record, loop::Pace pace, Clock& clock) {
+  ChosenModel chosen;
+  if (choice == "local") {
+    auto local = open_local_model(places, clock);
+    if (local.has_value()) {
+      chosen.model_ = std::move(local).value();
+    } else {
+      fmt::print(stderr, "saca: {}\nsaca: going on as with --llm off\n", local.error().message);
+    }
+  } else if (choice.starts_with(replay_prefix)) {
+    auto replay = open_replay(choice.substr(replay_prefix.size()), pace, clock);
+    if (!replay.has_value()) {
+      return replay.error();
+    }
+    chosen.model_ = std::move(replay).value();
+  } else if (choice != "off") {
+    return Error{Error::Code::malformed,
+                 "--llm: want local, off or replay:FILE, got `" + choice + "`"};
+  }
+  if (chosen.model_ && !record.empty()) {
+    chosen.recording_ = std::make_unique<reason::RecordingModel>(*chosen.model_, clock);
+    chosen.record_ = record;
+  }
+  return chosen;
+}
+
+reason::LanguageModel* ChosenModel::get() const {
+  return recording_ ? recording_.get() : model_.get();
+}
+
+std::optional<Error> ChosenModel::save_replies() const {
+  return recording_ ? recording_->write(record_) : std::nullopt;
 }
 
 }  // namespace saca::app

@@ -1,13 +1,17 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "apps/saca/places.h"
 #include "saca/core/clock.h"
 #include "saca/core/result.h"
+#include "saca/loop/encounter.h"
 #include "saca/reason/child_model.h"
 #include "saca/reason/language_model.h"
+#include "saca/reason/replay_model.h"
 
 namespace saca::app {
 
@@ -16,13 +20,26 @@ namespace saca::app {
 [[nodiscard]] Result<std::unique_ptr<reason::ChildModel>> open_local_model(const Places& places,
                                                                            Clock& clock);
 
-/// The model that `--llm` names.
-///
-/// @param choice  "local", "off" or "replay:FILE"
-/// @return        nullptr when it is off, or when "local" is not there: that is said on the error
-///                stream, and the run goes on without
-[[nodiscard]] Result<std::unique_ptr<reason::LanguageModel>> open_model(const Places& places,
-                                                                        const std::string& choice,
-                                                                        Clock& clock);
+/// A model as `--llm` names it, and whoever writes down what it says.
+class ChosenModel {
+ public:
+  /// @param choice  "local", "off" or "replay:FILE"
+  /// @param record  file for its replies; empty: none
+  /// @return        without a model when it is off, or when "local" is not there: that is said on
+  ///                the error stream, and the run goes on without
+  [[nodiscard]] static Result<ChosenModel> open(const Places& places, const std::string& choice,
+                                                const std::string& record, loop::Pace pace,
+                                                Clock& clock);
+
+  /// nullptr: off.
+  [[nodiscard]] reason::LanguageModel* get() const;
+  /// Writes the replies that were to be recorded, if any.
+  [[nodiscard]] std::optional<Error> save_replies() const;
+
+ private:
+  std::unique_ptr<reason::LanguageModel> model_;
+  std::unique_ptr<reason::RecordingModel> recording_;
+  std::filesystem::path record_;
+};
 
 }  // namespace saca::app

@@ -127,7 +127,9 @@ int run(const RunOptions& options) {
     memory = std::make_unique<memory::Store>(std::move(opened).value());
   }
   SteadyClock clock;
-  auto model = open_model(*places, options.model, clock);
+  const loop::Pace pace = options.pace == "real" ? loop::Pace::real : loop::Pace::lockstep;
+  const auto model =
+      ChosenModel::open(*places, options.model, options.record_replies, pace, clock);
   if (!model.has_value()) {
     complain(model.error().message);
     return bad_input;
@@ -137,7 +139,7 @@ int run(const RunOptions& options) {
       .scenario = &inputs.value().scenario,
       .car = &inputs.value().car,
       .harm = &inputs.value().harm,
-      .pace = options.pace == "real" ? loop::Pace::real : loop::Pace::lockstep,
+      .pace = pace,
       .costs = inputs.value().costs,
       .model = model.value().get(),
       .memory = memory.get(),
@@ -153,6 +155,10 @@ int run(const RunOptions& options) {
   if (!record.has_value()) {
     complain(record.error().message);
     return bad_input;
+  }
+  if (const auto problem = model.value().save_replies()) {
+    complain(problem->message);
+    return cannot_write;
   }
   const std::string text = loop::record_json(setup, record.value());
   const fs::path folder = fs::path(options.output) / inputs.value().scenario.name;
