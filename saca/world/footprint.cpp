@@ -143,8 +143,9 @@ Facing widest(const Body& a, const Body& b, Facing now) {
     (ahead ? low : high) = now.n;
     Vec2 next = unit(now.n + (slope / bend) * t);
     const bool inside = dot(left_of(low), next) > 0.0 && dot(left_of(next), high) > 0.0;
-    // Every third step halves the bracket, so that it shrinks whatever the curvature does.
-    if (!(now.gap > 0.0) || !inside || i % 3 == 2) {
+    // Once Newton has had its chance, every third step halves the bracket, so that it shrinks
+    // whatever the curvature does.
+    if (!(now.gap > 0.0) || !inside || (i > 6 && i % 3 == 2)) {
       const Vec2 middle = low + high;
       const double size = length_of(middle);
       next = size > 1e-9 ? (1.0 / size) * middle : left_of(low);
