@@ -17,7 +17,6 @@ namespace {
 using manoeuvre::PolicyId;
 using Seconds = std::chrono::duration<double>;
 
-constexpr double provided_similarity = 0.95;  // well inside what the trigger will accept
 constexpr double least_thinking_time = 0.15;  // [s]: a model asked later than this cannot answer
 constexpr double handover_margin = 0.05;  // [s] before the trigger at which the model must be done
 
@@ -144,7 +143,7 @@ bool ThinkingPlane::think(const world::Scene& scene, Clock::Time scene_at) {
 Preview* ThinkingPlane::provided_for(const preview::Situation& situation) {
   for (Preview& preview : previews_) {
     if (memory::similarity(situation.scene_at_trigger, preview.situation.scene_at_trigger) >
-        provided_similarity) {
+        match_similarity) {
       return &preview;
     }
   }

@@ -125,7 +125,9 @@ IntentPosterior posterior(const Scene& scene, const Actor& actor) {
   if (actor.kind == ActorKind::obstacle || norm(actor.v_W) < rest_speed) {
     return {1.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   }
-  const double b = rising(0.10, 0.95, deceleration_along(actor), braking_mark, braking_spread);
+  const double unprovoked = world::is_crossing(scene, actor) ? 0.10 : 0.03;
+  const double b =
+      rising(unprovoked, 0.95, deceleration_along(actor), braking_mark, braking_spread);
   if (actor.kind == ActorKind::pedestrian) {
     return {1.0 - b, 0.0, 0.0, b, 0.0, 0.0};
   }

@@ -78,7 +78,7 @@ class ChargedThinking {
   }
 
  private:
-  static constexpr double shortest_round = 0.05;  // [s]
+  static constexpr double shortest_round = 0.2;  // [s], as the thinking thread's breath
 
   const Setup& setup_;
   ManualClock& clock_;
@@ -386,7 +386,12 @@ void Encounter::compare_with_driver() {
   if (!woke_ || !std::holds_alternative<sim::Recording>(setup_.scenario->ego)) {
     return;
   }
-  const double recorded_until = std::get<sim::Recording>(setup_.scenario->ego).back().time;
+  double recorded_until = std::get<sim::Recording>(setup_.scenario->ego).back().time;
+  for (const sim::ScenarioActor& actor : setup_.scenario->actors) {
+    if (const auto* recording = std::get_if<sim::Recording>(&actor.motion)) {
+      recorded_until = std::min(recorded_until, recording->back().time);  // beyond, it is a guess
+    }
+  }
   sim::Stepper replay(*setup_.scenario, *setup_.car);
   Witness witness(*setup_.harm);
   while (!replay.over() && replay.time() <= recorded_until) {

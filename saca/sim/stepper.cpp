@@ -10,7 +10,7 @@ namespace saca::sim {
 namespace {
 
 constexpr double track_step = 0.01;        // [s]
-constexpr double difference_time = 0.3;    // [s], backward differences of velocity and heading
+constexpr double difference_time = 0.5;  // [s], backward differences of velocity and heading
 
 world::Actor perceived(const ScenarioActor& actor, const world::Track& track, double time) {
   const double before = std::max(track.start, time - difference_time);

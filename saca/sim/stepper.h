@@ -35,7 +35,7 @@ class Stepper {
   [[nodiscard]] world::EgoState ego() const;
 
   /// The scene as it is now: perception without noise, delay or loss. Accelerations of the others
-  /// are backward differences over 0.3 s, as a tracker would know them.
+  /// are backward differences over 0.5 s, as a tracker would know them.
   [[nodiscard]] world::Scene scene() const;
 
   /// True motion of the actors that are in scene(), in its order, over the whole scenario.
