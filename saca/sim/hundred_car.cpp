@@ -254,6 +254,27 @@ std::optional<RadarTrack> conflict_lead(const std::vector<HundredCarRow>& rows,
                     std::min(row_at(rows, event.end_sync) + around, rows.size() - 1));
 }
 
+struct Follower {
+  ScenarioActor actor;
+  TreatedTrack treated;
+};
+
+/// The vehicle behind, if the rear radar saw one for long enough.
+std::optional<Follower> follower_of(const std::vector<HundredCarRow>& rows, const Window& window,
+                                    std::size_t conflict, const EgoMotion& ego,
+                                    const HundredCarEvent& event, const Scenario& scenario) {
+  const std::optional<RadarTrack> track =
+      follower_track(rows, window.first, window.last, conflict, fewest_follower_rows);
+  if (!track) {
+    return std::nullopt;
+  }
+  const bool described = event.third_place.starts_with("F = ");
+  const AssumedBody body = assumed_body(described ? event.third_type : "Automobile");
+  const std::uint8_t id = body.kind == scenario.actors.front().kind ? 2 : 1;
+  Rebuilt behind = rebuilt(*track, window, ego, scenario.road, -1.0, body.length);
+  return Follower{actor_of(body, id, std::move(behind.recording)), behind.treated};
+}
+
 Error no_lead(const HundredCarRequest& request, const std::string& why) {
   return {Error::Code::malformed,
           "event " + std::to_string(request.event) +
@@ -295,15 +316,9 @@ Result<HundredCarImport> rebuild_hundred_car(const std::vector<HundredCarRow>& r
   scenario.actors.push_back(actor_of(lead_body, 1, std::move(ahead.recording)));
   report.lead = ahead.treated;
 
-  const std::optional<RadarTrack> follower =
-      follower_track(rows, window.first, window.last, conflict, fewest_follower_rows);
-  if (follower) {
-    const bool described = event.third_place.starts_with("F = ");
-    const AssumedBody body = assumed_body(described ? event.third_type : "Automobile");
-    const std::uint8_t id = body.kind == lead_body.kind ? 2 : 1;
-    Rebuilt behind = rebuilt(*follower, window, ego, scenario.road, -1.0, body.length);
-    scenario.actors.push_back(actor_of(body, id, std::move(behind.recording)));
-    report.follower = behind.treated;
+  if (std::optional<Follower> behind = follower_of(rows, window, conflict, ego, event, scenario)) {
+    scenario.actors.push_back(std::move(behind->actor));
+    report.follower = behind->treated;
   }
 
   report.first_row = static_cast<std::int64_t>(window.first) + 1;

@@ -46,7 +46,8 @@ struct Truth {
 
 std::vector<HundredCarRow> rows_of_truth(unsigned seed, double noise) {
   std::mt19937 rng(seed);
-  std::normal_distribution<double> error(0.0, noise);
+  std::normal_distribution<double> normal;
+  const auto error = [&normal, noise](std::mt19937& draws) { return noise * normal(draws); };
   std::vector<HundredCarRow> rows;
   for (int k = 0; Truth::gap(0.1 * k) > 1.0; ++k) {
     const double t = 0.1 * k;

@@ -47,20 +47,18 @@ std::string quoted(std::string_view text) {
   const bool long_one = text.find('\n') != std::string_view::npos;
   std::string out = long_one ? "\"\"\"\n" : "\"";
   for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (c == '\n' || static_cast<unsigned char>(c) >= 0x80) {
-      out += c;
-    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c != '\n' && (code < 0x20 || code == 0x7f)) {
       constexpr std::string_view hex = "0123456789ABCDEF";
-      const auto code = static_cast<unsigned char>(c);
       out += "\\u00";
       out += hex[code >> 4U];
       out += hex[code & 15U];
-    } else {
-      out += c;
+      continue;
     }
+    if (c == '"' || c == '\\') {
+      out += '\\';
+    }
+    out += c;
   }
   return out + (long_one ? "\"\"\"" : "\"");
 }
