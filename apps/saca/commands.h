@@ -4,8 +4,8 @@
 
 namespace saca::app {
 
-// Each adds one command to the line; what it is to return as exit code comes out of `exit_code` when
-// that command was the one.
+// Each adds one command to the line; what it is to return as exit code comes out of `exit_code`
+// when that command was the one.
 
 void add_run(CLI::App& line, int& exit_code);
 void add_scenarios(CLI::App& line, int& exit_code);

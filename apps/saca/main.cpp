@@ -6,7 +6,8 @@
 int main(int argc, char** argv) {
   using namespace saca::app;
   try {
-    CLI::App line{"SACA chooses, in the last seconds before a crash, the manoeuvre that harms least."};
+    CLI::App line{
+        "SACA chooses, in the last seconds before a crash, the manoeuvre that harms least."};
     line.set_version_flag("--version", SACA_VERSION);
     line.require_subcommand(1);
     int exit_code = success;

@@ -14,8 +14,8 @@ namespace {
 constexpr Clock::Time loading_time = std::chrono::seconds(60);  // a cold disk included
 constexpr std::string_view replay_prefix = "replay:";
 
-Result<std::unique_ptr<reason::LanguageModel>> open_replay(const std::string& file,
-                                                           loop::Pace pace, Clock& clock) {
+Result<std::unique_ptr<reason::LanguageModel>> open_replay(const std::string& file, loop::Pace pace,
+                                                           Clock& clock) {
   const auto text = read_file(file);
   if (!text.has_value()) {
     return text.error();

@@ -51,7 +51,8 @@ int model_info(bool as_json) {
 void add_model(CLI::App& line, int& exit_code) {
   CLI::App* const command = line.add_subcommand("model", "The local language model");
   command->require_subcommand(1);
-  CLI::App* const info = command->add_subcommand("info", "Which it is, its size, how fast it loads");
+  CLI::App* const info =
+      command->add_subcommand("info", "Which it is, its size, how fast it loads");
   const auto as_json = std::make_shared<bool>(false);
   info->add_flag("--json", *as_json, "For programs");
   info->callback([as_json, &exit_code] { exit_code = model_info(*as_json); });

@@ -128,8 +128,7 @@ int run(const RunOptions& options) {
   }
   SteadyClock clock;
   const loop::Pace pace = options.pace == "real" ? loop::Pace::real : loop::Pace::lockstep;
-  const auto model =
-      ChosenModel::open(*places, options.model, options.record_replies, pace, clock);
+  const auto model = ChosenModel::open(*places, options.model, options.record_replies, pace, clock);
   if (!model.has_value()) {
     complain(model.error().message);
     return bad_input;
@@ -150,8 +149,8 @@ int run(const RunOptions& options) {
   if (!options.as_json) {
     story.headline(inputs.value().scenario, setup);
   }
-  const auto record = loop::run(
-      setup, options.as_json ? static_cast<loop::Listener&>(silence) : story);
+  const auto record =
+      loop::run(setup, options.as_json ? static_cast<loop::Listener&>(silence) : story);
   if (!record.has_value()) {
     complain(record.error().message);
     return bad_input;
@@ -162,7 +161,8 @@ int run(const RunOptions& options) {
   }
   const std::string text = loop::record_json(setup, record.value());
   const fs::path folder = fs::path(options.output) / inputs.value().scenario.name;
-  const fs::path report = options.report.empty() ? folder / "report.html" : fs::path(options.report);
+  const fs::path report =
+      options.report.empty() ? folder / "report.html" : fs::path(options.report);
   const auto problem = write_outputs(text, folder, report);
   if (options.as_json) {
     fmt::print("{}\n", text);
@@ -184,7 +184,8 @@ int run(const RunOptions& options) {
 void add_run(CLI::App& line, int& exit_code) {
   CLI::App* const command = line.add_subcommand("run", "Play one emergency and report on it");
   const auto options = std::make_shared<RunOptions>();
-  command->add_option("scenario", options->scenario, "A scenario file, or the name of a shipped one")
+  command
+      ->add_option("scenario", options->scenario, "A scenario file, or the name of a shipped one")
       ->required();
   command
       ->add_option("--pace", options->pace,

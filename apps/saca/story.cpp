@@ -64,11 +64,9 @@ void Story::ending(const sim::Scenario& scenario, const loop::Record& record) {
   }
   const manoeuvre::PolicyId chosen = record.decision->plan.policy;
   fmt::print(stream_, "SACA: {} {}, {}. Collision Loss {:.2f}, harm {:.4f}.\n",
-             manoeuvre::index(chosen), name(chosen),
-             outcome::describe(record.result, record.met), record.result.collision_loss,
-             record.result.harm);
-  const preview::PolicyFacts& best =
-      (*record.hindsight)[manoeuvre::index(*record.best)].facts;
+             manoeuvre::index(chosen), name(chosen), outcome::describe(record.result, record.met),
+             record.result.collision_loss, record.result.harm);
+  const preview::PolicyFacts& best = (*record.hindsight)[manoeuvre::index(*record.best)].facts;
   fmt::print(stream_, "Best in hindsight: {} {}, {}{}.\n", manoeuvre::index(*record.best),
              name(*record.best), outcome::describe(best.outcome, *record.at_trigger),
              *record.best == chosen ? ": the same" : "");

@@ -49,7 +49,8 @@ Actor car(std::uint8_t id, Vec2 p_W, Vec2 v_W = {}) {
   return actor;
 }
 
-/// A wreck that the ego reaches after `time` at 20 m/s: half a wreck and the ego's front lie between.
+/// A wreck that the ego reaches after `time` at 20 m/s: half a wreck and the ego's front lie
+/// between.
 Scene wreck_in(double time) {
   Scene scene = motorway(20.0);
   scene.actors.push_back(car(1, {20.0 * time + 4.5, 0.0}));

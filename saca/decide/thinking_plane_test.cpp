@@ -58,7 +58,8 @@ class FixedModel final : public reason::LanguageModel {
 
 class Thinking : public testing::Test {
  protected:
-  /// A wreck that fills the ego's lane, 70 m ahead at 20 m/s; one lane to the left, one to the right.
+  /// A wreck that fills the ego's lane, 70 m ahead at 20 m/s; one lane to the left, one to the
+  /// right.
   static Scene wreck_ahead() {
     Scene scene;
     scene.ego.v_B = {20.0, 0.0};
@@ -86,9 +87,8 @@ class Thinking : public testing::Test {
              .reasoning = [this](std::int32_t, std::string_view text) { text_ += text; }}};
   }
   [[nodiscard]] std::size_t count(EventKind kind) const {
-    return static_cast<std::size_t>(
-        std::count_if(events_.begin(), events_.end(),
-                      [&](const Event& event) { return event.kind == kind; }));
+    return static_cast<std::size_t>(std::count_if(
+        events_.begin(), events_.end(), [&](const Event& event) { return event.kind == kind; }));
   }
 
   ManualClock clock_;

@@ -37,10 +37,9 @@ using IntentPosterior = std::array<double, num_intentions>;
 /// speed across the lane (of an actor that crosses the lane: the turn of its own course).
 ///
 /// P(brakes) rises from 3 % (10 % for those who cross: they may give way) to 95 % about 2 m/s^2 of
-/// deceleration; P(moves left), P(moves right) rise from 2 % to 90 % about 0.5 m/s of lateral speed;
-/// the two are taken as independent. All are assumptions, but for 2 m/s^2, the project's own mark of
-/// braking. Obstacles and
-/// actors at rest maintain; pedestrians only maintain or stop.
+/// deceleration; P(moves left), P(moves right) rise from 2 % to 90 % about 0.5 m/s of lateral
+/// speed; the two are taken as independent. All are assumptions, but for 2 m/s^2, the project's own
+/// mark of braking. Obstacles and actors at rest maintain; pedestrians only maintain or stop.
 [[nodiscard]] IntentPosterior posterior(const world::Scene& scene, const world::Actor& actor);
 
 /// The actor's motion under an intention, from its state in the scene on.

@@ -47,7 +47,8 @@ Result<std::vector<reason::Reply>> ChargedModel::ask(
     std::vector<reason::Answer> answers;
     for (reason::Answer answer : reply.answers) {
       const bool first = answer.kind == reason::Answer::Kind::first;
-      answer.time = read + (first ? Clock::Time(0) : seconds(costs_.reply_token * reply.reply_tokens));
+      answer.time =
+          read + (first ? Clock::Time(0) : seconds(costs_.reply_token * reply.reply_tokens));
       if (answer.time <= deadline) {
         answers.push_back(answer);
         progress({.prompt = i, .text = {}, .answer = &answer});

@@ -56,8 +56,8 @@ TEST(ChargedModel, AnAnswerAfterTheDeadlineDidNotCome) {
 }
 
 TEST(ThinkingCosts, AreReadStrictly) {
-  const auto good =
-      read_thinking_costs("preview_s = 0.1\nprompt_token_s = 0.001\nreply_token_s = 0.01", "c.toml");
+  const auto good = read_thinking_costs(
+      "preview_s = 0.1\nprompt_token_s = 0.001\nreply_token_s = 0.01", "c.toml");
   ASSERT_TRUE(good.has_value());
   EXPECT_EQ(good.value().prompt_token, 0.001);
   const auto bad =

@@ -32,8 +32,8 @@ using world::Scene;
 constexpr std::array<std::string_view, 2> pace_names{"real", "lockstep"};
 constexpr std::array<std::string_view, 3> phase_names{"recorded", "driving", "manoeuvre"};
 
-constexpr int steps_per_look = 10;    // 100 Hz
-constexpr int looks_per_frame = 2;    // 50 Hz
+constexpr int steps_per_look = 10;      // 100 Hz
+constexpr int looks_per_frame = 2;      // 50 Hz
 constexpr double rest_after_end = 1.0;  // [s] that the film goes on after a manoeuvre's end
 
 Clock::Time duration(double seconds) {
@@ -94,8 +94,8 @@ class Encounter {
         listener_(listener),
         charged_model_(setup.model == nullptr
                            ? nullptr
-                           : std::make_unique<ChargedModel>(*setup.model, setup.costs,
-                                                            *setup.clock, simulated_clock_)),
+                           : std::make_unique<ChargedModel>(*setup.model, setup.costs, *setup.clock,
+                                                            simulated_clock_)),
         charged_(setup, simulated_clock_),
         stepper_(*setup.scenario, *setup.car),
         witness_(*setup.harm),
@@ -181,10 +181,8 @@ decide::ThinkingOutput Encounter::output() {
                 }
                 listener_.on_event(event);
               },
-          .reasoning =
-              [this](std::int32_t preview, std::string_view text) {
-                listener_.on_reasoning(preview, text);
-              }};
+          .reasoning = [this](std::int32_t preview,
+                              std::string_view text) { listener_.on_reasoning(preview, text); }};
 }
 
 void Encounter::tell(Plane plane, EventKind kind, std::string text) {
@@ -207,9 +205,9 @@ Result<Record> Encounter::play() {
       for (int k = 0; k < steps_per_look; ++k) {
         vehicle::Command command;
         if (stepper_.driven()) {
-          command = manoeuvre::control(*setup_.car, plan_, setup_.scenario->road,
-                                       setup_.scenario->grip, stepper_.car_state(), controller_,
-                                       sim::Stepper::step);
+          command =
+              manoeuvre::control(*setup_.car, plan_, setup_.scenario->road, setup_.scenario->grip,
+                                 stepper_.car_state(), controller_, sim::Stepper::step);
         }
         stepper_.advance(command);
       }
@@ -251,9 +249,9 @@ std::optional<Error> Encounter::look() {
       manoeuvre::finished(plan_, stepper_.car_state(), controller_)) {
     ended_ = scene.time;
     tell(Plane::world, EventKind::rest,
-         norm(scene.ego.v_B) < 0.1 ? "the ego is at rest"
-                                   : fmt::format("lane change recovered at {:.1f} m/s",
-                                                 norm(scene.ego.v_B)));
+         norm(scene.ego.v_B) < 0.1
+             ? "the ego is at rest"
+             : fmt::format("lane change recovered at {:.1f} m/s", norm(scene.ego.v_B)));
   }
   ++num_looks_;
   return std::nullopt;
@@ -266,8 +264,8 @@ std::optional<Error> Encounter::wake(const Scene& scene) {
   }
   if (const auto refused = manoeuvre::refusal(plan_, scene)) {
     return Error{Error::Code::out_of_range, setup_.scenario->name + ": SACA cannot drive from " +
-                                                fmt::format("{:.2f} s", scene.time) + " on: " +
-                                                *refused};
+                                                fmt::format("{:.2f} s", scene.time) +
+                                                " on: " + *refused};
   }
   woke_ = scene.time;
   stepper_.take_the_wheel();
@@ -290,8 +288,7 @@ decide::Reflex Encounter::react(const Scene& scene) {
   const Clock::Time before = setup_.clock->now();
   const decide::Reflex reflex = woke_ ? reflex_.step(scene) : decide::Reflex{};
   if (woke_) {
-    reflex_times_.push_back(
-        std::chrono::duration<double>(setup_.clock->now() - before).count());
+    reflex_times_.push_back(std::chrono::duration<double>(setup_.clock->now() - before).count());
   }
   return reflex;
 }
@@ -353,8 +350,7 @@ bool Encounter::over() const {
 void Encounter::conclude() {
   record_.result = witness_.outcome();
   if (contact_) {
-    tell(Plane::world, EventKind::contact,
-         outcome::describe(record_.result, record_.met));
+    tell(Plane::world, EventKind::contact, outcome::describe(record_.result, record_.met));
   }
   if (record_.decision) {
     record_.hindsight = hindsight(*record_.at_trigger, tracks_at_trigger_, setup_.scenario->grip,

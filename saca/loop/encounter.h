@@ -61,8 +61,8 @@ enum class Phase : std::uint8_t { recorded, driving, manoeuvre };
 struct Frame {
   Phase phase = Phase::recorded;
   world::Scene scene;
-  double steering = 0.0;            ///< of the road wheels [rad]
-  std::optional<double> conflict;   ///< time to conflict [s]
+  double steering = 0.0;           ///< of the road wheels [rad]
+  std::optional<double> conflict;  ///< time to conflict [s]
 };
 
 /// How long the reflex plane took.
@@ -83,15 +83,15 @@ struct Record {
   std::vector<world::Actor> met;  ///< the actors that result.contact counts in
   std::optional<std::array<Hindsight, manoeuvre::num_policies>> hindsight;  ///< if triggered
   std::optional<manoeuvre::PolicyId> best;
-  std::optional<outcome::Outcome> driver;  ///< what the recorded driver's own motion led to
+  std::optional<outcome::Outcome> driver;   ///< what the recorded driver's own motion led to
   std::vector<world::Actor> met_by_driver;  ///< the actors that driver->contact counts in
-  std::optional<memory::CaseId> stored;    ///< the case that memory learnt
+  std::optional<memory::CaseId> stored;     ///< the case that memory learnt
   ReflexTiming reflex;
   int deadline_misses = 0;
 };
 
-/// Plays the encounter. The ego follows what the scenario gives until something threatens within T2;
-/// from there SACA drives.
+/// Plays the encounter. The ego follows what the scenario gives until something threatens within
+/// T2; from there SACA drives.
 /// @return  Error::Code::out_of_range when the scenario cannot be played with this car
 [[nodiscard]] Result<Record> run(const Setup& setup, Listener& listener);
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include "saca/preview/threat.h"
+
 namespace saca::loop {
 namespace {
 
-constexpr double horizon = 8.0;  // [s]: any stop from 25 m/s, any lane change
+constexpr double horizon = 10.0;  // [s], as outcome::roll_out: any stop, any lane change
 
 /// Nobody drives on as if nothing had happened: the motion ends where somebody was hit.
 void cut_at(manoeuvre::EgoMotion& motion, double time) {
@@ -22,6 +24,7 @@ std::array<Hindsight, manoeuvre::num_policies> hindsight(const world::Scene& at_
                                                          std::span<const world::Track> tracks,
                                                          double grip, const vehicle::Vehicle& car,
                                                          const outcome::HarmModel& harm) {
+  const std::vector<world::Track> judged = preview::without_followers(at_trigger, tracks);
   std::array<Hindsight, manoeuvre::num_policies> all;
   for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
     Hindsight& one = all[manoeuvre::index(policy)];
@@ -31,7 +34,7 @@ std::array<Hindsight, manoeuvre::num_policies> hindsight(const world::Scene& at_
       continue;
     }
     one.motion = manoeuvre::drive(car, one.facts.plan, at_trigger, grip, horizon);
-    one.facts.outcome = outcome::judge(one.motion, at_trigger, tracks, harm);
+    one.facts.outcome = outcome::judge(one.motion, at_trigger, judged, harm);
     if (one.facts.outcome.contact) {
       cut_at(one.motion, one.facts.outcome.contact->time);
     }

@@ -142,21 +142,22 @@ json preview_json(const decide::Preview& preview) {
   json answers = json::array();
   std::transform(preview.reply.answers.begin(), preview.reply.answers.end(),
                  std::back_inserter(answers), answer_json);
-  return {{"probability", situation.probability},
-          {"ready_s", number_or_null(preview.ready)},
-          {"scene",
-           {{"t_s", scene.time}, {"ego", ego_json(scene.ego, 0.0)}, {"actors", actors_json(scene)}}},
-          {"actors", actors},
-          {"facts", facts},
-          {"memory", memory_json(preview)},
-          {"prompt", preview.prompt},
-          {"reasoning", preview.reply.reasoning},
-          {"faithful", number_or_null(preview.faithful)},
-          {"answers", answers},
-          {"check", preview.check ? json{{"passed", preview.check->passed},
-                                         {"text", preview.check->text}}
-                                  : json(nullptr)},
-          {"plan", preview.plan ? plan_json(*preview.plan) : json(nullptr)}};
+  return {
+      {"probability", situation.probability},
+      {"ready_s", number_or_null(preview.ready)},
+      {"scene",
+       {{"t_s", scene.time}, {"ego", ego_json(scene.ego, 0.0)}, {"actors", actors_json(scene)}}},
+      {"actors", actors},
+      {"facts", facts},
+      {"memory", memory_json(preview)},
+      {"prompt", preview.prompt},
+      {"reasoning", preview.reply.reasoning},
+      {"faithful", number_or_null(preview.faithful)},
+      {"answers", answers},
+      {"check", preview.check
+                    ? json{{"passed", preview.check->passed}, {"text", preview.check->text}}
+                    : json(nullptr)},
+      {"plan", preview.plan ? plan_json(*preview.plan) : json(nullptr)}};
 }
 
 json decision_json(const Record& record) {
@@ -205,12 +206,11 @@ json outcome_json(const outcome::Outcome& outcome, std::span<const world::Actor>
 json actor_bodies_json(const sim::Scenario& scenario) {
   json actors = json::array();
   for (const sim::ScenarioActor& actor : scenario.actors) {
-    actors.push_back(
-        {{"id", actor_name(world::Actor{.id = actor.id, .kind = actor.kind})},
-         {"kind", name(actor.kind)},
-         {"shape", actor.footprint.shape == world::Shape::box ? "box" : "ellipse"},
-         {"length_m", actor.footprint.length},
-         {"width_m", actor.footprint.width}});
+    actors.push_back({{"id", actor_name(world::Actor{.id = actor.id, .kind = actor.kind})},
+                      {"kind", name(actor.kind)},
+                      {"shape", actor.footprint.shape == world::Shape::box ? "box" : "ellipse"},
+                      {"length_m", actor.footprint.length},
+                      {"width_m", actor.footprint.width}});
   }
   return actors;
 }
@@ -244,7 +244,8 @@ std::string record_json(const Setup& setup, const Record& record) {
       {"pace", name(setup.pace)},
       {"model", setup.model == nullptr ? "off" : setup.model->description()},
       {"grip", scenario.grip},
-      {"thresholds", {{"trigger_s", setup.thresholds.trigger}, {"preview_s", setup.thresholds.preview}}},
+      {"thresholds",
+       {{"trigger_s", setup.thresholds.trigger}, {"preview_s", setup.thresholds.preview}}},
       {"road", road_json(scenario.road)},
       {"ego",
        {{"length_m", body.length},
@@ -259,8 +260,8 @@ std::string record_json(const Setup& setup, const Record& record) {
       {"previews", previews},
       {"decision", decision_json(record)},
       {"result", outcome_json(record.result, record.met)},
-      {"driver", record.driver ? outcome_json(*record.driver, record.met_by_driver)
-                               : json(nullptr)},
+      {"driver",
+       record.driver ? outcome_json(*record.driver, record.met_by_driver) : json(nullptr)},
       {"hindsight", hindsight_json(record)},
       {"best", record.best ? json(manoeuvre::index(*record.best)) : json(nullptr)},
       {"case", record.stored ? json(*record.stored) : json(nullptr)},

@@ -5,8 +5,9 @@
 namespace saca::loop {
 namespace {
 
-constexpr Clock::Time pause = std::chrono::milliseconds(2);   // between looks at an empty slot
-constexpr Clock::Time breath = std::chrono::milliseconds(200);  // between rounds: plans change slowly
+constexpr Clock::Time pause = std::chrono::milliseconds(2);  // between looks at an empty slot
+constexpr Clock::Time breath =
+    std::chrono::milliseconds(200);  // between rounds: plans change slowly
 
 }  // namespace
 

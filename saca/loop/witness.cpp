@@ -1,32 +1,66 @@
 #include "saca/loop/witness.h"
 
 #include <algorithm>
+#include <iterator>
 
-#include "saca/core/contract.h"
+#include "saca/preview/threat.h"
 
 namespace saca::loop {
+namespace {
+
+bool goes_on(const outcome::Outcome& outcome, const world::Road& road) {
+  if (!outcome.contact) {
+    return true;
+  }
+  if (!outcome.contact->edge) {
+    return false;
+  }
+  const bool left = *outcome.contact->edge == outcome::Side::left;
+  return !outcome::stops_the_ego(left ? road.left_beyond : road.right_beyond);
+}
+
+}  // namespace
+
+std::vector<world::Track> Witness::judged_tracks(const world::Scene& scene,
+                                                 std::vector<world::Track> tracks) const {
+  for (const world::Actor& follower : followers_) {
+    for (std::size_t i = 0; i < scene.actors.size(); ++i) {
+      if (scene.actors[i].kind == follower.kind && scene.actors[i].id == follower.id) {
+        tracks[i] = {.start = scene.time, .step = tracks[i].step, .X_WA = {follower.X_WA}};
+      }
+    }
+  }
+  return tracks;
+}
 
 std::optional<world::Scene> Witness::look(const sim::Stepper& stepper) {
   const world::Scene now = stepper.scene();
   if (!last_) {
+    std::copy_if(now.actors.begin(), now.actors.end(), std::back_inserter(followers_),
+                 [&](const world::Actor& actor) { return preview::is_behind(now, actor); });
     last_ = now;
     return std::nullopt;
   }
-  const manoeuvre::EgoMotion motion{
-      .track = {.start = last_->time,
-                .step = now.time - last_->time,
-                .X_WA = {last_->ego.X_WB, now.ego.X_WB}},
-      .v_B = {last_->ego.v_B, now.ego.v_B},
-      .yaw_rate = {last_->ego.yaw_rate, now.ego.yaw_rate},
-      .ended = false};
-  const bool first = outcome_.end_time == 0.0;
-  const double clearance = outcome_.clearance;
-  outcome_ = outcome::judge(motion, now, stepper.tracks(), harm_);
-  if (outcome_.contact) {
+  const manoeuvre::EgoMotion motion{.track = {.start = last_->time,
+                                              .step = now.time - last_->time,
+                                              .X_WA = {last_->ego.X_WB, now.ego.X_WB}},
+                                    .v_B = {last_->ego.v_B, now.ego.v_B},
+                                    .yaw_rate = {last_->ego.yaw_rate, now.ego.yaw_rate},
+                                    .ended = false};
+  const outcome::Outcome step =
+      outcome::judge(motion, now, judged_tracks(now, stepper.tracks()), harm_);
+  last_ = now;
+  if (!goes_on(step, now.road)) {
+    outcome_ = step;
     return now;
   }
-  outcome_.clearance = first ? outcome_.clearance : std::min(clearance, outcome_.clearance);
-  last_ = now;
+  // The first edge that was crossed stays the contact, unless something worse follows.
+  const double clearance = std::min(outcome_.clearance, step.clearance);
+  if (!outcome_.contact) {
+    outcome_ = step;
+  }
+  outcome_.clearance = clearance;
+  outcome_.end_time = step.end_time;
   return std::nullopt;
 }
 

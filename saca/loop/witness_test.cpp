@@ -12,11 +12,11 @@ sim::Scenario drive_at_a_wreck(double d) {
   sim::Scenario scenario{.name = "wreck", .car = "compact_rwd_ev", .grip = 0.9, .duration = 6.0};
   scenario.road.left_edge = 8.75;
   scenario.ego = sim::EgoStart{.pose = {}, .speed = 20.0};
-  sim::ScenarioActor wreck{.id = 1,
-                           .footprint = {.length = 4.5, .width = 1.8},
-                           .mass = 1'500.0,
-                           .motion = sim::Script{.start = {.s = 50.0, .d = d},
-                                                 .behaviour = sim::Behaviour::hold}};
+  sim::ScenarioActor wreck{
+      .id = 1,
+      .footprint = {.length = 4.5, .width = 1.8},
+      .mass = 1'500.0,
+      .motion = sim::Script{.start = {.s = 50.0, .d = d}, .behaviour = sim::Behaviour::hold}};
   scenario.actors.push_back(wreck);
   return scenario;
 }
@@ -49,6 +49,16 @@ TEST(Witness, KeepsTheSmallestClearance) {
   const outcome::Outcome seen = watch(drive_at_a_wreck(3.5), harm).outcome();
   EXPECT_FALSE(seen.contact.has_value());
   EXPECT_NEAR(seen.clearance, 3.5 - 0.95 - 0.9, 1e-3);  // the two half widths
+}
+
+TEST(Witness, AFollowerIsNotJudged) {
+  const auto harm = outcome::read_harm("data/harm.toml").value();
+  sim::Scenario scenario = drive_at_a_wreck(3.5);
+  scenario.actors.push_back({.id = 2,
+                             .footprint = {.length = 4.5, .width = 1.8},
+                             .mass = 1'500.0,
+                             .motion = sim::Script{.start = {.s = -12.0}, .speed = 30.0}});
+  EXPECT_FALSE(watch(scenario, harm).outcome().contact.has_value());
 }
 
 }  // namespace

@@ -130,13 +130,14 @@ std::array<PolicyFacts, manoeuvre::num_policies> policy_facts(const Scene& scene
                                                               const std::vector<Track>& tracks,
                                                               const vehicle::Vehicle& car,
                                                               const outcome::HarmModel& harm) {
+  const std::vector<Track> judged = without_followers(scene, tracks);
   std::array<PolicyFacts, manoeuvre::num_policies> facts;
   for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
     PolicyFacts& fact = facts[manoeuvre::index(policy)];
     fact.plan = manoeuvre::default_plan(policy, norm(scene.ego.v_B));
     fact.refusal = manoeuvre::refusal(fact.plan, scene).value_or("");
     if (fact.refusal.empty()) {
-      fact.outcome = outcome::roll_out(car, fact.plan, scene, tracks, scene.grip, harm);
+      fact.outcome = outcome::roll_out(car, fact.plan, scene, judged, scene.grip, harm);
     }
   }
   return facts;

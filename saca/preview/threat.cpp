@@ -1,5 +1,6 @@
 #include "saca/preview/threat.h"
 
+#include "saca/core/contract.h"
 #include "saca/intent/intention.h"
 #include "saca/world/time_to_conflict.h"
 
@@ -8,6 +9,18 @@ namespace saca::preview {
 bool is_behind(const world::Scene& scene, const world::Actor& actor) {
   const double ego_s = world::to_lane(scene.road, scene.ego.X_WB).s;
   return world::to_lane(scene.road, actor.X_WA).s < ego_s && !world::is_crossing(scene, actor);
+}
+
+std::vector<world::Track> without_followers(const world::Scene& scene,
+                                            std::span<const world::Track> tracks) {
+  expects(tracks.size() == scene.actors.size(), "one track per actor");
+  std::vector<world::Track> judged(tracks.begin(), tracks.end());
+  for (std::size_t i = 0; i < judged.size(); ++i) {
+    if (is_behind(scene, scene.actors[i])) {
+      judged[i] = {.start = scene.time, .step = judged[i].step, .X_WA = {scene.actors[i].X_WA}};
+    }
+  }
+  return judged;
 }
 
 std::optional<Threat> nearest_threat(const world::Scene& scene, double horizon, double tolerance) {

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "saca/world/scene.h"
+#include "saca/world/track.h"
 
 namespace saca::preview {
 
@@ -19,6 +22,13 @@ struct Thresholds {
 /// The actor comes up from behind the ego in its own direction: braking and swerving for it would
 /// be wrong, and it never triggers.
 [[nodiscard]] bool is_behind(const world::Scene& scene, const world::Actor& actor);
+
+/// The tracks with which an outcome is judged: those who come up from behind stay where they are in
+/// the scene. Whether they run into the ego depends on how they react to its braking, and a track
+/// cannot react; so a follower is in the scene, but contact with it is not looked at.
+/// @param tracks  one per actor of the scene
+[[nodiscard]] std::vector<world::Track> without_followers(const world::Scene& scene,
+                                                          std::span<const world::Track> tracks);
 
 /// An actor that the ego is in conflict with.
 struct Threat {

@@ -9,7 +9,7 @@
 namespace saca::sim {
 namespace {
 
-constexpr double track_step = 0.01;        // [s]
+constexpr double track_step = 0.01;      // [s]
 constexpr double difference_time = 0.5;  // [s], backward differences of velocity and heading
 
 world::Actor perceived(const ScenarioActor& actor, const world::Track& track, double time) {
