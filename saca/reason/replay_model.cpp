@@ -1,0 +1,200 @@
+#include "saca/reason/replay_model.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "saca/core/file.h"
+#include "saca/core/names.h"
+
+namespace saca::reason {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Seconds = std::chrono::duration<double>;
+
+constexpr std::string_view schema = "saca.replies/1";
+constexpr std::array<std::string_view, 3> kind_names{"first", "ended", "forced"};
+
+Json json_of(const RecordedReply& recorded) {
+  Json answers = Json::array();
+  for (const Answer& answer : recorded.reply.answers) {
+    answers.push_back({{"after_ns", answer.time.count()},
+                       {"kind", name_of(answer.kind, kind_names)},
+                       {"probability", answer.probability}});
+  }
+  return {{"prompt", recorded.prompt},
+          {"reasoning", recorded.reply.reasoning},
+          {"prompt_tokens", recorded.reply.prompt_tokens},
+          {"reply_tokens", recorded.reply.reply_tokens},
+          {"answers", answers}};
+}
+
+Answer answer_from(const Json& json) {
+  Answer answer;
+  answer.time = Clock::Time(json.at("after_ns").get<Clock::Time::rep>());
+  answer.kind = value_from<Answer::Kind>(json.at("kind").get<std::string>(), kind_names).value();
+  answer.probability = json.at("probability").get<decltype(answer.probability)>();
+  return answer;
+}
+
+RecordedReply reply_from(const Json& json) {
+  RecordedReply recorded;
+  recorded.prompt = json.at("prompt").get<std::string>();
+  recorded.reply.reasoning = json.at("reasoning").get<std::string>();
+  recorded.reply.prompt_tokens = json.at("prompt_tokens").get<int>();
+  recorded.reply.reply_tokens = json.at("reply_tokens").get<int>();
+  for (const Json& answer : json.at("answers")) {
+    recorded.reply.answers.push_back(answer_from(answer));
+  }
+  return recorded;
+}
+
+// The first rule that a reply breaks, in words; nullptr when it can be used.
+const char* broken_rule(const std::string& key, const RecordedReply& recorded) {
+  if (prompt_key(recorded.prompt) != key) {
+    return "the key of its prompt";
+  }
+  Clock::Time last{0};
+  for (const Answer& answer : recorded.reply.answers) {
+    double sum = 0.0;
+    for (const double p : answer.probability) {
+      if (!(p >= 0.0)) {
+        return "probabilities >= 0";
+      }
+      sum += p;
+    }
+    if (!(std::abs(sum - 1.0) < 1e-3)) {  // rounding of eight numbers
+      return "probabilities that sum to 1";
+    }
+    if (answer.time < last) {
+      return "answers in the order of time, from 0 on";
+    }
+    last = answer.time;
+  }
+  return recorded.reply.answers.empty() ? "at least one answer" : nullptr;
+}
+
+}  // namespace
+
+std::string prompt_key(std::string_view prompt) {
+  // FNV-1a: Fowler, Noll, Vo; offset basis and prime as published for 64 bits.
+  std::uint64_t hash = 14695981039346656037U;
+  for (const char c : prompt) {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211U;
+  }
+  return fmt::format("{:016x}", hash);
+}
+
+std::string json_text(const RecordedReplies& replies) {
+  Json list = Json::object();
+  for (const auto& [key, recorded] : replies.replies) {
+    list[key] = json_of(recorded);
+  }
+  const Json file{{"schema", schema}, {"model", replies.model}, {"replies", list}};
+  return file.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+Result<RecordedReplies> parse_replies(std::string_view text, std::string_view source) {
+  const auto refuse = [&](std::string_view what) {
+    return Error{Error::Code::malformed, fmt::format("{}: {}", source, what)};
+  };
+  try {
+    const Json file = Json::parse(text);
+    if (const auto got = file.at("schema").get<std::string>(); got != schema) {
+      return refuse(fmt::format("schema: want {}, got {}", schema, got));
+    }
+    RecordedReplies replies{.model = file.at("model").get<std::string>(), .replies = {}};
+    for (const auto& [key, json] : file.at("replies").items()) {
+      RecordedReply recorded;
+      try {
+        recorded = reply_from(json);
+      } catch (const std::exception& problem) {
+        return refuse(fmt::format("replies.{}: {}", key, problem.what()));
+      }
+      if (const char* rule = broken_rule(key, recorded)) {
+        return refuse(fmt::format("replies.{}: want {}", key, rule));
+      }
+      replies.replies.emplace(key, std::move(recorded));
+    }
+    return replies;
+  } catch (const Json::exception& problem) {
+    return refuse(problem.what());
+  }
+}
+
+Result<std::vector<Reply>> RecordingModel::ask(
+    const std::vector<std::string>& scenes, Clock::Time deadline,
+    const std::function<void(const Progress&)>& progress) {
+  const Clock::Time begin = clock_.now();
+  auto replies = model_.ask(scenes, deadline, progress);
+  for (std::size_t i = 0; replies.has_value() && i < scenes.size(); ++i) {
+    RecordedReply recorded{.prompt = scenes[i], .reply = replies.value()[i]};
+    for (Answer& answer : recorded.reply.answers) {
+      answer.time -= begin;
+    }
+    if (!recorded.reply.answers.empty()) {
+      replies_.insert_or_assign(prompt_key(scenes[i]), std::move(recorded));
+    }
+  }
+  return replies;
+}
+
+RecordedReplies RecordingModel::recorded() const {
+  return {.model = model_.description(), .replies = replies_};
+}
+
+std::optional<Error> RecordingModel::write(const std::filesystem::path& path) const {
+  return write_file(path, json_text(recorded()));
+}
+
+Result<std::vector<Reply>> ReplayModel::ask(const std::vector<std::string>& scenes,
+                                            Clock::Time deadline,
+                                            const std::function<void(const Progress&)>& progress) {
+  struct Moment {
+    std::size_t scene = 0;
+    Answer answer;
+  };
+  const Clock::Time begin = clock_.now();
+  std::vector<Reply> replies(scenes.size());
+  std::vector<Moment> moments;
+  bool any_known = false;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const auto found = replies_.replies.find(prompt_key(scenes[i]));
+    if (found == replies_.replies.end() || found->second.prompt != scenes[i]) {
+      continue;
+    }
+    any_known = true;
+    replies[i] = found->second.reply;
+    replies[i].answers.clear();
+    for (Answer answer : found->second.reply.answers) {
+      answer.time += begin;
+      if (answer.time < deadline) {
+        moments.push_back({i, answer});
+      }
+    }
+  }
+  std::stable_sort(moments.begin(), moments.end(),
+                   [](const Moment& a, const Moment& b) { return a.answer.time < b.answer.time; });
+  for (const Moment& moment : moments) {
+    if (pace_ == ReplayPace::as_recorded) {
+      clock_.wait_until(moment.answer.time);
+    }
+    Reply& reply = replies[moment.scene];
+    if (moment.answer.kind != Answer::Kind::first && !reply.reasoning.empty()) {
+      progress({.prompt = moment.scene, .text = reply.reasoning, .answer = nullptr});
+    }
+    reply.answers.push_back(moment.answer);
+    progress({.prompt = moment.scene, .text = {}, .answer = &reply.answers.back()});
+  }
+  if (!moments.empty()) {
+    return replies;
+  }
+  return any_known ? Error{Error::Code::too_late, "replay: the recorded answers come too late"}
+                   : Error{Error::Code::unreadable,
+                           "replay: want a recorded prompt, got one that was never asked (key " +
+                               prompt_key(scenes.front()) + ")"};
+}
+
+}  // namespace saca::reason
