@@ -126,7 +126,7 @@ choose_weights() {
   local processor candidates=("$models/$shipped") type name
   processor=$(sed -n 's/^model name[^:]*: //p;T;q' /proc/cpuinfo)
   if [ -e "$models/choice.json" ] && grep -qF "\"$processor\"" "$models/choice.json" &&
-     [ -e "$models/$(sed -n 's/^  "file": "\(.*\)".*/\1/p' "$models/choice.json")" ]; then
+     [ -e "$models/$(sed -n 's/^  "weights": "\(.*\)".*/\1/p' "$models/choice.json")" ]; then
     return
   fi
   quietly "$third_party/weights.log" cmake -S "$here" -B "$third_party/build/weights" -G Ninja \
@@ -155,5 +155,5 @@ build_llama
 if [ "$what" != llama ]; then
   get_weights
   choose_weights
-  say "using $(sed -n 's/^  "file": "\(.*\)".*/\1/p' "$models/choice.json") (measured: third_party/models/choice.json)"
+  say "using $(sed -n 's/^  "weights": "\(.*\)".*/\1/p' "$models/choice.json") (measured: third_party/models/choice.json)"
 fi

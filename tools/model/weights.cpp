@@ -192,7 +192,7 @@ int choose(const std::string& prompt_file, const std::string& out,
                                 {"largest_probability_shift", shift},
                                 {"decides_alike", same}});
   }
-  json["file"] = std::filesystem::path(best->path).filename();
+  json["weights"] = std::filesystem::path(best->path).filename();
   std::ofstream(out + ".part") << json.dump(2) << '\n';
   std::filesystem::rename(out + ".part", out);
   std::cout << json.dump(2) << '\n';

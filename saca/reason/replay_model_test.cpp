@@ -1,0 +1,153 @@
+#include "saca/reason/replay_model.h"
+
+#include <gmock/gmock.h>
+
+#include <cstdio>
+
+#include "saca/core/file.h"
+
+namespace saca::reason {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+Answer answer(Clock::Time time, Answer::Kind kind, std::size_t policy) {
+  Answer result{.time = time, .kind = kind};
+  result.probability.at(policy) = 1.0;
+  return result;
+}
+
+// Takes 1 s to the first answer and 3 s to the last.
+class SlowModel final : public LanguageModel {
+ public:
+  explicit SlowModel(Clock& clock) : clock_(clock) {}
+  Result<std::vector<Reply>> ask(const std::vector<std::string>& scenes, Clock::Time,
+                                 const std::function<void(const Progress&)>&) override {
+    const Clock::Time begin = clock_.now();
+    std::vector<Reply> replies;
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      replies.push_back({.reasoning = "about " + scenes[i],
+                         .answers = {answer(begin + 1s, Answer::Kind::first, i),
+                                     answer(begin + 3s, Answer::Kind::ended, i + 1)},
+                         .prompt_tokens = 330,
+                         .reply_tokens = 80});
+    }
+    clock_.wait_until(begin + 3s);
+    return replies;
+  }
+  [[nodiscard]] std::string description() const override { return "slow"; }
+
+ private:
+  Clock& clock_;
+};
+
+RecordedReplies recorded() {
+  ManualClock clock;
+  clock.advance(100s);
+  SlowModel slow(clock);
+  RecordingModel model(slow, clock);
+  EXPECT_TRUE(model.ask({"a", "b"}, 200s, [](const Progress&) {}).has_value());
+  return model.recorded();
+}
+
+class ReplayTest : public testing::Test {
+ protected:
+  ManualClock clock_;
+  std::vector<std::string> news_;
+  std::function<void(const Progress&)> record_ = [this](const Progress& p) {
+    const auto at = std::chrono::duration_cast<std::chrono::seconds>(clock_.now()).count();
+    news_.push_back(std::to_string(at) + " s: " + std::to_string(p.prompt) +
+                    (p.answer != nullptr ? " answers" : " " + std::string(p.text)));
+  };
+};
+
+TEST_F(ReplayTest, WhatWasRecordedIsSaidAgainAtItsTimes) {
+  ReplayModel model(recorded(), ReplayPace::as_recorded, clock_);
+  clock_.advance(10s);
+  const auto replies = model.ask({"b"}, 20s, record_);
+  ASSERT_TRUE(replies.has_value());
+  const Reply& reply = replies.value()[0];
+  EXPECT_EQ(reply.reasoning, "about b");
+  EXPECT_EQ(reply.prompt_tokens, 330);
+  ASSERT_EQ(reply.answers.size(), 2U);
+  EXPECT_EQ(reply.answers[0].time, 11s);
+  EXPECT_EQ(reply.answers[1].time, 13s);
+  EXPECT_EQ(reply.answers[0].probability[1], 1.0);
+  EXPECT_THAT(news_, testing::ElementsAre("11 s: 0 answers", "13 s: 0 about b", "13 s: 0 answers"));
+}
+
+TEST_F(ReplayTest, AtOnceDoesNotWait) {
+  ReplayModel model(recorded(), ReplayPace::at_once, clock_);
+  const auto replies = model.ask({"a", "b"}, 20s, record_);
+  ASSERT_TRUE(replies.has_value());
+  EXPECT_EQ(clock_.now(), 0s);
+  EXPECT_EQ(replies.value()[1].answers[1].time, 3s);
+}
+
+TEST_F(ReplayTest, AnswersAfterTheDeadlineAreNotThere) {
+  ReplayModel model(recorded(), ReplayPace::as_recorded, clock_);
+  const auto replies = model.ask({"a"}, 2s, record_);
+  ASSERT_TRUE(replies.has_value());
+  EXPECT_EQ(replies.value()[0].answers.size(), 1U);
+  EXPECT_LT(clock_.now(), 2s);
+  const auto late = model.ask({"a"}, clock_.now() + 500ms, record_);
+  ASSERT_FALSE(late.has_value());
+  EXPECT_EQ(late.error().code, Error::Code::too_late);
+}
+
+TEST_F(ReplayTest, UnknownPromptHasNoAnswer) {
+  ReplayModel model(recorded(), ReplayPace::at_once, clock_);
+  const auto replies = model.ask({"c"}, 20s, record_);
+  ASSERT_FALSE(replies.has_value());
+  EXPECT_THAT(replies.error().message, HasSubstr(prompt_key("c")));
+  const auto partly = model.ask({"c", "a"}, 20s, record_);
+  ASSERT_TRUE(partly.has_value());
+  EXPECT_TRUE(partly.value()[0].answers.empty());
+  EXPECT_EQ(partly.value()[1].answers.size(), 2U);
+}
+
+TEST_F(ReplayTest, FileKeepsEverything) {
+  ManualClock clock;
+  SlowModel slow(clock);
+  RecordingModel model(slow, clock);
+  ASSERT_TRUE(model.ask({"a \"b\"\n"}, 200s, record_).has_value());
+  const std::string path = testing::TempDir() + "replies.json";
+  ASSERT_FALSE(model.write(path).has_value());
+  const auto read = parse_replies(read_file(path).value(), path);
+  std::remove(path.c_str());
+  ASSERT_TRUE(read.has_value()) << read.error().message;
+  EXPECT_EQ(read.value().model, "slow");
+  const RecordedReply& reply = read.value().replies.at(prompt_key("a \"b\"\n"));
+  EXPECT_EQ(reply.prompt, "a \"b\"\n");
+  EXPECT_EQ(reply.reply.answers[1].time, 3s);
+  EXPECT_EQ(reply.reply.answers[1].kind, Answer::Kind::ended);
+  EXPECT_EQ(json_text(read.value()), json_text(model.recorded()));
+}
+
+// FNV-1a, 64 bits: published values of the empty text and of "a".
+TEST(PromptKey, IsFnv1a) {
+  EXPECT_EQ(prompt_key(""), "cbf29ce484222325");
+  EXPECT_EQ(prompt_key("a"), "af63dc4c8601ec8c");
+}
+
+TEST(ParseReplies, RefusalNamesFileAndPlace) {
+  const auto refused = [](std::string text, const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+    const auto read = parse_replies(text, "r.json");
+    return read.has_value() ? std::string() : read.error().message;
+  };
+  const std::string good = json_text(recorded());
+  EXPECT_THAT(refused(good, "saca.replies/1", "saca.replies/2"), HasSubstr("r.json: schema: want"));
+  EXPECT_THAT(refused(good, "\"prompt\": \"a\"", "\"prompt\": \"x\""),
+              HasSubstr("key of its prompt"));
+  EXPECT_THAT(refused(good, "1.0", "0.5"), HasSubstr("sum to 1"));
+  EXPECT_THAT(refused(good, "1.0", "-1.0"), HasSubstr(">= 0"));
+  EXPECT_THAT(refused(good, "\"first\"", "\"song\""), HasSubstr(prompt_key("a")));
+  EXPECT_THAT(refused(good, "1000000000", "9000000000"), HasSubstr("order of time"));
+  EXPECT_THAT(refused(good, "{", ""), HasSubstr("r.json"));
+  EXPECT_THAT(refused(good, "\"replies\"", "\"reply\""), HasSubstr("r.json"));
+}
+
+}  // namespace
+}  // namespace saca::reason
