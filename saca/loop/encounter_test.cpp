@@ -1,0 +1,205 @@
+#include "saca/loop/encounter.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "saca/vehicle/parameters.h"
+
+namespace saca::loop {
+namespace {
+
+using decide::EventKind;
+using decide::Source;
+using manoeuvre::PolicyId;
+using testing::HasSubstr;
+
+class Quiet final : public Listener {
+ public:
+  void on_event(const decide::Event&) override {}
+  void on_reasoning(std::int32_t, std::string_view) override {}
+};
+
+/// Always says the same policy, by 10 prompt tokens and 5 reply tokens.
+class Says final : public reason::LanguageModel {
+ public:
+  explicit Says(PolicyId policy) : policy_(policy) {}
+  Result<std::vector<reason::Reply>> ask(
+      const std::vector<std::string>& scenes, Clock::Time,
+      const std::function<void(const reason::Progress&)>&) override {
+    reason::Answer answer;
+    answer.probability[manoeuvre::index(policy_)] = 1.0;
+    reason::Reply reply{.reasoning = "because", .prompt_tokens = 10, .reply_tokens = 5};
+    reply.answers.push_back(answer);
+    return std::vector<reason::Reply>(scenes.size(), reply);
+  }
+  [[nodiscard]] std::string description() const override { return "says one thing"; }
+
+ private:
+  PolicyId policy_;
+};
+
+class EncounterTest : public testing::Test {
+ protected:
+  /// A wreck across the ego's lane on a wet road: braking from 20 m/s at T1 is not enough.
+  static sim::Scenario wreck_on_wet_road() {
+    sim::Scenario scenario{.name = "wreck",
+                           .title = "A wreck",
+                           .car = "compact_rwd_ev",
+                           .grip = 0.5,
+                           .duration = 12.0};
+    scenario.road.left_edge = 5.25;
+    scenario.road.right_edge = -5.25;
+    scenario.ego = sim::EgoStart{.pose = {}, .speed = 20.0};
+    scenario.actors.push_back(
+        {.id = 1,
+         .footprint = {.length = 4.5, .width = 1.8},
+         .mass = 1'500.0,
+         .motion = sim::Script{.start = {.s = 90.0}, .behaviour = sim::Behaviour::hold}});
+    return scenario;
+  }
+
+  Result<Record> play(const sim::Scenario& scenario, reason::LanguageModel* model = nullptr,
+                      memory::Store* memory = nullptr, std::optional<PolicyId> forced = {}) {
+    return run({.scenario = &scenario,
+                .car = &car_,
+                .harm = &harm_,
+                .pace = Pace::lockstep,
+                .costs = {.preview = 0.05, .prompt_token = 0.001, .reply_token = 0.01},
+                .model = model,
+                .memory = memory,
+                .forced = forced,
+                .clock = &clock_},
+               quiet_);
+  }
+  static bool has(const Record& record, EventKind kind) {
+    return std::any_of(record.events.begin(), record.events.end(),
+                       [&](const decide::Event& event) { return event.kind == kind; });
+  }
+
+  SteadyClock clock_;
+  Quiet quiet_;
+  vehicle::Vehicle car_ = vehicle::read_vehicle("data/vehicles/compact_rwd_ev.toml").value();
+  outcome::HarmModel harm_ = outcome::read_harm("data/harm.toml").value();
+};
+
+TEST_F(EncounterTest, WithoutModelAndMemoryItBrakesAtT1) {
+  const auto scenario = wreck_on_wet_road();
+  const auto played = play(scenario);
+  ASSERT_TRUE(played.has_value()) << played.error().message;
+  const Record& record = played.value();
+  ASSERT_TRUE(record.decision.has_value());
+  EXPECT_EQ(record.decision->plan.policy, PolicyId::aeb);
+  EXPECT_EQ(record.decision->source, Source::fallback);
+  // 90 m to centre, 4.5 m of halves and front, at 20 m/s: contact at 4.275 s, T1 1.3 s before.
+  EXPECT_NEAR(record.decision->time, 4.275 - 1.3, 0.025);
+  ASSERT_TRUE(record.result.contact.has_value());  // 26 m are there, 42.7 m needed
+  EXPECT_GT(record.result.harm, 0.0);
+  EXPECT_TRUE(has(record, EventKind::contact));
+  // 20^2 - 2 * 4.9 * 26 m is left of v^2: about 12 m/s, more for the brakes' delay.
+  EXPECT_NEAR(record.result.contact->relative_speed, 12.7, 0.8);
+}
+
+TEST_F(EncounterTest, ACheckedAnswerIsCarriedOut) {
+  Says model(PolicyId::aes_left);
+  const auto scenario = wreck_on_wet_road();
+  const Record record = play(scenario, &model).value();
+  EXPECT_EQ(record.decision->plan.policy, PolicyId::aes_left);
+  EXPECT_EQ(record.decision->source, Source::model);
+  EXPECT_GT(record.decision->similarity.value(), 0.9);
+  EXPECT_FALSE(record.result.contact.has_value());
+  EXPECT_EQ(record.result.harm, 0.0);
+  EXPECT_TRUE(has(record, EventKind::rest));
+  EXPECT_EQ(record.previews[static_cast<std::size_t>(*record.decision->preview)].plan->policy,
+            PolicyId::aes_left);
+}
+
+TEST_F(EncounterTest, ABadAnswerFailsTheCheckAndItBrakes) {
+  Says model(PolicyId::no_intervention);
+  const auto scenario = wreck_on_wet_road();
+  const Record record = play(scenario, &model).value();
+  EXPECT_EQ(record.decision->plan.policy, PolicyId::aeb);
+  EXPECT_EQ(record.decision->source, Source::fallback);
+  EXPECT_FALSE(record.previews[0].check->passed);
+}
+
+TEST_F(EncounterTest, MemoryLearnsWhatWouldHaveBeenBest) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "saca_encounter.sqlite";
+  std::filesystem::remove(file);
+  memory::Store store = memory::Store::open(file).value();
+  const auto scenario = wreck_on_wet_road();
+  const Record first = play(scenario, nullptr, &store).value();
+  EXPECT_EQ(first.decision->source, Source::fallback);
+  ASSERT_TRUE(first.stored.has_value());
+  const Record second = play(scenario, nullptr, &store).value();
+  EXPECT_EQ(second.decision->source, Source::memory);
+  EXPECT_EQ(second.decision->plan.policy, *first.best);
+  EXPECT_LT(second.result.harm, first.result.harm);
+  std::filesystem::remove(file);
+}
+
+TEST_F(EncounterTest, TheUserCanAskForAPolicy) {
+  Says model(PolicyId::aes_left);
+  const auto scenario = wreck_on_wet_road();
+  const Record record = play(scenario, &model, nullptr, PolicyId::es_b_right).value();
+  EXPECT_EQ(record.decision->plan.policy, PolicyId::es_b_right);
+  EXPECT_EQ(record.decision->source, Source::forced);
+  EXPECT_TRUE(record.decision->plan.target_speed.has_value());
+}
+
+TEST_F(EncounterTest, WhatCannotBeDrivenBecomesBraking) {
+  const auto scenario = wreck_on_wet_road();
+  const Record record = play(scenario, nullptr, nullptr, PolicyId::t_drift_left).value();
+  EXPECT_EQ(record.decision->plan.policy, PolicyId::aeb);
+  EXPECT_EQ(record.decision->source, Source::fallback);
+  EXPECT_TRUE(has(record, EventKind::fault));
+}
+
+TEST_F(EncounterTest, AnEmptyRoadIsLeftAlone) {
+  sim::Scenario scenario = wreck_on_wet_road();
+  scenario.actors.clear();
+  scenario.duration = 2.0;
+  const Record record = play(scenario).value();
+  EXPECT_FALSE(record.decision.has_value());
+  EXPECT_TRUE(record.events.empty());
+  EXPECT_TRUE(record.previews.empty());
+}
+
+TEST_F(EncounterTest, TheSameRunGivesTheSameRecordByteForByte) {
+  Says model(PolicyId::aes_left);
+  const auto scenario = wreck_on_wet_road();
+  Setup setup{
+      .scenario = &scenario, .car = &car_, .harm = &harm_, .model = &model, .clock = &clock_};
+  Record a = play(scenario, &model).value();
+  Record b = play(scenario, &model).value();
+  a.reflex = {};  // measured in real time
+  b.reflex = {};
+  EXPECT_EQ(record_json(setup, a), record_json(setup, b));
+}
+
+TEST_F(EncounterTest, AtRealPaceTheWorldDoesNotWait) {
+  sim::Scenario scenario = wreck_on_wet_road();
+  auto& wreck = std::get<sim::Script>(scenario.actors[0].motion);
+  wreck.start.s = 36.0;  // triggers after a quarter of a second
+  scenario.duration = 0.6;
+  const Clock::Time start = clock_.now();
+  const auto played = run(
+      {.scenario = &scenario, .car = &car_, .harm = &harm_, .pace = Pace::real, .clock = &clock_},
+      quiet_);
+  ASSERT_TRUE(played.has_value());
+  EXPECT_GE(clock_.now() - start, std::chrono::milliseconds(590));
+  EXPECT_TRUE(played.value().decision.has_value());
+}
+
+TEST_F(EncounterTest, ASpeedOutsideItsDomainIsToldNotDriven) {
+  sim::Scenario scenario = wreck_on_wet_road();
+  std::get<sim::EgoStart>(scenario.ego).speed = 60.0;
+  const auto played = play(scenario);
+  ASSERT_FALSE(played.has_value());
+  EXPECT_THAT(played.error().message, HasSubstr("wreck"));
+}
+
+}  // namespace
+}  // namespace saca::loop

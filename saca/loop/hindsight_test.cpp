@@ -1,0 +1,48 @@
+#include "saca/loop/hindsight.h"
+
+#include <gtest/gtest.h>
+
+#include "saca/manoeuvre/ego.h"
+#include "saca/vehicle/parameters.h"
+
+namespace saca::loop {
+namespace {
+
+using manoeuvre::PolicyId;
+
+// A wreck 26 m ahead of the front at 20 m/s, lanes on both sides. Braking takes 24.9 m on dry road
+// and 42.7 m at grip 0.5 (docs/architecture.md); a lane change 0.9 s to clear it.
+TEST(Hindsight, KnowsWhatEachPolicyWouldHaveDone) {
+  const auto car = vehicle::read_vehicle("data/vehicles/compact_rwd_ev.toml").value();
+  const auto harm = outcome::read_harm("data/harm.toml").value();
+  world::Scene scene;
+  scene.ego.v_B = {20.0, 0.0};
+  scene.ego_footprint = manoeuvre::footprint(car);
+  scene.ego_mass = car.mass;
+  scene.road.left_edge = 5.25;
+  scene.road.right_edge = -5.25;
+  scene.grip = 0.5;
+  world::Actor wreck{.id = 1, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1'500.0};
+  wreck.X_WA.p = {30.5, 0.0};
+  scene.actors.push_back(wreck);
+  const std::vector<world::Track> tracks{{.X_WA = {wreck.X_WA}}};
+
+  const auto all = hindsight(scene, tracks, 0.5, car, harm);
+  const auto of = [&](PolicyId policy) -> const Hindsight& {
+    return all[manoeuvre::index(policy)];
+  };
+  EXPECT_TRUE(of(PolicyId::aeb).facts.outcome.contact.has_value());
+  EXPECT_GT(of(PolicyId::no_intervention).facts.outcome.harm, of(PolicyId::aeb).facts.outcome.harm);
+  EXPECT_FALSE(of(PolicyId::aes_left).facts.outcome.contact.has_value());
+  // The motion ends where the wreck was hit.
+  const Hindsight& nothing = of(PolicyId::no_intervention);
+  EXPECT_NEAR(world::end_time(nothing.motion.track), nothing.facts.outcome.contact->time, 0.0101);
+  // On dry road braking would have been enough: hindsight uses the true grip.
+  EXPECT_FALSE(hindsight(scene, tracks, 0.9, car, harm)[manoeuvre::index(PolicyId::aeb)]
+                   .facts.outcome.contact.has_value());
+  EXPECT_TRUE(of(PolicyId::t_drift_left).motion.track.X_WA.empty());
+  EXPECT_FALSE(of(PolicyId::t_drift_left).facts.refusal.empty());
+}
+
+}  // namespace
+}  // namespace saca::loop

@@ -1,0 +1,59 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "saca/loop/encounter.h"
+#include "saca/vehicle/parameters.h"
+
+namespace saca::loop {
+namespace {
+
+using nlohmann::json;
+
+class Quiet final : public Listener {
+ public:
+  void on_event(const decide::Event&) override {}
+  void on_reasoning(std::int32_t, std::string_view) override {}
+};
+
+// The record of a real run has everything that docs/formats.md promises.
+TEST(RecordJson, HoldsWhatTheFormatPromises) {
+  sim::Scenario scenario{
+      .name = "wreck", .title = "A wreck", .car = "x", .grip = 0.9, .duration = 4.0};
+  scenario.ego = sim::EgoStart{.pose = {}, .speed = 15.0};
+  scenario.actors.push_back(
+      {.id = 1,
+       .kind = world::ActorKind::pedestrian,
+       .footprint = {.shape = world::Shape::ellipse, .length = 0.5, .width = 0.5},
+       .mass = 75.0,
+       .motion = sim::Script{.start = {.s = 40.0}, .behaviour = sim::Behaviour::hold}});
+  const auto car = vehicle::read_vehicle("data/vehicles/compact_rwd_ev.toml").value();
+  const auto harm = outcome::read_harm("data/harm.toml").value();
+  SteadyClock clock;
+  Quiet quiet;
+  const Setup setup{.scenario = &scenario, .car = &car, .harm = &harm, .clock = &clock};
+  const Record record = run(setup, quiet).value();
+  const json out = json::parse(record_json(setup, record));
+
+  EXPECT_EQ(out["schema"], "saca.record/1");
+  EXPECT_EQ(out["model"], "off");
+  EXPECT_EQ(out["actors"][0]["id"], "pedestrian1");
+  EXPECT_EQ(out["actors"][0]["shape"], "ellipse");
+  EXPECT_EQ(out["frames"].size(), record.frames.size());
+  EXPECT_EQ(out["frames"][0]["ego"]["speed_mps"], 15.0);
+  EXPECT_TRUE(out["scenario"]["driver"].is_null());
+  EXPECT_EQ(out["previews"][0]["facts"].size(), 8U);
+  EXPECT_EQ(out["previews"][0]["actors"][0]["posterior"].size(), 6U);
+  EXPECT_EQ(out["decision"]["source"], "fallback");
+  EXPECT_EQ(out["hindsight"].size(), 8U);
+  EXPECT_FALSE(out["hindsight"][5]["refusal"].is_null());
+  EXPECT_GT(out["hindsight"][0]["path"].size(), 10U);
+  for (const json& event : out["events"]) {
+    EXPECT_TRUE(event.contains("t_s") && event.contains("plane") && event.contains("kind") &&
+                event.contains("text"));
+  }
+}
+
+}  // namespace
+}  // namespace saca::loop
