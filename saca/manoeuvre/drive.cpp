@@ -82,13 +82,13 @@ std::optional<std::string> refusal(const Plan& plan, const world::Scene& scene) 
   if (plan.policy == PolicyId::t_drift_left || plan.policy == PolicyId::t_drift_right) {
     return std::string(name(plan.policy)) + " is not built yet: it needs tuned drift tables";
   }
-  if (const auto problem = wrong_target(plan)) {
+  if (auto problem = wrong_target(plan)) {
     return problem;
   }
   if (!(scene.grip >= 0.3 && scene.grip <= 1.0)) {
     return with_number("grip must be 0.3 to 1.0, is %.3f", scene.grip);
   }
-  if (const auto problem = wrong_motion(plan, scene.ego)) {
+  if (auto problem = wrong_motion(plan, scene.ego)) {
     return problem;
   }
   return wrong_road(plan, scene);

@@ -83,7 +83,8 @@ LaneShift lane_shift(double start_d, double start_v, double end_d, double amplit
   const LaneShift draft{.start_d = start_d, .start_v = start_v, .ramp = ramp};
   // A rate that already carries too far needs the other side first. Shorter ways need less
   // acceleration: the same ramps then reach less high.
-  for (double size = amplitude; size > 1e-3 * amplitude; size *= 0.9) {
+  double size = amplitude;
+  for (int i = 0; i < 66; ++i, size *= 0.9) {  // down to a thousandth
     for (const double side : {1.0, -1.0}) {
       const double signed_size = std::copysign(size, side * (end_d - start_d));
       if (const auto shift = with_amplitude(draft, end_d - start_d, signed_size)) {

@@ -7,7 +7,6 @@
 namespace saca::vehicle {
 namespace {
 
-using config::Range;
 using config::Table;
 
 // Ranges are wide enough for anything with four wheels, and narrow enough to catch a wrong unit.
