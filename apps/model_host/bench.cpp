@@ -84,6 +84,11 @@ double percentile(std::vector<double> values, double share) {
 
 class Figures {
  public:
+  Figures() = default;
+  Figures(const Figures&) = delete;
+  Figures& operator=(const Figures&) = delete;
+  ~Figures() = default;
+
   void put(const std::string& name, double value) { json_["reason." + name] = value; }
   void put_times(const std::string& name, const std::vector<double>& values) {
     put(name + ".p50", percentile(values, 0.5));
@@ -107,10 +112,9 @@ class Figures {
 };
 
 std::vector<double> of(const std::vector<Asked>& all, double Asked::*what) {
-  std::vector<double> values;
-  for (const Asked& asked : all) {
-    values.push_back(asked.*what);
-  }
+  std::vector<double> values(all.size());
+  std::transform(all.begin(), all.end(), values.begin(),
+                 [&](const Asked& asked) { return asked.*what; });
   return values;
 }
 

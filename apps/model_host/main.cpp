@@ -50,10 +50,7 @@ void spin_shortly(char** argv) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  spin_shortly(argv);
+int run(int argc, char** argv) {
   saca::model_host::EngineSettings settings;
   settings.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 8U));
   int bench_runs = 0;
@@ -76,4 +73,16 @@ int main(int argc, char** argv) {
   end_with_parent();
   llama_log_set([](ggml_log_level, const char*, void*) {}, nullptr);
   return saca::model_host::serve(settings, std::cin, std::cout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  spin_shortly(argv);
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& problem) {
+    std::cerr << "saca-model-host: " << problem.what() << '\n';
+    return 1;
+  }
 }
