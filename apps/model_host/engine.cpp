@@ -89,7 +89,7 @@ class RecentCost {
   [[nodiscard]] double get() const { return cost_; }
 
  private:
-  static constexpr double forgetting = 0.95;  // half forgotten after 14 steps
+  static constexpr double forgetting = 0.8;  // half forgotten after three steps
   double cost_ = 0.0;
 };
 
@@ -101,7 +101,6 @@ struct Thought {
   int tokens = 0;
   std::string text;
   Utf8Splitter splitter;
-  bool begun = false;      // the prompt is evaluated
   bool reasoning = false;  // the next token is wanted
   bool answered = false;   // for good
   AnswerKind end = AnswerKind::forced;
@@ -298,7 +297,9 @@ struct Engine::State {
     std::vector<Thought*> these;
     for (Thought& thought : thoughts) {
       const bool ended = thought.end == AnswerKind::ended && !thought.reasoning;
-      if (thought.begun && !thought.answered && ended == (kind == AnswerKind::ended)) {
+      // Without any text the first answer is the last.
+      const bool open = thought.tokens > 0 && !thought.answered;
+      if (open && ended == (kind == AnswerKind::ended)) {
         thought.answered = true;
         these.push_back(&thought);
       }
@@ -310,8 +311,9 @@ struct Engine::State {
   bool begin_scene(Thought& thought, const Tokens& prompt, Clock::Time deadline,
                    AskFigures& figures, const EngineEvents& events) {
     const Clock::Time begin = clock->now();
+    // Only its own answer is waited for: those before it have theirs.
     const int last = evaluate_run(prompt, system_tokens, sequence(thought.scene), true,
-                                  reserved(deadline, thought.scene + 1));
+                                  deadline - from_seconds(answer_cost.get()));
     figures.prompt_seconds += seconds(clock->now() - begin);
     if (last < 0) {
       return false;
@@ -320,7 +322,6 @@ struct Engine::State {
     events.prompt_read(thought.scene, static_cast<int>(prompt.size()));
     thought.position = system_tokens + static_cast<llama_pos>(prompt.size());
     thought.next = likeliest(last);
-    thought.begun = true;
     thought.reasoning = true;
     return read_answers({&thought}, AnswerKind::first, deadline, events);
   }

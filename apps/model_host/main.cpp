@@ -15,6 +15,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <iostream>
 #include <thread>
 
@@ -41,9 +42,15 @@ void end_with_parent() {
   prctl(PR_SET_PDEATHSIG, SIGUSR1);
 }
 
-}  // namespace
+// OpenMP reads this before main: its threads are to sleep after a short spin (some tens of
+// microseconds) instead of holding a core that somebody else needs.
+void spin_shortly(char** argv) {
+  if (std::getenv("GOMP_SPINCOUNT") == nullptr && setenv("GOMP_SPINCOUNT", "10000", 1) == 0) {
+    execv("/proc/self/exe", argv);  // returns only when it fails: then the default spin stays
+  }
+}
 
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   saca::model_host::EngineSettings settings;
   settings.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 8U));
   int bench_runs = 0;
@@ -66,4 +73,16 @@ int main(int argc, char** argv) {
   end_with_parent();
   llama_log_set([](ggml_log_level, const char*, void*) {}, nullptr);
   return saca::model_host::serve(settings, std::cin, std::cout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  spin_shortly(argv);
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& problem) {
+    std::cerr << "saca-model-host: " << problem.what() << '\n';
+    return 1;
+  }
 }

@@ -26,7 +26,7 @@ struct RecordedReplies {
 /// be told apart by their text, which is kept with it.
 [[nodiscard]] std::string prompt_key(std::string_view prompt);
 
-/// The file of docs/formats.md, schema `saca.replies/1`.
+/// The file of docs/model-protocol.md, schema `saca.replies/1`.
 [[nodiscard]] std::string json_text(const RecordedReplies& replies);
 /// @return  malformed, naming source, key, what was wanted and what came
 [[nodiscard]] Result<RecordedReplies> parse_replies(std::string_view text, std::string_view source);

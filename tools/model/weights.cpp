@@ -1,7 +1,8 @@
 // saca-weights make TYPE IN OUT           rewrites weights as q8_0 or bf16
 // saca-weights choose PROMPTS OUT REFERENCE [CANDIDATE...]
 //   measures each file on this processor and writes to OUT which one to use: the fastest of those
-//   that decide as REFERENCE does. PROMPTS: the system part, then scenes, parted by lines "====".
+//   that decide as REFERENCE does. Exit code 3: the machine is too busy to measure anything.
+//   PROMPTS: the system part, then scenes, parted by lines "====".
 #include <llama.h>
 
 #include <algorithm>
@@ -23,6 +24,9 @@ using saca::model_host::Engine;
 
 constexpr int rounds = 2;         // the best of them counts: the machine may be busy
 constexpr int reply_tokens = 40;  // per scene and round
+// A round that takes longer than this measures how busy the machine is, not the weights [s].
+constexpr auto longest_round = std::chrono::seconds(15);
+constexpr std::string_view too_busy = "machine too busy to measure";
 // Largest change of an answer's probability that still counts as deciding alike: rounding alone
 // moves the untuned model's flat distribution by 0.03.
 constexpr double probability_tolerance = 0.05;
@@ -96,13 +100,16 @@ std::string measure(Engine& engine, const std::vector<std::string>& scenes, Meas
         }
       }};
   const auto begin = clock.now();
-  const auto asked = engine.ask(scenes, saca::Clock::Time::max(), reply_tokens, clock, events);
+  const auto asked = engine.ask(scenes, begin + longest_round, reply_tokens, clock, events);
   if (!asked.has_value()) {
     return asked.error().message;
   }
   const AskFigures& f = asked.value();
   const int prompt = std::accumulate(f.prompt_tokens.begin(), f.prompt_tokens.end(), 0);
   const int reply = std::accumulate(f.reply_tokens.begin(), f.reply_tokens.end(), 0);
+  if (reply == 0 || clock.now() - begin >= longest_round * 9 / 10) {
+    return std::string(too_busy);
+  }
   m.prompt_rate = std::max(m.prompt_rate, prompt / f.prompt_seconds);
   m.reply_rate = std::max(m.reply_rate, reply / f.reply_seconds);
   m.seconds = std::min(m.seconds, std::chrono::duration<double>(clock.now() - begin).count());
@@ -175,7 +182,8 @@ int choose(const std::string& prompt_file, const std::string& out,
     all.push_back({.path = file});
   }
   if (const std::string error = measure_all(prompts, all); !error.empty()) {
-    return fail(error);
+    fail(error);
+    return error == too_busy ? 3 : 1;
   }
   const Measurement* best = &all.front();
   nlohmann::ordered_json json{{"schema", "saca.weights/1"}, {"processor", processor()}};
