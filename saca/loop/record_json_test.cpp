@@ -32,7 +32,7 @@ TEST(RecordJson, HoldsWhatTheFormatPromises) {
   const auto harm = outcome::read_harm("data/harm.toml").value();
   SteadyClock clock;
   Quiet quiet;
-  const Setup setup{.scenario = &scenario, .car = &car, .harm = &harm, .clock = &clock};
+  const loop::Setup setup{.scenario = &scenario, .car = &car, .harm = &harm, .clock = &clock};
   const Record record = run(setup, quiet).value();
   const json out = json::parse(record_json(setup, record));
 

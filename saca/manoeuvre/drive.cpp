@@ -21,6 +21,11 @@ std::string with_number(const char* pattern, double value) {
   return text.data();
 }
 
+/// Braking and doing nothing need nothing: they are what is left when all else is refused.
+bool always_possible(PolicyId policy) {
+  return policy == PolicyId::aeb || policy == PolicyId::no_intervention;
+}
+
 bool brakes_to_speed(PolicyId policy) {
   return policy == PolicyId::es_b_left || policy == PolicyId::es_b_right;
 }
@@ -41,16 +46,9 @@ std::optional<std::string> wrong_motion(const Plan& plan, const world::EgoState&
       !is_finite(ego.a_B)) {
     return "the ego's state is not finite";
   }
-  const bool from_rest = plan.policy == PolicyId::aeb || plan.policy == PolicyId::no_intervention;
-  const double least = from_rest ? 0.0 : 5.0;
-  if (!(ego.v_B.x >= least)) {
+  if (!always_possible(plan.policy) && !(ego.v_B.x >= 5.0 && ego.v_B.x <= 25.0)) {
     return std::string(name(plan.policy)) +
-           with_number(from_rest ? " needs a speed of 0 to 25 m/s ahead, is %.2f"
-                                 : " needs a speed of 5 to 25 m/s ahead, is %.2f",
-                       ego.v_B.x);
-  }
-  if (!(ego.v_B.x <= 25.0)) {
-    return with_number("speed must be at most 25 m/s, is %.2f", ego.v_B.x);
+           with_number(" needs a speed of 5 to 25 m/s ahead, is %.2f", ego.v_B.x);
   }
   return std::nullopt;
 }
@@ -58,15 +56,14 @@ std::optional<std::string> wrong_motion(const Plan& plan, const world::EgoState&
 std::optional<std::string> wrong_road(const Plan& plan, const world::Scene& scene) {
   const world::Road& road = scene.road;
   if (!is_finite(road.X_WL) || !std::isfinite(road.curvature) ||
-      !(road.lane_width >= 2.0 && road.lane_width <= 6.0)) {
+      (!always_possible(plan.policy) && !(road.lane_width >= 2.0 && road.lane_width <= 6.0))) {
     return with_number("the road must be finite, its lane 2 to 6 m wide, is %.2f", road.lane_width);
   }
   // A swerve out of a bend adds to what the bend itself takes.
   constexpr double most_share = 0.5;
   const double share = std::abs(road.curvature) * scene.ego.v_B.x * scene.ego.v_B.x /
                        (scene.grip * vehicle::gravity);
-  const bool stays = plan.policy == PolicyId::aeb || plan.policy == PolicyId::no_intervention;
-  if (!stays && !(share <= most_share)) {
+  if (!always_possible(plan.policy) && !(share <= most_share)) {
     return std::string(name(plan.policy)) +
            with_number(" needs half of the grip, the road's bend takes %.0f %%", 100.0 * share);
   }
@@ -85,8 +82,12 @@ std::optional<std::string> refusal(const Plan& plan, const world::Scene& scene) 
   if (auto problem = wrong_target(plan)) {
     return problem;
   }
-  if (!(scene.grip >= 0.3 && scene.grip <= 1.0)) {
-    return with_number("grip must be 0.3 to 1.0, is %.3f", scene.grip);
+  if (!(scene.grip > 0.0)) {
+    return with_number("grip must be > 0, is %.3f", scene.grip);
+  }
+  if (!always_possible(plan.policy) && !(scene.grip >= 0.3 && scene.grip <= 1.0)) {
+    return std::string(name(plan.policy)) +
+           with_number(" needs a grip of 0.3 to 1.0, is %.3f", scene.grip);
   }
   if (auto problem = wrong_motion(plan, scene.ego)) {
     return problem;

@@ -13,8 +13,9 @@ namespace saca::manoeuvre {
 
 /// Why a plan cannot be driven from here; nullopt when it can.
 ///
-/// Domain: policies 0, 1, 2, 3, 4, 7; 5 to 25 m/s (0 and 7 from rest); grip 0.3 to 1.0; lanes 2 to
-/// 6 m wide; for a lane change a bend that takes at most half of the grip.
+/// Domain: lane changes at 5 to 25 m/s, grip 0.3 to 1.0, lanes 2 to 6 m wide, in bends that take at
+/// most half of the grip. Braking and no intervention are possible from any finite state: they are
+/// what is left when all else is refused. Outside the domain their figures are not claimed.
 [[nodiscard]] std::optional<std::string> refusal(const Plan& plan, const world::Scene& scene);
 
 /// How the ego moves: poses of B at equal steps and, with them, velocity and turning.

@@ -218,6 +218,19 @@ TEST(Refusal, NamesWhatIsWrong) {
   EXPECT_EQ(why({PolicyId::aeb, {}}, 0.0, 0.3), "none");
 }
 
+// Never without a plan: the fallback exists at any speed and on any grip.
+TEST(Refusal, NeverOfBraking) {
+  for (const double speed : {-3.0, 0.0, 3.0, 40.0}) {
+    for (const double grip : {0.1, 1.2}) {
+      const world::Scene scene = scene_at(speed, grip);
+      ASSERT_EQ(refusal({PolicyId::aeb, {}}, scene), std::nullopt);
+      const EgoMotion motion = drive(car(), {PolicyId::aeb, {}}, scene, grip, 60.0);
+      EXPECT_TRUE(motion.ended) << speed << " m/s, grip " << grip;
+      EXPECT_LT(std::abs(motion.v_B.back().x), 0.1);
+    }
+  }
+}
+
 TEST(Refusal, OfALaneChangeInATightBend) {
   world::Scene scene = scene_at(20.0, 0.5);
   scene.road.curvature = -0.01;  // 4 m/s^2 of 4.9

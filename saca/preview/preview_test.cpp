@@ -67,6 +67,7 @@ TEST(Situations, AreInFallingOrderAndNeverMoreThanThree) {
   Scene scene = motorway(22.0);
   for (std::uint8_t id = 1; id <= 3; ++id) {
     scene.actors.push_back(car(id, {25.0 + 12.0 * id, id == 2 ? 3.5 : 0.0}, {18.0, 0.0}));
+    scene.actors[id - 1].a_W = {-1.5, 0.0};  // each may brake or not
   }
   const auto found = look(scene);
   ASSERT_EQ(found.size(), max_situations);
@@ -82,7 +83,8 @@ TEST(Situations, AreInFallingOrderAndNeverMoreThanThree) {
 
 TEST(Situations, ALeadThatMayBrakeIsForecastBraking) {
   Scene scene = motorway(20.0);
-  scene.actors.push_back(car(1, {40.0, 0.0}, {20.0, 0.0}));  // no conflict unless it brakes
+  scene.actors.push_back(car(1, {40.0, 0.0}, {20.0, 0.0}));
+  scene.actors[0].a_W = {-1.2, 0.0};  // no conflict within T2 unless it brakes harder
   const auto found = look(scene);
   ASSERT_FALSE(found.empty());
   EXPECT_EQ(found[0].intentions[0], intent::Intention::brake);

@@ -77,10 +77,12 @@ TEST(PreviewedThreat, SeesThePapersTruck) {
   EXPECT_LT(threat->time, 5.5);
 }
 
-// Nothing happens if the lead keeps its speed; it may brake (10 %), and that counts.
+// It slows a little: going on like that there is no conflict within T2, but it may brake in earnest
+// (14 % by the rule of intent), and that counts.
 TEST(PreviewedThreat, LooksAtEveryLikelyIntention) {
   Scene scene = ego_at(20.0);
   scene.actors.push_back(car(1, {24.0, 0.0}, {20.0, 0.0}));
+  scene.actors[0].a_W = {-1.2, 0.0};  // closes 20 m in sqrt(2 * 20 / 1.2) = 5.8 s
   EXPECT_FALSE(nearest_threat(scene, 5.5, 2.0).has_value());
   const auto threat = previewed_threat(scene, {});
   ASSERT_TRUE(threat.has_value());
