@@ -84,31 +84,32 @@ double percentile(std::vector<double> values, double share) {
 
 class Figures {
  public:
-  Figures() = default;
-  Figures(const Figures&) = delete;
-  Figures& operator=(const Figures&) = delete;
-  ~Figures() = default;
-
-  void put(const std::string& name, double value) { json_["reason." + name] = value; }
+  void put(const std::string& name, double value) {
+    numbers_.emplace_back("reason." + name, value);
+  }
   void put_times(const std::string& name, const std::vector<double>& values) {
     put(name + ".p50", percentile(values, 0.5));
     put(name + ".p99", percentile(values, 0.99));
     put(name + ".max", percentile(values, 1.0));
     put(name + ".n", static_cast<double>(values.size()));
   }
-  void put_text(const std::string& name, const std::string& text) { json_["meta." + name] = text; }
-  void print(bool json, std::ostream& out) const {
-    if (json) {
-      out << json_.dump() << '\n';
-      return;
+  void put_text(const std::string& name, const std::string& text) {
+    texts_.emplace_back("meta." + name, text);
+  }
+  void print(bool as_json, std::ostream& out) const {
+    nlohmann::ordered_json json;
+    for (const auto& [name, value] : numbers_) {
+      json[name] = value;
     }
-    for (const auto& [name, value] : json_.items()) {
-      out << name << " = " << value << '\n';
+    for (const auto& [name, text] : texts_) {
+      json[name] = text;
     }
+    out << (as_json ? json.dump() : json.dump(1)) << '\n';
   }
 
  private:
-  nlohmann::ordered_json json_;
+  std::vector<std::pair<std::string, double>> numbers_;
+  std::vector<std::pair<std::string, std::string>> texts_;
 };
 
 std::vector<double> of(const std::vector<Asked>& all, double Asked::*what) {
