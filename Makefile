@@ -7,7 +7,7 @@
 #   make bench   every figure of docs/results.md
 .PHONY: run test build model bench setup soak
 
-SCENARIO ?= 100car_8463
+SCENARIO ?= 100car_9018
 
 run: build model
 	build/release/saca run $(SCENARIO)

@@ -13,17 +13,17 @@ constexpr double track_step = 0.01;      // [s]
 constexpr double difference_time = 0.5;  // [s], backward differences of velocity and heading
 
 world::Actor perceived(const ScenarioActor& actor, const world::Track& track, double time) {
-  const double before = std::max(track.start, time - difference_time);
-  const double span = std::max(time - before, track_step);
   world::Actor seen{.id = actor.id,
                     .kind = actor.kind,
                     .footprint = actor.footprint,
                     .mass = actor.mass,
                     .X_WA = world::pose_at(track, time),
                     .v_W = world::velocity_at(track, time)};
-  if (time > before) {
-    seen.a_W = (1.0 / span) * (seen.v_W - world::velocity_at(track, before));
-    seen.yaw_rate = wrap_angle(seen.X_WA.yaw - world::pose_at(track, before).yaw) / span;
+  const double before = time - difference_time;
+  if (before >= track.start) {
+    constexpr double rate = 1.0 / difference_time;
+    seen.a_W = rate * (seen.v_W - world::velocity_at(track, before));
+    seen.yaw_rate = rate * wrap_angle(seen.X_WA.yaw - world::pose_at(track, before).yaw);
   }
   return seen;
 }

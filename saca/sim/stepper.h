@@ -35,7 +35,8 @@ class Stepper {
   [[nodiscard]] world::EgoState ego() const;
 
   /// The scene as it is now: perception without noise, delay or loss. Accelerations of the others
-  /// are backward differences over 0.5 s, as a tracker would know them.
+  /// are backward differences over 0.5 s, as a tracker would know them; zero until an actor has
+  /// been seen that long.
   [[nodiscard]] world::Scene scene() const;
 
   /// True motion of the actors that are in scene(), in its order, over the whole scenario.
