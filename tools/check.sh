@@ -9,12 +9,20 @@ mapfile -t sources < <(git ls-files '*.cpp' '*.h')
 step "format: ${#sources[@]} files"
 clang-format-14 --dry-run --Werror "${sources[@]}"
 
-for preset in dev asan tsan; do
+check() {  # PRESET TARGETS CTEST_OPTION...
+  local preset=$1 targets=$2
+  shift 2
   step "build and test: $preset"
   cmake --preset "$preset" >/dev/null
-  cmake --build --preset "$preset" -- --quiet
-  ctest --preset "$preset" --progress
-done
+  # shellcheck disable=SC2086  # targets are words
+  cmake --build --preset "$preset" ${targets:+--target $targets} -- --quiet
+  ctest --preset "$preset" --parallel 2 "$@"
+}
+
+check dev ""
+# Pages and the command line are tested once, in dev; benchmarks say nothing under a sanitiser.
+check asan "" --label-exclude 'viewer|cli|bench'
+check tsan "core_latest_slot_test core_spsc_queue_test loop_thinking_thread_test"
 
 step "lint"
 tools/lint.sh build/dev

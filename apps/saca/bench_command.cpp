@@ -1,4 +1,177 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <string>
+#include <vector>
+
 #include "apps/saca/commands.h"
+#include "apps/saca/places.h"
+#include "saca/core/clock.h"
+#include "saca/decide/reflex_plane.h"
+#include "saca/manoeuvre/controller.h"
+#include "saca/manoeuvre/ego.h"
+#include "saca/manoeuvre/physics_figures.h"
+#include "saca/vehicle/parameters.h"
+
 namespace saca::app {
-void add_bench(CLI::App&, int&) {}
+namespace {
+
+using nlohmann::json;
+
+double seconds(Clock::Time time) {
+  return std::chrono::duration<double>(time).count();
+}
+
+/// Stopping distances and lane changes beside their bands.
+int bench_physics(const vehicle::Vehicle& car, json& figures, bool quiet) {
+  int outside = 0;
+  for (const manoeuvre::Figure& figure : manoeuvre::physics_figures(car)) {
+    outside += in_band(figure) ? 0 : 1;
+    figures[figure.name] = figure.value;
+    if (!quiet) {
+      const std::string reference =
+          figure.reference ? fmt::format("{:8.3f}", *figure.reference) : "       -";
+      fmt::print("{:44} {:8.3f}   reference {}   band {:7.3f} to {:7.3f}   {}\n", figure.name,
+                 figure.value, reference, figure.low, figure.high,
+                 in_band(figure) ? "inside" : "OUTSIDE");
+    }
+  }
+  return outside;
+}
+
+/// Integrated milliseconds per second of computing: a stop from 20 m/s, over and over.
+void bench_vehicle(const vehicle::Vehicle& car, Clock& clock, json& figures) {
+  world::Scene scene;
+  scene.ego.v_B = {20.0, 0.0};
+  const manoeuvre::Plan plan{manoeuvre::PolicyId::aeb, std::nullopt};
+  constexpr int num_stops = 100;
+  constexpr int num_steps = 2'000;
+  const Clock::Time start = clock.now();
+  for (int stop = 0; stop < num_stops; ++stop) {
+    manoeuvre::ControllerState memory = manoeuvre::begin(car, plan, scene);
+    vehicle::VehicleState state = manoeuvre::rolling_state(car, scene.ego, 0.9);
+    for (int k = 0; k < num_steps; ++k) {
+      const vehicle::Command command =
+          manoeuvre::control(car, plan, scene.road, 0.9, state, memory, 1e-3);
+      state = vehicle::step(car, state, command, 0.9, 1e-3);
+    }
+  }
+  figures["vehicle.steps_per_s"] = num_stops * num_steps / seconds(clock.now() - start);
+}
+
+/// A scene with `num_actors` others on three lanes; `rng` moves them a little.
+world::Scene crowd(const vehicle::Vehicle& car, int num_actors, std::mt19937& rng) {
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  world::Scene scene;
+  scene.ego.v_B = {20.0 + u(rng), 0.0};
+  scene.ego_footprint = manoeuvre::footprint(car);
+  scene.ego_mass = car.mass;
+  for (int i = 0; i < num_actors; ++i) {
+    world::Actor actor{.id = static_cast<std::uint8_t>(i + 1),
+                       .footprint = {.length = 4.5, .width = 1.8},
+                       .mass = 1'500.0};
+    actor.X_WA.p = {25.0 + 9.0 * i + 5.0 * u(rng), 3.5 * (i % 3 - 1) + 0.5 * u(rng)};
+    actor.v_W = {12.0 + 5.0 * u(rng), 0.3 * u(rng)};
+    scene.actors.push_back(actor);
+  }
+  return scene;
+}
+
+/// Percentiles of one reflex step: plans received, threat looked for, matched and decided where the
+/// scene triggers (about half of them do).
+void bench_reflex(const vehicle::Vehicle& car, Clock& clock, int num_calls, json& figures) {
+  for (const int num_actors : {1, 8, 32}) {
+    std::mt19937 rng(1);
+    std::vector<world::Scene> scenes;
+    for (int i = 0; i < 64; ++i) {
+      scenes.push_back(crowd(car, num_actors, rng));
+    }
+    decide::PlanCache plans;
+    for (int i = 0; i < 3; ++i) {
+      plans.push_back({.scene_at_trigger = scenes[static_cast<std::size_t>(i)], .plan = {}});
+    }
+    std::vector<double> times;
+    times.reserve(static_cast<std::size_t>(num_calls));
+    for (int call = 0; call < num_calls; ++call) {
+      decide::ReflexPlane plane(preview::Thresholds{});
+      plane.receive(plans);
+      const world::Scene& scene = scenes[static_cast<std::size_t>(call) % scenes.size()];
+      const Clock::Time start = clock.now();
+      (void)plane.step(scene);
+      times.push_back(1e6 * seconds(clock.now() - start));
+    }
+    std::sort(times.begin(), times.end());
+    const auto at = [&](double share) {
+      return times[static_cast<std::size_t>(share * static_cast<double>(times.size() - 1))];
+    };
+    const std::string suffix = fmt::format(".actors{}", num_actors);
+    figures["decide.reflex_us.p50" + suffix] = at(0.5);
+    figures["decide.reflex_us.p99" + suffix] = at(0.99);
+    figures["decide.reflex_us.p99.9" + suffix] = at(0.999);
+    figures["decide.reflex_us.max" + suffix] = times.back();
+    figures["decide.reflex_us.n" + suffix] = num_calls;
+  }
+}
+
+struct BenchOptions {
+  std::string what = "all";
+  int calls = 1'000'000;
+  bool as_json = false;
+};
+
+int bench(const BenchOptions& options) {
+  const auto places = find_places();
+  if (!places) {
+    complain("data/harm.toml is neither beside the program's build folder nor in share/saca");
+    return bad_input;
+  }
+  const auto car =
+      vehicle::read_vehicle(places->root / "data" / "vehicles" / "compact_rwd_ev.toml");
+  if (!car.has_value()) {
+    complain(car.error().message);
+    return bad_input;
+  }
+  SteadyClock clock;
+  json figures;
+  if (options.what == "all" || options.what == "physics") {
+    figures["physics.outside_band"] = bench_physics(car.value(), figures, options.as_json);
+  }
+  if (options.what == "all" || options.what == "vehicle") {
+    bench_vehicle(car.value(), clock, figures);
+  }
+  if (options.what == "all" || options.what == "decide") {
+    bench_reflex(car.value(), clock, options.calls, figures);
+  }
+  if (options.as_json) {
+    fmt::print("{}\n", figures.dump(1));
+    return success;
+  }
+  for (const auto& [name, value] : figures.items()) {
+    if (!name.starts_with("physics.") || name == "physics.outside_band") {
+      fmt::print("{:52} {:.6g}\n", name, value.get<double>());
+    }
+  }
+  return success;
+}
+
+}  // namespace
+
+void add_bench(CLI::App& line, int& exit_code) {
+  CLI::App* const command = line.add_subcommand(
+      "bench", "Measure: physics beside its bands, vehicle steps, the reflex plane");
+  const auto options = std::make_shared<BenchOptions>();
+  command->add_option("what", options->what, "all, physics, vehicle or decide")
+      ->check(CLI::IsMember({"all", "physics", "vehicle", "decide"}))
+      ->capture_default_str();
+  command->add_option("--calls", options->calls, "Of the reflex plane, for each number of actors")
+      ->check(CLI::Range(1'000, 100'000'000))
+      ->capture_default_str();
+  command->add_flag("--json", options->as_json, "For programs");
+  command->callback([options, &exit_code] { exit_code = bench(*options); });
+}
+
 }  // namespace saca::app

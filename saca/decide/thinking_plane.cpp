@@ -95,6 +95,9 @@ bool ThinkingPlane::think(const world::Scene& scene, Clock::Time scene_at) {
   std::vector<std::size_t> now;
   for (preview::Situation& situation :
        preview::situations(scene, thresholds_, *tools_.car, *tools_.harm)) {
+    if (situation.scene_at_trigger.time < round.now()) {
+      continue;  // its trigger has passed while this was computed
+    }
     if (Preview* const known = provided_for(situation)) {
       known->newest_scene = situation.scene_at_trigger;
       known->worse_than_aeb = known->plan && !check(known->plan->policy, situation).passed;

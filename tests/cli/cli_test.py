@@ -1,0 +1,254 @@
+"""The command line: stories, records, exit codes, and one clear error for each kind of bad input."""
+import json
+import os
+import pathlib
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import time
+
+import pytest
+
+PROGRAM = os.environ["SACA_PROGRAM"]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+HOST = pathlib.Path(PROGRAM).parent / "saca-model-host"
+HAS_MODEL = HOST.exists() and (ROOT / "third_party/models/choice.json").exists()
+SUCCESS, WRONG_COMMAND_LINE, BAD_INPUT, CANNOT_WRITE = 0, 2, 3, 4
+
+
+def saca(*arguments, cwd, **options):
+    return subprocess.run([PROGRAM, *map(str, arguments)], cwd=cwd, capture_output=True, text=True,
+                          timeout=120, **options)
+
+
+def quick(*arguments, cwd, **options):
+    """A run without model, at the fast pace."""
+    return saca("run", *arguments, "--llm", "off", "--pace", "lockstep", cwd=cwd, **options)
+
+
+def one_error(run, code):
+    """The one line on the error stream of a run that was refused."""
+    assert run.returncode == code, run.stderr
+    lines = run.stderr.strip().splitlines()
+    assert len(lines) == 1, run.stderr
+    return lines[0]
+
+
+@pytest.fixture
+def scenario(tmp_path):
+    """A copy of a shipped scenario to spoil."""
+    text = (ROOT / "scenarios/intersection_t1.toml").read_text()
+
+    def spoilt(old, new):
+        assert old in text
+        file = tmp_path / "spoilt.toml"
+        file.write_text(text.replace(old, new, 1))
+        return file
+
+    return spoilt
+
+
+def test_tells_what_the_driver_did_what_saca_did_and_what_would_have_been_best(tmp_path):
+    run = quick("100car_9018", cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    for words in ("The driver: ", "looking out the left window", "The drive as recorded: clear by",
+                  "SACA: 0 AEB", "Best in hindsight: ", "T2: car1", "T1: 1.3 s to the conflict"):
+        assert words in run.stdout
+    assert (tmp_path / "runs/100car_9018/report.html").exists()
+
+
+@pytest.mark.parametrize("name", ["100car_8676", "100car_8911", "100car_9018", "intersection_t1",
+                                  "intersection_t2"])
+def test_every_shipped_scenario_gives_a_record(name, tmp_path):
+    run = quick(name, "--json", "--no-memory", cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    record = json.loads(run.stdout)
+    assert record == json.loads((tmp_path / "runs" / name / "record.json").read_text())
+    assert record["schema"] == "saca.record/1"
+    assert record["scenario"]["name"] == name
+    if record["decision"]:
+        assert record["decision"]["policy"] in range(8)
+        assert record["hindsight"][record["best"]]["harm"] <= record["result"]["harm"] + 1e-4
+
+
+def test_the_same_run_gives_the_same_bytes_but_for_the_clock(tmp_path):
+    def record(folder):
+        (tmp_path / folder).mkdir()
+        out = quick("100car_9018", "--json", "--no-memory", cwd=tmp_path / folder).stdout
+        return re.sub(r'"reflex_us_\w+": [0-9.e+-]+', "", out)
+
+    assert record("a") == record("b")
+
+
+def test_memory_learns_and_is_shown(tmp_path):
+    assert quick("100car_8676", cwd=tmp_path).returncode == SUCCESS
+    cases = json.loads(saca("memory", "list", "--json", cwd=tmp_path).stdout)
+    assert [case["source"] for case in cases] == ["100car_8676"]
+    shown = json.loads(saca("memory", "show", 1, cwd=tmp_path).stdout)
+    assert shown["scene"]["schema"] == "saca.scene/1"
+    assert "want an id" in one_error(saca("memory", "show", 7, cwd=tmp_path), BAD_INPUT)
+
+
+def test_a_policy_can_be_asked_for(tmp_path):
+    record = json.loads(quick("intersection_t1", "--policy", 7, "--json", cwd=tmp_path).stdout)
+    assert record["decision"]["policy"] == 7
+    assert record["decision"]["source"] == "forced"
+    assert record["result"]["contact"]["with"] == "truck1"
+
+
+def test_a_drift_is_refused_and_it_brakes(tmp_path):
+    run = quick("intersection_t1", "--policy", 6, cwd=tmp_path)
+    assert run.returncode == SUCCESS
+    assert "6 T-D-R cannot be driven" in run.stdout
+    assert "policy 0 AEB (fallback)" in run.stdout
+
+
+@pytest.mark.parametrize("arguments", [
+    [], ["run"], ["fly"], ["run", "x", "--pace", "warp"], ["run", "x", "--policy", "9"],
+    ["run", "x", "--policy", "left"], ["memory"], ["import", "100car"], ["bench", "luck"],
+    ["run", "x", "--no-such-flag"]])
+def test_a_wrong_command_line_is_told(arguments, tmp_path):
+    run = saca(*arguments, cwd=tmp_path)
+    assert run.returncode == WRONG_COMMAND_LINE
+    assert run.stderr.strip()
+
+
+@pytest.mark.parametrize("old, new, words", [
+    ("speed_mps = 14", "speed_kmh = 50", "is `speed_kmh` meant, in another unit?"),
+    ("grip = 0.9", "grip = nan", "grip: want"),
+    ("grip = 0.9", "grip = 0.9\ncolour = 1", "colour: unknown key"),
+    ("s_m = 6\nd_m = 4", "s_m = -70\nd_m = 0", "overlap|touch|covers"),
+    ("duration_s = 13", 'duration_s = "long"', "duration_s: want a number, got a string"),
+    ("[ego.start]", "[ego.start", "not TOML"),
+    ('car = "compact_rwd_ev"', 'car = "batmobile"', r"batmobile\.toml"),
+])
+def test_a_spoilt_scenario_is_one_clear_error(old, new, words, scenario, tmp_path):
+    file = scenario(old, new)
+    message = one_error(quick(file, cwd=tmp_path), BAD_INPUT)
+    assert re.search(words, message), message
+    if "batmobile" not in words:
+        assert re.search(r"spoilt\.toml:\d+", message), message
+    assert not (tmp_path / "runs").exists() or not list((tmp_path / "runs").glob("*/record.json"))
+
+
+def test_a_missing_scenario_is_named(tmp_path):
+    assert "nowhere.toml" in one_error(quick("nowhere.toml", cwd=tmp_path), BAD_INPUT)
+
+
+@pytest.fixture
+def release(tmp_path):
+    """A tiny copy of the 100-Car release: some rows of event 8911."""
+    return pathlib.Path(shutil.copytree(ROOT / "saca/sim/testdata", tmp_path / "release"))
+
+
+def test_an_event_becomes_a_scenario_that_runs(release, tmp_path):
+    run = saca("import", "100car", release, "--event", 8911, "--before_s", 2, "--output", "mine.toml",
+               cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    assert "event 8911" in run.stdout
+    assert quick("mine.toml", cwd=tmp_path).returncode == SUCCESS
+
+
+def test_an_event_file_with_missing_columns_is_refused(release, tmp_path):
+    file = release / "timeseries/HundredCar_Public_8911.txt"
+    lines = file.read_text().splitlines()
+    lines[4] = ",".join(lines[4].split(",")[:70])
+    file.write_text("\n".join(lines))
+    message = one_error(saca("import", "100car", release, "--event", 8911, cwd=tmp_path), BAD_INPUT)
+    assert "HundredCar_Public_8911.txt:5" in message and "79" in message and "70" in message
+
+
+def test_an_event_that_is_not_there_is_named(release, tmp_path):
+    assert "4711" in one_error(saca("import", "100car", release, "--event", 4711, cwd=tmp_path), BAD_INPUT)
+
+
+def test_a_damaged_memory_is_told_and_kept(tmp_path):
+    file = tmp_path / "memory.sqlite"
+    file.write_bytes(b"this is not a database, and never was one" * 100)
+    before = file.read_bytes()
+    message = one_error(quick("100car_8676", "--memory", file, cwd=tmp_path), BAD_INPUT)
+    assert "memory.sqlite" in message
+    assert file.read_bytes() == before
+
+
+def test_a_full_disk_leaves_no_half_written_file(tmp_path):
+    def small_files():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
+
+    run = quick("100car_8676", "--no-memory", cwd=tmp_path, preexec_fn=small_files)
+    assert run.returncode == CANNOT_WRITE
+    assert "record.json" in run.stderr
+    assert list((tmp_path / "runs/100car_8676").iterdir()) == []
+
+
+def test_without_a_model_it_runs_and_says_so(tmp_path):
+    lonely = tmp_path / "bin/build/saca"
+    lonely.parent.mkdir(parents=True)
+    os.link(PROGRAM, lonely) if os.stat(PROGRAM).st_dev == os.stat(tmp_path).st_dev else \
+        lonely.write_bytes(pathlib.Path(PROGRAM).read_bytes())
+    lonely.chmod(0o755)
+    for folder in ("data", "scenarios"):
+        (tmp_path / folder).symlink_to(ROOT / folder)
+    run = subprocess.run([lonely, "run", "100car_8676", "--pace", "lockstep"], cwd=tmp_path,
+                         capture_output=True, text=True, timeout=120)
+    assert run.returncode == SUCCESS, run.stderr
+    assert "make model" in run.stderr and "--llm off" in run.stderr
+    assert "language model: off" in run.stdout
+
+
+@pytest.mark.parametrize("text, words", [
+    ("{", "JSON"), ('{"schema": "other/1"}', "schema"), ("", "JSON")])
+def test_a_damaged_replay_is_refused(text, words, tmp_path):
+    file = tmp_path / "replies.json"
+    file.write_text(text)
+    message = one_error(saca("run", "100car_8676", "--llm", f"replay:{file}", cwd=tmp_path),
+                        BAD_INPUT)
+    assert "replies.json" in message and words.lower() in message.lower()
+
+
+needs_model = pytest.mark.skipif(not HAS_MODEL, reason="`make model` has not been run")
+
+
+@needs_model
+def test_recorded_replies_can_be_replayed(tmp_path):
+    replies = tmp_path / "replies.json"
+    first = saca("run", "100car_8676", "--pace", "lockstep", "--no-memory", "--record-replies", replies,
+                 "--json", cwd=tmp_path)
+    again = saca("run", "100car_8676", "--pace", "lockstep", "--no-memory", "--llm",
+                 f"replay:{replies}", "--json", cwd=tmp_path)
+    assert first.returncode == again.returncode == SUCCESS, first.stderr + again.stderr
+    answers = [[preview["reasoning"] for preview in json.loads(run.stdout)["previews"]]
+               for run in (first, again)]
+    assert answers[0] == answers[1]
+    assert any(answers[0])
+
+
+def descendants(pid):
+    """Processes begun by a process, and by those."""
+    found = []
+    for child in pathlib.Path(f"/proc/{pid}/task").glob("*/children"):
+        for each in child.read_text().split():
+            found += [int(each), *descendants(each)]
+    return found
+
+
+@needs_model
+@pytest.mark.parametrize("blow", [signal.SIGKILL, signal.SIGSTOP])
+def test_a_model_that_is_struck_in_the_middle_changes_nothing_on_the_reflex_plane(blow, tmp_path):
+    run = subprocess.Popen([PROGRAM, "run", "100car_9018", "--no-memory"], cwd=tmp_path, text=True,
+                           stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    story = []
+    for line in run.stdout:
+        story.append(line)
+        if "the model is asked" in line:
+            time.sleep(0.3)
+            for child in descendants(run.pid):
+                os.kill(child, blow)
+            break
+    story += run.stdout.readlines()
+    assert run.wait(timeout=60) == SUCCESS, run.stderr.read()
+    assert any("policy 0 AEB" in line for line in story)
+    assert (tmp_path / "runs/100car_9018/report.html").exists()
