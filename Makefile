@@ -5,6 +5,7 @@
 #   make build   leaves build/release/saca
 #   make model   the local language model: libraries, weights, the choice for this processor
 #   make bench   every figure of docs/results.md
+#   make soak    long runs: kills
 .PHONY: run test build model bench setup soak
 
 SCENARIO ?= 100car_9018
@@ -30,6 +31,7 @@ test: setup model
 bench: build model
 	@tools/bench.sh
 
+# Long runs: kills in the middle of memory's writes.
 soak: setup
-	@cmake --preset dev > /dev/null && cmake --build --preset dev
-	@ctest --preset soak
+	@cmake --preset dev > /dev/null && cmake --build --preset dev --target memory_store_test -- --quiet
+	SACA_SOAK_KILLS=$${SACA_SOAK_KILLS:-500} build/dev/modules/memory/memory_store_test --gtest_filter='*Killed*'

@@ -5,7 +5,7 @@
 #include "saca/loop/encounter.h"
 #include "saca/manoeuvre/ego.h"
 #include "saca/outcome/describe.h"
-#include "saca/reason/prompt.h"
+#include "saca/outcome/loss.h"
 
 namespace saca::loop {
 namespace {
@@ -203,6 +203,23 @@ json outcome_json(const outcome::Outcome& outcome, std::span<const world::Actor>
           {"text", outcome::describe(outcome, actors)}};
 }
 
+/// The paper's False-Trigger Loss: what was done where doing nothing would have met nobody.
+double false_trigger_loss(const Record& record) {
+  if (!record.decision) {
+    return 0.0;
+  }
+  const Hindsight& nothing =
+      (*record.hindsight)[manoeuvre::index(manoeuvre::PolicyId::no_intervention)];
+  const bool no_risk = nothing.facts.refusal.empty() && !nothing.facts.outcome.contact;
+  return no_risk ? outcome::false_trigger_loss(record.decision->plan.policy) : 0.0;
+}
+
+json result_json(const Record& record) {
+  json out = outcome_json(record.result, record.met);
+  out["false_trigger_loss"] = false_trigger_loss(record);
+  return out;
+}
+
 json actor_bodies_json(const sim::Scenario& scenario) {
   json actors = json::array();
   for (const sim::ScenarioActor& actor : scenario.actors) {
@@ -259,7 +276,7 @@ std::string record_json(const Setup& setup, const Record& record) {
       {"events", events},
       {"previews", previews},
       {"decision", decision_json(record)},
-      {"result", outcome_json(record.result, record.met)},
+      {"result", result_json(record)},
       {"driver",
        record.driver ? outcome_json(*record.driver, record.met_by_driver) : json(nullptr)},
       {"hindsight", hindsight_json(record)},

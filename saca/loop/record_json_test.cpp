@@ -49,6 +49,7 @@ TEST(RecordJson, HoldsWhatTheFormatPromises) {
   EXPECT_EQ(out["hindsight"].size(), 8U);
   EXPECT_FALSE(out["hindsight"][5]["refusal"].is_null());
   EXPECT_GT(out["hindsight"][0]["path"].size(), 10U);
+  EXPECT_EQ(out["result"]["false_trigger_loss"], 0.0);  // doing nothing would have hit
   for (const json& event : out["events"]) {
     EXPECT_TRUE(event.contains("t_s") && event.contains("plane") && event.contains("kind") &&
                 event.contains("text"));
