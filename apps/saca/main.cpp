@@ -1,4 +1,6 @@
+#include <cstdio>
 #include <exception>
+#include <system_error>
 
 #include "apps/saca/commands.h"
 #include "apps/saca/places.h"
@@ -23,7 +25,14 @@ int main(int argc, char** argv) {
       const bool asked_for_help = line.exit(problem) == 0;
       return asked_for_help ? success : wrong_command_line;
     }
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+      complain("the output cannot be written");
+      return exit_code == success ? cannot_write : exit_code;
+    }
     return exit_code;
+  } catch (const std::system_error& problem) {
+    complain(std::string("cannot go on: ") + problem.what());
+    return cannot_write;
   } catch (const std::exception& problem) {
     complain(std::string("internal error, please report it: ") + problem.what());
     return internal_error;

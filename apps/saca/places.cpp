@@ -44,7 +44,7 @@ std::optional<fs::path> find_weights(const Places& places) {
 
 fs::path find_scenario(const Places& places, const std::string& name) {
   std::error_code problem;
-  if (fs::exists(name, problem)) {
+  if (fs::is_regular_file(name, problem)) {
     return name;
   }
   const fs::path shipped = places.root / "scenarios" / (name + ".toml");

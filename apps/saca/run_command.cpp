@@ -155,15 +155,14 @@ int run(const RunOptions& options) {
     complain(record.error().message);
     return bad_input;
   }
-  if (const auto problem = model.value().save_replies()) {
-    complain(problem->message);
-    return cannot_write;
-  }
   const std::string text = loop::record_json(setup, record.value());
   const fs::path folder = fs::path(options.output) / inputs.value().scenario.name;
   const fs::path report =
       options.report.empty() ? folder / "report.html" : fs::path(options.report);
-  const auto problem = write_outputs(text, folder, report);
+  auto problem = write_outputs(text, folder, report);
+  if (!problem) {
+    problem = model.value().save_replies();
+  }
   if (options.as_json) {
     fmt::print("{}\n", text);
   } else {

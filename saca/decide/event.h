@@ -63,6 +63,7 @@ struct Preview {
   Source source = Source::model;
   bool worse_than_aeb = false;  ///< the plan, by the last forecast
   std::optional<double> ready;  ///< when it was cached [s]
+  bool unheard = false;         ///< the model failed when it was asked: it may be asked again
 };
 
 }  // namespace saca::decide

@@ -5,7 +5,7 @@
 namespace saca::decide {
 namespace {
 
-/// A road with `count` others on three lanes, three plans in the cache.
+/// A trigger among `count` others on three lanes, six plans in the cache: the longest way through.
 void reflex_step(benchmark::State& state) {
   world::Scene scene;
   scene.ego.v_B = {20.0, 0.0};
@@ -15,12 +15,13 @@ void reflex_step(benchmark::State& state) {
     world::Actor actor{.id = static_cast<std::uint8_t>(i + 1),
                        .footprint = {.length = 4.5, .width = 1.8},
                        .mass = 1'500.0};
-    actor.X_WA.p = {45.0 + 9.0 * i, 3.5 * (i % 3 - 1)};
-    actor.v_W = {12.0 + i % 5, 0.1 * (i % 3 - 1)};
+    const int row = i / 3;
+    actor.X_WA.p = {16.0 + 9.0 * row, 3.5 * ((i + 1) % 3 - 1)};  // the first right ahead
+    actor.v_W = {8.0 + i % 5, 0.0};
     scene.actors.push_back(actor);
   }
   PlanCache cache;
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 6; ++i) {
     cache.push_back({.scene_at_trigger = scene, .plan = {}, .preview = i});
   }
   for (auto _ : state) {

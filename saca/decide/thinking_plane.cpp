@@ -92,6 +92,7 @@ bool ThinkingPlane::think(const world::Scene& scene, Clock::Time scene_at) {
     describe_scene(round, *threat);
   }
   std::vector<std::size_t> fresh;
+  std::vector<std::size_t> unanswered;
   std::vector<std::size_t> now;
   for (preview::Situation& situation :
        preview::situations(scene, thresholds_, *tools_.car, *tools_.harm)) {
@@ -102,6 +103,9 @@ bool ThinkingPlane::think(const world::Scene& scene, Clock::Time scene_at) {
       known->newest_scene = situation.scene_at_trigger;
       known->worse_than_aeb = known->plan && !check(known->plan->policy, situation).passed;
       now.push_back(static_cast<std::size_t>(known - previews_.data()));
+      if (known->unheard) {
+        unanswered.push_back(now.back());
+      }
       continue;
     }
     fresh.push_back(previews_.size());
@@ -119,7 +123,6 @@ bool ThinkingPlane::think(const world::Scene& scene, Clock::Time scene_at) {
                    current_.end());
   }
 
-  std::vector<std::size_t> unanswered;
   for (const std::size_t i : fresh) {
     Preview& preview = previews_[i];
     std::string combination;
@@ -215,11 +218,15 @@ void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>
       tools_.model->ask(scenes, round.clock_at(trigger - handover_margin), progress);
   if (!replies.has_value()) {
     ++deadline_misses_;
+    for (const std::size_t i : which) {
+      previews_[i].unheard = !previews_[i].plan;
+    }
     tell(round, EventKind::fault, "model: " + replies.error().message);
     return;
   }
   for (std::size_t k = 0; k < replies.value().size() && k < which.size(); ++k) {
     Preview& preview = previews_[which[k]];
+    preview.unheard = false;
     const reason::Reply& reply = replies.value()[k];
     preview.reply.reasoning = reply.reasoning;
     preview.reply.prompt_tokens = reply.prompt_tokens;
@@ -253,10 +260,7 @@ void ThinkingPlane::settle(Preview& preview, PolicyId policy, Source source, dou
                                preview.check->text)});
   }
   if (!fact.refusal.empty() || (needs_check && !preview.check->passed)) {
-    preview.plan.reset();
-    preview.ready.reset();
-    publish(ready);
-    return;
+    return;  // what was checked before stands
   }
   if (preview.plan != fact.plan) {
     output_.event({ready, Plane::thinking, EventKind::cached,

@@ -51,7 +51,7 @@ class ThinkingPlane {
   /// All that was thought so far, in order.
   [[nodiscard]] const std::vector<Preview>& previews() const { return previews_; }
 
-  /// How often the model had no answer in time.
+  /// How often the model, when asked, gave no answer in time, for whatever reason.
   [[nodiscard]] int deadline_misses() const { return deadline_misses_; }
 
  private:
@@ -71,7 +71,7 @@ class ThinkingPlane {
   preview::Thresholds thresholds_;
   ThinkingOutput output_;
   std::vector<Preview> previews_;
-  std::vector<std::size_t> current_;  ///< indices into previews_, those of the last round
+  std::vector<std::size_t> current_;  ///< indices into previews_, newest forecast first
   int deadline_misses_ = 0;
 };
 

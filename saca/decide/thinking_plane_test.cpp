@@ -148,6 +148,15 @@ TEST_F(Thinking, ASilentModelLeavesNothingBehindButARecord) {
   EXPECT_TRUE(published_.back().empty());
 }
 
+TEST_F(Thinking, AsksAgainAfterTheModelFailed) {
+  FixedModel model(std::nullopt, clock_);
+  ThinkingPlane thinking = plane(&model);
+  thinking.think(wreck_ahead(), clock_.now());
+  thinking.think(wreck_ahead(), clock_.now());
+  EXPECT_EQ(model.num_asked, 2);
+  EXPECT_EQ(thinking.previews().size(), 1U);
+}
+
 TEST_F(Thinking, TheDeadlineIsTheTrigger) {
   FixedModel model(PolicyId::aeb, clock_);
   ThinkingPlane thinking = plane(&model);

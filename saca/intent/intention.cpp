@@ -159,13 +159,13 @@ Track predicted_track(const Scene& scene, const Actor& actor, Intention intentio
   for (int k = 1; k <= num_steps; ++k) {
     const double t = k * step;
     const double moving = deceleration > 0.0 ? std::min(t, speed / deceleration) : t;
-    const double now = std::max(speed - deceleration * moving, rest_speed);
-    const double share = moving / lane_change_time;  // who stands does not change lanes
-    const double sideways = way * smooth_slope(share) / lane_change_time;
+    const double made = (speed - 0.5 * deceleration * moving) * moving;
+    // A change is made along the way, not over time: who stands does not change lanes.
+    const double full = speed * lane_change_time;
+    const double slope = way * smooth_slope(made / full) / full;
     track.X_WA.push_back(world::from_lane(
-        line.road, {.s = (speed - 0.5 * deceleration * moving) * moving,
-                    .d = way * smooth(share),
-                    .heading = line.crab + (way == 0.0 ? 0.0 : std::atan2(sideways, now))}));
+        line.road,
+        {.s = made, .d = way * smooth(made / full), .heading = line.crab + std::atan(slope)}));
   }
   return track;
 }

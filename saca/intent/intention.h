@@ -46,8 +46,8 @@ using IntentPosterior = std::array<double, num_intentions>;
 ///
 /// Maintaining keeps the speed; braking uses the measured deceleration, or 6 m/s^2 while less than
 /// 2 m/s^2 are measured, until rest. Actors along the lane follow it, others the arc that their
-/// velocity and turning rate describe. A lane change takes 4 s to the next lane's centre. (6 m/s^2
-/// and 4 s are assumptions.)
+/// velocity and turning rate describe. A lane change to the next lane's centre takes the way that
+/// is driven in 4 s at the initial speed. (6 m/s^2 and 4 s are assumptions.)
 ///
 /// @param horizon  [s], > 0
 /// @return         poses every 50 ms from scene.time on

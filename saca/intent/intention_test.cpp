@@ -144,6 +144,15 @@ TEST(PredictedTrack, NoSegmentIsFasterThanTheActorIs) {
   }
 }
 
+// At most 30/16 of the mean slope: 3.5 m over 60 m is 6.3 deg, braking or not.
+TEST(PredictedTrack, ABrakingLaneChangeDoesNotEndBroadside) {
+  const Track track =
+      predicted_track(road_scene(), car({30.0, 0.0}, {15.0, 0.4}), Intention::brake_left, 6.0);
+  for (const Pose& X : track.X_WA) {
+    EXPECT_LT(std::abs(X.yaw), 0.12);
+  }
+}
+
 TEST(PredictedTrack, RefusesAnEmptyHorizon) {
   EXPECT_THROW((void)predicted_track(road_scene(), car({}, {1.0, 0.0}), Intention::maintain, 0.0),
                ContractViolation);

@@ -1,5 +1,8 @@
 #include "saca/loop/charged_model.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "saca/config/config.h"
 
 namespace saca::loop {
@@ -39,26 +42,29 @@ Result<std::vector<reason::Reply>> ChargedModel::ask(
     prompt_tokens += reply.prompt_tokens;
   }
   const Clock::Time read = clock_.now() + seconds(costs_.prompt_token * prompt_tokens);
+  std::vector<std::pair<std::size_t, reason::Answer>> answers;  // of all prompts, by their dates
   std::vector<reason::Reply> in_time;
-  bool any = false;
   for (std::size_t i = 0; i < replies.value().size(); ++i) {
     reason::Reply reply = replies.value()[i];
     progress({.prompt = i, .text = reply.reasoning});
-    std::vector<reason::Answer> answers;
-    for (reason::Answer answer : reply.answers) {
+    const auto late = [&](reason::Answer& answer) {
       const bool first = answer.kind == reason::Answer::Kind::first;
       answer.time =
           read + (first ? Clock::Time(0) : seconds(costs_.reply_token * reply.reply_tokens));
-      if (answer.time <= deadline) {
-        answers.push_back(answer);
-        progress({.prompt = i, .text = {}, .answer = &answer});
-        any = true;
-      }
+      return answer.time > deadline;
+    };
+    std::erase_if(reply.answers, late);
+    for (const reason::Answer& answer : reply.answers) {
+      answers.emplace_back(i, answer);
     }
-    reply.answers = answers;
     in_time.push_back(std::move(reply));
   }
-  if (!any) {
+  std::stable_sort(answers.begin(), answers.end(),
+                   [](const auto& a, const auto& b) { return a.second.time < b.second.time; });
+  for (const auto& [prompt, answer] : answers) {
+    progress({.prompt = prompt, .text = {}, .answer = &answer});
+  }
+  if (answers.empty()) {
     return Error{Error::Code::too_late, "no answer before the deadline, by the charged tokens"};
   }
   return in_time;

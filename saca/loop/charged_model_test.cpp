@@ -38,7 +38,7 @@ TEST(ChargedModel, DatesAnswersByTheirTokens) {
   });
   ASSERT_TRUE(replies.has_value());
   // Two prompts of 100 tokens at 1 ms, then 40 steps of 10 ms for both replies together.
-  EXPECT_THAT(dates, testing::Pointwise(testing::DoubleNear(1e-6), {2.2, 2.6, 2.2, 2.6}));
+  EXPECT_THAT(dates, testing::Pointwise(testing::DoubleNear(1e-6), {2.2, 2.2, 2.6, 2.6}));
 }
 
 TEST(ChargedModel, AnAnswerAfterTheDeadlineDidNotCome) {

@@ -34,7 +34,7 @@ constexpr std::array<std::string_view, 3> phase_names{"recorded", "driving", "ma
 
 constexpr int steps_per_look = 10;      // 100 Hz
 constexpr int looks_per_frame = 2;      // 50 Hz
-constexpr double rest_after_end = 1.0;  // [s] that the film goes on after a manoeuvre's end
+constexpr double rest_after_end = 2.0;  // [s] that the film goes on, as outcome::judge looks on
 
 Clock::Time duration(double seconds) {
   return std::chrono::duration_cast<Clock::Time>(std::chrono::duration<double>(seconds));
@@ -112,10 +112,10 @@ class Encounter {
 
   void tell(Plane plane, EventKind kind, std::string text);
   [[nodiscard]] std::optional<Error> look();
-  [[nodiscard]] std::optional<Error> wake(const Scene& scene);
+  void wake(const Scene& scene);
   decide::Reflex react(const Scene& scene);
   void hand_over_plans();
-  void execute(const Scene& scene);
+  void execute(const Scene& scene, const preview::Threat& threat);
   void film(const Scene& scene, const decide::Reflex& reflex);
   [[nodiscard]] bool over() const;
   void conclude();
@@ -141,6 +141,7 @@ class Encounter {
   int num_looks_ = 0;
   std::optional<double> woke_;   ///< when SACA took the wheel [s]
   std::optional<double> ended_;  ///< when the manoeuvre was finished [s]
+  bool threatened_ = false;      ///< somebody may still run into the ego
   bool contact_ = false;
   manoeuvre::Plan plan_{PolicyId::no_intervention, std::nullopt};
   manoeuvre::ControllerState controller_;
@@ -193,6 +194,7 @@ void Encounter::tell(Plane plane, EventKind kind, std::string text) {
 Result<Record> Encounter::play() {
   reflex_times_.reserve(static_cast<std::size_t>(setup_.scenario->duration * 100.0) + 2);
   start_ = setup_.clock->now();
+  std::string thinking_fault;
   {
     std::unique_ptr<ThinkingThread> thread;
     if (real()) {
@@ -215,6 +217,12 @@ Result<Record> Encounter::play() {
         setup_.clock->wait_until(start_ + duration(stepper_.time()));
       }
     }
+    if (thread) {
+      thinking_fault = thread->finish();
+    }
+  }
+  if (!thinking_fault.empty()) {
+    tell(Plane::thinking, EventKind::fault, "thinking ended: " + thinking_fault);
   }
   conclude();
   return std::move(record_);
@@ -228,13 +236,12 @@ std::optional<Error> Encounter::look() {
                                                 ": a scene must hold: " + std::string(*rule)};
   }
   if (!woke_) {
-    if (const auto problem = wake(scene)) {
-      return problem;
-    }
+    wake(scene);
   }
   const decide::Reflex reflex = react(scene);
+  threatened_ = reflex.threat.has_value();
   if (reflex.triggered) {
-    execute(scene);
+    execute(scene, *reflex.threat);
   }
   if (woke_) {
     if (const auto met = witness_.look(stepper_)) {
@@ -257,15 +264,10 @@ std::optional<Error> Encounter::look() {
   return std::nullopt;
 }
 
-std::optional<Error> Encounter::wake(const Scene& scene) {
+void Encounter::wake(const Scene& scene) {
   const auto threat = preview::previewed_threat(scene, setup_.thresholds);
   if (!threat) {
-    return std::nullopt;
-  }
-  if (const auto refused = manoeuvre::refusal(plan_, scene)) {
-    return Error{Error::Code::out_of_range, setup_.scenario->name + ": SACA cannot drive from " +
-                                                fmt::format("{:.2f} s", scene.time) +
-                                                " on: " + *refused};
+    return;
   }
   woke_ = scene.time;
   stepper_.take_the_wheel();
@@ -273,7 +275,6 @@ std::optional<Error> Encounter::wake(const Scene& scene) {
   tell(Plane::world, EventKind::preview,
        fmt::format("T2: {} within {:.1f} s of a conflict; SACA drives from here, at {:.1f} m/s",
                    actor_name(scene.actors[threat->actor]), threat->time, norm(scene.ego.v_B)));
-  return std::nullopt;
 }
 
 decide::Reflex Encounter::react(const Scene& scene) {
@@ -284,8 +285,8 @@ decide::Reflex Encounter::react(const Scene& scene) {
       charged_.think(plane_, scene);
     }
   }
-  hand_over_plans();
   const Clock::Time before = setup_.clock->now();
+  hand_over_plans();
   const decide::Reflex reflex = woke_ ? reflex_.step(scene) : decide::Reflex{};
   if (woke_) {
     reflex_times_.push_back(std::chrono::duration<double>(setup_.clock->now() - before).count());
@@ -306,27 +307,32 @@ void Encounter::hand_over_plans() {
   }
 }
 
-void Encounter::execute(const Scene& scene) {
+void Encounter::execute(const Scene& scene, const preview::Threat& threat) {
   decide::Decision decision = *reflex_.decision();
-  tell(Plane::reflex, EventKind::trigger,
-       fmt::format("T1: {:.1f} s to the conflict", setup_.thresholds.trigger));
-  tell(Plane::reflex, EventKind::match, decision_text(decision));
   if (decision.source == decide::Source::forced) {
     decision.plan = manoeuvre::default_plan(decision.plan.policy, norm(scene.ego.v_B));
   }
-  if (const auto refused = manoeuvre::refusal(decision.plan, scene)) {
-    tell(Plane::reflex, EventKind::fault,
-         policy_text(decision.plan) + " cannot be driven: " + *refused);
+  const manoeuvre::Plan wanted = decision.plan;
+  const auto refused = manoeuvre::refusal(wanted, scene);
+  if (refused) {
     decision.plan = {PolicyId::aeb, std::nullopt};
     decision.source = decide::Source::fallback;
   }
   plan_ = decision.plan;
   controller_ = manoeuvre::begin(*setup_.car, plan_, scene);
-  tell(Plane::reflex, EventKind::execute,
-       fmt::format("policy {} ({})", policy_text(plan_), name(decision.source)));
   record_.decision = decision;
   record_.at_trigger = scene;
   tracks_at_trigger_ = stepper_.tracks();
+  // The plan stands; now it can be talked about.
+  tell(Plane::reflex, EventKind::trigger,
+       fmt::format("T1: {:.2f} s to the conflict with {}", threat.time,
+                   actor_name(scene.actors[threat.actor])));
+  tell(Plane::reflex, EventKind::match, decision_text(*reflex_.decision()));
+  if (refused) {
+    tell(Plane::reflex, EventKind::fault, policy_text(wanted) + " cannot be driven: " + *refused);
+  }
+  tell(Plane::reflex, EventKind::execute,
+       fmt::format("policy {} ({})", policy_text(plan_), name(decision.source)));
 }
 
 void Encounter::film(const Scene& scene, const decide::Reflex& reflex) {
@@ -344,7 +350,8 @@ void Encounter::film(const Scene& scene, const decide::Reflex& reflex) {
 }
 
 bool Encounter::over() const {
-  return contact_ || stepper_.over() || (ended_ && stepper_.time() > *ended_ + rest_after_end);
+  return contact_ || stepper_.over() ||
+         (ended_ && !threatened_ && stepper_.time() > *ended_ + rest_after_end);
 }
 
 void Encounter::conclude() {
@@ -384,9 +391,14 @@ void Encounter::compare_with_driver() {
   }
   double recorded_until = std::get<sim::Recording>(setup_.scenario->ego).back().time;
   for (const sim::ScenarioActor& actor : setup_.scenario->actors) {
-    if (const auto* recording = std::get_if<sim::Recording>(&actor.motion)) {
+    const auto* const recording = std::get_if<sim::Recording>(&actor.motion);
+    if (recording != nullptr && recording->back().time > *woke_) {
       recorded_until = std::min(recorded_until, recording->back().time);  // beyond, it is a guess
     }
+  }
+  constexpr double worth_a_look = 0.1;  // [s]
+  if (recorded_until < *woke_ + worth_a_look) {
+    return;
   }
   sim::Stepper replay(*setup_.scenario, *setup_.car);
   Witness witness(*setup_.harm);

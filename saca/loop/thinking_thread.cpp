@@ -1,5 +1,6 @@
 #include "saca/loop/thinking_thread.h"
 
+#include <exception>
 #include <memory>
 
 namespace saca::loop {
@@ -16,8 +17,15 @@ ThinkingThread::ThinkingThread(decide::ThinkingPlane& plane, LatestSlot<TimedSce
     : plane_(plane), scenes_(scenes), clock_(clock), thread_([this] { run(); }) {}
 
 ThinkingThread::~ThinkingThread() {
+  finish();
+}
+
+std::string ThinkingThread::finish() {
   stop_ = true;
-  thread_.join();
+  if (thread_.joinable()) {
+    thread_.join();
+  }
+  return fault_;
 }
 
 void ThinkingThread::run() {
@@ -27,7 +35,12 @@ void ThinkingThread::run() {
       clock_.wait_until(clock_.now() + pause);
       continue;
     }
-    plane_.think(newest->scene, newest->at);
+    try {
+      plane_.think(newest->scene, newest->at);
+    } catch (const std::exception& problem) {  // a bug there must not end the plane that drives
+      fault_ = problem.what();
+      return;
+    }
     clock_.wait_until(clock_.now() + breath);
   }
 }

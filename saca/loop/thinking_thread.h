@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <string>
 #include <thread>
 
 #include "saca/core/clock.h"
@@ -24,8 +25,13 @@ class ThinkingThread {
   ThinkingThread(decide::ThinkingPlane& plane, LatestSlot<TimedScene>& scenes, Clock& clock);
   ThinkingThread(const ThinkingThread&) = delete;
   ThinkingThread& operator=(const ThinkingThread&) = delete;
-  /// Waits for the round under way: at most until its deadline, which is the trigger.
+  /// As finish().
   ~ThinkingThread();
+
+  /// Ends the thread; waits for the round under way, at most until its deadline, which is the
+  /// trigger.
+  /// @return  what was thrown there and ended thinking early; empty when nothing was
+  std::string finish();
 
  private:
   void run();
@@ -34,6 +40,7 @@ class ThinkingThread {
   LatestSlot<TimedScene>& scenes_;
   Clock& clock_;
   std::atomic<bool> stop_{false};
+  std::string fault_;  ///< of the thread until it has ended
   std::thread thread_;
 };
 

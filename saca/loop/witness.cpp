@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "saca/preview/threat.h"
+#include "saca/world/time_to_conflict.h"
 
 namespace saca::loop {
 namespace {
@@ -19,6 +20,16 @@ bool goes_on(const outcome::Outcome& outcome, const world::Road& road) {
   return !outcome::stops_the_ego(left ? road.left_beyond : road.right_beyond);
 }
 
+/// Beside the ego's path, a follower is a car like any other: it no longer has to react.
+bool has_left_path(const world::Scene& scene, const world::Actor& follower) {
+  const double ego_d = world::to_lane(scene.road, scene.ego.X_WB).d;
+  return std::any_of(scene.actors.begin(), scene.actors.end(), [&](const world::Actor& now) {
+    const double aside = std::abs(world::to_lane(scene.road, now.X_WA).d - ego_d);
+    return now.kind == follower.kind && now.id == follower.id &&
+           aside > 0.5 * (now.footprint.width + scene.ego_footprint.width) + 0.5;
+  });
+}
+
 }  // namespace
 
 std::vector<world::Track> Witness::judged_tracks(const world::Scene& scene,
@@ -26,7 +37,7 @@ std::vector<world::Track> Witness::judged_tracks(const world::Scene& scene,
   for (const world::Actor& follower : followers_) {
     for (std::size_t i = 0; i < scene.actors.size(); ++i) {
       if (scene.actors[i].kind == follower.kind && scene.actors[i].id == follower.id) {
-        tracks[i] = {.start = scene.time, .step = tracks[i].step, .X_WA = {follower.X_WA}};
+        tracks[i] = preview::out_of_the_way(follower, scene.time);
       }
     }
   }
@@ -37,7 +48,7 @@ std::optional<world::Scene> Witness::look(const sim::Stepper& stepper) {
   const world::Scene now = stepper.scene();
   if (!last_) {
     std::copy_if(now.actors.begin(), now.actors.end(), std::back_inserter(followers_),
-                 [&](const world::Actor& actor) { return preview::is_behind(now, actor); });
+                 [&](const world::Actor& actor) { return world::is_follower(now, actor); });
     last_ = now;
     return std::nullopt;
   }
@@ -50,6 +61,8 @@ std::optional<world::Scene> Witness::look(const sim::Stepper& stepper) {
   const outcome::Outcome step =
       outcome::judge(motion, now, judged_tracks(now, stepper.tracks()), harm_);
   last_ = now;
+  std::erase_if(followers_,
+                [&](const world::Actor& follower) { return has_left_path(now, follower); });
   if (!goes_on(step, now.road)) {
     outcome_ = step;
     return now;

@@ -10,8 +10,8 @@ namespace saca::loop {
 
 /// Watches a stepper from look to look and keeps what came of it: the first contact that ends the
 /// ego's motion, or the smallest clearance. Only actors that are there count; those who follow the
-/// ego at the first look do not, see preview::without_followers. An edge that does not stop the ego
-/// counts, and the film goes on.
+/// ego in its path at the first look do not (see preview::without_followers) until they leave it.
+/// An edge that does not stop the ego counts, and the film goes on.
 class Witness {
  public:
   /// The harm model outlives the witness.

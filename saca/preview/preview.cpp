@@ -47,7 +47,7 @@ std::vector<std::pair<Intention, double>> worth_forecasting(const Scene& scene, 
                                                  slack(scene, actor, thresholds.preview_tolerance))
                              .has_value();
   }
-  if (matters && !is_behind(scene, actor)) {
+  if (matters && !world::is_behind(scene, actor)) {
     return likely;
   }
   return {{intent::likeliest(posterior), 1.0}};  // it makes no difference what else it does
@@ -84,7 +84,7 @@ std::optional<double> conflict_time(const Scene& scene, const std::vector<Track>
     std::optional<double> first;
     for (std::size_t i = 0; i < scene.actors.size(); ++i) {
       const Actor& actor = scene.actors[i];
-      if (is_behind(scene, actor)) {
+      if (world::is_behind(scene, actor)) {
         continue;
       }
       const auto time = world::time_to_conflict(scene, actor, tracks[i], thresholds.preview,

@@ -20,8 +20,9 @@ constexpr std::size_t max_situations = 3;
 /// all their facts.
 ///
 /// Every combination of likely intentions of those actors that may come into conflict is one
-/// situation; the others do what is likeliest for them. The ego goes on as it does until T1 before
-/// the conflict. Empty when no combination is in conflict within T2.
+/// situation (the 24 likeliest are looked at); the others do what is likeliest for them. The ego
+/// goes on as it does until T1 before the conflict. Empty when no combination is in conflict within
+/// T2.
 ///
 /// Source: the paper, section IV-C, and reasoning in docs/architecture.md. Tens of milliseconds:
 /// each policy is driven with full dynamics.

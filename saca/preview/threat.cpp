@@ -6,9 +6,8 @@
 
 namespace saca::preview {
 
-bool is_behind(const world::Scene& scene, const world::Actor& actor) {
-  const double ego_s = world::to_lane(scene.road, scene.ego.X_WB).s;
-  return world::to_lane(scene.road, actor.X_WA).s < ego_s && !world::is_crossing(scene, actor);
+world::Track out_of_the_way(const world::Actor& follower, double time) {
+  return {.start = time, .X_WA = {follower.X_WA * Pose{{-out_of_reach, 0.0}, 0.0}}};
 }
 
 std::vector<world::Track> without_followers(const world::Scene& scene,
@@ -16,8 +15,8 @@ std::vector<world::Track> without_followers(const world::Scene& scene,
   expects(tracks.size() == scene.actors.size(), "one track per actor");
   std::vector<world::Track> judged(tracks.begin(), tracks.end());
   for (std::size_t i = 0; i < judged.size(); ++i) {
-    if (is_behind(scene, scene.actors[i])) {
-      judged[i] = {.start = scene.time, .step = judged[i].step, .X_WA = {scene.actors[i].X_WA}};
+    if (world::is_follower(scene, scene.actors[i])) {
+      judged[i] = out_of_the_way(scene.actors[i], scene.time);
     }
   }
   return judged;
@@ -27,7 +26,7 @@ std::optional<Threat> nearest_threat(const world::Scene& scene, double horizon, 
   std::optional<Threat> nearest;
   for (std::size_t i = 0; i < scene.actors.size(); ++i) {
     const world::Actor& actor = scene.actors[i];
-    if (is_behind(scene, actor)) {
+    if (world::is_behind(scene, actor)) {
       continue;
     }
     const double slack = world::is_crossing(scene, actor) ? tolerance : 0.0;
@@ -48,7 +47,7 @@ std::optional<Threat> previewed_threat(const world::Scene& scene, const Threshol
       nearest_threat(scene, thresholds.preview, thresholds.preview_tolerance);
   for (std::size_t i = 0; i < scene.actors.size(); ++i) {
     const world::Actor& actor = scene.actors[i];
-    if (is_behind(scene, actor)) {
+    if (world::is_behind(scene, actor)) {
       continue;
     }
     const intent::IntentPosterior posterior = intent::posterior(scene, actor);

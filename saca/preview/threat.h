@@ -19,13 +19,15 @@ struct Thresholds {
   double least_posterior = 0.05;   ///< intentions below this do not start a preview [-]
 };
 
-/// The actor comes up from behind the ego in its own direction: braking and swerving for it would
-/// be wrong, and it never triggers.
-[[nodiscard]] bool is_behind(const world::Scene& scene, const world::Actor& actor);
+/// A follower's track is put this far behind [m]: out of reach of contact and clearance.
+constexpr double out_of_reach = 1e3;
 
-/// The tracks with which an outcome is judged: those who come up from behind stay where they are in
-/// the scene. Whether they run into the ego depends on how they react to its braking, and a track
-/// cannot react; so a follower is in the scene, but contact with it is not looked at.
+/// The track of a follower that is not judged.
+[[nodiscard]] world::Track out_of_the_way(const world::Actor& follower, double time);
+
+/// The tracks with which an outcome is judged: those who follow in the ego's path are out of reach.
+/// Whether they run into the ego depends on how they react to its braking, and a track cannot
+/// react; so a follower is in the scene, but contact with it is not looked at.
 /// @param tracks  one per actor of the scene
 [[nodiscard]] std::vector<world::Track> without_followers(const world::Scene& scene,
                                                           std::span<const world::Track> tracks);
@@ -36,7 +38,8 @@ struct Threat {
   double time = 0.0;      ///< to the conflict [s], >= 0
 };
 
-/// The nearest conflict in time within `horizon` if all go on as they do.
+/// The nearest conflict in time within `horizon` if all go on as they do. Who is behind is no
+/// threat.
 /// @param tolerance  of crossing traffic [s]; other traffic has none
 /// Allocates nothing: for the reflex plane.
 [[nodiscard]] std::optional<Threat> nearest_threat(const world::Scene& scene, double horizon,

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "saca/world/time_to_conflict.h"
+
 namespace saca::preview {
 namespace {
 
@@ -48,19 +50,31 @@ TEST(NearestThreat, EmptySceneHasNone) {
 TEST(NearestThreat, AFollowerNeverTriggers) {
   Scene scene = ego_at(10.0);
   scene.actors.push_back(car(1, {-14.0, 0.0}, {25.0, 0.0}));
-  EXPECT_TRUE(is_behind(scene, scene.actors[0]));
+  EXPECT_TRUE(world::is_behind(scene, scene.actors[0]));
   EXPECT_FALSE(nearest_threat(scene, 5.5, 0.5).has_value());
   EXPECT_FALSE(previewed_threat(scene, {}).has_value());
 }
 
-TEST(WithoutFollowers, AFollowerStaysBehindAndOthersMove) {
+TEST(WithoutFollowers, AFollowerIsOutOfReachAndOthersMove) {
   Scene scene = ego_at(10.0);
   scene.actors.push_back(car(1, {-14.0, 0.0}, {25.0, 0.0}));
   scene.actors.push_back(car(2, {30.0, 0.0}, {5.0, 0.0}));
   const world::Track moves{.step = 1.0, .X_WA = {{{0.0, 0.0}, 0.0}, {{5.0, 0.0}, 0.0}}};
   const auto judged = without_followers(scene, std::vector<world::Track>{moves, moves});
-  EXPECT_EQ(world::pose_at(judged[0], 1.0).p.x, -14.0);
+  EXPECT_LT(world::pose_at(judged[0], 1.0).p.x, -500.0);
   EXPECT_EQ(world::pose_at(judged[1], 1.0).p.x, 5.0);
+}
+
+// A car beside the ego is none: who swerves into it has hit it.
+TEST(WithoutFollowers, ACarInTheNextLaneIsJudged) {
+  Scene scene = ego_at(10.0);
+  scene.actors.push_back(car(1, {-1.0, 3.5}, {10.0, 0.0}));
+  scene.actors.push_back(car(2, {-9.0, 3.5}, {15.0, 0.0}));
+  const world::Track moves{.step = 1.0, .X_WA = {{{0.0, 3.5}, 0.0}, {{10.0, 3.5}, 0.0}}};
+  for (const world::Track& track :
+       without_followers(scene, std::vector<world::Track>{moves, moves})) {
+    EXPECT_EQ(world::pose_at(track, 1.0).p.x, 10.0);
+  }
 }
 
 // The paper's scene at T2: at constant speed the truck passes behind the ego. The wide tolerance

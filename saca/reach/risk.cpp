@@ -47,13 +47,15 @@ double room_to_brake(double speed, double grip, const Along& actor) {
   return std::max(while_it_drives, way - actor.speed * actor.speed / (2.0 * actor.deceleration));
 }
 
-double room_to_swerve(const Scene& scene, const Actor& actor, double closing) {
+/// @param X_WA  where the actor is when they meet: who crosses fills the lane only then
+double room_to_swerve(const Scene& scene, const Actor& actor, const Pose& X_WA, double closing,
+                      double actor_deceleration) {
   const LanePose ego = world::to_lane(scene.road, scene.ego.X_WB);
-  const Pose X_WL = world::from_lane(scene.road, {.s = world::to_lane(scene.road, actor.X_WA).s});
+  const Pose X_WL = world::from_lane(scene.road, {.s = world::to_lane(scene.road, X_WA).s});
   const Vec2 to_left = rotated({0.0, 1.0}, X_WL.yaw);
   const auto d_of = [&](Vec2 p_W) { return world::to_lane(scene.road, {p_W, 0.0}).d; };
-  const double actor_left = d_of(world::support(actor.footprint, actor.X_WA, to_left));
-  const double actor_right = d_of(world::support(actor.footprint, actor.X_WA, -to_left));
+  const double actor_left = d_of(world::support(actor.footprint, X_WA, to_left));
+  const double actor_right = d_of(world::support(actor.footprint, X_WA, -to_left));
   const double half = 0.5 * scene.ego_footprint.width;
 
   double way = never;  // to the side, the shorter of the two that the road has
@@ -64,12 +66,19 @@ double room_to_swerve(const Scene& scene, const Actor& actor, double closing) {
     way = std::min(way, std::max(0.0, ego.d - (actor_right - half)));
   }
   const double sideways = swerve_share * scene.grip * gravity;
-  return closing * (std::sqrt(2.0 * way / sideways) + swerve_delay);
+  if (way == never) {
+    return never;
+  }
+  const double t = std::sqrt(2.0 * way / sideways) + swerve_delay;
+  return closing * t + 0.5 * actor_deceleration * t * t;
 }
 
 }  // namespace
 
 ObstacleRisk obstacle_risk(const Scene& scene, const Actor& actor) {
+  if (world::is_behind(scene, actor)) {
+    return {};
+  }
   const double tolerance = world::is_crossing(scene, actor) ? crossing_tolerance : 0.0;
   const auto conflict = world::time_to_conflict(scene, actor, look_ahead, tolerance);
   if (!conflict) {
@@ -85,7 +94,8 @@ ObstacleRisk obstacle_risk(const Scene& scene, const Actor& actor) {
   const double room = std::max(0.0, speed * t - ahead);
 
   const double brake = room_to_brake(speed, scene.grip, along);
-  const double swerve = room_to_swerve(scene, actor, std::max(0.0, speed - along.speed));
+  const double swerve = room_to_swerve(scene, actor, world::actor_going_on(actor, t),
+                                       std::max(0.0, speed - along.speed), along.deceleration);
   const double needed = std::min(brake, swerve);
   const double risk = room > 0.0 ? std::clamp(needed / room, 0.0, 1.0) : 1.0;
   return {

@@ -62,6 +62,19 @@ TEST(ObstacleRisk, SwervingHelpsWhereThereIsRoom) {
   EXPECT_LT(risk.risk, obstacle_risk(scene, edge).risk);
 }
 
+// A truck that will stand across both lanes leaves nothing to swerve to, though it is still beside
+// the road now.
+TEST(ObstacleRisk, ACrossingTruckIsJudgedWhereItWillBe) {
+  Scene scene = narrow_road(14.0);
+  scene.road.left_edge = 5.25;
+  scene.road.right_edge = -5.25;
+  Actor truck = car({30.0, 16.0}, {0.0, -8.0});
+  truck.footprint = {.length = 8.0, .width = 2.5};
+  const ObstacleRisk risk = obstacle_risk(scene, truck);
+  EXPECT_FALSE(risk.swerve_is_better);
+  EXPECT_GT(risk.risk, 0.4);  // 12.5 m to stop, less than 27 m there
+}
+
 TEST(ObstacleRisk, GrowsWithSpeedAndWithIce) {
   const Actor wreck = car({60.0, 0.0}, {});
   EXPECT_LT(obstacle_risk(narrow_road(15.0), wreck).risk,
@@ -78,6 +91,24 @@ TEST(ObstacleRisk, ALeadThatBrakesIsWorseThanOneThatDrivesOn) {
   const Scene scene = narrow_road(18.0);
   EXPECT_LT(obstacle_risk(scene, steady).risk, obstacle_risk(scene, braking).risk);
   EXPECT_NEAR(obstacle_risk(scene, braking).room_there, 30.0, 0.2);  // the gap now
+}
+
+// Both at 20 m/s, 15 m apart, grip 0.5, the lead brakes at 7 m/s^2: closing only begins, but
+// swerving 2 m takes t = sqrt(4 / 3.92) + 0.12 s, in which the lead falls back 3.5 t^2.
+TEST(ObstacleRisk, ALeadThatBrakesFromTheEgosOwnSpeedIsAThreat) {
+  Scene scene = narrow_road(20.0);
+  scene.grip = 0.5;
+  scene.road.left_edge = 5.25;
+  Actor lead = car({19.0, 0.0}, {20.0, 0.0});
+  lead.a_W = {-7.0, 0.0};
+  const ObstacleRisk risk = obstacle_risk(scene, lead);
+  const double t = std::sqrt(4.0 / (0.4 * 9.81)) + 0.12;
+  EXPECT_TRUE(risk.swerve_is_better);  // braking: 40.8 + 2 - 28.6 = 14.2 m
+  EXPECT_NEAR(risk.room_needed.value(), 3.5 * t * t, 0.01);
+}
+
+TEST(ObstacleRisk, AFollowerIsNone) {
+  EXPECT_EQ(obstacle_risk(narrow_road(15.0), car({-20.0, 0.0}, {19.0, 0.0})).risk, 0.0);
 }
 
 TEST(ObstacleRisk, IsTheSameMirroredAndTurned) {

@@ -11,6 +11,23 @@ namespace {
 constexpr std::array<std::string_view, 7> kind_names{
     "car", "van", "truck", "motorcycle", "bicycle", "pedestrian", "obstacle"};
 
+// Nothing on a road is outside these; they keep predicted poses finite.
+constexpr double most_position = 1e7;      // [m]
+constexpr double most_speed = 200.0;       // [m/s]
+constexpr double most_acceleration = 1e3;  // [m/s^2]
+constexpr double most_yaw_rate = 100.0;    // [rad/s]
+
+/// False for NaN.
+bool within(Vec2 a, double most) {
+  return std::abs(a.x) <= most && std::abs(a.y) <= most;
+}
+
+/// Velocity and acceleration in one frame or the other.
+bool is_motion(const Pose& X, Vec2 v, Vec2 a, double yaw_rate) {
+  return within(X.p, most_position) && std::isfinite(X.yaw) && within(v, most_speed) &&
+         within(a, most_acceleration) && std::abs(yaw_rate) <= most_yaw_rate;
+}
+
 bool is_sized(const Footprint& footprint) {
   return std::isfinite(footprint.length) && footprint.length > 0.0 &&
          std::isfinite(footprint.width) && footprint.width > 0.0 &&
@@ -33,9 +50,8 @@ bool is_valid(const Road& road) {
 }
 
 std::optional<std::string_view> broken_rule(const Actor& actor) {
-  if (!is_finite(actor.X_WA) || !is_finite(actor.v_W) || !is_finite(actor.a_W) ||
-      !std::isfinite(actor.yaw_rate)) {
-    return "an actor's motion is finite";
+  if (!is_motion(actor.X_WA, actor.v_W, actor.a_W, actor.yaw_rate)) {
+    return "an actor's motion is finite and at most 200 m/s, 1000 m/s^2, 100 rad/s";
   }
   if (!is_sized(actor.footprint) || !is_mass(actor.mass)) {
     return "an actor's length, width and mass are > 0";
@@ -62,9 +78,9 @@ std::string actor_name(const Actor& actor) {
 }
 
 std::optional<std::string_view> broken_rule(const Scene& scene) {
-  if (!std::isfinite(scene.time) || !is_finite(scene.ego.X_WB) || !is_finite(scene.ego.v_B) ||
-      !is_finite(scene.ego.a_B) || !std::isfinite(scene.ego.yaw_rate)) {
-    return "the ego's motion is finite";
+  const EgoState& ego = scene.ego;
+  if (!std::isfinite(scene.time) || !is_motion(ego.X_WB, ego.v_B, ego.a_B, ego.yaw_rate)) {
+    return "the ego's motion is finite and at most 200 m/s, 1000 m/s^2, 100 rad/s";
   }
   if (!is_sized(scene.ego_footprint) || !is_mass(scene.ego_mass)) {
     return "the ego's length, width and mass are > 0";

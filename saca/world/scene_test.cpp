@@ -48,6 +48,8 @@ TEST(Scene, EachRuleIsChecked) {
       [](Scene& s) { s.actors[1].mass = 0.0; },
       [](Scene& s) { s.actors[1].existence = 1.1; },
       [](Scene& s) { s.actors[1].position_sd = nan; },
+      [](Scene& s) { s.actors[1].v_W.x = 1e308; },
+      [](Scene& s) { s.ego.yaw_rate = 1e6; },
       [](Scene& s) { s.actors[1].id = 1; },
   };
   for (std::size_t i = 0; i < breaks.size(); ++i) {

@@ -142,6 +142,20 @@ bool is_crossing(const Scene& scene, const Actor& actor) {
   return std::abs(std::sin(there.heading)) > std::sin(from_degrees(30.0));
 }
 
+bool is_behind(const Scene& scene, const Actor& actor) {
+  const Vec2 forward = rotated({1.0, 0.0}, ego_going_on(scene, 0.0).yaw);
+  const double rear =
+      to_lane(scene.road, {support(scene.ego_footprint, scene.ego.X_WB, -forward), 0.0}).s;
+  const double front = to_lane(scene.road, {support(actor.footprint, actor.X_WA, forward), 0.0}).s;
+  return front < rear && !is_crossing(scene, actor);
+}
+
+bool is_follower(const Scene& scene, const Actor& actor) {
+  const double aside = to_lane(scene.road, actor.X_WA).d - to_lane(scene.road, scene.ego.X_WB).d;
+  return is_behind(scene, actor) &&
+         std::abs(aside) < 0.5 * (actor.footprint.width + scene.ego_footprint.width);
+}
+
 std::optional<double> time_to_collision(const Scene& scene, const Actor& actor, const Track& track,
                                         double horizon) {
   return time_to_conflict(scene, actor, track, horizon, 0.0);

@@ -20,6 +20,13 @@ namespace saca::world {
 /// lane where it is.
 [[nodiscard]] bool is_crossing(const Scene& scene, const Actor& actor);
 
+/// The actor's whole body is behind the ego's along the lane, and it does not cross the road:
+/// braking and swerving for it would be wrong.
+[[nodiscard]] bool is_behind(const Scene& scene, const Actor& actor);
+
+/// It is behind, and in the ego's own path: what becomes of it depends on how it reacts to the ego.
+[[nodiscard]] bool is_follower(const Scene& scene, const Actor& actor);
+
 /// First contact of the ego, going on as it does, with an actor that follows `track`.
 ///
 /// @param horizon  how far to look [s], > 0

@@ -161,6 +161,16 @@ TEST(IsCrossing, LooksAtTheCourseAgainstTheLane) {
   EXPECT_FALSE(is_crossing(scene, car_at({30.0, 0.0}, {})));
 }
 
+TEST(IsFollower, IsWhollyBehindAndInTheEgosPath) {
+  const Scene scene = ego_at(10.0);  // from x = -2 to 2, y = -1 to 1
+  EXPECT_TRUE(is_follower(scene, car_at({-6.0, 0.5}, {12.0, 0.0})));
+  EXPECT_FALSE(is_follower(scene, car_at({-3.0, 0.0}, {12.0, 0.0})));  // bodies overlap
+  EXPECT_FALSE(is_follower(scene, car_at({-6.0, 3.5}, {12.0, 0.0})));  // next lane
+  EXPECT_TRUE(is_behind(scene, car_at({-6.0, 3.5}, {12.0, 0.0})));
+  EXPECT_FALSE(is_behind(scene, car_at({-1.0, 3.5}, {12.0, 0.0})));  // beside
+  EXPECT_FALSE(is_behind(scene, car_at({-6.0, 9.0}, {0.0, -5.0})));  // crosses
+}
+
 TEST(TimeToConflict, RefusesWhatHasNoMeaning) {
   EXPECT_THROW((void)time_to_conflict(ego_at(5.0), car_at({30.0, 0.0}, {}), 0.0, 0.0),
                ContractViolation);

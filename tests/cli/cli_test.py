@@ -54,7 +54,8 @@ def test_tells_what_the_driver_did_what_saca_did_and_what_would_have_been_best(t
     run = quick("100car_9018", cwd=tmp_path)
     assert run.returncode == SUCCESS, run.stderr
     for words in ("The driver: ", "looking out the left window", "The drive as recorded: clear by",
-                  "SACA: 0 AEB", "Best in hindsight: ", "T2: car1", "T1: 1.3 s to the conflict"):
+                  "SACA: 0 AEB", "Best in hindsight: ", "T2: car1",
+                  "s to the conflict with car1"):
         assert words in run.stdout
     assert (tmp_path / "runs/100car_9018/report.html").exists()
 
@@ -184,6 +185,15 @@ def test_a_full_disk_leaves_no_half_written_file(tmp_path):
     assert list((tmp_path / "runs/100car_8676").iterdir()) == []
 
 
+def test_a_full_standard_output_is_not_success(tmp_path):
+    with open("/dev/full", "w") as full:
+        for more in ([], ["--json"]):
+            run = subprocess.run([PROGRAM, "run", "100car_8676", "--llm", "off", "--pace", "lockstep", *more],
+                                 cwd=tmp_path, stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+            assert run.returncode == CANNOT_WRITE, run.stderr
+            assert run.stderr.strip()
+
+
 def test_without_a_model_it_runs_and_says_so(tmp_path):
     lonely = tmp_path / "bin/build/saca"
     lonely.parent.mkdir(parents=True)
@@ -245,10 +255,13 @@ def test_a_model_that_is_struck_in_the_middle_changes_nothing_on_the_reflex_plan
         story.append(line)
         if "the model is asked" in line:
             time.sleep(0.3)
-            for child in descendants(run.pid):
+            struck = descendants(run.pid)
+            for child in struck:
                 os.kill(child, blow)
             break
     story += run.stdout.readlines()
     assert run.wait(timeout=60) == SUCCESS, run.stderr.read()
+    assert struck
+    assert any("thinking" in line and "model: " in line for line in story), story
     assert any("policy 0 AEB" in line for line in story)
     assert (tmp_path / "runs/100car_9018/report.html").exists()
