@@ -6,6 +6,9 @@ target_compile_options(saca_flags INTERFACE
   -Wno-missing-field-initializers  # a field with a default may be left out of {.a = 1}
   $<$<BOOL:${SACA_DEVELOPER}>:-Werror>)
 
+# All modules' tests, without benchmarks and programs.
+add_custom_target(module_tests)
+
 # saca_module(<name> [SOURCES <a.cpp>...] [DEPS <module>...])
 #
 # Makes the library saca::<name> from the current folder. Every <a>_test.cpp in the folder becomes
@@ -52,6 +55,7 @@ function(saca_module name)
     cmake_path(GET test STEM stem)
     add_executable(${name}_${stem} ${test})
     target_link_libraries(${name}_${stem} PRIVATE saca::${name} saca_flags GTest::gmock_main)
+    add_dependencies(module_tests ${name}_${stem})
     string(REPLACE _test "" unit ${stem})
     add_test(NAME ${name}.${unit} COMMAND ${name}_${stem} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
     set_tests_properties(${name}.${unit} PROPERTIES LABELS ${name} TIMEOUT 120)

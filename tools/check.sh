@@ -21,8 +21,8 @@ check() {  # PRESET TARGETS CTEST_OPTION...
 
 check dev ""
 # Pages and the command line are tested once, in dev; benchmarks say nothing under a sanitiser.
-check asan "" --label-exclude 'viewer|cli|bench'
-check tsan "core_latest_slot_test core_spsc_queue_test loop_thinking_thread_test"
+check asan "module_tests scenario_replay" --label-exclude 'viewer|cli|bench'
+check tsan "core_latest_slot_test loop_thinking_thread_test"
 
 step "lint"
 tools/lint.sh build/dev

@@ -88,8 +88,10 @@ world::Scene crowd(const vehicle::Vehicle& car, int num_actors, std::mt19937& rn
 void bench_reflex(const vehicle::Vehicle& car, Clock& clock, int num_calls, json& figures) {
   for (const int num_actors : {1, 8, 32}) {
     std::mt19937 rng(1);
+    constexpr int num_scenes = 64;
     std::vector<world::Scene> scenes;
-    for (int i = 0; i < 64; ++i) {
+    scenes.reserve(num_scenes);
+    for (int i = 0; i < num_scenes; ++i) {
       scenes.push_back(crowd(car, num_actors, rng));
     }
     decide::PlanCache plans;

@@ -88,11 +88,11 @@ std::optional<Error> make_folder_of(const fs::path& file) {
 std::optional<Error> write_outputs(const std::string& record, const fs::path& folder,
                                    const fs::path& report) {
   for (const fs::path& file : {folder / "record.json", report}) {
-    if (const auto problem = make_folder_of(file)) {
+    if (auto problem = make_folder_of(file)) {
       return problem;
     }
   }
-  if (const auto problem = write_file(folder / "record.json", record)) {
+  if (auto problem = write_file(folder / "record.json", record)) {
     return problem;
   }
   const auto page = report::html_report(record);

@@ -14,7 +14,6 @@ namespace {
 
 using manoeuvre::PolicyId;
 using reason::Answer;
-using testing::HasSubstr;
 using world::Actor;
 using world::Scene;
 

@@ -14,7 +14,6 @@ namespace {
 using decide::EventKind;
 using decide::Source;
 using manoeuvre::PolicyId;
-using testing::HasSubstr;
 
 class Quiet final : public Listener {
  public:
