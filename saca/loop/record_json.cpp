@@ -232,6 +232,20 @@ json actor_bodies_json(const sim::Scenario& scenario) {
   return actors;
 }
 
+/// When the first event of a kind came, after SACA took the wheel at T2 [s]; null when none did.
+json after_t2(const Record& record, decide::EventKind kind) {
+  const auto first = [&](decide::EventKind wanted) {
+    return std::find_if(record.events.begin(), record.events.end(),
+                        [&](const decide::Event& event) { return event.kind == wanted; });
+  };
+  const auto t2 = first(decide::EventKind::preview);
+  const auto found = first(kind);
+  if (t2 == record.events.end() || found == record.events.end()) {
+    return nullptr;
+  }
+  return found->time - t2->time;
+}
+
 }  // namespace
 
 std::string record_json(const Setup& setup, const Record& record) {
@@ -286,6 +300,9 @@ std::string record_json(const Setup& setup, const Record& record) {
        {{"reflex_calls", record.reflex.calls},
         {"reflex_us_p50", 1e6 * record.reflex.p50},
         {"reflex_us_max", 1e6 * record.reflex.max},
+        {"preview_s", after_t2(record, decide::EventKind::forecast)},
+        {"first_answer_s", after_t2(record, decide::EventKind::first_answer)},
+        {"answer_s", after_t2(record, decide::EventKind::answer)},
         {"deadline_misses", record.deadline_misses}}}};
   return out.dump(1, ' ', false, json::error_handler_t::replace);
 }

@@ -50,6 +50,8 @@ TEST(RecordJson, HoldsWhatTheFormatPromises) {
   EXPECT_FALSE(out["hindsight"][5]["refusal"].is_null());
   EXPECT_GT(out["hindsight"][0]["path"].size(), 10U);
   EXPECT_EQ(out["result"]["false_trigger_loss"], 0.0);  // doing nothing would have hit
+  EXPECT_GE(out["timing"]["preview_s"], 0.0);
+  EXPECT_TRUE(out["timing"]["first_answer_s"].is_null());  // nobody was asked
   for (const json& event : out["events"]) {
     EXPECT_TRUE(event.contains("t_s") && event.contains("plane") && event.contains("kind") &&
                 event.contains("text"));
