@@ -147,6 +147,11 @@ std::variant<EgoStart, Recording> read_ego(Table table) {
   }
   Table start = table.table("start");
   const world::LanePose pose = read_lane_pose(start);
+  constexpr double most_heading = 30.0;  // [deg]: the ego drives along its lane
+  if (std::abs(pose.heading) > from_degrees(most_heading)) {
+    start.reject("heading_deg", "want -30 to 30 against the lane, got " +
+                                    std::to_string(to_degrees(pose.heading)));
+  }
   return EgoStart{pose, start.number("speed_mps", speed_range)};
 }
 

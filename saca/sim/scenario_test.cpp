@@ -163,6 +163,12 @@ TEST(ReadScenario, RefusesAnOverlappingStart) {
   EXPECT_THAT(problem("s_m = 55\nd_m = 43", "s_m = 30\nd_m = 4"), HasSubstr("touching truck1"));
 }
 
+TEST(ReadScenario, RefusesAnEgoThatHeadsAgainstItsLane) {
+  EXPECT_THAT(problem("[ego.start]\ns_m = 0\nd_m = 0\nheading_deg = 0",
+                      "[ego.start]\ns_m = 0\nd_m = 0\nheading_deg = 180"),
+              HasSubstr("heading_deg: want -30 to 30"));
+}
+
 TEST(ReadScenario, AnActorThatComesLaterMayStartAnywhere) {
   std::string text = with("x_m = [30,", "x_m = [0,");
   text.replace(text.find("[0, 0.1, 0.2]"), 13, "[1, 1.1, 1.2]");
