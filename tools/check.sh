@@ -20,8 +20,9 @@ check() {  # PRESET TARGETS CTEST_OPTION...
 }
 
 check dev ""
-# Pages and the command line are tested once, in dev; benchmarks say nothing under a sanitiser.
-check asan "module_tests scenario_replay" --label-exclude 'viewer|cli|bench'
+# Pages, the command line and the real model are tested once, in dev; benchmarks say nothing under a
+# sanitiser.
+check asan "module_tests scenario_replay" --label-exclude 'viewer|cli|bench|model_host'
 check tsan "core_latest_slot_test loop_thinking_thread_test"
 
 step "lint"
