@@ -132,12 +132,12 @@ struct BenchOptions {
 
 int bench(const BenchOptions& options) {
   const auto places = find_places();
-  if (!places) {
-    complain("data/harm.toml is neither beside the program's build folder nor in share/saca");
+  if (!places.has_value()) {
+    complain(places.error().message);
     return bad_input;
   }
   const auto car =
-      vehicle::read_vehicle(places->root / "data" / "vehicles" / "compact_rwd_ev.toml");
+      vehicle::read_vehicle(places.value().root / "data" / "vehicles" / "compact_rwd_ev.toml");
   if (!car.has_value()) {
     complain(car.error().message);
     return bad_input;

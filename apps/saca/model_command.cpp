@@ -12,12 +12,12 @@ namespace {
 
 int model_info(bool as_json) {
   const auto places = find_places();
-  if (!places) {
-    complain("data/harm.toml is neither beside the program's build folder nor in share/saca");
+  if (!places.has_value()) {
+    complain(places.error().message);
     return bad_input;
   }
   SteadyClock clock;
-  const auto model = open_local_model(*places, clock);
+  const auto model = open_local_model(places.value(), clock);
   if (!model.has_value()) {
     complain(model.error().message);
     return bad_input;

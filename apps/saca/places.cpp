@@ -11,11 +11,11 @@ namespace saca::app {
 
 namespace fs = std::filesystem;
 
-std::optional<Places> find_places() {
+Result<Places> find_places() {
   std::error_code problem;
   const fs::path program = fs::read_symlink("/proc/self/exe", problem);
   if (problem) {
-    return std::nullopt;
+    return Error{Error::Code::unreadable, "/proc/self/exe: " + problem.message()};
   }
   const fs::path folder = program.parent_path();
   for (const fs::path& root : {folder / "../share/saca", folder / "../.."}) {
@@ -24,7 +24,8 @@ std::optional<Places> find_places() {
                     .model_host = folder / "saca-model-host"};
     }
   }
-  return std::nullopt;
+  return Error{Error::Code::unreadable,
+               "data/harm.toml is neither beside the program's build folder nor in share/saca"};
 }
 
 std::optional<fs::path> find_weights(const Places& places) {

@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "saca/core/result.h"
+
 namespace saca::app {
 
 /// Exit codes, as docs/formats.md tells them.
@@ -22,8 +24,8 @@ struct Places {
   std::filesystem::path model_host;  ///< program that runs the language model; may be missing
 };
 
-/// @return  nullopt when neither place has data/harm.toml
-[[nodiscard]] std::optional<Places> find_places();
+/// @return  Error::Code::unreadable when neither place has data/harm.toml
+[[nodiscard]] Result<Places> find_places();
 
 /// The weights that `make model` chose for this processor, else any that it left; nullopt: none.
 [[nodiscard]] std::optional<std::filesystem::path> find_weights(const Places& places);

@@ -104,11 +104,11 @@ std::optional<Error> write_outputs(const std::string& record, const fs::path& fo
 
 int run(const RunOptions& options) {
   const auto places = find_places();
-  if (!places) {
-    complain("data/harm.toml is neither beside the program's build folder nor in share/saca");
+  if (!places.has_value()) {
+    complain(places.error().message);
     return bad_input;
   }
-  const auto inputs = read_inputs(*places, options);
+  const auto inputs = read_inputs(places.value(), options);
   if (!inputs.has_value()) {
     complain(inputs.error().message);
     return bad_input;
@@ -128,7 +128,8 @@ int run(const RunOptions& options) {
   }
   SteadyClock clock;
   const loop::Pace pace = options.pace == "real" ? loop::Pace::real : loop::Pace::lockstep;
-  const auto model = ChosenModel::open(*places, options.model, options.record_replies, pace, clock);
+  const auto model =
+      ChosenModel::open(places.value(), options.model, options.record_replies, pace, clock);
   if (!model.has_value()) {
     complain(model.error().message);
     return bad_input;

@@ -16,12 +16,12 @@ namespace fs = std::filesystem;
 
 int list_scenarios(bool as_json) {
   const auto places = find_places();
-  if (!places) {
-    complain("data/harm.toml is neither beside the program's build folder nor in share/saca");
+  if (!places.has_value()) {
+    complain(places.error().message);
     return bad_input;
   }
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(places->root / "scenarios")) {
+  for (const auto& entry : fs::directory_iterator(places.value().root / "scenarios")) {
     if (entry.path().extension() == ".toml") {
       files.push_back(entry.path());
     }

@@ -3,29 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
-#include <new>
-
-// Counts what the reflex plane takes from the heap: it must be nothing. Not inlined, where GCC 12
-// would take free() for the partner of the library's operator new.
-namespace {
-thread_local std::size_t num_allocations = 0;
-}  // namespace
-
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++num_allocations;
-  if (void* const memory = std::malloc(size)) {  // NOLINT
-    return memory;
-  }
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);  // NOLINT
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);  // NOLINT
-}
+#include "tests/support/count_allocations.h"
 
 namespace saca::decide {
 namespace {

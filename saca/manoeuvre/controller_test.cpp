@@ -3,33 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
-#include <new>
 
 #include "saca/core/contract.h"
 #include "saca/manoeuvre/drive.h"
 #include "saca/manoeuvre/ego.h"
 #include "saca/vehicle/default_car.h"
-
-namespace {
-std::size_t allocations = 0;
-}  // namespace
-
-// Not inlined: GCC otherwise takes malloc and free in them for a mismatched pair.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) {  // NOLINT: what operator new is made of
-    return memory;
-  }
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);  // NOLINT
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);  // NOLINT
-}
+#include "tests/support/count_allocations.h"
 
 namespace saca::manoeuvre {
 namespace {
@@ -55,13 +35,13 @@ TEST_F(Controller, AllocatesNothingAndNeitherDoesTheCar) {
     ControllerState memory = begin(car_, plan, scene);
     vehicle::VehicleState state = rolling_state(car_, scene.ego, 0.9);
     bool ended = false;
-    const std::size_t before = allocations;
+    const std::size_t before = num_allocations;
     for (int i = 0; i < 500; ++i) {
       state = vehicle::step(car_, state, control(car_, plan, scene.road, 0.9, state, memory, dt),
                             0.9, dt);
       ended = ended || finished(plan, state, memory);
     }
-    EXPECT_EQ(allocations - before, 0U);
+    EXPECT_EQ(num_allocations - before, 0U);
     EXPECT_FALSE(ended);
   }
   static_assert(noexcept(control(car_, Plan{}, scene.road, 0.9, vehicle::VehicleState{},

@@ -4,35 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <limits>
-#include <new>
 #include <numbers>
 #include <vector>
 
 #include "saca/memory/example_scenes.h"
-
-namespace {
-std::size_t num_allocations = 0;
-}
-
-// Not inlined: GCC would see malloc and free behind new and delete and call them mismatched.
-// NOLINTBEGIN(misc-new-delete-overloads)
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++num_allocations;
-  if (void* memory = std::malloc(size)) {
-    return memory;
-  }
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-// NOLINTEND(misc-new-delete-overloads)
+#include "tests/support/count_allocations.h"
 
 namespace saca::memory {
 namespace {
