@@ -24,13 +24,6 @@ constexpr double preview_time = 4.2;    // [s]: T2 - T1 of the paper
 constexpr double without_haste = 60.0;  // [s]
 constexpr double longest_load = 60.0;   // [s]
 
-double seconds(Clock::Time time) {
-  return std::chrono::duration<double>(time).count();
-}
-Clock::Time from_seconds(double time) {
-  return std::chrono::duration_cast<Clock::Time>(std::chrono::duration<double>(time));
-}
-
 // Three forecasts that differ as previews do: in what the truck does, and what that leads to.
 std::vector<std::string> example_scenes() {
   std::vector<std::string> scenes;
@@ -59,10 +52,10 @@ Asked ask(ChildModel& model, const std::vector<std::string>& scenes, double budg
   const auto replies =
       model.ask(scenes, begin + from_seconds(budget), [&](const Progress& progress) {
         if (progress.answer != nullptr && progress.answer->kind == Answer::Kind::first) {
-          asked.first = seconds(clock.now() - begin);
+          asked.first = to_seconds(clock.now() - begin);
         }
       });
-  asked.whole = seconds(clock.now() - begin);
+  asked.whole = to_seconds(clock.now() - begin);
   asked.missing = static_cast<int>(scenes.size());
   if (replies.has_value()) {
     asked.replies = replies.value();

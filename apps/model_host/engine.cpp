@@ -31,13 +31,6 @@ constexpr double reserve_factor = 2.0;
 constexpr std::string_view answer_stem = " Response to user:";
 constexpr std::string_view stated_answer = "Response to user:";
 
-double seconds(Clock::Time time) {
-  return std::chrono::duration<double>(time).count();
-}
-Clock::Time from_seconds(double time) {
-  return std::chrono::duration_cast<Clock::Time>(std::chrono::duration<double>(time));
-}
-
 Tokens tokenised(const llama_vocab* vocab, std::string_view text, bool with_special) {
   Tokens tokens(text.size() + 8);
   const int n =
@@ -217,7 +210,7 @@ struct Engine::State {
     for (const Thought* thought : thoughts) {
       forget_from(thought->scene, thought->position);
     }
-    answer_cost.add(seconds(clock->now() - begin) / static_cast<double>(thoughts.size()));
+    answer_cost.add(to_seconds(clock->now() - begin) / static_cast<double>(thoughts.size()));
     return done;
   }
 
@@ -280,7 +273,7 @@ struct Engine::State {
       }
       return false;
     }
-    const double cost = seconds(clock->now() - begin);
+    const double cost = to_seconds(clock->now() - begin);
     step_cost.add(cost);
     figures.reply_seconds += cost;
     for (const auto& [thought, at] : running) {
@@ -314,7 +307,7 @@ struct Engine::State {
     // Only its own answer is waited for: those before it have theirs.
     const int last = evaluate_run(prompt, system_tokens, sequence(thought.scene), true,
                                   deadline - from_seconds(answer_cost.get()));
-    figures.prompt_seconds += seconds(clock->now() - begin);
+    figures.prompt_seconds += to_seconds(clock->now() - begin);
     if (last < 0) {
       return false;
     }

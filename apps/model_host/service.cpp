@@ -15,10 +15,6 @@ namespace {
 
 namespace protocol = reason::protocol;
 
-double seconds(Clock::Time time) {
-  return std::chrono::duration<double>(time).count();
-}
-
 std::uint64_t resident_bytes() {
   std::ifstream file("/proc/self/statm");
   std::uint64_t total = 0;
@@ -62,7 +58,7 @@ class Service {
       say(protocol::Failed{std::nullopt, tokens.error().message});
       return;
     }
-    say(protocol::Ready{engine_->description(), tokens.value(), seconds(clock_.now() - begin_)});
+    say(protocol::Ready{engine_->description(), tokens.value(), to_seconds(clock_.now() - begin_)});
   }
 
   void handle(const protocol::Ask& ask) {
@@ -82,8 +78,7 @@ class Service {
           say(protocol::Answered{ask.id, scene, kind, softmax(logits)});
         }};
     const double longest = 3600.0;  // [s]: nobody waits longer, and the sum below stays in range
-    const auto budget = std::chrono::duration_cast<Clock::Time>(
-        std::chrono::duration<double>(std::min(ask.budget, longest)));
+    const auto budget = from_seconds(std::min(ask.budget, longest));
     const auto figures = engine_->ask(ask.scenes, arrival + budget, ask.max_tokens, clock_, events);
     if (!figures.has_value()) {
       say(protocol::Failed{ask.id, figures.error().message});

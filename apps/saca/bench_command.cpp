@@ -22,10 +22,6 @@ namespace {
 
 using nlohmann::json;
 
-double seconds(Clock::Time time) {
-  return std::chrono::duration<double>(time).count();
-}
-
 /// Stopping distances and lane changes beside their bands.
 int bench_physics(const vehicle::Vehicle& car, json& figures, bool quiet) {
   int outside = 0;
@@ -56,11 +52,11 @@ void bench_vehicle(const vehicle::Vehicle& car, Clock& clock, json& figures) {
     vehicle::VehicleState state = manoeuvre::rolling_state(car, scene.ego, 0.9);
     for (int k = 0; k < num_steps; ++k) {
       const vehicle::Command command =
-          manoeuvre::control(car, plan, scene.road, 0.9, state, memory, 1e-3);
-      state = vehicle::step(car, state, command, 0.9, 1e-3);
+          manoeuvre::control(car, plan, scene.road, 0.9, state, memory, vehicle::usual_step);
+      state = vehicle::step(car, state, command, 0.9, vehicle::usual_step);
     }
   }
-  figures["vehicle.steps_per_s"] = num_stops * num_steps / seconds(clock.now() - start);
+  figures["vehicle.steps_per_s"] = num_stops * num_steps / to_seconds(clock.now() - start);
 }
 
 /// A scene with `num_actors` others on three lanes; `rng` moves them a little.
@@ -96,7 +92,7 @@ void bench_reflex(const vehicle::Vehicle& car, Clock& clock, int num_calls, json
     }
     decide::PlanCache plans;
     for (std::size_t i = 0; i < decide::PlanCache::capacity(); ++i) {
-      plans.push_back({.scene_at_trigger = scenes[i], .plan = {}});
+      plans.push_back({.at_trigger = memory::features(scenes[i]), .plan = {}});
     }
     std::vector<double> times;
     times.reserve(static_cast<std::size_t>(num_calls));
@@ -107,7 +103,7 @@ void bench_reflex(const vehicle::Vehicle& car, Clock& clock, int num_calls, json
       const Clock::Time start = clock.now();
       plane.receive(plans);
       num_triggered += plane.step(scene).triggered ? 1 : 0;
-      times.push_back(1e6 * seconds(clock.now() - start));
+      times.push_back(1e6 * to_seconds(clock.now() - start));
     }
     std::sort(times.begin(), times.end());
     const auto at = [&](double share) {

@@ -20,6 +20,14 @@ class Clock {
   virtual void wait_until(Time time) noexcept = 0;
 };
 
+[[nodiscard]] inline double to_seconds(Clock::Time time) {
+  return std::chrono::duration<double>(time).count();
+}
+/// @param seconds  within 292 years of 0
+[[nodiscard]] inline Clock::Time from_seconds(double seconds) {
+  return std::chrono::duration_cast<Clock::Time>(std::chrono::duration<double>(seconds));
+}
+
 /// The machine's monotonic clock.
 class SteadyClock final : public Clock {
  public:

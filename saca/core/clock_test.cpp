@@ -18,6 +18,11 @@ TEST(ManualClock, MovesOnlyWhenTold) {
   EXPECT_EQ(clock.now(), milliseconds(9));
 }
 
+TEST(ClockTime, IsSecondsAndBack) {
+  EXPECT_EQ(from_seconds(-1.25), milliseconds(-1250));
+  EXPECT_EQ(to_seconds(milliseconds(1250)), 1.25);
+}
+
 TEST(SteadyClock, NeverRunsBackAndWaitsLongEnough) {
   SteadyClock clock;
   const Clock::Time start = clock.now();

@@ -5,7 +5,7 @@
 
 #include "saca/core/static_vector.h"
 #include "saca/manoeuvre/plan.h"
-#include "saca/world/scene.h"
+#include "saca/memory/similarity.h"
 
 namespace saca::decide {
 
@@ -20,7 +20,7 @@ enum class Source : std::uint8_t {
 
 /// A checked plan, ready for the situation that it was made for.
 struct CachedPlan {
-  world::Scene scene_at_trigger;  ///< the forecast that it belongs to
+  memory::Features at_trigger;  ///< of the scene that was forecast
   manoeuvre::Plan plan;
   Source source = Source::model;
   bool worse_than_aeb = false;  ///< by forecast, by the one ordering of harm

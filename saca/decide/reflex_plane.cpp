@@ -19,20 +19,12 @@ std::string_view name(Source source) {
   return name_of(source, source_names);
 }
 
-void ReflexPlane::receive(const PlanCache& plans) noexcept {
-  plans_ = plans;
-  for (std::size_t i = 0; i < plans_.size(); ++i) {
-    features_[i] = memory::features(plans_[i].scene_at_trigger);
-  }
-}
-
 Decision ReflexPlane::decide(const world::Scene& scene) const noexcept {
   Decision decision{.plan = {manoeuvre::PolicyId::aeb, std::nullopt}, .time = scene.time};
   const CachedPlan* best = nullptr;
   const memory::Features here = memory::features(scene);
-  for (std::size_t i = 0; i < plans_.size(); ++i) {
-    const CachedPlan& cached = plans_[i];
-    const double similarity = memory::similarity(here, features_[i]);
+  for (const CachedPlan& cached : plans_) {
+    const double similarity = memory::similarity(here, cached.at_trigger);
     if (!decision.similarity || similarity > *decision.similarity) {
       decision.similarity = similarity;
       decision.preview = cached.preview;

@@ -1,12 +1,10 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 
 #include "saca/decide/plan_cache.h"
 #include "saca/manoeuvre/plan.h"
-#include "saca/memory/similarity.h"
 #include "saca/preview/threat.h"
 #include "saca/world/scene.h"
 
@@ -44,7 +42,7 @@ class ReflexPlane {
       : thresholds_(thresholds), forced_(forced) {}
 
   /// Takes over the newest plans.
-  void receive(const PlanCache& plans) noexcept;
+  void receive(const PlanCache& plans) noexcept { plans_ = plans; }
 
   [[nodiscard]] Reflex step(const world::Scene& scene) noexcept;
 
@@ -57,7 +55,6 @@ class ReflexPlane {
   preview::Thresholds thresholds_;
   std::optional<manoeuvre::Plan> forced_;
   PlanCache plans_;
-  std::array<memory::Features, PlanCache::capacity()> features_;  ///< of each plan's situation
   std::optional<Decision> decision_;
 };
 

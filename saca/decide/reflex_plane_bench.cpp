@@ -22,7 +22,7 @@ void reflex_step(benchmark::State& state) {
   }
   PlanCache cache;
   for (int i = 0; i < 6; ++i) {
-    cache.push_back({.scene_at_trigger = scene, .plan = {}, .preview = i});
+    cache.push_back({.at_trigger = memory::features(scene), .plan = {}, .preview = i});
   }
   for (auto _ : state) {
     ReflexPlane plane({});

@@ -39,7 +39,7 @@ Scene wreck_in(double time) {
 
 PlanCache one_plan(const Scene& scene_at_trigger, PolicyId policy, bool worse = false) {
   PlanCache cache;
-  cache.push_back({.scene_at_trigger = scene_at_trigger,
+  cache.push_back({.at_trigger = memory::features(scene_at_trigger),
                    .plan = {policy, std::nullopt},
                    .source = Source::model,
                    .worse_than_aeb = worse,

@@ -15,7 +15,6 @@ namespace saca::decide {
 namespace {
 
 using manoeuvre::PolicyId;
-using Seconds = std::chrono::duration<double>;
 
 constexpr double least_thinking_time = 0.15;  // [s]: a model asked later than this cannot answer
 constexpr double handover_margin = 0.05;  // [s] before the trigger at which the model must be done
@@ -45,11 +44,11 @@ struct ThinkingPlane::Round {
   const Clock& clock;
 
   [[nodiscard]] double time_of(Clock::Time at) const {
-    return scene.time + Seconds(at - scene_at).count();
+    return scene.time + to_seconds(at - scene_at);
   }
   [[nodiscard]] double now() const { return time_of(clock.now()); }
   [[nodiscard]] Clock::Time clock_at(double time) const {
-    return scene_at + std::chrono::duration_cast<Clock::Time>(Seconds(time - scene.time));
+    return scene_at + from_seconds(time - scene.time);
   }
 };
 
@@ -240,7 +239,7 @@ void ThinkingPlane::take_answer(const Round& round, Preview& preview,
   const PolicyId policy = choice(answer);
   const double time = round.time_of(answer.time);
   preview.reply.answers.push_back(answer);
-  preview.reply.answers.back().time = std::chrono::duration_cast<Clock::Time>(Seconds(time));
+  preview.reply.answers.back().time = from_seconds(time);
   output_.event(
       {time, Plane::thinking,
        answer.kind == reason::Answer::Kind::first ? EventKind::first_answer : EventKind::answer,
@@ -281,7 +280,7 @@ void ThinkingPlane::publish(double ready) const {
     if (!preview.plan || cache.full()) {
       continue;
     }
-    cache.push_back({.scene_at_trigger = preview.newest_scene,
+    cache.push_back({.at_trigger = memory::features(preview.newest_scene),
                      .plan = *preview.plan,
                      .source = preview.source,
                      .worse_than_aeb = preview.worse_than_aeb,

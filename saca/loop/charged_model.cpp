@@ -34,14 +34,11 @@ Result<std::vector<reason::Reply>> ChargedModel::ask(
   if (!replies.has_value()) {
     return replies;
   }
-  const auto seconds = [](double s) {
-    return std::chrono::duration_cast<Clock::Time>(std::chrono::duration<double>(s));
-  };
   int prompt_tokens = 0;
   for (const reason::Reply& reply : replies.value()) {
     prompt_tokens += reply.prompt_tokens;
   }
-  const Clock::Time read = clock_.now() + seconds(costs_.prompt_token * prompt_tokens);
+  const Clock::Time read = clock_.now() + from_seconds(costs_.prompt_token * prompt_tokens);
   std::vector<std::pair<std::size_t, reason::Answer>> answers;  // of all prompts, by their dates
   std::vector<reason::Reply> in_time;
   for (std::size_t i = 0; i < replies.value().size(); ++i) {
@@ -50,7 +47,7 @@ Result<std::vector<reason::Reply>> ChargedModel::ask(
     const auto late = [&](reason::Answer& answer) {
       const bool first = answer.kind == reason::Answer::Kind::first;
       answer.time =
-          read + (first ? Clock::Time(0) : seconds(costs_.reply_token * reply.reply_tokens));
+          read + (first ? Clock::Time(0) : from_seconds(costs_.reply_token * reply.reply_tokens));
       return answer.time > deadline;
     };
     std::erase_if(reply.answers, late);

@@ -36,10 +36,6 @@ constexpr int steps_per_look = 10;      // 100 Hz
 constexpr int looks_per_frame = 2;      // 50 Hz
 constexpr double rest_after_end = 2.0;  // [s] that the film goes on, as outcome::judge looks on
 
-Clock::Time duration(double seconds) {
-  return std::chrono::duration_cast<Clock::Time>(std::chrono::duration<double>(seconds));
-}
-
 std::string policy_text(const manoeuvre::Plan& plan) {
   std::string text = fmt::format("{} {}", manoeuvre::index(plan.policy), name(plan.policy));
   if (plan.target_speed) {
@@ -58,8 +54,8 @@ class ChargedThinking {
     if (scene.time < free_at_) {
       return;
     }
-    clock_.wait_until(duration(scene.time + setup_.costs.preview));
-    if (plane.think(scene, duration(scene.time))) {
+    clock_.wait_until(from_seconds(scene.time + setup_.costs.preview));
+    if (plane.think(scene, from_seconds(scene.time))) {
       free_at_ = std::max(free_at_, scene.time + std::max(setup_.costs.preview, shortest_round));
     }
   }
@@ -214,7 +210,7 @@ Result<Record> Encounter::play() {
         stepper_.advance(command);
       }
       if (real()) {
-        setup_.clock->wait_until(start_ + duration(stepper_.time()));
+        setup_.clock->wait_until(start_ + from_seconds(stepper_.time()));
       }
     }
     if (thread) {
@@ -280,7 +276,7 @@ void Encounter::wake(const Scene& scene) {
 decide::Reflex Encounter::react(const Scene& scene) {
   if (woke_ && !record_.decision) {
     if (real()) {
-      scenes_.publish({scene, start_ + duration(scene.time)});
+      scenes_.publish({scene, start_ + from_seconds(scene.time)});
     } else {
       charged_.think(plane_, scene);
     }
@@ -289,7 +285,7 @@ decide::Reflex Encounter::react(const Scene& scene) {
   hand_over_plans();
   const decide::Reflex reflex = woke_ ? reflex_.step(scene) : decide::Reflex{};
   if (woke_) {
-    reflex_times_.push_back(std::chrono::duration<double>(setup_.clock->now() - before).count());
+    reflex_times_.push_back(to_seconds(setup_.clock->now() - before));
   }
   return reflex;
 }

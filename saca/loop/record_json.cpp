@@ -107,7 +107,7 @@ json plan_json(const manoeuvre::Plan& plan) {
 
 json answer_json(const reason::Answer& answer) {
   constexpr std::array<std::string_view, 3> kinds{"first", "ended", "forced"};
-  return {{"t_s", std::chrono::duration<double>(answer.time).count()},
+  return {{"t_s", to_seconds(answer.time)},
           {"kind", kinds[static_cast<std::size_t>(answer.kind)]},
           {"probability", answer.probability}};
 }

@@ -35,16 +35,6 @@ constexpr double least_stop_share =
     0.6;                       // of the grip, that a stop brakes with whatever the path asks
 constexpr double crawl = 1.5;  // [m/s] below it steering fades out
 
-bool changes_lane(PolicyId policy) {
-  return policy == PolicyId::aes_left || policy == PolicyId::aes_right ||
-         policy == PolicyId::es_b_left || policy == PolicyId::es_b_right;
-}
-bool brakes_to_speed(PolicyId policy) {
-  return policy == PolicyId::es_b_left || policy == PolicyId::es_b_right;
-}
-bool goes_left(PolicyId policy) {
-  return policy == PolicyId::aes_left || policy == PolicyId::es_b_left;
-}
 // Slower than this the car is not kept rolling but stopped [m/s].
 constexpr double least_kept_speed = 0.5;
 
@@ -237,8 +227,7 @@ ControllerState begin(const Vehicle& car, const Plan& plan, const world::Scene& 
     memory.speed = std::min(memory.speed, *plan.target_speed);
   }
   if (changes_lane(plan.policy)) {
-    const double side = goes_left(plan.policy) ? 1.0 : -1.0;
-    memory.end_d = side * scene.road.lane_width;
+    memory.end_d = side(plan.policy) * scene.road.lane_width;
     const double bend = std::abs(scene.road.curvature) * ego.v_B.x * ego.v_B.x;
     const double given_up =
         fast_less * std::max(0.0, ego.v_B.x - fast) + bend / (scene.grip * gravity);

@@ -11,7 +11,6 @@
 namespace saca::manoeuvre {
 namespace {
 
-constexpr double dt = 1e-3;  // [s] of the integration
 constexpr int steps_per_pose = 10;
 
 // "<what> <value> <rest>"; std::format is not there yet.
@@ -24,10 +23,6 @@ std::string with_number(const char* pattern, double value) {
 /// Braking and doing nothing need nothing: they are what is left when all else is refused.
 bool always_possible(PolicyId policy) {
   return policy == PolicyId::aeb || policy == PolicyId::no_intervention;
-}
-
-bool brakes_to_speed(PolicyId policy) {
-  return policy == PolicyId::es_b_left || policy == PolicyId::es_b_right;
 }
 
 std::optional<std::string> wrong_target(const Plan& plan) {
@@ -101,10 +96,11 @@ EgoMotion drive(const vehicle::Vehicle& car, const Plan& plan, const world::Scen
   expects(horizon >= 0.0 && horizon <= 3600.0, "horizon in [0, 3600] s");
   ControllerState memory = begin(car, plan, scene);
   vehicle::VehicleState state = rolling_state(car, scene.ego, grip);
-  const int num_poses = static_cast<int>(std::lround(horizon / (dt * steps_per_pose)));
+  const int num_poses =
+      static_cast<int>(std::lround(horizon / (vehicle::usual_step * steps_per_pose)));
   EgoMotion motion;
   motion.track.start = scene.time;
-  motion.track.step = dt * steps_per_pose;
+  motion.track.step = vehicle::usual_step * steps_per_pose;
   const auto note = [&] {
     motion.track.X_WA.push_back(state.X_WB);
     motion.v_B.push_back(state.v_B);
@@ -115,8 +111,8 @@ EgoMotion drive(const vehicle::Vehicle& car, const Plan& plan, const world::Scen
   for (int pose = 0; pose < num_poses && !motion.ended; ++pose) {
     for (int i = 0; i < steps_per_pose; ++i) {
       const vehicle::Command command =
-          control(car, plan, scene.road, scene.grip, state, memory, dt);
-      state = vehicle::step(car, state, command, grip, dt);
+          control(car, plan, scene.road, scene.grip, state, memory, vehicle::usual_step);
+      state = vehicle::step(car, state, command, grip, vehicle::usual_step);
     }
     note();
     motion.ended = finished(plan, state, memory);

@@ -17,8 +17,6 @@ namespace {
 using vehicle::Vehicle;
 using vehicle::VehicleState;
 
-constexpr double dt = 1e-3;  // [s]
-
 // The independent prototype: double track, combined slip, Runge-Kutta at 1 ms, inputs optimised
 // offline. Distance of the centre of mass, and time.
 struct StopReference {
@@ -63,9 +61,10 @@ constexpr Plan swerve{.policy = PolicyId::aes_left, .target_speed = std::nullopt
 // Commands every millisecond, integrated in `parts` steps each.
 VehicleState one_millisecond(const Vehicle& car, VehicleState state, const world::Scene& scene,
                              ControllerState& memory, int parts) {
-  const auto command = control(car, swerve, scene.road, scene.grip, state, memory, dt);
+  const auto command =
+      control(car, swerve, scene.road, scene.grip, state, memory, vehicle::usual_step);
   for (int i = 0; i < parts; ++i) {
-    state = vehicle::step(car, state, command, scene.grip, dt / parts);
+    state = vehicle::step(car, state, command, scene.grip, vehicle::usual_step / parts);
   }
   return state;
 }
@@ -118,12 +117,13 @@ Stop stop_straight(const Vehicle& car, Abs abs, double speed, double grip) {
   ControllerState memory = begin(car, plan, scene);
   Stop stop;
   for (int i = 1; i <= most_steps && !vehicle::at_rest(state); ++i) {
-    vehicle::Command command = control(car, plan, scene.road, grip, state, memory, dt);
+    vehicle::Command command =
+        control(car, plan, scene.road, grip, state, memory, vehicle::usual_step);
     if (abs == Abs::ideal) {
       command.brake_torque = vehicle::ideal_brakes(car, state, grip);
     }
-    state = vehicle::step(car, state, command, grip, dt);
-    stop.time = i * dt;
+    state = vehicle::step(car, state, command, grip, vehicle::usual_step);
+    stop.time = i * vehicle::usual_step;
     stop.peak_deceleration = std::max(stop.peak_deceleration, -state.a_B.x);
   }
   stop.distance = state.X_WB.p.x;
@@ -141,10 +141,10 @@ LaneChange change_lane(const Vehicle& car, double speed, double grip) {
     const bool settled = std::abs(state.X_WB.p.y - scene.road.lane_width) <= 0.2 &&
                          std::abs(state.X_WB.yaw) <= from_degrees(2.0);
     if (!settled) {
-      change.settled = (i + 1) * dt;
+      change.settled = (i + 1) * vehicle::usual_step;
     }
-    if (state.X_WB.p.y < 2.1 && change.to_2_1_m <= (i - 1) * dt) {
-      change.to_2_1_m = i * dt;
+    if (state.X_WB.p.y < 2.1 && change.to_2_1_m <= (i - 1) * vehicle::usual_step) {
+      change.to_2_1_m = i * vehicle::usual_step;
     }
   }
   return change;

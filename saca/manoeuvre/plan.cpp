@@ -16,8 +16,7 @@ std::optional<PolicyId> policy_from(int id) {
 }
 
 Plan default_plan(PolicyId policy, double speed) {
-  const bool brakes_to_speed = policy == PolicyId::es_b_left || policy == PolicyId::es_b_right;
-  if (!brakes_to_speed) {
+  if (!brakes_to_speed(policy)) {
     return {.policy = policy, .target_speed = std::nullopt};
   }
   return {.policy = policy,

@@ -29,6 +29,22 @@ constexpr std::size_t index(PolicyId policy) {
   return static_cast<std::size_t>(policy);
 }
 
+/// Policies 3 and 4: the only ones with a target speed.
+constexpr bool brakes_to_speed(PolicyId policy) {
+  return policy == PolicyId::es_b_left || policy == PolicyId::es_b_right;
+}
+
+/// Where the policy takes the ego: +1 to the left (1, 3, 5), -1 to the right (2, 4, 6), 0 ahead.
+constexpr int side(PolicyId policy) {
+  const int id = static_cast<int>(policy);
+  return id >= 1 && id <= 6 ? (id % 2 == 1 ? 1 : -1) : 0;
+}
+
+/// Policies 1 to 4.
+constexpr bool changes_lane(PolicyId policy) {
+  return policy == PolicyId::aes_left || policy == PolicyId::aes_right || brakes_to_speed(policy);
+}
+
 /// The paper's short name: "AEB", "AES-L", ..., "NI".
 [[nodiscard]] std::string_view name(PolicyId policy);
 

@@ -23,6 +23,14 @@ TEST(Plan, NoOtherNumberIsAPolicy) {
   EXPECT_EQ(policy_from(8), std::nullopt);
 }
 
+TEST(Plan, PoliciesGoWhereTheirNamesSay) {
+  for (const PolicyId policy : all_policies) {
+    const std::string_view words = name(policy);
+    EXPECT_EQ(side(policy), words.ends_with("-L") ? 1 : words.ends_with("-R") ? -1 : 0) << words;
+    EXPECT_EQ(changes_lane(policy), words.starts_with("AES") || words.starts_with("ES-B")) << words;
+  }
+}
+
 TEST(Plan, OnlyBrakedLaneChangesHaveATargetSpeed) {
   for (const PolicyId policy : all_policies) {
     const bool braked = policy == PolicyId::es_b_left || policy == PolicyId::es_b_right;

@@ -105,12 +105,12 @@ class Row {
   }
 
   world::Scene scene(Column column) {
-    const nlohmann::json json = nlohmann::json::parse(text(column), nullptr, false);
-    if (json.is_discarded()) {
+    const nlohmann::json parsed = nlohmann::json::parse(text(column), nullptr, false);
+    if (parsed.is_discarded()) {
       reject(column, "is not JSON");
       return {};
     }
-    Result<world::Scene> scene = scene_from_json(json);
+    Result<world::Scene> scene = scene_from_json(parsed);
     if (!scene.has_value()) {
       reject(column, scene.error().message);
       return {};
@@ -134,11 +134,6 @@ class Row {
   std::optional<Error> problem_;
 };
 
-/// Policies 3 and 4 only have a target speed.
-bool may_have_target_speed(manoeuvre::PolicyId policy) {
-  return policy == manoeuvre::PolicyId::es_b_left || policy == manoeuvre::PolicyId::es_b_right;
-}
-
 Result<Case> case_at(const Statement& statement, const std::string& file) {
   Row row(statement, file);
   Case one{.id = statement.integer(id_column),
@@ -150,7 +145,7 @@ Result<Case> case_at(const Statement& statement, const std::string& file) {
            .collision_loss = row.amount(collision_loss_column),
            .review = row.text(review_column),
            .source = row.text(source_column)};
-  if (one.plan.target_speed && !may_have_target_speed(one.plan.policy)) {
+  if (one.plan.target_speed && !manoeuvre::brakes_to_speed(one.plan.policy)) {
     row.reject(target_speed_column, "only policies 3 and 4 have one");
   }
   if (row.problem()) {
@@ -323,7 +318,7 @@ Result<CaseId> Store::add(const Case& one) {
   expects(is_amount(one.best_harm), "best_harm is finite and >= 0");
   expects(is_amount(one.collision_loss), "collision_loss is finite and >= 0");
   expects(!one.plan.target_speed ||
-              (is_amount(*one.plan.target_speed) && may_have_target_speed(one.plan.policy)),
+              (is_amount(*one.plan.target_speed) && manoeuvre::brakes_to_speed(one.plan.policy)),
           "only policies 3 and 4 have a target_speed, finite and >= 0");
   const std::string scene = to_json(one.scene).dump();
 

@@ -25,10 +25,6 @@ struct Combination {
   std::vector<Intention> intentions;
 };
 
-double slack(const Scene& scene, const Actor& actor, double tolerance) {
-  return world::is_crossing(scene, actor) ? tolerance : 0.0;
-}
-
 /// The intentions of an actor that are worth a forecast of their own, with their probabilities: all
 /// likely ones if any of them leads into a conflict, else only the likeliest.
 std::vector<std::pair<Intention, double>> worth_forecasting(const Scene& scene, const Actor& actor,
@@ -44,7 +40,7 @@ std::vector<std::pair<Intention, double>> worth_forecasting(const Scene& scene, 
     likely.emplace_back(intention, probability);
     const Track track = intent::predicted_track(scene, actor, intention, thresholds.preview);
     matters = matters || world::time_to_conflict(scene, actor, track, thresholds.preview,
-                                                 slack(scene, actor, thresholds.preview_tolerance))
+                                                 thresholds.preview_tolerance)
                              .has_value();
   }
   if (matters && !world::is_behind(scene, actor)) {
@@ -87,8 +83,8 @@ std::optional<double> conflict_time(const Scene& scene, const std::vector<Track>
       if (world::is_behind(scene, actor)) {
         continue;
       }
-      const auto time = world::time_to_conflict(scene, actor, tracks[i], thresholds.preview,
-                                                slack(scene, actor, tolerance));
+      const auto time =
+          world::time_to_conflict(scene, actor, tracks[i], thresholds.preview, tolerance);
       if (time && (!first || *time < *first)) {
         first = time;
       }

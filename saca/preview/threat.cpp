@@ -29,9 +29,8 @@ std::optional<Threat> nearest_threat(const world::Scene& scene, double horizon, 
     if (world::is_behind(scene, actor)) {
       continue;
     }
-    const double slack = world::is_crossing(scene, actor) ? tolerance : 0.0;
     const auto time =
-        world::time_to_conflict(scene, actor, nearest ? nearest->time : horizon, slack);
+        world::time_to_conflict(scene, actor, nearest ? nearest->time : horizon, tolerance);
     if (time && (!nearest || *time < nearest->time)) {
       nearest = Threat{.actor = i, .time = *time};
       if (nearest->time <= 0.0) {
@@ -51,14 +50,14 @@ std::optional<Threat> previewed_threat(const world::Scene& scene, const Threshol
       continue;
     }
     const intent::IntentPosterior posterior = intent::posterior(scene, actor);
-    const double slack = world::is_crossing(scene, actor) ? thresholds.preview_tolerance : 0.0;
     for (const intent::Intention intention : intent::all_intentions) {
       if (posterior[static_cast<std::size_t>(intention)] < thresholds.least_posterior) {
         continue;
       }
       const world::Track track =
           intent::predicted_track(scene, actor, intention, thresholds.preview);
-      const auto time = world::time_to_conflict(scene, actor, track, thresholds.preview, slack);
+      const auto time = world::time_to_conflict(scene, actor, track, thresholds.preview,
+                                                thresholds.preview_tolerance);
       if (time && (!nearest || *time < nearest->time)) {
         nearest = Threat{.actor = i, .time = *time};
       }

@@ -79,8 +79,7 @@ ObstacleRisk obstacle_risk(const Scene& scene, const Actor& actor) {
   if (world::is_behind(scene, actor)) {
     return {};
   }
-  const double tolerance = world::is_crossing(scene, actor) ? crossing_tolerance : 0.0;
-  const auto conflict = world::time_to_conflict(scene, actor, look_ahead, tolerance);
+  const auto conflict = world::time_to_conflict(scene, actor, look_ahead, crossing_tolerance);
   if (!conflict) {
     return {};
   }

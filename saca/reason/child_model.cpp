@@ -6,15 +6,9 @@
 namespace saca::reason {
 namespace {
 
-using Seconds = std::chrono::duration<double>;
-
 constexpr std::size_t max_scenes = 3;
 constexpr std::size_t longest_reasoning = 1U << 16U;  // bytes; a reply has a few hundred
 constexpr double longest_load = 60.0;                 // [s]; a minute on a very slow disk
-
-Clock::Time from_seconds(double time) {
-  return std::chrono::duration_cast<Clock::Time>(Seconds(time));
-}
 
 Error malformed(const std::string& message) {
   return {Error::Code::malformed, "model process: " + message};
@@ -158,7 +152,7 @@ Result<std::vector<Reply>> ChildModel::ask(const std::vector<std::string>& scene
   if (auto error = wait_until_ready(listen_until)) {
     return *error;
   }
-  const double budget = Seconds(deadline - margin - clock_.now()).count();
+  const double budget = to_seconds(deadline - margin - clock_.now());
   if (!(budget > 0.0)) {
     return Error{Error::Code::too_late, "model process: no time is left to ask"};
   }

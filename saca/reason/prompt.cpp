@@ -42,15 +42,6 @@ constexpr std::array<std::string_view, intent::num_intentions> intention_words{
 
 constexpr std::array<std::string_view, 4> beyond_words{"open ground", "kerb", "barrier", "trees"};
 
-bool goes_left(PolicyId policy) {
-  return policy == PolicyId::aes_left || policy == PolicyId::es_b_left ||
-         policy == PolicyId::t_drift_left;
-}
-bool goes_right(PolicyId policy) {
-  return policy == PolicyId::aes_right || policy == PolicyId::es_b_right ||
-         policy == PolicyId::t_drift_right;
-}
-
 // "-0.0" would be a number that stands nowhere else.
 double without_negative_zero(double x, double resolution) {
   return std::abs(x) < resolution / 2.0 ? 0.0 : x;
@@ -231,8 +222,8 @@ std::string policy_line(const preview::PolicyFacts& facts, const world::Scene& s
   if (!facts.refusal.empty()) {
     return label + "not possible: " + facts.refusal;
   }
-  const bool oncoming = (goes_left(policy) && scene.road.oncoming_left) ||
-                        (goes_right(policy) && scene.road.oncoming_right);
+  const bool oncoming = (side(policy) > 0 && scene.road.oncoming_left) ||
+                        (side(policy) < 0 && scene.road.oncoming_right);
   return fmt::format("{}{}, harm {:.4f}{}", label, outcome::describe(facts.outcome, scene),
                      facts.outcome.harm, oncoming ? ", oncoming lane" : "");
 }

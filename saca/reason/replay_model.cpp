@@ -12,7 +12,6 @@ namespace saca::reason {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Seconds = std::chrono::duration<double>;
 
 constexpr std::string_view schema = "saca.replies/1";
 constexpr std::array<std::string_view, 3> kind_names{"first", "ended", "forced"};

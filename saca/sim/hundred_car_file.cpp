@@ -2,15 +2,14 @@
 
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "saca/core/units.h"
+#include "saca/sim/series.h"
 
 namespace saca::sim {
 namespace {
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t num_columns = 79;
 
 // Columns, counted from 0 (the dictionary counts from 1).

@@ -10,8 +10,6 @@
 namespace saca::sim {
 namespace {
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-
 const StaticVector<RadarTarget, radar_columns>& seen_in(const HundredCarRow& row, Radar radar) {
   return radar == Radar::front ? row.front : row.rear;
 }

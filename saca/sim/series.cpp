@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -11,8 +10,6 @@
 
 namespace saca::sim {
 namespace {
-
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 /// Rows within `half` steps of `i`, as [first, last].
 std::pair<std::size_t, std::size_t> around(std::size_t i, std::size_t half, std::size_t size) {

@@ -2,12 +2,16 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace saca::sim {
 
 // Noisy series of equal steps: what an importer does to recordings before anyone differentiates
-// them. Missing values are NaN.
+// them.
+
+/// A value that is missing.
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 struct Filled {
   std::vector<double> values;  ///< none missing

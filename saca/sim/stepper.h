@@ -15,7 +15,7 @@ namespace saca::sim {
 /// scenario gives until somebody takes the wheel; the others follow their true tracks.
 class Stepper {
  public:
-  static constexpr double step = 1e-3;  ///< [s]
+  static constexpr double step = vehicle::usual_step;  ///< [s]
 
   /// Scenario and car outlive the stepper.
   Stepper(const Scenario& scenario, const vehicle::Vehicle& car);

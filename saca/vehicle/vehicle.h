@@ -110,6 +110,9 @@ constexpr double hold_speed = 0.05;
 /// At rest, all of it: nothing turns, nothing moves.
 [[nodiscard]] bool at_rest(const VehicleState& state);
 
+/// With which predictions and simulated drives are integrated [s].
+constexpr double usual_step = 1e-3;
+
 /// The state `dt` later under a held command.
 ///
 /// @param grip  friction coefficient of the road [-], in (0, 1.2]

@@ -82,9 +82,10 @@ double top_speed(const Track& track) {
 template <class ActorPose>
 std::optional<double> first_conflict(const Scene& scene, const Actor& actor, const EgoLine& ego,
                                      ActorPose actor_pose, double actor_speed, double horizon,
-                                     double tolerance) {
+                                     double crossing_tolerance) {
   expects(horizon > 0.0, "horizon > 0");
-  expects(tolerance >= 0.0, "tolerance >= 0");
+  expects(crossing_tolerance >= 0.0, "tolerance >= 0");
+  const double tolerance = is_crossing(scene, actor) ? crossing_tolerance : 0.0;
   // A body that turns at rate w also moves its far corner by w x radius: the ego on its arc, the
   // actor by its measured rate.
   const double corner_speed =

@@ -38,10 +38,10 @@ namespace saca::world {
                                                       const Track& track, double horizon);
 
 /// Earliest t at which the ego, going on as it does, covers ground that the actor covers at some t'
-/// with |t - t'| <= tolerance. Tolerance 0 is `time_to_collision`, and is what counts for traffic
-/// in the ego's own direction: a follower drives, two seconds later, where the ego is now.
+/// with |t - t'| <= tolerance, if the actor is crossing (now); other traffic has no tolerance,
+/// which is `time_to_collision`: a follower drives, two seconds later, where the ego is now.
 ///
-/// @param tolerance  [s], >= 0: 2 s for the preview of crossing traffic, 0.5 s for the trigger
+/// @param tolerance  of crossing traffic [s], >= 0
 /// @return           seconds from scene.time, exact to 10 ms; nullopt when there is none
 [[nodiscard]] std::optional<double> time_to_conflict(const Scene& scene, const Actor& actor,
                                                      const Track& track, double horizon,
