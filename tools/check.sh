@@ -26,7 +26,7 @@ check asan "module_tests scenario_replay" --label-exclude 'viewer|cli|bench|mode
 check tsan "core_latest_slot_test loop_thinking_thread_test"
 
 step "lint"
-tools/lint.sh build/dev
+tools/lint.sh
 
 step "package: installed, found and used by another project"
 tools/check_package.sh

@@ -1,29 +1,41 @@
 #!/usr/bin/env bash
-# clang-tidy over library and programs (not over tests), two at a time; a file that passed is not looked at again until it, a
-# header or the rules change.
-# usage: tools/lint.sh BUILD_FOLDER [FILE...]
+# clang-tidy over library and programs (not over tests), two folders at a time. A folder's sources
+# are looked at as one, because most of the time goes into what they all include; where something
+# is found, they are looked at again one by one, to say where. A folder that passed is not looked
+# at again until it, a header or the rules change.
+# usage: tools/lint.sh [FILE...]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-build=$1
-shift
-stamps=$build/lint
-mkdir -p "$stamps"
-headers=$(git ls-files '*.h' .clang-tidy | sort | xargs sha256sum | sha256sum | cut -c1-16)
-export build stamps headers
-
-lint_one() {
-  local stamp
-  stamp=$stamps/$(printf '%s' "$1" | tr / _)-$headers-$(sha256sum "$1" | cut -c1-16)
+tidy() {
+  clang-tidy-14 --quiet --config-file=.clang-tidy "$@" -- -std=c++20 -I. -DSACA_VERSION='""' 2>/dev/null
+}
+lint_folder() {  # FOLDER
+  local sources joined stamp
+  mapfile -t sources < <(git ls-files "$1/*.cpp" | grep -vE '_(test|bench)\.cpp$')
+  joined=build/lint/${1//\//_}.cpp
+  cat "${sources[@]}" >"$joined"
+  stamp=$joined-$(cat "$joined" .clang-tidy - <<<"$headers" | sha256sum | cut -c1-16)
   [ -e "$stamp" ] && return
-  if clang-tidy-14 -p "$build" --quiet "$1" 2>/dev/null; then
+  if tidy "$joined" >/dev/null; then
+    rm -f "$joined"-*
     touch "$stamp"
+  elif tidy "${sources[@]}"; then
+    echo "lint: error: found only in the sources together, $joined:"
+    tidy "$joined"
   else
-    echo "lint: $1 failed"
+    echo "lint: error: $1 failed"
     return 1
   fi
 }
-export -f lint_one
+headers=$(git ls-files -- '*.h' | xargs sha256sum | sha256sum)
+export headers
+export -f tidy lint_folder
 
-if [ $# -gt 0 ]; then files=("$@"); else mapfile -t files < <(git ls-files 'saca/*.cpp' 'apps/saca/*.cpp' | grep -vE '_(test|bench)\.cpp$'); fi
-printf '%s\n' "${files[@]}" | xargs -P "$(nproc)" -I{} bash -c 'lint_one {}'
+if [ $# -gt 0 ]; then
+  tidy "$@"
+else
+  mkdir -p build/lint
+  git ls-files -- 'saca/*/CMakeLists.txt' apps/saca/CMakeLists.txt | xargs -n 1 dirname |
+    xargs -P "$(nproc)" -I{} bash -c 'lint_folder {}'
+fi
