@@ -66,9 +66,9 @@ std::string quoted(std::string_view text) {
 /// Lines `key = value` under a heading.
 class Writer {
  public:
-  void heading(std::string_view text) { out_ += "\n" + std::string(text) + "\n"; }
+  void heading(std::string_view text) { out_.append("\n").append(text).append("\n"); }
   void raw(std::string_view key, std::string_view value) {
-    out_ += std::string(key) + " = " + std::string(value) + "\n";
+    out_.append(key).append(" = ").append(value).append("\n");
   }
   void text(std::string_view key, std::string_view value) { raw(key, quoted(value)); }
   void number(std::string_view key, double value) { raw(key, decimal(value)); }

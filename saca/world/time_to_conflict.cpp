@@ -13,6 +13,13 @@ namespace {
 constexpr double shortest_step = 0.01;  // [s], the stated exactness
 constexpr double rest_speed = 0.1;      // [m/s]
 
+/// What a body's motion can be within a horizon: its velocity now, and bounds on how it changes.
+struct MotionBound {
+  Vec2 v_W;                   ///< now [m/s]
+  double any_speed = 0.0;     ///< in whatever direction, on top of it [m/s]
+  double acceleration = 0.0;  ///< largest, in any direction [m/s^2]
+};
+
 /// The ego's lane pose and speed, worked out once for many times.
 class EgoLine {
  public:
@@ -21,24 +28,31 @@ class EgoLine {
         start_(to_lane(scene.road, scene.ego.X_WB)),
         speed_(norm(scene.ego.v_B)),
         // Beside the centre line the same way along the lane is longer or shorter.
-        along_(speed_ / std::max(0.1, 1.0 - scene.road.curvature * start_.d)) {}
+        along_(speed_ / std::max(0.1, 1.0 - scene.road.curvature * start_.d)),
+        corner_speed_(turn_rate() * bounding_radius(scene.ego_footprint)) {}
 
   [[nodiscard]] Pose at(double after) const {
     return from_lane(road_, {.s = start_.s + along_ * after, .d = start_.d});
   }
-  [[nodiscard]] double speed() const { return speed_; }
+  [[nodiscard]] MotionBound bound(const Pose& X_WB) const {
+    return {rotated({speed_, 0.0}, X_WB.yaw), corner_speed_, speed_ * turn_rate()};
+  }
+  [[nodiscard]] double top_speed() const { return speed_ + corner_speed_; }
 
  private:
+  [[nodiscard]] double turn_rate() const { return std::abs(road_.curvature) * along_; }
+
   Road road_;
   LanePose start_;
   double speed_;
   double along_;
+  double corner_speed_;
 };
 
 /// The arc that an actor describes.
 class ActorLine {
  public:
-  explicit ActorLine(const Actor& actor) : speed_(norm(actor.v_W)) {
+  explicit ActorLine(const Actor& actor, double horizon = 0.0) : speed_(norm(actor.v_W)) {
     if (speed_ < rest_speed) {
       speed_ = 0.0;
       arc_.X_WL = actor.X_WA;
@@ -49,79 +63,141 @@ class ActorLine {
     arc_.curvature = actor.yaw_rate / speed_;
     crab_ = wrap_angle(actor.X_WA.yaw - course);
     acceleration_ = dot(actor.a_W, actor.v_W) / speed_;
+    fastest_ = speed_ + std::max(0.0, acceleration_) * horizon;
+    const double turn_rate = fastest_ * std::abs(arc_.curvature);
+    corner_speed_ = turn_rate * bounding_radius(actor.footprint);
+    change_ = std::abs(acceleration_) + fastest_ * turn_rate;
   }
 
   [[nodiscard]] Pose at(double after) const {
-    const double moving =
-        acceleration_ < 0.0 ? std::min(after, -speed_ / acceleration_) : after;  // until at rest
+    const double moving = until_rest(after);
     const double way = (speed_ + 0.5 * acceleration_ * moving) * moving;
     return from_lane(arc_, {.s = way, .heading = crab_});
   }
-  /// The largest speed within `horizon`.
-  [[nodiscard]] double top_speed(double horizon) const {
-    return speed_ + std::max(0.0, acceleration_) * (speed_ > 0.0 ? horizon : 0.0);
+  [[nodiscard]] MotionBound bound(double after, const Pose& X_WA) const {
+    const double speed = speed_ + acceleration_ * until_rest(after);
+    return {rotated({speed, 0.0}, X_WA.yaw - crab_), corner_speed_, change_};
   }
+  /// The largest of any of its points within the horizon.
+  [[nodiscard]] double top_speed() const { return fastest_ + corner_speed_; }
 
  private:
+  [[nodiscard]] double until_rest(double after) const {
+    return acceleration_ < 0.0 ? std::min(after, -speed_ / acceleration_) : after;
+  }
+
   Road arc_;
   double speed_;
   double acceleration_ = 0.0;
   double crab_ = 0.0;
+  double fastest_ = 0.0;
+  double corner_speed_ = 0.0;
+  double change_ = 0.0;  ///< of its velocity, at most [m/s^2]
 };
 
-double top_speed(const Track& track) {
-  double top = 0.0;
-  for (std::size_t i = 1; i < track.X_WA.size(); ++i) {
-    top = std::max(top, norm(track.X_WA[i].p - track.X_WA[i - 1].p) / track.step);
+/// A track, seen from scene.time on. Its velocity may jump: nothing but its top speed is known.
+class TrackLine {
+ public:
+  TrackLine(const Track& track, double now, const Footprint& footprint) : track_(track), now_(now) {
+    double turn_rate = 0.0;
+    for (std::size_t i = 1; i < track.X_WA.size(); ++i) {
+      const Pose& a = track.X_WA[i - 1];
+      const Pose& b = track.X_WA[i];
+      top_speed_ = std::max(top_speed_, norm(b.p - a.p) / track.step);
+      turn_rate = std::max(turn_rate, std::abs(wrap_angle(b.yaw - a.yaw)) / track.step);
+    }
+    top_speed_ += turn_rate * bounding_radius(footprint);
   }
-  return top;
+
+  [[nodiscard]] Pose at(double after) const { return pose_at(track_, now_ + after); }
+  [[nodiscard]] MotionBound bound(double, const Pose&) const { return {{}, top_speed_, 0.0}; }
+  [[nodiscard]] double top_speed() const { return top_speed_; }
+
+ private:
+  const Track& track_;
+  double now_;
+  double top_speed_ = 0.0;
+};
+
+/// How long two bodies surely stay apart: what closes their distance is the part of their relative
+/// velocity along the line between their nearest points, and what that may change to.
+double surely_apart(const Separation& separation, const MotionBound& a, const MotionBound& b) {
+  const Vec2 towards = (1.0 / separation.distance) * (separation.p_b_W - separation.p_a_W);
+  const double closing = dot(a.v_W - b.v_W, towards) + a.any_speed + b.any_speed;
+  const double change = a.acceleration + b.acceleration;
+  // distance = closing t + change t^2 / 2, written without the difference of like numbers.
+  const double root = closing + std::sqrt(closing * closing + 2.0 * change * separation.distance);
+  return root > 0.0 ? 2.0 * separation.distance / root : std::numeric_limits<double>::infinity();
 }
 
-/// Steps no longer than the bodies need to close their distance, and no shorter than 10 ms: nothing
-/// is jumped over. Turning moves a corner by at most radius x angle, which the reach adds.
-template <class ActorPose>
-std::optional<double> first_conflict(const Scene& scene, const Actor& actor, const EgoLine& ego,
-                                     ActorPose actor_pose, double actor_speed, double horizon,
-                                     double crossing_tolerance) {
-  expects(horizon > 0.0, "horizon > 0");
-  expects(crossing_tolerance >= 0.0, "tolerance >= 0");
-  const double tolerance = is_crossing(scene, actor) ? crossing_tolerance : 0.0;
-  // A body that turns at rate w also moves its far corner by w x radius: the ego on its arc, the
-  // actor by its measured rate.
-  const double corner_speed =
-      std::abs(scene.road.curvature) * ego.speed() * bounding_radius(scene.ego_footprint) +
-      std::abs(actor.yaw_rate) * bounding_radius(actor.footprint);
-  const double closing = ego.speed() + actor_speed + corner_speed;
-
-  // Distance of the ego at `t` from the ground that the actor covers within the tolerance.
-  const auto distance_at = [&](double t) {
-    const Pose X_WB = ego.at(t);
-    double nearest = std::numeric_limits<double>::max();
-    double when = std::max(0.0, t - tolerance);
-    while (true) {
-      const double distance =
-          separation(scene.ego_footprint, X_WB, actor.footprint, actor_pose(when)).distance;
-      nearest = std::min(nearest, distance);
-      if (nearest <= 0.0 || when >= t + tolerance) {
-        return nearest;
-      }
-      const double step = actor_speed > 0.0 ? distance / (actor_speed + corner_speed) : horizon;
-      when = std::min(t + tolerance, when + std::max(step, shortest_step));
-    }
-  };
-
+/// Steps as long as the bodies surely stay apart, and no shorter than 10 ms: nothing is jumped
+/// over.
+template <class Line>
+std::optional<double> first_collision(const Scene& scene, const Actor& actor, const EgoLine& ego,
+                                      const Line& line, double horizon) {
   double t = 0.0;
   while (t <= horizon) {
-    const double distance = distance_at(t);
-    if (distance <= 0.0) {
+    const Pose X_WB = ego.at(t);
+    const Pose X_WA = line.at(t);
+    const Separation now = separation(scene.ego_footprint, X_WB, actor.footprint, X_WA);
+    if (now.distance <= 0.0) {
       return t;
     }
-    if (closing <= 0.0) {
-      return std::nullopt;
-    }
-    t += std::max(distance / closing, shortest_step);
+    t += std::max(surely_apart(now, ego.bound(X_WB), line.bound(t, X_WA)), shortest_step);
   }
   return std::nullopt;
+}
+
+/// Distance that the ego at X_WB surely keeps from the ground that the actor covers from `begin` to
+/// `end`; 0 when it does not.
+template <class Line>
+double sure_distance(const Scene& scene, const Pose& X_WB, const Actor& actor, const Line& line,
+                     double begin, double end) {
+  double sure = std::numeric_limits<double>::infinity();
+  double t = begin;
+  while (true) {
+    const Pose X_WA = line.at(t);
+    const Separation now = separation(scene.ego_footprint, X_WB, actor.footprint, X_WA);
+    if (now.distance <= 0.0) {
+      return 0.0;
+    }
+    // In half the time for which they surely stay apart, no more than half of it is used up.
+    sure = std::min(sure, 0.5 * now.distance);
+    if (t >= end) {
+      return sure;
+    }
+    const double apart = surely_apart(now, {}, line.bound(t, X_WA));
+    t = std::min(end, t + std::max(0.5 * apart, shortest_step));
+  }
+}
+
+/// The same as `first_collision`, with the actor at any time within the tolerance.
+template <class Line>
+std::optional<double> first_crossing(const Scene& scene, const Actor& actor, const EgoLine& ego,
+                                     const Line& line, double horizon, double tolerance) {
+  const double closing = ego.top_speed() + line.top_speed();
+  double t = 0.0;
+  while (t <= horizon) {
+    const double sure =
+        sure_distance(scene, ego.at(t), actor, line, std::max(0.0, t - tolerance), t + tolerance);
+    if (sure <= 0.0) {
+      return t;
+    }
+    t += std::max(sure / closing, shortest_step);
+  }
+  return std::nullopt;
+}
+
+template <class Line>
+std::optional<double> first_conflict(const Scene& scene, const Actor& actor, const Line& line,
+                                     double horizon, double crossing_tolerance) {
+  expects(horizon > 0.0, "horizon > 0");
+  expects(crossing_tolerance >= 0.0, "tolerance >= 0");
+  const EgoLine ego(scene);
+  if (crossing_tolerance > 0.0 && is_crossing(scene, actor)) {
+    return first_crossing(scene, actor, ego, line, horizon, crossing_tolerance);
+  }
+  return first_collision(scene, actor, ego, line, horizon);
 }
 
 }  // namespace
@@ -164,16 +240,13 @@ std::optional<double> time_to_collision(const Scene& scene, const Actor& actor, 
 
 std::optional<double> time_to_conflict(const Scene& scene, const Actor& actor, const Track& track,
                                        double horizon, double tolerance) {
-  const auto pose = [&](double after) { return pose_at(track, scene.time + after); };
-  return first_conflict(scene, actor, EgoLine(scene), pose, top_speed(track), horizon, tolerance);
+  return first_conflict(scene, actor, TrackLine(track, scene.time, actor.footprint), horizon,
+                        tolerance);
 }
 
 std::optional<double> time_to_conflict(const Scene& scene, const Actor& actor, double horizon,
                                        double tolerance) {
-  const ActorLine line(actor);
-  const auto pose = [&](double after) { return line.at(after); };
-  return first_conflict(scene, actor, EgoLine(scene), pose, line.top_speed(horizon), horizon,
-                        tolerance);
+  return first_conflict(scene, actor, ActorLine(actor, horizon), horizon, tolerance);
 }
 
 }  // namespace saca::world

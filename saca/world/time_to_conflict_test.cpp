@@ -116,15 +116,22 @@ TEST(TimeToConflict, IsTheSameInEveryWorldFrameAndMirrored) {
   }
 }
 
-// Oracle: every pair of 10 ms instants.
+// Oracle: every pair of 10 ms instants; on bends, with actors that turn, brake and speed up.
 TEST(TimeToConflict, AgreesWithLookingAtEveryInstant) {
   std::mt19937 rng(6);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   constexpr double horizon = 3.0;
-  for (int i = 0; i < 40; ++i) {
-    const Scene scene = ego_at(15.0);
-    const Actor actor = car_at({25.0 + 10.0 * u(rng), 12.0 * u(rng)}, {8.0 * u(rng), 8.0 * u(rng)});
-    const double tolerance = i % 2 == 0 ? 0.0 : 0.3;
+  int num_conflicts = 0;
+  for (int i = 0; i < 300; ++i) {
+    Scene scene = ego_at(15.0);
+    scene.road.curvature = i % 3 == 0 ? 0.0 : 0.02 * u(rng);
+    Actor actor = car_at({25.0 + 10.0 * u(rng), 12.0 * u(rng)}, {8.0 * u(rng), 8.0 * u(rng)});
+    if (i % 2 == 1) {
+      actor.yaw_rate = 0.5 * u(rng);
+      actor.a_W = 3.0 * u(rng) * actor.v_W;
+      actor.X_WA.yaw += 0.2 * u(rng);
+    }
+    const double tolerance = i % 4 < 2 ? 0.0 : 0.3;
     double expected = -1.0;
     const int window =
         is_crossing(scene, actor) ? static_cast<int>(std::lround(tolerance / 0.01)) : 0;
@@ -138,9 +145,11 @@ TEST(TimeToConflict, AgreesWithLookingAtEveryInstant) {
         }
       }
     }
+    num_conflicts += expected >= 0.0 ? 1 : 0;
     EXPECT_NEAR(time_to_conflict(scene, actor, horizon, tolerance).value_or(-1.0), expected, 0.0201)
         << "encounter " << i;
   }
+  EXPECT_GT(num_conflicts, 60);
 }
 
 TEST(TimeToConflict, ATrackAndItsOwnMotionAgree) {
