@@ -50,8 +50,4 @@ bool better(const Outcome& a, PolicyId policy_a, const Outcome& b, PolicyId poli
   return key(a, policy_a) < key(b, policy_b);
 }
 
-bool strictly_less_harm(const Outcome& a, const Outcome& b) {
-  return harm_class(a) < harm_class(b);
-}
-
 }  // namespace saca::outcome

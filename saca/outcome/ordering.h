@@ -30,7 +30,4 @@ constexpr double harm_tie = 1e-4;
 [[nodiscard]] bool better(const Outcome& a, manoeuvre::PolicyId policy_a, const Outcome& b,
                           manoeuvre::PolicyId policy_b);
 
-/// Is the harm of `a` of a lower class than that of `b`, whatever the policies?
-[[nodiscard]] bool strictly_less_harm(const Outcome& a, const Outcome& b);
-
 }  // namespace saca::outcome

@@ -55,12 +55,6 @@ TEST(Better, AmongEqualsPrefersTheWiderBerth) {
       better(outcome(0.0, 1.2), PolicyId::aes_left, outcome(0.0, 1.2001), PolicyId::aes_right));
 }
 
-TEST(StrictlyLessHarm, LooksAtHarmAlone) {
-  EXPECT_TRUE(strictly_less_harm(outcome(0.01, 0.0), outcome(0.02, 9.0)));
-  EXPECT_FALSE(strictly_less_harm(outcome(0.01), outcome(0.01)));
-  EXPECT_FALSE(strictly_less_harm(outcome(0.0), outcome(4e-5)));
-}
-
 // Property: a strict weak order, so that sorting and searching for the best are well defined.
 TEST(Better, IsAStrictWeakOrder) {
   std::mt19937 rng(1);
@@ -97,7 +91,8 @@ TEST(Better, RefusesWhatIsNoHarm) {
   for (const double bad : {nan, -0.1, std::numeric_limits<double>::infinity()}) {
     EXPECT_THROW((void)better(outcome(bad), PolicyId::aeb, outcome(0.0), PolicyId::aeb),
                  ContractViolation);
-    EXPECT_THROW((void)strictly_less_harm(outcome(0.0), outcome(bad)), ContractViolation);
+    EXPECT_THROW((void)better(outcome(0.0), PolicyId::aeb, outcome(bad), PolicyId::aeb),
+                 ContractViolation);
   }
   EXPECT_THROW((void)better(outcome(0.0, nan), PolicyId::aeb, outcome(0.0), PolicyId::aeb),
                ContractViolation);
