@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <deque>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "saca/core/latest_slot.h"
 #include "saca/core/names.h"
 #include "saca/decide/thinking_plane.h"
+#include "saca/loop/charged_thinking.h"
 #include "saca/loop/thinking_thread.h"
 #include "saca/loop/witness.h"
 #include "saca/manoeuvre/controller.h"
@@ -44,44 +44,6 @@ std::string policy_text(const manoeuvre::Plan& plan) {
   return text;
 }
 
-/// Thinking in pace `lockstep`: on the same thread, its results held back until their time.
-class ChargedThinking {
- public:
-  ChargedThinking(const Setup& setup, ManualClock& clock) : setup_(setup), clock_(clock) {}
-
-  /// Thinks about the scene unless the last round is still being charged.
-  void think(decide::ThinkingPlane& plane, const Scene& scene) {
-    if (scene.time < free_at_) {
-      return;
-    }
-    clock_.wait_until(from_seconds(scene.time + setup_.costs.preview));
-    if (plane.think(scene, from_seconds(scene.time))) {
-      free_at_ = std::max(free_at_, scene.time + std::max(setup_.costs.preview, shortest_round));
-    }
-  }
-  void publish(const decide::PlanCache& plans, double ready) {
-    waiting_.emplace_back(ready, plans);
-    free_at_ = std::max(free_at_, ready);
-  }
-  /// The newest plans that are ready by now.
-  std::optional<decide::PlanCache> take(double now) {
-    std::optional<decide::PlanCache> newest;
-    while (!waiting_.empty() && waiting_.front().first <= now) {
-      newest = waiting_.front().second;
-      waiting_.pop_front();
-    }
-    return newest;
-  }
-
- private:
-  static constexpr double shortest_round = 0.2;  // [s], as the thinking thread's breath
-
-  const Setup& setup_;
-  ManualClock& clock_;
-  std::deque<std::pair<double, decide::PlanCache>> waiting_;
-  double free_at_ = 0.0;
-};
-
 /// One encounter under way.
 class Encounter {
  public:
@@ -92,7 +54,7 @@ class Encounter {
                            ? nullptr
                            : std::make_unique<ChargedModel>(*setup.model, setup.costs, *setup.clock,
                                                             simulated_clock_)),
-        charged_(setup, simulated_clock_),
+        charged_(setup.costs.preview, simulated_clock_),
         stepper_(*setup.scenario, *setup.car),
         witness_(*setup.harm),
         reflex_(setup.thresholds, forced_plan(setup)),
@@ -433,6 +395,7 @@ void Encounter::learn() {
     record_.stored = id.value();
     tell(Plane::thinking, EventKind::memory, fmt::format("stored as case {}", id.value()));
   } else {
+    record_.not_stored = id.error();
     tell(Plane::thinking, EventKind::fault, "memory: " + id.error().message);
   }
 }

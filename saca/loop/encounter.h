@@ -86,6 +86,7 @@ struct Record {
   std::optional<outcome::Outcome> driver;   ///< what the recorded driver's own motion led to
   std::vector<world::Actor> met_by_driver;  ///< the actors that driver->contact counts in
   std::optional<memory::CaseId> stored;     ///< the case that memory learnt
+  std::optional<Error> not_stored;          ///< why memory could not learn it
   ReflexTiming reflex;
   int deadline_misses = 0;
 };

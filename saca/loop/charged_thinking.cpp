@@ -1,0 +1,32 @@
+#include "saca/loop/charged_thinking.h"
+
+#include <algorithm>
+
+namespace saca::loop {
+
+void ChargedThinking::think(decide::ThinkingPlane& plane, const world::Scene& scene) {
+  if (scene.time < free_at_) {
+    return;
+  }
+  constexpr double shortest_round = 0.2;  // [s], as the thinking thread's breath
+  clock_.wait_until(from_seconds(scene.time + round_));
+  if (plane.think(scene, from_seconds(scene.time))) {
+    free_at_ = std::max(free_at_, scene.time + std::max(round_, shortest_round));
+  }
+}
+
+void ChargedThinking::publish(const decide::PlanCache& plans, double ready) {
+  waiting_.emplace_back(ready, plans);
+  free_at_ = std::max(free_at_, ready);
+}
+
+std::optional<decide::PlanCache> ChargedThinking::take(double now) {
+  std::optional<decide::PlanCache> newest;
+  while (!waiting_.empty() && waiting_.front().first <= now) {
+    newest = waiting_.front().second;
+    waiting_.pop_front();
+  }
+  return newest;
+}
+
+}  // namespace saca::loop

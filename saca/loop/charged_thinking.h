@@ -1,0 +1,37 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <utility>
+
+#include "saca/core/clock.h"
+#include "saca/decide/plan_cache.h"
+#include "saca/decide/thinking_plane.h"
+
+namespace saca::loop {
+
+/// Thinking in pace `lockstep`: on the same thread, its plans held back until the simulated time at
+/// which they would have been ready.
+class ChargedThinking {
+ public:
+  /// @param round  what forecasts and rollouts of one round cost [s], >= 0
+  /// @param clock  simulated; moved to the time at which the forecasts are made
+  ChargedThinking(double round, ManualClock& clock) : round_(round), clock_(clock) {}
+
+  /// Thinks about the scene unless the last round is still being charged.
+  void think(decide::ThinkingPlane& plane, const world::Scene& scene);
+
+  /// For `decide::ThinkingOutput`: plans that are ready at `ready` [s].
+  void publish(const decide::PlanCache& plans, double ready);
+
+  /// The newest plans that are ready at `now` [s] and have not been taken.
+  [[nodiscard]] std::optional<decide::PlanCache> take(double now);
+
+ private:
+  double round_;
+  ManualClock& clock_;
+  std::deque<std::pair<double, decide::PlanCache>> waiting_;
+  double free_at_ = 0.0;
+};
+
+}  // namespace saca::loop

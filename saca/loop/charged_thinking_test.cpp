@@ -1,0 +1,64 @@
+#include "saca/loop/charged_thinking.h"
+
+#include <gtest/gtest.h>
+
+#include "saca/manoeuvre/ego.h"
+#include "saca/vehicle/parameters.h"
+
+namespace saca::loop {
+namespace {
+
+decide::PlanCache plans(std::size_t count) {
+  decide::PlanCache cache;
+  while (cache.size() < count) {
+    cache.push_back({});
+  }
+  return cache;
+}
+
+TEST(ChargedThinking, HoldsPlansBackUntilTheyAreReady) {
+  ManualClock clock;
+  ChargedThinking thinking(0.1, clock);
+  EXPECT_FALSE(thinking.take(10.0).has_value());
+  thinking.publish(plans(1), 1.0);
+  thinking.publish(plans(2), 2.0);
+  thinking.publish(plans(3), 3.0);
+  EXPECT_FALSE(thinking.take(0.99).has_value());
+  EXPECT_EQ(thinking.take(2.5).value().size(), 2U);  // the newest; what it replaced is gone
+  EXPECT_FALSE(thinking.take(2.5).has_value());
+  EXPECT_EQ(thinking.take(3.0).value().size(), 3U);
+}
+
+TEST(ChargedThinking, StartsNoRoundBeforeTheLastOneIsPaidFor) {
+  const auto car = vehicle::read_vehicle("data/vehicles/compact_rwd_ev.toml").value();
+  const auto harm = outcome::read_harm("data/harm.toml").value();
+  ManualClock clock;
+  ChargedThinking thinking(0.5, clock);
+  decide::ThinkingPlane plane({.car = &car, .harm = &harm, .clock = &clock}, {},
+                              {.publish = [&](const decide::PlanCache& cache,
+                                              double ready) { thinking.publish(cache, ready); },
+                               .event = [](const decide::Event&) {},
+                               .reasoning = [](std::int32_t, std::string_view) {}});
+  world::Scene scene;
+  scene.ego.v_B = {20.0, 0.0};
+  scene.ego_footprint = manoeuvre::footprint(car);
+  scene.ego_mass = car.mass;
+  world::Actor wreck{.id = 1, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1'500.0};
+  wreck.X_WA.p = {80.0, 0.0};
+  scene.actors.push_back(wreck);
+
+  scene.time = 1.0;
+  thinking.think(plane, scene);
+  EXPECT_EQ(clock.now(), from_seconds(1.5));
+  EXPECT_FALSE(thinking.take(1.49).has_value());
+  scene.time = 1.3;
+  thinking.think(plane, scene);
+  EXPECT_EQ(clock.now(), from_seconds(1.5));  // still being charged
+  EXPECT_TRUE(thinking.take(1.5).has_value());
+  scene.time = 1.6;
+  thinking.think(plane, scene);
+  EXPECT_EQ(clock.now(), from_seconds(2.1));
+}
+
+}  // namespace
+}  // namespace saca::loop

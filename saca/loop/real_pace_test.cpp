@@ -1,0 +1,104 @@
+// The whole loop in real time, both planes on their threads: run under the thread sanitiser.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <mutex>
+
+#include "saca/loop/encounter.h"
+#include "saca/vehicle/parameters.h"
+
+namespace saca::loop {
+namespace {
+
+using manoeuvre::PolicyId;
+
+/// Writes its reasoning for 0.2 s, then says AES-L.
+class SlowModel final : public reason::LanguageModel {
+ public:
+  explicit SlowModel(Clock& clock) : clock_(clock) {}
+  Result<std::vector<reason::Reply>> ask(
+      const std::vector<std::string>& scenes, Clock::Time,
+      const std::function<void(const reason::Progress&)>& progress) override {
+    for (int word = 0; word < 4; ++word) {
+      clock_.wait_until(clock_.now() + from_seconds(0.05));
+      for (std::size_t i = 0; i < scenes.size(); ++i) {
+        progress({.prompt = i, .text = "left "});
+      }
+    }
+    reason::Answer answer{.time = clock_.now()};
+    answer.probability[manoeuvre::index(PolicyId::aes_left)] = 1.0;
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      progress({.prompt = i, .text = {}, .answer = &answer});
+    }
+    reason::Reply reply{.reasoning = "left left left left "};
+    reply.answers.push_back(answer);
+    return std::vector<reason::Reply>(scenes.size(), reply);
+  }
+  [[nodiscard]] std::string description() const override { return "slow"; }
+
+ private:
+  Clock& clock_;
+};
+
+/// Called by both threads.
+class Story final : public Listener {
+ public:
+  void on_event(const decide::Event& event) override {
+    const std::lock_guard guard(lock_);
+    events_.push_back(event);
+  }
+  void on_reasoning(std::int32_t, std::string_view text) override {
+    const std::lock_guard guard(lock_);
+    reasoning_ += text;
+  }
+  std::vector<decide::Event> events_;
+  std::string reasoning_;
+
+ private:
+  std::mutex lock_;
+};
+
+TEST(RealPace, TheModelsPlanIsReadyInTimeAndCarriedOut) {
+  const auto car = vehicle::read_vehicle("data/vehicles/compact_rwd_ev.toml").value();
+  const auto harm = outcome::read_harm("data/harm.toml").value();
+  // A wreck on a wet road, 80 m ahead of the ego's centre at 20 m/s: contact after 3.8 s, so T1 at
+  // 2.5 s. Braking is not enough.
+  sim::Scenario scenario{
+      .name = "wreck", .title = "A wreck", .car = "", .grip = 0.5, .duration = 7.0};
+  scenario.road.left_edge = 5.25;
+  scenario.road.right_edge = -5.25;
+  scenario.ego = sim::EgoStart{.pose = {}, .speed = 20.0};
+  scenario.actors.push_back({.id = 1,
+                             .footprint = {.length = 4.5, .width = 1.8},
+                             .mass = 1'500.0,
+                             .motion = sim::Script{.start = {.s = 80.0}}});
+  SteadyClock clock;
+  SlowModel model(clock);
+  Story story;
+  const Clock::Time start = clock.now();
+  const auto played = run({.scenario = &scenario,
+                           .car = &car,
+                           .harm = &harm,
+                           .pace = Pace::real,
+                           .model = &model,
+                           .clock = &clock},
+                          story);
+  ASSERT_TRUE(played.has_value()) << played.error().message;
+  const Record& record = played.value();
+  ASSERT_TRUE(record.decision.has_value());
+  EXPECT_EQ(record.decision->source, decide::Source::model) << decision_text(*record.decision);
+  EXPECT_EQ(record.decision->plan.policy, PolicyId::aes_left);
+  EXPECT_EQ(record.result.harm, 0.0);
+  EXPECT_EQ(record.deadline_misses, 0);
+  EXPECT_GE(to_seconds(clock.now() - start),
+            record.frames.back().scene.time);  // not faster than real
+  EXPECT_EQ(story.reasoning_.substr(0, 5), "left ");
+  EXPECT_EQ(story.events_.size(), record.events.size());
+  EXPECT_TRUE(std::is_sorted(
+      record.events.begin(), record.events.end(),
+      [](const decide::Event& a, const decide::Event& b) { return a.time < b.time; }));
+}
+
+}  // namespace
+}  // namespace saca::loop
