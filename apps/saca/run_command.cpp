@@ -164,6 +164,9 @@ int run(const RunOptions& options) {
   if (!problem) {
     problem = model.value().save_replies();
   }
+  if (!problem) {
+    problem = record.value().not_stored;
+  }
   if (options.as_json) {
     fmt::print("{}\n", text);
   } else {

@@ -174,6 +174,27 @@ def test_a_damaged_memory_is_told_and_kept(tmp_path):
     assert file.read_bytes() == before
 
 
+def test_a_memory_that_may_only_be_read_is_used_and_the_lost_case_told(tmp_path):
+    quick("100car_8676", "--memory", "memory.sqlite", cwd=tmp_path)
+    file = tmp_path / "memory.sqlite"
+    file.chmod(0o444)
+    before = file.read_bytes()
+    as_user = {}
+    if os.geteuid() == 0:  # whom no mode stops
+        as_user = {"user": 65534, "group": 65534, "extra_groups": []}
+        os.chown(tmp_path, 65534, 65534)
+        for folder in tmp_path.parents:
+            if folder.name.startswith("pytest-"):
+                folder.chmod(0o711)  # to pass through
+        shutil.rmtree(tmp_path / "runs")
+    run = quick("100car_8676", "--memory", "memory.sqlite", cwd=tmp_path, **as_user)
+    assert "memory.sqlite" in one_error(run, CANNOT_WRITE)
+    assert file.read_bytes() == before
+    record = json.loads((tmp_path / "runs/100car_8676/record.json").read_text())
+    assert record["decision"]["source"] == "memory"  # it was read
+    assert any(event["kind"] == "fault" and "memory.sqlite" in event["text"] for event in record["events"])
+
+
 def test_a_full_disk_leaves_no_half_written_file(tmp_path):
     def small_files():
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
