@@ -48,8 +48,8 @@ class LanguageModel {
   LanguageModel& operator=(const LanguageModel&) = delete;
   virtual ~LanguageModel() = default;
 
-  /// Asks about several scenes at once, all done by `deadline`. Each answer is told by `progress` as
-  /// soon as it is there.
+  /// Asks about several scenes at once, all done by `deadline`. Each answer is told by `progress`
+  /// as soon as it is there.
   ///
   /// @param scenes    scene parts of the prompt, at most three; the system part is fixed
   /// @param deadline  on the model's clock; the call returns before it, whatever the model does
