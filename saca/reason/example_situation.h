@@ -57,8 +57,10 @@ inline preview::Situation example_situation() {
   preview::PolicyFacts& aeb = situation.facts[manoeuvre::index(manoeuvre::PolicyId::aeb)];
   aeb.outcome = {};
   aeb.outcome.clearance = 0.62;
-  situation.facts[manoeuvre::index(manoeuvre::PolicyId::t_drift_left)].refusal = "too new";
-  situation.facts[manoeuvre::index(manoeuvre::PolicyId::t_drift_right)].refusal = "too new";
+  situation.facts[manoeuvre::index(manoeuvre::PolicyId::t_drift_left)].refusal =
+      "the road is too slippery";
+  situation.facts[manoeuvre::index(manoeuvre::PolicyId::t_drift_right)].refusal =
+      "the road is too slippery";
   return situation;
 }
 

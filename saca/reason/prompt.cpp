@@ -155,13 +155,19 @@ std::string manoeuvre_section(const preview::Situation& situation) {
   return refused.empty() ? text : text + "Not possible: " + refused + '\n';
 }
 
+// Zeros are digits, and each digit is a token to be read.
+std::string harm_text(double harm) {
+  constexpr double smallest = 0.5e-4;
+  return harm < smallest ? "no harm" : fmt::format("harm {:.4f}", harm);
+}
+
 // The case's own texts are not told: they come from a file.
 std::string history_section(const std::optional<memory::Case>& nearest, double similarity) {
   if (!nearest) {
     return "## HISTORICAL SCENARIOS:\nNo historical data is available.\n";
   }
   const auto told = [](PolicyId policy, double harm) {
-    return fmt::format("{} {}, harm {:.4f}", manoeuvre::index(policy), name(policy), harm);
+    return fmt::format("{} {}, {}", manoeuvre::index(policy), name(policy), harm_text(harm));
   };
   return fmt::format(
       "## HISTORICAL SCENARIOS:\nA case {:.0f} % alike: carried out {}; best in hindsight {}\n",
@@ -224,8 +230,8 @@ std::string policy_line(const preview::PolicyFacts& facts, const world::Scene& s
   }
   const bool oncoming = (side(policy) > 0 && scene.road.oncoming_left) ||
                         (side(policy) < 0 && scene.road.oncoming_right);
-  return fmt::format("{}{}, harm {:.4f}{}", label, outcome::describe(facts.outcome, scene),
-                     facts.outcome.harm, oncoming ? ", oncoming lane" : "");
+  return fmt::format("{}{}, {}{}", label, outcome::describe(facts.outcome, scene),
+                     harm_text(facts.outcome.harm), oncoming ? ", oncoming lane" : "");
 }
 
 }  // namespace saca::reason

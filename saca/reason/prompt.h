@@ -26,7 +26,7 @@ namespace saca::reason {
 [[nodiscard]] std::string scene_part(const preview::Situation& situation,
                                      const std::optional<memory::Case>& nearest, double similarity);
 
-/// What a policy is forecast to end in, in one line: "0 AEB: clear by 0.6 m, harm 0.0000". Used
+/// What a policy is forecast to end in, in one line: "0 AEB: clear by 0.6 m, no harm". Used
 /// by prompt, terminal and report alike.
 [[nodiscard]] std::string policy_line(const preview::PolicyFacts& facts, const world::Scene& scene);
 

@@ -45,7 +45,7 @@ TEST(Prompt, PapersIntersectionIsTold) {
 
 TEST(Prompt, ForecastOfEachPolicyIsTold) {
   const std::string text = prompt(example_situation());
-  EXPECT_THAT(text, HasSubstr("\n0 AEB: clear by 0.6 m, harm 0.0000\n"));
+  EXPECT_THAT(text, HasSubstr("\n0 AEB: clear by 0.6 m, no harm\n"));
   EXPECT_THAT(text, HasSubstr("\n1 AES-L: hits truck1 with its front at 9.0 m/s, harm 0.0125\n"));
   EXPECT_THAT(text, HasSubstr("\n7 NI: hits truck1 with its front at 15.0 m/s, harm 0.0125\n"));
   EXPECT_THAT(text, HasSubstr("Not possible: T-D-L, T-D-R\n"));
@@ -64,7 +64,7 @@ TEST(Prompt, OncomingLaneIsTold) {
 TEST(Prompt, PolicyLineSaysWhyItIsNotPossible) {
   const preview::Situation situation = example_situation();
   EXPECT_EQ(policy_line(situation.facts[5], situation.scene_at_trigger),
-            "5 T-D-L: not possible: too new");
+            "5 T-D-L: not possible: the road is too slippery");
 }
 
 // What the model reads is what the ego sees: the world's frame is nowhere in it.
@@ -122,7 +122,7 @@ TEST(Prompt, NearestCaseIsToldInNumbersOnly) {
   const std::string text = scene_part(example_situation(), nearest, 0.654);
   EXPECT_THAT(text,
               HasSubstr("A case 65 % alike: carried out 0 AEB, harm 0.0321; best in hindsight 3 "
-                        "ES-B-L, harm 0.0000\n"));
+                        "ES-B-L, no harm\n"));
   EXPECT_THAT(text, Not(HasSubstr("ignore")));
   EXPECT_THAT(text, Not(HasSubstr("<|")));
 }
