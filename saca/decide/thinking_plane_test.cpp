@@ -134,7 +134,10 @@ TEST_F(Thinking, NeverCachesWhatFailsTheCheck) {
 TEST_F(Thinking, NeverCachesWhatCannotBeDriven) {
   FixedModel model(PolicyId::t_drift_right, clock_);
   ThinkingPlane thinking = plane(&model);
-  thinking.think(wreck_ahead(), clock_.now());
+  world::Scene scene = wreck_ahead();
+  scene.grip = 0.25;
+  thinking.think(scene, clock_.now());
+  EXPECT_FALSE(thinking.previews()[0].situation.facts[6].refusal.empty());
   EXPECT_FALSE(thinking.previews()[0].plan.has_value());
 }
 

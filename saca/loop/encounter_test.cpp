@@ -149,7 +149,8 @@ TEST_F(EncounterTest, TheUserCanAskForAPolicy) {
 }
 
 TEST_F(EncounterTest, WhatCannotBeDrivenBecomesBraking) {
-  const auto scenario = wreck_on_wet_road();
+  auto scenario = wreck_on_wet_road();
+  scenario.grip = 0.25;
   const Record record = play(scenario, nullptr, nullptr, PolicyId::t_drift_left).value();
   EXPECT_EQ(record.decision->plan.policy, PolicyId::aeb);
   EXPECT_EQ(record.decision->source, Source::fallback);

@@ -41,8 +41,12 @@ TEST(Hindsight, KnowsWhatEachPolicyWouldHaveDone) {
   scene.grip = 0.9;
   EXPECT_FALSE(hindsight(scene, tracks, 0.9, car, harm)[manoeuvre::index(PolicyId::aeb)]
                    .facts.outcome.contact.has_value());
-  EXPECT_TRUE(of(PolicyId::t_drift_left).motion.track.X_WA.empty());
-  EXPECT_FALSE(of(PolicyId::t_drift_left).facts.refusal.empty());
+  // A drift cannot be driven where the road is slippery enough.
+  scene.grip = 0.25;
+  const auto slippery = hindsight(scene, tracks, 0.25, car, harm);
+  const Hindsight& drift = slippery[manoeuvre::index(PolicyId::t_drift_left)];
+  EXPECT_TRUE(drift.motion.track.X_WA.empty());
+  EXPECT_FALSE(drift.facts.refusal.empty());
 }
 
 }  // namespace

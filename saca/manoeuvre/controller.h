@@ -2,6 +2,7 @@
 
 #include <type_traits>
 
+#include "saca/manoeuvre/drift.h"
 #include "saca/manoeuvre/lane_shift.h"
 #include "saca/manoeuvre/plan.h"
 #include "saca/vehicle/abs.h"
@@ -19,6 +20,7 @@ struct ControllerState {
   double speed = 0.0;  ///< to keep [m/s]: the initial one, or the plan's target
   vehicle::AbsState abs;
   double recovered_for = 0.0;  ///< how long lane, direction and speed have been right [s]
+  DriftState drift;
 };
 static_assert(std::is_trivially_copyable_v<ControllerState>);
 
@@ -34,7 +36,8 @@ static_assert(std::is_trivially_copyable_v<ControllerState>);
 ///
 /// Path: the force of the front wheels moves the point that rear forces cannot accelerate (the
 /// centre of percussion) along a LaneShift; an inverse tyre model turns force into a steering
-/// angle. Speed: anti-lock braking with what the path leaves of the grip, or the motor.
+/// angle. Speed: anti-lock braking with what the path leaves of the grip, or the motor. Policies 5
+/// and 6 have no path: see DriftLaw.
 /// Allocates nothing, never throws; a state that is not finite gets full braking straight ahead.
 ///
 /// Source of the point: K. Kritayakirana, J. C. Gerdes, Using the centre of percussion to design a
@@ -44,7 +47,7 @@ static_assert(std::is_trivially_copyable_v<ControllerState>);
                                        const vehicle::VehicleState& state, ControllerState& memory,
                                        double dt) noexcept;
 
-/// Whether the manoeuvre has reached its safe end: at rest for policy 0 (and 3, 4 with target 0);
+/// Whether the manoeuvre has reached its safe end: at rest for 0, 5 and 6 (3, 4 with target 0);
 /// for the others with a lane change: lane offset within 0.2 m, direction within 2 degrees and
 /// speed within 1 m/s of the wanted ones for 0.2 s, from where `control` keeps the lane at that
 /// speed. No intervention never ends.

@@ -115,7 +115,7 @@ TEST_F(Controller, BrakesHardAndStraightWhenItsSensorsFail) {
 }
 
 TEST_F(Controller, RefusesToBeginWhatCannotBeDriven) {
-  EXPECT_THROW((void)begin(car_, {PolicyId::t_drift_left, {}}, scene_at(14.0, 0.9)),
+  EXPECT_THROW((void)begin(car_, {PolicyId::t_drift_left, {}}, scene_at(9.0, 0.9)),
                ContractViolation);
 }
 

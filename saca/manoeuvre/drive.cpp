@@ -41,9 +41,11 @@ std::optional<std::string> wrong_motion(const Plan& plan, const world::EgoState&
       !is_finite(ego.a_B)) {
     return "the ego's state is not finite";
   }
-  if (!always_possible(plan.policy) && !(ego.v_B.x >= 5.0 && ego.v_B.x <= 25.0)) {
-    return std::string(name(plan.policy)) +
-           with_number(" needs a speed of 5 to 25 m/s ahead, is %.2f", ego.v_B.x);
+  // Slower than that a car is at rest before it has turned.
+  const double slowest = drifts(plan.policy) ? 10.0 : 5.0;
+  if (!always_possible(plan.policy) && !(ego.v_B.x >= slowest && ego.v_B.x <= 25.0)) {
+    return std::string(name(plan.policy)) + with_number(" needs a speed of %.0f", slowest) +
+           with_number(" to 25 m/s ahead, is %.2f", ego.v_B.x);
   }
   return std::nullopt;
 }
@@ -70,9 +72,6 @@ std::optional<std::string> wrong_road(const Plan& plan, const world::Scene& scen
 std::optional<std::string> refusal(const Plan& plan, const world::Scene& scene) {
   if (index(plan.policy) >= num_policies) {
     return "no such policy";
-  }
-  if (plan.policy == PolicyId::t_drift_left || plan.policy == PolicyId::t_drift_right) {
-    return std::string(name(plan.policy)) + " is not built yet: it needs tuned drift tables";
   }
   if (auto problem = wrong_target(plan)) {
     return problem;

@@ -13,9 +13,10 @@ namespace saca::manoeuvre {
 
 /// Why a plan cannot be driven from here; nullopt when it can.
 ///
-/// Domain: lane changes at 5 to 25 m/s, grip 0.3 to 1.0, lanes 2 to 6 m wide, in bends that take at
-/// most half of the grip. Braking and no intervention are possible from any finite state: they are
-/// what is left when all else is refused. Outside the domain their figures are not claimed.
+/// Domain: lane changes at 5 to 25 m/s and drifts at 10 to 25 m/s, grip 0.3 to 1.0, lanes 2 to 6 m
+/// wide, in bends that take at most half of the grip. Braking and no intervention are possible from
+/// any finite state: they are what is left when all else is refused. Outside the domain their
+/// figures are not claimed.
 [[nodiscard]] std::optional<std::string> refusal(const Plan& plan, const world::Scene& scene);
 
 /// How the ego moves: poses of B at equal steps and, with them, velocity and turning.

@@ -204,8 +204,10 @@ TEST(Refusal, NamesWhatIsWrong) {
   };
   const Plan swerve{PolicyId::aes_left, {}};
   EXPECT_EQ(why(swerve, 14.0, 0.9), "none");
-  EXPECT_THAT(why({PolicyId::t_drift_left, {}}, 14.0, 0.9), HasSubstr("T-D-L is not built yet"));
-  EXPECT_THAT(why({PolicyId::t_drift_right, {}}, 14.0, 0.9), HasSubstr("T-D-R"));
+  EXPECT_EQ(why({PolicyId::t_drift_left, {}}, 10.0, 0.9), "none");
+  EXPECT_THAT(why({PolicyId::t_drift_left, {}}, 9.9, 0.9),
+              HasSubstr("10 to 25 m/s ahead, is 9.90"));
+  EXPECT_THAT(why({PolicyId::t_drift_right, {}}, 14.0, 0.29), HasSubstr("T-D-R"));
   EXPECT_THAT(why(swerve, 4.9, 0.9), HasSubstr("5 to 25 m/s"));
   EXPECT_THAT(why(swerve, 25.1, 0.9), HasSubstr("25.10"));
   EXPECT_THAT(why(swerve, nan, 0.9), HasSubstr("not finite"));
@@ -239,7 +241,7 @@ TEST(Refusal, OfALaneChangeInATightBend) {
 }
 
 TEST(Drive, RefusesWhatCannotBeDriven) {
-  EXPECT_THROW((void)drive(car(), {PolicyId::t_drift_left, {}}, scene_at(14.0, 0.9), 0.9, 5.0),
+  EXPECT_THROW((void)drive(car(), {PolicyId::t_drift_left, {}}, scene_at(9.0, 0.9), 0.9, 5.0),
                ContractViolation);
   EXPECT_THROW((void)drive(car(), {PolicyId::aeb, {}}, scene_at(14.0, 0.9), 0.0, 5.0),
                ContractViolation);

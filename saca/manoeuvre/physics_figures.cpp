@@ -9,6 +9,7 @@
 #include "saca/core/contract.h"
 #include "saca/core/units.h"
 #include "saca/manoeuvre/controller.h"
+#include "saca/manoeuvre/drive.h"
 #include "saca/manoeuvre/ego.h"
 
 namespace saca::manoeuvre {
@@ -42,6 +43,12 @@ struct SpeedReference {
 constexpr std::array<SpeedReference, 3> settled_references{{{10, 1.47}, {14, 1.35}, {20, 1.45}}};
 // Given as 0.91 to 0.87 s over 10 to 15 m/s; the ends are taken as they stand.
 constexpr std::array<SpeedReference, 2> side_references{{{10, 0.91}, {15, 0.87}}};
+
+struct DriftReference {
+  double speed, time, forward;
+};
+constexpr std::array<DriftReference, 4> drift_references{
+    {{10, 1.58, 7.6}, {12, 1.74, 10.2}, {14, 1.93, 13.5}, {16, 2.21, 17.7}}};
 
 std::string with_condition(const char* quantity, double speed, double grip) {
   std::array<char, 120> text{};
@@ -101,6 +108,21 @@ void add_lane_changes(const Vehicle& car, std::vector<Figure>& figures) {
   }
 }
 
+void add_drifts(const Vehicle& car, std::vector<Figure>& figures) {
+  constexpr double grip = 0.9;
+  for (const auto& [speed, time, forward] : drift_references) {
+    const DriftStop stop = drift_to_rest(car, speed, grip);
+    figures.push_back(
+        {with_condition("t_drift.stop_time_s", speed, grip), stop.time, time, 0.0, 1.15 * time});
+    figures.push_back({with_condition("t_drift.forward_m", speed, grip), stop.forward, forward, 0.0,
+                       forward + 1.0});
+    figures.push_back(
+        {with_condition("t_drift.sideways_m", speed, grip), stop.sideways, 1.65, 0.0, 2.2});
+    figures.push_back({with_condition("t_drift.heading_deg", speed, grip), to_degrees(stop.heading),
+                       90.0, 85.0, 95.0});
+  }
+}
+
 }  // namespace
 
 bool in_band(const Figure& figure) {
@@ -150,6 +172,17 @@ LaneChange change_lane(const Vehicle& car, double speed, double grip) {
   return change;
 }
 
+DriftStop drift_to_rest(const Vehicle& car, double speed, double grip) {
+  constexpr double longest = 20.0;  // [s]
+  const EgoMotion motion = drive(car, {PolicyId::t_drift_left, std::nullopt},
+                                 straight_scene(speed, grip), grip, longest);
+  const Pose& X_WB = motion.track.X_WA.back();
+  return {.time = world::end_time(motion.track),
+          .forward = X_WB.p.x,
+          .sideways = X_WB.p.y,
+          .heading = X_WB.yaw};
+}
+
 IntegrationError integration_error(const Vehicle& car) {
   constexpr int num_steps = 2'000;
   const world::Scene scene = straight_scene(14.0, 0.9);
@@ -169,6 +202,7 @@ std::vector<Figure> physics_figures(const Vehicle& car) {
   std::vector<Figure> figures;
   add_stops(car, figures);
   add_lane_changes(car, figures);
+  add_drifts(car, figures);
   const IntegrationError error = integration_error(car);
   figures.push_back({"physics.rk4.position_error_m", error.position, std::nullopt, 0.0, 0.008});
   figures.push_back(

@@ -39,6 +39,17 @@ struct LaneChange {
 };
 [[nodiscard]] LaneChange change_lane(const vehicle::Vehicle& car, double speed, double grip);
 
+/// A T-drift to the left on a straight road, to rest: policy 5.
+struct DriftStop {
+  double time = 0.0;      ///< [s]
+  double forward = 0.0;   ///< travel of the centre of mass along the lane [m]
+  double sideways = 0.0;  ///< likewise to the left [m]
+  double heading = 0.0;   ///< at the end, against the lane [rad]
+};
+/// @param speed  [m/s], in [10, 25]
+/// @param grip   friction coefficient [-], in [0.3, 1.0]; known exactly
+[[nodiscard]] DriftStop drift_to_rest(const vehicle::Vehicle& car, double speed, double grip);
+
 /// How far steps of 1 ms end from steps of 0.25 ms after 2 s of a lane change at 14 m/s.
 struct IntegrationError {
   double position = 0.0;  ///< [m]
@@ -47,8 +58,8 @@ struct IntegrationError {
 [[nodiscard]] IntegrationError integration_error(const vehicle::Vehicle& car);
 
 /// The rows of the vehicle's table: stops with both anti-lock brakes, peak decelerations, lane
-/// changes, integration. Takes a few seconds of simulated driving per row, milliseconds of real
-/// time.
+/// changes, drifts, integration. Takes a few seconds of simulated driving per row, milliseconds of
+/// real time.
 [[nodiscard]] std::vector<Figure> physics_figures(const vehicle::Vehicle& car);
 
 }  // namespace saca::manoeuvre

@@ -45,6 +45,11 @@ constexpr bool changes_lane(PolicyId policy) {
   return policy == PolicyId::aes_left || policy == PolicyId::aes_right || brakes_to_speed(policy);
 }
 
+/// Policies 5 and 6.
+constexpr bool drifts(PolicyId policy) {
+  return policy == PolicyId::t_drift_left || policy == PolicyId::t_drift_right;
+}
+
 /// The paper's short name: "AEB", "AES-L", ..., "NI".
 [[nodiscard]] std::string_view name(PolicyId policy);
 

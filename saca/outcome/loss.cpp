@@ -23,7 +23,7 @@ double false_trigger_loss(manoeuvre::PolicyId policy) {
   if (policy == PolicyId::no_intervention) {
     return 0.0;
   }
-  return policy == PolicyId::t_drift_left || policy == PolicyId::t_drift_right ? 1.0 : 0.5;
+  return manoeuvre::drifts(policy) ? 1.0 : 0.5;
 }
 
 }  // namespace saca::outcome

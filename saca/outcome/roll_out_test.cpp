@@ -90,7 +90,7 @@ TEST(RollOut, ALaneChangePassesTheWreck) {
 }
 
 TEST(RollOut, RefusesWhatCannotBeDriven) {
-  EXPECT_THROW((void)Ahead(14.0, 20.0).after(PolicyId::t_drift_left, 0.9), ContractViolation);
+  EXPECT_THROW((void)Ahead(9.0, 20.0).after(PolicyId::t_drift_left, 0.9), ContractViolation);
 }
 
 }  // namespace

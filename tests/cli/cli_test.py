@@ -100,8 +100,16 @@ def test_a_policy_can_be_asked_for(tmp_path):
     assert record["result"]["contact"]["with"] == "truck1"
 
 
-def test_a_drift_is_refused_and_it_brakes(tmp_path):
-    run = quick("intersection_t1", "--policy", 6, cwd=tmp_path)
+def test_a_drift_stops_across_the_lane(tmp_path):
+    record = json.loads(quick("100car_9018", "--policy", 5, "--json", cwd=tmp_path).stdout)
+    assert record["decision"]["policy"] == 5
+    last = record["frames"][-1]["ego"]
+    assert last["speed_mps"] == 0
+    assert abs(last["heading_deg"] - 90) < 10
+
+
+def test_a_drift_on_a_slippery_road_is_refused_and_it_brakes(scenario, tmp_path):
+    run = quick(scenario("grip = 0.9", "grip = 0.25"), "--policy", 6, cwd=tmp_path)
     assert run.returncode == SUCCESS
     assert "6 T-D-R cannot be driven" in run.stdout
     assert "policy 0 AEB (fallback)" in run.stdout

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "saca/core/vec2.h"
+#include "saca/vehicle/vehicle.h"
+
+namespace saca::manoeuvre {
+
+/// The T-drift (policies 5 and 6): the car slides to a stop across its lane. One feedback law from
+/// begin to rest, by measured heading, turning rate, speed and acceleration; no clock, no phases.
+///
+/// The turning rate wanted is the one that brings heading and speed to their ends together:
+/// r* = turning (pi/2 - heading) a / v, with a the deceleration of a slide. What is missing of it
+/// is a demand u in [-1, 1], that all actuators serve at once: while u > 0 the front wheels steer
+/// in and their brakes open so that they pull the nose round, the rear wheels stay locked and the
+/// motor takes the last of their sideways force; while u < 0 the rear brakes open instead, and the
+/// tail is held. At u = 0 all four wheels are locked and the car slides straight on: that is also
+/// its end.
+struct DriftLaw {
+  double turning;        ///< the larger, the earlier it turns [-], > 0
+  double most_turning;   ///< largest turning rate asked for [rad/s], > 0
+  double gain;           ///< demand over missing turning rate [s/rad], > 0
+  double lead;           ///< by which turning is foreseen, for the actuators' delay [s], >= 0
+  double front_release;  ///< share of the front brakes opened at full demand [-], in [0, 1]
+  double rear_release;   ///< likewise of the rear ones, at the opposite demand [-], in [0, 1]
+  double outer_release;  ///< likewise of the side away from the demanded turn [-], in [0, 1]
+  double motor_share;    ///< of the motor's limit, at full demand [-], in [-1, 1]
+  double steering;       ///< off the direction of motion, at full demand [rad], > 0
+  double slide_share;    ///< of the grip, that slows a sliding car [-], in (0, 1.2]
+  double lock_speed;     ///< below it all wheels are locked for good [m/s], > 0
+};
+
+/// What is known of the car's motion, by its sensors.
+struct DriftMotion {
+  double heading = 0.0;   ///< against the lane [rad]
+  Vec2 v_B;               ///< over ground [m/s]
+  double yaw_rate = 0.0;  ///< [rad/s]
+  Vec2 a_B;               ///< [m/s^2]
+};
+
+/// What the law remembers between two calls: the last turning rate and its smoothed growth.
+struct DriftState {
+  double yaw_rate = 0.0;          ///< [rad/s]
+  double yaw_acceleration = 0.0;  ///< [rad/s^2]
+};
+
+/// What to tell the car, to end facing left (heading pi/2).
+/// @param grip  estimate of the friction coefficient [-], > 0
+/// @param dt    since the last call [s], > 0
+/// Allocates nothing, never throws.
+[[nodiscard]] vehicle::Command drift_left(const vehicle::Vehicle& car, const DriftLaw& law,
+                                          double grip, const DriftMotion& motion, double dt,
+                                          DriftState& memory) noexcept;
+
+/// The mirror image: to end facing right.
+[[nodiscard]] vehicle::Command drift_right(const vehicle::Vehicle& car, const DriftLaw& law,
+                                           double grip, const DriftMotion& motion, double dt,
+                                           DriftState& memory) noexcept;
+
+}  // namespace saca::manoeuvre

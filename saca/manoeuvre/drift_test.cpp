@@ -1,0 +1,160 @@
+#include "saca/manoeuvre/drift.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "saca/core/units.h"
+#include "saca/manoeuvre/controller.h"
+#include "saca/manoeuvre/ego.h"
+#include "saca/vehicle/default_car.h"
+
+namespace saca::manoeuvre {
+namespace {
+
+constexpr Plan left{PolicyId::t_drift_left, std::nullopt};
+constexpr Plan right{PolicyId::t_drift_right, std::nullopt};
+
+/// Where and when the car has come to rest.
+struct End {
+  Pose X_WB;
+  double time = 0.0;
+};
+
+/// What the controller does not know of the car and the road.
+struct Unknown {
+  double grip = 1.0;  ///< factor of it
+  double mass = 1.0;
+  double yaw_inertia = 1.0;
+  double stiffness = 1.0;
+  double lag = 0.0;    ///< [s], of steering and brakes
+  double speed = 0.0;  ///< [m/s]
+};
+
+/// Quantities with the spreads that the T-drift must bear.
+Unknown draw(std::mt19937& rng) {
+  std::normal_distribution<double> n;
+  return {.grip = 1.0 + 0.06 * n(rng),
+          .mass = 1.0 + 0.03 * n(rng),
+          .yaw_inertia = 1.0 + 0.04 * n(rng),
+          .stiffness = 1.0 + 0.10 * n(rng),
+          .lag = std::clamp(0.01 * n(rng), -0.03, 0.03),
+          .speed = 0.15 * n(rng)};
+}
+
+world::Scene scene_at(double speed, double grip) {
+  world::Scene scene;
+  scene.ego.v_B = {speed, 0.0};
+  scene.grip = grip;
+  return scene;
+}
+
+End drifted(const Plan& plan, const world::Scene& scene, const Unknown& unknown = {}) {
+  const vehicle::Vehicle known = vehicle::default_car();
+  vehicle::Vehicle car = known;
+  car.mass *= unknown.mass;
+  car.yaw_inertia *= unknown.yaw_inertia;
+  car.tyre.stiffness *= unknown.stiffness;
+  car.steering_lag += unknown.lag;
+  car.brake_lag += unknown.lag;
+  const double grip = scene.grip * unknown.grip;
+  world::EgoState ego = scene.ego;
+  ego.v_B.x += unknown.speed;
+  vehicle::VehicleState state = rolling_state(car, ego, grip);
+  ControllerState memory = begin(known, plan, scene);
+  End end;
+  while (!finished(plan, state, memory) && end.time < 10.0) {
+    const vehicle::Command command =
+        control(known, plan, scene.road, scene.grip, state, memory, vehicle::usual_step);
+    state = vehicle::step(car, state, command, grip, vehicle::usual_step);
+    end.time += vehicle::usual_step;
+  }
+  EXPECT_TRUE(vehicle::at_rest(state));
+  end.X_WB = state.X_WB;
+  return end;
+}
+
+double heading_error(const End& end, double side) {
+  return std::abs(side * to_degrees(end.X_WB.yaw) - 90.0);
+}
+
+// The independent prototype's inputs were optimised offline for each speed; ours are one law.
+TEST(TDrift, StopsAcrossTheLaneAsTheReferenceDoes) {
+  struct Reference {
+    double speed;
+    double time;
+    double forward;
+  };
+  for (const auto& [speed, time, forward] :
+       {Reference{10.0, 1.58, 7.6}, {12.0, 1.74, 10.2}, {14.0, 1.93, 13.5}, {16.0, 2.21, 17.7}}) {
+    const End end = drifted(left, scene_at(speed, 0.9));
+    EXPECT_NEAR(to_degrees(end.X_WB.yaw), 90.0, 5.0) << speed;
+    EXPECT_LE(end.time, 1.15 * time) << speed;
+    EXPECT_LE(end.X_WB.p.x, forward + 1.0) << speed;
+    EXPECT_GE(end.X_WB.p.y, 0.0) << speed;
+    EXPECT_LE(end.X_WB.p.y, 2.2) << speed;
+  }
+}
+
+TEST(TDrift, EndsAcrossTheLaneWhateverItDoesNotKnow) {
+  std::mt19937 rng(11);
+  constexpr int num_draws = 60;
+  for (const auto& [speed, grip] : {std::pair{10.0, 0.9}, {16.0, 0.9}, {14.0, 0.5}}) {
+    int num_good = 0;
+    for (int i = 0; i < num_draws; ++i) {
+      num_good +=
+          heading_error(drifted(left, scene_at(speed, grip), draw(rng)), 1.0) <= 10.0 ? 1 : 0;
+    }
+    EXPECT_GE(num_good, 54) << speed << " m/s, grip " << grip;  // 90 %
+  }
+}
+
+TEST(TDrift, StartsFromWhatItFinds) {
+  for (const double sign : {-1.0, 1.0}) {
+    world::Scene scene = scene_at(14.0, 0.9);
+    scene.ego.X_WB.yaw = sign * from_degrees(4.0);
+    scene.ego.v_B.y = sign * 0.3;
+    scene.ego.yaw_rate = sign * 0.15;
+    EXPECT_LE(heading_error(drifted(left, scene), 1.0), 8.0) << sign;
+  }
+}
+
+TEST(TDrift, LeftAndRightAreMirrorImages) {
+  world::Scene scene = scene_at(13.0, 0.7);
+  scene.ego.yaw_rate = 0.1;
+  world::Scene mirrored = scene;
+  mirrored.ego.yaw_rate = -0.1;
+  const End a = drifted(left, scene);
+  const End b = drifted(right, mirrored);
+  EXPECT_EQ(a.time, b.time);
+  EXPECT_NEAR(a.X_WB.p.x, b.X_WB.p.x, 1e-6);
+  EXPECT_NEAR(a.X_WB.p.y, -b.X_WB.p.y, 1e-6);
+  EXPECT_NEAR(a.X_WB.yaw, -b.X_WB.yaw, 1e-6);
+}
+
+// The lane decides what across means, not the world.
+TEST(TDrift, IsAcrossTheLaneInAnyWorld) {
+  world::Scene scene = scene_at(14.0, 0.9);
+  scene.road.X_WL = {{100.0, -40.0}, 2.0};
+  scene.ego.X_WB = scene.road.X_WL;
+  const End end = drifted(left, scene);
+  EXPECT_NEAR(wrap_angle(end.X_WB.yaw - 2.0), 0.5 * std::numbers::pi, from_degrees(5.0));
+}
+
+TEST(TDrift, LocksAllWheelsWhereNothingIsToBeTurned) {
+  const vehicle::Vehicle car = vehicle::default_car();
+  DriftState memory;
+  const DriftLaw law{
+      .turning = 1.0, .most_turning = 2.0, .gain = 5.0, .slide_share = 1.0, .lock_speed = 0.5};
+  const vehicle::Command command = drift_left(
+      car, law, 0.9, {.heading = 0.5 * std::numbers::pi, .v_B = {0.0, -5.0}}, 1e-3, memory);
+  for (const double torque : command.brake_torque) {
+    EXPECT_GT(torque, 0.9 * vehicle::gravity * 0.25 * car.mass * car.wheel_radius);
+  }
+  EXPECT_EQ(command.motor_torque, 0.0);
+}
+
+}  // namespace
+}  // namespace saca::manoeuvre
