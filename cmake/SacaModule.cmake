@@ -9,6 +9,15 @@ target_compile_options(saca_flags INTERFACE
 # All modules' tests, without benchmarks and programs.
 add_custom_target(module_tests)
 
+# saca_test(<target> <a.cpp>... LIBRARIES <library>...): a GoogleTest program with this project's
+# flags and precompiled headers (tests/support).
+function(saca_test target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LIBRARIES")
+  add_executable(${target} ${arg_UNPARSED_ARGUMENTS})
+  target_link_libraries(${target} PRIVATE ${arg_LIBRARIES} saca_flags GTest::gmock_main)
+  target_precompile_headers(${target} REUSE_FROM saca_test_headers)
+endfunction()
+
 # saca_module(<name> [SOURCES <a.cpp>...] [DEPS <module>...])
 #
 # Makes the library saca::<name> from the current folder. Every <a>_test.cpp in the folder becomes

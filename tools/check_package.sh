@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds without presets, as a packager would: each source by itself, so that each includes what it
-# needs. Installs that into an empty folder, and builds and runs examples/consumer against it.
+# Builds without presets, as a packager would: each source of library and programs by itself, so that
+# each includes what it needs. Installs that into an empty folder, and builds and runs examples/consumer against it.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

@@ -1,11 +1,16 @@
 #!/usr/bin/env bash
-# clang-tidy over library and programs (not over tests), two folders at a time. A folder's sources
-# are looked at as one, because most of the time goes into what they all include; where something
-# is found, they are looked at again one by one, to say where. A folder that passed is not looked
-# at again until it, a header or the rules change.
+# clang-tidy over library and programs (not over tests), as many folders at a time as there are
+# cores. A folder's sources are looked at as one, because most of the time goes into what they all
+# include; where something is found, they are looked at again one by one, to say where. What that
+# can miss is a using-declaration that only another file of the folder uses. A folder that passed
+# is not looked at again until it, a header or the rules change.
 # usage: tools/lint.sh [FILE...]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+command -v clang-tidy-14 >/dev/null || {
+  echo "lint: error: clang-tidy-14 is missing; run make setup" >&2
+  exit 1
+}
 
 tidy() {
   clang-tidy-14 --quiet --config-file=.clang-tidy "$@" -- -std=c++20 -I. -DSACA_VERSION='""' 2>/dev/null
@@ -15,8 +20,10 @@ lint_folder() {  # FOLDER
   mapfile -t sources < <(git ls-files "$1/*.cpp" | grep -vE '_(test|bench)\.cpp$')
   joined=build/lint/${1//\//_}.cpp
   cat "${sources[@]}" >"$joined"
-  stamp=$joined-$(cat "$joined" .clang-tidy - <<<"$headers" | sha256sum | cut -c1-16)
-  [ -e "$stamp" ] && return
+  stamp=$joined-$({ cat "$joined" .clang-tidy; echo "$headers"; declare -f tidy; } | sha256sum | cut -c1-16)
+  if [ -e "$stamp" ]; then
+    return
+  fi
   if tidy "$joined" >/dev/null; then
     rm -f "$joined"-*
     touch "$stamp"
@@ -37,5 +44,5 @@ if [ $# -gt 0 ]; then
 else
   mkdir -p build/lint
   git ls-files -- 'saca/*/CMakeLists.txt' apps/saca/CMakeLists.txt | xargs -n 1 dirname |
-    xargs -P "$(nproc)" -I{} bash -c 'lint_folder {}'
+    xargs -P "$(nproc)" -I{} bash -euo pipefail -c 'lint_folder {}'
 fi

@@ -164,9 +164,6 @@ int run(const RunOptions& options) {
   if (!problem) {
     problem = model.value().save_replies();
   }
-  if (!problem) {
-    problem = record.value().not_stored;
-  }
   if (options.as_json) {
     fmt::print("{}\n", text);
   } else {
@@ -174,6 +171,9 @@ int run(const RunOptions& options) {
     if (!problem) {
       fmt::print("Report: {}\n", fs::absolute(report).string());
     }
+  }
+  if (!problem) {
+    problem = record.value().not_stored;
   }
   if (problem) {
     complain(problem->message);

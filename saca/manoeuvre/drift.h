@@ -10,11 +10,11 @@ namespace saca::manoeuvre {
 ///
 /// The turning rate wanted is the one that brings heading and speed to their ends together:
 /// r* = turning (pi/2 - heading) a / v, with a the deceleration of a slide. What is missing of it
-/// is a demand u in [-1, 1], that all actuators serve at once: while u > 0 the front wheels steer
-/// in and their brakes open so that they pull the nose round, the rear wheels stay locked and the
-/// motor takes the last of their sideways force; while u < 0 the rear brakes open instead, and the
-/// tail is held. At u = 0 all four wheels are locked and the car slides straight on: that is also
-/// its end.
+/// is a demand u in [-1, 1], that all actuators serve at once. While u > 0 the front wheels steer
+/// in, the brakes of the outer side and of the front axle open, so that the inner side holds and
+/// the front pulls the nose round, and the motor keeps the rear wheels sliding. While u < 0 the
+/// brakes of the inner side and of the rear axle open. At u = 0 all four wheels are locked and the
+/// car slides straight on; so it ends, too.
 struct DriftLaw {
   double turning;        ///< the larger, the earlier it turns [-], > 0
   double most_turning;   ///< largest turning rate asked for [rad/s], > 0
@@ -26,7 +26,7 @@ struct DriftLaw {
   double motor_share;    ///< of the motor's limit, at full demand [-], in [-1, 1]
   double steering;       ///< off the direction of motion, at full demand [rad], > 0
   double slide_share;    ///< of the grip, that slows a sliding car [-], in (0, 1.2]
-  double lock_speed;     ///< below it all wheels are locked for good [m/s], > 0
+  double lock_speed;     ///< below it all wheels are locked [m/s], > 0
 };
 
 /// What is known of the car's motion, by its sensors.
@@ -37,7 +37,8 @@ struct DriftMotion {
   Vec2 a_B;               ///< [m/s^2]
 };
 
-/// What the law remembers between two calls: the last turning rate and its smoothed growth.
+/// What the law remembers between two calls: the last turning rate and its smoothed growth, both
+/// positive towards the side that is wanted.
 struct DriftState {
   double yaw_rate = 0.0;          ///< [rad/s]
   double yaw_acceleration = 0.0;  ///< [rad/s^2]

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <utility>
 
+#include "saca/core/angle.h"
 #include "saca/core/units.h"
 #include "saca/manoeuvre/controller.h"
 #include "saca/manoeuvre/ego.h"
@@ -65,7 +68,7 @@ End drifted(const Plan& plan, const world::Scene& scene, const Unknown& unknown 
   vehicle::VehicleState state = rolling_state(car, ego, grip);
   ControllerState memory = begin(known, plan, scene);
   End end;
-  while (!finished(plan, state, memory) && end.time < 10.0) {
+  while (!finished(plan, state, memory) && end.time < 20.0) {
     const vehicle::Command command =
         control(known, plan, scene.road, scene.grip, state, memory, vehicle::usual_step);
     state = vehicle::step(car, state, command, grip, vehicle::usual_step);
@@ -109,6 +112,53 @@ TEST(TDrift, EndsAcrossTheLaneWhateverItDoesNotKnow) {
     }
     EXPECT_GE(num_good, 54) << speed << " m/s, grip " << grip;  // 90 %
   }
+}
+
+TEST(TDrift, EndsAcrossTheLaneAtTheCornersOfItsDomain) {
+  for (const double speed : {10.0, 25.0}) {
+    for (const double grip : {0.3, 1.0}) {
+      for (const double bend : {-0.4, 0.0, 0.4}) {  // share of the grip that it takes
+        world::Scene scene = scene_at(speed, grip);
+        scene.road.curvature = bend * grip * vehicle::gravity / (speed * speed);
+        const End end = drifted(left, scene);
+        const double heading = world::to_lane(scene.road, end.X_WB).heading;
+        EXPECT_NEAR(to_degrees(heading), 90.0, 10.0) << speed << ' ' << grip << ' ' << bend;
+      }
+    }
+  }
+}
+
+TEST(TDrift, TurnsInByTheInnerBrakesAndTheFrontWheels) {
+  const vehicle::Vehicle car = vehicle::default_car();
+  const DriftLaw law{.turning = 1.5,
+                     .most_turning = 2.0,
+                     .gain = 8.0,
+                     .lead = 0.1,
+                     .front_release = 0.5,
+                     .rear_release = 0.2,
+                     .outer_release = 0.6,
+                     .motor_share = -0.9,
+                     .steering = 0.25,
+                     .slide_share = 0.9,
+                     .lock_speed = 0.4};
+  using vehicle::Wheel;
+  DriftState memory;
+  const vehicle::Command in = drift_left(car, law, 0.9, {.v_B = {14.0, 0.0}}, 1e-3, memory);
+  EXPECT_NEAR(in.steering, 0.25, 1e-12);
+  EXPECT_LT(in.motor_torque, 0.0);
+  EXPECT_LT(in.brake_torque[Wheel::front_right], in.brake_torque[Wheel::front_left]);
+  EXPECT_LT(in.brake_torque[Wheel::front_left], in.brake_torque[Wheel::rear_left]);
+  // Turning faster than wanted, the other way round.
+  memory = {.yaw_rate = 2.5};
+  const vehicle::Command out =
+      drift_left(car, law, 0.9, {.v_B = {14.0, 0.0}, .yaw_rate = 2.5}, 1e-3, memory);
+  EXPECT_LT(out.brake_torque[Wheel::front_left], out.brake_torque[Wheel::front_right]);
+  EXPECT_EQ(out.motor_torque, 0.0);
+  memory = {};
+  const vehicle::Command mirrored = drift_right(car, law, 0.9, {.v_B = {14.0, 0.0}}, 1e-3, memory);
+  EXPECT_EQ(mirrored.steering, -in.steering);
+  EXPECT_EQ(mirrored.brake_torque[Wheel::front_left], in.brake_torque[Wheel::front_right]);
+  EXPECT_EQ(mirrored.brake_torque[Wheel::rear_right], in.brake_torque[Wheel::rear_left]);
 }
 
 TEST(TDrift, StartsFromWhatItFinds) {

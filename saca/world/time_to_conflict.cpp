@@ -52,6 +52,7 @@ class EgoLine {
 /// The arc that an actor describes.
 class ActorLine {
  public:
+  /// @param horizon  until when the bounds hold [s]
   explicit ActorLine(const Actor& actor, double horizon = 0.0) : speed_(norm(actor.v_W)) {
     if (speed_ < rest_speed) {
       speed_ = 0.0;
@@ -125,27 +126,30 @@ double surely_apart(const Separation& separation, const MotionBound& a, const Mo
   const Vec2 towards = (1.0 / separation.distance) * (separation.p_b_W - separation.p_a_W);
   const double closing = dot(a.v_W - b.v_W, towards) + a.any_speed + b.any_speed;
   const double change = a.acceleration + b.acceleration;
-  // distance = closing t + change t^2 / 2, written without the difference of like numbers.
+  // distance = closing t + change t^2 / 2, solved so that no change is no special case.
   const double root = closing + std::sqrt(closing * closing + 2.0 * change * separation.distance);
   return root > 0.0 ? 2.0 * separation.distance / root : std::numeric_limits<double>::infinity();
 }
 
-/// Steps as long as the bodies surely stay apart, and no shorter than 10 ms: nothing is jumped
-/// over.
+/// Steps as long as the bodies surely stay apart, and no shorter than 10 ms: only a touch that is
+/// shorter can be jumped over.
 template <class Line>
 std::optional<double> first_collision(const Scene& scene, const Actor& actor, const EgoLine& ego,
                                       const Line& line, double horizon) {
   double t = 0.0;
-  while (t <= horizon) {
+  while (true) {
     const Pose X_WB = ego.at(t);
     const Pose X_WA = line.at(t);
     const Separation now = separation(scene.ego_footprint, X_WB, actor.footprint, X_WA);
     if (now.distance <= 0.0) {
       return t;
     }
-    t += std::max(surely_apart(now, ego.bound(X_WB), line.bound(t, X_WA)), shortest_step);
+    if (t >= horizon) {
+      return std::nullopt;
+    }
+    const double apart = surely_apart(now, ego.bound(X_WB), line.bound(t, X_WA));
+    t = std::min(horizon, t + std::max(apart, shortest_step));
   }
-  return std::nullopt;
 }
 
 /// Distance that the ego at X_WB surely keeps from the ground that the actor covers from `begin` to
@@ -177,21 +181,23 @@ std::optional<double> first_crossing(const Scene& scene, const Actor& actor, con
                                      const Line& line, double horizon, double tolerance) {
   const double closing = ego.top_speed() + line.top_speed();
   double t = 0.0;
-  while (t <= horizon) {
+  while (true) {
     const double sure =
         sure_distance(scene, ego.at(t), actor, line, std::max(0.0, t - tolerance), t + tolerance);
     if (sure <= 0.0) {
       return t;
     }
-    t += std::max(sure / closing, shortest_step);
+    if (t >= horizon) {
+      return std::nullopt;
+    }
+    t = std::min(horizon, t + std::max(sure / closing, shortest_step));
   }
-  return std::nullopt;
 }
 
 template <class Line>
 std::optional<double> first_conflict(const Scene& scene, const Actor& actor, const Line& line,
                                      double horizon, double crossing_tolerance) {
-  expects(horizon > 0.0, "horizon > 0");
+  expects(horizon > 0.0 && std::isfinite(horizon), "horizon > 0");
   expects(crossing_tolerance >= 0.0, "tolerance >= 0");
   const EgoLine ego(scene);
   if (crossing_tolerance > 0.0 && is_crossing(scene, actor)) {
@@ -246,7 +252,7 @@ std::optional<double> time_to_conflict(const Scene& scene, const Actor& actor, c
 
 std::optional<double> time_to_conflict(const Scene& scene, const Actor& actor, double horizon,
                                        double tolerance) {
-  return first_conflict(scene, actor, ActorLine(actor, horizon), horizon, tolerance);
+  return first_conflict(scene, actor, ActorLine(actor, horizon + tolerance), horizon, tolerance);
 }
 
 }  // namespace saca::world

@@ -30,8 +30,8 @@ namespace saca::world {
 /// First contact of the ego, going on as it does, with an actor that follows `track`.
 ///
 /// @param horizon  how far to look [s], > 0
-/// @return         seconds from scene.time, exact to 10 ms; 0 when they touch now; nullopt when
-/// there
+/// @return         seconds from scene.time, exact to 10 ms (a shorter touch may be missed); 0 when
+/// they touch now; nullopt when there
 ///                 is none
 /// @throws ContractViolation  if the track is empty or the horizon not > 0
 [[nodiscard]] std::optional<double> time_to_collision(const Scene& scene, const Actor& actor,
@@ -42,7 +42,8 @@ namespace saca::world {
 /// which is `time_to_collision`: a follower drives, two seconds later, where the ego is now.
 ///
 /// @param tolerance  of crossing traffic [s], >= 0
-/// @return           seconds from scene.time, exact to 10 ms; nullopt when there is none
+/// @return           seconds from scene.time, exact to 10 ms (a shorter touch may be missed);
+/// nullopt when there is none
 [[nodiscard]] std::optional<double> time_to_conflict(const Scene& scene, const Actor& actor,
                                                      const Track& track, double horizon,
                                                      double tolerance);

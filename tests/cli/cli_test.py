@@ -197,6 +197,7 @@ def test_a_memory_that_may_only_be_read_is_used_and_the_lost_case_told(tmp_path)
     before = file.read_bytes()
     run = quick("100car_8676", "--memory", "memory.sqlite", cwd=tmp_path, preexec_fn=obey_modes)
     assert "memory.sqlite" in one_error(run, CANNOT_WRITE)
+    assert "report.html" in run.stdout  # which is complete
     assert file.read_bytes() == before
     record = json.loads((tmp_path / "runs/100car_8676/record.json").read_text())
     assert record["decision"]["source"] == "memory"  # it was read

