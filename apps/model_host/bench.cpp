@@ -1,12 +1,12 @@
 #include "bench.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <ostream>
 
+#include "saca/core/percentile.h"
 #include "saca/reason/child_model.h"
 #include "saca/reason/example_situation.h"
 #include "saca/reason/prompt.h"
@@ -66,13 +66,6 @@ Asked ask(ChildModel& model, const std::vector<std::string>& scenes, double budg
     }
   }
   return asked;
-}
-
-/// Nearest-rank percentile.
-double percentile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
-  return values[std::max<std::size_t>(rank, 1) - 1];
 }
 
 class Figures {

@@ -1,7 +1,5 @@
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -12,6 +10,7 @@
 #include "apps/saca/commands.h"
 #include "apps/saca/places.h"
 #include "saca/core/clock.h"
+#include "saca/core/percentile.h"
 #include "saca/decide/reflex_plane.h"
 #include "saca/manoeuvre/controller.h"
 #include "saca/manoeuvre/ego.h"
@@ -80,12 +79,6 @@ world::Scene crowd(const vehicle::Vehicle& car, int num_actors, std::mt19937& rn
   return scene;
 }
 
-double percentile(std::vector<double>& values, double share) {
-  const auto nth = values.begin() + std::lround(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
-}
-
 /// Times of a loop that does nothing for `wanted` [us]: what is above that is the machine's doing,
 /// not the program's.
 std::vector<double> machine_times(Clock& clock, double wanted, int num_calls) {
@@ -128,7 +121,7 @@ void bench_reflex(const vehicle::Vehicle& car, Clock& clock, int num_calls, json
       num_triggered += plane.step(scene).triggered ? 1 : 0;
       times.push_back(1e6 * to_seconds(clock.now() - start));
     }
-    std::vector<double> idle = machine_times(clock, percentile(times, 0.5), num_calls);
+    const std::vector<double> idle = machine_times(clock, percentile(times, 0.5), num_calls);
     const std::string suffix = fmt::format(".actors{}", num_actors);
     for (const auto& [name, share] :
          {std::pair{"p50", 0.5}, {"p99", 0.99}, {"p99.9", 0.999}, {"max", 1.0}}) {
