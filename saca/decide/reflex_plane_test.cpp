@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+
 #include "tests/support/count_allocations.h"
 
 namespace saca::decide {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "saca/manoeuvre/ego.h"
+#include "saca/loop/wreck_for_test.h"
 #include "saca/vehicle/parameters.h"
 
 namespace saca::loop {
@@ -39,13 +39,7 @@ TEST(ChargedThinking, StartsNoRoundBeforeTheLastOneIsPaidFor) {
                                               double ready) { thinking.publish(cache, ready); },
                                .event = [](const decide::Event&) {},
                                .reasoning = [](std::int32_t, std::string_view) {}});
-  world::Scene scene;
-  scene.ego.v_B = {20.0, 0.0};
-  scene.ego_footprint = manoeuvre::footprint(car);
-  scene.ego_mass = car.mass;
-  world::Actor wreck{.id = 1, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1'500.0};
-  wreck.X_WA.p = {80.0, 0.0};
-  scene.actors.push_back(wreck);
+  world::Scene scene = wreck_ahead(car, 80.0);
 
   scene.time = 1.0;
   thinking.think(plane, scene);

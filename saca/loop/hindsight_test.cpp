@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "saca/manoeuvre/ego.h"
+#include "saca/loop/wreck_for_test.h"
 #include "saca/vehicle/parameters.h"
 
 namespace saca::loop {
@@ -15,17 +15,11 @@ using manoeuvre::PolicyId;
 TEST(Hindsight, KnowsWhatEachPolicyWouldHaveDone) {
   const auto car = vehicle::read_vehicle("data/vehicles/compact_rwd_ev.toml").value();
   const auto harm = outcome::read_harm("data/harm.toml").value();
-  world::Scene scene;
-  scene.ego.v_B = {20.0, 0.0};
-  scene.ego_footprint = manoeuvre::footprint(car);
-  scene.ego_mass = car.mass;
+  world::Scene scene = wreck_ahead(car, 32.5);
   scene.road.left_edge = 5.25;
   scene.road.right_edge = -5.25;
   scene.grip = 0.5;
-  world::Actor wreck{.id = 1, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1'500.0};
-  wreck.X_WA.p = {32.5, 0.0};
-  scene.actors.push_back(wreck);
-  const std::vector<world::Track> tracks{{.X_WA = {wreck.X_WA}}};
+  const std::vector<world::Track> tracks{{.X_WA = {scene.actors[0].X_WA}}};
 
   const auto all = hindsight(scene, tracks, 0.5, car, harm);
   const auto of = [&](PolicyId policy) -> const Hindsight& {

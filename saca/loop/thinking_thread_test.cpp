@@ -4,7 +4,7 @@
 
 #include <atomic>
 
-#include "saca/manoeuvre/ego.h"
+#include "saca/loop/wreck_for_test.h"
 #include "saca/vehicle/parameters.h"
 
 namespace saca::loop {
@@ -24,13 +24,7 @@ TEST(ThinkingThread, ThinksAboutTheNewestSceneAndEndsWhenAsked) {
        .event = [&](const decide::Event&) { ++num_events; },
        .reasoning = [](std::int32_t, std::string_view) {}});
 
-  world::Scene scene;
-  scene.ego.v_B = {20.0, 0.0};
-  scene.ego_footprint = manoeuvre::footprint(car);
-  scene.ego_mass = car.mass;
-  world::Actor wreck{.id = 1, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1'500.0};
-  wreck.X_WA.p = {80.0, 0.0};
-  scene.actors.push_back(wreck);
+  const world::Scene scene = wreck_ahead(car, 80.0);
 
   decide::PlanCache received;
   bool any = false;

@@ -31,8 +31,7 @@ namespace saca::world {
 ///
 /// @param horizon  how far to look [s], > 0
 /// @return         seconds from scene.time, exact to 10 ms (a shorter touch may be missed); 0 when
-/// they touch now; nullopt when there
-///                 is none
+///                 they touch now; nullopt when there is none
 /// @throws ContractViolation  if the track is empty or the horizon not > 0
 [[nodiscard]] std::optional<double> time_to_collision(const Scene& scene, const Actor& actor,
                                                       const Track& track, double horizon);
@@ -43,7 +42,7 @@ namespace saca::world {
 ///
 /// @param tolerance  of crossing traffic [s], >= 0
 /// @return           seconds from scene.time, exact to 10 ms (a shorter touch may be missed);
-/// nullopt when there is none
+///                   nullopt when there is none
 [[nodiscard]] std::optional<double> time_to_conflict(const Scene& scene, const Actor& actor,
                                                      const Track& track, double horizon,
                                                      double tolerance);
