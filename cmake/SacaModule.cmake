@@ -41,7 +41,8 @@ function(saca_module name)
   target_include_directories(saca_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include>)
   target_compile_features(saca_${name} PUBLIC cxx_std_20)
-  target_compile_options(saca_${name} PRIVATE -ffp-contract=off)  # same bytes at every level
+  target_compile_options(saca_${name} PRIVATE -ffp-contract=off  # same bytes at every level
+    -fno-math-errno -fno-trapping-math)  # changes no result: square roots and choices without branches
   list(TRANSFORM arg_DEPS PREPEND saca:: OUTPUT_VARIABLE libraries)
   target_link_libraries(saca_${name} PUBLIC ${libraries} PRIVATE $<BUILD_INTERFACE:saca_flags>)
   set_target_properties(saca_${name} PROPERTIES EXPORT_NAME ${name})

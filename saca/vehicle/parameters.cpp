@@ -53,6 +53,7 @@ void read_actuators(Table& root, Vehicle& car) {
   Table motor = root.table("motor");
   car.motor_limit = motor.number("torque_limit_Nm", {0.0, 50'000.0});
   car.motor_lag = motor.number("lag_s", {0.005, 1.0});
+  car.motor_front_share = motor.number("front_share", {0.0, 1.0});
 }
 
 }  // namespace
@@ -73,6 +74,9 @@ Result<Vehicle> read_vehicle(const std::filesystem::path& path) {
   read_wheels(root.table("wheels"), car);
   read_tyre(root.table("tyre"), car);
   read_actuators(root, car);
+  if (!document.value().error().has_value() && longest_step(car) < usual_step) {
+    root.reject("wheels", "want wheels heavy enough, or tyres soft enough, for steps of 1 ms");
+  }
   if (const auto error = document.value().error(); error.has_value()) {
     return *error;
   }

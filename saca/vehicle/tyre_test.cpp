@@ -18,8 +18,18 @@ TEST(Tyre, SlopeAtZeroIsStiffnessTimesLoad) {
   EXPECT_EQ(F_T.x, 0.0);
 }
 
+// The library's own sine and arc tangent are the truth.
+TEST(Tyre, FollowsTheMagicFormula) {
+  for (const double shape : {1.05, 1.4, 1.9}) {
+    for (double z = 1e-9; z < 1e9; z *= 1.3) {
+      EXPECT_NEAR(z * magic_ratio(shape, z * z), std::sin(shape * std::atan(z)), 4e-12)
+          << shape << ' ' << z;
+    }
+    EXPECT_NEAR(magic_ratio(shape, 0.0), shape, 1e-11);
+  }
+}
+
 TEST(Tyre, IsSmoothThroughNoSlip) {
-  // The two branches meet at slip 1e-9: 1e-8 m/s at 10 m/s.
   const double below = tyre_force(tyre, {0.999e-8, 0.0}, 10.0, 4e3, 0.9).x / 0.999e-8;
   const double above = tyre_force(tyre, {1.001e-8, 0.0}, 10.0, 4e3, 0.9).x / 1.001e-8;
   EXPECT_NEAR(below / above, 1.0, 1e-9);
@@ -58,7 +68,7 @@ TEST(Tyre, FallsAfterItsPeakTowardsTheShapesLimit) {
 
 TEST(Tyre, SlipForUndoesForceShare) {
   for (const double share : {0.0, 0.1, 0.5, 0.9, 0.999}) {
-    EXPECT_NEAR(force_share(tyre, 0.5, slip_for(tyre, 0.5, share)), share, 1e-12);
+    EXPECT_NEAR(force_share(tyre, 0.5, slip_for(tyre, 0.5, share)), share, 5e-12);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "saca/core/contract.h"
 
@@ -9,7 +10,6 @@ namespace saca::vehicle {
 namespace {
 
 constexpr double air_density = 1.225;  // [kg/m^3], ISO 2533 standard atmosphere at sea level
-constexpr double longest_step = 2e-3;  // [s]; above it the wheels' spin is not resolved
 
 // A brake turns from full torque to none over the speed that it would take away in 1 / this.
 constexpr double brake_stiffness = 1000.0;  // [1/s]
@@ -77,13 +77,52 @@ void put(const Flow& flow, VehicleState& state) {
   state.transfer_a_B = {flow[Flow::ax], flow[Flow::ay]};
 }
 
+// A turn, as its cosine and sine.
+struct Turn {
+  double cosine = 1.0;
+  double sine = 0.0;
+};
+
+Turn turn_by(double angle) {
+  return {std::cos(angle), std::sin(angle)};
+}
+
+Turn after(Turn first, Turn second) {
+  return {first.cosine * second.cosine - first.sine * second.sine,
+          first.sine * second.cosine + first.cosine * second.sine};
+}
+
+// `start` turned by a little more, without a call: exact to the last digit up to 0.05 rad, which is
+// more than turns in a step.
+inline Turn turned(Turn start, double angle) {
+  if (std::abs(angle) > 0.05) [[unlikely]] {
+    return after(start, turn_by(angle));
+  }
+  const double a = angle * angle;
+  return after(start, {1.0 - a * (1.0 / 2.0 - a * (1.0 / 24.0 - a * (1.0 / 720.0))),
+                       angle * (1.0 - a * (1.0 / 6.0 - a * (1.0 / 120.0 - a * (1.0 / 5040.0))))});
+}
+
 // What does not change within a step.
 struct Held {
   Command command;  // limited, the brakes' part delayed
-  double grip;
-  std::array<bool, num_wheels> locked{};
+  PerWheel grip;
+  Turn heading;   // at the step's start, with its yaw
+  double yaw;     // [rad]
+  Turn steering;  // likewise
+  double steering_angle;
+  PerWheel rolls{1, 1, 1, 1};  // 0 for a locked wheel
   bool at_rest = false;
 };
+
+Held held_from(const Flow& start, const Command& command, const PerWheel& grip) {
+  return {.command = command,
+          .grip = grip,
+          .heading = turn_by(start[Flow::yaw]),
+          .yaw = start[Flow::yaw],
+          .steering = turn_by(start[Flow::steering]),
+          .steering_angle = start[Flow::steering]};
+}
 
 bool is_front(std::size_t wheel) {
   return wheel == front_left || wheel == front_right;
@@ -93,56 +132,49 @@ double wheel_inertia(const Vehicle& car, std::size_t wheel) {
   return is_front(wheel) ? car.front_wheel_inertia : car.rear_wheel_inertia;
 }
 
-double motor_share(std::size_t wheel) {
-  return is_front(wheel) ? 0.0 : 0.5;
+double motor_share(const Vehicle& car, std::size_t wheel) {
+  return 0.5 * (is_front(wheel) ? car.motor_front_share : 1.0 - car.motor_front_share);
 }
 
-struct Direction {
-  double cosine = 1.0;
-  double sine = 0.0;
+// Everything about the four contacts; arrays, so that the compiler can work on several at once.
+struct Wheels {
+  PerWheel cosine, sine;  // of the wheels' angles against the body
+  PerWheel v_x, v_y;      // of the wheel centres, expressed in T [m/s]
+  PerWheel load;          // [N]
+  PerWheel F_x, F_y;      // expressed in T [N]
 };
-using Directions = std::array<Direction, num_wheels>;
 
-// Ackermann: the axes of the front wheels meet on the rear axle's line, so the inner one turns
-// more.
-Directions wheel_directions(const Vehicle& car, double steering) {
+Wheels wheels_of(const Vehicle& car, const Flow& flow, const Held& held) {
+  Wheels wheels;
+  wheels.load = wheel_loads(car, {flow[Flow::ax], flow[Flow::ay]});
+  const Turn middle = turned(held.steering, flow[Flow::steering] - held.steering_angle);
+  // Ackermann: the axes of the front wheels meet on the rear axle's line, so the inner one turns
+  // more.
   const double wheelbase = car.front_arm + car.rear_arm;
-  const double middle = std::tan(steering);
-  Directions directions;
+  const double half_track = 0.5 * car.track_width;
+  const PerWheel x{car.front_arm, car.front_arm, -car.rear_arm, -car.rear_arm};
+  const PerWheel y{half_track, -half_track, half_track, -half_track};
+  wheels.cosine = {1.0, 1.0, 1.0, 1.0};
+  wheels.sine = {};
   for (const std::size_t i : {front_left, front_right}) {
-    const double tangent = wheelbase * middle / (wheelbase - wheel_position(car, i).y * middle);
-    const double cosine = 1.0 / std::sqrt(1.0 + tangent * tangent);
-    directions[i] = {cosine, tangent * cosine};
+    const double along = wheelbase * middle.cosine - y[i] * middle.sine;
+    const double across = wheelbase * middle.sine;
+    const double scale = 1.0 / std::sqrt(along * along + across * across);
+    wheels.cosine[i] = along * scale;
+    wheels.sine[i] = across * scale;
   }
-  return directions;
-}
-
-// Sliding and force of one wheel; `wheel_speed` apart, so that a locked wheel can be asked too.
-Contact contact(const Vehicle& car, Vec2 v_wheel_T, double wheel_speed, double load, double grip) {
-  const Vec2 v_slip_T{v_wheel_T.x - car.wheel_radius * wheel_speed, v_wheel_T.y};
-  const double speed = std::sqrt(dot(v_wheel_T, v_wheel_T));
-  return {.load = load,
-          .F_T = tyre_force(car.tyre, v_slip_T, speed, load, grip),
-          .slip = std::sqrt(dot(v_slip_T, v_slip_T)) / std::max(speed, slip_speed_floor),
-          .peak_force = peak_friction(car.tyre, load, grip) * load};
-}
-
-Vec2 wheel_velocity(const Vehicle& car, const Flow& flow, std::size_t wheel, Direction along) {
-  const Vec2 p_B = wheel_position(car, wheel);
-  const Vec2 v_B{flow[Flow::vx] - flow[Flow::yaw_rate] * p_B.y,
-                 flow[Flow::vy] + flow[Flow::yaw_rate] * p_B.x};
-  return {along.cosine * v_B.x + along.sine * v_B.y, along.cosine * v_B.y - along.sine * v_B.x};
-}
-
-Contacts contacts_of(const Vehicle& car, const Flow& flow, const Directions& directions,
-                     double grip) {
-  const PerWheel loads = wheel_loads(car, {flow[Flow::ax], flow[Flow::ay]});
-  Contacts all;
   for (std::size_t i = 0; i < num_wheels; ++i) {
-    all[i] = contact(car, wheel_velocity(car, flow, i, directions[i]), flow[Flow::wheel + i],
-                     loads[i], grip);
+    const double v_x = flow[Flow::vx] - flow[Flow::yaw_rate] * y[i];
+    const double v_y = flow[Flow::vy] + flow[Flow::yaw_rate] * x[i];
+    wheels.v_x[i] = wheels.cosine[i] * v_x + wheels.sine[i] * v_y;
+    wheels.v_y[i] = wheels.cosine[i] * v_y - wheels.sine[i] * v_x;
+    const double slip_x = wheels.v_x[i] - car.wheel_radius * flow[Flow::wheel + i];
+    const double drag = sliding_drag(car.tyre, slip_x * slip_x + wheels.v_y[i] * wheels.v_y[i],
+                                     v_x * v_x + v_y * v_y, wheels.load[i], held.grip[i]);
+    wheels.F_x[i] = -drag * slip_x;
+    wheels.F_y[i] = -drag * wheels.v_y[i];
   }
-  return all;
+  return wheels;
 }
 
 void actuator_rates(const Vehicle& car, const Flow& flow, const Held& held, Flow& rate) {
@@ -161,30 +193,26 @@ Flow rates(const Vehicle& car, const Flow& flow, const Held& held) {
   Vec2 F_B;
   double torque = 0.0;
   if (!held.at_rest) {
-    const Directions directions = wheel_directions(car, flow[Flow::steering]);
-    const Contacts all = contacts_of(car, flow, directions, held.grip);
+    const Wheels wheels = wheels_of(car, flow, held);
     for (std::size_t i = 0; i < num_wheels; ++i) {
-      const Vec2 F_T = all[i].F_T;
-      const Direction along = directions[i];
-      const Vec2 F_wheel_B{along.cosine * F_T.x - along.sine * F_T.y,
-                           along.sine * F_T.x + along.cosine * F_T.y};
+      const Vec2 F_wheel_B{wheels.cosine[i] * wheels.F_x[i] - wheels.sine[i] * wheels.F_y[i],
+                           wheels.sine[i] * wheels.F_x[i] + wheels.cosine[i] * wheels.F_y[i]};
       const Vec2 p_B = wheel_position(car, i);
       F_B = F_B + F_wheel_B;
       torque += p_B.x * F_wheel_B.y - p_B.y * F_wheel_B.x;
-      if (!held.locked[i]) {
-        const double inertia = wheel_inertia(car, i);
-        const double brake = std::clamp(brake_stiffness * inertia * flow[Flow::wheel + i],
-                                        -flow[Flow::brake + i], flow[Flow::brake + i]);
-        rate[Flow::wheel + i] =
-            (motor_share(i) * flow[Flow::motor] - brake - car.wheel_radius * F_T.x) / inertia;
-      }
+      const double inertia = wheel_inertia(car, i);
+      const double brake = std::clamp(brake_stiffness * inertia * flow[Flow::wheel + i],
+                                      -flow[Flow::brake + i], flow[Flow::brake + i]);
+      rate[Flow::wheel + i] =
+          held.rolls[i] *
+          (motor_share(car, i) * flow[Flow::motor] - brake - car.wheel_radius * wheels.F_x[i]) /
+          inertia;
     }
     const Vec2 v_B{flow[Flow::vx], flow[Flow::vy]};
     F_B = F_B - (0.5 * air_density * car.drag_area * std::sqrt(dot(v_B, v_B))) * v_B;
-    const double cosine = std::cos(flow[Flow::yaw]);
-    const double sine = std::sin(flow[Flow::yaw]);
-    rate[Flow::x] = cosine * v_B.x - sine * v_B.y;
-    rate[Flow::y] = sine * v_B.x + cosine * v_B.y;
+    const Turn heading = turned(held.heading, flow[Flow::yaw] - held.yaw);
+    rate[Flow::x] = heading.cosine * v_B.x - heading.sine * v_B.y;
+    rate[Flow::y] = heading.sine * v_B.x + heading.cosine * v_B.y;
     rate[Flow::yaw] = flow[Flow::yaw_rate];
     rate[Flow::vx] = F_B.x / car.mass + flow[Flow::yaw_rate] * v_B.y;
     rate[Flow::vy] = F_B.y / car.mass - flow[Flow::yaw_rate] * v_B.x;
@@ -203,6 +231,11 @@ bool is_finite(const Vehicle& car, const VehicleState& state, const Command& com
     sum += state.wheel_speed[i] + state.brake_torque[i] + command.brake_torque[i];
   }
   return std::isfinite(sum);  // one NaN or infinity makes the sum one
+}
+
+bool in_range(const PerWheel& grip) {
+  return std::all_of(grip.begin(), grip.end(),
+                     [](double value) { return value > 0.0 && value <= 1.2; });
 }
 
 PerWheel after_dead_time(const Vehicle& car, const PerWheel& commanded, BrakeLine& line) {
@@ -231,20 +264,31 @@ void stop_all(VehicleState& state) {
   state.wheel_speed = {};
 }
 
-void lock_wheels(const Vehicle& car, VehicleState& state, Held& held) {
+// A wheel that its brake would stop within 1 ms, and whose brake holds more than the road and the
+// motor turn, is locked.
+void lock_wheels(const Vehicle& car, Flow& flow, Held& held) {
+  PerWheel locked{};
+  bool any = false;
+  Flow stopped = flow;
   for (std::size_t i = 0; i < num_wheels; ++i) {
-    const double brake = state.brake_torque[i];
-    const double inertia = wheel_inertia(car, i);
-    if (brake <= 0.0 || std::abs(state.wheel_speed[i]) * inertia * brake_stiffness > brake) {
-      continue;
+    const double brake = flow[Flow::brake + i];
+    if (brake > 0.0 &&
+        std::abs(flow[Flow::wheel + i]) * wheel_inertia(car, i) * brake_stiffness <= brake) {
+      locked[i] = 1.0;
+      stopped[Flow::wheel + i] = 0.0;
+      any = true;
     }
-    Flow flow = flow_of(state);
-    flow[Flow::wheel + i] = 0.0;
-    const Contacts all = contacts_of(car, flow, wheel_directions(car, state.steering), held.grip);
-    const double turning = motor_share(i) * state.motor_torque - car.wheel_radius * all[i].F_T.x;
-    if (std::abs(turning) < brake) {
-      state.wheel_speed[i] = 0.0;
-      held.locked[i] = true;
+  }
+  if (!any) {
+    return;
+  }
+  const Wheels wheels = wheels_of(car, stopped, held);
+  for (std::size_t i = 0; i < num_wheels; ++i) {
+    const double turning =
+        motor_share(car, i) * flow[Flow::motor] - car.wheel_radius * wheels.F_x[i];
+    if (locked[i] > 0.0 && std::abs(turning) < flow[Flow::brake + i]) {
+      flow[Flow::wheel + i] = 0.0;
+      held.rolls[i] = 0.0;
     }
   }
 }
@@ -274,9 +318,25 @@ PerWheel wheel_loads(const Vehicle& car, Vec2 a_B) {
           std::max(0.0, rear - rear_roll), std::max(0.0, rear + rear_roll)};
 }
 
+Contacts contacts(const Vehicle& car, const VehicleState& state, const PerWheel& grip) {
+  expects(in_range(grip), "grip in (0, 1.2]");
+  const Flow flow = flow_of(state);
+  const Wheels wheels = wheels_of(car, flow, held_from(flow, {}, grip));
+  Contacts all;
+  for (std::size_t i = 0; i < num_wheels; ++i) {
+    const double slip_x = wheels.v_x[i] - car.wheel_radius * state.wheel_speed[i];
+    const double speed = std::hypot(wheels.v_x[i], wheels.v_y[i]);
+    all[i] = {.load = wheels.load[i],
+              .angle = std::atan2(wheels.sine[i], wheels.cosine[i]),
+              .F_T = {wheels.F_x[i], wheels.F_y[i]},
+              .slip = std::hypot(slip_x, wheels.v_y[i]) / std::max(speed, slip_speed_floor),
+              .peak_force = peak_friction(car.tyre, wheels.load[i], grip[i]) * wheels.load[i]};
+  }
+  return all;
+}
+
 Contacts contacts(const Vehicle& car, const VehicleState& state, double grip) {
-  expects(grip > 0.0 && grip <= 1.2, "grip in (0, 1.2]");
-  return contacts_of(car, flow_of(state), wheel_directions(car, state.steering), grip);
+  return contacts(car, state, PerWheel{grip, grip, grip, grip});
 }
 
 double kinetic_energy(const Vehicle& car, const VehicleState& state) {
@@ -294,29 +354,50 @@ bool at_rest(const VehicleState& state) {
                      [](double speed) { return speed == 0.0; });
 }
 
+double longest_step(const Vehicle& car) {
+  // A wheel's spin against a road at rest, R^2 stiffness load / (inertia floor), is the fastest
+  // motion. Its load is at most the car's weight on one wheel; in practice half of an axle's plus
+  // what braking moves.
+  const double wheelbase = car.front_arm + car.rear_arm;
+  const double moved = 1.2 * car.mass_height / wheelbase;  // share, at the largest grip
+  const double weight = car.mass * gravity;
+  const auto rate = [&](double load, double inertia) {
+    return car.wheel_radius * car.wheel_radius * car.tyre.stiffness * load /
+           (inertia * slip_speed_floor);
+  };
+  const double front =
+      rate(0.5 * weight * (car.rear_arm / wheelbase + moved), car.front_wheel_inertia);
+  const double rear =
+      rate(0.5 * weight * (car.front_arm / wheelbase + moved), car.rear_wheel_inertia);
+  constexpr double stable = 2.78;  // of the classical Runge-Kutta scheme, on the real axis
+  return std::min(2e-3, stable / std::max(front, rear));
+}
+
 VehicleState step(const Vehicle& car, const VehicleState& state, const Command& command,
-                  double grip, double dt) {
-  expects(dt > 0.0 && dt <= longest_step, "dt in (0, 0.002] s");
-  expects(grip > 0.0 && grip <= 1.2, "grip in (0, 1.2]");
+                  const PerWheel& grip, double dt) {
+  expects(dt > 0.0 && dt <= longest_step(car), "dt in (0, longest_step(car)] s");
+  expects(in_range(grip), "grip in (0, 1.2]");
   expects(is_finite(car, state, command), "car, state and command are finite");
 
   VehicleState next = state;
-  Held held{.command = command, .grip = grip};
-  held.command.steering = std::clamp(command.steering, -car.steering_limit, car.steering_limit);
-  held.command.motor_torque = std::clamp(command.motor_torque, -car.motor_limit, car.motor_limit);
-  held.command.brake_torque = after_dead_time(car, command.brake_torque, next.brake_line);
-  for (double& torque : held.command.brake_torque) {
+  Command limited = command;
+  limited.steering = std::clamp(command.steering, -car.steering_limit, car.steering_limit);
+  limited.motor_torque = std::clamp(command.motor_torque, -car.motor_limit, car.motor_limit);
+  limited.brake_torque = after_dead_time(car, command.brake_torque, next.brake_line);
+  for (double& torque : limited.brake_torque) {
     expects(torque >= 0.0, "brake_torque >= 0");
     torque = std::min(torque, car.brake_limit);
   }
-  if (is_held(car, next)) {
+  const bool holds = is_held(car, next);
+  if (holds) {
     stop_all(next);
-    held.at_rest = true;
-  } else {
-    lock_wheels(car, next, held);
   }
-
-  const Flow start = flow_of(next);
+  Flow start = flow_of(next);
+  Held held = held_from(start, limited, grip);
+  held.at_rest = holds;
+  if (!holds) {
+    lock_wheels(car, start, held);
+  }
   const Flow k1 = rates(car, start, held);
   const Flow k2 = rates(car, along(start, 0.5 * dt, k1), held);
   const Flow k3 = rates(car, along(start, 0.5 * dt, k2), held);
@@ -330,6 +411,11 @@ VehicleState step(const Vehicle& car, const VehicleState& state, const Command& 
   next.a_B = acceleration(start, k1);
   next.brake_line.since += dt;
   return next;
+}
+
+VehicleState step(const Vehicle& car, const VehicleState& state, const Command& command,
+                  double grip, double dt) {
+  return step(car, state, command, PerWheel{grip, grip, grip, grip}, dt);
 }
 
 }  // namespace saca::vehicle

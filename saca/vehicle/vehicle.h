@@ -41,7 +41,8 @@ struct Vehicle {
   double brake_dead_time;      ///< [s], in [0, 0.06]
   double brake_lag;            ///< time constant of the build-up after the dead time [s], > 0
   double brake_limit;          ///< largest torque on one wheel [N m], > 0
-  double motor_limit;          ///< largest torque at the rear axle, either way [N m], >= 0
+  double motor_limit;          ///< largest torque of the motor, either way [N m], >= 0
+  double motor_front_share;    ///< of its torque, at the front axle: 0 rear-driven, 1 front [-]
   double motor_lag;            ///< time constant [s], > 0
   double body_length;          ///< [m], > 0
   double body_width;           ///< [m], > 0
@@ -52,7 +53,7 @@ struct Vehicle {
 struct Command {
   double steering = 0.0;      ///< angle of the road wheels [rad], > 0 to the left
   PerWheel brake_torque{};    ///< [N m], each >= 0
-  double motor_torque = 0.0;  ///< at the rear axle, shared equally by its wheels [N m]
+  double motor_torque = 0.0;  ///< of all driven wheels; those of an axle share equally [N m]
 };
 
 /// Brake commands on their way: what was commanded in the last milliseconds. The brakes' bus runs
@@ -74,7 +75,7 @@ struct VehicleState {
   PerWheel wheel_speed{};     ///< > 0 rolls forward [rad/s]
   double steering = 0.0;      ///< of the road wheels, between the two [rad]
   PerWheel brake_torque{};    ///< at the wheels [N m], >= 0
-  double motor_torque = 0.0;  ///< at the rear axle [N m]
+  double motor_torque = 0.0;  ///< of all driven wheels [N m]
   Vec2 transfer_a_B;          ///< acceleration that the wheel loads answer to, lagged [m/s^2]
   Vec2 a_B;                   ///< of the centre of mass at the end of the last step [m/s^2]
   BrakeLine brake_line;
@@ -84,6 +85,7 @@ static_assert(std::is_trivially_copyable_v<VehicleState>);
 /// Where a wheel touches the road.
 struct Contact {
   double load = 0.0;        ///< [N], >= 0
+  double angle = 0.0;       ///< of the wheel against the body [rad]
   Vec2 F_T;                 ///< force of the road on the wheel, expressed in T [N]
   double slip = 0.0;        ///< size of the sliding velocity over speed [-], >= 0
   double peak_force = 0.0;  ///< largest force at this load [N]
@@ -101,8 +103,10 @@ constexpr double hold_speed = 0.05;
 [[nodiscard]] PerWheel wheel_loads(const Vehicle& car, Vec2 a_B);
 
 /// The four contacts of a state.
-/// @param grip  friction coefficient of the road [-], in (0, 1.2]
+/// @param grip  friction coefficient of the road [-], in (0, 1.2]; one, or one under each wheel
 [[nodiscard]] Contacts contacts(const Vehicle& car, const VehicleState& state, double grip);
+[[nodiscard]] Contacts contacts(const Vehicle& car, const VehicleState& state,
+                                const PerWheel& grip);
 
 /// Kinetic energy of the body and its wheels [J].
 [[nodiscard]] double kinetic_energy(const Vehicle& car, const VehicleState& state);
@@ -113,10 +117,14 @@ constexpr double hold_speed = 0.05;
 /// With which predictions and simulated drives are integrated [s].
 constexpr double usual_step = 1e-3;
 
+/// The longest step [s] that resolves this car's fastest motion, the spin of a wheel at low speed;
+/// at most 2 ms. A longer one would not be wrong but unstable.
+[[nodiscard]] double longest_step(const Vehicle& car);
+
 /// The state `dt` later under a held command.
 ///
-/// @param grip  friction coefficient of the road [-], in (0, 1.2]
-/// @param dt    [s], in (0, 0.002]
+/// @param grip  friction coefficient of the road [-], in (0, 1.2]; one, or one under each wheel
+/// @param dt    [s], in (0, longest_step(car)]
 /// @throws ContractViolation  if anything is not finite or outside its range
 ///
 /// Planar double track on a level road: four wheel speeds, lagged load transfer, air drag,
@@ -126,5 +134,7 @@ constexpr double usual_step = 1e-3;
 /// `hold_speed` is at rest. Allocates nothing.
 [[nodiscard]] VehicleState step(const Vehicle& car, const VehicleState& state,
                                 const Command& command, double grip, double dt);
+[[nodiscard]] VehicleState step(const Vehicle& car, const VehicleState& state,
+                                const Command& command, const PerWheel& grip, double dt);
 
 }  // namespace saca::vehicle
