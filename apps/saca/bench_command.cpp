@@ -12,10 +12,10 @@
 #include "saca/core/clock.h"
 #include "saca/core/percentile.h"
 #include "saca/decide/reflex_plane.h"
+#include "saca/manoeuvre/car.h"
 #include "saca/manoeuvre/controller.h"
 #include "saca/manoeuvre/ego.h"
 #include "saca/manoeuvre/physics_figures.h"
-#include "saca/vehicle/parameters.h"
 
 namespace saca::app {
 namespace {
@@ -23,7 +23,7 @@ namespace {
 using nlohmann::json;
 
 /// Stopping distances and lane changes beside their bands.
-int bench_physics(const vehicle::Vehicle& car, json& figures, bool quiet) {
+int bench_physics(const manoeuvre::Car& car, json& figures, bool quiet) {
   int outside = 0;
   for (const manoeuvre::Figure& figure : manoeuvre::physics_figures(car)) {
     outside += in_band(figure) ? 0 : 1;
@@ -40,7 +40,7 @@ int bench_physics(const vehicle::Vehicle& car, json& figures, bool quiet) {
 }
 
 /// Integrated milliseconds per second of computing: a stop from 20 m/s, over and over.
-void bench_vehicle(const vehicle::Vehicle& car, Clock& clock, json& figures) {
+void bench_vehicle(const manoeuvre::Car& car, Clock& clock, json& figures) {
   world::Scene scene;
   scene.ego.v_B = {20.0, 0.0};
   const manoeuvre::Plan plan{manoeuvre::PolicyId::aeb, std::nullopt};
@@ -60,7 +60,7 @@ void bench_vehicle(const vehicle::Vehicle& car, Clock& clock, json& figures) {
 }
 
 /// A scene with `num_actors` others on three lanes; `rng` moves them a little.
-world::Scene crowd(const vehicle::Vehicle& car, int num_actors, std::mt19937& rng) {
+world::Scene crowd(const manoeuvre::Car& car, int num_actors, std::mt19937& rng) {
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   world::Scene scene;
   scene.ego.v_B = {20.0 + u(rng), 0.0};
@@ -97,7 +97,7 @@ std::vector<double> machine_times(Clock& clock, double wanted, int num_calls) {
 
 /// Percentiles of one reflex step: six plans received, threats looked for, and where the scene
 /// triggers, matched and decided. How many of them trigger is printed too.
-void bench_reflex(const vehicle::Vehicle& car, Clock& clock, int num_calls, json& figures) {
+void bench_reflex(const manoeuvre::Car& car, Clock& clock, int num_calls, json& figures) {
   for (const int num_actors : {1, 8, 32}) {
     std::mt19937 rng(1);
     constexpr int num_scenes = 64;
@@ -147,7 +147,7 @@ int bench(const BenchOptions& options) {
     return bad_input;
   }
   const auto car =
-      vehicle::read_vehicle(places.value().root / "data" / "vehicles" / "compact_rwd_ev.toml");
+      manoeuvre::read_car(places.value().root / "data" / "vehicles" / "compact_rwd_ev.toml");
   if (!car.has_value()) {
     complain(car.error().message);
     return bad_input;

@@ -11,9 +11,9 @@
 #include "apps/saca/story.h"
 #include "saca/core/file.h"
 #include "saca/loop/encounter.h"
+#include "saca/manoeuvre/car.h"
 #include "saca/memory/store.h"
 #include "saca/report/html_report.h"
-#include "saca/vehicle/parameters.h"
 
 namespace saca::app {
 namespace {
@@ -36,7 +36,7 @@ struct RunOptions {
 /// Everything that a run reads before it begins.
 struct Inputs {
   sim::Scenario scenario;
-  vehicle::Vehicle car;
+  manoeuvre::Car car;
   outcome::HarmModel harm;
   loop::ThinkingCosts costs;
 };
@@ -49,7 +49,7 @@ Result<Inputs> read_inputs(const Places& places, const RunOptions& options) {
   }
   inputs.scenario = scenario.value();
   const auto car =
-      vehicle::read_vehicle(places.root / "data" / "vehicles" / (inputs.scenario.car + ".toml"));
+      manoeuvre::read_car(places.root / "data" / "vehicles" / (inputs.scenario.car + ".toml"));
   if (!car.has_value()) {
     return car.error();
   }

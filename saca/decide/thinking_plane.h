@@ -6,18 +6,18 @@
 #include "saca/core/clock.h"
 #include "saca/decide/event.h"
 #include "saca/decide/plan_cache.h"
+#include "saca/manoeuvre/car.h"
 #include "saca/memory/store.h"
 #include "saca/outcome/harm.h"
 #include "saca/preview/preview.h"
 #include "saca/preview/threat.h"
 #include "saca/reason/language_model.h"
-#include "saca/vehicle/vehicle.h"
 
 namespace saca::decide {
 
 /// What the thinking plane works with. Whatever it points to outlives the plane.
 struct ThinkingTools {
-  const vehicle::Vehicle* car = nullptr;
+  const manoeuvre::Car* car = nullptr;
   const outcome::HarmModel* harm = nullptr;
   memory::Store* memory = nullptr;         ///< nullptr: without memory
   reason::LanguageModel* model = nullptr;  ///< nullptr: without language model

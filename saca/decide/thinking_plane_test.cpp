@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "saca/manoeuvre/default_car.h"
 #include "saca/manoeuvre/ego.h"
-#include "saca/vehicle/parameters.h"
 
 namespace saca::decide {
 namespace {
@@ -72,9 +72,8 @@ class Thinking : public testing::Test {
     scene.actors.push_back(wreck);
     return scene;
   }
-  static const vehicle::Vehicle& car() {
-    static const vehicle::Vehicle it =
-        vehicle::read_vehicle("data/vehicles/compact_rwd_ev.toml").value();
+  static const manoeuvre::Car& car() {
+    static const manoeuvre::Car it = manoeuvre::default_car();
     return it;
   }
 
@@ -135,7 +134,7 @@ TEST_F(Thinking, NeverCachesWhatCannotBeDriven) {
   FixedModel model(PolicyId::t_drift_right, clock_);
   ThinkingPlane thinking = plane(&model);
   world::Scene scene = wreck_ahead();
-  scene.grip = 0.25;
+  scene.grip = 0.15;
   thinking.think(scene, clock_.now());
   EXPECT_FALSE(thinking.previews()[0].situation.facts[6].refusal.empty());
   EXPECT_FALSE(thinking.previews()[0].plan.has_value());

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "saca/loop/wreck_for_test.h"
-#include "saca/vehicle/parameters.h"
+#include "saca/manoeuvre/default_car.h"
 
 namespace saca::loop {
 namespace {
@@ -30,7 +30,7 @@ TEST(ChargedThinking, HoldsPlansBackUntilTheyAreReady) {
 }
 
 TEST(ChargedThinking, StartsNoRoundBeforeTheLastOneIsPaidFor) {
-  const auto car = vehicle::read_vehicle("data/vehicles/compact_rwd_ev.toml").value();
+  const auto car = manoeuvre::default_car();
   const auto harm = outcome::read_harm("data/harm.toml").value();
   ManualClock clock;
   ChargedThinking thinking(0.5, clock);

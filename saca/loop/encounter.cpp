@@ -271,7 +271,7 @@ void Encounter::execute(const Scene& scene, const preview::Threat& threat) {
     decision.plan = manoeuvre::default_plan(decision.plan.policy, norm(scene.ego.v_B));
   }
   const manoeuvre::Plan wanted = decision.plan;
-  const auto refused = manoeuvre::refusal(wanted, scene);
+  const auto refused = manoeuvre::refusal(*setup_.car, wanted, scene);
   if (refused) {
     decision.plan = {PolicyId::aeb, std::nullopt};
     decision.source = decide::Source::fallback;

@@ -13,12 +13,12 @@
 #include "saca/decide/reflex_plane.h"
 #include "saca/loop/charged_model.h"
 #include "saca/loop/hindsight.h"
+#include "saca/manoeuvre/car.h"
 #include "saca/memory/store.h"
 #include "saca/outcome/harm.h"
 #include "saca/preview/threat.h"
 #include "saca/reason/language_model.h"
 #include "saca/sim/scenario.h"
-#include "saca/vehicle/vehicle.h"
 
 namespace saca::loop {
 
@@ -32,7 +32,7 @@ enum class Pace : std::uint8_t {
 /// Everything that an encounter is run with. What it points to outlives the run.
 struct Setup {
   const sim::Scenario* scenario = nullptr;
-  const vehicle::Vehicle* car = nullptr;
+  const manoeuvre::Car* car = nullptr;
   const outcome::HarmModel* harm = nullptr;
   preview::Thresholds thresholds;
   Pace pace = Pace::lockstep;

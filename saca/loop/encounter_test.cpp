@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "saca/vehicle/parameters.h"
+#include "saca/manoeuvre/default_car.h"
 
 namespace saca::loop {
 namespace {
@@ -80,7 +80,7 @@ class EncounterTest : public testing::Test {
 
   SteadyClock clock_;
   Quiet quiet_;
-  vehicle::Vehicle car_ = vehicle::read_vehicle("data/vehicles/compact_rwd_ev.toml").value();
+  manoeuvre::Car car_ = manoeuvre::default_car();
   outcome::HarmModel harm_ = outcome::read_harm("data/harm.toml").value();
 };
 
@@ -150,7 +150,7 @@ TEST_F(EncounterTest, TheUserCanAskForAPolicy) {
 
 TEST_F(EncounterTest, WhatCannotBeDrivenBecomesBraking) {
   auto scenario = wreck_on_wet_road();
-  scenario.grip = 0.25;
+  scenario.grip = 0.15;
   const Record record = play(scenario, nullptr, nullptr, PolicyId::t_drift_left).value();
   EXPECT_EQ(record.decision->plan.policy, PolicyId::aeb);
   EXPECT_EQ(record.decision->source, Source::fallback);

@@ -22,14 +22,14 @@ void cut_at(manoeuvre::EgoMotion& motion, double time) {
 
 std::array<Hindsight, manoeuvre::num_policies> hindsight(const world::Scene& at_trigger,
                                                          std::span<const world::Track> tracks,
-                                                         double grip, const vehicle::Vehicle& car,
+                                                         double grip, const manoeuvre::Car& car,
                                                          const outcome::HarmModel& harm) {
   const std::vector<world::Track> judged = preview::without_followers(at_trigger, tracks);
   std::array<Hindsight, manoeuvre::num_policies> all;
   for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
     Hindsight& one = all[manoeuvre::index(policy)];
     one.facts.plan = manoeuvre::default_plan(policy, norm(at_trigger.ego.v_B));
-    one.facts.refusal = manoeuvre::refusal(one.facts.plan, at_trigger).value_or("");
+    one.facts.refusal = manoeuvre::refusal(car, one.facts.plan, at_trigger).value_or("");
     if (!one.facts.refusal.empty()) {
       continue;
     }

@@ -3,10 +3,10 @@
 #include <array>
 #include <span>
 
+#include "saca/manoeuvre/car.h"
 #include "saca/manoeuvre/drive.h"
 #include "saca/outcome/outcome.h"
 #include "saca/preview/situation.h"
-#include "saca/vehicle/vehicle.h"
 #include "saca/world/scene.h"
 
 namespace saca::loop {
@@ -21,6 +21,6 @@ struct Hindsight {
 /// @param tracks  true motion, one per actor of the scene
 [[nodiscard]] std::array<Hindsight, manoeuvre::num_policies> hindsight(
     const world::Scene& at_trigger, std::span<const world::Track> tracks, double grip,
-    const vehicle::Vehicle& car, const outcome::HarmModel& harm);
+    const manoeuvre::Car& car, const outcome::HarmModel& harm);
 
 }  // namespace saca::loop

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "saca/loop/wreck_for_test.h"
-#include "saca/vehicle/parameters.h"
+#include "saca/manoeuvre/default_car.h"
 
 namespace saca::loop {
 namespace {
@@ -13,7 +13,7 @@ using manoeuvre::PolicyId;
 // A wreck 28 m ahead of the front at 20 m/s, lanes on both sides. Braking takes 24.9 m on dry road
 // and 42.7 m at grip 0.5 (docs/architecture.md); a lane change 0.9 s to clear it.
 TEST(Hindsight, KnowsWhatEachPolicyWouldHaveDone) {
-  const auto car = vehicle::read_vehicle("data/vehicles/compact_rwd_ev.toml").value();
+  const auto car = manoeuvre::default_car();
   const auto harm = outcome::read_harm("data/harm.toml").value();
   world::Scene scene = wreck_ahead(car, 32.5);
   scene.road.left_edge = 5.25;
@@ -36,8 +36,8 @@ TEST(Hindsight, KnowsWhatEachPolicyWouldHaveDone) {
   EXPECT_FALSE(hindsight(scene, tracks, 0.9, car, harm)[manoeuvre::index(PolicyId::aeb)]
                    .facts.outcome.contact.has_value());
   // A drift cannot be driven where the road is slippery enough.
-  scene.grip = 0.25;
-  const auto slippery = hindsight(scene, tracks, 0.25, car, harm);
+  scene.grip = 0.15;
+  const auto slippery = hindsight(scene, tracks, 0.15, car, harm);
   const Hindsight& drift = slippery[manoeuvre::index(PolicyId::t_drift_left)];
   EXPECT_TRUE(drift.motion.track.X_WA.empty());
   EXPECT_FALSE(drift.facts.refusal.empty());

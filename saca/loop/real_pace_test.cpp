@@ -6,7 +6,7 @@
 #include <mutex>
 
 #include "saca/loop/encounter.h"
-#include "saca/vehicle/parameters.h"
+#include "saca/manoeuvre/default_car.h"
 
 namespace saca::loop {
 namespace {
@@ -60,7 +60,7 @@ class Story final : public Listener {
 };
 
 TEST(RealPace, TheModelsPlanIsReadyInTimeAndCarriedOut) {
-  const auto car = vehicle::read_vehicle("data/vehicles/compact_rwd_ev.toml").value();
+  const auto car = manoeuvre::default_car();
   const auto harm = outcome::read_harm("data/harm.toml").value();
   // A wreck on a wet road, 80 m ahead of the ego's centre at 20 m/s: contact after 3.8 s, so T1 at
   // 2.5 s. Braking is not enough.

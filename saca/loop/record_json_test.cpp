@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "saca/loop/encounter.h"
-#include "saca/vehicle/parameters.h"
+#include "saca/manoeuvre/default_car.h"
 
 namespace saca::loop {
 namespace {
@@ -28,7 +28,7 @@ TEST(RecordJson, HoldsWhatTheFormatPromises) {
        .footprint = {.shape = world::Shape::ellipse, .length = 0.5, .width = 0.5},
        .mass = 75.0,
        .motion = sim::Script{.start = {.s = 40.0}, .behaviour = sim::Behaviour::hold}});
-  const auto car = vehicle::read_vehicle("data/vehicles/compact_rwd_ev.toml").value();
+  const auto car = manoeuvre::default_car();
   const auto harm = outcome::read_harm("data/harm.toml").value();
   SteadyClock clock;
   Quiet quiet;

@@ -5,14 +5,14 @@
 #include <atomic>
 
 #include "saca/loop/wreck_for_test.h"
-#include "saca/vehicle/parameters.h"
+#include "saca/manoeuvre/default_car.h"
 
 namespace saca::loop {
 namespace {
 
 // Two threads meet in two slots: run under the thread sanitiser.
 TEST(ThinkingThread, ThinksAboutTheNewestSceneAndEndsWhenAsked) {
-  const auto car = vehicle::read_vehicle("data/vehicles/compact_rwd_ev.toml").value();
+  const auto car = manoeuvre::default_car();
   const auto harm = outcome::read_harm("data/harm.toml").value();
   SteadyClock clock;
   LatestSlot<TimedScene> scenes;

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "saca/vehicle/parameters.h"
+#include "saca/manoeuvre/default_car.h"
 
 namespace saca::loop {
 namespace {
@@ -23,7 +23,7 @@ sim::Scenario drive_at_a_wreck(double d) {
 
 /// Looks every 10 ms until contact or the end.
 Witness watch(const sim::Scenario& scenario, const outcome::HarmModel& harm) {
-  const auto car = vehicle::read_vehicle("data/vehicles/compact_rwd_ev.toml").value();
+  const auto car = manoeuvre::default_car();
   sim::Stepper stepper(scenario, car);
   Witness witness(harm);
   while (!stepper.over() && !witness.look(stepper)) {

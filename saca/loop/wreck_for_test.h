@@ -8,7 +8,7 @@ namespace saca::loop {
 
 /// A car at 20 m/s on a straight dry road, and a wreck in its lane: for tests.
 /// @param distance  of the wreck's centre ahead of the centre of mass [m]
-inline world::Scene wreck_ahead(const vehicle::Vehicle& car, double distance) {
+inline world::Scene wreck_ahead(const manoeuvre::Car& car, double distance) {
   world::Scene scene;
   scene.ego.v_B = {20.0, 0.0};
   scene.ego_footprint = manoeuvre::footprint(car);

@@ -11,25 +11,15 @@ namespace {
 
 using vehicle::Command;
 using vehicle::gravity;
-using vehicle::Vehicle;
 using vehicle::VehicleState;
 
-// The numbers below were found by simulation over 5 to 25 m/s and grip 0.3 to 1.0, with the grip
-// estimate up to 6 % off; they have no other source.
-constexpr double swerve_share = 0.84;    // of the grip, for a lane change without braking
-constexpr double fast_less = 0.03;       // [s/m] of it given up for each m/s above `fast`
-constexpr double fast = 18.0;            // [m/s] above which yaw is damped too weakly for all of it
-constexpr double braked_share = 0.70;    // of the grip, for one with braking
+// Numbers that hold for any car; those of a car are in its tuning.
+constexpr double fast = 18.0;            // [m/s] above which yaw is damped too weakly for all grip
 constexpr double keep_share = 0.3;       // of the grip, to take up a wrong direction in the lane
 constexpr double least_ramp = 0.12;      // [s], steering and yaw cannot follow faster
 constexpr double steering_use = 1.0;     // of the steering's rate, for the path's ramps
 constexpr double most_heading = 0.5;     // [rad] against the lane during a lane change
-constexpr double path_lag = 0.05;        // [s] from a steering command to its force
-constexpr double path_frequency = 7.0;   // [rad/s] of the return to the path
-constexpr double path_damping = 0.9;     // [-] of it
 constexpr double front_limit = 0.97;     // share of the front tyres' peak that steering may ask for
-constexpr double guard_from = 0.55;      // rear slip over its peak, where turning in is cut back
-constexpr double guard_to = 1.0;         // likewise, where none is left
 constexpr double combined_share = 0.92;  // of the grip, for braking and steering together
 constexpr double least_stop_share =
     0.6;                       // of the grip, that a stop brakes with whatever the path asks
@@ -39,7 +29,7 @@ constexpr double crawl = 1.5;  // [m/s] below it steering fades out
 constexpr double least_kept_speed = 0.5;
 
 // How far ahead of the centre of mass rear forces do not accelerate the body sideways [m].
-double percussion_arm(const Vehicle& car) {
+double percussion_arm(const Car& car) {
   return car.yaw_inertia / (car.mass * car.rear_arm);
 }
 
@@ -50,20 +40,20 @@ struct PathPoint {
   Vec2 v_L;        // of the point [m/s]
 };
 
-PathPoint path_point(const Vehicle& car, const world::Road& road, const Pose& X_WB, Vec2 v_B,
+PathPoint path_point(const Car& car, const world::Road& road, const Pose& X_WB, Vec2 v_B,
                      double yaw_rate) {
   const double arm = percussion_arm(car);
   const world::LanePose pose = world::to_lane(road, {X_WB * Vec2{arm, 0.0}, X_WB.yaw});
   return {pose.d, pose.heading, rotated({v_B.x, v_B.y + yaw_rate * arm}, pose.heading)};
 }
 
-double steering_for(const Vehicle& car, double acceleration, double speed) {
+double steering_for(const Car& car, double acceleration, double speed) {
   return std::atan((car.front_arm + car.rear_arm) * acceleration / (speed * speed));
 }
 
 // A lane change that the steering can follow: its angle, its rate, and the car's direction on the
 // way stay within bounds at the lowest speed of the change.
-LaneShift followable_shift(const Vehicle& car, const PathPoint& start, double end_d, double share,
+LaneShift followable_shift(const Car& car, const PathPoint& start, double end_d, double share,
                            double grip, double slowest) {
   const double wheelbase = car.front_arm + car.rear_arm;
   const double turning = slowest * slowest * std::tan(0.8 * car.steering_limit) / wheelbase;
@@ -87,25 +77,32 @@ LaneShift followable_shift(const Vehicle& car, const PathPoint& start, double en
   return shift;
 }
 
+// Deceleration that the grip leaves beside a sideways acceleration [m/s^2].
+double deceleration_left(double share, double grip, double sideways) {
+  const double most = share * grip * gravity;
+  return std::sqrt(std::max(0.0, most * most - sideways * sideways));
+}
+
 // Speed at the end of a braked lane change, roughly: what the circle leaves brakes for one second.
-double slowest_speed(const Plan& plan, double speed, double grip) {
+double slowest_speed(const Car& car, const Plan& plan, double speed, double grip) {
   if (!brakes_to_speed(plan.policy)) {
     return speed;
   }
   const double left_over =
-      std::sqrt(combined_share * combined_share - braked_share * braked_share) * grip * gravity;
+      deceleration_left(combined_share, grip, car.tuning.swerve.braked_share * grip * gravity);
   return std::max({plan.target_speed.value_or(0.0), speed - left_over, 0.6 * speed});
 }
 
 // Acceleration that the path asks of the controlled point, to the left of the car [m/s^2].
-double sideways_demand(const Vehicle& car, const world::Road& road, const VehicleState& state,
+double sideways_demand(const Car& car, const world::Road& road, const VehicleState& state,
                        const ControllerState& memory, const PathPoint& point) {
   // The steering follows late: its cause leads, and the path is expected as much later.
+  const SwerveLaw& law = car.tuning.swerve;
   const double a = at(memory.shift, memory.time).a;
-  const Lateral path = at(memory.shift, memory.time - path_lag);
+  const Lateral path = at(memory.shift, memory.time - law.lag);
   const double along_lane =
-      a + 2.0 * path_damping * path_frequency * (path.v - point.v_L.y) +
-      path_frequency * path_frequency * (path.d - point.d) +
+      a + 2.0 * law.damping * law.frequency * (path.v - point.v_L.y) +
+      law.frequency * law.frequency * (path.d - point.d) +
       road.curvature * point.v_L.x * point.v_L.x / std::max(0.1, 1.0 - road.curvature * point.d);
   const double ahead = state.a_B.x - state.yaw_rate * state.yaw_rate * percussion_arm(car);
   const double cosine = std::max(0.3, std::cos(point.heading));
@@ -120,18 +117,19 @@ struct Sides {
 
 // The rear must keep grip: once it slips near its peak, the front may not turn the car further in,
 // and past the peak it must turn it back.
-Sides turning_allowed(const Vehicle& car, const VehicleState& state, double grip) {
+Sides turning_allowed(const Car& car, const VehicleState& state, double grip) {
+  const SwerveLaw& law = car.tuning.swerve;
   const double vy_rear = state.v_B.y - car.rear_arm * state.yaw_rate;
   const double slip = vy_rear / std::max(state.v_B.x, vehicle::slip_speed_floor);
   const double peak = vehicle::slip_for(car.tyre, grip, 1.0);
-  const double excess = (std::abs(slip) / peak - guard_from) / (guard_to - guard_from);
+  const double excess = (std::abs(slip) / peak - law.guard_from) / law.guard_width;
   const double allowed = std::clamp(1.0 - excess, -0.5, 1.0);
   // A rear that slides to the right carries force to the left: the car turns left.
   return slip < 0.0 ? Sides{.left = allowed, .right = 1.0} : Sides{.left = 1.0, .right = allowed};
 }
 
 // Angle of the road wheels at which the front tyres push with the force that gives the demand.
-double steering_angle(const Vehicle& car, const VehicleState& state, double grip, double demand) {
+double steering_angle(const Car& car, const VehicleState& state, double grip, double demand) {
   const double wheelbase = car.front_arm + car.rear_arm;
   const vehicle::PerWheel loads = vehicle::wheel_loads(car, {state.a_B.x, 0.0});
   const double load = loads[vehicle::front_left] + loads[vehicle::front_right];
@@ -158,24 +156,20 @@ double steering_angle(const Vehicle& car, const VehicleState& state, double grip
   return std::atan2(v_axle_B.y, v_axle_B.x) + std::asin(std::clamp(sliding / speed, -0.7, 0.7));
 }
 
-// Deceleration that the grip leaves beside a sideways acceleration [m/s^2].
-double deceleration_left(double share, double grip, double sideways) {
-  const double most = share * grip * gravity;
-  return std::sqrt(std::max(0.0, most * most - sideways * sideways));
-}
-
-double holding_torque(const Vehicle& car, const VehicleState& state, double speed, double grip) {
-  constexpr double gain = 2.0;         // [1/s]
-  constexpr double rear_share = 0.25;  // of the rear grip: the rest is for the path
-  const double rear_load = car.mass * gravity * car.front_arm / (car.front_arm + car.rear_arm);
+double holding_torque(const Car& car, const VehicleState& state, double speed, double grip) {
+  constexpr double gain = 2.0;           // [1/s]
+  constexpr double driven_share = 0.25;  // of the driven axles' grip: the rest is for the path
+  const double driven_load =
+      car.mass * gravity / (car.front_arm + car.rear_arm) *
+      ((1.0 - car.motor_front_share) * car.front_arm + car.motor_front_share * car.rear_arm);
   const double left_over = deceleration_left(1.0, grip, state.a_B.y) / (grip * gravity);
-  const double most = rear_share * left_over * grip * rear_load;
+  const double most = driven_share * left_over * grip * driven_load;
   const double force = std::clamp(gain * car.mass * (speed - state.v_B.x), -most, most);
   return force * car.wheel_radius;
 }
 
 // Brakes or motor: what the plan wants of the speed, with what steering leaves.
-void command_speed(const Vehicle& car, const Plan& plan, double grip, const VehicleState& state,
+void command_speed(const Car& car, const Plan& plan, double grip, const VehicleState& state,
                    double sideways, double dt, ControllerState& memory, Command& command) {
   const bool stops = plan.policy == PolicyId::aeb ||
                      (brakes_to_speed(plan.policy) && memory.speed < least_kept_speed);
@@ -198,7 +192,7 @@ void command_speed(const Vehicle& car, const Plan& plan, double grip, const Vehi
 }
 
 void watch_recovery(const Plan& plan, const PathPoint& point, const VehicleState& state, double dt,
-                    const Vehicle& car, ControllerState& memory) {
+                    const Car& car, ControllerState& memory) {
   constexpr double near_d = 0.2;      // [m]
   constexpr double near_speed = 1.0;  // [m/s]
   const double near_heading = from_degrees(2.0);
@@ -209,26 +203,12 @@ void watch_recovery(const Plan& plan, const PathPoint& point, const VehicleState
   memory.recovered_for = recovered ? memory.recovered_for + dt : 0.0;
 }
 
-// Found by differential evolution over 12 pairs of speed (8 to 25 m/s) and grip (0.3 to 0.9), half
-// of the runs with the car and the road off their estimates; no other source.
-constexpr DriftLaw drift_law{.turning = 1.468,
-                             .most_turning = 2.136,
-                             .gain = 8.059,
-                             .lead = 0.118,
-                             .front_release = 0.553,
-                             .rear_release = 0.083,
-                             .outer_release = 0.725,
-                             .motor_share = -0.979,
-                             .steering = 0.242,
-                             .slide_share = 0.872,
-                             .lock_speed = 0.427};
-
-Command drift(const Vehicle& car, const Plan& plan, const world::Road& road, double grip,
+Command drift(const Car& car, const Plan& plan, const world::Road& road, double grip,
               const VehicleState& state, double dt, ControllerState& memory) {
   const DriftMotion motion{world::to_lane(road, state.X_WB).heading, state.v_B, state.yaw_rate,
                            state.a_B};
   const auto law = side(plan.policy) > 0 ? drift_left : drift_right;
-  return law(car, drift_law, grip, motion, dt, memory.drift);
+  return law(car, car.tuning.drift, grip, motion, dt, memory.drift);
 }
 
 bool is_finite(const VehicleState& state, double grip) {
@@ -238,8 +218,8 @@ bool is_finite(const VehicleState& state, double grip) {
 
 }  // namespace
 
-ControllerState begin(const Vehicle& car, const Plan& plan, const world::Scene& scene) {
-  expects(!refusal(plan, scene).has_value(), "the plan can be driven: refusal(plan, scene)");
+ControllerState begin(const Car& car, const Plan& plan, const world::Scene& scene) {
+  expects(!refusal(car, plan, scene).has_value(), "the plan can be driven: refusal(...)");
   const world::EgoState& ego = scene.ego;
   const PathPoint start = path_point(car, scene.road, ego.X_WB, ego.v_B, ego.yaw_rate);
   ControllerState memory;
@@ -252,11 +232,13 @@ ControllerState begin(const Vehicle& car, const Plan& plan, const world::Scene& 
   if (changes_lane(plan.policy)) {
     memory.end_d = side(plan.policy) * scene.road.lane_width;
     const double bend = std::abs(scene.road.curvature) * ego.v_B.x * ego.v_B.x;
-    const double given_up =
-        fast_less * std::max(0.0, ego.v_B.x - fast) + bend / (scene.grip * gravity);
-    const double share = (brakes_to_speed(plan.policy) ? braked_share : swerve_share) - given_up;
+    const double given_up = car.tuning.swerve.fast_less * std::max(0.0, ego.v_B.x - fast) +
+                            bend / (scene.grip * gravity);
+    const double share =
+        (brakes_to_speed(plan.policy) ? car.tuning.swerve.braked_share : car.tuning.swerve.share) -
+        given_up;
     memory.shift = followable_shift(car, start, memory.end_d, share, scene.grip,
-                                    slowest_speed(plan, ego.v_B.x, scene.grip));
+                                    slowest_speed(car, plan, ego.v_B.x, scene.grip));
   } else {
     constexpr double coming_to = 0.5;  // [s] within which a wrong direction is taken up
     memory.end_d = start.d + coming_to * start.v_L.y;
@@ -266,7 +248,7 @@ ControllerState begin(const Vehicle& car, const Plan& plan, const world::Scene& 
   return memory;
 }
 
-Command control(const Vehicle& car, const Plan& plan, const world::Road& road, double grip,
+Command control(const Car& car, const Plan& plan, const world::Road& road, double grip,
                 const VehicleState& state, ControllerState& memory, double dt) noexcept {
   Command command;
   if (!is_finite(state, grip)) {

@@ -2,6 +2,7 @@
 
 #include <type_traits>
 
+#include "saca/manoeuvre/car.h"
 #include "saca/manoeuvre/drift.h"
 #include "saca/manoeuvre/lane_shift.h"
 #include "saca/manoeuvre/plan.h"
@@ -25,13 +26,12 @@ struct ControllerState {
 static_assert(std::is_trivially_copyable_v<ControllerState>);
 
 /// A manoeuvre's controller at its start.
-/// @throws ContractViolation  if refusal(plan, scene) has a reason
-[[nodiscard]] ControllerState begin(const vehicle::Vehicle& car, const Plan& plan,
-                                    const world::Scene& scene);
+/// @throws ContractViolation  if refusal(car, plan, scene) has a reason
+[[nodiscard]] ControllerState begin(const Car& car, const Plan& plan, const world::Scene& scene);
 
 /// What to tell the car now. Called at every step of a manoeuvre, whose `begin` gave `memory`.
 ///
-/// @param grip  estimate of the friction coefficient [-], in [0.3, 1.0]; may be wrong
+/// @param grip  estimate of the friction coefficient [-], in [0.2, 1.0]; may be wrong
 /// @param dt    since the last call [s], > 0
 ///
 /// Path: the force of the front wheels moves the point that rear forces cannot accelerate (the
@@ -42,10 +42,9 @@ static_assert(std::is_trivially_copyable_v<ControllerState>);
 ///
 /// Source of the point: K. Kritayakirana, J. C. Gerdes, Using the centre of percussion to design a
 /// steering controller for an autonomous race car, Vehicle System Dynamics 50 (2012).
-[[nodiscard]] vehicle::Command control(const vehicle::Vehicle& car, const Plan& plan,
-                                       const world::Road& road, double grip,
-                                       const vehicle::VehicleState& state, ControllerState& memory,
-                                       double dt) noexcept;
+[[nodiscard]] vehicle::Command control(const Car& car, const Plan& plan, const world::Road& road,
+                                       double grip, const vehicle::VehicleState& state,
+                                       ControllerState& memory, double dt) noexcept;
 
 /// Whether the manoeuvre has reached its safe end: at rest for 0, 5 and 6 (3, 4 with target 0);
 /// for the others with a lane change: lane offset within 0.2 m, direction within 2 degrees and

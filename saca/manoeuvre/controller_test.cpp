@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "saca/core/contract.h"
+#include "saca/manoeuvre/default_car.h"
 #include "saca/manoeuvre/drive.h"
 #include "saca/manoeuvre/ego.h"
-#include "saca/vehicle/default_car.h"
 #include "tests/support/count_allocations.h"
 
 namespace saca::manoeuvre {
@@ -26,7 +26,7 @@ class Controller : public testing::Test {
     return scene;
   }
 
-  const vehicle::Vehicle car_ = vehicle::default_car();
+  const Car car_ = default_car();
 };
 
 TEST_F(Controller, AllocatesNothingAndNeitherDoesTheCar) {

@@ -1,33 +1,21 @@
 #pragma once
 
 #include "saca/core/vec2.h"
+#include "saca/manoeuvre/tuning.h"
 #include "saca/vehicle/vehicle.h"
 
 namespace saca::manoeuvre {
 
-/// The T-drift (policies 5 and 6): the car slides to a stop across its lane. One feedback law from
-/// begin to rest, by measured heading, turning rate, speed and acceleration; no clock, no phases.
-///
-/// The turning rate wanted is the one that brings heading and speed to their ends together:
-/// r* = turning (pi/2 - heading) a / v, with a the deceleration of a slide. What is missing of it
-/// is a demand u in [-1, 1], that all actuators serve at once. While u > 0 the front wheels steer
-/// in, the brakes of the outer side and of the front axle open, so that the inner side holds and
-/// the front pulls the nose round, and the motor keeps the rear wheels sliding. While u < 0 the
-/// brakes of the inner side and of the rear axle open. At u = 0 all four wheels are locked and the
-/// car slides straight on; so it ends, too.
-struct DriftLaw {
-  double turning;        ///< the larger, the earlier it turns [-], > 0
-  double most_turning;   ///< largest turning rate asked for [rad/s], > 0
-  double gain;           ///< demand over missing turning rate [s/rad], > 0
-  double lead;           ///< by which turning is foreseen, for the actuators' delay [s], >= 0
-  double front_release;  ///< share of the front brakes opened at full demand [-], in [0, 1]
-  double rear_release;   ///< likewise of the rear ones, at the opposite demand [-], in [0, 1]
-  double outer_release;  ///< likewise of the side away from the demanded turn [-], in [0, 1]
-  double motor_share;    ///< of the motor's limit, at full demand [-], in [-1, 1]
-  double steering;       ///< off the direction of motion, at full demand [rad], > 0
-  double slide_share;    ///< of the grip, that slows a sliding car [-], in (0, 1.2]
-  double lock_speed;     ///< below it all wheels are locked [m/s], > 0
-};
+// The T-drift (policies 5 and 6): the car slides to a stop across its lane. One feedback law from
+// begin to rest, by measured heading, turning rate, speed and acceleration; no clock, no phases.
+//
+// The turning rate wanted is the one that brings heading and speed to their ends together:
+// r* = turning (pi/2 - heading) a / v, with a the deceleration of a slide. What is missing of it
+// is a demand u in [-1, 1], that all actuators serve at once. While u > 0 the front wheels steer
+// in, the brakes of the outer side and of the front axle open, so that the inner side holds and
+// the front pulls the nose round, and the motor keeps the rear wheels sliding. While u < 0 the
+// brakes of the inner side and of the rear axle open. At u = 0 all four wheels are locked and the
+// car slides straight on; so it ends, too.
 
 /// What is known of the car's motion, by its sensors.
 struct DriftMotion {

@@ -11,8 +11,8 @@
 #include "saca/core/angle.h"
 #include "saca/core/units.h"
 #include "saca/manoeuvre/controller.h"
+#include "saca/manoeuvre/default_car.h"
 #include "saca/manoeuvre/ego.h"
-#include "saca/vehicle/default_car.h"
 
 namespace saca::manoeuvre {
 namespace {
@@ -55,8 +55,8 @@ world::Scene scene_at(double speed, double grip) {
 }
 
 End drifted(const Plan& plan, const world::Scene& scene, const Unknown& unknown = {}) {
-  const vehicle::Vehicle known = vehicle::default_car();
-  vehicle::Vehicle car = known;
+  const Car known = default_car();
+  Car car = known;
   car.mass *= unknown.mass;
   car.yaw_inertia *= unknown.yaw_inertia;
   car.tyre.stiffness *= unknown.stiffness;
@@ -129,7 +129,7 @@ TEST(TDrift, EndsAcrossTheLaneAtTheCornersOfItsDomain) {
 }
 
 TEST(TDrift, TurnsInByTheInnerBrakesAndTheFrontWheels) {
-  const vehicle::Vehicle car = vehicle::default_car();
+  const Car car = default_car();
   const DriftLaw law{.turning = 1.5,
                      .most_turning = 2.0,
                      .gain = 8.0,
@@ -194,7 +194,7 @@ TEST(TDrift, IsAcrossTheLaneInAnyWorld) {
 }
 
 TEST(TDrift, LocksAllWheelsWhereNothingIsToBeTurned) {
-  const vehicle::Vehicle car = vehicle::default_car();
+  const Car car = default_car();
   DriftState memory;
   const DriftLaw law{
       .turning = 1.0, .most_turning = 2.0, .gain = 5.0, .slide_share = 1.0, .lock_speed = 0.5};

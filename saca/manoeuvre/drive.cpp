@@ -12,6 +12,7 @@ namespace saca::manoeuvre {
 namespace {
 
 constexpr int steps_per_pose = 10;
+constexpr double slowest_lane_change = 5.0;  // [m/s]
 
 // "<what> <value> <rest>"; std::format is not there yet.
 std::string with_number(const char* pattern, double value) {
@@ -36,16 +37,23 @@ std::optional<std::string> wrong_target(const Plan& plan) {
   return std::nullopt;
 }
 
-std::optional<std::string> wrong_motion(const Plan& plan, const world::EgoState& ego) {
+std::optional<std::string> wrong_motion(const Car& car, const Plan& plan,
+                                        const world::Scene& scene) {
+  const world::EgoState& ego = scene.ego;
   if (!is_finite(ego.X_WB) || !is_finite(ego.v_B) || !std::isfinite(ego.yaw_rate) ||
       !is_finite(ego.a_B)) {
     return "the ego's state is not finite";
   }
   // Slower than that a car is at rest before it has turned.
-  const double slowest = drifts(plan.policy) ? 10.0 : 5.0;
-  if (!always_possible(plan.policy) && !(ego.v_B.x >= slowest && ego.v_B.x <= 25.0)) {
-    return std::string(name(plan.policy)) + with_number(" needs a speed of %.0f", slowest) +
-           with_number(" to 25 m/s ahead, is %.2f", ego.v_B.x);
+  const double slowest =
+      drifts(plan.policy) ? slowest_drift(car.tuning.domain, scene.grip) : slowest_lane_change;
+  if (!always_possible(plan.policy) && slowest > fastest) {
+    return std::string(name(plan.policy)) +
+           with_number(" is not possible at a grip of %.2f with this car", scene.grip);
+  }
+  if (!always_possible(plan.policy) && !(ego.v_B.x >= slowest && ego.v_B.x <= fastest)) {
+    return std::string(name(plan.policy)) + with_number(" needs a speed of %.4g", slowest) +
+           with_number(" to %.4g m/s ahead", fastest) + with_number(", is %.2f", ego.v_B.x);
   }
   return std::nullopt;
 }
@@ -69,7 +77,7 @@ std::optional<std::string> wrong_road(const Plan& plan, const world::Scene& scen
 
 }  // namespace
 
-std::optional<std::string> refusal(const Plan& plan, const world::Scene& scene) {
+std::optional<std::string> refusal(const Car& car, const Plan& plan, const world::Scene& scene) {
   if (index(plan.policy) >= num_policies) {
     return "no such policy";
   }
@@ -79,18 +87,18 @@ std::optional<std::string> refusal(const Plan& plan, const world::Scene& scene) 
   if (!(scene.grip > 0.0)) {
     return with_number("grip must be > 0, is %.3f", scene.grip);
   }
-  if (!always_possible(plan.policy) && !(scene.grip >= 0.3 && scene.grip <= 1.0)) {
+  if (!always_possible(plan.policy) && !(scene.grip >= 0.2 && scene.grip <= 1.0)) {
     return std::string(name(plan.policy)) +
-           with_number(" needs a grip of 0.3 to 1.0, is %.3f", scene.grip);
+           with_number(" needs a grip of 0.2 to 1.0, is %.3f", scene.grip);
   }
-  if (auto problem = wrong_motion(plan, scene.ego)) {
+  if (auto problem = wrong_motion(car, plan, scene)) {
     return problem;
   }
   return wrong_road(plan, scene);
 }
 
-EgoMotion drive(const vehicle::Vehicle& car, const Plan& plan, const world::Scene& scene,
-                double grip, double horizon) {
+EgoMotion drive(const Car& car, const Plan& plan, const world::Scene& scene, double grip,
+                double horizon) {
   expects(grip > 0.0 && grip <= 1.2, "grip in (0, 1.2]");
   expects(horizon >= 0.0 && horizon <= 3600.0, "horizon in [0, 3600] s");
   ControllerState memory = begin(car, plan, scene);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "saca/manoeuvre/car.h"
 #include "saca/manoeuvre/plan.h"
 #include "saca/vehicle/vehicle.h"
 #include "saca/world/scene.h"
@@ -13,11 +14,12 @@ namespace saca::manoeuvre {
 
 /// Why a plan cannot be driven from here; nullopt when it can.
 ///
-/// Domain: lane changes at 5 to 25 m/s and drifts at 10 to 25 m/s, grip 0.3 to 1.0, lanes 2 to 6 m
-/// wide, in bends that take at most half of the grip. Braking and no intervention are possible from
-/// any finite state: they are what is left when all else is refused. Outside the domain their
-/// figures are not claimed.
-[[nodiscard]] std::optional<std::string> refusal(const Plan& plan, const world::Scene& scene);
+/// Domain: lane changes at 5 to 25 m/s, drifts from the speed of the car's DriftDomain to 25 m/s,
+/// grip 0.2 to 1.0, lanes 2 to 6 m wide, in bends that take at most half of the grip. Braking and
+/// no intervention are possible from any finite state: they are what is left when all else is
+/// refused. Outside the domain their figures are not claimed.
+[[nodiscard]] std::optional<std::string> refusal(const Car& car, const Plan& plan,
+                                                 const world::Scene& scene);
 
 /// How the ego moves: poses of B at equal steps and, with them, velocity and turning.
 struct EgoMotion {
@@ -32,8 +34,8 @@ struct EgoMotion {
 /// @param grip     true friction coefficient; the controller knows only scene.grip
 /// @param horizon  longest time [s]
 /// @return         poses every 10 ms from scene.time, the model integrated at 1 ms
-/// @throws ContractViolation  if refusal(plan, scene) has a reason
-[[nodiscard]] EgoMotion drive(const vehicle::Vehicle& car, const Plan& plan,
-                              const world::Scene& scene, double grip, double horizon);
+/// @throws ContractViolation  if refusal(car, plan, scene) has a reason
+[[nodiscard]] EgoMotion drive(const Car& car, const Plan& plan, const world::Scene& scene,
+                              double grip, double horizon);
 
 }  // namespace saca::manoeuvre

@@ -11,15 +11,15 @@
 
 #include "saca/core/contract.h"
 #include "saca/core/units.h"
-#include "saca/vehicle/default_car.h"
+#include "saca/manoeuvre/default_car.h"
 
 namespace saca::manoeuvre {
 namespace {
 
 using testing::HasSubstr;
 
-const vehicle::Vehicle& car() {
-  static const vehicle::Vehicle the_car = vehicle::default_car();
+const Car& car() {
+  static const Car the_car = default_car();
   return the_car;
 }
 
@@ -201,18 +201,19 @@ TEST(Drive, SameInputSameBytes) {
 TEST(Refusal, NamesWhatIsWrong) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto why = [](const Plan& plan, double speed, double grip) {
-    return refusal(plan, scene_at(speed, grip)).value_or("none");
+    return refusal(car(), plan, scene_at(speed, grip)).value_or("none");
   };
   const Plan swerve{PolicyId::aes_left, {}};
   EXPECT_EQ(why(swerve, 14.0, 0.9), "none");
-  EXPECT_EQ(why({PolicyId::t_drift_left, {}}, 10.0, 0.9), "none");
-  EXPECT_THAT(why({PolicyId::t_drift_left, {}}, 9.9, 0.9),
-              HasSubstr("10 to 25 m/s ahead, is 9.90"));
-  EXPECT_THAT(why({PolicyId::t_drift_right, {}}, 14.0, 0.29), HasSubstr("T-D-R"));
+  const double slowest = slowest_drift(car().tuning.domain, 0.9);
+  EXPECT_EQ(why({PolicyId::t_drift_left, {}}, slowest, 0.9), "none");
+  EXPECT_THAT(why({PolicyId::t_drift_left, {}}, slowest - 0.1, 0.9),
+              HasSubstr("to 25 m/s ahead, is"));
+  EXPECT_THAT(why({PolicyId::t_drift_right, {}}, 14.0, 0.19), HasSubstr("T-D-R"));
   EXPECT_THAT(why(swerve, 4.9, 0.9), HasSubstr("5 to 25 m/s"));
   EXPECT_THAT(why(swerve, 25.1, 0.9), HasSubstr("25.10"));
   EXPECT_THAT(why(swerve, nan, 0.9), HasSubstr("not finite"));
-  EXPECT_THAT(why(swerve, 14.0, 0.29), HasSubstr("0.290"));
+  EXPECT_THAT(why(swerve, 14.0, 0.19), HasSubstr("0.190"));
   EXPECT_THAT(why(swerve, 14.0, nan), HasSubstr("grip"));
   EXPECT_THAT(why({PolicyId::es_b_left, {}}, 14.0, 0.9), HasSubstr("needs a target speed"));
   EXPECT_THAT(why({PolicyId::es_b_left, nan}, 14.0, 0.9), HasSubstr("target speed"));
@@ -226,7 +227,7 @@ TEST(Refusal, NeverOfBraking) {
   for (const double speed : {-3.0, 0.0, 3.0, 40.0}) {
     for (const double grip : {0.1, 1.2}) {
       const world::Scene scene = scene_at(speed, grip);
-      ASSERT_EQ(refusal({PolicyId::aeb, {}}, scene), std::nullopt);
+      ASSERT_EQ(refusal(car(), {PolicyId::aeb, {}}, scene), std::nullopt);
       const EgoMotion motion = drive(car(), {PolicyId::aeb, {}}, scene, grip, 60.0);
       EXPECT_TRUE(motion.ended) << speed << " m/s, grip " << grip;
       EXPECT_LT(std::abs(motion.v_B.back().x), 0.1);
@@ -234,11 +235,18 @@ TEST(Refusal, NeverOfBraking) {
   }
 }
 
+TEST(Refusal, OfADriftWhereNoSpeedWillDo) {
+  Car weak = car();
+  weak.tuning.domain.slowest.front() = 30.0;
+  EXPECT_THAT(refusal(weak, {PolicyId::t_drift_left, {}}, scene_at(20.0, 0.2)).value_or("none"),
+              HasSubstr("not possible at a grip of 0.20"));
+}
+
 TEST(Refusal, OfALaneChangeInATightBend) {
   world::Scene scene = scene_at(20.0, 0.5);
   scene.road.curvature = -0.01;  // 4 m/s^2 of 4.9
-  EXPECT_THAT(refusal({PolicyId::aes_left, {}}, scene).value_or("none"), HasSubstr("82 %"));
-  EXPECT_EQ(refusal({PolicyId::aeb, {}}, scene), std::nullopt);
+  EXPECT_THAT(refusal(car(), {PolicyId::aes_left, {}}, scene).value_or("none"), HasSubstr("82 %"));
+  EXPECT_EQ(refusal(car(), {PolicyId::aeb, {}}, scene), std::nullopt);
 }
 
 TEST(Drive, RefusesWhatCannotBeDriven) {

@@ -30,16 +30,14 @@ double steering_of(const Vehicle& car, const world::EgoState& ego, double grip) 
 }
 
 // Force along its plane that each wheel gives, so that together they accelerate the car as the ego:
-// braked by load, driven at the rear [N].
+// braked by load, driven as the motor does [N].
 PerWheel driving_forces(const Vehicle& car, double acceleration, const PerWheel& loads,
                         double grip) {
   const double force = car.mass * acceleration;
   const double total = loads[0] + loads[1] + loads[2] + loads[3];
-  const double rear = loads[vehicle::rear_left] + loads[vehicle::rear_right];
   PerWheel forces{};
   for (std::size_t i = 0; i < vehicle::num_wheels; ++i) {
-    const bool driven = i == vehicle::rear_left || i == vehicle::rear_right;
-    const double share = force < 0.0 ? loads[i] / total : (driven ? loads[i] / rear : 0.0);
+    const double share = force < 0.0 ? loads[i] / total : vehicle::motor_share(car, i);
     const double most = most_share * vehicle::peak_friction(car.tyre, loads[i], grip) * loads[i];
     forces[i] = std::clamp(force * share, -most, most);
   }
@@ -78,7 +76,7 @@ VehicleState rolling_state(const Vehicle& car, const world::EgoState& ego, doubl
     const double torque = forces[i] * car.wheel_radius + inertia * state.a_B.x / car.wheel_radius;
     if (state.a_B.x < 0.0) {
       state.brake_torque[i] = std::clamp(-torque, 0.0, car.brake_limit);
-    } else if (p_B.x < 0.0) {
+    } else if (vehicle::motor_share(car, i) > 0.0) {
       state.motor_torque += torque;
     }
   }

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "saca/core/contract.h"
-#include "saca/vehicle/default_car.h"
+#include "saca/manoeuvre/default_car.h"
 
 namespace saca::manoeuvre {
 namespace {
@@ -30,7 +30,7 @@ class Ego : public testing::Test {
     return state;
   }
 
-  const vehicle::Vehicle car_ = vehicle::default_car();
+  const Car car_ = default_car();
 };
 
 TEST_F(Ego, RollsOnStraight) {

@@ -15,7 +15,6 @@
 namespace saca::manoeuvre {
 namespace {
 
-using vehicle::Vehicle;
 using vehicle::VehicleState;
 
 // The independent prototype: double track, combined slip, Runge-Kutta at 1 ms, inputs optimised
@@ -66,7 +65,7 @@ world::Scene straight_scene(double speed, double grip) {
 constexpr Plan swerve{.policy = PolicyId::aes_left, .target_speed = std::nullopt};
 
 // Commands every millisecond, integrated in `parts` steps each.
-VehicleState one_millisecond(const Vehicle& car, VehicleState state, const world::Scene& scene,
+VehicleState one_millisecond(const Car& car, VehicleState state, const world::Scene& scene,
                              ControllerState& memory, int parts) {
   const auto command =
       control(car, swerve, scene.road, scene.grip, state, memory, vehicle::usual_step);
@@ -76,7 +75,7 @@ VehicleState one_millisecond(const Vehicle& car, VehicleState state, const world
   return state;
 }
 
-void add_stops(const Vehicle& car, std::vector<Figure>& figures) {
+void add_stops(const Car& car, std::vector<Figure>& figures) {
   for (const auto& [speed, grip, distance, time] : stop_references) {
     const Stop ideal = stop_straight(car, Abs::ideal, speed, grip);
     const Stop deployed = stop_straight(car, Abs::deployed, speed, grip);
@@ -96,7 +95,7 @@ void add_stops(const Vehicle& car, std::vector<Figure>& figures) {
   }
 }
 
-void add_lane_changes(const Vehicle& car, std::vector<Figure>& figures) {
+void add_lane_changes(const Car& car, std::vector<Figure>& figures) {
   constexpr double grip = 0.9;
   for (const auto& [speed, time] : settled_references) {
     figures.push_back({with_condition("lane_change.settled_s", speed, grip),
@@ -108,7 +107,7 @@ void add_lane_changes(const Vehicle& car, std::vector<Figure>& figures) {
   }
 }
 
-void add_drifts(const Vehicle& car, std::vector<Figure>& figures) {
+void add_drifts(const Car& car, std::vector<Figure>& figures) {
   constexpr double grip = 0.9;
   for (const auto& [speed, time, forward] : drift_references) {
     const DriftStop stop = drift_to_rest(car, speed, grip);
@@ -129,7 +128,7 @@ bool in_band(const Figure& figure) {
   return figure.value >= figure.low && figure.value <= figure.high;
 }
 
-Stop stop_straight(const Vehicle& car, Abs abs, double speed, double grip) {
+Stop stop_straight(const Car& car, Abs abs, double speed, double grip) {
   expects(speed > 0.0 && speed <= 25.0, "speed in (0, 25] m/s");
   expects(grip >= 0.3 && grip <= 1.0, "grip in [0.3, 1.0]");
   constexpr int most_steps = 20'000;
@@ -152,7 +151,7 @@ Stop stop_straight(const Vehicle& car, Abs abs, double speed, double grip) {
   return stop;
 }
 
-LaneChange change_lane(const Vehicle& car, double speed, double grip) {
+LaneChange change_lane(const Car& car, double speed, double grip) {
   constexpr int num_steps = 5'000;  // long enough to see that it stays
   const world::Scene scene = straight_scene(speed, grip);
   VehicleState state = rolling_state(car, scene.ego, grip);
@@ -172,7 +171,7 @@ LaneChange change_lane(const Vehicle& car, double speed, double grip) {
   return change;
 }
 
-DriftStop drift_to_rest(const Vehicle& car, double speed, double grip) {
+DriftStop drift_to_rest(const Car& car, double speed, double grip) {
   constexpr double longest = 20.0;  // [s]
   const EgoMotion motion = drive(car, {PolicyId::t_drift_left, std::nullopt},
                                  straight_scene(speed, grip), grip, longest);
@@ -183,7 +182,7 @@ DriftStop drift_to_rest(const Vehicle& car, double speed, double grip) {
           .heading = X_WB.yaw};
 }
 
-IntegrationError integration_error(const Vehicle& car) {
+IntegrationError integration_error(const Car& car) {
   constexpr int num_steps = 2'000;
   const world::Scene scene = straight_scene(14.0, 0.9);
   VehicleState coarse = rolling_state(car, scene.ego, scene.grip);
@@ -198,7 +197,7 @@ IntegrationError integration_error(const Vehicle& car) {
           .heading = std::abs(wrap_angle(coarse.X_WB.yaw - fine.X_WB.yaw))};
 }
 
-std::vector<Figure> physics_figures(const Vehicle& car) {
+std::vector<Figure> physics_figures(const Car& car) {
   std::vector<Figure> figures;
   add_stops(car, figures);
   add_lane_changes(car, figures);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "saca/vehicle/vehicle.h"
+#include "saca/manoeuvre/car.h"
 
 namespace saca::manoeuvre {
 
@@ -30,14 +30,14 @@ enum class Abs { ideal, deployed };
 
 /// @param speed  [m/s], > 0
 /// @param grip   friction coefficient [-], in [0.3, 1.0]; known exactly
-[[nodiscard]] Stop stop_straight(const vehicle::Vehicle& car, Abs abs, double speed, double grip);
+[[nodiscard]] Stop stop_straight(const Car& car, Abs abs, double speed, double grip);
 
 /// A lane change of 3.5 m without braking: policy 1.
 struct LaneChange {
   double settled = 0.0;   ///< from when on it stays within 0.2 m and 2 degrees of its end [s]
   double to_2_1_m = 0.0;  ///< until 2.1 m to the side, enough to pass a car's width [s]
 };
-[[nodiscard]] LaneChange change_lane(const vehicle::Vehicle& car, double speed, double grip);
+[[nodiscard]] LaneChange change_lane(const Car& car, double speed, double grip);
 
 /// A T-drift to the left on a straight road, to rest: policy 5.
 struct DriftStop {
@@ -48,18 +48,18 @@ struct DriftStop {
 };
 /// @param speed  [m/s], in [10, 25]
 /// @param grip   friction coefficient [-], in [0.3, 1.0]; known exactly
-[[nodiscard]] DriftStop drift_to_rest(const vehicle::Vehicle& car, double speed, double grip);
+[[nodiscard]] DriftStop drift_to_rest(const Car& car, double speed, double grip);
 
 /// How far steps of 1 ms end from steps of 0.25 ms after 2 s of a lane change at 14 m/s.
 struct IntegrationError {
   double position = 0.0;  ///< [m]
   double heading = 0.0;   ///< [rad]
 };
-[[nodiscard]] IntegrationError integration_error(const vehicle::Vehicle& car);
+[[nodiscard]] IntegrationError integration_error(const Car& car);
 
 /// The rows of the vehicle's table: stops with both anti-lock brakes, peak decelerations, lane
 /// changes, drifts, integration. Takes a few seconds of simulated driving per row, milliseconds of
 /// real time.
-[[nodiscard]] std::vector<Figure> physics_figures(const vehicle::Vehicle& car);
+[[nodiscard]] std::vector<Figure> physics_figures(const Car& car);
 
 }  // namespace saca::manoeuvre

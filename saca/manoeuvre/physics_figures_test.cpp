@@ -6,13 +6,13 @@
 #include <set>
 
 #include "saca/core/contract.h"
-#include "saca/vehicle/default_car.h"
+#include "saca/manoeuvre/default_car.h"
 
 namespace saca::manoeuvre {
 namespace {
 
 const std::vector<Figure>& figures() {
-  static const std::vector<Figure> all = physics_figures(vehicle::default_car());
+  static const std::vector<Figure> all = physics_figures(default_car());
   return all;
 }
 
@@ -32,7 +32,7 @@ TEST(PhysicsFigures, HaveDifferentNames) {
 }
 
 TEST(PhysicsFigures, RefuseWhatIsNoStop) {
-  const auto car = vehicle::default_car();
+  const auto car = default_car();
   EXPECT_THROW((void)stop_straight(car, Abs::ideal, 0.0, 0.9), ContractViolation);
   EXPECT_THROW((void)stop_straight(car, Abs::ideal, 14.0, 0.1), ContractViolation);
 }

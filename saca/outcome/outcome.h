@@ -69,8 +69,8 @@ struct Outcome {
 
 /// What happens if `plan` is carried out in this scene: full dynamics to rest or a recovered lane.
 /// @param grip  true friction coefficient
-/// @throws ContractViolation  if refusal(plan, scene) has a reason
-[[nodiscard]] Outcome roll_out(const vehicle::Vehicle& car, const manoeuvre::Plan& plan,
+/// @throws ContractViolation  if refusal(car, plan, scene) has a reason
+[[nodiscard]] Outcome roll_out(const manoeuvre::Car& car, const manoeuvre::Plan& plan,
                                const world::Scene& scene, std::span<const world::Track> tracks,
                                double grip, const HarmModel& harm);
 

@@ -6,9 +6,8 @@ namespace saca::outcome {
 // Longer than any manoeuvre of the library: 25 m/s at grip 0.3 takes 9 s to rest [s].
 constexpr double longest = 10.0;
 
-Outcome roll_out(const vehicle::Vehicle& car, const manoeuvre::Plan& plan,
-                 const world::Scene& scene, std::span<const world::Track> tracks, double grip,
-                 const HarmModel& harm) {
+Outcome roll_out(const manoeuvre::Car& car, const manoeuvre::Plan& plan, const world::Scene& scene,
+                 std::span<const world::Track> tracks, double grip, const HarmModel& harm) {
   return judge(drive(car, plan, scene, grip, longest), scene, tracks, harm);
 }
 

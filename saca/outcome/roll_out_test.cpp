@@ -1,13 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <vector>
 
 #include "saca/core/contract.h"
+#include "saca/manoeuvre/default_car.h"
 #include "saca/outcome/encounters_for_test.h"
 #include "saca/outcome/outcome.h"
-#include "saca/vehicle/parameters.h"
 
 namespace saca::outcome {
 namespace {
@@ -15,11 +14,8 @@ namespace {
 using manoeuvre::PolicyId;
 using world::ActorKind;
 
-const vehicle::Vehicle& car() {
-  static const vehicle::Vehicle it =
-      vehicle::read_vehicle(std::filesystem::path(__FILE__).parent_path() /
-                            "../../data/vehicles/compact_rwd_ev.toml")
-          .value();
+const manoeuvre::Car& car() {
+  static const manoeuvre::Car it = manoeuvre::default_car();
   return it;
 }
 

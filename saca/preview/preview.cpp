@@ -124,14 +124,14 @@ Scene moved_on(const Scene& scene, const std::vector<Track>& tracks, double afte
 
 std::array<PolicyFacts, manoeuvre::num_policies> policy_facts(const Scene& scene,
                                                               const std::vector<Track>& tracks,
-                                                              const vehicle::Vehicle& car,
+                                                              const manoeuvre::Car& car,
                                                               const outcome::HarmModel& harm) {
   const std::vector<Track> judged = without_followers(scene, tracks);
   std::array<PolicyFacts, manoeuvre::num_policies> facts;
   for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
     PolicyFacts& fact = facts[manoeuvre::index(policy)];
     fact.plan = manoeuvre::default_plan(policy, norm(scene.ego.v_B));
-    fact.refusal = manoeuvre::refusal(fact.plan, scene).value_or("");
+    fact.refusal = manoeuvre::refusal(car, fact.plan, scene).value_or("");
     if (fact.refusal.empty()) {
       fact.outcome = outcome::roll_out(car, fact.plan, scene, judged, scene.grip, harm);
     }
@@ -152,7 +152,7 @@ manoeuvre::PolicyId best_by_forecast(
 }
 
 std::vector<Situation> situations(const Scene& scene, const Thresholds& thresholds,
-                                  const vehicle::Vehicle& car, const outcome::HarmModel& harm) {
+                                  const manoeuvre::Car& car, const outcome::HarmModel& harm) {
   std::vector<IntentPosterior> posteriors;
   for (const Actor& actor : scene.actors) {
     posteriors.push_back(intent::posterior(scene, actor));

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "saca/intent/intention.h"
+#include "saca/manoeuvre/car.h"
 #include "saca/manoeuvre/plan.h"
 #include "saca/outcome/outcome.h"
 #include "saca/preview/situation.h"
 #include "saca/preview/threat.h"
-#include "saca/vehicle/vehicle.h"
 
 namespace saca::preview {
 
@@ -28,12 +28,12 @@ constexpr std::size_t max_situations = 3;
 /// each policy is driven with full dynamics.
 [[nodiscard]] std::vector<Situation> situations(const world::Scene& scene,
                                                 const Thresholds& thresholds,
-                                                const vehicle::Vehicle& car,
+                                                const manoeuvre::Car& car,
                                                 const outcome::HarmModel& harm);
 
 /// What each policy ends in when it begins in `scene` and the actors follow their tracks.
 [[nodiscard]] std::array<PolicyFacts, manoeuvre::num_policies> policy_facts(
-    const world::Scene& scene, const std::vector<world::Track>& tracks, const vehicle::Vehicle& car,
+    const world::Scene& scene, const std::vector<world::Track>& tracks, const manoeuvre::Car& car,
     const outcome::HarmModel& harm);
 
 /// The policy whose forecast is best by the one ordering; ties go to the milder.

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "saca/manoeuvre/default_car.h"
 #include "saca/manoeuvre/ego.h"
 #include "saca/outcome/ordering.h"
-#include "saca/vehicle/parameters.h"
 
 namespace saca::preview {
 namespace {
@@ -14,10 +14,6 @@ namespace {
 using manoeuvre::PolicyId;
 using world::Actor;
 using world::Scene;
-
-vehicle::Vehicle test_car() {
-  return vehicle::read_vehicle("data/vehicles/compact_rwd_ev.toml").value();
-}
 
 outcome::HarmModel test_harm() {
   return outcome::read_harm("data/harm.toml").value();
@@ -27,7 +23,7 @@ outcome::HarmModel test_harm() {
 Scene motorway(double speed) {
   Scene scene;
   scene.ego.v_B = {speed, 0.0};
-  scene.ego_footprint = manoeuvre::footprint(test_car());
+  scene.ego_footprint = manoeuvre::footprint(manoeuvre::default_car());
   scene.ego_mass = 1'700.0;
   scene.road.left_edge = 8.75;
   scene.road.right_edge = -5.25;
@@ -42,7 +38,7 @@ Actor car(std::uint8_t id, Vec2 p_W, Vec2 v_W) {
 }
 
 std::vector<Situation> look(const Scene& scene) {
-  return situations(scene, {}, test_car(), test_harm());
+  return situations(scene, {}, manoeuvre::default_car(), test_harm());
 }
 
 TEST(Situations, AnEmptyRoadHasNone) {
@@ -123,7 +119,7 @@ TEST(PolicyFacts, SayWhatEachPolicyEndsIn) {
 
 TEST(BestByForecast, DoesNothingWhereNothingThreatens) {
   const Scene scene = motorway(15.0);
-  EXPECT_EQ(best_by_forecast(policy_facts(scene, {}, test_car(), test_harm())),
+  EXPECT_EQ(best_by_forecast(policy_facts(scene, {}, manoeuvre::default_car(), test_harm())),
             PolicyId::no_intervention);
 }
 

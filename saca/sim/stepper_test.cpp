@@ -3,15 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "saca/core/contract.h"
+#include "saca/manoeuvre/default_car.h"
 #include "saca/sim/motion.h"
-#include "saca/vehicle/parameters.h"
 
 namespace saca::sim {
 namespace {
-
-vehicle::Vehicle test_car() {
-  return vehicle::read_vehicle("data/vehicles/compact_rwd_ev.toml").value();
-}
 
 /// Ego at 20 m/s; a lead at 15 m/s that brakes at 5 m/s^2 from 1 s on.
 Scenario behind_a_braking_lead() {
@@ -36,7 +32,7 @@ void advance(Stepper& stepper, int num_steps) {
 
 TEST(Stepper, TimeIsAStepCount) {
   const Scenario scenario = behind_a_braking_lead();
-  const vehicle::Vehicle car = test_car();
+  const manoeuvre::Car car = manoeuvre::default_car();
   Stepper stepper(scenario, car);
   advance(stepper, 3'000);
   EXPECT_DOUBLE_EQ(stepper.time(), 3.0);
@@ -47,7 +43,7 @@ TEST(Stepper, TimeIsAStepCount) {
 
 TEST(Stepper, TheEgoFollowsTheScenarioUntilTheWheelIsTaken) {
   const Scenario scenario = behind_a_braking_lead();
-  const vehicle::Vehicle car = test_car();
+  const manoeuvre::Car car = manoeuvre::default_car();
   Stepper stepper(scenario, car);
   advance(stepper, 1'000);
   EXPECT_NEAR(stepper.ego().X_WB.p.x, 20.0, 1e-9);
@@ -65,7 +61,7 @@ TEST(Stepper, TheEgoFollowsTheScenarioUntilTheWheelIsTaken) {
 
 TEST(Stepper, PerceivesMotionAsATrackerWould) {
   const Scenario scenario = behind_a_braking_lead();
-  const vehicle::Vehicle car = test_car();
+  const manoeuvre::Car car = manoeuvre::default_car();
   Stepper stepper(scenario, car);
   advance(stepper, 900);
   EXPECT_NEAR(stepper.scene().actors[0].v_W.x, 15.0, 1e-6);
@@ -84,7 +80,7 @@ TEST(Stepper, AnActorIsNotThereBeforeItsFirstSample) {
                  {.time = 4.0, .X_WA = {{100.0, 3.5}, 0.0}, .speed = 10.0}};
   scenario.actors.push_back(
       {.id = 2, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1'500.0, .motion = late});
-  const vehicle::Vehicle car = test_car();
+  const manoeuvre::Car car = manoeuvre::default_car();
   Stepper stepper(scenario, car);
   advance(stepper, 1'990);
   EXPECT_EQ(stepper.scene().actors.size(), 1U);

@@ -33,15 +33,20 @@ double slowing_torque(const Vehicle& car, std::size_t wheel, double deceleration
   return inertia * deceleration / car.wheel_radius;
 }
 
-// The estimate of the speed ahead, `dt` on: acceleration integrated; while nothing brakes the front
-// wheels, which have no motor, they roll and tell the speed itself.
+// The estimate of the speed ahead, `dt` on: acceleration integrated; while nothing brakes or drives
+// the wheels of the axle with less of the motor, they roll and tell the speed itself.
 double followed_speed(const Vehicle& car, const VehicleState& state, double dt, double speed) {
   constexpr double trust = 0.01;    // [s] within which rolling wheels are believed
   constexpr double rolling = 20.0;  // [N m]: of both: hardly any slip
+  const bool front = car.motor_front_share <= 0.5;
+  const std::size_t left = front ? front_left : rear_left;
+  const std::size_t right = front ? front_right : rear_right;
+  const double turning = state.brake_torque[left] + state.brake_torque[right] +
+                         2.0 * motor_share(car, left) * std::abs(state.motor_torque);
   double followed = speed + dt * (state.a_B.x + state.yaw_rate * state.v_B.y);
-  if (state.brake_torque[front_left] + state.brake_torque[front_right] < rolling) {
-    const double wheels = 0.5 * (state.wheel_speed[front_left] + state.wheel_speed[front_right]) *
-                          car.wheel_radius * std::cos(state.steering);
+  if (turning < rolling) {
+    const double wheels = 0.5 * (state.wheel_speed[left] + state.wheel_speed[right]) *
+                          car.wheel_radius * (front ? std::cos(state.steering) : 1.0);
     followed += std::min(1.0, dt / trust) * (wheels - followed);
   }
   return std::max(0.0, followed);

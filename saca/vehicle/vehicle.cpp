@@ -132,10 +132,6 @@ double wheel_inertia(const Vehicle& car, std::size_t wheel) {
   return is_front(wheel) ? car.front_wheel_inertia : car.rear_wheel_inertia;
 }
 
-double motor_share(const Vehicle& car, std::size_t wheel) {
-  return 0.5 * (is_front(wheel) ? car.motor_front_share : 1.0 - car.motor_front_share);
-}
-
 // Everything about the four contacts; arrays, so that the compiler can work on several at once.
 struct Wheels {
   PerWheel cosine, sine;  // of the wheels' angles against the body
@@ -306,6 +302,10 @@ Vec2 wheel_position(const Vehicle& car, std::size_t wheel) {
           left ? 0.5 * car.track_width : -0.5 * car.track_width};
 }
 
+double motor_share(const Vehicle& car, std::size_t wheel) {
+  return 0.5 * (is_front(wheel) ? car.motor_front_share : 1.0 - car.motor_front_share);
+}
+
 PerWheel wheel_loads(const Vehicle& car, Vec2 a_B) {
   const double wheelbase = car.front_arm + car.rear_arm;
   const double pitch = car.mass * a_B.x * car.mass_height / wheelbase;
@@ -355,22 +355,18 @@ bool at_rest(const VehicleState& state) {
 }
 
 double longest_step(const Vehicle& car) {
-  // A wheel's spin against a road at rest, R^2 stiffness load / (inertia floor), is the fastest
-  // motion. Its load is at most the car's weight on one wheel; in practice half of an axle's plus
-  // what braking moves.
-  const double wheelbase = car.front_arm + car.rear_arm;
-  const double moved = 1.2 * car.mass_height / wheelbase;  // share, at the largest grip
-  const double weight = car.mass * gravity;
-  const auto rate = [&](double load, double inertia) {
-    return car.wheel_radius * car.wheel_radius * car.tyre.stiffness * load /
-           (inertia * slip_speed_floor);
-  };
-  const double front =
-      rate(0.5 * weight * (car.rear_arm / wheelbase + moved), car.front_wheel_inertia);
-  const double rear =
-      rate(0.5 * weight * (car.front_arm / wheelbase + moved), car.rear_wheel_inertia);
-  constexpr double stable = 2.78;  // of the classical Runge-Kutta scheme, on the real axis
-  return std::min(2e-3, stable / std::max(front, rear));
+  // The fastest motion is the spin of a wheel that rolls slowly under its load, at the rate
+  // R^2 stiffness load / (inertia floor). Wheels that slide are slower: their curve is flat.
+  constexpr double more_load = 1.25;  // than at rest, for what turning moves at little slip
+  constexpr double stable = 2.78;     // of the classical Runge-Kutta scheme, on the real axis
+  double longest = 2e-3;
+  const PerWheel loads = wheel_loads(car, {});
+  for (std::size_t i = 0; i < num_wheels; ++i) {
+    const double rate = car.wheel_radius * car.wheel_radius * car.tyre.stiffness * more_load *
+                        loads[i] / (wheel_inertia(car, i) * slip_speed_floor);
+    longest = std::min(longest, stable / rate);
+  }
+  return longest;
 }
 
 VehicleState step(const Vehicle& car, const VehicleState& state, const Command& command,

@@ -99,6 +99,9 @@ constexpr double hold_speed = 0.05;
 /// Where a wheel's centre lies from the centre of mass, expressed in B [m].
 [[nodiscard]] Vec2 wheel_position(const Vehicle& car, std::size_t wheel);
 
+/// Share of the motor's torque at a wheel, in [0, 0.5].
+[[nodiscard]] double motor_share(const Vehicle& car, std::size_t wheel);
+
 /// Load on each wheel under a lasting acceleration of the body [N], each >= 0.
 [[nodiscard]] PerWheel wheel_loads(const Vehicle& car, Vec2 a_B);
 
