@@ -34,7 +34,7 @@ def show(browser, tmp_path):
     def open_report(record, width=1280, height=800):
         source, target = tmp_path / "record.json", tmp_path / "report.html"
         source.write_text(json.dumps(record), encoding="utf-8")
-        subprocess.run([WRITE_REPORT, source, target], check=True)
+        subprocess.run([WRITE_REPORT, "encounter", source, target], check=True)
         browser.problems.clear()
         browser.requests.clear()
         browser.resize(width, height)
