@@ -57,7 +57,7 @@ class Charts {
     this.step = tick_step(this.to - this.from, Math.max(2, Math.floor(this.plot / 58)));
     this.marks = ticks(this.from, this.to, this.step);
     this.axis.replaceChildren(svg("svg", { width: this.width, height: 20, "aria-hidden": "true" },
-      this.marks.map((t) => svg("text", { x: this.x(t), y: 14, "text-anchor": "middle", class: "tick", text: tick_words(t, this.step) })),
+      this.marks.map((t) => svg("text", { x: this.x(t), y: 14, "text-anchor": this.x(t) > this.width - 18 ? "end" : "middle", class: "tick", text: tick_words(t, this.step) })),
       svg("text", { x: chart_pad.left - 22, y: 14, "text-anchor": "end", class: "tick axis-name", text: "t [s]" })));
     for (const chart of this.charts) this.draw(chart);
   }
@@ -104,7 +104,7 @@ class Charts {
     for (const chart of this.charts) {
       chart.series.forEach((series, i) => {
         const v = series.values[k], dot = chart.dots[i];
-        series.cell.textContent = num(v, chart.decimals, series.unit ?? "");
+        series.cell.textContent = `${num(v, chart.decimals)}${is_number(v) ? series.unit ?? "" : ""}`;
         dot.setAttribute("visibility", is_number(v) ? "visible" : "hidden");
         if (is_number(v)) { dot.setAttribute("cx", this.x(t)); dot.setAttribute("cy", chart.y(v)); }
       });

@@ -43,8 +43,8 @@ class ForceCircles {
       const used = known && wheel.peak_N[k] > 0 ? Math.hypot(x, y) / wheel.peak_N[k] : null;
       const locked = is_locked(this.record, wheel, k);
       figure.node.classList.toggle("locked", locked);
-      figure.state.replaceChildren(locked ? tag("locked", "bad") : `${percent(used)} of peak`);
-      const rows = [["F_x", in_kN(x)], ["load", in_kN(wheel.load_N[k])], ["F_y", in_kN(y)], ["slip", num(wheel.slip[k], 2)]];
+      figure.state.replaceChildren(...(locked ? [tag("locked", "bad")] : []));
+      const rows = [["F_x", in_kN(x)], ["F_y", in_kN(y)], ["load", in_kN(wheel.load_N[k])], ["slip", num(wheel.slip[k], 2)], ["of peak", percent(used)]];
       figure.values.replaceChildren(...rows.map(([name, value]) => el("div", {}, el("dt", {}, symbol(name)), el("dd", { text: value }))));
     }
   }

@@ -83,7 +83,7 @@ function histogram(record) {
   const bin = [0.1, 0.2, 0.5, 1, 2, 5, 10].find((b) => (high_seen - low_seen) / b <= 40) ?? 20;
   const first = Math.floor(low_seen / bin), counts = new Array(Math.floor(high_seen / bin) - first + 1).fill(0);
   for (const heading of all) counts[Math.floor(heading / bin) - first]++;
-  const w = 560, h = 150, foot = 22, pad = 30, top = Math.max(...counts);
+  const w = window.innerWidth < 820 ? 340 : 560, h = 150, foot = 22, pad = 30, top = Math.max(...counts);
   const x = (v) => pad + ((v / bin - first) / counts.length) * (w - 2 * pad), y = (c) => 14 + (1 - c / top) * (h - foot - 14);
   const from = first * bin, to = (first + counts.length) * bin, step = tick_step(to - from, 9);
   const picture = svg("svg", { viewBox: `0 0 ${w} ${h}`, class: "histogram", role: "img", "aria-label": `Headings of ${all.length} ends, in bins of ${bin} degrees` },

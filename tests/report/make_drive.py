@@ -58,11 +58,11 @@ def into(frame, vector):
 def steering(motion, t):
     """[deg], commanded: into the turn, then against it."""
     u = min(1.0, max(0.0, (t - 0.05) / (motion.duration - 0.05)))
-    return math.copysign(25.0 * math.sin(2 * math.pi * u), motion.turn) if motion.turn else 0.0
+    return 25.0 * math.sin(2 * math.pi * u) * math.copysign(1.0, motion.turn) if motion.turn else 0.0
 
 
 def wheel_samples(wheel, motion, grip, times):
-    """One wheel's time series. It rolls until the braking starts; while it brakes the rear locks and the front slips by 12 %."""
+    """One wheel's time series. It rolls until the braking starts; then it slips by 12 %, and the rear of a car that is turned locks."""
     name, ahead, left = wheel
     keys = ["angle_deg", "load_N", "F_x_N", "F_y_N", "peak_N", "slip", "speed_mps", "brake_Nm", "brake_command_Nm"]
     out = {key: [] for key in keys}
@@ -78,7 +78,7 @@ def wheel_samples(wheel, motion, grip, times):
         force = into(math.radians(angle), [CAR["mass_kg"] * x * load / (CAR["mass_kg"] * GRAVITY) for x in a])
         hub = into(math.radians(angle), (v[0] - rate * left, v[1] + rate * ahead))
         braking = t >= motion.begin and t < motion.duration
-        slip = (0.12 if front else 1.0) if braking else 0.0
+        slip = (1.0 if motion.turn and not front else 0.12) if braking else 0.0
         rim = hub[0] * (1 - slip)
         command = 3000.0 if t >= motion.begin - 0.04 and t < motion.duration else 0.0
         torque = command * (1 - math.exp(-max(0.0, t - motion.begin) / 0.06))
