@@ -186,7 +186,7 @@ class DrivePlan {
       const [front, half] = corners[0], rear = corners[1][0], at = (share) => rear + share * (front - rear);
       body.push(svg("path", { d: to_d(corners), class: "body" }),
         svg("path", { d: to_d([[at(0.71), 0.78 * half], [at(0.57), 0.68 * half], [at(0.57), -0.68 * half], [at(0.71), -0.78 * half]]), class: "glass" }),
-        svg("path", { d: to_d([[at(0.97), 0], [at(0.86), 0.28 * half], [at(0.86), -0.28 * half]]), class: "nose" }));
+        [-1, 1].map((side) => svg("path", { d: to_d([[at(0.985), 0.36], [at(0.985), 0.68], [at(0.945), 0.68], [at(0.945), 0.36]].map(([x, y]) => [x, side * y * half])), class: "lamp" })));
     }
     return svg("g", { transform: `translate(${pose.x} ${pose.y}) rotate(${pose.heading})`, class: "car" }, body, wheels);
   }

@@ -329,6 +329,12 @@ def test_curves_hold_every_sample_and_commands_are_thinner(show):
     curves = page.run("[...document.querySelectorAll('.chart-track .curve')].map(c => [c.getAttribute('d').split(/[ML]/).length - 1, c.classList.contains('thin'), parseFloat(getComputedStyle(c).strokeWidth)])")
     still = sum(speed(record, k) <= 0.5 for k in range(len(record["time_s"])))
     assert sorted(n for n, *_ in curves) == sorted([len(record["time_s"])] * 24 + [len(record["time_s"]) - still])
+    seek(page, 70)
+    pairs = page.run("""[...document.querySelectorAll('.chart-track')].flatMap(t => { const curves = [...t.querySelectorAll('.curve')].slice(-t.querySelectorAll('.dot').length);
+        return curves.map((c, i) => [c.getAttribute('d').split(/[ML]/)[71], t.querySelectorAll('.dot')[i].getAttribute('cx'), t.querySelectorAll('.dot')[i].getAttribute('cy')]); })""")
+    for point, *dot in (p for p in pairs if p[0]):
+        assert [float(n) for n in point.split()] == pytest.approx([float(n) for n in dot], abs=0.01), "a dot rides on its curve"
+    assert len(pairs) == 21 and all(p[0] for p in pairs)
     assert sum(thin for _, thin, _ in curves) == 6, "steering, motor and four brakes"
     assert max(width for _, thin, width in curves if thin) < min(width for _, thin, width in curves if not thin)
 
