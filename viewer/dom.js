@@ -18,7 +18,7 @@ function fill(node, attributes, children) {
     else if (key === "style") for (const [k, v] of Object.entries(value)) node.style.setProperty(k, v);
     else node.setAttribute(key, value === true ? "" : value);
   }
-  for (const child of children.flat()) {
+  for (const child of children.flat(Infinity)) {
     if (child !== null && child !== undefined && child !== "") node.append(child);
   }
   return node;
@@ -76,3 +76,9 @@ function bar(share, text, kind = "") {
 }
 
 const tag = (text, kind = "") => el("span", { class: `tag ${kind}`, text });
+
+/** "v_x" with its index set low. */
+function symbol(name) {
+  const [letter, index] = String(name).split("_");
+  return index && name.length <= 4 ? el("span", {}, letter, el("sub", { text: index })) : el("span", { text: name });
+}

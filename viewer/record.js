@@ -1,10 +1,5 @@
 // The record (docs/formats.md) with its gaps filled by null and empty lists, and read at any time.
 
-const policy_words = [
-  "full braking in the lane", "lane change left at constant speed", "lane change right at constant speed",
-  "lane change left while braking", "lane change right while braking", "drift to a stop, turned left",
-  "drift to a stop, turned right", "no intervention"];
-
 const intention_words = {
   M: "goes on", LC: "changes to the left", RC: "changes to the right", FB: "brakes", LB: "brakes and moves left",
   RB: "brakes and moves right" };
@@ -13,10 +8,6 @@ const event_words = {
   preview: "T2 preview", risk: "risk", intention: "intention", forecast: "forecast", memory: "memory", ask: "ask model",
   first_answer: "first answer", answer: "answer", check: "check", cached: "plan cached", trigger: "T1 trigger",
   match: "match", execute: "execute", contact: "contact", rest: "rest", fault: "fault" };
-
-const radians = (degrees) => (degrees * Math.PI) / 180;
-const list = (value) => (Array.isArray(value) ? value : []);
-const dict = (value) => (value && typeof value === "object" && !Array.isArray(value) ? value : {});
 
 /** Event of a kind; the first, or null. */
 const first_event = (record, kind) => record.events.find((e) => e.kind === kind) ?? null;
@@ -97,9 +88,4 @@ function contact_words(contact) {
   const face = contact.ego_face ? `${contact.ego_face} of the ego` : null;
   return [contact.with, face, is_number(contact.relative_speed_mps) ? num(contact.relative_speed_mps, 1, "m/s") : null]
     .filter(Boolean).join(" · ");
-}
-
-function plan_words(policy, name, target_speed) {
-  const words = policy_words[policy] ?? "";
-  return is_number(target_speed) ? `${words} to ${num(target_speed, 1, "m/s")}` : words;
 }

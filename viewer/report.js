@@ -1,45 +1,26 @@
-// The page: time, playback, keys, theme; joins the plan view, the time line and the panels.
+// The page of an encounter: joins time, the plan view, the time line and the panels.
 
 const record = read_record(by_id("record").textContent);
 
-const page = {
-  t: record.t1 ?? record.start,
-  playing: false,
-  next: 0,       // the animation frame that was asked for
-  poster: true,  // nobody has moved the cursor yet: the first play starts with the story
-  told: first_event(record, "trigger"),  // the event that was asked for, among several at one time
+class Story extends Playback {
+  told = first_event(record, "trigger");  // the event that was asked for, among several at one time
 
-  show() {
-    const frame = frame_at(record, page.t);
-    plan.draw(page.t);
-    time_line.show(page.t, frame);
-    show_now(frame);
-    show_caption();
-  },
+  get from() { return time_line.from; }
 
   seek(t, event = null) {
-    page.poster = false;
-    page.told = event;
-    page.t = Math.min(Math.max(t, record.start), record.end);
-    if (page.t < time_line.from - 1e-9) toggle_window();
-    page.show();
-  },
+    this.told = event;
+    if (Math.max(t, this.start) < time_line.from - 1e-9) toggle_window();
+    super.seek(t);
+  }
+}
 
-  play(on) {
-    if (on && (page.poster || page.t >= record.end - 1e-6)) page.seek(time_line.from);
-    page.playing = on && record.end > record.start;
-    by_id("play").textContent = page.playing ? "Pause" : "Play";
-    cancelAnimationFrame(page.next);
-    if (page.playing) page.next = requestAnimationFrame((now) => page.step(now, now));
-  },
-
-  step(now, before) {
-    if (!page.playing) return;
-    page.seek(page.t + ((now - before) / 1000) * Number(by_id("rate").value));
-    if (page.t >= record.end - 1e-6) page.play(false);
-    else page.next = requestAnimationFrame((next) => page.step(next, now));
-  },
-};
+const page = new Story({ start: record.start, end: record.end, t: record.t1 ?? record.start, step: 0.05, show: () => {
+  const frame = frame_at(record, page.t);
+  plan.draw(page.t);
+  time_line.show(page.t, frame);
+  show_now(frame);
+  show_caption();
+} });
 
 const plan = new PlanView(by_id("plan"), record);
 const time_line = new TimeLine(by_id("strips"), record, (t, event) => page.seek(t, event));
@@ -115,17 +96,7 @@ function show_legend() {
     record.result.contact ? key("contact", "contact") : "", el("span", { text: `arrows: way in ${arrow_seconds} s` }), el("span", { class: "road-words", text: words }));
 }
 
-// --- theme, window, keys --------------------------------------------------------------------------
-
-const calm = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
-const dark_wanted = matchMedia("(prefers-color-scheme: dark)");
-const is_dark = () => (document.documentElement.dataset.theme ?? (dark_wanted.matches ? "dark" : "light")) === "dark";
-
-function show_theme() {
-  by_id("theme").textContent = is_dark() ? "Light" : "Dark";
-  plan.read_colours();
-  page.show();
-}
+// --- window, start --------------------------------------------------------------------------------
 
 function toggle_window() {
   time_line.whole = !time_line.whole;
@@ -138,57 +109,11 @@ function show_window() {
   by_id("window").textContent = time_line.whole ? "From T2" : "Whole run";
 }
 
-function on_key(event) {
-  if (event.ctrlKey || event.metaKey || event.altKey) return;
-  const at = event.target.closest("button, input, select, summary, pre, [role=region]");  // may want the key itself
-  const free = !at || at.id === "scrub" || (at.matches("button") && at.role !== "tab");
-  const step = event.shiftKey ? 0.5 : 0.05;
-  if (event.key === " " && (!at || at.id === "scrub")) page.play(!page.playing);
-  else if (event.key === "ArrowRight" && free) page.seek(page.t + step);
-  else if (event.key === "ArrowLeft" && free) page.seek(page.t - step);
-  else if (event.key === "Home" && free) page.seek(time_line.from);
-  else if (event.key === "End" && free) page.seek(record.end);
-  else return;
-  event.preventDefault();
-}
-
 function on_resize() {
   plan.resize();
   time_line.layout();
   page.show();
 }
-
-/** Lays out anew when a box changes its size (of the strips only the width: their height follows from it). */
-function watch_size(box, size) {
-  let before = size(box);
-  new ResizeObserver(() => {
-    if (size(box) === before) return;
-    before = size(box);
-    on_resize();
-  }).observe(box);
-}
-
-/** Printing: light, in the width of the paper, nothing folded away. */
-const paper = {
-  on() {
-    const root = document.documentElement;
-    paper.theme = root.dataset.theme;
-    paper.folded = [...document.querySelectorAll("details:not([open])")];
-    for (const box of paper.folded) box.open = true;
-    root.dataset.theme = "light";
-    root.classList.add("paper");
-    plan.read_colours();
-    on_resize();
-  },
-  off() {
-    const root = document.documentElement;
-    for (const box of paper.folded) box.open = false;
-    if (paper.theme) root.dataset.theme = paper.theme; else delete root.dataset.theme;
-    root.classList.remove("paper");
-    show_theme();
-    on_resize();
-  },
-};
 
 function start() {
   show_header(record);
@@ -201,23 +126,15 @@ function start() {
   show_overlays();
   show_legend();
   show_window();
-  for (const id of ["play", "back", "forth", "scrub", "rate"]) by_id(id).disabled = record.end <= record.start;
-  by_id("play").addEventListener("click", () => page.play(!page.playing));
-  by_id("back").addEventListener("click", () => page.seek(page.t - 0.05));
-  by_id("forth").addEventListener("click", () => page.seek(page.t + 0.05));
   by_id("window").addEventListener("click", () => { toggle_window(); page.show(); });
   for (const [id, factor] of [["zoom-in", 1.25], ["zoom-out", 0.8]]) {
     by_id(id).addEventListener("click", () => { plan.zoom = Math.min(4, Math.max(0.25, plan.zoom * factor)); page.show(); });
   }
-  by_id("theme").addEventListener("click", () => { document.documentElement.dataset.theme = is_dark() ? "light" : "dark"; show_theme(); });
-  dark_wanted.addEventListener("change", show_theme);
-  document.addEventListener("keydown", on_key);
-  watch_size(by_id("plan-box"), (box) => `${box.clientWidth} ${box.clientHeight}`);
-  watch_size(by_id("strips"), (box) => box.clientWidth);
-  window.addEventListener("beforeprint", paper.on);
-  window.addEventListener("afterprint", paper.off);
+  page.connect();
+  watch_size(by_id("plan-box"), (box) => `${box.clientWidth} ${box.clientHeight}`, on_resize);
+  watch_size(by_id("strips"), (box) => box.clientWidth, on_resize);
   on_resize();
-  show_theme();
+  watch_theme(() => { plan.read_colours(); page.show(); }, on_resize);
 }
 
 start();

@@ -48,21 +48,14 @@ class TimeLine {
         limits: [["T2", this.record.thresholds.preview_s], ["T1", this.record.thresholds.trigger_s]] }];
     this.axis_track = strip("", "", "axis").track;
     this.root.append(this.cursor);
-    this.root.addEventListener("pointerdown", (e) => this.drag(e));
+    follow_pointer(this.root, (e) => e.target.closest(".track") && !e.target.closest("button, input"), (e) => this.go(e));
   }
 
-  /** A press on any track but its buttons goes to that time, and follows the pointer until it is let go. */
-  drag(event) {
-    if (!event.target.closest(".track") || event.target.closest("button, input")) return;
-    const go = (e) => {
-      const box = this.axis_track.getBoundingClientRect();
-      const share = Math.min(1, Math.max(0, (e.clientX - box.left) / box.width));
-      this.seek(this.from + share * (this.to - this.from));
-    };
-    const stop = () => { window.removeEventListener("pointermove", go); window.removeEventListener("pointerup", stop); };
-    window.addEventListener("pointermove", go);
-    window.addEventListener("pointerup", stop);
-    go(event);
+  /** Goes to the time under the pointer. */
+  go(event) {
+    const box = this.axis_track.getBoundingClientRect();
+    const share = Math.min(1, Math.max(0, (event.clientX - box.left) / box.width));
+    this.seek(this.from + share * (this.to - this.from));
   }
 
   layout() {

@@ -9,12 +9,11 @@
 namespace saca::report {
 namespace {
 
-constexpr std::string_view schema = "saca.record/1";
-constexpr std::string_view css_marker = "/* report.css */";
+constexpr std::string_view css_marker = "/* style */";
 constexpr std::string_view record_marker = "\"record.json\"";
-constexpr std::string_view js_marker = "/* report.js */";
+constexpr std::string_view js_marker = "/* script */";
 
-std::optional<Error> problem(std::string_view record_json) {
+std::optional<Error> problem(std::string_view record_json, std::string_view schema) {
   nlohmann::json record;
   try {
     record = nlohmann::json::parse(record_json);
@@ -57,27 +56,36 @@ std::string harmless(std::string_view json) {
 void fill(std::string& page, std::string_view& rest, std::string_view marker,
           std::string_view text) {
   const std::size_t at = rest.find(marker);
-  expects(at != std::string_view::npos, "viewer/report.html has its markers, in order");
+  expects(at != std::string_view::npos, "a page of viewer/ has its markers, in order");
   page += rest.substr(0, at);
   page += text;
   rest.remove_prefix(at + marker.size());
 }
 
-}  // namespace
-
-Result<std::string> html_report(std::string_view record_json) {
-  if (auto error = problem(record_json)) {
+Result<std::string> filled(const Page& page, std::string_view record_json,
+                           std::string_view schema) {
+  if (auto error = problem(record_json, schema)) {
     return *std::move(error);
   }
   const std::string record = harmless(record_json);
-  std::string page;
-  page.reserve(page_html.size() + page_css.size() + page_js.size() + record.size());
-  std::string_view rest = page_html;
-  fill(page, rest, css_marker, page_css);
-  fill(page, rest, record_marker, record);
-  fill(page, rest, js_marker, page_js);
-  page += rest;
-  return page;
+  std::string text;
+  text.reserve(page.html.size() + page.css.size() + page.js.size() + record.size());
+  std::string_view rest = page.html;
+  fill(text, rest, css_marker, page.css);
+  fill(text, rest, record_marker, record);
+  fill(text, rest, js_marker, page.js);
+  text += rest;
+  return text;
+}
+
+}  // namespace
+
+Result<std::string> html_report(std::string_view record_json) {
+  return filled(encounter_page, record_json, "saca.record/1");
+}
+
+Result<std::string> drive_report(std::string_view record_json) {
+  return filled(drive_page, record_json, "saca.drive/1");
 }
 
 }  // namespace saca::report

@@ -12,9 +12,25 @@ namespace {
 
 using nlohmann::json;
 
-std::string record_with_title(const std::string& title) {
-  return json{{"schema", "saca.record/1"}, {"scenario", {{"title", title}}}}.dump();
-}
+/// What is made from records of one schema.
+struct Report {
+  std::string schema;
+  Result<std::string> (*html)(std::string_view);
+  const Page* page;
+
+  [[nodiscard]] std::string record_with_title(const std::string& title) const {
+    return json{{"schema", schema}, {"scenario", {{"title", title}}}}.dump();
+  }
+};
+
+class HtmlReport : public testing::TestWithParam<Report> {};
+
+INSTANTIATE_TEST_SUITE_P(Both, HtmlReport,
+                         testing::Values(Report{"saca.record/1", html_report, &encounter_page},
+                                         Report{"saca.drive/1", drive_report, &drive_page}),
+                         [](const auto& made) {
+                           return made.param.schema == "saca.drive/1" ? "Drive" : "Encounter";
+                         });
 
 std::size_t count(std::string_view text, std::string_view what) {
   std::size_t n = 0;
@@ -35,17 +51,17 @@ std::string embedded_record(const std::string& page) {
   return page.substr(begin + open.size(), end - begin - open.size());
 }
 
-TEST(HtmlReport, HoldsTheRecordUnchangedInMeaning) {
-  const std::string record = record_with_title("braking, \"hard\"\\ 50 °");
-  const auto page = html_report(record);
+TEST_P(HtmlReport, HoldsTheRecordUnchangedInMeaning) {
+  const std::string record = GetParam().record_with_title("braking, \"hard\"\\ 50 °");
+  const auto page = GetParam().html(record);
   ASSERT_TRUE(page.has_value());
   EXPECT_EQ(json::parse(embedded_record(page.value())), json::parse(record));
 }
 
-TEST(HtmlReport, LetsNoTextOfTheRecordEndItsElement) {
+TEST_P(HtmlReport, LetsNoTextOfTheRecordEndItsElement) {
   const std::string hostile =
       "</script><script>alert(1)</script><!-- <script> \xE2\x80\xA8 \xE2\x80\xA9 \xE2\x80\xA6";
-  const auto page = html_report(record_with_title(hostile));
+  const auto page = GetParam().html(GetParam().record_with_title(hostile));
   ASSERT_TRUE(page.has_value());
   const std::string inside = embedded_record(page.value());
   EXPECT_EQ(count(inside, "<"), 0U);
@@ -55,15 +71,15 @@ TEST(HtmlReport, LetsNoTextOfTheRecordEndItsElement) {
   EXPECT_EQ(json::parse(inside)["scenario"]["title"], hostile);
 }
 
-TEST(HtmlReport, ARecordThatHoldsAMarkerIsNotFilledAgain) {
-  const auto page = html_report(record_with_title("/* report.js */ \"record.json\""));
+TEST_P(HtmlReport, ARecordThatHoldsAMarkerIsNotFilledAgain) {
+  const auto page = GetParam().html(GetParam().record_with_title("/* script */ \"record.json\""));
   ASSERT_TRUE(page.has_value());
   EXPECT_EQ(json::parse(embedded_record(page.value()))["scenario"]["title"],
-            "/* report.js */ \"record.json\"");
+            "/* script */ \"record.json\"");
 }
 
-TEST(HtmlReport, LoadsNothing) {
-  const auto made = html_report(record_with_title("t"));
+TEST_P(HtmlReport, LoadsNothing) {
+  const auto made = GetParam().html(GetParam().record_with_title("t"));
   ASSERT_TRUE(made.has_value());
   const std::string& page = made.value();
   for (const char* loads : {" src=", " href=", "@import", "url(", "fetch(", "XMLHttpRequest",
@@ -76,23 +92,24 @@ TEST(HtmlReport, LoadsNothing) {
   EXPECT_NE(page.find("default-src 'none'"), std::string::npos) << "the browser enforces it, too";
 }
 
-TEST(HtmlReport, HoldsStyleAndScriptOnceEachInsideTheirElements) {
-  const auto page = html_report(record_with_title("t"));
+TEST_P(HtmlReport, HoldsStyleAndScriptOnceEachInsideTheirElements) {
+  const auto page = GetParam().html(GetParam().record_with_title("t"));
   ASSERT_TRUE(page.has_value());
-  EXPECT_EQ(count(page.value(), page_css), 1U);
-  EXPECT_EQ(count(page.value(), page_js), 1U);
-  EXPECT_EQ(count(page_css, "</"), 0U) << "would end the style element";
-  EXPECT_EQ(count(page_js, "</script"), 0U) << "would end the script element";
-  EXPECT_EQ(count(page_js, "innerHTML"), 0U) << "text of a record must never become markup";
+  EXPECT_EQ(count(page.value(), GetParam().page->css), 1U);
+  EXPECT_EQ(count(page.value(), GetParam().page->js), 1U);
+  EXPECT_EQ(count(GetParam().page->css, "</"), 0U) << "would end the style element";
+  EXPECT_EQ(count(GetParam().page->js, "</script"), 0U) << "would end the script element";
+  EXPECT_EQ(count(GetParam().page->js, "innerHTML"), 0U)
+      << "text of a record must never become markup";
 }
 
-TEST(HtmlReport, RefusesWhatIsNoRecord) {
+TEST_P(HtmlReport, RefusesWhatIsNoRecord) {
   const auto refused = [](std::string_view text) {
-    const auto page = html_report(text);
+    const auto page = GetParam().html(text);
     EXPECT_FALSE(page.has_value()) << text;
     return page.has_value() ? Error{} : page.error();
   };
-  const std::string whole = record_with_title("t");
+  const std::string whole = GetParam().record_with_title("t");
   EXPECT_EQ(refused("").code, Error::Code::malformed);
   EXPECT_EQ(refused(std::string_view(whole).substr(0, whole.size() - 1)).code,
             Error::Code::malformed);
@@ -100,9 +117,11 @@ TEST(HtmlReport, RefusesWhatIsNoRecord) {
   EXPECT_EQ(refused("[]").code, Error::Code::malformed);
   EXPECT_EQ(refused("{}").code, Error::Code::malformed);
   EXPECT_EQ(refused("{\"schema\":\"\xFF\"}").code, Error::Code::malformed) << "not UTF-8";
-  EXPECT_EQ(refused(R"({"schema":7})").message, R"(record: schema: want "saca.record/1", got 7)");
-  EXPECT_EQ(refused(R"({"schema":"saca.record/2"})").message,
-            R"(record: schema: want "saca.record/1", got "saca.record/2")");
+  const std::string want = "record: schema: want \"" + GetParam().schema + "\", got ";
+  EXPECT_EQ(refused(R"({"schema":7})").message, want + "7");
+  EXPECT_EQ(refused(R"({"schema":"saca.record/2"})").message, want + R"("saca.record/2")");
+  const std::string other = GetParam().schema == "saca.drive/1" ? "saca.record/1" : "saca.drive/1";
+  EXPECT_EQ(refused(json{{"schema", other}}.dump()).message, want + "\"" + other + "\"");
 }
 
 }  // namespace

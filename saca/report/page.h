@@ -4,10 +4,14 @@
 
 namespace saca::report {
 
-// The files of viewer/, put into the library when it is built.
+/// A page of viewer/, put into the library when it is built.
+struct Page {
+  std::string_view html;  ///< holds one marker each for style, record and script
+  std::string_view css;   ///< all styles, in order
+  std::string_view js;    ///< all scripts, in order
+};
 
-extern const std::string_view page_html;  ///< holds one marker each for style, record and script
-extern const std::string_view page_css;
-extern const std::string_view page_js;  ///< all scripts, in order
+extern const Page encounter_page;  ///< shows schema `saca.record/1`
+extern const Page drive_page;      ///< shows schema `saca.drive/1`
 
 }  // namespace saca::report

@@ -1,52 +1,26 @@
 """The report page as a person gets it: in a headless Chromium, from records of make_record.py."""
 
 import copy
-import json
+import functools
 import math
-import os
 import pathlib
 import re
-import subprocess
 import sys
 
 import pytest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import make_record
-from chromium import Page
+from pages import FORMATS, HOSTILE, colour, contrast, keys, like, luminance, pixel, poisoned
 
-WRITE_REPORT = os.environ.get("SACA_WRITE_REPORT", "build/dev/tests/report/write_report")
-FORMATS = pathlib.Path(__file__).parents[2] / "docs" / "formats.md"
 KINDS = list(make_record.RECORDS)
 RECORDS = {kind: make() for kind, make in make_record.RECORDS.items()}
 PANELS = ["stage", "time", "decision", "driver", "result", "previews", "run"]
 
 
-@pytest.fixture(scope="module")
-def browser():
-    with Page(1280, 800) as page:
-        yield page
-
-
 @pytest.fixture
-def show(browser, tmp_path):
-    """Opens the report of a record in a window of 1280 x 800, light, and returns the page."""
-    def open_report(record, width=1280, height=800):
-        source, target = tmp_path / "record.json", tmp_path / "report.html"
-        source.write_text(json.dumps(record), encoding="utf-8")
-        subprocess.run([WRITE_REPORT, source, target], check=True)
-        browser.problems.clear()
-        browser.requests.clear()
-        browser.resize(width, height)
-        browser.open(target)
-        return browser
-    return open_report
-
-
-def colour(page, name):
-    """A colour of the theme as (r, g, b)."""
-    text = page.run(f"getComputedStyle(document.documentElement).getPropertyValue('--{name}').trim()")
-    return tuple(int(text[i:i + 2], 16) for i in (1, 3, 5))
+def show(open_report):
+    return functools.partial(open_report, "encounter")
 
 
 def on_screen(page, x, y):
@@ -58,14 +32,6 @@ def on_screen(page, x, y):
     left = -(x - view["x"]) * s + (y - view["y"]) * c
     assert not page.run("plan.upright"), "forward is to the right in a wide window"
     return box["left"] + view["px"] + view["scale"] * forward, box["top"] + view["py"] - view["scale"] * left
-
-
-def pixel(page, x, y):
-    return page.pixels(round(x), round(y), 1, 1)[0][0]
-
-
-def like(a, b, tolerance=3):
-    return all(abs(p - q) <= tolerance for p, q in zip(a, b))
 
 
 def in_body(body, ahead, left):
@@ -83,12 +49,6 @@ def frame_at(record, t):
 @pytest.mark.parametrize("kind", KINDS)
 def test_synthetic_records_use_the_keys_of_the_schema_and_say_what_they_are(kind):
     documented = set(re.findall(r'"(\w+)"', FORMATS.read_text(encoding="utf-8"))) | set(make_record.INTENTIONS)
-
-    def keys(value):
-        if isinstance(value, dict):
-            return set(value) | {k for v in value.values() for k in keys(v)}
-        return {k for v in value for k in keys(v)} if isinstance(value, list) else set()
-
     assert keys(RECORDS[kind]) <= documented
     assert "SYNTHETIC TEST DATA" in RECORDS[kind]["scenario"]["source"]
 
@@ -136,18 +96,9 @@ def test_numbers_may_be_null(show):
 
 
 def test_text_of_a_record_never_becomes_markup(show):
-    hostile = "<img src=x onerror='window.hit=1'><script>window.hit=1</script> \u2028 </script>"
-
-    def poisoned(value):
-        if isinstance(value, dict):
-            return {k: v if k in ("schema", "id", "with", "plane", "kind", "phase", "source", "gate", "shape") else poisoned(v) for k, v in value.items()}
-        if isinstance(value, list):
-            return [poisoned(v) for v in value]
-        return hostile if isinstance(value, str) else value
-
-    page = show(poisoned(RECORDS["contact"]))
+    page = show(poisoned(RECORDS["contact"], spared=("schema", "id", "with", "plane", "kind", "phase", "source", "gate", "shape")))
     assert page.problems == []
-    assert page.run("by_id('title').textContent") == hostile
+    assert page.run("by_id('title').textContent") == HOSTILE
     assert page.run("document.querySelectorAll('img').length") == 0
     assert page.run("document.querySelectorAll('script').length") == 2
     assert page.run("window.hit === undefined")
@@ -348,12 +299,6 @@ def test_ghosts_come_and_go(show):
 # --- appearance ----------------------------------------------------------------------------------
 
 
-def luminance(rgb):
-    """WCAG 2.1, relative luminance."""
-    r, g, b = (v / 255 / 12.92 if v / 255 <= 0.03928 else ((v / 255 + 0.055) / 1.055) ** 2.4 for v in rgb)
-    return 0.2126 * r + 0.7152 * g + 0.0722 * b
-
-
 def test_dark_and_light_by_button_both_with_readable_text(show):
     page = show(RECORDS["contact"])
     seen = {}
@@ -364,8 +309,7 @@ def test_dark_and_light_by_button_both_with_readable_text(show):
                            ("bad", "panel"), ("good", "panel"), ("bad", "strong-bg"), ("good", "strong-bg"), ("soft", "strong-bg"),
                            ("good", "good-bg"), ("bad", "bad-bg"), ("warn", "warn-bg"), ("strong", "strong-bg"),
                            ("reflex", "panel"), ("thinking", "panel"), ("threat-line", "panel")):
-            a, b = luminance(colour(page, ink)), luminance(colour(page, paper))
-            assert (max(a, b) + 0.05) / (min(a, b) + 0.05) >= 4.5, f"{ink} on {paper}, {'dark' if dark else 'light'}"
+            assert contrast(colour(page, ink), colour(page, paper)) >= 4.5, f"{ink} on {paper}, {'dark' if dark else 'light'}"
         page.run("by_id('theme').click()")
         page.settle()
     assert luminance(seen[True]) < 0.05 < 0.7 < luminance(seen[False])
