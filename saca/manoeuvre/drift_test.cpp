@@ -13,6 +13,7 @@
 #include "saca/manoeuvre/controller.h"
 #include "saca/manoeuvre/default_car.h"
 #include "saca/manoeuvre/ego.h"
+#include "saca/manoeuvre/ride.h"
 
 namespace saca::manoeuvre {
 namespace {
@@ -26,27 +27,6 @@ struct End {
   double time = 0.0;
 };
 
-/// What the controller does not know of the car and the road.
-struct Unknown {
-  double grip = 1.0;  ///< factor of it
-  double mass = 1.0;
-  double yaw_inertia = 1.0;
-  double stiffness = 1.0;
-  double lag = 0.0;    ///< [s], of steering and brakes
-  double speed = 0.0;  ///< [m/s]
-};
-
-/// Quantities with the spreads that the T-drift must bear.
-Unknown draw(std::mt19937& rng) {
-  std::normal_distribution<double> n;
-  return {.grip = 1.0 + 0.06 * n(rng),
-          .mass = 1.0 + 0.03 * n(rng),
-          .yaw_inertia = 1.0 + 0.04 * n(rng),
-          .stiffness = 1.0 + 0.10 * n(rng),
-          .lag = std::clamp(0.01 * n(rng), -0.03, 0.03),
-          .speed = 0.15 * n(rng)};
-}
-
 world::Scene scene_at(double speed, double grip) {
   world::Scene scene;
   scene.ego.v_B = {speed, 0.0};
@@ -55,27 +35,14 @@ world::Scene scene_at(double speed, double grip) {
 }
 
 End drifted(const Plan& plan, const world::Scene& scene, const Unknown& unknown = {}) {
-  const Car known = default_car();
-  Car car = known;
-  car.mass *= unknown.mass;
-  car.yaw_inertia *= unknown.yaw_inertia;
-  car.tyre.stiffness *= unknown.stiffness;
-  car.steering_lag += unknown.lag;
-  car.brake_lag += unknown.lag;
-  const double grip = scene.grip * unknown.grip;
-  world::EgoState ego = scene.ego;
-  ego.v_B.x += unknown.speed;
-  vehicle::VehicleState state = rolling_state(car, ego, grip);
-  ControllerState memory = begin(known, plan, scene);
+  Ride ride(default_car(), plan, scene, scene.grip, unknown);
   End end;
-  while (!finished(plan, state, memory) && end.time < 20.0) {
-    const vehicle::Command command =
-        control(known, plan, scene.road, scene.grip, state, memory, vehicle::usual_step);
-    state = vehicle::step(car, state, command, grip, vehicle::usual_step);
+  while (!ride.ended() && end.time < 20.0) {
+    ride.step();
     end.time += vehicle::usual_step;
   }
-  EXPECT_TRUE(vehicle::at_rest(state));
-  end.X_WB = state.X_WB;
+  EXPECT_TRUE(vehicle::at_rest(ride.state()));
+  end.X_WB = ride.state().X_WB;
   return end;
 }
 
@@ -102,7 +69,7 @@ TEST(TDrift, StopsAcrossTheLaneAsTheReferenceDoes) {
 }
 
 TEST(TDrift, EndsAcrossTheLaneWhateverItDoesNotKnow) {
-  std::mt19937 rng(11);
+  std::mt19937_64 rng(11);
   constexpr int num_draws = 60;
   for (const auto& [speed, grip] : {std::pair{10.0, 0.9}, {16.0, 0.9}, {14.0, 0.5}}) {
     int num_good = 0;

@@ -5,8 +5,7 @@
 #include <cstdio>
 
 #include "saca/core/contract.h"
-#include "saca/manoeuvre/controller.h"
-#include "saca/manoeuvre/ego.h"
+#include "saca/manoeuvre/ride.h"
 
 namespace saca::manoeuvre {
 namespace {
@@ -101,28 +100,25 @@ EgoMotion drive(const Car& car, const Plan& plan, const world::Scene& scene, dou
                 double horizon) {
   expects(grip > 0.0 && grip <= 1.2, "grip in (0, 1.2]");
   expects(horizon >= 0.0 && horizon <= 3600.0, "horizon in [0, 3600] s");
-  ControllerState memory = begin(car, plan, scene);
-  vehicle::VehicleState state = rolling_state(car, scene.ego, grip);
+  Ride ride(car, plan, scene, grip);
   const int num_poses =
       static_cast<int>(std::lround(horizon / (vehicle::usual_step * steps_per_pose)));
   EgoMotion motion;
   motion.track.start = scene.time;
   motion.track.step = vehicle::usual_step * steps_per_pose;
   const auto note = [&] {
-    motion.track.X_WA.push_back(state.X_WB);
-    motion.v_B.push_back(state.v_B);
-    motion.yaw_rate.push_back(state.yaw_rate);
+    motion.track.X_WA.push_back(ride.state().X_WB);
+    motion.v_B.push_back(ride.state().v_B);
+    motion.yaw_rate.push_back(ride.state().yaw_rate);
   };
   note();
-  motion.ended = finished(plan, state, memory);
+  motion.ended = ride.ended();
   for (int pose = 0; pose < num_poses && !motion.ended; ++pose) {
     for (int i = 0; i < steps_per_pose; ++i) {
-      const vehicle::Command command =
-          control(car, plan, scene.road, scene.grip, state, memory, vehicle::usual_step);
-      state = vehicle::step(car, state, command, grip, vehicle::usual_step);
+      ride.step();
     }
     note();
-    motion.ended = finished(plan, state, memory);
+    motion.ended = ride.ended();
   }
   return motion;
 }

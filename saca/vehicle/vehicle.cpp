@@ -357,7 +357,7 @@ bool at_rest(const VehicleState& state) {
 double longest_step(const Vehicle& car) {
   // The fastest motion is the spin of a wheel that rolls slowly under its load, at the rate
   // R^2 stiffness load / (inertia floor). Wheels that slide are slower: their curve is flat.
-  constexpr double more_load = 1.25;  // than at rest, for what turning moves at little slip
+  constexpr double more_load = 1.15;  // than at rest, for what turning moves at little slip
   constexpr double stable = 2.78;     // of the classical Runge-Kutta scheme, on the real axis
   double longest = 2e-3;
   const PerWheel loads = wheel_loads(car, {});

@@ -1,0 +1,28 @@
+#include "saca/manoeuvre/ride.h"
+
+#include "saca/core/contract.h"
+#include "saca/manoeuvre/ego.h"
+
+namespace saca::manoeuvre {
+
+Ride::Ride(const Car& car, const Plan& plan, const world::Scene& scene, double grip,
+           const Unknown& unknown)
+    : car_(car),
+      real_(real_car(car, unknown)),
+      grip_(grip * unknown.grip),
+      plan_(plan),
+      road_(scene.road),
+      known_grip_(scene.grip) {
+  expects(grip_ > 0.0 && grip_ <= 1.2, "grip in (0, 1.2]");
+  memory_ = begin(car_, plan_, scene);
+  world::EgoState ego = scene.ego;
+  ego.v_B.x += unknown.speed;
+  state_ = rolling_state(real_, ego, grip_);
+}
+
+void Ride::step() {
+  command_ = control(car_, plan_, road_, known_grip_, state_, memory_, vehicle::usual_step);
+  state_ = vehicle::step(real_, state_, command_, grip_, vehicle::usual_step);
+}
+
+}  // namespace saca::manoeuvre

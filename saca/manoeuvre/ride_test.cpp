@@ -1,0 +1,58 @@
+#include "saca/manoeuvre/ride.h"
+
+#include <gtest/gtest.h>
+
+#include "saca/core/contract.h"
+#include "saca/manoeuvre/default_car.h"
+#include "saca/manoeuvre/drive.h"
+#include "tests/support/count_allocations.h"
+
+namespace saca::manoeuvre {
+namespace {
+
+constexpr Plan brake{PolicyId::aeb, std::nullopt};
+
+world::Scene scene_at(double speed, double grip) {
+  world::Scene scene;
+  scene.ego.v_B = {speed, 0.0};
+  scene.grip = grip;
+  return scene;
+}
+
+double stop(double grip, const Unknown& unknown) {
+  Ride ride(default_car(), brake, scene_at(15.0, 0.8), grip, unknown);
+  while (!ride.ended()) {
+    ride.step();
+  }
+  return ride.state().X_WB.p.x;
+}
+
+TEST(Ride, GoesTheWayOfDrive) {
+  const Car car = default_car();
+  const world::Scene scene = scene_at(16.0, 0.8);
+  const Plan plan = default_plan(PolicyId::es_b_left, 16.0);
+  const EgoMotion motion = drive(car, plan, scene, 0.7, 1.0);
+  Ride ride(car, plan, scene, 0.7);
+  const std::size_t before = num_allocations;
+  for (int i = 0; i < 1000; ++i) {
+    ride.step();
+  }
+  EXPECT_EQ(num_allocations - before, 0U);
+  EXPECT_EQ(ride.state().X_WB.p.y, motion.track.X_WA.back().p.y);
+}
+
+// v^2 / (2 mu g): a road that gives less takes longer, whatever the controller thinks.
+TEST(Ride, TheRoadDecidesNotWhatIsKnownOfIt) {
+  EXPECT_NEAR(stop(0.8, {.grip = 0.8}) / stop(0.8, {}), 1.0 / 0.8, 0.06);
+  EXPECT_NEAR(stop(0.8, {.grip = 0.8}), stop(0.64, {}), 1e-9);
+  EXPECT_GT(stop(0.8, {.speed = 1.0}), stop(0.8, {}) + 1.5);
+}
+
+TEST(Ride, RefusesWhatCannotBeDriven) {
+  EXPECT_THROW(Ride(default_car(), brake, scene_at(15.0, 0.8), 1.3), ContractViolation);
+  EXPECT_THROW(Ride(default_car(), {PolicyId::es_b_left, std::nullopt}, scene_at(15.0, 0.8), 0.8),
+               ContractViolation);
+}
+
+}  // namespace
+}  // namespace saca::manoeuvre
