@@ -8,6 +8,7 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -64,7 +65,10 @@ Vehicle car_for(const std::string& model) {
   if (!model.starts_with("mb")) {
     car.front_wheel_inertia *= 0.5;
     car.rear_wheel_inertia *= 0.5;
-    car.load_transfer_lag = 0.01;
+    car.load_transfer_lag = 0.002;
+  }
+  if (model == "std_plain") {
+    car.mass_height = 0.01;  // as in tools/outside_vehicle/models.py
   }
   return car;
 }
@@ -350,13 +354,30 @@ TEST(OutsideDrive, TurnsLikeTheMultiBodyModel) {
   }
 }
 
-// Braking shifts load to the front, and the yaw rate rises by a third. Combined slip costs our
-// tyres up to 7 % of their force (OutsideTyre), more in front; and the multi-body model's body
-// dives with a damping ratio of 0.38, 27 % beyond the shift (6 % of the yaw rate), where ours lags.
+// The drift model with our law of the tyre, and in both the mass on the road, so that no load
+// shifts: what is left is the planar body with its wheels, through braking in a corner and into a
+// spin with locked rear wheels. Of the 1.2 % there, half is our two tracks (with 2 cm between the
+// wheels it is 0.7 %), the rest about 1 ms at locking, which an unstable motion magnifies.
+TEST(OutsideDrive, MovesLikeTheDriftModelWithTheSameTyreAndNoLoadShift) {
+  for (const auto& [name, front_brake_share, tolerance] :
+       {std::tuple{"brake_in_corner", 0.66, 0.005}, {"drift_entry", 0.0, 0.015}}) {
+    const Drive drive(name, front_brake_share);
+    const Table ours = drive.ours("std_plain");
+    EXPECT_LT(share_apart(drive, "std_plain", "yaw_rate_radps"), tolerance) << name;
+    EXPECT_LT(share_apart(drive, "std_plain", "ay_mps2"), tolerance) << name;
+    EXPECT_LT(apart(ours.at("speed_mps"), drive.theirs("std_plain", "speed_mps")), 0.005) << name;
+    EXPECT_LT(apart(ours.at("y_m"), drive.theirs("std_plain", "y_m")), 0.01) << name;
+  }
+}
+
+// Braking shifts load to the front, and the yaw rate rises by a third. The drift model shifts it
+// with the command, ours with what the wheels then give: 4.4 mrad/s after the first 0.1 s. The body
+// of the multi-body model dives with a damping ratio of 0.38 and goes 27 % too far, ours lags: with
+// harder dampers its peak falls by 6 % (docs/outside-models.md), the rest is its understeer.
 TEST(OutsideDrive, BrakesInACornerAlike) {
   const Drive drive("brake_in_corner");
-  EXPECT_LT(share_apart(drive, "std", "yaw_rate_radps"), 0.05);
-  EXPECT_LT(share_apart(drive, "mb_upright", "yaw_rate_radps"), 0.05 + 0.06);
+  EXPECT_LT(share_apart(drive, "std", "yaw_rate_radps"), 0.03);
+  EXPECT_LT(share_apart(drive, "mb_upright", "yaw_rate_radps"), 0.06 + 0.03);
   for (const std::string model : {"std", "mb_upright"}) {
     const Table ours = drive.ours(model);
     EXPECT_GT(largest(ours.at("yaw_rate_radps")), 1.2 * ours.at("yaw_rate_radps")[10]) << model;
@@ -365,23 +386,23 @@ TEST(OutsideDrive, BrakesInACornerAlike) {
   }
 }
 
-// The rear wheels lock, and every car begins to spin. How fast is a matter of the tyre at rest on
-// its slip, and of the load: the drift model takes the load from the braking that was asked for (9
-// m/s^2) and not from what the rear wheels gave (3 to 4), which alone is 0.37 rad/s of its 2.42;
-// the rest is its locked wheel, which holds sideways half as much as a block (OutsideTyre).
-TEST(OutsideDrive, SpinsTheSameWaySlowerThanTheDriftModel) {
+// The rear wheels lock and the car spins. The outer one carries more and drags more, which holds
+// the spin back: m a_y h (rear share) x friction = 1.8 kN m, 1.0 rad/s^2 for 0.4 s. The multi-body
+// model has that too; there the inner wheel locks first and the load moves with a spring (8 %). The
+// drift model has not, and shifts load by the braking asked for, 9 m/s^2, of which the rear wheels
+// give 4: it ends 0.8 rad/s faster.
+TEST(OutsideDrive, SpinsLikeTheModelWithFourLoads) {
   const Drive drive("drift_entry", 0.0);
+  const std::string column = "yaw_rate_radps";
+  EXPECT_LT(share_apart(drive, "mb_upright", column), 0.08);
+  EXPECT_LT(share_apart(drive, "mb_upright", "y_m"), 0.03);
   for (const std::string model : {"std", "mb_upright"}) {
     const Table ours = drive.ours(model);
     EXPECT_EQ(ours.at("rear_radps")[10], 0.0) << model;  // at 1.0 s, the brake on since 0.7 s
     EXPECT_EQ(drive.theirs(model, "rear_radps")[10], 0.0) << model;
-    EXPECT_GT(ours.at("yaw_rate_radps")[12], 2.0 * ours.at("yaw_rate_radps")[7]) << model;
-    EXPECT_LT(apart(ours.at("speed_mps"), drive.theirs(model, "speed_mps")), 0.5) << model;
+    EXPECT_GT(ours.at(column)[12], 2.0 * ours.at(column)[7]) << model;
   }
-  const double ratio = drive.ours("std").at("yaw_rate_radps")[12] /
-                       (drive.theirs("std", "yaw_rate_radps")[12] - 0.37);
-  EXPECT_LT(ratio, 1.0);
-  EXPECT_GT(ratio, 0.7);
+  EXPECT_GT(drive.theirs("std", column)[12] - drive.ours("std").at(column)[12], 0.37 + 0.3);
 }
 
 // For tools/outside_vehicle/run.sh compare: what ours did, in files like the references.
@@ -394,7 +415,7 @@ TEST(OutsideDrive, LeavesTracesWhereAsked) {
                                  "sine_with_dwell", "brake_in_corner", "drift_entry"}) {
     const Drive drive(name, name == "drift_entry" ? 0.0 : 0.66);
     Table all{{"t_s", drive.inputs().at("t_s")}};
-    for (const std::string model : {"st", "std", "mb", "mb_upright"}) {
+    for (const std::string model : {"st", "std", "std_plain", "mb", "mb_upright"}) {
       if (drive.has(model)) {
         for (const auto& [column, values] : drive.ours(model)) {
           all[std::string(model).append("_").append(column)] = values;

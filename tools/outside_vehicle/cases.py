@@ -52,6 +52,7 @@ def sine_with_dwell(amplitude, hertz=0.7, dwell=0.5, start=0.2):
 
 ROLLING = ("st", "std", "mb", "mb_upright")
 SLIDING = ("std", "mb", "mb_upright")
+BRAKING = ("std", "std_plain", "mb", "mb_upright")
 CASES = (
     Case("braking", "straight: rolling, then braking gently, then harder, then driving", SLIDING,
          25.0, 4.0, ((0.0, 0.0),), ((0.0, 0.0), (0.5, -2.0), (1.5, -4.0), (3.0, 1.5))),
@@ -65,8 +66,8 @@ CASES = (
          20.0, 2.0, ramp(0.050, 0.15), row_time=0.05),
     Case("sine_with_dwell", "sine with dwell at 0.7 Hz, 0.6 g", SLIDING,
          20.0, 4.0, sine_with_dwell(0.040)),
-    Case("brake_in_corner", "steady corner at 0.3 g, then braking with 4 m/s^2", SLIDING,
+    Case("brake_in_corner", "steady corner at 0.3 g, then braking with 4 m/s^2", BRAKING,
          20.0, 3.0, ramp(0.020, 0.1), ((0.0, 0.0), (1.0, -4.0), (2.5, 0.0))),
-    Case("drift_entry", "corner, then all brake torque on the rear wheels until they lock", SLIDING,
+    Case("drift_entry", "corner, then all brake torque on the rear wheels until they lock", BRAKING,
          15.0, 1.2, ramp(0.10, 0.30), ((0.0, 0.0), (0.7, -9.0), (1.1, 0.0)), front_brake_share=0.0),
 )

@@ -3,11 +3,14 @@
 Positive steering turns towards positive y in all of them and in ours, so nothing is mirrored here;
 the multi-body model counts z downwards, which no column shows.
 """
+import contextlib
 import math
+import unittest.mock
 
 import numpy as np
 from vehiclemodels.init_mb import init_mb
 from vehiclemodels.init_std import init_std
+from vehiclemodels.utils import tire_model
 from vehiclemodels.vehicle_dynamics_mb import vehicle_dynamics_mb
 from vehiclemodels.vehicle_dynamics_st import vehicle_dynamics_st
 from vehiclemodels.vehicle_dynamics_std import vehicle_dynamics_std
@@ -17,6 +20,28 @@ VEHICLE = 2  # BMW 320i
 STEP = 5e-4  # [s], Runge-Kutta of fourth order
 MOTION = ("x_m", "y_m", "yaw_rad", "speed_mps", "sideslip_rad", "yaw_rate_radps", "ay_mps2")
 WHEELS = ("front_radps", "rear_radps")
+
+
+@contextlib.contextmanager
+def our_tyre(tyre):
+    """Gives the package the law of saca/vehicle/tyre.h: one curve for both directions."""
+    def force(slip, angle, load):
+        sliding = math.hypot(slip * math.cos(angle), math.sin(angle))
+        if sliding < 1e-12:
+            return 0.0, 0.0
+        steepness = -tyre.p_ky1 / (tyre.p_cy1 * tyre.p_dy1)
+        size = load * tyre.p_dy1 * math.sin(tyre.p_cy1 * math.atan(steepness * sliding))
+        return (-size * slip * math.cos(angle) / sliding, -size * math.sin(angle) / sliding)
+
+    replaced = {  # "pure" slip hands on what the combined formulas below need
+        "formula_longitudinal": lambda slip, camber, load, _: load,
+        "formula_lateral": lambda angle, camber, load, _: (0.0, 0.0),
+        "formula_longitudinal_comb": lambda slip, angle, load, _: force(slip, angle, load)[0],
+        "formula_lateral_comb": lambda slip, angle, camber, friction, load, pure, _:
+            force(slip, angle, load)[1],
+    }
+    with unittest.mock.patch.multiple(tire_model, **replaced):
+        yield
 
 
 class SingleTrack:
@@ -52,6 +77,22 @@ class Drift(SingleTrack):
 
     def row(self, x, rate):
         return super().row(x, rate) + [x[7], x[8]]
+
+
+class Plain(Drift):
+    """The drift model with our law of the tyre and its mass 1 cm above the road: no load shift."""
+    name = "std_plain"
+    height = 0.01  # [m]
+
+    def parameters(self, case):
+        car = super().parameters(case)
+        car.h_s = self.height
+        return car
+
+    @staticmethod
+    def dynamics(x, inputs, car):
+        with our_tyre(car.tire):
+            return vehicle_dynamics_std(x, inputs, car)
 
 
 class MultiBody(SingleTrack):
@@ -90,7 +131,7 @@ class Upright(MultiBody):
         return car
 
 
-MODELS = {model.name: model for model in (SingleTrack(), Drift(), MultiBody(), Upright())}
+MODELS = {model.name: model for model in (SingleTrack(), Drift(), Plain(), MultiBody(), Upright())}
 
 
 def derivative(model, x, inputs, car):
