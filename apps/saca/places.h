@@ -15,6 +15,7 @@ enum ExitCode : int {
   wrong_command_line = 2,
   bad_input = 3,
   cannot_write = 4,
+  was_interrupted = 130,  ///< as shells say it: 128 + SIGINT
 };
 
 /// Where the program's own files are: beside it in the build tree, or in share/saca of an
@@ -32,6 +33,9 @@ struct Places {
 
 /// A scenario by its path, or by the name of a shipped one (with or without ".toml").
 [[nodiscard]] std::filesystem::path find_scenario(const Places& places, const std::string& name);
+
+/// A car's file by its path, or by the name of a shipped one (with or without ".toml").
+[[nodiscard]] std::filesystem::path find_car(const Places& places, const std::string& name);
 
 /// Says what is wrong on the error stream.
 void complain(const std::string& message);

@@ -1,0 +1,251 @@
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+
+#include "apps/saca/commands.h"
+#include "apps/saca/places.h"
+#include "saca/core/clock.h"
+#include "saca/core/file.h"
+#include "saca/manoeuvre/car.h"
+#include "saca/tune/minimise.h"
+#include "saca/tune/trials.h"
+#include "saca/vehicle/parameters.h"
+
+namespace saca::app {
+namespace {
+
+namespace fs = std::filesystem;
+using manoeuvre::Car;
+using tune::Trial;
+
+struct TuneOptions {
+  std::string car = "compact_rwd_ev";
+  std::string from;
+  std::string output;
+  int swerve_evaluations = 1'500;
+  int drift_evaluations = 4'000;
+  int draws = 200;
+  unsigned long seed = 1;
+  int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  bool as_json = false;
+};
+
+volatile std::sig_atomic_t interrupted = 0;
+
+/// What is worked on, how far it is and what is left of it, on the error stream: in place on a
+/// terminal, else a line now and then.
+class ProgressLine {
+ public:
+  ProgressLine(std::string what, int all, Clock& clock)
+      : what_(std::move(what)), all_(all), clock_(clock), start_(clock.now()), last_(start_) {}
+
+  void show(const tune::Progress& progress) {
+    remembered_ += progress.remembered ? 1 : 0;
+    const Clock::Time now = clock_.now();
+    const bool last = progress.evaluations == all_;
+    if (!last && to_seconds(now - last_) < (terminal_ ? 0.2 : 10.0)) {
+      return;
+    }
+    last_ = now;
+    const int done = progress.evaluations - remembered_;
+    const double left = done == 0 ? 0.0
+                                  : to_seconds(now - start_) / done *
+                                        static_cast<double>(all_ - progress.evaluations);
+    fmt::print(stderr, "{}{}: {} of at most {} evaluations, best {:.4f}, {:.0f} s left{}",
+               terminal_ ? "\r" : "", what_, progress.evaluations, all_, progress.best, left,
+               terminal_ ? "   " : "\n");
+  }
+
+  ~ProgressLine() {
+    if (terminal_) {
+      fmt::print(stderr, "\n");
+    }
+  }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+ private:
+  std::string what_;
+  int all_;
+  Clock& clock_;
+  Clock::Time start_;
+  Clock::Time last_;
+  int remembered_ = 0;
+  bool terminal_ = isatty(STDERR_FILENO) != 0;
+};
+
+/// Makes one law good at its trials.
+template <class Law, std::size_t n>
+Result<std::optional<double>> tune_law(const TuneOptions& options, const std::string& what,
+                                       const std::array<manoeuvre::Number<Law>, n>& numbers,
+                                       Law manoeuvre::Tuning::*law,
+                                       const std::vector<Trial>& trials,
+                                       double (*cost)(const Car&, const Trial&), int evaluations,
+                                       const fs::path& journal, Car& car) {
+  const auto with = [&](const std::vector<double>& x) {
+    Car changed = car;
+    for (std::size_t i = 0; i < n; ++i) {
+      changed.tuning.*law.*numbers[i].member = x[i];
+    }
+    return changed;
+  };
+  tune::Problem problem{.name = fmt::format("{} of {}", what, options.car), .cost = [&](auto& x) {
+                          return tune::total_cost(with(x), trials, cost, options.threads);
+                        }};
+  for (const auto& number : numbers) {
+    problem.low.push_back(number.min);
+    problem.high.push_back(number.max);
+    problem.start.push_back(car.tuning.*law.*number.member);
+  }
+  SteadyClock clock;
+  ProgressLine line(what, evaluations, clock);
+  const auto found = tune::minimise(problem, {evaluations, options.seed}, journal,
+                                    [&](const tune::Progress& progress) {
+                                      line.show(progress);
+                                      return interrupted == 0;
+                                    });
+  if (!found.has_value()) {
+    return found.error();
+  }
+  if (!found.value()) {
+    return std::optional<double>();
+  }
+  car = with(found.value()->at);
+  return std::optional(found.value()->cost);
+}
+
+/// The car with the tuning to begin with.
+Result<Car> read_start(const fs::path& car_file, const fs::path& tuning_file) {
+  const auto parameters = vehicle::read_vehicle(car_file);
+  if (!parameters.has_value()) {
+    return parameters.error();
+  }
+  const auto tuning = manoeuvre::read_tuning(tuning_file);
+  if (!tuning.has_value()) {
+    return tuning.error();
+  }
+  return Car{parameters.value(), tuning.value()};
+}
+
+std::string command_line(const TuneOptions& options) {
+  return fmt::format(
+      "saca tune --car {} --from {} --swerve-evaluations {} --drift-evaluations {} "
+      "--draws {} --seed {}",
+      options.car, options.from, options.swerve_evaluations, options.drift_evaluations,
+      options.draws, options.seed);
+}
+
+int stopped(const fs::path& output) {
+  complain(
+      fmt::format("interrupted; {} was not written. The same command goes on where this one "
+                  "stopped.",
+                  output.string()));
+  return was_interrupted;
+}
+
+int tune_car(TuneOptions options) {
+  const auto places = find_places();
+  if (!places.has_value()) {
+    complain(places.error().message);
+    return bad_input;
+  }
+  const fs::path car_file = find_car(places.value(), options.car);
+  const fs::path output =
+      options.output.empty() ? manoeuvre::tuning_path(car_file) : fs::path(options.output);
+  auto start = read_start(car_file, manoeuvre::tuning_path(find_car(places.value(), options.from)));
+  if (!start.has_value()) {
+    complain(start.error().message);
+    return bad_input;
+  }
+  Car car = start.value();
+  std::signal(SIGINT, [](int) { interrupted = 1; });
+  std::signal(SIGTERM, [](int) { interrupted = 1; });
+
+  const fs::path swerve_journal = output.string() + ".swerve.journal";
+  const fs::path drift_journal = output.string() + ".drift.journal";
+  const auto swerve = tune_law(options, "lane change", manoeuvre::swerve_numbers,
+                               &manoeuvre::Tuning::swerve, tune::swerve_trials(options.seed),
+                               tune::swerve_cost, options.swerve_evaluations, swerve_journal, car);
+  if (!swerve.has_value()) {
+    complain(swerve.error().message);
+    return swerve.error().code == Error::Code::unwritable ? cannot_write : bad_input;
+  }
+  if (!swerve.value()) {
+    return stopped(output);
+  }
+  const auto drift = tune_law(options, "T-drift", manoeuvre::drift_numbers,
+                              &manoeuvre::Tuning::drift, tune::drift_trials(options.seed),
+                              tune::drift_cost, options.drift_evaluations, drift_journal, car);
+  if (!drift.has_value()) {
+    complain(drift.error().message);
+    return drift.error().code == Error::Code::unwritable ? cannot_write : bad_input;
+  }
+  if (!drift.value()) {
+    return stopped(output);
+  }
+  fmt::print(stderr, "domain of the T-drift: {} draws at each speed and grip\n", options.draws);
+  car.tuning.domain = tune::find_domain(car, options.draws, options.seed + 1, options.threads);
+
+  const std::string comment =
+      fmt::format("Made by: {}\nCosts: lane change {:.4f}, T-drift {:.4f} (saca/tune/trials.h).",
+                  command_line(options), *swerve.value(), *drift.value());
+  if (auto problem = write_file(output, manoeuvre::tuning_text(car.tuning, comment))) {
+    complain(problem->message);
+    return cannot_write;
+  }
+  fs::remove(swerve_journal);
+  fs::remove(drift_journal);
+  if (options.as_json) {
+    fmt::print("{}\n", nlohmann::json{{"output", output.string()},
+                                      {"swerve_cost", *swerve.value()},
+                                      {"drift_cost", *drift.value()},
+                                      {"drift_grip", manoeuvre::DriftDomain::grips},
+                                      {"drift_slowest_mps", car.tuning.domain.slowest}}
+                           .dump(1));
+  } else {
+    fmt::print("{}: lane change {:.4f}, T-drift {:.4f}\n", output.string(), *swerve.value(),
+               *drift.value());
+  }
+  return success;
+}
+
+}  // namespace
+
+void add_tune(CLI::App& line, int& exit_code) {
+  CLI::App* const command = line.add_subcommand(
+      "tune", "Find the numbers with which the controllers drive a car; can be interrupted");
+  const auto options = std::make_shared<TuneOptions>();
+  command->add_option("--car", options->car, "A car's file, or the name of a shipped one")
+      ->capture_default_str();
+  command->add_option("--from", options->from,
+                      "Begin with the tuning of this car (default: its own)");
+  command->add_option("--output", options->output, "Default: beside the car, NAME.tuning.toml");
+  command->add_option("--swerve-evaluations", options->swerve_evaluations, "At most")
+      ->check(CLI::Range(1, 10'000'000))
+      ->capture_default_str();
+  command->add_option("--drift-evaluations", options->drift_evaluations, "At most")
+      ->check(CLI::Range(1, 10'000'000))
+      ->capture_default_str();
+  command->add_option("--draws", options->draws, "For the domain of the T-drift")
+      ->check(CLI::Range(20, 1'000'000))
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Same seed, same tuning")->capture_default_str();
+  command->add_option("--threads", options->threads, "They do not change the result")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  command->add_flag("--json", options->as_json, "For programs");
+  command->callback([options, &exit_code] {
+    if (options->from.empty()) {
+      options->from = options->car;
+    }
+    exit_code = tune_car(*options);
+  });
+}
+
+}  // namespace saca::app
