@@ -203,6 +203,34 @@ class Turns {
   int count_ = 0;
 };
 
+// A tall car in front of which nothing holds the roll: once its inner rear wheel has lifted, the
+// front axle takes the rest, and the road carries the weight, no more, also at the point of
+// turning over.
+TEST(Extremes, ALiftedWheelDoesNotAddToTheWeight) {
+  Vehicle car = default_car();
+  car.mass_height = 0.9;
+  car.front_roll_share = 0.3;
+  const double weight = car.mass * gravity;
+  const double rear = weight * car.front_arm / (car.front_arm + car.rear_arm);
+  // To the left: all of 1700 kg x 8 m/s^2 x 0.9 m / 1.6 m moves, 0.7 of it at the rear: too much.
+  const double moved = car.mass * 8.0 * car.mass_height / car.track_width;
+  ASSERT_GT(0.7 * moved, 0.5 * rear);
+  const PerWheel loads = wheel_loads(car, {0.0, 8.0});
+  EXPECT_NEAR(loads[rear_left], 0.0, 1e-9);
+  EXPECT_NEAR(loads[rear_right], rear, 1e-9);
+  EXPECT_NEAR(loads[front_right] - loads[front_left], 2.0 * (moved - 0.5 * rear), 1e-9);
+  for (const double share : {0.0, 0.3, 1.0}) {
+    car.front_roll_share = share;
+    for (const double a_x : {-30.0, -8.0, 0.0, 8.0, 30.0}) {
+      for (const double a_y : {-30.0, -8.0, 0.0, 8.0, 30.0}) {
+        const PerWheel all = wheel_loads(car, {a_x, a_y});
+        EXPECT_NEAR(all[0] + all[1] + all[2] + all[3], weight, 1e-9) << a_x << ' ' << a_y;
+        EXPECT_GE(*std::min_element(all.begin(), all.end()), 0.0) << a_x << ' ' << a_y;
+      }
+    }
+  }
+}
+
 // The steering still moves while the car crawls, so a wheel's speed may turn round a few times; the
 // car's never does. Its deceleration turns round twice for each wheel that locks, and at the stop.
 TEST(Extremes, CrawlsWithoutChatter) {
