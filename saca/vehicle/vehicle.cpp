@@ -308,14 +308,19 @@ double motor_share(const Vehicle& car, std::size_t wheel) {
 
 PerWheel wheel_loads(const Vehicle& car, Vec2 a_B) {
   const double wheelbase = car.front_arm + car.rear_arm;
+  const double half = 0.5 * car.mass * gravity;
   const double pitch = car.mass * a_B.x * car.mass_height / wheelbase;
-  const double front = 0.5 * (car.mass * gravity * car.rear_arm / wheelbase - pitch);
-  const double rear = 0.5 * (car.mass * gravity * car.front_arm / wheelbase + pitch);
+  const double front =
+      std::clamp(0.5 * (car.mass * gravity * car.rear_arm / wheelbase - pitch), 0.0, half);
+  const double rear =
+      std::clamp(0.5 * (car.mass * gravity * car.front_arm / wheelbase + pitch), 0.0, half);
   const double roll = car.mass * a_B.y * car.mass_height / car.track_width;
-  const double front_roll = car.front_roll_share * roll;
-  const double rear_roll = roll - front_roll;
-  return {std::max(0.0, front - front_roll), std::max(0.0, front + front_roll),
-          std::max(0.0, rear - rear_roll), std::max(0.0, rear + rear_roll)};
+  // An axle whose inner wheel has lifted leaves the rest of the roll to the other one.
+  const double front_share = std::clamp(car.front_roll_share * roll, -front, front);
+  const double rear_roll = std::clamp(roll - front_share, -rear, rear);
+  const double front_roll =
+      std::clamp(front_share + ((roll - front_share) - rear_roll), -front, front);
+  return {front - front_roll, front + front_roll, rear - rear_roll, rear + rear_roll};
 }
 
 Contacts contacts(const Vehicle& car, const VehicleState& state, const PerWheel& grip) {
