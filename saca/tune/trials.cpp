@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <functional>
 #include <numbers>
-#include <optional>
-#include <thread>
 
+#include "saca/core/parallel.h"
 #include "saca/core/units.h"
-#include "saca/manoeuvre/ride.h"
+#include "saca/manoeuvre/draws.h"
 
 namespace saca::tune {
 namespace {
@@ -46,21 +43,6 @@ void add_twice(std::vector<Trial>& trials, const manoeuvre::Plan& plan, const Co
   trials.push_back({plan, crooked(scene, side), manoeuvre::draw(rng)});
 }
 
-// Calls work(i) for every i below `count`, on several threads.
-void in_parallel(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
-  std::atomic<std::size_t> next = 0;
-  const auto worker = [&] {
-    for (std::size_t i = next++; i < count; i = next++) {
-      work(i);
-    }
-  };
-  std::vector<std::jthread> others;
-  for (int i = 1; i < threads; ++i) {
-    others.emplace_back(worker);
-  }
-  worker();
-}
-
 // A car whose domain refuses no drift.
 Car without_domain(Car car) {
   car.tuning.domain.slowest.fill(1.0);
@@ -68,21 +50,8 @@ Car without_domain(Car car) {
 }
 
 // Longest that a drift may take: a stop with half of the grip, and a second to begin [s].
-double longest_drift(const Trial& trial) {
-  return 1.0 + 2.0 * trial.scene.ego.v_B.x / (trial.scene.grip * gravity);
-}
-
-// The end of a drift; nullopt when it does not rest in time.
-std::optional<Pose> drift_end(const Car& car, const Trial& trial) {
-  Ride ride(car, trial.plan, trial.scene, trial.scene.grip, trial.unknown);
-  const double longest = longest_drift(trial);
-  for (int i = 0; !ride.ended(); ++i) {
-    if (i * vehicle::usual_step > longest) {
-      return std::nullopt;
-    }
-    ride.step();
-  }
-  return ride.state().X_WB;
+double longest_drift(const world::Scene& scene) {
+  return 1.0 + 2.0 * scene.ego.v_B.x / (scene.grip * gravity);
 }
 
 double heading_error(const Pose& X_WB) {
@@ -145,15 +114,17 @@ std::vector<Trial> swerve_trials(unsigned long seed) {
 
 double drift_cost(const Car& car, const Trial& trial) {
   constexpr double most = 25.0;  // a heading 40 deg wrong, or worse
-  const std::optional<Pose> end = drift_end(without_domain(car), trial);
-  if (!end) {
+  const manoeuvre::Ending end = manoeuvre::ride_to_end(
+      Ride(without_domain(car), trial.plan, trial.scene, trial.scene.grip, trial.unknown),
+      longest_drift(trial.scene));
+  if (!end.ended) {
     return 2.0 * most;
   }
   const double speed = trial.scene.ego.v_B.x;
   const double shortest = squared(speed) / (2.0 * trial.scene.grip * gravity);
-  const double error = squared(heading_error(*end) / from_degrees(8.0));
-  const double aside = squared(std::max(0.0, std::abs(end->p.y) - 2.0) / 0.5);
-  return std::min(error, most) + std::min(aside, most) + 10.0 * (end->p.x / shortest - 1.0);
+  const double error = squared(heading_error(end.X_WB) / from_degrees(8.0));
+  const double aside = squared(std::max(0.0, std::abs(end.X_WB.p.y) - 2.0) / 0.5);
+  return std::min(error, most) + std::min(aside, most) + 10.0 * (end.X_WB.p.x / shortest - 1.0);
 }
 
 double swerve_cost(const Car& car, const Trial& trial) {
@@ -192,19 +163,11 @@ double total_cost(const Car& car, const std::vector<Trial>& trials,
 
 int num_across(const Car& car, double speed, double grip, int count, unsigned long seed,
                int threads) {
-  const Car known = without_domain(car);
   const manoeuvre::Plan plan{PolicyId::t_drift_left, std::nullopt};
-  std::mt19937_64 rng(seed);
-  std::vector<Trial> trials;
-  for (int i = 0; i < count; ++i) {
-    trials.push_back({plan, scene_at({speed, grip}), manoeuvre::draw(rng)});
-  }
-  std::vector<char> across(trials.size());
-  in_parallel(trials.size(), threads, [&](std::size_t i) {
-    const std::optional<Pose> end = drift_end(known, trials[i]);
-    across[i] = end && heading_error(*end) <= from_degrees(10.0) ? 1 : 0;
-  });
-  return static_cast<int>(std::count(across.begin(), across.end(), 1));
+  const world::Scene scene = scene_at({speed, grip});
+  const auto endings = manoeuvre::draw_endings(without_domain(car), plan, scene, grip,
+                                               longest_drift(scene), count, seed, 0, threads);
+  return manoeuvre::num_across(endings, plan, scene.road);
 }
 
 manoeuvre::DriftDomain find_domain(const Car& car, int draws, unsigned long seed, int threads) {

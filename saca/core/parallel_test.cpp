@@ -1,0 +1,24 @@
+#include "saca/core/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace saca {
+namespace {
+
+TEST(InParallel, DoesEachOnceWhateverTheThreads) {
+  for (const int threads : {1, 2, 7}) {
+    std::vector<int> done(1000);
+    in_parallel(done.size(), threads, [&](std::size_t i) { ++done[i]; });
+    EXPECT_EQ(std::accumulate(done.begin(), done.end(), 0), 1000) << threads;
+    EXPECT_EQ(*std::max_element(done.begin(), done.end()), 1) << threads;
+  }
+}
+
+TEST(InParallel, NothingToDoIsDone) {
+  in_parallel(0, 3, [](std::size_t) { FAIL(); });
+}
+
+}  // namespace
+}  // namespace saca
