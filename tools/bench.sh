@@ -5,7 +5,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 figures=build/figures
 mkdir -p "$figures"
-build/release/saca bench physics
+build/release/saca physics --json --drift-draws 400 >"$figures/physics.json"
 build/release/saca bench --json >"$figures/saca.json"
 weights=third_party/models/$(sed -n 's/^  "weights": "\(.*\)".*/\1/p' third_party/models/choice.json)
 build/release/saca-model-host --model "$weights" --bench "${RUNS:-20}" --json >"$figures/reason.json"

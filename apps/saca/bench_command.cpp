@@ -15,29 +15,11 @@
 #include "saca/manoeuvre/car.h"
 #include "saca/manoeuvre/controller.h"
 #include "saca/manoeuvre/ego.h"
-#include "saca/manoeuvre/physics_figures.h"
 
 namespace saca::app {
 namespace {
 
 using nlohmann::json;
-
-/// Stopping distances and lane changes beside their bands.
-int bench_physics(const manoeuvre::Car& car, json& figures, bool quiet) {
-  int outside = 0;
-  for (const manoeuvre::Figure& figure : manoeuvre::physics_figures(car)) {
-    outside += in_band(figure) ? 0 : 1;
-    figures[figure.name] = figure.value;
-    if (!quiet) {
-      const std::string reference =
-          figure.reference ? fmt::format("{:8.3f}", *figure.reference) : "       -";
-      fmt::print("{:44} {:8.3f}   reference {}   band {:7.3f} to {:7.3f}   {}\n", figure.name,
-                 figure.value, reference, figure.low, figure.high,
-                 in_band(figure) ? "inside" : "OUTSIDE");
-    }
-  }
-  return outside;
-}
 
 /// Integrated milliseconds per second of computing: a stop from 20 m/s, over and over.
 void bench_vehicle(const manoeuvre::Car& car, Clock& clock, json& figures) {
@@ -154,9 +136,6 @@ int bench(const BenchOptions& options) {
   }
   SteadyClock clock;
   json figures;
-  if (options.what == "all" || options.what == "physics") {
-    figures["physics.outside_band"] = bench_physics(car.value(), figures, options.as_json);
-  }
   if (options.what == "all" || options.what == "vehicle") {
     bench_vehicle(car.value(), clock, figures);
   }
@@ -168,9 +147,7 @@ int bench(const BenchOptions& options) {
     return success;
   }
   for (const auto& [name, value] : figures.items()) {
-    if (!name.starts_with("physics.") || name == "physics.outside_band") {
-      fmt::print("{:52} {:.6g}\n", name, value.get<double>());
-    }
+    fmt::print("{:52} {:.6g}\n", name, value.get<double>());
   }
   return success;
 }
@@ -178,11 +155,11 @@ int bench(const BenchOptions& options) {
 }  // namespace
 
 void add_bench(CLI::App& line, int& exit_code) {
-  CLI::App* const command = line.add_subcommand(
-      "bench", "Measure: physics beside its bands, vehicle steps, the reflex plane");
+  CLI::App* const command =
+      line.add_subcommand("bench", "Measure: vehicle steps, the reflex plane");
   const auto options = std::make_shared<BenchOptions>();
-  command->add_option("what", options->what, "all, physics, vehicle or decide")
-      ->check(CLI::IsMember({"all", "physics", "vehicle", "decide"}))
+  command->add_option("what", options->what, "all, vehicle or decide")
+      ->check(CLI::IsMember({"all", "vehicle", "decide"}))
       ->capture_default_str();
   command->add_option("--calls", options->calls, "Of the reflex plane, for each number of actors")
       ->check(CLI::Range(1'000, 100'000'000))

@@ -12,6 +12,8 @@ void add_scenarios(CLI::App& line, int& exit_code);
 void add_import(CLI::App& line, int& exit_code);
 void add_memory(CLI::App& line, int& exit_code);
 void add_model(CLI::App& line, int& exit_code);
+void add_physics(CLI::App& line, int& exit_code);
+void add_drive(CLI::App& line, int& exit_code);
 void add_tune(CLI::App& line, int& exit_code);
 void add_bench(CLI::App& line, int& exit_code);
 

@@ -18,6 +18,8 @@ int main(int argc, char** argv) {
     add_import(line, exit_code);
     add_memory(line, exit_code);
     add_model(line, exit_code);
+    add_physics(line, exit_code);
+    add_drive(line, exit_code);
     add_tune(line, exit_code);
     add_bench(line, exit_code);
     try {

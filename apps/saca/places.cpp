@@ -64,6 +64,18 @@ fs::path find_car(const Places& places, const std::string& name) {
   return find_shipped(places.root / "data" / "vehicles", name);
 }
 
+std::optional<Error> make_folder_of(const fs::path& file) {
+  std::error_code problem;
+  if (file.has_parent_path()) {
+    fs::create_directories(file.parent_path(), problem);
+  }
+  if (problem) {
+    return Error{Error::Code::unwritable,
+                 file.parent_path().string() + ": cannot be made: " + problem.message()};
+  }
+  return std::nullopt;
+}
+
 void complain(const std::string& message) {
   fmt::print(stderr, "saca: {}\n", message);
 }

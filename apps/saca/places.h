@@ -37,6 +37,9 @@ struct Places {
 /// A car's file by its path, or by the name of a shipped one (with or without ".toml").
 [[nodiscard]] std::filesystem::path find_car(const Places& places, const std::string& name);
 
+/// Makes the folder that `file` is to lie in.
+[[nodiscard]] std::optional<Error> make_folder_of(const std::filesystem::path& file);
+
 /// Says what is wrong on the error stream.
 void complain(const std::string& message);
 

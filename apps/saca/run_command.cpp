@@ -72,19 +72,6 @@ Result<Inputs> read_inputs(const Places& places, const RunOptions& options) {
   return inputs;
 }
 
-/// Makes the folder that `file` is to lie in.
-std::optional<Error> make_folder_of(const fs::path& file) {
-  std::error_code problem;
-  if (file.has_parent_path()) {
-    fs::create_directories(file.parent_path(), problem);
-  }
-  if (problem) {
-    return Error{Error::Code::unwritable,
-                 file.parent_path().string() + ": cannot be made: " + problem.message()};
-  }
-  return std::nullopt;
-}
-
 std::optional<Error> write_outputs(const std::string& record, const fs::path& folder,
                                    const fs::path& report) {
   for (const fs::path& file : {folder / "record.json", report}) {

@@ -1,0 +1,193 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+
+#include "apps/saca/commands.h"
+#include "apps/saca/places.h"
+#include "saca/core/file.h"
+#include "saca/core/units.h"
+#include "saca/manoeuvre/drive.h"
+#include "saca/report/drive_json.h"
+#include "saca/report/html_report.h"
+
+namespace saca::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct DriveOptions {
+  int policy = 0;
+  double speed = 14.0;
+  double grip = 0.9;
+  std::optional<double> target_speed;
+  std::string car = "compact_rwd_ev";
+  std::optional<double> seconds;
+  int draws = 0;
+  std::uint64_t seed = 1;
+  int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  std::string report;
+  bool as_json = false;
+};
+
+manoeuvre::Plan plan_of(const DriveOptions& options) {
+  const manoeuvre::PolicyId policy = *manoeuvre::policy_from(options.policy);
+  manoeuvre::Plan plan = manoeuvre::default_plan(policy, options.speed);
+  if (options.target_speed) {
+    plan.target_speed = options.target_speed;
+  }
+  return plan;
+}
+
+/// How long it is watched when it does not end by itself [s].
+double horizon_of(const DriveOptions& options) {
+  const bool ends = options.policy != manoeuvre::index(manoeuvre::PolicyId::no_intervention);
+  return options.seconds.value_or(ends ? 30.0 : 3.0);
+}
+
+std::string command_line(const DriveOptions& options) {
+  std::string line = fmt::format("saca drive --policy {} --speed {:g} --grip {:g} --car {}",
+                                 options.policy, options.speed, options.grip, options.car);
+  line += options.target_speed ? fmt::format(" --target-speed {:g}", *options.target_speed) : "";
+  line += options.seconds ? fmt::format(" --seconds {:g}", *options.seconds) : "";
+  line +=
+      options.draws > 0 ? fmt::format(" --draws {} --seed {}", options.draws, options.seed) : "";
+  return line;
+}
+
+/// For people: what the record says of the end, and of the draws.
+void tell(const json& record) {
+  const json& end = record["end"];
+  fmt::print("{} from {:g} m/s on grip {:g} with {}: {} after {:.2f} s\n",
+             record["policy"]["name"].get<std::string>(),
+             record["start"]["speed_mps"].get<double>(), record["road"]["grip"].get<double>(),
+             record["car"]["name"].get<std::string>(), end["state"].get<std::string>(),
+             end["time_s"].get<double>());
+  fmt::print(
+      "  centre of mass {:.2f} m forward, {:.2f} m to the left; heading {:.1f} deg, "
+      "{:.1f} m/s\n",
+      end["forward_m"].get<double>(), end["sideways_m"].get<double>(),
+      end["heading_deg"].get<double>(), end["speed_mps"].get<double>());
+  const json& draws = record["draws"];
+  if (draws.is_null()) {
+    return;
+  }
+  fmt::print("  {} draws of what the controller does not know:\n", draws["count"].get<int>());
+  if (const json& across = draws["within_10_deg"]; !across.is_null()) {
+    fmt::print("    within 10 deg of across the lane: {:.1f} % (95 % interval {:.1f} to {:.1f})\n",
+               100.0 * across["share"].get<double>(), 100.0 * across["low"].get<double>(),
+               100.0 * across["high"].get<double>());
+  }
+  for (const auto& [key, what] : {std::pair{"time_s", "time, s"},
+                                  {"forward_m", "forward, m"},
+                                  {"sideways_m", "to the left, m"},
+                                  {"heading_deg", "heading, deg"}}) {
+    const json& spread = draws[key];
+    fmt::print("    {:16} p05 {:8.2f}   p50 {:8.2f}   p95 {:8.2f}\n", what,
+               spread["p05"].get<double>(), spread["p50"].get<double>(),
+               spread["p95"].get<double>());
+  }
+}
+
+std::optional<Error> write_report(const std::string& file, const std::string& record) {
+  const auto page = report::drive_report(record);
+  if (!page.has_value()) {
+    return page.error();
+  }
+  if (auto problem = make_folder_of(file)) {
+    return problem;
+  }
+  return write_file(file, page.value());
+}
+
+int drive(const DriveOptions& options) {
+  const auto places = find_places();
+  if (!places.has_value()) {
+    complain(places.error().message);
+    return bad_input;
+  }
+  const fs::path car_file = find_car(places.value(), options.car);
+  const auto car = manoeuvre::read_car(car_file);
+  if (!car.has_value()) {
+    complain(car.error().message);
+    return bad_input;
+  }
+  report::DriveRecord record{.program = "saca " SACA_VERSION,
+                             .command = command_line(options),
+                             .car_name = car_file.stem().string(),
+                             .car = car.value(),
+                             .plan = plan_of(options)};
+  record.scene.ego.v_B = {options.speed, 0.0};
+  record.scene.grip = options.grip;
+  if (const auto refused = manoeuvre::refusal(record.car, record.plan, record.scene)) {
+    complain(*refused);
+    return bad_input;
+  }
+  report::ride_into(record, horizon_of(options));
+  if (options.draws > 0) {
+    constexpr int shown_paths = 50;
+    record.draws = {.seed = options.seed,
+                    .endings = manoeuvre::draw_endings(
+                        record.car, record.plan, record.scene, options.grip, horizon_of(options),
+                        options.draws, options.seed, shown_paths, options.threads)};
+  }
+  const std::string text = report::drive_json(record);
+  if (options.as_json) {
+    fmt::print("{}\n", text);
+  } else {
+    tell(json::parse(text));
+  }
+  if (options.report.empty()) {
+    return success;
+  }
+  if (const auto problem = write_report(options.report, text)) {
+    complain(problem->message);
+    return cannot_write;
+  }
+  if (!options.as_json) {
+    fmt::print("Report: {}\n", fs::absolute(options.report).string());
+  }
+  return success;
+}
+
+}  // namespace
+
+void add_drive(CLI::App& line, int& exit_code) {
+  CLI::App* const command =
+      line.add_subcommand("drive", "Drive one manoeuvre on an empty road, and show it");
+  const auto options = std::make_shared<DriveOptions>();
+  command->add_option("--policy", options->policy, "0 to 7")->check(CLI::Range(0, 7))->required();
+  command->add_option("--speed", options->speed, "At the start [m/s]")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+  command->add_option("--grip", options->grip, "Friction coefficient of the road")
+      ->check(CLI::Range(0.01, 1.2))
+      ->capture_default_str();
+  command->add_option("--target-speed", options->target_speed,
+                      "Of policies 3 and 4 [m/s] (default: half the speed)");
+  command->add_option("--car", options->car, "A car's file, or the name of a shipped one")
+      ->capture_default_str();
+  command
+      ->add_option("--seconds", options->seconds,
+                   "Watch it no longer than this (default: 30, of policy 7: 3)")
+      ->check(CLI::Range(0.01, 600.0));
+  command
+      ->add_option("--draws", options->draws,
+                   "Again so many times, with grip, mass, lags, ... not as the controller thinks")
+      ->check(CLI::Range(0, 1'000'000))
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Of the draws")->capture_default_str();
+  command->add_option("--threads", options->threads, "They do not change the result")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  command->add_option("--report", options->report, "Write an HTML page that shows it");
+  command->add_flag("--json", options->as_json, "Print the record, for programs");
+  command->callback([options, &exit_code] { exit_code = drive(*options); });
+}
+
+}  // namespace saca::app

@@ -1,0 +1,153 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+
+#include "apps/saca/commands.h"
+#include "apps/saca/places.h"
+#include "saca/core/percentile.h"
+#include "saca/core/proportion.h"
+#include "saca/manoeuvre/draws.h"
+#include "saca/manoeuvre/drive.h"
+#include "saca/manoeuvre/physics_figures.h"
+
+namespace saca::app {
+namespace {
+
+using nlohmann::json;
+
+struct PhysicsOptions {
+  int drift_draws = 0;
+  std::vector<std::string> cars{"compact_rwd_ev", "small_fwd_car", "midsize_suv", "delivery_van"};
+  std::uint64_t seed = 1;
+  int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  bool as_json = false;
+};
+
+/// The default car's table: ours beside the reference.
+void add_figures(const manoeuvre::Car& car, bool quiet, json& figures) {
+  int outside = 0;
+  for (const manoeuvre::Figure& figure : manoeuvre::physics_figures(car)) {
+    outside += in_band(figure) ? 0 : 1;
+    figures[figure.name] = figure.value;
+    if (!quiet) {
+      const std::string reference =
+          figure.reference ? fmt::format("{:8.3f}", *figure.reference) : "       -";
+      fmt::print("{:48} {:9.4f}   reference {}   band {:7.3f} to {:7.3f}   {}\n", figure.name,
+                 figure.value, reference, figure.low, figure.high,
+                 in_band(figure) ? "inside" : "OUTSIDE");
+    }
+  }
+  figures["physics.outside_band"] = outside;
+  if (!quiet) {
+    fmt::print("outside their bands: {}\n", outside);
+  }
+}
+
+/// T-drifts of one car over speed and grip, each many times.
+void add_drifts(const std::string& name, const manoeuvre::Car& car, const PhysicsOptions& options,
+                json& figures) {
+  const manoeuvre::Plan plan{manoeuvre::PolicyId::t_drift_left, std::nullopt};
+  constexpr double horizon = 40.0;
+  for (const double grip : {0.2, 0.3, 0.5, 0.7, 0.9, 1.0}) {
+    for (const double speed : {10.0, 12.0, 14.0, 16.0, 20.0, 25.0}) {
+      world::Scene scene;
+      scene.ego.v_B = {speed, 0.0};
+      scene.grip = grip;
+      const std::string key = fmt::format(".{}.v{:g}.mu{:.1f}", name, speed, grip);
+      if (manoeuvre::refusal(car, plan, scene)) {
+        if (!options.as_json) {
+          fmt::print("{:16} {:5g} {:5.1f}   refused\n", name, speed, grip);
+        }
+        continue;
+      }
+      const auto endings = manoeuvre::draw_endings(
+          car, plan, scene, grip, horizon, options.drift_draws, options.seed, 0, options.threads);
+      const Proportion across =
+          proportion(manoeuvre::num_across(endings, plan, scene.road), options.drift_draws);
+      std::vector<double> forward;
+      std::vector<double> sideways;
+      for (const auto& ending : endings) {
+        forward.push_back(ending.X_WB.p.x);
+        sideways.push_back(ending.X_WB.p.y);
+      }
+      figures["t_drift.within_10_deg.share" + key] = across.share;
+      figures["t_drift.within_10_deg.low" + key] = across.low;
+      figures["t_drift.within_10_deg.high" + key] = across.high;
+      for (const auto& [percent, share] : {std::pair{"p05", 0.05}, {"p50", 0.5}, {"p95", 0.95}}) {
+        figures[fmt::format("t_drift.forward_m.{}{}", percent, key)] = percentile(forward, share);
+        figures[fmt::format("t_drift.sideways_m.{}{}", percent, key)] = percentile(sideways, share);
+      }
+      if (!options.as_json) {
+        fmt::print(
+            "{:16} {:5g} {:5.1f}   {:5.1f} ({:5.1f} to {:5.1f})   {:7.2f} {:7.2f} {:7.2f}   "
+            "{:6.2f} {:6.2f} {:6.2f}\n",
+            name, speed, grip, 100.0 * across.share, 100.0 * across.low, 100.0 * across.high,
+            percentile(forward, 0.05), percentile(forward, 0.5), percentile(forward, 0.95),
+            percentile(sideways, 0.05), percentile(sideways, 0.5), percentile(sideways, 0.95));
+        std::fflush(stdout);
+      }
+    }
+  }
+}
+
+int physics(const PhysicsOptions& options) {
+  const auto places = find_places();
+  if (!places.has_value()) {
+    complain(places.error().message);
+    return bad_input;
+  }
+  const auto car = manoeuvre::read_car(find_car(places.value(), "compact_rwd_ev"));
+  if (!car.has_value()) {
+    complain(car.error().message);
+    return bad_input;
+  }
+  json figures;
+  add_figures(car.value(), options.as_json, figures);
+  if (options.drift_draws > 0 && !options.as_json) {
+    fmt::print(
+        "\nT-drift, {} draws each; forward and sideways: p05 p50 p95\n{:16} {:>5} {:>5}   "
+        "{:23}   {:23}   {}\n",
+        options.drift_draws, "car", "m/s", "grip", "within 10 deg, %", "forward, m", "sideways, m");
+  }
+  for (const std::string& name :
+       options.drift_draws > 0 ? options.cars : decltype(options.cars){}) {
+    const auto file = find_car(places.value(), name);
+    const auto one = manoeuvre::read_car(file);
+    if (!one.has_value()) {
+      complain(one.error().message);
+      return bad_input;
+    }
+    add_drifts(file.stem().string(), one.value(), options, figures);
+  }
+  if (options.as_json) {
+    fmt::print("{}\n", figures.dump(1));
+  }
+  return success;
+}
+
+}  // namespace
+
+void add_physics(CLI::App& line, int& exit_code) {
+  CLI::App* const command = line.add_subcommand(
+      "physics", "The car's stops, lane changes and drifts beside an independent reference");
+  const auto options = std::make_shared<PhysicsOptions>();
+  command
+      ->add_option("--drift-draws", options->drift_draws,
+                   "Also a table of T-drifts over car, speed and grip, each so many times")
+      ->check(CLI::Range(0, 1'000'000))
+      ->capture_default_str();
+  command->add_option("--car", options->cars, "Cars of that table: files, or names of shipped ones")
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Of the draws")->capture_default_str();
+  command->add_option("--threads", options->threads, "They do not change the result")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  command->add_flag("--json", options->as_json, "For programs");
+  command->callback([options, &exit_code] { exit_code = physics(*options); });
+}
+
+}  // namespace saca::app
