@@ -145,8 +145,7 @@ double highest_entry_speed(const Vehicle& car, double grip) {
 
 // km77.com drives cars through this track: a Honda HR-V at 74 km/h, a Toyota GR Supra at 77 km/h
 // (reported by automotivetip.com and automototale.com); 70 km/h is what the Swedish test of this
-// kind asks (bilmagasinet.dk). They have better roads than grip 0.9, and better drivers than this
-// one, whose path is the same at all speeds.
+// kind asks (bilmagasinet.dk). This driver, whose path is the same at all speeds, is not as good.
 TEST(SevereLaneChange, IsDrivenUntilTheGripEnds) {
   const Vehicle car = vehicle::default_car();
   const double highest = highest_entry_speed(car, 0.9);
