@@ -33,20 +33,20 @@ std::optional<Error> problem(std::string_view record_json, std::string_view sche
 
 /// The same JSON without the characters that mean something to HTML or to old JavaScript. They
 /// occur inside strings only, where JSON allows the escape.
-std::string harmless(std::string_view json) {
+std::string harmless(std::string_view record) {
   // U+2028 and U+2029, which JavaScript once took for line ends, are E2 80 A8 and E2 80 A9 in
   // UTF-8.
   constexpr std::string_view separator = "\xE2\x80";
   std::string text;
-  text.reserve(json.size() + json.size() / 64);
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    if (json[i] == '<') {
+  text.reserve(record.size() + record.size() / 64);
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    if (record[i] == '<') {
       text += "\\u003c";
-    } else if (json.substr(i, 3) == "\xE2\x80\xA8" || json.substr(i, 3) == "\xE2\x80\xA9") {
-      text += json[i + separator.size()] == '\xA8' ? "\\u2028" : "\\u2029";
+    } else if (record.substr(i, 3) == "\xE2\x80\xA8" || record.substr(i, 3) == "\xE2\x80\xA9") {
+      text += record[i + separator.size()] == '\xA8' ? "\\u2028" : "\\u2029";
       i += separator.size();
     } else {
-      text += json[i];
+      text += record[i];
     }
   }
   return text;

@@ -77,7 +77,7 @@ struct VehicleState {
   PerWheel brake_torque{};    ///< at the wheels [N m], >= 0
   double motor_torque = 0.0;  ///< of all driven wheels [N m]
   Vec2 transfer_a_B;          ///< acceleration that the wheel loads answer to, lagged [m/s^2]
-  Vec2 a_B;                   ///< of the centre of mass at the end of the last step [m/s^2]
+  Vec2 a_B;                   ///< of the centre of mass at the start of the last step [m/s^2]
   BrakeLine brake_line;
 };
 static_assert(std::is_trivially_copyable_v<VehicleState>);
@@ -102,7 +102,8 @@ constexpr double hold_speed = 0.05;
 /// Share of the motor's torque at a wheel, in [0, 0.5].
 [[nodiscard]] double motor_share(const Vehicle& car, std::size_t wheel);
 
-/// Load on each wheel under a lasting acceleration of the body [N], each >= 0.
+/// Load on each wheel under a lasting acceleration of the body [N], each >= 0; together the weight.
+/// An axle whose inner wheel has lifted leaves the rest of the roll to the other axle.
 [[nodiscard]] PerWheel wheel_loads(const Vehicle& car, Vec2 a_B);
 
 /// The four contacts of a state.
