@@ -233,7 +233,7 @@ void add_tune(CLI::App& line, int& exit_code) {
       ->check(CLI::Range(1, 10'000'000))
       ->capture_default_str();
   command->add_option("--draws", options->draws, "For the domain of the T-drift")
-      ->check(CLI::Range(20, 1'000'000))
+      ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Same seed, same tuning")->capture_default_str();
   command->add_option("--threads", options->threads, "They do not change the result")

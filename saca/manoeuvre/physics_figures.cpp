@@ -107,6 +107,11 @@ void add_lane_changes(const Car& car, std::vector<Figure>& figures) {
   }
 }
 
+void add_swerve_against_braking(const Car& car, std::vector<Figure>& figures) {
+  figures.push_back(
+      {"physics.swerve_beats_braking_mps.mu0.9", swerve_beats_braking(car), 13.0, 12.0, 14.0});
+}
+
 void add_drifts(const Car& car, std::vector<Figure>& figures) {
   constexpr double grip = 0.9;
   for (const auto& [speed, time, forward] : drift_references) {
@@ -166,9 +171,23 @@ LaneChange change_lane(const Car& car, double speed, double grip) {
     }
     if (state.X_WB.p.y < 2.1 && change.to_2_1_m <= (i - 1) * vehicle::usual_step) {
       change.to_2_1_m = i * vehicle::usual_step;
+      change.way_to_2_1_m = state.X_WB.p.x;
     }
   }
   return change;
+}
+
+double swerve_beats_braking(const Car& car) {
+  constexpr double grip = 0.9;
+  double brake = 8.0;    // [m/s] from here braking needs less room
+  double swerve = 25.0;  // from here swerving does
+  while (swerve - brake > 0.01) {
+    const double speed = 0.5 * (brake + swerve);
+    const bool swerves = change_lane(car, speed, grip).way_to_2_1_m <
+                         stop_straight(car, Abs::deployed, speed, grip).distance;
+    (swerves ? swerve : brake) = speed;
+  }
+  return 0.5 * (brake + swerve);
 }
 
 DriftStop drift_to_rest(const Car& car, double speed, double grip) {
@@ -197,15 +216,33 @@ IntegrationError integration_error(const Car& car) {
           .heading = std::abs(wrap_angle(coarse.X_WB.yaw - fine.X_WB.yaw))};
 }
 
+double integration_order(const Car& car) {
+  constexpr double seconds = 0.8;
+  const auto end_y = [&](double dt) {
+    VehicleState state = rolling_state(car, straight_scene(15.0, 0.9).ego, 0.9);
+    vehicle::Command command;
+    command.steering = 0.045;  // followed below the steering's rate limit
+    command.motor_torque = 900.0;
+    for (long i = 0; i < std::lround(seconds / dt); ++i) {
+      state = vehicle::step(car, state, command, 0.9, dt);
+    }
+    return state.X_WB.p.y;
+  };
+  const double exact = end_y(0.0625e-3);
+  return std::log2(std::abs(end_y(1e-3) - exact) / std::abs(end_y(0.5e-3) - exact));
+}
+
 std::vector<Figure> physics_figures(const Car& car) {
   std::vector<Figure> figures;
   add_stops(car, figures);
   add_lane_changes(car, figures);
+  add_swerve_against_braking(car, figures);
   add_drifts(car, figures);
   const IntegrationError error = integration_error(car);
   figures.push_back({"physics.rk4.position_error_m", error.position, std::nullopt, 0.0, 0.008});
   figures.push_back(
       {"physics.rk4.heading_error_deg", to_degrees(error.heading), std::nullopt, 0.0, 0.08});
+  figures.push_back({"physics.rk4.order", integration_order(car), 4.0, 3.6, 4.4});
   return figures;
 }
 

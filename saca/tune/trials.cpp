@@ -19,28 +19,35 @@ using vehicle::gravity;
 
 struct Condition {
   double speed, grip;
+  double bend = 0.0;  // share of the grip that the road takes, > 0 to the left
 };
 
 world::Scene scene_at(const Condition& condition) {
   world::Scene scene;
   scene.ego.v_B = {condition.speed, 0.0};
   scene.grip = condition.grip;
+  scene.road.curvature =
+      condition.bend * condition.grip * gravity / (condition.speed * condition.speed);
+  scene.ego.yaw_rate = condition.speed * scene.road.curvature;
   return scene;
 }
 
-// The start as it is when nobody drives exactly straight: to one side, then to the other.
+// The start as it is when nobody drives exactly straight.
 world::Scene crooked(world::Scene scene, double side) {
-  scene.ego.X_WB.yaw = side * from_degrees(2.0);
-  scene.ego.yaw_rate = side * 0.08;
+  scene.ego.X_WB.yaw += side * from_degrees(2.0);
+  scene.ego.yaw_rate += side * 0.08;
   return scene;
 }
 
-void add_twice(std::vector<Trial>& trials, const manoeuvre::Plan& plan, const Condition& condition,
-               std::mt19937_64& rng) {
+// Once as known, then with draws of what is not, crooked to one side and to the other in turn.
+void add_trials(std::vector<Trial>& trials, const manoeuvre::Plan& plan, const Condition& condition,
+                int draws, std::mt19937_64& rng) {
   const world::Scene scene = scene_at(condition);
-  const double side = trials.size() % 4 < 2 ? 1.0 : -1.0;
   trials.push_back({plan, scene, {}});
-  trials.push_back({plan, crooked(scene, side), manoeuvre::draw(rng)});
+  for (int i = 0; i < draws; ++i) {
+    const double side = trials.size() % 2 == 0 ? 1.0 : -1.0;
+    trials.push_back({plan, crooked(scene, side), manoeuvre::draw(rng)});
+  }
 }
 
 // A car whose domain refuses no drift.
@@ -54,10 +61,6 @@ double longest_drift(const world::Scene& scene) {
   return 1.0 + 2.0 * scene.ego.v_B.x / (scene.grip * gravity);
 }
 
-double heading_error(const Pose& X_WB) {
-  return std::abs(wrap_angle(X_WB.yaw - 0.5 * std::numbers::pi));
-}
-
 double squared(double x) {
   return x * x;
 }
@@ -65,22 +68,22 @@ double squared(double x) {
 }  // namespace
 
 std::vector<Trial> drift_trials(unsigned long seed) {
-  constexpr std::array<Condition, 12> conditions{{{10, 0.9},
+  constexpr std::array<Condition, 11> conditions{{{10, 0.9},
                                                   {12, 0.9},
                                                   {14, 0.9},
-                                                  {16, 0.9},
-                                                  {20, 0.9},
+                                                  {18, 0.9, -0.3},
                                                   {25, 0.9},
                                                   {10, 0.5},
-                                                  {14, 0.5},
-                                                  {20, 0.5},
+                                                  {16, 0.5, 0.3},
+                                                  {22, 0.5},
                                                   {12, 0.3},
                                                   {18, 0.3},
                                                   {14, 0.2}}};
+  constexpr int draws = 3;
   std::mt19937_64 rng(seed);
   std::vector<Trial> trials;
   for (const Condition& condition : conditions) {
-    add_twice(trials, {PolicyId::t_drift_left, std::nullopt}, condition, rng);
+    add_trials(trials, {PolicyId::t_drift_left, std::nullopt}, condition, draws, rng);
   }
   return trials;
 }
@@ -90,23 +93,24 @@ std::vector<Trial> swerve_trials(unsigned long seed) {
                                                   {8, 0.9},
                                                   {10, 0.9},
                                                   {14, 0.9},
+                                                  {17, 0.9, 0.3},
                                                   {20, 0.9},
                                                   {25, 0.9},
                                                   {10, 0.5},
-                                                  {17, 0.5},
+                                                  {17, 0.5, -0.3},
                                                   {25, 0.5},
                                                   {8, 0.3},
-                                                  {14, 0.3},
-                                                  {22, 0.3},
+                                                  {20, 0.3},
                                                   {12, 0.2},
                                                   {20, 0.2}}};
-  constexpr double slowest_braked = 8.0;  // [m/s]: at half of less, steering alone sets the time
+  constexpr int draws = 2;
+  constexpr double slowest_braked = 8.0;  // [m/s]
   std::mt19937_64 rng(seed);
   std::vector<Trial> trials;
   for (const Condition& condition : conditions) {
-    add_twice(trials, {PolicyId::aes_left, std::nullopt}, condition, rng);
+    add_trials(trials, {PolicyId::aes_left, std::nullopt}, condition, draws, rng);
     if (condition.speed >= slowest_braked) {
-      add_twice(trials, {PolicyId::es_b_left, 0.5 * condition.speed}, condition, rng);
+      add_trials(trials, {PolicyId::es_b_left, 0.5 * condition.speed}, condition, draws, rng);
     }
   }
   return trials;
@@ -122,31 +126,42 @@ double drift_cost(const Car& car, const Trial& trial) {
   }
   const double speed = trial.scene.ego.v_B.x;
   const double shortest = squared(speed) / (2.0 * trial.scene.grip * gravity);
-  const double error = squared(heading_error(end.X_WB) / from_degrees(8.0));
+  const double heading = world::to_lane(trial.scene.road, end.X_WB).heading;
+  const double error = squared(wrap_angle(heading - 0.5 * std::numbers::pi) / from_degrees(8.0));
   const double aside = squared(std::max(0.0, std::abs(end.X_WB.p.y) - 2.0) / 0.5);
   return std::min(error, most) + std::min(aside, most) + 10.0 * (end.X_WB.p.x / shortest - 1.0);
 }
 
 double swerve_cost(const Car& car, const Trial& trial) {
   constexpr double never = 10.0;
-  constexpr double stays = 1.0;  // [s] for which it is watched after it has settled
-  const double d = trial.scene.road.lane_width;
-  const double ideal = 2.0 * std::sqrt(d / (trial.scene.grip * gravity));
-  const double longest = 4.0 * ideal + stays;
+  constexpr double stays = 1.0;        // [s] for which it is watched after it has settled
+  constexpr double steepest = 0.4;     // sine of the largest direction against the lane
+  constexpr double passed_at = 0.553;  // of the shortest time: 2.1 m of 3.5 m are done
+  const world::Road& road = trial.scene.road;
+  const double d = road.lane_width;
+  const double slowest = trial.plan.target_speed.value_or(trial.scene.ego.v_B.x);
+  const double shortest =
+      std::max(2.0 * std::sqrt(d / (trial.scene.grip * gravity)), d / (steepest * slowest));
+  const double longest = 4.0 * shortest + stays;
   Ride ride(car, trial.plan, trial.scene, trial.scene.grip, trial.unknown);
   double settled = 0.0;
+  double passed = 0.0;
   double overshoot = 0.0;
   double time = 0.0;
   while (time < longest && time < settled + stays) {
     ride.step();
     time += vehicle::usual_step;
-    const Pose& X_WB = ride.state().X_WB;
-    if (std::abs(X_WB.p.y - d) > 0.2 || std::abs(X_WB.yaw) > from_degrees(2.0)) {
+    const world::LanePose pose = world::to_lane(road, ride.state().X_WB);
+    if (std::abs(pose.d - d) > 0.2 || std::abs(pose.heading) > from_degrees(2.0)) {
       settled = time;
     }
-    overshoot = std::max(overshoot, X_WB.p.y - d);
+    if (pose.d < 0.6 * d) {
+      passed = time;
+    }
+    overshoot = std::max(overshoot, pose.d - d);
   }
-  return (settled + stays > longest ? never : settled / ideal) + squared(overshoot / 0.3);
+  const double settling = settled + stays > longest ? never : settled / shortest;
+  return 0.6 * settling + 0.4 * passed / (passed_at * shortest) + squared(overshoot / 0.3);
 }
 
 double total_cost(const Car& car, const std::vector<Trial>& trials,

@@ -16,23 +16,25 @@ struct Trial {
   manoeuvre::Unknown unknown;
 };
 
-/// T-drifts to the left from 10 to 25 m/s on grip 0.2 to 0.9: each once as known, and once with a
-/// draw of what is not known, from a crooked start.
+/// T-drifts to the left from 10 to 25 m/s on grip 0.2 to 0.9, straight and in bends: each once as
+/// known, and with draws of what is not known, from crooked starts.
 [[nodiscard]] std::vector<Trial> drift_trials(unsigned long seed);
 
 /// Lane changes to the left, at constant speed and braking, from 5 to 25 m/s on grip 0.2 to 0.9;
-/// likewise twice.
+/// likewise.
 [[nodiscard]] std::vector<Trial> swerve_trials(unsigned long seed);
 
-/// What a drift costs: the heading's error at rest (1 at 8 deg, squared), ten times the share by
-/// which the way forward exceeds that of a stop with all the grip, what it goes aside beyond 2 m
-/// (squared, 1 at 0.5 m), and as much as the worst error where it never rests. Domains of the car's
-/// tuning do not matter.
+/// What a drift costs: the heading's error at rest (squared, 1 at 8 deg), ten times the share by
+/// which the way forward exceeds that of a stop with all the grip, what it goes aside of its first
+/// direction beyond 2 m (squared, 1 at 0.5 m), and twice the worst error where it never rests. The
+/// domain of the car's tuning does not matter.
 [[nodiscard]] double drift_cost(const manoeuvre::Car& car, const Trial& trial);
 
-/// What a lane change costs: the time until it stays within 0.2 m and 2 deg, over that of the
-/// shortest way with all the grip to the side, 2 sqrt(d / (mu g)); what it overshoots (squared, 1
-/// at 0.3 m); much where it never settles.
+/// What a lane change costs: 0.6 of the time until it stays within 0.2 m and 2 deg, over the
+/// shortest; 0.4 of the time until 0.6 of the lane's width are done, which is to pass an obstacle,
+/// over its share of the shortest; what it overshoots (squared, 1 at 0.3 m); much where it never
+/// settles. The shortest is 2 sqrt(d / (mu g)), all the grip to either side in turn, but no shorter
+/// than going 24 deg across at the lowest speed takes.
 [[nodiscard]] double swerve_cost(const manoeuvre::Car& car, const Trial& trial);
 
 /// Mean of the costs and half of the worst. Works on `threads` at once; the sum does not depend on

@@ -12,28 +12,29 @@ namespace {
 using manoeuvre::Car;
 using manoeuvre::default_car;
 
-TEST(Trials, ComeInPairsAsKnownAndNotAsKnown) {
+TEST(Trials, AreOnceAsKnownThenDrawnAndCrookedToEitherSide) {
   for (const auto& trials : {drift_trials(1), swerve_trials(1)}) {
-    ASSERT_EQ(trials.size() % 2, 0U);
-    for (std::size_t i = 0; i < trials.size(); i += 2) {
-      EXPECT_EQ(trials[i].unknown.grip, 1.0);
-      EXPECT_NE(trials[i + 1].unknown.grip, 1.0);
-      EXPECT_EQ(trials[i].scene.ego.yaw_rate, 0.0);
-      EXPECT_NE(trials[i + 1].scene.ego.yaw_rate, 0.0);
-      EXPECT_EQ(trials[i].scene.grip, trials[i + 1].scene.grip);
+    int num_left = 0;
+    int num_right = 0;
+    for (const Trial& trial : trials) {
+      const double yaw = trial.scene.ego.X_WB.yaw;
+      EXPECT_EQ(trial.unknown.grip == 1.0, yaw == 0.0);
+      num_left += yaw > 0.0 ? 1 : 0;
+      num_right += yaw < 0.0 ? 1 : 0;
+      if (yaw == 0.0) {  // rolls along its bend
+        EXPECT_DOUBLE_EQ(trial.scene.ego.yaw_rate,
+                         trial.scene.ego.v_B.x * trial.scene.road.curvature);
+      }
     }
-    // Crooked to either side.
-    const auto [least, most] = std::minmax_element(
-        trials.begin(), trials.end(),
-        [](const Trial& a, const Trial& b) { return a.scene.ego.X_WB.yaw < b.scene.ego.X_WB.yaw; });
-    EXPECT_EQ(least->scene.ego.X_WB.yaw, -most->scene.ego.X_WB.yaw);
+    EXPECT_GT(num_left, 10);
+    EXPECT_GT(num_right, 10);
   }
   EXPECT_EQ(drift_trials(1)[1].unknown.mass, drift_trials(1)[1].unknown.mass);
   EXPECT_NE(drift_trials(1)[1].unknown.mass, drift_trials(2)[1].unknown.mass);
 }
 
 TEST(Trials, ADriftThatDoesNotTurnCostsMore) {
-  const Trial trial = drift_trials(1)[4];  // 14 m/s, dry, as known
+  const Trial trial = drift_trials(1)[8];  // 14 m/s, dry, as known
   ASSERT_EQ(trial.scene.ego.v_B.x, 14.0);
   Car lazy = default_car();
   lazy.tuning.drift.turning = 0.8;
@@ -41,13 +42,15 @@ TEST(Trials, ADriftThatDoesNotTurnCostsMore) {
   EXPECT_GT(drift_cost(lazy, trial), 10.0 + drift_cost(default_car(), trial));
 }
 
-// 2 sqrt(3.5 / (0.9 g)) = 1.26 s is the shortest; the independent prototype takes 1.35 s at 14 m/s.
-TEST(Trials, ALaneChangeCostsItsTimeOverTheShortest) {
+// 2 sqrt(3.5 / (0.9 g)) = 1.26 s is the shortest, and 0.70 s to 2.1 m; the independent prototype
+// takes 1.35 and 0.88 s at 14 m/s.
+TEST(Trials, ALaneChangeCostsItsTimesOverTheShortest) {
   Trial trial = swerve_trials(1)[0];
   trial.scene.ego.v_B.x = 14.0;
+  const double reference = 0.6 * 1.35 / 1.26 + 0.4 * 0.88 / 0.70;
   const double cost = swerve_cost(default_car(), trial);
-  EXPECT_GT(cost, 1.35 / 1.26);
-  EXPECT_LT(cost, 1.35 / 1.26 * 1.25);
+  EXPECT_GT(cost, 0.98 * reference);
+  EXPECT_LT(cost, 1.25 * reference);
   Car slow = default_car();
   slow.tuning.swerve.share = 0.5;
   EXPECT_GT(swerve_cost(slow, trial), 1.1 * cost);

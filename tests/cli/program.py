@@ -1,0 +1,21 @@
+"""The program under test, its exit codes, and how an error looks."""
+import os
+import pathlib
+import subprocess
+
+PROGRAM = os.environ["SACA_PROGRAM"]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SUCCESS, WRONG_COMMAND_LINE, BAD_INPUT, CANNOT_WRITE, INTERRUPTED = 0, 2, 3, 4, 130
+
+
+def saca(*arguments, cwd, **options):
+    return subprocess.run([PROGRAM, *map(str, arguments)], cwd=cwd, capture_output=True, text=True,
+                          timeout=120, **options)
+
+
+def one_error(run, code):
+    """The one line on the error stream of a run that was refused."""
+    assert run.returncode == code, run.stderr
+    lines = run.stderr.strip().splitlines()
+    assert len(lines) == 1, run.stderr
+    return lines[0]
