@@ -1,0 +1,111 @@
+#include "saca/tune/fit_response.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "saca/core/contract.h"
+
+namespace saca::tune {
+namespace {
+
+using vehicle::num_wheels;
+using vehicle::PerWheel;
+
+// The held brake commands of a log, asked for ever later times.
+class HeldBrakes {
+ public:
+  explicit HeldBrakes(const Log& log) : log_(log) {}
+
+  // Mean over the time from `begin` to `end`; the first row's command holds before it too.
+  PerWheel mean(double begin, double end) {
+    while (row_ + 1 < log_.time.size() && log_.time[row_ + 1] <= begin) {
+      ++row_;
+    }
+    PerWheel mean{};
+    double from = begin;
+    for (std::size_t row = row_; from < end; ++row) {
+      const double until = row + 1 < log_.time.size() ? std::min(end, log_.time[row + 1]) : end;
+      for (std::size_t wheel = 0; wheel < num_wheels; ++wheel) {
+        mean[wheel] +=
+            (until - from) / (end - begin) * log_.command[row].brake_torque[wheel];
+      }
+      from = until;
+    }
+    return mean;
+  }
+
+ private:
+  const Log& log_;
+  std::size_t row_ = 0;
+};
+
+// Holds a speed as a driver or a cruise control would [N m].
+double cruise_torque(const vehicle::Vehicle& car, double speed, double wanted) {
+  constexpr double time = 0.1;  // [s] within which a difference is made up: a few times the motor's
+  return car.mass * (wanted - speed) / time * car.wheel_radius;
+}
+
+}  // namespace
+
+std::vector<double> held_speed(const Log& log) {
+  constexpr double half = 0.25;  // [s] on either side
+  std::vector<double> held(log.time.size(), std::numeric_limits<double>::quiet_NaN());
+  if (log.motor_known) {
+    return held;
+  }
+  const std::vector<double>& speed = log.measured.front().values;
+  const std::size_t end = log.kind == TestKind::brake ? log.event : log.time.size();
+  double sum = 0.0;
+  std::size_t first = 0;
+  std::size_t last = 0;  // one past it
+  for (std::size_t row = 0; row < end; ++row) {
+    for (; last < end && log.time[last] <= log.time[row] + half; ++last) {
+      sum += speed[last];
+    }
+    for (; log.time[first] < log.time[row] - half; ++first) {
+      sum -= speed[first];
+    }
+    held[row] = sum / static_cast<double>(last - first);
+  }
+  return held;
+}
+
+std::vector<double> response(const Log& log, const std::vector<double>& held, const Trial& trial) {
+  expects(held.size() == log.time.size(), "a held speed for each row");
+  vehicle::Vehicle car = trial.car;
+  const double dead_time = car.brake_dead_time;
+  car.brake_dead_time = 0.0;
+  vehicle::VehicleState state;
+  state.v_B = {trial.speed, 0.0};
+  state.wheel_speed.fill(trial.speed / car.wheel_radius);
+  state.steering = log.command.front().steering;
+  state.motor_torque = log.command.front().motor_torque;
+  HeldBrakes brakes(log);
+
+  std::vector<double> values;
+  values.reserve(log.time.size() * log.measured.size());
+  for (std::size_t row = 0; row < log.time.size(); ++row) {
+    for (const Series& series : log.measured) {
+      values.push_back(value_of(series.signal, state));
+    }
+    if (row + 1 == log.time.size()) {
+      break;
+    }
+    const double interval = log.time[row + 1] - log.time[row];
+    const int num_steps = static_cast<int>(std::ceil(interval / vehicle::usual_step - 1e-6));
+    const double dt = interval / num_steps;
+    vehicle::Command command = log.command[row];
+    for (int k = 0; k < num_steps; ++k) {
+      const double time = log.time[row] + k * dt - dead_time;
+      command.brake_torque = brakes.mean(time, time + dt);
+      if (std::isfinite(held[row])) {
+        command.motor_torque = cruise_torque(car, state.v_B.x, held[row]);
+      }
+      state = vehicle::step(car, state, command, trial.grip, dt);
+    }
+  }
+  return values;
+}
+
+}  // namespace saca::tune
