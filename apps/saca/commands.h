@@ -12,6 +12,7 @@ void add_scenarios(CLI::App& line, int& exit_code);
 void add_import(CLI::App& line, int& exit_code);
 void add_memory(CLI::App& line, int& exit_code);
 void add_model(CLI::App& line, int& exit_code);
+void add_vehicle(CLI::App& line, int& exit_code);
 void add_bench(CLI::App& line, int& exit_code);
 
 }  // namespace saca::app

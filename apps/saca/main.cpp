@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
     add_import(line, exit_code);
     add_memory(line, exit_code);
     add_model(line, exit_code);
+    add_vehicle(line, exit_code);
     add_bench(line, exit_code);
     try {
       line.parse(argc, argv);

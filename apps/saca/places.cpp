@@ -43,13 +43,25 @@ std::optional<fs::path> find_weights(const Places& places) {
   return fs::exists(weights, problem) ? std::optional(weights) : std::nullopt;
 }
 
-fs::path find_scenario(const Places& places, const std::string& name) {
+namespace {
+
+fs::path find_shipped(const fs::path& folder, const std::string& name) {
   std::error_code problem;
   if (fs::is_regular_file(name, problem)) {
     return name;
   }
-  const fs::path shipped = places.root / "scenarios" / (name + ".toml");
+  const fs::path shipped = folder / (name + ".toml");
   return fs::exists(shipped, problem) ? shipped : fs::path(name);
+}
+
+}  // namespace
+
+fs::path find_scenario(const Places& places, const std::string& name) {
+  return find_shipped(places.root / "scenarios", name);
+}
+
+fs::path find_car(const Places& places, const std::string& name) {
+  return find_shipped(places.root / "data" / "vehicles", name);
 }
 
 void complain(const std::string& message) {

@@ -33,6 +33,9 @@ struct Places {
 /// A scenario by its path, or by the name of a shipped one (with or without ".toml").
 [[nodiscard]] std::filesystem::path find_scenario(const Places& places, const std::string& name);
 
+/// A car's file by its path, or by the name of a shipped one (with or without ".toml").
+[[nodiscard]] std::filesystem::path find_car(const Places& places, const std::string& name);
+
 /// Says what is wrong on the error stream.
 void complain(const std::string& message);
 

@@ -34,9 +34,9 @@ TEST(Csv, OtherLineEndsAMarkOfByteOrderAndNoEndOfTheLastLineChangeNothing) {
 
 TEST(Csv, WhatIsNoNumberIsNamedWithItsPlace) {
   for (const std::string bad : {"nan", "inf", "-inf", "1e999", "fast", "", "1.5m", "0x10", "1 2"}) {
-    EXPECT_THAT(refusal("time_s,speed_mps\n0,20\n1," + bad + "\n"),
-                AllOf(HasSubstr("log.csv:3: speed_mps: want a finite number"),
-                      HasSubstr("`" + bad + "`")));
+    EXPECT_THAT(
+        refusal("time_s,speed_mps\n0,20\n1," + bad + "\n"),
+        AllOf(HasSubstr("log.csv:3: speed_mps: want a finite number"), HasSubstr("`" + bad + "`")));
   }
 }
 

@@ -155,8 +155,8 @@ void take_columns(const CsvTable& table, Log& log, Complaint& complaint) {
     }
   }
   if (num_brakes != 0 && num_brakes != num_wheels) {
-    complaint.say(fmt::format("want {} and the other three wheels, or none of them",
-                              brake_columns[0]));
+    complaint.say(
+        fmt::format("want {} and the other three wheels, or none of them", brake_columns[0]));
   }
   const std::vector<double>* const steering = column(table, steering_column);
   const std::vector<double>* const motor = column(table, motor_column);
@@ -259,9 +259,8 @@ double median(const std::vector<double>& values, std::size_t begin, std::size_t 
 // First row of the last 0.3 s.
 std::size_t settled(const Log& log) {
   constexpr double length = 0.3;  // [s]
-  const auto first =
-      std::find_if(log.time.begin(), log.time.end(),
-                   [&log](double time) { return time >= log.time.back() - length; });
+  const auto first = std::find_if(log.time.begin(), log.time.end(),
+                                  [&log](double time) { return time >= log.time.back() - length; });
   return static_cast<std::size_t>(first - log.time.begin());
 }
 
@@ -272,10 +271,12 @@ std::string hint(double ratio) {
     std::string_view words;
   };
   constexpr double radian = 1.0 / degree;
-  for (const auto& [wrong, words] : {Mistake{3.6, "a speed in km/h"}, {1.0 / 3.6, "a speed in km/h"},
+  for (const auto& [wrong, words] : {Mistake{3.6, "a speed in km/h"},
+                                     {1.0 / 3.6, "a speed in km/h"},
                                      {9.81, "an acceleration in g"},
                                      {1.0 / 9.81, "an acceleration in g"},
-                                     {radian, "an angle in rad"}, {1.0 / radian, "an angle in rad"}}) {
+                                     {radian, "an angle in rad"},
+                                     {1.0 / radian, "an angle in rad"}}) {
     if (std::abs(std::log(std::abs(ratio) / wrong)) < 0.25) {
       return fmt::format("; is {} meant?", words);
     }
@@ -301,12 +302,13 @@ void check_brake_test(const Log& log, const vehicle::Vehicle& car, Complaint& co
   for (std::size_t row = log.event; row + 1 < end; ++row) {
     const double interval = log.time[row + 1] - log.time[row];
     impulse += interval * brake_sum(log.command[row]) / (car.wheel_radius * car.mass);
-    integral += a_x != nullptr ? 0.5 * interval * ((*a_x)[row] + (*a_x)[row + 1] - 2.0 * offset) : 0.0;
+    integral +=
+        a_x != nullptr ? 0.5 * interval * ((*a_x)[row] + (*a_x)[row + 1] - 2.0 * offset) : 0.0;
   }
   if (a_x != nullptr && !(-integral > 0.7 * lost && -integral < 1.4 * lost)) {
-    complaint.say(fmt::format(
-        "a_x_mps2: want the speed lost, {:.3g} m/s, as its integral, got {:.3g} m/s{}", lost,
-        -integral, hint(-integral / lost)));
+    complaint.say(
+        fmt::format("a_x_mps2: want the speed lost, {:.3g} m/s, as its integral, got {:.3g} m/s{}",
+                    lost, -integral, hint(-integral / lost)));
   }
   constexpr double drag = 0.5;  // [m/s^2]: air, rolling, a motor that is let go
   const double most = 1.4 * impulse + drag * (log.time.back() - log.time[log.event]);
@@ -334,8 +336,7 @@ void check_step_steer(const Log& log, const vehicle::Vehicle& car, Complaint& co
           v * yaw_rate, change(*a_y), hint(ratio)));
     }
   }
-  const double angle =
-      log.command.back().steering - log.command[log.event - 1].steering;
+  const double angle = log.command.back().steering - log.command[log.event - 1].steering;
   const double neutral = v * angle / (car.front_arm + car.rear_arm);
   const double ratio = yaw_rate / neutral;
   if (!(ratio > 0.15 && ratio < 3.0)) {
@@ -351,8 +352,9 @@ void check_step_steer(const Log& log, const vehicle::Vehicle& car, Complaint& co
 void check_still_straight(const Log& log, Complaint& complaint) {
   const double speed = median(log.measured.front().values, 0, log.event);
   if (!(speed >= least_speed)) {
-    complaint.say(fmt::format("speed_mps: want at least {:g} m/s before the test begins, got {:.3g}",
-                              least_speed, speed));
+    complaint.say(
+        fmt::format("speed_mps: want at least {:g} m/s before the test begins, got {:.3g}",
+                    least_speed, speed));
   }
   for (std::size_t row = 0; row < log.event; ++row) {
     if (std::abs(log.command[row].steering) > 0.5 * least_step) {

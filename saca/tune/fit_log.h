@@ -57,7 +57,7 @@ struct Series {
 
 /// One test as it was driven: what was commanded and what was measured.
 struct Log {
-  std::string name;   ///< for messages, usually the path
+  std::string name;  ///< for messages, usually the path
   TestKind kind = TestKind::brake;
   std::vector<double> time;               ///< [s], increasing   (rows)
   std::vector<vehicle::Command> command;  ///< each held until the next row   (rows)

@@ -51,21 +51,17 @@ double least_noise(Signal signal) {
 double noise_of(const Series& series) {
   std::vector<double> sizes;
   for (std::size_t row = 2; row < series.values.size(); ++row) {
-    sizes.push_back(std::abs(series.values[row] - 2.0 * series.values[row - 1] +
-                             series.values[row - 2]));
+    sizes.push_back(
+        std::abs(series.values[row] - 2.0 * series.values[row - 1] + series.values[row - 2]));
   }
   return percentile(sizes, 0.5) / (0.6745 * std::sqrt(6.0)) / info(series.signal).unit;
 }
 
-// Where the motor holds the speed and its command is not known, the speed is what the model is
-// told, not what it says.
+// Where the motor follows the logged speed, it is what the model is told, not what it says.
 std::size_t first_row(const Log& log, Signal signal) {
   const bool along =
       signal == Signal::speed || signal == Signal::a_x || signal >= Signal::wheel_front_left;
-  if (log.motor_known || !along) {
-    return 0;
-  }
-  return log.kind == TestKind::brake ? log.event : log.time.size();
+  return along && log.kind == TestKind::steer && !log.motor_known ? log.time.size() : 0;
 }
 
 std::vector<Index> all_of(Index size) {
@@ -204,8 +200,8 @@ void FitProblem::weigh(const std::vector<double>& sd) {
   sd_ = sd;
 }
 
-void FitProblem::add_residuals(const VectorXd& x, std::size_t log,
-                               const std::vector<double>& model, VectorXd& residuals) const {
+void FitProblem::add_residuals(const VectorXd& x, std::size_t log, const std::vector<double>& model,
+                               VectorXd& residuals) const {
   for (std::size_t k = 0; k < places_.size(); ++k) {
     if (places_[k].log != log) {
       continue;
@@ -223,9 +219,8 @@ bool FitProblem::is_asked(std::size_t candidate) const {
     return true;
   }
   // A motor that holds the speed hides the drag; one that is let go has a drag of its own.
-  return base_.drag_area > 0.0 && std::any_of(logs_.begin(), logs_.end(), [](const Log& log) {
-           return log.motor_known;
-         });
+  return base_.drag_area > 0.0 &&
+         std::any_of(logs_.begin(), logs_.end(), [](const Log& log) { return log.motor_known; });
 }
 
 VectorXd FitProblem::residuals(const VectorXd& x) const {
@@ -238,8 +233,9 @@ VectorXd FitProblem::residuals(const VectorXd& x) const {
 }
 
 MatrixXd FitProblem::jacobian(const VectorXd& x, const std::vector<Index>& free) const {
-  // Large enough to even out that wheels lock at whole milliseconds.
-  constexpr double step = 0.01;
+  // Coarser ones pull the fit of an anti-lock stop, whose wheels are near their peak, off its
+  // place.
+  constexpr double step = 0.001;
   std::vector<std::vector<double>> model;
   VectorXd base(num_residuals());
   for (std::size_t log = 0; log < logs_.size(); ++log) {

@@ -78,8 +78,8 @@ class FitProblem {
   [[nodiscard]] std::vector<double> foretold(const Eigen::VectorXd& x, std::size_t log) const;
   [[nodiscard]] std::vector<double> errors(const Eigen::VectorXd& x, std::size_t series,
                                            const std::vector<double>& foretold) const;
-  void add_residuals(const Eigen::VectorXd& x, std::size_t log,
-                     const std::vector<double>& foretold, Eigen::VectorXd& residuals) const;
+  void add_residuals(const Eigen::VectorXd& x, std::size_t log, const std::vector<double>& foretold,
+                     Eigen::VectorXd& residuals) const;
 
   vehicle::Vehicle base_;
   double grip_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "saca/core/contract.h"
 
@@ -27,8 +26,7 @@ class HeldBrakes {
     for (std::size_t row = row_; from < end; ++row) {
       const double until = row + 1 < log_.time.size() ? std::min(end, log_.time[row + 1]) : end;
       for (std::size_t wheel = 0; wheel < num_wheels; ++wheel) {
-        mean[wheel] +=
-            (until - from) / (end - begin) * log_.command[row].brake_torque[wheel];
+        mean[wheel] += (until - from) / (end - begin) * log_.command[row].brake_torque[wheel];
       }
       from = until;
     }
@@ -50,29 +48,28 @@ double cruise_torque(const vehicle::Vehicle& car, double speed, double wanted) {
 
 std::vector<double> held_speed(const Log& log) {
   constexpr double half = 0.25;  // [s] on either side
-  std::vector<double> held(log.time.size(), std::numeric_limits<double>::quiet_NaN());
-  if (log.motor_known) {
-    return held;
+  if (log.motor_known || log.kind == TestKind::brake) {
+    return {};
   }
   const std::vector<double>& speed = log.measured.front().values;
-  const std::size_t end = log.kind == TestKind::brake ? log.event : log.time.size();
+  std::vector<double> held;
   double sum = 0.0;
   std::size_t first = 0;
   std::size_t last = 0;  // one past it
-  for (std::size_t row = 0; row < end; ++row) {
-    for (; last < end && log.time[last] <= log.time[row] + half; ++last) {
+  for (const double time : log.time) {
+    for (; last < speed.size() && log.time[last] <= time + half; ++last) {
       sum += speed[last];
     }
-    for (; log.time[first] < log.time[row] - half; ++first) {
+    for (; log.time[first] < time - half; ++first) {
       sum -= speed[first];
     }
-    held[row] = sum / static_cast<double>(last - first);
+    held.push_back(sum / static_cast<double>(last - first));
   }
   return held;
 }
 
 std::vector<double> response(const Log& log, const std::vector<double>& held, const Trial& trial) {
-  expects(held.size() == log.time.size(), "a held speed for each row");
+  expects(held.empty() || held.size() == log.time.size(), "a held speed for each row, or none");
   vehicle::Vehicle car = trial.car;
   const double dead_time = car.brake_dead_time;
   car.brake_dead_time = 0.0;
@@ -99,8 +96,9 @@ std::vector<double> response(const Log& log, const std::vector<double>& held, co
     for (int k = 0; k < num_steps; ++k) {
       const double time = log.time[row] + k * dt - dead_time;
       command.brake_torque = brakes.mean(time, time + dt);
-      if (std::isfinite(held[row])) {
-        command.motor_torque = cruise_torque(car, state.v_B.x, held[row]);
+      if (!log.motor_known && (log.kind == TestKind::steer || row < log.event)) {
+        command.motor_torque =
+            cruise_torque(car, state.v_B.x, held.empty() ? trial.speed : held[row]);
       }
       state = vehicle::step(car, state, command, trial.grip, dt);
     }

@@ -13,8 +13,9 @@ struct Trial {
   double speed = 0.0;    ///< at the first row [m/s], > 0
 };
 
-/// Speed that the motor holds where its command is not known: the logged one before the braking,
-/// smoothed; NaN where the motor rests.   (rows)
+/// Speed that the motor holds during a step steer whose log does not tell its command: the logged
+/// one, smoothed [m/s]   (rows). Empty for other logs; without its command the motor holds the
+/// first row's speed until a brake test's braking begins, and rests from there on.
 [[nodiscard]] std::vector<double> held_speed(const Log& log);
 
 /// The measured signals as the model foretells them from the log's commands alone: the car rolls

@@ -19,11 +19,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double normal_95 = 1.96;     // sd on either side of a normal distribution's 95 %
-constexpr double enough_known = 0.3;   // of the sd beforehand: what is narrower is determined
-constexpr double far_off = 6.0;        // sd: an outlier
-constexpr double most_error = 1.5;     // rms over noise: above it the model leaves something over
-constexpr double longest_run = 4.0;    // rows: likewise
+constexpr double normal_95 = 1.96;    // sd on either side of a normal distribution's 95 %
+constexpr double enough_known = 0.3;  // of the sd beforehand: what is narrower is determined
+constexpr double far_off = 6.0;       // sd: an outlier
+constexpr double most_error = 1.5;    // rms over noise: above it the model leaves something over
+constexpr double longest_run = 4.0;   // rows: likewise
 constexpr double dead_time_step = vehicle::BrakeLine::slot;
 
 // The grip's scale is found first: where wheels lock, the way to it is not downhill from
@@ -152,14 +152,14 @@ std::vector<FittedParameter> parameters_of(const FitProblem& problem, const Vect
     const bool known = contains(determined, k);
     const double half = normal_95 * std::sqrt(covariance(index, index));
     const double middle = is_dead_time(one) && known ? centre[index] : x[index];
-    parameters.push_back({.section = one.section,
-                          .key = one.key,
-                          .base = problem.value(k, 0.0),
-                          .value = known ? rounded(problem.value(k, x[index]))
-                                         : problem.value(k, 0.0),
-                          .low = problem.value(k, middle - half),
-                          .high = problem.value(k, middle + half),
-                          .determined = known});
+    parameters.push_back(
+        {.section = one.section,
+         .key = one.key,
+         .base = problem.value(k, 0.0),
+         .value = known ? rounded(problem.value(k, x[index])) : problem.value(k, 0.0),
+         .low = problem.value(k, middle - half),
+         .high = problem.value(k, middle + half),
+         .determined = known});
   }
   return parameters;
 }
@@ -221,12 +221,10 @@ void warn_of_signals(const FitProblem& problem, const VectorXd& x, const std::ve
     }
     if (quality.num_outliers > 0) {
       const double limit = far_off * spread_of(errors[k], quality.noise).sd;
-      const auto first =
-          std::find_if(errors[k].begin(), errors[k].end(),
-                       [limit](double error) { return std::abs(error) > limit; });
+      const auto first = std::find_if(errors[k].begin(), errors[k].end(),
+                                      [limit](double error) { return std::abs(error) > limit; });
       const FitProblem::Place& series = problem.series()[k];
-      const std::size_t row =
-          series.begin + static_cast<std::size_t>(first - errors[k].begin());
+      const std::size_t row = series.begin + static_cast<std::size_t>(first - errors[k].begin());
       fit.warnings.push_back(fmt::format("{}: {} of {} values are outliers, the first at {:g} s",
                                          place, quality.num_outliers, errors[k].size(),
                                          logs[series.log].time[row]));
@@ -269,8 +267,8 @@ VehicleFit fit_vehicle(const vehicle::Vehicle& base, double grip, const std::vec
     } else if (!contains(determined, index)) {
       x[k] = 0.0;
     } else if (is_dead_time(candidates().at(index))) {
-      x[k] = problem.x_of(
-          index, dead_time_step * std::round(problem.value(index, x[k]) / dead_time_step));
+      x[k] = problem.x_of(index,
+                          dead_time_step * std::round(problem.value(index, x[k]) / dead_time_step));
     } else {
       free.push_back(k);
     }

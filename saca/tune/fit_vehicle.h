@@ -14,7 +14,7 @@ struct FittedParameter {
   std::string_view key;
   double base = 0.0;
   double value = 0.0;  ///< the base's where not determined; six digits, as it is written
-  double low = 0.0;    ///< 95 % interval; where not determined that of base and logs together
+  double low = 0.0;    ///< 95 % interval; only where determined
   double high = 0.0;
   bool determined = false;  ///< the logs say much more than the base's uncertainty
 };
@@ -31,7 +31,7 @@ struct SignalQuality {
 };
 
 struct VehicleFit {
-  vehicle::Vehicle car;  ///< the base with the parameters that are determined
+  vehicle::Vehicle car;                     ///< the base with the parameters that are determined
   std::vector<FittedParameter> parameters;  ///< the grip of the road first
   std::vector<SignalQuality> signals;
   double condition = 1.0;  ///< of the correlation matrix of what is determined; 1 is best
