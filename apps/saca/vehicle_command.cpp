@@ -12,7 +12,7 @@
 #include "saca/core/names.h"
 #include "saca/core/units.h"
 #include "saca/tune/fit_car_file.h"
-#include "saca/tune/fit_test_drive.h"
+#include "saca/tune/fit_drive.h"
 #include "saca/tune/fit_vehicle.h"
 #include "saca/vehicle/parameters.h"
 

@@ -5,8 +5,9 @@
 
 #include <functional>
 
+#include "saca/core/csv.h"
 #include "saca/core/units.h"
-#include "saca/tune/fit_test_drive.h"
+#include "saca/tune/fit_drive.h"
 #include "saca/vehicle/default_car.h"
 
 namespace saca::tune {
@@ -88,16 +89,21 @@ TEST(ReadLog, NamesAMissingColumn) {
                                       [](const Series& s) { return s.signal == Signal::yaw_rate; });
                       }),
               HasSubstr("column yaw_rate_degps is missing"));
-  std::string text = write_log(good(TestKind::brake));
-  text.replace(text.find("brake_command_rear_left_Nm"), 26, "a_y_mps2");
-  EXPECT_THAT(verdict(text), AnyOf(HasSubstr("other three wheels"), HasSubstr("a_y_mps2: want")));
+  std::string less;  // the rear right brake's column and the motor's are cut off
+  const std::string whole = write_log(good(TestKind::brake));
+  for (std::string_view rest = whole; !rest.empty();) {
+    std::string_view line = cut_line(rest);
+    line = line.substr(0, line.rfind(','));
+    less += std::string(line.substr(0, line.rfind(','))) + "\n";
+  }
+  EXPECT_THAT(verdict(less), HasSubstr("and the other three wheels, or none of them"));
 }
 
 TEST(ReadLog, WantsATimeThatIncreasesInSeconds) {
   EXPECT_THAT(verdict(TestKind::steer, [](Log& log) { log.time[7] = log.time[6]; }),
               AllOf(StartsWith("log.csv:9: time_s"), HasSubstr("got 0 s")));
   EXPECT_THAT(verdict(TestKind::steer, [](Log& log) { std::swap(log.time[7], log.time[8]); }),
-              StartsWith("log.csv:9: time_s"));
+              StartsWith("log.csv:10: time_s"));
   EXPECT_THAT(verdict(TestKind::steer,
                       [](Log& log) {
                         for (double& time : log.time) {

@@ -64,6 +64,26 @@ std::size_t first_row(const Log& log, Signal signal) {
   return along && log.kind == TestKind::steer && !log.motor_known ? log.time.size() : 0;
 }
 
+// Whether a log can depend on a parameter at all: steering that does not move has no lag, brakes
+// that are not used no delay. It saves time, nothing else.
+bool matters(const Candidate& candidate, const Log& log) {
+  const auto any = [&log](auto used) {
+    return std::any_of(log.command.begin(), log.command.end(), used);
+  };
+  if (candidate.member == &Vehicle::steering_lag) {
+    return any([&log](const vehicle::Command& command) {
+      return command.steering != log.command.front().steering;
+    });
+  }
+  if (candidate.member == &Vehicle::brake_dead_time || candidate.member == &Vehicle::brake_lag) {
+    return any([](const vehicle::Command& command) {
+      return std::any_of(command.brake_torque.begin(), command.brake_torque.end(),
+                         [](double torque) { return torque > 0.0; });
+    });
+  }
+  return true;
+}
+
 std::vector<Index> all_of(Index size) {
   std::vector<Index> indices(static_cast<std::size_t>(size));
   std::iota(indices.begin(), indices.end(), Index{0});
@@ -252,7 +272,9 @@ MatrixXd FitProblem::jacobian(const VectorXd& x, const std::vector<Index>& free)
     VectorXd there = base;
     there[num_data_ + unknown] += step;
     for (std::size_t log = 0; log < logs_.size(); ++log) {
-      const bool of_the_car = unknown < static_cast<Index>(num_candidates);
+      const bool of_the_car =
+          unknown < static_cast<Index>(num_candidates) &&
+          matters(all_candidates[static_cast<std::size_t>(unknown)], logs_[log]);
       const bool of_this_log = unknown >= speed_index_[log] &&
                                (log + 1 == logs_.size() || unknown < speed_index_[log + 1]);
       if (of_the_car || unknown == speed_index_[log]) {
@@ -266,10 +288,11 @@ MatrixXd FitProblem::jacobian(const VectorXd& x, const std::vector<Index>& free)
   return jacobian;
 }
 
-VectorXd FitProblem::minimum(const VectorXd& start, const std::vector<Index>& free) const {
+VectorXd FitProblem::minimum(const VectorXd& start, const std::vector<Index>& free,
+                             double tolerance) const {
   Functor functor{*this, start, free};
   Eigen::LevenbergMarquardt<Functor> search(functor);
-  search.parameters.ftol = 1e-5;  // of the sum of squares: far below one sd of anything
+  search.parameters.ftol = tolerance;
   search.parameters.xtol = 1e-4;  // sd beforehand
   search.parameters.maxfev = 60;
   search.parameters.factor = 1.0;  // first step within one sd beforehand

@@ -67,8 +67,10 @@ class FitProblem {
                                          const std::vector<Eigen::Index>& free) const;
 
   /// Least squares over the unknowns in `free`, the others held.
+  /// @param tolerance  share of the sum of squares that is not worth another step, > 0
   [[nodiscard]] Eigen::VectorXd minimum(const Eigen::VectorXd& start,
-                                        const std::vector<Eigen::Index>& free) const;
+                                        const std::vector<Eigen::Index>& free,
+                                        double tolerance) const;
   /// Whether any of the logs says something about a candidate, however little.
   [[nodiscard]] bool is_asked(std::size_t candidate) const;
   /// Covariance of all unknowns at x.

@@ -47,7 +47,7 @@ double cruise_torque(const vehicle::Vehicle& car, double speed, double wanted) {
 }  // namespace
 
 std::vector<double> held_speed(const Log& log) {
-  constexpr double half = 0.25;  // [s] on either side
+  constexpr double half = 0.25 + 1e-9;  // [s] on either side
   if (log.motor_known || log.kind == TestKind::brake) {
     return {};
   }

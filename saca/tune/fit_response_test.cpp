@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "saca/tune/fit_test_drive.h"
+#include "saca/tune/fit_drive.h"
 #include "saca/vehicle/default_car.h"
 
 namespace saca::tune {

@@ -24,6 +24,10 @@ constexpr double enough_known = 0.3;  // of the sd beforehand: what is narrower 
 constexpr double far_off = 6.0;       // sd: an outlier
 constexpr double most_error = 1.5;    // rms over noise: above it the model leaves something over
 constexpr double longest_run = 4.0;   // rows: likewise
+// Of the sum of squares, which is about the number of values: a thousandth of some thousand of them
+// is a few, and one is one sd of a parameter.
+constexpr double rough = 1e-3;
+constexpr double fine = 1e-5;
 constexpr double dead_time_step = vehicle::BrakeLine::slot;
 
 // The grip's scale is found first: where wheels lock, the way to it is not downhill from
@@ -250,9 +254,9 @@ VehicleFit fit_vehicle(const vehicle::Vehicle& base, double grip, const std::vec
     }
   }
 
-  VectorXd x = problem.minimum(best_grip(problem), all);
+  VectorXd x = problem.minimum(best_grip(problem), all, rough);
   weigh_by(problem, spreads_of(problem, x));
-  x = problem.minimum(x, all);
+  x = problem.minimum(x, all, fine);
   const MatrixXd covariance = problem.covariance(x);
   const std::vector<Index> determined = determined_by(problem, covariance);
 
@@ -273,7 +277,7 @@ VehicleFit fit_vehicle(const vehicle::Vehicle& base, double grip, const std::vec
       free.push_back(k);
     }
   }
-  x = problem.minimum(x, free);
+  x = problem.minimum(x, free, fine);
 
   VehicleFit fit{.car = base};
   fit.parameters = parameters_of(problem, x, centre, covariance, determined);

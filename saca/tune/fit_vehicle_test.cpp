@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "saca/core/units.h"
-#include "saca/tune/fit_test_drive.h"
+#include "saca/tune/fit_drive.h"
 #include "saca/vehicle/default_car.h"
 
 namespace saca::tune {
@@ -49,7 +49,7 @@ std::array<double, 8> truth() {
 }
 
 Log braked(std::uint64_t seed, const vehicle::Vehicle& car = own_car()) {
-  return drive_test(car, {.speed = 12.0, .grip = true_grip, .lead_in = 0.3, .seed = 2 * seed});
+  return drive_test(car, {.speed = 10.0, .grip = true_grip, .lead_in = 0.3, .seed = 2 * seed});
 }
 
 Log steered(std::uint64_t seed, double steering = 0.03, const vehicle::Vehicle& car = own_car()) {
@@ -71,7 +71,7 @@ double uncertainty(const FittedParameter& one) {
 }
 
 TEST(VehicleFit, IntervalsHoldTheTruthAsOftenAsTheySay) {
-  constexpr int num_seeds = 20;
+  constexpr int num_seeds = 12;
   const std::array<double, 8> wanted = truth();
   // What such short tests with usual sensors can tell.
   const std::array<double, 8> most_uncertain{0.02, 0.06, 0.1, 0.15, 1.0, 0.15, 0.15, 0.08};
@@ -94,9 +94,9 @@ TEST(VehicleFit, IntervalsHoldTheTruthAsOftenAsTheySay) {
   }
   for (const std::size_t k :
        {grip, stiffness, shape, yaw_inertia, steering_lag, dead_time, brake_lag}) {
-    // 95 % of 20 are 19; fewer than 17 are chance once in 60.
+    // 95 % of 12 are 11.4; fewer than 10 are chance once in 50.
     EXPECT_EQ(num_determined[k], num_seeds) << k;
-    EXPECT_GE(num_held[k], 17) << k;
+    EXPECT_GE(num_held[k], 10) << k;
     all_determined += num_determined[k];
     all_held += num_held[k];
   }
@@ -107,7 +107,7 @@ TEST(VehicleFit, WithoutNoiseFindsTheCarItself) {
   const std::array<double, 8> wanted = truth();
   const VehicleFit fit = fit_vehicle(
       vehicle::default_car(), 0.9,
-      {drive_test(own_car(), {.grip = true_grip, .noise = 0.0}),
+      {drive_test(own_car(), {.speed = 14.0, .grip = true_grip, .noise = 0.0}),
        drive_test(own_car(), {.kind = TestKind::steer, .grip = true_grip, .noise = 0.0})});
   for (std::size_t k = 0; k < wanted.size(); ++k) {
     // What is known beforehand pulls a little, and more on what is known less: 1 %.
@@ -200,8 +200,7 @@ TEST(VehicleFit, OfAnotherKindOfCarIsFiniteAndWarned) {
   truck.tyre.stiffness = 8.0;
   truck.wheel_radius = 0.5;
   truck.brake_limit = 20'000.0;
-  const VehicleFit fit =
-      fit_vehicle(vehicle::default_car(), 0.9, {braked(1, truck), steered(1, 0.02, truck)});
+  const VehicleFit fit = fit_vehicle(vehicle::default_car(), 0.9, {steered(1, 0.02, truck)});
   EXPECT_FALSE(fit.warnings.empty());
   for (const FittedParameter& one : fit.parameters) {
     EXPECT_TRUE(std::isfinite(one.value) && std::isfinite(one.low) && std::isfinite(one.high));

@@ -1,4 +1,4 @@
-#include "saca/tune/fit_test_drive.h"
+#include "saca/tune/fit_drive.h"
 
 #include <gtest/gtest.h>
 
