@@ -26,8 +26,10 @@ struct Candidate {
 constexpr std::size_t num_candidates = 8;
 [[nodiscard]] const std::array<Candidate, num_candidates>& candidates();
 
-/// The least squares of a fit. Its unknowns x have mean 0 and sd 1 beforehand: the candidates, then
-/// for each log the speed at the first row and the offset of each signal.
+/// The least squares of a fit. Part of `fit_vehicle`; including it needs Eigen.
+///
+/// Its unknowns x have mean 0 and sd 1 beforehand: the candidates, then for each log the speed at
+/// the first row and the offset of each signal.
 class FitProblem {
  public:
   FitProblem(vehicle::Vehicle base, double grip, const std::vector<Log>& logs);

@@ -145,25 +145,26 @@ bool contains(const std::vector<Index>& indices, std::size_t index) {
   return std::find(indices.begin(), indices.end(), static_cast<Index>(index)) != indices.end();
 }
 
-// `centre` is where the estimate was before the dead time went to a whole millisecond.
+// `centre` is where the estimate was while all were free. Its interval holds whatever those are
+// that went back to the base; the value is what goes with the base.
 std::vector<FittedParameter> parameters_of(const FitProblem& problem, const VectorXd& x,
                                            const VectorXd& centre, const MatrixXd& covariance,
                                            const std::vector<Index>& determined) {
   std::vector<FittedParameter> parameters;
   for (std::size_t k = 0; k < num_candidates; ++k) {
-    const Candidate& one = candidates().at(k);
     const auto index = static_cast<Index>(k);
-    const bool known = contains(determined, k);
-    const double half = normal_95 * std::sqrt(covariance(index, index));
-    const double middle = is_dead_time(one) && known ? centre[index] : x[index];
-    parameters.push_back(
-        {.section = one.section,
-         .key = one.key,
-         .base = problem.value(k, 0.0),
-         .value = known ? rounded(problem.value(k, x[index])) : problem.value(k, 0.0),
-         .low = problem.value(k, middle - half),
-         .high = problem.value(k, middle + half),
-         .determined = known});
+    FittedParameter one{.section = candidates().at(k).section,
+                        .key = candidates().at(k).key,
+                        .base = problem.value(k, 0.0)};
+    one.value = one.low = one.high = one.base;
+    if (contains(determined, k)) {
+      const double half = normal_95 * std::sqrt(covariance(index, index));
+      one.determined = true;
+      one.value = rounded(problem.value(k, x[index]));
+      one.low = std::min(one.value, problem.value(k, centre[index] - half));
+      one.high = std::max(one.value, problem.value(k, centre[index] + half));
+    }
+    parameters.push_back(one);
   }
   return parameters;
 }

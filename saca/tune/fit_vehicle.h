@@ -14,7 +14,7 @@ struct FittedParameter {
   std::string_view key;
   double base = 0.0;
   double value = 0.0;  ///< the base's where not determined; six digits, as it is written
-  double low = 0.0;    ///< 95 % interval; only where determined
+  double low = 0.0;    ///< 95 % interval; the base where not determined
   double high = 0.0;
   bool determined = false;  ///< the logs say much more than the base's uncertainty
 };
@@ -47,9 +47,9 @@ struct VehicleFit {
 /// Weighted least squares (Levenberg-Marquardt) of `response` against what was measured, large
 /// residuals bent to straight lines (Huber). Each parameter is known beforehand by its base value
 /// and a wide normal distribution; one that the logs do not narrow to 0.3 of that stays at its base
-/// value, and what it may be widens the intervals of the others. Weights come from the residuals:
-/// their spread and how long they err alike. Also estimated, for each log: the speed at the first
-/// row and the sensors' offsets.
+/// value. Intervals hold whatever those are, inside their distribution. Weights come from the
+/// residuals: their spread and how long they err alike. Also estimated, for each log: the speed at
+/// the first row and the sensors' offsets.
 ///
 /// Sources: J. J. More, The Levenberg-Marquardt algorithm: implementation and theory, 1978 (as in
 /// Eigen); R. V. Jategaonkar, Flight Vehicle System Identification, 2nd ed., 2015, ch. 4
