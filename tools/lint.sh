@@ -13,7 +13,7 @@ command -v clang-tidy-14 >/dev/null || {
 }
 
 tidy() {
-  clang-tidy-14 --quiet --config-file=.clang-tidy "$@" -- -std=c++20 -I. -DSACA_VERSION='""' 2>/dev/null
+  clang-tidy-14 --quiet --config-file=.clang-tidy "$@" -- -std=c++20 -I. -isystem /usr/include/eigen3 -DSACA_VERSION='""' 2>/dev/null
 }
 lint_folder() {  # FOLDER
   local sources joined stamp

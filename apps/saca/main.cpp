@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
     add_physics(line, exit_code);
     add_drive(line, exit_code);
     add_tune(line, exit_code);
+    add_vehicle(line, exit_code);
     add_bench(line, exit_code);
     try {
       line.parse(argc, argv);

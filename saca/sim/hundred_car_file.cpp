@@ -1,9 +1,9 @@
 #include "saca/sim/hundred_car_file.h"
 
-#include <charconv>
 #include <cmath>
 #include <optional>
 
+#include "saca/core/csv.h"
 #include "saca/core/units.h"
 #include "saca/sim/series.h"
 
@@ -23,54 +23,10 @@ constexpr std::size_t rate_offset = 28;
 constexpr std::size_t azimuth_offset = 42;
 constexpr std::size_t brake_column = 77;
 
-/// Cuts the first piece, up to `mark`, off the front of `rest`.
-std::string_view cut(std::string_view& rest, char mark) {
-  const std::size_t at = rest.find(mark);
-  const std::string_view piece = rest.substr(0, at);
-  rest.remove_prefix(at == std::string_view::npos ? rest.size() : at + 1);
-  return piece;
-}
-
-std::string_view line_of(std::string_view& rest) {
-  std::string_view line = cut(rest, '\n');
-  if (line.ends_with('\r')) {
-    line.remove_suffix(1);
-  }
-  return line;
-}
-
-std::vector<std::string_view> fields_of(std::string_view line, char mark) {
-  std::vector<std::string_view> fields;
-  bool more = true;
-  while (more) {
-    more = line.find(mark) != std::string_view::npos;
-    fields.push_back(cut(line, mark));
-  }
-  return fields;
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (text.starts_with(' ')) {
-    text.remove_prefix(1);
-  }
-  while (text.ends_with(' ')) {
-    text.remove_suffix(1);
-  }
-  return text;
-}
-
 /// NaN for what the release writes for missing; nullopt for text.
 std::optional<double> number(std::string_view field) {
   field = trimmed(field);
-  if (field.empty() || field == ".") {
-    return missing;
-  }
-  double value = 0.0;
-  const auto [end, problem] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (problem != std::errc{} || end != field.data() + field.size() || !std::isfinite(value)) {
-    return std::nullopt;
-  }
-  return value;
+  return field.empty() || field == "." ? missing : finite_number(field);
 }
 
 /// A whole number of moderate size; nullopt otherwise.
@@ -126,7 +82,7 @@ Result<std::vector<HundredCarRow>> read_hundred_car_rows(std::string_view text,
   std::vector<double> values(num_columns);
   std::string_view rest = text;
   for (std::size_t line_number = 1; !rest.empty(); ++line_number) {
-    const std::string_view line = line_of(rest);
+    const std::string_view line = cut_line(rest);
     if (line.empty()) {
       continue;
     }
@@ -168,7 +124,7 @@ Result<HundredCarEvent> read_hundred_car_event(std::string_view text, std::strin
                                                std::int64_t event) {
   std::string_view rest = text;
   for (std::size_t line_number = 1; !rest.empty(); ++line_number) {
-    const std::vector<std::string_view> fields = fields_of(line_of(rest), '\t');
+    const std::vector<std::string_view> fields = fields_of(cut_line(rest), '\t');
     if (whole(number(fields[0])) != event) {
       continue;
     }

@@ -63,7 +63,11 @@ Result<Vehicle> read_vehicle(const std::filesystem::path& path) {
   if (!text.has_value()) {
     return text.error();
   }
-  const auto document = config::Document::parse(text.value(), path.string());
+  return parse_vehicle(text.value(), path.string());
+}
+
+Result<Vehicle> parse_vehicle(std::string_view text, std::string_view source) {
+  const auto document = config::Document::parse(text, source);
   if (!document.has_value()) {
     return document.error();
   }

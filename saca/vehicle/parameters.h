@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "saca/core/result.h"
 #include "saca/vehicle/vehicle.h"
@@ -11,5 +12,9 @@ namespace saca::vehicle {
 /// @return  Error::Code::unreadable; malformed, naming file, line and key, for a number that is
 ///          missing, out of range or unknown
 [[nodiscard]] Result<Vehicle> read_vehicle(const std::filesystem::path& path);
+
+/// Likewise, from the text of such a file.
+/// @param source  name for messages, usually the path
+[[nodiscard]] Result<Vehicle> parse_vehicle(std::string_view text, std::string_view source);
 
 }  // namespace saca::vehicle
