@@ -98,6 +98,7 @@ std::vector<Spread> spreads_of(const FitProblem& problem, const VectorXd& x) {
 // Each series counts as many independent observations as it holds.
 void weigh_by(FitProblem& problem, const std::vector<Spread>& spreads) {
   std::vector<double> sd;
+  sd.reserve(spreads.size());
   for (const Spread& spread : spreads) {
     sd.push_back(spread.sd * std::sqrt(spread.run));
   }
@@ -267,11 +268,10 @@ VehicleFit fit_vehicle(const vehicle::Vehicle& base, double grip, const std::vec
   std::vector<Index> free;
   for (const Index k : all) {
     const auto index = static_cast<std::size_t>(k);
-    if (index >= num_candidates) {
-      free.push_back(k);
-    } else if (!contains(determined, index)) {
+    const bool candidate = index < num_candidates;
+    if (candidate && !contains(determined, index)) {
       x[k] = 0.0;
-    } else if (is_dead_time(candidates().at(index))) {
+    } else if (candidate && is_dead_time(candidates().at(index))) {
       x[k] = problem.x_of(index,
                           dead_time_step * std::round(problem.value(index, x[k]) / dead_time_step));
     } else {
