@@ -156,6 +156,10 @@ int tune_car(TuneOptions options) {
     return bad_input;
   }
   const fs::path car_file = find_car(places.value(), options.car);
+  if (options.from.empty()) {
+    const bool tuned = fs::exists(manoeuvre::tuning_path(car_file));
+    options.from = tuned ? options.car : TuneOptions{}.car;
+  }
   const fs::path output =
       options.output.empty() ? manoeuvre::tuning_path(car_file) : fs::path(options.output);
   auto start = read_start(car_file, manoeuvre::tuning_path(find_car(places.value(), options.from)));
@@ -223,8 +227,9 @@ void add_tune(CLI::App& line, int& exit_code) {
   const auto options = std::make_shared<TuneOptions>();
   command->add_option("--car", options->car, "A car's file, or the name of a shipped one")
       ->capture_default_str();
-  command->add_option("--from", options->from,
-                      "Begin with the tuning of this car (default: its own)");
+  command->add_option(
+      "--from", options->from,
+      "Begin with the tuning of this car (default: its own, else compact_rwd_ev's)");
   command->add_option("--output", options->output, "Default: beside the car, NAME.tuning.toml");
   command->add_option("--swerve-evaluations", options->swerve_evaluations, "At most")
       ->check(CLI::Range(1, 10'000'000))
@@ -240,12 +245,7 @@ void add_tune(CLI::App& line, int& exit_code) {
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   command->add_flag("--json", options->as_json, "For programs");
-  command->callback([options, &exit_code] {
-    if (options->from.empty()) {
-      options->from = options->car;
-    }
-    exit_code = tune_car(*options);
-  });
+  command->callback([options, &exit_code] { exit_code = tune_car(*options); });
 }
 
 }  // namespace saca::app

@@ -60,7 +60,9 @@ Command drift_left(const Vehicle& car, const DriftLaw& law, double grip, const D
     command.brake_torque[i] =
         over_brake * share[i] * grip * std::max(loads[i], least_load) * car.wheel_radius;
   }
-  command.motor_torque = law.motor_share * in * car.motor_limit;
+  const double weight = car.mass * vehicle::gravity;
+  command.motor_torque =
+      law.motor_share * in * std::min(car.motor_limit, grip * weight * car.wheel_radius);
   return command;
 }
 

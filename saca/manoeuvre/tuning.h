@@ -30,7 +30,8 @@ struct DriftLaw {
   double front_release;  ///< share of the front brakes opened at full demand [-], in [0, 1]
   double rear_release;   ///< likewise of the rear ones, at the opposite demand [-], in [0, 1]
   double outer_release;  ///< likewise of the side away from the demanded turn [-], in [0, 1]
-  double motor_share;    ///< of the motor's limit, at full demand [-], in [-1, 1]
+  double motor_share;    ///< motor torque at full demand, of what the car's weight holds on the
+                         ///< road, or of the motor's limit where that is less [-], in [-1, 1]
   double steering;       ///< off the direction of motion, at full demand [rad], > 0
   double slide_share;    ///< of the grip, that slows a sliding car [-], in (0, 1.2]
   double lock_speed;     ///< below it all wheels are locked [m/s], > 0
