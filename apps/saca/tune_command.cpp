@@ -210,7 +210,8 @@ int tune_car(TuneOptions options) {
                                       {"swerve_cost", *swerve.value()},
                                       {"drift_cost", *drift.value()},
                                       {"drift_grip", manoeuvre::DriftDomain::grips},
-                                      {"drift_slowest_mps", car.tuning.domain.slowest}}
+                                      {"drift_slowest_mps", car.tuning.domain.slowest},
+                                      {"drift_fastest_mps", car.tuning.domain.fastest}}
                            .dump(1));
   } else {
     fmt::print("{}: lane change {:.4f}, T-drift {:.4f}\n", output.string(), *swerve.value(),

@@ -43,16 +43,18 @@ std::optional<std::string> wrong_motion(const Car& car, const Plan& plan,
       !is_finite(ego.a_B)) {
     return "the ego's state is not finite";
   }
-  // Slower than that a car is at rest before it has turned.
-  const double slowest =
-      drifts(plan.policy) ? slowest_drift(car.tuning.domain, scene.grip) : slowest_lane_change;
-  if (!always_possible(plan.policy) && slowest > fastest) {
+  if (always_possible(plan.policy)) {
+    return std::nullopt;
+  }
+  const SpeedRange range = drifts(plan.policy) ? drift_speeds(car.tuning.domain, scene.grip)
+                                               : SpeedRange{slowest_lane_change, fastest};
+  if (range.slowest > range.fastest) {
     return std::string(name(plan.policy)) +
            with_number(" is not possible at a grip of %.2f with this car", scene.grip);
   }
-  if (!always_possible(plan.policy) && !(ego.v_B.x >= slowest && ego.v_B.x <= fastest)) {
-    return std::string(name(plan.policy)) + with_number(" needs a speed of %.4g", slowest) +
-           with_number(" to %.4g m/s ahead", fastest) + with_number(", is %.2f", ego.v_B.x);
+  if (!(ego.v_B.x >= range.slowest && ego.v_B.x <= range.fastest)) {
+    return std::string(name(plan.policy)) + with_number(" needs a speed of %.4g", range.slowest) +
+           with_number(" to %.4g m/s ahead", range.fastest) + with_number(", is %.2f", ego.v_B.x);
   }
   return std::nullopt;
 }

@@ -14,7 +14,7 @@ namespace saca::manoeuvre {
 
 /// Why a plan cannot be driven from here; nullopt when it can.
 ///
-/// Domain: lane changes at 5 to 25 m/s, drifts from the speed of the car's DriftDomain to 25 m/s,
+/// Domain: lane changes at 5 to 25 m/s, drifts at the speeds of the car's DriftDomain,
 /// grip 0.2 to 1.0, lanes 2 to 6 m wide, in bends that take at most half of the grip. Braking and
 /// no intervention are possible from any finite state: they are what is left when all else is
 /// refused. Outside the domain their figures are not claimed.

@@ -205,7 +205,7 @@ TEST(Refusal, NamesWhatIsWrong) {
   };
   const Plan swerve{PolicyId::aes_left, {}};
   EXPECT_EQ(why(swerve, 14.0, 0.9), "none");
-  const double slowest = slowest_drift(car().tuning.domain, 0.9);
+  const double slowest = drift_speeds(car().tuning.domain, 0.9).slowest;
   EXPECT_EQ(why({PolicyId::t_drift_left, {}}, slowest, 0.9), "none");
   EXPECT_THAT(why({PolicyId::t_drift_left, {}}, slowest - 0.1, 0.9),
               HasSubstr("to 25 m/s ahead, is"));
@@ -237,7 +237,7 @@ TEST(Refusal, NeverOfBraking) {
 
 TEST(Refusal, OfADriftWhereNoSpeedWillDo) {
   Car weak = car();
-  weak.tuning.domain.slowest.front() = 30.0;
+  weak.tuning.domain.fastest.front() = 0.0;
   EXPECT_THAT(refusal(weak, {PolicyId::t_drift_left, {}}, scene_at(20.0, 0.2)).value_or("none"),
               HasSubstr("not possible at a grip of 0.20"));
 }

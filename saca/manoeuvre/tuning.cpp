@@ -10,8 +10,7 @@
 namespace saca::manoeuvre {
 namespace {
 
-// Speeds in the domain: above the fastest start there is no drift.
-constexpr config::Range domain_range{1.0, 100.0};
+constexpr config::Range domain_range{0.0, fastest};  // [m/s]
 
 template <class Law, std::size_t n>
 void read_law(config::Table table, const std::array<Number<Law>, n>& numbers, Law& law) {
@@ -49,18 +48,21 @@ std::string list(const std::array<double, n>& values) {
 
 }  // namespace
 
-double slowest_drift(const DriftDomain& domain, double grip) noexcept {
+SpeedRange drift_speeds(const DriftDomain& domain, double grip) noexcept {
   const auto& grips = DriftDomain::grips;
   const auto above = std::upper_bound(grips.begin(), grips.end(), grip);
   if (above == grips.begin()) {
-    return domain.slowest.front();
+    return {domain.slowest.front(), domain.fastest.front()};
   }
   if (above == grips.end()) {
-    return domain.slowest.back();
+    return {domain.slowest.back(), domain.fastest.back()};
   }
   const auto i = static_cast<std::size_t>(above - grips.begin());
   const double share = (grip - grips[i - 1]) / (grips[i] - grips[i - 1]);
-  return domain.slowest[i - 1] + share * (domain.slowest[i] - domain.slowest[i - 1]);
+  const auto between = [&](const auto& values) {
+    return values[i - 1] + share * (values[i] - values[i - 1]);
+  };
+  return {between(domain.slowest), between(domain.fastest)};
 }
 
 Result<Tuning> read_tuning(const std::filesystem::path& path) {
@@ -84,10 +86,12 @@ Result<Tuning> read_tuning(const std::filesystem::path& path) {
     domain.reject("grip", "want " + list(DriftDomain::grips));
   }
   const auto slowest = domain.numbers("slowest_mps", domain_range, DriftDomain::grips.size());
+  const auto quickest = domain.numbers("fastest_mps", domain_range, DriftDomain::grips.size());
   if (const auto error = document.value().error(); error.has_value()) {
     return *error;
   }
   std::copy(slowest.begin(), slowest.end(), tuning.domain.slowest.begin());
+  std::copy(quickest.begin(), quickest.end(), tuning.domain.fastest.begin());
   return tuning;
 }
 
@@ -101,9 +105,11 @@ std::string tuning_text(const Tuning& tuning, std::string_view comment) {
   }
   return text + law_text("swerve", swerve_numbers, tuning.swerve) +
          law_text("drift", drift_numbers, tuning.drift) +
-         "\n[drift_domain]  # from which speed at which grip the drift holds what it promises\n" +
+         "\n[drift_domain]  # from which speed to which, at which grip, the drift keeps its "
+         "promise\n" +
          "grip = " + list(DriftDomain::grips) + "\n" +
-         "slowest_mps = " + list(tuning.domain.slowest) + "\n";
+         "slowest_mps = " + list(tuning.domain.slowest) + "\n" +
+         "fastest_mps = " + list(tuning.domain.fastest) + "\n";
 }
 
 }  // namespace saca::manoeuvre

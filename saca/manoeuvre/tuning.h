@@ -38,19 +38,23 @@ struct DriftLaw {
 };
 
 /// Where the T-drift ends within 10 deg of across the lane in at least 90 % of the draws: from
-/// which speed, for some grips. Between them the line that joins two.
+/// which speed to which, for some grips. Between them the lines that join two.
 struct DriftDomain {
   static constexpr std::array<double, 6> grips{0.2, 0.3, 0.5, 0.7, 0.9, 1.0};  ///< [-]
-  /// [m/s]; more than `fastest` where no speed will do
-  std::array<double, grips.size()> slowest;
+  std::array<double, grips.size()> slowest;                                    ///< [m/s]
+  std::array<double, grips.size()> fastest;  ///< [m/s]; less than `slowest` where no speed will do
 };
 
 /// Highest speed at which any manoeuvre but braking may begin [m/s].
 constexpr double fastest = 25.0;
 
-/// The slowest speed [m/s] from which the T-drift may begin.
+/// The slowest and the fastest speed [m/s] from which the T-drift may begin.
+struct SpeedRange {
+  double slowest;
+  double fastest;
+};
 /// @param grip  in [0.2, 1.0]
-[[nodiscard]] double slowest_drift(const DriftDomain& domain, double grip) noexcept;
+[[nodiscard]] SpeedRange drift_speeds(const DriftDomain& domain, double grip) noexcept;
 
 /// What `saca tune` finds for one car.
 struct Tuning {

@@ -52,6 +52,7 @@ TEST_F(TuningFile, ReadsWhatWasWrittenToTheLastDigit) {
     EXPECT_EQ(tuning.value().swerve.*number.member, changed.swerve.*number.member) << number.key;
   }
   EXPECT_EQ(tuning.value().domain.slowest, changed.domain.slowest);
+  EXPECT_EQ(tuning.value().domain.fastest, changed.domain.fastest);
 }
 
 TEST_F(TuningFile, BeginsWithItsComment) {
@@ -65,16 +66,19 @@ TEST_F(TuningFile, IsRefusedWhenWrong) {
   EXPECT_THAT(complaint("grip = [0.2", "grip = [0.25"), HasSubstr("want [0.2, 0.3"));
   EXPECT_THAT(complaint("slowest_mps = [", "slowest_mps = [5, "), HasSubstr("slowest_mps"));
   EXPECT_THAT(complaint("slowest_mps = [", "slowest_mps = [nan, "), HasSubstr("slowest_mps"));
+  EXPECT_THAT(complaint("fastest_mps = [", "fastest_mps = [26, "), HasSubstr("fastest_mps"));
 }
 
 TEST(DriftDomain, IsALineBetweenItsGrips) {
-  const DriftDomain domain{.slowest = {20.0, 15.0, 11.0, 10.0, 9.0, 8.0}};
-  EXPECT_DOUBLE_EQ(slowest_drift(domain, 0.2), 20.0);
-  EXPECT_DOUBLE_EQ(slowest_drift(domain, 0.25), 17.5);
-  EXPECT_DOUBLE_EQ(slowest_drift(domain, 0.7), 10.0);
-  EXPECT_DOUBLE_EQ(slowest_drift(domain, 1.0), 8.0);
-  EXPECT_DOUBLE_EQ(slowest_drift(domain, 0.1), 20.0);
-  EXPECT_DOUBLE_EQ(slowest_drift(domain, 1.1), 8.0);
+  const DriftDomain domain{.slowest = {20.0, 15.0, 11.0, 10.0, 9.0, 8.0},
+                           .fastest = {22.0, 24.0, 25.0, 25.0, 25.0, 25.0}};
+  EXPECT_DOUBLE_EQ(drift_speeds(domain, 0.2).slowest, 20.0);
+  EXPECT_DOUBLE_EQ(drift_speeds(domain, 0.25).slowest, 17.5);
+  EXPECT_DOUBLE_EQ(drift_speeds(domain, 0.25).fastest, 23.0);
+  EXPECT_DOUBLE_EQ(drift_speeds(domain, 0.7).slowest, 10.0);
+  EXPECT_DOUBLE_EQ(drift_speeds(domain, 1.0).slowest, 8.0);
+  EXPECT_DOUBLE_EQ(drift_speeds(domain, 0.1).slowest, 20.0);
+  EXPECT_DOUBLE_EQ(drift_speeds(domain, 1.1).slowest, 8.0);
 }
 
 }  // namespace

@@ -5,7 +5,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <bit>
 #include <cerrno>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <nlopt.hpp>
@@ -132,6 +134,17 @@ class Watched {
   bool written_ = true;
 };
 
+/// Of everything but the cost: the same search asks for the same numbers (FNV-1a).
+std::uint64_t digest(const Problem& problem) {
+  std::uint64_t hash = 14695981039346656037U;
+  for (const auto* numbers : {&problem.low, &problem.high, &problem.start}) {
+    for (const double number : *numbers) {
+      hash = (hash ^ std::bit_cast<std::uint64_t>(number)) * 1099511628211U;
+    }
+  }
+  return hash;
+}
+
 double evaluate(const std::vector<double>& x, std::vector<double>& /*gradient*/, void* watched) {
   return (*static_cast<Watched*>(watched))(x);
 }
@@ -162,8 +175,9 @@ Result<std::optional<Minimum>> minimise(const Problem& problem, const Effort& ef
   expects(!problem.start.empty() && problem.low.size() == problem.start.size() &&
               problem.high.size() == problem.start.size() && effort.evaluations > 0,
           "one low, high and start for each number, and evaluations > 0");
-  auto opened = Journal::open(journal, fmt::format("{}, {} evaluations, seed {}", problem.name,
-                                                   effort.evaluations, effort.seed));
+  auto opened = Journal::open(
+      journal, fmt::format("{}, box and start {:016x}, {} evaluations, seed {}", problem.name,
+                           digest(problem), effort.evaluations, effort.seed));
   if (!opened.has_value()) {
     return opened.error();
   }

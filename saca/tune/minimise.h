@@ -12,7 +12,7 @@ namespace saca::tune {
 
 /// A cost to be made small by numbers within bounds.
 struct Problem {
-  std::string name;  ///< everything that the cost depends on: a journal of another one is refused
+  std::string name;  ///< all that the cost depends on: a journal of another one is refused
   std::vector<double> low, high, start;  ///< one each for every number
   std::function<double(const std::vector<double>&)> cost;
 };
@@ -42,7 +42,8 @@ struct Minimum {
 ///
 /// @param look  called after each evaluation; false stops
 /// @return      nullopt when `look` stopped it; Error::Code::malformed when the journal is of
-///              another problem, effort or seed, naming both; unreadable, unwritable
+///              another problem (by name, box or start), effort or seed, naming both; unreadable,
+///              unwritable
 ///
 /// Source: W. L. Price, Global optimization by controlled random search, J. Optim. Theory Appl. 40
 /// (1983); T. Rowan, Functional stability analysis of numerical algorithms (1990); both from NLopt.

@@ -102,6 +102,9 @@ TEST_F(Minimise, RefusesAnotherJournal) {
   ASSERT_FALSE(other.has_value());
   EXPECT_THAT(other.error().message, HasSubstr("seed 3"));
   EXPECT_THAT(other.error().message, HasSubstr("seed 4"));
+  Problem elsewhere = problem();
+  elsewhere.start = {3.0, 3.0};
+  EXPECT_FALSE(minimise(elsewhere, effort_, journal_, never).has_value());
   const std::string text = read_file(journal_).value();
   ASSERT_EQ(write_file(journal_, text + "much\n"), std::nullopt);
   const auto broken = minimise(problem(), effort_, journal_, never);

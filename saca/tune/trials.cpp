@@ -53,6 +53,7 @@ void add_trials(std::vector<Trial>& trials, const manoeuvre::Plan& plan, const C
 // A car whose domain refuses no drift.
 Car without_domain(Car car) {
   car.tuning.domain.slowest.fill(1.0);
+  car.tuning.domain.fastest.fill(manoeuvre::fastest);
   return car;
 }
 
@@ -75,10 +76,10 @@ std::vector<Trial> drift_trials(unsigned long seed) {
                                                   {25, 0.9},
                                                   {10, 0.5},
                                                   {16, 0.5, 0.3},
-                                                  {22, 0.5},
+                                                  {24, 0.5},
                                                   {12, 0.3},
-                                                  {18, 0.3},
-                                                  {14, 0.2}}};
+                                                  {22, 0.3},
+                                                  {18, 0.2}}};
   constexpr int draws = 3;
   std::mt19937_64 rng(seed);
   std::vector<Trial> trials;
@@ -129,7 +130,7 @@ double drift_cost(const Car& car, const Trial& trial) {
   const double heading = world::to_lane(trial.scene.road, end.X_WB).heading;
   const double error = squared(wrap_angle(heading - 0.5 * std::numbers::pi) / from_degrees(8.0));
   const double aside = squared(std::max(0.0, std::abs(end.X_WB.p.y) - 2.0) / 0.5);
-  return std::min(error, most) + std::min(aside, most) + 10.0 * (end.X_WB.p.x / shortest - 1.0);
+  return std::min(error, most) + std::min(aside, most) + 16.0 * (end.X_WB.p.x / shortest - 1.0);
 }
 
 double swerve_cost(const Car& car, const Trial& trial) {
@@ -186,18 +187,23 @@ int num_across(const Car& car, double speed, double grip, int count, unsigned lo
 }
 
 manoeuvre::DriftDomain find_domain(const Car& car, int draws, unsigned long seed, int threads) {
-  constexpr std::array<double, 14> speeds{25, 22.5, 20, 18, 16, 14, 12, 11, 10, 9, 8, 7, 6, 5};
-  constexpr double nowhere = 100.0;  // no speed will do
+  constexpr std::array<double, 14> speeds{5, 6, 7, 8, 9, 10, 11, 12, 14, 16, 18, 20, 22.5, 25};
   manoeuvre::DriftDomain domain{};
   for (std::size_t i = 0; i < domain.slowest.size(); ++i) {
-    domain.slowest[i] = nowhere;
-    for (const double speed : speeds) {
-      const int across =
-          num_across(car, speed, manoeuvre::DriftDomain::grips[i], draws, seed, threads);
-      if (across < 0.95 * draws) {
-        break;
+    // The longest row of speeds that all keep the promise.
+    std::size_t best = 0;
+    std::size_t row = 0;
+    domain.slowest[i] = manoeuvre::fastest;  // and no faster than nothing: no speed will do
+    domain.fastest[i] = 0.0;
+    for (std::size_t k = 0; k < speeds.size(); ++k) {
+      const double grip = manoeuvre::DriftDomain::grips[i];
+      const bool kept = num_across(car, speeds[k], grip, draws, seed, threads) >= 0.95 * draws;
+      row = kept ? row + 1 : 0;
+      if (row > best) {
+        best = row;
+        domain.slowest[i] = speeds[k + 1 - row];
+        domain.fastest[i] = speeds[k];
       }
-      domain.slowest[i] = speed;
     }
   }
   return domain;

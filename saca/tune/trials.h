@@ -24,7 +24,7 @@ struct Trial {
 /// likewise.
 [[nodiscard]] std::vector<Trial> swerve_trials(unsigned long seed);
 
-/// What a drift costs: the heading's error at rest (squared, 1 at 8 deg), ten times the share by
+/// What a drift costs: the heading's error at rest (squared, 1 at 8 deg), 16 times the share by
 /// which the way forward exceeds that of a stop with all the grip, what it goes aside of its first
 /// direction beyond 2 m (squared, 1 at 0.5 m), and twice the worst error where it never rests. The
 /// domain of the car's tuning does not matter.
@@ -47,8 +47,8 @@ struct Trial {
 [[nodiscard]] int num_across(const manoeuvre::Car& car, double speed, double grip, int count,
                              unsigned long seed, int threads);
 
-/// From which speed at which grip at least 95 % of the draws end within 10 deg of across: the
-/// domain of the drift, found downwards from 25 m/s. 5 % in hand, for other draws.
+/// From which speed to which, at which grip, at least 95 % of the draws end within 10 deg of across:
+/// the domain of the drift. 5 % in hand, for other draws.
 [[nodiscard]] manoeuvre::DriftDomain find_domain(const manoeuvre::Car& car, int draws,
                                                  unsigned long seed, int threads);
 

@@ -83,8 +83,9 @@ TEST(Trials, TheShippedDomainKeepsItsPromise) {
   const Car car = default_car();
   constexpr int draws = 40;
   for (const double grip : {0.3, 0.6, 0.9}) {
-    const double slowest = manoeuvre::slowest_drift(car.tuning.domain, grip);
-    for (const double speed : {slowest, 0.5 * (slowest + manoeuvre::fastest)}) {
+    const auto [slowest, fastest] = manoeuvre::drift_speeds(car.tuning.domain, grip);
+    ASSERT_LT(slowest, fastest);
+    for (const double speed : {slowest, 0.5 * (slowest + fastest), fastest}) {
       // 90 % of them, less three standard deviations of a share from 40 draws.
       EXPECT_GE(num_across(car, speed, grip, draws, 99, 2), 36 - 6) << speed << ' ' << grip;
     }
