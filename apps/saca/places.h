@@ -31,10 +31,10 @@ struct Places {
 /// The weights that `make model` chose for this processor, else any that it left; nullopt: none.
 [[nodiscard]] std::optional<std::filesystem::path> find_weights(const Places& places);
 
-/// A scenario by its path, or by the name of a shipped one (with or without ".toml").
+/// A scenario by its path, or by the name of a shipped one.
 [[nodiscard]] std::filesystem::path find_scenario(const Places& places, const std::string& name);
 
-/// A car's file by its path, or by the name of a shipped one (with or without ".toml").
+/// A car's file by its path, or by the name of a shipped one.
 [[nodiscard]] std::filesystem::path find_car(const Places& places, const std::string& name);
 
 /// Makes the folder that `file` is to lie in.

@@ -1,8 +1,10 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include <chrono>
+#include <array>
+#include <bit>
 #include <csignal>
+#include <cstdint>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -80,6 +82,15 @@ class ProgressLine {
   bool terminal_ = isatty(STDERR_FILENO) != 0;
 };
 
+/// Of the car's parameters: with others, costs that were worked out before are worth nothing.
+std::uint64_t digest(const vehicle::Vehicle& car) {
+  std::uint64_t hash = 14695981039346656037U;  // FNV-1a
+  for (const double number : std::bit_cast<std::array<double, sizeof car / sizeof(double)>>(car)) {
+    hash = (hash ^ std::bit_cast<std::uint64_t>(number)) * 1099511628211U;
+  }
+  return hash;
+}
+
 /// Makes one law good at its trials.
 template <class Law, std::size_t n>
 Result<std::optional<double>> tune_law(const TuneOptions& options, const std::string& what,
@@ -95,9 +106,10 @@ Result<std::optional<double>> tune_law(const TuneOptions& options, const std::st
     }
     return changed;
   };
-  tune::Problem problem{.name = fmt::format("{} of {}", what, options.car), .cost = [&](auto& x) {
-                          return tune::total_cost(with(x), trials, cost, options.threads);
-                        }};
+  tune::Problem problem{
+      .name =
+          fmt::format("saca {}: {} of {} ({:016x})", SACA_VERSION, what, options.car, digest(car)),
+      .cost = [&](auto& x) { return tune::total_cost(with(x), trials, cost, options.threads); }};
   for (const auto& number : numbers) {
     problem.low.push_back(number.min);
     problem.high.push_back(number.max);
@@ -194,7 +206,12 @@ int tune_car(TuneOptions options) {
     return stopped(output);
   }
   fmt::print(stderr, "domain of the T-drift: {} draws at each speed and grip\n", options.draws);
-  car.tuning.domain = tune::find_domain(car, options.draws, options.seed + 1, options.threads);
+  const auto domain = tune::find_domain(car, options.draws, options.seed + 1, options.threads,
+                                        [] { return interrupted == 0; });
+  if (!domain) {
+    return stopped(output);
+  }
+  car.tuning.domain = *domain;
 
   const std::string comment =
       fmt::format("Made by: {}\nCosts: lane change {:.4f}, T-drift {:.4f} (saca/tune/trials.h).",
@@ -212,7 +229,7 @@ int tune_car(TuneOptions options) {
                                       {"drift_grip", manoeuvre::DriftDomain::grips},
                                       {"drift_slowest_mps", car.tuning.domain.slowest},
                                       {"drift_fastest_mps", car.tuning.domain.fastest}}
-                           .dump(1));
+                           .dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
     fmt::print("{}: lane change {:.4f}, T-drift {:.4f}\n", output.string(), *swerve.value(),
                *drift.value());

@@ -6,6 +6,9 @@
 #include <filesystem>
 
 #include "saca/core/file.h"
+#include "saca/core/units.h"
+#include "saca/manoeuvre/default_car.h"
+#include "saca/manoeuvre/drive.h"
 #include "saca/vehicle/default_car.h"
 
 namespace saca::manoeuvre {
@@ -34,6 +37,33 @@ TEST(Car, WithoutTuningSaysWhatMakesIt) {
   ASSERT_FALSE(car.has_value());
   EXPECT_THAT(car.error().message, HasSubstr("saca_car_alone.tuning.toml"));
   EXPECT_THAT(car.error().message, HasSubstr("saca tune --car"));
+}
+
+// Every policy that changes lanes, on every car, at the corners of its domain, from a start that is
+// not straight: it ends where the road says, in the road's direction.
+TEST(Car, ChangesLanesWhicheverItIs) {
+  for (const char* name : shipped_cars) {
+    const Car car = shipped_car(name);
+    for (const PolicyId policy :
+         {PolicyId::aes_left, PolicyId::aes_right, PolicyId::es_b_left, PolicyId::es_b_right}) {
+      for (const double speed : {5.0, 12.0, 25.0}) {
+        for (const double grip : {0.2, 0.5, 1.0}) {
+          world::Scene scene;
+          scene.ego.v_B = {speed, 0.0};
+          scene.ego.X_WB.yaw = from_degrees(1.5);
+          scene.ego.yaw_rate = 0.05;
+          scene.grip = grip;
+          const Plan plan = default_plan(policy, speed);
+          const EgoMotion motion = drive(car, plan, scene, grip, 20.0);
+          EXPECT_TRUE(motion.ended)
+              << name << ' ' << saca::manoeuvre::name(policy) << ' ' << speed << ' ' << grip;
+          const world::LanePose end = world::to_lane(scene.road, motion.track.X_WA.back());
+          EXPECT_NEAR(end.d, side(policy) * scene.road.lane_width, 0.25)
+              << name << ' ' << speed << ' ' << grip;
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -156,14 +156,20 @@ double steering_angle(const Car& car, const VehicleState& state, double grip, do
   return std::atan2(v_axle_B.y, v_axle_B.x) + std::asin(std::clamp(sliding / speed, -0.7, 0.7));
 }
 
+// What the driven axles together can take to the road, shared as the motor shares it [N].
+double driven_load(const Car& car) {
+  const double per_metre = car.mass * gravity / (car.front_arm + car.rear_arm);
+  const double front_share = car.motor_front_share;
+  const double by_front = per_metre * car.rear_arm / std::max(front_share, 1e-9);
+  const double by_rear = per_metre * car.front_arm / std::max(1.0 - front_share, 1e-9);
+  return std::min(by_front, by_rear);
+}
+
 double holding_torque(const Car& car, const VehicleState& state, double speed, double grip) {
   constexpr double gain = 2.0;           // [1/s]
   constexpr double driven_share = 0.25;  // of the driven axles' grip: the rest is for the path
-  const double driven_load =
-      car.mass * gravity / (car.front_arm + car.rear_arm) *
-      ((1.0 - car.motor_front_share) * car.front_arm + car.motor_front_share * car.rear_arm);
   const double left_over = deceleration_left(1.0, grip, state.a_B.y) / (grip * gravity);
-  const double most = driven_share * left_over * grip * driven_load;
+  const double most = driven_share * left_over * grip * driven_load(car);
   const double force = std::clamp(gain * car.mass * (speed - state.v_B.x), -most, most);
   return force * car.wheel_radius;
 }

@@ -41,7 +41,6 @@ std::vector<Ending> draw_endings(const Car& car, const Plan& plan, const world::
   std::vector<Unknown> unknown(static_cast<std::size_t>(count));
   for (Unknown& one : unknown) {
     one = draw(rng);
-    one.grip = std::min(one.grip, 1.2 / grip);
   }
   std::vector<Ending> endings(unknown.size());
   in_parallel(endings.size(), threads, [&](std::size_t i) {

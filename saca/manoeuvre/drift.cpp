@@ -35,6 +35,7 @@ Command drift_left(const Vehicle& car, const DriftLaw& law, double grip, const D
   constexpr double smoothing = 0.02;    // [s]
   constexpr double over_brake = 1.6;    // of what a wheel can take: it locks
   constexpr double least_load = 500.0;  // [N] that a lifted wheel is braked for
+  constexpr double slow = 2.0;          // [m/s]
   const double growth = (motion.yaw_rate - memory.yaw_rate) / dt;
   memory.yaw_acceleration += std::min(1.0, dt / smoothing) * (growth - memory.yaw_acceleration);
   memory.yaw_rate = motion.yaw_rate;
@@ -61,8 +62,11 @@ Command drift_left(const Vehicle& car, const DriftLaw& law, double grip, const D
         over_brake * share[i] * grip * std::max(loads[i], least_load) * car.wheel_radius;
   }
   const double weight = car.mass * vehicle::gravity;
-  command.motor_torque =
+  const double torque =
       law.motor_share * in * std::min(car.motor_limit, grip * weight * car.wheel_radius);
+  // The motor may turn a slow car, but not drive it off: it would never rest.
+  const bool drives_off = norm(motion.v_B) < slow && torque * motion.v_B.x > 0.0;
+  command.motor_torque = drives_off ? 0.0 : torque;
   return command;
 }
 

@@ -13,9 +13,9 @@ namespace saca::manoeuvre {
 // r* = turning (pi/2 - heading) a / v, with a the deceleration of a slide. What is missing of it
 // is a demand u in [-1, 1], that all actuators serve at once. While u > 0 the front wheels steer
 // in, the brakes of the outer side and of the front axle open, so that the inner side holds and
-// the front pulls the nose round, and the motor keeps the rear wheels sliding. While u < 0 the
-// brakes of the inner side and of the rear axle open. At u = 0 all four wheels are locked and the
-// car slides straight on; so it ends, too.
+// the front pulls the nose round, and the motor helps the brakes or the driven wheels. While u < 0
+// the brakes of the inner side and of the rear axle open. At u = 0 all four wheels are locked and
+// the car slides straight on; so it ends, too.
 
 /// What is known of the car's motion, by its sensors.
 struct DriftMotion {

@@ -15,7 +15,8 @@ namespace saca::manoeuvre {
 /// Why a plan cannot be driven from here; nullopt when it can.
 ///
 /// Domain: lane changes at 5 to 25 m/s, drifts at the speeds of the car's DriftDomain,
-/// grip 0.2 to 1.0, lanes 2 to 6 m wide, in bends that take at most half of the grip. Braking and
+/// grip 0.2 to 1.0, lanes 2 to 6 m wide, in bends that take at most half of the grip (of a drift:
+/// 0.3). Braking and
 /// no intervention are possible from any finite state: they are what is left when all else is
 /// refused. Outside the domain their figures are not claimed.
 [[nodiscard]] std::optional<std::string> refusal(const Car& car, const Plan& plan,

@@ -247,6 +247,10 @@ TEST(Refusal, OfALaneChangeInATightBend) {
   scene.road.curvature = -0.01;  // 4 m/s^2 of 4.9
   EXPECT_THAT(refusal(car(), {PolicyId::aes_left, {}}, scene).value_or("none"), HasSubstr("82 %"));
   EXPECT_EQ(refusal(car(), {PolicyId::aeb, {}}, scene), std::nullopt);
+  scene.road.curvature = -0.0049;  // 2 m/s^2 of 4.9: enough for a lane change, too much for a drift
+  EXPECT_EQ(refusal(car(), {PolicyId::aes_left, {}}, scene), std::nullopt);
+  EXPECT_THAT(refusal(car(), {PolicyId::t_drift_left, {}}, scene).value_or("none"),
+              HasSubstr("allows a bend 30 % of the grip, this one takes 40 %"));
 }
 
 TEST(Drive, RefusesWhatCannotBeDriven) {

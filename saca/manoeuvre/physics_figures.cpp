@@ -135,7 +135,7 @@ bool in_band(const Figure& figure) {
 
 Stop stop_straight(const Car& car, Abs abs, double speed, double grip) {
   expects(speed > 0.0 && speed <= 25.0, "speed in (0, 25] m/s");
-  expects(grip >= 0.3 && grip <= 1.0, "grip in [0.3, 1.0]");
+  expects(grip >= 0.2 && grip <= 1.0, "grip in [0.2, 1.0]");
   constexpr int most_steps = 20'000;
   const Plan plan{.policy = PolicyId::aeb, .target_speed = std::nullopt};
   const world::Scene scene = straight_scene(speed, grip);

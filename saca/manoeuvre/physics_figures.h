@@ -29,7 +29,7 @@ struct Stop {
 enum class Abs { ideal, deployed };
 
 /// @param speed  [m/s], > 0
-/// @param grip   friction coefficient [-], in [0.3, 1.0]; known exactly
+/// @param grip   friction coefficient [-], in [0.2, 1.0]; known exactly
 [[nodiscard]] Stop stop_straight(const Car& car, Abs abs, double speed, double grip);
 
 /// A lane change of 3.5 m without braking: policy 1.
@@ -51,8 +51,8 @@ struct DriftStop {
   double sideways = 0.0;  ///< likewise to the left [m]
   double heading = 0.0;   ///< at the end, against the lane [rad]
 };
-/// @param speed  [m/s], in [10, 25]
-/// @param grip   friction coefficient [-], in [0.3, 1.0]; known exactly
+/// @param speed  [m/s], inside the car's DriftDomain
+/// @param grip   friction coefficient [-], in [0.2, 1.0]; known exactly
 [[nodiscard]] DriftStop drift_to_rest(const Car& car, double speed, double grip);
 
 /// How far steps of 1 ms end from steps of 0.25 ms after 2 s of a lane change at 14 m/s.

@@ -1,5 +1,7 @@
 #include "saca/manoeuvre/ride.h"
 
+#include <algorithm>
+
 #include "saca/core/contract.h"
 #include "saca/manoeuvre/ego.h"
 
@@ -9,11 +11,11 @@ Ride::Ride(const Car& car, const Plan& plan, const world::Scene& scene, double g
            const Unknown& unknown)
     : car_(car),
       real_(real_car(car, unknown)),
-      grip_(grip * unknown.grip),
+      grip_(std::min(1.2, grip * unknown.grip)),
       plan_(plan),
       road_(scene.road),
       known_grip_(scene.grip) {
-  expects(grip_ > 0.0 && grip_ <= 1.2, "grip in (0, 1.2]");
+  expects(grip > 0.0 && grip <= 1.2 && grip_ > 0.0, "grip in (0, 1.2]");
   memory_ = begin(car_, plan_, scene);
   world::EgoState ego = scene.ego;
   ego.v_B.x += unknown.speed;

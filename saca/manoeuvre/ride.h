@@ -13,7 +13,8 @@ class Ride {
  public:
   /// The car rolls as the scene's ego does.
   /// @param grip     true friction coefficient, in (0, 1.2]; the controller knows only scene.grip
-  /// @param unknown  what else the controller does not know; its `grip` is a factor of `grip`
+  /// @param unknown  what else the controller does not know; its `grip` is a factor of
+  ///                 `grip`, and the product at most 1.2
   /// @throws ContractViolation  if refusal(car, plan, scene) has a reason
   Ride(const Car& car, const Plan& plan, const world::Scene& scene, double grip,
        const Unknown& unknown = {});

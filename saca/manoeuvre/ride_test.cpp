@@ -48,6 +48,14 @@ TEST(Ride, TheRoadDecidesNotWhatIsKnownOfIt) {
   EXPECT_GT(stop(0.8, {.speed = 1.0}), stop(0.8, {}) + 1.5);
 }
 
+TEST(Ride, NoDrawMakesTheRoadBetterThanTheModelKnows) {
+  for (const double grip : {1.12, 1.17, 1.2}) {
+    Ride ride(default_car(), brake, scene_at(15.0, 0.9), grip, {.grip = 1.18});
+    ride.step();
+    EXPECT_GT(ride.state().X_WB.p.x, 0.0);
+  }
+}
+
 TEST(Ride, RefusesWhatCannotBeDriven) {
   EXPECT_THROW(Ride(default_car(), brake, scene_at(15.0, 0.8), 1.3), ContractViolation);
   EXPECT_THROW(Ride(default_car(), {PolicyId::es_b_left, std::nullopt}, scene_at(15.0, 0.8), 0.8),

@@ -58,6 +58,10 @@ SpeedRange drift_speeds(const DriftDomain& domain, double grip) noexcept {
     return {domain.slowest.back(), domain.fastest.back()};
   }
   const auto i = static_cast<std::size_t>(above - grips.begin());
+  constexpr SpeedRange nowhere{fastest, 0.0};
+  if (domain.slowest[i - 1] > domain.fastest[i - 1] || domain.slowest[i] > domain.fastest[i]) {
+    return nowhere;
+  }
   const double share = (grip - grips[i - 1]) / (grips[i] - grips[i - 1]);
   const auto between = [&](const auto& values) {
     return values[i - 1] + share * (values[i] - values[i - 1]);

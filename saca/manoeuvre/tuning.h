@@ -37,8 +37,9 @@ struct DriftLaw {
   double lock_speed;     ///< below it all wheels are locked [m/s], > 0
 };
 
-/// Where the T-drift ends within 10 deg of across the lane in at least 90 % of the draws: from
-/// which speed to which, for some grips. Between them the lines that join two.
+/// Where the T-drift ends within 10 deg of across a straight lane in at least 90 % of the draws:
+/// from which speed to which, for some grips. Between them the lines that join two, where both have
+/// such speeds.
 struct DriftDomain {
   static constexpr std::array<double, 6> grips{0.2, 0.3, 0.5, 0.7, 0.9, 1.0};  ///< [-]
   std::array<double, grips.size()> slowest;                                    ///< [m/s]

@@ -23,6 +23,8 @@ vehicle::Vehicle real_car(const Car& car, const Unknown& unknown) {
   real.mass *= unknown.mass;
   real.yaw_inertia *= unknown.yaw_inertia;
   real.tyre.stiffness *= unknown.stiffness;
+  // Stiffer than steps of 1 ms resolve is not drawn.
+  real.tyre.stiffness *= std::min(1.0, vehicle::longest_step(real) / vehicle::usual_step);
   real.steering_lag = std::max(least_lag, real.steering_lag + unknown.lag);
   real.brake_lag = std::max(least_lag, real.brake_lag + unknown.lag);
   return real;

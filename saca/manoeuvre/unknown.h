@@ -3,7 +3,6 @@
 #include <random>
 
 #include "saca/manoeuvre/car.h"
-#include "saca/world/scene.h"
 
 namespace saca::manoeuvre {
 
@@ -29,7 +28,7 @@ constexpr Unknown unknown_sd{.grip = 0.06,
 /// One draw, each quantity by itself from a normal distribution.
 [[nodiscard]] Unknown draw(std::mt19937_64& rng);
 
-/// The real car, where `car` is what the controller knows.
+/// The real car, where `car` is what the controller knows; never too stiff for `usual_step`.
 [[nodiscard]] vehicle::Vehicle real_car(const Car& car, const Unknown& unknown);
 
 }  // namespace saca::manoeuvre

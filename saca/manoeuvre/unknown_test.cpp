@@ -31,6 +31,14 @@ TEST(Unknown, HasTheSpreadsThatItNames) {
   EXPECT_NEAR(product / n, 0.0, 4.0 * 0.06 * 0.03 / std::sqrt(n));
 }
 
+TEST(Unknown, NeverMakesACarTooStiffForItsSteps) {
+  Car light = default_car();
+  light.front_wheel_inertia *= 1.02 * vehicle::usual_step / vehicle::longest_step(light);
+  EXPECT_GE(vehicle::longest_step(light), vehicle::usual_step);
+  EXPECT_GE(vehicle::longest_step(real_car(light, {.mass = 1.09, .stiffness = 1.3})),
+            vehicle::usual_step * (1.0 - 1e-12));
+}
+
 TEST(Unknown, SameSeedSameDraws) {
   std::mt19937_64 a(7);
   std::mt19937_64 b(7);

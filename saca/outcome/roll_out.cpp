@@ -3,8 +3,8 @@
 
 namespace saca::outcome {
 
-// Longer than any manoeuvre of the library: 25 m/s at grip 0.3 takes 9 s to rest [s].
-constexpr double longest = 10.0;
+// Longer than any manoeuvre of the library: 25 m/s at grip 0.2 takes 18 s to rest [s].
+constexpr double longest = 20.0;
 
 Outcome roll_out(const manoeuvre::Car& car, const manoeuvre::Plan& plan, const world::Scene& scene,
                  std::span<const world::Track> tracks, double grip, const HarmModel& harm) {

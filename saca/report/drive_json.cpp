@@ -186,7 +186,7 @@ std::string drive_json(const DriveRecord& record) {
        })},
       {"wheels", wheels},
       {"draws", record.draws ? draws_json(record, *record.draws) : json()}};
-  return document.dump();
+  return document.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
 }  // namespace saca::report

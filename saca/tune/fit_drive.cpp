@@ -20,8 +20,7 @@ bool is_over(const TestDrive& drive, double time, double speed) {
 
 // Torque that keeps the speed while it rolls straight [N m]; only what the log may tell.
 double keeping_torque(const vehicle::Vehicle& car, double speed) {
-  constexpr double air_density = 1.225;  // [kg/m^3], as in the model
-  return 0.5 * air_density * car.drag_area * speed * speed * car.wheel_radius;
+  return 0.5 * vehicle::air_density * car.drag_area * speed * speed * car.wheel_radius;
 }
 
 }  // namespace

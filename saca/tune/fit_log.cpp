@@ -173,7 +173,7 @@ double brake_sum(const vehicle::Command& command) {
 
 // Where the largest step begins; nullopt: there is none.
 std::optional<std::size_t> step_begin(const Log& log) {
-  double largest = least_step;
+  double largest = least_step * (1.0 - 1e-8);  // exactly the least is a step
   std::optional<std::size_t> begin;
   for (std::size_t row = 0, last = 0; row < log.time.size(); ++row) {
     while (last + 1 < log.time.size() && log.time[last + 1] <= log.time[row] + step_time) {

@@ -36,7 +36,8 @@ struct Minimum {
 
 /// Controlled random search over the whole box, then subplex from the best found.
 ///
-/// Every evaluation is added to a journal, and on the disk before the next begins. A run that was
+/// Every evaluation is in a journal before the next begins: a kill loses none, a power cut a few. A
+/// run that was
 /// stopped goes on when it is called again: the search is the same for the same seed, and what the
 /// journal remembers is not worked out again. So the end is that of a run that was never stopped.
 ///

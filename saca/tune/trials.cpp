@@ -128,9 +128,10 @@ double drift_cost(const Car& car, const Trial& trial) {
   const double speed = trial.scene.ego.v_B.x;
   const double shortest = squared(speed) / (2.0 * trial.scene.grip * gravity);
   const double heading = world::to_lane(trial.scene.road, end.X_WB).heading;
+  const Vec2 way_B = (inverse(trial.scene.ego.X_WB) * end.X_WB).p;  // from the start, as it went
   const double error = squared(wrap_angle(heading - 0.5 * std::numbers::pi) / from_degrees(8.0));
-  const double aside = squared(std::max(0.0, std::abs(end.X_WB.p.y) - 2.0) / 0.5);
-  return std::min(error, most) + std::min(aside, most) + 16.0 * (end.X_WB.p.x / shortest - 1.0);
+  const double aside = squared(std::max(0.0, std::abs(way_B.y) - 2.0) / 0.5);
+  return std::min(error, most) + std::min(aside, most) + 16.0 * (way_B.x / shortest - 1.0);
 }
 
 double swerve_cost(const Car& car, const Trial& trial) {
@@ -186,7 +187,9 @@ int num_across(const Car& car, double speed, double grip, int count, unsigned lo
   return manoeuvre::num_across(endings, plan, scene.road);
 }
 
-manoeuvre::DriftDomain find_domain(const Car& car, int draws, unsigned long seed, int threads) {
+std::optional<manoeuvre::DriftDomain> find_domain(const Car& car, int draws, unsigned long seed,
+                                                  int threads,
+                                                  const std::function<bool()>& goes_on) {
   constexpr std::array<double, 14> speeds{5, 6, 7, 8, 9, 10, 11, 12, 14, 16, 18, 20, 22.5, 25};
   manoeuvre::DriftDomain domain{};
   for (std::size_t i = 0; i < domain.slowest.size(); ++i) {
@@ -196,6 +199,9 @@ manoeuvre::DriftDomain find_domain(const Car& car, int draws, unsigned long seed
     domain.slowest[i] = manoeuvre::fastest;  // and no faster than nothing: no speed will do
     domain.fastest[i] = 0.0;
     for (std::size_t k = 0; k < speeds.size(); ++k) {
+      if (!goes_on()) {
+        return std::nullopt;
+      }
       const double grip = manoeuvre::DriftDomain::grips[i];
       const bool kept = num_across(car, speeds[k], grip, draws, seed, threads) >= 0.95 * draws;
       row = kept ? row + 1 : 0;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "saca/manoeuvre/car.h"
@@ -47,9 +49,12 @@ struct Trial {
 [[nodiscard]] int num_across(const manoeuvre::Car& car, double speed, double grip, int count,
                              unsigned long seed, int threads);
 
-/// From which speed to which, at which grip, at least 95 % of the draws end within 10 deg of across:
-/// the domain of the drift. 5 % in hand, for other draws.
-[[nodiscard]] manoeuvre::DriftDomain find_domain(const manoeuvre::Car& car, int draws,
-                                                 unsigned long seed, int threads);
+/// From which speed to which, at which grip, at least 95 % of the draws end within 10 deg of
+/// across: the domain of the drift. 5 % in hand, for other draws.
+/// @param goes_on  asked before each speed; false stops
+/// @return         nullopt when stopped
+[[nodiscard]] std::optional<manoeuvre::DriftDomain> find_domain(
+    const manoeuvre::Car& car, int draws, unsigned long seed, int threads,
+    const std::function<bool()>& goes_on);
 
 }  // namespace saca::tune

@@ -18,7 +18,6 @@ namespace saca::vehicle {
 namespace {
 
 constexpr double dt = 1e-3;
-constexpr double air_density = 1.225;  // [kg/m^3], ISO 2533
 
 struct NamedCar {
   const char* name;

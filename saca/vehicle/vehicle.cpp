@@ -9,8 +9,6 @@
 namespace saca::vehicle {
 namespace {
 
-constexpr double air_density = 1.225;  // [kg/m^3], ISO 2533 standard atmosphere at sea level
-
 // A brake turns from full torque to none over the speed that it would take away in 1 / this.
 constexpr double brake_stiffness = 1000.0;  // [1/s]
 

@@ -13,6 +13,9 @@ namespace saca::vehicle {
 /// [m/s^2]; standard gravity.
 constexpr double gravity = 9.80665;
 
+/// [kg/m^3]; standard atmosphere at sea level, ISO 2533.
+constexpr double air_density = 1.225;
+
 /// Index of a wheel in every array of four.
 enum Wheel : std::uint8_t { front_left, front_right, rear_left, rear_right };
 constexpr std::size_t num_wheels = 4;
@@ -33,7 +36,7 @@ struct Vehicle {
   double drag_area;            ///< drag coefficient times frontal area [m^2], >= 0
   double wheel_radius;         ///< [m], > 0
   double front_wheel_inertia;  ///< of one wheel about its axle [kg m^2], > 0
-  double rear_wheel_inertia;   ///< likewise, with half of the drive train [kg m^2], > 0
+  double rear_wheel_inertia;   ///< likewise; each with its part of the drive train [kg m^2], > 0
   Tyre tyre;                   ///< all four
   double steering_lag;         ///< time constant [s], > 0
   double steering_rate;        ///< largest, of the road wheels [rad/s], > 0

@@ -155,6 +155,18 @@ def test_tuning_that_was_interrupted_goes_on_and_ends_the_same(car, tmp_path):
     assert (tmp_path / "a.toml").read_text() == (tmp_path / "b.toml").read_text()
 
 
+def test_a_journal_is_worth_nothing_once_the_car_has_changed(car, tmp_path):
+    start = ["tune", "--car", car, "--swerve-evaluations", 300, "--output", "a.toml"]
+    with subprocess.Popen([PROGRAM, *map(str, start)], cwd=tmp_path, stderr=subprocess.PIPE) as first:
+        journal = tmp_path / "a.toml.swerve.journal"
+        deadline = time.monotonic() + 60
+        while time.monotonic() < deadline and not (journal.exists() and journal.read_text().count("\n") > 1):
+            time.sleep(0.01)
+        first.send_signal(signal.SIGINT)
+    car.write_text(car.read_text().replace("mass_kg = 1700.0", "mass_kg = 1750.0"))
+    assert "remove it" in one_error(saca(*start, cwd=tmp_path), BAD_INPUT)
+
+
 def test_a_journal_of_another_tuning_is_refused(car, tmp_path):
     (tmp_path / "a.toml.swerve.journal").write_text("something else\n")
     error = one_error(saca("tune", "--car", car, *TUNE, "--output", "a.toml", cwd=tmp_path), BAD_INPUT)
