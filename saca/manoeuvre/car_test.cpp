@@ -8,6 +8,7 @@
 #include "saca/core/file.h"
 #include "saca/core/units.h"
 #include "saca/manoeuvre/default_car.h"
+#include "saca/manoeuvre/draws.h"
 #include "saca/manoeuvre/drive.h"
 #include "saca/vehicle/default_car.h"
 
@@ -61,6 +62,23 @@ TEST(Car, ChangesLanesWhicheverItIs) {
           EXPECT_NEAR(end.d, side(policy) * scene.road.lane_width, 0.25)
               << name << ' ' << speed << ' ' << grip;
         }
+      }
+    }
+  }
+}
+
+// A grip 18 % less than known, a heavier car, slower actuators: the lane is still reached and kept.
+TEST(Car, ChangesLanesWhateverItDoesNotKnow) {
+  for (const char* name : shipped_cars) {
+    const Car car = shipped_car(name);
+    for (const PolicyId policy : {PolicyId::aes_left, PolicyId::es_b_right}) {
+      world::Scene scene;
+      scene.ego.v_B = {20.0, 0.0};
+      scene.grip = 0.5;
+      for (const Ending& ending :
+           draw_endings(car, default_plan(policy, 20.0), scene, 0.5, 15.0, 20, 5, 0, 2)) {
+        EXPECT_TRUE(ending.ended) << name;
+        EXPECT_NEAR(ending.X_WB.p.y, side(policy) * scene.road.lane_width, 0.3) << name;
       }
     }
   }

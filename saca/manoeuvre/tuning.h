@@ -75,7 +75,7 @@ struct Number {
 
 inline constexpr std::array<Number<SwerveLaw>, 8> swerve_numbers{
     {{"share", &SwerveLaw::share, 0.5, 0.97},
-     {"braked_share", &SwerveLaw::braked_share, 0.4, 0.88},
+     {"braked_share", &SwerveLaw::braked_share, 0.4, 0.76},
      {"fast_less_spm", &SwerveLaw::fast_less, 0.0, 0.06},
      {"lag_s", &SwerveLaw::lag, 0.0, 0.15},
      {"frequency_radps", &SwerveLaw::frequency, 3.0, 14.0},
