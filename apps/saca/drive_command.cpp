@@ -5,11 +5,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <thread>
 
 #include "apps/saca/commands.h"
 #include "apps/saca/places.h"
 #include "saca/core/file.h"
+#include "saca/core/parallel.h"
 #include "saca/core/units.h"
 #include "saca/manoeuvre/drive.h"
 #include "saca/report/drive_json.h"
@@ -30,7 +30,7 @@ struct DriveOptions {
   std::optional<double> seconds;
   int draws = 0;
   std::uint64_t seed = 1;
-  int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  int threads = usual_threads();
   std::string report;
   bool as_json = false;
 };

@@ -4,10 +4,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <thread>
 
 #include "apps/saca/commands.h"
 #include "apps/saca/places.h"
+#include "saca/core/parallel.h"
 #include "saca/core/percentile.h"
 #include "saca/core/proportion.h"
 #include "saca/manoeuvre/draws.h"
@@ -23,7 +23,7 @@ struct PhysicsOptions {
   int drift_draws = 0;
   std::vector<std::string> cars{"compact_rwd_ev", "small_fwd_car", "midsize_suv", "delivery_van"};
   std::uint64_t seed = 1;
-  int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  int threads = usual_threads();
   bool as_json = false;
 };
 

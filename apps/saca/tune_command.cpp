@@ -1,19 +1,18 @@
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <array>
 #include <bit>
-#include <csignal>
 #include <cstdint>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <thread>
 
 #include "apps/saca/commands.h"
 #include "apps/saca/places.h"
-#include "saca/core/clock.h"
+#include "apps/saca/progress.h"
 #include "saca/core/file.h"
+#include "saca/core/fnv.h"
+#include "saca/core/parallel.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/tune/minimise.h"
 #include "saca/tune/trials.h"
@@ -34,64 +33,21 @@ struct TuneOptions {
   int drift_evaluations = 4'000;
   int draws = 200;
   unsigned long seed = 1;
-  int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  int threads = usual_threads();
   bool as_json = false;
-};
-
-volatile std::sig_atomic_t interrupted = 0;
-
-/// What is worked on, how far it is and what is left of it, on the error stream: in place on a
-/// terminal, else a line now and then.
-class ProgressLine {
- public:
-  ProgressLine(std::string what, int all, Clock& clock)
-      : what_(std::move(what)), all_(all), clock_(clock), start_(clock.now()), last_(start_) {}
-
-  void show(const tune::Progress& progress) {
-    remembered_ += progress.remembered ? 1 : 0;
-    const Clock::Time now = clock_.now();
-    const bool last = progress.evaluations == all_;
-    if (!last && to_seconds(now - last_) < (terminal_ ? 0.2 : 10.0)) {
-      return;
-    }
-    last_ = now;
-    const int done = progress.evaluations - remembered_;
-    const double left = done == 0 ? 0.0
-                                  : to_seconds(now - start_) / done *
-                                        static_cast<double>(all_ - progress.evaluations);
-    fmt::print(stderr, "{}{}: {} of at most {} evaluations, best {:.4f}, {:.0f} s left{}",
-               terminal_ ? "\r" : "", what_, progress.evaluations, all_, progress.best, left,
-               terminal_ ? "   " : "\n");
-  }
-
-  ~ProgressLine() {
-    if (terminal_) {
-      fmt::print(stderr, "\n");
-    }
-  }
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-
- private:
-  std::string what_;
-  int all_;
-  Clock& clock_;
-  Clock::Time start_;
-  Clock::Time last_;
-  int remembered_ = 0;
-  bool terminal_ = isatty(STDERR_FILENO) != 0;
 };
 
 /// Of the car's parameters: with others, costs that were worked out before are worth nothing.
 std::uint64_t digest(const vehicle::Vehicle& car) {
-  std::uint64_t hash = 14695981039346656037U;  // FNV-1a
+  Fnv hash;
   for (const double number : std::bit_cast<std::array<double, sizeof car / sizeof(double)>>(car)) {
-    hash = (hash ^ std::bit_cast<std::uint64_t>(number)) * 1099511628211U;
+    hash.add(std::bit_cast<std::uint64_t>(number));
   }
-  return hash;
+  return hash.value();
 }
 
 /// Makes one law good at its trials.
+/// @return  its cost; nullopt: interrupted
 template <class Law, std::size_t n>
 Result<std::optional<double>> tune_law(const TuneOptions& options, const std::string& what,
                                        const std::array<manoeuvre::Number<Law>, n>& numbers,
@@ -117,11 +73,14 @@ Result<std::optional<double>> tune_law(const TuneOptions& options, const std::st
   }
   SteadyClock clock;
   ProgressLine line(what, evaluations, clock);
-  const auto found = tune::minimise(problem, {evaluations, options.seed}, journal,
-                                    [&](const tune::Progress& progress) {
-                                      line.show(progress);
-                                      return interrupted == 0;
-                                    });
+  int remembered = 0;
+  const auto found = tune::minimise(
+      problem, {evaluations, options.seed}, journal, [&](const tune::Progress& progress) {
+        remembered += progress.remembered ? 1 : 0;
+        line.show(progress.evaluations, remembered,
+                  fmt::format(" evaluations, best {:.4f}", progress.best));
+        return !interrupted();
+      });
   if (!found.has_value()) {
     return found.error();
   }
@@ -161,6 +120,15 @@ int stopped(const fs::path& output) {
   return was_interrupted;
 }
 
+/// Exit code for a law that was not found: it failed, or was interrupted.
+int not_tuned(const Result<std::optional<double>>& cost, const fs::path& output) {
+  if (cost.has_value()) {
+    return stopped(output);
+  }
+  complain(cost.error().message);
+  return cost.error().code == Error::Code::unwritable ? cannot_write : bad_input;
+}
+
 int tune_car(TuneOptions options) {
   const auto places = find_places();
   if (!places.has_value()) {
@@ -180,34 +148,25 @@ int tune_car(TuneOptions options) {
     return bad_input;
   }
   Car car = start.value();
-  std::signal(SIGINT, [](int) { interrupted = 1; });
-  std::signal(SIGTERM, [](int) { interrupted = 1; });
+  watch_for_interrupt();
 
   const fs::path swerve_journal = output.string() + ".swerve.journal";
   const fs::path drift_journal = output.string() + ".drift.journal";
   const auto swerve = tune_law(options, "lane change", manoeuvre::swerve_numbers,
                                &manoeuvre::Tuning::swerve, tune::swerve_trials(options.seed),
                                tune::swerve_cost, options.swerve_evaluations, swerve_journal, car);
-  if (!swerve.has_value()) {
-    complain(swerve.error().message);
-    return swerve.error().code == Error::Code::unwritable ? cannot_write : bad_input;
-  }
-  if (!swerve.value()) {
-    return stopped(output);
+  if (!swerve.has_value() || !swerve.value()) {
+    return not_tuned(swerve, output);
   }
   const auto drift = tune_law(options, "T-drift", manoeuvre::drift_numbers,
                               &manoeuvre::Tuning::drift, tune::drift_trials(options.seed),
                               tune::drift_cost, options.drift_evaluations, drift_journal, car);
-  if (!drift.has_value()) {
-    complain(drift.error().message);
-    return drift.error().code == Error::Code::unwritable ? cannot_write : bad_input;
-  }
-  if (!drift.value()) {
-    return stopped(output);
+  if (!drift.has_value() || !drift.value()) {
+    return not_tuned(drift, output);
   }
   fmt::print(stderr, "domain of the T-drift: {} draws at each speed and grip\n", options.draws);
   const auto domain = tune::find_domain(car, options.draws, options.seed + 1, options.threads,
-                                        [] { return interrupted == 0; });
+                                        [] { return !interrupted(); });
   if (!domain) {
     return stopped(output);
   }

@@ -1,11 +1,17 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <thread>
 #include <vector>
 
 namespace saca {
+
+/// As many threads as the machine runs at once; at least one.
+inline int usual_threads() {
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
 
 /// Calls work(i) once for every i below `count`, on several threads; returns when all are done.
 ///

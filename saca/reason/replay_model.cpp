@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "saca/core/file.h"
+#include "saca/core/fnv.h"
 #include "saca/core/names.h"
 
 namespace saca::reason {
@@ -78,12 +79,11 @@ const char* broken_rule(const std::string& key, const RecordedReply& recorded) {
 }  // namespace
 
 std::string prompt_key(std::string_view prompt) {
-  // FNV-1a: Fowler, Noll, Vo; offset basis and prime as published for 64 bits.
-  std::uint64_t hash = 14695981039346656037U;
+  Fnv hash;
   for (const char c : prompt) {
-    hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211U;
+    hash.add(static_cast<unsigned char>(c));
   }
-  return fmt::format("{:016x}", hash);
+  return fmt::format("{:016x}", hash.value());
 }
 
 std::string json_text(const RecordedReplies& replies) {

@@ -16,6 +16,7 @@
 
 #include "saca/core/contract.h"
 #include "saca/core/file.h"
+#include "saca/core/fnv.h"
 
 namespace saca::tune {
 namespace {
@@ -134,15 +135,15 @@ class Watched {
   bool written_ = true;
 };
 
-/// Of everything but the cost: the same search asks for the same numbers (FNV-1a).
+/// Of everything but the cost: the same search asks for the same numbers.
 std::uint64_t digest(const Problem& problem) {
-  std::uint64_t hash = 14695981039346656037U;
+  Fnv hash;
   for (const auto* numbers : {&problem.low, &problem.high, &problem.start}) {
     for (const double number : *numbers) {
-      hash = (hash ^ std::bit_cast<std::uint64_t>(number)) * 1099511628211U;
+      hash.add(std::bit_cast<std::uint64_t>(number));
     }
   }
-  return hash;
+  return hash.value();
 }
 
 double evaluate(const std::vector<double>& x, std::vector<double>& /*gradient*/, void* watched) {

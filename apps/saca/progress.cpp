@@ -1,0 +1,51 @@
+#include "apps/saca/progress.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <utility>
+
+namespace saca::app {
+namespace {
+
+volatile std::sig_atomic_t asked_to_stop = 0;
+
+}  // namespace
+
+void watch_for_interrupt() {
+  std::signal(SIGINT, [](int) { asked_to_stop = 1; });
+  std::signal(SIGTERM, [](int) { asked_to_stop = 1; });
+}
+
+bool interrupted() {
+  return asked_to_stop != 0;
+}
+
+ProgressLine::ProgressLine(std::string what, int all, Clock& clock)
+    : what_(std::move(what)),
+      all_(all),
+      clock_(clock),
+      start_(clock.now()),
+      last_(start_),
+      terminal_(isatty(STDERR_FILENO) != 0) {}
+
+ProgressLine::~ProgressLine() {
+  if (terminal_) {
+    fmt::print(stderr, "\n");
+  }
+}
+
+void ProgressLine::show(int done, int remembered, const std::string& more) {
+  const Clock::Time now = clock_.now();
+  if (done != all_ && to_seconds(now - last_) < (terminal_ ? 0.2 : 10.0)) {
+    return;
+  }
+  last_ = now;
+  const int worked = done - remembered;
+  const double left = worked == 0 ? 0.0 : to_seconds(now - start_) / worked * (all_ - done);
+  fmt::print(stderr, "{}{}: {} of at most {}{}, {:.0f} s left{}", terminal_ ? "\r" : "", what_,
+             done, all_, more, left, terminal_ ? "   " : "\n");
+}
+
+}  // namespace saca::app

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+
+#include "saca/core/clock.h"
+
+namespace saca::app {
+
+/// From here on SIGINT and SIGTERM do not end the program but are remembered.
+void watch_for_interrupt();
+[[nodiscard]] bool interrupted();
+
+/// What is worked on, how far it is and how long the rest will take, on the error stream: in place
+/// on a terminal, else a line now and then.
+class ProgressLine {
+ public:
+  /// @param all  how many steps there are at most, > 0
+  ProgressLine(std::string what, int all, Clock& clock);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  /// @param done        of the steps
+  /// @param remembered  of these, how many took no time: they were done before
+  /// @param more        what else there is to say of it; may be empty
+  void show(int done, int remembered, const std::string& more);
+
+ private:
+  std::string what_;
+  int all_;
+  Clock& clock_;
+  Clock::Time start_;
+  Clock::Time last_;
+  bool terminal_;
+};
+
+}  // namespace saca::app

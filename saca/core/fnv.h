@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+
+namespace saca {
+
+/// FNV-1a, a hash that is the same everywhere and for ever: to name content, not to protect it.
+/// Source: Fowler, Noll, Vo, offset basis and prime as published for 64 bits.
+class Fnv {
+ public:
+  /// One step over a byte, or over a whole word (which is no longer the published function).
+  constexpr void add(std::uint64_t word) { hash_ = (hash_ ^ word) * 1099511628211U; }
+  [[nodiscard]] constexpr std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 14695981039346656037U;
+};
+
+}  // namespace saca
