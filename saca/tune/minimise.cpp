@@ -1,110 +1,49 @@
 #include "saca/tune/minimise.h"
 
-#include <fcntl.h>
 #include <fmt/core.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <nlopt.hpp>
-#include <sstream>
 #include <utility>
 
 #include "saca/core/contract.h"
-#include "saca/core/file.h"
 #include "saca/core/fnv.h"
+#include "saca/core/journal.h"
 
 namespace saca::tune {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// What was worked out, one cost a line, in the order in which it was asked for. A line that a kill
-/// cut short is dropped.
-class Journal {
- public:
-  static Result<Journal> open(const fs::path& path, const std::string& title) {
-    Journal journal;
-    const std::string first = title + "\n";
-    std::string text;
-    if (fs::exists(path)) {
-      auto read = read_file(path);
-      if (!read.has_value()) {
-        return read.error();
-      }
-      text = read.value().substr(0, read.value().rfind('\n') + 1);
+/// The costs that a journal remembers, in the order in which they were asked for.
+Result<std::vector<double>> costs_of(const Journal& journal, const fs::path& path) {
+  std::vector<double> costs;
+  for (const std::string& line : journal.lines()) {
+    char* end = nullptr;
+    const double cost = std::strtod(line.c_str(), &end);
+    if (end == line.c_str() || *end != '\0') {
+      return Error{Error::Code::malformed, fmt::format("{}: line {}: want a cost, got \"{}\"",
+                                                       path.string(), costs.size() + 2, line)};
     }
-    if (!text.empty() && !text.starts_with(first)) {
-      return Error{Error::Code::malformed,
-                   fmt::format("{}: is the journal of \"{}\", not of \"{}\": remove it, or ask for "
-                               "what it was begun with",
-                               path.string(), text.substr(0, text.find('\n')), title)};
-    }
-    std::istringstream lines(text.substr(std::min(text.size(), first.size())));
-    for (std::string line; std::getline(lines, line);) {
-      char* end = nullptr;
-      const double cost = std::strtod(line.c_str(), &end);
-      if (end == line.c_str() || *end != '\0') {
-        return Error{Error::Code::malformed,
-                     fmt::format("{}: line {}: want a cost, got \"{}\"", path.string(),
-                                 journal.costs_.size() + 2, line)};
-      }
-      journal.costs_.push_back(cost);
-    }
-    const std::string whole = text.empty() ? first : text;
-    if (auto problem = write_file(path, whole)) {
-      return *problem;
-    }
-    journal.file_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-    if (journal.file_ < 0) {
-      return Error{Error::Code::unwritable, path.string() + ": " + std::strerror(errno)};
-    }
-    return journal;
+    costs.push_back(cost);
   }
-
-  Journal(Journal&& other) noexcept
-      : costs_(std::move(other.costs_)), file_(std::exchange(other.file_, -1)) {}
-  Journal& operator=(Journal&&) = delete;
-  Journal(const Journal&) = delete;
-  Journal& operator=(const Journal&) = delete;
-  ~Journal() {
-    if (file_ >= 0) {
-      ::close(file_);
-    }
-  }
-
-  [[nodiscard]] std::optional<double> cost(std::size_t i) const {
-    return i < costs_.size() ? std::optional(costs_[i]) : std::nullopt;
-  }
-
-  /// False when the disk did not take it.
-  [[nodiscard]] bool add(double cost) const {
-    const std::string line = fmt::format("{:.17g}\n", cost);
-    return ::write(file_, line.data(), line.size()) == static_cast<ssize_t>(line.size());
-  }
-
- private:
-  Journal() = default;
-  std::vector<double> costs_;
-  int file_ = -1;
-};
+  return costs;
+}
 
 /// The cost as the optimiser sees it: remembered, or worked out and remembered.
 class Watched {
  public:
-  Watched(const Problem& problem, const Journal& journal,
+  Watched(const Problem& problem, const Journal& journal, std::vector<double> known,
           const std::function<bool(const Progress&)>& look)
-      : problem_(problem), journal_(journal), look_(look) {}
+      : problem_(problem), journal_(journal), known_(std::move(known)), look_(look) {}
 
   double operator()(const std::vector<double>& x) {
     const auto i = static_cast<std::size_t>(num_evaluations_);
-    const std::optional<double> known = journal_.cost(i);
-    const double cost = known ? *known : problem_.cost(x);
-    if (!known && !journal_.add(cost)) {
+    const bool known = i < known_.size();
+    const double cost = known ? known_[i] : problem_.cost(x);
+    if (!known && !journal_.add(fmt::format("{:.17g}", cost))) {
       written_ = false;
       throw nlopt::forced_stop();
     }
@@ -113,7 +52,7 @@ class Watched {
       best_ = Minimum{.at = x, .cost = cost};
     }
     best_->evaluations = num_evaluations_;
-    if (!look_({num_evaluations_, best_->cost, known.has_value()})) {
+    if (!look_({num_evaluations_, best_->cost, known})) {
       stopped_ = true;
       throw nlopt::forced_stop();
     }
@@ -128,6 +67,7 @@ class Watched {
  private:
   const Problem& problem_;
   const Journal& journal_;
+  std::vector<double> known_;
   const std::function<bool(const Progress&)>& look_;
   std::optional<Minimum> best_;
   int num_evaluations_ = 0;
@@ -183,7 +123,11 @@ Result<std::optional<Minimum>> minimise(const Problem& problem, const Effort& ef
     return opened.error();
   }
   const Journal written = std::move(opened).value();
-  Watched watched(problem, written, look);
+  auto known = costs_of(written, journal);
+  if (!known.has_value()) {
+    return known.error();
+  }
+  Watched watched(problem, written, std::move(known).value(), look);
   nlopt::srand(effort.seed);
   search(nlopt::GN_CRS2_LM, problem, problem.start, effort.evaluations - effort.evaluations / 5,
          watched);
