@@ -1,19 +1,11 @@
 #include "saca/sim/chance.h"
 
 #include <algorithm>
-#include <random>
 
 #include "saca/core/contract.h"
 
 namespace saca::sim {
 namespace {
-
-// The generator of one draw: seeds that lie side by side give streams that have nothing in common.
-std::mt19937_64 generator(std::uint64_t seed, std::uint64_t number) {
-  const auto low = [](std::uint64_t word) { return static_cast<std::uint32_t>(word); };
-  std::seed_seq mixed{low(seed), low(seed >> 32U), low(number), low(number >> 32U)};
-  return std::mt19937_64(mixed);
-}
 
 class Bell {
  public:
@@ -29,6 +21,12 @@ class Bell {
 };
 
 }  // namespace
+
+std::mt19937_64 generator(std::uint64_t seed, std::uint64_t number) {
+  const auto low = [](std::uint64_t word) { return static_cast<std::uint32_t>(word); };
+  std::seed_seq mixed{low(seed), low(seed >> 32U), low(number), low(number >> 32U)};
+  return std::mt19937_64(mixed);
+}
 
 Chance draw_chance(std::uint64_t seed, std::uint64_t number, double from) {
   expects(from >= 0.0, "from >= 0");

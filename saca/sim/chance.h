@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <random>
 
 #include "saca/manoeuvre/unknown.h"
 #include "saca/world/scene.h"
@@ -35,6 +36,10 @@ struct Chance {
 /// drive.
 constexpr ActorChance actor_sd{
     .ahead = 0.2, .aside = 0.1, .speed = 0.03, .delay = 0.1, .strength = 0.1, .reaction = 0.25};
+
+/// The generator of draw `number` of the series `seed`: neighbouring seeds and numbers give streams
+/// that have nothing in common.
+[[nodiscard]] std::mt19937_64 generator(std::uint64_t seed, std::uint64_t number);
 
 /// Draw `number` of the series `seed`. Common random numbers: the same two give the same draw for
 /// every policy, and draws of different numbers are independent.

@@ -1,0 +1,363 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "saca/core/units.h"
+#include "saca/sim/family.h"
+#include "saca/sim/family_stage.h"
+#include "saca/sim/traffic.h"
+
+namespace saca::sim {
+namespace {
+
+using world::ActorKind;
+
+constexpr double right_angle = 0.5 * std::numbers::pi;
+constexpr double trigger = 1.3;  // [s] before a conflict: T1 of the paper
+
+/// What the twin's first actor does instead; nullopt: it is not there.
+using Harmless = std::optional<Script>;
+
+/// Braking so that whoever goes straight on at `speed` stops after `room`; at once when less is
+/// there than that needs at 7 m/s^2, a hard stop on a dry road.
+Script stopping_after(Script script, double room) {
+  constexpr double hard = 7.0;
+  const double way = 0.5 * script.speed * script.speed / hard;
+  script.behaviour = Behaviour::brake;
+  script.acceleration = way < room ? hard : 0.5 * script.speed * script.speed / room;
+  script.from = std::max(0.0, (room - way) / script.speed);
+  return script;
+}
+
+/// On a straight path across our lane: at `where` along the lane, in the middle of it at `time`.
+Script crossing_at(double s, double d, double time, double heading, double speed) {
+  const double way = speed * time;
+  return {.start = {s - way * std::cos(heading), d - way * std::sin(heading), heading},
+          .speed = speed};
+}
+
+/// Parked beside the lane; its front `ahead` of the place `s`.
+void park(Stage& stage, double s, double ahead, double side) {
+  const double length = Stage::length_of(ActorKind::car);
+  const double d = 0.5 * stage.lane() + 0.6 + 0.5 * Stage::width_of(ActorKind::car);
+  stage.add(ActorKind::car, {.start = {s + ahead - 0.5 * length, side * d, 0.0},
+                             .behaviour = Behaviour::hold});
+  double& edge = side > 0.0 ? stage.scenario.road.left_edge : stage.scenario.road.right_edge;
+  const double needed = d + Stage::width_of(ActorKind::car);
+  edge = side * std::max(std::abs(edge), needed);
+}
+
+Harmless crossing(Stage& stage) {
+  Dice& dice = stage.dice;
+  const ActorKind kind = stage.any_vehicle();
+  const double side = dice.side("from_left_share");
+  const double angle = from_degrees(dice.in("angle_deg"));
+  const double speed = dice.in("other_speed_mps");
+  const double time = Stage::approach + dice.in("late_s");
+  const double s = stage.head() + 0.5 * Stage::width_of(kind);
+  const Script script = crossing_at(s, 0.0, time, -side * angle, speed);
+  stage.add(kind, script);
+  stage.decision = Stage::approach - trigger;
+  if (dice.happens("bystander_share")) {
+    const double aside = -0.5 * stage.lane() - 0.5 - dice.even();
+    stage.add(ActorKind::pedestrian, {.start = {s + dice.in("bystander_ahead_m"),
+                                                dice.even() < 0.5 ? aside : -aside - stage.lane(),
+                                                -side * right_angle},
+                                      .behaviour = Behaviour::hold});
+  }
+  if (stage.scenario.road.oncoming_left && dice.happens("waiting_share")) {
+    const double front = s + 0.5 * Stage::width_of(kind) + dice.in("waiting_ahead_m");
+    stage.add(ActorKind::car,
+              {.start = {front + 0.5 * Stage::length_of(ActorKind::car), stage.lane(),
+                         std::numbers::pi},
+               .behaviour = Behaviour::hold});
+  }
+  // The twin stops a metre before our lane.
+  const double room = speed * time - (0.5 * stage.lane() + 1.0) / std::sin(angle) -
+                      0.5 * Stage::length_of(kind);
+  return stopping_after(script, room);
+}
+
+Harmless one_way(Stage& stage) {
+  Dice& dice = stage.dice;
+  stage.scenario.road.topology = world::Topology::one_way;
+  const double s = stage.head();
+  ScenarioActor& first =
+      stage.add(ActorKind::obstacle, {.behaviour = Behaviour::hold});
+  first.footprint = {.shape = dice.happens("ellipse_share") ? world::Shape::ellipse
+                                                            : world::Shape::box,
+                     .length = dice.in("obstacle_length_m"),
+                     .width = dice.in("obstacle_width_m")};
+  std::get<Script>(first.motion).start = {s + 0.5 * first.footprint.length,
+                                          dice.in("obstacle_offset_m"), 0.0};
+  stage.decision = Stage::approach - trigger;
+  if (dice.happens("second_share")) {
+    const double size = dice.in("second_size_m");
+    const Script place{.start = {s + dice.in("second_ahead_m") + 0.5 * size,
+                                 -dice.in("second_aside_m"), 0.0},
+                       .behaviour = Behaviour::hold};
+    stage.add(ActorKind::obstacle, place).footprint = {
+        .shape = world::Shape::ellipse, .length = size, .width = size};
+  }
+  if (stage.scenario.road.right_edge < -1.4 * stage.lane() && dice.happens("merging_share")) {
+    const double pace = stage.speed * dice.in("merging_speed_share");
+    const double there = stage.speed * stage.decision + dice.in("merging_ahead_m");
+    const world::LanePose start{there - pace * stage.decision, -stage.lane(), 0.0};
+    stage.add(ActorKind::van, changing_lane(start, pace, 0.0, stage.decision,
+                                            dice.in("merging_takes_s")));
+  }
+  return std::nullopt;
+}
+
+Harmless lead_brakes(Stage& stage) {
+  Dice& dice = stage.dice;
+  const ActorKind kind = stage.any_vehicle();
+  const double gap = stage.speed * dice.in("gap_s");
+  const double hard = std::min(dice.in("deceleration_mps2"), 9.81 * stage.scenario.grip);
+  const Script going_on{.start = {stage.front + gap + 0.5 * Stage::length_of(kind), 0.0, 0.0},
+                        .speed = stage.speed};
+  Script brakes = going_on;
+  brakes.behaviour = Behaviour::brake;
+  brakes.acceleration = hard;
+  brakes.from = Stage::approach;
+  stage.add(kind, brakes);
+  stage.decision = Stage::approach + std::max(0.0, std::sqrt(2.0 * gap / hard) - trigger);
+  return going_on;
+}
+
+Harmless cut_in(Stage& stage) {
+  Dice& dice = stage.dice;
+  const ActorKind kind = stage.any_vehicle();
+  const double side = dice.side("from_left_share");
+  const double pace = std::max(1.0, stage.speed - dice.in("slower_mps"));
+  const double gap = dice.in("gap_m");
+  const double takes = dice.in("takes_s");
+  double& edge =
+      side > 0.0 ? stage.scenario.road.left_edge : stage.scenario.road.right_edge;
+  edge = side * std::max(std::abs(edge), 1.5 * stage.lane() + 0.01);
+  const double begins = Stage::approach;
+  const double s = stage.head() + gap + 0.5 * Stage::length_of(kind) - pace * begins;
+  const world::LanePose start{s, side * stage.lane(), 0.0};
+  Script script = changing_lane(start, pace, 0.0, begins, takes);
+  const double hard = std::min(dice.in("deceleration_mps2"), 9.81 * stage.scenario.grip);
+  if (dice.happens("brakes_share")) {
+    script.acceleration = hard;
+  }
+  stage.add(kind, script);
+  stage.decision = begins + 0.4 * takes;
+  return Script{.start = start, .speed = pace};
+}
+
+Harmless cut_out(Stage& stage) {
+  Dice& dice = stage.dice;
+  const ActorKind kind = stage.any_vehicle();
+  const double s = stage.head();
+  const double length = Stage::length_of(ActorKind::car);
+  stage.add(ActorKind::car, {.start = {s + 0.5 * length, dice.in("offset_m"), 0.0},
+                             .behaviour = Behaviour::hold});
+  const double gap = stage.speed * dice.in("gap_s");
+  const double meets = Stage::approach - (gap + Stage::length_of(kind)) / stage.speed;
+  const double side = dice.side("to_left_share");
+  double& edge =
+      side > 0.0 ? stage.scenario.road.left_edge : stage.scenario.road.right_edge;
+  edge = side * std::max(std::abs(edge), 1.5 * stage.lane() + 0.01);
+  const world::LanePose start{stage.front + gap + 0.5 * Stage::length_of(kind), 0.0, 0.0};
+  stage.add(kind, changing_lane(start, stage.speed, side * stage.lane(),
+                                std::max(0.0, meets - dice.in("moves_out_at_s")),
+                                dice.in("takes_s")));
+  stage.decision = Stage::approach - trigger;
+  return std::nullopt;
+}
+
+/// Where across our lane somebody is when our front is there: `overlap` of our width, counted from
+/// the side that he comes from.
+double struck_at(const Stage& stage, double side, double overlap) {
+  return side * stage.width * (0.5 - overlap);
+}
+
+Harmless pedestrian(Stage& stage) {
+  Dice& dice = stage.dice;
+  const double side = dice.side("from_left_share");
+  const double pace = dice.in("walk_mps");
+  const double s = stage.head() + 0.5 * Stage::width_of(ActorKind::pedestrian);
+  const double d = struck_at(stage, side, dice.in("overlap"));
+  Script script = crossing_at(s, d, Stage::approach, -side * right_angle, pace);
+  stage.decision = Stage::approach - trigger;
+  script = walking(script, stage.decision + 0.3, dice.in("run_mps"), dice.in("chance_stop"),
+                   dice.in("chance_run"));
+  stage.add(ActorKind::pedestrian, script);
+  const double ahead = dice.in("parked_ahead_m");
+  if (dice.happens("parked_share")) {
+    park(stage, s, ahead, side);
+  }
+  const double aside = dice.in("second_aside_m");
+  if (dice.happens("second_share")) {
+    stage.add(ActorKind::pedestrian, {.start = {s + 4.0 * dice.even() - 1.0, -side * aside,
+                                                side * right_angle},
+                                      .behaviour = Behaviour::hold});
+  }
+  Script stops = script;
+  stops.behaviour = Behaviour::constant_velocity;
+  return stopping_after(stops,
+                        std::abs(script.start.d) - 0.5 * stage.lane() - 0.5);
+}
+
+Harmless cyclist(Stage& stage) {
+  Dice& dice = stage.dice;
+  const double side = dice.side("from_left_share");
+  const double pace = dice.in("ride_mps");
+  const double overlap = dice.in("overlap");
+  const double takes = dice.in("swerve_takes_s");
+  stage.decision = Stage::approach - trigger;
+  if (dice.happens("along_share")) {
+    // Along our right edge, with us; swerves in before we pass.
+    const double gap = 1.5 + (stage.speed - pace) * (trigger + 0.3 * takes);
+    const double there = stage.speed * stage.decision + stage.front + gap;
+    const world::LanePose start{there - pace * stage.decision, -0.5 * stage.lane() + 0.2, 0.0};
+    const double target = stage.width * (overlap - 0.5);
+    stage.add(ActorKind::bicycle,
+              changing_lane(start, pace, target, stage.decision - 0.5 * takes, takes));
+    Script stays{.start = start, .speed = pace};
+    stays.start.d = -0.5 * stage.lane() - 0.5;
+    return stays;
+  }
+  const double s = stage.head() + 0.5 * Stage::width_of(ActorKind::bicycle);
+  const Script script = crossing_at(s, struck_at(stage, side, overlap), Stage::approach,
+                                    -side * right_angle, pace);
+  stage.add(ActorKind::bicycle, script);
+  const double ahead = dice.in("parked_ahead_m");
+  if (dice.happens("parked_share")) {
+    park(stage, s, ahead, side);
+  }
+  return stopping_after(script, std::abs(script.start.d) - 0.5 * stage.lane() - 0.5 -
+                                    0.5 * Stage::length_of(ActorKind::bicycle));
+}
+
+Harmless head_on(Stage& stage) {
+  Dice& dice = stage.dice;
+  const ActorKind kind = stage.any_vehicle();
+  const double speed = dice.in("other_speed_mps");
+  const double takes = dice.in("drift_takes_s");
+  const double done = Stage::approach - dice.in("done_before_s");
+  const double s = stage.head() + 0.5 * Stage::length_of(kind) + speed * Stage::approach;
+  const world::LanePose start{s, stage.lane(), std::numbers::pi};
+  stage.add(kind, changing_lane(start, speed, dice.in("drift_to_m"), done - takes, takes));
+  stage.decision = Stage::approach - trigger;
+  return Script{.start = start, .speed = speed};
+}
+
+Harmless merge(Stage& stage) {
+  Dice& dice = stage.dice;
+  const ActorKind kind = stage.any_vehicle();
+  const double pace = stage.speed * dice.in("speed_share");
+  const double begins = Stage::approach;
+  const double s = stage.speed * begins + dice.in("ahead_m") - pace * begins;
+  const world::LanePose start{s, -stage.lane(), 0.0};
+  const double takes = dice.in("takes_s");
+  stage.add(kind, changing_lane(start, pace, 0.0, begins, takes));
+  stage.decision = begins + 0.3 * takes;
+  Script waits{.start = start, .speed = pace, .behaviour = Behaviour::brake};
+  waits.acceleration = dice.in("deceleration_mps2");
+  waits.from = begins;
+  return waits;
+}
+
+Harmless play(FamilyKind kind, Stage& stage) {
+  switch (kind) {
+    case FamilyKind::crossing:
+      return crossing(stage);
+    case FamilyKind::one_way:
+      return one_way(stage);
+    case FamilyKind::lead_brakes:
+      return lead_brakes(stage);
+    case FamilyKind::cut_in:
+      return cut_in(stage);
+    case FamilyKind::cut_out:
+      return cut_out(stage);
+    case FamilyKind::pedestrian:
+      return pedestrian(stage);
+    case FamilyKind::cyclist:
+      return cyclist(stage);
+    case FamilyKind::head_on:
+      return head_on(stage);
+    case FamilyKind::merge:
+      break;
+  }
+  return merge(stage);
+}
+
+void label(const Family& family, std::uint64_t seed, std::uint64_t number, std::string_view car,
+           FamilySample& found) {
+  const std::string which = std::to_string(seed) + "_" + std::to_string(number);
+  for (Scenario* scenario : {&found.scenario, &found.twin}) {
+    scenario->title = family.title;
+    scenario->source = "sample " + std::to_string(number) + " of seed " + std::to_string(seed) +
+                       " of the family " + family.name + ", whose file cites each range";
+    scenario->licence = "Apache-2.0";
+    scenario->car = car;
+  }
+  found.scenario.name = family.name + "_" + which;
+  found.twin.name = found.scenario.name + "_twin";
+  found.twin.title += " (without risk)";
+}
+
+/// Nobody touches anybody: the others each other until well into the conflict, the ego somebody
+/// until it must act.
+bool is_sensible(const Scenario& scenario, const world::Footprint& ego, double decision) {
+  constexpr double goes_on = 1.5;  // [s] into the conflict
+  constexpr int steps_per_look = 5;
+  Traffic traffic(scenario);
+  for (int k = 0; traffic.time() < decision + goes_on; ++k) {
+    const world::EgoState state = ego_at(scenario, traffic.time());
+    if (k % steps_per_look == 0) {
+      const auto actors = traffic.actors();
+      for (std::size_t i = 0; i < actors.size(); ++i) {
+        const world::Actor& a = actors[i];
+        if (traffic.time() <= decision &&
+            world::separation(ego, state.X_WB, a.footprint, a.X_WA).distance <= 0.0) {
+          return false;
+        }
+        for (std::size_t j = 0; j < i; ++j) {
+          const world::Actor& b = actors[j];
+          if (world::separation(a.footprint, a.X_WA, b.footprint, b.X_WA).distance <= 0.0) {
+            return false;
+          }
+        }
+      }
+    }
+    traffic.advance(state.X_WB, rotated(state.v_B, state.X_WB.yaw), ego);
+  }
+  return true;
+}
+
+}  // namespace
+
+Result<FamilySample> sample(const Family& family, std::uint64_t seed, std::uint64_t number,
+                            std::string_view car, const world::Footprint& ego) {
+  std::mt19937_64 rng = generator(seed, number);
+  constexpr int tries = 100;
+  for (int k = 0; k < tries; ++k) {
+    Dice dice(family, rng);
+    Stage stage(dice, ego, family.kind == FamilyKind::crossing);
+    const Harmless harmless = play(family.kind, stage);
+    stage.add_surroundings();
+    FamilySample found{.scenario = stage.scenario, .twin = stage.scenario};
+    label(family, seed, number, car, found);
+    if (harmless) {
+      found.twin.actors.front().motion = *harmless;
+    } else {
+      found.twin.actors.erase(found.twin.actors.begin());
+    }
+    if (is_sensible(found.scenario, ego, stage.decision) &&
+        is_sensible(found.twin, ego, stage.decision)) {
+      return found;
+    }
+  }
+  return Error{Error::Code::out_of_range,
+               family.name + ": 100 draws of sample " + std::to_string(number) + " of seed " +
+                   std::to_string(seed) +
+                   " gave no encounter in which only the conflict itself is a contact: narrow its "
+                   "ranges"};
+}
+
+}  // namespace saca::sim

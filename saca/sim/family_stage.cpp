@@ -1,0 +1,143 @@
+#include "saca/sim/family_stage.h"
+
+#include <array>
+#include <numbers>
+
+#include "saca/core/contract.h"
+
+namespace saca::sim {
+namespace {
+
+using world::ActorKind;
+using world::Beyond;
+
+struct Body {
+  world::Shape shape;
+  double length;  // [m]
+  double width;   // [m]
+  double mass;    // [kg]
+};
+
+// By ActorKind: a middle-sized one of each. Car: the Global Vehicle Target's size and a compact
+// car's mass; person: Euro NCAP's adult dummy, 0.5 m wide; others: assumptions.
+constexpr std::array<Body, 7> bodies{{{world::Shape::box, 4.02, 1.71, 1400.0},
+                                      {world::Shape::box, 5.5, 2.0, 2300.0},
+                                      {world::Shape::box, 8.0, 2.5, 12000.0},
+                                      {world::Shape::box, 2.1, 0.8, 260.0},
+                                      {world::Shape::box, 1.8, 0.5, 90.0},
+                                      {world::Shape::ellipse, 0.6, 0.5, 75.0},
+                                      {world::Shape::box, 2.0, 2.0, 1000.0}}};
+
+const Body& body_of(ActorKind kind) {
+  return bodies[static_cast<std::size_t>(kind)];
+}
+
+Beyond draw_beyond(Dice& dice) {
+  const double barrier = dice.in("barrier_share");
+  const double trees = barrier + dice.in("trees_share");
+  const double kerb = trees + dice.in("kerb_share");
+  const double u = dice.even();
+  return u < barrier  ? Beyond::barrier
+         : u < trees  ? Beyond::trees
+         : u < kerb   ? Beyond::kerb
+                      : Beyond::unmarked;
+}
+
+}  // namespace
+
+double Dice::in(std::string_view key) {
+  const auto range = family_.ranges.find(key);
+  expects(range != family_.ranges.end(), "the family has a range for the key");
+  const auto& [min, max, source] = range->second;
+  return min + (max - min) * even();
+}
+
+Stage::Stage(Dice& the_dice, const world::Footprint& ego, bool junction) : dice(the_dice) {
+  world::Road& road = scenario.road;
+  road.topology = junction ? world::Topology::intersection : world::Topology::straight;
+  scenario.grip = dice.in("grip");
+  road.lane_width = dice.in("lane_width_m");
+  const bool left = dice.happens("left_lane_share");
+  const bool right = dice.happens("right_lane_share");
+  oncoming_ = dice.happens("oncoming_share") && left;
+  road.oncoming_left = oncoming_;
+  road.left_edge = road.lane_width * (left ? 1.5 : 0.5) + dice.in("shoulder_m") + 0.01;
+  road.right_edge = -road.lane_width * (right ? 1.5 : 0.5) - dice.in("shoulder_m") - 0.01;
+  road.left_beyond = draw_beyond(dice);
+  road.right_beyond = draw_beyond(dice);
+  speed = dice.in("ego_speed_mps");
+  front = ego.centre_x + 0.5 * ego.length;
+  rear = 0.5 * ego.length - ego.centre_x;
+  width = ego.width;
+  scenario.ego = EgoStart{{}, speed};
+  scenario.duration = approach + 8.0;
+  decision = approach;
+}
+
+double Stage::length_of(ActorKind kind) {
+  return body_of(kind).length;
+}
+double Stage::width_of(ActorKind kind) {
+  return body_of(kind).width;
+}
+
+ActorKind Stage::any_vehicle() {
+  const double van = dice.in("van_share");
+  const double truck = van + dice.in("truck_share");
+  const double u = dice.even();
+  return u < van ? ActorKind::van : u < truck ? ActorKind::truck : ActorKind::car;
+}
+
+ScenarioActor& Stage::add(ActorKind kind, Script script) {
+  std::uint8_t id = 1;
+  for (const ScenarioActor& other : scenario.actors) {
+    id = static_cast<std::uint8_t>(id + (other.kind == kind ? 1 : 0));
+  }
+  const Body& body = body_of(kind);
+  scenario.actors.push_back(
+      {.id = id,
+       .kind = kind,
+       .footprint = {.shape = body.shape, .length = body.length, .width = body.width},
+       .mass = body.mass,
+       .motion = script});
+  return scenario.actors.back();
+}
+
+void Stage::add_surroundings() {
+  add_follower();
+  if (scenario.road.left_edge > 1.4 * lane() && dice.happens("left_busy_share")) {
+    add_neighbour(1.0);
+  }
+  if (-scenario.road.right_edge > 1.4 * lane() && dice.happens("right_busy_share")) {
+    add_neighbour(-1.0);
+  }
+}
+
+void Stage::add_follower() {
+  const bool there = dice.happens("follower_share");
+  const double gap = speed * dice.in("follower_gap_s");
+  const double reaction = dice.in("follower_reaction_s");
+  if (!there) {
+    return;
+  }
+  const double length = length_of(ActorKind::car);
+  add(ActorKind::car, reacting({.s = -rear - gap - 0.5 * length}, speed, reaction));
+}
+
+void Stage::add_neighbour(double side) {
+  const double gap = dice.in("neighbour_gap_m");
+  const double share = dice.in("neighbour_speed_share");
+  const double ahead = dice.in("oncoming_ahead_m");
+  const double reaction = dice.in("follower_reaction_s");
+  const double there = speed * decision;  // the ego, when it must act
+  const double pace = share * speed;
+  if (side > 0.0 && oncoming_) {
+    const double s = there + front + ahead + 0.5 * length_of(ActorKind::car) + pace * decision;
+    add(ActorKind::car, {.start = {s, lane(), std::numbers::pi}, .speed = pace});
+  } else {
+    add(ActorKind::car, reacting({.s = there + gap - pace * decision, .d = side * lane()}, pace,
+                                 reaction));
+  }
+}
+
+}  // namespace saca::sim

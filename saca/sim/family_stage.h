@@ -1,0 +1,69 @@
+#pragma once
+
+#include <optional>
+#include <random>
+#include <string_view>
+
+#include "saca/sim/family.h"
+
+namespace saca::sim {
+
+/// Draws the numbers of a family, in the order in which they are asked for.
+class Dice {
+ public:
+  Dice(const Family& family, std::mt19937_64& rng) : family_(family), rng_(rng) {}
+
+  /// Evenly between the ends of the range `key`.
+  [[nodiscard]] double in(std::string_view key);
+  /// With the probability drawn from `key`.
+  [[nodiscard]] bool happens(std::string_view key) { return even() < in(key); }
+  /// +1 for left with the probability drawn from `key`, else -1.
+  [[nodiscard]] double side(std::string_view left_share) { return happens(left_share) ? 1.0 : -1.0; }
+  /// In [0, 1).
+  [[nodiscard]] double even() { return std::uniform_real_distribution<double>()(rng_); }
+
+ private:
+  const Family& family_;
+  std::mt19937_64& rng_;
+};
+
+/// One encounter while it is put together: straight road, the ego's lane along x from its start.
+class Stage {
+ public:
+  /// How long before its encounter the ego is on its way [s]: longer than T2.
+  static constexpr double approach = 6.5;
+
+  /// The road and the ego; `ego_speed_mps` and the road's numbers are drawn.
+  Stage(Dice& dice, const world::Footprint& ego, bool junction);
+
+  Dice& dice;
+  Scenario scenario;
+  double speed = 0.0;     ///< of the ego [m/s]
+  double front = 0.0;     ///< of the ego ahead of its centre of mass [m]
+  double rear = 0.0;      ///< of the ego behind it [m]
+  double width = 0.0;     ///< of the ego [m]
+  double decision = 0.0;  ///< about when the ego must act [s]: set by who makes the conflict
+
+  /// Where the ego's front is when the approach is over [m].
+  [[nodiscard]] double head() const { return front + speed * approach; }
+  [[nodiscard]] double lane() const { return scenario.road.lane_width; }
+
+  /// Another body of a usual size; the first one added is what the conflict is about.
+  ScenarioActor& add(world::ActorKind kind, Script script);
+  /// Car, van or truck, as `van_share` and `truck_share` say.
+  [[nodiscard]] world::ActorKind any_vehicle();
+  /// Length of a usual body of this kind [m].
+  [[nodiscard]] static double length_of(world::ActorKind kind);
+  [[nodiscard]] static double width_of(world::ActorKind kind);
+
+  /// Who drives behind, beside and towards the ego, as the surroundings say; call it last.
+  void add_surroundings();
+
+ private:
+  void add_follower();
+  void add_neighbour(double side);
+
+  bool oncoming_ = false;
+};
+
+}  // namespace saca::sim
