@@ -19,10 +19,10 @@ constexpr std::array<std::string_view, num_family_kinds> kind_names{
 
 // Every share is a probability; of two that exclude each other the sum is at most 1.
 constexpr std::array surroundings_list = std::to_array<std::string_view>(
-    {"grip", "lane_width_m", "shoulder_m", "left_lane_share", "right_lane_share",
-     "oncoming_share", "barrier_share", "trees_share", "kerb_share", "left_busy_share",
-     "right_busy_share", "neighbour_gap_m", "neighbour_speed_share", "oncoming_ahead_m",
-     "follower_share", "follower_gap_s", "follower_reaction_s"});
+    {"grip", "lane_width_m", "shoulder_m", "left_lane_share", "right_lane_share", "oncoming_share",
+     "barrier_share", "trees_share", "kerb_share", "left_busy_share", "right_busy_share",
+     "neighbour_gap_m", "neighbour_speed_share", "oncoming_ahead_m", "follower_share",
+     "follower_gap_s", "follower_reaction_s"});
 
 constexpr std::array crossing_list = std::to_array<std::string_view>(
     {"ego_speed_mps", "other_speed_mps", "angle_deg", "late_s", "from_left_share", "van_share",
@@ -36,21 +36,21 @@ constexpr std::array lead_brakes_list = std::to_array<std::string_view>(
 constexpr std::array cut_in_list = std::to_array<std::string_view>(
     {"ego_speed_mps", "slower_mps", "gap_m", "takes_s", "from_left_share", "brakes_share",
      "deceleration_mps2", "van_share", "truck_share"});
-constexpr std::array cut_out_list = std::to_array<std::string_view>(
-    {"ego_speed_mps", "gap_s", "moves_out_at_s", "takes_s", "to_left_share", "offset_m",
-     "van_share", "truck_share"});
+constexpr std::array cut_out_list =
+    std::to_array<std::string_view>({"ego_speed_mps", "gap_s", "moves_out_at_s", "takes_s",
+                                     "to_left_share", "offset_m", "van_share", "truck_share"});
 constexpr std::array pedestrian_list = std::to_array<std::string_view>(
     {"ego_speed_mps", "walk_mps", "run_mps", "chance_stop", "chance_run", "overlap",
      "from_left_share", "parked_share", "parked_ahead_m", "second_share", "second_aside_m"});
 constexpr std::array cyclist_list = std::to_array<std::string_view>(
     {"ego_speed_mps", "ride_mps", "along_share", "overlap", "from_left_share", "swerve_takes_s",
      "parked_share", "parked_ahead_m"});
-constexpr std::array head_on_list = std::to_array<std::string_view>(
-    {"ego_speed_mps", "other_speed_mps", "drift_takes_s", "done_before_s", "drift_to_m",
-     "van_share", "truck_share"});
-constexpr std::array merge_list = std::to_array<std::string_view>(
-    {"ego_speed_mps", "speed_share", "ahead_m", "takes_s", "deceleration_mps2", "van_share",
-     "truck_share"});
+constexpr std::array head_on_list =
+    std::to_array<std::string_view>({"ego_speed_mps", "other_speed_mps", "drift_takes_s",
+                                     "done_before_s", "drift_to_m", "van_share", "truck_share"});
+constexpr std::array merge_list =
+    std::to_array<std::string_view>({"ego_speed_mps", "speed_share", "ahead_m", "takes_s",
+                                     "deceleration_mps2", "van_share", "truck_share"});
 
 bool is_share(std::string_view key) {
   return key.ends_with("_share") && key.find("speed") == key.npos;
@@ -115,9 +115,9 @@ std::optional<FamilyKind> family_kind_from(std::string_view name) {
 
 Keys own_keys(FamilyKind kind) {
   static constexpr std::array<Keys, num_family_kinds> keys{
-      Keys(crossing_list), Keys(one_way_list),    Keys(lead_brakes_list),
-      Keys(cut_in_list),   Keys(cut_out_list),    Keys(pedestrian_list),
-      Keys(cyclist_list),  Keys(head_on_list),    Keys(merge_list)};
+      Keys(crossing_list), Keys(one_way_list), Keys(lead_brakes_list),
+      Keys(cut_in_list),   Keys(cut_out_list), Keys(pedestrian_list),
+      Keys(cyclist_list),  Keys(head_on_list), Keys(merge_list)};
   return keys[static_cast<std::size_t>(kind)];
 }
 
@@ -147,8 +147,10 @@ Result<Family> read_family(std::string_view text, std::string_view source,
   const std::string kind = root.text("kind");
   const auto known = family_kind_from(kind);
   if (!known) {
-    root.reject("kind", "want crossing, one_way, lead_brakes, cut_in, cut_out, pedestrian, "
-                        "cyclist, head_on or merge, got \"" + kind + "\"");
+    root.reject("kind",
+                "want crossing, one_way, lead_brakes, cut_in, cut_out, pedestrian, "
+                "cyclist, head_on or merge, got \"" +
+                    kind + "\"");
   }
   family.kind = known.value_or(FamilyKind::crossing);
   family.title = root.text("title");

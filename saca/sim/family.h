@@ -41,7 +41,7 @@ struct Family {
   std::string name;  ///< also the file's
   FamilyKind kind = FamilyKind::crossing;
   std::string title;
-  std::string why;                                         ///< what it is there for, in one sentence
+  std::string why;  ///< what it is there for, in one sentence
   std::map<std::string, FamilyRange, std::less<>> ranges;  ///< every key of its kind, no other
 };
 

@@ -40,8 +40,8 @@ Script crossing_at(double s, double d, double time, double heading, double speed
 void park(Stage& stage, double s, double ahead, double side) {
   const double length = Stage::length_of(ActorKind::car);
   const double d = 0.5 * stage.lane() + 0.6 + 0.5 * Stage::width_of(ActorKind::car);
-  stage.add(ActorKind::car, {.start = {s + ahead - 0.5 * length, side * d, 0.0},
-                             .behaviour = Behaviour::hold});
+  stage.add(ActorKind::car,
+            {.start = {s + ahead - 0.5 * length, side * d, 0.0}, .behaviour = Behaviour::hold});
   double& edge = side > 0.0 ? stage.scenario.road.left_edge : stage.scenario.road.right_edge;
   const double needed = d + Stage::width_of(ActorKind::car);
   edge = side * std::max(std::abs(edge), needed);
@@ -60,21 +60,20 @@ Harmless crossing(Stage& stage) {
   stage.decision = Stage::approach - trigger;
   if (dice.happens("bystander_share")) {
     const double aside = -0.5 * stage.lane() - 0.5 - dice.even();
-    stage.add(ActorKind::pedestrian, {.start = {s + dice.in("bystander_ahead_m"),
-                                                dice.even() < 0.5 ? aside : -aside - stage.lane(),
-                                                -side * right_angle},
-                                      .behaviour = Behaviour::hold});
+    stage.add(ActorKind::pedestrian,
+              {.start = {s + dice.in("bystander_ahead_m"),
+                         dice.even() < 0.5 ? aside : -aside - stage.lane(), -side * right_angle},
+               .behaviour = Behaviour::hold});
   }
   if (stage.scenario.road.oncoming_left && dice.happens("waiting_share")) {
     const double front = s + 0.5 * Stage::width_of(kind) + dice.in("waiting_ahead_m");
-    stage.add(ActorKind::car,
-              {.start = {front + 0.5 * Stage::length_of(ActorKind::car), stage.lane(),
-                         std::numbers::pi},
-               .behaviour = Behaviour::hold});
+    stage.add(ActorKind::car, {.start = {front + 0.5 * Stage::length_of(ActorKind::car),
+                                         stage.lane(), std::numbers::pi},
+                               .behaviour = Behaviour::hold});
   }
   // The twin stops a metre before our lane.
-  const double room = speed * time - (0.5 * stage.lane() + 1.0) / std::sin(angle) -
-                      0.5 * Stage::length_of(kind);
+  const double room =
+      speed * time - (0.5 * stage.lane() + 1.0) / std::sin(angle) - 0.5 * Stage::length_of(kind);
   return stopping_after(script, room);
 }
 
@@ -82,20 +81,19 @@ Harmless one_way(Stage& stage) {
   Dice& dice = stage.dice;
   stage.scenario.road.topology = world::Topology::one_way;
   const double s = stage.head();
-  ScenarioActor& first =
-      stage.add(ActorKind::obstacle, {.behaviour = Behaviour::hold});
-  first.footprint = {.shape = dice.happens("ellipse_share") ? world::Shape::ellipse
-                                                            : world::Shape::box,
-                     .length = dice.in("obstacle_length_m"),
-                     .width = dice.in("obstacle_width_m")};
+  ScenarioActor& first = stage.add(ActorKind::obstacle, {.behaviour = Behaviour::hold});
+  first.footprint = {
+      .shape = dice.happens("ellipse_share") ? world::Shape::ellipse : world::Shape::box,
+      .length = dice.in("obstacle_length_m"),
+      .width = dice.in("obstacle_width_m")};
   std::get<Script>(first.motion).start = {s + 0.5 * first.footprint.length,
                                           dice.in("obstacle_offset_m"), 0.0};
   stage.decision = Stage::approach - trigger;
   if (dice.happens("second_share")) {
     const double size = dice.in("second_size_m");
-    const Script place{.start = {s + dice.in("second_ahead_m") + 0.5 * size,
-                                 -dice.in("second_aside_m"), 0.0},
-                       .behaviour = Behaviour::hold};
+    const Script place{
+        .start = {s + dice.in("second_ahead_m") + 0.5 * size, -dice.in("second_aside_m"), 0.0},
+        .behaviour = Behaviour::hold};
     stage.add(ActorKind::obstacle, place).footprint = {
         .shape = world::Shape::ellipse, .length = size, .width = size};
   }
@@ -103,8 +101,8 @@ Harmless one_way(Stage& stage) {
     const double pace = stage.speed * dice.in("merging_speed_share");
     const double there = stage.speed * stage.decision + dice.in("merging_ahead_m");
     const world::LanePose start{there - pace * stage.decision, -stage.lane(), 0.0};
-    stage.add(ActorKind::van, changing_lane(start, pace, 0.0, stage.decision,
-                                            dice.in("merging_takes_s")));
+    stage.add(ActorKind::van,
+              changing_lane(start, pace, 0.0, stage.decision, dice.in("merging_takes_s")));
   }
   return std::nullopt;
 }
@@ -132,8 +130,7 @@ Harmless cut_in(Stage& stage) {
   const double pace = std::max(1.0, stage.speed - dice.in("slower_mps"));
   const double gap = dice.in("gap_m");
   const double takes = dice.in("takes_s");
-  double& edge =
-      side > 0.0 ? stage.scenario.road.left_edge : stage.scenario.road.right_edge;
+  double& edge = side > 0.0 ? stage.scenario.road.left_edge : stage.scenario.road.right_edge;
   edge = side * std::max(std::abs(edge), 1.5 * stage.lane() + 0.01);
   const double begins = Stage::approach;
   const double s = stage.head() + gap + 0.5 * Stage::length_of(kind) - pace * begins;
@@ -153,18 +150,17 @@ Harmless cut_out(Stage& stage) {
   const ActorKind kind = stage.any_vehicle();
   const double s = stage.head();
   const double length = Stage::length_of(ActorKind::car);
-  stage.add(ActorKind::car, {.start = {s + 0.5 * length, dice.in("offset_m"), 0.0},
-                             .behaviour = Behaviour::hold});
+  stage.add(ActorKind::car,
+            {.start = {s + 0.5 * length, dice.in("offset_m"), 0.0}, .behaviour = Behaviour::hold});
   const double gap = stage.speed * dice.in("gap_s");
   const double meets = Stage::approach - (gap + Stage::length_of(kind)) / stage.speed;
   const double side = dice.side("to_left_share");
-  double& edge =
-      side > 0.0 ? stage.scenario.road.left_edge : stage.scenario.road.right_edge;
+  double& edge = side > 0.0 ? stage.scenario.road.left_edge : stage.scenario.road.right_edge;
   edge = side * std::max(std::abs(edge), 1.5 * stage.lane() + 0.01);
   const world::LanePose start{stage.front + gap + 0.5 * Stage::length_of(kind), 0.0, 0.0};
-  stage.add(kind, changing_lane(start, stage.speed, side * stage.lane(),
-                                std::max(0.0, meets - dice.in("moves_out_at_s")),
-                                dice.in("takes_s")));
+  stage.add(kind,
+            changing_lane(start, stage.speed, side * stage.lane(),
+                          std::max(0.0, meets - dice.in("moves_out_at_s")), dice.in("takes_s")));
   stage.decision = Stage::approach - trigger;
   return std::nullopt;
 }
@@ -192,14 +188,13 @@ Harmless pedestrian(Stage& stage) {
   }
   const double aside = dice.in("second_aside_m");
   if (dice.happens("second_share")) {
-    stage.add(ActorKind::pedestrian, {.start = {s + 4.0 * dice.even() - 1.0, -side * aside,
-                                                side * right_angle},
-                                      .behaviour = Behaviour::hold});
+    stage.add(ActorKind::pedestrian,
+              {.start = {s + 4.0 * dice.even() - 1.0, -side * aside, side * right_angle},
+               .behaviour = Behaviour::hold});
   }
   Script stops = script;
   stops.behaviour = Behaviour::constant_velocity;
-  return stopping_after(stops,
-                        std::abs(script.start.d) - 0.5 * stage.lane() - 0.5);
+  return stopping_after(stops, std::abs(script.start.d) - 0.5 * stage.lane() - 0.5);
 }
 
 Harmless cyclist(Stage& stage) {
@@ -222,8 +217,8 @@ Harmless cyclist(Stage& stage) {
     return stays;
   }
   const double s = stage.head() + 0.5 * Stage::width_of(ActorKind::bicycle);
-  const Script script = crossing_at(s, struck_at(stage, side, overlap), Stage::approach,
-                                    -side * right_angle, pace);
+  const Script script =
+      crossing_at(s, struck_at(stage, side, overlap), Stage::approach, -side * right_angle, pace);
   stage.add(ActorKind::bicycle, script);
   const double ahead = dice.in("parked_ahead_m");
   if (dice.happens("parked_share")) {

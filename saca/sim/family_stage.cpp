@@ -37,10 +37,10 @@ Beyond draw_beyond(Dice& dice) {
   const double trees = barrier + dice.in("trees_share");
   const double kerb = trees + dice.in("kerb_share");
   const double u = dice.even();
-  return u < barrier  ? Beyond::barrier
-         : u < trees  ? Beyond::trees
-         : u < kerb   ? Beyond::kerb
-                      : Beyond::unmarked;
+  return u < barrier ? Beyond::barrier
+         : u < trees ? Beyond::trees
+         : u < kerb  ? Beyond::kerb
+                     : Beyond::unmarked;
 }
 
 }  // namespace
@@ -135,8 +135,8 @@ void Stage::add_neighbour(double side) {
     const double s = there + front + ahead + 0.5 * length_of(ActorKind::car) + pace * decision;
     add(ActorKind::car, {.start = {s, lane(), std::numbers::pi}, .speed = pace});
   } else {
-    add(ActorKind::car, reacting({.s = there + gap - pace * decision, .d = side * lane()}, pace,
-                                 reaction));
+    add(ActorKind::car,
+        reacting({.s = there + gap - pace * decision, .d = side * lane()}, pace, reaction));
   }
 }
 

@@ -18,7 +18,9 @@ class Dice {
   /// With the probability drawn from `key`.
   [[nodiscard]] bool happens(std::string_view key) { return even() < in(key); }
   /// +1 for left with the probability drawn from `key`, else -1.
-  [[nodiscard]] double side(std::string_view left_share) { return happens(left_share) ? 1.0 : -1.0; }
+  [[nodiscard]] double side(std::string_view left_share) {
+    return happens(left_share) ? 1.0 : -1.0;
+  }
   /// In [0, 1).
   [[nodiscard]] double even() { return std::uniform_real_distribution<double>()(rng_); }
 
