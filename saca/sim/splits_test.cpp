@@ -76,7 +76,7 @@ TEST(Splits, RefuseWhatIsWrong) {
   const std::string text(splits_text);
   EXPECT_THAT(complaint(text, "splits/1", "splits/2"), HasSubstr("s.toml:1: schema: want"));
   EXPECT_THAT(complaint(text, "tuning = 11", "tuning = 13"), HasSubstr("13 again"));
-  EXPECT_THAT(complaint(text, "tuning = 11", "tuning = 0"), HasSubstr("s.toml:3: seeds.tuning"));
+  EXPECT_THAT(complaint(text, "tuning = 11", "tuning = 0"), HasSubstr("s.toml:3: tuning: want"));
   EXPECT_THAT(complaint(text, "tuning = 11", "training = 11"), HasSubstr("tuning"));
   EXPECT_THAT(complaint(text, "family = ", "families = "), HasSubstr("family"));
 }
