@@ -1,9 +1,11 @@
 #include "saca/sim/family_stage.h"
 
+#include <algorithm>
 #include <array>
 #include <numbers>
 
 #include "saca/core/contract.h"
+#include "saca/intent/driver.h"
 
 namespace saca::sim {
 namespace {
@@ -44,6 +46,24 @@ Beyond draw_beyond(Dice& dice) {
 }
 
 }  // namespace
+
+Script reacting(world::LanePose start, double speed, double gap, double reaction) {
+  Script script{.start = start, .speed = speed, .behaviour = Behaviour::follow};
+  script.law = intent::content_with(intent::usual_driver(speed), speed, gap);
+  script.law.desired_speed = std::max(speed, 1.0);
+  script.law.reaction = reaction;
+  return script;
+}
+
+Script changing_lane(world::LanePose start, double speed, double to_d, double begins,
+                     double takes) {
+  return {.start = start,
+          .speed = speed,
+          .behaviour = Behaviour::lane_change,
+          .from = begins,
+          .to_d = to_d,
+          .takes = takes};
+}
 
 double Dice::in(std::string_view key) {
   const auto range = family_.ranges.find(key);
@@ -121,7 +141,7 @@ void Stage::add_follower() {
     return;
   }
   const double length = length_of(ActorKind::car);
-  add(ActorKind::car, reacting({.s = -rear - gap - 0.5 * length}, speed, reaction));
+  add(ActorKind::car, reacting({.s = -rear - gap - 0.5 * length}, speed, gap, reaction));
 }
 
 void Stage::add_neighbour(double side) {

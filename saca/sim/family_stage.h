@@ -29,6 +29,12 @@ class Dice {
   std::mt19937_64& rng_;
 };
 
+/// Keeps its pace along the lane and reacts to whoever is ahead; content with the gap that it has.
+[[nodiscard]] Script reacting(world::LanePose start, double speed, double gap, double reaction);
+/// Along the lane at a constant pace, from `begins` on to another d within `takes`.
+[[nodiscard]] Script changing_lane(world::LanePose start, double speed, double to_d, double begins,
+                                   double takes);
+
 /// One encounter while it is put together: straight road, the ego's lane along x from its start.
 class Stage {
  public:
