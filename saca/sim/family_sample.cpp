@@ -15,6 +15,8 @@ using world::ActorKind;
 constexpr double right_angle = 0.5 * std::numbers::pi;
 constexpr double trigger = 1.3;  // [s] before a conflict: T1 of the paper
 
+constexpr double notices = 0.3;  // [s] after the ego must act somebody on foot sees it: assumption
+
 /// What the twin's first actor does instead; nullopt: it is not there.
 using Harmless = std::optional<Script>;
 
@@ -179,8 +181,15 @@ Harmless pedestrian(Stage& stage) {
   const double d = struck_at(stage, side, dice.in("overlap"));
   Script script = crossing_at(s, d, Stage::approach, -side * right_angle, pace);
   stage.decision = Stage::approach - trigger;
-  script = walking(script, stage.decision + 0.3, dice.in("run_mps"), dice.in("chance_stop"),
-                   dice.in("chance_run"));
+  script.behaviour = Behaviour::walk;
+  script.from = stage.decision + notices;
+  script.run_speed = dice.in("run_mps");
+  script.chance_stop = dice.in("chance_stop");
+  script.chance_run = dice.in("chance_run");
+  const double choice = dice.even();
+  script.then = choice < *script.chance_stop                        ? Deed::stop
+                : choice < *script.chance_stop + *script.chance_run ? Deed::run
+                                                                    : Deed::go_on;
   stage.add(ActorKind::pedestrian, script);
   const double ahead = dice.in("parked_ahead_m");
   if (dice.happens("parked_share")) {

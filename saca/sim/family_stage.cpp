@@ -30,6 +30,8 @@ constexpr std::array<Body, 7> bodies{{{world::Shape::box, 4.02, 1.71, 1400.0},
                                       {world::Shape::ellipse, 0.6, 0.5, 75.0},
                                       {world::Shape::box, 2.0, 2.0, 1000.0}}};
 
+constexpr double free_road = 1e3;  // [m]
+
 const Body& body_of(ActorKind kind) {
   return bodies[static_cast<std::size_t>(kind)];
 }
@@ -155,8 +157,8 @@ void Stage::add_neighbour(double side) {
     const double s = there + front + ahead + 0.5 * length_of(ActorKind::car) + pace * decision;
     add(ActorKind::car, {.start = {s, lane(), std::numbers::pi}, .speed = pace});
   } else {
-    add(ActorKind::car,
-        reacting({.s = there + gap - pace * decision, .d = side * lane()}, pace, reaction));
+    add(ActorKind::car, reacting({.s = there + gap - pace * decision, .d = side * lane()}, pace,
+                                 free_road, reaction));
   }
 }
 

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "saca/eval/moment.h"
+#include "saca/outcome/expected.h"
+
+namespace saca::eval {
+
+/// How the eight are compared.
+struct OracleOptions {
+  double time = 0.0;  ///< when they begin [s]
+  int draws = 0;      ///< of what is left to chance; 0: none, the scenario as written
+  std::uint64_t seed = 1;
+  int threads = 1;  ///< they do not change the result
+};
+
+/// What one policy ends in.
+struct Verdict {
+  loop::Hindsight written;      ///< with nothing left to chance
+  outcome::Expected expected;   ///< over the draws; of 0 draws that of `written` alone
+  outcome::Estimate behind;     ///< harm above that of the best, the same draws [-]
+};
+
+/// All eight, and their order.
+struct Oracle {
+  world::Scene scene;  ///< when they begin
+  std::array<Verdict, manoeuvre::num_policies> verdicts;
+  /// Those that can be driven, best first, by the one ordering (outcome/ordering.h) of their
+  /// expected outcomes.
+  std::vector<manoeuvre::PolicyId> ranking;
+
+  [[nodiscard]] manoeuvre::PolicyId best() const { return ranking.front(); }
+  [[nodiscard]] const Verdict& of(manoeuvre::PolicyId policy) const {
+    return verdicts[manoeuvre::index(policy)];
+  }
+};
+
+/// Knows what the others will do, tries all eight, and ranks them.
+///
+/// Common random numbers: draw k is the same world for every policy. Refusals are those of the
+/// scene as written.
+[[nodiscard]] Oracle oracle(const sim::Scenario& scenario, const manoeuvre::Car& car,
+                            const outcome::HarmModel& harm, const OracleOptions& options);
+
+/// By how much the best is alone: the harm of the second best of all others above its own, and the
+/// lower end of its 95 % interval. 0 or less: it is not alone.
+struct Margin {
+  double mean = 0.0;
+  double low = 0.0;
+};
+[[nodiscard]] Margin margin_of_best(const Oracle& oracle);
+
+}  // namespace saca::eval
