@@ -20,9 +20,9 @@ struct OracleOptions {
 
 /// What one policy ends in.
 struct Verdict {
-  loop::Hindsight written;      ///< with nothing left to chance
-  outcome::Expected expected;   ///< over the draws; of 0 draws that of `written` alone
-  outcome::Estimate behind;     ///< harm above that of the best, the same draws [-]
+  loop::Hindsight written;     ///< with nothing left to chance
+  outcome::Expected expected;  ///< over the draws; of 0 draws that of `written` alone
+  outcome::Estimate behind;    ///< harm above that of the best, the same draws [-]
 };
 
 /// All eight, and their order.

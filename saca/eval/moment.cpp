@@ -1,0 +1,57 @@
+#include "saca/eval/moment.h"
+
+#include <cmath>
+
+#include "saca/core/contract.h"
+#include "saca/sim/stepper.h"
+
+namespace saca::eval {
+namespace {
+
+constexpr int steps_per_look = 10;  // 10 ms
+
+int looks_until(double time) {
+  return static_cast<int>(std::lround(time / (steps_per_look * sim::Stepper::step)));
+}
+
+void advance_one_look(sim::Stepper& stepper) {
+  for (int k = 0; k < steps_per_look; ++k) {
+    stepper.advance({});
+  }
+}
+
+}  // namespace
+
+std::optional<double> trigger_time(const sim::Scenario& scenario, const manoeuvre::Car& car,
+                                   const preview::Thresholds& thresholds) {
+  sim::Stepper stepper(scenario, car);
+  while (!stepper.over()) {
+    if (preview::nearest_threat(stepper.scene(), thresholds.trigger,
+                                thresholds.trigger_tolerance)) {
+      return stepper.time();
+    }
+    advance_one_look(stepper);
+  }
+  return std::nullopt;
+}
+
+Moment moment_at(const sim::Scenario& scenario, const manoeuvre::Car& car, double time,
+                 const sim::Chance& chance) {
+  expects(time >= 0.0 && time <= scenario.duration, "time in [0, duration]");
+  sim::Stepper stepper(scenario, car, chance);
+  for (int k = 0; k < looks_until(time); ++k) {
+    advance_one_look(stepper);
+  }
+  return {.scene = stepper.scene(),
+          .others = stepper.others(),
+          .grip = scenario.grip,
+          .unknown = chance.car};
+}
+
+std::array<loop::Hindsight, manoeuvre::num_policies> attempts(const Moment& moment,
+                                                              const manoeuvre::Car& car,
+                                                              const outcome::HarmModel& harm) {
+  return loop::hindsight(moment.scene, moment.others, moment.grip, car, harm, moment.unknown);
+}
+
+}  // namespace saca::eval

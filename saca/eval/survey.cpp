@@ -1,0 +1,143 @@
+#include "saca/eval/survey.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "saca/core/csv.h"
+#include "saca/core/percentile.h"
+#include "saca/preview/preview.h"
+
+namespace saca::eval {
+namespace {
+
+using manoeuvre::num_policies;
+using manoeuvre::PolicyId;
+
+constexpr std::string_view no_number = "-";
+
+std::string word_of(const std::optional<double>& number) {
+  return number ? fmt::format("{:.17g}", *number) : std::string(no_number);
+}
+
+// False when the word is neither a number nor missing.
+bool read_word(std::string_view word, std::optional<double>& number) {
+  number = finite_number(word);
+  return number.has_value() || word == no_number;
+}
+
+long class_of(double harm) {
+  return std::lround(harm / outcome::harm_tie);
+}
+
+}  // namespace
+
+Finding look_into(const Moment& moment, const manoeuvre::Car& car, const outcome::HarmModel& harm) {
+  Finding finding;
+  finding.time = moment.scene.time;
+  std::array<preview::PolicyFacts, num_policies> facts;
+  const auto tried = attempts(moment, car, harm);
+  for (std::size_t i = 0; i < num_policies; ++i) {
+    facts[i] = tried[i].facts;
+    if (facts[i].refusal.empty()) {
+      finding.harm[i] = facts[i].outcome.harm;
+      finding.contact[i] = facts[i].outcome.contact.has_value();
+    }
+  }
+  finding.best = preview::best_by_forecast(facts);
+  return finding;
+}
+
+Finding look_into(const sim::Scenario& scenario, std::string_view family, std::uint64_t number,
+                  const manoeuvre::Car& car, const outcome::HarmModel& harm) {
+  Finding finding;
+  if (const auto time = trigger_time(scenario, car)) {
+    finding = look_into(moment_at(scenario, car, *time), car, harm);
+  }
+  finding.family = family;
+  finding.number = number;
+  return finding;
+}
+
+std::string line_of(const Finding& finding) {
+  std::string line = fmt::format("{},{},{},{}", finding.family, finding.number,
+                                 word_of(finding.time), manoeuvre::index(finding.best));
+  for (std::size_t i = 0; i < num_policies; ++i) {
+    line += fmt::format(",{},{}", word_of(finding.harm[i]), finding.contact[i] ? 1 : 0);
+  }
+  return line;
+}
+
+std::optional<Finding> finding_from(std::string_view line) {
+  const std::vector<std::string_view> words = fields_of(line, ',');
+  if (words.size() != 4 + 2 * num_policies) {
+    return std::nullopt;
+  }
+  Finding finding;
+  finding.family = words[0];
+  const auto number =
+      std::from_chars(words[1].data(), words[1].data() + words[1].size(), finding.number);
+  const auto best = finite_number(words[3]);
+  const auto policy = manoeuvre::policy_from(best ? static_cast<int>(*best) : -1);
+  if (number.ec != std::errc() || number.ptr != words[1].data() + words[1].size() || !policy ||
+      !read_word(words[2], finding.time)) {
+    return std::nullopt;
+  }
+  finding.best = *policy;
+  for (std::size_t i = 0; i < num_policies; ++i) {
+    const std::string_view contact = words[5 + 2 * i];
+    if (!read_word(words[4 + 2 * i], finding.harm[i]) || (contact != "0" && contact != "1")) {
+      return std::nullopt;
+    }
+    finding.contact[i] = contact == "1";
+  }
+  return finding;
+}
+
+Taught lesson_of(const Finding& finding) {
+  if (!finding.time) {
+    return {Lesson::never_triggers, std::nullopt, 0.0};
+  }
+  std::vector<std::pair<double, PolicyId>> harms;
+  for (const PolicyId policy : manoeuvre::all_policies) {
+    if (const auto& harm = finding.harm[manoeuvre::index(policy)]) {
+      harms.emplace_back(*harm, policy);
+    }
+  }
+  std::sort(harms.begin(), harms.end());
+  const double nothing = finding.harm[manoeuvre::index(PolicyId::no_intervention)].value();
+  const long least = class_of(harms.front().first);
+  if (class_of(nothing) == 0) {
+    return {Lesson::nothing_needed, std::nullopt, 0.0};
+  }
+  if (class_of(harms[1].first) > least) {
+    return {Lesson::one_alone, harms.front().second, harms[1].first - harms.front().first};
+  }
+  return {class_of(nothing) == least ? Lesson::nothing_helps : Lesson::several_as_good,
+          std::nullopt, 0.0};
+}
+
+Balance balance(std::span<const Finding> findings) {
+  Balance balance;
+  std::array<std::vector<double>, num_policies> margins;
+  for (const Finding& finding : findings) {
+    ++balance.count;
+    const Taught taught = lesson_of(finding);
+    ++balance.lessons[static_cast<std::size_t>(taught.lesson)];
+    if (finding.time) {
+      ++balance.best[manoeuvre::index(finding.best)];
+    }
+    if (taught.alone) {
+      ++balance.alone[manoeuvre::index(*taught.alone)];
+      margins[manoeuvre::index(*taught.alone)].push_back(taught.margin);
+    }
+  }
+  for (std::size_t i = 0; i < num_policies; ++i) {
+    balance.margin[i] = margins[i].empty() ? 0.0 : percentile(margins[i], 0.5);
+  }
+  return balance;
+}
+
+}  // namespace saca::eval

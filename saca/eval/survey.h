@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "saca/eval/moment.h"
+
+namespace saca::eval {
+
+/// One encounter in which all eight were tried once, as it is written.
+struct Finding {
+  std::string family;
+  std::uint64_t number = 0;    ///< of the sample
+  std::optional<double> time;  ///< when the trigger fires [s]; nullopt: never, and nothing is tried
+  std::array<std::optional<double>, manoeuvre::num_policies> harm;  ///< nullopt: cannot be driven
+  std::array<bool, manoeuvre::num_policies> contact{};
+  manoeuvre::PolicyId best = manoeuvre::PolicyId::no_intervention;  ///< by the one ordering
+
+  bool operator==(const Finding&) const = default;
+};
+
+/// Tries all eight from this moment on; without family and number.
+[[nodiscard]] Finding look_into(const Moment& moment, const manoeuvre::Car& car,
+                                const outcome::HarmModel& harm);
+/// Tries all eight from the trigger on.
+[[nodiscard]] Finding look_into(const sim::Scenario& scenario, std::string_view family,
+                                std::uint64_t number, const manoeuvre::Car& car,
+                                const outcome::HarmModel& harm);
+
+/// One line, for journals; and back, to the last bit. nullopt: no such line.
+[[nodiscard]] std::string line_of(const Finding& finding);
+[[nodiscard]] std::optional<Finding> finding_from(std::string_view line);
+
+/// What an encounter teaches.
+enum class Lesson : std::uint8_t {
+  never_triggers,   ///< nobody has to decide anything
+  nothing_needed,   ///< doing nothing harms nobody
+  nothing_helps,    ///< no policy does less harm than doing nothing
+  several_as_good,  ///< the least harm is that of several: the mildest of them is taken
+  one_alone,        ///< one does less harm than every other
+};
+
+/// "Less" is a lower class of harm (outcome/ordering.h).
+struct Taught {
+  Lesson lesson = Lesson::never_triggers;
+  std::optional<manoeuvre::PolicyId> alone;  ///< with one_alone
+  double margin = 0.0;                       ///< of it: harm of the second best above its own
+};
+[[nodiscard]] Taught lesson_of(const Finding& finding);
+
+/// How often each policy is strictly best, by how much, and where nothing helps.
+struct Balance {
+  int count = 0;
+  std::array<int, 5> lessons{};                          ///< by Lesson
+  std::array<int, manoeuvre::num_policies> alone{};      ///< strictly best
+  std::array<int, manoeuvre::num_policies> best{};       ///< best, ties broken by mildness
+  std::array<double, manoeuvre::num_policies> margin{};  ///< median where alone; 0 where never
+};
+[[nodiscard]] Balance balance(std::span<const Finding> findings);
+
+}  // namespace saca::eval

@@ -1,0 +1,228 @@
+#include "saca/eval/whatif.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "saca/core/csv.h"
+#include "saca/eval/survey.h"
+#include "saca/manoeuvre/ego.h"
+
+namespace saca::eval {
+namespace {
+
+using sim::Scenario;
+using sim::ScenarioActor;
+using sim::Script;
+
+constexpr std::size_t most_values = 400;
+
+std::string name_of(const ScenarioActor& actor) {
+  return std::string(world::name(actor.kind)) + std::to_string(actor.id);
+}
+
+/// The actor called so, or the only one of that kind; nullopt: none, or more than one.
+std::optional<std::size_t> actor_called(const Scenario& scenario, std::string_view called) {
+  std::optional<std::size_t> found;
+  for (std::size_t i = 0; i < scenario.actors.size(); ++i) {
+    const ScenarioActor& actor = scenario.actors[i];
+    if (name_of(actor) == called) {
+      return i;
+    }
+    if (world::name(actor.kind) == called) {
+      if (found) {
+        return std::nullopt;
+      }
+      found = i;
+    }
+  }
+  return found;
+}
+
+std::string wanted_bodies(const Scenario& scenario) {
+  std::string names = "grip, ego";
+  for (const ScenarioActor& actor : scenario.actors) {
+    names += ", " + name_of(actor);
+  }
+  return names;
+}
+
+Error malformed(std::string_view text, const std::string& wanted) {
+  return {Error::Code::malformed, fmt::format("{}: want {}", text, wanted)};
+}
+
+bool is_key(std::string_view body, std::string_view key) {
+  return key == "speed_mps" || key == "offset_m" || (body != "ego" && key == "distance_m");
+}
+
+/// Moves a body so that its lane coordinates change by this much, whatever it does.
+void move(ScenarioActor& actor, const world::Road& road, double ds, double dd) {
+  if (auto* script = std::get_if<Script>(&actor.motion)) {
+    script->start.s += ds;
+    script->start.d += dd;
+    script->to_d += dd;
+    return;
+  }
+  const Vec2 shift_W = rotated({ds, dd}, road.X_WL.yaw);
+  for (sim::Sample& sample : std::get<sim::Recording>(actor.motion)) {
+    sample.X_WA.p = sample.X_WA.p + shift_W;
+  }
+}
+
+/// Where a body is at the time, along the road; nullopt: not there.
+std::optional<world::LanePose> place_at(const Scenario& scenario, const manoeuvre::Car& car,
+                                        double time, std::string_view called) {
+  const world::Scene scene = moment_at(scenario, car, time).scene;
+  if (called == "ego") {
+    return to_lane(scene.road, scene.ego.X_WB);
+  }
+  for (const world::Actor& actor : scene.actors) {
+    if (world::actor_name(actor) == called) {
+      return to_lane(scene.road, actor.X_WA);
+    }
+  }
+  return std::nullopt;
+}
+
+Error impossible(const Axis& axis, double value, const std::string& why) {
+  return {Error::Code::out_of_range, fmt::format("{}={}: {}", axis.what, value, why)};
+}
+
+Result<Scenario> with_ego(Scenario scenario, const manoeuvre::Car& car, double time,
+                          const Axis& axis, double value) {
+  auto* start = std::get_if<sim::EgoStart>(&scenario.ego);
+  if (start == nullptr) {
+    return impossible(axis, value, "the ego follows a recording; what it did cannot be varied");
+  }
+  if (axis.key == "offset_m") {
+    start->pose.d += value - place_at(scenario, car, time, "ego")->d;
+    return scenario;
+  }
+  if (!(value >= 0.0 && value <= 60.0)) {
+    return impossible(axis, value, "want 0 to 60 m/s");
+  }
+  const double before = place_at(scenario, car, time, "ego")->s;
+  start->speed = value;
+  start->pose.s += before - place_at(scenario, car, time, "ego")->s;
+  return scenario;
+}
+
+}  // namespace
+
+Result<Axis> parse_axis(std::string_view text, const Scenario& scenario) {
+  const std::vector<std::string_view> sides = fields_of(text, '=');
+  const std::string form = "BODY.KEY=FROM:TO:STEP or grip=FROM:TO:STEP, e.g. ego.speed_mps=8:18:1";
+  if (sides.size() != 2) {
+    return malformed(text, form);
+  }
+  Axis axis;
+  const std::vector<std::string_view> names = fields_of(sides[0], '.');
+  if (sides[0] == "grip") {
+    axis.key = "grip";
+  } else if (names.size() == 2) {
+    axis.body = names[0];
+    axis.key = names[1];
+    if (axis.body != "ego") {
+      const auto actor = actor_called(scenario, axis.body);
+      if (!actor) {
+        return malformed(text, "one of " + wanted_bodies(scenario) + ", got \"" + axis.body + "\"");
+      }
+      axis.body = name_of(scenario.actors[*actor]);
+    }
+    if (!is_key(axis.body, axis.key)) {
+      return malformed(text, (axis.body == "ego" ? "speed_mps or offset_m of the ego, got \""
+                                                 : "distance_m, offset_m or speed_mps, got \"") +
+                                 axis.key + "\"");
+    }
+  } else {
+    return malformed(text, form);
+  }
+  axis.what = axis.body.empty() ? axis.key : axis.body + "." + axis.key;
+  const std::vector<std::string_view> numbers = fields_of(sides[1], ':');
+  std::vector<double> range;
+  for (const std::string_view number : numbers) {
+    range.push_back(finite_number(number).value_or(NAN));
+  }
+  if (range.size() != 3 || !(range[2] > 0.0) || !(range[1] >= range[0])) {
+    return malformed(
+        text, "FROM:TO:STEP with TO >= FROM and STEP > 0, got \"" + std::string(sides[1]) + "\"");
+  }
+  const double count = std::floor((range[1] - range[0]) / range[2] + 1e-9) + 1.0;
+  if (count > static_cast<double>(most_values)) {
+    return malformed(text, fmt::format("at most {} values, got {:.0f}", most_values, count));
+  }
+  for (int k = 0; k < static_cast<int>(count); ++k) {
+    axis.values.push_back(range[0] + k * range[2]);
+  }
+  return axis;
+}
+
+Result<Scenario> varied(const Scenario& scenario, const manoeuvre::Car& car, double time,
+                        const Axis& axis, double value) {
+  Scenario changed = scenario;
+  if (axis.key == "grip") {
+    if (!(value >= 0.05 && value <= 1.2)) {
+      return impossible(axis, value, "want 0.05 to 1.2");
+    }
+    changed.grip = value;
+    return changed;
+  }
+  if (axis.body == "ego") {
+    return with_ego(std::move(changed), car, time, axis, value);
+  }
+  ScenarioActor& actor = changed.actors[*actor_called(scenario, axis.body)];
+  const auto before = place_at(scenario, car, time, axis.body);
+  if (!before) {
+    return impossible(axis, value, axis.body + " is not there when the policies begin");
+  }
+  if (axis.key == "speed_mps") {
+    auto* script = std::get_if<Script>(&actor.motion);
+    if (script == nullptr || script->behaviour == sim::Behaviour::hold) {
+      return impossible(axis, value, axis.body + " has no speed of its own to vary");
+    }
+    if (!(value >= 0.0 && value <= 60.0)) {
+      return impossible(axis, value, "want 0 to 60 m/s");
+    }
+    script->speed = value;
+    script->law.desired_speed = std::max(value, 0.1);
+    const auto after = place_at(changed, car, time, axis.body);
+    move(actor, changed.road, before->s - after->s, before->d - after->d);
+    return changed;
+  }
+  if (axis.key == "offset_m") {
+    move(actor, changed.road, 0.0, value - before->d);
+  } else {
+    const double ego = place_at(scenario, car, time, "ego")->s;
+    move(actor, changed.road, ego + value - before->s, 0.0);
+  }
+  return changed;
+}
+
+Cell try_cell(const Scenario& scenario, const manoeuvre::Car& car, const outcome::HarmModel& harm,
+              double time) {
+  Cell cell;
+  const Moment moment = moment_at(scenario, car, time);
+  cell.possible = std::none_of(
+      moment.scene.actors.begin(), moment.scene.actors.end(), [&](const world::Actor& actor) {
+        return world::separation(moment.scene.ego_footprint, moment.scene.ego.X_WB, actor.footprint,
+                                 actor.X_WA)
+                   .distance <= 0.0;
+      });
+  if (!cell.possible) {
+    return cell;
+  }
+  const Finding finding = look_into(moment, car, harm);
+  const Taught taught = lesson_of(finding);
+  const std::size_t best = manoeuvre::index(finding.best);
+  cell.best = finding.best;
+  cell.alone = taught.alone == finding.best;
+  cell.harms = finding.harm;
+  cell.harm = *finding.harm[best];
+  cell.spared = *finding.harm[manoeuvre::index(manoeuvre::PolicyId::aeb)] - cell.harm;
+  cell.contact = finding.contact[best];
+  return cell;
+}
+
+}  // namespace saca::eval

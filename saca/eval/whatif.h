@@ -1,0 +1,56 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "saca/core/result.h"
+#include "saca/eval/moment.h"
+
+namespace saca::eval {
+
+/// One number of a scenario that is varied, and through which values.
+struct Axis {
+  std::string what;  ///< e.g. "truck1.distance_m": as it is written in a message or on a picture
+  std::string body;  ///< "ego", an actor's name, "" for the road
+  std::string key;
+  std::vector<double> values;  ///< in the unit of the key; growing, at least one
+};
+
+/// Reads e.g. "truck.distance_m=10:20:0.25": from 10 to 20 in steps of 0.25.
+///
+/// Bodies and keys, all as they are when the policies begin:
+///   ego.speed_mps, ego.offset_m      the ego's speed, and its place beside the middle of its lane
+///   NAME.distance_m, NAME.offset_m   an actor's centre: along the lane from the ego's centre of
+///                                    mass, and to the left of the middle of the ego's lane
+///   NAME.speed_mps                   of an actor with a script: its speed along its heading before
+///                                    it brakes or accelerates
+///   grip                             of the road
+/// A name without a number means the only actor of that kind.
+/// @return  Error::Code::malformed, naming what was wanted and got
+[[nodiscard]] Result<Axis> parse_axis(std::string_view text, const sim::Scenario& scenario);
+
+/// The scenario with one number changed so that at `time` it has the value, while everything else
+/// is at that instant where it was.
+/// @return  Error::Code::out_of_range when that cannot be: a recorded ego's speed, a value out of
+///          range
+[[nodiscard]] Result<sim::Scenario> varied(const sim::Scenario& scenario, const manoeuvre::Car& car,
+                                           double time, const Axis& axis, double value);
+
+/// What is best at one place of the map.
+struct Cell {
+  bool possible = true;  ///< false: bodies would overlap; the rest then means nothing
+  manoeuvre::PolicyId best = manoeuvre::PolicyId::no_intervention;
+  bool alone = false;    ///< it does less harm than every other
+  double harm = 0.0;     ///< of the best
+  double spared = 0.0;   ///< harm of emergency braking above it
+  bool contact = false;  ///< even the best
+  std::array<std::optional<double>, manoeuvre::num_policies> harms;
+};
+
+/// All eight tried at one place.
+/// @param time  when the policies begin [s]
+[[nodiscard]] Cell try_cell(const sim::Scenario& scenario, const manoeuvre::Car& car,
+                            const outcome::HarmModel& harm, double time);
+
+}  // namespace saca::eval
