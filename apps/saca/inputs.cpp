@@ -1,0 +1,66 @@
+#include "apps/saca/inputs.h"
+
+#include "saca/manoeuvre/ego.h"
+
+namespace saca::app {
+
+namespace fs = std::filesystem;
+
+Result<Inputs> read_inputs(const std::string& car) {
+  auto places = find_places();
+  if (!places.has_value()) {
+    return places.error();
+  }
+  const fs::path file = find_car(places.value(), car);
+  auto read = manoeuvre::read_car(file);
+  if (!read.has_value()) {
+    return read.error();
+  }
+  auto harm = outcome::read_harm(places.value().root / "data" / "harm.toml");
+  if (!harm.has_value()) {
+    return harm.error();
+  }
+  return Inputs{.places = places.value(),
+                .car_name = file.stem().string(),
+                .car = read.value(),
+                .harm = harm.value()};
+}
+
+Result<ScenarioInputs> read_scenario_inputs(const std::string& scenario) {
+  const auto places = find_places();
+  if (!places.has_value()) {
+    return places.error();
+  }
+  const fs::path file = find_scenario(places.value(), scenario);
+  const auto first = sim::load_scenario(file);
+  if (!first.has_value()) {
+    return first.error();
+  }
+  auto inputs = read_inputs(first.value().car);
+  if (!inputs.has_value()) {
+    return inputs.error();
+  }
+  // Again, now that the body of its car is known.
+  auto read = sim::load_scenario(file, manoeuvre::footprint(inputs.value().car));
+  if (!read.has_value()) {
+    return read.error();
+  }
+  ScenarioInputs all;
+  static_cast<Inputs&>(all) = inputs.value();
+  all.scenario = read.value();
+  return all;
+}
+
+Result<sim::Family> read_family(const Places& places, const std::string& name) {
+  const fs::path own = name;
+  if (own.extension() == ".toml") {
+    return sim::load_family(own.parent_path(), own.stem().string());
+  }
+  return sim::load_family(places.root / "scenarios" / "families", name);
+}
+
+Result<sim::Splits> read_splits(const Places& places) {
+  return sim::load_splits(places.root / "scenarios" / "splits.toml");
+}
+
+}  // namespace saca::app

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+
+#include "apps/saca/places.h"
+#include "saca/manoeuvre/car.h"
+#include "saca/outcome/harm.h"
+#include "saca/sim/family.h"
+#include "saca/sim/scenario.h"
+#include "saca/sim/splits.h"
+
+namespace saca::app {
+
+/// What commands that play scenarios read before they begin.
+struct Inputs {
+  Places places;
+  std::string car_name;
+  manoeuvre::Car car;
+  outcome::HarmModel harm;
+};
+
+/// @param car  its file, or the name of a shipped one
+[[nodiscard]] Result<Inputs> read_inputs(const std::string& car);
+
+struct ScenarioInputs : Inputs {
+  sim::Scenario scenario;
+};
+
+/// @param scenario  its file, or the name of a shipped one; it names the car
+[[nodiscard]] Result<ScenarioInputs> read_scenario_inputs(const std::string& scenario);
+
+/// One shipped family, or one of the user's own folder.
+[[nodiscard]] Result<sim::Family> read_family(const Places& places, const std::string& name);
+[[nodiscard]] Result<sim::Splits> read_splits(const Places& places);
+
+}  // namespace saca::app

@@ -1,0 +1,94 @@
+#include "saca/eval/oracle.h"
+
+#include <algorithm>
+
+#include "saca/core/contract.h"
+#include "saca/core/parallel.h"
+#include "saca/outcome/ordering.h"
+
+namespace saca::eval {
+namespace {
+
+using manoeuvre::num_policies;
+using manoeuvre::PolicyId;
+using Draw = std::array<std::optional<outcome::Outcome>, num_policies>;
+
+/// One world, tried with all that can be driven in the scene as written.
+Draw one_draw(const sim::Scenario& scenario, const manoeuvre::Car& car,
+              const outcome::HarmModel& harm, const OracleOptions& options, std::uint64_t number) {
+  const sim::Chance chance = sim::draw_chance(options.seed, number, options.time);
+  const auto tried = attempts(moment_at(scenario, car, options.time, chance), car, harm);
+  Draw draw;
+  for (std::size_t i = 0; i < num_policies; ++i) {
+    if (tried[i].facts.refusal.empty()) {
+      draw[i] = tried[i].facts.outcome;
+    }
+  }
+  return draw;
+}
+
+/// The policy's outcomes in those worlds in which all of `among` could be driven.
+std::vector<outcome::Outcome> outcomes_of(const std::vector<Draw>& draws, std::size_t policy,
+                                          const std::vector<std::size_t>& among) {
+  std::vector<outcome::Outcome> outcomes;
+  for (const Draw& draw : draws) {
+    if (std::all_of(among.begin(), among.end(),
+                    [&](std::size_t i) { return draw[i].has_value(); })) {
+      outcomes.push_back(*draw[policy]);
+    }
+  }
+  return outcomes;
+}
+
+}  // namespace
+
+Oracle oracle(const sim::Scenario& scenario, const manoeuvre::Car& car,
+              const outcome::HarmModel& harm, const OracleOptions& options) {
+  expects(options.draws >= 0 && options.threads >= 1, "draws >= 0 and threads >= 1");
+  Oracle told;
+  const Moment moment = moment_at(scenario, car, options.time);
+  told.scene = moment.scene;
+  const auto written = attempts(moment, car, harm);
+  std::vector<std::size_t> driven;
+  Draw as_written;
+  for (std::size_t i = 0; i < num_policies; ++i) {
+    told.verdicts[i].written = written[i];
+    if (written[i].facts.refusal.empty()) {
+      driven.push_back(i);
+      as_written[i] = written[i].facts.outcome;
+    }
+  }
+  std::vector<Draw> draws(static_cast<std::size_t>(options.draws));
+  in_parallel(draws.size(), options.threads,
+              [&](std::size_t k) { draws[k] = one_draw(scenario, car, harm, options, k); });
+  if (draws.empty()) {
+    draws.push_back(as_written);
+  }
+  std::array<std::vector<outcome::Outcome>, num_policies> outcomes;
+  for (const std::size_t i : driven) {
+    outcomes[i] = outcomes_of(draws, i, driven);
+    told.verdicts[i].expected = outcome::expected(outcomes[i]);
+    told.ranking.push_back(manoeuvre::all_policies[i]);
+  }
+  std::sort(told.ranking.begin(), told.ranking.end(), [&](PolicyId a, PolicyId b) {
+    return outcome::better(told.of(a).expected.mean, a, told.of(b).expected.mean, b);
+  });
+  for (const std::size_t i : driven) {
+    told.verdicts[i].behind =
+        outcome::difference(outcomes[i], outcomes[manoeuvre::index(told.best())]);
+  }
+  return told;
+}
+
+Margin margin_of_best(const Oracle& oracle) {
+  std::optional<Margin> least;
+  for (const PolicyId policy : oracle.ranking) {
+    const outcome::Estimate& behind = oracle.of(policy).behind;
+    if (policy != oracle.best() && (!least || behind.mean < least->mean)) {
+      least = Margin{behind.mean, behind.low};
+    }
+  }
+  return least.value_or(Margin{});
+}
+
+}  // namespace saca::eval
