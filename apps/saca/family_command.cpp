@@ -1,0 +1,163 @@
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "apps/saca/commands.h"
+#include "apps/saca/inputs.h"
+#include "apps/saca/pictures.h"
+#include "saca/core/file.h"
+#include "saca/eval/moment.h"
+#include "saca/manoeuvre/ego.h"
+#include "saca/outcome/describe.h"
+
+namespace saca::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct FamilyCommand {
+  std::string name;
+  std::string car = "compact_rwd_ev";
+  int count = 12;
+  int first = 0;
+  std::string split = "tuning";
+  std::string test_log;
+  std::string svg = "runs/family.svg";
+  std::string write;
+  bool twins = false;
+  bool as_json = false;
+};
+
+/// A sample with what comes of doing nothing from the trigger on.
+report::SceneView thumbnail(const sim::Scenario& scenario, const Inputs& inputs) {
+  const auto trigger = eval::trigger_time(scenario, inputs.car);
+  const eval::Moment moment = eval::moment_at(scenario, inputs.car, trigger.value_or(0.0));
+  const auto tried = eval::attempts(moment, inputs.car, inputs.harm);
+  report::SceneView view =
+      view_of(moment.scene, tried[manoeuvre::index(manoeuvre::PolicyId::no_intervention)]);
+  view.policy = std::nullopt;
+  view.title = scenario.name;
+  view.lines.insert(view.lines.begin(),
+                    fmt::format("{:.1f} m/s, grip {:.2f}{}", norm(moment.scene.ego.v_B),
+                                scenario.grip, trigger ? "" : "; never triggers"));
+  return view;
+}
+
+json json_of(const sim::Scenario& scenario, const fs::path& file) {
+  return {{"name", scenario.name},
+          {"file", file.empty() ? json() : json(file.string())},
+          {"grip", scenario.grip},
+          {"ego_speed_mps", std::get<sim::EgoStart>(scenario.ego).speed},
+          {"actors", scenario.actors.size()}};
+}
+
+std::optional<Error> write_picture(const FamilyCommand& options, report::ContactSheet sheet) {
+  if (auto problem = make_folder_of(options.svg)) {
+    return problem;
+  }
+  return write_file(options.svg, report::contact_sheet(sheet));
+}
+
+int run(const FamilyCommand& options) {
+  const auto inputs = read_inputs(options.car);
+  if (!inputs.has_value()) {
+    complain(inputs.error().message);
+    return bad_input;
+  }
+  const auto family = read_family(inputs.value().places, options.name);
+  const auto splits = read_splits(inputs.value().places);
+  if (!family.has_value() || !splits.has_value()) {
+    complain(family.has_value() ? splits.error().message : family.error().message);
+    return bad_input;
+  }
+  std::optional<sim::TestLog> log;
+  if (!options.test_log.empty()) {
+    log = sim::TestLog{options.test_log, fmt::format("saca family {} --first {} --sample {}",
+                                                     options.name, options.first, options.count)};
+  }
+  const auto seed =
+      sim::seed_for(splits.value(), *sim::split_from(options.split), family.value().name, log);
+  if (!seed.has_value()) {
+    complain(seed.error().message + (options.split == "test" ? " (--test-log FILE)" : ""));
+    return seed.error().code == Error::Code::unwritable ? cannot_write : bad_input;
+  }
+  report::ContactSheet sheet;
+  sheet.heading = fmt::format("{}: {}", family.value().name, family.value().title);
+  sheet.lines = {family.value().why, "Drawn: nobody intervenes."};
+  json list = json::array();
+  const world::Footprint ego = manoeuvre::footprint(inputs.value().car);
+  for (int k = options.first; k < options.first + options.count; ++k) {
+    const auto sample = sim::sample(family.value(), seed.value(), static_cast<std::uint64_t>(k),
+                                    inputs.value().car_name, ego);
+    if (!sample.has_value()) {
+      complain(sample.error().message);
+      return bad_input;
+    }
+    const sim::Scenario& scenario = options.twins ? sample.value().twin : sample.value().scenario;
+    fs::path file;
+    if (!options.write.empty()) {
+      file = fs::path(options.write) / (scenario.name + ".toml");
+      auto problem = make_folder_of(file);
+      if (!problem) {
+        problem = write_file(file, sim::write_scenario(scenario));
+      }
+      if (problem) {
+        complain(problem->message);
+        return cannot_write;
+      }
+    }
+    list.push_back(json_of(scenario, file));
+    sheet.scenes.push_back(thumbnail(scenario, inputs.value()));
+  }
+  if (const auto problem = write_picture(options, std::move(sheet))) {
+    complain(problem->message);
+    return cannot_write;
+  }
+  if (options.as_json) {
+    fmt::print("{}\n", json{{"schema", "saca.family_samples/1"},
+                            {"family", family.value().name},
+                            {"split", options.split},
+                            {"seed", seed.value()},
+                            {"svg", options.svg},
+                            {"samples", list}}
+                           .dump(1, ' ', false, json::error_handler_t::replace));
+  } else {
+    fmt::print("{} samples of {}: {}\n", options.count, family.value().name,
+               fs::absolute(options.svg).string());
+  }
+  return success;
+}
+
+}  // namespace
+
+void add_family(CLI::App& line, int& exit_code) {
+  CLI::App* const command =
+      line.add_subcommand("family", "Draw encounters of a family, as a sheet of pictures");
+  const auto options = std::make_shared<FamilyCommand>();
+  command->add_option("name", options->name, "A shipped family, or a file of your own (*.toml)")
+      ->required();
+  command->add_option("--sample", options->count, "How many")
+      ->check(CLI::Range(1, 400))
+      ->capture_default_str();
+  command->add_option("--first", options->first, "Number of the first")
+      ->check(CLI::Range(0, 1'000'000'000))
+      ->capture_default_str();
+  command->add_option("--split", options->split, "Whose seed is used")
+      ->check(CLI::IsMember({"tuning", "calibration", "test"}))
+      ->capture_default_str();
+  command->add_option("--test-log", options->test_log,
+                      "Where a use of the test split is noted; needed for it");
+  command->add_flag("--twins", options->twins, "The same encounters without risk");
+  command->add_option("--car", options->car, "A car's file, or the name of a shipped one")
+      ->capture_default_str();
+  command->add_option("--svg", options->svg, "The sheet")->capture_default_str();
+  command->add_option("--write", options->write, "Folder: write them there as scenario files");
+  command->add_flag("--json", options->as_json, "For programs");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace saca::app

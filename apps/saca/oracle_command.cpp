@@ -1,0 +1,187 @@
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "apps/saca/commands.h"
+#include "apps/saca/inputs.h"
+#include "apps/saca/pictures.h"
+#include "saca/core/file.h"
+#include "saca/core/parallel.h"
+#include "saca/eval/oracle.h"
+#include "saca/outcome/describe.h"
+
+namespace saca::app {
+namespace {
+
+using nlohmann::json;
+
+struct OracleCommand {
+  std::string scenario;
+  std::optional<double> at;
+  int draws = 100;
+  unsigned long seed = 1;
+  int threads = usual_threads();
+  std::string svg;
+  bool as_json = false;
+};
+
+json interval_of(const outcome::Estimate& estimate) {
+  return {{"mean", estimate.mean}, {"low", estimate.low}, {"high", estimate.high}};
+}
+
+json json_of(const eval::Verdict& verdict, const world::Scene& scene) {
+  const preview::PolicyFacts& facts = verdict.written.facts;
+  json all{{"policy", manoeuvre::index(facts.plan.policy)},
+           {"name", name(facts.plan.policy)},
+           {"target_speed_mps", facts.plan.target_speed ? json(*facts.plan.target_speed) : json()},
+           {"refusal", facts.refusal.empty() ? json() : json(facts.refusal)}};
+  if (!facts.refusal.empty()) {
+    return all;
+  }
+  all["harm"] = interval_of(verdict.expected.harm);
+  all["collision_loss"] = interval_of(verdict.expected.collision_loss);
+  all["behind_best"] = interval_of(verdict.behind);
+  all["contact_share"] = {{"mean", verdict.expected.contact.share},
+                          {"low", verdict.expected.contact.low},
+                          {"high", verdict.expected.contact.high}};
+  const outcome::Outcome& written = facts.outcome;
+  all["as_written"] = {{"harm", written.harm},
+                       {"collision_loss", written.collision_loss},
+                       {"clearance_m", written.clearance},
+                       {"text", describe(written, scene)}};
+  if (written.contact) {
+    const outcome::Contact& contact = *written.contact;
+    all["as_written"]["contact"] = {
+        {"time_s", contact.time},
+        {"with", contact.actor ? json(actor_name(scene.actors[*contact.actor])) : json()},
+        {"ego_face", name(contact.ego_face)},
+        {"impact_speed_mps", contact.relative_speed},
+        {"ego_delta_v_mps", contact.ego_delta_v},
+        {"other_delta_v_mps", contact.other_delta_v}};
+  }
+  return all;
+}
+
+std::string row_of(const eval::Verdict& verdict, const world::Scene& scene) {
+  const preview::PolicyFacts& facts = verdict.written.facts;
+  const outcome::Expected& expected = verdict.expected;
+  return fmt::format("{} {:7}  {:.4f} ({:.4f} to {:.4f})  {:5.2f}  {:3.0f} %   {}",
+                     manoeuvre::index(facts.plan.policy), name(facts.plan.policy),
+                     expected.harm.mean, expected.harm.low, expected.harm.high,
+                     expected.collision_loss.mean, 100.0 * expected.contact.share,
+                     describe(facts.outcome, scene));
+}
+
+void print(const eval::Oracle& oracle, const OracleCommand& options) {
+  fmt::print("At {:.2f} s, {:.1f} m/s; {} draws of what nobody knows, seed {}.\n\n",
+             oracle.scene.time, norm(oracle.scene.ego.v_B), options.draws, options.seed);
+  fmt::print("policy     expected harm (95 %)       loss   hit     as written\n");
+  for (const manoeuvre::PolicyId policy : oracle.ranking) {
+    fmt::print("{}\n", row_of(oracle.of(policy), oracle.scene));
+  }
+  for (const eval::Verdict& verdict : oracle.verdicts) {
+    if (!verdict.written.facts.refusal.empty()) {
+      fmt::print("{} {:7}  {}\n", manoeuvre::index(verdict.written.facts.plan.policy),
+                 name(verdict.written.facts.plan.policy), verdict.written.facts.refusal);
+    }
+  }
+  const eval::Margin margin = margin_of_best(oracle);
+  fmt::print("\nBest: {}", name(oracle.best()));
+  fmt::print(margin.low > 0.0 ? ", alone by {:.4f} harm (at least {:.4f}).\n"
+                              : "; not clearly alone (by {:.4f} harm, at least {:.4f}).\n",
+             margin.mean, margin.low);
+}
+
+/// When the policies begin: as asked for, else at the trigger.
+Result<double> start_time(const ScenarioInputs& inputs, const std::optional<double>& at) {
+  if (at) {
+    if (*at > inputs.scenario.duration) {
+      return Error{Error::Code::out_of_range, fmt::format("--at_s {}: the scenario ends at {} s",
+                                                          *at, inputs.scenario.duration)};
+    }
+    return *at;
+  }
+  const auto trigger = eval::trigger_time(inputs.scenario, inputs.car);
+  if (!trigger) {
+    return Error{Error::Code::out_of_range,
+                 inputs.scenario.name +
+                     ": nothing comes within T1 of a conflict, so nothing is to be decided; say "
+                     "when with --at_s"};
+  }
+  return *trigger;
+}
+
+int run(const OracleCommand& options) {
+  const auto inputs = read_scenario_inputs(options.scenario);
+  if (!inputs.has_value()) {
+    complain(inputs.error().message);
+    return bad_input;
+  }
+  const auto time = start_time(inputs.value(), options.at);
+  if (!time.has_value()) {
+    complain(time.error().message);
+    return bad_input;
+  }
+  const sim::Scenario& scenario = inputs.value().scenario;
+  const eval::Oracle oracle =
+      eval::oracle(scenario, inputs.value().car, inputs.value().harm,
+                   {time.value(), options.draws, options.seed, options.threads});
+  if (!options.svg.empty()) {
+    const std::string sheet = report::contact_sheet(sheet_of(oracle, scenario));
+    auto problem = make_folder_of(options.svg);
+    if (!problem) {
+      problem = write_file(options.svg, sheet);
+    }
+    if (problem) {
+      complain(problem->message);
+      return cannot_write;
+    }
+  }
+  if (!options.as_json) {
+    fmt::print("{}\n", scenario.title);
+    print(oracle, options);
+    return success;
+  }
+  json all{{"schema", "saca.oracle/1"}, {"scenario", scenario.name}, {"time_s", time.value()},
+           {"draws", options.draws},    {"seed", options.seed},      {"policies", json::array()},
+           {"ranking", json::array()}};
+  for (const eval::Verdict& verdict : oracle.verdicts) {
+    all["policies"].push_back(json_of(verdict, oracle.scene));
+  }
+  for (const manoeuvre::PolicyId policy : oracle.ranking) {
+    all["ranking"].push_back(manoeuvre::index(policy));
+  }
+  const eval::Margin margin = margin_of_best(oracle);
+  all["margin"] = {{"mean", margin.mean}, {"low", margin.low}};
+  fmt::print("{}\n", all.dump(1, ' ', false, json::error_handler_t::replace));
+  return success;
+}
+
+}  // namespace
+
+void add_oracle(CLI::App& line, int& exit_code) {
+  CLI::App* const command = line.add_subcommand(
+      "oracle",
+      "Try all eight policies at the trigger, knowing what the others will do, and rank them");
+  const auto options = std::make_shared<OracleCommand>();
+  command
+      ->add_option("scenario", options->scenario, "A scenario file, or the name of a shipped one")
+      ->required();
+  command->add_option("--at_s", options->at, "When they begin (default: at the trigger)")
+      ->check(CLI::Range(0.0, 600.0));
+  command->add_option("--draws", options->draws, "Of what nobody knows beforehand; 0: as written")
+      ->check(CLI::Range(0, 1'000'000))
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Same seed, same figures")->capture_default_str();
+  command->add_option("--threads", options->threads, "They do not change the result")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  command->add_option("--svg", options->svg, "Draw all eight, as written");
+  command->add_flag("--json", options->as_json, "For programs");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace saca::app

@@ -1,0 +1,232 @@
+#include "apps/saca/surveying.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "apps/saca/progress.h"
+#include "saca/core/file.h"
+#include "saca/core/fnv.h"
+#include "saca/core/journal.h"
+#include "saca/manoeuvre/ego.h"
+
+namespace saca::app {
+namespace {
+
+namespace fs = std::filesystem;
+using eval::Finding;
+
+constexpr int batch = 64;  // encounters between two looks at the clock and the signals
+
+/// Of everything that changes what is found: the files, and the program's version.
+std::optional<Error> add_files(const Places& places, const std::string& car, Fnv& hash) {
+  std::vector<fs::path> files{find_car(places, car), places.root / "data" / "harm.toml",
+                              places.root / "scenarios" / "suites.toml",
+                              places.root / "scenarios" / "splits.toml"};
+  files.push_back(manoeuvre::tuning_path(files.front()));
+  for (const auto& entry : fs::directory_iterator(places.root / "scenarios" / "families")) {
+    files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  for (const fs::path& file : files) {
+    const auto text = read_file(file);
+    if (!text.has_value()) {
+      return text.error();
+    }
+    for (const char c : text.value()) {
+      hash.add(static_cast<unsigned char>(c));
+    }
+  }
+  return std::nullopt;
+}
+
+Result<sim::Suite> find_suite(const Places& places, const std::string& wanted) {
+  const fs::path file = places.root / "scenarios" / "suites.toml";
+  const auto suites = sim::load_suites(file);
+  if (!suites.has_value()) {
+    return suites.error();
+  }
+  std::string names;
+  for (const sim::Suite& suite : suites.value()) {
+    if (suite.name == wanted) {
+      return suite;
+    }
+    names += (names.empty() ? "" : ", ") + suite.name;
+  }
+  return Error{Error::Code::out_of_range,
+               fmt::format("{}: want one of {}, got \"{}\"", file.string(), names, wanted)};
+}
+
+/// What a journal remembers, in order.
+Result<std::vector<Finding>> remembered(const Journal& journal, const std::string& path,
+                                        int count) {
+  std::vector<Finding> found;
+  for (const std::string& line : journal.lines()) {
+    const auto finding = eval::finding_from(line);
+    if (!finding || finding->number != found.size()) {
+      return Error{Error::Code::malformed,
+                   fmt::format("{}: line {}: want the finding of encounter {}, got \"{}\"", path,
+                               found.size() + 2, found.size(), line)};
+    }
+    found.push_back(*finding);
+  }
+  found.resize(std::min(found.size(), static_cast<std::size_t>(count)));
+  return found;
+}
+
+/// The next few; each by itself, so that the number of threads changes nothing.
+Result<std::vector<Finding>> look_on(const SuiteSource& source, std::size_t from, std::size_t to,
+                                     int threads) {
+  std::vector<Finding> next(to - from);
+  std::vector<std::optional<Error>> problems(to - from);
+  in_parallel(next.size(), threads, [&](std::size_t i) {
+    const std::uint64_t number = from + i;
+    const auto sample = source.sample(number);
+    if (!sample.has_value()) {
+      problems[i] = sample.error();
+      return;
+    }
+    next[i] = eval::look_into(sample.value().scenario, source.family_of(number), number,
+                              source.inputs().car, source.inputs().harm);
+  });
+  for (const auto& problem : problems) {
+    if (problem) {
+      return *problem;
+    }
+  }
+  return next;
+}
+
+}  // namespace
+
+std::string command_line(const SurveyOptions& options, const std::string& command) {
+  return fmt::format("saca {} --suite {} --count {} --split {} --car {}", command, options.suite,
+                     options.count, options.split, options.car);
+}
+
+Result<SuiteSource> SuiteSource::open(const SurveyOptions& options) {
+  SuiteSource source;
+  auto inputs = read_inputs(options.car);
+  if (!inputs.has_value()) {
+    return inputs.error();
+  }
+  source.inputs_ = inputs.value();
+  const Places& places = source.inputs_.places;
+  const auto suite = find_suite(places, options.suite);
+  if (!suite.has_value()) {
+    return suite.error();
+  }
+  source.suite_ = suite.value();
+  const auto splits = read_splits(places);
+  if (!splits.has_value()) {
+    return splits.error();
+  }
+  std::optional<sim::TestLog> log;
+  if (!options.test_log.empty()) {
+    log = sim::TestLog{options.test_log, command_line(options, "survey")};
+  }
+  for (const sim::Suite::Member& member : source.suite_.members) {
+    const auto family = read_family(places, member.family);
+    if (!family.has_value()) {
+      return family.error();
+    }
+    const auto seed =
+        sim::seed_for(splits.value(), *sim::split_from(options.split), member.family, log);
+    if (!seed.has_value()) {
+      return seed.error();
+    }
+    source.families_.push_back(family.value());
+    source.seeds_.push_back(seed.value());
+  }
+  Fnv hash;
+  if (auto problem = add_files(places, options.car, hash)) {
+    return *problem;
+  }
+  source.digest_ = hash.value();
+  return source;
+}
+
+Result<sim::FamilySample> SuiteSource::sample(std::uint64_t number) const {
+  const std::size_t member = sim::member_of(suite_, number);
+  return sim::sample(families_[member], seeds_[member], number, inputs_.car_name,
+                     manoeuvre::footprint(inputs_.car));
+}
+
+const std::string& SuiteSource::family_of(std::uint64_t number) const {
+  return suite_.members[sim::member_of(suite_, number)].family;
+}
+
+Result<std::optional<std::vector<Finding>>> survey(const SurveyOptions& options) {
+  const auto source = SuiteSource::open(options);
+  if (!source.has_value()) {
+    return source.error();
+  }
+  const std::string path = options.journal.empty() ? fmt::format("runs/survey-{}-{}.journal",
+                                                                 options.suite, options.split)
+                                                   : options.journal;
+  if (auto problem = make_folder_of(path)) {
+    return *problem;
+  }
+  const auto opened = Journal::open(
+      path, fmt::format("saca {} survey of {}, {} split, {} ({:016x})", SACA_VERSION, options.suite,
+                        options.split, options.car, source.value().digest()));
+  if (!opened.has_value()) {
+    return opened.error();
+  }
+  const Journal& journal = opened.value();
+  auto known = remembered(journal, path, options.count);
+  if (!known.has_value()) {
+    return known.error();
+  }
+  std::vector<Finding> found = std::move(known).value();
+  watch_for_interrupt();
+  SteadyClock clock;
+  ProgressLine progress("survey of " + options.suite, options.count, clock);
+  const int before = static_cast<int>(found.size());
+  const auto count = static_cast<std::size_t>(options.count);
+  while (found.size() < count) {
+    if (interrupted()) {
+      return std::optional<std::vector<Finding>>();
+    }
+    const auto next = look_on(source.value(), found.size(), std::min(count, found.size() + batch),
+                              options.threads);
+    if (!next.has_value()) {
+      return next.error();
+    }
+    for (const Finding& finding : next.value()) {
+      if (!journal.add(eval::line_of(finding))) {
+        return Error{Error::Code::unwritable, path + ": cannot be added to"};
+      }
+      found.push_back(finding);
+    }
+    progress.show(static_cast<int>(found.size()), before, " encounters");
+  }
+  return std::optional(found);
+}
+
+int complain_of(const Error& error) {
+  complain(error.message);
+  return error.code == Error::Code::unwritable ? cannot_write : bad_input;
+}
+
+void add_survey_options(CLI::App& command, SurveyOptions& options) {
+  command.add_option("--suite", options.suite, "Which mixture of families")->capture_default_str();
+  command.add_option("--count", options.count, "How many encounters")
+      ->check(CLI::Range(1, 10'000'000))
+      ->capture_default_str();
+  command.add_option("--split", options.split, "Whose seed is used")
+      ->check(CLI::IsMember({"tuning", "calibration", "test"}))
+      ->capture_default_str();
+  command.add_option("--test-log", options.test_log,
+                     "Where a use of the test split is noted; needed for it");
+  command.add_option("--car", options.car, "A car's file, or the name of a shipped one")
+      ->capture_default_str();
+  command.add_option("--journal", options.journal,
+                     "What was found so far (default: runs/survey-SUITE-SPLIT.journal)");
+  command.add_option("--threads", options.threads, "They do not change the result")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+}
+
+}  // namespace saca::app
