@@ -7,6 +7,7 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/inputs.h"
+#include "apps/saca/moment_option.h"
 #include "apps/saca/pictures.h"
 #include "saca/core/file.h"
 #include "saca/core/parallel.h"
@@ -95,32 +96,13 @@ void print(const eval::Oracle& oracle, const OracleCommand& options) {
              margin.mean, margin.low);
 }
 
-/// When the policies begin: as asked for, else at the trigger.
-Result<double> start_time(const ScenarioInputs& inputs, const std::optional<double>& at) {
-  if (at) {
-    if (*at > inputs.scenario.duration) {
-      return Error{Error::Code::out_of_range, fmt::format("--at_s {}: the scenario ends at {} s",
-                                                          *at, inputs.scenario.duration)};
-    }
-    return *at;
-  }
-  const auto trigger = eval::trigger_time(inputs.scenario, inputs.car);
-  if (!trigger) {
-    return Error{Error::Code::out_of_range,
-                 inputs.scenario.name +
-                     ": nothing comes within T1 of a conflict, so nothing is to be decided; say "
-                     "when with --at_s"};
-  }
-  return *trigger;
-}
-
 int run(const OracleCommand& options) {
   const auto inputs = read_scenario_inputs(options.scenario);
   if (!inputs.has_value()) {
     complain(inputs.error().message);
     return bad_input;
   }
-  const auto time = start_time(inputs.value(), options.at);
+  const auto time = decision_time(inputs.value(), options.at);
   if (!time.has_value()) {
     complain(time.error().message);
     return bad_input;
@@ -170,8 +152,7 @@ void add_oracle(CLI::App& line, int& exit_code) {
   command
       ->add_option("scenario", options->scenario, "A scenario file, or the name of a shipped one")
       ->required();
-  command->add_option("--at_s", options->at, "When they begin (default: at the trigger)")
-      ->check(CLI::Range(0.0, 600.0));
+  add_at(*command, options->at);
   command->add_option("--draws", options->draws, "Of what nobody knows beforehand; 0: as written")
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str();

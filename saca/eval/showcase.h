@@ -15,7 +15,7 @@ namespace saca::eval {
 struct ShowcaseRule {
   double clear = 0.005;  ///< least expected harm by which it beats every other: half a per cent of
                          ///< a severely injured person
-  int draws = 100;  ///< under which it must do so, the lower end of the 95 % interval above 0
+  int draws = 100;       ///< under which it must do so, the lower end of the 95 % interval above 0
 };
 
 /// Findings that may show what `policy` is for, most convincing first: it is alone, by the widest

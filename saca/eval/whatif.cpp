@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "saca/core/csv.h"
@@ -109,6 +110,17 @@ Result<Scenario> with_ego(Scenario scenario, const manoeuvre::Car& car, double t
   return scenario;
 }
 
+/// Harm of the second best above that of the best.
+double margin_over(const Finding& finding, std::size_t best) {
+  double second = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < finding.harm.size(); ++i) {
+    if (i != best && finding.harm[i]) {
+      second = std::min(second, *finding.harm[i]);
+    }
+  }
+  return std::max(0.0, second - *finding.harm[best]);
+}
+
 }  // namespace
 
 Result<Axis> parse_axis(std::string_view text, const Scenario& scenario) {
@@ -200,6 +212,27 @@ Result<Scenario> varied(const Scenario& scenario, const manoeuvre::Car& car, dou
   return changed;
 }
 
+std::optional<double> nominal(const Scenario& scenario, const manoeuvre::Car& car, double time,
+                              const Axis& axis) {
+  if (axis.key == "grip") {
+    return scenario.grip;
+  }
+  const world::Scene scene = moment_at(scenario, car, time).scene;
+  const world::LanePose ego = to_lane(scene.road, scene.ego.X_WB);
+  if (axis.body == "ego") {
+    return axis.key == "speed_mps" ? norm(scene.ego.v_B) : ego.d;
+  }
+  for (const world::Actor& actor : scene.actors) {
+    if (world::actor_name(actor) == axis.body) {
+      const world::LanePose place = to_lane(scene.road, actor.X_WA);
+      return axis.key == "speed_mps"    ? norm(actor.v_W)
+             : axis.key == "distance_m" ? place.s - ego.s
+                                        : place.d;
+    }
+  }
+  return std::nullopt;
+}
+
 Cell try_cell(const Scenario& scenario, const manoeuvre::Car& car, const outcome::HarmModel& harm,
               double time) {
   Cell cell;
@@ -219,8 +252,7 @@ Cell try_cell(const Scenario& scenario, const manoeuvre::Car& car, const outcome
   cell.best = finding.best;
   cell.alone = taught.alone == finding.best;
   cell.harms = finding.harm;
-  cell.harm = *finding.harm[best];
-  cell.spared = *finding.harm[manoeuvre::index(manoeuvre::PolicyId::aeb)] - cell.harm;
+  cell.margin = margin_over(finding, best);
   cell.contact = finding.contact[best];
   return cell;
 }

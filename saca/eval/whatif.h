@@ -37,13 +37,17 @@ struct Axis {
 [[nodiscard]] Result<sim::Scenario> varied(const sim::Scenario& scenario, const manoeuvre::Car& car,
                                            double time, const Axis& axis, double value);
 
+/// The number as the scenario has it at `time`; nullopt: the body is not there.
+[[nodiscard]] std::optional<double> nominal(const sim::Scenario& scenario,
+                                            const manoeuvre::Car& car, double time,
+                                            const Axis& axis);
+
 /// What is best at one place of the map.
 struct Cell {
   bool possible = true;  ///< false: bodies would overlap; the rest then means nothing
   manoeuvre::PolicyId best = manoeuvre::PolicyId::no_intervention;
   bool alone = false;    ///< it does less harm than every other
-  double harm = 0.0;     ///< of the best
-  double spared = 0.0;   ///< harm of emergency braking above it
+  double margin = 0.0;   ///< harm of the second best above that of the best, >= 0
   bool contact = false;  ///< even the best
   std::array<std::optional<double>, manoeuvre::num_policies> harms;
 };

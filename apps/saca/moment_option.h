@@ -1,0 +1,18 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+
+#include "apps/saca/inputs.h"
+
+namespace saca::app {
+
+/// The option `--at_s`: when the policies begin.
+void add_at(CLI::App& command, std::optional<double>& at);
+
+/// As asked for, else at the trigger [s].
+/// @return  Error::Code::out_of_range: after the scenario's end, or no trigger and not asked for
+[[nodiscard]] Result<double> decision_time(const ScenarioInputs& inputs,
+                                           const std::optional<double>& at);
+
+}  // namespace saca::app

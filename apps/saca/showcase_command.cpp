@@ -1,0 +1,179 @@
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "apps/saca/commands.h"
+#include "apps/saca/pictures.h"
+#include "apps/saca/progress.h"
+#include "apps/saca/surveying.h"
+#include "saca/core/file.h"
+#include "saca/eval/showcase.h"
+
+namespace saca::app {
+namespace {
+
+namespace fs = std::filesystem;
+using manoeuvre::PolicyId;
+using nlohmann::json;
+
+struct ShowcaseCommand {
+  SurveyOptions survey;
+  eval::ShowcaseRule rule;
+  unsigned long seed = 1;
+  int tries = 40;
+  std::string output = "runs/showcase";
+  bool as_json = false;
+};
+
+/// How many scenes are wanted of each policy.
+int wanted(PolicyId policy) {
+  return policy == PolicyId::no_intervention ? 3 : 1;
+}
+
+struct Shown {
+  PolicyId policy;
+  sim::Scenario scenario;
+  eval::Oracle oracle;
+};
+
+/// A sample as a scenario of its own.
+sim::Scenario named(sim::Scenario scenario, PolicyId policy, int index,
+                    const eval::Oracle& oracle) {
+  scenario.name = fmt::format("showcase_{}", manoeuvre::index(policy));
+  if (wanted(policy) > 1) {
+    scenario.name += fmt::format("_{}", static_cast<char>('a' + index));
+  }
+  scenario.title = fmt::format("{} is right: {}", name(policy), scenario.title);
+  scenario.why = why_right(oracle, policy);
+  return scenario;
+}
+
+/// The first candidates that convince; fewer than wanted where too few do. nullopt: interrupted.
+Result<std::optional<std::vector<Shown>>> shown(const SuiteSource& source,
+                                                const std::vector<eval::Finding>& findings,
+                                                PolicyId policy, const ShowcaseCommand& options) {
+  std::vector<Shown> found;
+  const auto all = eval::candidates(findings, policy);
+  const auto count = std::min(all.size(), static_cast<std::size_t>(options.tries));
+  SteadyClock clock;
+  ProgressLine progress(fmt::format("{} under noise", name(policy)), static_cast<int>(count),
+                        clock);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (interrupted()) {
+      return std::optional<std::vector<Shown>>();
+    }
+    const auto sample = source.sample(all[i].number);
+    if (!sample.has_value()) {
+      return sample.error();
+    }
+    const sim::Scenario& scenario = sample.value().scenario;
+    eval::Oracle oracle =
+        eval::oracle(scenario, source.inputs().car, source.inputs().harm,
+                     {*all[i].time, options.rule.draws, options.seed, options.survey.threads});
+    if (convinces(oracle, policy, options.rule)) {
+      found.push_back({policy, named(scenario, policy, static_cast<int>(found.size()), oracle),
+                       std::move(oracle)});
+    }
+    progress.show(static_cast<int>(i) + 1, 0, fmt::format(" candidates, {} found", found.size()));
+    if (static_cast<int>(found.size()) == wanted(policy)) {
+      break;
+    }
+  }
+  return std::optional(std::move(found));
+}
+
+std::optional<Error> write(const Shown& one, const std::string& output) {
+  const fs::path file = fs::path(output) / (one.scenario.name + ".toml");
+  if (auto problem = make_folder_of(file)) {
+    return problem;
+  }
+  if (auto problem = write_file(file, sim::write_scenario(one.scenario))) {
+    return problem;
+  }
+  return write_file(fs::path(output) / (one.scenario.name + ".svg"),
+                    report::contact_sheet(sheet_of(one.oracle, one.scenario)));
+}
+
+int run(const ShowcaseCommand& options) {
+  const auto findings = survey(options.survey);
+  if (!findings.has_value()) {
+    return complain_of(findings.error());
+  }
+  const auto source = SuiteSource::open(options.survey);
+  if (!source.has_value()) {
+    return complain_of(source.error());
+  }
+  bool stopped = !findings.value();
+  json list = json::array();
+  int missing = 0;
+  for (const PolicyId policy : manoeuvre::all_policies) {
+    if (stopped) {
+      break;
+    }
+    const auto found = shown(source.value(), *findings.value(), policy, options);
+    if (!found.has_value()) {
+      return complain_of(found.error());
+    }
+    stopped = !found.value();
+    if (stopped) {
+      break;
+    }
+    missing += wanted(policy) - static_cast<int>(found.value()->size());
+    for (const Shown& one : *found.value()) {
+      if (const auto problem = write(one, options.output)) {
+        return complain_of(*problem);
+      }
+      const eval::Margin margin = margin_of_best(one.oracle);
+      list.push_back({{"policy", manoeuvre::index(policy)},
+                      {"scenario", one.scenario.name},
+                      {"margin", margin.mean},
+                      {"margin_low", margin.low},
+                      {"why", one.scenario.why}});
+      if (!options.as_json) {
+        fmt::print("{}: {}\n", one.scenario.name, one.scenario.why);
+      }
+    }
+  }
+  if (stopped) {
+    complain("interrupted; the survey goes on where it stopped when the same command is given");
+    return was_interrupted;
+  }
+  if (options.as_json) {
+    fmt::print("{}\n",
+               json{{"schema", "saca.showcase/1"}, {"missing", missing}, {"found", list}}.dump(
+                   1, ' ', false, json::error_handler_t::replace));
+  } else if (missing > 0) {
+    fmt::print("{} scenes are missing: try more encounters (--count) or candidates (--tries)\n",
+               missing);
+  }
+  return success;
+}
+
+}  // namespace
+
+void add_search_showcase(CLI::App& line, int& exit_code) {
+  CLI::App* const command = line.add_subcommand(
+      "search-showcase",
+      "Search, for each policy, a scene in which it alone is best; can be interrupted");
+  const auto options = std::make_shared<ShowcaseCommand>();
+  add_survey_options(*command, options->survey);
+  command->add_option("--clear", options->rule.clear, "Least expected harm that it spares")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  command->add_option("--draws", options->rule.draws, "Under which it must do so")
+      ->check(CLI::Range(2, 1'000'000))
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Of the draws")->capture_default_str();
+  command->add_option("--tries", options->tries, "Candidates of each policy that are tried")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  command->add_option("--output", options->output, "Folder for scenarios and pictures")
+      ->capture_default_str();
+  command->add_flag("--json", options->as_json, "For programs");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace saca::app

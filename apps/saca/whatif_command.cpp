@@ -1,0 +1,267 @@
+#include <fmt/core.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "apps/saca/commands.h"
+#include "apps/saca/inputs.h"
+#include "apps/saca/moment_option.h"
+#include "apps/saca/progress.h"
+#include "apps/saca/surveying.h"
+#include "saca/core/file.h"
+#include "saca/core/parallel.h"
+#include "saca/eval/whatif.h"
+#include "saca/report/map_svg.h"
+
+namespace saca::app {
+namespace {
+
+using eval::Axis;
+using eval::Cell;
+using nlohmann::json;
+
+struct WhatifCommand {
+  std::string scenario;
+  std::vector<std::string> vary;
+  std::optional<double> at;
+  std::string svg = "runs/whatif.svg";
+  int threads = usual_threads();
+  bool as_json = false;
+};
+
+constexpr std::size_t most_cells = 40'000;
+
+/// The scenario at one place of the map, or why there is none.
+Result<sim::Scenario> scenario_at(const ScenarioInputs& inputs, double time,
+                                  const std::vector<Axis>& axes, std::size_t cell) {
+  auto changed = Result<sim::Scenario>(inputs.scenario);
+  for (const Axis& axis : axes) {
+    const double value = axis.values[cell % axis.values.size()];
+    cell /= axis.values.size();
+    changed = eval::varied(changed.value(), inputs.car, time, axis, value);
+    if (!changed.has_value()) {
+      return changed;
+    }
+  }
+  return changed;
+}
+
+std::size_t num_cells(const std::vector<Axis>& axes) {
+  std::size_t count = 1;
+  for (const Axis& axis : axes) {
+    count *= axis.values.size();
+  }
+  return count;
+}
+
+/// All cells, the first axis fastest; nullopt: interrupted.
+Result<std::optional<std::vector<Cell>>> try_all(const ScenarioInputs& inputs, double time,
+                                                 const std::vector<Axis>& axes, int threads) {
+  std::vector<Cell> cells(num_cells(axes));
+  std::vector<std::optional<Error>> problems(cells.size());
+  SteadyClock clock;
+  ProgressLine progress("what if", static_cast<int>(cells.size()), clock);
+  watch_for_interrupt();
+  constexpr std::size_t batch = 32;
+  for (std::size_t from = 0; from < cells.size(); from += batch) {
+    if (interrupted()) {
+      return std::optional<std::vector<Cell>>();
+    }
+    const std::size_t to = std::min(cells.size(), from + batch);
+    in_parallel(to - from, threads, [&](std::size_t i) {
+      const auto scenario = scenario_at(inputs, time, axes, from + i);
+      if (!scenario.has_value()) {
+        problems[from + i] = scenario.error();
+        return;
+      }
+      cells[from + i] = eval::try_cell(scenario.value(), inputs.car, inputs.harm, time);
+    });
+    for (std::size_t i = from; i < to; ++i) {
+      if (problems[i]) {
+        return *problems[i];
+      }
+    }
+    progress.show(static_cast<int>(to), 0, " scenes");
+  }
+  return std::optional(cells);
+}
+
+report::MapCell drawn(const Cell& cell) {
+  if (!cell.possible) {
+    return {.verdict = report::MapVerdict::unplayable};
+  }
+  const bool no_risk =
+      *cell.harms[manoeuvre::index(manoeuvre::PolicyId::no_intervention)] < 0.5 * outcome::harm_tie;
+  return {.verdict = no_risk ? report::MapVerdict::no_risk : report::MapVerdict::decided,
+          .best = cell.best,
+          .margin = cell.margin};
+}
+
+report::MapAxis drawn(const Axis& axis, const std::optional<double>& nominal) {
+  const std::size_t unit = axis.key.rfind('_');
+  const std::string name = axis.what.substr(0, axis.what.rfind('_'));
+  return {.name = unit == std::string::npos ? axis.what : name,
+          .unit = unit == std::string::npos       ? "-"
+                  : axis.key.substr(unit) == "_m" ? "m"
+                                                  : "m/s",
+          .values = axis.values,
+          .nominal = nominal};
+}
+
+std::string picture(const ScenarioInputs& inputs, double time, const std::vector<Axis>& axes,
+                    const std::vector<Cell>& cells) {
+  std::vector<report::MapCell> drawn_cells;
+  for (const Cell& cell : cells) {
+    drawn_cells.push_back(drawn(cell));
+  }
+  const std::vector<std::string> lines{
+      inputs.scenario.title,
+      fmt::format("All eight begin at {:.2f} s; everything else is where it was.", time)};
+  const auto axis = [&](std::size_t i) {
+    return drawn(axes[i], eval::nominal(inputs.scenario, inputs.car, time, axes[i]));
+  };
+  if (axes.size() == 2) {
+    return report::map_svg({.title = "Which policy is best",
+                            .lines = lines,
+                            .x = axis(0),
+                            .y = axis(1),
+                            .cells = drawn_cells});
+  }
+  report::PolicyStrip strip{.title = "Which policy is best",
+                            .lines = lines,
+                            .x = axis(0),
+                            .cells = drawn_cells,
+                            .curves = {}};
+  for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
+    report::HarmCurve curve{.policy = policy, .harm = {}, .low = {}, .high = {}};
+    for (const Cell& cell : cells) {
+      curve.harm.push_back(cell.harms[manoeuvre::index(policy)]);
+    }
+    strip.curves.push_back(curve);
+  }
+  return report::strip_svg(strip);
+}
+
+json json_of(const Cell& cell) {
+  json harms = json::array();
+  for (const auto& harm : cell.harms) {
+    harms.push_back(harm ? json(*harm) : json());
+  }
+  return cell.possible ? json{{"best", manoeuvre::index(cell.best)},
+                              {"alone", cell.alone},
+                              {"margin", cell.margin},
+                              {"contact", cell.contact},
+                              {"harm", harms}}
+                       : json();
+}
+
+void print_counts(const std::vector<Cell>& cells) {
+  std::array<int, manoeuvre::num_policies> counts{};
+  int impossible = 0;
+  for (const Cell& cell : cells) {
+    cell.possible ? ++counts[manoeuvre::index(cell.best)] : ++impossible;
+  }
+  for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
+    if (counts[manoeuvre::index(policy)] > 0) {
+      fmt::print("  {:6} best in {:5.1f} %\n", name(policy),
+                 100.0 * counts[manoeuvre::index(policy)] / static_cast<double>(cells.size()));
+    }
+  }
+  if (impossible > 0) {
+    fmt::print("  {} of {} cannot be: bodies overlap\n", impossible, cells.size());
+  }
+}
+
+int run(const WhatifCommand& options) {
+  const auto inputs = read_scenario_inputs(options.scenario);
+  if (!inputs.has_value()) {
+    return complain_of(inputs.error());
+  }
+  std::vector<Axis> axes;
+  for (const std::string& text : options.vary) {
+    const auto axis = eval::parse_axis(text, inputs.value().scenario);
+    if (!axis.has_value()) {
+      return complain_of({axis.error().code, "--vary " + axis.error().message});
+    }
+    axes.push_back(axis.value());
+  }
+  if (num_cells(axes) > most_cells) {
+    return complain_of(
+        {Error::Code::out_of_range,
+         fmt::format("--vary: want at most {} scenes, got {}", most_cells, num_cells(axes))});
+  }
+  const auto time = decision_time(inputs.value(), options.at);
+  if (!time.has_value()) {
+    return complain_of(time.error());
+  }
+  const auto cells = try_all(inputs.value(), time.value(), axes, options.threads);
+  if (!cells.has_value()) {
+    return complain_of(cells.error());
+  }
+  if (!cells.value()) {
+    complain("interrupted; nothing was written");
+    return was_interrupted;
+  }
+  auto problem = make_folder_of(options.svg);
+  if (!problem) {
+    problem = write_file(options.svg, picture(inputs.value(), time.value(), axes, *cells.value()));
+  }
+  if (problem) {
+    return complain_of(*problem);
+  }
+  if (!options.as_json) {
+    fmt::print("{}, {} scenes, from {:.2f} s on\n", inputs.value().scenario.title,
+               cells.value()->size(), time.value());
+    print_counts(*cells.value());
+    fmt::print("Map: {}\n", std::filesystem::absolute(options.svg).string());
+    return success;
+  }
+  json all{{"schema", "saca.whatif/1"},
+           {"scenario", inputs.value().scenario.name},
+           {"time_s", time.value()},
+           {"axes", json::array()},
+           {"cells", json::array()}};
+  for (const Axis& axis : axes) {
+    all["axes"].push_back({{"what", axis.what}, {"values", axis.values}});
+  }
+  for (const Cell& cell : *cells.value()) {
+    all["cells"].push_back(json_of(cell));
+  }
+  fmt::print("{}\n", all.dump(1, ' ', false, json::error_handler_t::replace));
+  return success;
+}
+
+}  // namespace
+
+void add_whatif(CLI::App& line, int& exit_code) {
+  CLI::App* const command = line.add_subcommand(
+      "whatif", "Map which policy is best when one or two numbers of a scenario change");
+  const auto options = std::make_shared<WhatifCommand>();
+  command
+      ->add_option("scenario", options->scenario, "A scenario file, or the name of a shipped one")
+      ->required();
+  command
+      ->add_option("--vary", options->vary,
+                   "BODY.KEY=FROM:TO:STEP, once or twice, as it is when the policies begin: "
+                   "ego.speed_mps, ego.offset_m, truck1.distance_m, truck1.offset_m, "
+                   "truck1.speed_mps, grip")
+      ->required()
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_size(1);
+  add_at(*command, options->at);
+  command->add_option("--svg", options->svg, "The map")->capture_default_str();
+  command->add_option("--threads", options->threads, "They do not change the result")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  command->add_flag("--json", options->as_json, "For programs");
+  command->callback([options, &exit_code] {
+    if (options->vary.size() > 2) {
+      throw CLI::ValidationError("--vary", "at most twice");
+    }
+    exit_code = run(*options);
+  });
+}
+
+}  // namespace saca::app
