@@ -9,6 +9,8 @@
 namespace saca::intent {
 namespace {
 
+constexpr double slope_time = 0.2;          // [s], assumption: to see that somebody brakes
+constexpr double most_deceleration = 10.0;  // [m/s^2]: no vehicle brakes harder
 constexpr double least_counted_gap = 0.01;  // [m]: nearer is as near
 
 /// The model's acceleration [m/s^2].
@@ -51,13 +53,27 @@ Driver::Driver(const DriverLaw& law, double speed, double grip, double step)
   expects(grip > 0.0 && std::isfinite(grip), "grip > 0");
   expects(step > 0.0 && std::isfinite(step), "step > 0");
   const double steps = std::round(law.reaction / step);
-  expects(steps < static_cast<double>(capacity), "step >= reaction / 300");
+  expects(steps <= static_cast<double>(longest_delay), "step >= reaction / 300");
   delay_ = static_cast<std::size_t>(steps);
+  slope_ = static_cast<std::size_t>(
+      std::clamp(std::round(slope_time / step), 1.0, static_cast<double>(longest_slope)));
+}
+
+void Driver::look(const Ahead& ahead) {
+  Look now{way_ + ahead.gap, ahead.speed, 0};
+  if (num_looks_ > 0) {
+    // Another body takes its place with a jump; none is farther from where it was foretold.
+    constexpr double jump = 0.5;  // [m]
+    const Look& before = looks_[(num_looks_ - 1) % capacity];
+    const bool the_same = std::abs(now.place - before.place - before.speed * step_) < jump;
+    now.steps_known = the_same ? before.steps_known + 1 : 0;
+  }
+  looks_[num_looks_ % capacity] = now;
+  ++num_looks_;
 }
 
 double Driver::advance(const Ahead& ahead) {
-  looks_[num_looks_ % capacity] = {way_ + ahead.gap, ahead.speed};
-  ++num_looks_;
+  look(ahead);
   const double most = from_g(grip_);
   const double acceleration = std::clamp(wanted_acceleration(law_, speed_, remembered()),
                                          -std::min(law_.hardest, most), most);
@@ -74,7 +90,16 @@ Ahead Driver::remembered() const {
   const std::size_t then = now - std::min(now, delay_);  // at first, all that it ever saw
   const Look& look = looks_[then % capacity];
   const double since = static_cast<double>(now - then) * step_;
-  return {look.place + look.speed * since - way_, look.speed};
+  const std::size_t steps = std::min(slope_, look.steps_known);
+  if (steps == 0 || look.speed <= 0.0) {
+    return {look.place + look.speed * since - way_, look.speed};
+  }
+  const double slower = looks_[(then - steps) % capacity].speed - look.speed;
+  const double deceleration =
+      std::clamp(slower / (static_cast<double>(steps) * step_), 0.0, most_deceleration);
+  const double braking = std::min(since, look.speed / deceleration);  // until it rests
+  const double speed = look.speed - deceleration * braking;
+  return {look.place + 0.5 * (look.speed + speed) * braking - way_, speed};
 }
 
 void Driver::speed_up(double factor) {

@@ -60,10 +60,12 @@ struct Ahead {
 
 /// One driver along a line: speed and memory of what it saw.
 ///
-/// It knows its own motion now, and the others' as they were `reaction` ago, carried on at the
-/// speed of then: the temporal anticipation of Treiber, Kesting, Helbing, Delays, inaccuracies and
-/// anticipation in microscopic traffic models, Physica A 360 (2006) 71. So only what is new comes
-/// late. Fixed in size: copied by value, allocates nothing.
+/// It knows its own motion now, and the others' as they were `reaction` ago, carried on: the
+/// temporal anticipation of Treiber, Kesting, Helbing, Delays, inaccuracies and anticipation in
+/// microscopic traffic models, Physica A 360 (2006) 71. There they are carried on at constant
+/// speed; here also with the deceleration of then, read off 0.2 s: brake lights tell that it lasts
+/// (an assumption). So only what is new comes late. Fixed in size: copied by value, allocates
+/// nothing.
 class Driver {
  public:
   /// @param speed  [m/s], >= 0
@@ -82,10 +84,15 @@ class Driver {
 
  private:
   struct Look {
-    double place = 0.0;  ///< of what was ahead: on the driver's own odometer [m]
-    double speed = 0.0;  ///< [m/s]
+    double place = 0.0;           ///< of what was ahead: on the driver's own odometer [m]
+    double speed = 0.0;           ///< [m/s]
+    std::size_t steps_known = 0;  ///< for which the same body has been ahead
   };
-  static constexpr std::size_t capacity = 301;
+  static constexpr std::size_t longest_delay = 300;  ///< in steps
+  static constexpr std::size_t longest_slope = 40;   ///< likewise
+  static constexpr std::size_t capacity = longest_delay + longest_slope + 1;
+
+  void look(const Ahead& ahead);
 
   /// What it takes to be ahead now.
   [[nodiscard]] Ahead remembered() const;
@@ -95,6 +102,7 @@ class Driver {
   double grip_;
   double step_;
   std::size_t delay_;  ///< in steps
+  std::size_t slope_;  ///< over so many a deceleration is read off
   double way_ = 0.0;   ///< odometer [m]
   std::size_t num_looks_ = 0;
   std::array<Look, capacity> looks_{};

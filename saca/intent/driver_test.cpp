@@ -164,6 +164,24 @@ TEST(Driver, HitsAHardBrakerBrakingTooLate) {
   EXPECT_FALSE(rear_end(law, 12.0).has_value());
 }
 
+// 1 s behind at 15 m/s, the one ahead brakes with 4 m/s^2 to a stop. After 1.25 s the gap has
+// shrunk by 4 * 1.25^2 / 2 = 3.1 m, so that braking with 15^2 / (2 * (15 + 28.1 - 18.75)) = 4.6
+// m/s^2 is enough: any driver manages.
+TEST(Driver, StopsBehindWhoBrakesModerately) {
+  const DriverLaw law = content_with(usual_driver(15.0), 15.0, 15.0);
+  Driver driver(law, 15.0, dry, step);
+  double gap = 15.0;
+  for (int k = 0; k < 2'000; ++k) {
+    const auto leader = [](double time) {
+      return std::clamp(15.0 - 4.0 * (time - 1.0), 0.0, 15.0);
+    };
+    const double now = leader(k * step);
+    gap += 0.5 * (now + leader((k + 1) * step)) * step - driver.advance({gap, now});
+    EXPECT_GT(gap, 0.0) << k;
+  }
+  EXPECT_LT(driver.speed(), 0.1);
+}
+
 TEST(Driver, NeverReverses) {
   Driver driver(usual_driver(3.0), 3.0, dry, step);
   double gap = 1.0;

@@ -83,9 +83,11 @@ ScenarioActor read_actor(Table table) {
   actor.footprint = read_footprint(table, actor.kind);
   actor.mass = table.number("mass_kg", {1.0, 1e6});
   actor.ghost = table.flag("ghost", false);
-  constexpr Range existence_range{0.01, 1.0};
-  actor.existence = actor.ghost ? table.number("existence", existence_range)
-                                : table.optional_number("existence", existence_range).value_or(1.0);
+  if (actor.ghost) {
+    actor.existence = table.number("existence", {0.01, 0.99});
+  } else if (table.has("existence")) {
+    table.reject("existence", "want it of a ghost only: all others are there");
+  }
   if (is_recorded(table)) {
     actor.motion = read_recording(table.table("recording"), false);
     return actor;

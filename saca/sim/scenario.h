@@ -71,7 +71,7 @@ struct ScenarioActor {
   double mass = 0.0;           ///< [kg], > 0
   std::variant<Script, Recording> motion;
   bool ghost = false;      ///< is perceived but not there
-  double existence = 1.0;  ///< how sure perception is that it is there, in (0, 1]
+  double existence = 1.0;  ///< how sure perception is of a ghost, in (0, 1)
 };
 
 /// Where the ego of a made scenario begins; it then goes on along its lane at constant speed.

@@ -218,8 +218,10 @@ TEST(ReadScenario, NamesWhatIsWrongInTheNewKeys) {
               AllOf(HasSubstr("existence"), HasSubstr("missing")));
   EXPECT_THAT(problem("mass_kg = 12000", "mass_kg = 12000\nghost = true\nexistence = 0"),
               HasSubstr("existence: want"));
-  EXPECT_THAT(problem("mass_kg = 12000", "mass_kg = 12000\nexistence = 2"),
+  EXPECT_THAT(problem("mass_kg = 12000", "mass_kg = 12000\nghost = true\nexistence = 1"),
               HasSubstr("existence: want"));
+  EXPECT_THAT(problem("mass_kg = 12000", "mass_kg = 12000\nexistence = 0.5"),
+              HasSubstr("existence: want it of a ghost only"));
   EXPECT_THAT(problem("shape = \"box\"\nlength_m = 8\nwidth_m = 2.5",
                       "shape = \"segment\"\nlength_m = 8\nwidth_m = 2.5"),
               HasSubstr("width_m: want none"));

@@ -238,8 +238,6 @@ void write(Writer& out, const ScenarioActor& actor) {
   if (actor.ghost) {
     out.flag("ghost", true);
     out.number("existence", actor.existence);
-  } else {
-    out.unless("existence", actor.existence, 1.0);
   }
   if (const auto* recording = std::get_if<Recording>(&actor.motion)) {
     out.heading("[actors.recording]");

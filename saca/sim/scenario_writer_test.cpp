@@ -88,7 +88,6 @@ Scenario drawn(unsigned seed) {
   scenario.actors[6].kind = world::ActorKind::pedestrian;
   scenario.actors[3].ghost = true;
   scenario.actors[3].existence = 0.3;
-  scenario.actors[2].existence = 0.9;
   ScenarioActor wall{.id = 9, .kind = world::ActorKind::obstacle, .mass = 1e5};
   wall.footprint = {.shape = world::Shape::segment, .length = 12.5};
   wall.motion = Script{.start = {200.0, 5.0, angle(rng)}, .behaviour = Behaviour::hold};
