@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "saca/core/contract.h"
 #include "saca/outcome/approach.h"
@@ -279,16 +280,23 @@ bool stops_the_ego(world::Beyond beyond) {
 
 Outcome judge(const EgoMotion& motion, const Scene& scene, std::span<const Track> tracks,
               const HarmModel& harm) {
-  expects(tracks.size() == scene.actors.size(), "one track per actor");
+  return judge(
+      motion, scene, [&](const Track&) { return std::vector<Track>(tracks.begin(), tracks.end()); },
+      harm);
+}
+
+Outcome judge(const EgoMotion& motion, const Scene& scene, const Others& others,
+              const HarmModel& harm) {
   expects(!motion.track.X_WA.empty(), "the motion has at least one pose");
   expects(motion.v_B.size() == motion.track.X_WA.size() &&
               motion.yaw_rate.size() == motion.track.X_WA.size(),
           "one velocity and one yaw rate per pose");
-  if (!motion.ended || !moves_at_end(motion)) {
-    return judge_all(motion, scene, tracks, harm);
-  }
-  Outcome outcome = judge_all(carried_on(motion, scene.road), scene, tracks, harm);
-  if (!outcome.contact) {
+  const bool moves_on = motion.ended && moves_at_end(motion);
+  const EgoMotion whole = moves_on ? carried_on(motion, scene.road) : motion;
+  const std::vector<Track> tracks = others(whole.track);
+  expects(tracks.size() == scene.actors.size(), "one track per actor");
+  Outcome outcome = judge_all(whole, scene, tracks, harm);
+  if (moves_on && !outcome.contact) {
     outcome.end_time = end_time(motion.track);
   }
   return outcome;

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "saca/manoeuvre/drive.h"
 #include "saca/outcome/edge.h"
@@ -67,11 +69,23 @@ struct Outcome {
 [[nodiscard]] Outcome judge(const manoeuvre::EgoMotion& motion, const world::Scene& scene,
                             std::span<const world::Track> tracks, const HarmModel& harm);
 
+/// How the others move when the ego moves so: one track per actor of the scene, in its order.
+/// Reacting drivers answer to the ego's motion up to each instant only, so that motions that agree
+/// up to a time have tracks that agree up to it.
+using Others = std::function<std::vector<world::Track>(const world::Track& X_WB)>;
+
+/// The same when the others react: `others` is asked with the motion as it is judged.
+[[nodiscard]] Outcome judge(const manoeuvre::EgoMotion& motion, const world::Scene& scene,
+                            const Others& others, const HarmModel& harm);
+
 /// What happens if `plan` is carried out in this scene: full dynamics to rest or a recovered lane.
 /// @param grip  true friction coefficient
 /// @throws ContractViolation  if refusal(car, plan, scene) has a reason
 [[nodiscard]] Outcome roll_out(const manoeuvre::Car& car, const manoeuvre::Plan& plan,
                                const world::Scene& scene, std::span<const world::Track> tracks,
                                double grip, const HarmModel& harm);
+[[nodiscard]] Outcome roll_out(const manoeuvre::Car& car, const manoeuvre::Plan& plan,
+                               const world::Scene& scene, const Others& others, double grip,
+                               const HarmModel& harm);
 
 }  // namespace saca::outcome

@@ -11,4 +11,9 @@ Outcome roll_out(const manoeuvre::Car& car, const manoeuvre::Plan& plan, const w
   return judge(drive(car, plan, scene, grip, longest), scene, tracks, harm);
 }
 
+Outcome roll_out(const manoeuvre::Car& car, const manoeuvre::Plan& plan, const world::Scene& scene,
+                 const Others& others, double grip, const HarmModel& harm) {
+  return judge(drive(car, plan, scene, grip, longest), scene, others, harm);
+}
+
 }  // namespace saca::outcome

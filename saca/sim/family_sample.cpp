@@ -5,6 +5,7 @@
 #include "saca/core/units.h"
 #include "saca/sim/family.h"
 #include "saca/sim/family_stage.h"
+#include "saca/sim/motion.h"
 #include "saca/sim/traffic.h"
 
 namespace saca::sim {

@@ -11,6 +11,7 @@
 #include "saca/core/names.h"
 #include "saca/core/units.h"
 #include "saca/sim/motion.h"
+#include "saca/sim/motion_reader.h"
 
 namespace saca::sim {
 namespace {
@@ -18,122 +19,27 @@ namespace {
 using config::Range;
 using config::Table;
 
-constexpr std::array<std::string_view, 4> behaviour_names{"hold", "constant_velocity", "accelerate",
-                                                          "brake"};
-
-// What a scenario may say: wide enough for every road, narrow enough to catch a slip.
-constexpr Range position_range{-1e5, 1e5};  // [m]
-constexpr Range heading_range{-180.0, 180.0};
-constexpr Range speed_range{0.0, 100.0};  // [m/s]
-constexpr Range yaw_rate_range{-360.0, 360.0};
-constexpr Range time_range{0.0, 600.0};  // [s]
-constexpr std::size_t max_samples = 6001;
-
-double angle(Table& table, std::string_view key) {
-  return wrap_angle(from_degrees(table.number(key, heading_range)));
-}
-
-/// The value that stands under `key` as a word; the first one when the word is not known.
-template <class Enum>
-Enum word(Table& table, std::string_view key, std::optional<Enum> (*from)(std::string_view),
-          std::string_view wanted) {
-  const std::string got = table.text(key);
-  const std::optional<Enum> value = from(got);
-  if (!value) {
-    table.reject(key, "want " + std::string(wanted) + ", got \"" + got + "\"");
-  }
-  return value.value_or(Enum{});
-}
+constexpr std::array<std::string_view, 7> behaviour_names{
+    "hold", "constant_velocity", "accelerate", "brake", "lane_change", "follow", "walk"};
+constexpr std::array<std::string_view, 3> deed_names{"stop", "go_on", "run"};
 
 world::Road read_road(Table table) {
   world::Road road;
-  road.topology = word(table, "topology", world::topology_from, "straight, intersection, one_way");
+  road.topology =
+      read_word(table, "topology", world::topology_from, "straight, intersection, one_way");
   road.X_WL.p.x = table.number("x_m", position_range);
   road.X_WL.p.y = table.number("y_m", position_range);
-  road.X_WL.yaw = angle(table, "heading_deg");
+  road.X_WL.yaw = read_angle(table, "heading_deg");
   road.curvature = table.number("curvature_1pm", {-0.2, 0.2});
   road.lane_width = table.number("lane_width_m", {2.0, 8.0});
   road.left_edge = table.number("left_edge_m", {0.5, 100.0});
   road.right_edge = table.number("right_edge_m", {-100.0, -0.5});
   constexpr std::string_view grounds = "unmarked, kerb, barrier, trees";
-  road.left_beyond = word(table, "left_beyond", world::beyond_from, grounds);
-  road.right_beyond = word(table, "right_beyond", world::beyond_from, grounds);
+  road.left_beyond = read_word(table, "left_beyond", world::beyond_from, grounds);
+  road.right_beyond = read_word(table, "right_beyond", world::beyond_from, grounds);
   road.oncoming_left = table.flag("oncoming_left", false);
   road.oncoming_right = table.flag("oncoming_right", false);
   return road;
-}
-
-/// A pose along the road; a reader of messages finds s and d rather than x and y.
-world::LanePose read_lane_pose(Table& table) {
-  world::LanePose pose;
-  pose.s = table.number("s_m", position_range);
-  pose.d = table.number("d_m", position_range);
-  pose.heading = angle(table, "heading_deg");
-  return pose;
-}
-
-Recording read_recording(Table table, bool with_yaw_rate) {
-  const std::vector<double> times = table.numbers("t_s", time_range);
-  if (times.size() < 2 || times.size() > max_samples) {
-    table.reject("t_s", "want 2 to " + std::to_string(max_samples) + " samples, got " +
-                            std::to_string(times.size()));
-    return {{}, {}};
-  }
-  const auto fault = std::adjacent_find(times.begin(), times.end(), std::greater_equal<>());
-  if (fault != times.end()) {
-    table.reject("t_s", "want growing times, got " + std::to_string(*fault) + " before " +
-                            std::to_string(*(fault + 1)));
-  }
-  const std::size_t size = times.size();
-  const std::vector<double> x = table.numbers("x_m", position_range, size);
-  const std::vector<double> y = table.numbers("y_m", position_range, size);
-  const std::vector<double> heading = table.numbers("heading_deg", heading_range, size);
-  const std::vector<double> speed = table.numbers("speed_mps", speed_range, size);
-  const std::vector<double> yaw_rate = with_yaw_rate
-                                           ? table.numbers("yaw_rate_degps", yaw_rate_range, size)
-                                           : std::vector<double>(size, 0.0);
-  Recording recording(size);
-  for (std::size_t k = 0; k < size; ++k) {
-    recording[k] = {times[k],
-                    {{x[k], y[k]}, wrap_angle(from_degrees(heading[k]))},
-                    speed[k],
-                    from_degrees(yaw_rate[k])};
-  }
-  return recording;
-}
-
-Script read_script(Table table) {
-  Script script;
-  script.start = read_lane_pose(table);
-  script.speed = table.number("speed_mps", speed_range);
-  script.behaviour =
-      word(table, "behaviour", behaviour_from, "hold, constant_velocity, accelerate, brake");
-  switch (script.behaviour) {
-    case Behaviour::hold:
-      if (script.speed > 0.0) {
-        table.reject("speed_mps", "want 0 for an actor that holds");
-      }
-      break;
-    case Behaviour::constant_velocity:
-      break;
-    case Behaviour::accelerate:
-      script.acceleration = table.number("acceleration_mps2", {-15.0, 15.0});
-      break;
-    case Behaviour::brake:
-      script.acceleration = table.number("deceleration_mps2", {0.01, 15.0});
-      script.from = table.number("brake_at_s", time_range);
-      break;
-  }
-  return script;
-}
-
-/// The one of two tables that says how a body moves.
-bool is_recorded(Table& table) {
-  const bool recorded = table.has("recording");
-  if (recorded && table.has("start")) {
-    table.reject("start", "want either a start or a recording, got both");
-  }
-  return recorded;
 }
 
 std::variant<EgoStart, Recording> read_ego(Table table) {
@@ -155,25 +61,72 @@ std::variant<EgoStart, Recording> read_ego(Table table) {
   return EgoStart{pose, start.number("speed_mps", speed_range)};
 }
 
+world::Footprint read_footprint(Table& table, world::ActorKind kind) {
+  world::Footprint footprint;
+  footprint.shape = read_word(table, "shape", world::shape_from, "box, ellipse, segment");
+  footprint.length = table.number("length_m", {0.1, 40.0});
+  if (footprint.shape != world::Shape::segment) {
+    footprint.width = table.number("width_m", {0.1, 20.0});
+  } else if (table.has("width_m")) {
+    table.reject("width_m", "want none: a segment has no width");
+  } else if (kind != world::ActorKind::obstacle) {
+    table.reject("shape", "want a segment for obstacles only, got a " + std::string(name(kind)));
+  }
+  return footprint;
+}
+
 ScenarioActor read_actor(Table table) {
   ScenarioActor actor;
   actor.id = static_cast<std::uint8_t>(table.integer("id", 1, 99));
-  actor.kind = word(table, "kind", world::actor_kind_from,
-                    "car, van, truck, motorcycle, bicycle, pedestrian, obstacle");
-  const std::string shape = table.text("shape");
-  if (shape != "box" && shape != "ellipse") {
-    table.reject("shape", "want box or ellipse, got \"" + shape + "\"");
-  }
-  actor.footprint.shape = shape == "ellipse" ? world::Shape::ellipse : world::Shape::box;
-  actor.footprint.length = table.number("length_m", {0.1, 40.0});
-  actor.footprint.width = table.number("width_m", {0.1, 20.0});
+  actor.kind = read_word(table, "kind", world::actor_kind_from,
+                         "car, van, truck, motorcycle, bicycle, pedestrian, obstacle");
+  actor.footprint = read_footprint(table, actor.kind);
   actor.mass = table.number("mass_kg", {1.0, 1e6});
+  actor.ghost = table.flag("ghost", false);
+  if (actor.ghost) {
+    actor.existence = table.number("existence", {0.01, 0.99});
+  } else if (table.has("existence")) {
+    table.reject("existence", "want it of a ghost only: all others are there");
+  }
   if (is_recorded(table)) {
     actor.motion = read_recording(table.table("recording"), false);
-  } else {
-    actor.motion = read_script(table.table("start"));
+    return actor;
   }
+  Table start = table.table("start");
+  const Script script = read_script(start, actor.kind);
+  if (actor.ghost && script.behaviour == Behaviour::follow) {
+    start.reject("behaviour",
+                 "want one that needs no driver: a ghost is not there, got \"follow\"");
+  }
+  actor.motion = script;
   return actor;
+}
+
+/// Everything that is not said is perfect.
+PerceptionModel read_perception(Table& root) {
+  PerceptionModel model;
+  std::optional<Table> table = root.optional_table("perception");
+  if (!table) {
+    return model;
+  }
+  const auto optional = [&](std::string_view key, Range range, double& value) {
+    value = table->optional_number(key, range).value_or(value);
+  };
+  optional("position_sd_m", {0.0, 100.0}, model.position_sd);
+  optional("velocity_sd_mps", {0.0, 100.0}, model.velocity_sd);
+  if (const auto sd = table->optional_number("heading_sd_deg", {0.0, 180.0})) {
+    model.heading_sd = from_degrees(*sd);
+  }
+  optional("correlation_s", {0.0, 600.0}, model.correlation_time);
+  optional("latency_s", {0.0, 2.0}, model.latency);
+  optional("dropout", {0.0, 1.0}, model.dropout);
+  optional("range_m", {0.1, 1e6}, model.range);
+  model.occlusion = table->flag("occlusion", model.occlusion);
+  optional("confirmation_s", {0.0, 600.0}, model.confirmation);
+  optional("memory_s", {0.0, 600.0}, model.memory);
+  model.grip_believed = table->optional_number("grip_believed", {0.05, 1.2});
+  optional("grip_sd", {0.0, 1.2}, model.grip_sd);
+  return model;
 }
 
 std::string shown_name(const ScenarioActor& actor) {
@@ -204,7 +157,7 @@ void check_bodies(const Scenario& scenario, std::vector<Table>& tables,
     if (!names.insert(shown_name(actor)).second) {
       tables[i].reject("id", "want a new one, got a second " + shown_name(actor));
     }
-    starts.push_back(actor_track(scenario, i, scenario.duration).X_WA.front());
+    starts.push_back(start_pose(scenario, i));
     if (!present(actor)) {
       continue;
     }
@@ -213,7 +166,7 @@ void check_bodies(const Scenario& scenario, std::vector<Table>& tables,
     }
     for (std::size_t k = 0; k < i; ++k) {
       const ScenarioActor& other = scenario.actors[k];
-      if (present(other) &&
+      if (present(other) && !actor.ghost && !other.ghost &&
           world::separation(actor.footprint, starts[i], other.footprint, starts[k]).distance <=
               0.0) {
         tables[i].reject("", shown_name(actor) + ": want room at the start, got it touching " +
@@ -234,6 +187,7 @@ void read_head(Table& root, Scenario& scenario) {
     root.reject("name", "want lower-case letters, digits and _, got \"" + scenario.name + "\"");
   }
   scenario.title = root.text("title");
+  scenario.why = root.optional_text("why").value_or("");
   scenario.source = root.text("source");
   scenario.licence = root.text("licence");
   scenario.driver = root.optional_text("driver").value_or("");
@@ -265,6 +219,13 @@ std::optional<Behaviour> behaviour_from(std::string_view name) {
   return value_from<Behaviour>(name, behaviour_names);
 }
 
+std::string_view name(Deed deed) {
+  return name_of(deed, deed_names);
+}
+std::optional<Deed> deed_from(std::string_view name) {
+  return value_from<Deed>(name, deed_names);
+}
+
 Result<Scenario> read_scenario(std::string_view text, std::string_view source,
                                const world::Footprint& ego) {
   const Result<config::Document> document = config::Document::parse(text, source);
@@ -275,6 +236,7 @@ Result<Scenario> read_scenario(std::string_view text, std::string_view source,
   Scenario scenario;
   read_head(root, scenario);
   scenario.provenance = read_provenance(root);
+  scenario.perception = read_perception(root);
   scenario.road = read_road(root.table("road"));
   scenario.ego = read_ego(root.table("ego"));
   std::vector<Table> actors = root.tables("actors");
@@ -291,6 +253,9 @@ Result<Scenario> read_scenario(std::string_view text, std::string_view source,
   for (std::size_t i = 0; i < actors.size(); ++i) {
     if (const auto* script = std::get_if<Script>(&scenario.actors[i].motion)) {
       check_place(scenario.road, script->start, actors[i]);
+      if (script->behaviour == Behaviour::lane_change) {
+        check_place(scenario.road, {.d = script->to_d}, actors[i]);
+      }
     }
   }
   if (const std::optional<Error> error = document.value().error()) {

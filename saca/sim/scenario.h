@@ -10,6 +10,8 @@
 
 #include "saca/core/pose.h"
 #include "saca/core/result.h"
+#include "saca/intent/driver.h"
+#include "saca/sim/perception_model.h"
 #include "saca/world/road.h"
 #include "saca/world/scene.h"
 
@@ -30,18 +32,36 @@ using Recording = std::vector<Sample>;
 enum class Behaviour : std::uint8_t {
   hold,               ///< stays where it is
   constant_velocity,  ///< goes on at its speed
-  accelerate,         ///< at `acceleration` from the start on, until it rests
+  accelerate,         ///< at `acceleration` from `from` on, until it rests or has `until_speed`
   brake,              ///< goes on until `from`, then at -`acceleration` until it rests
+  lane_change,        ///< from `from` on, to `to_d` in `takes` or until it rests; see below
+  follow,             ///< drives by `law` and reacts to whoever is ahead of it, the ego too
+  walk,               ///< goes on until `from`, then does `then`
 };
+
+/// What somebody who walks decides to do.
+enum class Deed : std::uint8_t { stop, go_on, run };
 
 /// Start and behaviour of an actor without a recording. One that heads along the lane (0 or 180
 /// deg) follows it and keeps its d; any other goes straight on.
+///
+/// A lane change is a quintic in the way made: without jerk at its ends, its body heading along the
+/// path; its `speed` is that along the lane. With an `acceleration` it brakes as hard as that from
+/// `from` on until it rests.
 struct Script {
   world::LanePose start;
   double speed = 0.0;  ///< along its heading [m/s], >= 0
   Behaviour behaviour = Behaviour::constant_velocity;
-  double acceleration = 0.0;  ///< [m/s^2]; of `brake` the deceleration, > 0
-  double from = 0.0;          ///< of `brake` [s], >= 0
+  double acceleration = 0.0;          ///< [m/s^2]; of `brake`, `lane_change` the deceleration, >= 0
+  double from = 0.0;                  ///< when it begins, or decides [s], >= 0
+  std::optional<double> until_speed;  ///< of `accelerate` [m/s]
+  double to_d = 0.0;                  ///< of `lane_change`: d in the end [m]
+  double takes = 0.0;                 ///< likewise: how long [s], > 0
+  Deed then = Deed::go_on;            ///< of `walk`, and the rest
+  std::optional<double> chance_stop;  ///< if either is given, a draw of chance decides by them;
+  std::optional<double> chance_run;   ///< the one that is not given is 0
+  double run_speed = 0.0;             ///< [m/s]
+  intent::DriverLaw law{};            ///< of `follow`
 };
 
 struct ScenarioActor {
@@ -50,6 +70,8 @@ struct ScenarioActor {
   world::Footprint footprint;  ///< about its centre
   double mass = 0.0;           ///< [kg], > 0
   std::variant<Script, Recording> motion;
+  bool ghost = false;      ///< is perceived but not there
+  double existence = 1.0;  ///< how sure perception is of a ghost, in (0, 1)
 };
 
 /// Where the ego of a made scenario begins; it then goes on along its lane at constant speed.
@@ -69,6 +91,7 @@ struct Provenance {
 struct Scenario {
   std::string name;  ///< lower-case letters, digits and `_`: also the file's name
   std::string title;
+  std::string why;  ///< why this scene matters, in a sentence; may be empty
   std::string source;
   std::string licence;     ///< licence and attribution
   std::string driver;      ///< what the driver did, in words; empty: nobody drove
@@ -76,6 +99,7 @@ struct Scenario {
   std::string car;         ///< name of the ego's parameter file
   double grip = 0.9;       ///< true friction coefficient [-]
   double duration = 10.0;  ///< how long the scenario may run [s]
+  PerceptionModel perception;
   world::Road road;
   std::variant<EgoStart, Recording> ego;
   std::vector<ScenarioActor> actors;
@@ -84,6 +108,8 @@ struct Scenario {
 
 [[nodiscard]] std::string_view name(Behaviour behaviour);
 [[nodiscard]] std::optional<Behaviour> behaviour_from(std::string_view name);
+[[nodiscard]] std::string_view name(Deed deed);
+[[nodiscard]] std::optional<Deed> deed_from(std::string_view name);
 
 /// Body of the standard car about its centre of mass: 4.7 x 1.9 m, 2.25 m of it ahead.
 /// Source: the paper's platform as described in docs/decisions; data/vehicles holds the same.

@@ -5,6 +5,7 @@
 
 #include <numbers>
 #include <string>
+#include <utility>
 
 namespace saca::sim {
 namespace {
@@ -142,6 +143,104 @@ TEST(ReadScenario, RefusesWhatCannotBe) {
   EXPECT_THAT(problem("\"brake\"", "\"stop\""), HasSubstr("got \"stop\""));
   EXPECT_THAT(problem("\"brake\"", "\"hold\""), HasSubstr("speed_mps"));
   EXPECT_THAT(problem("\"box\"", "\"disc\""), HasSubstr("got \"disc\""));
+}
+
+TEST(ReadScenario, HoldsWhatIsPerceived) {
+  const PerceptionModel perfect = read_scenario(crossing, "x.toml").value().perception;
+  EXPECT_EQ(perfect, PerceptionModel{});
+  const std::string text =
+      with("[ego.start]",
+           "[perception]\nposition_sd_m = 0.3\nvelocity_sd_mps = 0.2\nheading_sd_deg = 180\n"
+           "correlation_s = 2\nlatency_s = 0.2\ndropout = 0.1\nrange_m = 80\nocclusion = true\n"
+           "confirmation_s = 0.3\nmemory_s = 1\ngrip_believed = 0.7\ngrip_sd = 0.1\n\n[ego.start]");
+  const Result<Scenario> result = read_scenario(text, "x.toml");
+  ASSERT_TRUE(result.has_value()) << result.error().message;
+  const PerceptionModel expected{.position_sd = 0.3,
+                                 .velocity_sd = 0.2,
+                                 .heading_sd = std::numbers::pi,
+                                 .correlation_time = 2.0,
+                                 .latency = 0.2,
+                                 .dropout = 0.1,
+                                 .range = 80.0,
+                                 .occlusion = true,
+                                 .confirmation = 0.3,
+                                 .memory = 1.0,
+                                 .grip_believed = 0.7,
+                                 .grip_sd = 0.1};
+  EXPECT_EQ(result.value().perception, expected);
+}
+
+TEST(ReadScenario, HoldsGhostsWallsAndWhy) {
+  const Scenario ghost =
+      read_scenario(with("mass_kg = 12000", "mass_kg = 12000\nghost = true\nexistence = 0.4"),
+                    "x.toml")
+          .value();
+  EXPECT_TRUE(ghost.actors[0].ghost);
+  EXPECT_EQ(ghost.actors[0].existence, 0.4);
+  EXPECT_FALSE(ghost.actors[1].ghost);
+  EXPECT_EQ(ghost.actors[1].existence, 1.0);
+  const Scenario why =
+      read_scenario(with("source =", "why = \"it cannot stop\"\nsource ="), "x.toml").value();
+  EXPECT_EQ(why.why, "it cannot stop");
+  const std::string wall = crossing + R"(
+[[actors]]
+kind = "obstacle"
+id = 1
+shape = "segment"
+length_m = 20
+mass_kg = 10000
+
+[actors.start]
+s_m = 100
+d_m = 4
+heading_deg = 5
+speed_mps = 0
+behaviour = "hold"
+)";
+  EXPECT_EQ(read_scenario(wall, "x.toml").value().actors[2].footprint.shape, world::Shape::segment);
+}
+
+TEST(ReadScenario, NamesWhatIsWrongInTheNewKeys) {
+  const auto perception = [](const char* line) {
+    return problem("[ego.start]", std::string("[perception]\n") + line + "\n\n[ego.start]");
+  };
+  for (const auto& [line, message] :
+       {std::pair{"position_sd_m = -1", "position_sd_m: want 0 to 100, got -1"},
+        std::pair{"dropout = 1.5", "dropout: want 0 to 1, got 1.5"},
+        std::pair{"latency_ms = 200", "latency_ms: unknown key"},
+        std::pair{"range_m = 0", "range_m: want"},
+        std::pair{"range_m = inf", "range_m: want 0.1 to 1e+06, got inf"},
+        std::pair{"occlusion = 1", "occlusion: want"}, std::pair{"grip_believed = 0", "got 0"},
+        std::pair{"memory_s = nan", "memory_s: want"}}) {
+    EXPECT_THAT(perception(line), AllOf(HasSubstr("x.toml:"), HasSubstr(message))) << line;
+  }
+  EXPECT_THAT(problem("mass_kg = 12000", "mass_kg = 12000\nghost = true"),
+              AllOf(HasSubstr("existence"), HasSubstr("missing")));
+  EXPECT_THAT(problem("mass_kg = 12000", "mass_kg = 12000\nghost = true\nexistence = 0"),
+              HasSubstr("existence: want"));
+  EXPECT_THAT(problem("mass_kg = 12000", "mass_kg = 12000\nghost = true\nexistence = 1"),
+              HasSubstr("existence: want"));
+  EXPECT_THAT(problem("mass_kg = 12000", "mass_kg = 12000\nexistence = 0.5"),
+              HasSubstr("existence: want it of a ghost only"));
+  EXPECT_THAT(problem("shape = \"box\"\nlength_m = 8\nwidth_m = 2.5",
+                      "shape = \"segment\"\nlength_m = 8\nwidth_m = 2.5"),
+              HasSubstr("width_m: want none"));
+  EXPECT_THAT(
+      problem("shape = \"box\"\nlength_m = 8\nwidth_m = 2.5", "shape = \"segment\"\nlength_m = 8"),
+      HasSubstr("shape: want a segment for obstacles only, got a truck"));
+  EXPECT_THAT(problem("source =", "why = 3\nsource ="), HasSubstr("why: want"));
+}
+
+// A ghost may stand where somebody is, but not where the ego is.
+TEST(ReadScenario, AGhostMayOverlapOthersButNotTheEgo) {
+  EXPECT_EQ(problem("mass_kg = 12000\n\n[actors.start]\ns_m = 55\nd_m = 43",
+                    "mass_kg = 12000\nghost = true\nexistence = 0.5\n\n[actors.start]\n"
+                    "s_m = 30\nd_m = 4"),
+            "no problem");
+  EXPECT_THAT(problem("mass_kg = 12000\n\n[actors.start]\ns_m = 55\nd_m = 43",
+                      "mass_kg = 12000\nghost = true\nexistence = 0.5\n\n[actors.start]\n"
+                      "s_m = 3\nd_m = 3"),
+              HasSubstr("touching the ego"));
 }
 
 TEST(ReadScenario, RefusesTimesThatDoNotGrow) {

@@ -72,6 +72,17 @@ class Writer {
   }
   void text(std::string_view key, std::string_view value) { raw(key, quoted(value)); }
   void number(std::string_view key, double value) { raw(key, decimal(value)); }
+  void optional(std::string_view key, std::optional<double> value) {
+    if (value) {
+      number(key, *value);
+    }
+  }
+  /// Left out when it is what a reader takes it for without.
+  void unless(std::string_view key, double value, double usual) {
+    if (value != usual) {
+      number(key, value);
+    }
+  }
   void angle(std::string_view key, double value) { raw(key, degrees(value)); }
   void flag(std::string_view key, bool value) { raw(key, value ? "true" : "false"); }
 
@@ -121,16 +132,81 @@ void write(Writer& out, const world::LanePose& pose) {
   out.angle("heading_deg", pose.heading);
 }
 
+void write_law(Writer& out, const intent::DriverLaw& law) {
+  out.number("desired_speed_mps", law.desired_speed);
+  out.number("time_gap_s", law.time_gap);
+  out.number("reaction_s", law.reaction);
+  out.number("least_gap_m", law.least_gap);
+  out.number("acceleration_mps2", law.acceleration);
+  out.number("comfortable_mps2", law.comfortable);
+  out.number("hardest_mps2", law.hardest);
+}
+
+void write_walk(Writer& out, const Script& script) {
+  out.number("decides_at_s", script.from);
+  out.text("then", name(script.then));
+  out.optional("chance_stop", script.chance_stop);
+  out.optional("chance_run", script.chance_run);
+  if (script.run_speed > 0.0) {
+    out.number("run_mps", script.run_speed);
+  }
+}
+
 void write(Writer& out, const Script& script) {
   write(out, script.start);
   out.number("speed_mps", script.speed);
   out.text("behaviour", name(script.behaviour));
-  if (script.behaviour == Behaviour::accelerate) {
-    out.number("acceleration_mps2", script.acceleration);
-  } else if (script.behaviour == Behaviour::brake) {
-    out.number("deceleration_mps2", script.acceleration);
-    out.number("brake_at_s", script.from);
+  switch (script.behaviour) {
+    case Behaviour::hold:
+    case Behaviour::constant_velocity:
+      break;
+    case Behaviour::accelerate:
+      out.number("acceleration_mps2", script.acceleration);
+      out.unless("from_s", script.from, 0.0);
+      out.optional("until_mps", script.until_speed);
+      break;
+    case Behaviour::brake:
+      out.number("deceleration_mps2", script.acceleration);
+      out.number("brake_at_s", script.from);
+      break;
+    case Behaviour::lane_change:
+      out.number("to_d_m", script.to_d);
+      out.number("begins_at_s", script.from);
+      out.number("takes_s", script.takes);
+      out.unless("deceleration_mps2", script.acceleration, 0.0);
+      break;
+    case Behaviour::follow:
+      write_law(out, script.law);
+      break;
+    case Behaviour::walk:
+      write_walk(out, script);
+      break;
   }
+}
+
+/// Only what is not perfect; nothing when all is.
+void write(Writer& out, const PerceptionModel& model) {
+  const PerceptionModel perfect;
+  if (model == perfect) {
+    return;
+  }
+  out.heading("[perception]");
+  out.unless("position_sd_m", model.position_sd, perfect.position_sd);
+  out.unless("velocity_sd_mps", model.velocity_sd, perfect.velocity_sd);
+  if (model.heading_sd != perfect.heading_sd) {
+    out.angle("heading_sd_deg", model.heading_sd);
+  }
+  out.unless("correlation_s", model.correlation_time, perfect.correlation_time);
+  out.unless("latency_s", model.latency, perfect.latency);
+  out.unless("dropout", model.dropout, perfect.dropout);
+  out.unless("range_m", model.range, perfect.range);
+  if (model.occlusion) {
+    out.flag("occlusion", true);
+  }
+  out.unless("confirmation_s", model.confirmation, perfect.confirmation);
+  out.unless("memory_s", model.memory, perfect.memory);
+  out.optional("grip_believed", model.grip_believed);
+  out.unless("grip_sd", model.grip_sd, perfect.grip_sd);
 }
 
 void write(Writer& out, const world::Road& road) {
@@ -153,10 +229,16 @@ void write(Writer& out, const ScenarioActor& actor) {
   out.heading("[[actors]]");
   out.text("kind", world::name(actor.kind));
   out.raw("id", std::to_string(actor.id));
-  out.text("shape", actor.footprint.shape == world::Shape::box ? "box" : "ellipse");
+  out.text("shape", world::name(actor.footprint.shape));
   out.number("length_m", actor.footprint.length);
-  out.number("width_m", actor.footprint.width);
+  if (actor.footprint.shape != world::Shape::segment) {
+    out.number("width_m", actor.footprint.width);
+  }
   out.number("mass_kg", actor.mass);
+  if (actor.ghost) {
+    out.flag("ghost", true);
+    out.number("existence", actor.existence);
+  }
   if (const auto* recording = std::get_if<Recording>(&actor.motion)) {
     out.heading("[actors.recording]");
     write(out, *recording, false);
@@ -173,6 +255,9 @@ std::string write_scenario(const Scenario& scenario) {
   out.text("schema", "saca.scenario/1");
   out.text("name", scenario.name);
   out.text("title", scenario.title);
+  if (!scenario.why.empty()) {
+    out.text("why", scenario.why);
+  }
   out.text("source", scenario.source);
   out.text("licence", scenario.licence);
   if (!scenario.driver.empty()) {
@@ -190,6 +275,7 @@ std::string write_scenario(const Scenario& scenario) {
     out.raw("first_row", std::to_string(from->first_row));
     out.raw("last_row", std::to_string(from->last_row));
   }
+  write(out, scenario.perception);
   write(out, scenario.road);
   if (const auto* recording = std::get_if<Recording>(&scenario.ego)) {
     out.heading("[ego.recording]");

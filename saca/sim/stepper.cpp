@@ -1,7 +1,7 @@
 #include "saca/sim/stepper.h"
 
 #include <algorithm>
-#include <iterator>
+#include <cmath>
 
 #include "saca/core/contract.h"
 #include "saca/sim/motion.h"
@@ -9,71 +9,90 @@
 namespace saca::sim {
 namespace {
 
-constexpr double track_step = 0.01;      // [s]
-constexpr double difference_time = 0.5;  // [s], backward differences of velocity and heading
-
-world::Actor perceived(const ScenarioActor& actor, const world::Track& track, double time) {
-  world::Actor seen{.id = actor.id,
-                    .kind = actor.kind,
-                    .footprint = actor.footprint,
-                    .mass = actor.mass,
-                    .X_WA = world::pose_at(track, time),
-                    .v_W = world::velocity_at(track, time)};
-  const double before = time - difference_time;
-  if (before >= track.start) {
-    constexpr double rate = 1.0 / difference_time;
-    seen.a_W = rate * (seen.v_W - world::velocity_at(track, before));
-    seen.yaw_rate = rate * wrap_angle(seen.X_WA.yaw - world::pose_at(track, before).yaw);
-  }
-  return seen;
-}
+constexpr double watched_after = 3.0;  // [s]: any driver's reaction and a firm stop from 20 m/s
+const auto steps_per_traffic =
+    static_cast<std::int64_t>(std::lround(Traffic::step / Stepper::step));
 
 }  // namespace
 
-Stepper::Stepper(const Scenario& scenario, const vehicle::Vehicle& car)
-    : scenario_(scenario), car_(car) {
-  for (std::size_t i = 0; i < scenario.actors.size(); ++i) {
-    tracks_.push_back(actor_track(scenario, i, track_step));
-  }
-}
+Stepper::Stepper(const Scenario& scenario, const manoeuvre::Car& car, const Chance& chance)
+    : scenario_(scenario),
+      car_(car),
+      chance_(chance),
+      real_car_(manoeuvre::real_car(car, chance.car)),
+      grip_(std::min(1.2, scenario.grip * chance.car.grip)),
+      traffic_(scenario, chance),
+      seen_by_traffic_(ego_at(scenario, 0.0)) {}
 
 void Stepper::take_the_wheel() {
   expects(!driven_, "the wheel is taken once");
-  state_ = manoeuvre::rolling_state(car_, ego_at(scenario_, time()), scenario_.grip);
+  world::EgoState ego = ego_at(scenario_, time());
+  ego.v_B.x = std::max(0.0, ego.v_B.x + chance_.car.speed);
+  state_ = manoeuvre::rolling_state(real_car_, ego, grip_);
   driven_ = true;
+  traffic_.let_followers_react(ego, manoeuvre::footprint(real_car_));
 }
 
 void Stepper::advance(const vehicle::Command& command) {
+  if (num_steps_ % steps_per_traffic == 0) {
+    seen_by_traffic_ = ego();
+  }
   if (driven_) {
-    state_ = vehicle::step(car_, state_, command, scenario_.grip, step);
+    state_ = vehicle::step(real_car_, state_, command, grip_, step);
   }
   ++num_steps_;
+  if (num_steps_ % steps_per_traffic == 0) {
+    const world::EgoState& seen = seen_by_traffic_;
+    traffic_.advance(seen.X_WB, rotated(seen.v_B, seen.X_WB.yaw), manoeuvre::footprint(real_car_));
+  }
 }
 
 world::EgoState Stepper::ego() const {
   return driven_ ? manoeuvre::ego_state(state_) : ego_at(scenario_, time());
 }
 
+void Stepper::carry_on(StaticVector<world::Actor, world::max_actors>& actors) const {
+  const double since = time() - traffic_.time();
+  if (num_steps_ % steps_per_traffic == 0) {
+    return;
+  }
+  for (world::Actor& actor : actors) {
+    actor.X_WA.p = actor.X_WA.p + since * actor.v_W;
+    actor.X_WA.yaw = wrap_angle(actor.X_WA.yaw + since * actor.yaw_rate);
+  }
+}
+
 world::Scene Stepper::scene() const {
   world::Scene scene{.time = time(),
                      .ego = ego(),
-                     .ego_footprint = manoeuvre::footprint(car_),
-                     .ego_mass = car_.mass,
+                     .ego_footprint = manoeuvre::footprint(real_car_),
+                     .ego_mass = real_car_.mass,
+                     .actors = traffic_.actors(),
                      .road = scenario_.road,
-                     .grip = scenario_.grip};
-  for (std::size_t i = 0; i < scenario_.actors.size(); ++i) {
-    if (is_there(tracks_[i])) {
-      scene.actors.push_back(perceived(scenario_.actors[i], tracks_[i], time()));
-    }
-  }
+                     .grip = grip_};
+  carry_on(scene.actors);
   return scene;
 }
 
-std::vector<world::Track> Stepper::tracks() const {
-  std::vector<world::Track> there;
-  std::copy_if(tracks_.begin(), tracks_.end(), std::back_inserter(there),
-               [&](const world::Track& track) { return is_there(track); });
-  return there;
+world::Scene Stepper::perceived() const {
+  world::Scene seen = scene();
+  seen.ego_mass = car_.mass;
+  // Here, and nowhere else, the scenario's perception comes between the truth and the ego.
+  StaticVector<world::Actor, world::max_actors> ghosts = traffic_.ghosts();
+  carry_on(ghosts);
+  for (const world::Actor& ghost : ghosts) {
+    seen.actors.push_back(ghost);
+  }
+  seen.grip = scenario_.perception.grip_believed.value_or(scenario_.grip);
+  seen.grip_sd = scenario_.perception.grip_sd;
+  return seen;
+}
+
+outcome::Others Stepper::others() const {
+  return [traffic = traffic_, ego = manoeuvre::footprint(real_car_),
+          last = scenario_.duration](const world::Track& X_WB) {
+    return traffic.against(X_WB, ego, std::max(last, world::end_time(X_WB) + watched_after));
+  };
 }
 
 }  // namespace saca::sim

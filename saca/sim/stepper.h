@@ -1,29 +1,35 @@
 #pragma once
 
-#include <vector>
+#include <cstdint>
 
+#include "saca/manoeuvre/car.h"
 #include "saca/manoeuvre/controller.h"
 #include "saca/manoeuvre/ego.h"
+#include "saca/outcome/outcome.h"
+#include "saca/sim/chance.h"
 #include "saca/sim/scenario.h"
+#include "saca/sim/traffic.h"
 #include "saca/vehicle/vehicle.h"
 #include "saca/world/scene.h"
-#include "saca/world/track.h"
 
 namespace saca::sim {
 
-/// A scenario in motion: simulated time is a step count times 1 ms. The ego follows what the
-/// scenario gives until somebody takes the wheel; the others follow their true tracks.
+/// A scenario in motion, under one draw of what it leaves to chance: simulated time is a step count
+/// times 1 ms. The ego follows what the scenario gives until somebody takes the wheel; the others
+/// are Traffic, a step of which is ten of these.
 class Stepper {
  public:
   static constexpr double step = vehicle::usual_step;  ///< [s]
 
   /// Scenario and car outlive the stepper.
-  Stepper(const Scenario& scenario, const vehicle::Vehicle& car);
+  /// @param car  what the ego takes itself for; `chance` says how the real one differs
+  Stepper(const Scenario& scenario, const manoeuvre::Car& car, const Chance& chance = {});
 
   [[nodiscard]] double time() const { return static_cast<double>(num_steps_) * step; }
   [[nodiscard]] bool over() const { return time() >= scenario_.duration; }
 
-  /// From now on the vehicle model moves the ego, from the state it has.
+  /// From now on the vehicle model moves the ego, from the state it has, and recorded followers
+  /// react to it (Traffic::let_followers_react).
   void take_the_wheel();
   [[nodiscard]] bool driven() const { return driven_; }
 
@@ -34,20 +40,29 @@ class Stepper {
   [[nodiscard]] const vehicle::VehicleState& car_state() const { return state_; }
   [[nodiscard]] world::EgoState ego() const;
 
-  /// The scene as it is now: perception without noise, delay or loss. Accelerations of the others
-  /// are backward differences over 0.5 s, as a tracker would know them; zero until an actor has
-  /// been seen that long.
+  /// The scene as it truly is now.
   [[nodiscard]] world::Scene scene() const;
+  /// The scene as the ego perceives it now. It knows its own motion.
+  [[nodiscard]] world::Scene perceived() const;
 
-  /// True motion of the actors that are in scene(), in its order, over the whole scenario.
-  [[nodiscard]] std::vector<world::Track> tracks() const;
+  /// True friction coefficient.
+  [[nodiscard]] double grip() const { return grip_; }
+
+  /// How the actors of scene() move from now on if the ego moves so: to the scenario's end, and
+  /// until 3 s after the ego's motion, in which those behind it have stopped or not.
+  [[nodiscard]] outcome::Others others() const;
 
  private:
-  [[nodiscard]] bool is_there(const world::Track& track) const { return track.start <= time(); }
+  /// Moves actors on from the last step of the traffic to now.
+  void carry_on(StaticVector<world::Actor, world::max_actors>& actors) const;
 
   const Scenario& scenario_;
-  const vehicle::Vehicle& car_;
-  std::vector<world::Track> tracks_;
+  const manoeuvre::Car& car_;
+  Chance chance_;
+  vehicle::Vehicle real_car_;
+  double grip_;
+  Traffic traffic_;
+  world::EgoState seen_by_traffic_;
   std::int64_t num_steps_ = 0;
   bool driven_ = false;
   vehicle::VehicleState state_;

@@ -84,10 +84,135 @@ TEST(Stepper, AnActorIsNotThereBeforeItsFirstSample) {
   Stepper stepper(scenario, car);
   advance(stepper, 1'990);
   EXPECT_EQ(stepper.scene().actors.size(), 1U);
-  EXPECT_EQ(stepper.tracks().size(), 1U);
+  EXPECT_EQ(stepper.others()({.start = stepper.time(), .X_WA = {{}}}).size(), 1U);
   advance(stepper, 20);
   EXPECT_EQ(stepper.scene().actors.size(), 2U);
-  EXPECT_EQ(stepper.tracks().size(), 2U);
+  EXPECT_EQ(stepper.others()({.start = stepper.time(), .X_WA = {{}}}).size(), 2U);
+}
+
+/// The same ego with a car 12 m behind it that follows as it says.
+Scenario ahead_of_a_follower(std::variant<Script, Recording> follower) {
+  Scenario scenario{.name = "follower", .car = "compact_rwd_ev", .grip = 0.9, .duration = 6.0};
+  scenario.ego = EgoStart{.pose = {}, .speed = 20.0};
+  scenario.actors.push_back({.id = 1,
+                             .footprint = {.length = 4.5, .width = 1.8},
+                             .mass = 1'500.0,
+                             .motion = std::move(follower)});
+  return scenario;
+}
+
+Recording recorded_behind() {
+  return {{.time = 0.0, .X_WA = {{-16.6, 0.0}, 0.0}, .speed = 20.0},
+          {.time = 6.0, .X_WA = {{103.4, 0.0}, 0.0}, .speed = 20.0}};
+}
+
+/// Bumper to bumper [m].
+double gap_behind(const Stepper& stepper) {
+  const world::Scene scene = stepper.scene();
+  return scene.ego.X_WB.p.x - 2.45 - (scene.actors[0].X_WA.p.x + 2.25);
+}
+
+// 11.9 m behind at 20 m/s it would need 1.25 s to react: by then the ego, braking with about 8
+// m/s^2, has closed 6 m. It stops behind, or not, but it brakes; a recording would drive on
+// through.
+TEST(Stepper, ARecordedFollowerReactsFromWhenTheWheelIsTaken) {
+  const Scenario scenario = ahead_of_a_follower(recorded_behind());
+  const manoeuvre::Car car = manoeuvre::default_car();
+  Stepper recorded(scenario, car);
+  advance(recorded, 5'000);
+  EXPECT_NEAR(gap_behind(recorded), 11.9, 1e-6);  // nobody drives: it keeps to its recording
+  Stepper stepper(scenario, car);
+  advance(stepper, 1'000);
+  stepper.take_the_wheel();
+  EXPECT_NEAR(gap_behind(stepper), 11.9, 1e-6);  // no jump
+  vehicle::Command brake;
+  brake.brake_torque.fill(300.0);
+  for (int k = 0; k < 1'200; ++k) {
+    stepper.advance(brake);
+  }
+  const double speed = stepper.scene().actors[0].v_W.x;
+  EXPECT_NEAR(speed, 20.0, 0.05);  // not yet: its reaction takes 1.25 s
+  for (int k = 0; k < 1'500; ++k) {
+    stepper.advance(brake);
+  }
+  EXPECT_LT(stepper.scene().actors[0].v_W.x, 18.5);
+}
+
+// Whatever happens later, motions that agree up to a time have tracks that agree up to it; and what
+// was foretold comes true.
+TEST(Stepper, OthersForetellWhatTheStepperThenDoes) {
+  Script follow{.start = {.s = -16.6}, .speed = 20.0, .behaviour = Behaviour::follow};
+  follow.law = intent::content_with(intent::usual_driver(20.0), 20.0, 11.9);
+  const Scenario scenario = ahead_of_a_follower(follow);
+  const manoeuvre::Car car = manoeuvre::default_car();
+  Stepper stepper(scenario, car);
+  advance(stepper, 500);
+  stepper.take_the_wheel();
+  const outcome::Others others = stepper.others();
+  world::Track X_WB{.start = stepper.time(), .step = Traffic::step, .X_WA = {stepper.ego().X_WB}};
+  std::vector<double> seen{stepper.scene().actors[0].X_WA.p.x};
+  vehicle::Command brake;
+  brake.brake_torque.fill(500.0);
+  for (int k = 1; k <= 4'000; ++k) {
+    stepper.advance(brake);
+    if (k % 10 == 0) {
+      X_WB.X_WA.push_back(stepper.ego().X_WB);
+      seen.push_back(stepper.scene().actors[0].X_WA.p.x);
+    }
+  }
+  const world::Track foretold = others(X_WB).at(0);
+  ASSERT_GE(foretold.X_WA.size(), seen.size());
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    // The speeds of a track are those of its 10 ms segments, half a step off: up to 0.05 m/s.
+    EXPECT_NEAR(foretold.X_WA[k].p.x, seen[k], 0.05) << k;
+  }
+  EXPECT_LT(seen.back(), seen.front() + 0.9 * 20.0 * 4.0);  // it did brake
+}
+
+TEST(Stepper, ChanceChangesCarGripAndStart) {
+  const Scenario scenario = behind_a_braking_lead();
+  const manoeuvre::Car car = manoeuvre::default_car();
+  Chance chance;
+  chance.car = {.grip = 0.8, .mass = 1.1, .speed = 0.4};
+  Stepper stepper(scenario, car, chance);
+  stepper.take_the_wheel();
+  EXPECT_NEAR(stepper.ego().v_B.x, 20.4, 1e-9);
+  EXPECT_NEAR(stepper.scene().grip, 0.72, 1e-12);
+  EXPECT_NEAR(stepper.scene().ego_mass, 1.1 * car.mass, 1e-9);
+  EXPECT_EQ(stepper.perceived().grip, 0.9);  // it takes the road for what the scenario says
+  EXPECT_EQ(stepper.perceived().ego_mass, car.mass);
+}
+
+TEST(Stepper, GhostsArePerceivedButNotThere) {
+  Scenario scenario = behind_a_braking_lead();
+  scenario.perception.grip_believed = 0.6;
+  scenario.perception.grip_sd = 0.1;
+  ScenarioActor ghost = scenario.actors[0];
+  ghost.id = 2;
+  ghost.ghost = true;
+  ghost.existence = 0.3;
+  std::get<Script>(ghost.motion).start.s = 30.0;
+  scenario.actors.insert(scenario.actors.begin(), ghost);
+  const manoeuvre::Car car = manoeuvre::default_car();
+  const Stepper stepper(scenario, car);
+  ASSERT_EQ(stepper.scene().actors.size(), 1U);
+  EXPECT_EQ(stepper.scene().actors[0].id, 1);
+  EXPECT_EQ(stepper.others()({.X_WA = {{}}}).size(), 1U);
+  const world::Scene seen = stepper.perceived();
+  ASSERT_EQ(seen.actors.size(), 2U);
+  EXPECT_EQ(seen.actors[1].id, 2);
+  EXPECT_EQ(seen.actors[1].existence, 0.3);
+  EXPECT_EQ(seen.grip, 0.6);
+  EXPECT_EQ(seen.grip_sd, 0.1);
+  EXPECT_EQ(stepper.scene().grip, 0.9);
+}
+
+TEST(Stepper, BetweenTheTrafficsStepsActorsGoOn) {
+  const Scenario scenario = behind_a_braking_lead();
+  const manoeuvre::Car car = manoeuvre::default_car();
+  Stepper stepper(scenario, car);
+  advance(stepper, 507);
+  EXPECT_NEAR(stepper.scene().actors[0].X_WA.p.x, 60.0 + 15.0 * 0.507, 1e-9);
 }
 
 }  // namespace

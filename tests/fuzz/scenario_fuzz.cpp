@@ -4,6 +4,7 @@
 
 #include "saca/sim/motion.h"
 #include "saca/sim/scenario.h"
+#include "saca/sim/traffic.h"
 
 // Whatever a scenario file holds: it is refused with a message, or it can be played, and comes back
 // the same from its own writing. A broken promise traps.
@@ -28,7 +29,20 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       __builtin_trap();
     }
   }
+  const sim::Traffic traffic(scenario);
+  const saca::world::Track ego{.X_WA = {sim::ego_at(scenario, 0.0).X_WB}};
+  const double until = scenario.duration < 1.0 ? scenario.duration : 1.0;
+  for (const auto& track : traffic.against(ego, sim::standard_ego, until)) {
+    for (const saca::Pose& X_WA : track.X_WA) {
+      if (!saca::is_finite(X_WA)) {
+        __builtin_trap();
+      }
+    }
+  }
   for (std::size_t i = 0; i < scenario.actors.size(); ++i) {
+    if (sim::reacts(scenario.actors[i])) {
+      continue;
+    }
     for (const saca::Pose& X_WA : sim::actor_track(scenario, i, scenario.duration / 16.0).X_WA) {
       if (!saca::is_finite(X_WA)) {
         __builtin_trap();

@@ -1,0 +1,91 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "saca/sim/family.h"
+#include "saca/sim/motion.h"
+#include "saca/sim/traffic.h"
+#include "saca/world/footprint.h"
+
+namespace saca::sim {
+namespace {
+
+using testing::HasSubstr;
+
+Family shipped(FamilyKind kind) {
+  return load_family("scenarios/families", name(kind)).value();
+}
+
+/// Smallest distance between the ego, going on, and anybody, over the whole scenario [m].
+double least_distance(const Scenario& scenario) {
+  Traffic traffic(scenario);
+  double least = 1e9;
+  while (traffic.time() < scenario.duration) {
+    const world::EgoState ego = ego_at(scenario, traffic.time());
+    for (const world::Actor& actor : traffic.actors()) {
+      least = std::min(
+          least, world::separation(standard_ego, ego.X_WB, actor.footprint, actor.X_WA).distance);
+    }
+    traffic.advance(ego.X_WB, rotated(ego.v_B, ego.X_WB.yaw), standard_ego);
+  }
+  return least;
+}
+
+class EveryFamily : public testing::TestWithParam<FamilyKind> {};
+
+TEST_P(EveryFamily, GivesScenariosThatAFileCanHold) {
+  const Family family = shipped(GetParam());
+  for (std::uint64_t number = 0; number < 4; ++number) {
+    const auto drawn = sample(family, 3, number, "compact_rwd_ev", standard_ego);
+    ASSERT_TRUE(drawn.has_value()) << drawn.error().message;
+    for (const Scenario& scenario : {drawn.value().scenario, drawn.value().twin}) {
+      const auto read = read_scenario(write_scenario(scenario), scenario.name);
+      EXPECT_TRUE(read.has_value()) << read.error().message;
+    }
+  }
+}
+
+TEST_P(EveryFamily, SameNumbersSameBytes) {
+  const Family family = shipped(GetParam());
+  const auto draw = [&](std::uint64_t seed, std::uint64_t number) {
+    return write_scenario(
+        sample(family, seed, number, "compact_rwd_ev", standard_ego).value().scenario);
+  };
+  EXPECT_EQ(draw(3, 7), draw(3, 7));
+  EXPECT_NE(draw(3, 7), draw(3, 8));
+  EXPECT_NE(draw(3, 7), draw(4, 7));
+}
+
+// Whoever goes on is in danger, or nearly, most of the time; in the twin hardly ever.
+TEST_P(EveryFamily, DangerIsInTheScenarioAndNotInItsTwin) {
+  const Family family = shipped(GetParam());
+  constexpr int count = 12;
+  int dangerous = 0;
+  int harmless = 0;
+  for (std::uint64_t number = 0; number < count; ++number) {
+    const FamilySample drawn = sample(family, 9, number, "compact_rwd_ev", standard_ego).value();
+    dangerous += least_distance(drawn.scenario) < 1.0 ? 1 : 0;
+    harmless += least_distance(drawn.twin) > 0.0 ? 1 : 0;
+  }
+  EXPECT_GE(dangerous, count / 2);
+  EXPECT_GE(harmless, count - 3);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryFamily,
+                         testing::Values(FamilyKind::crossing, FamilyKind::one_way,
+                                         FamilyKind::lead_brakes, FamilyKind::cut_in,
+                                         FamilyKind::cut_out, FamilyKind::pedestrian,
+                                         FamilyKind::cyclist, FamilyKind::head_on,
+                                         FamilyKind::merge),
+                         [](const auto& info) { return std::string(name(info.param)); });
+
+TEST(FamilySample, SaysWhenItsRangesGiveNoSensibleEncounter) {
+  Family family = shipped(FamilyKind::lead_brakes);
+  family.ranges["gap_s"] = {0.0, 0.0, "test"};  // bumpers touch from the start
+  const auto drawn = sample(family, 1, 1, "compact_rwd_ev", standard_ego);
+  ASSERT_FALSE(drawn.has_value());
+  EXPECT_THAT(drawn.error().message, HasSubstr("narrow its ranges"));
+}
+
+}  // namespace
+}  // namespace saca::sim

@@ -1,0 +1,197 @@
+#include "saca/sim/traffic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "saca/core/contract.h"
+#include "saca/sim/motion.h"
+#include "saca/world/time_to_conflict.h"
+
+namespace saca::sim {
+namespace {
+
+constexpr std::size_t nobody = std::numeric_limits<std::size_t>::max();
+constexpr double nearly = 1e-9;  // [s]: times are multiples of a step up to rounding
+
+Vec2 slope(const Pose& from, const Pose& to) {
+  return (1.0 / Traffic::step) * (to.p - from.p);
+}
+
+}  // namespace
+
+Traffic::Traffic(const Scenario& scenario, const Chance& chance)
+    : scenario_(&scenario),
+      chance_(chance),
+      grip_(std::min(1.2, scenario.grip * chance.car.grip)),
+      members_(scenario.actors.size()) {
+  expects(scenario.actors.size() <= world::max_actors, "at most 32 actors");
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    Member& member = members_[i];
+    member.appears = appears_at(scenario, i, chance_);
+    const ScenarioActor& actor = scenario.actors[i];
+    if (reacts(actor)) {
+      const auto& script = std::get<Script>(actor.motion);
+      const ActorChance& drawn = chance_.actors[i];
+      const Pose X_WA = start_pose(scenario, i) * Pose{{drawn.ahead, drawn.aside}, 0.0};
+      appoint(i, X_WA, script.speed, script.law);
+    } else {
+      member.next = actor_pose(scenario, i, step, chance_);
+      member.now.X_WA = actor_pose(scenario, i, 0.0, chance_);
+      member.now.v_W = slope(member.now.X_WA, member.next);
+    }
+    note(member);
+  }
+}
+
+void Traffic::appoint(std::size_t actor, const Pose& X_WA, double speed, intent::DriverLaw law) {
+  const ActorChance& drawn = chance_.actors[actor];
+  law.reaction = std::min(intent::longest_reaction, drawn.reaction * law.reaction);
+  law.acceleration *= drawn.strength;
+  law.comfortable *= drawn.strength;
+  law.hardest *= drawn.strength;
+  Member& member = members_[actor];
+  member.driver.emplace(scenario_->road, scenario_->actors[actor].footprint, X_WA,
+                        intent::Driver(law, speed, grip_, step));
+  if (num_steps_ == 0 && chance_.from <= 0.0) {
+    member.driver->driver().speed_up(drawn.speed);
+  }
+  member.now = {member.driver->X_WA(), member.driver->v_W()};
+}
+
+bool Traffic::is_there(std::size_t actor) const {
+  return members_[actor].appears <= time() + nearly;
+}
+
+void Traffic::note(Member& member) {
+  if (member.appears <= time() + nearly) {
+    member.seen[member.num_seen % member.seen.size()] = member.now;
+    ++member.num_seen;
+  }
+}
+
+std::vector<intent::Ahead> Traffic::views(const Pose& X_WB, Vec2 v_W,
+                                          const world::Footprint& ego) const {
+  std::vector<intent::Present> there{{&ego, X_WB, v_W}};
+  std::vector<std::size_t> place(members_.size(), nobody);
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (is_there(i) && !scenario_->actors[i].ghost) {
+      place[i] = there.size();
+      there.push_back({&scenario_->actors[i].footprint, members_[i].now.X_WA, members_[i].now.v_W});
+    }
+  }
+  std::vector<intent::Ahead> all(members_.size());
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (members_[i].driver) {
+      all[i] = members_[i].driver->ahead(there, place[i]);
+    }
+  }
+  return all;
+}
+
+void Traffic::advance(const Pose& X_WB, Vec2 v_W, const world::Footprint& ego) {
+  const std::vector<intent::Ahead> ahead = views(X_WB, v_W, ego);
+  const double before = time();
+  ++num_steps_;
+  const bool differs_from_now = before < chance_.from && time() >= chance_.from;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    Member& member = members_[i];
+    if (member.driver) {
+      member.driver->advance(ahead[i]);
+      if (differs_from_now) {
+        member.driver->driver().speed_up(chance_.actors[i].speed);
+      }
+      member.now = {member.driver->X_WA(), member.driver->v_W()};
+    } else {
+      member.now.X_WA = member.next;
+      member.next = actor_pose(*scenario_, i, time() + step, chance_);
+      member.now.v_W = slope(member.now.X_WA, member.next);
+    }
+    note(member);
+  }
+}
+
+void Traffic::let_followers_react(const world::EgoState& ego, const world::Footprint& footprint) {
+  const world::Scene scene{
+      .time = time(), .ego = ego, .ego_footprint = footprint, .road = scenario_->road};
+  std::vector<std::size_t> followers;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const ScenarioActor& actor = scenario_->actors[i];
+    if (std::holds_alternative<Recording>(actor.motion) && !actor.ghost && is_there(i) &&
+        world::is_follower(scene, as_known(i))) {
+      const double speed = norm(members_[i].now.v_W);
+      appoint(i, members_[i].now.X_WA, speed, intent::usual_driver(speed));
+      followers.push_back(i);
+    }
+  }
+  const std::vector<intent::Ahead> ahead =
+      views(ego.X_WB, rotated(ego.v_B, ego.X_WB.yaw), footprint);
+  for (const std::size_t i : followers) {
+    const double speed = members_[i].driver->driver().speed();
+    appoint(i, members_[i].now.X_WA, speed,
+            content_with(intent::usual_driver(speed), speed, ahead[i].gap));
+  }
+}
+
+world::Actor Traffic::as_known(std::size_t actor) const {
+  const ScenarioActor& it = scenario_->actors[actor];
+  const Member& member = members_[actor];
+  world::Actor known{.id = it.id,
+                     .kind = it.kind,
+                     .footprint = it.footprint,
+                     .mass = it.mass,
+                     .X_WA = member.now.X_WA,
+                     .v_W = member.now.v_W,
+                     .existence = it.ghost ? it.existence : 1.0};
+  if (member.num_seen > steps_looked_back) {
+    const Motion& then = member.seen[member.num_seen % member.seen.size()];  // the oldest
+    constexpr double rate = 1.0 / (steps_looked_back * step);
+    known.a_W = rate * (known.v_W - then.v_W);
+    known.yaw_rate = rate * wrap_angle(known.X_WA.yaw - then.X_WA.yaw);
+  }
+  return known;
+}
+
+StaticVector<world::Actor, world::max_actors> Traffic::present(bool ghosts) const {
+  StaticVector<world::Actor, world::max_actors> there;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (is_there(i) && scenario_->actors[i].ghost == ghosts) {
+      there.push_back(as_known(i));
+    }
+  }
+  return there;
+}
+
+StaticVector<world::Actor, world::max_actors> Traffic::actors() const {
+  return present(false);
+}
+StaticVector<world::Actor, world::max_actors> Traffic::ghosts() const {
+  return present(true);
+}
+
+std::vector<world::Track> Traffic::against(const world::Track& X_WB, const world::Footprint& ego,
+                                           double until) const {
+  std::vector<std::size_t> there;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (is_there(i) && !scenario_->actors[i].ghost) {
+      there.push_back(i);
+    }
+  }
+  const auto num_steps =
+      static_cast<std::size_t>(std::ceil(std::max(0.0, until - time()) / step - nearly));
+  std::vector<world::Track> tracks(there.size(), {.start = time(), .step = step, .X_WA = {}});
+  Traffic later = *this;
+  for (std::size_t k = 0; k <= num_steps; ++k) {
+    if (k > 0) {
+      const double now = later.time();
+      later.advance(world::pose_at(X_WB, now), world::velocity_at(X_WB, std::max(now, X_WB.start)),
+                    ego);
+    }
+    for (std::size_t i = 0; i < there.size(); ++i) {
+      tracks[i].X_WA.push_back(later.members_[there[i]].now.X_WA);
+    }
+  }
+  return tracks;
+}
+
+}  // namespace saca::sim
