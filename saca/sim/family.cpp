@@ -77,8 +77,8 @@ config::Range bounds(std::string_view key) {
     return {-0.5, 1.5};
   }
   const bool signed_place = key.ends_with("offset_m") || key.ends_with("ahead_m") ||
-                            key.ends_with("late_s") || key == "neighbour_gap_m" ||
-                            key == "drift_to_m" || key == "slower_mps";
+                            key.ends_with("late_s") || key == "done_before_s" ||
+                            key == "neighbour_gap_m" || key == "drift_to_m" || key == "slower_mps";
   return {signed_place ? -100.0 : 0.0, 200.0};
 }
 

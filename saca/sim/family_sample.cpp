@@ -39,15 +39,19 @@ Script crossing_at(double s, double d, double time, double heading, double speed
           .speed = speed};
 }
 
+/// Room for so many lanes to that side, counted from the middle of the ego's.
+void widen(Stage& stage, double side, double lanes) {
+  double& edge = side > 0.0 ? stage.scenario.road.left_edge : stage.scenario.road.right_edge;
+  edge = side * std::max(std::abs(edge), lanes * stage.lane() + 0.01);
+}
+
 /// Parked beside the lane; its front `ahead` of the place `s`.
 void park(Stage& stage, double s, double ahead, double side) {
   const double length = Stage::length_of(ActorKind::car);
   const double d = 0.5 * stage.lane() + 0.6 + 0.5 * Stage::width_of(ActorKind::car);
   stage.add(ActorKind::car,
             {.start = {s + ahead - 0.5 * length, side * d, 0.0}, .behaviour = Behaviour::hold});
-  double& edge = side > 0.0 ? stage.scenario.road.left_edge : stage.scenario.road.right_edge;
-  const double needed = d + Stage::width_of(ActorKind::car);
-  edge = side * std::max(std::abs(edge), needed);
+  widen(stage, side, (d + Stage::width_of(ActorKind::car)) / stage.lane());
 }
 
 Harmless crossing(Stage& stage) {
@@ -94,18 +98,19 @@ Harmless one_way(Stage& stage) {
   stage.decision = Stage::approach - trigger;
   if (dice.happens("second_share")) {
     const double size = dice.in("second_size_m");
-    const Script place{
-        .start = {s + dice.in("second_ahead_m") + 0.5 * size, -dice.in("second_aside_m"), 0.0},
-        .behaviour = Behaviour::hold};
+    const Script place{.start = {s + dice.in("second_ahead_m") + 0.5 * size,
+                                 -dice.in("second_aside_m") - 0.5 * size, 0.0},
+                       .behaviour = Behaviour::hold};
     stage.add(ActorKind::obstacle, place).footprint = {
         .shape = world::Shape::ellipse, .length = size, .width = size};
   }
-  if (stage.scenario.road.right_edge < -1.4 * stage.lane() && dice.happens("merging_share")) {
+  if (dice.happens("merging_share")) {
+    widen(stage, -1.0, 2.5);
     const double pace = stage.speed * dice.in("merging_speed_share");
     const double there = stage.speed * stage.decision + dice.in("merging_ahead_m");
-    const world::LanePose start{there - pace * stage.decision, -stage.lane(), 0.0};
-    stage.add(ActorKind::van,
-              changing_lane(start, pace, 0.0, stage.decision, dice.in("merging_takes_s")));
+    const world::LanePose start{there - pace * stage.decision, -2.0 * stage.lane(), 0.0};
+    stage.add(ActorKind::van, changing_lane(start, pace, -stage.lane(), stage.decision,
+                                            dice.in("merging_takes_s")));
   }
   return std::nullopt;
 }
@@ -133,8 +138,7 @@ Harmless cut_in(Stage& stage) {
   const double pace = std::max(1.0, stage.speed - dice.in("slower_mps"));
   const double gap = dice.in("gap_m");
   const double takes = dice.in("takes_s");
-  double& edge = side > 0.0 ? stage.scenario.road.left_edge : stage.scenario.road.right_edge;
-  edge = side * std::max(std::abs(edge), 1.5 * stage.lane() + 0.01);
+  widen(stage, side, 1.5);
   const double begins = Stage::approach;
   const double s = stage.head() + gap + 0.5 * Stage::length_of(kind) - pace * begins;
   const world::LanePose start{s, side * stage.lane(), 0.0};
@@ -158,8 +162,7 @@ Harmless cut_out(Stage& stage) {
   const double gap = stage.speed * dice.in("gap_s");
   const double meets = Stage::approach - (gap + Stage::length_of(kind)) / stage.speed;
   const double side = dice.side("to_left_share");
-  double& edge = side > 0.0 ? stage.scenario.road.left_edge : stage.scenario.road.right_edge;
-  edge = side * std::max(std::abs(edge), 1.5 * stage.lane() + 0.01);
+  widen(stage, side, 1.5);
   const world::LanePose start{stage.front + gap + 0.5 * Stage::length_of(kind), 0.0, 0.0};
   stage.add(kind,
             changing_lane(start, stage.speed, side * stage.lane(),

@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(All, EveryFamily,
                                          FamilyKind::cut_out, FamilyKind::pedestrian,
                                          FamilyKind::cyclist, FamilyKind::head_on,
                                          FamilyKind::merge),
-                         [](const auto& info) { return std::string(name(info.param)); });
+                         [](const auto& one) { return std::string(name(one.param)); });
 
 TEST(FamilySample, SaysWhenItsRangesGiveNoSensibleEncounter) {
   Family family = shipped(FamilyKind::lead_brakes);
