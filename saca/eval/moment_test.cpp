@@ -1,0 +1,60 @@
+#include "saca/eval/moment.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "saca/eval/scenes_for_test.h"
+
+namespace saca::eval {
+namespace {
+
+using manoeuvre::default_car;
+using manoeuvre::PolicyId;
+
+// 15 m/s towards a car 60 m ahead: T1 = 1.3 s are left after (60 - 1.3 * 15) m / (15 m/s) = 2.7 s;
+// looked at every 10 ms, and exact to 10 ms.
+TEST(Moment, TheTriggerFiresT1BeforeTheConflict) {
+  const auto time = trigger_time(standing_car(15.0, 60.0), default_car());
+  ASSERT_TRUE(time.has_value());
+  EXPECT_NEAR(*time, 2.7, 0.021);
+}
+
+TEST(Moment, NothingTriggersOnAFreeRoad) {
+  sim::Scenario scenario = standing_car(15.0, 60.0);
+  scenario.actors.clear();
+  EXPECT_EQ(trigger_time(scenario, default_car()), std::nullopt);
+}
+
+TEST(Moment, IsTheSceneAtThatTime) {
+  const Moment moment = moment_at(standing_car(15.0, 60.0), default_car(), 2.0);
+  EXPECT_NEAR(moment.scene.time, 2.0, 1e-9);
+  EXPECT_NEAR(moment.scene.ego.X_WB.p.x, 30.0, 1e-9);
+  EXPECT_EQ(moment.grip, 0.9);
+  EXPECT_EQ(moment.others(world::Track{.start = 2.0, .X_WA = {moment.scene.ego.X_WB}}).size(), 1U);
+}
+
+TEST(Moment, RefusesTimesOutsideTheScenario) {
+  const sim::Scenario scenario = standing_car(15.0, 60.0);
+  EXPECT_THROW((void)moment_at(scenario, default_car(), -0.1), ContractViolation);
+  EXPECT_THROW((void)moment_at(scenario, default_car(), 12.5), ContractViolation);
+  EXPECT_THROW((void)moment_at(scenario, default_car(), std::nan("")), ContractViolation);
+}
+
+// From 15 m/s at 1.3 s, 19.5 m: braking needs about 15 m, a lane change passes, doing nothing hits
+// with all the speed there is.
+TEST(Moment, AllEightAreTriedFromThere) {
+  const sim::Scenario scenario = standing_car(15.0, 60.0);
+  const Moment moment = moment_at(scenario, default_car(), 2.7);
+  const auto tried = attempts(moment, default_car(), shipped_harm());
+  const auto outcome = [&](PolicyId policy) {
+    return tried[manoeuvre::index(policy)].facts.outcome;
+  };
+  EXPECT_FALSE(outcome(PolicyId::aeb).contact.has_value());
+  EXPECT_FALSE(outcome(PolicyId::aes_left).contact.has_value());
+  ASSERT_TRUE(outcome(PolicyId::no_intervention).contact.has_value());
+  EXPECT_NEAR(outcome(PolicyId::no_intervention).contact->relative_speed, 15.0, 0.2);
+}
+
+}  // namespace
+}  // namespace saca::eval

@@ -1,0 +1,38 @@
+#pragma once
+
+// Scenarios by construction, for the tests of this module.
+
+#include <filesystem>
+
+#include "saca/manoeuvre/default_car.h"
+#include "saca/outcome/harm.h"
+#include "saca/sim/scenario.h"
+
+namespace saca::eval {
+
+inline outcome::HarmModel shipped_harm() {
+  return outcome::read_harm("data/harm.toml").value();
+}
+
+inline sim::Scenario shipped_scenario(const std::string& name) {
+  return sim::load_scenario("scenarios/" + name + ".toml").value();
+}
+
+/// A wide straight road, dry, with a car standing `distance` ahead of the ego's front.
+inline sim::Scenario standing_car(double speed, double distance) {
+  sim::Scenario scenario;
+  scenario.name = "standing_car";
+  scenario.grip = 0.9;
+  scenario.duration = 12.0;
+  scenario.road.left_edge = 20.0;
+  scenario.road.right_edge = -20.0;
+  scenario.ego = sim::EgoStart{{}, speed};
+  scenario.actors.push_back({.kind = world::ActorKind::car,
+                             .footprint = {.length = 4.5, .width = 1.8},
+                             .mass = 1500.0,
+                             .motion = sim::Script{.start = {2.25 + distance + 2.25, 0.0, 0.0},
+                                                   .behaviour = sim::Behaviour::hold}});
+  return scenario;
+}
+
+}  // namespace saca::eval
