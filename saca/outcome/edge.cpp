@@ -17,11 +17,11 @@ constexpr double straight = 1e-9;
 // Point of the footprint farthest from a centre. For a box it is a corner; on an ellipse the point
 // whose normal points away from the centre, found by repeating: distances never shrink.
 Vec2 farthest_from(Vec2 centre_W, const Footprint& footprint, const Pose& X_WB) {
-  if (footprint.shape == world::Shape::box) {
+  if (footprint.shape != world::Shape::ellipse) {
+    const Vec2 half = half_axes(footprint);
     Vec2 farthest = X_WB * Vec2{footprint.centre_x, 0.0};
     for (const Vec2 corner : {Vec2{1, 1}, Vec2{-1, 1}, Vec2{-1, -1}, Vec2{1, -1}}) {
-      const Vec2 p_W = X_WB * Vec2{footprint.centre_x + 0.5 * footprint.length * corner.x,
-                                   0.5 * footprint.width * corner.y};
+      const Vec2 p_W = X_WB * Vec2{footprint.centre_x + half.x * corner.x, half.y * corner.y};
       if (norm(p_W - centre_W) > norm(farthest - centre_W)) {
         farthest = p_W;
       }
