@@ -102,10 +102,10 @@ Blow meet(const Scene& scene, std::size_t index, const Instant& ego, const Insta
       unprotected(actor.kind)
           ? unprotected_injury(harm, actor.kind, hurting_speed(v_W, at.n_W, harm.law.friction))
           : occupant_injury(harm, contact.other_face, contact.other_delta_v);
-  blow.ego_after = {ego.X_WB, ego.v_W - mine.inverse_mass * impulse.impulse_W,
-                    ego.yaw_rate + impulse.a_spin};
-  blow.other_after = {other.X_WB, other.v_W + theirs.inverse_mass * impulse.impulse_W,
-                      other.yaw_rate + impulse.b_spin};
+  blow.ego_change_W = -mine.inverse_mass * impulse.impulse_W;
+  blow.other_change_W = theirs.inverse_mass * impulse.impulse_W;
+  blow.ego_after = {ego.X_WB, ego.v_W + blow.ego_change_W, ego.yaw_rate + impulse.a_spin};
+  blow.other_after = {other.X_WB, other.v_W + blow.other_change_W, other.yaw_rate + impulse.b_spin};
   return blow;
 }
 
@@ -129,7 +129,8 @@ Blow leave(const Scene& scene, Side side, const Instant& ego, double time, const
     const Impact impulse = impact(mine, {}, contact.p_W, out_W, harm.law);
     contact.ego_delta_v = impulse.a_delta_v;
     contact.ego_spin = impulse.a_spin;
-    blow.ego_after.v_W = ego.v_W - mine.inverse_mass * impulse.impulse_W;
+    blow.ego_change_W = -mine.inverse_mass * impulse.impulse_W;
+    blow.ego_after.v_W = ego.v_W + blow.ego_change_W;
     blow.ego_after.yaw_rate += impulse.a_spin;
   } else {
     contact.p_W = outermost(scene.road, side, scene.ego_footprint, ego.X_WB);
@@ -144,6 +145,22 @@ Blow leave(const Scene& scene, Side side, const Instant& ego, double time, const
   blow.loss = collision_loss(contact.ego_face, share * speed);
   blow.ego = occupant_injury(harm, contact.ego_face, contact.ego_delta_v);
   return blow;
+}
+
+Blow pressed_on(const Blow& first, const Blow& more, const HarmModel& harm) {
+  Blow both = first;
+  both.ego_change_W = first.ego_change_W + more.ego_change_W;
+  both.other_change_W = first.other_change_W + more.other_change_W;
+  both.ego_after = more.ego_after;
+  both.other_after = more.other_after;
+  Contact& contact = both.contact;
+  contact.ego_delta_v = norm(both.ego_change_W);
+  contact.other_delta_v = norm(both.other_change_W);
+  contact.ego_spin += more.contact.ego_spin;
+  contact.other_spin += more.contact.other_spin;
+  both.ego = occupant_injury(harm, contact.ego_face, contact.ego_delta_v);
+  both.other = occupant_injury(harm, contact.other_face, contact.other_delta_v);
+  return both;
 }
 
 double closing_speed(const Scene& scene, std::size_t index, const Instant& ego,

@@ -18,9 +18,11 @@ struct Instant {
 /// What one contact does.
 struct Blow {
   Contact contact;
-  double loss = 0.0;  ///< the paper's Collision Loss
-  Injury ego;         ///< of each of the ego's people
-  Injury other;       ///< of each of the other's
+  double loss = 0.0;    ///< the paper's Collision Loss
+  Injury ego;           ///< of each of the ego's people
+  Injury other;         ///< of each of the other's
+  Vec2 ego_change_W;    ///< of the velocity [m/s]
+  Vec2 other_change_W;  ///< likewise
   Instant ego_after;
   Instant other_after;
 };
@@ -33,6 +35,10 @@ struct Blow {
 /// The ego reaches an edge of the road.
 [[nodiscard]] Blow leave(const world::Scene& scene, Side side, const Instant& ego, double time,
                          const HarmModel& harm);
+
+/// One contact in which two vehicles, or the ego and a barrier, press on after the first blow:
+/// changes of velocity and turning add up, and hurt as one.
+[[nodiscard]] Blow pressed_on(const Blow& first, const Blow& more, const HarmModel& harm);
 
 /// How fast the ego and an actor approach each other where they touch [m/s]; negative when they
 /// part.

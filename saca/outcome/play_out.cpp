@@ -35,8 +35,8 @@ constexpr double least_closing = 0.1;
 // Between two looks at bodies that stay together [s].
 constexpr double look_again = 0.01;
 
-// A bound on the work, far beyond what was seen: after so many blows the story breaks off.
-constexpr std::size_t most_blows = 16;
+// A bound on the work: after so many blows the story breaks off.
+constexpr std::size_t most_blows = 32;
 
 bool moves_at_end(const EgoMotion& motion) {
   return norm(motion.v_B.back()) > at_rest;
@@ -106,18 +106,28 @@ struct Event {
   double time = 0.0;
   std::optional<std::size_t> actor;
   std::optional<Side> edge;
+  bool presses_on = false;  ///< they have not parted since they last met
 };
 
-// The first time that two who have met meet again.
+std::optional<Event> at(std::optional<double> time) {
+  return time ? std::optional(Event{.time = *time}) : std::nullopt;
+}
+
+// The first time that two who have met meet again, or press on.
 // @param first_touch  when they first touch at or after a time, if they do
 // @param closing      how fast they approach where they touch, at a time
 template <class FirstTouch, class Closing>
-std::optional<double> meet_again(double from, double until, FirstTouch&& first_touch,
-                                 Closing&& closing) {
+std::optional<Event> meet_again(double from, double until, FirstTouch&& first_touch,
+                                Closing&& closing) {
+  bool together = true;
   for (double time = from; time <= until; time += look_again) {
     const std::optional<double> contact = first_touch(time);
-    if (!contact || closing(*contact) > least_closing) {
-      return contact;
+    if (!contact) {
+      return std::nullopt;
+    }
+    together = together && *contact <= time + 1e-9;
+    if (closing(*contact) > least_closing) {
+      return Event{.time = *contact, .presses_on = together};
     }
     time = *contact;
   }
@@ -134,7 +144,6 @@ class Story {
         goes_on_(motion.ended && moves_at_end(motion)),
         carried_on_(goes_on_ ? carried_on(motion, scene.road) : EgoMotion{}),
         since_(motion.track.start),
-        toll_(harm, scene),
         dealings_(scene.actors.size()),
         slides_(scene.actors.size()) {}
 
@@ -187,8 +196,9 @@ class Story {
   [[nodiscard]] Dealings& dealings(Side side) { return edges_[static_cast<std::size_t>(side)]; }
 
   [[nodiscard]] double last_time() const;
-  [[nodiscard]] std::optional<double> next_at(Side side);
-  [[nodiscard]] std::optional<double> next_with(std::size_t i, double until, bool first);
+  [[nodiscard]] std::optional<Event> next_at(Side side);
+  [[nodiscard]] std::optional<Event> next_with(std::size_t i, double until, bool first);
+  void note(const Blow& blow, const Event& event);
   [[nodiscard]] EgoMotion slide_of(const world::Footprint& footprint, double mass,
                                    const Instant& after, double time) const;
 
@@ -201,7 +211,6 @@ class Story {
   std::span<const Track> tracks_;
   double since_;  ///< when the last event happened [s]
   double clearance_ = far_away;
-  Toll toll_;
   std::vector<Dealings> dealings_;  ///< with each actor
   std::array<Dealings, 2> edges_;   ///< by Side
   std::vector<EgoMotion> ego_slides_;
@@ -221,7 +230,7 @@ double Story::last_time() const {
   return time;
 }
 
-std::optional<double> Story::next_at(Side side) {
+std::optional<Event> Story::next_at(Side side) {
   const Beyond what = beyond(scene_.road, side);
   const Dealings& before = dealings(side);
   if (before.over) {
@@ -242,11 +251,11 @@ std::optional<double> Story::next_at(Side side) {
   if (what != Beyond::unmarked) {
     clearance_ = std::min(clearance_, std::max(0.0, edge.room));
   }
-  return edge.crossing;
+  return at(edge.crossing);
 }
 
 // @param first  nothing is known yet that ends the search before `until`
-std::optional<double> Story::next_with(std::size_t i, double until, bool first) {
+std::optional<Event> Story::next_with(std::size_t i, double until, bool first) {
   const Dealings& before = dealings_[i];
   const double known = moves_at_end(track(i)) ? std::min(until, end_time(track(i))) : until;
   if (before.over || known < since_) {
@@ -268,25 +277,33 @@ std::optional<double> Story::next_with(std::size_t i, double until, bool first) 
   if (interest > 0.0) {
     clearance_ = std::min(clearance_, found.distance);
   }
-  return found.contact;
+  return at(found.contact);
 }
 
 std::optional<Event> Story::next() {
   std::optional<Event> soonest;
   double until = last_time();
   bool stops = false;
-  const auto consider = [&](std::optional<double> time, Event event, bool stops_there) {
-    if (time && *time <= until && (!soonest || *time < until)) {
-      event.time = until = *time;
+  const auto consider = [&](std::optional<Event> event) {
+    if (event && event->time <= until && (!soonest || event->time < until)) {
+      until = event->time;
       soonest = event;
-      stops = stops_there;
+      stops = event->actor || stops_the_ego(beyond(scene_.road, *event->edge));
     }
   };
   for (const Side side : {Side::left, Side::right}) {
-    consider(next_at(side), {.edge = side}, stops_the_ego(beyond(scene_.road, side)));
+    std::optional<Event> event = next_at(side);
+    if (event) {
+      event->edge = side;
+    }
+    consider(event);
   }
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    consider(next_with(i, until, !stops), {.actor = i}, true);
+    std::optional<Event> event = next_with(i, until, !stops);
+    if (event) {
+      event->actor = i;
+    }
+    consider(event);
   }
   return soonest;
 }
@@ -297,6 +314,17 @@ EgoMotion Story::slide_of(const world::Footprint& footprint, double mass, const 
   body.v_W = after.v_W;
   body.yaw_rate = after.yaw_rate;
   return slide(footprint, body, after.X_WB, time, grip_);
+}
+
+void Story::note(const Blow& blow, const Event& event) {
+  if (event.presses_on) {
+    const auto last = std::find_if(blows_.rbegin(), blows_.rend(), [&](const Blow& one) {
+      return one.contact.actor == event.actor && one.contact.edge == event.edge;
+    });
+    *last = pressed_on(*last, blow, harm_);
+    return;
+  }
+  blows_.push_back(blow);
 }
 
 bool Story::happen(const Event& event) {
@@ -323,14 +351,13 @@ bool Story::happen(const Event& event) {
         slide_of(scene_.ego_footprint, scene_.ego_mass, blow.ego_after, event.time));
     first_ = first_.value_or(blows_.size());
   }
-  toll_.add(blow);
-  blows_.push_back(blow);
+  note(blow, event);
   return strikes;
 }
 
 Outcome Story::outcome() const {
   Outcome outcome;
-  outcome.harm = toll_.harm();
+  outcome.harm = toll(blows_, scene_, harm_);
   outcome.clearance = blows_.empty() ? clearance_ : 0.0;
   outcome.end_time = end_time(was_struck() ? now().track : given_.track);
   if (blows_.empty()) {

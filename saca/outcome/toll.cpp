@@ -1,32 +1,39 @@
 #include "saca/outcome/toll.h"
 
+#include <array>
+
 namespace saca::outcome {
+namespace {
 
-Toll::Toll(const HarmModel& harm, const world::Scene& scene)
-    : harm_(harm), scene_(scene), others_(scene.actors.size()), met_(scene.actors.size()) {}
+// Each of the people of one body.
+struct Victims {
+  Injury injury;
+  bool met = false;
+};
 
-double Toll::harm_if_certain() const {
-  double sum = harm_.ego_people * weighted(harm_, ego_);
-  for (std::size_t i = 0; i < others_.size(); ++i) {
-    const double people = harm_.people[static_cast<std::size_t>(scene_.actors[i].kind)];
-    sum += people * weighted(harm_, others_[i]);
-  }
-  return sum;
-}
+}  // namespace
 
-void Toll::add(const Blow& blow) {
-  ego_ = combined(ego_, blow.ego);
-  if (blow.contact.actor) {
-    const std::size_t i = *blow.contact.actor;
-    others_[i] = combined(others_[i], blow.other);
-    if (!met_[i]) {
-      met_[i] = true;
-      chance_ *= scene_.actors[i].existence;
+double toll(std::span<const Blow> blows, const world::Scene& scene, const HarmModel& harm) {
+  Victims ego;
+  std::array<Victims, world::max_actors> others;
+  double chance = 1.0;    // that the chain comes so far
+  double expected = 0.0;  // each step adds what it makes worse
+  const auto hurt = [&](Victims& victims, double people, const Injury& injury) {
+    const Injury both = combined(victims.injury, injury);
+    expected += chance * people * (weighted(harm, both) - weighted(harm, victims.injury));
+    victims.injury = both;
+  };
+  for (const Blow& blow : blows) {
+    if (blow.contact.actor) {
+      const world::Actor& actor = scene.actors[*blow.contact.actor];
+      Victims& other = others[*blow.contact.actor];
+      chance *= other.met ? 1.0 : actor.existence;
+      other.met = true;
+      hurt(other, harm.people[static_cast<std::size_t>(actor.kind)], blow.other);
     }
+    hurt(ego, harm.ego_people, blow.ego);
   }
-  const double before = certain_;
-  certain_ = harm_if_certain();
-  expected_ += chance_ * (certain_ - before);
+  return expected;
 }
 
 }  // namespace saca::outcome
