@@ -16,9 +16,11 @@ using world::Shape;
 using world::Track;
 
 constexpr double distance_accuracy = 5e-4;  // of the smallest distance; half the promised 1 mm
+constexpr double least_travel = 1e-6;       // of both together in one step [m]
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Both bodies at one time.
+// Both bodies at one time. The gap is seen from the first one's origin, so that digits are not lost
+// far from the world's.
 struct Moment {
   double time = 0.0;
   Pose X_WA;
@@ -29,7 +31,8 @@ struct Moment {
 Moment moment(const Mover& a, const Mover& b, double time) {
   const Pose X_WA = pose_at(a.track(), time);
   const Pose X_WB = pose_at(b.track(), time);
-  return {time, X_WA, X_WB, separation(a.footprint(), X_WA, b.footprint(), X_WB)};
+  return {time, X_WA, X_WB,
+          separation(a.footprint(), {{}, X_WA.yaw}, b.footprint(), {X_WB.p - X_WA.p, X_WB.yaw})};
 }
 
 // Bound on how fast the distance shrinks on the way from one moment to another, forwards or
@@ -40,6 +43,27 @@ double closing_speed(const Mover& a, const Mover& b, const Moment& from, const M
   const double turning = std::abs(wrap_angle(to.X_WA.yaw - from.X_WA.yaw)) * a.reach() +
                          std::abs(wrap_angle(to.X_WB.yaw - from.X_WB.yaw)) * b.reach();
   return (closing + turning) / std::abs(to.time - from.time);
+}
+
+// Where they touch on the way from a moment apart to one where they overlap: still apart.
+Moment touching_between(const Mover& a, const Mover& b, Moment from, Moment to) {
+  while (from.gap.distance > touching) {
+    const double time = 0.5 * (from.time + to.time);
+    if (time <= from.time || time >= to.time) {
+      break;  // no time lies between
+    }
+    const Moment middle = moment(a, b, time);
+    (middle.gap.distance > 0.0 ? from : to) = middle;
+  }
+  return from;
+}
+
+// The longest step from `now` on the straight way to `corner` that cannot lead past a contact, but
+// at least one that makes headway.
+double stride(const Moment& now, double closing, double top_speed) {
+  const double safe = (now.gap.distance - 0.5 * touching) / closing;
+  const double tick = 4.0 * std::numeric_limits<double>::epsilon() * (1.0 + std::abs(now.time));
+  return std::max({safe, least_travel / top_speed, tick});
 }
 
 // The smallest distance between two moments of a straight segment, as far as it is below `best`.
@@ -76,8 +100,7 @@ struct Span {
 };
 
 Span front_of_box(const Footprint& box, const Pose& X_WB, Vec2 n_W, Vec2 t_W, double depth) {
-  const double a = 0.5 * box.length;
-  const double b = 0.5 * box.width;
+  const auto [a, b] = half_axes(box);
   std::array<Vec2, 4> corners{Vec2{a, b}, Vec2{-a, b}, Vec2{-a, -b}, Vec2{a, -b}};
   for (Vec2& corner : corners) {
     corner = X_WB * (corner + Vec2{box.centre_x, 0.0});
@@ -103,8 +126,7 @@ Span front_of_box(const Footprint& box, const Pose& X_WB, Vec2 n_W, Vec2 t_W, do
 // On the unit circle that the ellipse is an image of, the limit is a chord.
 Span front_of_ellipse(const Footprint& ellipse, const Pose& X_WB, Vec2 n_W, Vec2 t_W,
                       double depth) {
-  const double a = 0.5 * ellipse.length;
-  const double b = 0.5 * ellipse.width;
+  const auto [a, b] = half_axes(ellipse);
   const Vec2 n_B = rotated(n_W, -X_WB.yaw);
   const Vec2 m{a * n_B.x, b * n_B.y};
   const double height = norm(m);
@@ -120,8 +142,24 @@ Span front_of_ellipse(const Footprint& ellipse, const Pose& X_WB, Vec2 n_W, Vec2
 }
 
 Span front(const Footprint& body, const Pose& X_WB, Vec2 n_W, Vec2 t_W, double depth) {
-  return body.shape == Shape::box ? front_of_box(body, X_WB, n_W, t_W, depth)
-                                  : front_of_ellipse(body, X_WB, n_W, t_W, depth);
+  return body.shape == Shape::ellipse ? front_of_ellipse(body, X_WB, n_W, t_W, depth)
+                                      : front_of_box(body, X_WB, n_W, t_W, depth);
+}
+
+// Narrower gaps have no direction that rounding leaves alone [m].
+constexpr double least_gap = 1e-6;
+
+// Bodies near the world's origin.
+Touch touch_here(const Footprint& a, const Pose& X_WA, const Footprint& b, const Pose& X_WB,
+                 double depth) {
+  const Separation gap = separation(a, X_WA, b, X_WB);
+  const Vec2 way_W = gap.p_b_W - gap.p_a_W;
+  const Vec2 n_W = (1.0 / norm(way_W)) * way_W;
+  const Vec2 t_W{-n_W.y, n_W.x};
+  const Span of_a = front(a, X_WA, n_W, t_W, depth);
+  const Span of_b = front(b, X_WB, -n_W, t_W, depth);
+  const double middle = 0.5 * (std::max(of_a.low, of_b.low) + std::min(of_a.high, of_b.high));
+  return {0.5 * dot(n_W, gap.p_a_W + gap.p_b_W) * n_W + middle * t_W, n_W};
 }
 
 Footprint shrunk(Footprint body, double share) {
@@ -179,13 +217,14 @@ Approach approach(const Mover& a, const Mover& b, double start, double end, doub
     }
     Moment next = moment(a, b, corner);
     const double closing = closing_speed(a, b, now, next);
-    const double room = distance - 0.5 * touching;
-    if (closing * (corner - now.time) > room) {
-      next = moment(a, b, now.time + room / closing);
+    if (closing * (corner - now.time) > distance - 0.5 * touching) {
+      next = moment(a, b, std::min(corner, now.time + stride(now, closing, top_speed)));
     }
-    if (next.gap.distance > 0.0) {
-      found.distance = least_between(a, b, now, next, found.distance, 10);
+    if (next.gap.distance <= 0.0) {
+      now = touching_between(a, b, now, next);
+      return {now.time, std::min(found.distance, now.gap.distance)};
     }
+    found.distance = least_between(a, b, now, next, found.distance, 10);
     now = next;
   }
 }
@@ -193,28 +232,32 @@ Approach approach(const Mover& a, const Mover& b, double start, double end, doub
 Touch touch(const Footprint& a, const Pose& X_WA, const Footprint& b, const Pose& X_WB,
             double depth) {
   expects(depth > 0.0, "depth > 0");
-  Separation gap = separation(a, X_WA, b, X_WB);
-  if (gap.distance > 1e-6) {  // below, rounding spoils the direction
-    const Vec2 n_W = (1.0 / gap.distance) * (gap.p_b_W - gap.p_a_W);
-    const Vec2 t_W{-n_W.y, n_W.x};
-    const Span of_a = front(a, X_WA, n_W, t_W, depth);
-    const Span of_b = front(b, X_WB, -n_W, t_W, depth);
-    const double middle = 0.5 * (std::max(of_a.low, of_b.low) + std::min(of_a.high, of_b.high));
-    return {0.5 * dot(n_W, gap.p_a_W + gap.p_b_W) * n_W + middle * t_W, n_W};
-  }
-  double apart = 0.0;  // concentric bodies never part
-  double overlapping = 1.0;
-  for (int i = 0; i < 30; ++i) {
-    const double share = 0.5 * (apart + overlapping);
-    gap = separation(shrunk(a, share), X_WA, shrunk(b, share), X_WB);
-    (gap.distance > 1e-6 ? apart : overlapping) = share;
+  const Pose here{{}, X_WA.yaw};
+  const Pose there{X_WB.p - X_WA.p, X_WB.yaw};
+  const auto gap = [&](double share) {
+    return separation(shrunk(a, share), here, shrunk(b, share), there).distance;
+  };
+  double apart = 1.0;
+  if (gap(1.0) <= least_gap) {
+    apart = 0.0;  // concentric bodies never part
+    double overlapping = 1.0;
+    for (int i = 0; i < 30; ++i) {
+      const double share = 0.5 * (apart + overlapping);
+      (gap(share) > least_gap ? apart : overlapping) = share;
+    }
   }
   if (apart < 1e-6) {
     const Vec2 p_W = X_WA * Vec2{a.centre_x, 0.0};
     return {p_W, rotated({1.0, 0.0}, X_WA.yaw)};  // no side is nearer than another: ahead
   }
-  // One per cent more, so that the gap is wide enough to have a direction.
-  return touch(shrunk(a, 0.99 * apart), X_WA, shrunk(b, 0.99 * apart), X_WB, depth);
+  const Touch at = touch_here(shrunk(a, apart), here, shrunk(b, apart), there, depth);
+  return {X_WA.p + at.p_W, at.n_W};
+}
+
+Vec2 foremost(const Footprint& body, const Pose& X_WB, Vec2 n_W, double depth) {
+  const Vec2 t_W{-n_W.y, n_W.x};
+  const Span span = front(body, X_WB, n_W, t_W, depth);
+  return dot(n_W, support(body, X_WB, n_W)) * n_W + 0.5 * (span.low + span.high) * t_W;
 }
 
 }  // namespace saca::outcome

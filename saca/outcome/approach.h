@@ -7,8 +7,9 @@
 
 namespace saca::outcome {
 
-/// Bodies this near count as touching [m].
-constexpr double touching = 1e-4;
+/// Bodies this near count as touching [m]: so near that a graze, where the distance d falls as
+/// a t^2 / 2, is found within sqrt(2 d / a) = 0.1 ms for any bend a > 0.2 m/s^2.
+constexpr double touching = 1e-9;
 
 /// A footprint carried along a track, with bounds on how fast it moves. Refers to both.
 class Mover {
@@ -42,9 +43,10 @@ struct Approach {
 ///
 /// Conservative advancement along straight segments between the samples: the distance can shrink no
 /// faster than the bodies approach along the line of shortest distance, plus what turning adds at
-/// their reach. No contact is missed, however thin and fast a body is; at `contact` they are apart
-/// by at most `touching`. Allocates nothing. Source: Mirtich, Impulse-based dynamic simulation of
-/// rigid body systems, 1996, chapter 2.
+/// their reach. Where that would take steps of less than a micrometre of travel, it steps so far
+/// and halves the way back. No contact is missed, however thin and fast a body is; at `contact`
+/// they are apart by at most `touching`, or by what the clock resolves. Allocates nothing. Source:
+/// Mirtich, Impulse-based dynamic simulation of rigid body systems, 1996, chapter 2.
 [[nodiscard]] Approach approach(const Mover& a, const Mover& b, double start, double end,
                                 double of_interest);
 
@@ -57,12 +59,17 @@ struct Touch {
 /// The touch of two bodies at or near contact.
 ///
 /// @param depth  [m], > 0: what lies this deep behind the foremost point of each body belongs to
-/// where
-///               they touch, so that flat faces touch in the middle of their overlap even when they
-///               are not quite parallel
+///               where they touch, so that flat faces touch in the middle of their overlap even
+///               when they are not quite parallel
 ///
 /// Bodies that overlap are shrunk about their centres until they part.
 [[nodiscard]] Touch touch(const world::Footprint& a, const Pose& X_WA, const world::Footprint& b,
                           const Pose& X_WB, double depth);
+
+/// Where a body that comes up against a wall touches it: the middle of what lies within `depth` of
+/// its foremost point.
+/// @param n_W  unit normal into the wall
+/// @return     p_W, on the line through the foremost point across n_W [m]
+[[nodiscard]] Vec2 foremost(const world::Footprint& body, const Pose& X_WB, Vec2 n_W, double depth);
 
 }  // namespace saca::outcome

@@ -131,7 +131,7 @@ TEST(Approach, AskedForContactOnlyFindsTheSame) {
     const Approach found = meet(car, X_WA, person, X_WB, 0.0);
     ASSERT_TRUE(found.contact);
     EXPECT_NEAR(*found.contact, *meet(car, X_WA, person, X_WB).contact, touching / 15.0);
-    EXPECT_GT(separation(car, pose_at(X_WA, *found.contact), person, X_WB.X_WA[0]).distance, 1e-5);
+    EXPECT_GT(separation(car, pose_at(X_WA, *found.contact), person, X_WB.X_WA[0]).distance, 0.0);
   }
 }
 
@@ -213,6 +213,47 @@ TEST(Touch, OfOverlappingBodiesPointsToWhereTheyWouldPart) {
   const Touch same = touch(car, {{5.0, 5.0}, 0.0}, car, {{5.0, 5.0}, 0.0}, 0.1);
   EXPECT_NEAR(norm(same.n_W), 1.0, 1e-12);
   EXPECT_NEAR(same.p_W.x, 5.0, 1e-12);
+}
+
+TEST(Touch, OfAWallIsWhereTheCornerRunsIntoIt) {
+  const Footprint wall{.shape = Shape::segment, .length = 30.0};
+  const double angle = 0.3;
+  // The car's front left corner, up to 1e-7 m: on either side of the wall, along the line y = 5.
+  const Vec2 corner = rotated({2.35, 0.95}, angle);
+  for (const double gap : {1e-7, -1e-7}) {
+    const Pose X_WA{{4.0, 5.0 - gap - corner.y}, angle};
+    const Touch at = touch(car, X_WA, wall, {{0.0, 5.0}, 0.0}, 1e-6);
+    EXPECT_LT(norm(at.p_W - Vec2{4.0 + corner.x, 5.0}), 1e-4);
+    EXPECT_NEAR(at.n_W.y, 1.0, 1e-6);
+  }
+}
+
+// Turned by a little, the part of the front within the depth: from the corner back to where the
+// face lies `depth` behind it, depth / sin(angle) along the wall.
+TEST(Foremost, OfABoxIsTheMiddleOfWhatCrumples) {
+  const double angle = 0.2;
+  const Vec2 corner = rotated({2.35, -0.95}, angle);  // foremost along x
+  const Vec2 p_W = foremost(car, {{1.0, 2.0}, angle}, {1.0, 0.0}, 0.1);
+  EXPECT_NEAR(p_W.x, 1.0 + corner.x, 1e-12);
+  // Along the front upwards 0.1 / tan(angle); along the side downwards 0.1 tan(angle).
+  EXPECT_NEAR(p_W.y, 2.0 + corner.y + 0.05 * (1.0 / std::tan(angle) - std::tan(angle)), 1e-9);
+  const Vec2 flat = foremost(car, {{1.0, 2.0}, 0.0}, {1.0, 0.0}, 0.1);
+  EXPECT_NEAR(flat.y, 2.0, 1e-12);
+}
+
+TEST(Approach, AMillimetreOfGrazeFarFromTheOriginAndLateIsFound) {
+  const Footprint pin{.shape = Shape::ellipse, .length = 0.002, .width = 0.002};
+  const Vec2 far{3.2e5, -5.1e6};
+  for (const double start : {0.0, 1e6}) {
+    Track X_WA = moving({far, 0.0}, {20.0, 0.0}, 0.0, 2.0);
+    Track X_WB = moving({far + Vec2{12.35, 0.9505}, 0.0}, {}, 0.0, 2.0);
+    X_WA.start = X_WB.start = start;
+    const Approach found = approach(Mover(car, X_WA), Mover(pin, X_WB), start, start + 2.0, 0.0);
+    ASSERT_TRUE(found.contact);
+    // The corner meets the pin sqrt(1 - 0.5^2) mm before its middle.
+    EXPECT_NEAR(*found.contact - start, (10.0 - 1e-3 * std::sqrt(0.75)) / 20.0,
+                1e-8 + 1e-15 * start);
+  }
 }
 
 TEST(Approach, RefusesWhatIsNoMotion) {

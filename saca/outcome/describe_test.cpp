@@ -24,5 +24,14 @@ TEST(Describe, NamesWhoIsHitWhereAndHowFast) {
             "leaves the road with its rear at 4.2 m/s");
 }
 
+TEST(Describe, GoesOnToWhatFollows) {
+  Outcome outcome{.contact = Contact{.actor = 0, .relative_speed = 9.0}};
+  outcome.later.push_back({.edge = Side::left, .ego_face = Face::left, .relative_speed = 3.04});
+  outcome.later.push_back({.actor = 0, .ego_face = Face::rear, .relative_speed = 1.0});
+  EXPECT_EQ(describe(outcome, scene_with_a_truck()),
+            "hits truck2 with its front at 9.0 m/s, then the road's edge with its left at 3.0 m/s, "
+            "then truck2 with its rear at 1.0 m/s");
+}
+
 }  // namespace
 }  // namespace saca::outcome

@@ -17,11 +17,11 @@ constexpr double straight = 1e-9;
 // Point of the footprint farthest from a centre. For a box it is a corner; on an ellipse the point
 // whose normal points away from the centre, found by repeating: distances never shrink.
 Vec2 farthest_from(Vec2 centre_W, const Footprint& footprint, const Pose& X_WB) {
-  if (footprint.shape == world::Shape::box) {
+  if (footprint.shape != world::Shape::ellipse) {
+    const Vec2 half = half_axes(footprint);
     Vec2 farthest = X_WB * Vec2{footprint.centre_x, 0.0};
     for (const Vec2 corner : {Vec2{1, 1}, Vec2{-1, 1}, Vec2{-1, -1}, Vec2{1, -1}}) {
-      const Vec2 p_W = X_WB * Vec2{footprint.centre_x + 0.5 * footprint.length * corner.x,
-                                   0.5 * footprint.width * corner.y};
+      const Vec2 p_W = X_WB * Vec2{footprint.centre_x + half.x * corner.x, half.y * corner.y};
       if (norm(p_W - centre_W) > norm(farthest - centre_W)) {
         farthest = p_W;
       }
@@ -62,7 +62,7 @@ double room(const Road& road, Side side, const Footprint& footprint, const Pose&
 }
 
 EdgeApproach edge_approach(const Road& road, Side side, const Footprint& footprint,
-                           const world::Track& track, double of_interest) {
+                           const world::Track& track, double of_interest, double from) {
   expects(!track.X_WA.empty() && track.step > 0.0, "a track has at least one pose");
   const auto room_at = [&](double time) {
     return room(road, side, footprint, pose_at(track, time));
@@ -72,9 +72,11 @@ EdgeApproach edge_approach(const Road& road, Side side, const Footprint& footpri
   const int steps = parts * static_cast<int>(track.X_WA.size() - 1);
   const double step = track.step / parts;
   EdgeApproach found{std::nullopt, of_interest};
-  double inside = track.start;
-  for (int i = 0; i <= steps; ++i) {
-    const double time = track.start + i * step;
+  const double begin = std::max(from, track.start);
+  double inside = begin;
+  const int first = static_cast<int>(std::min((begin - track.start) / step, double(steps)));
+  for (int i = first; i <= steps; ++i) {
+    const double time = i == first ? begin : track.start + i * step;
     const double now = room_at(time);
     found.room = std::min(found.room, now);
     if (now > 0.0) {
@@ -82,7 +84,7 @@ EdgeApproach edge_approach(const Road& road, Side side, const Footprint& footpri
       continue;
     }
     double beyond = time;
-    for (int k = 0; k < 30 && i > 0; ++k) {
+    for (int k = 0; k < 30 && i > first; ++k) {
       const double middle = 0.5 * (inside + beyond);
       (room_at(middle) > 0.0 ? inside : beyond) = middle;
     }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "saca/core/pose.h"
@@ -24,11 +26,13 @@ struct EdgeApproach {
   double room = 0.0;               ///< smallest until then, at most `of_interest` [m]
 };
 
-/// When a body that follows `track` first leaves the road to one side; `track.start` when it stands
+/// When a body that follows `track` first leaves the road to one side; at once when it stands
 /// beyond the edge already. Exact to 1 mm for samples every 10 ms.
+/// @param from  where to begin to look, if after the track's start [s]
 [[nodiscard]] EdgeApproach edge_approach(const world::Road& road, Side side,
                                          const world::Footprint& footprint,
-                                         const world::Track& track, double of_interest);
+                                         const world::Track& track, double of_interest,
+                                         double from = -std::numeric_limits<double>::infinity());
 
 /// The footprint's point that reaches farthest to one side of the road.
 [[nodiscard]] Vec2 outermost(const world::Road& road, Side side, const world::Footprint& footprint,

@@ -65,6 +65,11 @@ struct Encounter {
   void add_car(Pose X_WA, Vec2 v_W, double yaw_rate = 0.0) {
     add(world::ActorKind::car, {.length = 4.7, .width = 1.9}, 1700.0, X_WA, v_W, yaw_rate);
   }
+  /// The others on their tracks, whatever the ego does.
+  [[nodiscard]] Course played_out(const HarmModel& harm) const {
+    return play_out(
+        motion, scene, [this](const world::Track&) { return tracks; }, harm);
+  }
   [[nodiscard]] Outcome judged(const HarmModel& harm) const {
     return judge(motion, scene, tracks, harm);
   }

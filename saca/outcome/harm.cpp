@@ -67,10 +67,6 @@ void read_contact(Table root, HarmModel& model) {
   }
 }
 
-double weighted(const HarmModel& model, double severe, double killed) {
-  return model.severe_weight * severe + model.killed_weight * killed;
-}
-
 }  // namespace
 
 double probability(const RiskCurve& curve, double x) {
@@ -111,7 +107,16 @@ Result<HarmModel> read_harm(const std::filesystem::path& path) {
   return parse_harm(text.value(), path.string());
 }
 
-double occupant_harm(const HarmModel& model, Face struck, double delta_v) {
+Injury combined(const Injury& first, const Injury& second) {
+  const auto either = [](double p, double q) { return p + q - p * q; };
+  return {either(first.severe, second.severe), either(first.killed, second.killed)};
+}
+
+double weighted(const HarmModel& model, const Injury& injury) {
+  return model.severe_weight * injury.severe + model.killed_weight * injury.killed;
+}
+
+Injury occupant_injury(const HarmModel& model, Face struck, double delta_v) {
   RiskCurve curve = model.occupant;
   if (struck == Face::left || struck == Face::right) {
     curve.intercept += model.side;
@@ -119,7 +124,11 @@ double occupant_harm(const HarmModel& model, Face struck, double delta_v) {
     curve.intercept += model.rear;
   }
   const double severe = attributable(curve, delta_v);
-  return weighted(model, severe, model.killed_share * severe);
+  return {severe, model.killed_share * severe};
+}
+
+double occupant_harm(const HarmModel& model, Face struck, double delta_v) {
+  return weighted(model, occupant_injury(model, struck, delta_v));
 }
 
 bool unprotected(ActorKind kind) {
@@ -127,14 +136,19 @@ bool unprotected(ActorKind kind) {
          kind == ActorKind::motorcycle;
 }
 
-double unprotected_harm(const HarmModel& model, ActorKind kind, double closing_speed) {
+Injury unprotected_injury(const HarmModel& model, ActorKind kind, double closing_speed) {
   expects(unprotected(kind), "kind is pedestrian, bicycle or motorcycle");
   const UnprotectedRisk& risk = kind == ActorKind::pedestrian ? model.pedestrian
                                 : kind == ActorKind::bicycle  ? model.cyclist
                                                               : model.motorcyclist;
-  const double by_curves = weighted(model, attributable(risk.severe, closing_speed),
-                                    attributable(risk.killed, closing_speed));
-  return std::max(by_curves, occupant_harm(model, Face::left, closing_speed));
+  const Injury by_curves{attributable(risk.severe, closing_speed),
+                         attributable(risk.killed, closing_speed)};
+  const Injury inside = occupant_injury(model, Face::left, closing_speed);
+  return weighted(model, by_curves) >= weighted(model, inside) ? by_curves : inside;
+}
+
+double unprotected_harm(const HarmModel& model, ActorKind kind, double closing_speed) {
+  return weighted(model, unprotected_injury(model, kind, closing_speed));
 }
 
 }  // namespace saca::outcome

@@ -99,7 +99,11 @@ Impact impact(const ImpactBody& a, const ImpactBody& b, Vec2 p_W, Vec2 n_W, cons
   const Vec2 impulse_W =
       (1.0 + law.restitution) * (stopping.normal * n_W + stopping.tangential * t_W);
   const double size = norm(impulse_W);
-  return {impulse_W, size * a.inverse_mass, size * b.inverse_mass};
+  return {.impulse_W = impulse_W,
+          .a_delta_v = size * a.inverse_mass,
+          .b_delta_v = size * b.inverse_mass,
+          .a_spin = -a.inverse_yaw_inertia * cross(p_W - a.p_W, impulse_W),
+          .b_spin = b.inverse_yaw_inertia * cross(p_W - b.p_W, impulse_W)};
 }
 
 }  // namespace saca::outcome

@@ -29,6 +29,8 @@ struct Impact {
   Vec2 impulse_W;          ///< on b; a receives its opposite [N s]
   double a_delta_v = 0.0;  ///< change of the velocity of a's centre of mass [m/s], >= 0
   double b_delta_v = 0.0;  ///< likewise of b
+  double a_spin = 0.0;     ///< change of a's yaw rate [rad/s]
+  double b_spin = 0.0;     ///< likewise of b
 };
 
 /// Instant planar impact of `a` and `b` at one point.

@@ -27,10 +27,15 @@ double cross(Vec2 a, Vec2 b) {
   return a.x * b.y - a.y * b.x;
 }
 
-ImpactBody after(ImpactBody before, Vec2 p_W, Vec2 impulse_W) {
+ImpactBody after(ImpactBody before, Vec2 impulse_W, double spin) {
   before.v_W = before.v_W + before.inverse_mass * impulse_W;
-  before.yaw_rate += before.inverse_yaw_inertia * cross(p_W - before.p_W, impulse_W);
+  before.yaw_rate += spin;
   return before;
+}
+
+// About a point of the world [N m s].
+double angular_momentum(const ImpactBody& one, Vec2 p_W) {
+  return cross(one.p_W - p_W, one.v_W) / one.inverse_mass + one.yaw_rate / one.inverse_yaw_inertia;
 }
 
 double energy(const ImpactBody& one) {
@@ -77,6 +82,22 @@ TEST(Impact, OffCentreFeelsLessMass) {
   EXPECT_NEAR(blow.impulse_W.x, 10.0 / (1.0 / 1500.0 + c * c / inertia), 1e-6);
 }
 
+// Plastic, without friction, onto the side of a car at rest, c ahead of its centre: the impulse is
+// v over (1/m + 1/m + c^2/I), and turns the struck car by c J / I, to the left when it is pushed to
+// the left ahead of its centre. The striking car, hit in the middle of its front, does not turn.
+TEST(Impact, ATBoneTurnsTheStruckCar) {
+  const double c = 1.2;
+  const double inertia = 1500.0 * (4.7 * 4.7 + 1.9 * 1.9) / 12.0;
+  const ImpactBody striking = body(1500.0, {c, -3.3}, {0.0, 10.0});
+  const ImpactBody struck = body(1500.0, {0.0, 0.0}, {});
+  const Impact blow = impact(striking, struck, {c, -0.95}, {0.0, 1.0}, {0.0, 0.0});
+  const double J = 10.0 / (2.0 / 1500.0 + c * c / inertia);
+  EXPECT_NEAR(blow.impulse_W.y, J, 1e-8);
+  EXPECT_NEAR(blow.b_spin, c * J / inertia, 1e-12);
+  EXPECT_GT(blow.b_spin, 0.0);
+  EXPECT_EQ(blow.a_spin, 0.0);
+}
+
 // A disc sliding along a wall: friction is mu times the normal impulse as long as it slides on.
 TEST(Impact, SlidingIsRubbedByFriction) {
   ImpactBody disc = free_body(80.0, {.shape = world::Shape::ellipse, .length = 1.0, .width = 1.0});
@@ -120,8 +141,20 @@ TEST(Impact, KeepsMomentumAndCreatesNoEnergy) {
     const Impact blow = impact(a, b, p, n, law);
     EXPECT_NEAR(blow.a_delta_v * mass_a, blow.b_delta_v * mass_b, 1e-6);
 
-    const ImpactBody a_after = after(a, p, -blow.impulse_W);
-    const ImpactBody b_after = after(b, p, blow.impulse_W);
+    const ImpactBody a_after = after(a, -blow.impulse_W, blow.a_spin);
+    const ImpactBody b_after = after(b, blow.impulse_W, blow.b_spin);
+    const Vec2 somewhere{50.0 * uniform(rng), 50.0 * uniform(rng)};
+    const double turning = angular_momentum(a, somewhere) + angular_momentum(b, somewhere);
+    EXPECT_NEAR(angular_momentum(a_after, somewhere) + angular_momentum(b_after, somewhere),
+                turning, 1e-12 * 50.0 * 50.0 * (mass_a + mass_b))
+        << i;
+    // What the impulse takes from both along the way between before and after: the work of a force
+    // is its impulse times the mean of the velocity at its point.
+    const Vec2 mean =
+        0.5 * (relative_velocity_at(a, b, p) + relative_velocity_at(a_after, b_after, p));
+    EXPECT_NEAR(energy(a_after) + energy(b_after) - energy(a) - energy(b),
+                dot(blow.impulse_W, mean), 1e-9 * (energy(a) + energy(b)))
+        << i;
     const double before = energy(a) + energy(b);
     EXPECT_LE(energy(a_after) + energy(b_after), before * (1.0 + 1e-12)) << i;
     const double closing = dot(relative_velocity_at(a, b, p), n);
@@ -149,7 +182,11 @@ TEST(Impact, IsTheSameFromBothSidesTurnedAndMirrored) {
     const Vec2 n = rotated({1.0, 0.0}, 3.0 * uniform(rng));
     const ImpactLaw law{0.1, 0.5};
     const Impact blow = impact(a, b, p, n, law);
-    EXPECT_NEAR(impact(b, a, p, -n, law).b_delta_v, blow.a_delta_v, 1e-9);
+    const Impact seen = impact(b, a, p, -n, law);
+    EXPECT_NEAR(seen.b_delta_v, blow.a_delta_v, 1e-9);
+    EXPECT_NEAR(seen.a_delta_v, blow.b_delta_v, 1e-9);
+    EXPECT_NEAR(seen.a_spin, blow.b_spin, 1e-9);
+    EXPECT_NEAR(seen.b_spin, blow.a_spin, 1e-9);
 
     const auto turned = [&](ImpactBody one) {
       one.p_W = rotated(one.p_W, 1.1);
@@ -166,6 +203,8 @@ TEST(Impact, IsTheSameFromBothSidesTurnedAndMirrored) {
     };
     EXPECT_NEAR(impact(flipped(a), flipped(b), mirrored(p), mirrored(n), law).a_delta_v,
                 blow.a_delta_v, 1e-9);
+    EXPECT_NEAR(impact(flipped(a), flipped(b), mirrored(p), mirrored(n), law).b_spin, -blow.b_spin,
+                1e-9);
   }
 }
 

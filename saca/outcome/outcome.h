@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "saca/core/static_vector.h"
 #include "saca/manoeuvre/drive.h"
 #include "saca/outcome/edge.h"
 #include "saca/outcome/face.h"
@@ -16,9 +17,9 @@
 
 namespace saca::outcome {
 
-/// The first touch of the ego with somebody or with what stands beyond the road's edge.
+/// A touch of the ego with somebody or with what stands beyond the road's edge.
 struct Contact {
-  double time = 0.0;                 ///< exact to 1 mm of travel [s]
+  double time = 0.0;                 ///< exact to 0.1 ms [s]
   std::optional<std::size_t> actor;  ///< index into scene.actors; nullopt: the edge of the road
   std::optional<Side> edge;          ///< of the road, when it is no actor
   Face ego_face = Face::front;
@@ -29,7 +30,12 @@ struct Contact {
   double relative_speed = 0.0;    ///< size of v_rel_W [m/s]
   double ego_delta_v = 0.0;       ///< [m/s], >= 0
   double other_delta_v = 0.0;     ///< [m/s], >= 0
+  double ego_spin = 0.0;          ///< change of the ego's yaw rate [rad/s]
+  double other_spin = 0.0;        ///< likewise of the other
 };
+
+/// Further contacts that are told one by one.
+constexpr std::size_t max_later = 3;
 
 /// Distances beyond this are not told apart [m].
 constexpr double far_away = 100.0;
@@ -39,53 +45,85 @@ constexpr double far_away = 100.0;
 
 /// What a manoeuvre ends in.
 struct Outcome {
-  std::optional<Contact> contact;
-  double collision_loss = 0.0;  ///< the paper's: relative speed x 0.41 side, 0.35 front, 0.21 rear
-  double harm = 0.0;  ///< expected severely injured and killed people, weighted: data/harm.toml
+  std::optional<Contact> contact;          ///< the first
+  StaticVector<Contact, max_later> later;  ///< what followed it, in order of time
+  double collision_loss = 0.0;  ///< the paper's, of the first contact: relative speed x 0.41 side,
+                                ///< 0.35 front, 0.21 rear
+  double harm = 0.0;  ///< of all contacts: expected severely injured and killed people, weighted:
+                      ///< data/harm.toml
   double clearance = far_away;  ///< smallest distance to anybody or an edge with something beyond,
                                 ///< at most `far_away`; 0 with contact [m]
-  double end_time = 0.0;        ///< of the contact, or when the motion ended [s]
+  double end_time = 0.0;        ///< when the ego came to rest, or its motion ended [s]
 };
 
-/// First contact and its cost when the ego moves as given and the others follow their tracks.
+/// How the others move when the ego moves so: one track per actor of the scene, in its order.
+/// Whoever reacts answers to the ego's motion up to each instant only, so that motions which agree
+/// up to a time have tracks which agree up to it.
+using Others = std::function<std::vector<world::Track>(const world::Track& X_WB)>;
+
+/// A story to its end.
+struct Course {
+  Outcome outcome;
+  manoeuvre::EgoMotion ego;          ///< as intended until it is struck, then sliding to rest
+  std::vector<world::Track> others;  ///< likewise, one per actor of the scene
+};
+
+/// Everything that comes of a motion, until all that matters rests.
 ///
-/// @param tracks  one per actor of the scene, in its order; each may be shorter than the motion
+/// @param others  asked at the start, and again after each blow with what the ego then really does
+/// @param grip    true friction coefficient, on which struck bodies slide
 /// @throws ContractViolation  if tracks and actors differ in number, or the motion has no pose or
 /// not
 ///                            one velocity and yaw rate for each
 ///
-/// Invariant to the world frame and mirror-symmetric. One contact: what follows it is not looked
-/// at. Bodies that overlap at the start are in contact then.
+/// The ego moves as intended until the first contact that does not let it go on; then it slides to
+/// rest (outcome/slide.h), and so does whoever it met. What they meet on the way is met in the same
+/// manner. Kerbs and open ground do not stop the ego: crossing such an edge does once the harm that
+/// data/harm.toml states. A barrier throws it back; trees hold it. Others do not meet each other,
+/// and somebody outside a vehicle is struck only once.
+///
+/// Two bodies that have met are left alone for the tenth of a second that a collision lasts; after
+/// that they meet again where they touch and approach each other with more than 0.1 m/s. Bodies
+/// that stay together, pushing or resting, are thus not struck again and again.
+///
+/// Invariant to the world frame and mirror-symmetric. Bodies that overlap at the start are in
+/// contact then.
 ///
 /// When the motion has `ended`: an ego at rest stays there until the last track ends, since it can
-/// still be run into; one that has recovered a lane goes on along it for 2 s. An actor that still
-/// moves when its track ends is not looked at beyond that.
+/// still be run into, also after it was struck; one that has recovered a lane goes on along it for
+/// 2 s. An actor that still moves when its track ends is not looked at beyond that.
 ///
-/// Kerbs and open ground do not stop the ego. Crossing such an edge does the harm that
-/// data/harm.toml states and is the contact that is reported only when no other follows; harm is
-/// then that of both.
+/// The contact with an edge that does not stop the ego is the first only when nothing else follows.
 ///
-/// An actor's `existence` scales the harm of meeting it, and nothing else.
-[[nodiscard]] Outcome judge(const manoeuvre::EgoMotion& motion, const world::Scene& scene,
-                            std::span<const world::Track> tracks, const HarmModel& harm);
+/// Harm: the chances that each person comes out of every blow unhurt multiply, for severe injury
+/// and for death. An actor's `existence` scales the harm of meeting it and of all that follows, and
+/// nothing else.
+[[nodiscard]] Course play_out(const manoeuvre::EgoMotion& motion, const world::Scene& scene,
+                              const Others& others, const HarmModel& harm, double grip);
+/// Struck bodies slide on the scene's grip.
+[[nodiscard]] Course play_out(const manoeuvre::EgoMotion& motion, const world::Scene& scene,
+                              const Others& others, const HarmModel& harm);
 
-/// How the others move when the ego moves so: one track per actor of the scene, in its order.
-/// Reacting drivers answer to the ego's motion up to each instant only, so that motions that agree
-/// up to a time have tracks that agree up to it.
-using Others = std::function<std::vector<world::Track>(const world::Track& X_WB)>;
-
-/// The same when the others react: `others` is asked with the motion as it is judged.
+/// The outcome of `play_out`.
 [[nodiscard]] Outcome judge(const manoeuvre::EgoMotion& motion, const world::Scene& scene,
                             const Others& others, const HarmModel& harm);
+/// The others follow fixed tracks until they are struck.
+/// @param tracks  one per actor of the scene, in its order; each may be shorter than the motion
+[[nodiscard]] Outcome judge(const manoeuvre::EgoMotion& motion, const world::Scene& scene,
+                            std::span<const world::Track> tracks, const HarmModel& harm);
+[[nodiscard]] Outcome judge(const manoeuvre::EgoMotion& motion, const world::Scene& scene,
+                            std::span<const world::Track> tracks, const HarmModel& harm,
+                            double grip);
 
-/// What happens if `plan` is carried out in this scene: full dynamics to rest or a recovered lane.
+/// What happens if `plan` is carried out in this scene: full dynamics to rest or a recovered lane,
+/// or, when neither comes, for 20 s.
 /// @param grip  true friction coefficient
 /// @throws ContractViolation  if refusal(car, plan, scene) has a reason
 [[nodiscard]] Outcome roll_out(const manoeuvre::Car& car, const manoeuvre::Plan& plan,
                                const world::Scene& scene, std::span<const world::Track> tracks,
                                double grip, const HarmModel& harm);
-[[nodiscard]] Outcome roll_out(const manoeuvre::Car& car, const manoeuvre::Plan& plan,
-                               const world::Scene& scene, const Others& others, double grip,
-                               const HarmModel& harm);
+[[nodiscard]] Course roll_out(const manoeuvre::Car& car, const manoeuvre::Plan& plan,
+                              const world::Scene& scene, const Others& others, double grip,
+                              const HarmModel& harm);
 
 }  // namespace saca::outcome

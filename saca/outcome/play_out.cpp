@@ -1,0 +1,419 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "saca/core/contract.h"
+#include "saca/outcome/approach.h"
+#include "saca/outcome/blow.h"
+#include "saca/outcome/slide.h"
+#include "saca/outcome/toll.h"
+
+namespace saca::outcome {
+namespace {
+
+using manoeuvre::EgoMotion;
+using world::Beyond;
+using world::Scene;
+using world::Track;
+
+// Slower than this, a body stands [m/s].
+constexpr double at_rest = 0.05;
+
+// How long an ego that has recovered its lane is followed along it [s]. An assumption: enough to
+// pass what it went around and to see what comes towards it; what is farther off is another
+// encounter.
+constexpr double goes_on = 2.0;
+
+// How long a collision lasts: bodies that crumple into each other for so long have met once. An
+// assumption; crash pulses of cars take about a tenth of a second [s].
+constexpr double blow_lasts = 0.1;
+
+// Bodies that have met and stay together press on each other; slower than this they do not meet
+// anew [m/s].
+constexpr double least_closing = 0.1;
+
+// Between two looks at bodies that stay together [s].
+constexpr double look_again = 0.01;
+
+// A bound on the work: after so many blows the story breaks off.
+constexpr std::size_t most_blows = 32;
+
+bool moves_at_end(const EgoMotion& motion) {
+  return norm(motion.v_B.back()) > at_rest;
+}
+bool moves_at_end(const Track& track) {
+  const auto& poses = track.X_WA;
+  return poses.size() > 1 &&
+         norm(poses.back().p - poses[poses.size() - 2].p) > at_rest * track.step;
+}
+
+// The motion, followed by going on along the lane at the speed and offset of its end.
+EgoMotion carried_on(EgoMotion motion, const world::Road& road) {
+  const world::LanePose last = to_lane(road, motion.track.X_WA.back());
+  const double speed = norm(motion.v_B.back());
+  const double along = speed / (1.0 - road.curvature * last.d);  // what s gains per second
+  const int num_steps = static_cast<int>(std::ceil(goes_on / motion.track.step));
+  for (int k = 1; k <= num_steps; ++k) {
+    const double s = last.s + along * (k * motion.track.step);
+    motion.track.X_WA.push_back(from_lane(road, {s, last.d, last.heading}));
+    motion.v_B.push_back(rotated({speed, 0.0}, -last.heading));
+    motion.yaw_rate.push_back(along * road.curvature);
+  }
+  return motion;
+}
+
+// `before` until `after` starts, then `after`; at least every 10 ms.
+Track joined(const Track& before, const Track& after) {
+  Track all;
+  all.start = before.start;
+  all.step = std::min(before.step, after.step);
+  const double span = std::max(0.0, end_time(after) - before.start);
+  const auto last = static_cast<std::size_t>(std::ceil(span / all.step - 1e-6));
+  for (std::size_t i = 0; i <= last; ++i) {
+    const double time = all.start + all.step * static_cast<double>(i);
+    if (time > after.start) {
+      all.X_WA.push_back(pose_at(after, time));
+    } else if (all.step == before.step && i < before.X_WA.size()) {
+      all.X_WA.push_back(before.X_WA[i]);  // to the last bit
+    } else {
+      all.X_WA.push_back(pose_at(before, time));
+    }
+  }
+  return all;
+}
+
+EgoMotion joined(const EgoMotion& before, const EgoMotion& after) {
+  EgoMotion all;
+  all.track = joined(before.track, after.track);
+  all.ended = after.ended;
+  for (std::size_t i = 0; i < all.track.X_WA.size(); ++i) {
+    const double time = all.track.start + all.track.step * static_cast<double>(i);
+    const Instant now = instant_at(time > after.track.start ? after : before, time);
+    all.v_B.push_back(rotated(now.v_W, -now.X_WB.yaw));
+    all.yaw_rate.push_back(now.yaw_rate);
+  }
+  return all;
+}
+
+// What has passed between the ego and somebody or something.
+struct Dealings {
+  std::optional<double> last_blow;  ///< [s]
+  bool over = false;                ///< nothing more can come of it
+};
+
+// What comes next.
+struct Event {
+  double time = 0.0;
+  std::optional<std::size_t> actor;
+  std::optional<Side> edge;
+  bool presses_on = false;  ///< they have not parted since they last met
+};
+
+std::optional<Event> at(std::optional<double> time) {
+  return time ? std::optional(Event{.time = *time}) : std::nullopt;
+}
+
+// The first time that two who have met meet again, or press on.
+// @param first_touch  when they first touch at or after a time, if they do
+// @param closing      how fast they approach where they touch, at a time
+template <class FirstTouch, class Closing>
+std::optional<Event> meet_again(double from, double until, FirstTouch&& first_touch,
+                                Closing&& closing) {
+  bool together = true;
+  for (double time = from; time <= until; time += look_again) {
+    const std::optional<double> contact = first_touch(time);
+    if (!contact) {
+      return std::nullopt;
+    }
+    together = together && *contact <= time + 1e-9;
+    if (closing(*contact) > least_closing) {
+      return Event{.time = *contact, .presses_on = together};
+    }
+    time = *contact;
+  }
+  return std::nullopt;
+}
+
+class Story {
+ public:
+  Story(const EgoMotion& motion, const Scene& scene, const HarmModel& harm, double grip)
+      : scene_(scene),
+        harm_(harm),
+        grip_(grip),
+        given_(motion),
+        goes_on_(motion.ended && moves_at_end(motion)),
+        carried_on_(goes_on_ ? carried_on(motion, scene.road) : EgoMotion{}),
+        since_(motion.track.start),
+        dealings_(scene.actors.size()),
+        slides_(scene.actors.size()) {}
+
+  // The ego's motion so far, and as it will be if nothing more happens.
+  [[nodiscard]] EgoMotion ego() const {
+    EgoMotion all = intended();
+    for (const EgoMotion& slide : ego_slides_) {
+      all = joined(all, slide);
+    }
+    return all;
+  }
+
+  // Now the others move so, as long as they are not struck.
+  void expect(std::span<const Track> tracks) {
+    expects(tracks.size() == scene_.actors.size(), "one track per actor");
+    tracks_ = tracks;
+  }
+
+  // The next thing that happens, if any.
+  [[nodiscard]] std::optional<Event> next();
+
+  // It happens.
+  // @return  whether anybody now moves otherwise
+  bool happen(const Event& event);
+
+  [[nodiscard]] Outcome outcome() const;
+
+  [[nodiscard]] std::vector<Track> others() const {
+    std::vector<Track> all(tracks_.begin(), tracks_.end());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      for (const EgoMotion& slide : slides_[i]) {
+        all[i] = joined(all[i], slide.track);
+      }
+    }
+    return all;
+  }
+
+ private:
+  [[nodiscard]] const EgoMotion& intended() const { return goes_on_ ? carried_on_ : given_; }
+  [[nodiscard]] const EgoMotion& now() const {
+    return ego_slides_.empty() ? intended() : ego_slides_.back();
+  }
+  [[nodiscard]] bool was_struck() const { return !ego_slides_.empty(); }
+  [[nodiscard]] const Track& track(std::size_t i) const {
+    return slides_[i].empty() ? tracks_[i] : slides_[i].back().track;
+  }
+  [[nodiscard]] Instant other_at(std::size_t i, double time) const {
+    return slides_[i].empty() ? instant_at(tracks_[i], time) : instant_at(slides_[i].back(), time);
+  }
+  [[nodiscard]] Dealings& dealings(Side side) { return edges_[static_cast<std::size_t>(side)]; }
+
+  [[nodiscard]] double last_time() const;
+  [[nodiscard]] std::optional<Event> next_at(Side side);
+  [[nodiscard]] std::optional<Event> next_with(std::size_t i, double until, bool first);
+  void note(const Blow& blow, const Event& event);
+  [[nodiscard]] EgoMotion slide_of(const world::Footprint& footprint, double mass,
+                                   const Instant& after, double time) const;
+
+  const Scene& scene_;
+  const HarmModel& harm_;
+  double grip_;
+  const EgoMotion& given_;
+  bool goes_on_;
+  EgoMotion carried_on_;
+  std::span<const Track> tracks_;
+  double since_;  ///< when the last event happened [s]
+  double clearance_ = far_away;
+  std::vector<Dealings> dealings_;  ///< with each actor
+  std::array<Dealings, 2> edges_;   ///< by Side
+  std::vector<EgoMotion> ego_slides_;
+  std::vector<std::vector<EgoMotion>> slides_;  ///< of each actor
+  std::vector<Blow> blows_;                     ///< in order of time
+  std::optional<std::size_t> first_;            ///< of them: the first that struck the ego
+};
+
+double Story::last_time() const {
+  const EgoMotion& ego = now();
+  double time = end_time(ego.track);
+  if (ego.ended && !moves_at_end(ego)) {
+    for (std::size_t i = 0; i < tracks_.size(); ++i) {
+      time = std::max(time, end_time(track(i)));
+    }
+  }
+  return time;
+}
+
+std::optional<Event> Story::next_at(Side side) {
+  const Beyond what = beyond(scene_.road, side);
+  const Dealings& before = dealings(side);
+  if (before.over) {
+    return std::nullopt;
+  }
+  const Track& track = now().track;
+  const double interest = was_struck() ? 0.0 : clearance_;
+  const auto first_touch = [&](double time) {
+    return edge_approach(scene_.road, side, scene_.ego_footprint, track, interest, time).crossing;
+  };
+  if (before.last_blow) {
+    return meet_again(
+        std::max(since_, *before.last_blow + blow_lasts), end_time(track), first_touch,
+        [&](double time) { return closing_speed(scene_, side, instant_at(now(), time), harm_); });
+  }
+  const EdgeApproach edge =
+      edge_approach(scene_.road, side, scene_.ego_footprint, track, interest, since_);
+  if (what != Beyond::unmarked) {
+    clearance_ = std::min(clearance_, std::max(0.0, edge.room));
+  }
+  return at(edge.crossing);
+}
+
+// @param first  nothing is known yet that ends the search before `until`
+std::optional<Event> Story::next_with(std::size_t i, double until, bool first) {
+  const Dealings& before = dealings_[i];
+  const double known = moves_at_end(track(i)) ? std::min(until, end_time(track(i))) : until;
+  if (before.over || known < since_) {
+    return std::nullopt;
+  }
+  const Mover ego(scene_.ego_footprint, now().track);
+  const Mover other(scene_.actors[i].footprint, track(i));
+  if (before.last_blow) {
+    const double rest = std::max(end_time(now().track), end_time(track(i)));
+    return meet_again(
+        std::max(since_, *before.last_blow + blow_lasts), std::min(known, rest),
+        [&](double time) { return approach(ego, other, time, known, 0.0).contact; },
+        [&](double time) {
+          return closing_speed(scene_, i, instant_at(now(), time), other_at(i, time), harm_);
+        });
+  }
+  const double interest = first && !was_struck() ? clearance_ : 0.0;
+  const Approach found = approach(ego, other, since_, known, interest);
+  if (interest > 0.0) {
+    clearance_ = std::min(clearance_, found.distance);
+  }
+  return at(found.contact);
+}
+
+std::optional<Event> Story::next() {
+  std::optional<Event> soonest;
+  double until = last_time();
+  bool stops = false;
+  const auto consider = [&](std::optional<Event> event) {
+    if (event && event->time <= until && (!soonest || event->time < until)) {
+      until = event->time;
+      soonest = event;
+      stops = event->actor || stops_the_ego(beyond(scene_.road, *event->edge));
+    }
+  };
+  for (const Side side : {Side::left, Side::right}) {
+    std::optional<Event> event = next_at(side);
+    if (event) {
+      event->edge = side;
+    }
+    consider(event);
+  }
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    std::optional<Event> event = next_with(i, until, !stops);
+    if (event) {
+      event->actor = i;
+    }
+    consider(event);
+  }
+  return soonest;
+}
+
+EgoMotion Story::slide_of(const world::Footprint& footprint, double mass, const Instant& after,
+                          double time) const {
+  ImpactBody body = free_body(mass, footprint);
+  body.v_W = after.v_W;
+  body.yaw_rate = after.yaw_rate;
+  return slide(footprint, body, after.X_WB, time, grip_);
+}
+
+void Story::note(const Blow& blow, const Event& event) {
+  if (event.presses_on) {
+    const auto last = std::find_if(blows_.rbegin(), blows_.rend(), [&](const Blow& one) {
+      return one.contact.actor == event.actor && one.contact.edge == event.edge;
+    });
+    *last = pressed_on(*last, blow, harm_);
+    return;
+  }
+  blows_.push_back(blow);
+}
+
+bool Story::happen(const Event& event) {
+  const Instant ego = instant_at(now(), event.time);
+  since_ = event.time;
+  Blow blow;
+  bool strikes = true;
+  if (event.actor) {
+    const std::size_t i = *event.actor;
+    const world::Actor& actor = scene_.actors[i];
+    blow = meet(scene_, i, ego, other_at(i, event.time), event.time, harm_);
+    if (actor.kind != world::ActorKind::obstacle) {
+      slides_[i].push_back(slide_of(actor.footprint, actor.mass, blow.other_after, event.time));
+    }
+    dealings_[i] = {event.time, unprotected(actor.kind)};
+  } else {
+    const Beyond what = beyond(scene_.road, *event.edge);
+    blow = leave(scene_, *event.edge, ego, event.time, harm_);
+    strikes = stops_the_ego(what);
+    dealings(*event.edge) = {event.time, what != Beyond::barrier};
+  }
+  if (strikes) {
+    ego_slides_.push_back(
+        slide_of(scene_.ego_footprint, scene_.ego_mass, blow.ego_after, event.time));
+    first_ = first_.value_or(blows_.size());
+  }
+  note(blow, event);
+  return strikes;
+}
+
+Outcome Story::outcome() const {
+  Outcome outcome;
+  outcome.harm = toll(blows_, scene_, harm_);
+  outcome.clearance = blows_.empty() ? clearance_ : 0.0;
+  outcome.end_time = end_time(was_struck() ? now().track : given_.track);
+  if (blows_.empty()) {
+    return outcome;
+  }
+  const std::size_t first = first_.value_or(0);
+  outcome.contact = blows_[first].contact;
+  outcome.collision_loss = blows_[first].loss;
+  for (std::size_t i = first + 1; i < blows_.size() && !outcome.later.full(); ++i) {
+    outcome.later.push_back(blows_[i].contact);
+  }
+  outcome.end_time = std::max(outcome.end_time, blows_[first].contact.time);
+  return outcome;
+}
+
+void check(const EgoMotion& motion) {
+  expects(!motion.track.X_WA.empty(), "the motion has at least one pose");
+  expects(motion.v_B.size() == motion.track.X_WA.size() &&
+              motion.yaw_rate.size() == motion.track.X_WA.size(),
+          "one velocity and one yaw rate per pose");
+}
+
+}  // namespace
+
+Course play_out(const EgoMotion& motion, const Scene& scene, const Others& others,
+                const HarmModel& harm, double grip) {
+  check(motion);
+  Story story(motion, scene, harm, grip);
+  std::vector<Track> tracks = others(story.ego().track);
+  story.expect(tracks);
+  for (std::size_t i = 0; i < most_blows; ++i) {
+    const std::optional<Event> event = story.next();
+    if (!event) {
+      break;
+    }
+    if (story.happen(*event)) {
+      tracks = others(story.ego().track);
+      story.expect(tracks);
+    }
+  }
+  return {story.outcome(), story.ego(), story.others()};
+}
+
+Outcome judge(const EgoMotion& motion, const Scene& scene, std::span<const Track> tracks,
+              const HarmModel& harm, double grip) {
+  check(motion);
+  Story story(motion, scene, harm, grip);
+  story.expect(tracks);
+  for (std::size_t i = 0; i < most_blows; ++i) {
+    const std::optional<Event> event = story.next();
+    if (!event) {
+      break;
+    }
+    story.happen(*event);
+  }
+  return story.outcome();
+}
+
+}  // namespace saca::outcome
