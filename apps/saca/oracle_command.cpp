@@ -29,8 +29,8 @@ struct OracleCommand {
   bool as_json = false;
 };
 
-json interval_of(const outcome::Estimate& estimate) {
-  return {{"mean", estimate.mean}, {"low", estimate.low}, {"high", estimate.high}};
+json interval_of(const outcome::Mean& mean) {
+  return {{"mean", mean.value}, {"low", mean.low}, {"high", mean.high}};
 }
 
 json json_of(const eval::Verdict& verdict, const world::Scene& scene) {
@@ -71,8 +71,8 @@ std::string row_of(const eval::Verdict& verdict, const world::Scene& scene) {
   const outcome::Expected& expected = verdict.expected;
   return fmt::format("{} {:7}  {:.4f} ({:.4f} to {:.4f})  {:5.2f}  {:3.0f} %   {}",
                      manoeuvre::index(facts.plan.policy), name(facts.plan.policy),
-                     expected.harm.mean, expected.harm.low, expected.harm.high,
-                     expected.collision_loss.mean, 100.0 * expected.contact.share,
+                     expected.harm.value, expected.harm.low, expected.harm.high,
+                     expected.collision_loss.value, 100.0 * expected.contact.share,
                      describe(facts.outcome, scene));
 }
 

@@ -40,7 +40,7 @@ report::ContactSheet sheet_of(const eval::Oracle& oracle, const sim::Scenario& s
     sheet.scenes.back().badge = badge;
     if (verdict.written.facts.refusal.empty()) {
       sheet.scenes.back().lines.push_back(
-          fmt::format("expected harm {:.4f} ({:.4f} to {:.4f})", verdict.expected.harm.mean,
+          fmt::format("expected harm {:.4f} ({:.4f} to {:.4f})", verdict.expected.harm.value,
                       verdict.expected.harm.low, verdict.expected.harm.high));
     }
   };

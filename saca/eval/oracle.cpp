@@ -40,11 +40,32 @@ std::vector<outcome::Outcome> outcomes_of(const std::vector<Draw>& draws, std::s
   return outcomes;
 }
 
+/// What is sure: one outcome, without an interval.
+outcome::Expected sure(const outcome::Outcome& outcome) {
+  const double hit = outcome.contact ? 1.0 : 0.0;
+  return {
+      .harm = {outcome.harm, outcome.harm, outcome.harm},
+      .collision_loss = {outcome.collision_loss, outcome.collision_loss, outcome.collision_loss},
+      .contact = {hit, hit, hit}};
+}
+
+/// For the one ordering: mean harm and mean clearance.
+outcome::Outcome on_average(const std::vector<outcome::Outcome>& outcomes) {
+  outcome::Outcome mean;
+  mean.clearance = 0.0;
+  for (const outcome::Outcome& outcome : outcomes) {
+    mean.harm += outcome.harm / static_cast<double>(outcomes.size());
+    mean.clearance += outcome.clearance / static_cast<double>(outcomes.size());
+  }
+  return mean;
+}
+
 }  // namespace
 
 Oracle oracle(const sim::Scenario& scenario, const manoeuvre::Car& car,
               const outcome::HarmModel& harm, const OracleOptions& options) {
-  expects(options.draws >= 0 && options.threads >= 1, "draws >= 0 and threads >= 1");
+  expects(options.draws == 0 || options.draws >= 2, "draws is 0, or 2 at least");
+  expects(options.threads >= 1, "threads >= 1");
   Oracle told;
   const Moment moment = moment_at(scenario, car, options.time);
   told.scene = moment.scene;
@@ -61,21 +82,24 @@ Oracle oracle(const sim::Scenario& scenario, const manoeuvre::Car& car,
   std::vector<Draw> draws(static_cast<std::size_t>(options.draws));
   in_parallel(draws.size(), options.threads,
               [&](std::size_t k) { draws[k] = one_draw(scenario, car, harm, options, k); });
-  if (draws.empty()) {
-    draws.push_back(as_written);
-  }
   std::array<std::vector<outcome::Outcome>, num_policies> outcomes;
+  std::array<outcome::Outcome, num_policies> average;
   for (const std::size_t i : driven) {
     outcomes[i] = outcomes_of(draws, i, driven);
-    told.verdicts[i].expected = outcome::expected(outcomes[i]);
+    const bool alone = outcomes[i].size() < 2;
+    told.verdicts[i].expected = alone ? sure(*as_written[i]) : outcome::expected(outcomes[i]);
+    average[i] = alone ? *as_written[i] : on_average(outcomes[i]);
     told.ranking.push_back(manoeuvre::all_policies[i]);
   }
   std::sort(told.ranking.begin(), told.ranking.end(), [&](PolicyId a, PolicyId b) {
-    return outcome::better(told.of(a).expected.mean, a, told.of(b).expected.mean, b);
+    return outcome::better(average[manoeuvre::index(a)], a, average[manoeuvre::index(b)], b);
   });
+  const std::size_t best = manoeuvre::index(told.best());
   for (const std::size_t i : driven) {
-    told.verdicts[i].behind =
-        outcome::difference(outcomes[i], outcomes[manoeuvre::index(told.best())]);
+    const double more = average[i].harm - average[best].harm;
+    told.verdicts[i].behind = outcomes[i].size() < 2
+                                  ? outcome::Mean{more, more, more}
+                                  : outcome::harm_difference(outcomes[i], outcomes[best]);
   }
   return told;
 }
@@ -83,9 +107,9 @@ Oracle oracle(const sim::Scenario& scenario, const manoeuvre::Car& car,
 Margin margin_of_best(const Oracle& oracle) {
   std::optional<Margin> least;
   for (const PolicyId policy : oracle.ranking) {
-    const outcome::Estimate& behind = oracle.of(policy).behind;
-    if (policy != oracle.best() && (!least || behind.mean < least->mean)) {
-      least = Margin{behind.mean, behind.low};
+    const outcome::Mean& behind = oracle.of(policy).behind;
+    if (policy != oracle.best() && (!least || behind.value < least->mean)) {
+      least = Margin{behind.value, behind.low};
     }
   }
   return least.value_or(Margin{});

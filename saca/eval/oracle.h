@@ -13,7 +13,7 @@ namespace saca::eval {
 /// How the eight are compared.
 struct OracleOptions {
   double time = 0.0;  ///< when they begin [s]
-  int draws = 0;      ///< of what is left to chance; 0: none, the scenario as written
+  int draws = 0;      ///< of what is left to chance, two at least; 0: the scenario as written
   std::uint64_t seed = 1;
   int threads = 1;  ///< they do not change the result
 };
@@ -21,8 +21,8 @@ struct OracleOptions {
 /// What one policy ends in.
 struct Verdict {
   loop::Hindsight written;     ///< with nothing left to chance
-  outcome::Expected expected;  ///< over the draws; of 0 draws that of `written` alone
-  outcome::Estimate behind;    ///< harm above that of the best, the same draws [-]
+  outcome::Expected expected;  ///< over the draws; without draws that of `written` alone
+  outcome::Mean behind;        ///< harm above that of the best, draw by draw [-]
 };
 
 /// All eight, and their order.

@@ -26,7 +26,7 @@ std::optional<double> promise(const Finding& finding, PolicyId policy) {
 std::string figure(const Oracle& oracle, PolicyId policy) {
   const Verdict& verdict = oracle.of(policy);
   const auto& harm = verdict.expected.harm;
-  return fmt::format("{} {:.4f} ({:.4f} to {:.4f}; as written it {})", name(policy), harm.mean,
+  return fmt::format("{} {:.4f} ({:.4f} to {:.4f}; as written it {})", name(policy), harm.value,
                      harm.low, harm.high, describe(verdict.written.facts.outcome, oracle.scene));
 }
 
@@ -53,9 +53,9 @@ bool convinces(const Oracle& oracle, PolicyId policy, const ShowcaseRule& rule) 
     return false;
   }
   if (policy == PolicyId::no_intervention) {
-    return oracle.of(policy).expected.harm.mean < rule.clear &&
+    return oracle.of(policy).expected.harm.value < rule.clear &&
            std::all_of(oracle.ranking.begin(), oracle.ranking.end(),
-                       [&](PolicyId other) { return oracle.of(other).behind.mean >= 0.0; });
+                       [&](PolicyId other) { return oracle.of(other).behind.value >= 0.0; });
   }
   const Margin margin = margin_of_best(oracle);
   return margin.mean >= rule.clear && margin.low > 0.0;
