@@ -473,22 +473,6 @@ TEST(Judge, HarmGrowsWithSpeed) {
   }
 }
 
-// Others that answer with fixed tracks change nothing; they are asked with the motion that is
-// judged.
-TEST(Judge, AsksTheOthersHowTheyMove) {
-  Encounter encounter = driving(15.0);
-  encounter.motion.ended = true;  // a lane recovered: it goes on for 2 s
-  encounter.add_car({{50.0, 0.0}, pi}, {-10.0, 0.0});
-  double asked_until = 0.0;
-  const Others others = [&](const world::Track& X_WB) {
-    asked_until = end_time(X_WB);
-    return encounter.tracks;
-  };
-  const Outcome asked = judge(encounter.motion, encounter.scene, others, harm());
-  EXPECT_NEAR(asked_until, 5.0 + 2.0, 0.011);
-  EXPECT_EQ(asked.harm, encounter.judged(harm()).harm);
-}
-
 TEST(Judge, RefusesWhatDoesNotFitTogether) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Encounter encounter = driving(10.0, 1.0);

@@ -27,9 +27,4 @@ Course roll_out(const manoeuvre::Car& car, const manoeuvre::Plan& plan, const wo
   return play_out(drive(car, plan, scene, grip, longest(scene, grip)), scene, others, harm, grip);
 }
 
-Outcome roll_out(const manoeuvre::Car& car, const manoeuvre::Plan& plan, const world::Scene& scene,
-                 const Others& others, double grip, const HarmModel& harm) {
-  return judge(drive(car, plan, scene, grip, longest), scene, others, harm);
-}
-
 }  // namespace saca::outcome
