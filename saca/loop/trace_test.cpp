@@ -16,6 +16,14 @@ namespace {
 
 using nlohmann::json;
 
+/// Where frames hold what was perceived beside the truth: it is the truth.
+template <class AnyFrame>
+void perceive(AnyFrame& frame) {
+  if constexpr (requires { frame.perceived; }) {
+    frame.perceived = frame.scene;
+  }
+}
+
 /// A short film of a car that turns before a wreck, made by hand.
 struct Film {
   manoeuvre::Car car = manoeuvre::default_car();
@@ -34,6 +42,7 @@ struct Film {
       if (k == 1) {
         frame.conflict = 1.25;
       }
+      perceive(frame);
       record.frames.push_back(frame);
     }
     record.events.push_back(
@@ -123,9 +132,6 @@ TEST(Trace, OfNothingIsAHeader) {
 template <class AnyFilm>
 void expect_knowledge_is_told(AnyFilm& film) {
   if constexpr (requires { film.record.frames[0].perceived; }) {
-    for (auto& frame : film.record.frames) {
-      frame.perceived = frame.scene;
-    }
     world::Actor& known = film.record.frames[1].perceived.actors[0];
     known.X_WA.p.x = 31.0;
     known.position_sd = 0.5;
