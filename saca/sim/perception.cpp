@@ -68,7 +68,7 @@ Perception::Perception(const PerceptionModel& model, std::uint64_t seed)
   }
   moments_.resize(1 + static_cast<std::size_t>(std::lround(model.latency / step)));
   if (model != PerceptionModel{}) {
-    beliefs_.reserve(world::max_actors);
+    beliefs_.resize(world::max_actors);
   }
 }
 
@@ -92,7 +92,7 @@ Scene Perception::look(const Scene& truth, std::span<const Actor> ghosts) {
     update(belief, moment, actor);
     tell(belief);
   }
-  for (Belief& belief : beliefs_) {
+  for (Belief& belief : begun_beliefs()) {
     if (belief.num_looks != num_looks_) {
       miss(belief);
       tell(belief);
@@ -121,10 +121,11 @@ const Perception::Moment& Perception::measured_now() const {
 }
 
 Perception::Belief& Perception::belief_of(const Actor& actor) {
-  const auto found = std::find_if(beliefs_.begin(), beliefs_.end(), [&](const Belief& belief) {
+  const std::span<Belief> begun = begun_beliefs();
+  const auto found = std::find_if(begun.begin(), begun.end(), [&](const Belief& belief) {
     return belief.kind == actor.kind && belief.id == actor.id;
   });
-  if (found != beliefs_.end()) {
+  if (found != begun.end()) {
     return *found;
   }
   Belief& belief = free_place();
@@ -138,8 +139,8 @@ Perception::Belief& Perception::belief_of(const Actor& actor) {
 
 // Who left the truth longest ago makes room. There is one: a moment has no more actors than places.
 Perception::Belief& Perception::free_place() {
-  if (beliefs_.size() < world::max_actors) {
-    return beliefs_.emplace_back();
+  if (num_beliefs_ < beliefs_.size()) {
+    return beliefs_[num_beliefs_++];
   }
   const auto& actors = measured_now().scene.actors;
   const auto is_there = [&](const Belief& belief) {

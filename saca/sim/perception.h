@@ -69,6 +69,7 @@ class Perception {
 
   void store(const world::Scene& truth, std::span<const world::Actor> ghosts);
   [[nodiscard]] const Moment& measured_now() const;
+  [[nodiscard]] std::span<Belief> begun_beliefs() { return {beliefs_.data(), num_beliefs_}; }
   [[nodiscard]] Belief& belief_of(const world::Actor& actor);
   [[nodiscard]] Belief& free_place();
   void update(Belief& belief, const Moment& moment, const world::Actor& actor) const;
@@ -84,7 +85,8 @@ class Perception {
   double kept_ = 0.0;            ///< share of an error that is left at the next look
   std::vector<Moment> moments_;  ///< a ring, as long as the latency
   std::size_t num_looks_ = 0;
-  std::vector<Belief> beliefs_;  ///< at most max_actors, and never moved
+  std::vector<Belief> beliefs_;  ///< room for max_actors
+  std::size_t num_beliefs_ = 0;  ///< of them in use
 };
 
 }  // namespace saca::sim

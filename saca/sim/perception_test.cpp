@@ -412,7 +412,8 @@ TEST(Perception, AnActorsErrorsAreItsOwnWhoeverElseIsThere) {
 }
 
 TEST(Perception, AllocatesNothingOnceItIsMadeHoweverManyComeAndGo) {
-  Perception perception(noisy, 1);
+  const Perception original(noisy, 1);
+  Perception perception = original;  // a copy has all its room, too
   std::vector<Scene> truths;
   std::vector<Actor> actors = many(32);
   for (int k = 0; k < 60; ++k) {
