@@ -127,7 +127,7 @@ class PlanView {
   outline(g, body, shape, centre = 0) {
     const h = radians(body.heading_deg || 0), c = Math.cos(h), s = Math.sin(h);
     const at = (a, b) => [body.x_m + a * c - b * s, body.y_m + a * s + b * c];
-    const l = (shape.length_m || 1) / 2, w = (shape.width_m || 1) / 2;
+    const l = (shape.length_m || 1) / 2, w = (shape.width_m ?? 1) / 2;
     g.beginPath();
     if (shape.shape === "ellipse") g.ellipse(body.x_m, body.y_m, l, w, h, 0, 2 * Math.PI);
     else for (const [a, b] of [[l, w], [-l, w], [-l, -w], [l, -w]]) g.lineTo(...at(centre + a, b));

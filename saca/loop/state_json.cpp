@@ -40,7 +40,7 @@ json actor_bodies_json(const sim::Scenario& scenario) {
   for (const sim::ScenarioActor& actor : scenario.actors) {
     actors.push_back({{"id", actor_name(world::Actor{.id = actor.id, .kind = actor.kind})},
                       {"kind", name(actor.kind)},
-                      {"shape", actor.footprint.shape == world::Shape::box ? "box" : "ellipse"},
+                      {"shape", name(actor.footprint.shape)},
                       {"length_m", actor.footprint.length},
                       {"width_m", actor.footprint.width}});
   }

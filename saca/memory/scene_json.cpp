@@ -21,23 +21,11 @@ using world::EgoState;
 using world::Footprint;
 using world::Road;
 using world::Scene;
-using world::Shape;
 
 constexpr std::string_view schema = "saca.scene/1";
 
-std::string_view shape_name(Shape shape) {
-  return shape == Shape::box ? "box" : "ellipse";
-}
-
-std::optional<Shape> shape_from(std::string_view name) {
-  if (name == "box") {
-    return Shape::box;
-  }
-  return name == "ellipse" ? std::optional(Shape::ellipse) : std::nullopt;
-}
-
 json footprint_json(const Footprint& footprint) {
-  return {{"shape", shape_name(footprint.shape)},
+  return {{"shape", world::name(footprint.shape)},
           {"length_m", footprint.length},
           {"width_m", footprint.width},
           {"centre_x_m", footprint.centre_x}};
@@ -219,10 +207,11 @@ Pose read_pose(Reader& reader) {
 }
 
 Footprint read_footprint(Reader reader) {
-  const Footprint footprint{.shape = reader.word("shape", shape_from, "box or ellipse"),
-                            .length = reader.number("length_m"),
-                            .width = reader.number("width_m"),
-                            .centre_x = reader.number("centre_x_m")};
+  const Footprint footprint{
+      .shape = reader.word("shape", world::shape_from, "box, ellipse or segment"),
+      .length = reader.number("length_m"),
+      .width = reader.number("width_m"),
+      .centre_x = reader.number("centre_x_m")};
   reader.refuse_others();
   return footprint;
 }

@@ -69,6 +69,19 @@ TEST(SceneJson, ComesBackToTheLastBitAlsoThroughText) {
   }
 }
 
+TEST(SceneJson, AWallComesBackAndACarCannotBeOne) {
+  Scene scene = crossing_truck();
+  scene.actors[1].kind = world::ActorKind::obstacle;
+  scene.actors[1].footprint = {world::Shape::segment, 12.0, 0.0, 0.5};
+  const json document = to_json(scene);
+  const auto back = scene_from_json(document);
+  ASSERT_TRUE(back.has_value()) << back.error().message;
+  EXPECT_EQ(numbers(back.value()), numbers(scene));
+  json car = document;
+  car[at("/actors/1/kind")] = "car";
+  EXPECT_THAT(refusal(car), HasSubstr("only an obstacle is a segment"));
+}
+
 TEST(SceneJson, CarriesUnitsInItsKeysAndNamesForKinds) {
   const json document = to_json(crossing_truck());
   EXPECT_EQ(document["schema"], "saca.scene/1");

@@ -6,9 +6,12 @@
 #include <limits>
 
 #include "saca/core/contract.h"
+#include "saca/core/names.h"
 
 namespace saca::world {
 namespace {
+
+constexpr std::array<std::string_view, 3> shape_names{"box", "ellipse", "segment"};
 
 double length_of(Vec2 a) {
   return std::sqrt(dot(a, a));  // std::hypot is slower, and these lengths cannot overflow
@@ -32,7 +35,8 @@ Turn inverse(Turn turn) {
   return {turn.c, -turn.s};
 }
 
-// A footprint about its own centre: half axes, and how its axes stand in the frame of the work.
+// A footprint about its own centre: half axes, and how its axes stand in the frame of the work. A
+// segment is a box that has no width.
 struct Body {
   Shape shape = Shape::box;
   double a = 0.0;  ///< half the length [m]
@@ -44,7 +48,7 @@ struct Body {
 // Point of the body, from its centre, that lies farthest along n.
 Vec2 farthest(const Body& body, Vec2 n) {
   const Vec2 m = inverse(body.turn) * n;
-  if (body.shape == Shape::box) {
+  if (body.shape != Shape::ellipse) {
     return body.turn * Vec2{std::copysign(body.a, m.x), std::copysign(body.b, m.y)};
   }
   const Vec2 scaled{body.a * m.x, body.b * m.y};
@@ -54,7 +58,7 @@ Vec2 farthest(const Body& body, Vec2 n) {
 
 // Radius of curvature of the boundary where its outward normal is the unit vector n; 0 at a corner.
 double curvature_radius(const Body& body, Vec2 n) {
-  if (body.shape == Shape::box) {
+  if (body.shape != Shape::ellipse) {
     return 0.0;
   }
   const Vec2 m = inverse(body.turn) * n;
@@ -177,10 +181,10 @@ bool faces_box(const Body& box, const Body& ellipse, Facing& result) {
 
 Separation with_ellipse(const Body& a, const Body& b) {
   Facing found;
-  if (a.shape == Shape::box && faces_box(a, b, found)) {
+  if (a.shape != Shape::ellipse && faces_box(a, b, found)) {
     return {found.gap, found.p_a, found.p_b};
   }
-  if (b.shape == Shape::box && faces_box(b, a, found)) {
+  if (b.shape != Shape::ellipse && faces_box(b, a, found)) {
     return {found.gap, found.p_b, found.p_a};
   }
   found = apart(a, b);
@@ -247,27 +251,44 @@ Separation between_boxes(const Body& a, const Body& b) {
 
 void check(const Footprint& footprint) {
   expects(footprint.length > 0.0 && std::isfinite(footprint.length), "length > 0");
-  expects(footprint.width > 0.0 && std::isfinite(footprint.width), "width > 0");
+  expects(footprint.shape == Shape::segment ||
+              (footprint.width > 0.0 && std::isfinite(footprint.width)),
+          "width > 0");
   expects(std::isfinite(footprint.centre_x), "centre_x is finite");
 }
 
+Body about(const Footprint& footprint, Vec2 centre, Turn turn) {
+  const Vec2 half = half_axes(footprint);
+  return {footprint.shape, half.x, half.y, centre, turn};
+}
+
 }  // namespace
+
+std::string_view name(Shape shape) {
+  return name_of(shape, shape_names);
+}
+
+std::optional<Shape> shape_from(std::string_view name) {
+  return value_from<Shape>(name, shape_names);
+}
+
+Vec2 half_axes(const Footprint& footprint) {
+  return {0.5 * footprint.length, footprint.shape == Shape::segment ? 0.0 : 0.5 * footprint.width};
+}
 
 Vec2 support(const Footprint& footprint, const Pose& X_WB, Vec2 direction_W) {
   check(footprint);
   expects(is_finite(X_WB), "X_WB is finite");
   expects(is_finite(direction_W) && dot(direction_W, direction_W) > 0.0, "direction is not zero");
-  const Body body{
-      footprint.shape, 0.5 * footprint.length, 0.5 * footprint.width, {}, turn_by(X_WB.yaw)};
+  const Body body = about(footprint, {}, turn_by(X_WB.yaw));
   return X_WB.p + body.turn * Vec2{footprint.centre_x, 0.0} + farthest(body, direction_W);
 }
 
 double bounding_radius(const Footprint& footprint) {
   check(footprint);
-  const double a = 0.5 * footprint.length;
-  const double b = 0.5 * footprint.width;
+  const auto [a, b] = half_axes(footprint);
   const double ahead = std::abs(footprint.centre_x);
-  if (footprint.shape == Shape::box) {
+  if (footprint.shape != Shape::ellipse) {
     return std::hypot(ahead + a, b);
   }
   // Squared distance of the point (ahead + a c, b sqrt(1 - c^2)): largest at an end of the long
@@ -287,10 +308,9 @@ Separation separation(const Footprint& a, const Pose& X_WA, const Footprint& b, 
   // About the first body's origin, so that digits are not lost far from the world's.
   const Turn turn_a = turn_by(X_WA.yaw);
   const Turn turn_b = turn_by(X_WB.yaw);
-  const Body body_a{a.shape, 0.5 * a.length, 0.5 * a.width, turn_a * Vec2{a.centre_x, 0.0}, turn_a};
-  const Body body_b{b.shape, 0.5 * b.length, 0.5 * b.width,
-                    (X_WB.p - X_WA.p) + turn_b * Vec2{b.centre_x, 0.0}, turn_b};
-  const bool boxes = a.shape == Shape::box && b.shape == Shape::box;
+  const Body body_a = about(a, turn_a * Vec2{a.centre_x, 0.0}, turn_a);
+  const Body body_b = about(b, (X_WB.p - X_WA.p) + turn_b * Vec2{b.centre_x, 0.0}, turn_b);
+  const bool boxes = a.shape != Shape::ellipse && b.shape != Shape::ellipse;
   const Separation found = boxes ? between_boxes(body_a, body_b) : with_ellipse(body_a, body_b);
   return {found.distance, X_WA.p + found.p_a_W, X_WA.p + found.p_b_W};
 }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string_view>
 
 #include "saca/core/pose.h"
 
@@ -10,14 +12,22 @@ namespace saca::world {
 enum class Shape : std::uint8_t {
   box,      ///< length x width
   ellipse,  ///< full axes length and width; equal axes make a disc
+  segment,  ///< a straight line of that length along x_B: a wall, an edge of a polygon
 };
+
+/// "box", "ellipse", "segment".
+[[nodiscard]] std::string_view name(Shape shape);
+[[nodiscard]] std::optional<Shape> shape_from(std::string_view name);
 
 struct Footprint {
   Shape shape = Shape::box;
   double length = 0.0;    ///< along x_B [m], > 0
-  double width = 0.0;     ///< along y_B [m], > 0
+  double width = 0.0;     ///< along y_B [m], > 0; a segment has none: 0, and not used
   double centre_x = 0.0;  ///< of the shape's centre ahead of the body's origin [m]
 };
+
+/// Half its extent along x_B and y_B about the shape's centre [m].
+[[nodiscard]] Vec2 half_axes(const Footprint& footprint);
 
 /// Point of the footprint that lies farthest in a direction.
 /// @param direction_W  any length but zero
@@ -34,7 +44,7 @@ struct Separation {
   Vec2 p_b_W;             ///< nearest point of the second; likewise
 };
 
-/// Exact for boxes and ellipses up to `1e-6` m; allocates nothing.
+/// Exact up to `1e-6` m; allocates nothing.
 /// @throws ContractViolation  if a size is not > 0 or a pose is not finite
 [[nodiscard]] Separation separation(const Footprint& a, const Pose& X_WA, const Footprint& b,
                                     const Pose& X_WB);

@@ -21,6 +21,9 @@ constexpr Footprint person{.shape = Shape::ellipse, .length = 0.3, .width = 0.5}
 Footprint box(double length, double width) {
   return {.length = length, .width = width};
 }
+Footprint segment(double length) {
+  return {.shape = Shape::segment, .length = length};
+}
 Footprint ellipse(double length, double width) {
   return {.shape = Shape::ellipse, .length = length, .width = width};
 }
@@ -29,11 +32,11 @@ Footprint ellipse(double length, double width) {
 std::vector<Vec2> boundary(const Footprint& footprint, const Pose& X_WB, int num_points) {
   std::vector<Vec2> points;
   const double a = 0.5 * footprint.length;
-  const double b = 0.5 * footprint.width;
+  const double b = footprint.shape == Shape::segment ? 0.0 : 0.5 * footprint.width;
   for (int i = 0; i < num_points; ++i) {
     const double share = static_cast<double>(i) / num_points;
     Vec2 p{a * std::cos(2.0 * pi * share), b * std::sin(2.0 * pi * share)};
-    if (footprint.shape == Shape::box) {
+    if (footprint.shape != Shape::ellipse) {
       // Clockwise from the rear left corner, each side beginning with a corner.
       const auto side = static_cast<int>(4.0 * share);
       const double along = 2.0 * (4.0 * share - side) - 1.0;
@@ -50,8 +53,8 @@ std::vector<Vec2> boundary(const Footprint& footprint, const Pose& X_WB, int num
 bool holds(const Footprint& footprint, const Pose& X_WB, Vec2 p_W, double margin) {
   const Vec2 p = inverse(X_WB) * p_W - Vec2{footprint.centre_x, 0.0};
   const double a = 0.5 * footprint.length;
-  const double b = 0.5 * footprint.width;
-  if (footprint.shape == Shape::box) {
+  const double b = footprint.shape == Shape::segment ? 0.0 : 0.5 * footprint.width;
+  if (footprint.shape != Shape::ellipse) {
     return std::abs(p.x) <= a + margin && std::abs(p.y) <= b + margin;
   }
   return std::hypot(p.x / a, p.y / b) <= 1.0 + margin / std::min(a, b);
@@ -64,10 +67,17 @@ class Draw {
     return std::uniform_real_distribution<double>(low, high)(rng_);
   }
   Footprint footprint() {
-    return {.shape = (*this)(0.0, 1.0) < 0.5 ? Shape::box : Shape::ellipse,
-            .length = std::exp((*this)(-1.5, 2.5)),
-            .width = std::exp((*this)(-1.5, 1.5)),
-            .centre_x = (*this)(-1.0, 1.0)};
+    const double kind = (*this)(0.0, 1.0);
+    const double length = std::exp((*this)(-1.5, 2.5));
+    const double width = std::exp((*this)(-1.5, 1.5));
+    const double centre_x = (*this)(-1.0, 1.0);
+    if (kind < 0.2) {
+      return {.shape = Shape::segment, .length = length, .centre_x = centre_x};
+    }
+    return {.shape = kind < 0.6 ? Shape::box : Shape::ellipse,
+            .length = length,
+            .width = width,
+            .centre_x = centre_x};
   }
   Pose pose(double reach) {
     return {{(*this)(-reach, reach), (*this)(-reach, reach)}, (*this)(-pi, pi)};
@@ -157,8 +167,43 @@ TEST(Separation, OfEllipsesAndBoxesByHand) {
       0.3 * std::sqrt(2.0), 1e-9);
 }
 
+TEST(Separation, OfSegmentsByHand) {
+  EXPECT_DOUBLE_EQ(bounding_radius({Shape::segment, 6.0, 0.0, 1.0}), 4.0);
+  const Vec2 end = support(segment(6.0), {{1.0, 2.0}, pi / 2.0}, {0.3, 1.0});
+  EXPECT_NEAR(end.x, 1.0, 1e-12);
+  EXPECT_NEAR(end.y, 5.0, 1e-12);
+  // A wall beside the car, and one that points at its front.
+  EXPECT_DOUBLE_EQ(separation(box(4.0, 2.0), {}, segment(30.0), {{3.0, 1.5}, 0.0}).distance, 0.5);
+  EXPECT_NEAR(separation(box(4.0, 2.0), {}, segment(6.0), {{6.0, 0.2}, 0.0}).distance, 1.0, 1e-12);
+  // One through the car's middle, one that cuts off a corner: no end lies inside.
+  EXPECT_EQ(separation(box(4.0, 2.0), {}, segment(30.0), {{0.5, 0.0}, 1.0}).distance, 0.0);
+  EXPECT_EQ(separation(box(4.0, 2.0), {}, segment(30.0), {{1.8, 0.8}, -pi / 4.0}).distance, 0.0);
+  // The line x + y = 4 passes the corner (2, 1) at 1 / sqrt 2.
+  EXPECT_NEAR(separation(box(4.0, 2.0), {}, segment(30.0), {{2.0, 2.0}, -pi / 4.0}).distance,
+              std::sqrt(0.5), 1e-12);
+  // A disc beside it, beyond its end at 45 degrees, and across it.
+  EXPECT_NEAR(separation(segment(6.0), {}, ellipse(1.0, 1.0), {{1.0, -2.0}, 0.0}).distance, 1.5,
+              1e-12);
+  EXPECT_NEAR(separation(segment(6.0), {}, ellipse(2.0, 2.0), {{6.0, 3.0}, 0.0}).distance,
+              std::sqrt(18.0) - 1.0, 1e-9);
+  EXPECT_EQ(separation(segment(6.0), {}, ellipse(1.0, 1.0), {{1.0, 0.3}, 0.0}).distance, 0.0);
+  // Two walls: across each other, a T with a gap, in one line.
+  EXPECT_EQ(separation(segment(6.0), {}, segment(6.0), {{0.0, 1.0}, 1.0}).distance, 0.0);
+  EXPECT_NEAR(separation(segment(6.0), {}, segment(6.0), {{1.0, 3.5}, pi / 2.0}).distance, 0.5,
+              1e-12);
+  EXPECT_DOUBLE_EQ(separation(segment(6.0), {}, segment(6.0), {{7.0, 0.0}, 0.0}).distance, 1.0);
+}
+
+TEST(Shape, NamesGoThereAndBack) {
+  for (const Shape shape : {Shape::box, Shape::ellipse, Shape::segment}) {
+    EXPECT_EQ(shape_from(name(shape)), shape);
+  }
+  EXPECT_EQ(shape_from("polygon"), std::nullopt);
+}
+
 TEST(Separation, IsZeroWhenTouchingConcentricOrIdentical) {
-  for (const Footprint& footprint : {car, person, ellipse(5.0, 5.0), box(1e-3, 50.0)}) {
+  for (const Footprint& footprint :
+       {car, person, ellipse(5.0, 5.0), box(1e-3, 50.0), segment(7.0)}) {
     EXPECT_EQ(separation(footprint, {}, footprint, {}).distance, 0.0);
     EXPECT_EQ(separation(footprint, {{3.0, 1.0}, 1.0}, footprint, {{3.0, 1.0}, 1.0}).distance, 0.0);
     EXPECT_EQ(separation(footprint, {}, person, {}).distance, 0.0);
@@ -264,6 +309,9 @@ TEST(Separation, ShrinksByWhatIsTravelled) {
     for (const double share : {0.5, 0.999, 0.999999}) {
       const Pose nearer{X_WB.p + share * way, X_WB.yaw};
       EXPECT_NEAR(separation(a, X_WA, b, nearer).distance, (1.0 - share) * found.distance, 1e-6);
+    }
+    if (a.shape == Shape::segment && b.shape == Shape::segment) {
+      continue;  // without any depth their ends slip past each other
     }
     const double deeper = 1.0 + 1e-6 / found.distance;
     EXPECT_LE(separation(a, X_WA, b, {X_WB.p + deeper * way, X_WB.yaw}).distance, 1e-9);

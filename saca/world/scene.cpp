@@ -29,8 +29,10 @@ bool is_motion(const Pose& X, Vec2 v, Vec2 a, double yaw_rate) {
 }
 
 bool is_sized(const Footprint& footprint) {
+  const bool has_width = footprint.shape != Shape::segment;
   return std::isfinite(footprint.length) && footprint.length > 0.0 &&
-         std::isfinite(footprint.width) && footprint.width > 0.0 &&
+         std::isfinite(footprint.width) &&
+         (has_width ? footprint.width > 0.0 : footprint.width == 0.0) &&
          std::isfinite(footprint.centre_x);
 }
 
@@ -54,7 +56,10 @@ std::optional<std::string_view> broken_rule(const Actor& actor) {
     return "an actor's motion is finite and at most 200 m/s, 1000 m/s^2, 100 rad/s";
   }
   if (!is_sized(actor.footprint) || !is_mass(actor.mass)) {
-    return "an actor's length, width and mass are > 0";
+    return "an actor's length, width and mass are > 0; a segment's width is 0";
+  }
+  if (actor.footprint.shape == Shape::segment && actor.kind != ActorKind::obstacle) {
+    return "only an obstacle is a segment";
   }
   if (!is_amount(actor.position_sd) || !is_amount(actor.velocity_sd) || !is_amount(actor.age) ||
       !(actor.existence >= 0.0 && actor.existence <= 1.0)) {
@@ -82,7 +87,8 @@ std::optional<std::string_view> broken_rule(const Scene& scene) {
   if (!std::isfinite(scene.time) || !is_motion(ego.X_WB, ego.v_B, ego.a_B, ego.yaw_rate)) {
     return "the ego's motion is finite and at most 200 m/s, 1000 m/s^2, 100 rad/s";
   }
-  if (!is_sized(scene.ego_footprint) || !is_mass(scene.ego_mass)) {
+  if (!is_sized(scene.ego_footprint) || scene.ego_footprint.shape == Shape::segment ||
+      !is_mass(scene.ego_mass)) {
     return "the ego's length, width and mass are > 0";
   }
   if (!is_valid(scene.road)) {

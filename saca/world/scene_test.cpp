@@ -51,12 +51,29 @@ TEST(Scene, EachRuleIsChecked) {
       [](Scene& s) { s.actors[1].v_W.x = 1e308; },
       [](Scene& s) { s.ego.yaw_rate = 1e6; },
       [](Scene& s) { s.actors[1].id = 1; },
+      [](Scene& s) {
+        s.actors[1].footprint = {Shape::segment, 9.0, 0.0};
+      },  // a car
+      [](Scene& s) {
+        s.actors[1].kind = ActorKind::obstacle;
+        s.actors[1].footprint = {Shape::segment, 9.0, 0.5};
+      },
+      [](Scene& s) {
+        s.ego_footprint = {Shape::segment, 4.7, 0.0};
+      },
   };
   for (std::size_t i = 0; i < breaks.size(); ++i) {
     Scene scene = good_scene();
     breaks[i](scene);
     EXPECT_NE(broken_rule(scene), std::nullopt) << "rule " << i;
   }
+}
+
+TEST(Scene, AWallIsAnObstacleWithoutWidth) {
+  Scene scene = good_scene();
+  scene.actors[1].kind = ActorKind::obstacle;
+  scene.actors[1].footprint = {Shape::segment, 9.0, 0.0};
+  EXPECT_EQ(broken_rule(scene), std::nullopt);
 }
 
 TEST(Scene, NamesGoThereAndBack) {
