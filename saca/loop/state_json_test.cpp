@@ -41,8 +41,12 @@ TEST(StateJson, NamesTheActorsAndTheirOutlines) {
   scenario.actors.push_back({.id = 3,
                              .kind = world::ActorKind::pedestrian,
                              .footprint = {world::Shape::ellipse, 0.5, 0.6}});
+  scenario.actors.push_back({.id = 1,
+                             .kind = world::ActorKind::obstacle,
+                             .footprint = {.shape = world::Shape::segment, .length = 8.0}});
   const json out = actor_bodies_json(scenario);
-  ASSERT_EQ(out.size(), 1U);
+  ASSERT_EQ(out.size(), 2U);
+  EXPECT_EQ(out[1]["shape"], "segment");
   EXPECT_EQ(out[0], (json{{"id", "pedestrian3"},
                           {"kind", "pedestrian"},
                           {"shape", "ellipse"},

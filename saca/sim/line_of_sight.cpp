@@ -33,11 +33,10 @@ bool blocks(const world::Actor& body, const SightLine& line) {
   return world::separation(box, X_WS, body.footprint, body.X_WA).distance <= 0.0;
 }
 
-/// A body's centre and its four corners, or the ends of an ellipse's axes.
+/// A body's centre and its four corners, or a wall's ends, or the ends of an ellipse's axes.
 std::array<Vec2, 5> points_of(const world::Actor& actor) {
   const world::Footprint& shape = actor.footprint;
-  const double a = 0.5 * shape.length;
-  const double b = 0.5 * shape.width;
+  const auto [a, b] = world::half_axes(shape);
   const bool round = shape.shape == world::Shape::ellipse;
   std::array<Vec2, 5> points =
       round ? std::array<Vec2, 5>{Vec2{}, {a, 0.0}, {0.0, b}, {-a, 0.0}, {0.0, -b}}

@@ -106,6 +106,30 @@ TEST(LineOfSight, ARoundBodyHidesWhatLiesInItsShadow) {
   EXPECT_FALSE(sees({}, {disc, spot}, 1));
 }
 
+TEST(LineOfSight, AWallHidesWhatLiesBehindItAndIsSeenItself) {
+  // From (front + 10, -3) to (front + 10, 3): the front sees past its end what lies 20 m ahead and
+  // more than 6 m aside; for the roof, 2.3 m farther back, it is 3 * 22.3 / 12.3 = 5.44 m.
+  const Actor wall{.id = 1,
+                   .kind = ActorKind::obstacle,
+                   .footprint = {.shape = world::Shape::segment, .length = 6.0},
+                   .mass = 1e4,
+                   .X_WA = {{front + 10.0, 0.0}, 0.5 * std::numbers::pi}};
+  Actor spot = walker();
+  spot.footprint = {world::Shape::ellipse, 1e-3, 1e-3};
+  for (const double side : {-1.0, 1.0}) {
+    spot.X_WA.p = {front + 20.0, side * (3.0 * 22.3 / 12.3 - 0.01)};
+    EXPECT_FALSE(sees({}, {wall, spot}, 1));
+    spot.X_WA.p.y = side * (3.0 * 22.3 / 12.3 + 0.01);
+    EXPECT_TRUE(sees({}, {wall, spot}, 1));
+  }
+  EXPECT_TRUE(sees({}, {wall, spot}, 0));
+  Actor hidden_wall = wall;
+  hidden_wall.id = 2;
+  hidden_wall.footprint.length = 5.0;
+  hidden_wall.X_WA.p.x += 1.0;
+  EXPECT_FALSE(sees({}, {wall, hidden_wall}, 1));
+}
+
 TEST(LineOfSight, TheRoofSeesWhatTheFrontDoesNot) {
   // A narrow post right before the front hides the road from it, but not from the roof's middle,
   // where it covers atan(0.05 / 2.5) to either side: 0.8 m of the 40 m ahead.
