@@ -19,6 +19,7 @@ check() {  # PRESET TARGETS CTEST_OPTION...
   ctest --preset "$preset" --parallel 2 "$@"
 }
 
+tools/trace_mcap/run.sh setup  # its test reads a file back where this has been run
 check dev ""
 # Pages, the command line and the real model are tested once, in dev; benchmarks say nothing under a
 # sanitiser.

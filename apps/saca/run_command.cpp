@@ -11,6 +11,7 @@
 #include "apps/saca/story.h"
 #include "saca/core/file.h"
 #include "saca/loop/encounter.h"
+#include "saca/loop/trace.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/memory/store.h"
 #include "saca/report/html_report.h"
@@ -30,6 +31,7 @@ struct RunOptions {
   bool no_memory = false;
   std::string output = "runs";
   std::string report;
+  std::string trace;
   bool as_json = false;
 };
 
@@ -87,6 +89,23 @@ std::optional<Error> write_outputs(const std::string& record, const fs::path& fo
     return page.error();
   }
   return write_file(report, page.value());
+}
+
+/// CLI11's convention: what is wrong with the name of a trace, or nothing.
+std::string wrong_trace_name(const std::string& name) {
+  const std::string extension = fs::path(name).extension();
+  return extension == ".jsonl" || extension == ".csv"
+             ? std::string()
+             : "want a file that ends in .jsonl or .csv, got `" + name + "`";
+}
+
+std::optional<Error> write_trace(const fs::path& file, const loop::Setup& setup,
+                                 const loop::Record& record) {
+  if (auto problem = make_folder_of(file)) {
+    return problem;
+  }
+  return write_file(file, file.extension() == ".csv" ? loop::trace_csv(setup, record)
+                                                     : loop::trace_jsonl(setup, record));
 }
 
 int run(const RunOptions& options) {
@@ -148,6 +167,9 @@ int run(const RunOptions& options) {
   const fs::path report =
       options.report.empty() ? folder / "report.html" : fs::path(options.report);
   auto problem = write_outputs(text, folder, report);
+  if (!problem && !options.trace.empty()) {
+    problem = write_trace(options.trace, setup, record.value());
+  }
   if (!problem) {
     problem = model.value().save_replies();
   }
@@ -198,6 +220,10 @@ void add_run(CLI::App& line, int& exit_code) {
   command->add_option("--output", options->output, "Folder for records and reports")
       ->capture_default_str();
   command->add_option("--report", options->report, "Where the HTML report goes");
+  command
+      ->add_option("--trace", options->trace,
+                   "Where the motions go, frame by frame: FILE.jsonl or FILE.csv")
+      ->check(wrong_trace_name);
   command->add_flag("--json", options->as_json, "Print the record, for programs");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -1,4 +1,5 @@
 """The command line: stories, records, exit codes, and one clear error for each kind of bad input."""
+import csv
 import ctypes
 import json
 import os
@@ -79,6 +80,57 @@ def test_memory_learns_and_is_shown(tmp_path):
     shown = json.loads(saca("memory", "show", 1, cwd=tmp_path).stdout)
     assert shown["scene"]["schema"] == "saca.scene/1"
     assert "want an id" in one_error(saca("memory", "show", 7, cwd=tmp_path), BAD_INPUT)
+
+
+def test_a_trace_tells_every_frame_and_event(tmp_path):
+    run = quick("100car_9018", "--trace", "a/trace.jsonl", "--json", "--no-memory", cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    record = json.loads(run.stdout)
+    header, *lines = map(json.loads, (tmp_path / "a/trace.jsonl").read_text().splitlines())
+    assert header["type"] == "header" and header["schema"] == "saca.trace/1"
+    assert header["scenario"] == "100car_9018" and header["pace"] == "lockstep"
+    assert header["actors"] == record["actors"] and header["road"] == record["road"]
+    frames = [line for line in lines if line["type"] == "frame"]
+    assert lines == frames + [line for line in lines if line["type"] == "event"]
+    for key in ("t_s", "phase", "ego", "actors", "conflict_s"):
+        assert [frame[key] for frame in frames] == [frame[key] for frame in record["frames"]]
+    assert [{**event, "type": "event"} for event in record["events"]] == lines[len(frames):]
+    times = [frame["t_s"] for frame in frames]
+    assert max(after - before for before, after in zip(times, times[1:])) < 0.021
+
+
+def test_a_trace_as_csv_tells_the_same_and_comes_out_the_same(tmp_path):
+    for file in ("a.csv", "b.csv", "c.jsonl"):
+        assert quick("100car_9018", "--trace", file, "--no-memory", cwd=tmp_path).returncode == SUCCESS
+    assert (tmp_path / "a.csv").read_bytes() == (tmp_path / "b.csv").read_bytes()
+    rows = list(csv.DictReader((tmp_path / "a.csv").read_text().splitlines()))
+    header, *lines = map(json.loads, (tmp_path / "c.jsonl").read_text().splitlines())
+    frames = [line for line in lines if line["type"] == "frame"]
+    truth = [row for row in rows if row["perceived"] == "0"]
+    assert len(truth) == sum(1 + len(frame["actors"]) for frame in frames)
+    actors = iter(row for row in truth if row["id"] != "ego")
+    for frame in frames:
+        for actor in frame["actors"]:
+            row = next(actors)
+            assert row["id"] == actor["id"] and float(row["t_s"]) == frame["t_s"]
+            for key in ("x_m", "y_m", "heading_deg", "speed_mps"):
+                assert float(row[key]) == pytest.approx(actor[key], abs=1e-12)
+    ego = next(row for row in truth if row["id"] == "ego")
+    assert float(ego["length_m"]) == header["ego"]["length_m"]
+
+
+@pytest.mark.parametrize("file", ["trace", "trace.json", "trace.mcap", "trace.CSV", ".csv"])
+def test_a_trace_of_another_kind_is_refused(file, tmp_path):
+    run = quick("100car_9018", "--trace", file, cwd=tmp_path)
+    assert run.returncode == WRONG_COMMAND_LINE
+    assert "--trace" in run.stderr and ".jsonl or .csv" in run.stderr and file in run.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_trace_that_cannot_be_written_is_told(tmp_path):
+    (tmp_path / "file").write_text("")
+    run = quick("100car_9018", "--trace", "file/trace.csv", "--no-memory", cwd=tmp_path)
+    assert "file" in one_error(run, CANNOT_WRITE)
 
 
 def test_a_policy_can_be_asked_for(tmp_path):
