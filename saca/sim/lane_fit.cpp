@@ -12,11 +12,11 @@
 namespace saca::sim {
 namespace {
 
-constexpr double far_behind = 20.0;                                            // [m]
-constexpr std::array<double, 6> reaches{100.0, 80.0, 60.0, 50.0, 40.0, 30.0};  // [m]
-constexpr double least_ahead = 15.0;                                           // [m]
-constexpr double good_fit = 0.3;                                               // [m]
-constexpr double poor_fit = 1.0;                                               // [m]
+constexpr double far_behind = 20.0;                                                        // [m]
+constexpr std::array<double, 8> reaches{100.0, 80.0, 60.0, 50.0, 40.0, 30.0, 20.0, 15.0};  // [m]
+constexpr double least_ahead = 15.0;                                                       // [m]
+constexpr double good_fit = 0.3;                                                           // [m]
+constexpr double poor_fit = 1.0;                                                           // [m]
 constexpr double beside = 0.5;                 // outside a lanelet, but still on it [m]
 constexpr double astray = from_degrees(60.0);  // from a lanelet's direction
 constexpr std::size_t most_lanelets = 100;     // of a route: maps may run in circles
@@ -299,9 +299,12 @@ Error no_lane(const std::string& wanted_and_got) {
 std::span<const Station> fit_stretch(std::span<const Station> all, Vec2 start_W, LaneFit& fit) {
   std::span<const Station> used;
   for (const double reach : reaches) {
-    const auto end = std::find_if(all.begin(), all.end(),
+    const auto first = std::find_if(all.begin(), all.end(), [reach](const Station& station) {
+      return station.s >= -std::min(far_behind, 0.5 * reach);
+    });
+    const auto end = std::find_if(first, all.end(),
                                   [reach](const Station& station) { return station.s > reach; });
-    used = {all.begin(), end};
+    used = {first, end};
     fit.road = fitted_arc(used, start_W);
     measure_fit(used, fit);
     if (fit.largest <= good_fit) {
@@ -340,7 +343,7 @@ Result<LaneFit> fit_lane(const CommonRoad& file, const Pose& start_W, std::span<
   LaneFit fit;
   const std::span<const Station> used = fit_stretch(all, start_W.p, fit);
   if (!(fit.largest <= poor_fit) || std::abs(fit.road.curvature) >= tightest) {
-    return no_lane("want a lane that an arc follows within 1 m for 30 m, got one that lies " +
+    return no_lane("want a lane that an arc follows within 1 m for 15 m, got one that lies " +
                    std::to_string(fit.largest) + " m off");
   }
   measure_sides(file, used, fit);

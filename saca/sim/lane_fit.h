@@ -32,9 +32,9 @@ struct LaneFit {
 ///                 an arc that misses the lane's centre by more than 1 m
 ///
 /// Least squares over points of the centre line 1 m apart, from 20 m behind to 100 m ahead; while
-/// they lie more than 0.3 m off, less far ahead, down to 30 m. Lane width and the road's edges are
-/// medians over the same points; the edges are the outer bounds of the last lanelets to the left
-/// and right, oncoming ones included.
+/// one lies more than 0.3 m off, on a shorter stretch, down to 7.5 m behind and 15 m ahead. Lane
+/// width and the road's edges are medians over the same points; the edges are the outer bounds of
+/// the last lanelets to the left and right, oncoming ones included.
 [[nodiscard]] Result<LaneFit> fit_lane(const CommonRoad& file, const Pose& start_W,
                                        std::span<const Vec2> way_W);
 

@@ -10,6 +10,7 @@
 #include "saca/sim/motion.h"
 #include "saca/sim/rounding.h"
 #include "saca/sim/smooth_track.h"
+#include "saca/sim/traffic_road.h"
 #include "saca/sim/traffic_words.h"
 
 namespace saca::sim {
@@ -361,6 +362,10 @@ Result<TrafficImport> traffic_scenario(const CommonRoad& file, const TrafficRequ
   if (std::optional<Error> error = add_actors(file, std::move(candidates), smoothing, made)) {
     return *error;
   }
+  const world::Road wide = widened_road(scenario, report.lane.behind, report.lane.ahead);
+  report.widened_left = wide.left_edge - scenario.road.left_edge;
+  report.widened_right = scenario.road.right_edge - wide.right_edge;
+  scenario.road = wide;
   scenario.grip = assumed_grip("Dry");
   scenario.duration = std::min(last_sample(scenario) + request.after, last_time);
   describe(scenario, file, request, report);

@@ -32,10 +32,12 @@ struct TrafficActor {
 
 /// What was made of it.
 struct TrafficReport {
-  double from = 0.0;                 ///< the scenario's 0 in the file's time [s]
-  Vec2 origin_W;                     ///< the scenario's origin in the file's coordinates [m]
-  LaneFit lane;                      ///< in the file's coordinates
-  std::vector<TrafficActor> actors;  ///< the nearest first
+  double from = 0.0;          ///< the scenario's 0 in the file's time [s]
+  Vec2 origin_W;              ///< the scenario's origin in the file's coordinates [m]
+  LaneFit lane;               ///< in the file's coordinates
+  double widened_left = 0.0;  ///< how far the left edge was moved out to hold recorded bodies [m]
+  double widened_right = 0.0;
+  std::vector<TrafficActor> actors;             ///< the nearest first
   std::map<std::string, std::size_t> left_out;  ///< how many obstacles, by reason
   std::map<std::string, std::size_t> ignored;   ///< how many elements of the file, by name
   std::size_t num_filled = 0;                   ///< of the samples kept
@@ -65,8 +67,9 @@ constexpr double hardest_possible = 12.0;  // [m/s^2]
 /// is kept. Left out and counted is who is gone before the start, seen for less than 0.5 s, of no
 /// size that a scenario may have, moving harder than hardest_possible, touching a nearer one at the
 /// start, appearing inside the ego on its expected way, or farther than the world::max_actors
-/// nearest; near is the least distance from the ego on that way. Kinds, masses, grip and what
-/// stands beyond the road's edges are assumptions.
+/// nearest; near is the least distance from the ego on that way. The road's edges are moved out to
+/// 0.2 m beyond every vehicle that was recorded with its centre between them. Kinds, masses, grip
+/// and what stands beyond the road's edges are assumptions.
 [[nodiscard]] Result<TrafficImport> traffic_scenario(const CommonRoad& file,
                                                      const TrafficRequest& request);
 

@@ -82,7 +82,8 @@ std::string who_is_who(const TrafficReport& report) {
   return text.empty() ? "nobody" : text;
 }
 
-std::string lane_notes(const LaneFit& lane) {
+std::string lane_notes(const TrafficReport& report) {
+  const LaneFit& lane = report.lane;
   std::string ids;
   for (const std::int64_t id : lane.lanelets) {
     ids += fmt::format("{}{}", ids.empty() ? "" : ", ", id);
@@ -91,8 +92,11 @@ std::string lane_notes(const LaneFit& lane) {
       "Road: an arc fitted to the centre of lanelets {} from {:.0f} m behind the start to {:.0f} m "
       "ahead; the centre lies {:.2f} m off rms, {:.2f} m at most. Lane width and edges: medians "
       "over "
-      "that stretch.\n",
-      ids, lane.behind, lane.ahead, lane.rms, lane.largest);
+      "that stretch; edges moved out by {:.2f} m on the left and {:.2f} m on the right, to hold "
+      "who "
+      "was recorded there.\n",
+      ids, lane.behind, lane.ahead, lane.rms, lane.largest, report.widened_left,
+      report.widened_right);
 }
 
 std::string notes_of_traffic(const TrafficRequest& request, const TrafficReport& report) {
@@ -107,7 +111,7 @@ std::string notes_of_traffic(const TrafficRequest& request, const TrafficReport&
                      *request.ego)
                : "Ego: begins at the planning problem's start and goes on along its lane at that "
                  "speed; its heading against the lane is set to 0.\n";
-  notes += lane_notes(report.lane);
+  notes += lane_notes(report);
   notes += fmt::format(
       "Others, with their ids in the file: {}. Left out: {}.\nSmoothing: positions and velocities "
       "by "

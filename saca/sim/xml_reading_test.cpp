@@ -1,1 +1,61 @@
+#include "saca/sim/xml_reading.h"
+
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+namespace saca::sim {
+namespace {
+
+using testing::HasSubstr;
+
+class Notes : public testing::Test {
+ protected:
+  static constexpr std::string_view text =
+      "<a>\n <b id='7'><c> 1.5\n</c><c>x</c></b>\n <d><exact>2</exact></d><e/><e/>\n</a>";
+  Notes() { document_.load_buffer(text.data(), text.size()); }
+  pugi::xml_document document_;
+  XmlReading reading_{text, "notes.xml"};
+};
+
+TEST_F(Notes, ReadsNumbersWithSpaceAroundThem) {
+  const pugi::xml_node b = document_.child("a").child("b");
+  EXPECT_EQ(reading_.inner(b, "c", 0.0, 2.0), 1.5);
+  EXPECT_EQ(reading_.exact(document_.child("a"), "d", 0.0, 2.0), 2.0);
+  EXPECT_EQ(reading_.id(b, "id"), 7);
+  EXPECT_FALSE(reading_.problem());
+}
+
+TEST_F(Notes, NamesTheFirstProblemsPlace) {
+  const pugi::xml_node b = document_.child("a").child("b");
+  EXPECT_EQ(reading_.number(b.last_child(), 0.0, 2.0), 0.0);
+  EXPECT_EQ(reading_.number(b.first_child(), 2.0, 3.0), 0.0);
+  ASSERT_TRUE(reading_.problem());
+  EXPECT_EQ(reading_.problem()->message, "notes.xml:3: /a/b[@id=7]/c[2]: want a number, got `x`");
+  EXPECT_EQ(reading_.problem()->code, Error::Code::malformed);
+}
+
+TEST_F(Notes, RefusesWhatIsOutOfBoundsOrNoId) {
+  const pugi::xml_node b = document_.child("a").child("b");
+  (void)reading_.inner(b, "c", 2.0, 3.0);
+  EXPECT_EQ(reading_.problem()->code, Error::Code::out_of_range);
+  EXPECT_THAT(reading_.problem()->message, HasSubstr("want 2 to 3, got `1.5`"));
+  XmlReading other(text, "notes.xml");
+  EXPECT_EQ(other.id(document_.child("a"), "id"), 0);
+  EXPECT_THAT(other.problem()->message, HasSubstr("notes.xml:1: /a: attribute id"));
+}
+
+TEST_F(Notes, CountsWhatNobodyReads) {
+  reading_.ignore_but(document_.child("a"), {"b"});
+  reading_.ignore(document_.child("a").child("b"), " (odd)");
+  EXPECT_THAT(reading_.ignored(),
+              testing::ElementsAre(testing::Pair("a/b (odd)", 1), testing::Pair("a/d", 1),
+                                   testing::Pair("a/e", 2)));
+}
+
+TEST(ShownText, CutsAndTrims) {
+  EXPECT_EQ(shown_text(" \n 12 "), "`12`");
+  EXPECT_EQ(shown_text(std::string(100, 'x')).size(), 42U);
+}
+
+}  // namespace
+}  // namespace saca::sim
