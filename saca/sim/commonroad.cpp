@@ -235,17 +235,17 @@ void read_about(Reading& reading, xml_node root, CommonRoad& file) {
   if (version != "2020a") {
     reading.fail(root, "attribute commonRoadVersion: want 2020a, got " + shown_text(version));
   }
-  file.benchmark = root.attribute("benchmarkID").value();
-  file.author = root.attribute("author").value();
-  file.affiliation = root.attribute("affiliation").value();
-  file.source = root.attribute("source").value();
+  file.benchmark = reading.text(root, "benchmarkID");
+  file.author = reading.text(root, "author");
+  file.affiliation = reading.text(root, "affiliation");
+  file.source = reading.text(root, "source");
   if (file.source.find("SPOT") != std::string::npos) {
     reading.fail(root, "attribute source: want a recording, got set-based predictions (SPOT)");
   }
   const char* const step = root.attribute("timeStepSize").value();
   file.time_step = finite_number(step).value_or(0.0);
-  if (!(file.time_step >= 0.001 && file.time_step <= 10.0)) {
-    reading.fail(root, "attribute timeStepSize: want 0.001 to 10 s, got " + shown_text(step));
+  if (!(file.time_step >= 0.01 && file.time_step <= 10.0)) {
+    reading.fail(root, "attribute timeStepSize: want 0.01 to 10 s, got " + shown_text(step));
   }
   for (const xml_node tag : root.child("scenarioTags").children()) {
     file.tags.emplace_back(tag.name());
@@ -256,6 +256,10 @@ void read_about(Reading& reading, xml_node root, CommonRoad& file) {
 
 Result<CommonRoad> read_commonroad(std::string_view text, std::string_view source) {
   Reading reading(text, source);
+  if (const std::optional<std::size_t> fault = first_fault_of_utf8(text)) {
+    return reading.error_at(static_cast<std::ptrdiff_t>(*fault),
+                            "byte " + std::to_string(*fault) + ": want UTF-8");
+  }
   pugi::xml_document document;
   const pugi::xml_parse_result parsed =
       document.load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);

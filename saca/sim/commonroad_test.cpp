@@ -165,6 +165,12 @@ INSTANTIATE_TEST_SUITE_P(
         Slip{"NoState", "<initialState>\n", "<laterState>\n", {"small.xml"}},
         Slip{"FlatBody", "<width>1.8</width>", "<width>0</width>", {"width: want 0.001 to 100"}},
         Slip{"Root", "<commonRoad ", "<openRoad ", {"small.xml"}},
+        Slip{"Latin1",
+             "nobody",
+             "n\xf6"
+             "body",
+             {"small.xml:4: byte", "want UTF-8"}},
+        Slip{"HalfAPair", "nobody", "n&#xD800;", {"attribute author: want UTF-8"}},
         Slip{"Cut", "  <planningProblem", "  <", {"byte", "want XML"}}),
     [](const auto& param_info) { return param_info.param.name; });
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "saca/core/file.h"
+#include "saca/core/units.h"
 #include "saca/sim/hundred_car_words.h"
 #include "saca/sim/motion.h"
 #include "saca/sim/rounding.h"
@@ -16,11 +17,14 @@
 namespace saca::sim {
 namespace {
 
-constexpr double widest_gap = 1.5;          // that is bridged [s]
-constexpr double last_time = 590.0;         // scenarios end at 600 s
-constexpr double farthest_of_all = 1000.0;  // from the ego [m]: nobody whom SACA meets
-constexpr double straight_enough = 0.01;    // of a shape against its motion [rad]
-constexpr double least_ego_time = 1.0;      // [s]
+constexpr double widest_gap = 1.5;                    // that is bridged [s]
+constexpr double last_time = 590.0;                   // scenarios end at 600 s
+constexpr double most_steps = 6000.0;                 // of a recording in a scenario
+constexpr double fastest_of_all = 100.0;              // in a scenario [m/s]
+constexpr double fastest_turn = from_degrees(360.0);  // [rad/s]
+constexpr double farthest_of_all = 1000.0;            // from the ego [m]: nobody whom SACA meets
+constexpr double straight_enough = 0.01;              // of a shape against its motion [rad]
+constexpr double least_ego_time = 1.0;                // [s]
 
 Error cannot_use(const CommonRoad& file, const std::string& message) {
   return {Error::Code::out_of_range, file.benchmark + ": " + message};
@@ -36,11 +40,12 @@ struct Origin {
 /// The longest part of an obstacle's states without a gap that is too wide, as it stands in the
 /// file: the motion of O.
 Recording raw_recording(const Obstacle& obstacle, const Origin& origin) {
+  const double last = std::min(last_time, origin.step * most_steps);
   Recording longest;
   Recording part;
   for (const ObstacleState& state : obstacle.states) {
     const double time = static_cast<double>(state.step) * origin.step - origin.time;
-    if (time > last_time) {
+    if (time > last) {
       break;
     }
     if (!part.empty() && time - part.back().time > widest_gap) {
@@ -109,6 +114,11 @@ std::string make_recording(const Obstacle& obstacle, const Origin& origin, Candi
   made.smooth = smooth_track(raw, origin.step);
   if (made.smooth.hardest > hardest_possible) {
     return "moving harder than any tyre can";
+  }
+  for (const Sample& sample : made.smooth.samples) {
+    if (sample.speed > fastest_of_all || std::abs(sample.yaw_rate) > fastest_turn) {
+      return "moving faster than a scenario may";
+    }
   }
   made.actor.motion = from_zero(made.smooth.samples, obstacle.X_OA);
   return recording_of(made).size() < 2 ? "gone before the start" : "";
@@ -226,18 +236,6 @@ std::optional<Error> add_actors(const CommonRoad& file, std::vector<Candidate> c
   return std::nullopt;
 }
 
-/// The lane of the file as the scenario's road.
-world::Road shifted_road(const world::Road& road_of_file, const Origin& origin) {
-  world::Road road = road_of_file;
-  road.X_WL.p = road.X_WL.p - origin.p_W;
-  road.X_WL = rounded_pose(road.X_WL);
-  road.curvature = rounded(road.curvature, 1e6);
-  road.lane_width = rounded_mm(road.lane_width);
-  road.left_edge = rounded_mm(road.left_edge);
-  road.right_edge = rounded_mm(road.right_edge);
-  return road;
-}
-
 /// The ego and its lane; the origin's place is set here.
 struct EgoOfFile {
   Origin origin;
@@ -273,7 +271,7 @@ Result<EgoOfFile> planned_ego(const CommonRoad& file, const TrafficRequest& requ
   }
   EgoOfFile made{
       {whole_metres(start.X_WO.p), time, file.time_step}, EgoStart{}, lane.value(), {}, {}};
-  made.road = shifted_road(made.lane.road, made.origin);
+  made.road = moved_road(made.lane.road, -made.origin.p_W);
   const Pose X_WC{start.X_WO.p - made.origin.p_W, start.X_WO.yaw};
   world::LanePose pose = to_lane(made.road, X_WC * Pose{{-standard_ego.centre_x, 0.0}, 0.0});
   pose = {rounded_mm(pose.s), rounded_mm(pose.d), 0.0};
@@ -315,7 +313,7 @@ Result<EgoOfFile> recorded_ego_of(const CommonRoad& file, const TrafficRequest& 
     return cannot_use(file, who + ": " + lane.error().message);
   }
   made.lane = lane.value();
-  made.road = shifted_road(made.lane.road, made.origin);
+  made.road = moved_road(made.lane.road, -made.origin.p_W);
   made.ego = ego_recording_of(recording);
   made.smooth = candidate.smooth;
   return made;
@@ -367,7 +365,7 @@ Result<TrafficImport> traffic_scenario(const CommonRoad& file, const TrafficRequ
   report.widened_right = scenario.road.right_edge - wide.right_edge;
   scenario.road = wide;
   scenario.grip = assumed_grip("Dry");
-  scenario.duration = std::min(last_sample(scenario) + request.after, last_time);
+  scenario.duration = std::clamp(last_sample(scenario) + request.after, 1.0, last_time);
   describe(scenario, file, request, report);
   return made;
 }

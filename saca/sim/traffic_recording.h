@@ -65,11 +65,12 @@ constexpr double hardest_possible = 12.0;  // [m/s^2]
 /// Treatment, all of it told in the scenario's notes: tracks are smoothed (smooth_track.h) and kept
 /// from their first to their last sample; of a track with a gap of more than 1.5 s the longest part
 /// is kept. Left out and counted is who is gone before the start, seen for less than 0.5 s, of no
-/// size that a scenario may have, moving harder than hardest_possible, touching a nearer one at the
-/// start, appearing inside the ego on its expected way, or farther than the world::max_actors
-/// nearest; near is the least distance from the ego on that way. The road's edges are moved out to
-/// 0.2 m beyond every vehicle that was recorded with its centre between them. Kinds, masses, grip
-/// and what stands beyond the road's edges are assumptions.
+/// size that a scenario may have, moving faster than a scenario may or harder than
+/// hardest_possible, touching a nearer one at the start, appearing inside the ego on its expected
+/// way, or farther than the world::max_actors nearest; near is the least distance from the ego on
+/// that way. The road's edges are moved out to 0.2 m beyond every vehicle that was recorded with
+/// its centre between them. Kinds, masses, grip and what stands beyond the road's edges are
+/// assumptions.
 [[nodiscard]] Result<TrafficImport> traffic_scenario(const CommonRoad& file,
                                                      const TrafficRequest& request);
 

@@ -121,7 +121,9 @@ TEST(TrafficScenario, CountsWhomItLeavesOut) {
   huge.footprint.length = 60.0;
   Obstacle turned = car(13, 90.0, -3.5, 12.0);
   turned.X_OA.yaw = 1.0;
-  file.obstacles = {car(5, 30.0, 0.0, 12.0),
+  Obstacle fast = car(14, 200.0, 0.0, 140.0);
+  file.obstacles = {fast,
+                    car(5, 30.0, 0.0, 12.0),
                     car(6, 31.0, 0.5, 12.0),
                     car(7, 40.0, -3.5, 9.0, 0, 4),
                     car(8, 14.0, 0.0, 15.0, 10),
@@ -133,6 +135,7 @@ TEST(TrafficScenario, CountsWhomItLeavesOut) {
   ASSERT_EQ(made.report.actors.size(), 1U);
   EXPECT_EQ(made.report.actors[0].obstacle, 5);
   const std::map<std::string, std::size_t> expected{
+      {"moving faster than a scenario may", 1},
       {"touching a nearer one at the start", 1},
       {"seen for less than 0.5 s", 1},
       {"appearing inside the ego", 1},

@@ -35,6 +35,16 @@ void widen(const Stretch& stretch, const world::Footprint& body, const Pose& X_W
 
 }  // namespace
 
+world::Road moved_road(const world::Road& road, Vec2 way_W) {
+  world::Road moved = road;
+  moved.X_WL = rounded_pose({road.X_WL.p + way_W, road.X_WL.yaw});
+  moved.curvature = rounded(road.curvature, 1e6);
+  moved.lane_width = rounded_mm(road.lane_width);
+  moved.left_edge = rounded_mm(road.left_edge);
+  moved.right_edge = rounded_mm(road.right_edge);
+  return moved;
+}
+
 world::Road widened_road(const Scenario& scenario, double behind, double ahead) {
   const Stretch stretch{scenario.road, behind, ahead};
   world::Road road = scenario.road;

@@ -4,6 +4,9 @@
 
 namespace saca::sim {
 
+/// A road elsewhere, in the digits of a scenario's file: mm, 0.01 degrees, 1e-6 / m.
+[[nodiscard]] world::Road moved_road(const world::Road& road, Vec2 way_W);
+
 /// The scenario's road with its edges moved out to 0.2 m beyond every vehicle, the ego's included,
 /// that is recorded with its centre between them: ground on which somebody drove is road, whatever
 /// the map says.

@@ -21,6 +21,19 @@ Scenario with_car(double x, double y, double yaw = 0.0) {
   return scenario;
 }
 
+TEST(MovedRoad, IsTheSameRoadElsewhere) {
+  world::Road road;
+  road.X_WL = {{4e6 + 0.1234, 10.0}, 0.5};
+  road.curvature = 0.01;
+  const world::Road moved = moved_road(road, {-4e6, 5.0});
+  const Vec2 here = from_lane(moved, {50.0, 1.0, 0.0}).p;
+  const Vec2 there = from_lane(road, {50.0, 1.0, 0.0}).p;
+  // Half a digit each: 0.5 mm, and 0.005 degrees over 50 m.
+  EXPECT_NEAR(here.x, there.x - 4e6, 0.006);
+  EXPECT_NEAR(here.y, there.y + 5.0, 0.006);
+  EXPECT_EQ(moved.X_WL.p.x, 0.123);
+}
+
 TEST(WidenedRoad, HoldsWhoIsRecordedOnTheRoad) {
   const world::Road road = widened_road(with_car(10.0, 1.2), 20.0, 60.0);
   EXPECT_NEAR(road.left_edge, 1.2 + 0.9 + 0.2, 1e-9);

@@ -58,6 +58,36 @@ std::string shown_text(std::string_view text) {
   return "`" + std::string(without_space(text).substr(0, most)) + "`";
 }
 
+std::optional<std::size_t> first_fault_of_utf8(std::string_view text) {
+  // Of a sequence of 2, 3 and 4 bytes: marks of the first byte, and the least code it may hold.
+  constexpr std::array<unsigned, 3> marks{0xC0, 0xE0, 0xF0};
+  constexpr std::array<unsigned, 3> least{0x80, 0x800, 0x10000};
+  for (std::size_t i = 0; i < text.size();) {
+    const auto first = static_cast<unsigned char>(text[i]);
+    const std::size_t more = first < 0x80 ? 0 : first < 0xE0 ? 1 : first < 0xF0 ? 2 : 3;
+    if (more == 0) {
+      ++i;
+      continue;
+    }
+    if (first < 0xC0 || first > 0xF7 || i + more >= text.size()) {
+      return i;
+    }
+    unsigned code = first - marks[more - 1];
+    for (std::size_t k = 1; k <= more; ++k) {
+      const unsigned next = static_cast<unsigned char>(text[i + k]);
+      if ((next & 0xC0U) != 0x80) {
+        return i;
+      }
+      code = code * 64 + (next & 0x3FU);
+    }
+    if (code < least[more - 1] || code > 0x10FFFF || (code >= 0xD800 && code <= 0xDFFF)) {
+      return i;
+    }
+    i += more + 1;
+  }
+  return std::nullopt;
+}
+
 void XmlReading::fail(xml_node place, const std::string& wanted_and_got, Error::Code code) {
   if (!problem_) {
     problem_ = error_at(place.offset_debug(), path_of(place) + ": " + wanted_and_got, code);
@@ -121,6 +151,15 @@ double XmlReading::exact(xml_node parent, const char* name, double least, double
   fail(child, "want <exact>, got <" + std::string(child.first_child().name()) +
                   ">: intervals are predictions, not recordings");
   return 0.0;
+}
+
+std::string XmlReading::text(xml_node node, const char* attribute) {
+  const std::string value = node.attribute(attribute).value();
+  if (first_fault_of_utf8(value)) {  // a reference to a character may make one
+    fail(node, "attribute " + std::string(attribute) + ": want UTF-8");
+    return "";
+  }
+  return value;
 }
 
 std::int64_t XmlReading::id(xml_node node, const char* attribute) {

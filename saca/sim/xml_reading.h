@@ -44,6 +44,8 @@ class XmlReading {
   double inner(pugi::xml_node parent, const char* name, double least, double most);
   /// The number in <exact> in an element within `parent`; an interval is a problem.
   double exact(pugi::xml_node parent, const char* name, double least, double most);
+  /// Text in an attribute; what is no UTF-8 is a problem.
+  std::string text(pugi::xml_node node, const char* attribute);
   /// A whole number in an attribute.
   std::int64_t id(pugi::xml_node node, const char* attribute);
 
@@ -56,5 +58,8 @@ class XmlReading {
 
 /// A file's own words for a message: the beginning, in marks.
 [[nodiscard]] std::string shown_text(std::string_view text);
+
+/// Where the first byte stands that is not part of UTF-8 as Unicode allows it.
+[[nodiscard]] std::optional<std::size_t> first_fault_of_utf8(std::string_view text);
 
 }  // namespace saca::sim

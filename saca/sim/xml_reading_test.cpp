@@ -52,6 +52,19 @@ TEST_F(Notes, CountsWhatNobodyReads) {
                                    testing::Pair("a/e", 2)));
 }
 
+// Examples of The Unicode Standard, table 3-7 and its text.
+TEST(FirstFaultOfUtf8, FollowsUnicode) {
+  EXPECT_FALSE(first_fault_of_utf8("plain"));
+  EXPECT_FALSE(first_fault_of_utf8("\xC3\xA9 \xE2\x82\xAC \xF0\x9F\x9A\x97"));
+  EXPECT_EQ(first_fault_of_utf8("a\xE9"), 1U);             // Latin-1
+  EXPECT_EQ(first_fault_of_utf8("\xC0\xAF"), 0U);          // longer than need be
+  EXPECT_EQ(first_fault_of_utf8("\xE0\x9F\x80"), 0U);      // likewise
+  EXPECT_EQ(first_fault_of_utf8("ab\xED\xA0\x80"), 2U);    // half of a pair
+  EXPECT_EQ(first_fault_of_utf8("\xF4\x90\x80\x80"), 0U);  // beyond Unicode
+  EXPECT_EQ(first_fault_of_utf8("\xE2\x82"), 0U);          // cut
+  EXPECT_EQ(first_fault_of_utf8("x\x80"), 1U);             // begins in the middle
+}
+
 TEST(ShownText, CutsAndTrims) {
   EXPECT_EQ(shown_text(" \n 12 "), "`12`");
   EXPECT_EQ(shown_text(std::string(100, 'x')).size(), 42U);
