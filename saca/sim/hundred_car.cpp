@@ -8,10 +8,10 @@
 
 #include "saca/core/contract.h"
 #include "saca/core/file.h"
-#include "saca/core/units.h"
 #include "saca/sim/ego_path.h"
 #include "saca/sim/hundred_car_words.h"
 #include "saca/sim/radar_track.h"
+#include "saca/sim/rounding.h"
 #include "saca/sim/series.h"
 
 namespace saca::sim {
@@ -26,17 +26,6 @@ constexpr std::size_t longest_speed_gap = 15;  // rows
 constexpr std::size_t fewest_follower_rows = 20;
 constexpr std::size_t fewest_lead_rows = 20;
 constexpr double after_the_end = 8.0;  // of the recording, for what SACA does instead [s]
-
-/// A number as the files hold it: the noise has no more digits.
-double rounded(double value, double unit_parts) {
-  return std::round(value * unit_parts) / unit_parts;
-}
-double rounded_mm(double value) {
-  return rounded(value, 1000.0);
-}
-double rounded_angle(double angle) {
-  return from_degrees(rounded(to_degrees(angle), 100.0));
-}
 
 /// Rows of the scenario, as [first, last] indices.
 struct Window {
@@ -126,10 +115,8 @@ Recording ego_recording(const EgoMotion& ego, const world::Road& road) {
   Recording recording;
   for (std::size_t k = 0; k < ego.speed.size(); ++k) {
     const Pose X_WB = from_lane(road, ego.path.poses[k]);
-    recording.push_back({rounded(static_cast<double>(k) * dt, 10.0),
-                         {{rounded_mm(X_WB.p.x), rounded_mm(X_WB.p.y)}, rounded_angle(X_WB.yaw)},
-                         rounded_mm(ego.speed[k]),
-                         rounded_angle(ego.yaw_rate[k])});
+    recording.push_back({rounded(static_cast<double>(k) * dt, 10.0), rounded_pose(X_WB),
+                         rounded_mm(ego.speed[k]), rounded_angle(ego.yaw_rate[k])});
   }
   return recording;
 }
@@ -198,11 +185,7 @@ Rebuilt rebuilt(const RadarTrack& track, const Window& window, const EgoMotion& 
   for (std::size_t k = 0; k < s.size(); ++k) {
     const double time = static_cast<double>(part.first - window.first + k) * dt;
     const Pose X_WA = from_lane(road, {forward[k], steady_d[k], 0.0});
-    body.recording.push_back(
-        {rounded(time, 10.0),
-         {{rounded_mm(X_WA.p.x), rounded_mm(X_WA.p.y)}, rounded_angle(X_WA.yaw)},
-         rounded_mm(speed[k]),
-         0.0});
+    body.recording.push_back({rounded(time, 10.0), rounded_pose(X_WA), rounded_mm(speed[k]), 0.0});
     body.treated.largest_correction =
         std::max(body.treated.largest_correction, std::abs(forward[k] - s[k]));
   }
