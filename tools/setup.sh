@@ -8,7 +8,7 @@ packages=(
   libeigen3-dev libnlopt-dev libpugixml-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   clang-format-14 clang-tidy-14
-  python3 python3-venv python3-pytest
+  python3 python3-venv python3-pytest python3-jsonschema
   chromium
 )
 

@@ -19,6 +19,7 @@
 #include "saca/outcome/describe.h"
 #include "saca/preview/preview.h"
 #include "saca/sim/stepper.h"
+#include "saca/world/time_to_conflict.h"
 
 namespace saca::loop {
 namespace {
@@ -42,6 +43,15 @@ std::string policy_text(const manoeuvre::Plan& plan) {
     text += fmt::format(" to {:.1f} m/s", *plan.target_speed);
   }
   return text;
+}
+
+/// The ego has stopped, and somebody behind it has not.
+bool is_approached(const Scene& scene) {
+  constexpr double moves = 0.1;  // [m/s]
+  return norm(scene.ego.v_B) < moves &&
+         std::any_of(scene.actors.begin(), scene.actors.end(), [&](const world::Actor& actor) {
+           return norm(actor.v_W) > moves && world::is_follower(scene, actor);
+         });
 }
 
 /// One encounter under way.
@@ -70,10 +80,10 @@ class Encounter {
 
   void tell(Plane plane, EventKind kind, std::string text);
   [[nodiscard]] std::optional<Error> look();
-  void wake(const Scene& scene);
-  decide::Reflex react(const Scene& scene);
+  void wake();
+  decide::Reflex react();
   void hand_over_plans();
-  void execute(const Scene& scene, const preview::Threat& threat);
+  void execute(const Scene& truth, const preview::Threat& threat);
   void film(const Scene& scene, const decide::Reflex& reflex);
   [[nodiscard]] bool over() const;
   void conclude();
@@ -104,7 +114,9 @@ class Encounter {
   manoeuvre::Plan plan_{PolicyId::no_intervention, std::nullopt};
   manoeuvre::ControllerState controller_;
   std::vector<double> reflex_times_;
-  std::vector<world::Track> tracks_at_trigger_;
+  Scene seen_;             ///< what SACA perceives at the last look
+  Scene seen_at_trigger_;  ///< likewise then
+  outcome::Others others_at_trigger_;
 };
 
 std::optional<manoeuvre::Plan> Encounter::forced_plan(const Setup& setup) {
@@ -165,9 +177,8 @@ Result<Record> Encounter::play() {
       for (int k = 0; k < steps_per_look; ++k) {
         vehicle::Command command;
         if (stepper_.driven()) {
-          command =
-              manoeuvre::control(*setup_.car, plan_, setup_.scenario->road, setup_.scenario->grip,
-                                 stepper_.car_state(), controller_, sim::Stepper::step);
+          command = manoeuvre::control(*setup_.car, plan_, setup_.scenario->road, seen_.grip,
+                                       stepper_.car_state(), controller_, sim::Stepper::step);
         }
         stepper_.advance(command);
       }
@@ -188,16 +199,19 @@ Result<Record> Encounter::play() {
 
 std::optional<Error> Encounter::look() {
   const Scene scene = stepper_.scene();
-  if (const auto rule = world::broken_rule(scene)) {
-    return Error{Error::Code::out_of_range, setup_.scenario->name + ": at " +
-                                                fmt::format("{:.2f} s", scene.time) +
-                                                ": a scene must hold: " + std::string(*rule)};
+  seen_ = stepper_.perceived();
+  for (const Scene* const each : {&scene, &std::as_const(seen_)}) {
+    if (const auto rule = world::broken_rule(*each)) {
+      return Error{Error::Code::out_of_range, setup_.scenario->name + ": at " +
+                                                  fmt::format("{:.2f} s", scene.time) +
+                                                  ": a scene must hold: " + std::string(*rule)};
+    }
   }
   if (!woke_) {
-    wake(scene);
+    wake();
   }
-  const decide::Reflex reflex = react(scene);
-  threatened_ = reflex.threat.has_value();
+  const decide::Reflex reflex = react();
+  threatened_ = reflex.threat.has_value() || is_approached(scene);
   if (reflex.triggered) {
     execute(scene, *reflex.threat);
   }
@@ -222,7 +236,8 @@ std::optional<Error> Encounter::look() {
   return std::nullopt;
 }
 
-void Encounter::wake(const Scene& scene) {
+void Encounter::wake() {
+  const Scene& scene = seen_;
   const auto threat = preview::previewed_threat(scene, setup_.thresholds);
   if (!threat) {
     return;
@@ -235,7 +250,8 @@ void Encounter::wake(const Scene& scene) {
                    actor_name(scene.actors[threat->actor]), threat->time, norm(scene.ego.v_B)));
 }
 
-decide::Reflex Encounter::react(const Scene& scene) {
+decide::Reflex Encounter::react() {
+  const Scene& scene = seen_;
   if (woke_ && !record_.decision) {
     if (real()) {
       scenes_.publish({scene, start_ + from_seconds(scene.time)});
@@ -265,7 +281,8 @@ void Encounter::hand_over_plans() {
   }
 }
 
-void Encounter::execute(const Scene& scene, const preview::Threat& threat) {
+void Encounter::execute(const Scene& truth, const preview::Threat& threat) {
+  const Scene& scene = seen_;
   decide::Decision decision = *reflex_.decision();
   if (decision.source == decide::Source::forced) {
     decision.plan = manoeuvre::default_plan(decision.plan.policy, norm(scene.ego.v_B));
@@ -279,8 +296,9 @@ void Encounter::execute(const Scene& scene, const preview::Threat& threat) {
   plan_ = decision.plan;
   controller_ = manoeuvre::begin(*setup_.car, plan_, scene);
   record_.decision = decision;
-  record_.at_trigger = scene;
-  tracks_at_trigger_ = stepper_.tracks();
+  record_.at_trigger = truth;
+  seen_at_trigger_ = scene;
+  others_at_trigger_ = stepper_.others();
   // The plan stands; now it can be talked about.
   tell(Plane::reflex, EventKind::trigger,
        fmt::format("T1: {:.2f} s to the conflict with {}", threat.time,
@@ -303,6 +321,7 @@ void Encounter::film(const Scene& scene, const decide::Reflex& reflex) {
   }
   record_.frames.push_back({.phase = phase,
                             .scene = scene,
+                            .perceived = seen_,
                             .steering = stepper_.driven() ? stepper_.car_state().steering : 0.0,
                             .conflict = conflict});
 }
@@ -318,8 +337,10 @@ void Encounter::conclude() {
     tell(Plane::world, EventKind::contact, outcome::describe(record_.result, record_.met));
   }
   if (record_.decision) {
-    record_.hindsight = hindsight(*record_.at_trigger, tracks_at_trigger_, setup_.scenario->grip,
-                                  *setup_.car, *setup_.harm);
+    Scene at_trigger = *record_.at_trigger;
+    at_trigger.grip = seen_at_trigger_.grip;
+    record_.hindsight =
+        hindsight(at_trigger, others_at_trigger_, stepper_.grip(), *setup_.car, *setup_.harm);
     std::array<preview::PolicyFacts, manoeuvre::num_policies> facts;
     std::transform(record_.hindsight->begin(), record_.hindsight->end(), facts.begin(),
                    [](const Hindsight& one) { return one.facts; });
@@ -380,7 +401,7 @@ void Encounter::learn() {
   }
   const preview::PolicyFacts& best = (*record_.hindsight)[manoeuvre::index(*record_.best)].facts;
   const memory::Case learnt{
-      .scene = *record_.at_trigger,
+      .scene = seen_at_trigger_,
       .plan = record_.decision->plan,
       .best = *record_.best,
       .harm = record_.result.harm,

@@ -60,7 +60,8 @@ enum class Phase : std::uint8_t { recorded, driving, manoeuvre };
 /// One picture of the film, every 20 ms.
 struct Frame {
   Phase phase = Phase::recorded;
-  world::Scene scene;
+  world::Scene scene;              ///< the truth
+  world::Scene perceived;          ///< what SACA was shown
   double steering = 0.0;           ///< of the road wheels [rad]
   std::optional<double> conflict;  ///< time to conflict [s]
 };
@@ -78,7 +79,7 @@ struct Record {
   std::vector<decide::Event> events;  ///< by time
   std::vector<decide::Preview> previews;
   std::optional<decide::Decision> decision;
-  std::optional<world::Scene> at_trigger;
+  std::optional<world::Scene> at_trigger;  ///< the truth
   outcome::Outcome result;
   std::vector<world::Actor> met;  ///< the actors that result.contact counts in
   std::optional<std::array<Hindsight, manoeuvre::num_policies>> hindsight;  ///< if triggered

@@ -193,6 +193,53 @@ TEST_F(EncounterTest, AtRealPaceTheWorldDoesNotWait) {
   EXPECT_TRUE(played.value().decision.has_value());
 }
 
+/// A car that follows the ego with so much room between bumpers.
+sim::ScenarioActor following(double gap) {
+  constexpr double speed = 20.0;
+  sim::Script script{
+      .start = {.s = -2.45 - gap - 2.25}, .speed = speed, .behaviour = sim::Behaviour::follow};
+  script.law = intent::content_with(intent::usual_driver(speed), speed, gap);
+  return {.id = 2, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1'500.0, .motion = script};
+}
+
+// On dry road braking stops before the wreck; 5 m behind nobody reacts in time: the ego is hit from
+// behind. It is known beforehand, in hindsight and in the run.
+TEST_F(EncounterTest, BeingHitFromBehindCounts) {
+  auto scenario = wreck_on_wet_road();
+  scenario.grip = 0.9;
+  std::get<sim::Script>(scenario.actors[0].motion).start.s = 100.0;
+  std::get<sim::EgoStart>(scenario.ego).speed = 18.0;
+  scenario.actors.push_back(following(5.0));
+  std::get<sim::Script>(scenario.actors[1].motion).speed = 18.0;
+  const Record braked = play(scenario, nullptr, nullptr, PolicyId::aeb).value();
+  ASSERT_TRUE(braked.result.contact.has_value());
+  EXPECT_EQ(braked.result.contact->ego_face, outcome::Face::rear);
+  const outcome::Outcome& foreseen =
+      (*braked.hindsight)[manoeuvre::index(PolicyId::aeb)].facts.outcome;
+  EXPECT_NEAR(foreseen.contact->time, braked.result.contact->time, 0.05);
+  EXPECT_NEAR(foreseen.contact->relative_speed, braked.result.contact->relative_speed, 0.2);
+  EXPECT_NE(*braked.best, PolicyId::aeb);
+  const Record swerved = play(scenario, nullptr, nullptr, *braked.best).value();
+  EXPECT_LT(swerved.result.harm, braked.result.harm);
+}
+
+// What is not there is braked for, and costs nothing but the braking.
+TEST_F(EncounterTest, SacaActsOnWhatItPerceivesAndIsJudgedByTheTruth) {
+  auto scenario = wreck_on_wet_road();
+  scenario.actors[0].ghost = true;
+  scenario.actors[0].existence = 0.8;
+  scenario.perception.grip_believed = 0.7;
+  const Record record = play(scenario).value();
+  ASSERT_TRUE(record.decision.has_value());
+  EXPECT_TRUE(record.at_trigger->actors.empty());
+  EXPECT_FALSE(record.result.contact.has_value());
+  EXPECT_EQ(record.frames.back().perceived.actors.size(), 1U);
+  EXPECT_EQ(record.frames.back().scene.actors.size(), 0U);
+  EXPECT_EQ(record.frames.back().perceived.grip, 0.7);
+  EXPECT_EQ(record.frames.back().scene.grip, 0.5);
+  EXPECT_EQ(*record.best, PolicyId::no_intervention);
+}
+
 // Outside the domain of lane changes there is still the fallback.
 TEST_F(EncounterTest, TooFastForASwerveItBrakes) {
   Says model(PolicyId::aes_left);

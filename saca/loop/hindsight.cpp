@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "saca/preview/threat.h"
-
 namespace saca::loop {
 namespace {
 
@@ -21,10 +19,9 @@ void cut_at(manoeuvre::EgoMotion& motion, double time) {
 }  // namespace
 
 std::array<Hindsight, manoeuvre::num_policies> hindsight(const world::Scene& at_trigger,
-                                                         std::span<const world::Track> tracks,
-                                                         double grip, const manoeuvre::Car& car,
+                                                         const outcome::Others& others, double grip,
+                                                         const manoeuvre::Car& car,
                                                          const outcome::HarmModel& harm) {
-  const std::vector<world::Track> judged = preview::without_followers(at_trigger, tracks);
   std::array<Hindsight, manoeuvre::num_policies> all;
   for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
     Hindsight& one = all[manoeuvre::index(policy)];
@@ -34,7 +31,7 @@ std::array<Hindsight, manoeuvre::num_policies> hindsight(const world::Scene& at_
       continue;
     }
     one.motion = manoeuvre::drive(car, one.facts.plan, at_trigger, grip, horizon);
-    one.facts.outcome = outcome::judge(one.motion, at_trigger, judged, harm);
+    one.facts.outcome = outcome::judge(one.motion, at_trigger, others, harm);
     if (one.facts.outcome.contact) {
       cut_at(one.motion, one.facts.outcome.contact->time);
     }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <span>
 
 #include "saca/manoeuvre/car.h"
 #include "saca/manoeuvre/drive.h"
@@ -17,10 +16,12 @@ struct Hindsight {
   manoeuvre::EgoMotion motion;  ///< up to the contact, or the end; empty when refused
 };
 
-/// All eight policies, begun in the scene at the trigger, against the true tracks on the true grip.
-/// @param tracks  true motion, one per actor of the scene
+/// All eight policies, begun in the scene at the trigger, among others who move as they truly
+/// would, on the true grip.
+/// @param at_trigger  the truth but for `grip`, which is what the ego takes the road for
+/// @param grip        true friction coefficient
 [[nodiscard]] std::array<Hindsight, manoeuvre::num_policies> hindsight(
-    const world::Scene& at_trigger, std::span<const world::Track> tracks, double grip,
+    const world::Scene& at_trigger, const outcome::Others& others, double grip,
     const manoeuvre::Car& car, const outcome::HarmModel& harm);
 
 }  // namespace saca::loop

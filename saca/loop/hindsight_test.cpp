@@ -19,9 +19,11 @@ TEST(Hindsight, KnowsWhatEachPolicyWouldHaveDone) {
   scene.road.left_edge = 5.25;
   scene.road.right_edge = -5.25;
   scene.grip = 0.5;
-  const std::vector<world::Track> tracks{{.X_WA = {scene.actors[0].X_WA}}};
+  const outcome::Others stands = [&](const world::Track&) {
+    return std::vector<world::Track>{{.X_WA = {scene.actors[0].X_WA}}};
+  };
 
-  const auto all = hindsight(scene, tracks, 0.5, car, harm);
+  const auto all = hindsight(scene, stands, 0.5, car, harm);
   const auto of = [&](PolicyId policy) -> const Hindsight& {
     return all[manoeuvre::index(policy)];
   };
@@ -33,11 +35,11 @@ TEST(Hindsight, KnowsWhatEachPolicyWouldHaveDone) {
   EXPECT_NEAR(world::end_time(nothing.motion.track), nothing.facts.outcome.contact->time, 0.0101);
   // On dry road braking would have been enough.
   scene.grip = 0.9;
-  EXPECT_FALSE(hindsight(scene, tracks, 0.9, car, harm)[manoeuvre::index(PolicyId::aeb)]
+  EXPECT_FALSE(hindsight(scene, stands, 0.9, car, harm)[manoeuvre::index(PolicyId::aeb)]
                    .facts.outcome.contact.has_value());
   // A drift cannot be driven where the road is slippery enough.
   scene.grip = 0.15;
-  const auto slippery = hindsight(scene, tracks, 0.15, car, harm);
+  const auto slippery = hindsight(scene, stands, 0.15, car, harm);
   const Hindsight& drift = slippery[manoeuvre::index(PolicyId::t_drift_left)];
   EXPECT_TRUE(drift.motion.track.X_WA.empty());
   EXPECT_FALSE(drift.facts.refusal.empty());

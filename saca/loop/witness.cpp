@@ -1,10 +1,9 @@
 #include "saca/loop/witness.h"
 
 #include <algorithm>
-#include <iterator>
-
-#include "saca/preview/threat.h"
-#include "saca/world/time_to_conflict.h"
+#include <cmath>
+#include <utility>
+#include <vector>
 
 namespace saca::loop {
 namespace {
@@ -20,35 +19,46 @@ bool goes_on(const outcome::Outcome& outcome, const world::Road& road) {
   return !outcome::stops_the_ego(left ? road.left_beyond : road.right_beyond);
 }
 
-/// Beside the ego's path, a follower is a car like any other: it no longer has to react.
-bool has_left_path(const world::Scene& scene, const world::Actor& follower) {
-  const double ego_d = world::to_lane(scene.road, scene.ego.X_WB).d;
-  return std::any_of(scene.actors.begin(), scene.actors.end(), [&](const world::Actor& now) {
-    const double aside = std::abs(world::to_lane(scene.road, now.X_WA).d - ego_d);
-    return now.kind == follower.kind && now.id == follower.id &&
-           aside > 0.5 * (now.footprint.width + scene.ego_footprint.width) + 0.5;
-  });
-}
-
-}  // namespace
-
-std::vector<world::Track> Witness::judged_tracks(const world::Scene& scene,
-                                                 std::vector<world::Track> tracks) const {
-  for (const world::Actor& follower : followers_) {
-    for (std::size_t i = 0; i < scene.actors.size(); ++i) {
-      if (scene.actors[i].kind == follower.kind && scene.actors[i].id == follower.id) {
-        tracks[i] = preview::out_of_the_way(follower, scene.time);
-      }
+/// How the actors of `now` came there since `last`: straight, in steps of the traffic.
+std::vector<world::Track> since(const world::Scene& last, const world::Scene& now) {
+  const double span = now.time - last.time;
+  const int num_steps = std::max(1, static_cast<int>(std::lround(span / sim::Traffic::step)));
+  std::vector<world::Track> tracks;
+  for (const world::Actor& actor : now.actors) {
+    const auto* const before =
+        std::find_if(last.actors.begin(), last.actors.end(), [&](const world::Actor& other) {
+          return other.kind == actor.kind && other.id == actor.id;
+        });
+    if (before == last.actors.end()) {
+      tracks.push_back({.start = now.time, .step = sim::Traffic::step, .X_WA = {actor.X_WA}});
+      continue;
     }
+    world::Track track{.start = last.time, .step = span / num_steps, .X_WA = {}};
+    for (int k = 0; k <= num_steps; ++k) {
+      track.X_WA.push_back(between(before->X_WA, actor.X_WA, static_cast<double>(k) / num_steps));
+    }
+    tracks.push_back(track);
   }
   return tracks;
 }
 
+/// The same, and how they would go on from here.
+outcome::Others since_and_on(std::vector<world::Track> tracks, outcome::Others others) {
+  return [past = std::move(tracks), future = std::move(others)](const world::Track& X_WB) {
+    std::vector<world::Track> all = past;
+    const std::vector<world::Track> on = future(X_WB);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      all[i].X_WA.insert(all[i].X_WA.end(), on[i].X_WA.begin() + 1, on[i].X_WA.end());
+    }
+    return all;
+  };
+}
+
+}  // namespace
+
 std::optional<world::Scene> Witness::look(const sim::Stepper& stepper) {
   const world::Scene now = stepper.scene();
   if (!last_) {
-    std::copy_if(now.actors.begin(), now.actors.end(), std::back_inserter(followers_),
-                 [&](const world::Actor& actor) { return world::is_follower(now, actor); });
     last_ = now;
     return std::nullopt;
   }
@@ -58,13 +68,11 @@ std::optional<world::Scene> Witness::look(const sim::Stepper& stepper) {
                                     .v_B = {last_->ego.v_B, now.ego.v_B},
                                     .yaw_rate = {last_->ego.yaw_rate, now.ego.yaw_rate},
                                     .ended = false};
-  const outcome::Outcome step =
-      outcome::judge(motion, now, judged_tracks(now, stepper.tracks()), harm_);
+  const std::vector<world::Track> tracks = since(*last_, now);
+  const outcome::Outcome step = outcome::judge(motion, now, tracks, harm_);
   last_ = now;
-  std::erase_if(followers_,
-                [&](const world::Actor& follower) { return has_left_path(now, follower); });
   if (!goes_on(step, now.road)) {
-    outcome_ = step;
+    outcome_ = outcome::judge(motion, now, since_and_on(tracks, stepper.others()), harm_);
     return now;
   }
   // The first edge that was crossed stays the contact, unless something worse follows.

@@ -51,14 +51,20 @@ TEST(Witness, KeepsTheSmallestClearance) {
   EXPECT_NEAR(seen.clearance, 3.5 - 0.95 - 0.9, 1e-3);  // the two half widths
 }
 
-TEST(Witness, AFollowerIsNotJudged) {
+// The wreck is beside; a car runs into the ego from behind: 12 m between centres, 2.45 m of them
+// the ego's rear and 2.25 m its own front, at 10 m/s.
+TEST(Witness, BeingHitFromBehindCounts) {
   const auto harm = outcome::read_harm("data/harm.toml").value();
   sim::Scenario scenario = drive_at_a_wreck(3.5);
   scenario.actors.push_back({.id = 2,
                              .footprint = {.length = 4.5, .width = 1.8},
                              .mass = 1'500.0,
                              .motion = sim::Script{.start = {.s = -12.0}, .speed = 30.0}});
-  EXPECT_FALSE(watch(scenario, harm).outcome().contact.has_value());
+  const outcome::Outcome seen = watch(scenario, harm).outcome();
+  ASSERT_TRUE(seen.contact.has_value());
+  EXPECT_EQ(seen.contact->actor, 1U);
+  EXPECT_EQ(seen.contact->ego_face, outcome::Face::rear);
+  EXPECT_NEAR(seen.contact->time, (12.0 - 2.45 - 2.25) / 10.0, 1e-3);
 }
 
 }  // namespace

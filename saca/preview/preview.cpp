@@ -4,6 +4,7 @@
 
 #include "saca/manoeuvre/drive.h"
 #include "saca/outcome/ordering.h"
+#include "saca/preview/followers.h"
 #include "saca/world/time_to_conflict.h"
 
 namespace saca::preview {
@@ -126,14 +127,14 @@ std::array<PolicyFacts, manoeuvre::num_policies> policy_facts(const Scene& scene
                                                               const std::vector<Track>& tracks,
                                                               const manoeuvre::Car& car,
                                                               const outcome::HarmModel& harm) {
-  const std::vector<Track> judged = without_followers(scene, tracks);
+  const outcome::Others others = with_reacting_followers(scene, tracks);
   std::array<PolicyFacts, manoeuvre::num_policies> facts;
   for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
     PolicyFacts& fact = facts[manoeuvre::index(policy)];
     fact.plan = manoeuvre::default_plan(policy, norm(scene.ego.v_B));
     fact.refusal = manoeuvre::refusal(car, fact.plan, scene).value_or("");
     if (fact.refusal.empty()) {
-      fact.outcome = outcome::roll_out(car, fact.plan, scene, judged, scene.grip, harm);
+      fact.outcome = outcome::roll_out(car, fact.plan, scene, others, scene.grip, harm);
     }
   }
   return facts;

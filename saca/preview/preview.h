@@ -31,7 +31,8 @@ constexpr std::size_t max_situations = 3;
                                                 const manoeuvre::Car& car,
                                                 const outcome::HarmModel& harm);
 
-/// What each policy ends in when it begins in `scene` and the actors follow their tracks.
+/// What each policy ends in when it begins in `scene` and the actors follow their tracks, those
+/// behind the ego but react to it: see with_reacting_followers.
 [[nodiscard]] std::array<PolicyFacts, manoeuvre::num_policies> policy_facts(
     const world::Scene& scene, const std::vector<world::Track>& tracks, const manoeuvre::Car& car,
     const outcome::HarmModel& harm);

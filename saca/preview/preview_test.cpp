@@ -117,6 +117,24 @@ TEST(PolicyFacts, SayWhatEachPolicyEndsIn) {
   }
 }
 
+// 19.5 m to a wreck at 15 m/s are enough to stop; with a car 4.3 m behind, who brakes is run into
+// before it reacts, and who changes the lane is not.
+TEST(PolicyFacts, BeingHitFromBehindCounts) {
+  Scene scene = motorway(15.0);
+  scene.actors.push_back(car(1, {75.0, 0.0}, {}));
+  const auto alone = look(scene).at(0).facts;
+  scene.actors.push_back(car(2, {-9.0, 0.0}, {15.0, 0.0}));
+  const auto followed = look(scene).at(0).facts;
+  const auto of = [](const auto& facts, PolicyId policy) -> const outcome::Outcome& {
+    return facts[manoeuvre::index(policy)].outcome;
+  };
+  EXPECT_FALSE(of(alone, PolicyId::aeb).contact.has_value());
+  ASSERT_TRUE(of(followed, PolicyId::aeb).contact.has_value());
+  EXPECT_EQ(of(followed, PolicyId::aeb).contact->ego_face, outcome::Face::rear);
+  EXPECT_GT(of(followed, PolicyId::aeb).harm, of(alone, PolicyId::aeb).harm);
+  EXPECT_EQ(of(followed, PolicyId::aes_left).harm, of(alone, PolicyId::aes_left).harm);
+}
+
 TEST(BestByForecast, DoesNothingWhereNothingThreatens) {
   const Scene scene = motorway(15.0);
   EXPECT_EQ(best_by_forecast(policy_facts(scene, {}, manoeuvre::default_car(), test_harm())),

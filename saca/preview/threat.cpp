@@ -1,26 +1,9 @@
 #include "saca/preview/threat.h"
 
-#include "saca/core/contract.h"
 #include "saca/intent/intention.h"
 #include "saca/world/time_to_conflict.h"
 
 namespace saca::preview {
-
-world::Track out_of_the_way(const world::Actor& follower, double time) {
-  return {.start = time, .X_WA = {follower.X_WA * Pose{{-out_of_reach, 0.0}, 0.0}}};
-}
-
-std::vector<world::Track> without_followers(const world::Scene& scene,
-                                            std::span<const world::Track> tracks) {
-  expects(tracks.size() == scene.actors.size(), "one track per actor");
-  std::vector<world::Track> judged(tracks.begin(), tracks.end());
-  for (std::size_t i = 0; i < judged.size(); ++i) {
-    if (world::is_follower(scene, scene.actors[i])) {
-      judged[i] = out_of_the_way(scene.actors[i], scene.time);
-    }
-  }
-  return judged;
-}
 
 std::optional<Threat> nearest_threat(const world::Scene& scene, double horizon, double tolerance) {
   std::optional<Threat> nearest;

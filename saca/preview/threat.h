@@ -1,11 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
-#include <span>
-#include <vector>
 
 #include "saca/world/scene.h"
-#include "saca/world/track.h"
 
 namespace saca::preview {
 
@@ -18,19 +16,6 @@ struct Thresholds {
   double preview_tolerance = 2.0;  ///< of crossing traffic at the preview [s]
   double least_posterior = 0.05;   ///< intentions below this do not start a preview [-]
 };
-
-/// A follower's track is put this far behind [m]: out of reach of contact and clearance.
-constexpr double out_of_reach = 1e3;
-
-/// The track of a follower that is not judged.
-[[nodiscard]] world::Track out_of_the_way(const world::Actor& follower, double time);
-
-/// The tracks with which an outcome is judged: those who follow in the ego's path are out of reach.
-/// Whether they run into the ego depends on how they react to its braking, and a track cannot
-/// react; so a follower is in the scene, but contact with it is not looked at.
-/// @param tracks  one per actor of the scene
-[[nodiscard]] std::vector<world::Track> without_followers(const world::Scene& scene,
-                                                          std::span<const world::Track> tracks);
 
 /// An actor that the ego is in conflict with.
 struct Threat {

@@ -55,28 +55,6 @@ TEST(NearestThreat, AFollowerNeverTriggers) {
   EXPECT_FALSE(previewed_threat(scene, {}).has_value());
 }
 
-TEST(WithoutFollowers, AFollowerIsOutOfReachAndOthersMove) {
-  Scene scene = ego_at(10.0);
-  scene.actors.push_back(car(1, {-14.0, 0.0}, {25.0, 0.0}));
-  scene.actors.push_back(car(2, {30.0, 0.0}, {5.0, 0.0}));
-  const world::Track moves{.step = 1.0, .X_WA = {{{0.0, 0.0}, 0.0}, {{5.0, 0.0}, 0.0}}};
-  const auto judged = without_followers(scene, std::vector<world::Track>{moves, moves});
-  EXPECT_LT(world::pose_at(judged[0], 1.0).p.x, -500.0);
-  EXPECT_EQ(world::pose_at(judged[1], 1.0).p.x, 5.0);
-}
-
-// A car beside the ego is none: who swerves into it has hit it.
-TEST(WithoutFollowers, ACarInTheNextLaneIsJudged) {
-  Scene scene = ego_at(10.0);
-  scene.actors.push_back(car(1, {-1.0, 3.5}, {10.0, 0.0}));
-  scene.actors.push_back(car(2, {-9.0, 3.5}, {15.0, 0.0}));
-  const world::Track moves{.step = 1.0, .X_WA = {{{0.0, 3.5}, 0.0}, {{10.0, 3.5}, 0.0}}};
-  for (const world::Track& track :
-       without_followers(scene, std::vector<world::Track>{moves, moves})) {
-    EXPECT_EQ(world::pose_at(track, 1.0).p.x, 10.0);
-  }
-}
-
 // The paper's scene at T2: at constant speed the truck passes behind the ego. The wide tolerance
 // starts the preview, the narrow one does not trigger.
 TEST(PreviewedThreat, SeesThePapersTruck) {

@@ -41,6 +41,15 @@ TEST(Scenarios, AllReadAndComeBackTheSame) {
   EXPECT_GE(num_files, 5U);
 }
 
+// The pattern that the JSON Schema's test takes for right: one of everything.
+TEST(Scenarios, OneOfEverythingIsRead) {
+  const Result<Scenario> result = load_scenario("tests/fuzz/corpus/scenario/everything.toml");
+  ASSERT_TRUE(result.has_value()) << result.error().message;
+  EXPECT_EQ(result.value().actors.size(), 10U);
+  EXPECT_FALSE(result.value().why.empty());
+  EXPECT_NE(result.value().perception, PerceptionModel{});
+}
+
 /// Distance between the ego's nose and the tail of the vehicle ahead, when the ego goes on from
 /// `since` at its speed of then [m]. Straight roads only.
 double gap_going_on(const Scenario& scenario, double since, double time) {

@@ -30,7 +30,7 @@ void Stepper::take_the_wheel() {
   ego.v_B.x = std::max(0.0, ego.v_B.x + chance_.car.speed);
   state_ = manoeuvre::rolling_state(real_car_, ego, grip_);
   driven_ = true;
-  traffic_.let_followers_react(ego, manoeuvre::footprint(real_car_));
+  traffic_.let_followers_react();
 }
 
 void Stepper::advance(const vehicle::Command& command) {

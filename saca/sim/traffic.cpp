@@ -90,6 +90,9 @@ std::vector<intent::Ahead> Traffic::views(const Pose& X_WB, Vec2 v_W,
 }
 
 void Traffic::advance(const Pose& X_WB, Vec2 v_W, const world::Footprint& ego) {
+  if (followers_react_) {
+    release_followers(X_WB, v_W, ego);
+  }
   const std::vector<intent::Ahead> ahead = views(X_WB, v_W, ego);
   const double before = time();
   ++num_steps_;
@@ -111,22 +114,26 @@ void Traffic::advance(const Pose& X_WB, Vec2 v_W, const world::Footprint& ego) {
   }
 }
 
-void Traffic::let_followers_react(const world::EgoState& ego, const world::Footprint& footprint) {
-  const world::Scene scene{
-      .time = time(), .ego = ego, .ego_footprint = footprint, .road = scenario_->road};
-  std::vector<std::size_t> followers;
+void Traffic::release_followers(const Pose& X_WB, Vec2 v_W, const world::Footprint& ego) {
+  const world::Scene scene{.time = time(),
+                           .ego = {.X_WB = X_WB, .v_B = rotated(v_W, -X_WB.yaw)},
+                           .ego_footprint = ego,
+                           .road = scenario_->road};
+  std::vector<std::size_t> released;
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const ScenarioActor& actor = scenario_->actors[i];
-    if (std::holds_alternative<Recording>(actor.motion) && !actor.ghost && is_there(i) &&
-        world::is_follower(scene, as_known(i))) {
+    if (std::holds_alternative<Recording>(actor.motion) && !members_[i].driver && !actor.ghost &&
+        is_there(i) && world::is_follower(scene, as_known(i))) {
       const double speed = norm(members_[i].now.v_W);
       appoint(i, members_[i].now.X_WA, speed, intent::usual_driver(speed));
-      followers.push_back(i);
+      released.push_back(i);
     }
   }
-  const std::vector<intent::Ahead> ahead =
-      views(ego.X_WB, rotated(ego.v_B, ego.X_WB.yaw), footprint);
-  for (const std::size_t i : followers) {
+  if (released.empty()) {
+    return;
+  }
+  const std::vector<intent::Ahead> ahead = views(X_WB, v_W, ego);
+  for (const std::size_t i : released) {
     const double speed = members_[i].driver->driver().speed();
     appoint(i, members_[i].now.X_WA, speed,
             content_with(intent::usual_driver(speed), speed, ahead[i].gap));

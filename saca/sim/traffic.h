@@ -29,9 +29,10 @@ class Traffic {
   /// One step: reacting drivers answer to the ego, and to one another, as they are now.
   void advance(const Pose& X_WB, Vec2 v_W, const world::Footprint& ego);
 
-  /// From now on the ego leaves its recording, so recorded followers of it do too: they drive on as
-  /// usual drivers, content with the gap that they have. Everyone else keeps to the recording.
-  void let_followers_react(const world::EgoState& ego, const world::Footprint& footprint);
+  /// From now on the ego leaves its recording, so recorded followers of it do too, from when they
+  /// are there and in its path on: they drive on as usual drivers, content with the gap that they
+  /// have. Everyone else keeps to the recording.
+  void let_followers_react() { followers_react_ = true; }
 
   /// Who is there now, as they truly are, in the scenario's order; ghosts are not. Accelerations
   /// and turning rates are backward differences over 0.5 s, as a tracker would know them; zero
@@ -69,6 +70,7 @@ class Traffic {
   /// What each driver has ahead of it; of others nothing.
   [[nodiscard]] std::vector<intent::Ahead> views(const Pose& X_WB, Vec2 v_W,
                                                  const world::Footprint& ego) const;
+  void release_followers(const Pose& X_WB, Vec2 v_W, const world::Footprint& ego);
   /// Makes an actor a reacting driver.
   void appoint(std::size_t actor, const Pose& X_WA, double speed, intent::DriverLaw law);
   void note(Member& member);
@@ -77,6 +79,7 @@ class Traffic {
   Chance chance_;
   double grip_;
   std::vector<Member> members_;
+  bool followers_react_ = false;
   int num_steps_ = 0;
 };
 

@@ -179,13 +179,26 @@ TEST(Traffic, RecordedFollowersReactOnceTheyAreLetGo) {
   const world::Track X_WB = ego_track(15.0, 1.0, 5.0);
   drive(traffic, X_WB, 1.0);
   EXPECT_NEAR(traffic.against(X_WB, ego, 8.0)[0].X_WA.back().p.x, -20.0 + 15.0 * 8.0, 1e-6);
-  traffic.let_followers_react({.X_WB = {{15.0, 0.0}, 0.0}, .v_B = {15.0, 0.0}}, ego);
+  traffic.let_followers_react();
   EXPECT_NEAR(traffic.actors()[0].X_WA.p.x, -5.0, 1e-9);
   const auto tracks = traffic.against(X_WB, ego, 8.0);
   EXPECT_LT(tracks[0].X_WA.back().p.x + 2.0, X_WB.X_WA.back().p.x - 2.45);  // it stops in time
   EXPECT_NEAR(tracks[1].X_WA.back().p.x, -20.0 + 15.0 * 8.0, 1e-6);         // it has no reason
   // Until the ego does something new, it goes on as it did.
   EXPECT_NEAR(world::velocity_at(tracks[0], 2.0).x, 15.0, 0.05);
+}
+
+// One that appears behind the ego later reacts from then on.
+TEST(Traffic, ARecordedFollowerThatAppearsLaterReactsToo) {
+  const Recording late{{.time = 2.0, .X_WA = {{-30.0, 0.5}, 0.0}, .speed = 15.0},
+                       {.time = 9.0, .X_WA = {{75.0, 0.5}, 0.0}, .speed = 15.0}};
+  const Scenario scenario = with({actor(1, late)});
+  Traffic traffic(scenario);
+  traffic.let_followers_react();
+  const world::Track X_WB = ego_track(15.0, 1.0, 5.0);  // it rests at 37.5 m
+  drive(traffic, X_WB, 9.0);
+  EXPECT_LT(traffic.actors()[0].X_WA.p.x + 2.0, X_WB.X_WA.back().p.x - 2.45);
+  EXPECT_EQ(traffic.actors()[0].X_WA.p.y, 0.5);
 }
 
 }  // namespace

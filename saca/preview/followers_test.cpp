@@ -1,0 +1,122 @@
+#include "saca/preview/followers.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "saca/core/contract.h"
+#include "saca/intent/driver.h"
+
+namespace saca::preview {
+namespace {
+
+using world::Actor;
+using world::Scene;
+using world::Track;
+
+constexpr double step = 0.01;
+
+Scene ego_at(double speed) {
+  Scene scene;
+  scene.ego.v_B = {speed, 0.0};
+  scene.ego_footprint = {.length = 4.0, .width = 2.0};
+  scene.ego_mass = 1'700.0;
+  return scene;
+}
+
+Actor car(std::uint8_t id, Vec2 p_W, double speed) {
+  Actor actor{.id = id, .footprint = {.length = 4.0, .width = 2.0}, .mass = 1'500.0};
+  actor.X_WA.p = p_W;
+  actor.v_W = {speed, 0.0};
+  return actor;
+}
+
+Track going_on(const Actor& actor) {
+  Track track{.step = step, .X_WA = {}};
+  for (int k = 0; k <= 800; ++k) {
+    track.X_WA.push_back({actor.X_WA.p + step * k * actor.v_W, 0.0});
+  }
+  return track;
+}
+
+std::vector<Track> all_going_on(const Scene& scene) {
+  std::vector<Track> tracks;
+  for (const Actor& actor : scene.actors) {
+    tracks.push_back(going_on(actor));
+  }
+  return tracks;
+}
+
+/// The ego brakes at once, as hard as that.
+Track braking(double speed, double deceleration) {
+  Track track{.step = step, .X_WA = {}};
+  for (int k = 0; k <= 800; ++k) {
+    const double t = std::min(k * step, speed / deceleration);
+    track.X_WA.push_back({{speed * t - 0.5 * deceleration * t * t, 0.0}, 0.0});
+  }
+  return track;
+}
+
+// 4 m behind at 20 m/s is within any reaction time: braking with 8 m/s^2 closes it after
+// sqrt(2 * 4 / 8) = 1 s. Braking as hard from 35 m behind, 20 m/s * 1.25 s of it are used up.
+TEST(WithReactingFollowers, AShortGapIsRunIntoALongOneIsNot) {
+  for (const double gap : {4.0, 35.0}) {
+    Scene scene = ego_at(20.0);
+    scene.actors.push_back(car(1, {-4.0 - gap, 0.0}, 20.0));
+    const Track X_WB = braking(20.0, 8.0);
+    const auto tracks = with_reacting_followers(scene, all_going_on(scene))(X_WB);
+    double least = gap;
+    for (double time = 0.0; time < 8.0; time += step) {
+      least = std::min(least, pose_at(X_WB, time).p.x - pose_at(tracks[0], time).p.x - 4.0);
+    }
+    EXPECT_EQ(least < 0.0, gap < 10.0) << gap;
+    if (gap < 10.0) {
+      EXPECT_NEAR(pose_at(tracks[0], 1.0).p.x + 4.0, pose_at(X_WB, 1.0).p.x, 0.05);
+    } else {
+      EXPECT_LT(norm(velocity_at(tracks[0], 7.0)), 0.5);
+    }
+  }
+}
+
+// Who goes on gives nobody a reason to brake, however short the gap.
+TEST(WithReactingFollowers, AContentFollowerGoesOnBehindAnEgoThatGoesOn) {
+  Scene scene = ego_at(20.0);
+  scene.actors.push_back(car(1, {-10.0, 0.0}, 20.0));
+  const Track X_WB = going_on(car(2, {}, 20.0));
+  const auto tracks = with_reacting_followers(scene, all_going_on(scene))(X_WB);
+  EXPECT_NEAR(pose_at(tracks[0], 8.0).p.x, -10.0 + 160.0, 0.1);
+}
+
+// A car beside the ego is no follower, nor is one ahead: they keep to their tracks.
+TEST(WithReactingFollowers, EveryoneElseKeepsToItsTrack) {
+  Scene scene = ego_at(10.0);
+  scene.actors.push_back(car(1, {-1.0, 3.5}, 10.0));
+  scene.actors.push_back(car(2, {-9.0, 3.5}, 15.0));
+  scene.actors.push_back(car(3, {30.0, 0.0}, 5.0));
+  const auto tracks = with_reacting_followers(scene, all_going_on(scene))(braking(10.0, 8.0));
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(pose_at(tracks[i], 4.0).p.x, pose_at(going_on(scene.actors[i]), 4.0).p.x);
+  }
+}
+
+// The second follower is listed first; it sees the first one brake, not the ego.
+TEST(WithReactingFollowers, FollowersReactInARow) {
+  Scene scene = ego_at(20.0);
+  scene.actors.push_back(car(1, {-80.0, 0.0}, 20.0));
+  scene.actors.push_back(car(2, {-40.0, 0.0}, 20.0));
+  const auto tracks = with_reacting_followers(scene, all_going_on(scene))(braking(20.0, 6.0));
+  for (double time = 0.0; time < 8.0; time += 0.1) {
+    EXPECT_LT(pose_at(tracks[0], time).p.x + 4.0, pose_at(tracks[1], time).p.x) << time;
+  }
+  EXPECT_LT(norm(velocity_at(tracks[0], 7.9)), 3.0);
+}
+
+TEST(WithReactingFollowers, WantsOneTrackPerActor) {
+  Scene scene = ego_at(10.0);
+  scene.actors.push_back(car(1, {-14.0, 0.0}, 10.0));
+  EXPECT_THROW((void)with_reacting_followers(scene, {}), ContractViolation);
+}
+
+}  // namespace
+}  // namespace saca::preview
