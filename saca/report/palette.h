@@ -82,7 +82,9 @@ inline constexpr std::string_view svg_style = R"svg(
 .saca .l2,.saca .l4,.saca .l6{stroke-dasharray:5 3}
 .saca .curve{fill:none;stroke-width:2px;stroke-linejoin:round}
 .saca .band{fill-opacity:.14}
-.saca .whisker{fill:none;stroke-width:2px;stroke-dasharray:none}
+.saca .dash{stroke-dasharray:6 4}
+.saca .stroke-blue{stroke:#0072b2}.saca .stroke-orange{stroke:#c98600}.saca .stroke-green{stroke:#00805d}.saca .stroke-purple{stroke:#b8458f}.saca .stroke-grey{stroke:#77808a}.saca .stroke-ink{stroke:#17202a}
+.saca .fill-blue{fill:#0072b2}.saca .fill-orange{fill:#e69f00}.saca .fill-green{fill:#009e73}.saca .fill-purple{fill:#b8458f}.saca .fill-grey{fill:#77808a}.saca .fill-ink{fill:#17202a}
 .saca .dot{stroke:#fff;stroke-width:1px}
 )svg";
 
