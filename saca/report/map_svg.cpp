@@ -8,6 +8,7 @@
 #include <span>
 
 #include "saca/core/contract.h"
+#include "saca/report/cell_areas.h"
 #include "saca/report/palette.h"
 #include "saca/report/plot_axes.h"
 
@@ -127,22 +128,12 @@ class CellGrid {
 
   /// The policies' names in their areas: where an area is widest, and there near its middle.
   [[nodiscard]] std::string names() const {
-    const std::vector<int> area_of = connected_areas();
-    const std::vector<int> depth = depths(area_of);
-    const std::vector<Vec2> middle = middles(area_of);
-    constexpr std::size_t none = static_cast<std::size_t>(-1);
-    std::vector<std::size_t> best(middle.size(), none);
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-      const auto area = static_cast<std::size_t>(area_of[i]);
-      const auto away = [&](std::size_t cell) { return norm(place(cell) - middle[area]); };
-      std::size_t& old = best[area];
-      if (old == none || depth[i] > depth[old] ||
-          (depth[i] == depth[old] && away(i) < away(old) - 1e-9)) {
-        old = i;
-      }
+    std::vector<int> keys;
+    for (const MapCell& cell : cells_) {
+      keys.push_back(area_key(cell));
     }
     std::string out;
-    for (const std::size_t cell : best) {
+    for (const std::size_t cell : area_centres(keys, columns())) {
       out += name_at(cell / columns(), cell % columns());
     }
     return out;
@@ -151,24 +142,6 @@ class CellGrid {
  private:
   [[nodiscard]] const MapCell& at(std::size_t row, std::size_t column) const {
     return cells_[row * columns() + column];
-  }
-  /// Of a cell, counted in cells.
-  [[nodiscard]] Vec2 place(std::size_t cell) const {
-    return {static_cast<double>(cell % columns()), static_cast<double>(cell / columns())};
-  }
-  [[nodiscard]] std::vector<Vec2> middles(const std::vector<int>& area_of) const {
-    const int areas = 1 + *std::max_element(area_of.begin(), area_of.end());
-    std::vector<Vec2> sums(static_cast<std::size_t>(areas));
-    std::vector<double> counts(sums.size());
-    for (std::size_t i = 0; i < area_of.size(); ++i) {
-      const auto area = static_cast<std::size_t>(area_of[i]);
-      sums[area] = sums[area] + place(i);
-      counts[area] += 1.0;
-    }
-    for (std::size_t area = 0; area < sums.size(); ++area) {
-      sums[area] = (1.0 / counts[area]) * sums[area];
-    }
-    return sums;
   }
   [[nodiscard]] Vec2 corner(std::size_t column, std::size_t row) const {
     return area_.px(x_edges_[column], y_edges_[row]);
@@ -187,56 +160,6 @@ class CellGrid {
     const Vec2 b = corner(c1, r1);
     path += fmt::format("M{} {}L{} {}", svg_number(a.x), svg_number(a.y), svg_number(b.x),
                         svg_number(b.y));
-  }
-
-  /// Number of the connected area of each cell, counted in reading order.
-  [[nodiscard]] std::vector<int> connected_areas() const {
-    std::vector<int> area_of(cells_.size(), -1);
-    std::vector<std::size_t> open;
-    int areas = 0;
-    for (std::size_t first = 0; first < cells_.size(); ++first) {
-      if (area_of[first] >= 0) {
-        continue;
-      }
-      open.assign(1, first);
-      area_of[first] = areas;
-      while (!open.empty()) {
-        const std::size_t i = open.back();
-        open.pop_back();
-        const auto visit = [&](std::size_t j) {
-          if (area_of[j] < 0 && area_key(cells_[j]) == area_key(cells_[i])) {
-            area_of[j] = areas;
-            open.push_back(j);
-          }
-        };
-        const std::size_t column = i % columns();
-        const std::size_t row = i / columns();
-        if (column > 0) visit(i - 1);
-        if (column + 1 < columns()) visit(i + 1);
-        if (row > 0) visit(i - columns());
-        if (row + 1 < rows()) visit(i + columns());
-      }
-      ++areas;
-    }
-    return area_of;
-  }
-
-  /// Steps from each cell out of its area, at least 1: two sweeps.
-  [[nodiscard]] std::vector<int> depths(const std::vector<int>& area_of) const {
-    std::vector<int> depth(cells_.size(), 1);
-    const auto lower = [&](std::size_t i, bool inside, std::size_t j) {
-      const int there = inside && area_of[j] == area_of[i] ? depth[j] : 0;
-      return there + 1;
-    };
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-      depth[i] =
-          std::min(lower(i, i % columns() > 0, i - 1), lower(i, i >= columns(), i - columns()));
-    }
-    for (std::size_t i = cells_.size(); i-- > 0;) {
-      depth[i] = std::min({depth[i], lower(i, i % columns() + 1 < columns(), i + 1),
-                           lower(i, i + columns() < cells_.size(), i + columns())});
-    }
-    return depth;
   }
 
   /// Left out where the area is too small for it.
@@ -258,8 +181,7 @@ class CellGrid {
     }
     const Vec2 low = corner(from, row);
     const Vec2 high = corner(to, row + 1);
-    const bool tall = low.y - high.y >= 0.5 * usual_font || rows() > 1;
-    if (!tall || high.x - low.x < text_width(name, usual_font) + 4.0) {
+    if (high.x - low.x < text_width(name, usual_font) + 4.0) {
       return "";
     }
     return svg_text("halo strong", {0.5 * (low.x + high.x), 0.5 * (low.y + high.y) + 4.0}, name,
