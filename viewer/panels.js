@@ -64,6 +64,8 @@ function show_result(record) {
     hit ? ["Change of speed, ego / other", `${num(hit.ego_delta_v_mps, 1)} / ${num(hit.other_delta_v_mps, 1, "m/s")}`] : null,
     ["Smallest gap", num(result.clearance_m, 2, "m")], ["Collision Loss", num(result.collision_loss, 2)], ["Harm", num(result.harm, 3)],
   ].filter(Boolean).map(([k, v]) => el("div", {}, el("dt", { text: k }), el("dd", { text: v })))));
+  const pictures = [close_up(record), cost_charts(record)].filter(Boolean);
+  if (pictures.length) panel.append(el("div", { class: "pictures" }, pictures));
   panel.append(rows.length
     ? table("Outcome of each policy from the trigger on", ["Policy", "Contact", "Gap [m]", "Collision Loss", "Harm"], rows)
     : el("p", { class: "soft", text: "The record holds no hindsight." }));

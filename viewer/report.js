@@ -119,6 +119,7 @@ function start() {
   show_header(record);
   show_decision(record);
   show_driver(record);
+  show_futures(record);
   show_result(record);
   show_previews(record, show_in_plan);
   show_run(record);

@@ -14,6 +14,7 @@ void add_memory(CLI::App& line, int& exit_code);
 void add_model(CLI::App& line, int& exit_code);
 void add_physics(CLI::App& line, int& exit_code);
 void add_drive(CLI::App& line, int& exit_code);
+void add_harm(CLI::App& line, int& exit_code);
 void add_tune(CLI::App& line, int& exit_code);
 void add_vehicle(CLI::App& line, int& exit_code);
 void add_bench(CLI::App& line, int& exit_code);

@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
     add_model(line, exit_code);
     add_physics(line, exit_code);
     add_drive(line, exit_code);
+    add_harm(line, exit_code);
     add_tune(line, exit_code);
     add_vehicle(line, exit_code);
     add_bench(line, exit_code);

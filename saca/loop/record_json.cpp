@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "saca/core/units.h"
@@ -51,6 +52,9 @@ json contact_json(const outcome::Outcome& outcome, std::span<const world::Actor>
           {"relative_speed_mps", contact.relative_speed},
           {"x_m", contact.p_W.x},
           {"y_m", contact.p_W.y},
+          {"normal_deg", to_degrees(std::atan2(contact.n_W.y, contact.n_W.x))},
+          {"v_rel_x_mps", contact.v_rel_W.x},
+          {"v_rel_y_mps", contact.v_rel_W.y},
           {"ego_delta_v_mps", contact.ego_delta_v},
           {"other_delta_v_mps", contact.other_delta_v}};
 }

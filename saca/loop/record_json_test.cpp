@@ -49,6 +49,12 @@ TEST(RecordJson, HoldsWhatTheFormatPromises) {
   EXPECT_EQ(out["hindsight"].size(), 8U);
   EXPECT_FALSE(out["hindsight"][5]["refusal"].is_null());
   EXPECT_GT(out["hindsight"][0]["path"].size(), 10U);
+  // Without intervention the front meets the pedestrian, straight ahead to the east at 9 m/s.
+  const json& contact = out["hindsight"][7]["contact"];
+  EXPECT_EQ(contact["ego_face"], "front");
+  EXPECT_NEAR(contact["normal_deg"].get<double>(), 0.0, 0.1);
+  EXPECT_NEAR(contact["v_rel_x_mps"].get<double>(), -9.0, 0.1);
+  EXPECT_NEAR(contact["v_rel_y_mps"].get<double>(), 0.0, 0.1);
   EXPECT_EQ(out["result"]["false_trigger_loss"], 0.0);  // doing nothing would have hit
   EXPECT_GE(out["timing"]["preview_s"], 0.0);
   EXPECT_TRUE(out["timing"]["first_answer_s"].is_null());  // nobody was asked

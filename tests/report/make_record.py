@@ -165,6 +165,8 @@ class Encounter:
         return {"contact": {"time_s": time, "with": mover.name, "ego_face": face,
                             "other_face": face_of(p, other_pose, mover.length, mover.width, 0.0),
                             "relative_speed_mps": speed, "x_m": p[0], "y_m": p[1],
+                            "normal_deg": math.degrees(pose[2]) + {"front": 0, "left": 90, "right": -90, "rear": 180}[face],
+                            "v_rel_x_mps": -velocity[0], "v_rel_y_mps": -velocity[1],
                             "ego_delta_v_mps": 0.55 * speed, "other_delta_v_mps": 0.6 * speed},
                 "collision_loss": factor * speed, "harm": 2 / (1 + math.exp(4.457 - 0.177 * 0.6 * speed)),
                 "clearance_m": 0.0}
@@ -343,13 +345,28 @@ def played(name, title, encounter, policy, model, gates, driver):
                        "first_answer_s": 0.6 if gates else None, "answer_s": 1.3 if gates else None, "deadline_misses": 0}}
 
 
+def with_draws(record, encounter):
+    """The keys that a record may have besides: intervals over draws, the others' motion under each policy, a second contact."""
+    start = record["decision"]["time_s"]
+    for row in record["hindsight"]:
+        if row["refusal"]:
+            continue
+        row.update({f"{key}_{end}": factor * row[key] for key in ("harm", "collision_loss") for end, factor in (("lo", 0.7), ("hi", 1.4))})
+        row["others"] = [{"id": m.name, "path": [[x, y, math.degrees(h)] for k in range(len(row["path"])) for a in [m.at(start + 0.05 * k)]
+                                                 for x, y, h in [encounter.road.to_world(*a[:3])]]} for m in encounter.movers]
+        if row["contact"]:
+            row["later"] = [{**row["contact"], "time_s": row["contact"]["time_s"] + 0.2, "with": "edge", "x_m": row["contact"]["x_m"] + 2.0}]
+    return record
+
+
 def contact():
     road = Road()
     movers = [Mover("car1", 39.0, 0.0, 20.0, 1.0, 2.3), Mover("van1", -26.0, 0.2, 20.5, 4.5, 5.0),
               Mover("car2", -55.0, 3.4, 23.0), Mover("pedestrian1", 96.0, -3.6, 1.3, heading_deg=180)]
-    return played("synthetic_contact", "Test data: lead car brakes on a wet road", Encounter(road, movers, 20.0, 0.5), 0,
-                  "synthetic stand-in for a language model", ["reason", "reason", "check"],
-                  "Synthetic driver: braked 0.6 s after the trigger and struck car1 at 9.1 m/s.")
+    encounter = Encounter(road, movers, 20.0, 0.5)
+    return with_draws(played("synthetic_contact", "Test data: lead car brakes on a wet road", encounter, 0,
+                             "synthetic stand-in for a language model", ["reason", "reason", "check"],
+                             "Synthetic driver: braked 0.6 s after the trigger and struck car1 at 9.1 m/s."), encounter)
 
 
 def clear():

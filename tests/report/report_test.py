@@ -15,7 +15,7 @@ from pages import FORMATS, HOSTILE, colour, contrast, keys, like, luminance, pix
 
 KINDS = list(make_record.RECORDS)
 RECORDS = {kind: make() for kind, make in make_record.RECORDS.items()}
-PANELS = ["stage", "time", "decision", "driver", "result", "previews", "run"]
+PANELS = ["stage", "time", "decision", "driver", "futures", "result", "previews", "run"]
 
 
 @pytest.fixture
@@ -147,6 +147,123 @@ def test_each_preview_shows_its_memory_answers_check_prompt_and_reasoning(show):
 def test_the_driver_panel_says_what_the_driver_did_or_that_nobody_knows(show):
     assert "struck car1 at 9.1 m/s" in show(RECORDS["contact"]).run("by_id('driver').innerText")
     assert "does not know" in show(RECORDS["clear"]).run("by_id('driver').innerText")
+
+
+# --- pictures of what would have been ---------------------------------------------------------------
+
+
+def future(page, policy):
+    """Of one policy's picture: px per metre by its scale bar, and points of elements by class [px]."""
+    return page.run(f"""(figure => {{
+      const points = (e) => e.getAttribute('points').split(' ').map((p) => p.split(',').map(Number));
+      const bar = points(figure.querySelector('.scale')), metres = parseFloat([...figure.querySelectorAll('text')].pop().textContent);
+      return {{ scale: (bar[2][0] - bar[1][0]) / metres, trail: [...figure.querySelectorAll('.trail')].map(points),
+        ego: [...figure.querySelectorAll('polygon.body.ego')].map(points), threats: [...figure.querySelectorAll('polygon.body.threat')].map(points),
+        others: [...figure.querySelectorAll('.body.actor, .body.threat')].length, ghosts: figure.querySelectorAll('polygon.ghost.ego').length,
+        stars: [...figure.querySelectorAll('.star')].length, words: figure.innerText }};
+    }})(document.querySelectorAll('.future')[{policy}])""")
+
+
+def middle(points):
+    return [sum(c) / len(points) for c in zip(*points)]
+
+
+@pytest.mark.parametrize("kind", ["contact", "clear", "crowd"])
+def test_small_multiples_show_all_eight_to_one_scale(show, kind):
+    page, record = show(RECORDS[kind]), RECORDS[kind]
+    shown = [future(page, policy) for policy in range(8)]
+    assert page.run("document.querySelectorAll('.future').length") == 8
+    for row, picture in zip(record["hindsight"], shown):
+        assert picture["scale"] == pytest.approx(shown[0]["scale"], rel=1e-6)
+        assert f"{row['policy']} {row['name']}" in picture["words"]
+        assert len(picture["ego"]) == 1
+        if row["refusal"]:
+            assert row["refusal"] in picture["words"] and picture["ghosts"] == 0
+            continue
+        first, last = row["path"][0], row["path"][-1]
+        way = math.dist(picture["trail"][0][0], picture["trail"][0][-1])
+        assert way == pytest.approx(picture["scale"] * math.dist(first[:2], last[:2]), abs=0.3), "the way of the centre of mass"
+        (a, b, c, _), ego = picture["ego"][0], record["ego"]
+        assert math.dist(a, b) == pytest.approx(picture["scale"] * ego["length_m"], abs=0.3)
+        assert math.dist(b, c) == pytest.approx(picture["scale"] * ego["width_m"], abs=0.3)
+        assert picture["stars"] == (1 + len(row.get("later", [])) if row["contact"] else 0)
+
+
+def test_the_lane_points_to_the_right_and_left_is_up(show):
+    picture = future(show(RECORDS["clear"]), 3)  # a lane change to the left, on a road that heads 35 degrees and bends left
+    (x0, y0), (x1, y1) = picture["trail"][0][0], picture["trail"][0][-1]
+    assert x1 - x0 > 2 * (y0 - y1) > 0
+    on_the_way = picture["trail"][0][1]
+    assert abs(on_the_way[1] - y0) < 0.05 * (on_the_way[0] - x0) + 0.2, "begins along the lane"
+
+
+def test_others_move_as_under_the_policy_where_the_record_says_so(show):
+    record = copy.deepcopy(RECORDS["contact"])
+    struck = future(show(record), 0)["threats"]
+    assert len(struck) == 1
+    for one in record["hindsight"][0]["others"]:
+        if one["id"] == "car1":
+            one["path"] = [[x, y + 2.0, heading] for x, y, heading in one["path"]]  # the road heads east: 2 m to the left
+    moved = future(show(record), 0)
+    assert middle(struck[0])[1] - middle(moved["threats"][0])[1] == pytest.approx(2.0 * moved["scale"], abs=0.3)
+    for row in record["hindsight"]:
+        row.pop("others", None)
+    assert middle(future(show(record), 0)["threats"][0]) == pytest.approx(middle(struck[0]), abs=1.0), "else as in the frames"
+
+
+def test_bars_and_whiskers_are_in_proportion(show):
+    page, record = show(RECORDS["contact"]), RECORDS["contact"]
+    for chart, key in enumerate(("harm", "collision_loss")):
+        most = max(row[f"{key}_hi"] for row in record["hindsight"] if not row["refusal"])
+        rows = page.run(f"""[...document.querySelectorAll('.cost')[{chart}].querySelectorAll('.cost-row')].map((row) => ({{
+          text: row.innerText, rail: row.querySelector('.cost-rail')?.clientWidth, bar: row.querySelector('.cost-bar')?.getBoundingClientRect().width,
+          whisker: ((a, b) => a && [a.getBoundingClientRect().left - b.getBoundingClientRect().left, a.getBoundingClientRect().width])(row.querySelector('.whisker'), row.querySelector('.cost-rail')) }}))""")
+        assert len(rows) == 8
+        for row, shown in zip(record["hindsight"], rows):
+            if row["refusal"]:
+                assert "refused" in shown["text"] and shown.get("rail") is None
+                continue
+            assert shown["rail"] == rows[0]["rail"], "bars are compared over one length"
+            assert shown["bar"] == pytest.approx(shown["rail"] * row[key] / most, abs=1)
+            if row[key] > 0:
+                assert shown["whisker"] == pytest.approx([shown["rail"] * row[f"{key}_lo"] / most, shown["rail"] * (row[f"{key}_hi"] - row[f"{key}_lo"]) / most], abs=1)
+    assert show(RECORDS["clear"]).run("document.querySelectorAll('.whisker').length") == 0, "no intervals in that record"
+
+
+def test_the_close_up_shows_faces_normal_and_relative_velocity(show):
+    page, contact = show(RECORDS["contact"]), RECORDS["contact"]["result"]["contact"]
+    assert (contact["ego_face"], contact["other_face"]) == ("front", "rear")
+    seen = page.run("""(figure => {
+      const line = (e) => ['x1', 'y1', 'x2', 'y2'].map((k) => Number(e.getAttribute(k)));
+      const points = (e) => e.getAttribute('points').split(' ').map((p) => p.split(',').map(Number));
+      return { normal: line(figure.querySelector('.arrow.normal')), velocity: line(figure.querySelector('.arrow.v-rel')), faces: [...figure.querySelectorAll('.face')].map(points),
+        ego: points(figure.querySelector('.body.ego')), other: points(figure.querySelector('.body.threat')), text: figure.innerText + figure.textContent };
+    })(document.querySelector('.close-up'))""")
+    assert seen["normal"][2] > seen["normal"][0] + 30 and seen["normal"][3] == pytest.approx(seen["normal"][1], abs=1), "ahead, out of the front"
+    assert seen["velocity"][2] < seen["velocity"][0] - 10, "the slower car comes towards the ego"
+    assert middle(seen["ego"])[0] < middle(seen["faces"][0])[0] == pytest.approx(max(x for x, _ in seen["ego"]), abs=0.2)
+    assert middle(seen["faces"][1])[0] == pytest.approx(min(x for x, _ in seen["other"]), abs=0.2)
+    assert f"{contact['relative_speed_mps']:.1f}" in seen["text"] and "car1" in seen["text"]
+    assert f"ego {contact['ego_delta_v_mps']:.1f}\u00a0m/s, car1 {contact['other_delta_v_mps']:.1f}\u00a0m/s" in seen["text"]
+
+
+def test_a_close_up_needs_a_contact_and_draws_no_arrow_that_is_not_known(show):
+    assert show(RECORDS["clear"]).run("document.querySelectorAll('.close-up').length") == 0
+    record = copy.deepcopy(RECORDS["contact"])
+    for key in ("normal_deg", "v_rel_x_mps"):
+        del record["result"]["contact"][key]
+    page = show(record)
+    assert page.run("document.querySelectorAll('.close-up .body').length") == 2
+    assert page.run("document.querySelectorAll('.close-up .arrow').length") == 0
+    assert page.problems == []
+
+
+def test_a_contact_with_the_edge_has_a_close_up_without_another_body(show):
+    record = copy.deepcopy(RECORDS["contact"])
+    record["result"]["contact"].update({"with": "edge", "other_face": None})
+    page = show(record)
+    assert page.run("document.querySelectorAll('.close-up .body').length") == 1
+    assert page.problems == []
 
 
 # --- time ----------------------------------------------------------------------------------------
