@@ -1,16 +1,15 @@
 #include <fmt/core.h>
 
-#include <atomic>
-#include <filesystem>
+#include <algorithm>
+#include <array>
 #include <memory>
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "apps/saca/commands.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/surveying.h"
-#include "saca/core/parallel.h"
+#include "saca/core/proportion.h"
 
 namespace saca::app {
 namespace {

@@ -21,6 +21,11 @@ int main(int argc, char** argv) {
     add_physics(line, exit_code);
     add_drive(line, exit_code);
     add_harm(line, exit_code);
+    add_oracle(line, exit_code);
+    add_whatif(line, exit_code);
+    add_family(line, exit_code);
+    add_balance(line, exit_code);
+    add_search_showcase(line, exit_code);
     add_tune(line, exit_code);
     add_vehicle(line, exit_code);
     add_bench(line, exit_code);

@@ -91,9 +91,8 @@ void print(const eval::Oracle& oracle, const OracleCommand& options) {
   }
   const eval::Margin margin = margin_of_best(oracle);
   fmt::print("\nBest: {}", name(oracle.best()));
-  fmt::print(margin.low > 0.0 ? ", alone by {:.4f} harm (at least {:.4f}).\n"
-                              : "; not clearly alone (by {:.4f} harm, at least {:.4f}).\n",
-             margin.mean, margin.low);
+  fmt::print("{} (by {:.4f} harm, at least {:.4f}).\n",
+             margin.low > 0.0 ? ", alone" : ", not clearly alone", margin.mean, margin.low);
 }
 
 int run(const OracleCommand& options) {

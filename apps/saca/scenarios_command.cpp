@@ -22,7 +22,7 @@ int list_scenarios(bool as_json) {
   }
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(places.value().root / "scenarios")) {
-    if (entry.path().extension() == ".toml") {
+    if (entry.path().extension() == ".toml" && entry.path().filename() != "splits.toml") {
       files.push_back(entry.path());
     }
   }

@@ -22,7 +22,7 @@ constexpr int batch = 64;  // encounters between two looks at the clock and the 
 /// Of everything that changes what is found: the files, and the program's version.
 std::optional<Error> add_files(const Places& places, const std::string& car, Fnv& hash) {
   std::vector<fs::path> files{find_car(places, car), places.root / "data" / "harm.toml",
-                              places.root / "scenarios" / "suites.toml",
+                              places.root / "scenarios" / "families" / "suites.toml",
                               places.root / "scenarios" / "splits.toml"};
   files.push_back(manoeuvre::tuning_path(files.front()));
   for (const auto& entry : fs::directory_iterator(places.root / "scenarios" / "families")) {
@@ -42,7 +42,7 @@ std::optional<Error> add_files(const Places& places, const std::string& car, Fnv
 }
 
 Result<sim::Suite> find_suite(const Places& places, const std::string& wanted) {
-  const fs::path file = places.root / "scenarios" / "suites.toml";
+  const fs::path file = places.root / "scenarios" / "families" / "suites.toml";
   const auto suites = sim::load_suites(file);
   if (!suites.has_value()) {
     return suites.error();

@@ -63,12 +63,12 @@ Result<std::optional<std::vector<Cell>>> try_all(const ScenarioInputs& inputs, d
   SteadyClock clock;
   ProgressLine progress("what if", static_cast<int>(cells.size()), clock);
   watch_for_interrupt();
-  constexpr std::size_t batch = 32;
-  for (std::size_t from = 0; from < cells.size(); from += batch) {
+  constexpr std::size_t at_once = 32;
+  for (std::size_t from = 0; from < cells.size(); from += at_once) {
     if (interrupted()) {
       return std::optional<std::vector<Cell>>();
     }
-    const std::size_t to = std::min(cells.size(), from + batch);
+    const std::size_t to = std::min(cells.size(), from + at_once);
     in_parallel(to - from, threads, [&](std::size_t i) {
       const auto scenario = scenario_at(inputs, time, axes, from + i);
       if (!scenario.has_value()) {

@@ -42,10 +42,10 @@ Moment moment_at(const sim::Scenario& scenario, const manoeuvre::Car& car, doubl
   for (int k = 0; k < looks_until(time); ++k) {
     advance_one_look(stepper);
   }
-  return {.scene = stepper.scene(),
-          .others = stepper.others(),
-          .grip = scenario.grip,
-          .unknown = chance.car};
+  world::Scene scene = stepper.scene();
+  scene.grip = scenario.perception.grip_believed.value_or(scenario.grip);
+  stepper.take_the_wheel();
+  return {.scene = scene, .others = stepper.others(), .grip = scenario.grip, .unknown = chance.car};
 }
 
 std::array<loop::Hindsight, manoeuvre::num_policies> attempts(const Moment& moment,

@@ -22,7 +22,7 @@ namespace saca::eval {
 
 /// One instant of a scenario, and what follows from it: all that a policy's outcome depends on.
 struct Moment {
-  world::Scene scene;      ///< as it truly is
+  world::Scene scene;      ///< as it truly is, but for the grip, which the ego believes in
   outcome::Others others;  ///< what the others do from then on, the ego's motion given
   double grip = 0.0;       ///< of the road as written; `unknown` may change it
   manoeuvre::Unknown unknown;

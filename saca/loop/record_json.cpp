@@ -14,7 +14,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double path_step = 0.05;  // [s] between the points of a hindsight path
+constexpr double path_step = 0.05;     // [s] between the points of a hindsight path
+constexpr double longest_path = 10.0;  // [s]: whoever drives on longer has left the picture
 
 json number_or_null(const std::optional<double>& number) {
   return number ? json(*number) : json(nullptr);
@@ -40,11 +41,7 @@ json frame_json(const Frame& frame) {
           {"conflict_s", number_or_null(frame.conflict)}};
 }
 
-json contact_json(const outcome::Outcome& outcome, std::span<const world::Actor> actors) {
-  if (!outcome.contact) {
-    return nullptr;
-  }
-  const outcome::Contact& contact = *outcome.contact;
+json contact_json(const outcome::Contact& contact, std::span<const world::Actor> actors) {
   return {{"time_s", contact.time},
           {"with", contact.actor ? actor_name(actors[*contact.actor]) : "edge"},
           {"ego_face", name(contact.ego_face)},
@@ -59,6 +56,11 @@ json contact_json(const outcome::Outcome& outcome, std::span<const world::Actor>
           {"other_delta_v_mps", contact.other_delta_v}};
 }
 
+/// The first contact, or null.
+json first_contact_json(const outcome::Outcome& outcome, std::span<const world::Actor> actors) {
+  return outcome.contact ? contact_json(*outcome.contact, actors) : json(nullptr);
+}
+
 std::span<const world::Actor> actors_of(const world::Scene& scene) {
   return {scene.actors.begin(), scene.actors.size()};
 }
@@ -71,7 +73,7 @@ json facts_json(const preview::PolicyFacts& facts, const world::Scene& scene) {
           {"target_speed_mps", number_or_null(facts.plan.target_speed)},
           {"refusal", driven ? json(nullptr) : json(facts.refusal)},
           {"text", driven ? outcome::describe(facts.outcome, scene) : facts.refusal},
-          {"contact", driven ? contact_json(facts.outcome, actors_of(scene)) : json(nullptr)},
+          {"contact", driven ? first_contact_json(facts.outcome, actors_of(scene)) : json(nullptr)},
           {"clearance_m", driven ? json(facts.outcome.clearance) : json(nullptr)},
           {"collision_loss", driven ? json(facts.outcome.collision_loss) : json(nullptr)},
           {"harm", driven ? json(facts.outcome.harm) : json(nullptr)}};
@@ -153,6 +155,31 @@ json decision_json(const Record& record) {
   return out;
 }
 
+/// Where a body is every `path_step` from `start` on.
+json path_json(const world::Track& track, double start, double end) {
+  json path = json::array();
+  const int count = static_cast<int>(std::floor((end - start) / path_step + 1e-6));
+  for (int k = 0; k <= count; ++k) {
+    const Pose X = world::pose_at(track, start + k * path_step);
+    path.push_back({X.p.x, X.p.y, to_degrees(X.yaw)});
+  }
+  return path;
+}
+
+/// What was done and what came of it, until the ego rests or for `longest_path`.
+void add_course(const outcome::Course& course, const world::Scene& scene, json& entry) {
+  const double start = scene.time;
+  const double end = std::min(world::end_time(course.ego.track), start + longest_path);
+  entry["path"] = path_json(course.ego.track, start, end);
+  for (std::size_t i = 0; i < scene.actors.size(); ++i) {
+    entry["others"].push_back(
+        {{"id", actor_name(scene.actors[i])}, {"path", path_json(course.others[i], start, end)}});
+  }
+  for (const outcome::Contact& contact : course.outcome.later) {
+    entry["later"].push_back(contact_json(contact, actors_of(scene)));
+  }
+}
+
 json hindsight_json(const Record& record) {
   json all = json::array();
   if (!record.hindsight) {
@@ -160,21 +187,19 @@ json hindsight_json(const Record& record) {
   }
   for (const Hindsight& one : *record.hindsight) {
     json entry = facts_json(one.facts, *record.at_trigger);
-    json path = json::array();
-    const auto stride = std::max<std::size_t>(
-        1, static_cast<std::size_t>(std::lround(path_step / one.motion.track.step)));
-    for (std::size_t k = 0; k < one.motion.track.X_WA.size(); k += stride) {
-      const Pose& X = one.motion.track.X_WA[k];
-      path.push_back({X.p.x, X.p.y, to_degrees(X.yaw)});
+    entry["path"] = json::array();
+    entry["others"] = json::array();
+    entry["later"] = json::array();
+    if (one.facts.refusal.empty()) {
+      add_course(one.course, *record.at_trigger, entry);
     }
-    entry["path"] = path;
     all.push_back(entry);
   }
   return all;
 }
 
 json outcome_json(const outcome::Outcome& outcome, std::span<const world::Actor> actors) {
-  return {{"contact", contact_json(outcome, actors)},
+  return {{"contact", first_contact_json(outcome, actors)},
           {"collision_loss", outcome.collision_loss},
           {"harm", outcome.harm},
           {"clearance_m", outcome.clearance},

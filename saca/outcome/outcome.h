@@ -122,8 +122,9 @@ struct Course {
 [[nodiscard]] Outcome roll_out(const manoeuvre::Car& car, const manoeuvre::Plan& plan,
                                const world::Scene& scene, std::span<const world::Track> tracks,
                                double grip, const HarmModel& harm);
+/// @param unknown  what else the ego's controller does not know; its grip is a factor of `grip`
 [[nodiscard]] Course roll_out(const manoeuvre::Car& car, const manoeuvre::Plan& plan,
                               const world::Scene& scene, const Others& others, double grip,
-                              const HarmModel& harm);
+                              const HarmModel& harm, const manoeuvre::Unknown& unknown = {});
 
 }  // namespace saca::outcome

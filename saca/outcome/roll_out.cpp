@@ -23,8 +23,11 @@ Outcome roll_out(const manoeuvre::Car& car, const manoeuvre::Plan& plan, const w
 }
 
 Course roll_out(const manoeuvre::Car& car, const manoeuvre::Plan& plan, const world::Scene& scene,
-                const Others& others, double grip, const HarmModel& harm) {
-  return play_out(drive(car, plan, scene, grip, longest(scene, grip)), scene, others, harm, grip);
+                const Others& others, double grip, const HarmModel& harm,
+                const manoeuvre::Unknown& unknown) {
+  const double real = std::min(1.2, grip * unknown.grip);
+  return play_out(drive(car, plan, scene, grip, longest(scene, real), unknown), scene, others, harm,
+                  real);
 }
 
 }  // namespace saca::outcome

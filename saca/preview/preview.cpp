@@ -134,7 +134,7 @@ std::array<PolicyFacts, manoeuvre::num_policies> policy_facts(const Scene& scene
     fact.plan = manoeuvre::default_plan(policy, norm(scene.ego.v_B));
     fact.refusal = manoeuvre::refusal(car, fact.plan, scene).value_or("");
     if (fact.refusal.empty()) {
-      fact.outcome = outcome::roll_out(car, fact.plan, scene, others, scene.grip, harm);
+      fact.outcome = outcome::roll_out(car, fact.plan, scene, others, scene.grip, harm).outcome;
     }
   }
   return facts;
