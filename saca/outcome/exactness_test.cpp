@@ -104,25 +104,31 @@ double gap_to_ellipse(const Footprint& disc, const Pose& X_disc, const Footprint
         X_other * Vec2{other.centre_x + h.x * std::cos(angle), h.y * std::sin(angle)});
   };
   constexpr int num_points = 64;
-  int best = 0;
+  std::array<double, num_points> radius{};
+  for (int i = 0; i < num_points; ++i) {
+    radius[static_cast<std::size_t>(i)] = norm(point(2.0 * pi * i / num_points));
+  }
+  // The outline may come near in two places.
   double least = 1e300;
   for (int i = 0; i < num_points; ++i) {
-    const double r = norm(point(2.0 * pi * i / num_points));
-    if (r < least) {
-      least = r;
-      best = i;
+    const auto at = [&](int k) {
+      return radius[static_cast<std::size_t>((k + num_points) % num_points)];
+    };
+    if (at(i) > at(i - 1) || at(i) > at(i + 1)) {
+      continue;
     }
-  }
-  double low = 2.0 * pi * (best - 1) / num_points;
-  double high = 2.0 * pi * (best + 1) / num_points;
-  const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
-  for (int i = 0; i < 40; ++i) {
-    const double a = high - golden * (high - low);
-    const double b = low + golden * (high - low);
-    (norm(point(a)) < norm(point(b)) ? high : low) = norm(point(a)) < norm(point(b)) ? b : a;
+    double low = 2.0 * pi * (i - 1) / num_points;
+    double high = 2.0 * pi * (i + 1) / num_points;
+    const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+    for (int k = 0; k < 40; ++k) {
+      const double s = high - golden * (high - low);
+      const double t = low + golden * (high - low);
+      (norm(point(s)) < norm(point(t)) ? high : low) = norm(point(s)) < norm(point(t)) ? t : s;
+    }
+    least = std::min(least, norm(point(0.5 * (low + high))));
   }
   const Vec2 inside = on_unit_disc(other, X_other, X_disc * Vec2{disc.centre_x, 0.0});
-  const double gap = norm(point(0.5 * (low + high))) - 1.0;
+  const double gap = least - 1.0;
   return norm(inside) < 1.0 ? std::min(gap, norm(inside) - 1.0) : gap;
 }
 
