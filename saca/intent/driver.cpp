@@ -154,8 +154,8 @@ void LaneDriver::advance(const Ahead& ahead) {
   place_.s += direction_ * driver_.advance(ahead) / scale;
 }
 
-Vec2 LaneDriver::v_W() const {
-  const double lane_yaw = X_WA().yaw - place_.heading;
+Vec2 LaneDriver::velocity() const {
+  const double lane_yaw = pose().yaw - place_.heading;
   return rotated({direction_ * driver_.speed(), 0.0}, lane_yaw);
 }
 
@@ -176,7 +176,7 @@ world::Track reacting_track(const world::Road& road, const world::Actor& driver,
                      world::velocity_at(*body.track, time)};
     });
     it.advance(it.ahead(present));
-    track.X_WA.push_back(it.X_WA());
+    track.X_WA.push_back(it.pose());
   }
   return track;
 }

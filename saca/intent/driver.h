@@ -132,8 +132,9 @@ class LaneDriver {
   /// One step of the driver.
   void advance(const Ahead& ahead);
 
-  [[nodiscard]] Pose X_WA() const { return world::from_lane(road_, place_); }
-  [[nodiscard]] Vec2 v_W() const;
+  /// X_WA, and v_W over ground [m/s].
+  [[nodiscard]] Pose pose() const { return world::from_lane(road_, place_); }
+  [[nodiscard]] Vec2 velocity() const;
   [[nodiscard]] Driver& driver() { return driver_; }
   [[nodiscard]] const world::Footprint& footprint() const { return footprint_; }
 

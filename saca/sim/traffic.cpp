@@ -56,14 +56,14 @@ void Traffic::appoint(std::size_t actor, const Pose& X_WA, double speed, intent:
   if (num_steps_ == 0 && chance_.from <= 0.0) {
     member.driver->driver().speed_up(drawn.speed);
   }
-  member.now = {member.driver->X_WA(), member.driver->v_W()};
+  member.now = {member.driver->pose(), member.driver->velocity()};
 }
 
 bool Traffic::is_there(std::size_t actor) const {
   return members_[actor].appears <= time() + nearly;
 }
 
-void Traffic::note(Member& member) {
+void Traffic::note(Member& member) const {
   if (member.appears <= time() + nearly) {
     member.seen[member.num_seen % member.seen.size()] = member.now;
     ++member.num_seen;
@@ -104,7 +104,7 @@ void Traffic::advance(const Pose& X_WB, Vec2 v_W, const world::Footprint& ego) {
       if (differs_from_now) {
         member.driver->driver().speed_up(chance_.actors[i].speed);
       }
-      member.now = {member.driver->X_WA(), member.driver->v_W()};
+      member.now = {member.driver->pose(), member.driver->velocity()};
     } else {
       member.now.X_WA = member.next;
       member.next = actor_pose(*scenario_, i, time() + step, chance_);

@@ -73,7 +73,7 @@ class Traffic {
   void release_followers(const Pose& X_WB, Vec2 v_W, const world::Footprint& ego);
   /// Makes an actor a reacting driver.
   void appoint(std::size_t actor, const Pose& X_WA, double speed, intent::DriverLaw law);
-  void note(Member& member);
+  void note(Member& member) const;
 
   const Scenario* scenario_;
   Chance chance_;
