@@ -140,7 +140,7 @@ void add_commonroad(CLI::App& command, int& exit_code) {
       ->check(CLI::Range(0.0, 1e6));
   traffic
       ->add_option("--after_s", options->request.after,
-                   "How long the scenario goes on after the recording")
+                   "How long the scenario goes on after the recording, everybody straight on")
       ->check(CLI::Range(0.0, 60.0))
       ->capture_default_str();
   traffic->add_option("--output", options->output, "The scenario file")->required();

@@ -21,7 +21,9 @@ struct TrafficRequest {
   /// planning problem's start and goes on along its lane at constant speed.
   std::optional<std::int64_t> ego;
   std::optional<double> from;  ///< the scenario's 0 in the file's time [s]; else the ego's start
-  double after = 5.0;          ///< how long the scenario goes on after the last sample kept [s]
+  /// How long the scenario goes on after the last sample, when everybody goes straight on [s], >=
+  /// 0.
+  double after = 0.0;
 };
 
 /// A recorded body in the scenario.

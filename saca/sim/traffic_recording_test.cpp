@@ -72,7 +72,7 @@ TEST(TrafficScenario, PutsTheEgoAtThePlanningProblem) {
   EXPECT_EQ(made.report.actors[1].obstacle, 5);
   const world::Track ahead = actor_track(scenario, 1, dt);
   EXPECT_NEAR(world::pose_at(ahead, 3.0).p.x, 30.0 + 36.0, 2e-3);
-  EXPECT_NEAR(scenario.duration, 5.9 + 5.0, 1e-9);
+  EXPECT_NEAR(scenario.duration, 5.9, 1e-9);
   EXPECT_NEAR(scenario.road.right_edge, -5.25, 1e-9);
   EXPECT_NEAR(scenario.road.left_edge, 1.75, 1e-9);
 }
@@ -91,7 +91,7 @@ TEST(TrafficScenario, IsReadBackByTheScenariosReader) {
 TEST(TrafficScenario, LetsTheEgoDriveAsARecordedVehicleDid) {
   CommonRoad file = two_lanes();
   file.obstacles = {car(5, 30.0, 0.0, 12.0), car(6, 8.0, -3.5, 14.0)};
-  const TrafficImport made = made_of(file, {.ego = 6, .from = 2.0});
+  const TrafficImport made = made_of(file, {.ego = 6, .from = 2.0, .after = 2.5});
   const Scenario& scenario = made.scenario;
   ASSERT_EQ(scenario.actors.size(), 1U);  // the ego is no actor
   EXPECT_EQ(made.report.from, 2.0);
@@ -100,7 +100,7 @@ TEST(TrafficScenario, LetsTheEgoDriveAsARecordedVehicleDid) {
   EXPECT_NEAR(ego.X_WB.p.x + made.report.origin_W.x, 8.0 + 14.0 * 3.0 + 0.1, 2e-3);
   EXPECT_NEAR(ego.v_B.x, 14.0, 2e-3);
   EXPECT_NEAR(to_lane(scenario.road, ego.X_WB).d, 0.0, 2e-3);  // its lane, not the planned one's
-  EXPECT_NEAR(scenario.duration, 3.9 + 5.0, 1e-9);
+  EXPECT_NEAR(scenario.duration, 3.9 + 2.5, 1e-9);
 }
 
 TEST(TrafficScenario, WhoAppearsLaterIsThereFromItsFirstSample) {

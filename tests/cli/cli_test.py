@@ -157,7 +157,7 @@ def test_a_drift_on_a_slippery_road_is_refused_and_it_brakes(scenario, tmp_path)
 
 @pytest.mark.parametrize("arguments", [
     [], ["run"], ["fly"], ["run", "x", "--pace", "warp"], ["run", "x", "--policy", "9"],
-    ["run", "x", "--policy", "left"], ["memory"], ["import", "100car"], ["bench", "luck"],
+    ["run", "x", "--policy", "left"], ["memory"], ["import", "100car"], ["import", "commonroad", "x.xml"], ["bench", "luck"],
     ["run", "x", "--no-such-flag"], ["vehicle"], ["vehicle", "fit"], ["vehicle", "fit", "x.csv"],
     ["vehicle", "test-drive", "fly", "--output", "x"], ["vehicle", "test-drive", "brake"],
     ["vehicle", "fit", "x.csv", "--car", "compact_rwd_ev", "--output", "y", "--grip", "9"]])
@@ -214,6 +214,34 @@ def test_an_event_file_with_missing_columns_is_refused(release, tmp_path):
 
 def test_an_event_that_is_not_there_is_named(release, tmp_path):
     assert "4711" in one_error(saca("import", "100car", release, "--event", 4711, cwd=tmp_path), BAD_INPUT)
+
+
+SMALL = ROOT / "saca/sim/testdata/commonroad_small.xml"
+
+
+def test_recorded_traffic_becomes_a_scenario_that_runs(tmp_path):
+    run = saca("import", "commonroad", SMALL, "--output", "mine.toml", cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    assert "4 vehicles around the planning problem" in run.stdout
+    assert "ignored: 1 shape/polygon" in run.stdout
+    assert quick("mine.toml", cwd=tmp_path).returncode == SUCCESS
+
+
+def test_the_ego_takes_a_recorded_vehicles_place(tmp_path):
+    run = saca("import", "commonroad", SMALL, "--ego", 10, "--from_s", 0.1, "--output", "mine.toml", "--json",
+               cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    told = json.loads(run.stdout)
+    assert told["ego"] == 10 and told["from_s"] == 0.1
+    assert [actor["obstacle"] for actor in told["actors"]] == [11, 21, 20]
+    assert quick("mine.toml", cwd=tmp_path).returncode == SUCCESS
+
+
+def test_predictions_are_no_recordings(tmp_path):
+    (tmp_path / "spot.xml").write_text(SMALL.read_text().replace("hand-made", "NGSIM (SPOT)"))
+    message = one_error(saca("import", "commonroad", "spot.xml", "--output", "x.toml", cwd=tmp_path), BAD_INPUT)
+    assert "spot.xml:4" in message and "SPOT" in message
+    assert not (tmp_path / "x.toml").exists()
 
 
 def test_a_damaged_memory_is_told_and_kept(tmp_path):
