@@ -6,13 +6,12 @@
 #include <string>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/inputs.h"
 #include "apps/saca/model.h"
-#include "apps/saca/places.h"
 #include "apps/saca/story.h"
 #include "saca/core/file.h"
 #include "saca/loop/encounter.h"
 #include "saca/loop/trace.h"
-#include "saca/manoeuvre/car.h"
 #include "saca/memory/store.h"
 #include "saca/report/html_report.h"
 
@@ -27,6 +26,7 @@ struct RunOptions {
   std::string model = "local";
   std::string record_replies;
   std::optional<int> policy;
+  std::optional<std::uint64_t> seed;
   std::string memory = "runs/memory.sqlite";
   bool no_memory = false;
   std::string output = "runs";
@@ -35,43 +35,13 @@ struct RunOptions {
   bool as_json = false;
 };
 
-/// Everything that a run reads before it begins.
-struct Inputs {
-  sim::Scenario scenario;
-  manoeuvre::Car car;
-  outcome::HarmModel harm;
-  loop::ThinkingCosts costs;
-};
-
-Result<Inputs> read_inputs(const Places& places, const RunOptions& options) {
-  Inputs inputs;
-  const auto scenario = sim::load_scenario(find_scenario(places, options.scenario));
-  if (!scenario.has_value()) {
-    return scenario.error();
+Result<loop::ThinkingCosts> read_costs(const Places& places) {
+  const fs::path file = places.root / "data" / "thinking_costs.toml";
+  const auto text = read_file(file);
+  if (!text.has_value()) {
+    return text.error();
   }
-  inputs.scenario = scenario.value();
-  const auto car =
-      manoeuvre::read_car(places.root / "data" / "vehicles" / (inputs.scenario.car + ".toml"));
-  if (!car.has_value()) {
-    return car.error();
-  }
-  inputs.car = car.value();
-  const auto harm = outcome::read_harm(places.root / "data" / "harm.toml");
-  if (!harm.has_value()) {
-    return harm.error();
-  }
-  inputs.harm = harm.value();
-  const fs::path costs_file = places.root / "data" / "thinking_costs.toml";
-  const auto costs_text = read_file(costs_file);
-  if (!costs_text.has_value()) {
-    return costs_text.error();
-  }
-  const auto costs = loop::read_thinking_costs(costs_text.value(), costs_file.string());
-  if (!costs.has_value()) {
-    return costs.error();
-  }
-  inputs.costs = costs.value();
-  return inputs;
+  return loop::read_thinking_costs(text.value(), file.string());
 }
 
 std::optional<Error> write_outputs(const std::string& record, const fs::path& folder,
@@ -109,14 +79,14 @@ std::optional<Error> write_trace(const fs::path& file, const loop::Setup& setup,
 }
 
 int run(const RunOptions& options) {
-  const auto places = find_places();
-  if (!places.has_value()) {
-    complain(places.error().message);
-    return bad_input;
-  }
-  const auto inputs = read_inputs(places.value(), options);
+  const auto inputs = read_scenario_inputs(options.scenario);
   if (!inputs.has_value()) {
     complain(inputs.error().message);
+    return bad_input;
+  }
+  const auto costs = read_costs(inputs.value().places);
+  if (!costs.has_value()) {
+    complain(costs.error().message);
     return bad_input;
   }
   std::unique_ptr<memory::Store> memory;
@@ -135,7 +105,7 @@ int run(const RunOptions& options) {
   SteadyClock clock;
   const loop::Pace pace = options.pace == "real" ? loop::Pace::real : loop::Pace::lockstep;
   const auto model =
-      ChosenModel::open(places.value(), options.model, options.record_replies, pace, clock);
+      ChosenModel::open(inputs.value().places, options.model, options.record_replies, pace, clock);
   if (!model.has_value()) {
     complain(model.error().message);
     return bad_input;
@@ -146,10 +116,11 @@ int run(const RunOptions& options) {
       .car = &inputs.value().car,
       .harm = &inputs.value().harm,
       .pace = pace,
-      .costs = inputs.value().costs,
+      .costs = costs.value(),
       .model = model.value().get(),
       .memory = memory.get(),
       .forced = options.policy ? manoeuvre::policy_from(*options.policy) : std::nullopt,
+      .seed = options.seed,
       .clock = &clock};
   Story story(stdout, isatty(STDOUT_FILENO) != 0);
   Silence silence;
@@ -215,6 +186,8 @@ void add_run(CLI::App& line, int& exit_code) {
       ->add_option("--policy", options->policy,
                    "Carry out this policy (0-7) at the trigger, whatever was thought")
       ->check(CLI::Range(0, 7));
+  command->add_option("--seed", options->seed,
+                      "Draw what is left to chance (default: as the scenario is written)");
   command->add_option("--memory", options->memory, "The memory bank")->capture_default_str();
   command->add_flag("--no-memory", options->no_memory, "Neither ask nor fill a memory");
   command->add_option("--output", options->output, "Folder for records and reports")

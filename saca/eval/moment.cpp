@@ -43,7 +43,7 @@ Moment moment_at(const sim::Scenario& scenario, const manoeuvre::Car& car, doubl
     advance_one_look(stepper);
   }
   world::Scene scene = stepper.scene();
-  scene.grip = scenario.perception.grip_believed.value_or(scenario.grip);
+  scene.grip = sim::believed_grip(scenario);
   stepper.take_the_wheel();
   return {.scene = scene, .others = stepper.others(), .grip = scenario.grip, .unknown = chance.car};
 }

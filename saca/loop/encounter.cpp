@@ -65,7 +65,8 @@ class Encounter {
                            : std::make_unique<ChargedModel>(*setup.model, setup.costs, *setup.clock,
                                                             simulated_clock_)),
         charged_(setup.costs.preview, simulated_clock_),
-        stepper_(*setup.scenario, *setup.car),
+        stepper_(*setup.scenario, *setup.car,
+                 setup.seed ? sim::draw_chance(*setup.seed, 0, 0.0) : sim::Chance{}),
         witness_(*setup.harm),
         reflex_(setup.thresholds, forced_plan(setup)),
         plane_(tools(), setup.thresholds, output()) {}
@@ -199,7 +200,7 @@ Result<Record> Encounter::play() {
 
 std::optional<Error> Encounter::look() {
   const Scene scene = stepper_.scene();
-  seen_ = stepper_.perceived();
+  seen_ = stepper_.perceive();
   for (const Scene* const each : {&scene, &std::as_const(seen_)}) {
     if (const auto rule = world::broken_rule(*each)) {
       return Error{Error::Code::out_of_range, setup_.scenario->name + ": at " +

@@ -40,6 +40,7 @@ struct Setup {
   reason::LanguageModel* model = nullptr;     ///< nullptr: without; deadlines on `clock`
   memory::Store* memory = nullptr;            ///< nullptr: without
   std::optional<manoeuvre::PolicyId> forced;  ///< carried out at the trigger, whatever was thought
+  std::optional<std::uint64_t> seed;          ///< of what is left to chance; nullopt: nothing is
   Clock* clock = nullptr;                     ///< real time
 };
 

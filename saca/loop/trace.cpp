@@ -15,19 +15,9 @@ namespace {
 
 using nlohmann::json;
 
-/// What SACA took the scene for; the truth for frames that do not hold it.
-template <class AnyFrame>
-const world::Scene& scene_known(const AnyFrame& frame) {
-  if constexpr (requires { frame.perceived; }) {
-    return frame.perceived;
-  } else {
-    return frame.scene;
-  }
-}
-
-/// Seeds of what was left to chance, by name: a run draws nothing.
-json seeds_json() {
-  return json::object();
+/// Seeds of what was left to chance, by name.
+json seeds_json(const Setup& setup) {
+  return setup.seed ? json{{"chance", *setup.seed}} : json::object();
 }
 
 json header_json(const Setup& setup) {
@@ -42,7 +32,7 @@ json header_json(const Setup& setup) {
       {"licence", scenario.licence},
       {"pace", name(setup.pace)},
       {"model", setup.model == nullptr ? "off" : setup.model->description()},
-      {"seeds", seeds_json()},
+      {"seeds", seeds_json(setup)},
       {"car", scenario.car},
       {"grip", scenario.grip},
       {"road", road_json(scenario.road)},
@@ -88,7 +78,7 @@ json trace_frame_json(const Frame& frame) {
            {"ego", ego_json(frame.scene.ego, frame.steering)},
            {"actors", all_actors(frame.scene, true_actor_json)},
            {"conflict_s", frame.conflict ? json(*frame.conflict) : json(nullptr)}};
-  const json known = knowledge_json(scene_known(frame));
+  const json known = knowledge_json(frame.perceived);
   if (known != knowledge_json(frame.scene)) {
     out["perceived"] = known;
   }
@@ -154,7 +144,7 @@ std::string trace_csv(const Setup& setup, const Record& record) {
     const world::EgoState& ego = frame.scene.ego;
     rows += csv_row(frame.scene.time, {"ego", "ego", ego.X_WB, body, norm(ego.v_B)}, false);
     rows += actor_rows(frame.scene, false);
-    const world::Scene& known = scene_known(frame);
+    const world::Scene& known = frame.perceived;
     if (actor_rows(known, false) != actor_rows(frame.scene, false)) {
       rows += actor_rows(known, true);
     }

@@ -16,14 +16,6 @@ namespace {
 
 using nlohmann::json;
 
-/// Where frames hold what was perceived beside the truth: it is the truth.
-template <class AnyFrame>
-void perceive(AnyFrame& frame) {
-  if constexpr (requires { frame.perceived; }) {
-    frame.perceived = frame.scene;
-  }
-}
-
 /// A short film of a car that turns before a wreck, made by hand.
 struct Film {
   manoeuvre::Car car = manoeuvre::default_car();
@@ -42,7 +34,7 @@ struct Film {
       if (k == 1) {
         frame.conflict = 1.25;
       }
-      perceive(frame);
+      frame.perceived = frame.scene;
       record.frames.push_back(frame);
     }
     record.events.push_back(
@@ -129,36 +121,27 @@ TEST(Trace, OfNothingIsAHeader) {
   EXPECT_EQ(csv.find('\n'), csv.size() - 1);
 }
 
-template <class AnyFilm>
-void expect_knowledge_is_told(AnyFilm& film) {
-  if constexpr (requires { film.record.frames[0].perceived; }) {
-    world::Actor& known = film.record.frames[1].perceived.actors[0];
-    known.X_WA.p.x = 31.0;
-    known.position_sd = 0.5;
-    known.existence = 0.75;
-    known.age = 0.1;
-    known.occluded = true;
-    const auto lines = parsed(trace_jsonl(film.setup, film.record));
-    EXPECT_FALSE(lines[1].contains("perceived"));
-    ASSERT_TRUE(lines[2].contains("perceived"));
-    const json& told = lines[2]["perceived"]["actors"][0];
-    EXPECT_EQ(told["x_m"], 31.0);
-    EXPECT_EQ(told["position_sd_m"], 0.5);
-    EXPECT_EQ(told["existence"], 0.75);
-    EXPECT_EQ(told["age_s"], 0.1);
-    EXPECT_EQ(told["occluded"], true);
-    EXPECT_EQ(lines[2]["actors"][0]["x_m"], 30.0);
-    const std::string csv = trace_csv(film.setup, film.record);
-    EXPECT_NE(csv.find("0.02,car1,car,31,0,0,5,4.5,1.8,1\n"), std::string::npos) << csv;
-    EXPECT_NE(csv.find("0.02,car1,car,30,0,0,5,4.5,1.8,0\n"), std::string::npos) << csv;
-  } else {
-    GTEST_SKIP() << "frames hold the truth only";
-  }
-}
-
 TEST(Trace, TellsWhatWasPerceivedWhereItDiffersFromTheTruth) {
   Film film;
-  expect_knowledge_is_told(film);
+  world::Actor& known = film.record.frames[1].perceived.actors[0];
+  known.X_WA.p.x = 31.0;
+  known.position_sd = 0.5;
+  known.existence = 0.75;
+  known.age = 0.1;
+  known.occluded = true;
+  const auto lines = parsed(trace_jsonl(film.setup, film.record));
+  EXPECT_FALSE(lines[1].contains("perceived"));
+  ASSERT_TRUE(lines[2].contains("perceived"));
+  const json& told = lines[2]["perceived"]["actors"][0];
+  EXPECT_EQ(told["x_m"], 31.0);
+  EXPECT_EQ(told["position_sd_m"], 0.5);
+  EXPECT_EQ(told["existence"], 0.75);
+  EXPECT_EQ(told["age_s"], 0.1);
+  EXPECT_EQ(told["occluded"], true);
+  EXPECT_EQ(lines[2]["actors"][0]["x_m"], 30.0);
+  const std::string csv = trace_csv(film.setup, film.record);
+  EXPECT_NE(csv.find("0.02,car1,car,31,0,0,5,4.5,1.8,1\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("0.02,car1,car,30,0,0,5,4.5,1.8,0\n"), std::string::npos) << csv;
 }
 
 }  // namespace

@@ -212,6 +212,10 @@ std::optional<Provenance> read_provenance(Table& root) {
 
 }  // namespace
 
+double believed_grip(const Scenario& scenario) {
+  return scenario.perception.grip_believed.value_or(scenario.grip);
+}
+
 std::string_view name(Behaviour behaviour) {
   return name_of(behaviour, behaviour_names);
 }

@@ -106,6 +106,10 @@ struct Scenario {
   std::optional<Provenance> provenance;
 };
 
+/// What the ego takes the road's friction coefficient for: what its perception says, else the truth
+/// as written.
+[[nodiscard]] double believed_grip(const Scenario& scenario);
+
 [[nodiscard]] std::string_view name(Behaviour behaviour);
 [[nodiscard]] std::optional<Behaviour> behaviour_from(std::string_view name);
 [[nodiscard]] std::string_view name(Deed deed);

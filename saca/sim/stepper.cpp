@@ -74,18 +74,16 @@ world::Scene Stepper::scene() const {
   return scene;
 }
 
-world::Scene Stepper::perceived() const {
-  world::Scene seen = scene();
-  seen.ego_mass = car_.mass;
-  // Here, and nowhere else, the scenario's perception comes between the truth and the ego.
-  StaticVector<world::Actor, world::max_actors> ghosts = traffic_.ghosts();
-  carry_on(ghosts);
-  for (const world::Actor& ghost : ghosts) {
-    seen.actors.push_back(ghost);
+world::Scene Stepper::perceive() {
+  if (!perception_) {
+    PerceptionModel model = scenario_.perception;
+    model.grip_believed = believed_grip(scenario_);
+    perception_.emplace(model, chance_.perception);
   }
-  seen.grip = scenario_.perception.grip_believed.value_or(scenario_.grip);
-  seen.grip_sd = scenario_.perception.grip_sd;
-  return seen;
+  world::Scene truth = scene();
+  truth.ego_mass = car_.mass;
+  const auto ghosts = traffic_.ghosts();
+  return perception_->look(truth, {ghosts.begin(), ghosts.size()});
 }
 
 outcome::Others Stepper::others() const {

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "saca/manoeuvre/car.h"
 #include "saca/manoeuvre/controller.h"
 #include "saca/manoeuvre/ego.h"
 #include "saca/outcome/outcome.h"
 #include "saca/sim/chance.h"
+#include "saca/sim/perception.h"
 #include "saca/sim/scenario.h"
 #include "saca/sim/traffic.h"
 #include "saca/vehicle/vehicle.h"
@@ -42,8 +44,9 @@ class Stepper {
 
   /// The scene as it truly is now.
   [[nodiscard]] world::Scene scene() const;
-  /// The scene as the ego perceives it now. It knows its own motion.
-  [[nodiscard]] world::Scene perceived() const;
+  /// The scene as the ego perceives it now, through the scenario's perception. It knows its own
+  /// motion. One look: call it once at every step of the traffic, from the first on.
+  [[nodiscard]] world::Scene perceive();
 
   /// True friction coefficient.
   [[nodiscard]] double grip() const { return grip_; }
@@ -62,6 +65,7 @@ class Stepper {
   vehicle::Vehicle real_car_;
   double grip_;
   Traffic traffic_;
+  std::optional<Perception> perception_;  ///< from the first look on
   world::EgoState seen_by_traffic_;
   std::int64_t num_steps_ = 0;
   bool driven_ = false;

@@ -179,8 +179,9 @@ TEST(Stepper, ChanceChangesCarGripAndStart) {
   EXPECT_NEAR(stepper.ego().v_B.x, 20.4, 1e-9);
   EXPECT_NEAR(stepper.scene().grip, 0.72, 1e-12);
   EXPECT_NEAR(stepper.scene().ego_mass, 1.1 * car.mass, 1e-9);
-  EXPECT_EQ(stepper.perceived().grip, 0.9);  // it takes the road for what the scenario says
-  EXPECT_EQ(stepper.perceived().ego_mass, car.mass);
+  const world::Scene seen = stepper.perceive();
+  EXPECT_EQ(seen.grip, 0.9);  // it takes the road for what the scenario says
+  EXPECT_EQ(seen.ego_mass, car.mass);
 }
 
 TEST(Stepper, GhostsArePerceivedButNotThere) {
@@ -194,11 +195,11 @@ TEST(Stepper, GhostsArePerceivedButNotThere) {
   std::get<Script>(ghost.motion).start.s = 30.0;
   scenario.actors.insert(scenario.actors.begin(), ghost);
   const manoeuvre::Car car = manoeuvre::default_car();
-  const Stepper stepper(scenario, car);
+  Stepper stepper(scenario, car);
   ASSERT_EQ(stepper.scene().actors.size(), 1U);
   EXPECT_EQ(stepper.scene().actors[0].id, 1);
   EXPECT_EQ(stepper.others()({.X_WA = {{}}}).size(), 1U);
-  const world::Scene seen = stepper.perceived();
+  const world::Scene seen = stepper.perceive();
   ASSERT_EQ(seen.actors.size(), 2U);
   EXPECT_EQ(seen.actors[1].id, 2);
   EXPECT_EQ(seen.actors[1].existence, 0.3);
