@@ -44,8 +44,8 @@ function struck_face(plan, pose, shape, face) {
   if (shape.shape !== "ellipse" && face_parts[face]) plan.polyline("face", body_points(pose, shape, face_parts[face]));
 }
 
-/** The name stands `rise` px below the tip, inside the picture. */
+/** The name stands under an arrow that points down, else `rise` px from its tip; inside the picture. */
 function arrow_with_name(plan, kind, p, direction_deg, way, name, rise) {
-  const tip = plan.arrow(kind, p, direction_deg, way), half = 3.4 * name.length;
-  plan.label(name, Math.min(Math.max(tip.x, half + 4), plan.width - half - 4), Math.min(Math.max(tip.y + rise, 14), plan.height - 24));
+  const tip = plan.arrow(kind, p, direction_deg, way), below = tip.y > plan.px(p).y + 10, half = 3.4 * name.length;
+  plan.label(name, Math.min(Math.max(tip.x, half + 4), plan.width - half - 4), Math.min(Math.max(tip.y + (below ? 17 : rise), 14), plan.height - 24));
 }

@@ -5,11 +5,15 @@ const most_ahead = 80;  // without contact a picture does not reach farther [m]
 /** When hindsight begins. */
 const hindsight_start = (record) => record.decision?.time_s ?? record.t1;
 
-/** Poses of the others `since` seconds after the trigger: as this policy would have moved them, else as they were recorded. */
+/**
+ * Poses of the others `since` seconds after the trigger: as this policy would have moved them, else as they were recorded. `stale`: that is
+ * after the last frame, and where they went then is not known.
+ */
 function others_at(record, row, since) {
   const told = new Map(list(row.others).filter((one) => list(one.path).length).map((one) => [one.id, one.path]));
   const start = hindsight_start(record), frame = is_number(start) ? frame_at(record, start + since) : null;
-  const poses = new Map(list(frame?.actors).map((actor) => [actor.id, actor]));
+  const stale = is_number(start) && start + since > record.frames[record.frames.length - 1]?.t_s + 0.02;
+  const poses = new Map(list(frame?.actors).map((actor) => [actor.id, { ...actor, stale }]));
   for (const [id, path] of told) poses.set(id, { id, ...pose_on(path, since) });
   return [...poses.values()].filter(has_pose);
 }
@@ -84,12 +88,12 @@ function draw_future(record, row, origin, ground) {
   plan.polyline("trail ego", path.map(([x, y]) => ({ x, y })));
   for (const since of ghost_times(length)) {
     const look = { "stroke-opacity": (0.25 + (0.6 * since) / length).toFixed(2), "fill-opacity": (0.05 + (0.2 * since) / length).toFixed(2) };
-    for (const pose of others_at(record, row, since)) plan.body(`ghost ${kind_of(pose.id)}`, pose, shape_of(pose.id), look);
+    for (const pose of others_at(record, row, since)) if (!pose.stale) plan.body(`ghost ${kind_of(pose.id)}`, pose, shape_of(pose.id), look);
     if (path.length) plan.body("ghost ego", pose_on(path, since), record.ego, look);
   }
   for (const pose of others_at(record, row, length)) {
-    plan.body(`body ${kind_of(pose.id)}`, pose, shape_of(pose.id));
-    plan.windscreen(pose, shape_of(pose.id));
+    plan.body(`body ${kind_of(pose.id)}${pose.stale ? " stale" : ""}`, pose, shape_of(pose.id));
+    if (!pose.stale) plan.windscreen(pose, shape_of(pose.id));
   }
   const end = path.length ? pose_on(path, length) : origin;
   plan.body("body ego", end, record.ego);
@@ -123,6 +127,7 @@ function show_futures(record) {
           row.refusal ? null : el("span", { class: "future-harm", text: `harm ${num(row.harm, 3)}` }))),
       plan.picture(`${row.name ?? row.policy}: ${words}`));
   })));
+  if (panel.querySelector(".stale")) panel.append(el("p", { class: "soft stale-words", text: "Dashed: where somebody was when the record ended; how that one went on is not in it." }));
 }
 
 // --- bars -----------------------------------------------------------------------------------------

@@ -211,6 +211,19 @@ def test_others_move_as_under_the_policy_where_the_record_says_so(show):
     assert middle(future(show(record), 0)["threats"][0]) == pytest.approx(middle(struck[0]), abs=1.0), "else as in the frames"
 
 
+def test_nobody_is_claimed_to_be_where_the_record_does_not_know(show):
+    record = copy.deepcopy(RECORDS["contact"])
+    assert show(record).run("document.querySelectorAll('.stale').length") == 0, "the others' paths are given"
+    for row in record["hindsight"]:
+        row.pop("others", None)
+        row.pop("later", None)
+    page, end = show(record), record["frames"][-1]["t_s"] - record["decision"]["time_s"]
+    stale = page.run("[...document.querySelectorAll('.future')].map(f => f.querySelectorAll('.stale').length)")
+    for row, count in zip(record["hindsight"], stale):
+        assert (count > 0) == (0.05 * (len(row["path"]) - 1) > end + 0.05 and not row["refusal"])
+    assert "Dashed" in page.run("by_id('futures').innerText")
+
+
 def test_bars_and_whiskers_are_in_proportion(show):
     page, record = show(RECORDS["contact"]), RECORDS["contact"]
     for chart, key in enumerate(("harm", "collision_loss")):
