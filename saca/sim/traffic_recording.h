@@ -21,8 +21,7 @@ struct TrafficRequest {
   /// planning problem's start and goes on along its lane at constant speed.
   std::optional<std::int64_t> ego;
   std::optional<double> from;  ///< the scenario's 0 in the file's time [s]; else the ego's start
-  /// How long the scenario goes on after the last sample, when everybody goes straight on [s], >=
-  /// 0.
+  /// How long the scenario goes on after the last sample, everybody straight on [s], >= 0.
   double after = 0.0;
 };
 

@@ -45,7 +45,7 @@ std::string path_of(xml_node node) {
   constexpr int deepest = 12;  // of what is shown
   std::string path;
   for (int depth = 0; depth < deepest && node.type() == pugi::node_element; ++depth) {
-    path = "/" + std::string(node.name()) + index_of(node) + path;
+    path.insert(0, index_of(node)).insert(0, node.name()).insert(0, "/");
     node = node.parent();
   }
   return path;
@@ -154,7 +154,7 @@ double XmlReading::exact(xml_node parent, const char* name, double least, double
 }
 
 std::string XmlReading::text(xml_node node, const char* attribute) {
-  const std::string value = node.attribute(attribute).value();
+  std::string value = node.attribute(attribute).value();
   if (first_fault_of_utf8(value)) {  // a reference to a character may make one
     fail(node, "attribute " + std::string(attribute) + ": want UTF-8");
     return "";
