@@ -152,8 +152,13 @@ void add_oracle(CLI::App& line, int& exit_code) {
       ->add_option("scenario", options->scenario, "A scenario file, or the name of a shipped one")
       ->required();
   add_at(*command, options->at);
-  command->add_option("--draws", options->draws, "Of what nobody knows beforehand; 0: as written")
+  command
+      ->add_option("--draws", options->draws,
+                   "Of what nobody knows beforehand, two at least; 0: as written")
       ->check(CLI::Range(0, 1'000'000))
+      ->check([](const std::string& text) {
+        return text == "1" ? std::string("want 0, or 2 at least") : std::string();
+      })
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Same seed, same figures")->capture_default_str();
   command->add_option("--threads", options->threads, "They do not change the result")

@@ -19,9 +19,10 @@ using eval::Finding;
 
 constexpr int batch = 64;  // encounters between two looks at the clock and the signals
 
-/// Of everything that changes what is found: the files, and the program's version.
+/// Of everything that changes what is found: the files, and the program itself.
 std::optional<Error> add_files(const Places& places, const std::string& car, Fnv& hash) {
-  std::vector<fs::path> files{find_car(places, car), places.root / "data" / "harm.toml",
+  std::vector<fs::path> files{find_car(places, car), "/proc/self/exe",
+                              places.root / "data" / "harm.toml",
                               places.root / "scenarios" / "families" / "suites.toml",
                               places.root / "scenarios" / "splits.toml"};
   files.push_back(manoeuvre::tuning_path(files.front()));
@@ -34,9 +35,7 @@ std::optional<Error> add_files(const Places& places, const std::string& car, Fnv
     if (!text.has_value()) {
       return text.error();
     }
-    for (const char c : text.value()) {
-      hash.add(static_cast<unsigned char>(c));
-    }
+    hash.add(text.value());
   }
   return std::nullopt;
 }

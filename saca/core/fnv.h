@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 namespace saca {
 
@@ -10,6 +11,12 @@ class Fnv {
  public:
   /// One step over a byte, or over a whole word (which is no longer the published function).
   constexpr void add(std::uint64_t word) { hash_ = (hash_ ^ word) * 1099511628211U; }
+  /// The published function of a text.
+  constexpr void add(std::string_view text) {
+    for (const char c : text) {
+      add(static_cast<unsigned char>(c));
+    }
+  }
   [[nodiscard]] constexpr std::uint64_t value() const { return hash_; }
 
  private:

@@ -9,9 +9,7 @@ namespace {
 
 std::uint64_t hash(std::string_view text) {
   Fnv fnv;
-  for (const char c : text) {
-    fnv.add(static_cast<unsigned char>(c));
-  }
+  fnv.add(text);
   return fnv.value();
 }
 

@@ -11,29 +11,31 @@ namespace {
 
 using manoeuvre::PolicyId;
 
-/// How convincing a finding is; nullopt: not at all.
-std::optional<double> promise(const Finding& finding, PolicyId policy) {
+/// How convincing a finding is: meets nobody, and the margin; nullopt: not at all.
+using Promise = std::pair<bool, double>;
+std::optional<Promise> promise(const Finding& finding, PolicyId policy) {
+  const bool clear = !finding.contact[manoeuvre::index(policy)];
   const Taught taught = lesson_of(finding);
   if (policy != PolicyId::no_intervention) {
-    return taught.alone == policy ? std::optional(taught.margin) : std::nullopt;
+    return taught.alone == policy ? std::optional(Promise{clear, taught.margin}) : std::nullopt;
   }
   if (taught.lesson != Lesson::nothing_needed) {
     return std::nullopt;
   }
-  return finding.harm[manoeuvre::index(PolicyId::aeb)];
+  return Promise{clear, *finding.harm[manoeuvre::index(PolicyId::aeb)]};
 }
 
 std::string figure(const Oracle& oracle, PolicyId policy) {
   const Verdict& verdict = oracle.of(policy);
   const auto& harm = verdict.expected.harm;
-  return fmt::format("{} {:.4f} ({:.4f} to {:.4f}; as written it {})", name(policy), harm.value,
+  return fmt::format("{} {:.4f} ({:.4f} to {:.4f}; as written: {})", name(policy), harm.value,
                      harm.low, harm.high, describe(verdict.written.facts.outcome, oracle.scene));
 }
 
 }  // namespace
 
 std::vector<Finding> candidates(std::span<const Finding> findings, PolicyId policy) {
-  std::vector<std::pair<double, const Finding*>> promising;
+  std::vector<std::pair<Promise, const Finding*>> promising;
   for (const Finding& finding : findings) {
     if (const auto worth = promise(finding, policy)) {
       promising.emplace_back(*worth, &finding);
@@ -62,7 +64,7 @@ bool convinces(const Oracle& oracle, PolicyId policy, const ShowcaseRule& rule) 
 }
 
 std::string why_right(const Oracle& oracle, PolicyId policy) {
-  std::string text = "expected harm: " + figure(oracle, policy);
+  std::string text = "Expected harm: " + figure(oracle, policy);
   for (const PolicyId other : oracle.ranking) {
     if (other != policy) {
       text += "; the next best " + figure(oracle, other);

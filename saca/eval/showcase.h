@@ -18,9 +18,10 @@ struct ShowcaseRule {
   int draws = 100;       ///< under which it must do so, the lower end of the 95 % interval above 0
 };
 
-/// Findings that may show what `policy` is for, most convincing first: it is alone, by the widest
-/// margin. For no intervention, where nothing can be gained: it is best though others would do
-/// harm, those first in which the mildest other harms most.
+/// Findings that may show what `policy` is for, most convincing first: it is alone; where it meets
+/// nobody before where it does, then by the margin. For no intervention, where nothing can be
+/// gained: it is best though others would do harm, those first in which the mildest other harms
+/// most.
 [[nodiscard]] std::vector<Finding> candidates(std::span<const Finding> findings,
                                               manoeuvre::PolicyId policy);
 

@@ -31,6 +31,9 @@ TEST(Showcase, TheWidestMarginIsTriedFirst) {
       found(3, PolicyId::aeb, 0.0, 0.9), found(4, PolicyId::aes_left, 0.3, 0.3)};
   EXPECT_THAT(numbers(candidates(findings, PolicyId::aes_left)), ElementsAre(2, 1));
   EXPECT_THAT(candidates(findings, PolicyId::t_drift_left), IsEmpty());
+  std::vector<Finding> with_contact = findings;
+  with_contact[1].contact.fill(true);
+  EXPECT_THAT(numbers(candidates(with_contact, PolicyId::aes_left)), ElementsAre(1, 2));
 }
 
 TEST(Showcase, DoingNothingIsShownWhereBrakingWouldHarmMost) {

@@ -74,6 +74,11 @@ void Driver::look(const Ahead& ahead) {
 
 double Driver::advance(const Ahead& ahead) {
   look(ahead);
+  if (ahead.gap <= 0.0) {
+    speed_ = std::min(speed_, std::max(0.0, ahead.speed));
+    way_ += speed_ * step_;
+    return speed_ * step_;
+  }
   const double most = from_g(grip_);
   const double acceleration = std::clamp(wanted_acceleration(law_, speed_, remembered()),
                                          -std::min(law_.hardest, most), most);

@@ -73,7 +73,8 @@ class Driver {
   /// @param step   of `advance` [s]; at least `law.reaction` / 300
   Driver(const DriverLaw& law, double speed, double grip, double step);
 
-  /// Looks, and drives on for one step. It never reverses.
+  /// Looks, and drives on for one step. It never reverses. Who touches what is ahead has run into
+  /// it, and from then on goes no faster than that.
   /// @return  way made [m]
   double advance(const Ahead& ahead);
 

@@ -331,5 +331,19 @@ TEST(ReactingTrack, IsTheSameInAnyWorldFrameAndMirrored) {
   }
 }
 
+// 20 m/s, a wall 15 m ahead and a second to react: it is hit, and stands there from then on.
+TEST(Driver, WhoRunsIntoSomethingDoesNotDriveThroughIt) {
+  DriverLaw law = usual_driver(20.0);
+  law.reaction = 1.0;
+  Driver driver(law, 20.0, 0.9, 0.01);
+  double place = 0.0;
+  for (int k = 0; k < 500; ++k) {
+    place += driver.advance({15.0 - place, 0.0});
+  }
+  EXPECT_EQ(driver.speed(), 0.0);
+  EXPECT_GE(place, 15.0);
+  EXPECT_LE(place, 15.0 + 20.0 * 0.01);  // one step deep at most
+}
+
 }  // namespace
 }  // namespace saca::intent

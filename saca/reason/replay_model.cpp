@@ -80,9 +80,7 @@ const char* broken_rule(const std::string& key, const RecordedReply& recorded) {
 
 std::string prompt_key(std::string_view prompt) {
   Fnv hash;
-  for (const char c : prompt) {
-    hash.add(static_cast<unsigned char>(c));
-  }
+  hash.add(prompt);
   return fmt::format("{:016x}", hash.value());
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "saca/core/fnv.h"
 #include "saca/core/units.h"
 #include "saca/sim/family.h"
 #include "saca/sim/family_stage.h"
@@ -342,7 +343,9 @@ bool is_sensible(const Scenario& scenario, const world::Footprint& ego, double d
 
 Result<FamilySample> sample(const Family& family, std::uint64_t seed, std::uint64_t number,
                             std::string_view car, const world::Footprint& ego) {
-  std::mt19937_64 rng = generator(seed, number);
+  Fnv of_family;  // two families have nothing in common, whatever the seed
+  of_family.add(family.name);
+  std::mt19937_64 rng = generator(seed ^ of_family.value(), number);
   constexpr int tries = 100;
   for (int k = 0; k < tries; ++k) {
     Dice dice(family, rng);

@@ -13,6 +13,9 @@ int main(int argc, char** argv) {
   std::size_t num_files = 0;
   for (int i = 1; i < argc; ++i) {
     for (const auto& entry : std::filesystem::directory_iterator(argv[i])) {
+      if (entry.is_directory()) {
+        continue;
+      }
       const saca::Result<std::string> text = saca::read_file(entry.path());
       if (!text.has_value()) {
         std::fprintf(stderr, "%s\n", text.error().message.c_str());

@@ -1,0 +1,169 @@
+"""`saca oracle`, `saca whatif`, `saca family`, `saca balance`, `saca search-showcase`."""
+import json
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import tomllib
+import xml.etree.ElementTree as xml
+
+import pytest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from program import BAD_INPUT, CANNOT_WRITE, INTERRUPTED, PROGRAM, ROOT, SUCCESS, WRONG_COMMAND_LINE, one_error, saca
+
+FAMILIES = sorted(file.stem for file in (ROOT / "scenarios/families").glob("*.toml")
+                  if file.stem not in ("surroundings", "suites"))
+NAMES = ["AEB", "AES-L", "AES-R", "ES-B-L", "ES-B-R", "T-D-L", "T-D-R", "NI"]
+
+
+def test_the_oracle_ranks_all_eight(tmp_path):
+    run = saca("oracle", "intersection_t1", "--at_s", 5, "--draws", 6, "--svg", "out/all.svg", cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    rows = re.findall(r"^\d ([A-Z-]+) +([\d.]+) \(", run.stdout, re.M)
+    assert sorted(name for name, _ in rows) == sorted(NAMES)
+    harms = [float(harm) for _, harm in rows]
+    assert harms == sorted(harms)
+    assert f"Best: {rows[0][0]}" in run.stdout
+    assert xml.parse(tmp_path / "out/all.svg").getroot().tag.endswith("svg")
+
+
+def test_the_oracle_for_programs_repeats_itself(tmp_path):
+    arguments = ("oracle", "intersection_t1", "--at_s", 5, "--draws", 4, "--json")
+    first = saca(*arguments, "--threads", 1, cwd=tmp_path)
+    again = saca(*arguments, "--threads", 2, cwd=tmp_path)
+    assert first.stdout == again.stdout
+    told = json.loads(first.stdout)
+    assert told["schema"] == "saca.oracle/1" and len(told["policies"]) == 8
+    for policy in told["policies"]:
+        assert policy["harm"]["low"] <= policy["harm"]["mean"] <= policy["harm"]["high"]
+    other = json.loads(saca(*arguments, "--seed", 2, cwd=tmp_path).stdout)
+    assert other["policies"][7]["harm"] != told["policies"][7]["harm"]
+
+
+# The paper's printed T1: whoever does nothing meets the truck's side with 14 m/s of its own and 7.5 of the truck's.
+def test_doing_nothing_at_the_printed_t1_hits_at_the_speeds_that_are_printed(tmp_path):
+    told = json.loads(saca("oracle", "intersection_t1", "--at_s", 5, "--draws", 0, "--json", cwd=tmp_path).stdout)
+    contact = told["policies"][7]["as_written"]["contact"]
+    assert contact["with"] == "truck1" and contact["ego_face"] == "front"
+    assert contact["impact_speed_mps"] == pytest.approx((14.0 ** 2 + 7.5 ** 2) ** 0.5, abs=0.05)
+    assert contact["time_s"] == pytest.approx(5.0 + (16.0 - 1.25 - 2.25) / 14.0, abs=0.01)
+
+
+@pytest.mark.parametrize("arguments, wanted", [
+    (["oracle", "intersection_t2"], "say when with --at_s"),
+    (["oracle", "intersection_t1", "--at_s", 500], "ends at"),
+    (["oracle", "no_such"], "no_such"),
+    (["whatif", "intersection_t1", "--vary", "truck.distance_m=10:20"], "FROM:TO:STEP"),
+    (["whatif", "intersection_t1", "--vary", "tram.speed_mps=1:2:1"], "truck1, pedestrian1"),
+    (["whatif", "intersection_t1", "--vary", "grip=0.2:0.9:0.001", "--vary", "ego.speed_mps=8:18:0.1"], "at most"),
+    (["whatif", "100car_9018", "--vary", "ego.speed_mps=8:9:1"], "follows a recording"),
+    (["family", "no_such"], "no_such.toml"),
+    (["family", "merge"], "kept for the test split"),
+    (["family", "crossing", "--split", "test"], "--test-log"),
+    (["balance", "--suite", "no_such"], "natural, balanced"),
+])
+def test_what_cannot_be_done_is_said_in_one_line(arguments, wanted, tmp_path):
+    assert wanted in one_error(saca(*arguments, cwd=tmp_path), BAD_INPUT)
+
+
+@pytest.mark.parametrize("arguments", [
+    ["oracle", "intersection_t1", "--draws", -1],
+    ["oracle", "intersection_t1", "--draws", 1],
+    ["whatif", "intersection_t1"],
+    ["whatif", "intersection_t1", "--vary", "grip=1:1:1", "--vary", "grip=1:1:1", "--vary", "grip=1:1:1"],
+    ["family", "crossing", "--split", "exam"],
+    ["family", "crossing", "--sample", 0]])
+def test_wrong_command_lines_are_refused(arguments, tmp_path):
+    assert saca(*arguments, cwd=tmp_path).returncode == WRONG_COMMAND_LINE
+
+
+def test_a_map_has_a_cell_for_each_pair_of_values(tmp_path):
+    run = saca("whatif", "intersection_t1", "--at_s", 5, "--vary", "truck.distance_m=14:18:2", "--vary",
+               "ego.speed_mps=12:14:2", "--svg", "map.svg", "--json", cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    told = json.loads(run.stdout)
+    assert [axis["what"] for axis in told["axes"]] == ["truck1.distance_m", "ego.speed_mps"]
+    assert len(told["cells"]) == 6
+    # The same scene as the oracle's: 16 m, 14 m/s is the fifth, the first axis being the faster.
+    oracle = json.loads(saca("oracle", "intersection_t1", "--at_s", 5, "--draws", 0, "--json", cwd=tmp_path).stdout)
+    assert told["cells"][4]["harm"][0] == pytest.approx(oracle["policies"][0]["as_written"]["harm"], abs=1e-9)
+    xml.parse(tmp_path / "map.svg")
+
+
+def test_one_number_varied_is_a_strip(tmp_path):
+    run = saca("whatif", "intersection_t1", "--at_s", 5, "--vary", "grip=0.4:0.8:0.2", "--svg", "strip.svg", cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    assert "3 scenes" in run.stdout
+    xml.parse(tmp_path / "strip.svg")
+
+
+@pytest.mark.parametrize("family", [name for name in FAMILIES if name not in ("merge", "cyclist")])
+def test_every_family_gives_a_sheet_and_files_that_run(family, tmp_path):
+    run = saca("family", family, "--sample", 2, "--svg", "sheet.svg", "--write", "made", "--json", cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    told = json.loads(run.stdout)
+    assert len(told["samples"]) == 2
+    for sample in told["samples"]:
+        made = tomllib.loads((tmp_path / sample["file"]).read_text())
+        assert made["name"] == sample["name"] and made["grip"] == sample["grip"]
+    xml.parse(tmp_path / "sheet.svg")
+
+
+def test_the_test_split_is_drawn_only_with_a_log(tmp_path):
+    run = saca("family", "merge", "--split", "test", "--test-log", "log/test.txt", "--sample", 1, cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    assert "family merge" in (tmp_path / "log/test.txt").read_text()
+
+
+def test_a_family_of_ones_own(tmp_path):
+    for name in ("surroundings", "lead_brakes"):
+        shutil.copy(ROOT / f"scenarios/families/{name}.toml", tmp_path / f"{name}.toml")
+    own = (tmp_path / "lead_brakes.toml").read_text().replace('name = "lead_brakes"', 'name = "own"')
+    (tmp_path / "own.toml").write_text(own)
+    assert saca("family", tmp_path / "own.toml", "--sample", 1, cwd=tmp_path).returncode == SUCCESS
+    (tmp_path / "own.toml").write_text(own.replace("min = 4.0", "min = 14.0"))
+    error = one_error(saca("family", tmp_path / "own.toml", "--sample", 1, cwd=tmp_path), BAD_INPUT)
+    assert "own.toml" in error and "deceleration_mps2" in error and "empty" in error
+
+
+def test_a_survey_counts_goes_on_and_repeats_itself(tmp_path):
+    few = saca("balance", "--count", 6, "--json", cwd=tmp_path)
+    assert few.returncode == SUCCESS, few.stderr
+    more = json.loads(saca("balance", "--count", 12, "--json", cwd=tmp_path).stdout)  # 6 are known
+    assert more["balance.balanced.n"] == 12
+    shares = [more[f"balance.balanced.{lesson}_share"] for lesson in
+              ("never_triggers", "nothing_needed", "nothing_helps", "several_as_good", "one_alone")]
+    assert sum(shares) == pytest.approx(1.0)
+    alone = sum(more[f"balance.balanced.strict_share.p{i}"] for i in range(8))
+    assert alone == pytest.approx(more["balance.balanced.one_alone_share"])
+    fresh = json.loads(saca("balance", "--count", 12, "--journal", "other.journal", "--threads", 1, "--json",
+                            cwd=tmp_path).stdout)
+    assert fresh == more
+    journal = tmp_path / "runs/survey-balanced-tuning.journal"
+    assert journal.read_text() == (tmp_path / "other.journal").read_text()
+    journal.write_text("saca 0.0 survey of something else\n")
+    assert "is the journal of" in one_error(saca("balance", "--count", 6, cwd=tmp_path), BAD_INPUT)
+
+
+def test_an_interrupted_survey_keeps_what_it_found(tmp_path):
+    with subprocess.Popen([PROGRAM, "balance", "--count", "100000"], cwd=tmp_path, stderr=subprocess.PIPE, text=True) as run:
+        journal = tmp_path / "runs/survey-balanced-tuning.journal"
+        for _ in range(600):
+            if journal.exists() and journal.read_text().count("\n") > 64:
+                break
+            time.sleep(0.1)
+        run.send_signal(signal.SIGINT)
+        assert run.wait(60) == INTERRUPTED
+        assert "goes on where this one stopped" in run.stderr.read()
+    assert journal.read_text().count("\n") > 64
+
+
+def test_outputs_that_cannot_be_written(tmp_path):
+    for arguments in (["oracle", "intersection_t1", "--at_s", 5, "--draws", 0, "--svg", "/proc/no/x.svg"],
+                      ["family", "crossing", "--sample", 1, "--svg", "/proc/no/x.svg"],
+                      ["balance", "--count", 2, "--journal", "/proc/no/x.journal"]):
+        one_error(saca(*arguments, cwd=tmp_path), CANNOT_WRITE)
