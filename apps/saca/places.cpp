@@ -50,8 +50,8 @@ fs::path find_shipped(const fs::path& folder, const std::string& name) {
   if (fs::is_regular_file(name, problem)) {
     return name;
   }
-  const fs::path shipped = folder / (name + ".toml");
-  return fs::exists(shipped, problem) ? shipped : fs::path(name);
+  const bool plain = !fs::path(name).has_extension() && !fs::path(name).has_parent_path();
+  return plain ? folder / (name + ".toml") : fs::path(name);
 }
 
 }  // namespace
