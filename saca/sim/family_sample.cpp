@@ -67,10 +67,11 @@ Harmless crossing(Stage& stage) {
   stage.add(kind, script);
   stage.decision = Stage::approach - trigger;
   if (dice.happens("bystander_share")) {
-    const double aside = -0.5 * stage.lane() - 0.5 - dice.even();
+    // Between half a metre and a metre and a half beside our lane, to either side.
+    const double aside = 0.5 * stage.lane() + 0.5 + dice.even();
     stage.add(ActorKind::pedestrian,
-              {.start = {s + dice.in("bystander_ahead_m"),
-                         dice.even() < 0.5 ? aside : -aside - stage.lane(), -side * right_angle},
+              {.start = {s + dice.in("bystander_ahead_m"), dice.even() < 0.5 ? -aside : aside,
+                         -side * right_angle},
                .behaviour = Behaviour::hold});
   }
   if (stage.scenario.road.oncoming_left && dice.happens("waiting_share")) {
@@ -313,7 +314,7 @@ void label(const Family& family, std::uint64_t seed, std::uint64_t number, std::
 /// Nobody touches anybody: the others each other until well into the conflict, the ego somebody
 /// until it must act.
 bool is_sensible(const Scenario& scenario, const world::Footprint& ego, double decision) {
-  constexpr double goes_on = 1.5;  // [s] into the conflict
+  constexpr double goes_on = 3.0;  // [s] into the conflict
   constexpr int steps_per_look = 5;
   Traffic traffic(scenario);
   for (int k = 0; traffic.time() < decision + goes_on; ++k) {

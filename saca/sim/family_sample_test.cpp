@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "saca/sim/family.h"
@@ -78,6 +79,26 @@ INSTANTIATE_TEST_SUITE_P(All, EveryFamily,
                                          FamilyKind::cyclist, FamilyKind::head_on,
                                          FamilyKind::merge),
                          [](const auto& one) { return std::string(name(one.param)); });
+
+// Who only stands by stands beside our lane: half a metre at least from it.
+TEST(FamilySample, BystandersStandBesideTheLane) {
+  Family family = shipped(FamilyKind::crossing);
+  family.ranges["bystander_share"] = {1.0, 1.0, "test"};
+  int to_the_left = 0;
+  for (std::uint64_t number = 0; number < 20; ++number) {
+    const Scenario drawn =
+        sample(family, 5, number, "compact_rwd_ev", standard_ego).value().scenario;
+    const auto bystander = std::find_if(
+        drawn.actors.begin(), drawn.actors.end(),
+        [](const ScenarioActor& actor) { return actor.kind == world::ActorKind::pedestrian; });
+    ASSERT_NE(bystander, drawn.actors.end());
+    const double d = std::get<Script>(bystander->motion).start.d;
+    EXPECT_GE(std::abs(d), 0.5 * drawn.road.lane_width + 0.5);
+    to_the_left += d > 0.0 ? 1 : 0;
+  }
+  EXPECT_GT(to_the_left, 2);
+  EXPECT_LT(to_the_left, 18);
+}
 
 TEST(FamilySample, SaysWhenItsRangesGiveNoSensibleEncounter) {
   Family family = shipped(FamilyKind::lead_brakes);
