@@ -75,7 +75,11 @@ json figures_of(const eval::Balance& balance, const std::string& suite) {
 }
 
 int run(const BalanceCommand& options) {
-  const auto found = survey(options.survey);
+  const auto source = SuiteSource::open(options.survey, "balance");
+  if (!source.has_value()) {
+    return complain_of(source.error());
+  }
+  const auto found = survey(source.value(), options.survey);
   if (!found.has_value()) {
     return complain_of(found.error());
   }

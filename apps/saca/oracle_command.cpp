@@ -96,6 +96,10 @@ void print(const eval::Oracle& oracle, const OracleCommand& options) {
 }
 
 int run(const OracleCommand& options) {
+  if (options.draws == 1) {
+    complain("--draws: want 0, or 2 at least, got 1");
+    return wrong_command_line;
+  }
   const auto inputs = read_scenario_inputs(options.scenario);
   if (!inputs.has_value()) {
     complain(inputs.error().message);
@@ -126,7 +130,7 @@ int run(const OracleCommand& options) {
     print(oracle, options);
     return success;
   }
-  json all{{"schema", "saca.oracle/1"}, {"scenario", scenario.name}, {"time_s", time.value()},
+  json all{{"schema", "saca.oracle/1"}, {"scenario", scenario.name}, {"time_s", oracle.scene.time},
            {"draws", options.draws},    {"seed", options.seed},      {"policies", json::array()},
            {"ranking", json::array()}};
   for (const eval::Verdict& verdict : oracle.verdicts) {
@@ -156,9 +160,6 @@ void add_oracle(CLI::App& line, int& exit_code) {
       ->add_option("--draws", options->draws,
                    "Of what nobody knows beforehand, two at least; 0: as written")
       ->check(CLI::Range(0, 1'000'000))
-      ->check([](const std::string& text) {
-        return text == "1" ? std::string("want 0, or 2 at least") : std::string();
-      })
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Same seed, same figures")->capture_default_str();
   command->add_option("--threads", options->threads, "They do not change the result")

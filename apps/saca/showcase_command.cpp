@@ -65,8 +65,8 @@ Result<std::optional<std::vector<Shown>>> shown(const SuiteSource& source,
   const auto all = eval::candidates(findings, policy);
   const auto count = std::min(all.size(), static_cast<std::size_t>(options.tries));
   SteadyClock clock;
-  ProgressLine progress(fmt::format("{} under noise", name(policy)), static_cast<int>(count),
-                        clock);
+  ProgressLine progress(fmt::format("{} under noise", name(policy)),
+                        std::max(1, static_cast<int>(count)), clock);
   int good = 0;
   for (std::size_t i = 0; i < count && good < wanted(policy); ++i) {
     if (interrupted()) {
@@ -110,13 +110,13 @@ std::optional<Error> write(const Shown& one, const std::string& output) {
 }
 
 int run(const ShowcaseCommand& options) {
-  const auto findings = survey(options.survey);
-  if (!findings.has_value()) {
-    return complain_of(findings.error());
-  }
-  const auto source = SuiteSource::open(options.survey);
+  const auto source = SuiteSource::open(options.survey, "search-showcase");
   if (!source.has_value()) {
     return complain_of(source.error());
+  }
+  const auto findings = survey(source.value(), options.survey);
+  if (!findings.has_value()) {
+    return complain_of(findings.error());
   }
   bool stopped = !findings.value();
   json list = json::array();

@@ -23,11 +23,12 @@ constexpr int batch = 64;  // encounters between two looks at the clock and the 
 std::optional<Error> add_files(const Places& places, const std::string& car, Fnv& hash) {
   std::vector<fs::path> files{find_car(places, car), "/proc/self/exe",
                               places.root / "data" / "harm.toml",
-                              places.root / "scenarios" / "families" / "suites.toml",
                               places.root / "scenarios" / "splits.toml"};
   files.push_back(manoeuvre::tuning_path(files.front()));
   for (const auto& entry : fs::directory_iterator(places.root / "scenarios" / "families")) {
-    files.push_back(entry.path());
+    if (entry.path().extension() == ".toml") {
+      files.push_back(entry.path());
+    }
   }
   std::sort(files.begin(), files.end());
   for (const fs::path& file : files) {
@@ -100,11 +101,12 @@ Result<std::vector<Finding>> look_on(const SuiteSource& source, std::size_t from
 }  // namespace
 
 std::string command_line(const SurveyOptions& options, const std::string& command) {
-  return fmt::format("saca {} --suite {} --count {} --split {} --car {}", command, options.suite,
-                     options.count, options.split, options.car);
+  const std::string log = options.test_log.empty() ? "" : " --test-log " + options.test_log;
+  return fmt::format("saca {} --suite {} --count {} --split {} --car {}{}", command, options.suite,
+                     options.count, options.split, options.car, log);
 }
 
-Result<SuiteSource> SuiteSource::open(const SurveyOptions& options) {
+Result<SuiteSource> SuiteSource::open(const SurveyOptions& options, const std::string& command) {
   SuiteSource source;
   auto inputs = read_inputs(options.car);
   if (!inputs.has_value()) {
@@ -123,26 +125,28 @@ Result<SuiteSource> SuiteSource::open(const SurveyOptions& options) {
   }
   std::optional<sim::TestLog> log;
   if (!options.test_log.empty()) {
-    log = sim::TestLog{options.test_log, command_line(options, "survey")};
+    log = sim::TestLog{options.test_log, command_line(options, command)};
   }
   for (const sim::Suite::Member& member : source.suite_.members) {
     const auto family = read_family(places, member.family);
     if (!family.has_value()) {
       return family.error();
     }
-    const auto seed =
-        sim::seed_for(splits.value(), *sim::split_from(options.split), member.family, log);
-    if (!seed.has_value()) {
-      return seed.error();
-    }
     source.families_.push_back(family.value());
-    source.seeds_.push_back(seed.value());
   }
   Fnv hash;
   if (auto problem = add_files(places, options.car, hash)) {
     return *problem;
   }
   source.digest_ = hash.value();
+  for (const sim::Family& family : source.families_) {  // last: a use of the test split is noted
+    const auto seed =
+        sim::seed_for(splits.value(), *sim::split_from(options.split), family.name, log);
+    if (!seed.has_value()) {
+      return seed.error();
+    }
+    source.seeds_.push_back(seed.value());
+  }
   return source;
 }
 
@@ -156,20 +160,17 @@ const std::string& SuiteSource::family_of(std::uint64_t number) const {
   return suite_.members[sim::member_of(suite_, number)].family;
 }
 
-Result<std::optional<std::vector<Finding>>> survey(const SurveyOptions& options) {
-  const auto source = SuiteSource::open(options);
-  if (!source.has_value()) {
-    return source.error();
-  }
+Result<std::optional<std::vector<Finding>>> survey(const SuiteSource& source,
+                                                   const SurveyOptions& options) {
   const std::string path = options.journal.empty() ? fmt::format("runs/survey-{}-{}.journal",
                                                                  options.suite, options.split)
                                                    : options.journal;
   if (auto problem = make_folder_of(path)) {
     return *problem;
   }
-  const auto opened = Journal::open(
-      path, fmt::format("saca {} survey of {}, {} split, {} ({:016x})", SACA_VERSION, options.suite,
-                        options.split, options.car, source.value().digest()));
+  const auto opened =
+      Journal::open(path, fmt::format("saca {} survey of {}, {} split, {} ({:016x})", SACA_VERSION,
+                                      options.suite, options.split, options.car, source.digest()));
   if (!opened.has_value()) {
     return opened.error();
   }
@@ -188,8 +189,8 @@ Result<std::optional<std::vector<Finding>>> survey(const SurveyOptions& options)
     if (interrupted()) {
       return std::optional<std::vector<Finding>>();
     }
-    const auto next = look_on(source.value(), found.size(), std::min(count, found.size() + batch),
-                              options.threads);
+    const auto next =
+        look_on(source, found.size(), std::min(count, found.size() + batch), options.threads);
     if (!next.has_value()) {
       return next.error();
     }

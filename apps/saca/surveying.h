@@ -30,7 +30,9 @@ void add_survey_options(CLI::App& command, SurveyOptions& options);
 /// The families of a suite, ready to be drawn from.
 class SuiteSource {
  public:
-  [[nodiscard]] static Result<SuiteSource> open(const SurveyOptions& options);
+  /// @param command  that asks, for the log of the test split
+  [[nodiscard]] static Result<SuiteSource> open(const SurveyOptions& options,
+                                                const std::string& command);
 
   [[nodiscard]] const Inputs& inputs() const { return inputs_; }
   /// Encounter `number` of the suite.
@@ -51,7 +53,7 @@ class SuiteSource {
 /// survey goes on from.
 /// @return  in the order of their numbers; nullopt: interrupted
 [[nodiscard]] Result<std::optional<std::vector<eval::Finding>>> survey(
-    const SurveyOptions& options);
+    const SuiteSource& source, const SurveyOptions& options);
 
 /// Says what is wrong.
 /// @return  the exit code for it

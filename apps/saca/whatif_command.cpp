@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -73,16 +74,21 @@ Result<std::optional<std::vector<Cell>>> try_all(const ScenarioInputs& inputs, d
       const auto scenario = scenario_at(inputs, time, axes, from + i);
       if (!scenario.has_value()) {
         problems[from + i] = scenario.error();
+        cells[from + i].possible = false;
         return;
       }
       cells[from + i] = eval::try_cell(scenario.value(), inputs.car, inputs.harm, time);
     });
-    for (std::size_t i = from; i < to; ++i) {
-      if (problems[i]) {
-        return *problems[i];
-      }
-    }
     progress.show(static_cast<int>(to), 0, " scenes");
+  }
+  const bool none =
+      std::none_of(cells.begin(), cells.end(), [](const Cell& cell) { return cell.possible; });
+  if (none) {
+    const auto why = std::find_if(problems.begin(), problems.end(),
+                                  [](const auto& problem) { return problem.has_value(); });
+    return why == problems.end()
+               ? Error{Error::Code::out_of_range, "--vary: bodies overlap whatever the value"}
+               : **why;
   }
   return std::optional(cells);
 }
@@ -169,7 +175,8 @@ void print_counts(const std::vector<Cell>& cells) {
     }
   }
   if (impossible > 0) {
-    fmt::print("  {} of {} cannot be: bodies overlap\n", impossible, cells.size());
+    fmt::print("  {} of {} cannot be: bodies would overlap, or a value is out of range\n",
+               impossible, cells.size());
   }
 }
 
@@ -185,6 +192,10 @@ int run(const WhatifCommand& options) {
       return complain_of({axis.error().code, "--vary " + axis.error().message});
     }
     axes.push_back(axis.value());
+  }
+  if (axes.size() == 2 && axes[0].what == axes[1].what) {
+    return complain_of({Error::Code::malformed,
+                        "--vary: want two different numbers, got " + axes[0].what + " twice"});
   }
   if (num_cells(axes) > most_cells) {
     return complain_of(

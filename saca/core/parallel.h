@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <exception>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -16,20 +18,34 @@ inline int usual_threads() {
 /// Calls work(i) once for every i below `count`, on several threads; returns when all are done.
 ///
 /// What `work` writes must be its own: one element of an array, say. Then the result does not
-/// depend on the number of threads. `work` must not throw.
+/// depend on the number of threads. What `work` throws is thrown again when all threads have
+/// stopped; the rest of the work is then left undone.
 template <class Work>
 void in_parallel(std::size_t count, int threads, const Work& work) {
   std::atomic<std::size_t> next = 0;
+  std::exception_ptr problem;
+  std::mutex lock;
   const auto worker = [&] {
-    for (std::size_t i = next++; i < count; i = next++) {
-      work(i);
+    try {
+      for (std::size_t i = next++; i < count; i = next++) {
+        work(i);
+      }
+    } catch (...) {
+      const std::lock_guard guard(lock);
+      problem = std::current_exception();
+      next = count;
     }
   };
-  std::vector<std::jthread> others;
-  for (int i = 1; i < threads; ++i) {
-    others.emplace_back(worker);
+  {
+    std::vector<std::jthread> others;
+    for (int i = 1; i < threads; ++i) {
+      others.emplace_back(worker);
+    }
+    worker();
   }
-  worker();
+  if (problem) {
+    std::rethrow_exception(problem);
+  }
 }
 
 }  // namespace saca

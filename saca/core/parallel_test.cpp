@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 #include <algorithm>
 #include <numeric>
 
@@ -19,6 +21,18 @@ TEST(InParallel, DoesEachOnceWhateverTheThreads) {
 
 TEST(InParallel, NothingToDoIsDone) {
   in_parallel(0, 3, [](std::size_t) { FAIL(); });
+}
+
+TEST(Parallel, WhatIsThrownIsThrownAgain) {
+  for (const int threads : {1, 3}) {
+    EXPECT_THROW(in_parallel(100, threads,
+                             [](std::size_t i) {
+                               if (i == 17) {
+                                 throw std::runtime_error("seventeen");
+                               }
+                             }),
+                 std::runtime_error);
+  }
 }
 
 }  // namespace

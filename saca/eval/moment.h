@@ -28,7 +28,7 @@ struct Moment {
   manoeuvre::Unknown unknown;
 };
 
-/// @param time    [s], in [0, scenario.duration]
+/// @param time    [s], in [0, scenario.duration]; taken to the nearest 10 ms
 /// @param chance  what is left to it; none: as written
 [[nodiscard]] Moment moment_at(const sim::Scenario& scenario, const manoeuvre::Car& car,
                                double time, const sim::Chance& chance = {});

@@ -11,33 +11,20 @@ namespace {
 
 using manoeuvre::num_policies;
 using manoeuvre::PolicyId;
-using Draw = std::array<std::optional<outcome::Outcome>, num_policies>;
+using Tried = std::array<outcome::Outcome, num_policies>;  // meaningless where refused
 
-/// One world, tried with all that can be driven in the scene as written.
-Draw one_draw(const sim::Scenario& scenario, const manoeuvre::Car& car,
-              const outcome::HarmModel& harm, const OracleOptions& options, std::uint64_t number) {
-  const sim::Chance chance = sim::draw_chance(options.seed, number, options.time);
-  const auto tried = attempts(moment_at(scenario, car, options.time, chance), car, harm);
-  Draw draw;
-  for (std::size_t i = 0; i < num_policies; ++i) {
-    if (tried[i].facts.refusal.empty()) {
-      draw[i] = tried[i].facts.outcome;
-    }
-  }
-  return draw;
+Tried outcomes_of(const std::array<loop::Hindsight, num_policies>& tried) {
+  Tried outcomes;
+  std::transform(tried.begin(), tried.end(), outcomes.begin(),
+                 [](const loop::Hindsight& one) { return one.facts.outcome; });
+  return outcomes;
 }
 
-/// The policy's outcomes in those worlds in which all of `among` could be driven.
-std::vector<outcome::Outcome> outcomes_of(const std::vector<Draw>& draws, std::size_t policy,
-                                          const std::vector<std::size_t>& among) {
-  std::vector<outcome::Outcome> outcomes;
-  for (const Draw& draw : draws) {
-    if (std::all_of(among.begin(), among.end(),
-                    [&](std::size_t i) { return draw[i].has_value(); })) {
-      outcomes.push_back(*draw[policy]);
-    }
-  }
-  return outcomes;
+/// One world. What can be driven is the same in all: the ego believes in the same start.
+Tried one_draw(const sim::Scenario& scenario, const manoeuvre::Car& car,
+               const outcome::HarmModel& harm, const OracleOptions& options, std::uint64_t number) {
+  const sim::Chance chance = sim::draw_chance(options.seed, number, options.time);
+  return outcomes_of(attempts(moment_at(scenario, car, options.time, chance), car, harm));
 }
 
 /// What is sure: one outcome, without an interval.
@@ -70,36 +57,34 @@ Oracle oracle(const sim::Scenario& scenario, const manoeuvre::Car& car,
   const Moment moment = moment_at(scenario, car, options.time);
   told.scene = moment.scene;
   const auto written = attempts(moment, car, harm);
-  std::vector<std::size_t> driven;
-  Draw as_written;
-  for (std::size_t i = 0; i < num_policies; ++i) {
-    told.verdicts[i].written = written[i];
-    if (written[i].facts.refusal.empty()) {
-      driven.push_back(i);
-      as_written[i] = written[i].facts.outcome;
-    }
-  }
-  std::vector<Draw> draws(static_cast<std::size_t>(options.draws));
+  const Tried as_written = outcomes_of(written);
+  std::vector<Tried> draws(static_cast<std::size_t>(options.draws));
   in_parallel(draws.size(), options.threads,
               [&](std::size_t k) { draws[k] = one_draw(scenario, car, harm, options, k); });
   std::array<std::vector<outcome::Outcome>, num_policies> outcomes;
   std::array<outcome::Outcome, num_policies> average;
-  for (const std::size_t i : driven) {
-    outcomes[i] = outcomes_of(draws, i, driven);
-    const bool alone = outcomes[i].size() < 2;
-    told.verdicts[i].expected = alone ? sure(*as_written[i]) : outcome::expected(outcomes[i]);
-    average[i] = alone ? *as_written[i] : on_average(outcomes[i]);
+  for (std::size_t i = 0; i < num_policies; ++i) {
+    told.verdicts[i].written = written[i];
+    if (!written[i].facts.refusal.empty()) {
+      continue;
+    }
+    for (const Tried& draw : draws) {
+      outcomes[i].push_back(draw[i]);
+    }
+    told.verdicts[i].expected =
+        draws.empty() ? sure(as_written[i]) : outcome::expected(outcomes[i]);
+    average[i] = draws.empty() ? as_written[i] : on_average(outcomes[i]);
     told.ranking.push_back(manoeuvre::all_policies[i]);
   }
   std::sort(told.ranking.begin(), told.ranking.end(), [&](PolicyId a, PolicyId b) {
     return outcome::better(average[manoeuvre::index(a)], a, average[manoeuvre::index(b)], b);
   });
   const std::size_t best = manoeuvre::index(told.best());
-  for (const std::size_t i : driven) {
+  for (const PolicyId policy : told.ranking) {
+    const std::size_t i = manoeuvre::index(policy);
     const double more = average[i].harm - average[best].harm;
-    told.verdicts[i].behind = outcomes[i].size() < 2
-                                  ? outcome::Mean{more, more, more}
-                                  : outcome::harm_difference(outcomes[i], outcomes[best]);
+    told.verdicts[i].behind = draws.empty() ? outcome::Mean{more, more, more}
+                                            : outcome::harm_difference(outcomes[i], outcomes[best]);
   }
   return told;
 }

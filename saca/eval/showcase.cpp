@@ -44,6 +44,7 @@ std::vector<Finding> candidates(std::span<const Finding> findings, PolicyId poli
   std::stable_sort(promising.begin(), promising.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<Finding> sorted;
+  sorted.reserve(promising.size());
   for (const auto& [worth, finding] : promising) {
     sorted.push_back(*finding);
   }
@@ -59,8 +60,10 @@ bool convinces(const Oracle& oracle, PolicyId policy, const ShowcaseRule& rule) 
            std::all_of(oracle.ranking.begin(), oracle.ranking.end(),
                        [&](PolicyId other) { return oracle.of(other).behind.value >= 0.0; });
   }
-  const Margin margin = margin_of_best(oracle);
-  return margin.mean >= rule.clear && margin.low > 0.0;
+  return std::all_of(oracle.ranking.begin(), oracle.ranking.end(), [&](PolicyId other) {
+    const outcome::Mean& behind = oracle.of(other).behind;
+    return other == policy || (behind.value >= rule.clear && behind.low > 0.0);
+  });
 }
 
 std::string why_right(const Oracle& oracle, PolicyId policy) {

@@ -64,6 +64,16 @@ TEST(Showcase, AClearMarginUnderNoiseConvinces) {
   EXPECT_FALSE(convinces(with(0.004, 0.003), PolicyId::aes_left, rule));  // too little
 }
 
+TEST(Showcase, EveryOtherMustBeClearlyWorse) {
+  Oracle three = told(PolicyId::aes_left, PolicyId::aeb, {0.02, 0.01, 0.03});
+  three.ranking.push_back(PolicyId::t_drift_left);
+  outcome::Mean& wide = three.verdicts[manoeuvre::index(PolicyId::t_drift_left)].behind;
+  wide = {0.05, 0.02, 0.08};
+  EXPECT_TRUE(convinces(three, PolicyId::aes_left, {}));
+  wide = {0.05, -0.02, 0.12};
+  EXPECT_FALSE(convinces(three, PolicyId::aes_left, {}));
+}
+
 TEST(Showcase, DoingNothingConvincesWhereItHarmsNobodyAndNobodyElseDoesLess) {
   const ShowcaseRule rule{.clear = 0.005};
   const auto with = [](double behind) {

@@ -79,8 +79,8 @@ std::optional<Finding> finding_from(std::string_view line) {
   finding.family = words[0];
   const auto number =
       std::from_chars(words[1].data(), words[1].data() + words[1].size(), finding.number);
-  const auto best = finite_number(words[3]);
-  const auto policy = manoeuvre::policy_from(best ? static_cast<int>(*best) : -1);
+  const bool digit = words[3].size() == 1 && words[3][0] >= '0' && words[3][0] <= '9';
+  const auto policy = manoeuvre::policy_from(digit ? words[3][0] - '0' : -1);
   if (number.ec != std::errc() || number.ptr != words[1].data() + words[1].size() || !policy ||
       !read_word(words[2], finding.time)) {
     return std::nullopt;
@@ -93,7 +93,10 @@ std::optional<Finding> finding_from(std::string_view line) {
     }
     finding.contact[i] = contact == "1";
   }
-  return finding;
+  // Braking and doing nothing can always be tried.
+  const bool tried = finding.harm[manoeuvre::index(PolicyId::aeb)] &&
+                     finding.harm[manoeuvre::index(PolicyId::no_intervention)];
+  return finding.time.has_value() == tried ? std::optional(finding) : std::nullopt;
 }
 
 Taught lesson_of(const Finding& finding) {
@@ -107,16 +110,18 @@ Taught lesson_of(const Finding& finding) {
     }
   }
   std::sort(harms.begin(), harms.end());
-  const double nothing = finding.harm[manoeuvre::index(PolicyId::no_intervention)].value();
+  const long nothing = class_of(finding.harm[manoeuvre::index(PolicyId::no_intervention)].value());
   const long least = class_of(harms.front().first);
-  if (class_of(nothing) == 0) {
-    return {Lesson::nothing_needed, std::nullopt, 0.0};
-  }
+  Taught taught;
   if (class_of(harms[1].first) > least) {
-    return {Lesson::one_alone, harms.front().second, harms[1].first - harms.front().first};
+    taught.alone = harms.front().second;
+    taught.margin = harms[1].first - harms.front().first;
   }
-  return {class_of(nothing) == least ? Lesson::nothing_helps : Lesson::several_as_good,
-          std::nullopt, 0.0};
+  taught.lesson = nothing == 0       ? Lesson::nothing_needed
+                  : nothing == least ? Lesson::nothing_helps
+                  : taught.alone     ? Lesson::one_alone
+                                     : Lesson::several_as_good;
+  return taught;
 }
 
 Balance balance(std::span<const Finding> findings) {

@@ -40,15 +40,16 @@ struct Finding {
 enum class Lesson : std::uint8_t {
   never_triggers,   ///< nobody has to decide anything
   nothing_needed,   ///< doing nothing harms nobody
-  nothing_helps,    ///< no policy does less harm than doing nothing
+  nothing_helps,    ///< doing nothing harms, and no policy does less harm
   several_as_good,  ///< the least harm is that of several: the mildest of them is taken
-  one_alone,        ///< one does less harm than every other
+  one_alone,        ///< one does less harm than every other, doing nothing included
 };
 
 /// "Less" is a lower class of harm (outcome/ordering.h).
 struct Taught {
   Lesson lesson = Lesson::never_triggers;
-  std::optional<manoeuvre::PolicyId> alone;  ///< with one_alone
+  std::optional<manoeuvre::PolicyId> alone;  ///< it does less harm than every other, whatever the
+                                             ///< lesson: doing nothing may be it
   double margin = 0.0;                       ///< of it: harm of the second best above its own
 };
 [[nodiscard]] Taught lesson_of(const Finding& finding);

@@ -40,6 +40,12 @@ TEST(Survey, OtherLinesAreNone) {
   std::string nan = line;
   nan.replace(nan.find("0.5"), 3, "nan");
   EXPECT_EQ(finding_from(nan), std::nullopt);
+  Finding hopeless = harmful();
+  hopeless.harm[manoeuvre::index(PolicyId::aeb)] = std::nullopt;  // braking is always possible
+  EXPECT_EQ(finding_from(line_of(hopeless)), std::nullopt);
+  std::string half = line;
+  half.replace(half.find(",7,"), 3, ",0.9,");
+  EXPECT_EQ(finding_from(half), std::nullopt);
 }
 
 TEST(Survey, OneAloneHasALowerClassOfHarmThanEveryOther) {
@@ -56,7 +62,9 @@ TEST(Survey, LessThanATieIsNotLess) {
 
 TEST(Survey, WhatNothingHelpsAgainstAndWhatNeedsNothing) {
   EXPECT_EQ(lesson_of(harmful()).lesson, Lesson::nothing_helps);
-  EXPECT_EQ(lesson_of(with(PolicyId::no_intervention, 0.0)).lesson, Lesson::nothing_needed);
+  const Taught nothing = lesson_of(with(PolicyId::no_intervention, 0.0));
+  EXPECT_EQ(nothing.lesson, Lesson::nothing_needed);
+  EXPECT_EQ(nothing.alone, PolicyId::no_intervention);  // all others harm
   EXPECT_EQ(lesson_of({.family = "x"}).lesson, Lesson::never_triggers);
   Finding two = with(PolicyId::aeb, 0.1);
   two.harm[1] = 0.1;

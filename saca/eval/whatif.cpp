@@ -72,42 +72,110 @@ void move(ScenarioActor& actor, const world::Road& road, double ds, double dd) {
   }
 }
 
-/// Where a body is at the time, along the road; nullopt: not there.
-std::optional<world::LanePose> place_at(const Scenario& scenario, const manoeuvre::Car& car,
-                                        double time, std::string_view called) {
+/// Where everybody is at one instant, along the road.
+struct PlacesThen {
+  world::LanePose ego;
+  std::vector<std::optional<world::LanePose>> actors;  ///< of the scenario; nullopt: not there
+};
+
+PlacesThen places_at(const Scenario& scenario, const manoeuvre::Car& car, double time) {
   const world::Scene scene = moment_at(scenario, car, time).scene;
-  if (called == "ego") {
-    return to_lane(scene.road, scene.ego.X_WB);
-  }
-  for (const world::Actor& actor : scene.actors) {
-    if (world::actor_name(actor) == called) {
-      return to_lane(scene.road, actor.X_WA);
+  PlacesThen places{.ego = to_lane(scene.road, scene.ego.X_WB), .actors = {}};
+  for (const ScenarioActor& actor : scenario.actors) {
+    places.actors.emplace_back();
+    for (const world::Actor& there : scene.actors) {
+      if (there.kind == actor.kind && there.id == actor.id) {
+        places.actors.back() = to_lane(scene.road, there.X_WA);
+      }
     }
   }
-  return std::nullopt;
+  return places;
 }
 
 Error impossible(const Axis& axis, double value, const std::string& why) {
   return {Error::Code::out_of_range, fmt::format("{}={}: {}", axis.what, value, why)};
 }
 
-Result<Scenario> with_ego(Scenario scenario, const manoeuvre::Car& car, double time,
-                          const Axis& axis, double value) {
-  auto* start = std::get_if<sim::EgoStart>(&scenario.ego);
-  if (start == nullptr) {
-    return impossible(axis, value, "the ego follows a recording; what it did cannot be varied");
+/// How far somebody was off, what he was then moved by, and so how much a move helps: who reacts
+/// makes up for part of it on the way.
+class Secant {
+ public:
+  double move_for(double miss) {
+    if (moved_ != 0.0) {
+      gain_ = std::clamp((missed_ - miss) / moved_, 0.05, 2.0);
+    }
+    missed_ = miss;
+    moved_ = miss / gain_;
+    return moved_;
   }
-  if (axis.key == "offset_m") {
-    start->pose.d += value - place_at(scenario, car, time, "ego")->d;
-    return scenario;
+
+ private:
+  double missed_ = 0.0;
+  double moved_ = 0.0;
+  double gain_ = 1.0;
+};
+
+/// Begins everybody elsewhere until all are where they are wanted at the time. Who reacts moves
+/// otherwise when others begin elsewhere, so a few rounds are needed.
+/// @return  false when they do not get there
+bool brought_to(const PlacesThen& wanted, Scenario& scenario, const manoeuvre::Car& car,
+                double time) {
+  constexpr int most_rounds = 12;
+  constexpr double near_enough = 0.01;  // [m]
+  std::vector<Secant> along(scenario.actors.size());
+  for (int round = 0; round < most_rounds; ++round) {
+    const PlacesThen now = places_at(scenario, car, time);
+    double off = 0.0;
+    const auto miss = [&](const world::LanePose& is, const world::LanePose& should) {
+      off = std::max({off, std::abs(should.s - is.s), std::abs(should.d - is.d)});
+      return Vec2{should.s - is.s, should.d - is.d};
+    };
+    const Vec2 ego = miss(now.ego, wanted.ego);
+    if (auto* start = std::get_if<sim::EgoStart>(&scenario.ego)) {
+      start->pose.s += ego.x;
+      start->pose.d += ego.y;
+    }
+    for (std::size_t i = 0; i < scenario.actors.size(); ++i) {
+      if (now.actors[i].has_value() != wanted.actors[i].has_value()) {
+        return false;
+      }
+      if (now.actors[i]) {
+        const Vec2 by = miss(*now.actors[i], *wanted.actors[i]);
+        move(scenario.actors[i], scenario.road, along[i].move_for(by.x), by.y);
+      }
+    }
+    if (off < near_enough) {
+      return true;
+    }
   }
-  if (!(value >= 0.0 && value <= 60.0)) {
-    return impossible(axis, value, "want 0 to 60 m/s");
+  return false;
+}
+
+/// The number itself, where it is not a place.
+std::optional<Error> set_number(Scenario& scenario, const Axis& axis, double value) {
+  if (axis.key == "grip") {
+    scenario.grip = value;
+    return std::nullopt;
   }
-  const double before = place_at(scenario, car, time, "ego")->s;
-  start->speed = value;
-  start->pose.s += before - place_at(scenario, car, time, "ego")->s;
-  return scenario;
+  if (axis.body == "ego") {
+    auto* start = std::get_if<sim::EgoStart>(&scenario.ego);
+    if (start == nullptr) {
+      return impossible(axis, value, "the ego follows a recording; what it did cannot be varied");
+    }
+    if (axis.key == "speed_mps") {
+      start->speed = value;
+    }
+    return std::nullopt;
+  }
+  if (axis.key == "speed_mps") {
+    auto* script = std::get_if<Script>(&scenario.actors[*actor_called(scenario, axis.body)].motion);
+    if (script == nullptr || script->behaviour == sim::Behaviour::hold) {
+      return impossible(axis, value, axis.body + " has no speed of its own to vary");
+    }
+    script->speed = value;
+    script->law.desired_speed = std::max(value, 0.1);
+  }
+  return std::nullopt;
 }
 
 /// Harm of the second best above that of the best.
@@ -154,6 +222,7 @@ Result<Axis> parse_axis(std::string_view text, const Scenario& scenario) {
   axis.what = axis.body.empty() ? axis.key : axis.body + "." + axis.key;
   const std::vector<std::string_view> numbers = fields_of(sides[1], ':');
   std::vector<double> range;
+  range.reserve(numbers.size());
   for (const std::string_view number : numbers) {
     range.push_back(finite_number(number).value_or(NAN));
   }
@@ -173,41 +242,41 @@ Result<Axis> parse_axis(std::string_view text, const Scenario& scenario) {
 
 Result<Scenario> varied(const Scenario& scenario, const manoeuvre::Car& car, double time,
                         const Axis& axis, double value) {
+  PlacesThen wanted = places_at(scenario, car, time);
+  if (axis.key == "offset_m" && axis.body == "ego") {
+    wanted.ego.d = value;
+  } else if (!axis.body.empty() && axis.body != "ego") {
+    auto& place = wanted.actors[*actor_called(scenario, axis.body)];
+    if (!place) {
+      return impossible(axis, value, axis.body + " is not there when the policies begin");
+    }
+    if (axis.key == "offset_m") {
+      place->d = value;
+    } else if (axis.key == "distance_m") {
+      place->s = wanted.ego.s + value;
+    }
+  }
   Scenario changed = scenario;
-  if (axis.key == "grip") {
-    if (!(value >= 0.05 && value <= 1.2)) {
-      return impossible(axis, value, "want 0.05 to 1.2");
+  if (const auto problem = set_number(changed, axis, value)) {
+    return *problem;
+  }
+  // Before anybody moves: a number out of range, a lane change that nobody drives.
+  const world::Footprint ego = manoeuvre::footprint(car);
+  const auto is_refused = [&](const Scenario& it) -> std::optional<Error> {
+    const auto read = sim::read_scenario(sim::write_scenario(it), "as varied", ego);
+    return read.has_value() ? std::nullopt
+                            : std::optional(impossible(axis, value, read.error().message));
+  };
+  if (axis.key == "speed_mps" || axis.key == "grip") {
+    if (const auto problem = is_refused(changed)) {
+      return *problem;
     }
-    changed.grip = value;
-    return changed;
   }
-  if (axis.body == "ego") {
-    return with_ego(std::move(changed), car, time, axis, value);
+  if (!brought_to(wanted, changed, car, time)) {
+    return impossible(axis, value, "who reacts to others cannot be where it was");
   }
-  ScenarioActor& actor = changed.actors[*actor_called(scenario, axis.body)];
-  const auto before = place_at(scenario, car, time, axis.body);
-  if (!before) {
-    return impossible(axis, value, axis.body + " is not there when the policies begin");
-  }
-  if (axis.key == "speed_mps") {
-    auto* script = std::get_if<Script>(&actor.motion);
-    if (script == nullptr || script->behaviour == sim::Behaviour::hold) {
-      return impossible(axis, value, axis.body + " has no speed of its own to vary");
-    }
-    if (!(value >= 0.0 && value <= 60.0)) {
-      return impossible(axis, value, "want 0 to 60 m/s");
-    }
-    script->speed = value;
-    script->law.desired_speed = std::max(value, 0.1);
-    const auto after = place_at(changed, car, time, axis.body);
-    move(actor, changed.road, before->s - after->s, before->d - after->d);
-    return changed;
-  }
-  if (axis.key == "offset_m") {
-    move(actor, changed.road, 0.0, value - before->d);
-  } else {
-    const double ego = place_at(scenario, car, time, "ego")->s;
-    move(actor, changed.road, ego + value - before->s, 0.0);
+  if (const auto problem = is_refused(changed)) {
+    return *problem;
   }
   return changed;
 }

@@ -32,8 +32,9 @@ struct Axis {
 
 /// The scenario with one number changed so that at `time` it has the value, while everything else
 /// is at that instant where it was.
+/// (Everybody begins elsewhere for that, within 1 cm; who reacts to others keeps its law.)
 /// @return  Error::Code::out_of_range when that cannot be: a recorded ego's speed, a value out of
-///          range
+///          range, bodies that would touch at the start
 [[nodiscard]] Result<sim::Scenario> varied(const sim::Scenario& scenario, const manoeuvre::Car& car,
                                            double time, const Axis& axis, double value);
 

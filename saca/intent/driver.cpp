@@ -1,6 +1,9 @@
 #include "saca/intent/driver.h"
 
+#include <array>
 #include <cmath>
+#include <numbers>
+#include <optional>
 #include <vector>
 
 #include "saca/core/contract.h"
@@ -36,6 +39,9 @@ bool is_valid(const DriverLaw& law) {
 DriverLaw content_with(DriverLaw law, double speed, double gap) {
   expects(speed >= 0.0, "speed >= 0");
   expects(!std::isnan(gap), "gap is a number");
+  if (std::isinf(gap) && gap > 0.0) {
+    return law;  // nobody is ahead
+  }
   const double kept = std::max(gap, least_counted_gap);
   law.least_gap = std::min(law.least_gap, kept);
   if (speed > 0.0) {
@@ -113,6 +119,64 @@ void Driver::speed_up(double factor) {
   law_.desired_speed *= factor;
 }
 
+namespace {
+
+constexpr std::size_t most_corners = 24;  // of an ellipse: 0.9 % of its half axes inside it
+
+struct Outline {
+  std::array<Vec2, most_corners> p_L;  ///< along the road: s and d [m]
+  std::size_t size = 0;
+};
+
+Outline outline(const world::Road& road, const Present& body) {
+  const world::Footprint& it = *body.footprint;
+  const double a = 0.5 * it.length;
+  const double b = it.shape == world::Shape::segment ? 0.0 : 0.5 * it.width;
+  Outline all;
+  const auto add = [&](Vec2 p_B) {
+    const world::LanePose at =
+        world::to_lane(road, {body.X_WA * (p_B + Vec2{it.centre_x, 0.0}), 0.0});
+    all.p_L[all.size++] = {at.s, at.d};
+  };
+  if (it.shape != world::Shape::ellipse) {
+    for (const Vec2 corner : {Vec2{a, b}, Vec2{-a, b}, Vec2{-a, -b}, Vec2{a, -b}}) {
+      add(corner);
+    }
+    return all;
+  }
+  for (std::size_t k = 0; k < most_corners; ++k) {
+    const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / most_corners;
+    add({a * std::cos(angle), b * std::sin(angle)});
+  }
+  return all;
+}
+
+// The least s, or seen against the lane the largest, of what of a body lies between two d;
+// nullopt: nothing does.
+std::optional<double> nearest_within(const world::Road& road, const Present& body, double low,
+                                     double high, double direction) {
+  const Outline all = outline(road, body);
+  std::optional<double> nearest;
+  const auto look_at = [&](double s) {
+    nearest = nearest ? direction * std::min(direction * *nearest, direction * s) : s;
+  };
+  for (std::size_t i = 0; i < all.size; ++i) {
+    const Vec2 p = all.p_L[i];
+    const Vec2 q = all.p_L[(i + 1) % all.size];
+    if (p.y > low && p.y < high) {
+      look_at(p.x);
+    }
+    for (const double d : {low, high}) {
+      if ((p.y < d) != (q.y < d)) {
+        look_at(p.x + (d - p.y) / (q.y - p.y) * (q.x - p.x));
+      }
+    }
+  }
+  return nearest;
+}
+
+}  // namespace
+
 LaneDriver::LaneDriver(const world::Road& road, const world::Footprint& footprint, const Pose& X_WA,
                        const Driver& driver)
     : road_(road),
@@ -136,16 +200,12 @@ Ahead LaneDriver::ahead(std::span<const Present> others, std::size_t skip) const
     if (direction_ * (at.s - place_.s) <= 0.0 || std::abs(at.d - place_.d) >= half_width + radius) {
       continue;  // a cheap look at most of them
     }
-    const auto reach = [&](Vec2 direction_L) {
-      const Vec2 direction_W = rotated(direction_L, other.X_WA.yaw - at.heading);
-      return world::to_lane(road_,
-                            {world::support(*other.footprint, other.X_WA, direction_W), 0.0});
-    };
-    if (reach({0.0, 1.0}).d <= place_.d - half_width ||
-        reach({0.0, -1.0}).d >= place_.d + half_width) {
+    const auto rear =
+        nearest_within(road_, other, place_.d - half_width, place_.d + half_width, direction_);
+    if (!rear) {
       continue;
     }
-    const double gap = direction_ * (reach({-direction_, 0.0}).s - place_.s) * scale - front;
+    const double gap = direction_ * (*rear - place_.s) * scale - front;
     if (gap < nearest.gap) {
       const Vec2 along_W = rotated({direction_, 0.0}, other.X_WA.yaw - at.heading);
       nearest = {gap, dot(other.v_W, along_W)};

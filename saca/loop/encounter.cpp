@@ -333,6 +333,7 @@ bool Encounter::over() const {
 }
 
 void Encounter::conclude() {
+  record_.grip = stepper_.grip();
   record_.result = witness_.outcome();
   if (contact_) {
     tell(Plane::world, EventKind::contact, outcome::describe(record_.result, record_.met));
@@ -340,8 +341,8 @@ void Encounter::conclude() {
   if (record_.decision) {
     Scene at_trigger = *record_.at_trigger;
     at_trigger.grip = seen_at_trigger_.grip;
-    record_.hindsight =
-        hindsight(at_trigger, others_at_trigger_, stepper_.grip(), *setup_.car, *setup_.harm);
+    record_.hindsight = hindsight(at_trigger, others_at_trigger_, stepper_.grip(), *setup_.car,
+                                  *setup_.harm, stepper_.unknown_from_now());
     std::array<preview::PolicyFacts, manoeuvre::num_policies> facts;
     std::transform(record_.hindsight->begin(), record_.hindsight->end(), facts.begin(),
                    [](const Hindsight& one) { return one.facts; });

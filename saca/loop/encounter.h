@@ -76,6 +76,7 @@ struct ReflexTiming {
 
 /// One encounter from start to rest, with everything that led there.
 struct Record {
+  double grip = 0.0;  ///< true friction coefficient of the road [-]
   std::vector<Frame> frames;
   std::vector<decide::Event> events;  ///< by time
   std::vector<decide::Preview> previews;

@@ -20,7 +20,7 @@ json seeds_json(const Setup& setup) {
   return setup.seed ? json{{"chance", *setup.seed}} : json::object();
 }
 
-json header_json(const Setup& setup) {
+json header_json(const Setup& setup, const Record& record) {
   const sim::Scenario& scenario = *setup.scenario;
   const world::Footprint body = manoeuvre::footprint(*setup.car);
   return {
@@ -34,7 +34,7 @@ json header_json(const Setup& setup) {
       {"model", setup.model == nullptr ? "off" : setup.model->description()},
       {"seeds", seeds_json(setup)},
       {"car", scenario.car},
-      {"grip", scenario.grip},
+      {"grip", record.grip},
       {"road", road_json(scenario.road)},
       {"ego", {{"length_m", body.length}, {"width_m", body.width}, {"centre_x_m", body.centre_x}}},
       {"actors", actor_bodies_json(scenario)}};
@@ -127,7 +127,7 @@ std::string actor_rows(const world::Scene& scene, bool is_perceived) {
 }  // namespace
 
 std::string trace_jsonl(const Setup& setup, const Record& record) {
-  std::string lines = json_line(header_json(setup));
+  std::string lines = json_line(header_json(setup, record));
   for (const Frame& frame : record.frames) {
     lines += json_line(trace_frame_json(frame));
   }

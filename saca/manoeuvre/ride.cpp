@@ -18,7 +18,7 @@ Ride::Ride(const Car& car, const Plan& plan, const world::Scene& scene, double g
   expects(grip > 0.0 && grip <= 1.2 && grip_ > 0.0, "grip in (0, 1.2]");
   memory_ = begin(car_, plan_, scene);
   world::EgoState ego = scene.ego;
-  ego.v_B.x += unknown.speed;
+  ego.v_B.x = std::max(std::min(ego.v_B.x, 0.0), ego.v_B.x + unknown.speed);  // never backwards
   state_ = rolling_state(real_, ego, grip_);
 }
 

@@ -42,10 +42,4 @@ EgoMotion joined(const EgoMotion& before, const EgoMotion& after) {
   return all;
 }
 
-// What has passed between the ego and somebody or something.
-struct Dealings {
-  std::optional<double> last_blow;  ///< [s]
-  bool over = false;                ///< nothing more can come of it
-};
-
 }  // namespace saca::outcome

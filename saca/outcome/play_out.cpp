@@ -39,6 +39,12 @@ constexpr double look_again = 0.01;
 // A bound on the work: after so many blows the story breaks off.
 constexpr std::size_t most_blows = 32;
 
+// What has passed between the ego and somebody or something.
+struct Dealings {
+  std::optional<double> last_blow;  ///< [s]
+  bool over = false;                ///< nothing more can come of it
+};
+
 bool moves_at_end(const EgoMotion& motion) {
   return norm(motion.v_B.back()) > at_rest;
 }
@@ -152,6 +158,10 @@ class Story {
   [[nodiscard]] const Track& track(std::size_t i) const {
     return slides_[i].empty() ? tracks_[i] : slides_[i].back().track;
   }
+  /// A slide ends at rest, whatever its last step was like.
+  [[nodiscard]] bool other_moves_at_end(std::size_t i) const {
+    return slides_[i].empty() ? moves_at_end(tracks_[i]) : moves_at_end(slides_[i].back());
+  }
   [[nodiscard]] Instant other_at(std::size_t i, double time) const {
     return slides_[i].empty() ? instant_at(tracks_[i], time) : instant_at(slides_[i].back(), time);
   }
@@ -219,7 +229,7 @@ std::optional<Event> Story::next_at(Side side) {
 // @param first  nothing is known yet that ends the search before `until`
 std::optional<Event> Story::next_with(std::size_t i, double until, bool first) {
   const Dealings& before = dealings_[i];
-  const double known = moves_at_end(track(i)) ? std::min(until, end_time(track(i))) : until;
+  const double known = other_moves_at_end(i) ? std::min(until, end_time(track(i))) : until;
   if (before.over || known < since_) {
     return std::nullopt;
   }

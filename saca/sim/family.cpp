@@ -6,6 +6,7 @@
 #include "saca/config/config.h"
 #include "saca/core/file.h"
 #include "saca/core/names.h"
+#include "saca/intent/driver.h"
 
 namespace saca::sim {
 namespace {
@@ -17,7 +18,7 @@ constexpr std::array<std::string_view, num_family_kinds> kind_names{
     "crossing",   "one_way", "lead_brakes", "cut_in", "cut_out",
     "pedestrian", "cyclist", "head_on",     "merge"};
 
-// Every share is a probability; of two that exclude each other the sum is at most 1.
+// Every share is a probability.
 constexpr std::array surroundings_list = std::to_array<std::string_view>(
     {"grip", "lane_width_m", "shoulder_m", "left_lane_share", "right_lane_share", "oncoming_share",
      "barrier_share", "trees_share", "kerb_share", "left_busy_share", "right_busy_share",
@@ -76,6 +77,15 @@ config::Range bounds(std::string_view key) {
   if (key == "overlap") {
     return {-0.5, 1.5};
   }
+  if (key.ends_with("reaction_s")) {
+    return {0.0, intent::longest_reaction};
+  }
+  if (key.ends_with("takes_s") || key.ends_with("length_m") || key.ends_with("width_m") ||
+      key.ends_with("size_m") || key.ends_with("speed_mps") || key.ends_with("speed_share") ||
+      key.ends_with("deceleration_mps2") || key == "gap_s" || key == "walk_mps" ||
+      key == "ride_mps" || key == "run_mps") {
+    return {0.05, 100.0};  // nothing that is divided by, and no body without a size
+  }
   const bool signed_place = key.ends_with("offset_m") || key.ends_with("ahead_m") ||
                             key.ends_with("late_s") || key == "done_before_s" ||
                             key == "neighbour_gap_m" || key == "drift_to_m" || key == "slower_mps";
@@ -101,6 +111,25 @@ void read_schema(Table root, std::string_view wanted) {
   const std::string schema = root.text("schema");
   if (schema != wanted) {
     root.reject("schema", "want \"" + std::string(wanted) + "\", got \"" + schema + "\"");
+  }
+}
+
+/// Of what excludes each other the probabilities sum to at most 1.
+void check_sums(const Family& family, Table& ranges) {
+  constexpr double most = 1.0 + 1e-9;
+  for (const std::vector<std::string>& together :
+       {std::vector<std::string>{"van_share", "truck_share"},
+        {"barrier_share", "trees_share", "kerb_share"},
+        {"chance_stop", "chance_run"}}) {
+    double sum = 0.0;
+    for (const std::string& key : together) {
+      const auto range = family.ranges.find(key);
+      sum += range == family.ranges.end() ? 0.0 : range->second.max;
+    }
+    if (sum > most) {
+      ranges.reject(together.front(),
+                    "want at most 1 together with what excludes it, got " + std::to_string(sum));
+    }
   }
 }
 
@@ -144,6 +173,10 @@ Result<Family> read_family(std::string_view text, std::string_view source,
   Table root = document.value().root();
   read_schema(root, "saca.family/1");
   family.name = root.text("name");
+  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz0123456789_";
+  if (family.name.empty() || family.name.find_first_not_of(letters) != std::string::npos) {
+    root.reject("name", "want lower-case letters, digits and _, got \"" + family.name + "\"");
+  }
   const std::string kind = root.text("kind");
   const auto known = family_kind_from(kind);
   if (!known) {
@@ -164,6 +197,7 @@ Result<Family> read_family(std::string_view text, std::string_view source,
       family.ranges[std::string(key)] = read_range(ranges.table(key), key);
     }
   }
+  check_sums(family, ranges);
   for (const config::Document* file : {&common.value(), &document.value()}) {
     if (auto error = file->error()) {
       return *error;

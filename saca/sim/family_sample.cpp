@@ -40,19 +40,29 @@ Script crossing_at(double s, double d, double time, double heading, double speed
           .speed = speed};
 }
 
-/// Room for so many lanes to that side, counted from the middle of the ego's.
-void widen(Stage& stage, double side, double lanes) {
+/// Moves the edge out where it is nearer than that.
+void widen(Stage& stage, double side, double room) {
   double& edge = side > 0.0 ? stage.scenario.road.left_edge : stage.scenario.road.right_edge;
-  edge = side * std::max(std::abs(edge), lanes * stage.lane() + 0.01);
+  edge = side * std::max(std::abs(edge), room + 0.01);
 }
 
-/// Parked beside the lane; its front `ahead` of the place `s`.
+/// A lane beside ours, in our direction.
+void want_lane(Stage& stage, double side) {
+  widen(stage, side, 1.5 * stage.lane());
+  (side > 0.0 ? stage.left_lane : stage.right_lane) = true;
+  if (side > 0.0) {
+    stage.scenario.road.oncoming_left = false;
+  }
+}
+
+/// Parked beside the outermost lane of that side; its front `ahead` of the place `s`.
 void park(Stage& stage, double s, double ahead, double side) {
   const double length = Stage::length_of(ActorKind::car);
-  const double d = 0.5 * stage.lane() + 0.6 + 0.5 * Stage::width_of(ActorKind::car);
+  const double lanes = (side > 0.0 ? stage.left_lane : stage.right_lane) ? 1.5 : 0.5;
+  const double d = lanes * stage.lane() + 0.6 + 0.5 * Stage::width_of(ActorKind::car);
   stage.add(ActorKind::car,
             {.start = {s + ahead - 0.5 * length, side * d, 0.0}, .behaviour = Behaviour::hold});
-  widen(stage, side, (d + Stage::width_of(ActorKind::car)) / stage.lane());
+  widen(stage, side, d + Stage::width_of(ActorKind::car));
 }
 
 Harmless crossing(Stage& stage) {
@@ -107,7 +117,8 @@ Harmless one_way(Stage& stage) {
         .shape = world::Shape::ellipse, .length = size, .width = size};
   }
   if (dice.happens("merging_share")) {
-    widen(stage, -1.0, 2.5);
+    widen(stage, -1.0, 2.5 * stage.lane());
+    stage.right_lane = true;
     const double pace = stage.speed * dice.in("merging_speed_share");
     const double there = stage.speed * stage.decision + dice.in("merging_ahead_m");
     const world::LanePose start{there - pace * stage.decision, -2.0 * stage.lane(), 0.0};
@@ -121,7 +132,7 @@ Harmless lead_brakes(Stage& stage) {
   Dice& dice = stage.dice;
   const ActorKind kind = stage.any_vehicle();
   const double gap = stage.speed * dice.in("gap_s");
-  const double hard = std::min(dice.in("deceleration_mps2"), 9.81 * stage.scenario.grip);
+  const double hard = std::min(dice.in("deceleration_mps2"), from_g(stage.scenario.grip));
   const Script going_on{.start = {stage.front + gap + 0.5 * Stage::length_of(kind), 0.0, 0.0},
                         .speed = stage.speed};
   Script brakes = going_on;
@@ -140,12 +151,12 @@ Harmless cut_in(Stage& stage) {
   const double pace = std::max(1.0, stage.speed - dice.in("slower_mps"));
   const double gap = dice.in("gap_m");
   const double takes = dice.in("takes_s");
-  widen(stage, side, 1.5);
+  want_lane(stage, side);
   const double begins = Stage::approach;
   const double s = stage.head() + gap + 0.5 * Stage::length_of(kind) - pace * begins;
   const world::LanePose start{s, side * stage.lane(), 0.0};
   Script script = changing_lane(start, pace, 0.0, begins, takes);
-  const double hard = std::min(dice.in("deceleration_mps2"), 9.81 * stage.scenario.grip);
+  const double hard = std::min(dice.in("deceleration_mps2"), from_g(stage.scenario.grip));
   if (dice.happens("brakes_share")) {
     script.acceleration = hard;
   }
@@ -164,7 +175,7 @@ Harmless cut_out(Stage& stage) {
   const double gap = stage.speed * dice.in("gap_s");
   const double meets = Stage::approach - (gap + Stage::length_of(kind)) / stage.speed;
   const double side = dice.side("to_left_share");
-  widen(stage, side, 1.5);
+  want_lane(stage, side);
   const world::LanePose start{stage.front + gap + 0.5 * Stage::length_of(kind), 0.0, 0.0};
   stage.add(kind,
             changing_lane(start, stage.speed, side * stage.lane(),
@@ -207,9 +218,7 @@ Harmless pedestrian(Stage& stage) {
               {.start = {s + 4.0 * dice.even() - 1.0, -side * aside, side * right_angle},
                .behaviour = Behaviour::hold});
   }
-  Script stops = script;
-  stops.behaviour = Behaviour::constant_velocity;
-  return stopping_after(stops, std::abs(script.start.d) - 0.5 * stage.lane() - 0.5);
+  return stopping_after(script, std::abs(script.start.d) - 0.5 * stage.lane() - 0.5);
 }
 
 Harmless cyclist(Stage& stage) {
@@ -221,13 +230,15 @@ Harmless cyclist(Stage& stage) {
   stage.decision = Stage::approach - trigger;
   if (dice.happens("along_share")) {
     // Along our right edge, with us; swerves in before we pass.
-    const double gap = 1.5 + (stage.speed - pace) * (trigger + 0.3 * takes);
+    const double ride = std::min(pace, 0.9 * stage.speed);
+    const double gap = 1.5 + (stage.speed - ride) * (trigger + 0.3 * takes) +
+                       0.5 * Stage::length_of(ActorKind::bicycle);
     const double there = stage.speed * stage.decision + stage.front + gap;
-    const world::LanePose start{there - pace * stage.decision, -0.5 * stage.lane() + 0.2, 0.0};
+    const world::LanePose start{there - ride * stage.decision, -0.5 * stage.lane() + 0.2, 0.0};
     const double target = stage.width * (overlap - 0.5);
     stage.add(ActorKind::bicycle,
-              changing_lane(start, pace, target, stage.decision - 0.5 * takes, takes));
-    Script stays{.start = start, .speed = pace};
+              changing_lane(start, ride, target, stage.decision - 0.5 * takes, takes));
+    Script stays{.start = start, .speed = ride};
     stays.start.d = -0.5 * stage.lane() - 0.5;
     return stays;
   }
@@ -311,6 +322,11 @@ void label(const Family& family, std::uint64_t seed, std::uint64_t number, std::
   found.twin.title += " (without risk)";
 }
 
+/// It keeps every rule of a scenario's file: room at the start, lane changes that somebody drives.
+bool can_be_written(const Scenario& scenario, const world::Footprint& ego) {
+  return read_scenario(write_scenario(scenario), scenario.name, ego).has_value();
+}
+
 /// Nobody touches anybody: the others each other until well into the conflict, the ego somebody
 /// until it must act.
 bool is_sensible(const Scenario& scenario, const world::Footprint& ego, double decision) {
@@ -360,7 +376,8 @@ Result<FamilySample> sample(const Family& family, std::uint64_t seed, std::uint6
     } else {
       found.twin.actors.erase(found.twin.actors.begin());
     }
-    if (is_sensible(found.scenario, ego, stage.decision) &&
+    if (can_be_written(found.scenario, ego) && can_be_written(found.twin, ego) &&
+        is_sensible(found.scenario, ego, stage.decision) &&
         is_sensible(found.twin, ego, stage.decision)) {
       return found;
     }

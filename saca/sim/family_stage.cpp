@@ -52,7 +52,6 @@ Beyond draw_beyond(Dice& dice) {
 Script reacting(world::LanePose start, double speed, double gap, double reaction) {
   Script script{.start = start, .speed = speed, .behaviour = Behaviour::follow};
   script.law = intent::content_with(intent::usual_driver(speed), speed, gap);
-  script.law.desired_speed = std::max(speed, 1.0);
   script.law.reaction = reaction;
   return script;
 }
@@ -81,8 +80,9 @@ Stage::Stage(Dice& the_dice, const world::Footprint& ego, bool junction) : dice(
   road.lane_width = dice.in("lane_width_m");
   const bool left = dice.happens("left_lane_share");
   const bool right = dice.happens("right_lane_share");
-  oncoming_ = dice.happens("oncoming_share") && left;
-  road.oncoming_left = oncoming_;
+  left_lane = left;
+  right_lane = right;
+  road.oncoming_left = dice.happens("oncoming_share") && left;
   road.left_edge = road.lane_width * (left ? 1.5 : 0.5) + dice.in("shoulder_m") + 0.01;
   road.right_edge = -road.lane_width * (right ? 1.5 : 0.5) - dice.in("shoulder_m") - 0.01;
   road.left_beyond = draw_beyond(dice);
@@ -127,10 +127,10 @@ ScenarioActor& Stage::add(ActorKind kind, Script script) {
 
 void Stage::add_surroundings() {
   add_follower();
-  if (scenario.road.left_edge > 1.4 * lane() && dice.happens("left_busy_share")) {
+  if (left_lane && dice.happens("left_busy_share")) {
     add_neighbour(1.0);
   }
-  if (-scenario.road.right_edge > 1.4 * lane() && dice.happens("right_busy_share")) {
+  if (right_lane && dice.happens("right_busy_share")) {
     add_neighbour(-1.0);
   }
 }
@@ -153,12 +153,14 @@ void Stage::add_neighbour(double side) {
   const double reaction = dice.in("follower_reaction_s");
   const double there = speed * decision;  // the ego, when it must act
   const double pace = share * speed;
-  if (side > 0.0 && oncoming_) {
+  if (side > 0.0 && scenario.road.oncoming_left) {
     const double s = there + front + ahead + 0.5 * length_of(ActorKind::car) + pace * decision;
     add(ActorKind::car, {.start = {s, lane(), std::numbers::pi}, .speed = pace});
   } else {
-    add(ActorKind::car, reacting({.s = there + gap - pace * decision, .d = side * lane()}, pace,
-                                 free_road, reaction));
+    Script script = reacting({.s = there + gap - pace * decision, .d = side * lane()}, pace,
+                             free_road, reaction);
+    script.law.desired_speed = pace;
+    add(ActorKind::car, script);
   }
 }
 

@@ -46,11 +46,13 @@ class Stage {
 
   Dice& dice;
   Scenario scenario;
-  double speed = 0.0;     ///< of the ego [m/s]
-  double front = 0.0;     ///< of the ego ahead of its centre of mass [m]
-  double rear = 0.0;      ///< of the ego behind it [m]
-  double width = 0.0;     ///< of the ego [m]
-  double decision = 0.0;  ///< about when the ego must act [s]: set by who makes the conflict
+  double speed = 0.0;       ///< of the ego [m/s]
+  double front = 0.0;       ///< of the ego ahead of its centre of mass [m]
+  double rear = 0.0;        ///< of the ego behind it [m]
+  double width = 0.0;       ///< of the ego [m]
+  bool left_lane = false;   ///< there is one to the left, for traffic
+  bool right_lane = false;  ///< likewise to the right
+  double decision = 0.0;    ///< about when the ego must act [s]: set by who makes the conflict
 
   /// Where the ego's front is when the approach is over [m].
   [[nodiscard]] double head() const { return front + speed * approach; }
@@ -70,8 +72,6 @@ class Stage {
  private:
   void add_follower();
   void add_neighbour(double side);
-
-  bool oncoming_ = false;
 };
 
 }  // namespace saca::sim

@@ -65,6 +65,10 @@ TEST(Family, RefusesWhatAPersonCanGetWrong) {
               AllOf(HasSubstr("f.toml"), HasSubstr("gap_s"), HasSubstr("empty")));
   EXPECT_THAT(complaint("min = 0.5", "min = nan"), HasSubstr("min"));
   EXPECT_THAT(complaint("min = 0.5", "min = -0.5"), AllOf(HasSubstr("min"), HasSubstr("-0.5")));
+  EXPECT_THAT(complaint("min = 4.0", "min = 0.0"), HasSubstr("min"));  // who never stops
+  EXPECT_THAT(complaint("min = 0.12, max = 0.12", "min = 0.9, max = 0.9"), HasSubstr("at most 1"));
+  EXPECT_THAT(complaint("name = \"lead_brakes\"", "name = \"Lead-Brakes\""),
+              HasSubstr("lower-case"));
   EXPECT_THAT(complaint("gap_s =", "gap_m ="), HasSubstr("gap_s"));
   EXPECT_THAT(complaint("source = \"assumption\"", "source = \"\""), HasSubstr("who says so"));
   EXPECT_THAT(complaint(", source = \"assumption\"", ""), HasSubstr("source"));

@@ -132,6 +132,15 @@ Result<std::vector<Suite>> read_suites(std::string_view text, std::string_view s
   for (const Table& table : root.tables("suites")) {
     suites.push_back(read_suite(table));
   }
+  std::set<std::string> names;
+  for (const Suite& suite : suites) {
+    if (!names.insert(suite.name).second) {
+      root.reject("suites", "want names that differ, got \"" + suite.name + "\" twice");
+    }
+  }
+  if (suites.empty()) {
+    root.reject("suites", "want at least one suite, got none");
+  }
   if (auto error = document.value().error()) {
     return *error;
   }

@@ -110,6 +110,7 @@ TEST(Suites, RefuseWhatIsWrong) {
     text += source;
     return text + "\"\n";
   };
+  EXPECT_THAT(why("schema = \"saca.suites/1\"\n"), HasSubstr("at least one suite"));
   EXPECT_THAT(why(head), HasSubstr("at least one family"));
   EXPECT_THAT(why(member("0", "s")), AllOf(HasSubstr("u.toml:7"), HasSubstr("weight")));
   EXPECT_THAT(why(member("1", "")), HasSubstr("who says so"));

@@ -86,6 +86,13 @@ world::Scene Stepper::perceive() {
   return perception_->look(truth, {ghosts.begin(), ghosts.size()});
 }
 
+manoeuvre::Unknown Stepper::unknown_from_now() const {
+  manoeuvre::Unknown unknown = chance_.car;
+  unknown.grip = 1.0;
+  unknown.speed = 0.0;
+  return unknown;
+}
+
 outcome::Others Stepper::others() const {
   return [traffic = traffic_, ego = manoeuvre::footprint(real_car_),
           last = scenario_.duration](const world::Track& X_WB) {

@@ -48,6 +48,9 @@ class Stepper {
   /// motion. One look: call it once at every step of the traffic, from the first on.
   [[nodiscard]] world::Scene perceive();
 
+  /// How the real car differs from what the ego takes it for; grip() and the scene hold the rest.
+  [[nodiscard]] manoeuvre::Unknown unknown_from_now() const;
+
   /// True friction coefficient.
   [[nodiscard]] double grip() const { return grip_; }
 

@@ -34,7 +34,10 @@ Traffic::Traffic(const Scenario& scenario, const Chance& chance)
       const auto& script = std::get<Script>(actor.motion);
       const ActorChance& drawn = chance_.actors[i];
       const Pose X_WA = start_pose(scenario, i) * Pose{{drawn.ahead, drawn.aside}, 0.0};
-      appoint(i, X_WA, script.speed, script.law);
+      const double factor = chance_.from <= 0.0 ? drawn.speed : 1.0;
+      intent::DriverLaw law = script.law;
+      law.desired_speed *= factor;
+      appoint(i, X_WA, factor * script.speed, law);
     } else {
       member.next = actor_pose(scenario, i, step, chance_);
       member.now.X_WA = actor_pose(scenario, i, 0.0, chance_);
@@ -53,9 +56,6 @@ void Traffic::appoint(std::size_t actor, const Pose& X_WA, double speed, intent:
   Member& member = members_[actor];
   member.driver.emplace(scenario_->road, scenario_->actors[actor].footprint, X_WA,
                         intent::Driver(law, speed, grip_, step));
-  if (num_steps_ == 0 && chance_.from <= 0.0) {
-    member.driver->driver().speed_up(drawn.speed);
-  }
   member.now = {member.driver->pose(), member.driver->velocity()};
 }
 

@@ -235,7 +235,10 @@ bool is_behind(const Scene& scene, const Actor& actor) {
 
 bool is_follower(const Scene& scene, const Actor& actor) {
   const double aside = to_lane(scene.road, actor.X_WA).d - to_lane(scene.road, scene.ego.X_WB).d;
-  return is_behind(scene, actor) &&
+  constexpr double standing = 0.5;  // [m/s]
+  const bool drives = actor.kind != ActorKind::pedestrian && actor.kind != ActorKind::obstacle &&
+                      norm(actor.v_W) >= standing;
+  return drives && is_behind(scene, actor) &&
          std::abs(aside) < 0.5 * (actor.footprint.width + scene.ego_footprint.width);
 }
 

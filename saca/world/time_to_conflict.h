@@ -24,7 +24,8 @@ namespace saca::world {
 /// braking and swerving for it would be wrong.
 [[nodiscard]] bool is_behind(const Scene& scene, const Actor& actor);
 
-/// It is behind, and in the ego's own path: what becomes of it depends on how it reacts to the ego.
+/// A vehicle that drives (0.5 m/s at least) behind, in the ego's own path: what becomes of it
+/// depends on how it reacts to the ego.
 [[nodiscard]] bool is_follower(const Scene& scene, const Actor& actor);
 
 /// First contact of the ego, going on as it does, with an actor that follows `track`.

@@ -64,6 +64,8 @@ def test_doing_nothing_at_the_printed_t1_hits_at_the_speeds_that_are_printed(tmp
     (["family", "no_such"], "no_such.toml"),
     (["family", "merge"], "kept for the test split"),
     (["family", "crossing", "--split", "test"], "--test-log"),
+    (["whatif", "intersection_t1", "--vary", "grip=0.5:0.5:1", "--vary", "grip=0.5:0.5:1"], "grip twice"),
+    (["whatif", "one_way", "--at_s", 4.2, "--vary", "car.speed_mps=0:0:1"], "speed_mps"),
     (["balance", "--suite", "no_such"], "natural, balanced"),
 ])
 def test_what_cannot_be_done_is_said_in_one_line(arguments, wanted, tmp_path):
@@ -107,6 +109,8 @@ def test_every_family_gives_a_sheet_and_files_that_run(family, tmp_path):
     assert run.returncode == SUCCESS, run.stderr
     told = json.loads(run.stdout)
     assert len(told["samples"]) == 2
+    quick = saca("run", tmp_path / told["samples"][0]["file"], "--llm", "off", "--pace", "lockstep", "--no-memory", cwd=tmp_path)
+    assert quick.returncode == SUCCESS, quick.stderr
     for sample in told["samples"]:
         made = tomllib.loads((tmp_path / sample["file"]).read_text())
         assert made["name"] == sample["name"] and made["grip"] == sample["grip"]
@@ -139,7 +143,7 @@ def test_a_survey_counts_goes_on_and_repeats_itself(tmp_path):
               ("never_triggers", "nothing_needed", "nothing_helps", "several_as_good", "one_alone")]
     assert sum(shares) == pytest.approx(1.0)
     alone = sum(more[f"balance.balanced.strict_share.p{i}"] for i in range(8))
-    assert alone == pytest.approx(more["balance.balanced.one_alone_share"])
+    assert alone >= more["balance.balanced.one_alone_share"] - 1e-12  # doing nothing may be alone where nothing is needed
     fresh = json.loads(saca("balance", "--count", 12, "--journal", "other.journal", "--threads", 1, "--json",
                             cwd=tmp_path).stdout)
     assert fresh == more
