@@ -79,7 +79,9 @@ Result<std::optional<std::vector<Cell>>> try_all(const ScenarioInputs& inputs, d
       }
       cells[from + i] = eval::try_cell(scenario.value(), inputs.car, inputs.harm, time);
     });
-    progress.show(static_cast<int>(to), 0, " scenes");
+    if (to < cells.size()) {
+      progress.show(static_cast<int>(to), 0, " scenes");
+    }
   }
   const bool none =
       std::none_of(cells.begin(), cells.end(), [](const Cell& cell) { return cell.possible; });
