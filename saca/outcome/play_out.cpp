@@ -88,7 +88,8 @@ template <class FirstTouch, class Closing>
 std::optional<Event> meet_again(double from, double until, FirstTouch&& first_touch,
                                 Closing&& closing) {
   bool together = true;
-  for (double time = from; time <= until; time += look_again) {
+  double time = from;
+  while (time <= until) {
     const std::optional<double> contact = first_touch(time);
     if (!contact) {
       return std::nullopt;
@@ -97,7 +98,7 @@ std::optional<Event> meet_again(double from, double until, FirstTouch&& first_to
     if (closing(*contact) > least_closing) {
       return Event{.time = *contact, .presses_on = together};
     }
-    time = *contact;
+    time = *contact + look_again;
   }
   return std::nullopt;
 }
