@@ -20,7 +20,8 @@ namespace saca::eval {
                                                  const manoeuvre::Car& car,
                                                  const preview::Thresholds& thresholds = {});
 
-/// One instant of a scenario, and what follows from it: all that a policy's outcome depends on.
+/// One instant of a scenario, and what follows from it: all that a policy's outcome depends on. The
+/// scenario outlives it.
 struct Moment {
   world::Scene scene;      ///< as it truly is, but for the grip, which the ego believes in
   outcome::Others others;  ///< what the others do from then on, the ego's motion given
@@ -32,6 +33,8 @@ struct Moment {
 /// @param chance  what is left to it; none: as written
 [[nodiscard]] Moment moment_at(const sim::Scenario& scenario, const manoeuvre::Car& car,
                                double time, const sim::Chance& chance = {});
+Moment moment_at(sim::Scenario&& scenario, const manoeuvre::Car& car, double time,
+                 const sim::Chance& chance = {}) = delete;
 
 /// All eight policies begun at this moment, each driven and judged to its end.
 [[nodiscard]] std::array<loop::Hindsight, manoeuvre::num_policies> attempts(

@@ -27,7 +27,8 @@ TEST(Moment, NothingTriggersOnAFreeRoad) {
 }
 
 TEST(Moment, IsTheSceneAtThatTime) {
-  const Moment moment = moment_at(standing_car(15.0, 60.0), default_car(), 2.0);
+  const sim::Scenario scenario = standing_car(15.0, 60.0);
+  const Moment moment = moment_at(scenario, default_car(), 2.0);
   EXPECT_NEAR(moment.scene.time, 2.0, 1e-9);
   EXPECT_NEAR(moment.scene.ego.X_WB.p.x, 30.0, 1e-9);
   EXPECT_EQ(moment.grip, 0.9);
