@@ -176,6 +176,22 @@ std::string Table::text(std::string_view key) {
   return entry(*document_, node_, key, true) == nullptr ? "" : optional_text(key).value_or("");
 }
 
+void Table::want_schema(std::string_view wanted) {
+  const std::string schema = text("schema");
+  if (schema != wanted) {
+    reject("schema", "want \"" + std::string(wanted) + "\", got \"" + schema + "\"");
+  }
+}
+
+std::string Table::plain_name(std::string_view key) {
+  std::string name = text(key);
+  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz0123456789_";
+  if (name.empty() || name.find_first_not_of(letters) != std::string::npos) {
+    reject(key, "want lower-case letters, digits and _, got \"" + name + "\"");
+  }
+  return name;
+}
+
 std::optional<std::string> Table::optional_text(std::string_view key) {
   const toml::node* const node = entry(*document_, node_, key, false);
   if (node == nullptr) {

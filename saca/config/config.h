@@ -32,6 +32,10 @@ class Table {
   [[nodiscard]] std::int64_t integer(std::string_view key, std::int64_t min, std::int64_t max);
   [[nodiscard]] std::string text(std::string_view key);
   [[nodiscard]] std::optional<std::string> optional_text(std::string_view key);
+  /// Rejects the document unless its text under `schema` is this.
+  void want_schema(std::string_view wanted);
+  /// A text that may be a file's name everywhere: lower-case letters, digits and `_`, at least one.
+  [[nodiscard]] std::string plain_name(std::string_view key);
   /// @return  `otherwise` when the key is missing
   [[nodiscard]] bool flag(std::string_view key, bool otherwise);
   /// An array of finite numbers in `range`.

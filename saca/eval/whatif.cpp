@@ -20,16 +20,12 @@ using sim::Script;
 
 constexpr std::size_t most_values = 400;
 
-std::string name_of(const ScenarioActor& actor) {
-  return std::string(world::name(actor.kind)) + std::to_string(actor.id);
-}
-
 /// The actor called so, or the only one of that kind; nullopt: none, or more than one.
 std::optional<std::size_t> actor_called(const Scenario& scenario, std::string_view called) {
   std::optional<std::size_t> found;
   for (std::size_t i = 0; i < scenario.actors.size(); ++i) {
     const ScenarioActor& actor = scenario.actors[i];
-    if (name_of(actor) == called) {
+    if (actor_name(actor) == called) {
       return i;
     }
     if (world::name(actor.kind) == called) {
@@ -45,7 +41,7 @@ std::optional<std::size_t> actor_called(const Scenario& scenario, std::string_vi
 std::string wanted_bodies(const Scenario& scenario) {
   std::string names = "grip, ego";
   for (const ScenarioActor& actor : scenario.actors) {
-    names += ", " + name_of(actor);
+    names += ", " + actor_name(actor);
   }
   return names;
 }
@@ -209,7 +205,7 @@ Result<Axis> parse_axis(std::string_view text, const Scenario& scenario) {
       if (!actor) {
         return malformed(text, "one of " + wanted_bodies(scenario) + ", got \"" + axis.body + "\"");
       }
-      axis.body = name_of(scenario.actors[*actor]);
+      axis.body = actor_name(scenario.actors[*actor]);
     }
     if (!is_key(axis.body, axis.key)) {
       return malformed(text, (axis.body == "ego" ? "speed_mps or offset_m of the ego, got \""

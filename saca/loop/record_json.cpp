@@ -24,11 +24,7 @@ json number_or_null(const std::optional<double>& number) {
 json actors_json(const world::Scene& scene) {
   json actors = json::array();
   for (const world::Actor& actor : scene.actors) {
-    actors.push_back({{"id", actor_name(actor)},
-                      {"x_m", actor.X_WA.p.x},
-                      {"y_m", actor.X_WA.p.y},
-                      {"heading_deg", to_degrees(actor.X_WA.yaw)},
-                      {"speed_mps", norm(actor.v_W)}});
+    actors.push_back(actor_json(actor));
   }
   return actors;
 }

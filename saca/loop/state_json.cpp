@@ -35,10 +35,18 @@ json ego_json(const world::EgoState& ego, double steering) {
           {"steering_deg", to_degrees(steering)}};
 }
 
+json actor_json(const world::Actor& actor) {
+  return {{"id", actor_name(actor)},
+          {"x_m", actor.X_WA.p.x},
+          {"y_m", actor.X_WA.p.y},
+          {"heading_deg", to_degrees(actor.X_WA.yaw)},
+          {"speed_mps", norm(actor.v_W)}};
+}
+
 json actor_bodies_json(const sim::Scenario& scenario) {
   json actors = json::array();
   for (const sim::ScenarioActor& actor : scenario.actors) {
-    actors.push_back({{"id", actor_name(world::Actor{.id = actor.id, .kind = actor.kind})},
+    actors.push_back({{"id", actor_name(actor)},
                       {"kind", name(actor.kind)},
                       {"shape", name(actor.footprint.shape)},
                       {"length_m", actor.footprint.length},

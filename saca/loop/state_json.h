@@ -14,6 +14,9 @@ namespace saca::loop {
 /// @param steering  of the road wheels [rad]
 [[nodiscard]] nlohmann::json ego_json(const world::EgoState& ego, double steering);
 
+/// Where an actor is and how fast it is.
+[[nodiscard]] nlohmann::json actor_json(const world::Actor& actor);
+
 /// Names and outlines of a scenario's actors.
 [[nodiscard]] nlohmann::json actor_bodies_json(const sim::Scenario& scenario);
 

@@ -40,16 +40,8 @@ json header_json(const Setup& setup, const Record& record) {
       {"actors", actor_bodies_json(scenario)}};
 }
 
-json true_actor_json(const world::Actor& actor) {
-  return {{"id", actor_name(actor)},
-          {"x_m", actor.X_WA.p.x},
-          {"y_m", actor.X_WA.p.y},
-          {"heading_deg", to_degrees(actor.X_WA.yaw)},
-          {"speed_mps", norm(actor.v_W)}};
-}
-
 json known_actor_json(const world::Actor& actor) {
-  json out = true_actor_json(actor);
+  json out = actor_json(actor);
   out["position_sd_m"] = actor.position_sd;
   out["velocity_sd_mps"] = actor.velocity_sd;
   out["existence"] = actor.existence;
@@ -76,7 +68,7 @@ json trace_frame_json(const Frame& frame) {
            {"t_s", frame.scene.time},
            {"phase", name(frame.phase)},
            {"ego", ego_json(frame.scene.ego, frame.steering)},
-           {"actors", all_actors(frame.scene, true_actor_json)},
+           {"actors", all_actors(frame.scene, actor_json)},
            {"conflict_s", frame.conflict ? json(*frame.conflict) : json(nullptr)}};
   const json known = knowledge_json(frame.perceived);
   if (known != knowledge_json(frame.scene)) {

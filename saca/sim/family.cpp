@@ -107,13 +107,6 @@ FamilyRange read_range(Table table, std::string_view key) {
   return range;
 }
 
-void read_schema(Table root, std::string_view wanted) {
-  const std::string schema = root.text("schema");
-  if (schema != wanted) {
-    root.reject("schema", "want \"" + std::string(wanted) + "\", got \"" + schema + "\"");
-  }
-}
-
 /// Of what excludes each other the probabilities sum to at most 1.
 void check_sums(const Family& family, Table& ranges) {
   constexpr double most = 1.0 + 1e-9;
@@ -165,18 +158,14 @@ Result<Family> read_family(std::string_view text, std::string_view source,
     return document.error();
   }
   Family family;
-  read_schema(common.value().root(), "saca.surroundings/1");
+  common.value().root().want_schema("saca.surroundings/1");
   Table common_ranges = common.value().root().table("ranges");
   for (const std::string_view key : surroundings_list) {
     family.ranges[std::string(key)] = read_range(common_ranges.table(key), key);
   }
   Table root = document.value().root();
-  read_schema(root, "saca.family/1");
-  family.name = root.text("name");
-  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz0123456789_";
-  if (family.name.empty() || family.name.find_first_not_of(letters) != std::string::npos) {
-    root.reject("name", "want lower-case letters, digits and _, got \"" + family.name + "\"");
-  }
+  root.want_schema("saca.family/1");
+  family.name = root.plain_name("name");
   const std::string kind = root.text("kind");
   const auto known = family_kind_from(kind);
   if (!known) {

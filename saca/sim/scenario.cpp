@@ -129,10 +129,6 @@ PerceptionModel read_perception(Table& root) {
   return model;
 }
 
-std::string shown_name(const ScenarioActor& actor) {
-  return std::string(world::name(actor.kind)) + std::to_string(actor.id);
-}
-
 /// Whether an actor is there when the scenario begins.
 bool present(const ScenarioActor& actor) {
   const auto* recording = std::get_if<Recording>(&actor.motion);
@@ -154,38 +150,31 @@ void check_bodies(const Scenario& scenario, std::vector<Table>& tables,
   std::set<std::string> names;
   for (std::size_t i = 0; i < scenario.actors.size(); ++i) {
     const ScenarioActor& actor = scenario.actors[i];
-    if (!names.insert(shown_name(actor)).second) {
-      tables[i].reject("id", "want a new one, got a second " + shown_name(actor));
+    if (!names.insert(actor_name(actor)).second) {
+      tables[i].reject("id", "want a new one, got a second " + actor_name(actor));
     }
     starts.push_back(start_pose(scenario, i));
     if (!present(actor)) {
       continue;
     }
     if (world::separation(ego, X_WB, actor.footprint, starts[i]).distance <= 0.0) {
-      tables[i].reject("", shown_name(actor) + ": want room at the start, got it touching the ego");
+      tables[i].reject("", actor_name(actor) + ": want room at the start, got it touching the ego");
     }
     for (std::size_t k = 0; k < i; ++k) {
       const ScenarioActor& other = scenario.actors[k];
       if (present(other) && !actor.ghost && !other.ghost &&
           world::separation(actor.footprint, starts[i], other.footprint, starts[k]).distance <=
               0.0) {
-        tables[i].reject("", shown_name(actor) + ": want room at the start, got it touching " +
-                                 shown_name(other));
+        tables[i].reject("", actor_name(actor) + ": want room at the start, got it touching " +
+                                 actor_name(other));
       }
     }
   }
 }
 
 void read_head(Table& root, Scenario& scenario) {
-  const std::string schema = root.text("schema");
-  if (schema != "saca.scenario/1") {
-    root.reject("schema", "want \"saca.scenario/1\", got \"" + schema + "\"");
-  }
-  scenario.name = root.text("name");
-  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz0123456789_";
-  if (scenario.name.empty() || scenario.name.find_first_not_of(letters) != std::string::npos) {
-    root.reject("name", "want lower-case letters, digits and _, got \"" + scenario.name + "\"");
-  }
+  root.want_schema("saca.scenario/1");
+  scenario.name = root.plain_name("name");
   scenario.title = root.text("title");
   scenario.why = root.optional_text("why").value_or("");
   scenario.source = root.text("source");
@@ -214,6 +203,10 @@ std::optional<Provenance> read_provenance(Table& root) {
 
 double believed_grip(const Scenario& scenario) {
   return scenario.perception.grip_believed.value_or(scenario.grip);
+}
+
+std::string actor_name(const ScenarioActor& actor) {
+  return world::actor_name(world::Actor{.id = actor.id, .kind = actor.kind});
 }
 
 std::string_view name(Behaviour behaviour) {

@@ -74,6 +74,9 @@ struct ScenarioActor {
   double existence = 1.0;  ///< how sure perception is of a ghost, in (0, 1)
 };
 
+/// As `world::actor_name`: "car1".
+[[nodiscard]] std::string actor_name(const ScenarioActor& actor);
+
 /// Where the ego of a made scenario begins; it then goes on along its lane at constant speed.
 struct EgoStart {
   world::LanePose pose;  ///< of its centre of mass

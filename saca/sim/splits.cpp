@@ -17,13 +17,6 @@ using config::Table;
 
 constexpr std::array<std::string_view, 3> split_names{"tuning", "calibration", "test"};
 
-void check_schema(Table root, const std::string& wanted) {
-  const std::string schema = root.text("schema");
-  if (schema != wanted) {
-    root.reject("schema", "want \"" + wanted + "\", got \"" + schema + "\"");
-  }
-}
-
 /// One line at the end of the log, with its folder made where it is missing.
 std::optional<Error> note(const TestLog& log, const std::string& line) {
   std::error_code problem;
@@ -71,7 +64,7 @@ Result<Splits> read_splits(std::string_view text, std::string_view source) {
     return document.error();
   }
   Table root = document.value().root();
-  check_schema(root, "saca.splits/1");
+  root.want_schema("saca.splits/1");
   Splits splits;
   Table seeds = root.table("seeds");
   std::set<std::uint64_t> all;
@@ -127,7 +120,7 @@ Result<std::vector<Suite>> read_suites(std::string_view text, std::string_view s
     return document.error();
   }
   Table root = document.value().root();
-  check_schema(root, "saca.suites/1");
+  root.want_schema("saca.suites/1");
   std::vector<Suite> suites;
   for (const Table& table : root.tables("suites")) {
     suites.push_back(read_suite(table));
