@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 
 #include "saca/core/csv.h"
 #include "saca/core/percentile.h"
@@ -26,10 +25,6 @@ std::string word_of(const std::optional<double>& number) {
 bool read_word(std::string_view word, std::optional<double>& number) {
   number = finite_number(word);
   return number.has_value() || word == no_number;
-}
-
-long class_of(double harm) {
-  return std::lround(harm / outcome::harm_tie);
 }
 
 }  // namespace
@@ -110,10 +105,11 @@ Taught lesson_of(const Finding& finding) {
     }
   }
   std::sort(harms.begin(), harms.end());
-  const long nothing = class_of(finding.harm[manoeuvre::index(PolicyId::no_intervention)].value());
-  const long least = class_of(harms.front().first);
+  const double nothing =
+      outcome::harm_class(finding.harm[manoeuvre::index(PolicyId::no_intervention)].value());
+  const double least = outcome::harm_class(harms.front().first);
   Taught taught;
-  if (class_of(harms[1].first) > least) {
+  if (outcome::harm_class(harms[1].first) > least) {
     taught.alone = harms.front().second;
     taught.margin = harms[1].first - harms.front().first;
   }

@@ -10,14 +10,10 @@ namespace saca::outcome {
 
 using manoeuvre::PolicyId;
 
-namespace {
-
-double harm_class(const Outcome& outcome) {
-  expects(outcome.harm >= 0.0 && std::isfinite(outcome.harm), "harm >= 0");
-  return std::round(outcome.harm / harm_tie);
+double harm_class(double harm) {
+  expects(harm >= 0.0 && std::isfinite(harm), "harm >= 0");
+  return std::round(harm / harm_tie);
 }
-
-}  // namespace
 
 int severity(PolicyId policy) {
   switch (policy) {
@@ -45,7 +41,8 @@ bool milder(PolicyId a, PolicyId b) {
 bool better(const Outcome& a, PolicyId policy_a, const Outcome& b, PolicyId policy_b) {
   const auto key = [](const Outcome& outcome, PolicyId policy) {
     expects(outcome.clearance >= 0.0 && std::isfinite(outcome.clearance), "clearance >= 0");
-    return std::tuple{harm_class(outcome), severity(policy), -std::round(outcome.clearance / 1e-3)};
+    return std::tuple{harm_class(outcome.harm), severity(policy),
+                      -std::round(outcome.clearance / 1e-3)};
   };
   return key(a, policy_a) < key(b, policy_b);
 }

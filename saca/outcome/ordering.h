@@ -20,6 +20,10 @@ struct Outcome;
 /// person, far below what the risk curves know.
 constexpr double harm_tie = 1e-4;
 
+/// Number of a harm's class, round(harm / harm_tie).
+/// @throws ContractViolation  if harm is not a number >= 0
+[[nodiscard]] double harm_class(double harm);
+
 /// Is carrying out `policy_a`, which ends in `a`, better than `policy_b`, which ends in `b`?
 ///
 /// The one comparison for decisions, best-in-hindsight and labels. In this order: the lower class

@@ -72,6 +72,12 @@ void Traffic::note(Member& member) const {
 
 std::vector<intent::Ahead> Traffic::views(const Pose& X_WB, Vec2 v_W,
                                           const world::Footprint& ego) const {
+  std::vector<intent::Ahead> all(members_.size());
+  const bool anybody = std::any_of(members_.begin(), members_.end(),
+                                   [](const Member& member) { return member.driver.has_value(); });
+  if (!anybody) {
+    return all;
+  }
   std::vector<intent::Present> there{{&ego, X_WB, v_W}};
   std::vector<std::size_t> place(members_.size(), nobody);
   for (std::size_t i = 0; i < members_.size(); ++i) {
@@ -80,7 +86,6 @@ std::vector<intent::Ahead> Traffic::views(const Pose& X_WB, Vec2 v_W,
       there.push_back({&scenario_->actors[i].footprint, members_[i].now.X_WA, members_[i].now.v_W});
     }
   }
-  std::vector<intent::Ahead> all(members_.size());
   for (std::size_t i = 0; i < members_.size(); ++i) {
     if (members_[i].driver) {
       all[i] = members_[i].driver->ahead(there, place[i]);
