@@ -10,13 +10,17 @@ namespace {
 
 constexpr int steps_per_look = 10;  // 10 ms
 
-int looks_until(double time) {
-  return static_cast<int>(std::lround(time / (steps_per_look * sim::Stepper::step)));
-}
-
 void advance_one_look(sim::Stepper& stepper) {
   for (int k = 0; k < steps_per_look; ++k) {
     stepper.advance({});
+  }
+}
+
+void advance_to(sim::Stepper& stepper, const sim::Scenario& scenario, double time) {
+  expects(time >= 0.0 && time <= scenario.duration, "time in [0, duration]");
+  const long num_looks = std::lround(time / (steps_per_look * sim::Stepper::step));
+  for (long k = 0; k < num_looks; ++k) {
+    advance_one_look(stepper);
   }
 }
 
@@ -35,14 +39,17 @@ std::optional<double> trigger_time(const sim::Scenario& scenario, const manoeuvr
   return std::nullopt;
 }
 
+world::Scene scene_at(const sim::Scenario& scenario, const manoeuvre::Car& car, double time) {
+  sim::Stepper stepper(scenario, car);
+  advance_to(stepper, scenario, time);
+  return stepper.scene();
+}
+
 Moment moment_at(const sim::Scenario& scenario, const manoeuvre::Car& car, double time,
                  const sim::Chance& chance) {
-  expects(time >= 0.0 && time <= scenario.duration, "time in [0, duration]");
   sim::Stepper stepper(scenario, car, chance);
-  for (int k = 0; k < looks_until(time); ++k) {
-    advance_one_look(stepper);
-  }
-  world::Scene scene = stepper.scene();
+  advance_to(stepper, scenario, time);
+  world::Scene scene = stepper.whole_scene();
   scene.grip = sim::believed_grip(scenario);
   stepper.take_the_wheel();
   return {.scene = scene, .others = stepper.others(), .grip = scenario.grip, .unknown = chance.car};

@@ -23,13 +23,18 @@ namespace saca::eval {
 /// One instant of a scenario, and what follows from it: all that a policy's outcome depends on. The
 /// scenario outlives it.
 struct Moment {
-  world::Scene scene;      ///< as it truly is, but for the grip, which the ego believes in
+  world::Scene scene;      ///< Stepper::whole_scene, but for the grip, which the ego believes in
   outcome::Others others;  ///< what the others do from then on, the ego's motion given
   double grip = 0.0;       ///< of the road as written; `unknown` may change it
   manoeuvre::Unknown unknown;
 };
 
-/// @param time    [s], in [0, scenario.duration]; taken to the nearest 10 ms
+/// The scene as it truly is at a time, among those who are there then.
+/// @param time  [s], in [0, scenario.duration]; taken to the nearest 10 ms
+[[nodiscard]] world::Scene scene_at(const sim::Scenario& scenario, const manoeuvre::Car& car,
+                                    double time);
+
+/// @param time    as scene_at
 /// @param chance  what is left to it; none: as written
 [[nodiscard]] Moment moment_at(const sim::Scenario& scenario, const manoeuvre::Car& car,
                                double time, const sim::Chance& chance = {});

@@ -32,7 +32,9 @@ TEST(Moment, IsTheSceneAtThatTime) {
   EXPECT_NEAR(moment.scene.time, 2.0, 1e-9);
   EXPECT_NEAR(moment.scene.ego.X_WB.p.x, 30.0, 1e-9);
   EXPECT_EQ(moment.grip, 0.9);
-  EXPECT_EQ(moment.others(world::Track{.start = 2.0, .X_WA = {moment.scene.ego.X_WB}}).size(), 1U);
+  const manoeuvre::EgoMotion stands{
+      .track = {.start = 2.0, .X_WA = {moment.scene.ego.X_WB}}, .v_B = {Vec2{}}, .yaw_rate = {0.0}};
+  EXPECT_EQ(moment.others(stands).size(), 1U);
 }
 
 TEST(Moment, RefusesTimesOutsideTheScenario) {

@@ -75,7 +75,7 @@ struct PlacesThen {
 };
 
 PlacesThen places_at(const Scenario& scenario, const manoeuvre::Car& car, double time) {
-  const world::Scene scene = moment_at(scenario, car, time).scene;
+  const world::Scene scene = scene_at(scenario, car, time);
   PlacesThen places{.ego = to_lane(scene.road, scene.ego.X_WB), .actors = {}};
   for (const ScenarioActor& actor : scenario.actors) {
     places.actors.emplace_back();
@@ -282,7 +282,7 @@ std::optional<double> nominal(const Scenario& scenario, const manoeuvre::Car& ca
   if (axis.key == "grip") {
     return scenario.grip;
   }
-  const world::Scene scene = moment_at(scenario, car, time).scene;
+  const world::Scene scene = scene_at(scenario, car, time);
   const world::LanePose ego = to_lane(scene.road, scene.ego.X_WB);
   if (axis.body == "ego") {
     return axis.key == "speed_mps" ? norm(scene.ego.v_B) : ego.d;
@@ -301,17 +301,16 @@ std::optional<double> nominal(const Scenario& scenario, const manoeuvre::Car& ca
 Cell try_cell(const Scenario& scenario, const manoeuvre::Car& car, const outcome::HarmModel& harm,
               double time) {
   Cell cell;
-  const Moment moment = moment_at(scenario, car, time);
-  cell.possible = std::none_of(
-      moment.scene.actors.begin(), moment.scene.actors.end(), [&](const world::Actor& actor) {
-        return world::separation(moment.scene.ego_footprint, moment.scene.ego.X_WB, actor.footprint,
-                                 actor.X_WA)
+  const world::Scene scene = scene_at(scenario, car, time);
+  cell.possible =
+      std::none_of(scene.actors.begin(), scene.actors.end(), [&](const world::Actor& actor) {
+        return world::separation(scene.ego_footprint, scene.ego.X_WB, actor.footprint, actor.X_WA)
                    .distance <= 0.0;
       });
   if (!cell.possible) {
     return cell;
   }
-  const Finding finding = look_into(moment, car, harm);
+  const Finding finding = look_into(moment_at(scenario, car, time), car, harm);
   const Taught taught = lesson_of(finding);
   const std::size_t best = manoeuvre::index(finding.best);
   cell.best = finding.best;

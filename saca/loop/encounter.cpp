@@ -84,7 +84,7 @@ class Encounter {
   void wake();
   decide::Reflex react();
   void hand_over_plans();
-  void execute(const Scene& truth, const preview::Threat& threat);
+  void execute(const preview::Threat& threat);
   void film(const Scene& scene, const decide::Reflex& reflex);
   [[nodiscard]] bool over() const;
   void conclude();
@@ -214,13 +214,10 @@ std::optional<Error> Encounter::look() {
   const decide::Reflex reflex = react();
   threatened_ = reflex.threat.has_value() || is_approached(scene);
   if (reflex.triggered) {
-    execute(scene, *reflex.threat);
+    execute(*reflex.threat);
   }
   if (woke_) {
-    if (const auto met = witness_.look(stepper_)) {
-      contact_ = true;
-      record_.met.assign(met->actors.begin(), met->actors.end());
-    }
+    contact_ = witness_.look(stepper_);
   }
   if (num_looks_ % looks_per_frame == 0 || contact_ || reflex.triggered) {
     film(scene, reflex);
@@ -282,7 +279,7 @@ void Encounter::hand_over_plans() {
   }
 }
 
-void Encounter::execute(const Scene& truth, const preview::Threat& threat) {
+void Encounter::execute(const preview::Threat& threat) {
   const Scene& scene = seen_;
   decide::Decision decision = *reflex_.decision();
   if (decision.source == decide::Source::forced) {
@@ -297,7 +294,7 @@ void Encounter::execute(const Scene& truth, const preview::Threat& threat) {
   plan_ = decision.plan;
   controller_ = manoeuvre::begin(*setup_.car, plan_, scene);
   record_.decision = decision;
-  record_.at_trigger = truth;
+  record_.at_trigger = stepper_.whole_scene();
   seen_at_trigger_ = scene;
   others_at_trigger_ = stepper_.others();
   // The plan stands; now it can be talked about.
@@ -334,8 +331,12 @@ bool Encounter::over() const {
 
 void Encounter::conclude() {
   record_.grip = stepper_.grip();
-  record_.result = witness_.outcome();
+  if (woke_) {
+    record_.result = witness_.outcome();
+  }
   if (contact_) {
+    const auto& cast = witness_.scene().actors;
+    record_.met.assign(cast.begin(), cast.end());
     tell(Plane::world, EventKind::contact, outcome::describe(record_.result, record_.met));
   }
   if (record_.decision) {
@@ -385,8 +386,9 @@ void Encounter::compare_with_driver() {
   Witness witness(*setup_.harm);
   while (!replay.over() && replay.time() <= recorded_until) {
     if (replay.time() >= *woke_) {
-      if (const auto met = witness.look(replay)) {
-        record_.met_by_driver.assign(met->actors.begin(), met->actors.end());
+      if (witness.look(replay)) {
+        const auto& cast = witness.scene().actors;
+        record_.met_by_driver.assign(cast.begin(), cast.end());
         break;
       }
     }

@@ -19,7 +19,7 @@ TEST(Hindsight, KnowsWhatEachPolicyWouldHaveDone) {
   scene.road.left_edge = 5.25;
   scene.road.right_edge = -5.25;
   scene.grip = 0.5;
-  const outcome::Others stands = [&](const world::Track&) {
+  const outcome::Others stands = [&](const manoeuvre::EgoMotion&) {
     return std::vector<world::Track>{{.X_WA = {scene.actors[0].X_WA}}};
   };
 

@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
-#include <vector>
+#include <iterator>
+
+#include "saca/core/contract.h"
 
 namespace saca::loop {
 namespace {
+
+using manoeuvre::EgoMotion;
+using world::Scene;
+using world::Track;
 
 bool goes_on(const outcome::Outcome& outcome, const world::Road& road) {
   if (!outcome.contact) {
@@ -19,70 +24,99 @@ bool goes_on(const outcome::Outcome& outcome, const world::Road& road) {
   return !outcome::stops_the_ego(left ? road.left_beyond : road.right_beyond);
 }
 
-/// How the actors of `now` came there since `last`: straight, in steps of the traffic.
-std::vector<world::Track> since(const world::Scene& last, const world::Scene& now) {
-  const double span = now.time - last.time;
-  const int num_steps = std::max(1, static_cast<int>(std::lround(span / sim::Traffic::step)));
-  std::vector<world::Track> tracks;
-  for (const world::Actor& actor : now.actors) {
-    const auto* const before =
-        std::find_if(last.actors.begin(), last.actors.end(), [&](const world::Actor& other) {
-          return other.kind == actor.kind && other.id == actor.id;
-        });
-    if (before == last.actors.end()) {
-      tracks.push_back({.start = now.time, .step = sim::Traffic::step, .X_WA = {actor.X_WA}});
-      continue;
-    }
-    world::Track track{.start = last.time, .step = span / num_steps, .X_WA = {}};
-    for (int k = 0; k <= num_steps; ++k) {
-      track.X_WA.push_back(between(before->X_WA, actor.X_WA, static_cast<double>(k) / num_steps));
-    }
-    tracks.push_back(track);
-  }
-  return tracks;
+bool is_there(const world::Actor& actor, const Scene& scene) {
+  return std::any_of(scene.actors.begin(), scene.actors.end(), [&](const world::Actor& other) {
+    return other.kind == actor.kind && other.id == actor.id;
+  });
 }
 
-/// The same, and how they would go on from here.
-outcome::Others since_and_on(std::vector<world::Track> tracks, outcome::Others others) {
-  return [past = std::move(tracks), future = std::move(others)](const world::Track& X_WB) {
-    std::vector<world::Track> all = past;
-    const std::vector<world::Track> on = future(X_WB);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      all[i].X_WA.insert(all[i].X_WA.end(), on[i].X_WA.begin() + 1, on[i].X_WA.end());
+void append(EgoMotion& motion, const world::EgoState& ego) {
+  motion.track.X_WA.push_back(ego.X_WB);
+  motion.v_B.push_back(ego.v_B);
+  motion.yaw_rate.push_back(ego.yaw_rate);
+}
+
+/// From its last but one pose on.
+Track last_step(const Track& track) {
+  const std::size_t first = track.X_WA.size() < 2 ? 0 : track.X_WA.size() - 2;
+  Track step{.start = track.start + track.step * static_cast<double>(first),
+             .step = track.step,
+             .X_WA = {}};
+  std::copy(track.X_WA.begin() + static_cast<std::ptrdiff_t>(first), track.X_WA.end(),
+            std::back_inserter(step.X_WA));
+  return step;
+}
+
+EgoMotion last_step(const EgoMotion& motion) {
+  const std::size_t n = motion.v_B.size();
+  return {.track = last_step(motion.track),
+          .v_B = {motion.v_B[n - 2], motion.v_B[n - 1]},
+          .yaw_rate = {motion.yaw_rate[n - 2], motion.yaw_rate[n - 1]}};
+}
+
+/// Of somebody who has not appeared yet.
+Track absent(const Scene& scene, std::size_t actor) {
+  constexpr double later = 1.0;  // [s]
+  return {.start = scene.time + later, .X_WA = {scene.actors[actor].X_WA}};
+}
+
+/// What they did, and from its end on what they will do.
+std::vector<Track> carried_on(std::vector<Track> past, const std::vector<Track>& future) {
+  for (std::size_t i = 0; i < past.size(); ++i) {
+    if (past[i].X_WA.empty()) {
+      past[i] = future[i];
+    } else {
+      past[i].X_WA.insert(past[i].X_WA.end(), future[i].X_WA.begin() + 1, future[i].X_WA.end());
     }
-    return all;
-  };
+  }
+  return past;
 }
 
 }  // namespace
 
-std::optional<world::Scene> Witness::look(const sim::Stepper& stepper) {
-  const world::Scene now = stepper.scene();
-  if (!last_) {
-    last_ = now;
-    return std::nullopt;
+bool Witness::look(const sim::Stepper& stepper) {
+  expects(!afterwards_, "the motion goes on");
+  const Scene there = stepper.scene();
+  scene_ = stepper.whole_scene();
+  others_.resize(scene_.actors.size(), {.step = sim::Traffic::step, .X_WA = {}});
+  if (ego_.v_B.empty()) {
+    ego_.track = {.start = scene_.time, .step = sim::Traffic::step, .X_WA = {}};
   }
-  const manoeuvre::EgoMotion motion{.track = {.start = last_->time,
-                                              .step = now.time - last_->time,
-                                              .X_WA = {last_->ego.X_WB, now.ego.X_WB}},
-                                    .v_B = {last_->ego.v_B, now.ego.v_B},
-                                    .yaw_rate = {last_->ego.yaw_rate, now.ego.yaw_rate},
-                                    .ended = false};
-  const std::vector<world::Track> tracks = since(*last_, now);
-  const outcome::Outcome step = outcome::judge(motion, now, tracks, harm_);
-  last_ = now;
-  if (!goes_on(step, now.road)) {
-    outcome_ = outcome::judge(motion, now, since_and_on(tracks, stepper.others()), harm_);
-    return now;
+  append(ego_, scene_.ego);
+  expects(std::abs(end_time(ego_.track) - scene_.time) < 1e-6, "one look at every step of traffic");
+  for (std::size_t i = 0; i < others_.size(); ++i) {
+    Track& track = others_[i];
+    if (is_there(scene_.actors[i], there)) {
+      track.start = track.X_WA.empty() ? scene_.time : track.start;
+      track.X_WA.push_back(scene_.actors[i].X_WA);
+    }
   }
-  // The first edge that was crossed stays the contact, unless something worse follows.
-  const double clearance = std::min(outcome_.clearance, step.clearance);
-  if (!outcome_.contact) {
-    outcome_ = step;
+  if (ego_.v_B.size() < 2) {
+    return false;
   }
-  outcome_.clearance = clearance;
-  outcome_.end_time = step.end_time;
-  return std::nullopt;
+  std::vector<Track> steps;
+  for (std::size_t i = 0; i < others_.size(); ++i) {
+    steps.push_back(others_[i].X_WA.empty() ? absent(scene_, i) : last_step(others_[i]));
+  }
+  if (goes_on(outcome::judge(last_step(ego_), scene_, steps, harm_), scene_.road)) {
+    return false;
+  }
+  afterwards_ = stepper.others();
+  return true;
+}
+
+outcome::Outcome Witness::outcome() const {
+  expects(!ego_.v_B.empty(), "something was seen");
+  if (!afterwards_) {
+    std::vector<Track> tracks = others_;
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+      tracks[i] = tracks[i].X_WA.empty() ? absent(scene_, i) : tracks[i];
+    }
+    return outcome::judge(ego_, scene_, tracks, harm_);
+  }
+  return outcome::judge(
+      ego_, scene_, [this](const EgoMotion& ego) { return carried_on(others_, afterwards_(ego)); },
+      harm_);
 }
 
 }  // namespace saca::loop

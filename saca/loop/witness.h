@@ -1,30 +1,38 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "saca/outcome/outcome.h"
 #include "saca/sim/stepper.h"
 
 namespace saca::loop {
 
-/// Watches a stepper from look to look and keeps what truly came of it: the first contact that ends
-/// the ego's motion, or the smallest clearance. Only actors that are there count, those behind too.
-/// An edge that does not stop the ego counts, and the film goes on.
+/// Watches a stepper from look to look and keeps what truly happened, until a contact ends the
+/// ego's motion. Whoever is there counts, those behind too. An edge that does not stop the ego
+/// counts, and the film goes on.
 class Witness {
  public:
   /// The harm model outlives the witness.
   explicit Witness(const outcome::HarmModel& harm) : harm_(harm) {}
 
-  /// Call at whole steps of the traffic, at least twice.
-  /// @return  the scene in which the ego's motion ended in contact in this step; else nullopt
-  std::optional<world::Scene> look(const sim::Stepper& stepper);
+  /// Call at every step of the traffic, until it has said that the motion ended.
+  /// @return  did the ego's motion end in contact since the last look?
+  bool look(const sim::Stepper& stepper);
 
-  [[nodiscard]] const outcome::Outcome& outcome() const { return outcome_; }
+  /// Of all that was seen, and, when a contact ended it, of what that leads to.
+  /// @throws ContractViolation  before the first look
+  [[nodiscard]] outcome::Outcome outcome() const;
+
+  /// The stepper's whole scene at the last look, to which the outcome's actors belong.
+  [[nodiscard]] const world::Scene& scene() const { return scene_; }
 
  private:
   const outcome::HarmModel& harm_;
-  outcome::Outcome outcome_;
-  std::optional<world::Scene> last_;
+  world::Scene scene_;
+  manoeuvre::EgoMotion ego_;
+  std::vector<world::Track> others_;  ///< one per actor of the scene; empty until it appears
+  outcome::Others afterwards_;        ///< known once a contact has ended the motion
 };
 
 }  // namespace saca::loop

@@ -51,6 +51,57 @@ TEST(Witness, KeepsTheSmallestClearance) {
   EXPECT_NEAR(seen.clearance, 3.5 - 0.95 - 0.9, 1e-3);  // the two half widths
 }
 
+// The ego swerves over a kerb at 20 m/s, slows down, and meets the wreck at 10 m/s.
+TEST(Witness, AKerbCrossedBeforeTheContactCountsAsItWasCrossed) {
+  const auto harm = outcome::read_harm("data/harm.toml").value();
+  sim::Scenario scenario = drive_at_a_wreck(0.0);
+  scenario.road.left_edge = 3.0;
+  scenario.road.left_beyond = world::Beyond::kerb;
+  scenario.ego = sim::Recording{{.time = 0.0, .X_WA = {{0.0, 0.0}, 0.0}, .speed = 20.0},
+                                {.time = 1.0, .X_WA = {{20.0, 0.0}, 0.0}, .speed = 20.0},
+                                {.time = 1.5, .X_WA = {{30.0, 2.6}, 0.0}, .speed = 20.0},
+                                {.time = 2.5, .X_WA = {{45.0, 2.6}, 0.0}, .speed = 10.0},
+                                {.time = 4.5, .X_WA = {{65.0, 2.6}, 0.0}, .speed = 10.0}};
+  std::get<sim::Script>(scenario.actors[0].motion).start = {.s = 60.0, .d = 3.5};
+  const outcome::Outcome seen = watch(scenario, harm).outcome();
+  ASSERT_TRUE(seen.contact.has_value());
+  ASSERT_EQ(seen.contact->actor, 0U);
+  // Without the wreck: the kerb alone; without the kerb: the wreck alone.
+  sim::Scenario kerb = scenario;
+  kerb.actors.clear();
+  sim::Scenario wreck = scenario;
+  wreck.road.left_edge = 8.75;
+  const double of_kerb = watch(kerb, harm).outcome().harm;
+  const double of_wreck = watch(wreck, harm).outcome().harm;
+  EXPECT_GT(of_kerb, 0.0);
+  EXPECT_GT(seen.harm, of_wreck);
+  EXPECT_NEAR(seen.harm, of_kerb + of_wreck, 0.05 * of_kerb);  // chances multiply: nearly a sum
+}
+
+TEST(Witness, WhoAppearsLaterIsMetLater) {
+  const auto harm = outcome::read_harm("data/harm.toml").value();
+  sim::Scenario scenario = drive_at_a_wreck(3.5);
+  const sim::Recording late{{.time = 1.0, .X_WA = {{50.0, 0.0}, 0.0}, .speed = 0.0},
+                            {.time = 6.0, .X_WA = {{50.0, 0.0}, 0.0}, .speed = 0.0}};
+  scenario.actors.push_back(
+      {.id = 2, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1'500.0, .motion = late});
+  const auto car = manoeuvre::default_car();
+  sim::Stepper stepper(scenario, car);
+  Witness witness(harm);
+  while (!stepper.over() && !witness.look(stepper)) {
+    for (int k = 0; k < 10; ++k) {
+      stepper.advance({});
+    }
+    if (stepper.time() < 1.0) {
+      EXPECT_FALSE(witness.outcome().contact.has_value());
+    }
+  }
+  const outcome::Outcome seen = witness.outcome();
+  ASSERT_TRUE(seen.contact.has_value());
+  EXPECT_EQ(witness.scene().actors[*seen.contact->actor].id, 2);
+  EXPECT_NEAR(seen.contact->time, (50.0 - 2.25 - 2.25) / 20.0, 1e-4);
+}
+
 // The wreck is beside; a car runs into the ego from behind: 12 m between centres, 2.45 m of them
 // the ego's rear and 2.25 m its own front, at 10 m/s.
 TEST(Witness, BeingHitFromBehindCounts) {

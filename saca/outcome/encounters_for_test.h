@@ -68,7 +68,7 @@ struct Encounter {
   /// The others on their tracks, whatever the ego does.
   [[nodiscard]] Course played_out(const HarmModel& harm) const {
     return play_out(
-        motion, scene, [this](const world::Track&) { return tracks; }, harm);
+        motion, scene, [this](const manoeuvre::EgoMotion&) { return tracks; }, harm);
   }
   [[nodiscard]] Outcome judged(const HarmModel& harm) const {
     return judge(motion, scene, tracks, harm);

@@ -57,9 +57,10 @@ struct Outcome {
 };
 
 /// How the others move when the ego moves so: one track per actor of the scene, in its order.
+/// Before its track starts an actor is not there.
 /// Whoever reacts answers to the ego's motion up to each instant only, so that motions which agree
 /// up to a time have tracks which agree up to it.
-using Others = std::function<std::vector<world::Track>(const world::Track& X_WB)>;
+using Others = std::function<std::vector<world::Track>(const manoeuvre::EgoMotion& ego)>;
 
 /// A story to its end.
 struct Course {
@@ -107,7 +108,8 @@ struct Course {
 /// The outcome of `play_out`.
 [[nodiscard]] Outcome judge(const manoeuvre::EgoMotion& motion, const world::Scene& scene,
                             const Others& others, const HarmModel& harm);
-/// The others follow fixed tracks until they are struck.
+/// The others follow fixed tracks until they are struck; before its track starts an actor is not
+/// there.
 /// @param tracks  one per actor of the scene, in its order; each may be shorter than the motion
 [[nodiscard]] Outcome judge(const manoeuvre::EgoMotion& motion, const world::Scene& scene,
                             std::span<const world::Track> tracks, const HarmModel& harm);

@@ -230,8 +230,9 @@ std::optional<Event> Story::next_at(Side side) {
 // @param first  nothing is known yet that ends the search before `until`
 std::optional<Event> Story::next_with(std::size_t i, double until, bool first) {
   const Dealings& before = dealings_[i];
+  const double from = std::max(since_, track(i).start);
   const double known = other_moves_at_end(i) ? std::min(until, end_time(track(i))) : until;
-  if (before.over || known < since_) {
+  if (before.over || known < from) {
     return std::nullopt;
   }
   const Mover ego(scene_.ego_footprint, now().track);
@@ -246,7 +247,7 @@ std::optional<Event> Story::next_with(std::size_t i, double until, bool first) {
         });
   }
   const double interest = first && !was_struck() ? clearance_ : 0.0;
-  const Approach found = approach(ego, other, since_, known, interest);
+  const Approach found = approach(ego, other, from, known, interest);
   if (interest > 0.0) {
     clearance_ = std::min(clearance_, found.distance);
   }
@@ -359,7 +360,7 @@ Course play_out(const EgoMotion& motion, const Scene& scene, const Others& other
                 const HarmModel& harm, double grip) {
   check(motion);
   Story story(motion, scene, harm, grip);
-  std::vector<Track> tracks = others(story.ego().track);
+  std::vector<Track> tracks = others(story.ego());
   story.expect(tracks);
   for (std::size_t i = 0; i < most_blows; ++i) {
     const std::optional<Event> event = story.next();
@@ -367,7 +368,7 @@ Course play_out(const EgoMotion& motion, const Scene& scene, const Others& other
       break;
     }
     if (story.happen(*event)) {
-      tracks = others(story.ego().track);
+      tracks = others(story.ego());
       story.expect(tracks);
     }
   }

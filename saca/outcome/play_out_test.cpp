@@ -280,10 +280,10 @@ TEST(PlayOut, WhoReactsIsAskedAgainWithWhatTheEgoReallyDoes) {
   encounter.add(ActorKind::obstacle, {.length = 1.0, .width = 4.0}, 1.0, {{40.0, 0.0}, 0.0}, {});
   encounter.add_car({{-8.0, 0.0}, 0.0}, {15.0, 0.0});
   std::vector<Track> asked;
-  const Others others = [&](const Track& X_WB) {
-    asked.push_back(X_WB);
+  const Others others = [&](const manoeuvre::EgoMotion& ego) {
+    asked.push_back(ego.track);
     std::vector<Track> tracks = encounter.tracks;
-    tracks[1] = X_WB;
+    tracks[1] = ego.track;
     for (Pose& pose : tracks[1].X_WA) {
       pose.p.x -= 8.0;
     }
@@ -301,6 +301,21 @@ TEST(PlayOut, WhoReactsIsAskedAgainWithWhatTheEgoReallyDoes) {
   EXPECT_NEAR(course.others[1].X_WA.back().p.x, course.ego.track.X_WA.back().p.x - 8.0, 1e-9);
   // Whoever does not react, on a fixed track, runs into it.
   EXPECT_EQ(encounter.judged(model()).later[0].actor, 1U);
+}
+
+// A wreck that stands 30 m ahead counts only if it is there when the ego passes, after 2 s; who
+// appears inside the ego is in contact then.
+TEST(PlayOut, BeforeItsTrackStartsAnActorIsNotThere) {
+  Encounter encounter = along_x(15.0);
+  encounter.add_car({{30.0, 0.0}, 0.0}, {});
+  const double start_of_contact = encounter.judged(model()).contact.value().time;
+  encounter.tracks[0].start = start_of_contact - 0.01;
+  EXPECT_NEAR(encounter.judged(model()).contact.value().time, start_of_contact, 1e-6);
+  encounter.tracks[0].start = start_of_contact + 0.1;
+  EXPECT_NEAR(encounter.judged(model()).contact.value().time, start_of_contact + 0.1, 1e-6);
+  encounter.tracks[0].start = start_of_contact + 2.0;  // long past
+  EXPECT_FALSE(encounter.judged(model()).contact.has_value());
+  EXPECT_GT(encounter.judged(model()).clearance, 5.0);
 }
 
 TEST(PlayOut, TheCourseIsTheMotionAndThenTheSlide) {
@@ -329,7 +344,7 @@ TEST(PlayOut, TheCourseIsTheMotionAndThenTheSlide) {
 TEST(PlayOut, OnIceEverybodySlidesFarther) {
   Encounter encounter = along_x(15.0);
   encounter.add_car({{20.0, 0.0}, 0.0}, {5.0, 0.0});
-  const Others fixed = [&](const Track&) { return encounter.tracks; };
+  const Others fixed = [&](const manoeuvre::EgoMotion&) { return encounter.tracks; };
   const Course dry = play_out(encounter.motion, encounter.scene, fixed, model());
   const Course icy = play_out(encounter.motion, encounter.scene, fixed, model(), 0.1);
   const double met = 15.0 * 1.53;
@@ -511,7 +526,7 @@ TEST(PlayOut, FromTheOtherCarsSeatSwapsWhatItShouldToTheEnd) {
 TEST(PlayOut, RefusesOthersThatAreNotThere) {
   Encounter encounter = along_x(10.0);
   encounter.add_car({{30.0, 0.0}, 0.0}, {});
-  const Others nobody = [](const Track&) { return std::vector<Track>{}; };
+  const Others nobody = [](const manoeuvre::EgoMotion&) { return std::vector<Track>{}; };
   EXPECT_THROW((void)play_out(encounter.motion, encounter.scene, nobody, model()),
                ContractViolation);
   EXPECT_THROW((void)play_out({}, encounter.scene, nobody, model()), ContractViolation);

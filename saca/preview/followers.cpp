@@ -60,10 +60,11 @@ Track reacting(const Scene& scene, std::size_t follower, const Track& X_WB,
 
 outcome::Others with_reacting_followers(const Scene& scene, std::vector<Track> tracks) {
   expects(tracks.size() == scene.actors.size(), "one track per actor");
-  return [scene, followers = followers_of(scene), planned = std::move(tracks)](const Track& X_WB) {
+  return [scene, followers = followers_of(scene),
+          planned = std::move(tracks)](const manoeuvre::EgoMotion& ego) {
     std::vector<Track> moved = planned;
     for (const std::size_t follower : followers) {
-      moved[follower] = reacting(scene, follower, X_WB, moved);
+      moved[follower] = reacting(scene, follower, ego.track, moved);
     }
     return moved;
   };

@@ -48,6 +48,11 @@ std::vector<Track> all_going_on(const Scene& scene) {
   return tracks;
 }
 
+/// Only where it is matters to a forecast.
+manoeuvre::EgoMotion along(Track X_WB) {
+  return {.track = std::move(X_WB), .v_B = {}, .yaw_rate = {}};
+}
+
 /// The ego brakes at once, as hard as that.
 Track braking(double speed, double deceleration) {
   Track track{.step = step, .X_WA = {}};
@@ -65,7 +70,7 @@ TEST(WithReactingFollowers, AShortGapIsRunIntoALongOneIsNot) {
     Scene scene = ego_at(20.0);
     scene.actors.push_back(car(1, {-4.0 - gap, 0.0}, 20.0));
     const Track X_WB = braking(20.0, 8.0);
-    const auto tracks = with_reacting_followers(scene, all_going_on(scene))(X_WB);
+    const auto tracks = with_reacting_followers(scene, all_going_on(scene))(along(X_WB));
     double least = gap;
     for (double time = 0.0; time < 8.0; time += step) {
       least = std::min(least, pose_at(X_WB, time).p.x - pose_at(tracks[0], time).p.x - 4.0);
@@ -84,7 +89,7 @@ TEST(WithReactingFollowers, AContentFollowerGoesOnBehindAnEgoThatGoesOn) {
   Scene scene = ego_at(20.0);
   scene.actors.push_back(car(1, {-10.0, 0.0}, 20.0));
   const Track X_WB = going_on(car(2, {}, 20.0));
-  const auto tracks = with_reacting_followers(scene, all_going_on(scene))(X_WB);
+  const auto tracks = with_reacting_followers(scene, all_going_on(scene))(along(X_WB));
   EXPECT_NEAR(pose_at(tracks[0], 8.0).p.x, -10.0 + 160.0, 0.1);
 }
 
@@ -94,7 +99,8 @@ TEST(WithReactingFollowers, EveryoneElseKeepsToItsTrack) {
   scene.actors.push_back(car(1, {-1.0, 3.5}, 10.0));
   scene.actors.push_back(car(2, {-9.0, 3.5}, 15.0));
   scene.actors.push_back(car(3, {30.0, 0.0}, 5.0));
-  const auto tracks = with_reacting_followers(scene, all_going_on(scene))(braking(10.0, 8.0));
+  const auto tracks =
+      with_reacting_followers(scene, all_going_on(scene))(along(braking(10.0, 8.0)));
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(pose_at(tracks[i], 4.0).p.x, pose_at(going_on(scene.actors[i]), 4.0).p.x);
   }
@@ -105,7 +111,8 @@ TEST(WithReactingFollowers, FollowersReactInARow) {
   Scene scene = ego_at(20.0);
   scene.actors.push_back(car(1, {-80.0, 0.0}, 20.0));
   scene.actors.push_back(car(2, {-40.0, 0.0}, 20.0));
-  const auto tracks = with_reacting_followers(scene, all_going_on(scene))(braking(20.0, 6.0));
+  const auto tracks =
+      with_reacting_followers(scene, all_going_on(scene))(along(braking(20.0, 6.0)));
   for (double time = 0.0; time < 8.0; time += 0.1) {
     EXPECT_LT(pose_at(tracks[0], time).p.x + 4.0, pose_at(tracks[1], time).p.x) << time;
   }

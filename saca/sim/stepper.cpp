@@ -63,11 +63,19 @@ void Stepper::carry_on(StaticVector<world::Actor, world::max_actors>& actors) co
 }
 
 world::Scene Stepper::scene() const {
+  return scene_of(traffic_.actors());
+}
+
+world::Scene Stepper::whole_scene() const {
+  return scene_of(traffic_.cast());
+}
+
+world::Scene Stepper::scene_of(const StaticVector<world::Actor, world::max_actors>& actors) const {
   world::Scene scene{.time = time(),
                      .ego = ego(),
                      .ego_footprint = manoeuvre::footprint(real_car_),
                      .ego_mass = real_car_.mass,
-                     .actors = traffic_.actors(),
+                     .actors = actors,
                      .road = scenario_.road,
                      .grip = grip_};
   carry_on(scene.actors);
@@ -95,8 +103,9 @@ manoeuvre::Unknown Stepper::unknown_from_now() const {
 
 outcome::Others Stepper::others() const {
   return [traffic = traffic_, ego = manoeuvre::footprint(real_car_),
-          last = scenario_.duration](const world::Track& X_WB) {
-    return traffic.against(X_WB, ego, std::max(last, world::end_time(X_WB) + watched_after));
+          last = scenario_.duration](const manoeuvre::EgoMotion& motion) {
+    return traffic.against(motion, ego,
+                           std::max(last, world::end_time(motion.track) + watched_after));
   };
 }
 

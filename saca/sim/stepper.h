@@ -54,11 +54,16 @@ class Stepper {
   /// True friction coefficient.
   [[nodiscard]] double grip() const { return grip_; }
 
-  /// How the actors of scene() move from now on if the ego moves so: to the scenario's end, and
-  /// until 3 s after the ego's motion, in which those behind it have stopped or not.
+  /// scene() with everybody who is there then or will be: who appears later is where it will.
+  [[nodiscard]] world::Scene whole_scene() const;
+
+  /// How the actors of whole_scene() move from now on if the ego moves so: to the scenario's end,
+  /// and until 3 s after the ego's motion, in which those behind it have stopped or not.
   [[nodiscard]] outcome::Others others() const;
 
  private:
+  [[nodiscard]] world::Scene scene_of(
+      const StaticVector<world::Actor, world::max_actors>& actors) const;
   /// Moves actors on from the last step of the traffic to now.
   void carry_on(StaticVector<world::Actor, world::max_actors>& actors) const;
 

@@ -74,6 +74,10 @@ TEST(Stepper, PerceivesMotionAsATrackerWould) {
   EXPECT_FALSE(world::broken_rule(stepper.scene()).has_value());
 }
 
+manoeuvre::EgoMotion standing_at(double time) {
+  return {.track = {.start = time, .X_WA = {Pose{}}}, .v_B = {Vec2{}}, .yaw_rate = {0.0}};
+}
+
 TEST(Stepper, AnActorIsNotThereBeforeItsFirstSample) {
   Scenario scenario = behind_a_braking_lead();
   Recording late{{.time = 2.0, .X_WA = {{80.0, 3.5}, 0.0}, .speed = 10.0},
@@ -84,10 +88,17 @@ TEST(Stepper, AnActorIsNotThereBeforeItsFirstSample) {
   Stepper stepper(scenario, car);
   advance(stepper, 1'990);
   EXPECT_EQ(stepper.scene().actors.size(), 1U);
-  EXPECT_EQ(stepper.others()({.start = stepper.time(), .X_WA = {{}}}).size(), 1U);
+  const world::Scene whole = stepper.whole_scene();
+  ASSERT_EQ(whole.actors.size(), 2U);
+  EXPECT_EQ(whole.actors[1].X_WA.p.x, 80.0);
+  const auto foretold = stepper.others()(standing_at(stepper.time()));
+  ASSERT_EQ(foretold.size(), 2U);
+  EXPECT_NEAR(foretold[0].start, 1.99, 1e-9);
+  EXPECT_NEAR(foretold[1].start, 2.0, 1e-9);
+  EXPECT_NEAR(pose_at(foretold[1], 3.0).p.x, 90.0, 1e-9);
   advance(stepper, 20);
   EXPECT_EQ(stepper.scene().actors.size(), 2U);
-  EXPECT_EQ(stepper.others()({.start = stepper.time(), .X_WA = {{}}}).size(), 2U);
+  EXPECT_NEAR(stepper.others()(standing_at(stepper.time()))[1].start, 2.01, 1e-9);
 }
 
 /// The same ego with a car 12 m behind it that follows as it says.
@@ -149,22 +160,26 @@ TEST(Stepper, OthersForetellWhatTheStepperThenDoes) {
   advance(stepper, 500);
   stepper.take_the_wheel();
   const outcome::Others others = stepper.others();
-  world::Track X_WB{.start = stepper.time(), .step = Traffic::step, .X_WA = {stepper.ego().X_WB}};
+  manoeuvre::EgoMotion motion{
+      .track = {.start = stepper.time(), .step = Traffic::step, .X_WA = {stepper.ego().X_WB}},
+      .v_B = {stepper.ego().v_B},
+      .yaw_rate = {stepper.ego().yaw_rate}};
   std::vector<double> seen{stepper.scene().actors[0].X_WA.p.x};
   vehicle::Command brake;
   brake.brake_torque.fill(500.0);
   for (int k = 1; k <= 4'000; ++k) {
     stepper.advance(brake);
     if (k % 10 == 0) {
-      X_WB.X_WA.push_back(stepper.ego().X_WB);
+      motion.track.X_WA.push_back(stepper.ego().X_WB);
+      motion.v_B.push_back(stepper.ego().v_B);
+      motion.yaw_rate.push_back(stepper.ego().yaw_rate);
       seen.push_back(stepper.scene().actors[0].X_WA.p.x);
     }
   }
-  const world::Track foretold = others(X_WB).at(0);
+  const world::Track foretold = others(motion).at(0);
   ASSERT_GE(foretold.X_WA.size(), seen.size());
   for (std::size_t k = 0; k < seen.size(); ++k) {
-    // The speeds of a track are those of its 10 ms segments, half a step off: up to 0.05 m/s.
-    EXPECT_NEAR(foretold.X_WA[k].p.x, seen[k], 0.05) << k;
+    EXPECT_NEAR(foretold.X_WA[k].p.x, seen[k], 1e-9) << k;
   }
   EXPECT_LT(seen.back(), seen.front() + 0.9 * 20.0 * 4.0);  // it did brake
 }
@@ -198,7 +213,7 @@ TEST(Stepper, GhostsArePerceivedButNotThere) {
   Stepper stepper(scenario, car);
   ASSERT_EQ(stepper.scene().actors.size(), 1U);
   EXPECT_EQ(stepper.scene().actors[0].id, 1);
-  EXPECT_EQ(stepper.others()({.X_WA = {{}}}).size(), 1U);
+  EXPECT_EQ(stepper.others()(standing_at(0.0)).size(), 1U);
   const world::Scene seen = stepper.perceive();
   ASSERT_EQ(seen.actors.size(), 2U);
   EXPECT_EQ(seen.actors[1].id, 2);

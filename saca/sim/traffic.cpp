@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "saca/core/contract.h"
+#include "saca/outcome/blow.h"
 #include "saca/sim/motion.h"
 #include "saca/world/time_to_conflict.h"
 
@@ -181,26 +182,47 @@ StaticVector<world::Actor, world::max_actors> Traffic::ghosts() const {
   return present(true);
 }
 
-std::vector<world::Track> Traffic::against(const world::Track& X_WB, const world::Footprint& ego,
-                                           double until) const {
-  std::vector<std::size_t> there;
+StaticVector<world::Actor, world::max_actors> Traffic::cast() const {
+  StaticVector<world::Actor, world::max_actors> all;
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    if (is_there(i) && !scenario_->actors[i].ghost) {
-      there.push_back(i);
+    if (!scenario_->actors[i].ghost) {
+      all.push_back(as_known(i));
     }
   }
-  const auto num_steps =
-      static_cast<std::size_t>(std::ceil(std::max(0.0, until - time()) / step - nearly));
-  std::vector<world::Track> tracks(there.size(), {.start = time(), .step = step, .X_WA = {}});
-  Traffic later = *this;
-  for (std::size_t k = 0; k <= num_steps; ++k) {
-    if (k > 0) {
-      const double now = later.time();
-      later.advance(world::pose_at(X_WB, now), world::velocity_at(X_WB, std::max(now, X_WB.start)),
-                    ego);
+  return all;
+}
+
+std::vector<world::Track> Traffic::against(const manoeuvre::EgoMotion& motion,
+                                           const world::Footprint& ego, double until) const {
+  std::vector<std::size_t> cast;
+  std::vector<world::Track> tracks;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (!scenario_->actors[i].ghost) {
+      cast.push_back(i);
+      tracks.push_back({.step = step, .X_WA = {}});
     }
-    for (std::size_t i = 0; i < there.size(); ++i) {
-      tracks[i].X_WA.push_back(later.members_[there[i]].now.X_WA);
+  }
+  Traffic later = *this;
+  const auto note = [&] {
+    for (std::size_t i = 0; i < cast.size(); ++i) {
+      if (later.is_there(cast[i])) {
+        if (tracks[i].X_WA.empty()) {
+          tracks[i].start = later.time();
+        }
+        tracks[i].X_WA.push_back(later.members_[cast[i]].now.X_WA);
+      }
+    }
+  };
+  note();
+  while (later.time() < until - nearly) {
+    const outcome::Instant now = outcome::instant_at(motion, later.time());
+    later.advance(now.X_WB, now.v_W, ego);
+    note();
+  }
+  for (std::size_t i = 0; i < cast.size(); ++i) {
+    if (tracks[i].X_WA.empty()) {  // it appears after all this
+      tracks[i].start = members_[cast[i]].appears;
+      tracks[i].X_WA.push_back(later.members_[cast[i]].now.X_WA);
     }
   }
   return tracks;

@@ -7,6 +7,7 @@
 
 #include "saca/core/static_vector.h"
 #include "saca/intent/driver.h"
+#include "saca/manoeuvre/drive.h"
 #include "saca/sim/chance.h"
 #include "saca/sim/scenario.h"
 #include "saca/world/scene.h"
@@ -41,11 +42,16 @@ class Traffic {
   /// Likewise those who are perceived but not there, with how sure perception is of them.
   [[nodiscard]] StaticVector<world::Actor, world::max_actors> ghosts() const;
 
-  /// From now on, if the ego moves so: one track per actors(), to `until`. Causal: up to each
-  /// instant they depend on the ego up to that instant only.
-  /// @param X_WB   where it ends the ego stands
-  /// @param until  [s]
-  [[nodiscard]] std::vector<world::Track> against(const world::Track& X_WB,
+  /// Likewise everybody of the scenario who is no ghost; who is not there yet is where it will
+  /// appear.
+  [[nodiscard]] StaticVector<world::Actor, world::max_actors> cast() const;
+
+  /// From now on, if the ego moves so: one track per cast(), from now, or from when they appear, to
+  /// `until`. Causal: up to each instant they depend on the ego up to that instant only. What
+  /// advance() with the same motion does, bit by bit.
+  /// @param motion  where it ends the ego stands
+  /// @param until   [s]
+  [[nodiscard]] std::vector<world::Track> against(const manoeuvre::EgoMotion& motion,
                                                   const world::Footprint& ego, double until) const;
 
  private:
