@@ -73,7 +73,7 @@ function(saca_module name)
     add_dependencies(module_tests ${name}_${stem})
     string(REPLACE _test "" unit ${stem})
     add_test(NAME ${name}.${unit} COMMAND ${name}_${stem} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
-    set_tests_properties(${name}.${unit} PROPERTIES LABELS ${name} TIMEOUT 120)
+    set_tests_properties(${name}.${unit} PROPERTIES LABELS ${name} TIMEOUT 300)
   endforeach()
 
   file(GLOB benches CONFIGURE_DEPENDS *_bench.cpp)

@@ -177,6 +177,11 @@ std::optional<double> nearest_within(const world::Road& road, const Present& bod
 
 }  // namespace
 
+Present present(const world::Road& road, const world::Footprint& footprint, const Pose& X_WA,
+                Vec2 v_W) {
+  return {&footprint, X_WA, v_W, world::to_lane(road, X_WA)};
+}
+
 LaneDriver::LaneDriver(const world::Road& road, const world::Footprint& footprint, const Pose& X_WA,
                        const Driver& driver)
     : road_(road),
@@ -195,10 +200,16 @@ Ahead LaneDriver::ahead(std::span<const Present> others, std::size_t skip) const
       continue;
     }
     const Present& other = others[i];
-    const world::LanePose at = world::to_lane(road_, other.X_WA);
+    const world::LanePose& at = other.place;
     const double radius = world::bounding_radius(*other.footprint);
     if (direction_ * (at.s - place_.s) <= 0.0 || std::abs(at.d - place_.d) >= half_width + radius) {
       continue;  // a cheap look at most of them
+    }
+    // Within a body, s changes by at most twice the way where the road bends so little.
+    const bool bends_little = std::abs(road_.curvature) * (std::abs(at.d) + radius) < 0.5;
+    const double least = (direction_ * (at.s - place_.s) - 2.0 * radius) * scale - front;
+    if (bends_little && least >= nearest.gap) {
+      continue;
     }
     const auto rear =
         nearest_within(road_, other, place_.d - half_width, place_.d + half_width, direction_);
@@ -233,14 +244,14 @@ world::Track reacting_track(const world::Road& road, const world::Actor& driver,
   const auto num_steps = static_cast<std::size_t>(std::ceil(duration / step - 1e-9));
   world::Track track{.start = start, .step = step, .X_WA = {driver.X_WA}};
   track.X_WA.reserve(num_steps + 1);
-  std::vector<Present> present(others.size());
+  std::vector<Present> now(others.size());
   for (std::size_t k = 0; k < num_steps; ++k) {
     const double time = start + static_cast<double>(k) * step;
-    std::transform(others.begin(), others.end(), present.begin(), [&](const Body& body) {
-      return Present{body.footprint, world::pose_at(*body.track, time),
-                     world::velocity_at(*body.track, time)};
+    std::transform(others.begin(), others.end(), now.begin(), [&](const Body& body) {
+      return intent::present(road, *body.footprint, world::pose_at(*body.track, time),
+                             world::velocity_at(*body.track, time));
     });
-    it.advance(it.ahead(present));
+    it.advance(it.ahead(now));
     track.X_WA.push_back(it.pose());
   }
   return track;

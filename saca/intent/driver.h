@@ -113,8 +113,12 @@ class Driver {
 struct Present {
   const world::Footprint* footprint = nullptr;
   Pose X_WA;
-  Vec2 v_W;  ///< over ground [m/s]
+  Vec2 v_W;               ///< over ground [m/s]
+  world::LanePose place;  ///< of X_WA along the road
 };
+
+[[nodiscard]] Present present(const world::Road& road, const world::Footprint& footprint,
+                              const Pose& X_WA, Vec2 v_W);
 
 /// A driver with its body in its lane: it follows the lane and keeps its offset and its heading
 /// against it. Heading against the lane's direction it is oncoming traffic and does the same.

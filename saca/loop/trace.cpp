@@ -134,10 +134,12 @@ std::string trace_csv(const Setup& setup, const Record& record) {
   std::string rows = "t_s,id,kind,x_m,y_m,heading_deg,speed_mps,length_m,width_m,perceived\n";
   for (const Frame& frame : record.frames) {
     const world::EgoState& ego = frame.scene.ego;
-    rows += csv_row(frame.scene.time, {"ego", "ego", ego.X_WB, body, norm(ego.v_B)}, false);
+    const TracedBody traced{"ego", "ego", ego.X_WB, body, norm(ego.v_B)};
+    rows += csv_row(frame.scene.time, traced, false);
     rows += actor_rows(frame.scene, false);
     const world::Scene& known = frame.perceived;
     if (actor_rows(known, false) != actor_rows(frame.scene, false)) {
+      rows += csv_row(frame.scene.time, traced, true);
       rows += actor_rows(known, true);
     }
   }

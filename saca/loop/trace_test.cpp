@@ -144,5 +144,19 @@ TEST(Trace, TellsWhatWasPerceivedWhereItDiffersFromTheTruth) {
   EXPECT_NE(csv.find("0.02,car1,car,30,0,0,5,4.5,1.8,0\n"), std::string::npos) << csv;
 }
 
+TEST(Trace, CsvTellsThatNobodyIsPerceived) {
+  Film film;
+  film.record.frames.resize(1);
+  film.record.frames[0].perceived.actors.clear();
+  const std::string text = trace_csv(film.setup, film.record);
+  std::string_view rest = text;
+  std::vector<std::string> told;
+  while (!rest.empty()) {
+    const auto fields = fields_of(cut_line(rest), ',');
+    told.push_back(std::string(fields[1]) + " " + std::string(fields.back()));
+  }
+  EXPECT_EQ(told, (std::vector<std::string>{"id perceived", "ego 0", "car1 0", "ego 1"}));
+}
+
 }  // namespace
 }  // namespace saca::loop

@@ -37,13 +37,13 @@ Track reacting(const Scene& scene, std::size_t follower, const Track& X_WB,
                const std::vector<Track>& tracks) {
   const Actor& actor = scene.actors[follower];
   std::vector<intent::Body> others{{&scene.ego_footprint, &X_WB}};
-  std::vector<intent::Present> now{
-      {&scene.ego_footprint, scene.ego.X_WB, rotated(scene.ego.v_B, scene.ego.X_WB.yaw)}};
+  std::vector<intent::Present> now{intent::present(scene.road, scene.ego_footprint, scene.ego.X_WB,
+                                                   rotated(scene.ego.v_B, scene.ego.X_WB.yaw))};
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     if (i != follower) {
       const Actor& other = scene.actors[i];
       others.push_back({&other.footprint, &tracks[i]});
-      now.push_back({&other.footprint, other.X_WA, other.v_W});
+      now.push_back(intent::present(scene.road, other.footprint, other.X_WA, other.v_W));
     }
   }
   const double speed = norm(actor.v_W);

@@ -79,12 +79,13 @@ std::vector<intent::Ahead> Traffic::views(const Pose& X_WB, Vec2 v_W,
   if (!anybody) {
     return all;
   }
-  std::vector<intent::Present> there{{&ego, X_WB, v_W}};
+  std::vector<intent::Present> there{intent::present(scenario_->road, ego, X_WB, v_W)};
   std::vector<std::size_t> place(members_.size(), nobody);
   for (std::size_t i = 0; i < members_.size(); ++i) {
     if (is_there(i) && !scenario_->actors[i].ghost) {
       place[i] = there.size();
-      there.push_back({&scenario_->actors[i].footprint, members_[i].now.X_WA, members_[i].now.v_W});
+      there.push_back(intent::present(scenario_->road, scenario_->actors[i].footprint,
+                                      members_[i].now.X_WA, members_[i].now.v_W));
     }
   }
   for (std::size_t i = 0; i < members_.size(); ++i) {

@@ -30,7 +30,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
   }
   const sim::Traffic traffic(scenario);
-  const saca::world::Track ego{.X_WA = {sim::ego_at(scenario, 0.0).X_WB}};
+  const saca::manoeuvre::EgoMotion ego{.track = {.X_WA = {sim::ego_at(scenario, 0.0).X_WB}},
+                                       .v_B = {saca::Vec2{}},
+                                       .yaw_rate = {0.0}};
   const double until = scenario.duration < 1.0 ? scenario.duration : 1.0;
   for (const auto& track : traffic.against(ego, sim::standard_ego, until)) {
     for (const saca::Pose& X_WA : track.X_WA) {
