@@ -45,7 +45,8 @@ class CellAreas {
 
   /// Of a cell, counted in cells.
   [[nodiscard]] Vec2 place(std::size_t i) const {
-    return {static_cast<double>(i % columns_), static_cast<double>(i / columns_)};
+    const std::size_t row = i / columns_;
+    return {static_cast<double>(i % columns_), static_cast<double>(row)};
   }
 
   void fill_from(std::size_t first) {

@@ -20,7 +20,7 @@ constexpr std::array all_kinds{world::ActorKind::car,     world::ActorKind::van,
 
 /// A sign 16 px wide with its word; moves `at` behind them.
 std::string legend_sign(const std::string& drawn, std::string_view word, Vec2& at) {
-  const std::string out = drawn + svg_text("soft", at + Vec2{21.0, 0.0}, word);
+  std::string out = drawn + svg_text("soft", at + Vec2{21.0, 0.0}, word);
   at.x += 21.0 + text_width(word, usual_font) + 14.0;
   return out;
 }
@@ -92,9 +92,10 @@ std::string contact_sheet(const ContactSheet& sheet) {
   y += 12.0;
   const Extent ground = common_ground(sheet.scenes);
   for (std::size_t i = 0; i < sheet.scenes.size(); ++i) {
+    const std::size_t row = i / columns;
     const Vec2 at{
         sheet_border + static_cast<double>(i % columns) * (sheet.thumbnail.width + sheet_gap),
-        y + static_cast<double>(i / columns) * (sheet.thumbnail.height + sheet_gap)};
+        y + static_cast<double>(row) * (sheet.thumbnail.height + sheet_gap)};
     SceneView view = sheet.scenes[i];
     if (sheet.same_ground) {
       view.shown_P = ground;

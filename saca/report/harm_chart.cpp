@@ -110,6 +110,7 @@ double highest(const std::vector<ChartLine>& lines) {
 
 std::vector<HarmRisk> injury_risks(const HarmModel& model, const std::vector<double>& speeds) {
   std::vector<HarmRisk> risks;
+  risks.reserve(faces.size() + 2 * kinds.size());
   for (const auto& [face, name] : faces) {
     risks.push_back(
         {std::string("occupant_") + name + "_severe",
@@ -136,6 +137,7 @@ std::vector<HarmRisk> injury_risks(const HarmModel& model, const std::vector<dou
 
 std::vector<HarmRisk> person_harms(const HarmModel& model, const std::vector<double>& speeds) {
   std::vector<HarmRisk> harms;
+  harms.reserve(faces.size() + kinds.size());
   for (const auto& [face, name] : faces) {
     harms.push_back({std::string("occupant_") + name + "_harm",
                      std::string("occupant, struck in the ") + name, weights_words(model),

@@ -215,14 +215,14 @@ std::vector<double> round_ticks(double low, double high, int at_most) {
   expects(at_most >= 2, "at_most >= 2");
   double step = std::pow(10.0, std::floor(std::log10((high - low) / at_most)));
   constexpr std::array factors{2.0, 2.5, 2.0};  // 1, 2, 5, 10
-  const auto last = [&] { return std::floor(high / step + 1e-9); };
-  const auto first = [&] { return std::ceil(low / step - 1e-9); };
+  const auto last = [&] { return std::lround(std::floor(high / step + 1e-9)); };
+  const auto first = [&] { return std::lround(std::ceil(low / step - 1e-9)); };
   for (std::size_t k = 0; last() - first() + 1 > at_most; ++k) {
     step *= factors.at(k % factors.size());
   }
   std::vector<double> ticks;
-  for (double k = first(); k <= last(); ++k) {
-    ticks.push_back(k * step);
+  for (long k = first(); k <= last(); ++k) {
+    ticks.push_back(static_cast<double>(k) * step);
   }
   return ticks;
 }
