@@ -55,7 +55,8 @@ json json_of(const sim::Scenario& scenario, const fs::path& file) {
           {"actors", scenario.actors.size()}};
 }
 
-std::optional<Error> write_picture(const FamilyCommand& options, report::ContactSheet sheet) {
+std::optional<Error> write_picture(const FamilyCommand& options,
+                                   const report::ContactSheet& sheet) {
   if (auto problem = make_folder_of(options.svg)) {
     return problem;
   }

@@ -120,6 +120,7 @@ report::MapAxis drawn(const Axis& axis, const std::optional<double>& nominal) {
 std::string picture(const ScenarioInputs& inputs, double time, const std::vector<Axis>& axes,
                     const std::vector<Cell>& cells) {
   std::vector<report::MapCell> drawn_cells;
+  drawn_cells.reserve(cells.size());
   for (const Cell& cell : cells) {
     drawn_cells.push_back(drawn(cell));
   }
