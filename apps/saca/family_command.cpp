@@ -114,7 +114,7 @@ int run(const FamilyCommand& options) {
     list.push_back(json_of(scenario, file));
     sheet.scenes.push_back(thumbnail(scenario, inputs.value()));
   }
-  if (const auto problem = write_picture(options, std::move(sheet))) {
+  if (const auto problem = write_picture(options, sheet)) {
     complain(problem->message);
     return cannot_write;
   }
