@@ -30,7 +30,9 @@ constexpr std::array target_shares{0.5, 0.0, 0.25, 0.75};
 /// cannot be judged says so in `outside`.
 ///
 /// @param tracks  one per actor of the scene, in its order; before its track starts an actor is
-///                not there. Its position_sd, velocity_sd and existence say how far to trust it
+///                not there. Its position_sd, velocity_sd and existence say how far to trust it.
+///                Only its first and last pose are made sure to be finite; poses between them that
+///                are not touch nobody
 /// @param bounds  of the start state
 ///
 /// The scene's grip is believed and, but for grip_sd, true. Left out: whoever is struck second
