@@ -1,20 +1,27 @@
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/inputs.h"
 #include "apps/saca/places.h"
 #include "saca/core/clock.h"
 #include "saca/core/percentile.h"
 #include "saca/decide/reflex_plane.h"
+#include "saca/manoeuvre/atlas_file.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/manoeuvre/controller.h"
 #include "saca/manoeuvre/ego.h"
+#include "saca/outcome/futures.h"
+#include "saca/world/time_to_conflict.h"
 
 namespace saca::app {
 namespace {
@@ -116,7 +123,54 @@ void bench_reflex(const manoeuvre::Car& car, Clock& clock, int num_calls, json& 
   }
 }
 
+/// All eight read from the atlas and judged: percentiles, with one target speed and with four, the
+/// others known exactly and with their spread.
+void bench_atlas(const manoeuvre::Car& car, const manoeuvre::Atlas& atlas,
+                 const outcome::HarmModel& harm, Clock& clock, int num_calls, json& figures) {
+  constexpr std::array half{0.5};
+  for (const int num_actors : {1, 8, 32}) {
+    for (const bool spread : {false, true}) {
+      std::mt19937 rng(1);
+      std::vector<world::Scene> scenes;
+      std::vector<std::vector<world::Track>> tracks;
+      for (int i = 0; i < 64; ++i) {
+        world::Scene scene = crowd(car, num_actors, rng);
+        scene.grip_sd = spread ? 0.06 : 0.0;
+        tracks.emplace_back();
+        for (world::Actor& actor : scene.actors) {
+          actor.position_sd = spread ? 0.2 : 0.0;
+          actor.velocity_sd = spread ? 0.3 : 0.0;
+          world::Track& track = tracks.back().emplace_back();
+          for (int k = 0; k <= 600; ++k) {
+            track.X_WA.push_back(world::actor_going_on(actor, track.step * k));
+          }
+        }
+        scenes.push_back(scene);
+      }
+      for (const bool chooses : {false, true}) {
+        std::vector<double> times;
+        for (int call = 0; call < num_calls; ++call) {
+          const std::size_t i = static_cast<std::size_t>(call) % scenes.size();
+          const Clock::Time start = clock.now();
+          const outcome::Futures all =
+              outcome::futures(atlas, scenes[i], tracks[i], harm,
+                               chooses ? std::span<const double>(outcome::target_shares)
+                                       : std::span<const double>(half));
+          times.push_back(1e6 * to_seconds(clock.now() - start));
+          figures["atlas.outside"] = all[0].outside ? 1 : 0;
+        }
+        for (const auto& [name, share] : {std::pair{"p50", 0.5}, {"p99", 0.99}}) {
+          figures[fmt::format("atlas.futures_us.{}.actors{}{}{}", name, num_actors,
+                              spread ? ".spread" : "", chooses ? ".targets4" : "")] =
+              percentile(times, share);
+        }
+      }
+    }
+  }
+}
+
 struct BenchOptions {
+  std::string atlas;
   std::string what = "all";
   int calls = 1'000'000;
   bool as_json = false;
@@ -142,6 +196,16 @@ int bench(const BenchOptions& options) {
   if (options.what == "all" || options.what == "decide") {
     bench_reflex(car.value(), clock, options.calls, figures);
   }
+  if (options.what == "atlas" || !options.atlas.empty()) {
+    const auto inputs = read_inputs("compact_rwd_ev");
+    const auto atlas = manoeuvre::read_atlas(options.atlas, car.value());
+    if (!inputs.has_value() || !atlas.has_value()) {
+      complain(inputs.has_value() ? atlas.error().message : inputs.error().message);
+      return bad_input;
+    }
+    bench_atlas(car.value(), atlas.value(), inputs.value().harm, clock,
+                std::min(options.calls, 10'000), figures);
+  }
   if (options.as_json) {
     fmt::print("{}\n", figures.dump(1));
     return success;
@@ -156,11 +220,13 @@ int bench(const BenchOptions& options) {
 
 void add_bench(CLI::App& line, int& exit_code) {
   CLI::App* const command =
-      line.add_subcommand("bench", "Measure: vehicle steps, the reflex plane");
+      line.add_subcommand("bench", "Measure: vehicle steps, the reflex plane, the atlas");
   const auto options = std::make_shared<BenchOptions>();
-  command->add_option("what", options->what, "all, vehicle or decide")
-      ->check(CLI::IsMember({"all", "vehicle", "decide"}))
+  command->add_option("what", options->what, "all, vehicle, decide or atlas")
+      ->check(CLI::IsMember({"all", "vehicle", "decide", "atlas"}))
       ->capture_default_str();
+  command->add_option("--atlas", options->atlas,
+                      "The file; with `all`, without it the atlas is left out");
   command->add_option("--calls", options->calls, "Of the reflex plane, for each number of actors")
       ->check(CLI::Range(1'000, 100'000'000))
       ->capture_default_str();

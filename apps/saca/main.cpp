@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
     add_balance(line, exit_code);
     add_search_showcase(line, exit_code);
     add_tune(line, exit_code);
+    add_atlas(line, exit_code);
     add_vehicle(line, exit_code);
     add_bench(line, exit_code);
     try {

@@ -1,0 +1,275 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/saca/commands.h"
+#include "apps/saca/inputs.h"
+#include "apps/saca/places.h"
+#include "apps/saca/progress.h"
+#include "saca/core/clock.h"
+#include "saca/core/file.h"
+#include "saca/core/parallel.h"
+#include "saca/eval/atlas_check.h"
+#include "saca/manoeuvre/atlas_build.h"
+#include "saca/manoeuvre/atlas_file.h"
+
+namespace saca::app {
+namespace {
+
+namespace fs = std::filesystem;
+using manoeuvre::AtlasAxes;
+using manoeuvre::AtlasKind;
+using nlohmann::json;
+
+struct AtlasOptions {
+  std::string car = "compact_rwd_ev";
+  std::string file;
+  int threads = usual_threads();
+  int scenes = 1'000;
+  unsigned long seed = 20250402;  // calibration: scenarios/splits.toml
+  bool as_json = false;
+};
+
+int refused(const Error& problem) {
+  complain(problem.message);
+  return problem.code == Error::Code::unwritable ? cannot_write : bad_input;
+}
+
+int build(const AtlasOptions& options) {
+  const auto inputs = read_inputs(options.car);
+  if (!inputs.has_value()) {
+    return refused(inputs.error());
+  }
+  const manoeuvre::Car& car = inputs.value().car;
+  const fs::path output =
+      options.file.empty() ? fs::path(inputs.value().car_name + ".atlas") : fs::path(options.file);
+  if (auto problem = make_folder_of(output)) {
+    return refused(*problem);
+  }
+  watch_for_interrupt();
+  SteadyClock clock;
+  const auto grid = manoeuvre::default_atlas_grid();
+  const fs::path journal = output.string() + ".journal";
+  const auto all = static_cast<int>(num_nodes(grid));
+  ProgressLine line("atlas", all, clock);
+  const auto nodes = manoeuvre::build_atlas(
+      car, grid, options.threads, journal, [&](const manoeuvre::AtlasProgress& progress) {
+        line.show(static_cast<int>(progress.done), static_cast<int>(progress.remembered),
+                  " points");
+        return !interrupted();
+      });
+  if (!nodes.has_value()) {
+    return refused(nodes.error());
+  }
+  if (nodes.value() == nullptr) {
+    complain(fmt::format(
+        "interrupted; {} was not written. The same command goes on where this one stopped.",
+        output.string()));
+    return was_interrupted;
+  }
+  const std::string bytes = manoeuvre::atlas_bytes(car, grid, *nodes.value());
+  if (auto problem = write_file(output, bytes)) {
+    return refused(*problem);
+  }
+  std::error_code ignored;
+  fs::remove(journal, ignored);
+  fmt::print("{}: {} points, {:.1f} MB\n", output.string(), all,
+             1e-6 * static_cast<double>(bytes.size()));
+  return success;
+}
+
+json axis_of(const AtlasAxes::Axis& axis) {
+  json values = json::array();
+  for (const double value : axis) {
+    values.push_back(value);
+  }
+  return values;
+}
+
+json told(const manoeuvre::AtlasInfo& info, const std::optional<std::string>& problem) {
+  json kinds = json::array();
+  for (std::size_t kind = 0; kind < manoeuvre::num_atlas_kinds; ++kind) {
+    const AtlasAxes& axes = info.grid[kind];
+    kinds.push_back({{"kind", name(static_cast<AtlasKind>(kind))},
+                     {"points", axes.num_nodes()},
+                     {"speed_mps", axis_of(axes.speeds)},
+                     {"grip", axis_of(axes.grips)},
+                     {"way_m", axis_of(axes.ways)},
+                     {"target_share", axis_of(axes.shares)}});
+  }
+  return {{"schema", "saca.atlas_info/1"},
+          {"version", manoeuvre::atlas_version},
+          {"car_hash", fmt::format("{:016x}", info.car)},
+          {"bytes", info.bytes},
+          {"points", num_nodes(info.grid)},
+          {"usable", !problem.has_value()},
+          {"problem", problem ? json(*problem) : json()},
+          {"kinds", kinds}};
+}
+
+int tell(const AtlasOptions& options) {
+  const auto inputs = read_inputs(options.car);
+  if (!inputs.has_value()) {
+    return refused(inputs.error());
+  }
+  const auto info = manoeuvre::read_atlas_info(options.file);
+  if (!info.has_value()) {
+    return refused(info.error());
+  }
+  const auto atlas = manoeuvre::read_atlas(options.file, inputs.value().car);
+  const auto problem = atlas.has_value() ? std::nullopt : std::optional(atlas.error().message);
+  const json about = told(info.value(), problem);
+  if (options.as_json) {
+    fmt::print("{}\n", about.dump(1, ' ', false, json::error_handler_t::replace));
+  } else {
+    fmt::print("{}: whole, version {}, {} points, {:.1f} MB, car {}\n", options.file,
+               manoeuvre::atlas_version, num_nodes(info.value().grid),
+               1e-6 * static_cast<double>(info.value().bytes),
+               about["car_hash"].get<std::string>());
+    for (const json& kind : about["kinds"]) {
+      fmt::print("  {:15} {:5} points: {:.4g} to {:.4g} m/s, grip {:.3g} to {:.3g}\n",
+                 kind["kind"].get<std::string>(), kind["points"].get<int>(),
+                 kind["speed_mps"].front().get<double>(), kind["speed_mps"].back().get<double>(),
+                 kind["grip"].front().get<double>(), kind["grip"].back().get<double>());
+    }
+    fmt::print("{}\n",
+               problem ? *problem
+                       : "of " + inputs.value().car_name + " as this program drives it: usable");
+  }
+  return problem ? bad_input : success;
+}
+
+void print_figures(const eval::AtlasFigures& figures, const json& all, bool as_json) {
+  if (as_json) {
+    fmt::print("{}\n", all.dump(1));
+    return;
+  }
+  const auto percent = [](const Proportion& share) {
+    return fmt::format("{:.2f} % ({:.2f} to {:.2f})", 100.0 * share.share, 100.0 * share.low,
+                       100.0 * share.high);
+  };
+  fmt::print("{} scenes, {} plans that physics does not refuse\n", figures.scenes, figures.plans);
+  fmt::print("  within the atlas' bounds   {}\n", percent(figures.covered));
+  fmt::print("  agree on contact           {}\n", percent(figures.agreement));
+  fmt::print("  on with whom               {}\n", percent(figures.partner));
+  fmt::print("  on the ego's face          {}\n", percent(figures.face));
+  fmt::print("  impact speed off by        {:.3f} m/s p50, {:.3f} p95, {:.2f} at most\n",
+             figures.speed_p50, figures.speed_p95, figures.speed_max);
+  fmt::print("  clearance off by           {:.2f} m p95 (below 5 m)\n", figures.clearance_p95);
+  fmt::print("  regret of choosing by it   {:.4f} mean, {:.4f} p95; none in {}\n",
+             figures.regret_mean, figures.regret_p95, percent(figures.same_choice));
+}
+
+json as_figures(const eval::AtlasFigures& figures) {
+  json all;
+  const auto add = [&](const std::string& name, const Proportion& share) {
+    all["atlas." + name] = share.share;
+    all["atlas." + name + ".lo"] = share.low;
+    all["atlas." + name + ".hi"] = share.high;
+  };
+  all["atlas.scenes"] = figures.scenes;
+  all["atlas.plans"] = figures.plans;
+  add("covered_share", figures.covered);
+  add("contact_agreement", figures.agreement);
+  add("partner_agreement", figures.partner);
+  add("face_agreement", figures.face);
+  add("same_choice_share", figures.same_choice);
+  all["atlas.impact_speed_off_mps.p50"] = figures.speed_p50;
+  all["atlas.impact_speed_off_mps.p95"] = figures.speed_p95;
+  all["atlas.impact_speed_off_mps.max"] = figures.speed_max;
+  all["atlas.clearance_off_m.p95"] = figures.clearance_p95;
+  all["atlas.regret.mean"] = figures.regret_mean;
+  all["atlas.regret.p95"] = figures.regret_p95;
+  return all;
+}
+
+/// The atlas beside full physics, over encounters of the families that may be trained on.
+int check(const AtlasOptions& options) {
+  const auto inputs = read_inputs(options.car);
+  if (!inputs.has_value()) {
+    return refused(inputs.error());
+  }
+  const auto atlas = manoeuvre::read_atlas(options.file, inputs.value().car);
+  if (!atlas.has_value()) {
+    return refused(atlas.error());
+  }
+  // All but those that are kept for the test split.
+  constexpr std::array<const char*, 7> names{"crossing",    "cut_in",  "cut_out",   "head_on",
+                                             "lead_brakes", "one_way", "pedestrian"};
+  std::vector<sim::Family> families;
+  for (const char* const one : names) {
+    auto family = read_family(inputs.value().places, one);
+    if (!family.has_value()) {
+      return refused(family.error());
+    }
+    families.push_back(std::move(family).value());
+  }
+  watch_for_interrupt();
+  std::vector<std::vector<eval::AtlasRow>> rows(static_cast<std::size_t>(options.scenes));
+  in_parallel(rows.size(), options.threads, [&](std::size_t i) {
+    if (!interrupted()) {
+      rows[i] = eval::atlas_rows(families[i % names.size()], options.seed, i / names.size(),
+                                 atlas.value(), inputs.value().car, inputs.value().harm);
+    }
+  });
+  if (interrupted()) {
+    complain("interrupted; nothing was counted");
+    return was_interrupted;
+  }
+  const eval::AtlasFigures figures = eval::atlas_figures(rows);
+  print_figures(figures, as_figures(figures), options.as_json);
+  return success;
+}
+
+void add_common(CLI::App& command, AtlasOptions& options) {
+  command.add_option("--car", options.car, "A car's file, or the name of a shipped one")
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_atlas(CLI::App& line, int& exit_code) {
+  CLI::App* const command =
+      line.add_subcommand("atlas", "The ego's futures under all eight policies, driven beforehand");
+  command->require_subcommand(1);
+  const auto options = std::make_shared<AtlasOptions>();
+
+  CLI::App* const make = command->add_subcommand(
+      "build", "Drive them with full physics and keep them in a file; can be interrupted");
+  add_common(*make, *options);
+  make->add_option("--output", options->file, "Default: CAR.atlas here");
+  make->add_option("--threads", options->threads, "They do not change the result")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  make->callback([options, &exit_code] { exit_code = build(*options); });
+
+  CLI::App* const info =
+      command->add_subcommand("info", "What a file holds, and whether it can be used");
+  info->add_option("FILE", options->file)->required();
+  add_common(*info, *options);
+  info->add_flag("--json", options->as_json, "For programs");
+  info->callback([options, &exit_code] { exit_code = tell(*options); });
+
+  CLI::App* const compare =
+      command->add_subcommand("check", "Beside full physics, over encounters of the families");
+  compare->add_option("FILE", options->file)->required();
+  add_common(*compare, *options);
+  compare->add_option("--scenes", options->scenes, "Encounters")
+      ->check(CLI::Range(1, 10'000'000))
+      ->capture_default_str();
+  compare->add_option("--seed", options->seed)->capture_default_str();
+  compare->add_option("--threads", options->threads, "They do not change the result")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  compare->add_flag("--json", options->as_json, "For programs");
+  compare->callback([options, &exit_code] { exit_code = check(*options); });
+}
+
+}  // namespace saca::app

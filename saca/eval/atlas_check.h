@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "saca/core/proportion.h"
+#include "saca/eval/moment.h"
+#include "saca/manoeuvre/atlas.h"
+#include "saca/sim/family.h"
+
+namespace saca::eval {
+
+/// One plan in one scene, as the atlas tells it and as full physics does.
+struct AtlasRow {
+  manoeuvre::PolicyId policy = manoeuvre::PolicyId::aeb;
+  bool refused = false;                          ///< by full physics
+  std::optional<manoeuvre::AtlasLimit> outside;  ///< of the atlas
+  bool told_contact = false;
+  bool true_contact = false;
+  bool same_partner = false;    ///< where both have a contact: with the same body or edge
+  bool same_face = false;       ///< likewise, of the ego
+  double speed_off = 0.0;       ///< likewise, relative speed at it: told minus true [m/s]
+  double time_off = 0.0;        ///< likewise [s]
+  double told_clearance = 0.0;  ///< [m]
+  double true_clearance = 0.0;  ///< [m]
+  double probability = 0.0;     ///< of contact, as told
+  double told_harm = 0.0;       ///< first contact only
+  double true_harm = 0.0;       ///< of all contacts
+};
+
+/// All eight begun at a moment, the others on the tracks that they would take while the ego goes
+/// on, known exactly; true grip is the believed one.
+[[nodiscard]] std::array<AtlasRow, manoeuvre::num_policies> atlas_rows(
+    const Moment& moment, const manoeuvre::Atlas& atlas, const manoeuvre::Car& car,
+    const outcome::HarmModel& harm);
+
+/// The same at the trigger of sample `number` of a family; empty where it never triggers.
+[[nodiscard]] std::vector<AtlasRow> atlas_rows(const sim::Family& family, std::uint64_t seed,
+                                               std::uint64_t number, const manoeuvre::Atlas& atlas,
+                                               const manoeuvre::Car& car,
+                                               const outcome::HarmModel& harm);
+
+/// How good the atlas is over many scenes.
+struct AtlasFigures {
+  int scenes = 0;
+  int plans = 0;               ///< that full physics does not refuse
+  Proportion covered;          ///< of these, within the atlas' bounds
+  Proportion agreement;        ///< on contact
+  Proportion partner;          ///< of contacts of both: the same body or edge
+  Proportion face;             ///< likewise: the same face of the ego
+  double speed_p50 = 0.0;      ///< size of speed_off where both meet the same [m/s]
+  double speed_p95 = 0.0;      ///< likewise
+  double speed_max = 0.0;      ///< likewise
+  double clearance_p95 = 0.0;  ///< where neither has contact and both pass within 5 m [m]
+  double regret_mean = 0.0;    ///< true harm of the atlas' choice above that of the true best
+  double regret_p95 = 0.0;     ///< likewise
+  Proportion same_choice;      ///< of scenes: regret below outcome::harm_tie
+};
+
+/// @param rows  those of each scene, eight or none
+[[nodiscard]] AtlasFigures atlas_figures(std::span<const std::vector<AtlasRow>> rows);
+
+}  // namespace saca::eval

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "saca/core/result.h"
+#include "saca/manoeuvre/atlas.h"
+#include "saca/manoeuvre/car.h"
+
+namespace saca::manoeuvre {
+
+/// Changed by hand when the atlas' own meaning changes, so that older files are refused.
+constexpr std::uint32_t atlas_version = 1;
+
+/// Names a car's parameters and tuning; with others nothing tabled is true.
+[[nodiscard]] std::uint64_t car_hash(const Car& car);
+
+/// Names a grid.
+[[nodiscard]] std::uint64_t grid_hash(const AtlasGrid& grid);
+
+/// Where a few short manoeuvres of every kind end: x, y [m], heading [rad], time [s] of each. When
+/// vehicle model or controllers change, so does this, whoever forgets to say so.
+using Behaviour = std::array<double, 4 * 2 * num_atlas_kinds>;
+[[nodiscard]] Behaviour behaviour(const Car& car);
+
+/// Do two cars or programs drive alike: all within a millimetre, milliradian, millisecond or two
+/// (instruction sets differ in the last digits)?
+[[nodiscard]] bool alike(const Behaviour& a, const Behaviour& b);
+
+/// Drives one point of the grid, in the order of `Atlas`: the middle one and two on other grip.
+/// This is the place where the atlas asks the physics.
+[[nodiscard]] AtlasNode atlas_node(const Car& car, const AtlasGrid& grid, std::size_t number);
+
+/// How a build goes on: nodes done, and of these those that the journal knew.
+struct AtlasProgress {
+  std::size_t done = 0;
+  std::size_t remembered = 0;
+};
+
+using AtlasNodes = std::shared_ptr<const std::vector<AtlasNode>>;
+
+/// Drives all of a grid.
+///
+/// @param threads  >= 1; they do not change the result
+/// @param journal  what is done is kept there, and a later call goes on with it; empty: nowhere
+/// @param go_on    told of progress now and then, from any thread, one at a time; false stops
+/// @return         nullptr: stopped; else what `Atlas` takes. Errors are the journal's.
+[[nodiscard]] Result<AtlasNodes> build_atlas(
+    const Car& car, const AtlasGrid& grid, int threads, const std::filesystem::path& journal,
+    const std::function<bool(const AtlasProgress&)>& go_on);
+
+}  // namespace saca::manoeuvre

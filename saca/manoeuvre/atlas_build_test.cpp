@@ -1,0 +1,131 @@
+#include "saca/manoeuvre/atlas_build.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+
+#include "saca/manoeuvre/atlas_for_test.h"
+#include "saca/manoeuvre/drive.h"
+
+namespace saca::manoeuvre {
+namespace {
+
+// Few and short.
+AtlasGrid tiny_grid() {
+  const AtlasAxes::Axis none = axis_of({0.0});
+  const AtlasAxes::Axis one = axis_of({0.9});
+  const AtlasAxes stop{axis_of({0.0, 3.0, 6.0}), one, none, none};
+  const AtlasAxes swerve{axis_of({12.0}), one, axis_of({3.0}), none};
+  AtlasAxes braked = swerve;
+  braked.shares = axis_of({0.5});
+  return {stop,   {axis_of({9.0}), one, none, none}, swerve, braked,
+          swerve, {axis_of({12.0}), one, none, none}};
+}
+
+bool same(const std::vector<AtlasNode>& a, const std::vector<AtlasNode>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
+}
+
+bool on(const AtlasProgress&) {
+  return true;
+}
+
+class AtlasBuild : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() /
+              (std::string("saca_atlas_build_") +
+               testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::filesystem::path folder_;
+};
+
+TEST_F(AtlasBuild, GivesTheSameBytesOnAnyNumberOfThreads) {
+  const AtlasNodes one = build_atlas(small_atlas_car(), tiny_grid(), 1, {}, on).value();
+  const AtlasNodes two = build_atlas(small_atlas_car(), tiny_grid(), 3, {}, on).value();
+  EXPECT_TRUE(same(*one, *two));
+}
+
+TEST_F(AtlasBuild, GoesOnWhereItWasStopped) {
+  const auto journal = folder_ / "journal";
+  const AtlasNodes whole = build_atlas(small_atlas_car(), tiny_grid(), 1, {}, on).value();
+  const AtlasNodes stopped =
+      build_atlas(small_atlas_car(), tiny_grid(), 1, journal, [](const AtlasProgress& progress) {
+        return progress.done < 4;
+      }).value();
+  EXPECT_EQ(stopped, nullptr);
+  std::size_t remembered = 0;
+  const AtlasNodes resumed =
+      build_atlas(small_atlas_car(), tiny_grid(), 1, journal, [&](const AtlasProgress& progress) {
+        remembered = progress.remembered;
+        return true;
+      }).value();
+  EXPECT_EQ(remembered, 4U);
+  EXPECT_TRUE(same(*whole, *resumed));
+}
+
+TEST_F(AtlasBuild, RefusesAJournalOfOtherWork) {
+  const auto journal = folder_ / "journal";
+  ASSERT_TRUE(build_atlas(small_atlas_car(), tiny_grid(), 1, journal, on).has_value());
+  Car other = small_atlas_car();
+  other.mass += 1.0;
+  const auto refused = build_atlas(other, tiny_grid(), 1, journal, on);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().code, Error::Code::malformed);
+}
+
+TEST_F(AtlasBuild, ANodeTellsHowItsDriveEnds) {
+  const world::Scene scene = atlas_scene(6.0, 0.9);
+  const EgoMotion motion =
+      drive(small_atlas_car(), {PolicyId::aeb, std::nullopt}, scene, 0.9, 20.0);
+  const AtlasNode node = atlas_node(small_atlas_car(), tiny_grid(), 2);
+  EXPECT_NEAR(static_cast<double>(node.forward), motion.track.X_WA.back().p.x, 1e-3);
+  EXPECT_EQ(node.ended, 1U);
+  // Straight on it sweeps its own width.
+  EXPECT_NEAR(static_cast<double>(node.swept_left), 0.5 * small_atlas_car().body_width, 0.01);
+  EXPECT_NEAR(static_cast<double>(node.swept_right), -0.5 * small_atlas_car().body_width, 0.01);
+}
+
+TEST_F(AtlasBuild, WhoStandsStaysAtOnce) {
+  const AtlasNode node = atlas_node(small_atlas_car(), tiny_grid(), 0);
+  EXPECT_EQ(node.end, 0.0F);
+  EXPECT_EQ(node.forward, 0.0F);
+  EXPECT_EQ(node.ended, 1U);
+}
+
+TEST_F(AtlasBuild, HashesTellCarsTuningsAndGridsApart) {
+  const Car car = small_atlas_car();
+  Car heavier = car;
+  heavier.mass *= 1.0 + 1e-15;
+  Car tuned = car;
+  tuned.tuning.swerve.damping += 0.01;
+  Car bounded = car;
+  bounded.tuning.domain.slowest[3] += 0.5;
+  EXPECT_EQ(car_hash(car), car_hash(Car(car)));
+  EXPECT_NE(car_hash(car), car_hash(heavier));
+  EXPECT_NE(car_hash(car), car_hash(tuned));
+  EXPECT_NE(car_hash(car), car_hash(bounded));
+  EXPECT_NE(grid_hash(small_grid()), grid_hash(tiny_grid()));
+}
+
+// A controller that steers a little otherwise is another one, whoever forgot to say so.
+TEST_F(AtlasBuild, BehaviourShowsAControllerThatDrivesOtherwise) {
+  const Behaviour now = behaviour(small_atlas_car());
+  EXPECT_TRUE(alike(now, behaviour(small_atlas_car())));
+  Car swerves = small_atlas_car();
+  swerves.tuning.swerve.damping *= 0.97;
+  EXPECT_FALSE(alike(now, behaviour(swerves)));
+  Car drifts_on = small_atlas_car();
+  drifts_on.tuning.drift.gain *= 0.97;
+  EXPECT_FALSE(alike(now, behaviour(drifts_on)));
+  Car brakes = small_atlas_car();
+  brakes.brake_lag += 0.005;
+  EXPECT_FALSE(alike(now, behaviour(brakes)));
+}
+
+}  // namespace
+}  // namespace saca::manoeuvre

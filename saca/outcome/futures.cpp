@@ -1,0 +1,229 @@
+#include "saca/outcome/futures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "saca/outcome/blow.h"
+#include "saca/outcome/sweep.h"
+
+namespace saca::outcome {
+namespace {
+
+using manoeuvre::Atlas;
+using manoeuvre::AtlasBounds;
+using manoeuvre::AtlasLimit;
+using manoeuvre::Plan;
+using world::Scene;
+using world::Track;
+
+constexpr double negligible = 1e-4;  // probability below which no harm is counted
+
+// Whom or what the ego may meet, and when.
+struct Chance {
+  Meeting meeting;
+  std::optional<std::size_t> actor;
+  std::optional<Side> edge;
+  double probability = 0.0;  // its existence included
+  double time = 0.0;         // at the mean, or else when it is likeliest [s]
+};
+
+using Chances = StaticVector<Chance, world::max_actors + 2>;
+
+bool tracks_fit(const Scene& scene, std::span<const Track> tracks) noexcept {
+  return tracks.size() == scene.actors.size() &&
+         std::all_of(tracks.begin(), tracks.end(), [](const Track& track) {
+           return !track.X_WA.empty() && track.step > 0.0 && std::isfinite(track.start) &&
+                  std::isfinite(track.step) && is_finite(track.X_WA.front()) &&
+                  is_finite(track.X_WA.back());
+         });
+}
+
+// Weighted harm of everybody in one blow, all of them there.
+double harm_of(const Blow& blow, const Scene& scene, const HarmModel& harm) noexcept {
+  double sum = harm.ego_people * weighted(harm, blow.ego);
+  if (blow.contact.actor) {
+    const auto kind = static_cast<std::size_t>(scene.actors[*blow.contact.actor].kind);
+    sum += harm.people[kind] * weighted(harm, blow.other);
+  }
+  return sum;
+}
+
+// What happens if the ego meets this one. Where they miss each other at the mean, the other is
+// brought up to it.
+std::optional<Blow> blow_of(const Chance& chance, const AtlasEgo& ego, const Scene& scene,
+                            std::span<const Track> tracks, const HarmModel& harm) noexcept {
+  const Instant mine = ego.at(chance.time);
+  const double time = scene.time + chance.time;
+  if (!is_finite(mine.X_WB) || !is_finite(mine.v_W)) {
+    return std::nullopt;
+  }
+  if (chance.edge) {
+    return leave(scene, *chance.edge, mine, time, harm);
+  }
+  Instant other = instant_at(tracks[*chance.actor], time);
+  if (!chance.meeting.contact) {
+    constexpr double near = 1e-5;  // [m]
+    other.X_WB.p = other.X_WB.p - (chance.meeting.gap - near) * chance.meeting.n_W;
+  }
+  if (!is_finite(other.X_WB) || !is_finite(other.v_W)) {
+    return std::nullopt;
+  }
+  return meet(scene, *chance.actor, mine, other, time, harm);
+}
+
+void add(Chances& chances, const Chance& chance) noexcept {
+  if (chance.probability > negligible || chance.meeting.contact) {
+    chances.push_back(chance);
+    chances[chances.size() - 1].time = chance.meeting.contact.value_or(chance.meeting.nearest);
+  }
+}
+
+// Everybody and everything, in the order in which the ego comes upon them.
+Chances chances_of(const AtlasEgo& ego, std::span<const Track> tracks, std::span<const Boxes> boxes,
+                   Future& future) noexcept {
+  const Scene& scene = ego.scene();
+  Chances chances;
+  double until = std::numeric_limits<double>::infinity();  // by then somebody is struck for sure
+  for (const Side side : {Side::left, Side::right}) {
+    const world::Beyond what = beyond(scene.road, side);
+    const bool counts = what != world::Beyond::unmarked;
+    const Meeting edge = edge_meeting(ego, side, counts ? future.clearance : 0.0);
+    if (counts) {
+      future.clearance = std::min(future.clearance, edge.clearance);
+    }
+    if (edge.contact && edge.probability >= 1.0 && stops_the_ego(what)) {
+      until = std::min(until, *edge.contact);
+    }
+    add(chances, {edge, std::nullopt, side, edge.probability, 0.0});
+  }
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const Meeting met = meeting(ego, i, tracks[i], boxes[i], future.clearance, until);
+    future.clearance = std::min(future.clearance, met.clearance);
+    if (met.contact && scene.actors[i].existence * met.probability >= 1.0) {
+      until = std::min(until, *met.contact);
+    }
+    add(chances, {met, i, std::nullopt, scene.actors[i].existence * met.probability, 0.0});
+  }
+  std::sort(chances.begin(), chances.end(),
+            [](const Chance& a, const Chance& b) { return a.time < b.time; });
+  return chances;
+}
+
+bool stops(const Chance& chance, const Scene& scene) noexcept {
+  return chance.actor || stops_the_ego(beyond(scene.road, *chance.edge));
+}
+
+void judge(const Chances& chances, const AtlasEgo& ego, std::span<const Track> tracks,
+           const HarmModel& harm, Future& future) noexcept {
+  const Scene& scene = ego.scene();
+  double unharmed = 1.0;  // probability that nobody has been struck so far
+  std::optional<Contact> crossed;
+  for (const Chance& chance : chances) {
+    const std::optional<Blow> blow = blow_of(chance, ego, scene, tracks, harm);
+    if (!blow) {
+      future.outside = AtlasLimit::no_number;
+      return;
+    }
+    const double size = harm_of(*blow, scene, harm);
+    future.harm += unharmed * chance.probability * size;
+    const bool ends = stops(chance, scene);
+    if (chance.meeting.contact && !future.contact) {
+      const double there = chance.actor ? scene.actors[*chance.actor].existence : 1.0;
+      future.harm_at_mean += there * size;
+      (ends ? future.contact : crossed) = blow->contact;
+    }
+    if (ends) {
+      unharmed *= 1.0 - chance.probability;
+    }
+  }
+  future.probability = 1.0 - unharmed;
+  future.contact = future.contact ? future.contact : crossed;
+  if (future.contact) {
+    future.clearance = 0.0;
+  }
+}
+
+// One scene, looked at once for all plans.
+class Judge {
+ public:
+  Judge(const Atlas& atlas, const Scene& scene, std::span<const Track> tracks,
+        const HarmModel& harm, const AtlasBounds& bounds) noexcept
+      : atlas_(atlas), scene_(scene), tracks_(tracks), harm_(harm), bounds_(bounds) {
+    usable_ = !broken_rule(scene) && tracks_fit(scene, tracks);
+    for (std::size_t i = 0; usable_ && i < tracks.size(); ++i) {
+      boxes_[i] = boxes_of(tracks[i], scene.time);
+    }
+  }
+
+  [[nodiscard]] Future future(const Plan& plan) const noexcept {
+    Future future{.plan = plan};
+    future.outside =
+        usable_ ? atlas_.outside(plan, scene_, bounds_) : std::optional(AtlasLimit::no_number);
+    if (future.outside) {
+      return future;
+    }
+    const manoeuvre::AtlasPath path = atlas_.path(plan, scene_);
+    const AtlasEgo ego(path, scene_);
+    judge(chances_of(ego, tracks_, boxes_, future), ego, tracks_, harm_, future);
+    future.end_time = scene_.time + path.end;
+    return future;
+  }
+
+ private:
+  const Atlas& atlas_;
+  const Scene& scene_;
+  std::span<const Track> tracks_;
+  const HarmModel& harm_;
+  const AtlasBounds& bounds_;
+  bool usable_ = false;
+  std::array<Boxes, world::max_actors> boxes_{};
+};
+
+}  // namespace
+
+Future future(const Atlas& atlas, const Plan& plan, const Scene& scene,
+              std::span<const Track> tracks, const HarmModel& harm,
+              const AtlasBounds& bounds) noexcept {
+  return Judge(atlas, scene, tracks, harm, bounds).future(plan);
+}
+
+bool better(const Future& a, const Future& b) noexcept {
+  if (a.outside || b.outside) {
+    return !a.outside && b.outside;
+  }
+  Outcome of_a;
+  Outcome of_b;
+  of_a.harm = a.harm;
+  of_a.clearance = a.clearance;
+  of_b.harm = b.harm;
+  of_b.clearance = b.clearance;
+  return better(of_a, a.plan.policy, of_b, b.plan.policy);
+}
+
+Futures futures(const Atlas& atlas, const Scene& scene, std::span<const Track> tracks,
+                const HarmModel& harm, std::span<const double> shares,
+                const AtlasBounds& bounds) noexcept {
+  const Judge judge(atlas, scene, tracks, harm, bounds);
+  Futures all;
+  for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
+    Future& best = all[manoeuvre::index(policy)];
+    if (!manoeuvre::brakes_to_speed(policy)) {
+      best = judge.future({policy, std::nullopt});
+      continue;
+    }
+    best = {.plan = manoeuvre::default_plan(policy, scene.ego.v_B.x),
+            .outside = AtlasLimit::target_speed};
+    for (const double share : shares) {
+      const Future one = judge.future({policy, share * scene.ego.v_B.x});
+      if (better(one, best)) {
+        best = one;
+      } else if (best.outside == AtlasLimit::target_speed && one.outside) {
+        best.outside = one.outside;
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace saca::outcome
