@@ -34,6 +34,9 @@ constexpr double clamp(double value, double low, double high) noexcept {
 inline double abs(double value) noexcept {
   return std::abs(value);
 }
+inline double round(double value) noexcept {
+  return std::round(value);
+}
 inline double sqrt(double value) noexcept {
   return std::sqrt(value);
 }

@@ -227,7 +227,7 @@ inline void command_speed(const Car& car, const Wants<Mask>& wants, const T& gri
   constexpr double approach = 0.25;  // [s]: the last of the braking fades within the brakes' delay
   const Mask stop = stops(wants, memory);
   // Where a bend needs all the grip, only less speed helps: a stop always brakes.
-  const T share = select(wants.rest, 1.0, combined_share);
+  const T share = select(wants.rest, T(1.0), combined_share);
   const T left_over = deceleration_left<T>(share, grip, sideways);
   const T slowing = min(left_over, (state.v_B.x - memory.speed) / approach);
   const T wanted = select(stop, max(left_over, least_stop_share * grip * gravity),

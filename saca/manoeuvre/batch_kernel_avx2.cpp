@@ -1,0 +1,13 @@
+#if defined(__x86_64__)
+
+#include "saca/manoeuvre/batch_kernel_of.h"
+
+namespace saca::manoeuvre::lanes {
+
+Kernel kernel_avx2() noexcept {
+  return kernel_of<xsimd::avx2>();
+}
+
+}  // namespace saca::manoeuvre::lanes
+
+#endif
