@@ -14,7 +14,8 @@ std::vector<Drive> bench_drives(const Car& car) {
   std::vector<Drive> drives;
   for (int i = 0; i < 64; ++i) {
     const double speed = 12.0 + i % 8;
-    const double grip = 0.65 + 0.04 * (i / 8);
+    const int row = i / 8;
+    const double grip = 0.65 + 0.04 * row;
     for (const PolicyId policy : all_policies) {
       Drive drive{.car = &car, .plan = default_plan(policy, speed)};
       drive.ego.v_B = {speed, 0.0};

@@ -142,24 +142,25 @@ inline void move_actuators(const CarLane<T>& car, const Told<T>& told,
 
 /// How the force along a wheel grows with its sliding velocity [N s/m]: what falls after the peak.
 template <class T>
-inline T drag_slope(const TyreLane<T>& tyre, const vehicle::equations::Wheels<T>& wheels,
-                    const vehicle::equations::Flow<T>& flow, const T& radius, std::size_t i,
-                    const T& x, const T& y, const T& grip) {
+inline T drag_slope(const CarLane<T>& car, const vehicle::equations::Wheels<T>& wheels,
+                    const vehicle::equations::Flow<T>& flow, std::size_t i, const T& grip) {
+  const T x = vehicle::equations::is_front(i) ? T(car.front_arm) : T(-car.rear_arm);
+  const T y = vehicle::equations::is_left(i) ? T(car.half_track) : T(-car.half_track);
   using F = vehicle::equations::Flow<T>;
   const T vx = flow[F::vx] - flow[F::yaw_rate] * y;
   const T vy = flow[F::vy] + flow[F::yaw_rate] * x;
-  const T slip_x = wheels.v_x[i] - radius * flow[F::wheel + i];
+  const T slip_x = wheels.v_x[i] - car.wheel_radius * flow[F::wheel + i];
   const T slipping = slip_x * slip_x + wheels.v_y[i] * wheels.v_y[i];
   const T rise = vehicle::equations::steepness<T>(
-      tyre, vehicle::equations::peak_friction<T>(tyre, wheels.load[i], grip));
+      car.tyre, vehicle::equations::peak_friction<T>(car.tyre, wheels.load[i], grip));
   const T zz = rise * rise *
                (slipping * (1.0 / max(vx * vx + vy * vy,
                                       vehicle::slip_speed_floor * vehicle::slip_speed_floor)));
-  const T ratio = vehicle::equations::magic_ratio<T>(tyre.shape, zz);
+  const T ratio = vehicle::equations::magic_ratio<T>(car.tyre.shape, zz);
   // d sin(C atan z) / dz = C cos(C atan z) / (1 + z^2)
   const T size = sqrt(max(0.0, 1.0 - zz * ratio * ratio));
-  const T cosine = select(zz > tyre.peak_zz, -size, size);
-  const T over_drag = tyre.shape * cosine / ((1.0 + zz) * ratio);
+  const T cosine = select(zz > car.tyre.peak_zz, -size, size);
+  const T over_drag = car.tyre.shape * cosine / ((1.0 + zz) * ratio);
   const T share = slip_x * slip_x / max(slipping, 1e-9);
   return wheels.drag[i] * (1.0 + share * (over_drag - 1.0));
 }
@@ -170,7 +171,7 @@ inline T drag_slope(const TyreLane<T>& tyre, const vehicle::equations::Wheels<T>
 template <class T>
 inline void spin_wheels(const CarLane<T>& car, const vehicle::equations::Wheels<T>& wheels,
                         const vehicle::equations::Flow<T>& now, vehicle::equations::Flow<T>& next,
-                        const T& grip) {
+                        const Wheelwise<T>& slopes) {
   using F = vehicle::equations::Flow<T>;
   const T motor = 0.5 * (now[F::motor] + next[F::motor]);
   for (std::size_t i = 0; i < num_wheels; ++i) {
@@ -181,7 +182,7 @@ inline void spin_wheels(const CarLane<T>& car, const vehicle::equations::Wheels<
     const T v_x =
         vehicle::equations::is_front(i) ? wheels.cosine[i] * vx + wheels.sine[i] * vy : vx;
     const auto& inertia = wheel_inertia(car, i);
-    const T slope = drag_slope<T>(car.tyre, wheels, now, car.wheel_radius, i, x, y, grip);
+    const T& slope = slopes[i];
     const T z = max(-0.5, step * car.wheel_radius * car.wheel_radius * slope / inertia);
     const T gained = (1.0 + z) / (2.0 + z) * (v_x - wheels.v_x[i]);
     const T F_x = wheels.F_x[i] - slope * gained;
@@ -233,7 +234,7 @@ inline void advance(const FixedLane<T>& fixed, MovingLane<T>& moving, std::size_
   using F = vehicle::equations::Flow<T>;
   constexpr std::array<std::size_t, 8> body{F::x,  F::y,        F::yaw, F::vx,
                                             F::vy, F::yaw_rate, F::ax,  F::ay};
-  F& flow = moving.flow;
+  F flow = moving.flow;  // its own: what is written to the lane cannot change it
   const auto held = vehicle::equations::is_held<T>(fixed.real, flow);
   if (any(held)) {
     for (std::size_t i = F::vx; i < F::wheel + num_wheels; ++i) {  // velocities, then wheels
@@ -244,6 +245,10 @@ inline void advance(const FixedLane<T>& fixed, MovingLane<T>& moving, std::size_
   const Turn<T> middle = vehicle::equations::turn_by<T>(flow[F::steering]);
   const vehicle::equations::Wheels<T> wheels = vehicle::equations::wheels_of<T>(
       fixed.real, flow, middle, {fixed.grip, fixed.grip, fixed.grip, fixed.grip});
+  Wheelwise<T> slopes;
+  for (std::size_t i = 0; i < num_wheels; ++i) {
+    slopes[i] = drag_slope<T>(fixed.real, wheels, flow, i, fixed.grip);
+  }
   F rate;
   Pair<T> force = vehicle::equations::body_rates<T>(fixed.real, flow, wheels, heading, rate);
   if (any(held)) {
@@ -291,14 +296,14 @@ inline void advance(const FixedLane<T>& fixed, MovingLane<T>& moving, std::size_
       next[at] = flow[at] + change;
     }
   }
-  spin_wheels<T>(fixed.real, wheels, flow, next, fixed.grip);
+  spin_wheels<T>(fixed.real, wheels, flow, next, slopes);
   if (any(held)) {
     for (std::size_t i = F::wheel; i < F::wheel + num_wheels; ++i) {
       next[i] = select(held, 0.0, next[i]);
     }
   }
   moving.first = T(0.0);
-  flow = next;
+  moving.flow = next;
 }
 
 }  // namespace saca::manoeuvre::lanes

@@ -1,4 +1,4 @@
-#if defined(__x86_64__)
+#if defined(__AVX2__)  // set for this file where the processor family has it
 
 #include "saca/manoeuvre/batch_kernel_of.h"
 

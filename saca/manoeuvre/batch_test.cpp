@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <limits>
 #include <random>
@@ -47,8 +48,8 @@ std::vector<Drive> plain_drives() {
   std::vector<Drive> drives;
   for (const Car& car : cars()) {
     for (const PolicyId policy : all_policies) {
-      for (const double grip : {0.3, 0.5, 0.7, 0.85, 1.0}) {
-        for (const double speed : {5.0, 9.0, 14.0, 19.0, 25.0}) {
+      for (const double grip : {0.3, 0.65, 1.0}) {
+        for (const double speed : {5.0, 14.0, 25.0}) {
           Drive one{.car = &car, .plan = default_plan(policy, speed)};
           one.ego.v_B = {speed, 0.0};
           one.known_grip = grip;
@@ -159,7 +160,7 @@ TEST(Batch, EndsWhereTheScalarModelDoes) {
 // Draws make some drives that no step resolves: they slide, and the scalar model itself, at half
 // its step, ends elsewhere. So the bounds are of shares.
 TEST(Batch, EndsWhereTheScalarModelDoesFromAnywhere) {
-  const std::vector<Drive> drives = random_drives(400, 3);
+  const std::vector<Drive> drives = random_drives(100, 3);
   const std::vector<EgoMotion> motions = drive_all(drives, long_enough);
   std::vector<double> position;
   std::vector<double> heading;
@@ -178,7 +179,7 @@ TEST(Batch, EndsWhereTheScalarModelDoesFromAnywhere) {
 }
 
 TEST(Batch, DoesNotDependOnOrderNeighboursOrThreads) {
-  std::vector<Drive> drives = random_drives(90, 4);
+  std::vector<Drive> drives = random_drives(45, 4);
   for (const Level level : levels()) {
     const std::vector<EgoMotion> motions = drive_all(drives, 5.0, 1, level);
     const std::vector<EgoMotion> threaded = drive_all(drives, 5.0, 3, level);
