@@ -226,14 +226,36 @@ inline void hold(MovingLane<T>& moving, std::size_t now, const Wheelwise<T>& tor
   }
 }
 
+/// The body: Adams and Bashforth's scheme of second order; Euler's at the start.
+template <class T, class Mask>
+inline void move_body(const vehicle::equations::Flow<T>& flow,
+                      const vehicle::equations::Flow<T>& rate, const Mask& first,
+                      MovingLane<T>& moving, vehicle::equations::Flow<T>& next) {
+  using F = vehicle::equations::Flow<T>;
+  constexpr std::array<std::size_t, 8> body{F::x,  F::y,        F::yaw, F::vx,
+                                            F::vy, F::yaw_rate, F::ax,  F::ay};
+  const T old = select(first, T(0.0), 0.5 * step);
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    const std::size_t at = body[i];
+    const T change = step * rate[at] + old * (rate[at] - moving.rate[i]);
+    moving.rate[i] = rate[at];
+    if (at == F::x || at == F::y) {
+      T& lost = at == F::x ? moving.lost_x : moving.lost_y;
+      const T whole = change - lost;
+      next[at] = flow[at] + whole;
+      lost = (next[at] - flow[at]) - whole;
+    } else {
+      next[at] = flow[at] + change;
+    }
+  }
+}
+
 /// @param now    counts steps: where the brake line is written
 /// @param late   brakes' dead time in steps
 template <class T>
 inline void advance(const FixedLane<T>& fixed, MovingLane<T>& moving, std::size_t now,
                     std::size_t late) {
   using F = vehicle::equations::Flow<T>;
-  constexpr std::array<std::size_t, 8> body{F::x,  F::y,        F::yaw, F::vx,
-                                            F::vy, F::yaw_rate, F::ax,  F::ay};
   F flow = moving.flow;  // its own: what is written to the lane cannot change it
   const auto held = vehicle::equations::is_held<T>(fixed.real, flow);
   if (any(held)) {
@@ -281,21 +303,7 @@ inline void advance(const FixedLane<T>& fixed, MovingLane<T>& moving, std::size_
 
   F next;
   move_actuators<T>(fixed.real, command, flow, next);
-  // Adams and Bashforth's scheme of second order; Euler's at the start.
-  const T old = select(first, T(0.0), 0.5 * step);
-  for (std::size_t i = 0; i < body.size(); ++i) {
-    const std::size_t at = body[i];
-    const T change = step * rate[at] + old * (rate[at] - moving.rate[i]);
-    moving.rate[i] = rate[at];
-    if (at == F::x || at == F::y) {
-      T& lost = at == F::x ? moving.lost_x : moving.lost_y;
-      const T whole = change - lost;
-      next[at] = flow[at] + whole;
-      lost = (next[at] - flow[at]) - whole;
-    } else {
-      next[at] = flow[at] + change;
-    }
-  }
+  move_body(flow, rate, first, moving, next);
   spin_wheels<T>(fixed.real, wheels, flow, next, slopes);
   if (any(held)) {
     for (std::size_t i = F::wheel; i < F::wheel + num_wheels; ++i) {
