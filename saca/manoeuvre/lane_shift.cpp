@@ -1,33 +1,13 @@
 #include "saca/manoeuvre/lane_shift.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
+#include "saca/manoeuvre/equations.h"
+
 namespace saca::manoeuvre {
 namespace {
-
-// A stretch of constant jerk.
-struct Stretch {
-  double duration;
-  double jerk;
-};
-
-std::array<Stretch, 5> stretches(const LaneShift& shift) {
-  const double jerk = shift.amplitude / shift.ramp;
-  return {{{shift.ramp, jerk},
-           {shift.first, 0.0},
-           {2.0 * shift.ramp, -jerk},
-           {shift.second, 0.0},
-           {shift.ramp, jerk}}};
-}
-
-Lateral after(const Lateral& now, double jerk, double t) {
-  return {.d = now.d + t * (now.v + t * (now.a / 2.0 + t * jerk / 6.0)),
-          .v = now.v + t * (now.a + t * jerk / 2.0),
-          .a = now.a + t * jerk};
-}
 
 // Rate at the end is start_v + A (first + ramp) - A (second + ramp): `second` follows from `first`.
 // The offset at the end is then a parabola in `first`, known from three of its points.
@@ -63,19 +43,8 @@ double duration(const LaneShift& shift) noexcept {
 }
 
 Lateral at(const LaneShift& shift, double time) noexcept {
-  Lateral now{.d = shift.start_d, .v = shift.start_v, .a = 0.0};
-  if (time <= 0.0) {
-    now.d += time * now.v;
-    return now;
-  }
-  for (const auto& [length, jerk] : stretches(shift)) {
-    now = after(now, jerk, std::min(time, length));
-    time -= length;
-    if (time <= 0.0) {
-      return now;
-    }
-  }
-  return {.d = now.d, .v = 0.0, .a = 0.0};
+  const equations::Lateral<double> now = equations::at(shift, time);
+  return {.d = now.d, .v = now.v, .a = now.a};
 }
 
 LaneShift lane_shift(double start_d, double start_v, double end_d, double amplitude,

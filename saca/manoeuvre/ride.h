@@ -24,6 +24,10 @@ class Ride {
 
   [[nodiscard]] bool ended() const { return finished(plan_, state_, memory_); }
   [[nodiscard]] const vehicle::VehicleState& state() const { return state_; }
+  /// The car as it is, not as its controller takes it to be; the road's true friction coefficient.
+  [[nodiscard]] const vehicle::Vehicle& real() const { return real_; }
+  [[nodiscard]] double grip() const { return grip_; }
+  [[nodiscard]] const ControllerState& memory() const { return memory_; }
   /// What the controller said at the last step.
   [[nodiscard]] const vehicle::Command& command() const { return command_; }
   [[nodiscard]] vehicle::Contacts contacts() const {

@@ -5,35 +5,20 @@
 #include <numbers>
 
 #include "saca/core/contract.h"
+#include "saca/vehicle/equations.h"
 
 namespace saca::vehicle {
 namespace {
 
-// A brake turns from full torque to none over the speed that it would take away in 1 / this.
-constexpr double brake_stiffness = 1000.0;  // [1/s]
-
-// What the integrator sees of a state: everything that has a rate.
-struct Flow {
-  enum : std::size_t {
-    x,
-    y,
-    yaw,
-    vx,
-    vy,
-    yaw_rate,
-    wheel,
-    steering = wheel + 4,
-    brake,
-    motor = brake + 4,
-    ax,
-    ay,
-    size
-  };
-  std::array<double, size> value{};
-
-  double& operator[](std::size_t i) { return value[i]; }
-  double operator[](std::size_t i) const { return value[i]; }
-};
+using equations::actuator_rates;
+using equations::body_rates;
+using equations::is_front;
+using equations::turn_by;
+using equations::wheel_inertia;
+using equations::wheels_of;
+using Flow = equations::Flow<double>;
+using Turn = equations::Turn<double>;
+using Wheels = equations::Wheels<double>;
 
 Flow along(const Flow& start, double dt, const Flow& rate) {
   Flow end = start;
@@ -75,16 +60,6 @@ void put(const Flow& flow, VehicleState& state) {
   state.transfer_a_B = {flow[Flow::ax], flow[Flow::ay]};
 }
 
-// A turn, as its cosine and sine.
-struct Turn {
-  double cosine = 1.0;
-  double sine = 0.0;
-};
-
-Turn turn_by(double angle) {
-  return {std::cos(angle), std::sin(angle)};
-}
-
 Turn after(Turn first, Turn second) {
   return {first.cosine * second.cosine - first.sine * second.sine,
           first.sine * second.cosine + first.cosine * second.sine};
@@ -122,98 +97,22 @@ Held held_from(const Flow& start, const Command& command, const PerWheel& grip) 
           .steering_angle = start[Flow::steering]};
 }
 
-bool is_front(std::size_t wheel) {
-  return wheel == front_left || wheel == front_right;
-}
-
-double wheel_inertia(const Vehicle& car, std::size_t wheel) {
-  return is_front(wheel) ? car.front_wheel_inertia : car.rear_wheel_inertia;
-}
-
-// Everything about the four contacts; arrays, so that the compiler can work on several at once.
-struct Wheels {
-  PerWheel cosine, sine;  // of the wheels' angles against the body
-  PerWheel v_x, v_y;      // of the wheel centres, expressed in T [m/s]
-  PerWheel load;          // [N]
-  PerWheel F_x, F_y;      // expressed in T [N]
-};
-
 Wheels wheels_of(const Vehicle& car, const Flow& flow, const Held& held) {
-  Wheels wheels;
-  wheels.load = wheel_loads(car, {flow[Flow::ax], flow[Flow::ay]});
   const Turn middle = turned(held.steering, flow[Flow::steering] - held.steering_angle);
-  // Ackermann: the axes of the front wheels meet on the rear axle's line, so the inner one turns
-  // more.
-  const double wheelbase = car.front_arm + car.rear_arm;
-  const double half_track = 0.5 * car.track_width;
-  const PerWheel x{car.front_arm, car.front_arm, -car.rear_arm, -car.rear_arm};
-  const PerWheel y{half_track, -half_track, half_track, -half_track};
-  wheels.cosine = {1.0, 1.0, 1.0, 1.0};
-  wheels.sine = {};
-  for (const std::size_t i : {front_left, front_right}) {
-    const double along = wheelbase * middle.cosine - y[i] * middle.sine;
-    const double across = wheelbase * middle.sine;
-    const double scale = 1.0 / std::sqrt(along * along + across * across);
-    wheels.cosine[i] = along * scale;
-    wheels.sine[i] = across * scale;
-  }
-  for (std::size_t i = 0; i < num_wheels; ++i) {
-    const double v_x = flow[Flow::vx] - flow[Flow::yaw_rate] * y[i];
-    const double v_y = flow[Flow::vy] + flow[Flow::yaw_rate] * x[i];
-    wheels.v_x[i] = wheels.cosine[i] * v_x + wheels.sine[i] * v_y;
-    wheels.v_y[i] = wheels.cosine[i] * v_y - wheels.sine[i] * v_x;
-    const double slip_x = wheels.v_x[i] - car.wheel_radius * flow[Flow::wheel + i];
-    const double drag = sliding_drag(car.tyre, slip_x * slip_x + wheels.v_y[i] * wheels.v_y[i],
-                                     v_x * v_x + v_y * v_y, wheels.load[i], held.grip[i]);
-    wheels.F_x[i] = -drag * slip_x;
-    wheels.F_y[i] = -drag * wheels.v_y[i];
-  }
-  return wheels;
-}
-
-void actuator_rates(const Vehicle& car, const Flow& flow, const Held& held, Flow& rate) {
-  rate[Flow::steering] =
-      std::clamp((held.command.steering - flow[Flow::steering]) / car.steering_lag,
-                 -car.steering_rate, car.steering_rate);
-  for (std::size_t i = 0; i < num_wheels; ++i) {
-    rate[Flow::brake + i] = (held.command.brake_torque[i] - flow[Flow::brake + i]) / car.brake_lag;
-  }
-  rate[Flow::motor] = (held.command.motor_torque - flow[Flow::motor]) / car.motor_lag;
+  return wheels_of(car, flow, middle, held.grip);
 }
 
 Flow rates(const Vehicle& car, const Flow& flow, const Held& held) {
   Flow rate;
-  actuator_rates(car, flow, held, rate);
-  Vec2 F_B;
-  double torque = 0.0;
+  actuator_rates(car, flow, held.command, rate);
+  equations::Pair<double> force;
   if (!held.at_rest) {
     const Wheels wheels = wheels_of(car, flow, held);
-    for (std::size_t i = 0; i < num_wheels; ++i) {
-      const Vec2 F_wheel_B{wheels.cosine[i] * wheels.F_x[i] - wheels.sine[i] * wheels.F_y[i],
-                           wheels.sine[i] * wheels.F_x[i] + wheels.cosine[i] * wheels.F_y[i]};
-      const Vec2 p_B = wheel_position(car, i);
-      F_B = F_B + F_wheel_B;
-      torque += p_B.x * F_wheel_B.y - p_B.y * F_wheel_B.x;
-      const double inertia = wheel_inertia(car, i);
-      const double brake = std::clamp(brake_stiffness * inertia * flow[Flow::wheel + i],
-                                      -flow[Flow::brake + i], flow[Flow::brake + i]);
-      rate[Flow::wheel + i] =
-          held.rolls[i] *
-          (motor_share(car, i) * flow[Flow::motor] - brake - car.wheel_radius * wheels.F_x[i]) /
-          inertia;
-    }
-    const Vec2 v_B{flow[Flow::vx], flow[Flow::vy]};
-    F_B = F_B - (0.5 * air_density * car.drag_area * std::sqrt(dot(v_B, v_B))) * v_B;
+    equations::wheel_rates(car, flow, wheels, held.rolls, rate);
     const Turn heading = turned(held.heading, flow[Flow::yaw] - held.yaw);
-    rate[Flow::x] = heading.cosine * v_B.x - heading.sine * v_B.y;
-    rate[Flow::y] = heading.sine * v_B.x + heading.cosine * v_B.y;
-    rate[Flow::yaw] = flow[Flow::yaw_rate];
-    rate[Flow::vx] = F_B.x / car.mass + flow[Flow::yaw_rate] * v_B.y;
-    rate[Flow::vy] = F_B.y / car.mass - flow[Flow::yaw_rate] * v_B.x;
-    rate[Flow::yaw_rate] = torque / car.yaw_inertia;
+    force = body_rates(car, flow, wheels, heading, rate);
   }
-  rate[Flow::ax] = (F_B.x / car.mass - flow[Flow::ax]) / car.load_transfer_lag;
-  rate[Flow::ay] = (F_B.y / car.mass - flow[Flow::ay]) / car.load_transfer_lag;
+  equations::load_rates(car, flow, force, rate);
   return rate;
 }
 
@@ -242,16 +141,6 @@ PerWheel after_dead_time(const Vehicle& car, const PerWheel& commanded, BrakeLin
   return line.torque[(line.next + 2 * BrakeLine::num_slots - 1 - delay) % BrakeLine::num_slots];
 }
 
-// The brakes hold a slow car when they can take more than its motor gives.
-bool is_held(const Vehicle& car, const VehicleState& state) {
-  const double brakes =
-      state.brake_torque[0] + state.brake_torque[1] + state.brake_torque[2] + state.brake_torque[3];
-  constexpr double least = 50.0;  // [N m]: brakes that merely linger do not hold
-  const double arm = car.front_arm + car.rear_arm;
-  return norm(state.v_B) < hold_speed && std::abs(state.yaw_rate) * arm < hold_speed &&
-         brakes > std::abs(state.motor_torque) + least;
-}
-
 void stop_all(VehicleState& state) {
   state.v_B = {};
   state.yaw_rate = 0.0;
@@ -266,8 +155,8 @@ void lock_wheels(const Vehicle& car, Flow& flow, Held& held) {
   Flow stopped = flow;
   for (std::size_t i = 0; i < num_wheels; ++i) {
     const double brake = flow[Flow::brake + i];
-    if (brake > 0.0 &&
-        std::abs(flow[Flow::wheel + i]) * wheel_inertia(car, i) * brake_stiffness <= brake) {
+    const double holds = std::abs(flow[Flow::wheel + i]) * wheel_inertia(car, i);
+    if (brake > 0.0 && holds * equations::brake_stiffness <= brake) {
       locked[i] = 1.0;
       stopped[Flow::wheel + i] = 0.0;
       any = true;
@@ -278,8 +167,7 @@ void lock_wheels(const Vehicle& car, Flow& flow, Held& held) {
   }
   const Wheels wheels = wheels_of(car, stopped, held);
   for (std::size_t i = 0; i < num_wheels; ++i) {
-    const double turning =
-        motor_share(car, i) * flow[Flow::motor] - car.wheel_radius * wheels.F_x[i];
+    const double turning = equations::turning_torque(car, i, flow[Flow::motor], wheels.F_x[i]);
     if (locked[i] > 0.0 && std::abs(turning) < flow[Flow::brake + i]) {
       flow[Flow::wheel + i] = 0.0;
       held.rolls[i] = 0.0;
@@ -295,9 +183,8 @@ Vec2 acceleration(const Flow& flow, const Flow& rate) {
 }  // namespace
 
 Vec2 wheel_position(const Vehicle& car, std::size_t wheel) {
-  const bool left = wheel == front_left || wheel == rear_left;
   return {is_front(wheel) ? car.front_arm : -car.rear_arm,
-          left ? 0.5 * car.track_width : -0.5 * car.track_width};
+          equations::is_left(wheel) ? 0.5 * car.track_width : -0.5 * car.track_width};
 }
 
 double motor_share(const Vehicle& car, std::size_t wheel) {
@@ -305,20 +192,7 @@ double motor_share(const Vehicle& car, std::size_t wheel) {
 }
 
 PerWheel wheel_loads(const Vehicle& car, Vec2 a_B) {
-  const double wheelbase = car.front_arm + car.rear_arm;
-  const double half = 0.5 * car.mass * gravity;
-  const double pitch = car.mass * a_B.x * car.mass_height / wheelbase;
-  const double front =
-      std::clamp(0.5 * (car.mass * gravity * car.rear_arm / wheelbase - pitch), 0.0, half);
-  const double rear =
-      std::clamp(0.5 * (car.mass * gravity * car.front_arm / wheelbase + pitch), 0.0, half);
-  const double roll = car.mass * a_B.y * car.mass_height / car.track_width;
-  // An axle whose inner wheel has lifted leaves the rest of the roll to the other one.
-  const double front_share = std::clamp(car.front_roll_share * roll, -front, front);
-  const double rear_roll = std::clamp(roll - front_share, -rear, rear);
-  const double front_roll =
-      std::clamp(front_share + ((roll - front_share) - rear_roll), -front, front);
-  return {front - front_roll, front + front_roll, rear - rear_roll, rear + rear_roll};
+  return equations::wheel_loads(car, a_B.x, a_B.y);
 }
 
 Contacts contacts(const Vehicle& car, const VehicleState& state, const PerWheel& grip) {
@@ -387,7 +261,7 @@ VehicleState step(const Vehicle& car, const VehicleState& state, const Command& 
     expects(torque >= 0.0, "brake_torque >= 0");
     torque = std::min(torque, car.brake_limit);
   }
-  const bool holds = is_held(car, next);
+  const bool holds = equations::is_held(car, flow_of(next));
   if (holds) {
     stop_all(next);
   }

@@ -1,0 +1,287 @@
+#include "saca/manoeuvre/batch.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <numeric>
+
+#include "saca/core/contract.h"
+#include "saca/core/parallel.h"
+#include "saca/manoeuvre/batch_level.h"
+#include "saca/manoeuvre/batch_start.h"
+
+namespace saca::manoeuvre {
+namespace {
+
+using LaneImage = lanes::Lane<float>;
+using LaneFlow = vehicle::equations::Flow<float>;
+constexpr std::size_t numbers_per_lane = sizeof(LaneImage) / sizeof(float);
+constexpr double batch_pose_step = lanes::step * lanes::steps_per_pose;
+
+lanes::Kernel kernel_for(Level level) {
+#if defined(__x86_64__)
+  if (level == Level::avx2) {
+    return lanes::kernel_avx2();
+  }
+  if (level == Level::avx512) {
+    return lanes::kernel_avx512();
+  }
+#endif
+  return lanes::kernel_baseline();
+}
+
+world::Scene scene_of(const Drive& drive) {
+  world::Scene scene;
+  scene.time = drive.start;
+  scene.ego = drive.ego;
+  scene.road = drive.road;
+  scene.grip = drive.known_grip;
+  return scene;
+}
+
+// What a plan ends with.
+enum class EndsWith : std::uint8_t { nothing, rest, recovery };
+
+EndsWith end_of(const Plan& plan, const ControllerState& memory) {
+  if (plan.policy == PolicyId::no_intervention) {
+    return EndsWith::nothing;
+  }
+  const bool rests = plan.policy == PolicyId::aeb || drifts(plan.policy) ||
+                     (brakes_to_speed(plan.policy) && memory.speed < equations::least_kept_speed);
+  return rests ? EndsWith::rest : EndsWith::recovery;
+}
+
+// A drive before its first step.
+struct Prepared {
+  LaneImage image;
+  Pose X_WS;  // the frame it moves in, S: on its lane, abreast of where it starts
+  EndsWith ends_with;
+  std::size_t late;  // the brakes' dead time in whole steps
+};
+
+Prepared prepared(const Drive& drive, EgoMotion& motion) {
+  expects(drive.car != nullptr, "a drive has a car");
+  const Ride ride(*drive.car, drive.plan, scene_of(drive), drive.grip, drive.unknown);
+  const vehicle::VehicleState& state = ride.state();
+  const double s = world::to_lane(drive.road, state.X_WB).s;
+  const Pose X_WS = world::from_lane(drive.road, {.s = s, .d = 0.0, .heading = 0.0});
+  motion.track.start = drive.start;
+  motion.track.step = batch_pose_step;
+  motion.track.X_WA.push_back(state.X_WB);
+  motion.v_B.push_back(state.v_B);
+  motion.yaw_rate.push_back(state.yaw_rate);
+  motion.ended = ride.ended();
+  return {.image = {lanes::fixed_lane<float>(*drive.car, ride, drive.plan, drive.known_grip,
+                                             drive.road.curvature),
+                    lanes::moving_lane<float>(ride, inverse(X_WS) * state.X_WB, ride.memory())},
+          .X_WS = X_WS,
+          .ends_with = end_of(drive.plan, ride.memory()),
+          .late = lanes::delay_of(ride.real()).whole};
+}
+
+// The lanes of one pack, and the drives in them.
+class Packed {
+ public:
+  Packed(const lanes::Kernel& kernel, int num_poses)
+      : kernel_(kernel), num_poses_(num_poses), memory_(numbers_per_lane * kernel.num_lanes + 16) {
+    void* start = memory_.data();
+    std::size_t space = memory_.size() * sizeof(float);
+    numbers_ = static_cast<float*>(std::align(64, space - 64, start, space));
+  }
+
+  // Drives all of `queue` (indices); drives of one dead time.
+  void drive(std::span<const Drive> drives, std::span<const std::size_t> queue,
+             std::vector<EgoMotion>& motions) {
+    next_ = 0;
+    num_busy_ = 0;
+    for (std::size_t lane = 0; lane < kernel_.num_lanes; ++lane) {
+      refill(lane, drives, queue, motions);
+    }
+    for (std::size_t now = lanes::num_slots; num_busy_ > 0; now += lanes::steps_per_pose) {
+      kernel_.advance(numbers_, now, late_, lanes::steps_per_pose);
+      for (std::size_t lane = 0; lane < kernel_.num_lanes; ++lane) {
+        if (lanes_[lane].motion != nullptr && !note(lane)) {
+          refill(lane, drives, queue, motions);
+        }
+      }
+    }
+  }
+
+ private:
+  struct Busy {
+    EgoMotion* motion = nullptr;
+    Pose X_WS;
+    double cosine = 1.0;  // of its yaw
+    double sine = 0.0;
+    EndsWith ends_with = EndsWith::nothing;
+  };
+
+  // The place of a number of the image, in one lane.
+  [[nodiscard]] float& number(std::size_t which, std::size_t lane) {
+    return numbers_[which * kernel_.num_lanes + lane];
+  }
+  [[nodiscard]] double flow(std::size_t which, std::size_t lane) {
+    constexpr std::size_t first =
+        (offsetof(LaneImage, moving) + offsetof(lanes::MovingLane<float>, flow)) / sizeof(float);
+    return static_cast<double>(number(first + which, lane));
+  }
+
+  // Puts the next drive of the queue that takes more than no time into a lane.
+  void refill(std::size_t lane, std::span<const Drive> drives, std::span<const std::size_t> queue,
+              std::vector<EgoMotion>& motions) {
+    if (lanes_[lane].motion != nullptr) {
+      --num_busy_;
+    }
+    lanes_[lane].motion = nullptr;
+    while (next_ < queue.size()) {
+      const std::size_t index = queue[next_++];
+      EgoMotion& motion = motions[index];
+      const Prepared start = prepared(drives[index], motion);
+      if (motion.ended || num_poses_ == 0) {
+        continue;
+      }
+      put(start.image, lane);
+      lanes_[lane] = {&motion, start.X_WS, std::cos(start.X_WS.yaw), std::sin(start.X_WS.yaw),
+                      start.ends_with};
+      late_ = start.late;
+      ++num_busy_;
+      return;
+    }
+  }
+
+  void put(const LaneImage& image, std::size_t lane) {
+    std::array<float, numbers_per_lane> values{};
+    std::memcpy(values.data(), &image, sizeof(image));
+    for (std::size_t i = 0; i < numbers_per_lane; ++i) {
+      number(i, lane) = values[i];
+    }
+  }
+
+  // Writes down where a lane's drive is; false when it has ended or its time is over.
+  [[nodiscard]] bool note(std::size_t lane) {
+    const Busy& busy = lanes_[lane];
+    EgoMotion& motion = *busy.motion;
+    const double x = flow(LaneFlow::x, lane);
+    const double y = flow(LaneFlow::y, lane);
+    const Pose X_WB{{busy.X_WS.p.x + busy.cosine * x - busy.sine * y,
+                     busy.X_WS.p.y + busy.sine * x + busy.cosine * y},
+                    wrap_angle(busy.X_WS.yaw + flow(LaneFlow::yaw, lane))};
+    const Vec2 v_B{flow(LaneFlow::vx, lane), flow(LaneFlow::vy, lane)};
+    expects(is_finite(X_WB) && is_finite(v_B), "the drive stays finite");
+    motion.track.X_WA.push_back(X_WB);
+    motion.v_B.push_back(v_B);
+    motion.yaw_rate.push_back(flow(LaneFlow::yaw_rate, lane));
+    motion.ended = has_ended(lane);
+    return !motion.ended && static_cast<int>(motion.v_B.size()) <= num_poses_;
+  }
+
+  [[nodiscard]] bool has_ended(std::size_t lane) {
+    constexpr std::size_t recovered =
+        (offsetof(LaneImage, moving) + offsetof(lanes::MovingLane<float>, memory) +
+         offsetof(lanes::MemoryLane<float>, recovered_for)) /
+        sizeof(float);
+    constexpr double sure = 0.2 - 1e-4;  // [s] as `finished`, less what sums of floats lose
+    if (lanes_[lane].ends_with == EndsWith::recovery) {
+      return static_cast<double>(number(recovered, lane)) >= sure;
+    }
+    bool rests = lanes_[lane].ends_with == EndsWith::rest;
+    for (std::size_t i = LaneFlow::vx; i < LaneFlow::wheel + vehicle::num_wheels; ++i) {
+      rests = rests && flow(i, lane) == 0.0;
+    }
+    return rests;
+  }
+
+  lanes::Kernel kernel_;
+  int num_poses_;
+  std::vector<float> memory_;
+  float* numbers_ = nullptr;
+  std::array<Busy, lanes::most_lanes> lanes_{};
+  std::size_t num_busy_ = 0;
+  std::size_t next_ = 0;
+  std::size_t late_ = 0;
+};
+
+// Which drives make one queue, and stand side by side in it: cars of one dead time; drives of one
+// kind, which need the same branches; long ones first, so that lanes come to their ends together.
+struct QueueKey {
+  std::size_t late;
+  bool drifts;
+  bool brakes;
+  double minus_length;
+
+  auto operator<=>(const QueueKey&) const = default;
+};
+
+QueueKey queue_key(const Drive& drive) {
+  expects(drive.car != nullptr, "a drive has a car");
+  const PolicyId policy = drive.plan.policy;
+  const bool brakes = policy == PolicyId::aeb || drifts(policy) || brakes_to_speed(policy);
+  const double length = policy == PolicyId::no_intervention ? 1e9
+                        : brakes ? drive.ego.v_B.x / std::max(0.01, drive.grip)
+                                 : 0.0;
+  return {lanes::delay_of(*drive.car).whole, drifts(policy), brakes,
+          std::isfinite(length) ? -length : 0.0};
+}
+
+}  // namespace
+
+bool available(Level level) noexcept {
+#if defined(__x86_64__)
+  if (level == Level::avx2) {
+    return __builtin_cpu_supports("avx2") != 0;
+  }
+  if (level == Level::avx512) {
+    return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512cd") != 0 &&
+           __builtin_cpu_supports("avx512dq") != 0 && __builtin_cpu_supports("avx512bw") != 0;
+  }
+#endif
+  return level == Level::baseline;
+}
+
+Level best() noexcept {
+  return available(Level::avx512) ? Level::avx512
+         : available(Level::avx2) ? Level::avx2
+                                  : Level::baseline;
+}
+
+std::vector<EgoMotion> drive_all(std::span<const Drive> drives, double horizon, int threads,
+                                 Level level) {
+  expects(horizon >= 0.0 && horizon <= 3600.0, "horizon in [0, 3600] s");
+  expects(threads >= 1, "threads >= 1");
+  expects(available(level), "the level is available");
+  const lanes::Kernel kernel = kernel_for(level);
+  const int num_poses = static_cast<int>(std::lround(horizon / batch_pose_step));
+  std::vector<QueueKey> keys;
+  keys.reserve(drives.size());
+  for (const Drive& drive : drives) {
+    keys.push_back(queue_key(drive));
+  }
+  std::vector<std::size_t> order(drives.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return keys[a] < keys[b]; });
+  // Queues of one dead time, several for each thread.
+  const std::size_t most =
+      threads == 1 ? drives.size()
+                   : std::max(4 * kernel.num_lanes,
+                              drives.size() / (4 * static_cast<std::size_t>(threads)) + 1);
+  std::vector<std::span<const std::size_t>> queues;
+  for (std::size_t begin = 0; begin < order.size();) {
+    std::size_t end = begin;
+    while (end < order.size() && end - begin < most &&
+           keys[order[end]].late == keys[order[begin]].late) {
+      ++end;
+    }
+    queues.emplace_back(order.data() + begin, end - begin);
+    begin = end;
+  }
+  std::vector<EgoMotion> motions(drives.size());
+  in_parallel(queues.size(), threads,
+              [&](std::size_t i) { Packed(kernel, num_poses).drive(drives, queues[i], motions); });
+  return motions;
+}
+
+}  // namespace saca::manoeuvre

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "saca/manoeuvre/car.h"
+#include "saca/manoeuvre/drive.h"
+#include "saca/manoeuvre/plan.h"
+#include "saca/manoeuvre/unknown.h"
+#include "saca/world/scene.h"
+
+namespace saca::manoeuvre {
+
+/// What `drive(...)` takes, for one drive of many.
+struct Drive {
+  const Car* car = nullptr;  ///< what the controller takes the car to be; not null
+  Plan plan;
+  double start = 0.0;  ///< `Scene::time` [s]
+  world::EgoState ego;
+  world::Road road;
+  double known_grip = 0.9;  ///< what the controller takes the road's grip to be [-]
+  double grip = 0.9;        ///< what it is [-], in (0, 1.2]
+  Unknown unknown;
+};
+
+/// Instruction sets that the batch is compiled for.
+enum class Level : std::uint8_t { baseline, avx2, avx512 };
+
+/// Whether this processor has it, and this program was compiled for it.
+[[nodiscard]] bool available(Level level) noexcept;
+/// The largest that is available.
+[[nodiscard]] Level best() noexcept;
+
+/// As `drive(...)` for each, many at once in the lanes of SIMD packs: mixed cars, plans, roads,
+/// grips and starts.
+///
+/// @param horizon  longest time of each [s], in [0, 3600]
+/// @param threads  >= 1; they do not change the result
+/// @param level    available; results of two levels differ by rounding
+/// @return         in the order of `drives`
+/// @throws ContractViolation  if any could not be given to `drive(...)`, or left what is finite
+///
+/// The equations are those of `drive`, in floats; the scheme is another, in steps of 2 ms with one
+/// evaluation of forces: Adams and Bashforth's of second order for the body, Heun's for the
+/// actuators, an implicit one for the wheels' spin, where a brake holds as dry friction does.
+/// A drive's result depends on nothing but the drive itself, bit by bit: neither on the others, nor
+/// on their order or number.
+[[nodiscard]] std::vector<EgoMotion> drive_all(std::span<const Drive> drives, double horizon,
+                                               int threads = 1, Level level = best());
+
+}  // namespace saca::manoeuvre

@@ -1,0 +1,70 @@
+#include "saca/manoeuvre/batch.h"
+
+#include <benchmark/benchmark.h>
+
+#include "saca/manoeuvre/default_car.h"
+
+namespace saca::manoeuvre {
+namespace {
+
+constexpr double bench_horizon = 5.0;  // [s]
+
+// All policies from 12 to 19 m/s at grips of 0.65 to 0.93: 64 scenes.
+std::vector<Drive> bench_drives(const Car& car) {
+  std::vector<Drive> drives;
+  for (int i = 0; i < 64; ++i) {
+    const double speed = 12.0 + i % 8;
+    const int row = i / 8;
+    const double grip = 0.65 + 0.04 * row;
+    for (const PolicyId policy : all_policies) {
+      Drive drive{.car = &car, .plan = default_plan(policy, speed)};
+      drive.ego.v_B = {speed, 0.0};
+      drive.known_grip = grip;
+      drive.grip = grip;
+      drives.push_back(drive);
+    }
+  }
+  return drives;
+}
+
+// Items are scenes: eight policies, driven until they end or for 5 s.
+void batch_scenes(benchmark::State& bench) {
+  const auto level = static_cast<Level>(bench.range(0));
+  if (!available(level)) {
+    bench.SkipWithError("not this processor's");
+    return;
+  }
+  const Car car = default_car();
+  const std::vector<Drive> drives = bench_drives(car);
+  std::size_t poses = 0;
+  for (auto _ : bench) {
+    for (const EgoMotion& motion : drive_all(drives, bench_horizon, 1, level)) {
+      poses += motion.v_B.size();
+    }
+  }
+  bench.SetItemsProcessed(bench.iterations() * 64);
+  bench.counters["s_per_scene"] =
+      0.01 * static_cast<double>(poses) / (64.0 * static_cast<double>(bench.iterations()));
+}
+BENCHMARK(batch_scenes)->DenseRange(0, 2);
+
+void scalar_scenes(benchmark::State& bench) {
+  const Car car = default_car();
+  const std::vector<Drive> drives = bench_drives(car);
+  for (auto _ : bench) {
+    for (std::size_t i = 0; i < 64; i += 8) {
+      for (std::size_t k = 0; k < 8; ++k) {
+        const Drive& one = drives[8 * i + k];
+        world::Scene scene;
+        scene.ego = one.ego;
+        scene.grip = one.known_grip;
+        benchmark::DoNotOptimize(drive(car, one.plan, scene, one.grip, bench_horizon));
+      }
+    }
+  }
+  bench.SetItemsProcessed(bench.iterations() * 8);
+}
+BENCHMARK(scalar_scenes);
+
+}  // namespace
+}  // namespace saca::manoeuvre

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "saca/manoeuvre/batch.h"
+#include "saca/manoeuvre/default_car.h"
+
+namespace saca::manoeuvre {
+
+/// A stop on one level, against the scalar model; skipped where the processor lacks the level.
+inline void expect_stop_as_scalar(Level level) {
+  if (!available(level)) {
+    GTEST_SKIP() << "not this processor's";
+  }
+  const Car car = default_car();
+  Drive one{.car = &car, .plan = {PolicyId::aeb, {}}};
+  one.ego.v_B = {20.0, 0.0};
+  world::Scene scene;
+  scene.ego = one.ego;
+  scene.grip = one.known_grip;
+  const EgoMotion reference = drive(car, one.plan, scene, one.grip, 6.0);
+  const EgoMotion motion = drive_all({&one, 1}, 6.0, 1, level)[0];
+  EXPECT_TRUE(motion.ended);
+  EXPECT_NEAR(motion.track.X_WA.back().p.x, reference.track.X_WA.back().p.x, 0.05);
+}
+
+}  // namespace saca::manoeuvre

@@ -1,0 +1,11 @@
+#include "saca/manoeuvre/batch_for_test.h"
+
+namespace saca::manoeuvre {
+namespace {
+
+TEST(BatchKernel, StopsAsTheScalarModelOnAvx2) {
+  expect_stop_as_scalar(Level::avx2);
+}
+
+}  // namespace
+}  // namespace saca::manoeuvre

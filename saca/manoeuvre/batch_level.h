@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+
+/// The batch's kernels, one for each instruction set. Not part of the library's interface.
+namespace saca::manoeuvre::lanes {
+
+/// Goes on by `steps` steps with all lanes of a pack, which lie side by side in `memory`, a
+/// `Lane<float>` with every number repeated `num_lanes` times.
+/// @param now   steps of this pack so far
+/// @param late  the brakes' dead time in steps, of all lanes
+using Advance = void (*)(float* memory, std::size_t now, std::size_t late, int steps);
+
+struct Kernel {
+  std::size_t num_lanes;  ///< at most `most_lanes`
+  Advance advance;
+};
+constexpr std::size_t most_lanes = 16;
+
+[[nodiscard]] Kernel kernel_baseline() noexcept;
+#if defined(__x86_64__)
+[[nodiscard]] Kernel kernel_avx2() noexcept;
+[[nodiscard]] Kernel kernel_avx512() noexcept;
+#endif
+
+}  // namespace saca::manoeuvre::lanes

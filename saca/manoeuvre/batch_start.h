@@ -1,0 +1,156 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "saca/manoeuvre/batch_lane.h"
+#include "saca/manoeuvre/controller.h"
+#include "saca/manoeuvre/plan.h"
+#include "saca/manoeuvre/ride.h"
+
+/// How a drive is written down for the batch's kernels. Not part of the library's interface.
+namespace saca::manoeuvre::lanes {
+
+template <class T>
+Divisor<T> divisor(double value) {
+  return {static_cast<T>(value), static_cast<T>(1.0 / value)};
+}
+
+template <class T>
+SwerveLane<T> swerve_lane(const SwerveLaw& law) {
+  const auto t = [](double value) { return static_cast<T>(value); };
+  return {t(law.lag), t(law.frequency), t(law.damping), t(law.guard_from),
+          divisor<T>(law.guard_width)};
+}
+
+template <class T>
+DriftLane<T> drift_lane(const DriftLaw& law) {
+  const auto t = [](double value) { return static_cast<T>(value); };
+  return {.turning = t(law.turning),
+          .most_turning = t(law.most_turning),
+          .gain = t(law.gain),
+          .lead = t(law.lead),
+          .front_release = t(law.front_release),
+          .rear_release = t(law.rear_release),
+          .outer_release = t(law.outer_release),
+          .motor_share = t(law.motor_share),
+          .steering = t(law.steering),
+          .slide_share = t(law.slide_share),
+          .lock_speed = t(law.lock_speed)};
+}
+
+/// @param grip  as the controller knows it
+template <class T>
+CarLane<T> car_lane(const Car& car, double grip) {
+  const auto t = [](double value) { return static_cast<T>(value); };
+  return {.mass = divisor<T>(car.mass),
+          .yaw_inertia = divisor<T>(car.yaw_inertia),
+          .wheelbase = divisor<T>(vehicle::equations::wheelbase(car)),
+          .track_width = divisor<T>(car.track_width),
+          .wheel_radius = divisor<T>(car.wheel_radius),
+          .front_wheel_inertia = divisor<T>(car.front_wheel_inertia),
+          .rear_wheel_inertia = divisor<T>(car.rear_wheel_inertia),
+          .load_transfer_lag = divisor<T>(car.load_transfer_lag),
+          .steering_lag = divisor<T>(car.steering_lag),
+          .brake_lag = divisor<T>(car.brake_lag),
+          .motor_lag = divisor<T>(car.motor_lag),
+          .peak_slip = divisor<T>(equations::peak_slip(car, grip)),
+          .front_arm = t(car.front_arm),
+          .rear_arm = t(car.rear_arm),
+          .half_track = t(vehicle::equations::half_track(car)),
+          .mass_height = t(car.mass_height),
+          .front_roll_share = t(car.front_roll_share),
+          .front_weight = t(vehicle::equations::front_weight(car)),
+          .rear_weight = t(vehicle::equations::rear_weight(car)),
+          .air_drag = t(vehicle::equations::air_drag(car)),
+          .steering_rate = t(car.steering_rate),
+          .steering_limit = t(car.steering_limit),
+          .brake_limit = t(car.brake_limit),
+          .motor_limit = t(car.motor_limit),
+          .front_motor_share = t(vehicle::motor_share(car, vehicle::front_left)),
+          .rear_motor_share = t(vehicle::motor_share(car, vehicle::rear_left)),
+          .front_rolls = t(vehicle::equations::front_rolls(car) ? 1.0 : 0.0),
+          .percussion_arm = t(equations::percussion_arm(car)),
+          .driven_load = t(equations::driven_load(car)),
+          .tyre = {t(car.tyre.stiffness), divisor<T>(car.tyre.shape), t(car.tyre.load_sensitivity),
+                   t(vehicle::equations::per_newton(car.tyre)),
+                   t(std::pow(std::tan(0.5 * std::numbers::pi / car.tyre.shape), 2))},
+          .tuning = {swerve_lane<T>(car.tuning.swerve), drift_lane<T>(car.tuning.drift)}};
+}
+
+template <class T>
+MemoryLane<T> memory_lane(const ControllerState& memory) {
+  const auto t = [](double value) { return static_cast<T>(value); };
+  const LaneShift& shift = memory.shift;
+  return {.shift = {t(shift.start_d), t(shift.start_v), t(equations::jerk(shift)), t(shift.ramp),
+                    t(shift.first), t(shift.second)},
+          .end_d = t(memory.end_d),
+          .time = t(memory.time),
+          .speed = t(memory.speed),
+          .abs = {t(memory.abs.speed), {t(1), t(1), t(1), t(1)}, {t(0), t(0), t(0), t(0)}},
+          .recovered_for = t(memory.recovered_for),
+          .drift = {t(memory.drift.yaw_rate), t(memory.drift.yaw_acceleration)}};
+}
+
+/// The brakes' dead time in steps.
+struct Delay {
+  std::size_t whole;
+  double share;  ///< of one more, in [0, 1)
+};
+inline Delay delay_of(const vehicle::Vehicle& car) {
+  const double slots = std::round(car.brake_dead_time / vehicle::BrakeLine::slot);
+  const double steps = slots * vehicle::BrakeLine::slot / step;
+  const double whole = std::floor(steps + 1e-9);
+  return {static_cast<std::size_t>(whole), std::max(0.0, steps - whole)};
+}
+
+template <class T>
+FixedLane<T> fixed_lane(const Car& car, const Ride& ride, const Plan& plan, double known_grip,
+                        double curvature) {
+  const auto t = [](double value) { return static_cast<T>(value); };
+  Car real = car;
+  static_cast<vehicle::Vehicle&>(real) = ride.real();
+  return {.real = car_lane<T>(real, known_grip),
+          .known = car_lane<T>(car, known_grip),
+          .grip = t(ride.grip()),
+          .known_grip = t(known_grip),
+          .curvature = t(curvature),
+          .rest = t(plan.policy == PolicyId::aeb ? 1.0 : 0.0),
+          .slower = t(brakes_to_speed(plan.policy) ? 1.0 : 0.0),
+          .drifts = t(manoeuvre::drifts(plan.policy) ? 1.0 : 0.0),
+          .side = t(side(plan.policy)),
+          .delay_share = t(delay_of(ride.real()).share)};
+}
+
+/// @param X_LB  the car in the frame that the lanes move in
+template <class T>
+MovingLane<T> moving_lane(const Ride& ride, const Pose& X_LB, const ControllerState& memory) {
+  using F = vehicle::equations::Flow<T>;
+  const auto t = [](double value) { return static_cast<T>(value); };
+  const vehicle::VehicleState& state = ride.state();
+  MovingLane<T> lane{};
+  lane.flow[F::x] = t(X_LB.p.x);
+  lane.flow[F::y] = t(X_LB.p.y);
+  lane.flow[F::yaw] = t(X_LB.yaw);
+  lane.flow[F::vx] = t(state.v_B.x);
+  lane.flow[F::vy] = t(state.v_B.y);
+  lane.flow[F::yaw_rate] = t(state.yaw_rate);
+  std::array<T, vehicle::num_wheels> torque{};
+  for (std::size_t i = 0; i < vehicle::num_wheels; ++i) {
+    lane.flow[F::wheel + i] = t(state.wheel_speed[i]);
+    torque[i] = t(state.brake_torque[i]);
+    lane.flow[F::brake + i] = torque[i];
+  }
+  lane.flow[F::steering] = t(state.steering);
+  lane.flow[F::motor] = t(state.motor_torque);
+  lane.flow[F::ax] = t(state.transfer_a_B.x);
+  lane.flow[F::ay] = t(state.transfer_a_B.y);
+  lane.ax = t(state.a_B.x);
+  lane.ay = t(state.a_B.y);
+  lane.first = t(1.0);
+  lane.memory = memory_lane<T>(memory);
+  lane.brake_line.fill(torque);
+  return lane;
+}
+
+}  // namespace saca::manoeuvre::lanes
