@@ -72,7 +72,7 @@ std::optional<double> regret(const std::vector<AtlasRow>& rows) {
                            : std::optional(std::max(0.0, chosen->true_harm - best->true_harm));
 }
 
-double percentile_or_none(std::vector<double> values, double share) {
+double percentile_or_none(const std::vector<double>& values, double share) {
   return values.empty() ? 0.0 : percentile(values, share);
 }
 
