@@ -307,7 +307,7 @@ Atlas::Atlas(const AtlasGrid& grid, const DriftDomain& domain, std::span<const A
 }
 
 Atlas::Atlas(const AtlasGrid& grid, const DriftDomain& domain,
-             std::shared_ptr<const std::vector<AtlasNode>> nodes)
+             const std::shared_ptr<const std::vector<AtlasNode>>& nodes)
     : Atlas(grid, domain, std::span<const AtlasNode>(*nodes), nodes) {}
 
 std::span<const AtlasNode> Atlas::nodes(AtlasKind kind) const noexcept {

@@ -154,7 +154,7 @@ class Atlas {
   Atlas(const AtlasGrid& grid, const DriftDomain& domain, std::span<const AtlasNode> nodes,
         std::shared_ptr<const void> keeper);
   Atlas(const AtlasGrid& grid, const DriftDomain& domain,
-        std::shared_ptr<const std::vector<AtlasNode>> nodes);
+        const std::shared_ptr<const std::vector<AtlasNode>>& nodes);
 
   [[nodiscard]] const AtlasGrid& grid() const noexcept { return grid_; }
   [[nodiscard]] std::span<const AtlasNode> nodes() const noexcept { return nodes_; }

@@ -26,7 +26,7 @@ constexpr std::uint32_t atlas_version = 1;
 
 /// Where a few short manoeuvres of every kind end: x, y [m], heading [rad], time [s] of each. When
 /// vehicle model or controllers change, so does this, whoever forgets to say so.
-using Behaviour = std::array<double, 4 * 2 * num_atlas_kinds>;
+using Behaviour = std::array<double, num_atlas_kinds * 2 * 4>;
 [[nodiscard]] Behaviour behaviour(const Car& car);
 
 /// Do two cars or programs drive alike: all within a millimetre, milliradian, millisecond or two
