@@ -33,15 +33,6 @@ lanes::Kernel kernel_for(Level level) {
   return lanes::kernel_baseline();
 }
 
-world::Scene scene_of(const Drive& drive) {
-  world::Scene scene;
-  scene.time = drive.start;
-  scene.ego = drive.ego;
-  scene.road = drive.road;
-  scene.grip = drive.known_grip;
-  return scene;
-}
-
 // What a plan ends with.
 enum class EndsWith : std::uint8_t { nothing, rest, recovery };
 
@@ -227,6 +218,15 @@ QueueKey queue_key(const Drive& drive) {
 }
 
 }  // namespace
+
+world::Scene scene_of(const Drive& drive) {
+  world::Scene scene;
+  scene.time = drive.start;
+  scene.ego = drive.ego;
+  scene.road = drive.road;
+  scene.grip = drive.known_grip;
+  return scene;
+}
 
 bool available(Level level) noexcept {
 #if defined(__x86_64__)

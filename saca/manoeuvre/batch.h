@@ -25,6 +25,9 @@ struct Drive {
   Unknown unknown;
 };
 
+/// The scene that `drive(...)` takes of it; nobody else is there.
+[[nodiscard]] world::Scene scene_of(const Drive& drive);
+
 /// Instruction sets that the batch is compiled for.
 enum class Level : std::uint8_t { baseline, avx2, avx512 };
 

@@ -55,10 +55,7 @@ void scalar_scenes(benchmark::State& bench) {
     for (std::size_t i = 0; i < 64; i += 8) {
       for (std::size_t k = 0; k < 8; ++k) {
         const Drive& one = drives[8 * i + k];
-        world::Scene scene;
-        scene.ego = one.ego;
-        scene.grip = one.known_grip;
-        benchmark::DoNotOptimize(drive(car, one.plan, scene, one.grip, bench_horizon));
+        benchmark::DoNotOptimize(drive(car, one.plan, scene_of(one), one.grip, bench_horizon));
       }
     }
   }

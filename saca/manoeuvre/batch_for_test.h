@@ -15,10 +15,7 @@ inline void expect_stop_as_scalar(Level level) {
   const Car car = default_car();
   Drive one{.car = &car, .plan = {PolicyId::aeb, {}}};
   one.ego.v_B = {20.0, 0.0};
-  world::Scene scene;
-  scene.ego = one.ego;
-  scene.grip = one.known_grip;
-  const EgoMotion reference = drive(car, one.plan, scene, one.grip, 6.0);
+  const EgoMotion reference = drive(car, one.plan, scene_of(one), one.grip, 6.0);
   const EgoMotion motion = drive_all({&one, 1}, 6.0, 1, level)[0];
   EXPECT_TRUE(motion.ended);
   EXPECT_NEAR(motion.track.X_WA.back().p.x, reference.track.X_WA.back().p.x, 0.05);

@@ -19,15 +19,6 @@ namespace {
 
 constexpr double long_enough = 14.0;  // [s]
 
-world::Scene scene_of(const Drive& drive) {
-  world::Scene scene;
-  scene.time = drive.start;
-  scene.ego = drive.ego;
-  scene.road = drive.road;
-  scene.grip = drive.known_grip;
-  return scene;
-}
-
 EgoMotion scalar(const Drive& one, double horizon) {
   return drive(*one.car, one.plan, scene_of(one), one.grip, horizon, one.unknown);
 }
