@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -19,6 +20,7 @@
 #include "saca/eval/atlas_check.h"
 #include "saca/manoeuvre/atlas_build.h"
 #include "saca/manoeuvre/atlas_file.h"
+#include "saca/sim/splits.h"
 
 namespace saca::app {
 namespace {
@@ -33,7 +35,7 @@ struct AtlasOptions {
   std::string file;
   int threads = usual_threads();
   int scenes = 1'000;
-  unsigned long seed = 20250402;  // calibration: scenarios/splits.toml
+  std::optional<std::uint64_t> seed;  // of the samples; none: the calibration split's
   bool as_json = false;
 };
 
@@ -200,23 +202,38 @@ int check(const AtlasOptions& options) {
   if (!atlas.has_value()) {
     return refused(atlas.error());
   }
-  // All but those that are kept for the test split.
+  const auto splits = read_splits(inputs.value().places);
+  if (!splits.has_value()) {
+    return refused(splits.error());
+  }
+  if (options.seed == splits.value().seeds[static_cast<std::size_t>(sim::Split::test)]) {
+    complain(fmt::format("--seed: want any but the test split's, got {}", *options.seed));
+    return bad_input;
+  }
+  // All but those that are kept for the test split, which seed_for would refuse.
   constexpr std::array<const char*, 7> names{"crossing",    "cut_in",  "cut_out",   "head_on",
                                              "lead_brakes", "one_way", "pedestrian"};
   std::vector<sim::Family> families;
+  std::vector<std::uint64_t> seeds;
   for (const char* const one : names) {
     auto family = read_family(inputs.value().places, one);
     if (!family.has_value()) {
       return refused(family.error());
     }
+    const auto seed = sim::seed_for(splits.value(), sim::Split::calibration, one, std::nullopt);
+    if (!seed.has_value()) {
+      return refused(seed.error());
+    }
     families.push_back(std::move(family).value());
+    seeds.push_back(options.seed.value_or(seed.value()));
   }
   watch_for_interrupt();
   std::vector<std::vector<eval::AtlasRow>> rows(static_cast<std::size_t>(options.scenes));
   in_parallel(rows.size(), options.threads, [&](std::size_t i) {
     if (!interrupted()) {
-      rows[i] = eval::atlas_rows(families[i % names.size()], options.seed, i / names.size(),
-                                 atlas.value(), inputs.value().car, inputs.value().harm);
+      const std::size_t which = i % names.size();
+      rows[i] = eval::atlas_rows(families[which], seeds[which], i / names.size(), atlas.value(),
+                                 inputs.value().car, inputs.value().harm);
     }
   });
   if (interrupted()) {
@@ -264,7 +281,7 @@ void add_atlas(CLI::App& line, int& exit_code) {
   compare->add_option("--scenes", options->scenes, "Encounters")
       ->check(CLI::Range(1, 10'000'000))
       ->capture_default_str();
-  compare->add_option("--seed", options->seed)->capture_default_str();
+  compare->add_option("--seed", options->seed, "Of the samples; default: calibration's");
   compare->add_option("--threads", options->threads, "They do not change the result")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
