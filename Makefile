@@ -21,6 +21,7 @@ build: setup
 	@tools/model/setup.sh llama
 	@cmake --preset release > /dev/null
 	@cmake --build --preset release
+	@build/release/saca atlas build
 
 model: setup
 	@tools/model/setup.sh all

@@ -50,8 +50,13 @@ int build(const AtlasOptions& options) {
     return refused(inputs.error());
   }
   const manoeuvre::Car& car = inputs.value().car;
-  const fs::path output =
-      options.file.empty() ? fs::path(inputs.value().car_name + ".atlas") : fs::path(options.file);
+  const fs::path output = options.file.empty()
+                              ? atlas_place(inputs.value().places, inputs.value().car_name)
+                              : fs::path(options.file);
+  if (manoeuvre::read_atlas(output, car).has_value()) {
+    fmt::print("{} is there and right for this car\n", output.string());
+    return success;
+  }
   if (auto problem = make_folder_of(output)) {
     return refused(*problem);
   }
@@ -261,7 +266,7 @@ void add_atlas(CLI::App& line, int& exit_code) {
   CLI::App* const make = command->add_subcommand(
       "build", "Drive them with full physics and keep them in a file; can be interrupted");
   add_common(*make, *options);
-  make->add_option("--output", options->file, "Default: CAR.atlas here");
+  make->add_option("--output", options->file, "Default: where saca run looks for it");
   make->add_option("--threads", options->threads, "They do not change the result")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();

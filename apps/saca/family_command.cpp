@@ -36,7 +36,7 @@ struct FamilyCommand {
 report::SceneView thumbnail(const sim::Scenario& scenario, const Inputs& inputs) {
   const auto trigger = eval::trigger_time(scenario, inputs.car);
   const eval::Moment moment = eval::moment_at(scenario, inputs.car, trigger.value_or(0.0));
-  const auto tried = eval::attempts(moment, inputs.car, inputs.harm);
+  const auto tried = loop::hindsight(moment, inputs.car, inputs.harm);
   report::SceneView view =
       view_of(moment.scene, tried[manoeuvre::index(manoeuvre::PolicyId::no_intervention)]);
   view.policy = std::nullopt;

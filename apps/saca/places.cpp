@@ -64,6 +64,10 @@ fs::path find_car(const Places& places, const std::string& name) {
   return find_shipped(places.root / "data" / "vehicles", name);
 }
 
+fs::path atlas_place(const Places& places, const std::string& car) {
+  return places.root / "atlases" / (car + ".atlas");
+}
+
 std::optional<Error> make_folder_of(const fs::path& file) {
   std::error_code problem;
   if (file.has_parent_path()) {

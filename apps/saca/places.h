@@ -37,6 +37,10 @@ struct Places {
 /// A car's file by its path, or by the name of a shipped one.
 [[nodiscard]] std::filesystem::path find_car(const Places& places, const std::string& name);
 
+/// Where the atlas of a car is looked for, and built.
+/// @param car  its name
+[[nodiscard]] std::filesystem::path atlas_place(const Places& places, const std::string& car);
+
 /// Makes the folder that `file` is to lie in.
 [[nodiscard]] std::optional<Error> make_folder_of(const std::filesystem::path& file);
 

@@ -12,6 +12,7 @@
 #include "saca/core/file.h"
 #include "saca/loop/encounter.h"
 #include "saca/loop/trace.h"
+#include "saca/manoeuvre/atlas_file.h"
 #include "saca/memory/store.h"
 #include "saca/report/html_report.h"
 
@@ -27,6 +28,7 @@ struct RunOptions {
   std::string record_replies;
   std::optional<int> policy;
   std::optional<std::uint64_t> seed;
+  std::string atlas;
   std::string memory = "runs/memory.sqlite";
   bool no_memory = false;
   std::string output = "runs";
@@ -42,6 +44,24 @@ Result<loop::ThinkingCosts> read_costs(const Places& places) {
     return text.error();
   }
   return loop::read_thinking_costs(text.value(), file.string());
+}
+
+/// nullopt: none was asked for, or none is where atlases are.
+Result<std::optional<manoeuvre::Atlas>> open_atlas(const RunOptions& options,
+                                                   const ScenarioInputs& inputs) {
+  std::error_code problem;
+  const fs::path usual = atlas_place(inputs.places, inputs.car_name);
+  if (options.atlas == "off" || (options.atlas.empty() && !fs::exists(usual, problem))) {
+    return std::optional<manoeuvre::Atlas>();
+  }
+  auto atlas = read_atlas(options.atlas.empty() ? usual : fs::path(options.atlas), inputs.car);
+  if (!atlas.has_value()) {
+    return Error{
+        atlas.error().code,
+        fmt::format("{} (saca atlas build --car {} makes a new one; --atlas off goes without)",
+                    atlas.error().message, inputs.car_name)};
+  }
+  return std::optional(std::move(atlas.value()));
 }
 
 std::optional<Error> write_outputs(const std::string& record, const fs::path& folder,
@@ -89,6 +109,11 @@ int run(const RunOptions& options) {
     complain(costs.error().message);
     return bad_input;
   }
+  const auto atlas = open_atlas(options, inputs.value());
+  if (!atlas.has_value()) {
+    complain(atlas.error().message);
+    return bad_input;
+  }
   std::unique_ptr<memory::Store> memory;
   if (!options.no_memory) {
     if (const auto problem = make_folder_of(options.memory)) {
@@ -115,6 +140,7 @@ int run(const RunOptions& options) {
       .scenario = &inputs.value().scenario,
       .car = &inputs.value().car,
       .harm = &inputs.value().harm,
+      .atlas = atlas.value() ? &*atlas.value() : nullptr,
       .pace = pace,
       .costs = costs.value(),
       .model = model.value().get(),
@@ -188,6 +214,9 @@ void add_run(CLI::App& line, int& exit_code) {
       ->check(CLI::Range(0, 7));
   command->add_option("--seed", options->seed,
                       "Draw what is left to chance (default: as the scenario is written)");
+  command->add_option("--atlas", options->atlas,
+                      "An atlas of the car, or off: every forecast is rolled out (default: what "
+                      "`saca atlas build` left)");
   command->add_option("--memory", options->memory, "The memory bank")->capture_default_str();
   command->add_flag("--no-memory", options->no_memory, "Neither ask nor fill a memory");
   command->add_option("--output", options->output, "Folder for records and reports")

@@ -75,25 +75,29 @@ Result<std::vector<Finding>> remembered(const Journal& journal, const std::strin
   return found;
 }
 
-/// The next few; each by itself, so that the number of threads changes nothing.
+/// The next few. The number of threads changes nothing.
 Result<std::vector<Finding>> look_on(const SuiteSource& source, std::size_t from, std::size_t to,
                                      int threads) {
-  std::vector<Finding> next(to - from);
+  std::vector<sim::Scenario> scenarios(to - from);
   std::vector<std::optional<Error>> problems(to - from);
-  in_parallel(next.size(), threads, [&](std::size_t i) {
-    const std::uint64_t number = from + i;
-    const auto sample = source.sample(number);
-    if (!sample.has_value()) {
+  in_parallel(scenarios.size(), threads, [&](std::size_t i) {
+    auto sample = source.sample(from + i);
+    if (sample.has_value()) {
+      scenarios[i] = std::move(sample.value().scenario);
+    } else {
       problems[i] = sample.error();
-      return;
     }
-    next[i] = eval::look_into(sample.value().scenario, source.family_of(number), number,
-                              source.inputs().car, source.inputs().harm);
   });
   for (const auto& problem : problems) {
     if (problem) {
       return *problem;
     }
+  }
+  std::vector<Finding> next =
+      eval::look_into(scenarios, source.inputs().car, source.inputs().harm, threads);
+  for (std::size_t i = 0; i < next.size(); ++i) {
+    next[i].number = from + i;
+    next[i].family = source.family_of(from + i);
   }
   return next;
 }

@@ -70,15 +70,17 @@ Result<std::optional<std::vector<Cell>>> try_all(const ScenarioInputs& inputs, d
       return std::optional<std::vector<Cell>>();
     }
     const std::size_t to = std::min(cells.size(), from + at_once);
+    std::vector<std::optional<sim::Scenario>> varied(to - from);
     in_parallel(to - from, threads, [&](std::size_t i) {
-      const auto scenario = scenario_at(inputs, time, axes, from + i);
-      if (!scenario.has_value()) {
+      auto scenario = scenario_at(inputs, time, axes, from + i);
+      if (scenario.has_value()) {
+        varied[i] = std::move(scenario.value());
+      } else {
         problems[from + i] = scenario.error();
-        cells[from + i].possible = false;
-        return;
       }
-      cells[from + i] = eval::try_cell(scenario.value(), inputs.car, inputs.harm, time);
     });
+    const auto tried = eval::try_cells(varied, inputs.car, inputs.harm, time, threads);
+    std::copy(tried.begin(), tried.end(), cells.begin() + static_cast<std::ptrdiff_t>(from));
     if (to < cells.size()) {
       progress.show(static_cast<int>(to), 0, " scenes");
     }

@@ -1,25 +1,34 @@
 #include "saca/decide/check.h"
 
-#include <string_view>
+#include <array>
 
 #include "saca/outcome/ordering.h"
 #include "saca/reason/prompt.h"
 
 namespace saca::decide {
 
-Check check(manoeuvre::PolicyId chosen, const preview::Situation& situation) {
-  const preview::PolicyFacts& fact = situation.facts[manoeuvre::index(chosen)];
-  const preview::PolicyFacts& aeb = situation.facts[manoeuvre::index(manoeuvre::PolicyId::aeb)];
-  const world::Scene& scene = situation.scene_at_trigger;
-  const std::string line = reason::policy_line(fact, scene);
-  if (!fact.refusal.empty()) {
+using manoeuvre::PolicyId;
+
+Check check(const preview::PolicyFacts& plan, const preview::PolicyFacts& aeb,
+            const world::Scene& scene) {
+  const std::string line = reason::policy_line(plan, scene);
+  if (!plan.refusal.empty()) {
     return {false, line};
   }
-  if (chosen != manoeuvre::PolicyId::aeb &&
-      outcome::better(aeb.outcome, aeb.plan.policy, fact.outcome, chosen)) {
+  const PolicyId policy = plan.plan.policy;
+  if (policy != PolicyId::aeb &&
+      outcome::better(aeb.outcome, PolicyId::aeb, plan.outcome, policy)) {
     return {false, line + "; braking does no more harm: " + reason::policy_line(aeb, scene)};
   }
   return {true, line};
+}
+
+Check check(const manoeuvre::Plan& plan, const preview::Situation& situation,
+            const preview::ForecastTools& tools) {
+  const std::array plans{plan, manoeuvre::Plan{PolicyId::aeb, std::nullopt}};
+  const world::Scene& scene = situation.scene_at_trigger;
+  const auto facts = rolled_out(scene, situation.tracks, plans, tools);
+  return check(facts[0], facts[1], scene);
 }
 
 }  // namespace saca::decide

@@ -1,21 +1,27 @@
 #pragma once
 
-#include <array>
 #include <string>
 
 #include "saca/manoeuvre/plan.h"
+#include "saca/preview/policy_facts.h"
 #include "saca/preview/situation.h"
 
 namespace saca::decide {
 
-/// The rollout check of a chosen policy: it can be driven here, and emergency braking is not
-/// forecast to be better, by the one ordering of outcome/ordering.h: less harm, or the same by
-/// milder means.
+/// What the rollout check says of a plan.
 struct Check {
   bool passed = false;
   std::string text;  ///< why, in one line
 };
 
-[[nodiscard]] Check check(manoeuvre::PolicyId chosen, const preview::Situation& situation);
+/// The rollout check: the plan and emergency braking are driven with full dynamics, whatever was
+/// forecast before. A plan passes that can be driven here, where braking does not end better by the
+/// one ordering of outcome/ordering.h: less harm, or the same by milder means.
+[[nodiscard]] Check check(const manoeuvre::Plan& plan, const preview::Situation& situation,
+                          const preview::ForecastTools& tools);
+
+/// The same of what the two end in.
+[[nodiscard]] Check check(const preview::PolicyFacts& plan, const preview::PolicyFacts& aeb,
+                          const world::Scene& scene);
 
 }  // namespace saca::decide

@@ -19,7 +19,7 @@ std::string_view name(Source source) {
   return name_of(source, source_names);
 }
 
-Decision ReflexPlane::decide(const world::Scene& scene) const noexcept {
+Decision ReflexPlane::decide(const world::Scene& scene) noexcept {
   Decision decision{.plan = {manoeuvre::PolicyId::aeb, std::nullopt}, .time = scene.time};
   const CachedPlan* best = nullptr;
   const memory::Features here = memory::features(scene);
@@ -36,7 +36,11 @@ Decision ReflexPlane::decide(const world::Scene& scene) const noexcept {
     decision.source = Source::forced;
   } else if (best != nullptr && *decision.similarity > match_similarity) {
     decision.gave_way_to_aeb = best->worse_than_aeb;
-    if (!best->worse_than_aeb) {
+    if (check_ && !best->worse_than_aeb) {
+      decision.forecast = check_->compare(best->plan, scene);
+      decision.gave_way_to_aeb = decision.forecast && decision.forecast->plan_harms_more();
+    }
+    if (!decision.gave_way_to_aeb) {
       decision.plan = best->plan;
       decision.source = best->source;
     }

@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "saca/decide/plan_cache.h"
+#include "saca/decide/trigger_check.h"
 #include "saca/manoeuvre/plan.h"
 #include "saca/preview/threat.h"
 #include "saca/world/scene.h"
@@ -19,7 +21,9 @@ struct Decision {
   Source source = Source::fallback;
   std::optional<double> similarity;  ///< to the best cached situation; nullopt when there was none
   std::optional<std::int32_t> preview;  ///< whose plan it is, or would have been
-  bool gave_way_to_aeb = false;         ///< a plan matched, but its forecast was worse than AEB's
+  bool gave_way_to_aeb = false;         ///< a plan matched, but a forecast was worse than AEB's
+  std::optional<Comparison> forecast;   ///< at the trigger, by the atlas; nullopt: not asked, or
+                                        ///< it could not tell
   double time = 0.0;                    ///< of the trigger [s], in the scene's time
 };
 
@@ -34,12 +38,18 @@ struct Reflex {
 
 /// The plane that is always in time: a scene in, a plan out. One thread; no lock, no allocation, no
 /// system call. Once triggered it keeps its plan.
+///
+/// A matching plan gives way to emergency braking where the thinking plane's last forecast has that
+/// end better, or where the atlas says, at the trigger itself, that the plan harms more. So nothing
+/// is knowingly worse than braking.
 class ReflexPlane {
  public:
+  /// @param check   nullopt: the last forecast alone decides
   /// @param forced  what to carry out at the trigger whatever was thought
   explicit ReflexPlane(const preview::Thresholds& thresholds,
+                       std::optional<TriggerCheck> check = std::nullopt,
                        std::optional<manoeuvre::Plan> forced = std::nullopt) noexcept
-      : thresholds_(thresholds), forced_(forced) {}
+      : thresholds_(thresholds), check_(std::move(check)), forced_(forced) {}
 
   /// Takes over the newest plans.
   void receive(const PlanCache& plans) noexcept { plans_ = plans; }
@@ -50,9 +60,10 @@ class ReflexPlane {
   [[nodiscard]] const std::optional<Decision>& decision() const noexcept { return decision_; }
 
  private:
-  [[nodiscard]] Decision decide(const world::Scene& scene) const noexcept;
+  [[nodiscard]] Decision decide(const world::Scene& scene) noexcept;
 
   preview::Thresholds thresholds_;
+  std::optional<TriggerCheck> check_;
   std::optional<manoeuvre::Plan> forced_;
   PlanCache plans_;
   std::optional<Decision> decision_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "saca/manoeuvre/atlas_for_test.h"
 #include "tests/support/count_allocations.h"
 
 namespace saca::decide {
@@ -95,6 +96,44 @@ TEST(ReflexPlane, IsNeverKnowinglyWorseThanBraking) {
   EXPECT_TRUE(plane.decision()->gave_way_to_aeb);
 }
 
+/// As wreck_in, slow enough for the small atlas, with a plan for it.
+Scene slow_wreck_in(double time) {
+  Scene scene = motorway(12.5);
+  scene.actors.push_back(car(1, {12.5 * time + 4.5, 0.0}));
+  return scene;
+}
+Decision decision_with_atlas(const Scene& scene, PolicyId policy) {
+  static const auto harm = outcome::read_harm("data/harm.toml").value();
+  ReflexPlane plane({}, TriggerCheck(manoeuvre::small_atlas(), harm));
+  plane.receive(one_plan(scene, policy));
+  (void)plane.step(scene);
+  return plane.decision().value();
+}
+
+// Where somebody stands in the next lane, a swerve into it hits at full speed; braking from
+// 12.5 m/s needs 10.2 m (docs/architecture.md: 12.70 m from 14), and there are 16.
+TEST(ReflexPlane, GivesWayWhereTheAtlasSaysThatBrakingHarmsLess) {
+  Scene blocked = slow_wreck_in(1.28);
+  blocked.actors.push_back(car(2, {blocked.actors[0].X_WA.p.x + 2.0, 3.5}));
+  const Decision decision = decision_with_atlas(blocked, PolicyId::aes_left);
+  EXPECT_EQ(decision.plan.policy, PolicyId::aeb);
+  EXPECT_TRUE(decision.gave_way_to_aeb);
+  ASSERT_TRUE(decision.forecast.has_value());
+  EXPECT_GT(decision.forecast->plan, decision.forecast->aeb);
+  EXPECT_EQ(decision.forecast->aeb, 0.0);
+}
+
+TEST(ReflexPlane, KeepsThePlanWhereTheAtlasHasNothingAgainstIt) {
+  const Decision free = decision_with_atlas(slow_wreck_in(1.28), PolicyId::aes_left);
+  EXPECT_EQ(free.plan.policy, PolicyId::aes_left);
+  ASSERT_TRUE(free.forecast.has_value());
+  EXPECT_EQ(free.forecast->plan, 0.0);
+  // The small atlas does not know 20 m/s: the thinking plane's forecast stands.
+  const Decision fast = decision_with_atlas(wreck_in(1.28), PolicyId::aes_left);
+  EXPECT_EQ(fast.plan.policy, PolicyId::aes_left);
+  EXPECT_FALSE(fast.forecast.has_value());
+}
+
 TEST(ReflexPlane, TakesTheMostSimilarOfSeveral) {
   Scene other = wreck_in(1.3);
   other.actors[0].X_WA.p.y = 0.4;
@@ -115,7 +154,7 @@ TEST(ReflexPlane, KeepsItsPlan) {
 }
 
 TEST(ReflexPlane, DoesWhatTheUserAsksFor) {
-  ReflexPlane plane({}, manoeuvre::Plan{PolicyId::no_intervention, std::nullopt});
+  ReflexPlane plane({}, std::nullopt, manoeuvre::Plan{PolicyId::no_intervention, std::nullopt});
   plane.receive(one_plan(wreck_in(1.3), PolicyId::aes_left));
   EXPECT_EQ(plane.step(wreck_in(1.2)).plan.policy, PolicyId::no_intervention);
   EXPECT_EQ(plane.decision()->source, Source::forced);
@@ -133,23 +172,26 @@ TEST(ReflexPlane, LeavesABrokenSceneAside) {
 }
 
 TEST(ReflexPlane, AllocatesNothing) {
-  Scene crowded = wreck_in(2.0);
+  Scene crowded = slow_wreck_in(2.0);
   for (std::uint8_t id = 2; id <= world::max_actors; ++id) {
     crowded.actors.push_back(car(id, {30.0 + 6.0 * id, id % 2 == 0 ? 3.5 : -4.0}, {10.0, 0.3}));
   }
-  PlanCache cache;
-  while (!cache.full()) {
-    cache.push_back(one_plan(crowded, PolicyId::aes_left)[0]);
-  }
   Scene now = crowded;
   now.actors[0].X_WA.p.x -= 15.0;
-  ReflexPlane plane({});
+  now.actors[1] = car(2, {-12.0, 0.0}, {12.5, 0.0});  // follows
+  PlanCache cache;
+  while (!cache.full()) {
+    cache.push_back(one_plan(now, PolicyId::aes_left)[0]);
+  }
+  static const auto harm = outcome::read_harm("data/harm.toml").value();
+  ReflexPlane plane({}, TriggerCheck(manoeuvre::small_atlas(), harm));
   const std::size_t before = num_allocations;
   plane.receive(cache);
   (void)plane.step(crowded);
   const Reflex reflex = plane.step(now);
   EXPECT_EQ(num_allocations, before);
   EXPECT_TRUE(reflex.triggered);
+  EXPECT_TRUE(plane.decision()->forecast.has_value());
 }
 
 }  // namespace

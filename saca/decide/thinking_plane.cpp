@@ -55,7 +55,7 @@ struct ThinkingPlane::Round {
 ThinkingPlane::ThinkingPlane(const ThinkingTools& tools, const preview::Thresholds& thresholds,
                              ThinkingOutput output)
     : tools_(tools), thresholds_(thresholds), output_(std::move(output)) {
-  expects(tools.car != nullptr && tools.harm != nullptr && tools.clock != nullptr,
+  expects(tools.forecast.car != nullptr && tools.forecast.harm != nullptr && tools.clock != nullptr,
           "car, harm and clock are given");
   expects(output_.publish && output_.event && output_.reasoning, "every output goes somewhere");
 }
@@ -93,14 +93,14 @@ bool ThinkingPlane::think(const world::Scene& scene, Clock::Time scene_at) {
   std::vector<std::size_t> fresh;
   std::vector<std::size_t> unanswered;
   std::vector<std::size_t> now;
-  for (preview::Situation& situation :
-       preview::situations(scene, thresholds_, *tools_.car, *tools_.harm)) {
+  for (preview::Situation& situation : preview::situations(scene, thresholds_, tools_.forecast)) {
     if (situation.scene_at_trigger.time < round.now()) {
       continue;  // its trigger has passed while this was computed
     }
     if (Preview* const known = provided_for(situation)) {
       known->newest_scene = situation.scene_at_trigger;
-      known->worse_than_aeb = known->plan && !check(known->plan->policy, situation).passed;
+      known->worse_than_aeb =
+          known->plan && !check(*known->plan, situation, tools_.forecast).passed;
       now.push_back(static_cast<std::size_t>(known - previews_.data()));
       if (known->unheard) {
         unanswered.push_back(now.back());
@@ -252,7 +252,7 @@ void ThinkingPlane::take_answer(const Round& round, Preview& preview,
 void ThinkingPlane::settle(Preview& preview, PolicyId policy, Source source, double ready,
                            bool needs_check) {
   const preview::PolicyFacts& fact = preview.situation.facts[manoeuvre::index(policy)];
-  preview.check = check(policy, preview.situation);
+  preview.check = check(fact.plan, preview.situation, tools_.forecast);
   if (needs_check || !preview.check->passed) {
     output_.event({ready, Plane::thinking, EventKind::check,
                    fmt::format("rollout check {}: {}", preview.check->passed ? "passed" : "failed",

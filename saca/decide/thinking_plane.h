@@ -6,9 +6,7 @@
 #include "saca/core/clock.h"
 #include "saca/decide/event.h"
 #include "saca/decide/plan_cache.h"
-#include "saca/manoeuvre/car.h"
 #include "saca/memory/store.h"
-#include "saca/outcome/harm.h"
 #include "saca/preview/preview.h"
 #include "saca/preview/threat.h"
 #include "saca/reason/language_model.h"
@@ -17,8 +15,7 @@ namespace saca::decide {
 
 /// What the thinking plane works with. Whatever it points to outlives the plane.
 struct ThinkingTools {
-  const manoeuvre::Car* car = nullptr;
-  const outcome::HarmModel* harm = nullptr;
+  preview::ForecastTools forecast;
   memory::Store* memory = nullptr;         ///< nullptr: without memory
   reason::LanguageModel* model = nullptr;  ///< nullptr: without language model
   Clock* clock = nullptr;                  ///< the one that the model's deadlines are on

@@ -78,7 +78,10 @@ class Thinking : public testing::Test {
   }
 
   ThinkingPlane plane(reason::LanguageModel* model, memory::Store* memory = nullptr) {
-    return {{.car = &car(), .harm = &harm_, .memory = memory, .model = model, .clock = &clock_},
+    return {{.forecast = {.car = &car(), .harm = &harm_},
+             .memory = memory,
+             .model = model,
+             .clock = &clock_},
             {},
             {.publish = [this](const PlanCache& plans, double) { published_.push_back(plans); },
              .event = [this](const Event& event) { events_.push_back(event); },

@@ -8,6 +8,7 @@
 #include "saca/manoeuvre/ego.h"
 #include "saca/outcome/futures.h"
 #include "saca/outcome/outcome.h"
+#include "saca/outcome/roll_out.h"
 
 namespace saca::eval {
 namespace {

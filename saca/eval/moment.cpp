@@ -1,6 +1,7 @@
 #include "saca/eval/moment.h"
 
 #include <cmath>
+#include <utility>
 
 #include "saca/core/contract.h"
 #include "saca/sim/stepper.h"
@@ -24,19 +25,38 @@ void advance_to(sim::Stepper& stepper, const sim::Scenario& scenario, double tim
   }
 }
 
+/// Goes on to the first look at which the trigger fires; false: it never does.
+bool advance_to_trigger(sim::Stepper& stepper, const preview::Thresholds& thresholds) {
+  while (!stepper.over()) {
+    if (preview::nearest_threat(stepper.scene(), thresholds.trigger,
+                                thresholds.trigger_tolerance)) {
+      return true;
+    }
+    advance_one_look(stepper);
+  }
+  return false;
+}
+
+Moment moment_of(sim::Stepper& stepper, const sim::Scenario& scenario, const sim::Chance& chance) {
+  world::Scene scene = stepper.whole_scene();
+  scene.grip = sim::believed_grip(scenario);
+  stepper.take_the_wheel();
+  return {.scene = scene, .others = stepper.others(), .grip = scenario.grip, .unknown = chance.car};
+}
+
 }  // namespace
 
 std::optional<double> trigger_time(const sim::Scenario& scenario, const manoeuvre::Car& car,
                                    const preview::Thresholds& thresholds) {
   sim::Stepper stepper(scenario, car);
-  while (!stepper.over()) {
-    if (preview::nearest_threat(stepper.scene(), thresholds.trigger,
-                                thresholds.trigger_tolerance)) {
-      return stepper.time();
-    }
-    advance_one_look(stepper);
-  }
-  return std::nullopt;
+  return advance_to_trigger(stepper, thresholds) ? std::optional(stepper.time()) : std::nullopt;
+}
+
+std::optional<Moment> moment_of_trigger(const sim::Scenario& scenario, const manoeuvre::Car& car,
+                                        const preview::Thresholds& thresholds) {
+  sim::Stepper stepper(scenario, car);
+  return advance_to_trigger(stepper, thresholds) ? std::optional(moment_of(stepper, scenario, {}))
+                                                 : std::nullopt;
 }
 
 world::Scene scene_at(const sim::Scenario& scenario, const manoeuvre::Car& car, double time) {
@@ -49,16 +69,26 @@ Moment moment_at(const sim::Scenario& scenario, const manoeuvre::Car& car, doubl
                  const sim::Chance& chance) {
   sim::Stepper stepper(scenario, car, chance);
   advance_to(stepper, scenario, time);
-  world::Scene scene = stepper.whole_scene();
-  scene.grip = sim::believed_grip(scenario);
-  stepper.take_the_wheel();
-  return {.scene = scene, .others = stepper.others(), .grip = scenario.grip, .unknown = chance.car};
+  return moment_of(stepper, scenario, chance);
 }
 
-std::array<loop::Hindsight, manoeuvre::num_policies> attempts(const Moment& moment,
-                                                              const manoeuvre::Car& car,
-                                                              const outcome::HarmModel& harm) {
-  return loop::hindsight(moment.scene, moment.others, moment.grip, car, harm, moment.unknown);
+std::vector<std::optional<loop::Hindsights>> tried_from(
+    const std::vector<std::optional<Moment>>& moments, const manoeuvre::Car& car,
+    const outcome::HarmModel& harm, int threads) {
+  std::vector<Moment> there;
+  for (const std::optional<Moment>& moment : moments) {
+    if (moment) {
+      there.push_back(*moment);
+    }
+  }
+  std::vector<loop::Hindsights> tried = hindsights(there, car, harm, threads);
+  std::vector<std::optional<loop::Hindsights>> in_place(moments.size());
+  for (std::size_t i = 0, k = 0; i < moments.size(); ++i) {
+    if (moments[i]) {
+      in_place[i] = std::move(tried[k++]);
+    }
+  }
+  return in_place;
 }
 
 }  // namespace saca::eval

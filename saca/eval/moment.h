@@ -1,11 +1,10 @@
 #pragma once
 
-#include <array>
 #include <optional>
+#include <vector>
 
 #include "saca/loop/hindsight.h"
 #include "saca/manoeuvre/car.h"
-#include "saca/outcome/outcome.h"
 #include "saca/preview/threat.h"
 #include "saca/sim/chance.h"
 #include "saca/sim/scenario.h"
@@ -20,20 +19,21 @@ namespace saca::eval {
                                                  const manoeuvre::Car& car,
                                                  const preview::Thresholds& thresholds = {});
 
-/// One instant of a scenario, and what follows from it: all that a policy's outcome depends on. The
-/// scenario outlives it.
-struct Moment {
-  world::Scene scene;      ///< Stepper::whole_scene, but for the grip, which the ego believes in
-  outcome::Others others;  ///< what the others do from then on, the ego's motion given
-  double grip = 0.0;       ///< of the road as written; `unknown` may change it
-  manoeuvre::Unknown unknown;
-};
+using loop::Moment;
+
+/// What follows from that instant on; nullopt: SACA's trigger never fires. The scenario outlives
+/// it.
+[[nodiscard]] std::optional<Moment> moment_of_trigger(const sim::Scenario& scenario,
+                                                      const manoeuvre::Car& car,
+                                                      const preview::Thresholds& thresholds = {});
 
 /// The scene as it truly is at a time, among those who are there then.
 /// @param time  [s], in [0, scenario.duration]; taken to the nearest 10 ms
 [[nodiscard]] world::Scene scene_at(const sim::Scenario& scenario, const manoeuvre::Car& car,
                                     double time);
 
+/// What follows from one instant: among all who are there then or come later
+/// (Stepper::whole_scene). The scenario outlives it.
 /// @param time    as scene_at
 /// @param chance  what is left to it; none: as written
 [[nodiscard]] Moment moment_at(const sim::Scenario& scenario, const manoeuvre::Car& car,
@@ -41,8 +41,9 @@ struct Moment {
 Moment moment_at(sim::Scenario&& scenario, const manoeuvre::Car& car, double time,
                  const sim::Chance& chance = {}) = delete;
 
-/// All eight policies begun at this moment, each driven and judged to its end.
-[[nodiscard]] std::array<loop::Hindsight, manoeuvre::num_policies> attempts(
-    const Moment& moment, const manoeuvre::Car& car, const outcome::HarmModel& harm);
+/// loop::hindsights of the moments that there are, in their places.
+[[nodiscard]] std::vector<std::optional<loop::Hindsights>> tried_from(
+    const std::vector<std::optional<Moment>>& moments, const manoeuvre::Car& car,
+    const outcome::HarmModel& harm, int threads);
 
 }  // namespace saca::eval

@@ -49,7 +49,7 @@ TEST(Moment, RefusesTimesOutsideTheScenario) {
 TEST(Moment, AllEightAreTriedFromThere) {
   const sim::Scenario scenario = standing_car(15.0, 60.0);
   const Moment moment = moment_at(scenario, default_car(), 2.7);
-  const auto tried = attempts(moment, default_car(), shipped_harm());
+  const auto tried = hindsight(moment, default_car(), shipped_harm());
   const auto outcome = [&](PolicyId policy) {
     return tried[manoeuvre::index(policy)].facts.outcome;
   };
@@ -57,6 +57,33 @@ TEST(Moment, AllEightAreTriedFromThere) {
   EXPECT_FALSE(outcome(PolicyId::aes_left).contact.has_value());
   ASSERT_TRUE(outcome(PolicyId::no_intervention).contact.has_value());
   EXPECT_NEAR(outcome(PolicyId::no_intervention).contact->relative_speed, 15.0, 0.2);
+}
+
+TEST(Moment, OfTheTriggerIsTheOneAtItsTime) {
+  const sim::Scenario scenario = standing_car(15.0, 60.0);
+  const auto trigger = moment_of_trigger(scenario, default_car());
+  const Moment same = moment_at(scenario, default_car(), *trigger_time(scenario, default_car()));
+  ASSERT_TRUE(trigger.has_value());
+  EXPECT_EQ(trigger->scene.time, same.scene.time);
+  EXPECT_EQ(trigger->scene.ego.X_WB.p.x, same.scene.ego.X_WB.p.x);
+  EXPECT_EQ(trigger->grip, same.grip);
+  sim::Scenario free = scenario;
+  free.actors.clear();
+  EXPECT_FALSE(moment_of_trigger(free, default_car()).has_value());
+}
+
+TEST(Moment, ThoseThatAreThereAreTriedInTheirPlaces) {
+  const sim::Scenario near = standing_car(15.0, 60.0);
+  const sim::Scenario far = standing_car(15.0, 80.0);
+  const auto tried = tried_from({std::nullopt, moment_at(near, default_car(), 2.7), std::nullopt,
+                                 moment_at(far, default_car(), 2.7)},
+                                default_car(), shipped_harm(), 2);
+  ASSERT_EQ(tried.size(), 4U);
+  EXPECT_FALSE(tried[0] || tried[2]);
+  const auto clearance = [&](std::size_t i) {
+    return (*tried[i])[manoeuvre::index(PolicyId::aeb)].facts.outcome.clearance;
+  };
+  EXPECT_NEAR(clearance(3) - clearance(1), 20.0, 1e-3);  // the same way, the wreck 20 m farther
 }
 
 }  // namespace

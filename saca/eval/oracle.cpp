@@ -13,18 +13,31 @@ using manoeuvre::num_policies;
 using manoeuvre::PolicyId;
 using Tried = std::array<outcome::Outcome, num_policies>;  // meaningless where refused
 
-Tried outcomes_of(const std::array<loop::Hindsight, num_policies>& tried) {
+Tried outcomes_of(const loop::Hindsights& tried) {
   Tried outcomes;
   std::transform(tried.begin(), tried.end(), outcomes.begin(),
                  [](const loop::Hindsight& one) { return one.facts.outcome; });
   return outcomes;
 }
 
-/// One world. What can be driven is the same in all: the ego believes in the same start.
-Tried one_draw(const sim::Scenario& scenario, const manoeuvre::Car& car,
-               const outcome::HarmModel& harm, const OracleOptions& options, std::uint64_t number) {
-  const sim::Chance chance = sim::draw_chance(options.seed, number, options.time);
-  return outcomes_of(attempts(moment_at(scenario, car, options.time, chance), car, harm));
+/// All worlds. What can be driven is the same in all: the ego believes in the same start.
+std::vector<Tried> all_draws(const sim::Scenario& scenario, const manoeuvre::Car& car,
+                             const outcome::HarmModel& harm, const OracleOptions& options) {
+  constexpr std::size_t at_once = 32;  // else thousands of motions would be kept
+  const auto num_draws = static_cast<std::size_t>(options.draws);
+  std::vector<Tried> draws;
+  draws.reserve(num_draws);
+  while (draws.size() < num_draws) {
+    std::vector<Moment> moments(std::min(at_once, num_draws - draws.size()));
+    in_parallel(moments.size(), options.threads, [&](std::size_t k) {
+      const sim::Chance chance = sim::draw_chance(options.seed, draws.size() + k, options.time);
+      moments[k] = moment_at(scenario, car, options.time, chance);
+    });
+    for (const loop::Hindsights& tried : hindsights(moments, car, harm, options.threads)) {
+      draws.push_back(outcomes_of(tried));
+    }
+  }
+  return draws;
 }
 
 /// What is sure: one outcome, without an interval.
@@ -56,11 +69,9 @@ Oracle oracle(const sim::Scenario& scenario, const manoeuvre::Car& car,
   Oracle told;
   const Moment moment = moment_at(scenario, car, options.time);
   told.scene = moment.scene;
-  const auto written = attempts(moment, car, harm);
+  const loop::Hindsights written = hindsight(moment, car, harm);
   const Tried as_written = outcomes_of(written);
-  std::vector<Tried> draws(static_cast<std::size_t>(options.draws));
-  in_parallel(draws.size(), options.threads,
-              [&](std::size_t k) { draws[k] = one_draw(scenario, car, harm, options, k); });
+  const std::vector<Tried> draws = all_draws(scenario, car, harm, options);
   std::array<std::vector<outcome::Outcome>, num_policies> outcomes;
   std::array<outcome::Outcome, num_policies> average;
   for (std::size_t i = 0; i < num_policies; ++i) {

@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "saca/core/csv.h"
+#include "saca/core/parallel.h"
 #include "saca/core/percentile.h"
 #include "saca/preview/preview.h"
 
@@ -29,11 +30,10 @@ bool read_word(std::string_view word, std::optional<double>& number) {
 
 }  // namespace
 
-Finding look_into(const Moment& moment, const manoeuvre::Car& car, const outcome::HarmModel& harm) {
+Finding finding_of(double time, const loop::Hindsights& tried) {
   Finding finding;
-  finding.time = moment.scene.time;
+  finding.time = time;
   std::array<preview::PolicyFacts, num_policies> facts;
-  const auto tried = attempts(moment, car, harm);
   for (std::size_t i = 0; i < num_policies; ++i) {
     facts[i] = tried[i].facts;
     if (facts[i].refusal.empty()) {
@@ -45,15 +45,19 @@ Finding look_into(const Moment& moment, const manoeuvre::Car& car, const outcome
   return finding;
 }
 
-Finding look_into(const sim::Scenario& scenario, std::string_view family, std::uint64_t number,
-                  const manoeuvre::Car& car, const outcome::HarmModel& harm) {
-  Finding finding;
-  if (const auto time = trigger_time(scenario, car)) {
-    finding = look_into(moment_at(scenario, car, *time), car, harm);
+std::vector<Finding> look_into(std::span<const sim::Scenario> scenarios, const manoeuvre::Car& car,
+                               const outcome::HarmModel& harm, int threads) {
+  std::vector<std::optional<Moment>> triggers(scenarios.size());
+  in_parallel(scenarios.size(), threads,
+              [&](std::size_t i) { triggers[i] = moment_of_trigger(scenarios[i], car); });
+  const auto tried = tried_from(triggers, car, harm, threads);
+  std::vector<Finding> findings(scenarios.size());
+  for (std::size_t i = 0; i < tried.size(); ++i) {
+    if (tried[i]) {
+      findings[i] = finding_of(triggers[i]->scene.time, *tried[i]);
+    }
   }
-  finding.family = family;
-  finding.number = number;
-  return finding;
+  return findings;
 }
 
 std::string line_of(const Finding& finding) {

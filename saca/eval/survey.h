@@ -24,13 +24,15 @@ struct Finding {
   bool operator==(const Finding&) const = default;
 };
 
-/// Tries all eight from this moment on; without family and number.
-[[nodiscard]] Finding look_into(const Moment& moment, const manoeuvre::Car& car,
-                                const outcome::HarmModel& harm);
-/// Tries all eight from the trigger on.
-[[nodiscard]] Finding look_into(const sim::Scenario& scenario, std::string_view family,
-                                std::uint64_t number, const manoeuvre::Car& car,
-                                const outcome::HarmModel& harm);
+/// What was found when all eight began at `time`; without family and number.
+[[nodiscard]] Finding finding_of(double time, const loop::Hindsights& tried);
+
+/// Tries all eight from the trigger of each scenario on; without families and numbers. One does not
+/// depend on the others.
+/// @param threads  >= 1; they do not change the result
+[[nodiscard]] std::vector<Finding> look_into(std::span<const sim::Scenario> scenarios,
+                                             const manoeuvre::Car& car,
+                                             const outcome::HarmModel& harm, int threads);
 
 /// One line, for journals; and back, to the last bit. nullopt: no such line.
 [[nodiscard]] std::string line_of(const Finding& finding);

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "saca/core/csv.h"
+#include "saca/core/parallel.h"
 #include "saca/eval/survey.h"
 #include "saca/manoeuvre/ego.h"
 
@@ -185,6 +186,22 @@ double margin_over(const Finding& finding, std::size_t best) {
   return std::max(0.0, second - *finding.harm[best]);
 }
 
+bool overlaps(const world::Scene& scene) {
+  return std::any_of(scene.actors.begin(), scene.actors.end(), [&](const world::Actor& actor) {
+    return world::separation(scene.ego_footprint, scene.ego.X_WB, actor.footprint, actor.X_WA)
+               .distance <= 0.0;
+  });
+}
+
+Cell cell_of(const Finding& finding) {
+  const std::size_t best = manoeuvre::index(finding.best);
+  return {.best = finding.best,
+          .alone = lesson_of(finding).alone == finding.best,
+          .margin = margin_over(finding, best),
+          .contact = finding.contact[best],
+          .harms = finding.harm};
+}
+
 }  // namespace
 
 Result<Axis> parse_axis(std::string_view text, const Scenario& scenario) {
@@ -298,27 +315,21 @@ std::optional<double> nominal(const Scenario& scenario, const manoeuvre::Car& ca
   return std::nullopt;
 }
 
-Cell try_cell(const Scenario& scenario, const manoeuvre::Car& car, const outcome::HarmModel& harm,
-              double time) {
-  Cell cell;
-  const world::Scene scene = scene_at(scenario, car, time);
-  cell.possible =
-      std::none_of(scene.actors.begin(), scene.actors.end(), [&](const world::Actor& actor) {
-        return world::separation(scene.ego_footprint, scene.ego.X_WB, actor.footprint, actor.X_WA)
-                   .distance <= 0.0;
-      });
-  if (!cell.possible) {
-    return cell;
+std::vector<Cell> try_cells(std::span<const std::optional<Scenario>> scenarios,
+                            const manoeuvre::Car& car, const outcome::HarmModel& harm, double time,
+                            int threads) {
+  std::vector<std::optional<Moment>> moments(scenarios.size());
+  in_parallel(scenarios.size(), threads, [&](std::size_t i) {
+    if (scenarios[i] && !overlaps(scene_at(*scenarios[i], car, time))) {
+      moments[i] = moment_at(*scenarios[i], car, time);
+    }
+  });
+  const auto tried = tried_from(moments, car, harm, threads);
+  std::vector<Cell> cells(scenarios.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    cells[i] = tried[i] ? cell_of(finding_of(time, *tried[i])) : Cell{.possible = false};
   }
-  const Finding finding = look_into(moment_at(scenario, car, time), car, harm);
-  const Taught taught = lesson_of(finding);
-  const std::size_t best = manoeuvre::index(finding.best);
-  cell.best = finding.best;
-  cell.alone = taught.alone == finding.best;
-  cell.harms = finding.harm;
-  cell.margin = margin_over(finding, best);
-  cell.contact = finding.contact[best];
-  return cell;
+  return cells;
 }
 
 }  // namespace saca::eval

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -53,9 +54,11 @@ struct Cell {
   std::array<std::optional<double>, manoeuvre::num_policies> harms;
 };
 
-/// All eight tried at one place.
-/// @param time  when the policies begin [s]
-[[nodiscard]] Cell try_cell(const sim::Scenario& scenario, const manoeuvre::Car& car,
-                            const outcome::HarmModel& harm, double time);
+/// All eight tried at each place; nullopt is not possible. One does not depend on the others.
+/// @param time     when the policies begin [s]
+/// @param threads  >= 1; they do not change the result
+[[nodiscard]] std::vector<Cell> try_cells(std::span<const std::optional<sim::Scenario>> scenarios,
+                                          const manoeuvre::Car& car, const outcome::HarmModel& harm,
+                                          double time, int threads);
 
 }  // namespace saca::eval

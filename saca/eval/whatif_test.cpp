@@ -120,10 +120,13 @@ TEST_F(Whatif, WhereBodiesWouldOverlapThereIsNoAnswer) {
   const Axis beside = axis("pedestrian.offset_m=0:0:1");
   const auto near = varied(scenario_, default_car(), t1, onto, 0.0).value();
   const auto inside = varied(near, default_car(), t1, beside, 0.0).value();  // waits in our way
-  EXPECT_FALSE(try_cell(inside, default_car(), shipped_harm(), t1).possible);
-  const Cell as_printed = try_cell(scenario_, default_car(), shipped_harm(), t1);
-  EXPECT_TRUE(as_printed.possible);
-  EXPECT_GE(as_printed.margin, 0.0);
+  const std::vector<std::optional<sim::Scenario>> all{inside, std::nullopt, scenario_};
+  const auto cells = try_cells(all, default_car(), shipped_harm(), t1, 2);
+  ASSERT_EQ(cells.size(), 3U);
+  EXPECT_FALSE(cells[0].possible);
+  EXPECT_FALSE(cells[1].possible);
+  EXPECT_TRUE(cells[2].possible);
+  EXPECT_GE(cells[2].margin, 0.0);
 }
 
 }  // namespace

@@ -235,16 +235,21 @@ Vec2 LaneDriver::velocity() const {
   return rotated({direction_ * driver_.speed(), 0.0}, lane_yaw);
 }
 
-world::Track reacting_track(const world::Road& road, const world::Actor& driver,
-                            const DriverLaw& law, std::span<const Body> others, double start,
-                            double duration, double step, double grip) {
+void reacting_track(const world::Road& road, const world::Actor& driver, const DriverLaw& law,
+                    std::span<const Body> others, double start, double duration, double step,
+                    double grip, world::Track& track) {
   expects(duration >= 0.0, "duration >= 0");
   expects(step > 0.0, "step > 0");
+  expects(others.size() <= world::max_actors, "at most max_actors others");
   LaneDriver it(road, driver.footprint, driver.X_WA, Driver(law, norm(driver.v_W), grip, step));
   const auto num_steps = static_cast<std::size_t>(std::ceil(duration / step - 1e-9));
-  world::Track track{.start = start, .step = step, .X_WA = {driver.X_WA}};
+  track.start = start;
+  track.step = step;
+  track.X_WA.clear();
   track.X_WA.reserve(num_steps + 1);
-  std::vector<Present> now(others.size());
+  track.X_WA.push_back(driver.X_WA);
+  std::array<Present, world::max_actors> all;
+  const std::span now(all.data(), others.size());
   for (std::size_t k = 0; k < num_steps; ++k) {
     const double time = start + static_cast<double>(k) * step;
     std::transform(others.begin(), others.end(), now.begin(), [&](const Body& body) {
@@ -254,6 +259,13 @@ world::Track reacting_track(const world::Road& road, const world::Actor& driver,
     it.advance(it.ahead(now));
     track.X_WA.push_back(it.pose());
   }
+}
+
+world::Track reacting_track(const world::Road& road, const world::Actor& driver,
+                            const DriverLaw& law, std::span<const Body> others, double start,
+                            double duration, double step, double grip) {
+  world::Track track;
+  reacting_track(road, driver, law, others, start, duration, step, grip, track);
   return track;
 }
 

@@ -161,12 +161,16 @@ struct Body {
 /// instant it depends on the others up to that instant only.
 ///
 /// @param driver    as it is at `start`
-/// @param others    tracks that begin at `start` or before
+/// @param others    tracks that begin at `start` or before; at most world::max_actors
 /// @param duration  [s], >= 0
 /// @param step      [s], > 0
 /// @param grip      friction coefficient of the road [-], > 0
 [[nodiscard]] world::Track reacting_track(const world::Road& road, const world::Actor& driver,
                                           const DriverLaw& law, std::span<const Body> others,
                                           double start, double duration, double step, double grip);
+/// The same, written over `track`: allocates nothing where that has room for its poses.
+void reacting_track(const world::Road& road, const world::Actor& driver, const DriverLaw& law,
+                    std::span<const Body> others, double start, double duration, double step,
+                    double grip, world::Track& track);
 
 }  // namespace saca::intent

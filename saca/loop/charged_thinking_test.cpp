@@ -34,7 +34,7 @@ TEST(ChargedThinking, StartsNoRoundBeforeTheLastOneIsPaidFor) {
   const auto harm = outcome::read_harm("data/harm.toml").value();
   ManualClock clock;
   ChargedThinking thinking(0.5, clock);
-  decide::ThinkingPlane plane({.car = &car, .harm = &harm, .clock = &clock}, {},
+  decide::ThinkingPlane plane({.forecast = {.car = &car, .harm = &harm}, .clock = &clock}, {},
                               {.publish = [&](const decide::PlanCache& cache,
                                               double ready) { thinking.publish(cache, ready); },
                                .event = [](const decide::Event&) {},

@@ -68,13 +68,14 @@ class Encounter {
         stepper_(*setup.scenario, *setup.car,
                  setup.seed ? sim::draw_chance(*setup.seed, 0, 0.0) : sim::Chance{}),
         witness_(*setup.harm),
-        reflex_(setup.thresholds, forced_plan(setup)),
+        reflex_(setup.thresholds, trigger_check(setup), forced_plan(setup)),
         plane_(tools(), setup.thresholds, output()) {}
 
   Result<Record> play();
 
  private:
   [[nodiscard]] bool real() const { return setup_.pace == Pace::real; }
+  static std::optional<decide::TriggerCheck> trigger_check(const Setup& setup);
   static std::optional<manoeuvre::Plan> forced_plan(const Setup& setup);
   [[nodiscard]] decide::ThinkingTools tools();
   [[nodiscard]] decide::ThinkingOutput output();
@@ -120,6 +121,12 @@ class Encounter {
   outcome::Others others_at_trigger_;
 };
 
+std::optional<decide::TriggerCheck> Encounter::trigger_check(const Setup& setup) {
+  return setup.atlas == nullptr
+             ? std::nullopt
+             : std::optional<decide::TriggerCheck>(std::in_place, *setup.atlas, *setup.harm);
+}
+
 std::optional<manoeuvre::Plan> Encounter::forced_plan(const Setup& setup) {
   if (!setup.forced) {
     return std::nullopt;
@@ -128,8 +135,7 @@ std::optional<manoeuvre::Plan> Encounter::forced_plan(const Setup& setup) {
 }
 
 decide::ThinkingTools Encounter::tools() {
-  decide::ThinkingTools tools{.car = setup_.car,
-                              .harm = setup_.harm,
+  decide::ThinkingTools tools{.forecast = {setup_.car, setup_.harm, setup_.atlas},
                               .memory = setup_.memory,
                               .model = setup_.model,
                               .clock = setup_.clock};
@@ -340,10 +346,10 @@ void Encounter::conclude() {
     tell(Plane::world, EventKind::contact, outcome::describe(record_.result, record_.met));
   }
   if (record_.decision) {
-    Scene at_trigger = *record_.at_trigger;
-    at_trigger.grip = seen_at_trigger_.grip;
-    record_.hindsight = hindsight(at_trigger, others_at_trigger_, stepper_.grip(), *setup_.car,
-                                  *setup_.harm, stepper_.unknown_from_now());
+    Moment trigger{*record_.at_trigger, others_at_trigger_, stepper_.grip(),
+                   stepper_.unknown_from_now()};
+    trigger.scene.grip = seen_at_trigger_.grip;
+    record_.hindsight = hindsight(trigger, *setup_.car, *setup_.harm);
     std::array<preview::PolicyFacts, manoeuvre::num_policies> facts;
     std::transform(record_.hindsight->begin(), record_.hindsight->end(), facts.begin(),
                    [](const Hindsight& one) { return one.facts; });
@@ -448,9 +454,15 @@ std::string decision_text(const decide::Decision& decision) {
   if (decision.source != Source::fallback) {
     return text + fmt::format(": its plan, from {}, is taken", name(decision.source));
   }
-  return text + (decision.gave_way_to_aeb
-                     ? ", whose plan is now forecast to be no better than emergency braking"
-                     : ", not more than 90 %: emergency braking");
+  if (!decision.gave_way_to_aeb) {
+    return text + ", not more than 90 %: emergency braking";
+  }
+  return text +
+         (decision.forecast
+              ? fmt::format(", whose plan would do more harm from here than emergency braking: "
+                            "{:.4f} against {:.4f}",
+                            decision.forecast->plan, decision.forecast->aeb)
+              : ", whose plan is now forecast to be no better than emergency braking");
 }
 
 Result<Record> run(const Setup& setup, Listener& listener) {

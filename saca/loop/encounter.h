@@ -34,6 +34,7 @@ struct Setup {
   const sim::Scenario* scenario = nullptr;
   const manoeuvre::Car* car = nullptr;
   const outcome::HarmModel* harm = nullptr;
+  const manoeuvre::Atlas* atlas = nullptr;  ///< of the car; nullptr: all forecasts are rolled out
   preview::Thresholds thresholds;
   Pace pace = Pace::lockstep;
   ThinkingCosts costs;                        ///< for lockstep
@@ -83,8 +84,8 @@ struct Record {
   std::optional<decide::Decision> decision;
   std::optional<world::Scene> at_trigger;  ///< the truth
   outcome::Outcome result;
-  std::vector<world::Actor> met;  ///< the actors that result.contact counts in
-  std::optional<std::array<Hindsight, manoeuvre::num_policies>> hindsight;  ///< if triggered
+  std::vector<world::Actor> met;        ///< the actors that result.contact counts in
+  std::optional<Hindsights> hindsight;  ///< if triggered
   std::optional<manoeuvre::PolicyId> best;
   std::optional<outcome::Outcome> driver;   ///< what the recorded driver's own motion led to
   std::vector<world::Actor> met_by_driver;  ///< the actors that driver->contact counts in

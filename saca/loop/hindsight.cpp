@@ -1,25 +1,42 @@
 #include "saca/loop/hindsight.h"
 
+#include <utility>
+
 #include "saca/manoeuvre/drive.h"
+#include "saca/outcome/roll_out.h"
 
 namespace saca::loop {
 
-std::array<Hindsight, manoeuvre::num_policies> hindsight(const world::Scene& at_trigger,
-                                                         const outcome::Others& others, double grip,
-                                                         const manoeuvre::Car& car,
-                                                         const outcome::HarmModel& harm,
-                                                         const manoeuvre::Unknown& unknown) {
-  std::array<Hindsight, manoeuvre::num_policies> all;
-  for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
-    auto& [facts, course] = all[manoeuvre::index(policy)];
-    facts.plan = manoeuvre::default_plan(policy, norm(at_trigger.ego.v_B));
-    facts.refusal = manoeuvre::refusal(car, facts.plan, at_trigger).value_or("");
-    if (facts.refusal.empty()) {
-      course = outcome::roll_out(car, facts.plan, at_trigger, others, grip, harm, unknown);
-      facts.outcome = course.outcome;
+std::vector<Hindsights> hindsights(std::span<const Moment> moments, const manoeuvre::Car& car,
+                                   const outcome::HarmModel& harm, int threads) {
+  std::vector<Hindsights> all(moments.size());
+  std::vector<outcome::Attempt> attempts;
+  std::vector<Hindsight*> of_attempt;
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    const Moment& moment = moments[i];
+    for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
+      Hindsight& one = all[i][manoeuvre::index(policy)];
+      one.facts.plan = manoeuvre::default_plan(policy, norm(moment.scene.ego.v_B));
+      one.facts.refusal = manoeuvre::refusal(car, one.facts.plan, moment.scene).value_or("");
+      one.facts.rolled_out = true;
+      if (one.facts.refusal.empty()) {
+        attempts.push_back(
+            {one.facts.plan, &moment.scene, &moment.others, moment.grip, moment.unknown});
+        of_attempt.push_back(&one);
+      }
     }
   }
+  std::vector<outcome::Course> courses = outcome::roll_out_all(car, attempts, harm, threads);
+  for (std::size_t k = 0; k < courses.size(); ++k) {
+    of_attempt[k]->course = std::move(courses[k]);
+    of_attempt[k]->facts.outcome = of_attempt[k]->course.outcome;
+  }
   return all;
+}
+
+Hindsights hindsight(const Moment& moment, const manoeuvre::Car& car,
+                     const outcome::HarmModel& harm) {
+  return std::move(hindsights({&moment, 1}, car, harm).front());
 }
 
 }  // namespace saca::loop

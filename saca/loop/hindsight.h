@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <span>
+#include <vector>
 
 #include "saca/manoeuvre/car.h"
 #include "saca/manoeuvre/unknown.h"
@@ -10,20 +12,28 @@
 
 namespace saca::loop {
 
+/// One instant at which policies begin, and all that their outcome depends on.
+struct Moment {
+  world::Scene scene;          ///< the truth but for `grip`, which is what the ego believes in
+  outcome::Others others;      ///< what the others truly do from then on, the ego's motion given
+  double grip = 0.0;           ///< true friction coefficient; `unknown` may change it
+  manoeuvre::Unknown unknown;  ///< what else the ego's controller does not know
+};
+
 /// What one policy would have led to, knowing what the others really did.
 struct Hindsight {
   preview::PolicyFacts facts;
   outcome::Course course;  ///< to its end; empty when refused
 };
+using Hindsights = std::array<Hindsight, manoeuvre::num_policies>;  ///< by PolicyId
 
-/// All eight policies, begun in the scene at the trigger, among others who move as they truly
-/// would, on the true grip.
-/// @param at_trigger  the truth but for `grip`, which is what the ego takes the road for
-/// @param grip        true friction coefficient
-/// @param unknown     what else the ego's controller does not know; its grip is a factor of `grip`
-[[nodiscard]] std::array<Hindsight, manoeuvre::num_policies> hindsight(
-    const world::Scene& at_trigger, const outcome::Others& others, double grip,
-    const manoeuvre::Car& car, const outcome::HarmModel& harm,
-    const manoeuvre::Unknown& unknown = {});
+/// All eight policies, begun at each moment, on the true grip: outcome::roll_out_all. One moment
+/// does not depend on the others.
+/// @param threads  >= 1; they do not change the result
+[[nodiscard]] std::vector<Hindsights> hindsights(std::span<const Moment> moments,
+                                                 const manoeuvre::Car& car,
+                                                 const outcome::HarmModel& harm, int threads = 1);
+[[nodiscard]] Hindsights hindsight(const Moment& moment, const manoeuvre::Car& car,
+                                   const outcome::HarmModel& harm);
 
 }  // namespace saca::loop

@@ -23,7 +23,11 @@ TEST(Hindsight, KnowsWhatEachPolicyWouldHaveDone) {
     return std::vector<world::Track>{{.X_WA = {scene.actors[0].X_WA}}};
   };
 
-  const auto all = hindsight(scene, stands, 0.5, car, harm);
+  const auto try_all = [&](double grip) {
+    return hindsight(Moment{.scene = scene, .others = stands, .grip = grip, .unknown = {}}, car,
+                     harm);
+  };
+  const Hindsights all = try_all(0.5);
   const auto of = [&](PolicyId policy) -> const Hindsight& {
     return all[manoeuvre::index(policy)];
   };
@@ -36,11 +40,10 @@ TEST(Hindsight, KnowsWhatEachPolicyWouldHaveDone) {
   EXPECT_LT(norm(nothing.course.ego.v_B.back()), 0.1);
   // On dry road braking would have been enough.
   scene.grip = 0.9;
-  EXPECT_FALSE(hindsight(scene, stands, 0.9, car, harm)[manoeuvre::index(PolicyId::aeb)]
-                   .facts.outcome.contact.has_value());
+  EXPECT_FALSE(try_all(0.9)[manoeuvre::index(PolicyId::aeb)].facts.outcome.contact.has_value());
   // A drift cannot be driven where the road is slippery enough.
   scene.grip = 0.15;
-  const auto slippery = hindsight(scene, stands, 0.15, car, harm);
+  const auto slippery = try_all(0.15);
   const Hindsight& drift = slippery[manoeuvre::index(PolicyId::t_drift_left)];
   EXPECT_TRUE(drift.course.ego.track.X_WA.empty());
   EXPECT_FALSE(drift.facts.refusal.empty());

@@ -72,7 +72,8 @@ json facts_json(const preview::PolicyFacts& facts, const world::Scene& scene) {
           {"contact", driven ? first_contact_json(facts.outcome, actors_of(scene)) : json(nullptr)},
           {"clearance_m", driven ? json(facts.outcome.clearance) : json(nullptr)},
           {"collision_loss", driven ? json(facts.outcome.collision_loss) : json(nullptr)},
-          {"harm", driven ? json(facts.outcome.harm) : json(nullptr)}};
+          {"harm", driven ? json(facts.outcome.harm) : json(nullptr)},
+          {"rolled_out", facts.rolled_out}};
 }
 
 json plan_json(const manoeuvre::Plan& plan) {
@@ -147,6 +148,9 @@ json decision_json(const Record& record) {
   out["preview"] = decision.preview ? json(*decision.preview) : json(nullptr);
   out["time_s"] = decision.time;
   out["gave_way_to_aeb"] = decision.gave_way_to_aeb;
+  out["forecast"] = decision.forecast ? json{{"harm", decision.forecast->plan},
+                                             {"aeb_harm", decision.forecast->aeb}}
+                                      : json(nullptr);
   out["text"] = decision_text(decision);
   return out;
 }

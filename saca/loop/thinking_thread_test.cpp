@@ -19,7 +19,7 @@ TEST(ThinkingThread, ThinksAboutTheNewestSceneAndEndsWhenAsked) {
   LatestSlot<decide::PlanCache> plans;
   std::atomic<int> num_events{0};
   decide::ThinkingPlane plane(
-      {.car = &car, .harm = &harm, .clock = &clock}, {},
+      {.forecast = {.car = &car, .harm = &harm}, .clock = &clock}, {},
       {.publish = [&](const decide::PlanCache& cache, double) { plans.publish(cache); },
        .event = [&](const decide::Event&) { ++num_events; },
        .reasoning = [](std::int32_t, std::string_view) {}});

@@ -12,6 +12,7 @@
 
 #include "saca/manoeuvre/atlas_for_test.h"
 #include "saca/outcome/encounters_for_test.h"
+#include "saca/outcome/roll_out.h"
 #include "tests/support/count_allocations.h"
 
 namespace saca::outcome {

@@ -117,16 +117,4 @@ struct Course {
                             std::span<const world::Track> tracks, const HarmModel& harm,
                             double grip);
 
-/// What happens if `plan` is carried out in this scene: full dynamics to rest or a recovered lane,
-/// or, when neither comes, for 20 s.
-/// @param grip  true friction coefficient
-/// @throws ContractViolation  if refusal(car, plan, scene) has a reason
-[[nodiscard]] Outcome roll_out(const manoeuvre::Car& car, const manoeuvre::Plan& plan,
-                               const world::Scene& scene, std::span<const world::Track> tracks,
-                               double grip, const HarmModel& harm);
-/// @param unknown  what else the ego's controller does not know; its grip is a factor of `grip`
-[[nodiscard]] Course roll_out(const manoeuvre::Car& car, const manoeuvre::Plan& plan,
-                              const world::Scene& scene, const Others& others, double grip,
-                              const HarmModel& harm, const manoeuvre::Unknown& unknown = {});
-
 }  // namespace saca::outcome

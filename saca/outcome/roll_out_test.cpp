@@ -6,7 +6,7 @@
 #include "saca/core/contract.h"
 #include "saca/manoeuvre/default_car.h"
 #include "saca/outcome/encounters_for_test.h"
-#include "saca/outcome/outcome.h"
+#include "saca/outcome/roll_out.h"
 
 namespace saca::outcome {
 namespace {
@@ -87,6 +87,58 @@ TEST(RollOut, ALaneChangePassesTheWreck) {
 
 TEST(RollOut, RefusesWhatCannotBeDriven) {
   EXPECT_THROW((void)Ahead(9.0, 20.0).after(PolicyId::t_drift_left, 0.9), ContractViolation);
+}
+
+// The reference is `roll_out`, one at a time; the batch ends within centimetres of it.
+TEST(RollOutAll, IsRollOutWithinCentimetres) {
+  std::vector<Ahead> scenes;
+  for (const double speed : {8.0, 14.0, 22.0}) {
+    for (const double gap : {9.0, 20.0, 45.0}) {
+      scenes.emplace_back(speed, gap);
+    }
+  }
+  std::vector<Others> others;
+  for (const Ahead& ahead : scenes) {
+    others.emplace_back([&ahead](const manoeuvre::EgoMotion&) { return ahead.tracks; });
+  }
+  std::vector<Attempt> attempts;
+  std::vector<Outcome> wanted;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    for (const PolicyId policy : manoeuvre::all_policies) {
+      const auto plan = manoeuvre::default_plan(policy, scenes[i].scene.ego.v_B.x);
+      if (!manoeuvre::refusal(car(), plan, scenes[i].scene)) {
+        attempts.push_back({plan, &scenes[i].scene, &others[i], 0.8, {}});
+        wanted.push_back(scenes[i].after(policy, 0.8));
+      }
+    }
+  }
+  const std::vector<Course> got = roll_out_all(car(), attempts, shipped_harm());
+  const std::vector<Course> on_two = roll_out_all(car(), attempts, shipped_harm(), 2);
+  ASSERT_EQ(got.size(), wanted.size());
+  for (std::size_t k = 0; k < got.size(); ++k) {
+    const Outcome& outcome = got[k].outcome;
+    const std::string_view policy = name(attempts[k].plan.policy);
+    ASSERT_EQ(outcome.contact.has_value(), wanted[k].contact.has_value()) << policy;
+    EXPECT_NEAR(outcome.clearance, wanted[k].clearance, 0.05) << policy;
+    EXPECT_NEAR(outcome.end_time, wanted[k].end_time, 0.03) << policy;
+    if (outcome.contact) {
+      EXPECT_NEAR(outcome.contact->relative_speed, wanted[k].contact->relative_speed, 0.05)
+          << policy;
+      EXPECT_EQ(outcome.contact->ego_face, wanted[k].contact->ego_face) << policy;
+    }
+    EXPECT_EQ(outcome.harm, on_two[k].outcome.harm) << policy;
+    EXPECT_EQ(outcome.clearance, on_two[k].outcome.clearance) << policy;
+  }
+}
+
+TEST(RollOutAll, RefusesWhatCannotBeDriven) {
+  const Ahead ahead(9.0, 20.0);
+  const Others others = [&](const manoeuvre::EgoMotion&) { return ahead.tracks; };
+  const std::vector<Attempt> drift{{{PolicyId::t_drift_left, {}}, &ahead.scene, &others, 0.9, {}}};
+  EXPECT_THROW((void)roll_out_all(car(), drift, shipped_harm()), ContractViolation);
+  const std::vector<Attempt> nowhere{{{PolicyId::aeb, {}}, nullptr, &others, 0.9, {}}};
+  EXPECT_THROW((void)roll_out_all(car(), nowhere, shipped_harm()), ContractViolation);
+  EXPECT_TRUE(roll_out_all(car(), {}, shipped_harm()).empty());
 }
 
 }  // namespace

@@ -1,16 +1,35 @@
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
+#include "saca/core/static_vector.h"
 #include "saca/outcome/outcome.h"
 #include "saca/world/scene.h"
 #include "saca/world/track.h"
 
 namespace saca::preview {
 
-/// How the others move in a forecast that begins in `scene`: those who follow in the ego's path
-/// (world::is_follower) are usual drivers, content with the gap that they have, and react to what
-/// is ahead of them, the ego first; everyone else keeps to its track.
+/// Those who follow in the ego's path (world::is_follower): indices of the scene's actors, the
+/// nearest to the ego first. Each reacts to those before it.
+using Followers = StaticVector<std::size_t, world::max_actors>;
+[[nodiscard]] Followers followers_of(const world::Scene& scene);
+
+/// How the followers move when the ego moves so: they are usual drivers, content with the gap that
+/// they have, and react to what is ahead of them, the ego first.
+///
+/// @param X_WB    the ego from scene.time on
+/// @param until   of the followers' tracks [s]
+/// @param step    likewise [s]
+/// @param tracks  one per actor of the scene; those of the followers are written over. Allocates
+///                nothing where they have room for (until - scene.time) / step + 2 poses
+/// @throws ContractViolation  if tracks and actors differ in number
+void let_react(const world::Scene& scene, const Followers& followers, const world::Track& X_WB,
+               double until, double step, std::span<world::Track> tracks);
+
+/// How the others move in a forecast that begins in `scene`: the followers react, everyone else
+/// keeps to its track.
 ///
 /// @param tracks  one per actor of the scene
 /// @throws ContractViolation  if tracks and actors differ in number

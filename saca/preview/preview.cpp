@@ -2,9 +2,7 @@
 
 #include <algorithm>
 
-#include "saca/manoeuvre/drive.h"
-#include "saca/outcome/ordering.h"
-#include "saca/preview/followers.h"
+#include "saca/intent/intention.h"
 #include "saca/world/time_to_conflict.h"
 
 namespace saca::preview {
@@ -123,37 +121,8 @@ Scene moved_on(const Scene& scene, const std::vector<Track>& tracks, double afte
 
 }  // namespace
 
-std::array<PolicyFacts, manoeuvre::num_policies> policy_facts(const Scene& scene,
-                                                              const std::vector<Track>& tracks,
-                                                              const manoeuvre::Car& car,
-                                                              const outcome::HarmModel& harm) {
-  const outcome::Others others = with_reacting_followers(scene, tracks);
-  std::array<PolicyFacts, manoeuvre::num_policies> facts;
-  for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
-    PolicyFacts& fact = facts[manoeuvre::index(policy)];
-    fact.plan = manoeuvre::default_plan(policy, norm(scene.ego.v_B));
-    fact.refusal = manoeuvre::refusal(car, fact.plan, scene).value_or("");
-    if (fact.refusal.empty()) {
-      fact.outcome = outcome::roll_out(car, fact.plan, scene, others, scene.grip, harm).outcome;
-    }
-  }
-  return facts;
-}
-
-manoeuvre::PolicyId best_by_forecast(
-    const std::array<PolicyFacts, manoeuvre::num_policies>& facts) {
-  const PolicyFacts* best = &facts[manoeuvre::index(manoeuvre::PolicyId::aeb)];
-  for (const PolicyFacts& fact : facts) {
-    if (fact.refusal.empty() &&
-        outcome::better(fact.outcome, fact.plan.policy, best->outcome, best->plan.policy)) {
-      best = &fact;
-    }
-  }
-  return best->plan.policy;
-}
-
 std::vector<Situation> situations(const Scene& scene, const Thresholds& thresholds,
-                                  const manoeuvre::Car& car, const outcome::HarmModel& harm) {
+                                  const ForecastTools& tools) {
   std::vector<IntentPosterior> posteriors;
   for (const Actor& actor : scene.actors) {
     posteriors.push_back(intent::posterior(scene, actor));
@@ -178,7 +147,7 @@ std::vector<Situation> situations(const Scene& scene, const Thresholds& threshol
     for (const Actor& actor : situation.scene_at_trigger.actors) {
       situation.risks.push_back(reach::obstacle_risk(situation.scene_at_trigger, actor));
     }
-    situation.facts = policy_facts(situation.scene_at_trigger, tracks, car, harm);
+    situation.facts = policy_facts(situation.scene_at_trigger, tracks, tools);
     situation.tracks = std::move(tracks);
     found.push_back(std::move(situation));
     if (found.size() == max_situations) {

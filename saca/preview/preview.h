@@ -1,14 +1,9 @@
 #pragma once
 
-#include <array>
-#include <optional>
-#include <string>
+#include <cstddef>
 #include <vector>
 
-#include "saca/intent/intention.h"
-#include "saca/manoeuvre/car.h"
-#include "saca/manoeuvre/plan.h"
-#include "saca/outcome/outcome.h"
+#include "saca/preview/policy_facts.h"
 #include "saca/preview/situation.h"
 #include "saca/preview/threat.h"
 
@@ -24,21 +19,9 @@ constexpr std::size_t max_situations = 3;
 /// goes on as it does until T1 before the conflict. Empty when no combination is in conflict within
 /// T2.
 ///
-/// Source: the paper, section IV-C, and reasoning in docs/architecture.md. Tens of milliseconds:
-/// each policy is driven with full dynamics.
+/// Source: the paper, section IV-C, and reasoning in docs/architecture.md.
 [[nodiscard]] std::vector<Situation> situations(const world::Scene& scene,
                                                 const Thresholds& thresholds,
-                                                const manoeuvre::Car& car,
-                                                const outcome::HarmModel& harm);
-
-/// What each policy ends in when it begins in `scene` and the actors follow their tracks, those
-/// behind the ego but react to it: see with_reacting_followers.
-[[nodiscard]] std::array<PolicyFacts, manoeuvre::num_policies> policy_facts(
-    const world::Scene& scene, const std::vector<world::Track>& tracks, const manoeuvre::Car& car,
-    const outcome::HarmModel& harm);
-
-/// The policy whose forecast is best by the one ordering; ties go to the milder.
-[[nodiscard]] manoeuvre::PolicyId best_by_forecast(
-    const std::array<PolicyFacts, manoeuvre::num_policies>& facts);
+                                                const ForecastTools& tools);
 
 }  // namespace saca::preview

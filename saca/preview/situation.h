@@ -18,6 +18,7 @@ struct PolicyFacts {
   manoeuvre::Plan plan;
   std::string refusal;       ///< empty when the plan can be driven
   outcome::Outcome outcome;  ///< meaningless when refused
+  bool rolled_out = false;   ///< with full dynamics; else read from the atlas
 };
 
 /// A likely situation at the trigger: the forecast scene, with all that is computed about it.

@@ -1,0 +1,88 @@
+#include "saca/decide/trigger_check.h"
+
+#include <gtest/gtest.h>
+
+#include "saca/manoeuvre/atlas_for_test.h"
+#include "saca/outcome/roll_out.h"
+
+namespace saca::decide {
+namespace {
+
+using manoeuvre::PolicyId;
+using manoeuvre::small_atlas;
+using manoeuvre::small_atlas_car;
+
+const outcome::HarmModel& harm() {
+  static const outcome::HarmModel model = outcome::read_harm("data/harm.toml").value();
+  return model;
+}
+
+/// 12.5 m/s on a wide road.
+world::Scene road() {
+  world::Scene scene = manoeuvre::atlas_scene(12.5, 0.85, 3.5);
+  scene.ego_mass = small_atlas_car().mass;
+  return scene;
+}
+
+world::Actor car(Vec2 p_W, double speed) {
+  world::Actor actor{.id = 1, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1'500.0};
+  actor.X_WA.p = p_W;
+  actor.v_W = {speed, 0.0};
+  return actor;
+}
+
+manoeuvre::Plan plan(PolicyId policy) {
+  return manoeuvre::atlas_plan(policy, 12.5);
+}
+
+// Full dynamics against the same tracks are the reference: a wreck too near to stop.
+TEST(TriggerCheck, SaysWhatFullDynamicsSay) {
+  TriggerCheck check(small_atlas(), harm());
+  world::Scene scene = road();
+  scene.actors.push_back(car({10.0, 0.0}, 0.0));
+  const std::vector<world::Track> stands{{.X_WA = {scene.actors[0].X_WA}}};
+  const auto told = check.compare(plan(PolicyId::aes_left), scene);
+  ASSERT_TRUE(told.has_value());
+  const auto rolled = [&](PolicyId policy) {
+    return roll_out(small_atlas_car(), plan(policy), scene, stands, scene.grip, harm()).harm;
+  };
+  EXPECT_GT(rolled(PolicyId::aeb), 0.0);
+  EXPECT_NEAR(told->aeb, rolled(PolicyId::aeb), 0.1 * rolled(PolicyId::aeb));
+  EXPECT_GT(rolled(PolicyId::aes_left), rolled(PolicyId::aeb));  // too near for a swerve, too
+  EXPECT_TRUE(told->plan_harms_more());
+}
+
+// Braking lets a near follower run into the ego; who does not react at all would do so as well when
+// the ego just goes on more slowly, but a swerve leaves its way.
+TEST(TriggerCheck, FollowersReactInBoth) {
+  TriggerCheck check(small_atlas(), harm());
+  world::Scene near = road();
+  near.actors.push_back(car({-8.0, 0.0}, 12.5));
+  const auto pressed = check.compare(plan(PolicyId::aes_left), near);
+  ASSERT_TRUE(pressed.has_value());
+  EXPECT_GT(pressed->aeb, 0.0);
+  EXPECT_EQ(pressed->plan, 0.0);
+  // 60 m behind there is time for the usual 1.25 s and a firm stop.
+  world::Scene far = road();
+  far.actors.push_back(car({-60.0, 0.0}, 12.5));
+  EXPECT_EQ(check.compare(plan(PolicyId::aes_left), far)->aeb, 0.0);
+}
+
+TEST(TriggerCheck, DoesNotTellWhatTheAtlasDoesNotHave) {
+  TriggerCheck check(small_atlas(), harm());
+  world::Scene fast = road();
+  fast.ego.v_B.x = 14.0;
+  EXPECT_FALSE(check.compare(plan(PolicyId::aes_left), fast).has_value());
+  EXPECT_TRUE(check.compare(plan(PolicyId::aes_left), road()).has_value());
+}
+
+// A class is a ten-thousandth of harm: less is no difference.
+TEST(Comparison, CountsInClasses) {
+  EXPECT_FALSE((Comparison{0.10001, 0.10002}.plan_harms_more()));
+  EXPECT_FALSE((Comparison{0.10002, 0.10001}.plan_harms_more()));
+  EXPECT_TRUE((Comparison{0.1003, 0.1}.plan_harms_more()));
+  EXPECT_FALSE((Comparison{0.1, 0.1003}.plan_harms_more()));
+}
+
+}  // namespace
+}  // namespace saca::decide

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "saca/manoeuvre/car.h"
+#include "saca/manoeuvre/plan.h"
+#include "saca/manoeuvre/unknown.h"
+#include "saca/outcome/harm.h"
+#include "saca/outcome/outcome.h"
+#include "saca/world/scene.h"
+#include "saca/world/track.h"
+
+namespace saca::outcome {
+
+/// What happens if `plan` is carried out in this scene: full dynamics to rest or a recovered lane,
+/// or, when neither comes, for 20 s. The reference, one at a time: `drive`, then `play_out`.
+/// @param grip  true friction coefficient
+/// @throws ContractViolation  if refusal(car, plan, scene) has a reason
+[[nodiscard]] Outcome roll_out(const manoeuvre::Car& car, const manoeuvre::Plan& plan,
+                               const world::Scene& scene, std::span<const world::Track> tracks,
+                               double grip, const HarmModel& harm);
+
+/// One plan to be tried, of many. What it points to is not null and outlives the call.
+struct Attempt {
+  manoeuvre::Plan plan;
+  const world::Scene* scene = nullptr;
+  const Others* others = nullptr;
+  double grip = 0.0;           ///< true friction coefficient
+  manoeuvre::Unknown unknown;  ///< what else the controller does not know; its grip is a factor of
+                               ///< `grip`
+};
+
+/// What comes of each, driven side by side by the batch (manoeuvre/batch.h): as `roll_out`, but
+/// that the ego's way may be centimetres off, and twenty times as fast. One does not depend on the
+/// others.
+/// @param threads  >= 1; they do not change the result
+/// @return         in the order of `attempts`
+/// @throws ContractViolation  as roll_out
+[[nodiscard]] std::vector<Course> roll_out_all(const manoeuvre::Car& car,
+                                               std::span<const Attempt> attempts,
+                                               const HarmModel& harm, int threads = 1);
+
+}  // namespace saca::outcome

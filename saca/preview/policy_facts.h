@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "saca/manoeuvre/atlas.h"
+#include "saca/manoeuvre/car.h"
+#include "saca/manoeuvre/plan.h"
+#include "saca/outcome/harm.h"
+#include "saca/preview/situation.h"
+
+namespace saca::preview {
+
+/// What futures are forecast with. What it points to outlives the forecasts.
+struct ForecastTools {
+  const manoeuvre::Car* car = nullptr;
+  const outcome::HarmModel* harm = nullptr;
+  const manoeuvre::Atlas* atlas = nullptr;  ///< of this car; nullptr: everything is rolled out
+};
+
+/// What each policy ends in when it begins in `scene` and the actors follow their tracks, those
+/// behind the ego but react to it: see with_reacting_followers. 3 and 4 brake to whichever of
+/// outcome::target_shares of the speed is best.
+///
+/// Read from the atlas in tenths of a millisecond. Where that has not all that can be driven, all
+/// of it is rolled out, in milliseconds: the atlas counts a first contact only, so figures of the
+/// two are not compared.
+[[nodiscard]] std::array<PolicyFacts, manoeuvre::num_policies> policy_facts(
+    const world::Scene& scene, const std::vector<world::Track>& tracks, const ForecastTools& tools);
+
+/// What these plans end in, with full dynamics, whatever the atlas says: for the rollout check.
+[[nodiscard]] std::vector<PolicyFacts> rolled_out(const world::Scene& scene,
+                                                  const std::vector<world::Track>& tracks,
+                                                  std::span<const manoeuvre::Plan> plans,
+                                                  const ForecastTools& tools);
+
+/// The policy whose forecast is best by the one ordering; ties go to the milder.
+[[nodiscard]] manoeuvre::PolicyId best_by_forecast(
+    const std::array<PolicyFacts, manoeuvre::num_policies>& facts);
+
+}  // namespace saca::preview
