@@ -21,7 +21,6 @@ build: setup
 	@tools/model/setup.sh llama
 	@cmake --preset release > /dev/null
 	@cmake --build --preset release
-	@build/release/saca atlas build
 
 model: setup
 	@tools/model/setup.sh all

@@ -163,7 +163,7 @@ function show_previews(record, show_in_plan) {
 
 function show_run(record) {
   const { timing, scenario } = record;
-  const rows = [["Scenario", scenario.name], ["Source", scenario.source], ["Pace", record.pace], ["Language model", record.model],
+  const rows = [["Scenario", scenario.name], ["Source", scenario.source], ["Pace", record.pace], ["Language model", record.model], ["Forecasts", record.atlas ? "from the atlas" : "all rolled out"],
     ["Grip", num(record.grip, 2)], ["Stored in memory as", record.case === null || record.case === undefined ? "not stored" : `case ${record.case}`],
     ["Reflex calls", is_number(timing.reflex_calls) ? String(timing.reflex_calls) : none],
     ["Reflex call, median / longest", `${num(timing.reflex_us_p50, 1)} / ${num(timing.reflex_us_max, 1, "µs")}`],

@@ -10,15 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "apps/saca/atlas_making.h"
 #include "apps/saca/commands.h"
 #include "apps/saca/inputs.h"
 #include "apps/saca/places.h"
 #include "apps/saca/progress.h"
-#include "saca/core/clock.h"
-#include "saca/core/file.h"
 #include "saca/core/parallel.h"
 #include "saca/eval/atlas_check.h"
-#include "saca/manoeuvre/atlas_build.h"
 #include "saca/manoeuvre/atlas_file.h"
 #include "saca/sim/splits.h"
 
@@ -49,46 +47,23 @@ int build(const AtlasOptions& options) {
   if (!inputs.has_value()) {
     return refused(inputs.error());
   }
-  const manoeuvre::Car& car = inputs.value().car;
   const fs::path output = options.file.empty()
                               ? atlas_place(inputs.value().places, inputs.value().car_name)
                               : fs::path(options.file);
-  if (manoeuvre::read_atlas(output, car).has_value()) {
+  if (manoeuvre::read_atlas(output, inputs.value().car).has_value()) {
     fmt::print("{} is there and right for this car\n", output.string());
     return success;
   }
-  if (auto problem = make_folder_of(output)) {
-    return refused(*problem);
+  const auto atlas = make_atlas(inputs.value(), output, options.threads);
+  if (!atlas.has_value()) {
+    return refused(atlas.error());
   }
-  watch_for_interrupt();
-  SteadyClock clock;
-  const auto grid = manoeuvre::default_atlas_grid();
-  const fs::path journal = output.string() + ".journal";
-  const auto all = static_cast<int>(num_nodes(grid));
-  ProgressLine line("atlas", all, clock);
-  const auto nodes = manoeuvre::build_atlas(
-      car, grid, options.threads, journal, [&](const manoeuvre::AtlasProgress& progress) {
-        line.show(static_cast<int>(progress.done), static_cast<int>(progress.remembered),
-                  " points");
-        return !interrupted();
-      });
-  if (!nodes.has_value()) {
-    return refused(nodes.error());
-  }
-  if (nodes.value() == nullptr) {
-    complain(fmt::format(
-        "interrupted; {} was not written. The same command goes on where this one stopped.",
-        output.string()));
+  if (!atlas.value()) {
     return was_interrupted;
   }
-  const std::string bytes = manoeuvre::atlas_bytes(car, grid, *nodes.value());
-  if (auto problem = write_file(output, bytes)) {
-    return refused(*problem);
-  }
-  std::error_code ignored;
-  fs::remove(journal, ignored);
-  fmt::print("{}: {} points, {:.1f} MB\n", output.string(), all,
-             1e-6 * static_cast<double>(bytes.size()));
+  std::error_code unknown;
+  fmt::print("{}: {} points, {:.1f} MB\n", output.string(), atlas.value()->nodes().size(),
+             1e-6 * static_cast<double>(fs::file_size(output, unknown)));
   return success;
 }
 

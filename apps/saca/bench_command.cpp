@@ -7,16 +7,19 @@
 #include <random>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "apps/saca/atlas_making.h"
 #include "apps/saca/commands.h"
 #include "apps/saca/inputs.h"
 #include "apps/saca/places.h"
 #include "saca/core/clock.h"
 #include "saca/core/percentile.h"
 #include "saca/decide/reflex_plane.h"
-#include "saca/manoeuvre/atlas_file.h"
+#include "saca/decide/trigger_check.h"
+#include "saca/manoeuvre/atlas.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/manoeuvre/controller.h"
 #include "saca/manoeuvre/ego.h"
@@ -47,6 +50,8 @@ void bench_vehicle(const manoeuvre::Car& car, Clock& clock, json& figures) {
   }
   figures["vehicle.steps_per_s"] = num_stops * num_steps / to_seconds(clock.now() - start);
 }
+
+constexpr manoeuvre::Plan swerve{manoeuvre::PolicyId::aes_left, std::nullopt};
 
 /// A scene with `num_actors` others on three lanes; `rng` moves them a little.
 world::Scene crowd(const manoeuvre::Car& car, int num_actors, std::mt19937& rng) {
@@ -85,25 +90,27 @@ std::vector<double> machine_times(Clock& clock, double wanted, int num_calls) {
 }
 
 /// Percentiles of one reflex step: six plans received, threats looked for, and where the scene
-/// triggers, matched and decided. How many of them trigger is printed too.
-void bench_reflex(const manoeuvre::Car& car, Clock& clock, int num_calls, json& figures) {
+/// triggers, matched, looked ahead by the atlas and decided. How many of them trigger is printed
+/// too.
+void bench_reflex(const Inputs& inputs, const manoeuvre::Atlas& atlas, Clock& clock, int num_calls,
+                  json& figures) {
   for (const int num_actors : {1, 8, 32}) {
     std::mt19937 rng(1);
     constexpr int num_scenes = 64;
     std::vector<world::Scene> scenes;
     scenes.reserve(num_scenes);
     for (int i = 0; i < num_scenes; ++i) {
-      scenes.push_back(crowd(car, num_actors, rng));
+      scenes.push_back(crowd(inputs.car, num_actors, rng));
     }
     decide::PlanCache plans;
     for (std::size_t i = 0; i < decide::PlanCache::capacity(); ++i) {
-      plans.push_back({.at_trigger = memory::features(scenes[i]), .plan = {}});
+      plans.push_back({.at_trigger = memory::features(scenes[i]), .plan = swerve});
     }
     std::vector<double> times;
     times.reserve(static_cast<std::size_t>(num_calls));
     int num_triggered = 0;
     for (int call = 0; call < num_calls; ++call) {
-      decide::ReflexPlane plane(preview::Thresholds{});
+      decide::ReflexPlane plane(preview::Thresholds{}, decide::TriggerCheck(atlas, inputs.harm));
       const world::Scene& scene = scenes[static_cast<std::size_t>(call) % scenes.size()];
       const Clock::Time start = clock.now();
       plane.receive(plans);
@@ -120,6 +127,40 @@ void bench_reflex(const manoeuvre::Car& car, Clock& clock, int num_calls, json& 
     figures["decide.reflex_us.n" + suffix] = num_calls;
     figures["decide.reflex_us.triggered_share" + suffix] =
         static_cast<double>(num_triggered) / num_calls;
+  }
+}
+
+/// Percentiles of the check at the trigger alone, without and with somebody behind.
+void bench_trigger_check(const Inputs& inputs, const manoeuvre::Atlas& atlas, Clock& clock,
+                         int num_calls, json& figures) {
+  decide::TriggerCheck check(atlas, inputs.harm);
+  for (const int num_actors : {1, 8, 32}) {
+    for (const bool followed : {false, true}) {
+      std::mt19937 rng(1);
+      std::vector<world::Scene> scenes;
+      for (int i = 0; i < 64; ++i) {
+        scenes.push_back(crowd(inputs.car, num_actors, rng));
+        if (followed) {
+          world::Actor& last = scenes.back().actors[scenes.back().actors.size() - 1];
+          last.X_WA.p = {-20.0, 0.0};
+          last.v_W = scenes.back().ego.v_B;
+        }
+      }
+      std::vector<double> times;
+      int told = 0;
+      for (int call = 0; call < num_calls; ++call) {
+        const world::Scene& scene = scenes[static_cast<std::size_t>(call) % scenes.size()];
+        const Clock::Time start = clock.now();
+        told += check.compare(swerve, scene) ? 1 : 0;
+        times.push_back(1e6 * to_seconds(clock.now() - start));
+      }
+      const std::string suffix =
+          fmt::format(".actors{}{}", num_actors, followed ? ".followed" : "");
+      figures["decide.trigger_check_us.p50" + suffix] = percentile(times, 0.5);
+      figures["decide.trigger_check_us.p99" + suffix] = percentile(times, 0.99);
+      figures["decide.trigger_check_us.told_share" + suffix] =
+          static_cast<double>(told) / num_calls;
+    }
   }
 }
 
@@ -170,41 +211,37 @@ void bench_atlas(const manoeuvre::Car& car, const manoeuvre::Atlas& atlas,
 }
 
 struct BenchOptions {
-  std::string atlas;
   std::string what = "all";
   int calls = 1'000'000;
   bool as_json = false;
 };
 
 int bench(const BenchOptions& options) {
-  const auto places = find_places();
-  if (!places.has_value()) {
-    complain(places.error().message);
+  const auto read = read_inputs("compact_rwd_ev");
+  if (!read.has_value()) {
+    complain(read.error().message);
     return bad_input;
   }
-  const auto car =
-      manoeuvre::read_car(places.value().root / "data" / "vehicles" / "compact_rwd_ev.toml");
-  if (!car.has_value()) {
-    complain(car.error().message);
-    return bad_input;
+  const Inputs& inputs = read.value();
+  const auto atlas = usual_atlas(inputs);
+  if (!atlas) {
+    return was_interrupted;
   }
   SteadyClock clock;
   json figures;
-  if (options.what == "all" || options.what == "vehicle") {
-    bench_vehicle(car.value(), clock, figures);
+  const auto asked = [&](std::string_view what) {
+    return options.what == "all" || options.what == what;
+  };
+  if (asked("vehicle")) {
+    bench_vehicle(inputs.car, clock, figures);
   }
-  if (options.what == "all" || options.what == "decide") {
-    bench_reflex(car.value(), clock, options.calls, figures);
+  const int fewer_calls = std::min(options.calls, 10'000);
+  if (asked("decide")) {
+    bench_reflex(inputs, *atlas, clock, options.calls, figures);
+    bench_trigger_check(inputs, *atlas, clock, fewer_calls, figures);
   }
-  if (options.what == "atlas" || !options.atlas.empty()) {
-    const auto inputs = read_inputs("compact_rwd_ev");
-    const auto atlas = manoeuvre::read_atlas(options.atlas, car.value());
-    if (!inputs.has_value() || !atlas.has_value()) {
-      complain(inputs.has_value() ? atlas.error().message : inputs.error().message);
-      return bad_input;
-    }
-    bench_atlas(car.value(), atlas.value(), inputs.value().harm, clock,
-                std::min(options.calls, 10'000), figures);
+  if (asked("atlas")) {
+    bench_atlas(inputs.car, *atlas, inputs.harm, clock, fewer_calls, figures);
   }
   if (options.as_json) {
     fmt::print("{}\n", figures.dump(1));
@@ -219,14 +256,12 @@ int bench(const BenchOptions& options) {
 }  // namespace
 
 void add_bench(CLI::App& line, int& exit_code) {
-  CLI::App* const command =
-      line.add_subcommand("bench", "Measure: vehicle steps, the reflex plane, the atlas");
+  CLI::App* const command = line.add_subcommand(
+      "bench", "Measure: vehicle steps, the reflex plane with its check, the atlas");
   const auto options = std::make_shared<BenchOptions>();
   command->add_option("what", options->what, "all, vehicle, decide or atlas")
       ->check(CLI::IsMember({"all", "vehicle", "decide", "atlas"}))
       ->capture_default_str();
-  command->add_option("--atlas", options->atlas,
-                      "The file; with `all`, without it the atlas is left out");
   command->add_option("--calls", options->calls, "Of the reflex plane, for each number of actors")
       ->check(CLI::Range(1'000, 100'000'000))
       ->capture_default_str();

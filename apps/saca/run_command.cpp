@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "apps/saca/atlas_making.h"
 #include "apps/saca/commands.h"
 #include "apps/saca/inputs.h"
 #include "apps/saca/model.h"
@@ -46,22 +47,18 @@ Result<loop::ThinkingCosts> read_costs(const Places& places) {
   return loop::read_thinking_costs(text.value(), file.string());
 }
 
-/// nullopt: none was asked for, or none is where atlases are.
+/// nullopt: none is wanted.
 Result<std::optional<manoeuvre::Atlas>> open_atlas(const RunOptions& options,
                                                    const ScenarioInputs& inputs) {
-  std::error_code problem;
-  const fs::path usual = atlas_place(inputs.places, inputs.car_name);
-  if (options.atlas == "off" || (options.atlas.empty() && !fs::exists(usual, problem))) {
+  if (options.atlas == "off") {
     return std::optional<manoeuvre::Atlas>();
   }
-  auto atlas = read_atlas(options.atlas.empty() ? usual : fs::path(options.atlas), inputs.car);
-  if (!atlas.has_value()) {
-    return Error{
-        atlas.error().code,
-        fmt::format("{} (saca atlas build --car {} makes a new one; --atlas off goes without)",
-                    atlas.error().message, inputs.car_name)};
+  if (options.atlas.empty()) {
+    return usual_atlas(inputs);
   }
-  return std::optional(std::move(atlas.value()));
+  auto atlas = manoeuvre::read_atlas(options.atlas, inputs.car);
+  return atlas.has_value() ? Result<std::optional<manoeuvre::Atlas>>(std::optional(atlas.value()))
+                           : atlas.error();
 }
 
 std::optional<Error> write_outputs(const std::string& record, const fs::path& folder,
@@ -111,8 +108,11 @@ int run(const RunOptions& options) {
   }
   const auto atlas = open_atlas(options, inputs.value());
   if (!atlas.has_value()) {
-    complain(atlas.error().message);
+    complain(atlas.error().message + " (--atlas off does without)");
     return bad_input;
+  }
+  if (!atlas.value() && options.atlas != "off") {
+    return was_interrupted;
   }
   std::unique_ptr<memory::Store> memory;
   if (!options.no_memory) {
@@ -215,8 +215,8 @@ void add_run(CLI::App& line, int& exit_code) {
   command->add_option("--seed", options->seed,
                       "Draw what is left to chance (default: as the scenario is written)");
   command->add_option("--atlas", options->atlas,
-                      "An atlas of the car, or off: every forecast is rolled out (default: what "
-                      "`saca atlas build` left)");
+                      "A file of `saca atlas build` for this car, or off: every forecast is rolled "
+                      "out (default: it is built when needed)");
   command->add_option("--memory", options->memory, "The memory bank")->capture_default_str();
   command->add_flag("--no-memory", options->no_memory, "Neither ask nor fill a memory");
   command->add_option("--output", options->output, "Folder for records and reports")

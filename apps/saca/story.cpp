@@ -42,9 +42,10 @@ void Story::on_reasoning(std::int32_t, std::string_view) {
 
 void Story::headline(const sim::Scenario& scenario, const loop::Setup& setup) {
   const std::lock_guard guard(lock_);
-  fmt::print(stream_, "{}\n{}\nPace {}, grip {:.2f}, language model: {}.\n\n", scenario.title,
-             scenario.source, name(setup.pace), scenario.grip,
-             setup.model == nullptr ? "off" : setup.model->description());
+  fmt::print(stream_, "{}\n{}\nPace {}, grip {:.2f}, language model: {}, forecasts: {}.\n\n",
+             scenario.title, scenario.source, name(setup.pace), scenario.grip,
+             setup.model == nullptr ? "off" : setup.model->description(),
+             setup.atlas == nullptr ? "rolled out" : "from the atlas");
 }
 
 void Story::ending(const sim::Scenario& scenario, const loop::Record& record) {

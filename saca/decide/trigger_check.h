@@ -28,6 +28,11 @@ class TriggerCheck {
  public:
   /// Refers to `harm`.
   TriggerCheck(const manoeuvre::Atlas& atlas, const outcome::HarmModel& harm);
+  TriggerCheck(TriggerCheck&&) = default;
+  TriggerCheck& operator=(TriggerCheck&&) = default;
+  TriggerCheck(const TriggerCheck&) = delete;  // a copy would not have the room
+  TriggerCheck& operator=(const TriggerCheck&) = delete;
+  ~TriggerCheck() = default;
 
   /// @param scene  breaks no rule
   /// @return       nullopt when the atlas cannot tell of one of the two. Allocates nothing

@@ -265,6 +265,7 @@ std::string record_json(const Setup& setup, const Record& record) {
         {"driver", scenario.driver.empty() ? json(nullptr) : json(scenario.driver)}}},
       {"pace", name(setup.pace)},
       {"model", setup.model == nullptr ? "off" : setup.model->description()},
+      {"atlas", setup.atlas != nullptr},
       {"grip", record.grip},
       {"thresholds",
        {{"trigger_s", setup.thresholds.trigger}, {"preview_s", setup.thresholds.preview}}},

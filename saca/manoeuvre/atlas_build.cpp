@@ -5,6 +5,8 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -14,8 +16,9 @@
 #include "saca/core/fnv.h"
 #include "saca/core/journal.h"
 #include "saca/core/parallel.h"
+#include "saca/manoeuvre/batch.h"
+#include "saca/manoeuvre/drive.h"
 #include "saca/manoeuvre/ego.h"
-#include "saca/manoeuvre/ride.h"
 
 namespace saca::manoeuvre {
 namespace {
@@ -24,6 +27,7 @@ constexpr double least_width = 2.0;  // lanes that `refusal` allows [m]
 constexpr double most_width = 6.0;
 constexpr double longest_stop = 120.0;  // [s]
 constexpr double keep_time = 20.0;      // as roll_out drives what never ends [s]
+constexpr std::size_t nodes_at_once = 32;
 
 // Where on the grid.
 struct Point {
@@ -99,60 +103,40 @@ double span_of(const Point& point) {
 
 // A drive as it was: six numbers every `step`, of the lane's frame at the start.
 struct Trace {
-  static constexpr int steps = 5;  // of the vehicle model between two looks
-  static constexpr double step = steps * vehicle::usual_step;
+  double step = 0.01;                       ///< [s]
   std::vector<std::array<double, 6>> look;  ///< x, y, heading, and their rates
-  double length = 0.0;                      ///< [s]; the last look may come early
   double end = 0.0;                         ///< [s]
   bool ended = false;
 };
 
-std::array<double, 6> seen(const vehicle::VehicleState& state, double start_y, double heading) {
-  const Vec2 v_L = rotated(state.v_B, state.X_WB.yaw);
-  return {state.X_WB.p.x, state.X_WB.p.y - start_y, heading, v_L.x, v_L.y, state.yaw_rate};
-}
-
-// Follows a ride to rest, or for `span` where it does not end so.
-Trace follow(const Car& car, const Point& point, double factor, double span) {
-  const world::Scene scene = scene_of(car, point);
-  Ride ride(car, plan_of(point), scene, std::min(1.2, point.grip * factor));
-  const bool rests = ends_at_rest(point.kind);
-  const auto num_steps =
-      static_cast<long>(std::ceil((rests ? longest_stop : span) / vehicle::usual_step));
-  const double start_y = scene.ego.X_WB.p.y;
-  Trace trace;
+// @param longest  what comes later is left out, and the drive has then not ended
+Trace trace_of(const EgoMotion& motion, double longest) {
+  const std::vector<Pose>& X_LB = motion.track.X_WA;
+  Trace trace{.step = motion.track.step};
+  const auto most = static_cast<std::size_t>(std::ceil(longest / trace.step - 1e-9)) + 1;
+  const std::size_t count = std::min(X_LB.size(), most);
   double heading = 0.0;
-  trace.look.push_back(seen(ride.state(), start_y, heading));
-  long k = 0;
-  bool on = !(rests && ride.ended());
-  while (on) {
-    ride.step();
-    ++k;
-    if (!trace.ended && ride.ended()) {
-      trace.ended = true;
-      trace.end = static_cast<double>(k) * vehicle::usual_step;
-    }
-    on = k < num_steps && !(rests && trace.ended);
-    if (k % Trace::steps == 0 || !on) {
-      heading += wrap_angle(ride.state().X_WB.yaw - heading);
-      trace.look.push_back(seen(ride.state(), start_y, heading));
-    }
+  for (std::size_t i = 0; i < count; ++i) {
+    heading += wrap_angle(X_LB[i].yaw - heading);
+    const Vec2 v_L = rotated(motion.v_B[i], X_LB[i].yaw);
+    trace.look.push_back(
+        {X_LB[i].p.x, X_LB[i].p.y - X_LB[0].p.y, heading, v_L.x, v_L.y, motion.yaw_rate[i]});
   }
-  trace.length = static_cast<double>(k) * vehicle::usual_step;
-  trace.ended = trace.ended || (rests && k == 0);
-  trace.end = trace.ended ? trace.end : trace.length;
+  trace.ended = motion.ended && count == X_LB.size();
+  trace.end = static_cast<double>(count - 1) * trace.step;
   return trace;
 }
 
-// All six numbers at a time; at rest beyond the end.
+// All six numbers at a time. Beyond its end a drive stays where it is, or keeps to its lane.
 std::array<double, 6> at(const Trace& trace, double time) {
-  const double place = time / Trace::step;
-  const auto i = static_cast<std::size_t>(std::max(0.0, place));
-  if (time >= trace.length || i + 1 >= trace.look.size()) {
-    return trace.look.back();
+  const double place = std::max(0.0, time / trace.step);
+  const auto i = static_cast<std::size_t>(place);
+  if (i + 1 >= trace.look.size()) {
+    const std::array<double, 6>& last = trace.look.back();
+    return {
+        last[0] + last[3] * std::max(0.0, time - trace.end), last[1], last[2], last[3], 0.0, 0.0};
   }
-  const double span = std::min(Trace::step, trace.length - static_cast<double>(i) * Trace::step);
-  const double u = std::min(1.0, (time - static_cast<double>(i) * Trace::step) / span);
+  const double u = place - static_cast<double>(i);
   std::array<double, 6> values{};
   for (std::size_t c = 0; c < 6; ++c) {
     values[c] = trace.look[i][c] + u * (trace.look[i + 1][c] - trace.look[i][c]);
@@ -208,9 +192,6 @@ void store_swept(const Car& car, const Trace& trace, AtlasNode& node) {
   double left = 0.0;
   double right = 0.0;
   for (std::size_t i = 0; i < trace.look.size(); ++i) {
-    if (static_cast<double>(i) * Trace::step > trace.end + Trace::step) {
-      break;
-    }
     const Pose X_LB{{trace.look[i][0], trace.look[i][1]}, trace.look[i][2]};
     left = std::max(left, support(body, X_LB, {0.0, 1.0}).y);
     right = std::min(right, support(body, X_LB, {0.0, -1.0}).y);
@@ -224,6 +205,66 @@ Car unbounded(Car car) {
   car.tuning.domain.slowest.fill(0.0);
   car.tuning.domain.fastest.fill(fastest);
   return car;
+}
+
+// A point of the grid, and its drives on the grip of `grip_factors`.
+constexpr std::array grip_factors{1.0, 1.0 - sway_factor, 1.0 + sway_factor};
+struct Node {
+  Point point;
+  std::array<Trace, grip_factors.size()> traces;
+};
+
+// How long it is followed: what stops, to rest.
+double longest_of(const Point& point) {
+  return ends_at_rest(point.kind) ? longest_stop : span_of(point);
+}
+
+void drive_nodes(const Car& driven, std::vector<Node>& nodes) {
+  std::map<double, std::vector<std::size_t>> by_horizon;  // rounded up: few calls for many drives
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    by_horizon[std::ceil(longest_of(nodes[i].point))].push_back(i);
+  }
+  for (const auto& [horizon, indices] : by_horizon) {
+    std::vector<Drive> drives;
+    for (const std::size_t i : indices) {
+      const Point& point = nodes[i].point;
+      const world::Scene scene = scene_of(driven, point);
+      for (const double factor : grip_factors) {
+        drives.push_back({.car = &driven,
+                          .plan = plan_of(point),
+                          .ego = scene.ego,
+                          .road = scene.road,
+                          .known_grip = point.grip,
+                          .grip = std::min(1.2, point.grip * factor)});
+      }
+    }
+    const std::vector<EgoMotion> motions = drive_all(drives, horizon);
+    for (std::size_t k = 0; k < motions.size(); ++k) {
+      Node& node = nodes[indices[k / grip_factors.size()]];
+      node.traces[k % grip_factors.size()] = trace_of(motions[k], longest_of(node.point));
+    }
+  }
+}
+
+AtlasNode stored_node(const Car& car, const Node& driven) {
+  const auto& [middle, less, more] = driven.traces;
+  const bool rests = ends_at_rest(driven.point.kind);
+  AtlasNode node;
+  node.span = static_cast<float>(rests ? middle.end : span_of(driven.point));
+  node.end = static_cast<float>(middle.end);
+  node.ended = middle.ended ? 1 : 0;
+  store_path(middle, node);
+  node.forward = static_cast<float>(middle.look.back()[0]);
+  node.sideways = static_cast<float>(middle.look.back()[1]);
+  store_swept(car, middle, node);
+  if (driven.point.kind == AtlasKind::keep) {
+    return node;  // rolls on whatever the grip
+  }
+  node.sway_span = static_cast<float>(rests ? std::max({middle.end, less.end, more.end})
+                                            : span_of(driven.point));
+  store_sway(middle, less, 0, node);
+  store_sway(middle, more, 3, node);
+  return node;
 }
 
 constexpr std::size_t digits_per_byte = 2;
@@ -324,6 +365,7 @@ std::uint64_t grid_hash(const AtlasGrid& grid) {
 }
 
 Behaviour behaviour(const Car& car) {
+  constexpr double a_while = 1.5;  // [s] of what does not stop
   const Car driven = unbounded(car);
   Behaviour all{};
   auto out = all.begin();
@@ -332,9 +374,11 @@ Behaviour behaviour(const Car& car) {
       const bool turns = kind >= static_cast<std::size_t>(AtlasKind::swerve) &&
                          static_cast<AtlasKind>(kind) != AtlasKind::drift;
       const Point point{static_cast<AtlasKind>(kind), speed, 0.8, turns ? 3.4 : 0.0, 0.5};
-      const Trace trace = follow(driven, point, 0.9, 1.5);
+      const double longest = ends_at_rest(point.kind) ? longest_stop : a_while;
+      const Trace trace = trace_of(
+          drive(driven, plan_of(point), scene_of(car, point), 0.9 * point.grip, longest), longest);
       const auto last = trace.look.back();
-      for (const double number : {last[0], last[1], last[2], trace.length}) {
+      for (const double number : {last[0], last[1], last[2], trace.end}) {
         *out++ = number;
       }
     }
@@ -352,30 +396,18 @@ bool alike(const Behaviour& a, const Behaviour& b) {
   return true;
 }
 
-AtlasNode atlas_node(const Car& car, const AtlasGrid& grid, std::size_t number) {
-  const Point point = point_of(grid, number);
+std::vector<AtlasNode> atlas_nodes(const Car& car, const AtlasGrid& grid,
+                                   std::span<const std::size_t> numbers) {
   const Car driven = unbounded(car);
-  const double span = ends_at_rest(point.kind) ? 0.0 : span_of(point);
-  const Trace middle = follow(driven, point, 1.0, span);
-  AtlasNode node;
-  node.span = static_cast<float>(ends_at_rest(point.kind) ? middle.length : span);
-  node.end = static_cast<float>(middle.end);
-  node.ended = middle.ended ? 1 : 0;
-  store_path(middle, node);
-  const auto end = at(middle, middle.end);
-  node.forward = static_cast<float>(end[0]);
-  node.sideways = static_cast<float>(end[1]);
-  store_swept(car, middle, node);
-  if (point.kind == AtlasKind::keep) {
-    return node;  // rolls on whatever the grip
+  std::vector<Node> nodes;
+  for (const std::size_t number : numbers) {
+    nodes.push_back({point_of(grid, number), {}});
   }
-  const Trace less = follow(driven, point, 1.0 - sway_factor, span);
-  const Trace more = follow(driven, point, 1.0 + sway_factor, span);
-  node.sway_span = static_cast<float>(
-      ends_at_rest(point.kind) ? std::max({middle.length, less.length, more.length}) : span);
-  store_sway(middle, less, 0, node);
-  store_sway(middle, more, 3, node);
-  return node;
+  drive_nodes(driven, nodes);
+  std::vector<AtlasNode> stored;
+  std::transform(nodes.begin(), nodes.end(), std::back_inserter(stored),
+                 [&](const Node& node) { return stored_node(car, node); });
+  return stored;
 }
 
 Result<AtlasNodes> build_atlas(const Car& car, const AtlasGrid& grid, int threads,
@@ -402,14 +434,27 @@ Result<AtlasNodes> build_atlas(const Car& car, const AtlasGrid& grid, int thread
   std::mutex lock;
   std::atomic<bool> stopped = !go_on(progress);
   bool written = true;
-  in_parallel(nodes->size(), threads, [&](std::size_t i) {
-    if (known[i] != 0 || stopped) {
+  std::vector<std::size_t> unknown;
+  for (std::size_t i = 0; i < nodes->size(); ++i) {
+    if (known[i] == 0) {
+      unknown.push_back(i);
+    }
+  }
+  const std::size_t num_lots = (unknown.size() + nodes_at_once - 1) / nodes_at_once;
+  in_parallel(num_lots, threads, [&](std::size_t lot) {
+    if (stopped) {
       return;
     }
-    (*nodes)[i] = atlas_node(car, grid, i);
+    const std::size_t first = lot * nodes_at_once;
+    const std::span numbers =
+        std::span(unknown).subspan(first, std::min(nodes_at_once, unknown.size() - first));
+    const std::vector<AtlasNode> done = atlas_nodes(car, grid, numbers);
     const std::lock_guard guard(lock);
-    written = written && (!book || book->add(line_of(i, (*nodes)[i])));
-    ++progress.done;
+    for (std::size_t k = 0; k < done.size(); ++k) {
+      (*nodes)[numbers[k]] = done[k];
+      written = written && (!book || book->add(line_of(numbers[k], done[k])));
+    }
+    progress.done += done.size();
     if (!written || !go_on(progress)) {
       stopped = true;
     }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "saca/core/result.h"
@@ -16,7 +17,7 @@
 namespace saca::manoeuvre {
 
 /// Changed by hand when the atlas' own meaning changes, so that older files are refused.
-constexpr std::uint32_t atlas_version = 1;
+constexpr std::uint32_t atlas_version = 2;
 
 /// Names a car's parameters and tuning; with others nothing tabled is true.
 [[nodiscard]] std::uint64_t car_hash(const Car& car);
@@ -33,9 +34,11 @@ using Behaviour = std::array<double, num_atlas_kinds * 2 * 4>;
 /// (instruction sets differ in the last digits)?
 [[nodiscard]] bool alike(const Behaviour& a, const Behaviour& b);
 
-/// Drives one point of the grid, in the order of `Atlas`: the middle one and two on other grip.
-/// This is the place where the atlas asks the physics.
-[[nodiscard]] AtlasNode atlas_node(const Car& car, const AtlasGrid& grid, std::size_t number);
+/// Drives some points of the grid, of these numbers in the order of `Atlas`: each with the grip
+/// that is believed, and with less and with more. This is the place where the atlas asks the
+/// physics: the batch. A node does not depend on the others.
+[[nodiscard]] std::vector<AtlasNode> atlas_nodes(const Car& car, const AtlasGrid& grid,
+                                                 std::span<const std::size_t> numbers);
 
 /// How a build goes on: nodes done, and of these those that the journal knew.
 struct AtlasProgress {

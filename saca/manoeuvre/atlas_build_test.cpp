@@ -17,7 +17,10 @@ namespace {
 AtlasGrid tiny_grid() {
   const AtlasAxes::Axis none = axis_of({0.0});
   const AtlasAxes::Axis one = axis_of({0.9});
-  const AtlasAxes stop{axis_of({0.0, 3.0, 6.0}), one, none, none};
+  AtlasAxes stop{axis_of({0.0, 3.0, 6.0}), one, none, none};
+  for (double speed = 6.25; speed < 18.0; speed += 0.25) {  // more than are driven at once
+    stop.speeds.push_back(speed);
+  }
   const AtlasAxes swerve{axis_of({12.0}), one, axis_of({3.0}), none};
   AtlasAxes braked = swerve;
   braked.shares = axis_of({0.5});
@@ -27,6 +30,10 @@ AtlasGrid tiny_grid() {
 
 bool same(const std::vector<AtlasNode>& a, const std::vector<AtlasNode>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
+}
+
+AtlasNode node_of(std::size_t number) {
+  return atlas_nodes(small_atlas_car(), tiny_grid(), {&number, 1}).front();
 }
 
 bool on(const AtlasProgress&) {
@@ -57,7 +64,7 @@ TEST_F(AtlasBuild, GoesOnWhereItWasStopped) {
   const AtlasNodes whole = build_atlas(small_atlas_car(), tiny_grid(), 1, {}, on).value();
   const AtlasNodes stopped =
       build_atlas(small_atlas_car(), tiny_grid(), 1, journal, [](const AtlasProgress& progress) {
-        return progress.done < 4;
+        return progress.done < 1;
       }).value();
   EXPECT_EQ(stopped, nullptr);
   std::size_t remembered = 0;
@@ -66,7 +73,8 @@ TEST_F(AtlasBuild, GoesOnWhereItWasStopped) {
         remembered = progress.remembered;
         return true;
       }).value();
-  EXPECT_EQ(remembered, 4U);
+  EXPECT_GT(remembered, 0U);
+  EXPECT_LT(remembered, whole->size());
   EXPECT_TRUE(same(*whole, *resumed));
 }
 
@@ -106,8 +114,8 @@ TEST_F(AtlasBuild, ANodeTellsHowItsDriveEnds) {
   const world::Scene scene = atlas_scene(6.0, 0.9);
   const EgoMotion motion =
       drive(small_atlas_car(), {PolicyId::aeb, std::nullopt}, scene, 0.9, 20.0);
-  const AtlasNode node = atlas_node(small_atlas_car(), tiny_grid(), 2);
-  EXPECT_NEAR(static_cast<double>(node.forward), motion.track.X_WA.back().p.x, 1e-3);
+  const AtlasNode node = node_of(2);
+  EXPECT_NEAR(static_cast<double>(node.forward), motion.track.X_WA.back().p.x, 0.02);  // the batch
   EXPECT_EQ(node.ended, 1U);
   // Straight on it sweeps its own width.
   EXPECT_NEAR(static_cast<double>(node.swept_left), 0.5 * small_atlas_car().body_width, 0.01);
@@ -115,7 +123,7 @@ TEST_F(AtlasBuild, ANodeTellsHowItsDriveEnds) {
 }
 
 TEST_F(AtlasBuild, WhoStandsStaysAtOnce) {
-  const AtlasNode node = atlas_node(small_atlas_car(), tiny_grid(), 0);
+  const AtlasNode node = node_of(0);
   EXPECT_EQ(node.end, 0.0F);
   EXPECT_EQ(node.forward, 0.0F);
   EXPECT_EQ(node.ended, 1U);

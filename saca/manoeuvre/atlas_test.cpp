@@ -32,8 +32,8 @@ double worst_place(const AtlasPath& path, const world::Scene& scene, const EgoMo
 }
 
 // At a node nothing lies between but integers of 16 bits and samples: 0.5 / 32767 of 40 m is
-// 0.6 mm, and a cubic over 0.1 s errs by jerk h^3 / 100 < 1 mm. A drive is sampled every 10 ms, its
-// end found to a millisecond.
+// 0.6 mm, and a cubic over 0.1 s errs by jerk h^3 / 100 < 1 mm; the batch, which drives the nodes,
+// is some centimetres off `drive` itself (docs/results.md).
 TEST(Atlas, AtANodeIsTheDrive) {
   for (const PolicyId policy : all_policies) {
     const double speed = policy == PolicyId::no_intervention ? 15.0 : 13.0;
@@ -41,8 +41,8 @@ TEST(Atlas, AtANodeIsTheDrive) {
     const Plan plan = atlas_plan(policy, speed);
     const EgoMotion motion = drive(small_atlas_car(), plan, scene, 0.9, 20.0);
     const AtlasPath path = small_atlas().path(plan, scene);
-    EXPECT_LT(worst_place(path, scene, motion), 0.01) << name(policy);
-    EXPECT_NEAR(path.end, length_of(motion), 0.0105) << name(policy);
+    EXPECT_LT(worst_place(path, scene, motion), 0.05) << name(policy);
+    EXPECT_NEAR(path.end, length_of(motion), 0.03) << name(policy);
   }
 }
 

@@ -1,4 +1,5 @@
-"""`saca atlas` and `saca bench atlas`."""
+"""`saca atlas`, and the atlas of `saca run`."""
+import json
 import pathlib
 import signal
 import subprocess
@@ -22,8 +23,8 @@ def test_an_interrupted_build_goes_on_where_it_was(tmp_path):
         assert "the same command goes on" in told.lower()
         return (tmp_path / "own.atlas.journal").read_bytes()
 
-    first = build_for(1.5)
-    again = build_for(1.5)
+    first = build_for(0.5)
+    again = build_for(0.5)
     assert not (tmp_path / "own.atlas").exists()
     assert again.startswith(first) and len(again) > len(first) > 1000
     # Nothing is driven twice.
@@ -32,7 +33,7 @@ def test_an_interrupted_build_goes_on_where_it_was(tmp_path):
 
 
 @pytest.mark.parametrize("text, wanted", [(b"", "cut short"), (b"x" * 50_000, "is no atlas")])
-@pytest.mark.parametrize("command", [["atlas", "info"], ["atlas", "check"], ["bench", "atlas", "--atlas"]])
+@pytest.mark.parametrize("command", [["atlas", "info"], ["atlas", "check"], ["run", "one_way", "--llm", "off", "--atlas"]])
 def test_what_is_no_atlas_is_said_in_one_line(text, wanted, command, tmp_path):
     (tmp_path / "bad.atlas").write_bytes(text)
     error = one_error(saca(*command, "bad.atlas", cwd=tmp_path), BAD_INPUT)
@@ -46,3 +47,39 @@ def test_what_cannot_be_done_is_said(tmp_path):
     assert "file" in one_error(saca("atlas", "build", "--output", "file/a.atlas", cwd=tmp_path), CANNOT_WRITE)
     assert saca("atlas", cwd=tmp_path).returncode == WRONG_COMMAND_LINE
     assert saca("atlas", "build", "--threads", 0, cwd=tmp_path).returncode == WRONG_COMMAND_LINE
+
+
+def forecasts(run):
+    """Which policies of the first preview were rolled out."""
+    record = json.loads(run.stdout)
+    assert record["previews"], "something was forecast"
+    return record["atlas"], {fact["rolled_out"] for fact in record["previews"][0]["facts"] if fact["refusal"] is None}
+
+
+def run(*arguments, cwd):
+    return saca("run", "one_way", "--llm", "off", "--pace", "lockstep", "--no-memory", "--json", *arguments, cwd=cwd)
+
+
+def test_a_run_reads_its_forecasts_from_the_atlas(tmp_path):
+    assert forecasts(run(cwd=tmp_path)) == (True, {False})  # built where there is none
+    assert forecasts(run("--atlas", "off", cwd=tmp_path)) == (False, {True})
+
+
+def test_a_run_takes_the_atlas_that_it_is_told_and_no_other_cars(tmp_path):
+    for car in ["compact_rwd_ev", "midsize_suv"]:
+        assert saca("atlas", "build", "--car", car, "--output", f"{car}.atlas", cwd=tmp_path).returncode == 0
+    assert forecasts(run("--atlas", "compact_rwd_ev.atlas", cwd=tmp_path)) == (True, {False})
+    refused = one_error(run("--atlas", "midsize_suv.atlas", cwd=tmp_path), BAD_INPUT)
+    assert "midsize_suv.atlas" in refused and "--atlas off" in refused
+    # It is not built twice.
+    before = (tmp_path / "midsize_suv.atlas").stat().st_mtime_ns
+    again = saca("atlas", "build", "--car", "midsize_suv", "--output", "midsize_suv.atlas", cwd=tmp_path)
+    assert "is there" in again.stdout and (tmp_path / "midsize_suv.atlas").stat().st_mtime_ns == before
+
+
+def test_an_altered_atlas_is_refused(tmp_path):
+    assert saca("atlas", "build", "--output", "own.atlas", cwd=tmp_path).returncode == 0
+    whole = (tmp_path / "own.atlas").read_bytes()
+    for name, altered in {"cut.atlas": whole[:-1000], "flipped.atlas": whole[:500_000] + bytes([whole[500_000] ^ 1]) + whole[500_001:]}.items():
+        (tmp_path / name).write_bytes(altered)
+        assert name in one_error(run("--atlas", name, cwd=tmp_path), BAD_INPUT)

@@ -1,0 +1,96 @@
+#include "apps/saca/atlas_making.h"
+
+#include <fmt/core.h>
+
+#include <string>
+#include <system_error>
+
+#include "apps/saca/places.h"
+#include "apps/saca/progress.h"
+#include "saca/core/clock.h"
+#include "saca/core/file.h"
+#include "saca/core/parallel.h"
+#include "saca/manoeuvre/atlas_build.h"
+#include "saca/manoeuvre/atlas_file.h"
+
+namespace saca::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Made {
+  manoeuvre::Atlas atlas;
+  std::optional<Error> not_written;
+};
+
+/// nullopt: interrupted. Errors are the journal's.
+Result<std::optional<Made>> made(const Inputs& inputs, const fs::path& file, int threads,
+                                 const fs::path& journal) {
+  watch_for_interrupt();
+  SteadyClock clock;
+  const auto grid = manoeuvre::default_atlas_grid();
+  ProgressLine line("atlas", static_cast<int>(num_nodes(grid)), clock);
+  const auto nodes = manoeuvre::build_atlas(
+      inputs.car, grid, threads, journal, [&](const manoeuvre::AtlasProgress& progress) {
+        line.show(static_cast<int>(progress.done), static_cast<int>(progress.remembered),
+                  " points");
+        return !interrupted();
+      });
+  if (!nodes.has_value()) {
+    return nodes.error();
+  }
+  if (nodes.value() == nullptr) {
+    return std::optional<Made>();
+  }
+  auto problem = make_folder_of(file);
+  if (!problem) {
+    problem = write_file(file, manoeuvre::atlas_bytes(inputs.car, grid, *nodes.value()));
+  }
+  return std::optional(Made{{grid, inputs.car.tuning.domain, nodes.value()}, problem});
+}
+
+}  // namespace
+
+Result<std::optional<manoeuvre::Atlas>> make_atlas(const Inputs& inputs, const fs::path& file,
+                                                   int threads) {
+  if (auto problem = make_folder_of(file)) {
+    return *problem;
+  }
+  const fs::path journal = file.string() + ".journal";
+  const auto one = made(inputs, file, threads, journal);
+  if (!one.has_value()) {
+    return one.error();
+  }
+  if (!one.value()) {
+    complain(fmt::format(
+        "interrupted; {} was not written. The same command goes on where this one stopped.",
+        file.string()));
+    return std::optional<manoeuvre::Atlas>();
+  }
+  if (one.value()->not_written) {
+    return *one.value()->not_written;
+  }
+  std::error_code ignored;
+  fs::remove(journal, ignored);
+  return std::optional(one.value()->atlas);
+}
+
+std::optional<manoeuvre::Atlas> usual_atlas(const Inputs& inputs) {
+  const fs::path file = atlas_place(inputs.places, inputs.car_name);
+  const auto there = manoeuvre::read_atlas(file, inputs.car);
+  if (there.has_value()) {
+    return there.value();
+  }
+  const auto one = made(inputs, file, usual_threads(), {}).value();  // no journal, no error
+  if (!one) {
+    complain("interrupted");
+    return std::nullopt;
+  }
+  if (one->not_written) {
+    complain(one->not_written->message + "; the atlas is used, and built again next time");
+  }
+  return one->atlas;
+}
+
+}  // namespace saca::app

@@ -1,0 +1,132 @@
+// The batch against the scalar model, where it matters: in encounters.
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "saca/core/parallel.h"
+#include "saca/core/percentile.h"
+#include "saca/eval/moment.h"
+#include "saca/eval/scenes_for_test.h"
+#include "saca/manoeuvre/default_car.h"
+#include "saca/manoeuvre/drive.h"
+#include "saca/manoeuvre/ego.h"
+#include "saca/outcome/ordering.h"
+#include "saca/sim/family.h"
+#include "saca/sim/splits.h"
+
+namespace saca::eval {
+namespace {
+
+using manoeuvre::default_car;
+using manoeuvre::PolicyId;
+
+/// Family by family in turn, from the tuning split, with chance drawn; those that trigger.
+struct Encounters {
+  std::vector<sim::Scenario> scenarios;
+  std::vector<Moment> moments;
+
+  explicit Encounters(int count) {
+    const std::filesystem::path folder = "scenarios/families";
+    const auto splits = sim::load_splits("scenarios/splits.toml").value();
+    std::vector<sim::Family> families;
+    for (const char* const name : {"crossing", "cut_in", "cut_out", "cyclist", "head_on",
+                                   "lead_brakes", "merge", "one_way", "pedestrian"}) {
+      const bool test_only = std::find(splits.test_only.begin(), splits.test_only.end(), name) !=
+                             splits.test_only.end();
+      if (!test_only) {
+        families.push_back(sim::load_family(folder, name).value());
+      }
+    }
+    const auto body = manoeuvre::footprint(default_car());
+    const auto seed = splits.seeds[static_cast<std::size_t>(sim::Split::tuning)];
+    for (int i = 0; i < count; ++i) {
+      const auto number = static_cast<std::uint64_t>(i);
+      scenarios.push_back(
+          sim::sample(families[number % families.size()], seed, number, "compact_rwd_ev", body)
+              .value()
+              .scenario);
+    }
+    for (std::size_t i = 0; i < scenarios.size(); ++i) {
+      if (const auto time = trigger_time(scenarios[i], default_car())) {
+        const auto chance = sim::draw_chance(seed, i, *time);
+        moments.push_back(moment_at(scenarios[i], default_car(), *time, chance));
+      }
+    }
+  }
+};
+
+outcome::Outcome scalar(const Moment& moment, const manoeuvre::Plan& plan) {
+  constexpr double horizon = 20.0;  // [s] as roll_out_all
+  const double grip = std::min(1.2, moment.grip * moment.unknown.grip);
+  return play_out(drive(default_car(), plan, moment.scene, moment.grip, horizon, moment.unknown),
+                  moment.scene, moment.others, shipped_harm(), grip)
+      .outcome;
+}
+
+// SACA_AGREEMENT_ENCOUNTERS: how many; `make soak` takes more.
+TEST(RolloutAgreement, TheBatchEndsAsTheScalarModelDoes) {
+  const char* const wanted = std::getenv("SACA_AGREEMENT_ENCOUNTERS");
+  const Encounters encounters(wanted == nullptr ? 42 : std::stoi(wanted));
+  const int threads = usual_threads();
+  const auto batch = hindsights(encounters.moments, default_car(), shipped_harm(), threads);
+  struct Pair {
+    PolicyId policy;
+    outcome::Outcome batch, scalar;
+  };
+  std::vector<std::vector<Pair>> pairs(batch.size());
+  in_parallel(batch.size(), threads, [&](std::size_t i) {
+    for (const loop::Hindsight& one : batch[i]) {
+      if (one.facts.refusal.empty()) {
+        pairs[i].push_back({one.facts.plan.policy, one.facts.outcome,
+                            scalar(encounters.moments[i], one.facts.plan)});
+      }
+    }
+  });
+  int count = 0;
+  int agree = 0;
+  int best_agrees = 0;
+  std::vector<double> speeds;
+  std::vector<double> clearances;
+  for (const std::vector<Pair>& all : pairs) {
+    const auto best = [&](outcome::Outcome Pair::*by) {
+      return std::min_element(all.begin(), all.end(),
+                              [&](const Pair& a, const Pair& b) {
+                                return outcome::better(a.*by, a.policy, b.*by, b.policy);
+                              })
+          ->policy;
+    };
+    best_agrees += best(&Pair::batch) == best(&Pair::scalar) ? 1 : 0;
+    for (const Pair& pair : all) {
+      ++count;
+      const auto& a = pair.batch.contact;
+      const auto& b = pair.scalar.contact;
+      agree += a.has_value() == b.has_value() ? 1 : 0;
+      if (a && b) {
+        speeds.push_back(std::abs(a->relative_speed - b->relative_speed));
+      } else if (!a && !b) {
+        clearances.push_back(std::abs(pair.batch.clearance - pair.scalar.clearance));
+      }
+    }
+  }
+  fmt::print(
+      "{} encounters, {} futures: contact agrees in {:.2f} %, the best policy in {} of {}; "
+      "impact speed off by {:.3f} m/s (p95, max {:.3f}), clearance by {:.3f} m (p95, max "
+      "{:.3f})\n",
+      batch.size(), count, 100.0 * agree / count, best_agrees, batch.size(),
+      percentile(speeds, 0.95), *std::max_element(speeds.begin(), speeds.end()),
+      percentile(clearances, 0.95), *std::max_element(clearances.begin(), clearances.end()));
+  EXPECT_GE(count, 150);
+  EXPECT_GE(agree, 0.99 * count);
+  EXPECT_LE(percentile(speeds, 0.95), 0.05);
+  EXPECT_LE(percentile(clearances, 0.95), 0.05);
+}
+
+}  // namespace
+}  // namespace saca::eval
