@@ -51,7 +51,7 @@ void bench_vehicle(const manoeuvre::Car& car, Clock& clock, json& figures) {
   figures["vehicle.steps_per_s"] = num_stops * num_steps / to_seconds(clock.now() - start);
 }
 
-constexpr manoeuvre::Plan swerve{manoeuvre::PolicyId::aes_left, std::nullopt};
+constexpr manoeuvre::Plan aes_left{manoeuvre::PolicyId::aes_left, std::nullopt};
 
 /// A scene with `num_actors` others on three lanes; `rng` moves them a little.
 world::Scene crowd(const manoeuvre::Car& car, int num_actors, std::mt19937& rng) {
@@ -104,7 +104,7 @@ void bench_reflex(const Inputs& inputs, const manoeuvre::Atlas& atlas, Clock& cl
     }
     decide::PlanCache plans;
     for (std::size_t i = 0; i < decide::PlanCache::capacity(); ++i) {
-      plans.push_back({.at_trigger = memory::features(scenes[i]), .plan = swerve});
+      plans.push_back({.at_trigger = memory::features(scenes[i]), .plan = aes_left});
     }
     std::vector<double> times;
     times.reserve(static_cast<std::size_t>(num_calls));
@@ -151,7 +151,7 @@ void bench_trigger_check(const Inputs& inputs, const manoeuvre::Atlas& atlas, Cl
       for (int call = 0; call < num_calls; ++call) {
         const world::Scene& scene = scenes[static_cast<std::size_t>(call) % scenes.size()];
         const Clock::Time start = clock.now();
-        told += check.compare(swerve, scene) ? 1 : 0;
+        told += check.compare(aes_left, scene) ? 1 : 0;
         times.push_back(1e6 * to_seconds(clock.now() - start));
       }
       const std::string suffix =
