@@ -1,6 +1,5 @@
 #include "saca/decide/trigger_check.h"
 
-#include <cmath>
 #include <span>
 
 #include "saca/outcome/atlas_way.h"
@@ -16,20 +15,17 @@ using world::Scene;
 using world::Track;
 
 constexpr double looks_ahead = 10.0;  // [s]: nearly any stop
-constexpr double coarse = 0.1;        // [s] between poses of who goes on as it does
-constexpr double fine = 0.05;         // [s] of the ego, and of who reacts to it
-
-std::size_t room_for(double step) {
-  return static_cast<std::size_t>(std::lround(looks_ahead / step)) + 2;
-}
+constexpr double step = 0.1;          // [s] between poses
+constexpr int num_steps = 100;
+static_assert(num_steps * step == looks_ahead);
+constexpr std::size_t room = num_steps + 2;  // for the poses of a track
 
 void write_going_on(const world::Actor& actor, double start, Track& track) {
   track.start = start;
-  track.step = coarse;
+  track.step = step;
   track.X_WA.clear();
-  const int num_steps = static_cast<int>(std::lround(looks_ahead / coarse));
   for (int k = 0; k <= num_steps; ++k) {
-    track.X_WA.push_back(world::actor_going_on(actor, k * coarse));
+    track.X_WA.push_back(world::actor_going_on(actor, k * step));
   }
 }
 
@@ -41,9 +37,9 @@ bool Comparison::plan_harms_more() const {
 
 TriggerCheck::TriggerCheck(const manoeuvre::Atlas& atlas, const outcome::HarmModel& harm)
     : atlas_(atlas), harm_(&harm), tracks_(world::max_actors) {
-  X_WB_.X_WA.reserve(room_for(fine));
+  X_WB_.X_WA.reserve(room);
   for (Track& track : tracks_) {
-    track.X_WA.reserve(room_for(fine));
+    track.X_WA.reserve(room);
   }
 }
 
@@ -54,8 +50,8 @@ std::optional<double> TriggerCheck::harm_of(const Plan& plan, const Scene& scene
   }
   const std::span tracks(tracks_.data(), scene.actors.size());
   if (!followers.empty()) {
-    outcome::atlas_way(atlas_, plan, scene, {.step = fine, .longest = looks_ahead}, X_WB_);
-    preview::let_react(scene, followers, X_WB_, scene.time + looks_ahead, fine, tracks);
+    outcome::atlas_way(atlas_, plan, scene, {.step = step, .longest = looks_ahead}, X_WB_);
+    preview::let_react(scene, followers, X_WB_, scene.time + looks_ahead, step, tracks);
   }
   const outcome::Future future = outcome::future(atlas_, plan, scene, tracks, *harm_);
   return future.outside ? std::nullopt : std::optional(future.harm);

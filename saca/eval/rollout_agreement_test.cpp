@@ -70,7 +70,7 @@ outcome::Outcome scalar(const Moment& moment, const manoeuvre::Plan& plan) {
       .outcome;
 }
 
-// SACA_AGREEMENT_ENCOUNTERS: how many; `make soak` takes more.
+// SACA_AGREEMENT_ENCOUNTERS says how many; `make soak` takes thousands.
 TEST(RolloutAgreement, TheBatchEndsAsTheScalarModelDoes) {
   const char* const wanted = std::getenv("SACA_AGREEMENT_ENCOUNTERS");
   const Encounters encounters(wanted == nullptr ? 42 : std::stoi(wanted));

@@ -18,20 +18,19 @@ using world::Track;
 constexpr double usual_step = 0.02;    // [s]
 constexpr double watched_after = 3.0;  // [s] beyond the ego's motion: any reaction and a firm stop
 
-void let_one_react(const Scene& scene, std::size_t follower, const Track& X_WB, double until,
-                   double step, std::span<Track> tracks) {
+/// @param seen  whom it looks at beside the ego
+void let_one_react(const Scene& scene, std::size_t follower, const Followers& seen,
+                   const Track& X_WB, double until, double step, std::span<Track> tracks) {
   const Actor& actor = scene.actors[follower];
   StaticVector<intent::Body, world::max_actors> others;
   std::array<intent::Present, world::max_actors> now;
   others.push_back({&scene.ego_footprint, &X_WB});
   now[0] = intent::present(scene.road, scene.ego_footprint, scene.ego.X_WB,
                            rotated(scene.ego.v_B, scene.ego.X_WB.yaw));
-  for (std::size_t i = 0; i < tracks.size(); ++i) {
-    if (i != follower) {
-      const Actor& other = scene.actors[i];
-      now[others.size()] = intent::present(scene.road, other.footprint, other.X_WA, other.v_W);
-      others.push_back({&other.footprint, &tracks[i]});
-    }
+  for (const std::size_t i : seen) {
+    const Actor& other = scene.actors[i];
+    now[others.size()] = intent::present(scene.road, other.footprint, other.X_WA, other.v_W);
+    others.push_back({&other.footprint, &tracks[i]});
   }
   const double speed = norm(actor.v_W);
   const intent::DriverLaw usual = intent::usual_driver(speed);
@@ -64,8 +63,10 @@ Followers followers_of(const Scene& scene) {
 void let_react(const Scene& scene, const Followers& followers, const Track& X_WB, double until,
                double step, std::span<Track> tracks) {
   expects(tracks.size() == scene.actors.size(), "one track per actor");
+  Followers before;
   for (const std::size_t follower : followers) {
-    let_one_react(scene, follower, X_WB, until, step, tracks);
+    let_one_react(scene, follower, before, X_WB, until, step, tracks);
+    before.push_back(follower);
   }
 }
 
@@ -77,7 +78,13 @@ outcome::Others with_reacting_followers(const Scene& scene, std::vector<Track> t
     for (const std::size_t follower : followers) {
       const double until =
           std::max(world::end_time(moved[follower]), world::end_time(ego.track) + watched_after);
-      let_one_react(scene, follower, ego.track, until, usual_step, moved);
+      Followers others;
+      for (std::size_t i = 0; i < moved.size(); ++i) {
+        if (i != follower) {
+          others.push_back(i);
+        }
+      }
+      let_one_react(scene, follower, others, ego.track, until, usual_step, moved);
     }
     return moved;
   };

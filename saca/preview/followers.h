@@ -12,12 +12,13 @@
 namespace saca::preview {
 
 /// Those who follow in the ego's path (world::is_follower): indices of the scene's actors, the
-/// nearest to the ego first. Each reacts to those before it.
+/// nearest to the ego first.
 using Followers = StaticVector<std::size_t, world::max_actors>;
 [[nodiscard]] Followers followers_of(const world::Scene& scene);
 
 /// How the followers move when the ego moves so: they are usual drivers, content with the gap that
-/// they have, and react to what is ahead of them, the ego first.
+/// they have, and react to the ego and to one another. What is ahead of the ego, they do not look
+/// at: it takes time, and could but make them slower.
 ///
 /// @param X_WB    the ego from scene.time on
 /// @param until   of the followers' tracks [s]
@@ -28,8 +29,8 @@ using Followers = StaticVector<std::size_t, world::max_actors>;
 void let_react(const world::Scene& scene, const Followers& followers, const world::Track& X_WB,
                double until, double step, std::span<world::Track> tracks);
 
-/// How the others move in a forecast that begins in `scene`: the followers react, everyone else
-/// keeps to its track.
+/// How the others move in a forecast that begins in `scene`: the followers react likewise, but to
+/// everybody; everyone else keeps to its track.
 ///
 /// @param tracks  one per actor of the scene
 /// @throws ContractViolation  if tracks and actors differ in number
