@@ -347,7 +347,7 @@ void Encounter::conclude() {
   }
   if (record_.decision) {
     Moment trigger{*record_.at_trigger, others_at_trigger_, stepper_.grip(),
-                   stepper_.unknown_from_now()};
+                   stepper_.unknown_from_now(), record_.decision->plan};
     trigger.scene.grip = seen_at_trigger_.grip;
     record_.hindsight = hindsight(trigger, *setup_.car, *setup_.harm);
     std::array<preview::PolicyFacts, manoeuvre::num_policies> facts;

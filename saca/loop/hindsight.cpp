@@ -16,7 +16,9 @@ std::vector<Hindsights> hindsights(std::span<const Moment> moments, const manoeu
     const Moment& moment = moments[i];
     for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
       Hindsight& one = all[i][manoeuvre::index(policy)];
-      one.facts.plan = manoeuvre::default_plan(policy, norm(moment.scene.ego.v_B));
+      one.facts.plan = moment.carried_out && moment.carried_out->policy == policy
+                           ? *moment.carried_out
+                           : manoeuvre::default_plan(policy, norm(moment.scene.ego.v_B));
       one.facts.refusal = manoeuvre::refusal(car, one.facts.plan, moment.scene).value_or("");
       one.facts.rolled_out = true;
       if (one.facts.refusal.empty()) {

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "saca/manoeuvre/car.h"
+#include "saca/manoeuvre/plan.h"
 #include "saca/manoeuvre/unknown.h"
 #include "saca/outcome/outcome.h"
 #include "saca/preview/situation.h"
@@ -18,6 +20,7 @@ struct Moment {
   outcome::Others others;      ///< what the others truly do from then on, the ego's motion given
   double grip = 0.0;           ///< true friction coefficient; `unknown` may change it
   manoeuvre::Unknown unknown;  ///< what else the ego's controller does not know
+  std::optional<manoeuvre::Plan> carried_out;  ///< tried instead of its policy's default plan
 };
 
 /// What one policy would have led to, knowing what the others really did.

@@ -38,6 +38,15 @@ TEST(Hindsight, KnowsWhatEachPolicyWouldHaveDone) {
   const Hindsight& nothing = of(PolicyId::no_intervention);
   EXPECT_GT(world::end_time(nothing.course.ego.track), nothing.facts.outcome.contact->time);
   EXPECT_LT(norm(nothing.course.ego.v_B.back()), 0.1);
+  // What was carried out is tried as it was.
+  const Moment slowly{.scene = scene,
+                      .others = stands,
+                      .grip = 0.5,
+                      .unknown = {},
+                      .carried_out = manoeuvre::Plan{PolicyId::es_b_left, 15.0}};
+  const Hindsights tried = hindsight(slowly, car, harm);
+  EXPECT_EQ(tried[manoeuvre::index(PolicyId::es_b_left)].facts.plan.target_speed, 15.0);
+  EXPECT_EQ(tried[manoeuvre::index(PolicyId::es_b_right)].facts.plan.target_speed, 10.0);
   // On dry road braking would have been enough.
   scene.grip = 0.9;
   EXPECT_FALSE(try_all(0.9)[manoeuvre::index(PolicyId::aeb)].facts.outcome.contact.has_value());
