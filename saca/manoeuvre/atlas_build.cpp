@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <charconv>
 #include <cmath>
-#include <cstring>
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include "saca/core/contract.h"
 #include "saca/core/fnv.h"
@@ -225,59 +226,57 @@ Car unbounded(Car car) {
   return car;
 }
 
+constexpr std::size_t digits_per_byte = 2;
+
+// A number in hexadecimal, of so many digits.
+void add_hex(std::string& text, std::uint64_t number, std::size_t digits) {
+  std::array<char, 16> some{};
+  const char* const end = std::to_chars(some.begin(), some.end(), number, 16).ptr;
+  const auto size = static_cast<std::size_t>(end - some.begin());
+  text.append(digits - size, '0').append(some.data(), size);
+}
+
+// The whole of a text as a number; nullopt: it is none.
+template <class T>
+std::optional<T> number_from(std::string_view text, int base) {
+  T number{};
+  const char* const end = text.data() + text.size();
+  const auto [stop, problem] = std::from_chars(text.data(), end, number, base);
+  return problem == std::errc() && stop == end ? std::optional(number) : std::nullopt;
+}
+
 std::string line_of(std::size_t number, const AtlasNode& node) {
-  constexpr std::string_view digits = "0123456789abcdef";
-  std::array<unsigned char, sizeof node> bytes{};
-  std::memcpy(bytes.data(), &node, sizeof node);
   std::string line = std::to_string(number) + " ";
-  for (const unsigned char byte : bytes) {
-    line += digits[byte / 16U];
-    line += digits[byte % 16U];
+  for (const auto byte : std::bit_cast<std::array<unsigned char, sizeof(AtlasNode)>>(node)) {
+    add_hex(line, byte, digits_per_byte);
   }
   return line;
 }
 
-int value_of(char digit) {
-  return digit >= '0' && digit <= '9'   ? digit - '0'
-         : digit >= 'a' && digit <= 'f' ? digit - 'a' + 10
-                                        : -1;
-}
-
 // The node of a journal's line; nullopt: no such line.
-std::optional<std::size_t> node_from(const std::string& line, std::vector<AtlasNode>& nodes) {
-  const std::size_t space = line.find(' ');
-  if (space == std::string::npos || space == 0 || space > 9 ||
-      line.size() != space + 1 + 2 * sizeof(AtlasNode)) {
-    return std::nullopt;
-  }
-  std::size_t number = 0;
-  for (std::size_t i = 0; i < space; ++i) {
-    if (line[i] < '0' || line[i] > '9') {
-      return std::nullopt;
-    }
-    number = 10 * number + static_cast<std::size_t>(line[i] - '0');
-  }
+std::optional<std::size_t> node_from(std::string_view line, std::vector<AtlasNode>& nodes) {
+  const std::size_t space = std::min(line.find(' '), line.size());
+  const auto number = number_from<std::size_t>(line.substr(0, space), 10);
+  const std::string_view digits = line.substr(std::min(space + 1, line.size()));
   std::array<unsigned char, sizeof(AtlasNode)> bytes{};
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    const int high = value_of(line[space + 1 + 2 * i]);
-    const int low = value_of(line[space + 2 + 2 * i]);
-    if (high < 0 || low < 0) {
-      return std::nullopt;
-    }
-    bytes[i] = static_cast<unsigned char>(16 * high + low);
-  }
-  if (number >= nodes.size()) {
+  if (!number || *number >= nodes.size() || digits.size() != digits_per_byte * bytes.size()) {
     return std::nullopt;
   }
-  std::memcpy(&nodes[number], bytes.data(), bytes.size());
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const auto byte =
+        number_from<unsigned char>(digits.substr(digits_per_byte * i, digits_per_byte), 16);
+    if (!byte) {
+      return std::nullopt;
+    }
+    bytes[i] = *byte;
+  }
+  nodes[*number] = std::bit_cast<AtlasNode>(bytes);
   return number;
 }
 
 std::string hex(std::uint64_t number) {
-  std::string text(16, '0');
-  for (std::size_t i = 16; i-- > 0; number /= 16) {
-    text[i] = "0123456789abcdef"[number % 16];
-  }
+  std::string text;
+  add_hex(text, number, digits_per_byte * sizeof number);
   return text;
 }
 
