@@ -7,7 +7,9 @@
 #include "saca/core/percentile.h"
 #include "saca/manoeuvre/drive.h"
 #include "saca/manoeuvre/ego.h"
+#include "saca/outcome/blow.h"
 #include "saca/outcome/futures.h"
+#include "saca/outcome/harm.h"
 #include "saca/outcome/outcome.h"
 
 namespace saca::eval {
@@ -35,6 +37,12 @@ AtlasRow row_of(const Future& told, const Outcome& truth) {
     row.time_off = told.contact->time - truth.contact->time;
   }
   return row;
+}
+
+// Is there a contact that a Future's probability counts?
+bool stops(const Outcome& truth, const world::Road& road) {
+  return truth.contact && (truth.contact->actor ||
+                           outcome::stops_the_ego(outcome::beyond(road, *truth.contact->edge)));
 }
 
 bool usable(const AtlasRow& row) {
@@ -175,7 +183,7 @@ std::array<AtlasRow, num_policies> atlas_rows(const Moment& moment, const manoeu
                  roll_out(car, plan, scene, tracks, scene.grip, harm));
     row.told_chance = future(atlas, plan, doubtful, tracks, harm).probability;
     row.drawn_contact =
-        roll_out(car, plan, scene, tracks, std::min(1.2, drawn), harm).contact.has_value();
+        stops(roll_out(car, plan, scene, tracks, std::min(1.2, drawn), harm), scene.road);
   }
   return rows;
 }

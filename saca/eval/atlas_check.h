@@ -32,7 +32,7 @@ struct AtlasRow {
   double true_harm = 0.0;       ///< of all contacts
   int later_contacts = 0;       ///< of full physics, after the first
   double told_chance = 0.0;     ///< of contact, when the grip is known to grip_sd_share only
-  bool drawn_contact = false;   ///< in one drive on grip drawn so
+  bool drawn_contact = false;   ///< with somebody, or an edge that stops, on grip drawn so
 };
 
 /// Standard deviation of the true grip over the believed one, where it is drawn (docs/formats.md,

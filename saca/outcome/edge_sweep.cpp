@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "saca/outcome/closer_look.h"
 #include "saca/outcome/false_position.h"
 #include "saca/world/footprint.h"
 
@@ -14,8 +15,6 @@ namespace {
 using manoeuvre::atlas_samples;
 using world::Footprint;
 using world::Shape;
-
-constexpr double sure_sds = 4.0;  // beyond so many standard deviations nothing happens
 
 double sign_of(Side side) noexcept {
   return side == Side::left ? 1.0 : -1.0;
@@ -130,7 +129,7 @@ Meeting edge_meeting(const AtlasEgo& ego, Side side, double of_interest) noexcep
   // An arc's bulge, and what lies between two samples.
   const double reach = ego.looks().reach + std::abs(ego.scene().ego_footprint.centre_x);
   const double margin = 0.05 + std::abs(path.curvature) * reach * reach;
-  const auto matters = static_cast<float>(margin + std::max(of_interest, sure_sds * sway.most));
+  const auto matters = static_cast<float>(margin + std::max(of_interest, sure_sd * sway.most));
   if (*std::min_element(rooms.begin(), rooms.end()) > matters) {
     return found;
   }

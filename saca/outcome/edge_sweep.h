@@ -2,7 +2,7 @@
 
 #include "saca/outcome/atlas_ego.h"
 #include "saca/outcome/edge.h"
-#include "saca/outcome/sweep.h"
+#include "saca/outcome/meeting.h"
 
 namespace saca::outcome {
 

@@ -49,35 +49,46 @@ std::size_t span_at(double time) noexcept {
   return std::min(num_spans, static_cast<std::size_t>(std::clamp(k, 0.0, 1e3)));
 }
 
-void complete(Looks& looks, const world::Footprint& footprint) noexcept {
-  looks.half = half_axes(footprint);
-  looks.reach = std::sqrt(dot(looks.half, looks.half));
-  LookRow turn{};
+namespace {
+
+[[gnu::always_inline]] inline void fill_turns(Looks& looks) noexcept {
+  LookRow turn;
   for (std::size_t k = 0; k < num_spans; ++k) {
     turn[k] = std::abs(looks.sine[k + 1] * looks.cosine[k] - looks.cosine[k + 1] * looks.sine[k]);
   }
+  turn[num_spans] = 0.0F;
   looks.turn[0] = std::max(turn[0], turn[1]);
   for (std::size_t k = 1; k < num_spans; ++k) {
     looks.turn[k] = std::max(turn[k - 1], std::max(turn[k], turn[k + 1]));
   }
+}
+
+// The least and the largest of each group's looks, the one behind it included.
+[[gnu::always_inline]] inline void bound(const LookRow& row, std::array<float, num_groups>& low,
+                                         std::array<float, num_groups>& high) noexcept {
   for (std::size_t g = 0; g < num_groups; ++g) {
-    const std::size_t first = g * spans_per_group;
-    float low_x = looks.x[first];
-    float low_y = looks.y[first];
-    float high_x = low_x;
-    float high_y = low_y;
-    for (std::size_t k = first + 1; k <= first + spans_per_group; ++k) {
-      low_x = std::min(low_x, looks.x[k]);
-      low_y = std::min(low_y, looks.y[k]);
-      high_x = std::max(high_x, looks.x[k]);
-      high_y = std::max(high_y, looks.y[k]);
-    }
-    const float extent = high_x - low_x + high_y - low_y;
-    const float bulge = std::min(bulge_in[first], static_cast<float>(standing) + 0.5F * extent);
-    looks.low_x[g] = low_x - bulge;
-    looks.low_y[g] = low_y - bulge;
-    looks.high_x[g] = high_x + bulge;
-    looks.high_y[g] = high_y + bulge;
+    const float* const at = row.data() + g * spans_per_group;
+    low[g] = std::min(std::min(std::min(at[0], at[1]), std::min(at[2], at[3])), at[4]);
+    high[g] = std::max(std::max(std::max(at[0], at[1]), std::max(at[2], at[3])), at[4]);
+  }
+}
+
+}  // namespace
+
+void complete(Looks& looks, const world::Footprint& footprint) noexcept {
+  looks.half = half_axes(footprint);
+  looks.reach = std::sqrt(dot(looks.half, looks.half));
+  fill_turns(looks);
+  bound(looks.x, looks.low_x, looks.high_x);
+  bound(looks.y, looks.low_y, looks.high_y);
+  for (std::size_t g = 0; g < num_groups; ++g) {
+    const float extent = looks.high_x[g] - looks.low_x[g] + looks.high_y[g] - looks.low_y[g];
+    const float bulge =
+        std::min(bulge_in[g * spans_per_group], static_cast<float>(standing) + 0.5F * extent);
+    looks.low_x[g] -= bulge;
+    looks.low_y[g] -= bulge;
+    looks.high_x[g] += bulge;
+    looks.high_y[g] += bulge;
   }
 }
 
