@@ -64,15 +64,15 @@ bool CloserLook::either_is_round() const noexcept {
          ego_->scene().ego_footprint.shape == Shape::ellipse;
 }
 
+double CloserLook::distance_at(double time) const noexcept {
+  return separation(ego_->scene().ego_footprint, ego_->at(time).X_WB, actor_->footprint,
+                    pose_at(*track_, start_ + time))
+      .distance;
+}
+
 // Of what is round, the distance where the gap decides on nothing.
 double CloserLook::exact(double time, double size) const noexcept {
-  if (size > 0.0 || !either_is_round()) {
-    return size;
-  }
-  const double distance = separation(ego_->scene().ego_footprint, ego_->at(time).X_WB,
-                                     actor_->footprint, pose_at(*track_, start_ + time))
-                              .distance;
-  return std::max(size, distance);
+  return size > 0.0 || !either_is_round() ? size : std::max(size, distance_at(time));
 }
 
 double CloserLook::gap_at(double time) const noexcept {

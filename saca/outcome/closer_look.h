@@ -71,6 +71,8 @@ class CloserLook {
   [[nodiscard]] Look look(double time) const noexcept;
   /// Positive while they are apart: of boxes never more than the distance, of others exact [m].
   [[nodiscard]] double gap_at(double time) const noexcept;
+  /// Exact; 0 while they touch [m].
+  [[nodiscard]] double distance_at(double time) const noexcept;
   /// How many standard deviations of the gap are between them.
   [[nodiscard]] double score(const Look& now) const noexcept;
   /// At most so much do both places spread until then [m].

@@ -184,9 +184,9 @@ double Pair::clearance(double of_interest, double until) const noexcept {
   double best = of_interest;
   const auto look_near = [&](const Window& window, std::size_t look) {
     narrow(window, look, 6, [&](double time) {
-      const double size = both_.gap_at(time);
-      const bool nearer = size < best;
-      best = nearer ? size : best;
+      const double distance = both_.distance_at(time);
+      const bool nearer = distance < best;
+      best = nearer ? distance : best;
       return nearer;
     });
   };
