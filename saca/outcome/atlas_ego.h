@@ -74,7 +74,7 @@ class AtlasEgo {
   double grip_share_ = 0.0;  // standard deviation of the grip over what the atlas' sways stand for
   double most_sway_ = 0.0;
   Looks looks_;
-  SwayLooks sway_looks_;
+  SwayLooks sway_looks_{};
   LookRow lane_x_;  // direction of the lane at the looks, where the grip has a standard deviation
   LookRow lane_y_;
   SampleDirections directions_;
