@@ -147,6 +147,18 @@ void print_figures(const eval::AtlasFigures& figures, const json& all, bool as_j
   fmt::print("  clearance off by           {:.2f} m p95 (below 5 m)\n", figures.clearance_p95);
   fmt::print("  regret of choosing by it   {:.4f} mean, {:.4f} p95; none in {}\n",
              figures.regret_mean, figures.regret_p95, percent(figures.same_choice));
+  fmt::print(
+      "    where nothing is struck twice: {:.4f} mean in {} scenes, {:.1f} % of all regret\n",
+      figures.lone.mean, figures.lone.scenes, 100.0 * figures.lone.share);
+  fmt::print("  harm off by                {:.4f} p95 with one contact, {:.4f} with more\n",
+             figures.lone.harm_off_p95, figures.lone.lasting_off_p95);
+  fmt::print("  chance of contact on grip known to {:.0f} %:\n", 100.0 * eval::grip_sd_share);
+  for (const eval::ChanceBin& bin : figures.chances) {
+    if (bin.plans > 0) {
+      fmt::print("    told {:5.3f} to {:5.3f}: {:.3f} of {:6} plans; touched {}\n", bin.low,
+                 bin.high, bin.told, bin.plans, percent(bin.touched));
+    }
+  }
 }
 
 json as_figures(const eval::AtlasFigures& figures) {
@@ -169,6 +181,17 @@ json as_figures(const eval::AtlasFigures& figures) {
   all["atlas.clearance_off_m.p95"] = figures.clearance_p95;
   all["atlas.regret.mean"] = figures.regret_mean;
   all["atlas.regret.p95"] = figures.regret_p95;
+  all["atlas.regret_lone.scenes"] = figures.lone.scenes;
+  all["atlas.regret_lone.mean"] = figures.lone.mean;
+  all["atlas.regret_lone.share"] = figures.lone.share;
+  all["atlas.harm_off.p95"] = figures.lone.harm_off_p95;
+  all["atlas.harm_off_later.p95"] = figures.lone.lasting_off_p95;
+  for (const eval::ChanceBin& bin : figures.chances) {
+    const std::string name = fmt::format("chance_from_{:g}", bin.low);
+    all["atlas." + name + ".plans"] = bin.plans;
+    all["atlas." + name + ".told"] = bin.told;
+    add(name + ".touched", bin.touched);
+  }
   return all;
 }
 

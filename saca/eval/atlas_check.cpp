@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "saca/core/percentile.h"
 #include "saca/manoeuvre/drive.h"
 #include "saca/manoeuvre/ego.h"
+#include "saca/outcome/blow.h"
 #include "saca/outcome/futures.h"
+#include "saca/outcome/harm.h"
 #include "saca/outcome/outcome.h"
 #include "saca/outcome/roll_out.h"
 
@@ -26,6 +29,7 @@ AtlasRow row_of(const Future& told, const Outcome& truth) {
   row.probability = told.probability;
   row.told_harm = told.harm;
   row.true_harm = truth.harm;
+  row.later_contacts = static_cast<int>(truth.later.size());
   if (told.contact && truth.contact) {
     row.same_partner =
         told.contact->actor == truth.contact->actor && told.contact->edge == truth.contact->edge;
@@ -34,6 +38,12 @@ AtlasRow row_of(const Future& told, const Outcome& truth) {
     row.time_off = told.contact->time - truth.contact->time;
   }
   return row;
+}
+
+// Is there a contact that a Future's probability counts?
+bool stops(const Outcome& truth, const world::Road& road) {
+  return truth.contact && (truth.contact->actor ||
+                           outcome::stops_the_ego(outcome::beyond(road, *truth.contact->edge)));
 }
 
 bool usable(const AtlasRow& row) {
@@ -52,36 +62,103 @@ bool less(const AtlasRow& a, const AtlasRow& b, double AtlasRow::*harm,
   return better(of_a, a.policy, of_b, b.policy);
 }
 
-// True harm of what the atlas takes for best, above that of the best there is; nullopt: nothing can
-// be chosen.
-std::optional<double> regret(const std::vector<AtlasRow>& rows) {
+// What the atlas takes for best, and the best there is; none: nothing can be chosen.
+struct Choice {
   const AtlasRow* chosen = nullptr;
   const AtlasRow* best = nullptr;
+
+  [[nodiscard]] double regret() const { return std::max(0.0, chosen->true_harm - best->true_harm); }
+  [[nodiscard]] bool lone() const {
+    return chosen->later_contacts == 0 && best->later_contacts == 0;
+  }
+};
+
+Choice choice(const std::vector<AtlasRow>& rows) {
+  Choice choice;
   for (const AtlasRow& row : rows) {
     if (row.refused) {
       continue;
     }
-    if (usable(row) && (chosen == nullptr ||
-                        less(row, *chosen, &AtlasRow::told_harm, &AtlasRow::told_clearance))) {
-      chosen = &row;
+    if (usable(row) && (choice.chosen == nullptr || less(row, *choice.chosen, &AtlasRow::told_harm,
+                                                         &AtlasRow::told_clearance))) {
+      choice.chosen = &row;
     }
-    if (best == nullptr || less(row, *best, &AtlasRow::true_harm, &AtlasRow::true_clearance)) {
-      best = &row;
+    if (choice.best == nullptr ||
+        less(row, *choice.best, &AtlasRow::true_harm, &AtlasRow::true_clearance)) {
+      choice.best = &row;
     }
   }
-  return chosen == nullptr ? std::nullopt
-                           : std::optional(std::max(0.0, chosen->true_harm - best->true_harm));
+  return choice;
 }
 
 double percentile_or_none(const std::vector<double>& values, double share) {
   return values.empty() ? 0.0 : percentile(values, share);
 }
 
+std::size_t bin_of(double chance) {
+  std::size_t bin = 0;
+  while (bin + 2 < chance_bounds.size() && chance >= chance_bounds[bin + 1]) {
+    ++bin;
+  }
+  return bin;
+}
+
+ChanceBins chances_of(std::span<const std::vector<AtlasRow>> scenes) {
+  ChanceBins bins{};
+  std::array<int, bins.size()> touched{};
+  for (const std::vector<AtlasRow>& scene : scenes) {
+    for (const AtlasRow& row : scene) {
+      if (usable(row)) {
+        const std::size_t bin = bin_of(row.told_chance);
+        ++bins[bin].plans;
+        bins[bin].told += row.told_chance;
+        touched[bin] += row.drawn_contact ? 1 : 0;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    bins[i].low = chance_bounds[i];
+    bins[i].high = chance_bounds[i + 1];
+    if (bins[i].plans > 0) {
+      bins[i].told /= bins[i].plans;
+      bins[i].touched = proportion(touched[i], bins[i].plans);
+    }
+  }
+  return bins;
+}
+
+LoneRegret lone_regret(std::span<const std::vector<AtlasRow>> scenes) {
+  LoneRegret lone;
+  double all = 0.0;
+  double sum = 0.0;
+  std::vector<double> off;
+  std::vector<double> lasting;
+  for (const std::vector<AtlasRow>& scene : scenes) {
+    const Choice made = choice(scene);
+    if (made.chosen != nullptr) {
+      all += made.regret();
+      lone.scenes += made.lone() ? 1 : 0;
+      sum += made.lone() ? made.regret() : 0.0;
+    }
+    for (const AtlasRow& row : scene) {
+      if (usable(row) && row.told_contact && row.true_contact) {
+        (row.later_contacts == 0 ? off : lasting)
+            .push_back(std::abs(row.told_harm - row.true_harm));
+      }
+    }
+  }
+  lone.mean = sum / std::max(1, lone.scenes);
+  lone.share = all > 0.0 ? sum / all : 0.0;
+  lone.harm_off_p95 = percentile_or_none(off, 0.95);
+  lone.lasting_off_p95 = percentile_or_none(lasting, 0.95);
+  return lone;
+}
+
 }  // namespace
 
 std::array<AtlasRow, num_policies> atlas_rows(const Moment& moment, const manoeuvre::Atlas& atlas,
                                               const manoeuvre::Car& car,
-                                              const outcome::HarmModel& harm) {
+                                              const outcome::HarmModel& harm, std::uint64_t seed) {
   world::Scene scene = moment.scene;
   scene.grip_sd = 0.0;
   for (world::Actor& actor : scene.actors) {
@@ -90,16 +167,24 @@ std::array<AtlasRow, num_policies> atlas_rows(const Moment& moment, const manoeu
   }
   const manoeuvre::Plan going_on{manoeuvre::PolicyId::no_intervention, std::nullopt};
   const auto tracks = moment.others(drive(car, going_on, scene, scene.grip, 20.0));
+  world::Scene doubtful = scene;
+  doubtful.grip_sd = grip_sd_share * scene.grip;
+  std::mt19937_64 rng(seed);
+  std::normal_distribution<double> normal;
   std::array<AtlasRow, num_policies> rows;
   for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
     const manoeuvre::Plan plan = manoeuvre::default_plan(policy, scene.ego.v_B.x);
     AtlasRow& row = rows[manoeuvre::index(policy)];
+    const double drawn = scene.grip * std::max(0.1, 1.0 + grip_sd_share * normal(rng));
     if (refusal(car, plan, scene)) {
       row = {.policy = policy, .refused = true};
       continue;
     }
     row = row_of(future(atlas, plan, scene, tracks, harm),
                  roll_out(car, plan, scene, tracks, scene.grip, harm));
+    row.told_chance = future(atlas, plan, doubtful, tracks, harm).probability;
+    row.drawn_contact =
+        stops(roll_out(car, plan, scene, tracks, std::min(1.2, drawn), harm), scene.road);
   }
   return rows;
 }
@@ -116,7 +201,8 @@ std::vector<AtlasRow> atlas_rows(const sim::Family& family, std::uint64_t seed,
   if (!time) {
     return {};
   }
-  const auto rows = atlas_rows(moment_at(scenario, car, *time), atlas, car, harm);
+  const auto rows =
+      atlas_rows(moment_at(scenario, car, *time), atlas, car, harm, seed + 1'000'003 * number);
   return {rows.begin(), rows.end()};
 }
 
@@ -151,10 +237,11 @@ AtlasFigures atlas_figures(std::span<const std::vector<AtlasRow>> rows) {
         clearances.push_back(std::abs(row.told_clearance - row.true_clearance));
       }
     }
-    if (const auto more = scene.empty() ? std::nullopt : regret(scene)) {
-      regrets.push_back(*more);
-      same += *more < outcome::harm_tie ? 1 : 0;
-      figures.regret_mean += *more;
+    if (const Choice made = choice(scene); made.chosen != nullptr) {
+      const double more = made.regret();
+      regrets.push_back(more);
+      same += more < outcome::harm_tie ? 1 : 0;
+      figures.regret_mean += more;
     }
   }
   figures.covered = proportion(covered, std::max(1, figures.plans));
@@ -167,6 +254,8 @@ AtlasFigures atlas_figures(std::span<const std::vector<AtlasRow>> rows) {
   figures.clearance_p95 = percentile_or_none(clearances, 0.95);
   figures.regret_p95 = percentile_or_none(regrets, 0.95);
   figures.same_choice = proportion(same, std::max(1, static_cast<int>(regrets.size())));
+  figures.lone = lone_regret(rows);
+  figures.chances = chances_of(rows);
   figures.regret_mean /= std::max(1.0, static_cast<double>(regrets.size()));
   return figures;
 }

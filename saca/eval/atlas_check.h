@@ -30,19 +30,48 @@ struct AtlasRow {
   double probability = 0.0;     ///< of contact, as told
   double told_harm = 0.0;       ///< first contact only
   double true_harm = 0.0;       ///< of all contacts
+  int later_contacts = 0;       ///< of full physics, after the first
+  double told_chance = 0.0;     ///< of contact, when the grip is known to grip_sd_share only
+  bool drawn_contact = false;   ///< with somebody, or an edge that stops, on grip drawn so
 };
 
+/// Standard deviation of the true grip over the believed one, where it is drawn (docs/formats.md,
+/// the draws).
+constexpr double grip_sd_share = 0.06;
+
 /// All eight begun at a moment, the others on the tracks that they would take while the ego goes
-/// on, known exactly; true grip is the believed one.
+/// on, known exactly; true grip is the believed one, but for drawn_contact.
+/// @param seed  of the drawn grips
 [[nodiscard]] std::array<AtlasRow, manoeuvre::num_policies> atlas_rows(
     const Moment& moment, const manoeuvre::Atlas& atlas, const manoeuvre::Car& car,
-    const outcome::HarmModel& harm);
+    const outcome::HarmModel& harm, std::uint64_t seed = 0);
 
 /// The same at the trigger of sample `number` of a family; empty where it never triggers.
 [[nodiscard]] std::vector<AtlasRow> atlas_rows(const sim::Family& family, std::uint64_t seed,
                                                std::uint64_t number, const manoeuvre::Atlas& atlas,
                                                const manoeuvre::Car& car,
                                                const outcome::HarmModel& harm);
+
+/// Plans whose told chance of contact lies between two bounds, and how many touch on drawn grip.
+struct ChanceBin {
+  double low = 0.0;   ///< [-]
+  double high = 0.0;  ///< [-]; of the last bin included
+  int plans = 0;
+  double told = 0.0;   ///< mean
+  Proportion touched;  ///< of them; without plans [0, 1]
+};
+constexpr std::array chance_bounds{0.0, 0.001, 0.2, 0.4, 0.6, 0.8, 0.999, 1.0};
+using ChanceBins = std::array<ChanceBin, chance_bounds.size() - 1>;
+
+/// Regret where no second contact follows on what the atlas chose, nor on the true best; the told
+/// harm is then all there is.
+struct LoneRegret {
+  int scenes = 0;
+  double mean = 0.0;             ///< in these scenes
+  double share = 0.0;            ///< of the regret of all scenes together
+  double harm_off_p95 = 0.0;     ///< size of told less true harm, where both have one contact
+  double lasting_off_p95 = 0.0;  ///< likewise where more follow
+};
 
 /// How good the atlas is over many scenes.
 struct AtlasFigures {
@@ -59,6 +88,8 @@ struct AtlasFigures {
   double regret_mean = 0.0;    ///< true harm of the atlas' choice above that of the true best
   double regret_p95 = 0.0;     ///< likewise
   Proportion same_choice;      ///< of scenes: regret below outcome::harm_tie
+  LoneRegret lone;
+  ChanceBins chances;  ///< on drawn grip
 };
 
 /// @param rows  those of each scene, eight or none

@@ -8,6 +8,7 @@
 
 #include "saca/core/contract.h"
 #include "saca/core/names.h"
+#include "saca/manoeuvre/batch.h"
 #include "saca/vehicle/vehicle.h"
 #include "saca/world/road.h"
 
@@ -68,8 +69,9 @@ bool holds(const AtlasAxes::Axis& axis, double value) noexcept {
 // y, heading and what they gain change sign in the mirror; x does not.
 constexpr std::array<bool, 6> mirrored{false, true, true, false, true, true};
 
-void add_node(const AtlasNode& node, double weight, int side, bool sways,
-              AtlasPath& path) noexcept {
+// Adds the weighted channels of a node to those of a path.
+[[gnu::always_inline]] inline void add_channels(const AtlasNode& node, double weight, int side,
+                                                bool sways, AtlasPath& path) noexcept {
   for (std::size_t c = 0; c < 6; ++c) {
     const double sign = mirrored[c] ? side : 1.0;
     const auto factor = static_cast<float>(sign * weight) * node.scale[c];
@@ -84,6 +86,27 @@ void add_node(const AtlasNode& node, double weight, int side, bool sways,
       path.sway[c][i] += factor * static_cast<float>(node.sway[c][i]);
     }
   }
+}
+
+#if defined(__x86_64__)
+[[gnu::target("avx2")]] void add_channels_in_avx2(const AtlasNode& node, double weight, int side,
+                                                  bool sways, AtlasPath& path) noexcept {
+  add_channels(node, weight, side, sways, path);
+}
+#endif
+
+// The same numbers on each instruction set: no operation is fused or put in another order.
+void add_node(const AtlasNode& node, double weight, int side, bool sways,
+              AtlasPath& path) noexcept {
+#if defined(__x86_64__)
+  if (available(Level::avx2)) {
+    add_channels_in_avx2(node, weight, side, sways, path);
+  } else {
+    add_channels(node, weight, side, sways, path);
+  }
+#else
+  add_channels(node, weight, side, sways, path);
+#endif
   path.span += weight * static_cast<double>(node.span);
   path.end += weight * static_cast<double>(node.end);
   path.sway_span += weight * static_cast<double>(node.sway_span);

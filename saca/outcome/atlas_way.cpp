@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "saca/core/contract.h"
-#include "saca/outcome/sweep.h"
+#include "saca/outcome/atlas_ego.h"
 
 namespace saca::outcome {
 

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "saca/outcome/atlas_ego.h"
 #include "saca/outcome/blow.h"
+#include "saca/outcome/edge_sweep.h"
 #include "saca/outcome/sweep.h"
 
 namespace saca::outcome {
@@ -16,8 +18,6 @@ using manoeuvre::AtlasLimit;
 using manoeuvre::Plan;
 using world::Scene;
 using world::Track;
-
-constexpr double negligible = 1e-4;  // probability below which no harm is counted
 
 // Whom or what the ego may meet, and when.
 struct Chance {
@@ -80,7 +80,7 @@ void add(Chances& chances, const Chance& chance) noexcept {
 }
 
 // Everybody and everything, in the order in which the ego comes upon them.
-Chances chances_of(const AtlasEgo& ego, std::span<const Track> tracks, std::span<const Boxes> boxes,
+Chances chances_of(const AtlasEgo& ego, std::span<const Track> tracks, std::span<const Looks> looks,
                    Future& future) noexcept {
   const Scene& scene = ego.scene();
   Chances chances;
@@ -92,18 +92,18 @@ Chances chances_of(const AtlasEgo& ego, std::span<const Track> tracks, std::span
     if (counts) {
       future.clearance = std::min(future.clearance, edge.clearance);
     }
-    if (edge.contact && edge.probability >= 1.0 && stops_the_ego(what)) {
+    if (edge.contact && edge.probability > 1.0 - negligible && stops_the_ego(what)) {
       until = std::min(until, *edge.contact);
     }
     add(chances, {edge, std::nullopt, side, edge.probability, 0.0});
   }
-  for (std::size_t i = 0; i < tracks.size(); ++i) {
-    const Meeting met = meeting(ego, i, tracks[i], boxes[i], future.clearance, until);
-    future.clearance = std::min(future.clearance, met.clearance);
-    if (met.contact && scene.actors[i].existence * met.probability >= 1.0) {
-      until = std::min(until, *met.contact);
-    }
-    add(chances, {met, i, std::nullopt, scene.actors[i].existence * met.probability, 0.0});
+  const bool leaves = std::any_of(chances.begin(), chances.end(), [](const Chance& chance) {
+    return chance.meeting.contact.has_value();
+  });
+  const Meetings met = meetings(ego, tracks, looks, leaves ? 0.0 : future.clearance, until);
+  for (std::size_t i = 0; i < met.size(); ++i) {
+    future.clearance = std::min(future.clearance, met[i].clearance);
+    add(chances, {met[i], i, std::nullopt, scene.actors[i].existence * met[i].probability, 0.0});
   }
   std::sort(chances.begin(), chances.end(),
             [](const Chance& a, const Chance& b) { return a.time < b.time; });
@@ -120,6 +120,9 @@ void judge(const Chances& chances, const AtlasEgo& ego, std::span<const Track> t
   double unharmed = 1.0;  // probability that nobody has been struck so far
   std::optional<Contact> crossed;
   for (const Chance& chance : chances) {
+    if (unharmed < negligible && future.contact) {
+      break;
+    }
     const std::optional<Blow> blow = blow_of(chance, ego, scene, tracks, harm);
     if (!blow) {
       future.outside = AtlasLimit::no_number;
@@ -152,7 +155,7 @@ class Judge {
       : atlas_(atlas), scene_(scene), tracks_(tracks), harm_(harm), bounds_(bounds) {
     usable_ = !broken_rule(scene) && tracks_fit(scene, tracks);
     for (std::size_t i = 0; usable_ && i < tracks.size(); ++i) {
-      boxes_[i] = boxes_of(tracks[i], scene.time);
+      looks_[i] = looks_of(tracks[i], scene.actors[i].footprint, scene.time, scene.ego.X_WB.p);
     }
   }
 
@@ -165,7 +168,8 @@ class Judge {
     }
     const manoeuvre::AtlasPath path = atlas_.path(plan, scene_);
     const AtlasEgo ego(path, scene_);
-    judge(chances_of(ego, tracks_, boxes_, future), ego, tracks_, harm_, future);
+    judge(chances_of(ego, tracks_, std::span(looks_).first(tracks_.size()), future), ego, tracks_,
+          harm_, future);
     future.end_time = scene_.time + path.end;
     return future;
   }
@@ -177,7 +181,7 @@ class Judge {
   const HarmModel& harm_;
   const AtlasBounds& bounds_;
   bool usable_ = false;
-  std::array<Boxes, world::max_actors> boxes_{};
+  std::array<Looks, world::max_actors> looks_;
 };
 
 }  // namespace

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+
+#include "saca/manoeuvre/atlas.h"
+#include "saca/outcome/blow.h"
+#include "saca/outcome/looks.h"
+#include "saca/world/scene.h"
+
+namespace saca::outcome {
+
+/// What the grip's standard deviation does to a place along one direction, as two halves of normal
+/// distributions: less grip adds `less` per standard deviation, more adds `more`.
+struct Spread {
+  double mean = 0.0;      ///< [m]
+  double variance = 0.0;  ///< [m^2]
+};
+[[nodiscard]] Spread of_halves(double less, double more) noexcept;
+
+/// The ego on a way out of the atlas, in the world. All of it noexcept, without allocation.
+class AtlasEgo {
+ public:
+  /// Refers to path and scene.
+  AtlasEgo(const manoeuvre::AtlasPath& path, const world::Scene& scene) noexcept;
+
+  /// @param time  since the scene's [s]
+  [[nodiscard]] Instant at(double time) const noexcept;
+  /// Offset and heading in the lane.
+  [[nodiscard]] world::LanePose in_lane(double time) const noexcept;
+  /// Displacement of the ego by the grip's standard deviation, in W [m].
+  struct Sways {
+    Vec2 less_W;  ///< with so much less grip
+    Vec2 more_W;  ///< with so much more
+  };
+  [[nodiscard]] Sways sways(double time) const noexcept;
+
+  [[nodiscard]] const manoeuvre::AtlasPath& path() const noexcept { return *path_; }
+  [[nodiscard]] const world::Scene& scene() const noexcept { return *scene_; }
+  /// How long it is looked at [s]: two seconds beyond a recovered lane; at rest, without end.
+  [[nodiscard]] double last_look() const noexcept { return last_look_; }
+  /// From where the ego is at the scene's time.
+  [[nodiscard]] const Looks& looks() const noexcept { return looks_; }
+  /// The most that the grip's standard deviation moves it, at any time, on any side [m].
+  [[nodiscard]] double most_sway() const noexcept { return most_sway_; }
+  /// Of the heading in the lane, at the samples of the path.
+  struct SampleDirections {
+    alignas(32) std::array<float, manoeuvre::atlas_samples> cosine;
+    alignas(32) std::array<float, manoeuvre::atlas_samples> sine;
+  };
+  [[nodiscard]] const SampleDirections& directions() const noexcept { return directions_; }
+  /// `Sways` at the looks, where the grip has a standard deviation.
+  struct SwayLooks {
+    alignas(32) LookRow less_x;
+    alignas(32) LookRow less_y;
+    alignas(32) LookRow more_x;
+    alignas(32) LookRow more_y;
+  };
+  [[nodiscard]] const SwayLooks& sway_looks() const noexcept { return sway_looks_; }
+
+ private:
+  void fill_directions() noexcept;
+  void fill_looks() noexcept;
+  void lay_along_arc(LookRow& x, LookRow& y) noexcept;
+  void fill_sways() noexcept;
+  [[nodiscard]] manoeuvre::AtlasInstant on_path(double time) const noexcept;
+  [[nodiscard]] Vec2 lane_direction(double s) const noexcept;
+
+  const manoeuvre::AtlasPath* path_;
+  const world::Scene* scene_;
+  world::LanePose start_;
+  Vec2 along_;                      // direction of the lane at X_WL, in W
+  manoeuvre::AtlasInstant at_end_;  // of the path
+  double last_look_ = 0.0;
+  double grip_share_ = 0.0;  // standard deviation of the grip over what the atlas' sways stand for
+  double most_sway_ = 0.0;
+  Looks looks_;
+  SwayLooks sway_looks_{};
+  LookRow lane_x_;  // direction of the lane at the looks, where the grip has a standard deviation
+  LookRow lane_y_;
+  SampleDirections directions_;
+};
+
+}  // namespace saca::outcome

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "saca/outcome/atlas_ego.h"
+#include "saca/outcome/gap.h"
+#include "saca/outcome/looks.h"
+#include "saca/world/scene.h"
+#include "saca/world/track.h"
+
+namespace saca::outcome {
+
+/// Beyond so many standard deviations nothing happens.
+constexpr double sure_sd = 4.0;
+
+/// When two bodies are looked at, and which groups of spans lie in it that matter.
+struct Window {
+  double from = 0.0;      // [s]
+  double to = 0.0;        // [s]
+  std::size_t first = 0;  // groups of spans
+  std::size_t last = 0;
+  bool any = false;  // such groups
+
+  [[nodiscard]] std::size_t begin() const noexcept { return first * spans_per_group; }
+  [[nodiscard]] std::size_t end() const noexcept { return (last + 1) * spans_per_group; }
+  [[nodiscard]] bool holds(std::size_t span) const noexcept {
+    return look_time(span) <= to && look_time(span + 1) >= from;
+  }
+};
+
+/// Looks for what is least between the neighbours of one look; `keep` says whether it is less now.
+/// @param more  looks after the first
+template <class Keep>
+void narrow(const Window& window, std::size_t look, int more, const Keep& keep) noexcept {
+  constexpr double shortest = 0.01;  // [s]
+  const auto inside = [&](std::size_t k) {
+    return std::clamp(look_time(k), window.from, window.to);
+  };
+  double low = inside(look > 0 ? look - 1 : 0);
+  double high = inside(std::min(look + 1, num_spans));
+  double middle = inside(look);
+  keep(middle);
+  for (int i = 0; i < more && high - low > shortest; ++i) {
+    const bool first = middle - low > high - middle;
+    const double time = first ? 0.5 * (low + middle) : 0.5 * (middle + high);
+    if (keep(time)) {
+      (first ? high : low) = middle;
+      middle = time;
+    } else {
+      (first ? low : high) = time;
+    }
+  }
+}
+
+/// The ego on a way out of the atlas and an actor on its track, at any one time.
+class CloserLook {
+ public:
+  /// Refers to all of them.
+  /// @param looks  of the track, from where the ego is at the scene's time
+  CloserLook(const AtlasEgo& ego, std::size_t actor, const world::Track& track,
+             const Looks& looks) noexcept;
+
+  struct Look {
+    double time = 0.0;
+    Gap gap;
+    double size = 0.0;     ///< of the gap; exact where it decides on contact [m]
+    double closing = 0.0;  ///< along the gap, turning included [m/s]
+  };
+  /// @param time  since the scene's [s]
+  [[nodiscard]] Look look(double time) const noexcept;
+  /// Positive while they are apart: of boxes never more than the distance, of others exact [m].
+  [[nodiscard]] double gap_at(double time) const noexcept;
+  /// Exact; 0 while they touch [m].
+  [[nodiscard]] double distance_at(double time) const noexcept;
+  /// How many standard deviations of the gap are between them.
+  [[nodiscard]] double score(const Look& now) const noexcept;
+  /// At most so much do both places spread until then [m].
+  [[nodiscard]] double sd_until(double time) const noexcept;
+  [[nodiscard]] bool spreads() const noexcept { return spreads_; }
+
+  [[nodiscard]] const AtlasEgo& ego() const noexcept { return *ego_; }
+  [[nodiscard]] const world::Actor& actor() const noexcept { return *actor_; }
+  [[nodiscard]] const Looks& looks() const noexcept { return *looks_; }
+
+ private:
+  // Only of boxes do a few directions tell for sure.
+  [[nodiscard]] bool either_is_round() const noexcept;
+  [[nodiscard]] double exact(double time, double size) const noexcept;
+
+  const AtlasEgo* ego_;
+  const world::Actor* actor_;
+  const world::Track* track_;
+  const Looks* looks_;
+  double start_;
+  double reach_;  // of both bodies together from their origins [m]
+  bool spreads_;
+};
+
+/// Variances are no smaller [m].
+constexpr double least_sd = 1e-3;
+
+}  // namespace saca::outcome

@@ -1,0 +1,87 @@
+#include "saca/outcome/closer_look.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "saca/manoeuvre/atlas_for_test.h"
+#include "saca/outcome/encounters_for_test.h"
+
+namespace saca::outcome {
+namespace {
+
+using manoeuvre::AtlasPath;
+using manoeuvre::PolicyId;
+
+// Straight on at 12.5 m/s towards a car that stands 30 m ahead, both 4.5 m long.
+struct Approaching {
+  world::Scene scene = manoeuvre::atlas_scene(12.5, 0.85);
+  world::Track track;
+  AtlasPath path;
+
+  explicit Approaching(world::Footprint other, double place_sd = 0.0) {
+    world::Actor actor{.id = 1, .footprint = other, .mass = 1500.0};
+    actor.X_WA.p = {30.0, 0.2};
+    actor.position_sd = place_sd;
+    scene.actors.push_back(actor);
+    track = steady(actor.X_WA, {}, 0.0, 5.0);
+    path = manoeuvre::small_atlas().path({PolicyId::no_intervention, std::nullopt}, scene);
+  }
+};
+
+TEST(CloserLook, SeesGapAndClosingSpeed) {
+  const Approaching now({.length = 4.5, .width = 1.8});
+  const AtlasEgo ego(now.path, now.scene);
+  const Looks looks = looks_of(now.track, now.scene.actors[0].footprint, 0.0, {});
+  const CloserLook both(ego, 0, now.track, looks);
+  for (const double time : {0.0, 1.0, 2.0}) {
+    const CloserLook::Look look = both.look(time);
+    const double way = ego.at(time).X_WB.p.x;
+    EXPECT_NEAR(look.gap.size, 30.0 - 4.5 - way, 1e-9);
+    EXPECT_EQ(look.size, look.gap.size);
+    EXPECT_EQ(both.gap_at(time), look.size);
+    EXPECT_NEAR(look.closing, ego.at(time).v_W.x, 1e-3);
+  }
+  EXPECT_FALSE(both.spreads());
+}
+
+// A disc of half a metre before the corner of the ego: the axes see no gap where there is one.
+TEST(CloserLook, IsExactAboutWhatIsRound) {
+  Approaching now({world::Shape::ellipse, 1.0, 1.0, 0.0});
+  now.track = steady({{2.25 + 0.4, 0.9 + 0.4}, 0.0}, {}, 0.0, 5.0);
+  const AtlasEgo ego(now.path, now.scene);
+  const Looks looks = looks_of(now.track, now.scene.actors[0].footprint, 0.0, {});
+  const CloserLook both(ego, 0, now.track, looks);
+  EXPECT_NEAR(both.gap_at(0.0), std::hypot(0.4, 0.4) - 0.5, 1e-9);
+}
+
+TEST(CloserLook, ScoresInStandardDeviations) {
+  const Approaching now({.length = 4.5, .width = 1.8}, 2.0);
+  const AtlasEgo ego(now.path, now.scene);
+  const Looks looks = looks_of(now.track, now.scene.actors[0].footprint, 0.0, {});
+  const CloserLook both(ego, 0, now.track, looks);
+  EXPECT_TRUE(both.spreads());
+  EXPECT_NEAR(both.score(both.look(0.0)), 25.5 / 2.0, 1e-9);
+  EXPECT_GE(both.sd_until(1.0), 2.0);
+}
+
+TEST(CloserLook, NarrowsToTheLeastBetweenNeighbours) {
+  const Window window{.from = 0.0, .to = 5.0};
+  for (const double least : {0.85, 0.97, 1.03, 1.18}) {
+    double best = 1e9;
+    double found = 0.0;
+    narrow(window, span_at(1.01), 8, [&](double time) {
+      const double value = std::abs(time - least);
+      if (value >= best) {
+        return false;
+      }
+      best = value;
+      found = time;
+      return true;
+    });
+    EXPECT_NEAR(found, least, 0.03);
+  }
+}
+
+}  // namespace
+}  // namespace saca::outcome

@@ -1,0 +1,87 @@
+#include "saca/outcome/edge_sweep.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "saca/manoeuvre/atlas_for_test.h"
+#include "saca/outcome/edge.h"
+
+namespace saca::outcome {
+namespace {
+
+using manoeuvre::atlas_plan;
+using manoeuvre::atlas_scene;
+using manoeuvre::AtlasPath;
+using manoeuvre::PolicyId;
+using manoeuvre::small_atlas;
+
+// The same way as poses every 5 ms, for the exact search.
+world::Track sampled(const AtlasEgo& ego, double until) {
+  world::Track track{.start = ego.scene().time, .step = 0.005, .X_WA = {}};
+  for (int k = 0; k * track.step <= until; ++k) {
+    track.X_WA.push_back(ego.at(k * track.step).X_WB);
+  }
+  return track;
+}
+
+TEST(EdgeSweep, AnEdgeIsCrossedWhenEdgeApproachSaysSo) {
+  for (const double curvature : {0.0, 0.004}) {
+    world::Scene scene = atlas_scene(12.5, 0.85);
+    scene.road.curvature = curvature;
+    scene.road.left_edge = 3.1;
+    scene.road.right_edge = -2.0;
+    const AtlasPath path = small_atlas().path(atlas_plan(PolicyId::aes_left, 12.5), scene);
+    const AtlasEgo ego(path, scene);
+    const world::Track mine = sampled(ego, ego.last_look());
+    const EdgeApproach left =
+        edge_approach(scene.road, Side::left, scene.ego_footprint, mine, far_away);
+    const Meeting told = edge_meeting(ego, Side::left, far_away);
+    ASSERT_TRUE(left.crossing && told.contact);
+    EXPECT_NEAR(*told.contact, *left.crossing, 5e-3);
+    const EdgeApproach right =
+        edge_approach(scene.road, Side::right, scene.ego_footprint, mine, far_away);
+    const Meeting other = edge_meeting(ego, Side::right, far_away);
+    EXPECT_EQ(other.contact, std::nullopt);
+    EXPECT_NEAR(other.clearance, right.room, 0.02);
+  }
+}
+
+// The ego's side touches the edge in the mean; grip that it has more or less of does not move it
+// aside when it goes straight on.
+TEST(EdgeSweep, WhatDoesNotSwayIsSure) {
+  world::Scene scene = atlas_scene(12.5, 0.85);
+  scene.grip_sd = 0.05;
+  scene.road.left_edge = 1.0;
+  const AtlasPath path = small_atlas().path(atlas_plan(PolicyId::no_intervention, 12.5), scene);
+  const Meeting beside = edge_meeting(AtlasEgo(path, scene), Side::left, far_away);
+  EXPECT_EQ(beside.contact, std::nullopt);
+  EXPECT_EQ(beside.probability, 0.0);
+  EXPECT_NEAR(beside.clearance, 0.1, 1e-6);
+  scene.road.left_edge = 0.8;
+  const Meeting beyond = edge_meeting(AtlasEgo(path, scene), Side::left, far_away);
+  EXPECT_EQ(beyond.contact, 0.0);
+  EXPECT_EQ(beyond.probability, 1.0);
+}
+
+// A lane change whose farthest side, as the atlas tells it, lies on the edge: half of what wrong
+// grip does takes it beyond, where it does something aside at all.
+TEST(EdgeSweep, ProbabilityFallsWithTheRoom) {
+  world::Scene scene = atlas_scene(12.5, 0.85);
+  scene.grip_sd = 0.08;
+  const AtlasPath path = small_atlas().path(atlas_plan(PolicyId::aes_left, 12.5), scene);
+  scene.road.left_edge = 60.0;
+  const double farthest = 60.0 - edge_meeting(AtlasEgo(path, scene), Side::left, 100.0).clearance;
+  double before = 1.1;
+  for (const double room : {-0.3, -0.05, -0.01, 0.01, 0.3, 2.0}) {
+    scene.road.left_edge = farthest + room;
+    const Meeting told = edge_meeting(AtlasEgo(path, scene), Side::left, far_away);
+    EXPECT_EQ(told.contact.has_value(), room < 0.0) << room;
+    EXPECT_LE(told.probability, before) << room;
+    before = told.probability;
+  }
+  EXPECT_LT(before, 1e-3);
+}
+
+}  // namespace
+}  // namespace saca::outcome

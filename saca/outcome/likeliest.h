@@ -1,0 +1,17 @@
+#pragma once
+
+#include "saca/outcome/closer_look.h"
+#include "saca/outcome/looks.h"
+#include "saca/outcome/meeting.h"
+
+namespace saca::outcome {
+
+/// When contact is likeliest, and how likely then: the normal distribution at the smallest number
+/// of standard deviations of the gap. Sets probability, and where it is not negligible nearest, gap
+/// and n_W.
+/// @param near   filled for the window
+/// @param found  its contact is known
+void find_likeliest(const CloserLook& pair, const Window& window, const NearLooks& near,
+                    Meeting& found) noexcept;
+
+}  // namespace saca::outcome

@@ -1,0 +1,84 @@
+#include "saca/outcome/likeliest.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "saca/manoeuvre/atlas_for_test.h"
+#include "saca/outcome/encounters_for_test.h"
+
+namespace saca::outcome {
+namespace {
+
+using manoeuvre::AtlasPath;
+using manoeuvre::PolicyId;
+
+// Against looks every 5 ms: no instant is likelier by more than a tenth of a standard deviation, in
+// nine of ten encounters.
+TEST(Likeliest, IsTheSmallestScoreOfManyLooks) {
+  std::mt19937_64 rng(4);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  int off = 0;
+  int counted = 0;
+  for (int i = 0; i < 160; ++i) {
+    world::Scene scene = manoeuvre::atlas_scene(12.5, 0.85);
+    scene.grip_sd = i % 2 == 0 ? 0.05 : 0.0;
+    world::Actor actor{.id = 1, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1500.0};
+    actor.X_WA = {{18.0 + 8.0 * u(rng), 4.0 * u(rng)}, 3.0 * u(rng)};
+    actor.v_W = rotated({5.0, 0.0}, actor.X_WA.yaw);
+    actor.position_sd = 0.3;
+    actor.velocity_sd = 0.3;
+    scene.actors.push_back(actor);
+    const world::Track track = steady(actor.X_WA, actor.v_W, 0.1 * u(rng), 3.2);
+    const auto policy = manoeuvre::all_policies[static_cast<std::size_t>(i) % 8];
+    const AtlasPath path =
+        manoeuvre::small_atlas().path(manoeuvre::atlas_plan(policy, 12.5), scene);
+    const AtlasEgo ego(path, scene);
+    const Looks looks = looks_of(track, actor.footprint, 0.0, {});
+    const CloserLook both(ego, 0, track, looks);
+    const auto near = std::make_unique<NearLooks>();
+    const Window window{.from = 0.0, .to = 3.2, .first = 0, .last = 3, .any = true};
+    look_over(ego.looks(), looks, 0, 3, *near);
+    Meeting found;
+    find_likeliest(both, window, *near, found);
+    double least = 1e9;
+    for (double time = 0.0; time <= 3.2; time += 0.005) {
+      least = std::min(least, both.score(both.look(time)));
+    }
+    const double true_chance = 0.5 * std::erfc(least * std::sqrt(0.5));
+    EXPECT_LE(found.probability, true_chance + 0.02) << i;
+    if (std::abs(least) < 3.0) {
+      ++counted;
+      const double nearby = 0.5 * std::erfc((least + 0.1) * std::sqrt(0.5));
+      off += found.probability < nearby ? 1 : 0;
+    }
+  }
+  EXPECT_GT(counted, 40);
+  EXPECT_LE(off, counted / 10);
+}
+
+// Nobody is near: nothing is likely.
+TEST(Likeliest, OfWhoIsFarIsNothing) {
+  world::Scene scene = manoeuvre::atlas_scene(12.5, 0.85);
+  world::Actor actor{.id = 1, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1500.0};
+  actor.X_WA = {{20.0, 12.0}, 0.0};
+  actor.position_sd = 0.3;
+  scene.actors.push_back(actor);
+  const world::Track track = steady(actor.X_WA, {}, 0.0, 3.2);
+  const AtlasPath path =
+      manoeuvre::small_atlas().path({PolicyId::no_intervention, std::nullopt}, scene);
+  const AtlasEgo ego(path, scene);
+  const Looks looks = looks_of(track, actor.footprint, 0.0, {});
+  const auto near = std::make_unique<NearLooks>();
+  look_over(ego.looks(), looks, 0, 3, *near);
+  Meeting found;
+  find_likeliest(CloserLook(ego, 0, track, looks),
+                 {.from = 0.0, .to = 3.2, .first = 0, .last = 3, .any = true}, *near, found);
+  EXPECT_EQ(found.probability, 0.0);
+}
+
+}  // namespace
+}  // namespace saca::outcome

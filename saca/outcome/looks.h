@@ -1,0 +1,99 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "saca/world/footprint.h"
+#include "saca/world/track.h"
+
+namespace saca::outcome {
+
+// Everybody at the same few instants, in floats that lie side by side: what cannot touch or come
+// near between two of them is passed over without a closer look.
+
+constexpr std::size_t num_spans = 40;  ///< of time: 16 of 0.2 s, 16 of 0.4 s, 8 of 1.6 s
+constexpr std::size_t spans_per_group = 4;
+constexpr std::size_t num_groups = num_spans / spans_per_group;
+constexpr double looks_end = 22.4;  ///< of the last span [s]
+
+/// One number for each look, at the beginning of a span; the one behind the last span ends it. The
+/// rest is room for whole packs.
+using LookRow = std::array<float, num_spans + 8>;
+
+/// When span `k` begins [s since the scene's time]; num_spans: when the last one ends.
+[[nodiscard]] constexpr double look_time(std::size_t k) noexcept {
+  const auto at = static_cast<double>(k);
+  return k <= 16 ? 0.2 * at : k <= 32 ? 0.4 * at - 3.2 : 1.6 * at - 41.6;
+}
+/// look_time for all.
+constexpr LookRow look_times = [] {
+  LookRow times{};
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    times[k] = static_cast<float>(look_time(k));
+  }
+  return times;
+}();
+
+/// The span that holds a time >= 0; num_spans after all of them.
+[[nodiscard]] std::size_t span_at(double time) noexcept;
+
+/// Where a body is at the looks. Rows are not set before somebody does.
+struct Looks {
+  alignas(32) LookRow x;       ///< of the footprint's middle, from an origin, along W [m]
+  alignas(32) LookRow y;       ///< likewise [m]
+  alignas(32) LookRow cosine;  ///< of its direction in W
+  alignas(32) LookRow sine;    ///< likewise
+  alignas(32) LookRow turn;    ///< most that it turns in this span or one beside it, about [rad]
+  Vec2 half;                   ///< axes of the footprint [m]
+  double from = 0.0;           ///< its track begins [s since the scene's time]
+  double end = 0.0;            ///< and ends
+  bool goes = false;           ///< moves where the track ends
+  double reach = 0.0;          ///< of the footprint from its middle [m]
+  /// Rectangles that hold the middle during each group of spans.
+  alignas(32) std::array<float, num_groups> low_x;
+  alignas(32) std::array<float, num_groups> low_y;
+  alignas(32) std::array<float, num_groups> high_x;
+  alignas(32) std::array<float, num_groups> high_y;
+};
+
+/// Cosine and sine of an angle: to 1e-6 up to pi, to 1e-3 up to a whole turn [rad].
+inline void direction(float angle, float& cosine, float& sine) noexcept {
+  const float q = 0.25F * angle;  // of the quarter, doubled twice
+  const float z = q * q;
+  float s = q * (1.0F - z / 6.0F * (1.0F - z / 20.0F * (1.0F - z / 42.0F)));
+  float c = 1.0F - z / 2.0F * (1.0F - z / 12.0F * (1.0F - z / 30.0F * (1.0F - z / 56.0F)));
+  for (int i = 0; i < 2; ++i) {
+    const float twice = 2.0F * s * c;
+    c = 1.0F - 2.0F * s * s;
+    s = twice;
+  }
+  cosine = c;
+  sine = s;
+}
+
+/// What follows from place and direction: turn, half, reach and the rectangles.
+void complete(Looks& looks, const world::Footprint& footprint) noexcept;
+
+/// Of a body on a track; before it starts and after it ends it stands.
+/// @param start     the scene's time [s]
+/// @param origin_W  [m]
+[[nodiscard]] Looks looks_of(const world::Track& track, const world::Footprint& footprint,
+                             double start, Vec2 origin_W) noexcept;
+
+/// How near two bodies may be to each other during each group of spans: never more than they are.
+[[nodiscard]] std::array<float, num_groups> group_gaps(const Looks& a, const Looks& b) noexcept;
+
+/// Two bodies at the looks, each as the box around it.
+struct NearLooks {
+  alignas(32) LookRow gap;    ///< along the axes of both boxes, at each look [m]
+  alignas(32) LookRow n_x;    ///< the direction of that gap, from a to b, in W
+  alignas(32) LookRow n_y;    ///< likewise
+  alignas(32) LookRow least;  ///< gaps within the span are not smaller [m]
+};
+
+/// Fills `near` for the groups from `first` to `last`, and the look behind them. Velocities that
+/// change by more than 20 m/s^2 against each other, or all at once within a span, may deceive it.
+void look_over(const Looks& a, const Looks& b, std::size_t first, std::size_t last,
+               NearLooks& near) noexcept;
+
+}  // namespace saca::outcome
