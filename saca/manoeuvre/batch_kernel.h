@@ -60,7 +60,7 @@ inline InLane<T> in_lane(const T& curvature, const T& x, const T& y, const T& ya
           heading - round_once * round(heading / round_once)};
 }
 
-template <class T>
+template <Kind kind, class T>
 inline Told<T> drift_told(const FixedLane<T>& fixed, const Seen<T>& state, const InLane<T>& place,
                           MemoryLane<T>& memory) {
   const T& side = fixed.side;
@@ -69,7 +69,7 @@ inline Told<T> drift_told(const FixedLane<T>& fixed, const Seen<T>& state, const
       fixed.known, fixed.known.tuning.drift, fixed.known_grip,
       equations::Drifting<T>{side * place.heading, state.v_B.x, side * state.v_B.y,
                              side * state.yaw_rate, state.a_B.x, side * state.a_B.y},
-      step, memory.drift, told);
+      step_of(kind), memory.drift, told);
   const auto left = side > 0.0;
   const Wheelwise<T> torque = told.brake_torque;
   for (std::size_t i = 0; i < num_wheels; ++i) {
@@ -79,7 +79,7 @@ inline Told<T> drift_told(const FixedLane<T>& fixed, const Seen<T>& state, const
   return told;
 }
 
-template <class T>
+template <Kind kind, class T>
 inline Told<T> path_told(const FixedLane<T>& fixed, const Seen<T>& state, const T& x, const T& y,
                          const T& yaw, const Turn<T>& heading, MemoryLane<T>& memory) {
   const T& arm = fixed.known.percussion_arm;
@@ -91,105 +91,207 @@ inline Told<T> path_told(const FixedLane<T>& fixed, const Seen<T>& state, const 
   const equations::Wants<std::remove_const_t<decltype(slower)>> wants{fixed.rest > 0.5, slower};
   Told<T> told;
   equations::follow_path<T>(fixed.known, wants, fixed.curvature, fixed.known_grip, state, point,
-                            step, memory, told);
+                            step_of(kind), memory, told);
   return told;
 }
 
-/// `control`, for mixed plans.
-template <class T>
+/// `control`, for plans of one kind.
+template <Kind kind, class T>
 inline Told<T> told(const FixedLane<T>& fixed, const Seen<T>& state,
                     const vehicle::equations::Flow<T>& flow, const Turn<T>& heading,
                     MemoryLane<T>& memory) {
   using F = vehicle::equations::Flow<T>;
-  const auto drifts = fixed.drifts > 0.5;
   Told<T> result;
-  if (!all(drifts)) {
-    result = path_told<T>(fixed, state, flow[F::x], flow[F::y], flow[F::yaw], heading, memory);
-  }
-  if (any(drifts)) {
+  if constexpr (kind == Kind::drifts) {
     const InLane<T> place = in_lane<T>(fixed.curvature, flow[F::x], flow[F::y], flow[F::yaw]);
-    const Told<T> drift = drift_told<T>(fixed, state, place, memory);
-    result.steering = select(drifts, drift.steering, result.steering);
-    result.motor_torque = select(drifts, drift.motor_torque, result.motor_torque);
-    for (std::size_t i = 0; i < num_wheels; ++i) {
-      result.brake_torque[i] = select(drifts, drift.brake_torque[i], result.brake_torque[i]);
-    }
+    result = drift_told<kind, T>(fixed, state, place, memory);
+  } else {
+    result =
+        path_told<kind, T>(fixed, state, flow[F::x], flow[F::y], flow[F::yaw], heading, memory);
   }
-  memory.time = memory.time + step;
+  memory.time = memory.time + step_of(kind);
   return result;
 }
 
 /// Actuators under a held command: Heun's scheme.
-template <class T>
+template <Kind kind, class T>
 inline void move_actuators(const CarLane<T>& car, const Told<T>& told,
                            const vehicle::equations::Flow<T>& now,
                            vehicle::equations::Flow<T>& next) {
   using F = vehicle::equations::Flow<T>;
-  constexpr std::array<std::size_t, 6> moved{F::steering,  F::brake,     F::brake + 1,
-                                             F::brake + 2, F::brake + 3, F::motor};
-  F rate;
-  F then;
-  F tried;
-  vehicle::equations::actuator_rates<T>(car, now, told, rate);
-  for (const std::size_t i : moved) {
-    tried[i] = now[i] + step * rate[i];
+  constexpr double step = step_of(kind);
+  // How far what follows without limit comes in a step.
+  const auto share = [](const Divisor<T>& lag) {
+    const T whole = T(step) / lag;
+    return T(whole - 0.5 * whole * whole);
+  };
+  const T braked = share(car.brake_lag);
+  for (std::size_t i = 0; i < num_wheels; ++i) {
+    const T& torque = now[F::brake + i];
+    next[F::brake + i] = torque + braked * (told.brake_torque[i] - torque);
   }
-  vehicle::equations::actuator_rates<T>(car, tried, told, then);
-  for (const std::size_t i : moved) {
-    next[i] = now[i] + 0.5 * step * (rate[i] + then[i]);
-  }
+  next[F::motor] = now[F::motor] + share(car.motor_lag) * (told.motor_torque - now[F::motor]);
+  const auto rate = [&](const T& angle) {
+    return clamp((told.steering - angle) / car.steering_lag, -car.steering_rate, car.steering_rate);
+  };
+  const T first = rate(now[F::steering]);
+  const T second = rate(now[F::steering] + step * first);
+  next[F::steering] = now[F::steering] + 0.5 * step * (first + second);
 }
 
-/// How the force along a wheel grows with its sliding velocity [N s/m]: what falls after the peak.
+/// The four contacts. Rear wheels point along the body.
 template <class T>
-inline T drag_slope(const CarLane<T>& car, const vehicle::equations::Wheels<T>& wheels,
-                    const vehicle::equations::Flow<T>& flow, std::size_t i, const T& grip) {
-  const T x = vehicle::equations::is_front(i) ? T(car.front_arm) : T(-car.rear_arm);
-  const T y = vehicle::equations::is_left(i) ? T(car.half_track) : T(-car.half_track);
+struct Contacts {
+  std::array<Turn<T>, 2> front;  ///< of the front wheels against the body
+  Wheelwise<T> v_x;              ///< of the wheel centres, expressed in T [m/s]
+  Wheelwise<T> F_x, F_y;         ///< expressed in T [N]
+  Wheelwise<T> slope;            ///< how -F_x grows with the wheel's sliding velocity [N s/m]
+};
+
+/// Velocities of the wheel centres, expressed in B: along for left and right, across for front and
+/// rear [m/s].
+template <class T>
+struct CentreVelocities {
+  std::array<T, 2> x, y;
+};
+template <class T>
+inline CentreVelocities<T> centre_velocities(const CarLane<T>& car,
+                                             const vehicle::equations::Flow<T>& flow) {
   using F = vehicle::equations::Flow<T>;
-  const T vx = flow[F::vx] - flow[F::yaw_rate] * y;
-  const T vy = flow[F::vy] + flow[F::yaw_rate] * x;
-  const T slip_x = wheels.v_x[i] - car.wheel_radius * flow[F::wheel + i];
-  const T slipping = slip_x * slip_x + wheels.v_y[i] * wheels.v_y[i];
-  const T rise = vehicle::equations::steepness<T>(
-      car.tyre, vehicle::equations::peak_friction<T>(car.tyre, wheels.load[i], grip));
-  const T zz = rise * rise *
-               (slipping * (1.0 / max(vx * vx + vy * vy,
-                                      vehicle::slip_speed_floor * vehicle::slip_speed_floor)));
-  const T ratio = vehicle::equations::magic_ratio<T>(car.tyre.shape, zz);
+  const T round = car.half_track * flow[F::yaw_rate];
+  return {{flow[F::vx] - round, flow[F::vx] + round},
+          {flow[F::vy] + car.front_arm * flow[F::yaw_rate],
+           flow[F::vy] - car.rear_arm * flow[F::yaw_rate]}};
+}
+
+/// `sliding_drag`, and how the force along the wheel grows, from one evaluation of the tyre's curve.
+template <class T>
+struct Sliding {
+  T drag;   ///< force over sliding velocity [N s/m]
+  T slope;  ///< force along the wheel over its sliding velocity along, as it grows [N s/m]
+};
+/// cos(y) over y^2 in [0, pi^2], by interpolation at Chebyshev nodes: error 5e-5, enough for a slope.
+constexpr std::array<double, 5> fall_curve{0.999958232, -0.499788066, 0.0414934584, -0.00133885088,
+                                           1.87708309e-05};
+template <class T>
+inline Sliding<T> sliding(const TyreLane<T>& tyre, const T& along, const T& across,
+                          const T& speed_squared, const T& load, const T& grip) {
+  using vehicle::equations::MagicCurve;
+  using vehicle::equations::polynomial;
+  constexpr double floor = vehicle::slip_speed_floor * vehicle::slip_speed_floor;
+  const T peak = vehicle::equations::peak_friction<T>(tyre, load, grip);
+  const T rise = tyre.rise / T(peak * sqrt(max(speed_squared, floor)));  // z over sliding velocity
+  const T slipping = along * along + across * across;
+  const T zz = rise * rise * slipping;
+  const T root = sqrt(1.0 + zz);
+  const T w_over_z = 1.0 / (1.0 + root);
+  const T y_over_z = tyre.twice_shape * w_over_z *
+                     polynomial<T>(MagicCurve<T>::arc, (root - 1.0) * w_over_z);
+  const T yy = zz * y_over_z * y_over_z;
+  const T ratio = y_over_z * polynomial<T>(MagicCurve<T>::wave, yy);
+  const T per_ratio = peak * load * rise;
+  const T drag = per_ratio * ratio;
   // d sin(C atan z) / dz = C cos(C atan z) / (1 + z^2)
-  const T size = sqrt(max(0.0, 1.0 - zz * ratio * ratio));
-  const T cosine = select(zz > car.tyre.peak_zz, -size, size);
-  const T over_drag = car.tyre.shape * cosine / ((1.0 + zz) * ratio);
-  const T share = slip_x * slip_x / max(slipping, 1e-9);
-  return wheels.drag[i] * (1.0 + share * (over_drag - 1.0));
+  const T fall = tyre.shape * polynomial<T>(fall_curve, yy) - (1.0 + zz) * ratio;
+  return {drag, drag + along * along * per_ratio * fall / T((1.0 + zz) * max(slipping, 1e-9))};
+}
+
+/// As `wheels_of` in the vehicle's equations.
+template <class T>
+inline Contacts<T> contacts_of(const CarLane<T>& car, const vehicle::equations::Flow<T>& flow,
+                               const Turn<T>& middle, const T& grip) {
+  using F = vehicle::equations::Flow<T>;
+  Contacts<T> contacts;
+  const Wheelwise<T> load = vehicle::equations::wheel_loads<T>(car, flow[F::ax], flow[F::ay]);
+  const CentreVelocities<T> v_B = centre_velocities(car, flow);
+  const T forth = car.wheelbase * middle.cosine;
+  const T across = car.wheelbase * middle.sine;
+  const T aside = car.half_track * middle.sine;
+  for (std::size_t i = 0; i < num_wheels; ++i) {
+    const T& vx = v_B.x[i % 2];
+    const T& vy = v_B.y[i / 2];
+    T v_y = vy;
+    contacts.v_x[i] = vx;
+    if (vehicle::equations::is_front(i)) {
+      const T along = vehicle::equations::is_left(i) ? T(forth - aside) : T(forth + aside);
+      const T scale = 1.0 / sqrt(along * along + across * across);
+      const Turn<T> turn{along * scale, across * scale};
+      contacts.front[i] = turn;
+      contacts.v_x[i] = turn.cosine * vx + turn.sine * vy;
+      v_y = turn.cosine * vy - turn.sine * vx;
+    }
+    const T slip_x = contacts.v_x[i] - car.wheel_radius * flow[F::wheel + i];
+    const Sliding<T> slide =
+        sliding<T>(car.tyre, slip_x, v_y, vx * vx + vy * vy, load[i], grip);
+    contacts.F_x[i] = -slide.drag * slip_x;
+    contacts.F_y[i] = -slide.drag * v_y;
+    contacts.slope[i] = slide.slope;
+  }
+  return contacts;
+}
+
+/// As `body_rates` in the vehicle's equations.
+template <class T>
+inline Pair<T> body_rates(const CarLane<T>& car, const vehicle::equations::Flow<T>& flow,
+                          const Contacts<T>& contacts, const Turn<T>& heading,
+                          vehicle::equations::Flow<T>& rate) {
+  using F = vehicle::equations::Flow<T>;
+  Wheelwise<T> F_x = contacts.F_x;  // now in B
+  Wheelwise<T> F_y = contacts.F_y;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Turn<T>& turn = contacts.front[i];
+    F_x[i] = turn.cosine * contacts.F_x[i] - turn.sine * contacts.F_y[i];
+    F_y[i] = turn.sine * contacts.F_x[i] + turn.cosine * contacts.F_y[i];
+  }
+  const T left = F_x[vehicle::front_left] + F_x[vehicle::rear_left];
+  const T right = F_x[vehicle::front_right] + F_x[vehicle::rear_right];
+  const T front = F_y[vehicle::front_left] + F_y[vehicle::front_right];
+  const T rear = F_y[vehicle::rear_left] + F_y[vehicle::rear_right];
+  const T vx = flow[F::vx];
+  const T vy = flow[F::vy];
+  const T air = car.air_drag * hypot(vx, vy);
+  const Pair<T> force{(left + right) - air * vx, (front + rear) - air * vy};
+  const T torque =
+      car.front_arm * front - car.rear_arm * rear + car.half_track * (right - left);
+  rate[F::x] = heading.cosine * vx - heading.sine * vy;
+  rate[F::y] = heading.sine * vx + heading.cosine * vy;
+  rate[F::yaw] = flow[F::yaw_rate];
+  rate[F::vx] = force.x / car.mass + flow[F::yaw_rate] * vy;
+  rate[F::vy] = force.y / car.mass - flow[F::yaw_rate] * vx;
+  rate[F::yaw_rate] = torque / car.yaw_inertia;
+  return force;
 }
 
 /// Spin of the wheels, taken implicitly: road and motor by a rational approximation of the
 /// exponential, for a wheel that moves evenly faster or slower, of second order and damped where it
 /// is stiff; brakes as dry friction.
-template <class T>
-inline void spin_wheels(const CarLane<T>& car, const vehicle::equations::Wheels<T>& wheels,
-                        const vehicle::equations::Flow<T>& now, vehicle::equations::Flow<T>& next,
-                        const Wheelwise<T>& slopes) {
+template <Kind kind, class T>
+inline void spin_wheels(const CarLane<T>& car, const Contacts<T>& contacts,
+                        const vehicle::equations::Flow<T>& now, vehicle::equations::Flow<T>& next) {
   using F = vehicle::equations::Flow<T>;
-  const T motor = 0.5 * (now[F::motor] + next[F::motor]);
+  const CentreVelocities<T> v_B = centre_velocities(car, next);
+  const std::array<T, 2> per_inertia{T(step_of(kind)) / car.front_wheel_inertia,
+                                     T(step_of(kind)) / car.rear_wheel_inertia};
+  const T squared = car.wheel_radius * car.wheel_radius;
+  const std::array<T, 2> stiff{squared * per_inertia[0], squared * per_inertia[1]};
+  const T motor_gain = next[F::motor] - now[F::motor];
   for (std::size_t i = 0; i < num_wheels; ++i) {
-    const T x = vehicle::equations::is_front(i) ? T(car.front_arm) : T(-car.rear_arm);
-    const T y = vehicle::equations::is_left(i) ? T(car.half_track) : T(-car.half_track);
-    const T vx = next[F::vx] - next[F::yaw_rate] * y;
-    const T vy = next[F::vy] + next[F::yaw_rate] * x;
-    const T v_x =
-        vehicle::equations::is_front(i) ? wheels.cosine[i] * vx + wheels.sine[i] * vy : vx;
-    const auto& inertia = wheel_inertia(car, i);
-    const T& slope = slopes[i];
-    const T z = max(-0.5, step * car.wheel_radius * car.wheel_radius * slope / inertia);
-    const T gained = (1.0 + z) / (2.0 + z) * (v_x - wheels.v_x[i]);
-    const T F_x = wheels.F_x[i] - slope * gained;
-    const T turning = vehicle::equations::turning_torque<T>(car, i, motor, F_x);
+    T v_x = v_B.x[i % 2];
+    if (vehicle::equations::is_front(i)) {
+      v_x = contacts.front[i].cosine * v_x + contacts.front[i].sine * v_B.y[0];
+    }
+    const T& slope = contacts.slope[i];
+    const T z = max(-0.5, stiff[i / 2] * slope);
     const T grown = 1.0 + 0.5 * z;
-    const T share = step * grown / (1.0 + z * grown) / inertia;
-    const T brake = 0.5 * (now[F::brake + i] + next[F::brake + i]);
+    const T slowed = 1.0 + z * grown;
+    const T inverse = 1.0 / (grown * slowed);
+    // How much of what changes within the step counts: half, or more where the wheel follows fast.
+    const T weight = (0.5 + 0.5 * z) * slowed * inverse;
+    const T F_x = contacts.F_x[i] - slope * (weight * (v_x - contacts.v_x[i]));
+    const T motor = now[F::motor] + weight * motor_gain;
+    const T brake = now[F::brake + i] + weight * (next[F::brake + i] - now[F::brake + i]);
+    const T turning = vehicle::equations::turning_torque<T>(car, i, motor, F_x);
+    const T share = per_inertia[i / 2] * (grown * grown) * inverse;
     const T free = now[F::wheel + i] + share * turning;
     const T stopped = share * brake;
     next[F::wheel + i] = free - clamp(free, -stopped, stopped);
@@ -209,50 +311,51 @@ inline Wheelwise<T> delayed(const FixedLane<T>& fixed, const MovingLane<T>& movi
   return torque;
 }
 
-/// The scalar model holds a command for 1 ms, so on the average it acts 0.5 ms late. Held for a
-/// whole step it would be later: it is taken for 0.5 ms before the step's middle instead, this
-/// share of the way to the next one.
-constexpr double ahead = 0.5 * (1.0 - vehicle::usual_step / step);
 
 /// Writes what was told into the brake line, where the last slot can still be changed.
-template <class T, class Mask>
+///
+/// The scalar model holds a command for 1 ms, so on the average it acts 0.5 ms late. Held for a
+/// whole step it would be later: it is taken for 0.5 ms before the step's middle instead.
+template <Kind kind, class T, class Mask>
 inline void hold(MovingLane<T>& moving, std::size_t now, const Wheelwise<T>& torque,
                  const Mask& first) {
   auto& newest = moving.brake_line[now % num_slots];
   auto& last = moving.brake_line[(now - 1) % num_slots];
+  const T share = select(first, T(0.0), newer(step_of(kind)));
   for (std::size_t i = 0; i < num_wheels; ++i) {
     newest[i] = torque[i];
-    last[i] = select(first, last[i], last[i] + ahead * (torque[i] - last[i]));
+    last[i] = last[i] + share * (torque[i] - last[i]);
   }
 }
 
 /// The body: Adams and Bashforth's scheme of second order; Euler's at the start.
-template <class T, class Mask>
+template <Kind kind, class T, class Mask>
 inline void move_body(const vehicle::equations::Flow<T>& flow,
                       const vehicle::equations::Flow<T>& rate, const Mask& first,
                       MovingLane<T>& moving, vehicle::equations::Flow<T>& next) {
   using F = vehicle::equations::Flow<T>;
   constexpr std::array<std::size_t, 8> body{F::x,  F::y,        F::yaw, F::vx,
                                             F::vy, F::yaw_rate, F::ax,  F::ay};
+  constexpr double step = step_of(kind);
   const T old = select(first, T(0.0), 0.5 * step);
+  const T now = step + old;
   for (std::size_t i = 0; i < body.size(); ++i) {
     const std::size_t at = body[i];
-    const T change = step * rate[at] + old * (rate[at] - moving.rate[i]);
-    moving.rate[i] = rate[at];
     if (at == F::x || at == F::y) {
       T& lost = at == F::x ? moving.lost_x : moving.lost_y;
-      const T whole = change - lost;
+      const T whole = now * rate[at] - (old * moving.rate[i] + lost);
       next[at] = flow[at] + whole;
       lost = (next[at] - flow[at]) - whole;
     } else {
-      next[at] = flow[at] + change;
+      next[at] = now * rate[at] + (flow[at] - old * moving.rate[i]);
     }
+    moving.rate[i] = rate[at];
   }
 }
 
 /// @param now    counts steps: where the brake line is written
 /// @param late   brakes' dead time in steps
-template <class T>
+template <Kind kind, class T>
 inline void advance(const FixedLane<T>& fixed, MovingLane<T>& moving, std::size_t now,
                     std::size_t late) {
   using F = vehicle::equations::Flow<T>;
@@ -265,14 +368,9 @@ inline void advance(const FixedLane<T>& fixed, MovingLane<T>& moving, std::size_
   }
   const Turn<T> heading = vehicle::equations::turn_by<T>(flow[F::yaw]);
   const Turn<T> middle = vehicle::equations::turn_by<T>(flow[F::steering]);
-  const vehicle::equations::Wheels<T> wheels = vehicle::equations::wheels_of<T>(
-      fixed.real, flow, middle, {fixed.grip, fixed.grip, fixed.grip, fixed.grip});
-  Wheelwise<T> slopes;
-  for (std::size_t i = 0; i < num_wheels; ++i) {
-    slopes[i] = drag_slope<T>(fixed.real, wheels, flow, i, fixed.grip);
-  }
+  const Contacts<T> contacts = contacts_of<T>(fixed.real, flow, middle, fixed.grip);
   F rate;
-  Pair<T> force = vehicle::equations::body_rates<T>(fixed.real, flow, wheels, heading, rate);
+  Pair<T> force = body_rates<T>(fixed.real, flow, contacts, heading, rate);
   if (any(held)) {
     force = {select(held, 0.0, force.x), select(held, 0.0, force.y)};
     for (const std::size_t i : {F::x, F::y, F::yaw, F::vx, F::vy, F::yaw_rate}) {
@@ -285,26 +383,26 @@ inline void advance(const FixedLane<T>& fixed, MovingLane<T>& moving, std::size_
   // Sensors tell the acceleration of 1 ms ago.
   const auto first = moving.first > 0.5;
   const Pair<T> a{force.x / fixed.real.mass, force.y / fixed.real.mass};
-  constexpr double ago = 0.5 + 0.5 * vehicle::usual_step / step;
+  constexpr double ago = 1.0 - newer(step_of(kind));
   const Pair<T> told_a{select(first, moving.ax, a.x + ago * (moving.ax - a.x)),
                        select(first, moving.ay, a.y + ago * (moving.ay - a.y))};
   moving.ax = a.x;
   moving.ay = a.y;
-  Told<T> command = told<T>(fixed, seen<T>(flow, told_a), flow, heading, moving.memory);
+  Told<T> command = told<kind, T>(fixed, seen<T>(flow, told_a), flow, heading, moving.memory);
   command.steering = clamp(command.steering, -fixed.real.steering_limit, fixed.real.steering_limit);
   command.motor_torque =
       clamp(command.motor_torque, -fixed.real.motor_limit, fixed.real.motor_limit);
   // Likewise for the steering, which follows at once: what will be told in the step's middle.
   const T turned = command.steering - moving.told_steering;
   moving.told_steering = command.steering;
-  command.steering = command.steering + select(first, T(0.0), ahead * turned);
-  hold(moving, now, command.brake_torque, first);
+  command.steering = command.steering + select(first, T(0.0), newer(step_of(kind)) * turned);
+  hold<kind>(moving, now, command.brake_torque, first);
   command.brake_torque = delayed<T>(fixed, moving, now, late);
 
   F next;
-  move_actuators<T>(fixed.real, command, flow, next);
-  move_body(flow, rate, first, moving, next);
-  spin_wheels<T>(fixed.real, wheels, flow, next, slopes);
+  move_actuators<kind, T>(fixed.real, command, flow, next);
+  move_body<kind>(flow, rate, first, moving, next);
+  spin_wheels<kind, T>(fixed.real, contacts, flow, next);
   if (any(held)) {
     for (std::size_t i = F::wheel; i < F::wheel + num_wheels; ++i) {
       next[i] = select(held, 0.0, next[i]);

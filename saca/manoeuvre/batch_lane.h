@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
 #include "saca/manoeuvre/equations.h"
+#include "saca/vehicle/abs_equations.h"
 
 /// What the batch's kernels know of a drive under way, for a number type `T`: `float`, as one drive
 /// is written down; or a pack, as many drives lie side by side. Every member is a `T`, so a field
@@ -37,7 +39,8 @@ struct TyreLane {
   Divisor<T> shape;
   T load_sensitivity;
   T per_newton;
-  T peak_zz;  ///< z^2 of the magic formula at its peak
+  T twice_shape;
+  T rise;  ///< stiffness over shape
 };
 template <class T>
 inline const T& per_newton(const TyreLane<T>& tyre) {
@@ -128,11 +131,75 @@ inline const T& jerk(const ShiftLane<T>& shift) {
   return shift.jerk;
 }
 
+/// Numbers that the scalar model's controllers derive from two calls are half of its 1 ms old; of
+/// two calls `dt` apart, this share of a growth's own growth in `dt` is missing to that.
+constexpr double newer(double dt) {
+  return 0.5 * (1.0 - vehicle::usual_step / dt);
+}
+
 template <class T>
 struct AbsLane {
   T speed;
   std::array<T, vehicle::num_wheels> share, slip;
+  std::array<T, vehicle::num_wheels> growth;  ///< of the slip, when last called; 0: not known
 };
+
+/// As for `AbsState`. The first call after a pause knows no slip before, so it takes all of it for
+/// growth: for 1 ms, not for a longer step.
+template <class T, class Mask>
+inline vehicle::equations::Correction<T> next_correction(AbsLane<T>& abs, std::size_t wheel,
+                                                         const T& slip, const T& wanted_slip,
+                                                         const Mask& all_wanted, double dt) {
+  using vehicle::equations::Correction;
+  const auto corrected = [&](const T& growth) {
+    return vehicle::equations::correction<T>(slip, growth, wanted_slip, abs.share[wheel],
+                                             all_wanted);
+  };
+  const auto known = [](const T& value) { return value > 0.0 || value < 0.0; };
+  const auto again = known(abs.slip[wheel]);
+  const T growth = (slip - abs.slip[wheel]) / dt;
+  const T last = select(known(abs.growth[wheel]), abs.growth[wheel], growth);
+  abs.growth[wheel] = select(again, growth, 0.0);
+  Correction<T> result = corrected(growth + newer(dt) * (growth - last));
+  if (!all(again)) {
+    const Correction<T> first = corrected(slip / vehicle::usual_step);
+    const Correction<T> then = corrected(0.0);
+    const double share = vehicle::usual_step / dt;
+    result = {select(again, result.learning,
+                     then.learning + share * (first.learning - then.learning)),
+              select(again, result.too_much,
+                     then.too_much + share * (first.too_much - then.too_much))};
+  }
+  return result;
+}
+
+/// As `DriftState`.
+template <class T>
+struct DriftMemoryLane {
+  T yaw_rate, yaw_acceleration;
+  T growth;  ///< of the yaw rate, when last called
+};
+template <class T>
+inline T turning_growth(DriftMemoryLane<T>& memory, const T& yaw_rate, double dt) {
+  const T growth = (yaw_rate - memory.yaw_rate) / dt;
+  const T last = memory.growth;
+  memory.growth = growth;
+  memory.yaw_rate = yaw_rate;
+  return growth + newer(dt) * (growth - last);
+}
+
+/// What is smoothed goes as far in a step as in calls 1 ms apart.
+inline double smoothed(double dt, double time) {
+  return 1.0 - std::pow(1.0 - vehicle::usual_step / time, dt / vehicle::usual_step);
+}
+template <class T>
+inline double smoothing_share(const AbsLane<T>& /*abs*/, double dt, double time) {
+  return smoothed(dt, time);
+}
+template <class T>
+inline double smoothing_share(const DriftMemoryLane<T>& /*memory*/, double dt, double time) {
+  return smoothed(dt, time);
+}
 
 /// As `ControllerState`.
 template <class T>
@@ -141,9 +208,7 @@ struct MemoryLane {
   T end_d, time, speed;
   AbsLane<T> abs;
   T recovered_for;
-  struct Drift {
-    T yaw_rate, yaw_acceleration;
-  } drift;
+  DriftMemoryLane<T> drift;
 };
 
 /// What does not change. Masks are 1 where they hold, else 0.
@@ -152,7 +217,7 @@ struct FixedLane {
   CarLane<T> real, known;
   T grip, known_grip;
   T curvature;
-  T rest, slower, drifts;  ///< masks
+  T rest, slower;          ///< masks
   T side;                  ///< of a drift: 1 to the left, -1 to the right
   T delay_share;           ///< of the next older slot, where the brakes' dead time lies between two
 };
@@ -178,7 +243,17 @@ struct Lane {
   MovingLane<T> moving;
 };
 
-constexpr double step = 2e-3;  ///< [s]
-constexpr int steps_per_pose = 5;
+/// What drives side by side have in common: the same controller, and a step that is short enough
+/// for it.
+enum class Kind : std::uint8_t { keeps_speed, brakes, drifts };
+constexpr std::size_t num_kinds = 3;
+
+constexpr double pose_step = 0.01;  ///< [s]
+constexpr int steps_per_pose(Kind kind) {
+  return kind == Kind::keeps_speed ? 2 : kind == Kind::brakes ? 3 : 4;
+}
+constexpr double step_of(Kind kind) {
+  return pose_step / steps_per_pose(kind);
+}
 
 }  // namespace saca::manoeuvre::lanes

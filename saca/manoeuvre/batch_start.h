@@ -74,7 +74,7 @@ CarLane<T> car_lane(const Car& car, double grip) {
           .driven_load = t(equations::driven_load(car)),
           .tyre = {t(car.tyre.stiffness), divisor<T>(car.tyre.shape), t(car.tyre.load_sensitivity),
                    t(vehicle::equations::per_newton(car.tyre)),
-                   t(std::pow(std::tan(0.5 * std::numbers::pi / car.tyre.shape), 2))},
+                   t(2.0 * car.tyre.shape), t(car.tyre.stiffness / car.tyre.shape)},
           .tuning = {swerve_lane<T>(car.tuning.swerve), drift_lane<T>(car.tuning.drift)}};
 }
 
@@ -87,9 +87,15 @@ MemoryLane<T> memory_lane(const ControllerState& memory) {
           .end_d = t(memory.end_d),
           .time = t(memory.time),
           .speed = t(memory.speed),
-          .abs = {t(memory.abs.speed), {t(1), t(1), t(1), t(1)}, {t(0), t(0), t(0), t(0)}},
+          .abs = {t(memory.abs.speed), {t(1), t(1), t(1), t(1)}, {t(0), t(0), t(0), t(0)}, {t(0), t(0), t(0), t(0)}},
           .recovered_for = t(memory.recovered_for),
-          .drift = {t(memory.drift.yaw_rate), t(memory.drift.yaw_acceleration)}};
+          .drift = {t(memory.drift.yaw_rate), t(memory.drift.yaw_acceleration), t(0)}};
+}
+
+inline Kind kind_of(PolicyId policy) {
+  return manoeuvre::drifts(policy)                                       ? Kind::drifts
+         : policy == PolicyId::aeb || manoeuvre::brakes_to_speed(policy) ? Kind::brakes
+                                                                         : Kind::keeps_speed;
 }
 
 /// The brakes' dead time in steps.
@@ -97,9 +103,9 @@ struct Delay {
   std::size_t whole;
   double share;  ///< of one more, in [0, 1)
 };
-inline Delay delay_of(const vehicle::Vehicle& car) {
+inline Delay delay_of(const vehicle::Vehicle& car, Kind kind) {
   const double slots = std::round(car.brake_dead_time / vehicle::BrakeLine::slot);
-  const double steps = slots * vehicle::BrakeLine::slot / step;
+  const double steps = slots * vehicle::BrakeLine::slot / step_of(kind);
   const double whole = std::floor(steps + 1e-9);
   return {static_cast<std::size_t>(whole), std::max(0.0, steps - whole)};
 }
@@ -107,6 +113,7 @@ inline Delay delay_of(const vehicle::Vehicle& car) {
 template <class T>
 FixedLane<T> fixed_lane(const Car& car, const Ride& ride, const Plan& plan, double known_grip,
                         double curvature) {
+  const Kind kind = kind_of(plan.policy);
   const auto t = [](double value) { return static_cast<T>(value); };
   Car real = car;
   static_cast<vehicle::Vehicle&>(real) = ride.real();
@@ -117,9 +124,8 @@ FixedLane<T> fixed_lane(const Car& car, const Ride& ride, const Plan& plan, doub
           .curvature = t(curvature),
           .rest = t(plan.policy == PolicyId::aeb ? 1.0 : 0.0),
           .slower = t(brakes_to_speed(plan.policy) ? 1.0 : 0.0),
-          .drifts = t(manoeuvre::drifts(plan.policy) ? 1.0 : 0.0),
           .side = t(side(plan.policy)),
-          .delay_share = t(delay_of(ride.real()).share)};
+          .delay_share = t(delay_of(ride.real(), kind).share)};
 }
 
 /// @param X_LB  the car in the frame that the lanes move in

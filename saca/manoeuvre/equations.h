@@ -8,6 +8,7 @@
 #include "saca/core/number.h"
 #include "saca/core/units.h"
 #include "saca/manoeuvre/car.h"
+#include "saca/manoeuvre/drift.h"
 #include "saca/manoeuvre/lane_shift.h"
 #include "saca/vehicle/abs_equations.h"
 
@@ -313,6 +314,16 @@ inline T drift_motor(const Car& car, const Law& law, const T& grip, const T& spe
   return select(speed < slow && torque * vx > 0.0, 0.0, torque);
 }
 
+// How fast the turning rate grows [rad/s^2]; notes the rate.
+inline double turning_growth(DriftState& memory, double yaw_rate, double dt) {
+  const double growth = (yaw_rate - memory.yaw_rate) / dt;
+  memory.yaw_rate = yaw_rate;
+  return growth;
+}
+inline double smoothing_share(const DriftState& /*memory*/, double dt, double time) {
+  return std::min(1.0, dt / time);
+}
+
 // The drift to the left.
 template <class T, class Car, class Law, class Memory, class Command>
 inline void drift(const Car& car, const Law& law, const T& grip, const Drifting<T>& motion,
@@ -320,10 +331,9 @@ inline void drift(const Car& car, const Law& law, const T& grip, const Drifting<
   constexpr double smoothing = 0.02;    // [s]
   constexpr double over_brake = 1.6;    // of what a wheel can take: it locks
   constexpr double least_load = 500.0;  // [N] that a lifted wheel is braked for
-  const T growth = (motion.yaw_rate - memory.yaw_rate) / dt;
-  memory.yaw_acceleration =
-      memory.yaw_acceleration + std::min(1.0, dt / smoothing) * (growth - memory.yaw_acceleration);
-  memory.yaw_rate = motion.yaw_rate;
+  const T growth = turning_growth(memory, motion.yaw_rate, dt);
+  memory.yaw_acceleration = memory.yaw_acceleration + smoothing_share(memory, dt, smoothing) *
+                                                          (growth - memory.yaw_acceleration);
 
   const T speed = hypot(motion.vx, motion.vy);
   const T u = drift_demand<T>(law, grip, motion, speed, memory);
