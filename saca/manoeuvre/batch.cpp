@@ -51,7 +51,9 @@ struct Prepared {
   EndsWith ends_with;
 };
 
-Prepared prepared(const Drive& drive, EgoMotion& motion) {
+Prepared prepared(const Drive& drive, EgoMotion& motion, int num_poses) {
+  constexpr int usual_poses = 255;  // most drives are over before
+
   expects(drive.car != nullptr, "a drive has a car");
   const Ride ride(*drive.car, drive.plan, scene_of(drive), drive.grip, drive.unknown);
   const vehicle::VehicleState& state = ride.state();
@@ -59,6 +61,10 @@ Prepared prepared(const Drive& drive, EgoMotion& motion) {
   const Pose X_WS = world::from_lane(drive.road, {.s = s, .d = 0.0, .heading = 0.0});
   motion.track.start = drive.start;
   motion.track.step = lanes::pose_step;
+  const auto foreseen = static_cast<std::size_t>(std::min(num_poses, usual_poses) + 1);
+  motion.track.X_WA.reserve(foreseen);
+  motion.v_B.reserve(foreseen);
+  motion.yaw_rate.reserve(foreseen);
   motion.track.X_WA.push_back(state.X_WB);
   motion.v_B.push_back(state.v_B);
   motion.yaw_rate.push_back(state.yaw_rate);
@@ -129,7 +135,7 @@ class Packed {
     while (next_ < queue.size()) {
       const std::size_t index = queue[next_++];
       EgoMotion& motion = motions[index];
-      const Prepared start = prepared(drives[index], motion);
+      const Prepared start = prepared(drives[index], motion, num_poses_);
       if (motion.ended || num_poses_ == 0) {
         continue;
       }

@@ -85,10 +85,18 @@ inline Told<T> path_told(const FixedLane<T>& fixed, const Seen<T>& state, const 
   const T& arm = fixed.known.percussion_arm;
   const InLane<T> place =
       in_lane<T>(fixed.curvature, x + arm * heading.cosine, y + arm * heading.sine, yaw);
-  const auto point =
-      equations::path_point<T>(place.d, place.heading, arm, state.v_B, state.yaw_rate);
+  const T vy = state.v_B.y + state.yaw_rate * arm;
+  const Turn<T> turn = any(fixed.curvature > 0.0 || fixed.curvature < 0.0)
+                           ? vehicle::equations::turn_by<T>(place.heading)
+                           : heading;
+  const equations::PathPoint<T> point{
+      place.d,
+      place.heading,
+      turn,
+      {turn.cosine * state.v_B.x - turn.sine * vy, turn.sine * state.v_B.x + turn.cosine * vy}};
   const auto slower = fixed.slower > 0.5;
-  const equations::Wants<std::remove_const_t<decltype(slower)>> wants{fixed.rest > 0.5, slower};
+  const equations::Wants<std::remove_const_t<decltype(slower)>, kind == Kind::brakes> wants{
+      fixed.rest > 0.5, slower};
   Told<T> told;
   equations::follow_path<T>(fixed.known, wants, fixed.curvature, fixed.known_grip, state, point,
                             step_of(kind), memory, told);
@@ -164,36 +172,62 @@ inline CentreVelocities<T> centre_velocities(const CarLane<T>& car,
            flow[F::vy] - car.rear_arm * flow[F::yaw_rate]}};
 }
 
-/// `sliding_drag`, and how the force along the wheel grows, from one evaluation of the tyre's curve.
-template <class T>
-struct Sliding {
-  T drag;   ///< force over sliding velocity [N s/m]
-  T slope;  ///< force along the wheel over its sliding velocity along, as it grows [N s/m]
-};
 /// cos(y) over y^2 in [0, pi^2], by interpolation at Chebyshev nodes: error 5e-5, enough for a slope.
 constexpr std::array<double, 5> fall_curve{0.999958232, -0.499788066, 0.0414934584, -0.00133885088,
                                            1.87708309e-05};
+
+/// `f` for each wheel. What is done in several rounds has four independent operations side by side.
+template <class F>
+inline void for_wheels(const F& f) {
+  f(0);
+  f(1);
+  f(2);
+  f(3);
+}
+
+/// `sliding_drag` for all wheels, and how the force along each grows, from one evaluation of the
+/// tyre's curve.
 template <class T>
-inline Sliding<T> sliding(const TyreLane<T>& tyre, const T& along, const T& across,
-                          const T& speed_squared, const T& load, const T& grip) {
+struct Sliding {
+  Wheelwise<T> drag;   ///< force over sliding velocity [N s/m]
+  Wheelwise<T> slope;  ///< force along the wheel over its sliding velocity along, as it grows
+};
+template <class T>
+inline Sliding<T> sliding(const TyreLane<T>& tyre, const Wheelwise<T>& along,
+                          const Wheelwise<T>& across, const Wheelwise<T>& speed_squared,
+                          const Wheelwise<T>& load, const T& grip) {
   using vehicle::equations::MagicCurve;
   using vehicle::equations::polynomial;
   constexpr double floor = vehicle::slip_speed_floor * vehicle::slip_speed_floor;
-  const T peak = vehicle::equations::peak_friction<T>(tyre, load, grip);
-  const T rise = tyre.rise / T(peak * sqrt(max(speed_squared, floor)));  // z over sliding velocity
-  const T slipping = along * along + across * across;
-  const T zz = rise * rise * slipping;
-  const T root = sqrt(1.0 + zz);
-  const T w_over_z = 1.0 / (1.0 + root);
-  const T y_over_z = tyre.twice_shape * w_over_z *
-                     polynomial<T>(MagicCurve<T>::arc, (root - 1.0) * w_over_z);
-  const T yy = zz * y_over_z * y_over_z;
-  const T ratio = y_over_z * polynomial<T>(MagicCurve<T>::wave, yy);
-  const T per_ratio = peak * load * rise;
-  const T drag = per_ratio * ratio;
-  // d sin(C atan z) / dz = C cos(C atan z) / (1 + z^2)
-  const T fall = tyre.shape * polynomial<T>(fall_curve, yy) - (1.0 + zz) * ratio;
-  return {drag, drag + along * along * per_ratio * fall / T((1.0 + zz) * max(slipping, 1e-9))};
+  Wheelwise<T> size, zz, slipping, root, w_over_z, y_over_z, yy, ratio;
+  Sliding<T> result;
+  for_wheels([&](std::size_t i) {
+    const T peak = vehicle::equations::peak_friction<T>(tyre, load[i], grip);
+    const T rise = tyre.rise / T(peak * sqrt(max(speed_squared[i], floor)));  // z over velocity
+    slipping[i] = along[i] * along[i] + across[i] * across[i];
+    zz[i] = rise * rise * slipping[i];
+    size[i] = peak * load[i] * rise;
+  });
+  for_wheels([&](std::size_t i) {
+    root[i] = sqrt(1.0 + zz[i]);
+    w_over_z[i] = 1.0 / (1.0 + root[i]);
+  });
+  for_wheels([&](std::size_t i) {
+    y_over_z[i] = tyre.twice_shape * w_over_z[i] *
+                  polynomial<T>(MagicCurve<T>::arc, (root[i] - 1.0) * w_over_z[i]);
+    yy[i] = zz[i] * y_over_z[i] * y_over_z[i];
+  });
+  for_wheels([&](std::size_t i) {
+    ratio[i] = y_over_z[i] * polynomial<T>(MagicCurve<T>::wave, yy[i]);
+    result.drag[i] = size[i] * ratio[i];
+  });
+  for_wheels([&](std::size_t i) {
+    // d sin(C atan z) / dz = C cos(C atan z) / (1 + z^2)
+    const T fall = tyre.shape * polynomial<T>(fall_curve, yy[i]) - (1.0 + zz[i]) * ratio[i];
+    result.slope[i] = result.drag[i] + along[i] * along[i] * (size[i] * fall) /
+                                           T((1.0 + zz[i]) * max(slipping[i], 1e-9));
+  });
+  return result;
 }
 
 /// As `wheels_of` in the vehicle's equations.
@@ -202,31 +236,36 @@ inline Contacts<T> contacts_of(const CarLane<T>& car, const vehicle::equations::
                                const Turn<T>& middle, const T& grip) {
   using F = vehicle::equations::Flow<T>;
   Contacts<T> contacts;
-  const Wheelwise<T> load = vehicle::equations::wheel_loads<T>(car, flow[F::ax], flow[F::ay]);
   const CentreVelocities<T> v_B = centre_velocities(car, flow);
   const T forth = car.wheelbase * middle.cosine;
   const T across = car.wheelbase * middle.sine;
   const T aside = car.half_track * middle.sine;
-  for (std::size_t i = 0; i < num_wheels; ++i) {
+  for (const std::size_t i : {vehicle::front_left, vehicle::front_right}) {
+    const T along = vehicle::equations::is_left(i) ? T(forth - aside) : T(forth + aside);
+    const T scale = 1.0 / sqrt(along * along + across * across);
+    contacts.front[i] = {along * scale, across * scale};
+  }
+  Wheelwise<T> slip_x, v_y, speed_squared;
+  for_wheels([&](std::size_t i) {
     const T& vx = v_B.x[i % 2];
     const T& vy = v_B.y[i / 2];
-    T v_y = vy;
     contacts.v_x[i] = vx;
+    v_y[i] = vy;
     if (vehicle::equations::is_front(i)) {
-      const T along = vehicle::equations::is_left(i) ? T(forth - aside) : T(forth + aside);
-      const T scale = 1.0 / sqrt(along * along + across * across);
-      const Turn<T> turn{along * scale, across * scale};
-      contacts.front[i] = turn;
+      const Turn<T>& turn = contacts.front[i];
       contacts.v_x[i] = turn.cosine * vx + turn.sine * vy;
-      v_y = turn.cosine * vy - turn.sine * vx;
+      v_y[i] = turn.cosine * vy - turn.sine * vx;
     }
-    const T slip_x = contacts.v_x[i] - car.wheel_radius * flow[F::wheel + i];
-    const Sliding<T> slide =
-        sliding<T>(car.tyre, slip_x, v_y, vx * vx + vy * vy, load[i], grip);
-    contacts.F_x[i] = -slide.drag * slip_x;
-    contacts.F_y[i] = -slide.drag * v_y;
-    contacts.slope[i] = slide.slope;
-  }
+    slip_x[i] = contacts.v_x[i] - car.wheel_radius * flow[F::wheel + i];
+    speed_squared[i] = vx * vx + vy * vy;
+  });
+  const Wheelwise<T> load = vehicle::equations::wheel_loads<T>(car, flow[F::ax], flow[F::ay]);
+  const Sliding<T> slides = sliding<T>(car.tyre, slip_x, v_y, speed_squared, load, grip);
+  for_wheels([&](std::size_t i) {
+    contacts.F_x[i] = -slides.drag[i] * slip_x[i];
+    contacts.F_y[i] = -slides.drag[i] * v_y[i];
+  });
+  contacts.slope = slides.slope;
   return contacts;
 }
 

@@ -102,6 +102,12 @@ inline const T& air_drag(const CarLane<T>& car) {
   return car.air_drag;
 }
 template <class T>
+inline T front_load(const CarLane<T>& car, const T& ax) {
+  using number::clamp;
+  const T pitch = car.mass * ax * car.mass_height / car.wheelbase;
+  return clamp(car.front_weight - pitch, 0.0, car.mass * vehicle::gravity);
+}
+template <class T>
 inline const T& front_weight(const CarLane<T>& car) {
   return car.front_weight;
 }
@@ -147,29 +153,42 @@ struct AbsLane {
 /// As for `AbsState`. The first call after a pause knows no slip before, so it takes all of it for
 /// growth: for 1 ms, not for a longer step.
 template <class T, class Mask>
-inline vehicle::equations::Correction<T> next_correction(AbsLane<T>& abs, std::size_t wheel,
-                                                         const T& slip, const T& wanted_slip,
-                                                         const Mask& all_wanted, double dt) {
-  using vehicle::equations::Correction;
-  const auto corrected = [&](const T& growth) {
-    return vehicle::equations::correction<T>(slip, growth, wanted_slip, abs.share[wheel],
-                                             all_wanted);
+inline std::array<vehicle::equations::Correction<T>, vehicle::num_wheels> next_corrections(
+    AbsLane<T>& abs, const vehicle::equations::Wheelwise<T>& slips, const T& wanted_slip,
+    const Mask& all_wanted, double dt) {
+  std::array<vehicle::equations::Correction<T>, vehicle::num_wheels> result;
+  const Divisor<T> wanted{wanted_slip, 1.0 / wanted_slip};
+  const auto corrected = [&](std::size_t i, const T& growth) {
+    return vehicle::equations::correction<T>(slips[i], growth, wanted, abs.share[i], all_wanted);
   };
   const auto known = [](const T& value) { return value > 0.0 || value < 0.0; };
-  const auto again = known(abs.slip[wheel]);
-  const T growth = (slip - abs.slip[wheel]) / dt;
-  const T last = select(known(abs.growth[wheel]), abs.growth[wheel], growth);
-  abs.growth[wheel] = select(again, growth, 0.0);
-  Correction<T> result = corrected(growth + newer(dt) * (growth - last));
-  if (!all(again)) {
-    const Correction<T> first = corrected(slip / vehicle::usual_step);
-    const Correction<T> then = corrected(0.0);
-    const double share = vehicle::usual_step / dt;
-    result = {select(again, result.learning,
-                     then.learning + share * (first.learning - then.learning)),
-              select(again, result.too_much,
-                     then.too_much + share * (first.too_much - then.too_much))};
+  const auto all_again = known(abs.slip[0]) && known(abs.slip[1]) && known(abs.slip[2]) &&
+                         known(abs.slip[3]) && known(abs.growth[0]) && known(abs.growth[1]) &&
+                         known(abs.growth[2]) && known(abs.growth[3]);
+  const bool usual = all(all_again);
+  for (std::size_t i = 0; i < vehicle::num_wheels; ++i) {
+    const T growth = (slips[i] - abs.slip[i]) / dt;
+    T last = abs.growth[i];
+    if (!usual) {
+      last = select(known(last), last, growth);
+    }
+    result[i] = corrected(i, growth + newer(dt) * (growth - last));
+    abs.growth[i] = growth;
   }
+  if (!usual) {
+    for (std::size_t i = 0; i < vehicle::num_wheels; ++i) {
+      const auto again = known(abs.slip[i]);
+      const auto first = corrected(i, slips[i] / vehicle::usual_step);
+      const auto then = corrected(i, 0.0);
+      const double share = vehicle::usual_step / dt;
+      result[i] = {select(again, result[i].learning,
+                          then.learning + share * (first.learning - then.learning)),
+                   select(again, result[i].too_much,
+                          then.too_much + share * (first.too_much - then.too_much))};
+      abs.growth[i] = select(again, abs.growth[i], 0.0);
+    }
+  }
+  abs.slip = slips;
   return result;
 }
 

@@ -159,11 +159,16 @@ inline Sides<T> turning_allowed(const Car& car, const State& state, const T& gri
   return {select(right, allowed, 1.0), select(right, 1.0, allowed)};
 }
 
+// Load on the front axle under an acceleration ahead [N].
+inline double front_load(const vehicle::Vehicle& car, double ax) {
+  const Wheelwise<double> loads = vehicle::equations::wheel_loads<double>(car, ax, 0.0);
+  return loads[front_left] + loads[front_right];
+}
+
 // Angle of the road wheels at which the front tyres push with the force that gives the demand.
 template <class T, class Car, class State>
 inline T steering_angle(const Car& car, const State& state, const T& grip, const T& demand) {
-  const Wheelwise<T> loads = vehicle::equations::wheel_loads<T>(car, state.a_B.x, 0.0);
-  const T load = loads[front_left] + loads[front_right];
+  const T load = front_load(car, state.a_B.x);
   const T peak = vehicle::equations::peak_friction<T>(car.tyre, 0.5 * load, grip);
   const T most = front_limit * peak * load;
   const T braking =
@@ -198,15 +203,15 @@ inline T holding_torque(const Car& car, const State& state, const T& speed, cons
   return force * car.wheel_radius;
 }
 
-// What a plan wants of the speed, beside keeping it.
-template <class Mask>
+// What a plan wants of the speed, beside keeping it. Where `may_brake` is false, neither mask holds.
+template <class Mask, bool may_brake = true>
 struct Wants {
   Mask rest;    // at once: emergency braking
   Mask slower;  // down to the speed to keep
 };
 
-template <class Mask, class Memory>
-inline Mask stops(const Wants<Mask>& wants, const Memory& memory) {
+template <class Mask, bool may_brake, class Memory>
+inline Mask stops(const Wants<Mask, may_brake>& wants, const Memory& memory) {
   return wants.rest || (wants.slower && memory.speed < least_kept_speed);
 }
 
@@ -221,10 +226,14 @@ inline void begin_abs_where(const Mask& mask, const T& speed, Abs& abs) {
 }
 
 // Brakes or motor: what the plan wants of the speed, with what steering leaves.
-template <class T, class Mask, class Car, class State, class Memory, class Command>
-inline void command_speed(const Car& car, const Wants<Mask>& wants, const T& grip,
+template <class T, class Mask, bool may_brake, class Car, class State, class Memory, class Command>
+inline void command_speed(const Car& car, const Wants<Mask, may_brake>& wants, const T& grip,
                           const State& state, const T& sideways, double dt, Memory& memory,
                           Command& command) {
+  if constexpr (!may_brake) {
+    command.motor_torque = holding_torque<T>(car, state, memory.speed, grip);
+    return;
+  }
   constexpr double approach = 0.25;  // [s]: the last of the braking fades within the brakes' delay
   const Mask stop = stops(wants, memory);
   // Where a bend needs all the grip, only less speed helps: a stop always brakes.
@@ -247,8 +256,8 @@ inline void command_speed(const Car& car, const Wants<Mask>& wants, const T& gri
   }
 }
 
-template <class T, class Mask, class Car, class State, class Memory>
-inline void watch_recovery(const Car& car, const Wants<Mask>& wants, const PathPoint<T>& point,
+template <class T, class Mask, bool may_brake, class Car, class State, class Memory>
+inline void watch_recovery(const Car& car, const Wants<Mask, may_brake>& wants, const PathPoint<T>& point,
                            const State& state, double dt, Memory& memory) {
   constexpr double near_d = 0.2;      // [m]
   constexpr double near_speed = 1.0;  // [m/s]
@@ -261,8 +270,8 @@ inline void watch_recovery(const Car& car, const Wants<Mask>& wants, const PathP
 }
 
 // What to tell a car that follows a path.
-template <class T, class Mask, class Car, class State, class Memory, class Command>
-inline void follow_path(const Car& car, const Wants<Mask>& wants, const T& curvature, const T& grip,
+template <class T, class Mask, bool may_brake, class Car, class State, class Memory, class Command>
+inline void follow_path(const Car& car, const Wants<Mask, may_brake>& wants, const T& curvature, const T& grip,
                         const State& state, const PathPoint<T>& point, double dt, Memory& memory,
                         Command& command) {
   const T demand = sideways_demand<T>(car, curvature, state, memory, point);

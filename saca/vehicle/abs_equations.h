@@ -79,8 +79,8 @@ struct Correction {
   T learning;  // growth of the share [1/s]
   T too_much;  // slip over what is wanted, as a share of that, >= 0
 };
-template <class T, class Mask>
-inline Correction<T> correction(const T& slip, const T& slip_growth, const T& wanted_slip,
+template <class T, class Wanted, class Mask>
+inline Correction<T> correction(const T& slip, const T& slip_growth, const Wanted& wanted_slip,
                                 const T& share, const Mask& all_wanted) {
   constexpr double lead = 0.06;  // [s] by which slip is foreseen, for the brakes' delay
   constexpr double raise = 0.5;  // [1/s] share won back at no slip
@@ -93,12 +93,19 @@ inline Correction<T> correction(const T& slip, const T& slip_growth, const T& wa
   return {select(excess > 0.0, -lower * excess, rest), max(0.0, excess)};
 }
 
-// The correction for a wheel in one call, `dt` after the last one.
+// The corrections for all wheels in one call, `dt` after the last one; notes the slips.
 template <class T, class Mask>
-inline Correction<T> next_correction(AbsState& abs, std::size_t wheel, const T& slip,
-                                     const T& wanted_slip, const Mask& all_wanted, double dt) {
-  return correction<T>(slip, (slip - abs.slip[wheel]) / dt, wanted_slip, abs.share[wheel],
-                       all_wanted);
+inline std::array<Correction<T>, num_wheels> next_corrections(AbsState& abs,
+                                                              const Wheelwise<T>& slips,
+                                                              const T& wanted_slip,
+                                                              const Mask& all_wanted, double dt) {
+  std::array<Correction<T>, num_wheels> corrections;
+  for (std::size_t i = 0; i < num_wheels; ++i) {
+    corrections[i] = correction<T>(slips[i], (slips[i] - abs.slip[i]) / dt, wanted_slip,
+                                   abs.share[i], all_wanted);
+  }
+  abs.slip = slips;
+  return corrections;
 }
 
 template <class T, class Car, class State, class Abs>
@@ -119,13 +126,13 @@ inline Wheelwise<T> deployed_brakes(const Car& car, const State& state, const T&
   const T wanted = min(deceleration / most, model_share);
   const auto all_wanted = deceleration >= model_share * most;
 
+  const std::array<Correction<T>, num_wheels> corrections =
+      next_corrections<T>(abs, slips, wanted_slip, all_wanted, dt);
   Wheelwise<T> torque{};
   for (std::size_t i = 0; i < num_wheels; ++i) {
-    const Correction<T> correct =
-        next_correction<T>(abs, i, slips[i], wanted_slip, all_wanted, dt);
-    abs.slip[i] = slips[i];
-    abs.share[i] = clamp(abs.share[i] + dt * correct.learning, 0.2, 1.4);
-    const T now = select(abs.speed < least_speed, 1.0, abs.share[i] - release * correct.too_much);
+    abs.share[i] = clamp(abs.share[i] + dt * corrections[i].learning, 0.2, 1.4);
+    const T now =
+        select(abs.speed < least_speed, 1.0, abs.share[i] - release * corrections[i].too_much);
     const T full = wanted * (grip * loads[i] * car.wheel_radius + slowing_torque<T>(car, i, most));
     torque[i] = max(0.0, now) * full;
   }
