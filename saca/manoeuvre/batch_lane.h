@@ -128,13 +128,40 @@ inline const Divisor<T>& peak_slip(const CarLane<T>& car, const T&) {
   return car.peak_slip;
 }
 
+/// As `LaneShift`: where it starts and ends, and when its jerk changes.
 template <class T>
 struct ShiftLane {
-  T start_d, start_v, jerk, ramp, first, second;
+  T start_d, start_v, jerk;
+  std::array<T, 4> change;  ///< [s]
+  T end;                    ///< [s]
+  T end_d;
 };
+
+/// As of a `LaneShift`. The jerk jumps up or down by one and the same amount, so what it has grown to
+/// is a sum of powers of the time since each jump.
 template <class T>
-inline const T& jerk(const ShiftLane<T>& shift) {
-  return shift.jerk;
+inline equations::Lateral<T> at(const ShiftLane<T>& shift, T time) {
+  using namespace number;
+  const auto over = time > shift.end;
+  if (all(over)) {
+    return {shift.end_d, 0.0, 0.0};
+  }
+  const auto since = [&](const T& change) { return T(max(time - change, 0.0)); };
+  const T begun = max(time, 0.0);
+  T once = begun;
+  T squared = begun * begun;
+  T cubed = squared * begun;
+  for (std::size_t i = 0; i < shift.change.size(); ++i) {
+    const T t = since(shift.change[i]);
+    const T tt = t * t;
+    once = i < 2 ? T(once - t) : T(once + t);
+    squared = i < 2 ? T(squared - tt) : T(squared + tt);
+    cubed = i < 2 ? T(cubed - tt * t) : T(cubed + tt * t);
+  }
+  const T d = shift.start_d + shift.start_v * time + (1.0 / 6.0) * shift.jerk * cubed;
+  return {select(over, shift.end_d, d),
+          select(over, 0.0, shift.start_v + 0.5 * shift.jerk * squared),
+          select(over, 0.0, shift.jerk * once)};
 }
 
 /// Numbers that the scalar model's controllers derive from two calls are half of its 1 ms old; of
@@ -155,38 +182,38 @@ struct AbsLane {
 template <class T, class Mask>
 inline std::array<vehicle::equations::Correction<T>, vehicle::num_wheels> next_corrections(
     AbsLane<T>& abs, const vehicle::equations::Wheelwise<T>& slips, const T& wanted_slip,
-    const Mask& all_wanted, double dt) {
-  std::array<vehicle::equations::Correction<T>, vehicle::num_wheels> result;
-  const Divisor<T> wanted{wanted_slip, 1.0 / wanted_slip};
+    const Mask& all_wanted, const T& wanted, double dt) {
+  using vehicle::num_wheels;
+  std::array<vehicle::equations::Correction<T>, num_wheels> result;
+  const Divisor<T> divisor{wanted_slip, 1.0 / wanted_slip};
   const auto corrected = [&](std::size_t i, const T& growth) {
-    return vehicle::equations::correction<T>(slips[i], growth, wanted, abs.share[i], all_wanted);
+    return vehicle::equations::correction<T>(slips[i], growth, divisor, abs.share[i], all_wanted);
   };
   const auto known = [](const T& value) { return value > 0.0 || value < 0.0; };
-  const auto all_again = known(abs.slip[0]) && known(abs.slip[1]) && known(abs.slip[2]) &&
-                         known(abs.slip[3]) && known(abs.growth[0]) && known(abs.growth[1]) &&
-                         known(abs.growth[2]) && known(abs.growth[3]);
-  const bool usual = all(all_again);
-  for (std::size_t i = 0; i < vehicle::num_wheels; ++i) {
+  auto usual = wanted <= 0.0;  // or does not brake: nobody asks
+  usual = usual || (known(abs.slip[0]) && known(abs.slip[1]) && known(abs.slip[2]) &&
+                    known(abs.slip[3]) && known(abs.growth[0]) && known(abs.growth[1]) &&
+                    known(abs.growth[2]) && known(abs.growth[3]));
+  const bool all_usual = all(usual);
+  for (std::size_t i = 0; i < num_wheels; ++i) {
     const T growth = (slips[i] - abs.slip[i]) / dt;
     T last = abs.growth[i];
-    if (!usual) {
+    if (!all_usual) {
       last = select(known(last), last, growth);
     }
     result[i] = corrected(i, growth + newer(dt) * (growth - last));
     abs.growth[i] = growth;
   }
-  if (!usual) {
-    for (std::size_t i = 0; i < vehicle::num_wheels; ++i) {
-      const auto again = known(abs.slip[i]);
-      const auto first = corrected(i, slips[i] / vehicle::usual_step);
-      const auto then = corrected(i, 0.0);
-      const double share = vehicle::usual_step / dt;
-      result[i] = {select(again, result[i].learning,
-                          then.learning + share * (first.learning - then.learning)),
-                   select(again, result[i].too_much,
-                          then.too_much + share * (first.too_much - then.too_much))};
-      abs.growth[i] = select(again, abs.growth[i], 0.0);
-    }
+  for (std::size_t i = 0; i < num_wheels && !all_usual; ++i) {
+    const auto again = known(abs.slip[i]);
+    const auto first = corrected(i, slips[i] / vehicle::usual_step);
+    const auto then = corrected(i, 0.0);
+    const double share = vehicle::usual_step / dt;
+    result[i] = {select(again, result[i].learning,
+                        then.learning + share * (first.learning - then.learning)),
+                 select(again, result[i].too_much,
+                        then.too_much + share * (first.too_much - then.too_much))};
+    abs.growth[i] = select(again, abs.growth[i], 0.0);
   }
   abs.slip = slips;
   return result;

@@ -113,24 +113,34 @@ inline Reduced<Arch> reduced(const Pack<Arch>& angle) {
   return {(angle - half_turns * first) - half_turns * second, 1.0 - 2.0 * odd};
 }
 
+/// Sine and cosine within a quarter turn of zero.
 template <class Arch>
-inline Pack<Arch> sin(const Pack<Arch>& angle) {
+inline Pack<Arch> near_sin(const Pack<Arch>& angle) {
   constexpr std::array<double, 6> c{
       1.0, -0.166666666, 0.00833333098, -0.000198408616, 2.75252871e-06, -2.38894983e-08};
+  return angle * vehicle::equations::polynomial<Pack<Arch>>(c, angle * angle);
+}
+template <class Arch>
+inline Pack<Arch> near_cos(const Pack<Arch>& angle) {
+  constexpr std::array<double, 6> c{
+      1.0, -0.499999994, 0.0416666362, -0.00138883608, 2.47601355e-05, -2.60510763e-07};
+  return vehicle::equations::polynomial<Pack<Arch>>(c, angle * angle);
+}
+
+template <class Arch>
+inline Pack<Arch> sin(const Pack<Arch>& angle) {
   const Reduced<Arch> r = reduced(angle);
-  return r.sign * r.angle * vehicle::equations::polynomial<Pack<Arch>>(c, r.angle * r.angle);
+  return r.sign * near_sin(r.angle);
 }
 template <class Arch>
 inline Pack<Arch> cos(const Pack<Arch>& angle) {
-  constexpr std::array<double, 6> c{
-      1.0, -0.499999994, 0.0416666362, -0.00138883608, 2.47601355e-05, -2.60510763e-07};
   const Reduced<Arch> r = reduced(angle);
-  return r.sign * vehicle::equations::polynomial<Pack<Arch>>(c, r.angle * r.angle);
+  return r.sign * near_cos(r.angle);
 }
 /// @param angle  within a quarter turn of zero
 template <class Arch>
 inline Pack<Arch> tan(const Pack<Arch>& angle) {
-  return sin(angle) / cos(angle);
+  return near_sin(angle) / near_cos(angle);
 }
 /// @param value  in [-1, 1]
 template <class Arch>

@@ -79,11 +79,22 @@ CarLane<T> car_lane(const Car& car, double grip) {
 }
 
 template <class T>
+ShiftLane<T> shift_lane(const LaneShift& shift) {
+  const auto t = [](double value) { return static_cast<T>(value); };
+  const double swing = shift.ramp + shift.first;
+  const double last = swing + 2.0 * shift.ramp + shift.second;
+  return {.start_d = t(shift.start_d),
+          .start_v = t(shift.start_v),
+          .jerk = t(equations::jerk(shift)),
+          .change = {t(shift.ramp), t(swing), t(swing + 2.0 * shift.ramp), t(last)},
+          .end = t(duration(shift)),
+          .end_d = t(at(shift, duration(shift)).d)};
+}
+
+template <class T>
 MemoryLane<T> memory_lane(const ControllerState& memory) {
   const auto t = [](double value) { return static_cast<T>(value); };
-  const LaneShift& shift = memory.shift;
-  return {.shift = {t(shift.start_d), t(shift.start_v), t(equations::jerk(shift)), t(shift.ramp),
-                    t(shift.first), t(shift.second)},
+  return {.shift = shift_lane<T>(memory.shift),
           .end_d = t(memory.end_d),
           .time = t(memory.time),
           .speed = t(memory.speed),

@@ -94,11 +94,13 @@ inline Correction<T> correction(const T& slip, const T& slip_growth, const Wante
 }
 
 // The corrections for all wheels in one call, `dt` after the last one; notes the slips.
+// @param wanted  share of the grip, in [0, 1]
 template <class T, class Mask>
 inline std::array<Correction<T>, num_wheels> next_corrections(AbsState& abs,
                                                               const Wheelwise<T>& slips,
                                                               const T& wanted_slip,
-                                                              const Mask& all_wanted, double dt) {
+                                                              const Mask& all_wanted,
+                                                              const T& /*wanted*/, double dt) {
   std::array<Correction<T>, num_wheels> corrections;
   for (std::size_t i = 0; i < num_wheels; ++i) {
     corrections[i] = correction<T>(slips[i], (slips[i] - abs.slip[i]) / dt, wanted_slip,
@@ -127,7 +129,7 @@ inline Wheelwise<T> deployed_brakes(const Car& car, const State& state, const T&
   const auto all_wanted = deceleration >= model_share * most;
 
   const std::array<Correction<T>, num_wheels> corrections =
-      next_corrections<T>(abs, slips, wanted_slip, all_wanted, dt);
+      next_corrections<T>(abs, slips, wanted_slip, all_wanted, wanted, dt);
   Wheelwise<T> torque{};
   for (std::size_t i = 0; i < num_wheels; ++i) {
     abs.share[i] = clamp(abs.share[i] + dt * corrections[i].learning, 0.2, 1.4);
