@@ -61,6 +61,9 @@ Prepared prepared(const Drive& drive, EgoMotion& motion, int num_poses) {
   const Pose X_WS = world::from_lane(drive.road, {.s = s, .d = 0.0, .heading = 0.0});
   motion.track.start = drive.start;
   motion.track.step = lanes::pose_step;
+  motion.track.X_WA.clear();
+  motion.v_B.clear();
+  motion.yaw_rate.clear();
   const auto foreseen = static_cast<std::size_t>(std::min(num_poses, usual_poses) + 1);
   motion.track.X_WA.reserve(foreseen);
   motion.v_B.reserve(foreseen);
@@ -251,6 +254,13 @@ Level best() noexcept {
 
 std::vector<EgoMotion> drive_all(std::span<const Drive> drives, double horizon, int threads,
                                  Level level) {
+  std::vector<EgoMotion> motions;
+  drive_all(drives, horizon, motions, threads, level);
+  return motions;
+}
+
+void drive_all(std::span<const Drive> drives, double horizon, std::vector<EgoMotion>& motions,
+               int threads, Level level) {
   expects(horizon >= 0.0 && horizon <= 3600.0, "horizon in [0, 3600] s");
   expects(threads >= 1, "threads >= 1");
   expects(available(level), "the level is available");
@@ -281,12 +291,11 @@ std::vector<EgoMotion> drive_all(std::span<const Drive> drives, double horizon, 
     queues.emplace_back(order.data() + begin, end - begin);
     begin = end;
   }
-  std::vector<EgoMotion> motions(drives.size());
+  motions.resize(drives.size());
   in_parallel(queues.size(), threads, [&](std::size_t i) {
     const QueueKey& key = keys[queues[i].front()];
     Packed(kernel, num_poses).drive(drives, queues[i], motions, key.kind, key.late);
   });
-  return motions;
 }
 
 }  // namespace saca::manoeuvre

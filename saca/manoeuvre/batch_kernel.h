@@ -46,18 +46,22 @@ struct InLane {
   T d, heading;
 };
 template <class T>
+inline auto bends_of(const T& curvature) {
+  return curvature > 0.0 || curvature < 0.0;
+}
+template <class T>
 inline InLane<T> in_lane(const T& curvature, const T& x, const T& y, const T& yaw) {
+  constexpr double round_once = 2.0 * std::numbers::pi;
+  const auto wrapped = [](const T& angle) {
+    return T(angle - round_once * round(angle / round_once));
+  };
+  if (!any(bends_of(curvature))) {
+    return {y, wrapped(yaw)};
+  }
   const T across = 1.0 - curvature * y;
   const T along = curvature * x;
-  T turned = 0.0;
-  if (any(curvature > 0.0 || curvature < 0.0)) {
-    turned = atan2(along, across);
-  }
   const T r = sqrt(along * along + across * across);
-  const T heading = yaw - turned;
-  constexpr double round_once = 2.0 * std::numbers::pi;
-  return {(2.0 * y - curvature * (x * x + y * y)) / (1.0 + r),
-          heading - round_once * round(heading / round_once)};
+  return {(2.0 * y - curvature * (x * x + y * y)) / (1.0 + r), wrapped(yaw - atan2(along, across))};
 }
 
 template <Kind kind, class T>
@@ -86,9 +90,12 @@ inline Told<T> path_told(const FixedLane<T>& fixed, const Seen<T>& state, const 
   const InLane<T> place =
       in_lane<T>(fixed.curvature, x + arm * heading.cosine, y + arm * heading.sine, yaw);
   const T vy = state.v_B.y + state.yaw_rate * arm;
-  const Turn<T> turn = any(fixed.curvature > 0.0 || fixed.curvature < 0.0)
-                           ? vehicle::equations::turn_by<T>(place.heading)
-                           : heading;
+  Turn<T> turn = heading;
+  const auto bends = bends_of(fixed.curvature);
+  if (any(bends)) {
+    const Turn<T> in_bend = vehicle::equations::turn_by<T>(place.heading);
+    turn = {select(bends, in_bend.cosine, heading.cosine), select(bends, in_bend.sine, heading.sine)};
+  }
   const equations::PathPoint<T> point{
       place.d,
       place.heading,
@@ -398,7 +405,7 @@ template <Kind kind, class T>
 inline void advance(const FixedLane<T>& fixed, MovingLane<T>& moving, std::size_t now,
                     std::size_t late) {
   using F = vehicle::equations::Flow<T>;
-  F flow = moving.flow;  // its own: what is written to the lane cannot change it
+  F& flow = moving.flow;
   const auto held = vehicle::equations::is_held<T>(fixed.real, flow);
   if (any(held)) {
     for (std::size_t i = F::vx; i < F::wheel + num_wheels; ++i) {  // velocities, then wheels

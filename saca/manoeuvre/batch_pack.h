@@ -116,14 +116,14 @@ inline Reduced<Arch> reduced(const Pack<Arch>& angle) {
 /// Sine and cosine within a quarter turn of zero.
 template <class Arch>
 inline Pack<Arch> near_sin(const Pack<Arch>& angle) {
-  constexpr std::array<double, 6> c{
-      1.0, -0.166666666, 0.00833333098, -0.000198408616, 2.75252871e-06, -2.38894983e-08};
+  constexpr std::array<double, 5> c{0.999999996, -0.166666579, 0.00833305017, -0.000198090174,
+                                    2.60510764e-06};
   return angle * vehicle::equations::polynomial<Pack<Arch>>(c, angle * angle);
 }
 template <class Arch>
 inline Pack<Arch> near_cos(const Pack<Arch>& angle) {
-  constexpr std::array<double, 6> c{
-      1.0, -0.499999994, 0.0416666362, -0.00138883608, 2.47601355e-05, -2.60510763e-07};
+  constexpr std::array<double, 5> c{0.999999953, -0.499999048, 0.0416635732, -0.00138536295,
+                                    2.31524167e-05};
   return vehicle::equations::polynomial<Pack<Arch>>(c, angle * angle);
 }
 
@@ -169,10 +169,9 @@ struct MagicCurve<manoeuvre::lanes::Pack<Arch>> {
   static constexpr std::array<double, 8> arc{0.999999898,  -0.333319597,  0.199692354,
                                              -0.14016585,  0.099060969,   -0.0593671008,
                                              0.0241661895, -0.00466877331};
-  /// sin(y) / y over y^2 in [0, pi^2]: error 7e-10.
-  static constexpr std::array<double, 7> wave{0.999999999,     -0.166666659, 0.00833332129,
-                                              -0.000198405341, 2.753585e-06, -2.47288117e-08,
-                                              1.36130988e-10};
+  /// sin(y) / y over y^2 in [0, pi^2]: error 6e-8.
+  static constexpr std::array<double, 6> wave{0.999999937,     -0.166666207,  0.00833278847,
+                                              -0.000198175451, 2.70873177e-06, -2.06941101e-08};
 };
 
 }  // namespace saca::vehicle::equations
