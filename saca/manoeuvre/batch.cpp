@@ -201,8 +201,8 @@ class Packed {
   std::size_t next_ = 0;
 };
 
-// Which drives make one queue: those of one kind, and cars of one dead time; and where they stand in
-// it: long ones first, so that lanes come to their ends together.
+// Which drives make one queue: those of one kind, and cars of one dead time; and where they stand
+// in it: long ones first, so that lanes come to their ends together.
 struct QueueKey {
   std::size_t late;
   lanes::Kind kind;

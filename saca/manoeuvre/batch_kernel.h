@@ -6,7 +6,6 @@
 /// scheme is another: see `batch.h`. Not part of the library's interface.
 namespace saca::manoeuvre::lanes {
 
-using namespace number;
 using vehicle::num_wheels;
 using vehicle::equations::Pair;
 using vehicle::equations::Turn;
@@ -94,7 +93,8 @@ inline Told<T> path_told(const FixedLane<T>& fixed, const Seen<T>& state, const 
   const auto bends = bends_of(fixed.curvature);
   if (any(bends)) {
     const Turn<T> in_bend = vehicle::equations::turn_by<T>(place.heading);
-    turn = {select(bends, in_bend.cosine, heading.cosine), select(bends, in_bend.sine, heading.sine)};
+    turn = {select(bends, in_bend.cosine, heading.cosine),
+            select(bends, in_bend.sine, heading.sine)};
   }
   const equations::PathPoint<T> point{
       place.d,
@@ -179,7 +179,8 @@ inline CentreVelocities<T> centre_velocities(const CarLane<T>& car,
            flow[F::vy] - car.rear_arm * flow[F::yaw_rate]}};
 }
 
-/// cos(y) over y^2 in [0, pi^2], by interpolation at Chebyshev nodes: error 5e-5, enough for a slope.
+/// cos(y) over y^2 in [0, pi^2], by interpolation at Chebyshev nodes: error 5e-5, enough for a
+/// slope.
 constexpr std::array<double, 5> fall_curve{0.999958232, -0.499788066, 0.0414934584, -0.00133885088,
                                            1.87708309e-05};
 
@@ -297,8 +298,7 @@ inline Pair<T> body_rates(const CarLane<T>& car, const vehicle::equations::Flow<
   const T vy = flow[F::vy];
   const T air = car.air_drag * hypot(vx, vy);
   const Pair<T> force{(left + right) - air * vx, (front + rear) - air * vy};
-  const T torque =
-      car.front_arm * front - car.rear_arm * rear + car.half_track * (right - left);
+  const T torque = car.front_arm * front - car.rear_arm * rear + car.half_track * (right - left);
   rate[F::x] = heading.cosine * vx - heading.sine * vy;
   rate[F::y] = heading.sine * vx + heading.cosine * vy;
   rate[F::yaw] = flow[F::yaw_rate];
@@ -356,7 +356,6 @@ inline Wheelwise<T> delayed(const FixedLane<T>& fixed, const MovingLane<T>& movi
   }
   return torque;
 }
-
 
 /// Writes what was told into the brake line, where the last slot can still be changed.
 ///

@@ -13,6 +13,8 @@
 /// has the same place, counted in `T`s, in both. Not part of the library's interface.
 namespace saca::manoeuvre::lanes {
 
+using namespace number;
+
 /// A number that much is divided by, with its inverse: multiplying is quicker.
 template <class T>
 struct Divisor : T {
@@ -103,7 +105,6 @@ inline const T& air_drag(const CarLane<T>& car) {
 }
 template <class T>
 inline T front_load(const CarLane<T>& car, const T& ax) {
-  using number::clamp;
   const T pitch = car.mass * ax * car.mass_height / car.wheelbase;
   return clamp(car.front_weight - pitch, 0.0, car.mass * vehicle::gravity);
 }
@@ -137,11 +138,10 @@ struct ShiftLane {
   T end_d;
 };
 
-/// As of a `LaneShift`. The jerk jumps up or down by one and the same amount, so what it has grown to
-/// is a sum of powers of the time since each jump.
+/// As of a `LaneShift`. The jerk jumps up or down by one and the same amount, so what it has grown
+/// to is a sum of powers of the time since each jump.
 template <class T>
 inline equations::Lateral<T> at(const ShiftLane<T>& shift, T time) {
-  using namespace number;
   const auto over = time > shift.end;
   if (all(over)) {
     return {shift.end_d, 0.0, 0.0};
@@ -209,10 +209,10 @@ inline std::array<vehicle::equations::Correction<T>, vehicle::num_wheels> next_c
     const auto first = corrected(i, slips[i] / vehicle::usual_step);
     const auto then = corrected(i, 0.0);
     const double share = vehicle::usual_step / dt;
-    result[i] = {select(again, result[i].learning,
-                        then.learning + share * (first.learning - then.learning)),
-                 select(again, result[i].too_much,
-                        then.too_much + share * (first.too_much - then.too_much))};
+    result[i] = {
+        select(again, result[i].learning, then.learning + share * (first.learning - then.learning)),
+        select(again, result[i].too_much,
+               then.too_much + share * (first.too_much - then.too_much))};
     abs.growth[i] = select(again, abs.growth[i], 0.0);
   }
   abs.slip = slips;
@@ -263,9 +263,9 @@ struct FixedLane {
   CarLane<T> real, known;
   T grip, known_grip;
   T curvature;
-  T rest, slower;          ///< masks
-  T side;                  ///< of a drift: 1 to the left, -1 to the right
-  T delay_share;           ///< of the next older slot, where the brakes' dead time lies between two
+  T rest, slower;  ///< masks
+  T side;          ///< of a drift: 1 to the left, -1 to the right
+  T delay_share;   ///< of the next older slot, where the brakes' dead time lies between two
 };
 
 constexpr std::size_t num_slots = 32;  ///< of the brake line, each of one step

@@ -170,7 +170,7 @@ struct MagicCurve<manoeuvre::lanes::Pack<Arch>> {
                                              -0.14016585,  0.099060969,   -0.0593671008,
                                              0.0241661895, -0.00466877331};
   /// sin(y) / y over y^2 in [0, pi^2]: error 6e-8.
-  static constexpr std::array<double, 6> wave{0.999999937,     -0.166666207,  0.00833278847,
+  static constexpr std::array<double, 6> wave{0.999999937,     -0.166666207,   0.00833278847,
                                               -0.000198175451, 2.70873177e-06, -2.06941101e-08};
 };
 
@@ -184,8 +184,8 @@ inline Pack<Arch> atan2(const Pack<Arch>& y, const Pack<Arch>& x) {
   const Pack<Arch> along = abs(x);
   const Pack<Arch> across = abs(y);
   const Pack<Arch> slope = min(along, across) / max(max(along, across), 1e-30);
-  const Pack<Arch> acute =
-      slope * vehicle::equations::polynomial<Pack<Arch>>(MagicCurve<Pack<Arch>>::arc, slope * slope);
+  const Pack<Arch> acute = slope * vehicle::equations::polynomial<Pack<Arch>>(
+                                       MagicCurve<Pack<Arch>>::arc, slope * slope);
   const Pack<Arch> first = select(across > along, 0.5 * std::numbers::pi - acute, acute);
   const Pack<Arch> half = select(x < 0.0, std::numbers::pi - first, first);
   return select(y < 0.0, -half, half);

@@ -73,8 +73,8 @@ CarLane<T> car_lane(const Car& car, double grip) {
           .percussion_arm = t(equations::percussion_arm(car)),
           .driven_load = t(equations::driven_load(car)),
           .tyre = {t(car.tyre.stiffness), divisor<T>(car.tyre.shape), t(car.tyre.load_sensitivity),
-                   t(vehicle::equations::per_newton(car.tyre)),
-                   t(2.0 * car.tyre.shape), t(car.tyre.stiffness / car.tyre.shape)},
+                   t(vehicle::equations::per_newton(car.tyre)), t(2.0 * car.tyre.shape),
+                   t(car.tyre.stiffness / car.tyre.shape)},
           .tuning = {swerve_lane<T>(car.tuning.swerve), drift_lane<T>(car.tuning.drift)}};
 }
 
@@ -98,7 +98,10 @@ MemoryLane<T> memory_lane(const ControllerState& memory) {
           .end_d = t(memory.end_d),
           .time = t(memory.time),
           .speed = t(memory.speed),
-          .abs = {t(memory.abs.speed), {t(1), t(1), t(1), t(1)}, {t(0), t(0), t(0), t(0)}, {t(0), t(0), t(0), t(0)}},
+          .abs = {t(memory.abs.speed),
+                  {t(1), t(1), t(1), t(1)},
+                  {t(0), t(0), t(0), t(0)},
+                  {t(0), t(0), t(0), t(0)}},
           .recovered_for = t(memory.recovered_for),
           .drift = {t(memory.drift.yaw_rate), t(memory.drift.yaw_acceleration), t(0)}};
 }

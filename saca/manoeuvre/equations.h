@@ -203,7 +203,8 @@ inline T holding_torque(const Car& car, const State& state, const T& speed, cons
   return force * car.wheel_radius;
 }
 
-// What a plan wants of the speed, beside keeping it. Where `may_brake` is false, neither mask holds.
+// What a plan wants of the speed, beside keeping it. Where `may_brake` is false, neither mask
+// holds.
 template <class Mask, bool may_brake = true>
 struct Wants {
   Mask rest;    // at once: emergency braking
@@ -257,8 +258,9 @@ inline void command_speed(const Car& car, const Wants<Mask, may_brake>& wants, c
 }
 
 template <class T, class Mask, bool may_brake, class Car, class State, class Memory>
-inline void watch_recovery(const Car& car, const Wants<Mask, may_brake>& wants, const PathPoint<T>& point,
-                           const State& state, double dt, Memory& memory) {
+inline void watch_recovery(const Car& car, const Wants<Mask, may_brake>& wants,
+                           const PathPoint<T>& point, const State& state, double dt,
+                           Memory& memory) {
   constexpr double near_d = 0.2;      // [m]
   constexpr double near_speed = 1.0;  // [m/s]
   const double near_heading = from_degrees(2.0);
@@ -271,9 +273,9 @@ inline void watch_recovery(const Car& car, const Wants<Mask, may_brake>& wants, 
 
 // What to tell a car that follows a path.
 template <class T, class Mask, bool may_brake, class Car, class State, class Memory, class Command>
-inline void follow_path(const Car& car, const Wants<Mask, may_brake>& wants, const T& curvature, const T& grip,
-                        const State& state, const PathPoint<T>& point, double dt, Memory& memory,
-                        Command& command) {
+inline void follow_path(const Car& car, const Wants<Mask, may_brake>& wants, const T& curvature,
+                        const T& grip, const State& state, const PathPoint<T>& point, double dt,
+                        Memory& memory, Command& command) {
   const T demand = sideways_demand<T>(car, curvature, state, memory, point);
   const T most = grip * gravity;
   const T sideways = min(max(abs(demand), abs(state.a_B.y)), most);

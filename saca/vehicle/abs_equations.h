@@ -46,8 +46,7 @@ inline T followed_speed(const Car& car, const State& state, double dt, double tr
   }
   const T wheels =
       0.5 * of_axle(state.wheel_speed) * car.wheel_radius * select(front, cos(state.steering), 1.0);
-  return max(0.0,
-             select(tells, followed + trusted * (wheels - followed), followed));
+  return max(0.0, select(tells, followed + trusted * (wheels - followed), followed));
 }
 
 // Slip of each wheel along its own plane, against a speed that does not come from the wheels.
@@ -72,8 +71,8 @@ inline double smoothing_share(const AbsState& /*abs*/, double dt, double time) {
   return std::min(1.0, dt / time);
 }
 
-// What a wheel's slip says about its share of the torque. Gains found by simulation over 5 to 25 m/s
-// and grip 0.3 to 1.0 with the estimate wrong by up to 20 %; they have no other source.
+// What a wheel's slip says about its share of the torque. Gains found by simulation over 5 to 25
+// m/s and grip 0.3 to 1.0 with the estimate wrong by up to 20 %; they have no other source.
 template <class T>
 struct Correction {
   T learning;  // growth of the share [1/s]
