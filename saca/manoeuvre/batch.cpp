@@ -64,7 +64,7 @@ Prepared prepared(const Drive& drive, EgoMotion& motion, int num_poses) {
   motion.track.X_WA.clear();
   motion.v_B.clear();
   motion.yaw_rate.clear();
-  const auto foreseen = static_cast<std::size_t>(std::min(num_poses, usual_poses) + 1);
+  const auto foreseen = static_cast<std::size_t>(std::min(num_poses, usual_poses)) + 1;
   motion.track.X_WA.reserve(foreseen);
   motion.v_B.reserve(foreseen);
   motion.yaw_rate.reserve(foreseen);
