@@ -185,11 +185,15 @@ class Packed {
     if (lanes_[lane].ends_with == EndsWith::recovery) {
       return static_cast<double>(number(recovered, lane)) >= sure;
     }
-    bool rests = lanes_[lane].ends_with == EndsWith::rest;
-    for (std::size_t i = LaneFlow::vx; i < LaneFlow::wheel + vehicle::num_wheels; ++i) {
-      rests = rests && flow(i, lane) == 0.0;
+    if (lanes_[lane].ends_with == EndsWith::nothing) {
+      return false;
     }
-    return rests;
+    for (std::size_t i = LaneFlow::vx; i < LaneFlow::wheel + vehicle::num_wheels; ++i) {
+      if (flow(i, lane) != 0.0) {
+        return false;
+      }
+    }
+    return true;
   }
 
   lanes::Kernel kernel_;
