@@ -52,7 +52,7 @@ struct Prepared {
 };
 
 Prepared prepared(const Drive& drive, EgoMotion& motion, int num_poses) {
-  constexpr int usual_poses = 255;  // most drives are over before
+  constexpr int usual_poses = 255;  // most drives that end are over before
 
   expects(drive.car != nullptr, "a drive has a car");
   const Ride ride(*drive.car, drive.plan, scene_of(drive), drive.grip, drive.unknown);
@@ -61,10 +61,14 @@ Prepared prepared(const Drive& drive, EgoMotion& motion, int num_poses) {
   const Pose X_WS = world::from_lane(drive.road, {.s = s, .d = 0.0, .heading = 0.0});
   motion.track.start = drive.start;
   motion.track.step = lanes::pose_step;
+  const EndsWith ends_with = end_of(drive.plan, ride.memory());
   motion.track.X_WA.clear();
   motion.v_B.clear();
   motion.yaw_rate.clear();
-  const auto foreseen = static_cast<std::size_t>(std::min(num_poses, usual_poses)) + 1;
+  const auto foreseen =
+      static_cast<std::size_t>(ends_with == EndsWith::nothing ? num_poses
+                                                              : std::min(num_poses, usual_poses)) +
+      1;
   motion.track.X_WA.reserve(foreseen);
   motion.v_B.reserve(foreseen);
   motion.yaw_rate.reserve(foreseen);
@@ -76,7 +80,7 @@ Prepared prepared(const Drive& drive, EgoMotion& motion, int num_poses) {
                                              drive.road.curvature),
                     lanes::moving_lane<float>(ride, inverse(X_WS) * state.X_WB, ride.memory())},
           .X_WS = X_WS,
-          .ends_with = end_of(drive.plan, ride.memory())};
+          .ends_with = ends_with};
 }
 
 // The lanes of one pack, and the drives in them.
