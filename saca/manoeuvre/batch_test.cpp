@@ -199,6 +199,11 @@ TEST(Batch, UsesMemoryAgainWithoutATraceOfWhatWasThere) {
 
 TEST(Batch, DoesNotDependOnOrderNeighboursOrThreads) {
   std::vector<Drive> drives = random_drives(45, 4);
+  for (std::size_t i = 0; i < drives.size(); i += 3) {  // beside bends: what a straight road skips
+    drives[i].road.curvature = 0.0;
+    drives[i].ego.X_WB = world::from_lane(drives[i].road, {7.0, 0.2, 0.02});
+    drives[i].ego.yaw_rate = 0.0;
+  }
   for (const Level level : levels()) {
     const std::vector<EgoMotion> motions = drive_all(drives, 5.0, 1, level);
     const std::vector<EgoMotion> threaded = drive_all(drives, 5.0, 3, level);
