@@ -19,7 +19,6 @@ namespace {
 using LaneImage = lanes::Lane<float>;
 using LaneFlow = vehicle::equations::Flow<float>;
 constexpr std::size_t numbers_per_lane = sizeof(LaneImage) / sizeof(float);
-constexpr double batch_pose_step = lanes::step * lanes::steps_per_pose;
 
 lanes::Kernel kernel_for(Level level) {
 #if defined(__x86_64__)
@@ -50,17 +49,29 @@ struct Prepared {
   LaneImage image;
   Pose X_WS;  // the frame it moves in, S: on its lane, abreast of where it starts
   EndsWith ends_with;
-  std::size_t late;  // the brakes' dead time in whole steps
 };
 
-Prepared prepared(const Drive& drive, EgoMotion& motion) {
+Prepared prepared(const Drive& drive, EgoMotion& motion, int num_poses) {
+  constexpr int usual_poses = 255;  // most drives that end are over before
+
   expects(drive.car != nullptr, "a drive has a car");
   const Ride ride(*drive.car, drive.plan, scene_of(drive), drive.grip, drive.unknown);
   const vehicle::VehicleState& state = ride.state();
   const double s = world::to_lane(drive.road, state.X_WB).s;
   const Pose X_WS = world::from_lane(drive.road, {.s = s, .d = 0.0, .heading = 0.0});
   motion.track.start = drive.start;
-  motion.track.step = batch_pose_step;
+  motion.track.step = lanes::pose_step;
+  const EndsWith ends_with = end_of(drive.plan, ride.memory());
+  motion.track.X_WA.clear();
+  motion.v_B.clear();
+  motion.yaw_rate.clear();
+  const auto foreseen =
+      static_cast<std::size_t>(ends_with == EndsWith::nothing ? num_poses
+                                                              : std::min(num_poses, usual_poses)) +
+      1;
+  motion.track.X_WA.reserve(foreseen);
+  motion.v_B.reserve(foreseen);
+  motion.yaw_rate.reserve(foreseen);
   motion.track.X_WA.push_back(state.X_WB);
   motion.v_B.push_back(state.v_B);
   motion.yaw_rate.push_back(state.yaw_rate);
@@ -69,8 +80,7 @@ Prepared prepared(const Drive& drive, EgoMotion& motion) {
                                              drive.road.curvature),
                     lanes::moving_lane<float>(ride, inverse(X_WS) * state.X_WB, ride.memory())},
           .X_WS = X_WS,
-          .ends_with = end_of(drive.plan, ride.memory()),
-          .late = lanes::delay_of(ride.real()).whole};
+          .ends_with = ends_with};
 }
 
 // The lanes of one pack, and the drives in them.
@@ -83,16 +93,18 @@ class Packed {
     numbers_ = static_cast<float*>(std::align(64, space - 64, start, space));
   }
 
-  // Drives all of `queue` (indices); drives of one dead time.
+  // Drives all of `queue` (indices); drives of one kind and dead time.
   void drive(std::span<const Drive> drives, std::span<const std::size_t> queue,
-             std::vector<EgoMotion>& motions) {
+             std::vector<EgoMotion>& motions, lanes::Kind kind, std::size_t late) {
+    const auto steps = static_cast<std::size_t>(lanes::steps_per_pose(kind));
+    const lanes::Advance advance = kernel_.advance.at(static_cast<std::size_t>(kind));
     next_ = 0;
     num_busy_ = 0;
     for (std::size_t lane = 0; lane < kernel_.num_lanes; ++lane) {
       refill(lane, drives, queue, motions);
     }
-    for (std::size_t now = lanes::num_slots; num_busy_ > 0; now += lanes::steps_per_pose) {
-      kernel_.advance(numbers_, now, late_, lanes::steps_per_pose);
+    for (std::size_t now = lanes::num_slots; num_busy_ > 0; now += steps) {
+      advance(numbers_, now, late);
       for (std::size_t lane = 0; lane < kernel_.num_lanes; ++lane) {
         if (lanes_[lane].motion != nullptr && !note(lane)) {
           refill(lane, drives, queue, motions);
@@ -130,14 +142,13 @@ class Packed {
     while (next_ < queue.size()) {
       const std::size_t index = queue[next_++];
       EgoMotion& motion = motions[index];
-      const Prepared start = prepared(drives[index], motion);
+      const Prepared start = prepared(drives[index], motion, num_poses_);
       if (motion.ended || num_poses_ == 0) {
         continue;
       }
       put(start.image, lane);
       lanes_[lane] = {&motion, start.X_WS, std::cos(start.X_WS.yaw), std::sin(start.X_WS.yaw),
                       start.ends_with};
-      late_ = start.late;
       ++num_busy_;
       return;
     }
@@ -178,11 +189,15 @@ class Packed {
     if (lanes_[lane].ends_with == EndsWith::recovery) {
       return static_cast<double>(number(recovered, lane)) >= sure;
     }
-    bool rests = lanes_[lane].ends_with == EndsWith::rest;
-    for (std::size_t i = LaneFlow::vx; i < LaneFlow::wheel + vehicle::num_wheels; ++i) {
-      rests = rests && flow(i, lane) == 0.0;
+    if (lanes_[lane].ends_with == EndsWith::nothing) {
+      return false;
     }
-    return rests;
+    for (std::size_t i = LaneFlow::vx; i < LaneFlow::wheel + vehicle::num_wheels; ++i) {
+      if (flow(i, lane) != 0.0) {
+        return false;
+      }
+    }
+    return true;
   }
 
   lanes::Kernel kernel_;
@@ -192,15 +207,14 @@ class Packed {
   std::array<Busy, lanes::most_lanes> lanes_{};
   std::size_t num_busy_ = 0;
   std::size_t next_ = 0;
-  std::size_t late_ = 0;
 };
 
-// Which drives make one queue, and stand side by side in it: cars of one dead time; drives of one
-// kind, which need the same branches; long ones first, so that lanes come to their ends together.
+// Which drives make one queue: those of one kind, and cars of one dead time; and where they stand
+// in it: long ones first, so that lanes come to their ends together.
 struct QueueKey {
   std::size_t late;
-  bool drifts;
-  bool brakes;
+  lanes::Kind kind;
+  bool ends;
   double minus_length;
 
   auto operator<=>(const QueueKey&) const = default;
@@ -208,13 +222,12 @@ struct QueueKey {
 
 QueueKey queue_key(const Drive& drive) {
   expects(drive.car != nullptr, "a drive has a car");
-  const PolicyId policy = drive.plan.policy;
-  const bool brakes = policy == PolicyId::aeb || drifts(policy) || brakes_to_speed(policy);
-  const double length = policy == PolicyId::no_intervention ? 1e9
-                        : brakes ? drive.ego.v_B.x / std::max(0.01, drive.grip)
-                                 : 0.0;
-  return {lanes::delay_of(*drive.car).whole, drifts(policy), brakes,
-          std::isfinite(length) ? -length : 0.0};
+  const lanes::Kind kind = lanes::kind_of(drive.plan.policy);
+  const double length = drive.ego.v_B.x / std::max(0.01, drive.grip);
+  const bool brakes = kind != lanes::Kind::keeps_speed;
+  return {lanes::delay_of(*drive.car, kind).whole, kind,
+          drive.plan.policy != PolicyId::no_intervention,
+          brakes && std::isfinite(length) ? -length : 0.0};
 }
 
 }  // namespace
@@ -231,7 +244,7 @@ world::Scene scene_of(const Drive& drive) {
 bool available(Level level) noexcept {
 #if defined(__x86_64__)
   if (level == Level::avx2) {
-    return __builtin_cpu_supports("avx2") != 0;
+    return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
   }
   if (level == Level::avx512) {
     return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512cd") != 0 &&
@@ -249,11 +262,18 @@ Level best() noexcept {
 
 std::vector<EgoMotion> drive_all(std::span<const Drive> drives, double horizon, int threads,
                                  Level level) {
+  std::vector<EgoMotion> motions;
+  drive_all(drives, horizon, motions, threads, level);
+  return motions;
+}
+
+void drive_all(std::span<const Drive> drives, double horizon, std::vector<EgoMotion>& motions,
+               int threads, Level level) {
   expects(horizon >= 0.0 && horizon <= 3600.0, "horizon in [0, 3600] s");
   expects(threads >= 1, "threads >= 1");
   expects(available(level), "the level is available");
   const lanes::Kernel kernel = kernel_for(level);
-  const int num_poses = static_cast<int>(std::lround(horizon / batch_pose_step));
+  const int num_poses = static_cast<int>(std::lround(horizon / lanes::pose_step));
   std::vector<QueueKey> keys;
   keys.reserve(drives.size());
   for (const Drive& drive : drives) {
@@ -263,7 +283,7 @@ std::vector<EgoMotion> drive_all(std::span<const Drive> drives, double horizon, 
   std::iota(order.begin(), order.end(), 0U);
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return keys[a] < keys[b]; });
-  // Queues of one dead time, several for each thread.
+  // Queues of one kind and dead time, several for each thread.
   const std::size_t most =
       threads == 1 ? drives.size()
                    : std::max(4 * kernel.num_lanes,
@@ -272,16 +292,18 @@ std::vector<EgoMotion> drive_all(std::span<const Drive> drives, double horizon, 
   for (std::size_t begin = 0; begin < order.size();) {
     std::size_t end = begin;
     while (end < order.size() && end - begin < most &&
-           keys[order[end]].late == keys[order[begin]].late) {
+           keys[order[end]].late == keys[order[begin]].late &&
+           keys[order[end]].kind == keys[order[begin]].kind) {
       ++end;
     }
     queues.emplace_back(order.data() + begin, end - begin);
     begin = end;
   }
-  std::vector<EgoMotion> motions(drives.size());
-  in_parallel(queues.size(), threads,
-              [&](std::size_t i) { Packed(kernel, num_poses).drive(drives, queues[i], motions); });
-  return motions;
+  motions.resize(drives.size());
+  in_parallel(queues.size(), threads, [&](std::size_t i) {
+    const QueueKey& key = keys[queues[i].front()];
+    Packed(kernel, num_poses).drive(drives, queues[i], motions, key.kind, key.late);
+  });
 }
 
 }  // namespace saca::manoeuvre

@@ -45,12 +45,17 @@ enum class Level : std::uint8_t { baseline, avx2, avx512 };
 /// @return         in the order of `drives`
 /// @throws ContractViolation  if any could not be given to `drive(...)`, or left what is finite
 ///
-/// The equations are those of `drive`, in floats; the scheme is another, in steps of 2 ms with one
-/// evaluation of forces: Adams and Bashforth's of second order for the body, Heun's for the
-/// actuators, an implicit one for the wheels' spin, where a brake holds as dry friction does.
+/// The equations are those of `drive`, in floats; the scheme is another, with one evaluation of
+/// forces a step: Adams and Bashforth's of second order for the body, Heun's for the actuators, an
+/// implicit one for the wheels' spin, where a brake holds as dry friction does. Steps take 5 ms
+/// while nothing brakes, 3.3 ms for plans that brake, 2.5 ms for a T-drift.
 /// A drive's result depends on nothing but the drive itself, bit by bit: neither on the others, nor
 /// on their order or number.
 [[nodiscard]] std::vector<EgoMotion> drive_all(std::span<const Drive> drives, double horizon,
                                                int threads = 1, Level level = best());
+/// The same into `motions`, whose memory is used again: for many batches in a row. What `motions`
+/// hold after an exception is not told.
+void drive_all(std::span<const Drive> drives, double horizon, std::vector<EgoMotion>& motions,
+               int threads = 1, Level level = best());
 
 }  // namespace saca::manoeuvre

@@ -28,7 +28,8 @@ std::vector<Drive> bench_drives(const Car& car) {
 }
 
 // Items are scenes: eight policies, driven until they end or for 5 s.
-void batch_scenes(benchmark::State& bench) {
+template <class Work>
+void bench_batch(benchmark::State& bench, const Work& work) {
   const auto level = static_cast<Level>(bench.range(0));
   if (!available(level)) {
     bench.SkipWithError("not this processor's");
@@ -38,15 +39,37 @@ void batch_scenes(benchmark::State& bench) {
   const std::vector<Drive> drives = bench_drives(car);
   std::size_t poses = 0;
   for (auto _ : bench) {
-    for (const EgoMotion& motion : drive_all(drives, bench_horizon, 1, level)) {
-      poses += motion.v_B.size();
-    }
+    poses += work(drives, level);
   }
   bench.SetItemsProcessed(bench.iterations() * 64);
   bench.counters["s_per_scene"] =
       0.01 * static_cast<double>(poses) / (64.0 * static_cast<double>(bench.iterations()));
 }
+
+std::size_t num_poses(const std::vector<EgoMotion>& motions) {
+  std::size_t poses = 0;
+  for (const EgoMotion& motion : motions) {
+    poses += motion.v_B.size();
+  }
+  return poses;
+}
+
+void batch_scenes(benchmark::State& bench) {
+  bench_batch(bench, [](const std::vector<Drive>& drives, Level level) {
+    return num_poses(drive_all(drives, bench_horizon, 1, level));
+  });
+}
 BENCHMARK(batch_scenes)->DenseRange(0, 2);
+
+// The same into memory that is used again.
+void batch_scenes_in_a_row(benchmark::State& bench) {
+  std::vector<EgoMotion> motions;
+  bench_batch(bench, [&](const std::vector<Drive>& drives, Level level) {
+    drive_all(drives, bench_horizon, motions, 1, level);
+    return num_poses(motions);
+  });
+}
+BENCHMARK(batch_scenes_in_a_row)->DenseRange(0, 2);
 
 void scalar_scenes(benchmark::State& bench) {
   const Car car = default_car();

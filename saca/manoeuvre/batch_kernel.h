@@ -1,16 +1,10 @@
 #pragma once
 
-#include "saca/manoeuvre/batch_lane.h"
+#include "saca/manoeuvre/batch_contacts.h"
 
 /// A step of the batch, for a number type `T`. The equations are those of the scalar model; the
 /// scheme is another: see `batch.h`. Not part of the library's interface.
 namespace saca::manoeuvre::lanes {
-
-using namespace number;
-using vehicle::num_wheels;
-using vehicle::equations::Pair;
-using vehicle::equations::Turn;
-using vehicle::equations::Wheelwise;
 
 /// As `VehicleState`, as far as a controller sees it.
 template <class T>
@@ -46,21 +40,25 @@ struct InLane {
   T d, heading;
 };
 template <class T>
+inline auto bends_of(const T& curvature) {
+  return curvature > 0.0 || curvature < 0.0;
+}
+template <class T>
 inline InLane<T> in_lane(const T& curvature, const T& x, const T& y, const T& yaw) {
+  constexpr double round_once = 2.0 * std::numbers::pi;
+  const auto wrapped = [](const T& angle) {
+    return T(angle - round_once * round(angle / round_once));
+  };
+  if (!any(bends_of(curvature))) {
+    return {y, wrapped(yaw)};
+  }
   const T across = 1.0 - curvature * y;
   const T along = curvature * x;
-  T turned = 0.0;
-  if (any(curvature > 0.0 || curvature < 0.0)) {
-    turned = atan2(along, across);
-  }
   const T r = sqrt(along * along + across * across);
-  const T heading = yaw - turned;
-  constexpr double round_once = 2.0 * std::numbers::pi;
-  return {(2.0 * y - curvature * (x * x + y * y)) / (1.0 + r),
-          heading - round_once * round(heading / round_once)};
+  return {(2.0 * y - curvature * (x * x + y * y)) / (1.0 + r), wrapped(yaw - atan2(along, across))};
 }
 
-template <class T>
+template <Kind kind, class T>
 inline Told<T> drift_told(const FixedLane<T>& fixed, const Seen<T>& state, const InLane<T>& place,
                           MemoryLane<T>& memory) {
   const T& side = fixed.side;
@@ -69,7 +67,7 @@ inline Told<T> drift_told(const FixedLane<T>& fixed, const Seen<T>& state, const
       fixed.known, fixed.known.tuning.drift, fixed.known_grip,
       equations::Drifting<T>{side * place.heading, state.v_B.x, side * state.v_B.y,
                              side * state.yaw_rate, state.a_B.x, side * state.a_B.y},
-      step, memory.drift, told);
+      step_of(kind), memory.drift, told);
   const auto left = side > 0.0;
   const Wheelwise<T> torque = told.brake_torque;
   for (std::size_t i = 0; i < num_wheels; ++i) {
@@ -79,117 +77,108 @@ inline Told<T> drift_told(const FixedLane<T>& fixed, const Seen<T>& state, const
   return told;
 }
 
-template <class T>
+template <Kind kind, class T>
 inline Told<T> path_told(const FixedLane<T>& fixed, const Seen<T>& state, const T& x, const T& y,
                          const T& yaw, const Turn<T>& heading, MemoryLane<T>& memory) {
   const T& arm = fixed.known.percussion_arm;
   const InLane<T> place =
       in_lane<T>(fixed.curvature, x + arm * heading.cosine, y + arm * heading.sine, yaw);
-  const auto point =
-      equations::path_point<T>(place.d, place.heading, arm, state.v_B, state.yaw_rate);
+  const T vy = state.v_B.y + state.yaw_rate * arm;
+  Turn<T> turn = heading;
+  const auto bends = bends_of(fixed.curvature);
+  if (any(bends)) {
+    const Turn<T> in_bend = vehicle::equations::turn_by<T>(place.heading);
+    turn = {select(bends, in_bend.cosine, heading.cosine),
+            select(bends, in_bend.sine, heading.sine)};
+  }
+  const equations::PathPoint<T> point{
+      place.d,
+      place.heading,
+      turn,
+      {turn.cosine * state.v_B.x - turn.sine * vy, turn.sine * state.v_B.x + turn.cosine * vy}};
   const auto slower = fixed.slower > 0.5;
-  const equations::Wants<std::remove_const_t<decltype(slower)>> wants{fixed.rest > 0.5, slower};
+  const equations::Wants<std::remove_const_t<decltype(slower)>, kind == Kind::brakes> wants{
+      fixed.rest > 0.5, slower};
   Told<T> told;
   equations::follow_path<T>(fixed.known, wants, fixed.curvature, fixed.known_grip, state, point,
-                            step, memory, told);
+                            step_of(kind), memory, told);
   return told;
 }
 
-/// `control`, for mixed plans.
-template <class T>
+/// `control`, for plans of one kind.
+template <Kind kind, class T>
 inline Told<T> told(const FixedLane<T>& fixed, const Seen<T>& state,
                     const vehicle::equations::Flow<T>& flow, const Turn<T>& heading,
                     MemoryLane<T>& memory) {
   using F = vehicle::equations::Flow<T>;
-  const auto drifts = fixed.drifts > 0.5;
   Told<T> result;
-  if (!all(drifts)) {
-    result = path_told<T>(fixed, state, flow[F::x], flow[F::y], flow[F::yaw], heading, memory);
-  }
-  if (any(drifts)) {
+  if constexpr (kind == Kind::drifts) {
     const InLane<T> place = in_lane<T>(fixed.curvature, flow[F::x], flow[F::y], flow[F::yaw]);
-    const Told<T> drift = drift_told<T>(fixed, state, place, memory);
-    result.steering = select(drifts, drift.steering, result.steering);
-    result.motor_torque = select(drifts, drift.motor_torque, result.motor_torque);
-    for (std::size_t i = 0; i < num_wheels; ++i) {
-      result.brake_torque[i] = select(drifts, drift.brake_torque[i], result.brake_torque[i]);
-    }
+    result = drift_told<kind, T>(fixed, state, place, memory);
+  } else {
+    result =
+        path_told<kind, T>(fixed, state, flow[F::x], flow[F::y], flow[F::yaw], heading, memory);
   }
-  memory.time = memory.time + step;
+  memory.time = memory.time + step_of(kind);
   return result;
 }
 
 /// Actuators under a held command: Heun's scheme.
-template <class T>
+template <Kind kind, class T>
 inline void move_actuators(const CarLane<T>& car, const Told<T>& told,
                            const vehicle::equations::Flow<T>& now,
                            vehicle::equations::Flow<T>& next) {
   using F = vehicle::equations::Flow<T>;
-  constexpr std::array<std::size_t, 6> moved{F::steering,  F::brake,     F::brake + 1,
-                                             F::brake + 2, F::brake + 3, F::motor};
-  F rate;
-  F then;
-  F tried;
-  vehicle::equations::actuator_rates<T>(car, now, told, rate);
-  for (const std::size_t i : moved) {
-    tried[i] = now[i] + step * rate[i];
+  constexpr double step = step_of(kind);
+  // How far what follows without limit comes in a step.
+  const auto share = [](const Divisor<T>& lag) {
+    const T whole = T(step) / lag;
+    return T(whole - 0.5 * whole * whole);
+  };
+  const T braked = share(car.brake_lag);
+  for (std::size_t i = 0; i < num_wheels; ++i) {
+    const T& torque = now[F::brake + i];
+    next[F::brake + i] = torque + braked * (told.brake_torque[i] - torque);
   }
-  vehicle::equations::actuator_rates<T>(car, tried, told, then);
-  for (const std::size_t i : moved) {
-    next[i] = now[i] + 0.5 * step * (rate[i] + then[i]);
-  }
-}
-
-/// How the force along a wheel grows with its sliding velocity [N s/m]: what falls after the peak.
-template <class T>
-inline T drag_slope(const CarLane<T>& car, const vehicle::equations::Wheels<T>& wheels,
-                    const vehicle::equations::Flow<T>& flow, std::size_t i, const T& grip) {
-  const T x = vehicle::equations::is_front(i) ? T(car.front_arm) : T(-car.rear_arm);
-  const T y = vehicle::equations::is_left(i) ? T(car.half_track) : T(-car.half_track);
-  using F = vehicle::equations::Flow<T>;
-  const T vx = flow[F::vx] - flow[F::yaw_rate] * y;
-  const T vy = flow[F::vy] + flow[F::yaw_rate] * x;
-  const T slip_x = wheels.v_x[i] - car.wheel_radius * flow[F::wheel + i];
-  const T slipping = slip_x * slip_x + wheels.v_y[i] * wheels.v_y[i];
-  const T rise = vehicle::equations::steepness<T>(
-      car.tyre, vehicle::equations::peak_friction<T>(car.tyre, wheels.load[i], grip));
-  const T zz = rise * rise *
-               (slipping * (1.0 / max(vx * vx + vy * vy,
-                                      vehicle::slip_speed_floor * vehicle::slip_speed_floor)));
-  const T ratio = vehicle::equations::magic_ratio<T>(car.tyre.shape, zz);
-  // d sin(C atan z) / dz = C cos(C atan z) / (1 + z^2)
-  const T size = sqrt(max(0.0, 1.0 - zz * ratio * ratio));
-  const T cosine = select(zz > car.tyre.peak_zz, -size, size);
-  const T over_drag = car.tyre.shape * cosine / ((1.0 + zz) * ratio);
-  const T share = slip_x * slip_x / max(slipping, 1e-9);
-  return wheels.drag[i] * (1.0 + share * (over_drag - 1.0));
+  next[F::motor] = now[F::motor] + share(car.motor_lag) * (told.motor_torque - now[F::motor]);
+  const auto rate = [&](const T& angle) {
+    return clamp((told.steering - angle) / car.steering_lag, -car.steering_rate, car.steering_rate);
+  };
+  const T first = rate(now[F::steering]);
+  const T second = rate(now[F::steering] + step * first);
+  next[F::steering] = now[F::steering] + 0.5 * step * (first + second);
 }
 
 /// Spin of the wheels, taken implicitly: road and motor by a rational approximation of the
 /// exponential, for a wheel that moves evenly faster or slower, of second order and damped where it
 /// is stiff; brakes as dry friction.
-template <class T>
-inline void spin_wheels(const CarLane<T>& car, const vehicle::equations::Wheels<T>& wheels,
-                        const vehicle::equations::Flow<T>& now, vehicle::equations::Flow<T>& next,
-                        const Wheelwise<T>& slopes) {
+template <Kind kind, class T>
+inline void spin_wheels(const CarLane<T>& car, const Contacts<T>& contacts,
+                        const vehicle::equations::Flow<T>& now, vehicle::equations::Flow<T>& next) {
   using F = vehicle::equations::Flow<T>;
-  const T motor = 0.5 * (now[F::motor] + next[F::motor]);
+  const CentreVelocities<T> v_B = centre_velocities(car, next);
+  const std::array<T, 2> per_inertia{T(step_of(kind)) / car.front_wheel_inertia,
+                                     T(step_of(kind)) / car.rear_wheel_inertia};
+  const T squared = car.wheel_radius * car.wheel_radius;
+  const std::array<T, 2> stiff{squared * per_inertia[0], squared * per_inertia[1]};
+  const T motor_gain = next[F::motor] - now[F::motor];
   for (std::size_t i = 0; i < num_wheels; ++i) {
-    const T x = vehicle::equations::is_front(i) ? T(car.front_arm) : T(-car.rear_arm);
-    const T y = vehicle::equations::is_left(i) ? T(car.half_track) : T(-car.half_track);
-    const T vx = next[F::vx] - next[F::yaw_rate] * y;
-    const T vy = next[F::vy] + next[F::yaw_rate] * x;
-    const T v_x =
-        vehicle::equations::is_front(i) ? wheels.cosine[i] * vx + wheels.sine[i] * vy : vx;
-    const auto& inertia = wheel_inertia(car, i);
-    const T& slope = slopes[i];
-    const T z = max(-0.5, step * car.wheel_radius * car.wheel_radius * slope / inertia);
-    const T gained = (1.0 + z) / (2.0 + z) * (v_x - wheels.v_x[i]);
-    const T F_x = wheels.F_x[i] - slope * gained;
-    const T turning = vehicle::equations::turning_torque<T>(car, i, motor, F_x);
+    T v_x = v_B.x[i % 2];
+    if (vehicle::equations::is_front(i)) {
+      v_x = contacts.front[i].cosine * v_x + contacts.front[i].sine * v_B.y[0];
+    }
+    const T& slope = contacts.slope[i];
+    const T z = max(-0.5, stiff[i / 2] * slope);
     const T grown = 1.0 + 0.5 * z;
-    const T share = step * grown / (1.0 + z * grown) / inertia;
-    const T brake = 0.5 * (now[F::brake + i] + next[F::brake + i]);
+    const T slowed = 1.0 + z * grown;
+    const T inverse = 1.0 / (grown * slowed);
+    // How much of what changes within the step counts: half, or more where the wheel follows fast.
+    const T weight = (0.5 + 0.5 * z) * slowed * inverse;
+    const T F_x = contacts.F_x[i] - slope * (weight * (v_x - contacts.v_x[i]));
+    const T motor = now[F::motor] + weight * motor_gain;
+    const T brake = now[F::brake + i] + weight * (next[F::brake + i] - now[F::brake + i]);
+    const T turning = vehicle::equations::turning_torque<T>(car, i, motor, F_x);
+    const T share = per_inertia[i / 2] * (grown * grown) * inverse;
     const T free = now[F::wheel + i] + share * turning;
     const T stopped = share * brake;
     next[F::wheel + i] = free - clamp(free, -stopped, stopped);
@@ -209,54 +198,54 @@ inline Wheelwise<T> delayed(const FixedLane<T>& fixed, const MovingLane<T>& movi
   return torque;
 }
 
-/// The scalar model holds a command for 1 ms, so on the average it acts 0.5 ms late. Held for a
-/// whole step it would be later: it is taken for 0.5 ms before the step's middle instead, this
-/// share of the way to the next one.
-constexpr double ahead = 0.5 * (1.0 - vehicle::usual_step / step);
-
 /// Writes what was told into the brake line, where the last slot can still be changed.
-template <class T, class Mask>
+///
+/// The scalar model holds a command for 1 ms, so on the average it acts 0.5 ms late. Held for a
+/// whole step it would be later: it is taken for 0.5 ms before the step's middle instead.
+template <Kind kind, class T, class Mask>
 inline void hold(MovingLane<T>& moving, std::size_t now, const Wheelwise<T>& torque,
                  const Mask& first) {
   auto& newest = moving.brake_line[now % num_slots];
   auto& last = moving.brake_line[(now - 1) % num_slots];
+  const T share = select(first, T(0.0), newer(step_of(kind)));
   for (std::size_t i = 0; i < num_wheels; ++i) {
     newest[i] = torque[i];
-    last[i] = select(first, last[i], last[i] + ahead * (torque[i] - last[i]));
+    last[i] = last[i] + share * (torque[i] - last[i]);
   }
 }
 
 /// The body: Adams and Bashforth's scheme of second order; Euler's at the start.
-template <class T, class Mask>
+template <Kind kind, class T, class Mask>
 inline void move_body(const vehicle::equations::Flow<T>& flow,
                       const vehicle::equations::Flow<T>& rate, const Mask& first,
                       MovingLane<T>& moving, vehicle::equations::Flow<T>& next) {
   using F = vehicle::equations::Flow<T>;
   constexpr std::array<std::size_t, 8> body{F::x,  F::y,        F::yaw, F::vx,
                                             F::vy, F::yaw_rate, F::ax,  F::ay};
+  constexpr double step = step_of(kind);
   const T old = select(first, T(0.0), 0.5 * step);
+  const T now = step + old;
   for (std::size_t i = 0; i < body.size(); ++i) {
     const std::size_t at = body[i];
-    const T change = step * rate[at] + old * (rate[at] - moving.rate[i]);
-    moving.rate[i] = rate[at];
     if (at == F::x || at == F::y) {
       T& lost = at == F::x ? moving.lost_x : moving.lost_y;
-      const T whole = change - lost;
+      const T whole = now * rate[at] - (old * moving.rate[i] + lost);
       next[at] = flow[at] + whole;
       lost = (next[at] - flow[at]) - whole;
     } else {
-      next[at] = flow[at] + change;
+      next[at] = now * rate[at] + (flow[at] - old * moving.rate[i]);
     }
+    moving.rate[i] = rate[at];
   }
 }
 
 /// @param now    counts steps: where the brake line is written
 /// @param late   brakes' dead time in steps
-template <class T>
+template <Kind kind, class T>
 inline void advance(const FixedLane<T>& fixed, MovingLane<T>& moving, std::size_t now,
                     std::size_t late) {
   using F = vehicle::equations::Flow<T>;
-  F flow = moving.flow;  // its own: what is written to the lane cannot change it
+  F& flow = moving.flow;
   const auto held = vehicle::equations::is_held<T>(fixed.real, flow);
   if (any(held)) {
     for (std::size_t i = F::vx; i < F::wheel + num_wheels; ++i) {  // velocities, then wheels
@@ -265,14 +254,9 @@ inline void advance(const FixedLane<T>& fixed, MovingLane<T>& moving, std::size_
   }
   const Turn<T> heading = vehicle::equations::turn_by<T>(flow[F::yaw]);
   const Turn<T> middle = vehicle::equations::turn_by<T>(flow[F::steering]);
-  const vehicle::equations::Wheels<T> wheels = vehicle::equations::wheels_of<T>(
-      fixed.real, flow, middle, {fixed.grip, fixed.grip, fixed.grip, fixed.grip});
-  Wheelwise<T> slopes;
-  for (std::size_t i = 0; i < num_wheels; ++i) {
-    slopes[i] = drag_slope<T>(fixed.real, wheels, flow, i, fixed.grip);
-  }
+  const Contacts<T> contacts = contacts_of<T>(fixed.real, flow, middle, fixed.grip);
   F rate;
-  Pair<T> force = vehicle::equations::body_rates<T>(fixed.real, flow, wheels, heading, rate);
+  Pair<T> force = body_rates<T>(fixed.real, flow, contacts, heading, rate);
   if (any(held)) {
     force = {select(held, 0.0, force.x), select(held, 0.0, force.y)};
     for (const std::size_t i : {F::x, F::y, F::yaw, F::vx, F::vy, F::yaw_rate}) {
@@ -285,26 +269,26 @@ inline void advance(const FixedLane<T>& fixed, MovingLane<T>& moving, std::size_
   // Sensors tell the acceleration of 1 ms ago.
   const auto first = moving.first > 0.5;
   const Pair<T> a{force.x / fixed.real.mass, force.y / fixed.real.mass};
-  constexpr double ago = 0.5 + 0.5 * vehicle::usual_step / step;
+  constexpr double ago = 1.0 - newer(step_of(kind));
   const Pair<T> told_a{select(first, moving.ax, a.x + ago * (moving.ax - a.x)),
                        select(first, moving.ay, a.y + ago * (moving.ay - a.y))};
   moving.ax = a.x;
   moving.ay = a.y;
-  Told<T> command = told<T>(fixed, seen<T>(flow, told_a), flow, heading, moving.memory);
+  Told<T> command = told<kind, T>(fixed, seen<T>(flow, told_a), flow, heading, moving.memory);
   command.steering = clamp(command.steering, -fixed.real.steering_limit, fixed.real.steering_limit);
   command.motor_torque =
       clamp(command.motor_torque, -fixed.real.motor_limit, fixed.real.motor_limit);
   // Likewise for the steering, which follows at once: what will be told in the step's middle.
   const T turned = command.steering - moving.told_steering;
   moving.told_steering = command.steering;
-  command.steering = command.steering + select(first, T(0.0), ahead * turned);
-  hold(moving, now, command.brake_torque, first);
+  command.steering = command.steering + select(first, T(0.0), newer(step_of(kind)) * turned);
+  hold<kind>(moving, now, command.brake_torque, first);
   command.brake_torque = delayed<T>(fixed, moving, now, late);
 
   F next;
-  move_actuators<T>(fixed.real, command, flow, next);
-  move_body(flow, rate, first, moving, next);
-  spin_wheels<T>(fixed.real, wheels, flow, next, slopes);
+  move_actuators<kind, T>(fixed.real, command, flow, next);
+  move_body<kind>(flow, rate, first, moving, next);
+  spin_wheels<kind, T>(fixed.real, contacts, flow, next);
   if (any(held)) {
     for (std::size_t i = F::wheel; i < F::wheel + num_wheels; ++i) {
       next[i] = select(held, 0.0, next[i]);

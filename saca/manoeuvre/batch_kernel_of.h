@@ -31,21 +31,23 @@ class FlushTiny {
   FlushTiny& operator=(const FlushTiny&) = delete;
 };
 
-template <class Arch>
-[[gnu::flatten]] void advance_all(float* memory, std::size_t now, std::size_t late, int steps) {
+template <class Arch, Kind kind>
+[[gnu::flatten]] void advance_all(float* memory, std::size_t now, std::size_t late) {
   using Number = Pack<Arch>;
   static_assert(sizeof(Lane<Number>) == sizeof(Lane<float>) * Number::size);
   static_assert(Number::size <= most_lanes);
   const FlushTiny<Arch> flush;
   auto& lane = *reinterpret_cast<Lane<Number>*>(memory);  // vectors may alias what they hold
-  for (int i = 0; i < steps; ++i) {
-    advance<Number>(lane.fixed, lane.moving, now + static_cast<std::size_t>(i), late);
+  for (int i = 0; i < steps_per_pose(kind); ++i) {
+    advance<kind, Number>(lane.fixed, lane.moving, now + static_cast<std::size_t>(i), late);
   }
 }
 
 template <class Arch>
 Kernel kernel_of() {
-  return {Pack<Arch>::size, &advance_all<Arch>};
+  return {Pack<Arch>::size,
+          {&advance_all<Arch, Kind::keeps_speed>, &advance_all<Arch, Kind::brakes>,
+           &advance_all<Arch, Kind::drifts>}};
 }
 
 }  // namespace saca::manoeuvre::lanes

@@ -1,19 +1,22 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+
+#include "saca/manoeuvre/batch_lane.h"
 
 /// The batch's kernels, one for each instruction set. Not part of the library's interface.
 namespace saca::manoeuvre::lanes {
 
-/// Goes on by `steps` steps with all lanes of a pack, which lie side by side in `memory`, a
+/// Goes on to the next pose with all lanes of a pack, which lie side by side in `memory`, a
 /// `Lane<float>` with every number repeated `num_lanes` times.
 /// @param now   steps of this pack so far
 /// @param late  the brakes' dead time in steps, of all lanes
-using Advance = void (*)(float* memory, std::size_t now, std::size_t late, int steps);
+using Advance = void (*)(float* memory, std::size_t now, std::size_t late);
 
 struct Kernel {
-  std::size_t num_lanes;  ///< at most `most_lanes`
-  Advance advance;
+  std::size_t num_lanes;                   ///< at most `most_lanes`
+  std::array<Advance, num_kinds> advance;  ///< by `Kind`
 };
 constexpr std::size_t most_lanes = 16;
 

@@ -24,6 +24,9 @@ struct Mask {
 };
 
 template <class Arch>
+struct Product;
+
+template <class Arch>
 struct Pack {
   using Value = xsimd::batch<float, Arch>;
   static constexpr std::size_t size = Value::size;
@@ -37,9 +40,9 @@ struct Pack {
   friend Pack operator-(const Pack& a) { return -a.value; }
   friend Pack operator+(const Pack& a, const Pack& b) { return a.value + b.value; }
   friend Pack operator-(const Pack& a, const Pack& b) { return a.value - b.value; }
-  friend Pack operator*(const Pack& a, const Pack& b) { return a.value * b.value; }
+  friend Product<Arch> operator*(const Pack& a, const Pack& b) { return {a, b}; }
   friend Pack operator/(const Pack& a, const Pack& b) { return a.value / b.value; }
-  friend Pack operator/(const Pack& a, double b) { return a * Pack(1.0 / b); }
+  friend Product<Arch> operator/(const Pack& a, double b) { return {a, Pack(1.0 / b)}; }
   friend Mask<Arch> operator<(const Pack& a, const Pack& b) { return {a.value < b.value}; }
   friend Mask<Arch> operator>(const Pack& a, const Pack& b) { return {a.value > b.value}; }
   friend Mask<Arch> operator<=(const Pack& a, const Pack& b) { return {a.value <= b.value}; }
@@ -59,9 +62,37 @@ struct Pack {
   friend Pack hypot(const Pack& x, const Pack& y) { return sqrt(x * x + y * y); }
 };
 
+/// A product that knows its factors: what is added to it is added in one operation, where the
+/// instruction set has one. Which sums are is a matter of the source, not of the compiler.
 template <class Arch>
-inline Pack<Arch> operator/(const Pack<Arch>& a, const Divisor<Pack<Arch>>& b) {
-  return a * b.inverse;
+struct Product : Pack<Arch> {
+  using Whole = Pack<Arch>;
+  Whole a, b;
+
+  Product(const Whole& x, const Whole& y) : Whole(x.value * y.value), a(x), b(y) {}
+
+  friend Product operator-(const Product& p) { return {-p.a, p.b}; }
+  friend Whole operator+(const Product& p, const Whole& c) {
+    return xsimd::fma(p.a.value, p.b.value, c.value);
+  }
+  friend Whole operator+(const Whole& c, const Product& p) { return p + c; }
+  friend Whole operator+(const Product& p, const Product& q) {
+    return p + static_cast<const Whole&>(q);
+  }
+  friend Whole operator-(const Product& p, const Whole& c) {
+    return xsimd::fms(p.a.value, p.b.value, c.value);
+  }
+  friend Whole operator-(const Whole& c, const Product& p) {
+    return xsimd::fnma(p.a.value, p.b.value, c.value);
+  }
+  friend Whole operator-(const Product& p, const Product& q) {
+    return p - static_cast<const Whole&>(q);
+  }
+};
+
+template <class Arch>
+inline Product<Arch> operator/(const Pack<Arch>& a, const Divisor<Pack<Arch>>& b) {
+  return {a, b.inverse};
 }
 
 // Polynomials below: by interpolation at Chebyshev nodes, to the digits that a float holds.
@@ -82,24 +113,34 @@ inline Reduced<Arch> reduced(const Pack<Arch>& angle) {
   return {(angle - half_turns * first) - half_turns * second, 1.0 - 2.0 * odd};
 }
 
+/// Sine and cosine within a quarter turn of zero.
+template <class Arch>
+inline Pack<Arch> near_sin(const Pack<Arch>& angle) {
+  constexpr std::array<double, 5> c{0.999999996, -0.166666579, 0.00833305017, -0.000198090174,
+                                    2.60510764e-06};
+  return angle * vehicle::equations::polynomial<Pack<Arch>>(c, angle * angle);
+}
+template <class Arch>
+inline Pack<Arch> near_cos(const Pack<Arch>& angle) {
+  constexpr std::array<double, 5> c{0.999999953, -0.499999048, 0.0416635732, -0.00138536295,
+                                    2.31524167e-05};
+  return vehicle::equations::polynomial<Pack<Arch>>(c, angle * angle);
+}
+
 template <class Arch>
 inline Pack<Arch> sin(const Pack<Arch>& angle) {
-  constexpr std::array<double, 6> c{
-      1.0, -0.166666666, 0.00833333098, -0.000198408616, 2.75252871e-06, -2.38894983e-08};
   const Reduced<Arch> r = reduced(angle);
-  return r.sign * r.angle * vehicle::equations::polynomial(c, r.angle * r.angle);
+  return r.sign * near_sin(r.angle);
 }
 template <class Arch>
 inline Pack<Arch> cos(const Pack<Arch>& angle) {
-  constexpr std::array<double, 6> c{
-      1.0, -0.499999994, 0.0416666362, -0.00138883608, 2.47601355e-05, -2.60510763e-07};
   const Reduced<Arch> r = reduced(angle);
-  return r.sign * vehicle::equations::polynomial(c, r.angle * r.angle);
+  return r.sign * near_cos(r.angle);
 }
 /// @param angle  within a quarter turn of zero
 template <class Arch>
 inline Pack<Arch> tan(const Pack<Arch>& angle) {
-  return sin(angle) / cos(angle);
+  return near_sin(angle) / near_cos(angle);
 }
 /// @param value  in [-1, 1]
 template <class Arch>
@@ -111,7 +152,7 @@ inline Pack<Arch> asin(const Pack<Arch>& value) {
   // asin(x) = pi/2 - 2 asin(sqrt((1 - x) / 2))
   const Pack<Arch> squared = select(large, 0.5 * (1.0 - size), size * size);
   const Pack<Arch> root = select(large, sqrt(max(0.0, squared)), size);
-  const Pack<Arch> angle = root * vehicle::equations::polynomial(c, squared);
+  const Pack<Arch> angle = root * vehicle::equations::polynomial<Pack<Arch>>(c, squared);
   const Pack<Arch> whole = select(large, 0.5 * std::numbers::pi - 2.0 * angle, angle);
   return select(value < 0.0, -whole, whole);
 }
@@ -128,10 +169,9 @@ struct MagicCurve<manoeuvre::lanes::Pack<Arch>> {
   static constexpr std::array<double, 8> arc{0.999999898,  -0.333319597,  0.199692354,
                                              -0.14016585,  0.099060969,   -0.0593671008,
                                              0.0241661895, -0.00466877331};
-  /// sin(y) / y over y^2 in [0, pi^2]: error 7e-10.
-  static constexpr std::array<double, 7> wave{0.999999999,     -0.166666659, 0.00833332129,
-                                              -0.000198405341, 2.753585e-06, -2.47288117e-08,
-                                              1.36130988e-10};
+  /// sin(y) / y over y^2 in [0, pi^2]: error 6e-8.
+  static constexpr std::array<double, 6> wave{0.999999937,     -0.166666207,   0.00833278847,
+                                              -0.000198175451, 2.70873177e-06, -2.06941101e-08};
 };
 
 }  // namespace saca::vehicle::equations
@@ -144,8 +184,8 @@ inline Pack<Arch> atan2(const Pack<Arch>& y, const Pack<Arch>& x) {
   const Pack<Arch> along = abs(x);
   const Pack<Arch> across = abs(y);
   const Pack<Arch> slope = min(along, across) / max(max(along, across), 1e-30);
-  const Pack<Arch> acute =
-      slope * vehicle::equations::polynomial(MagicCurve<Pack<Arch>>::arc, slope * slope);
+  const Pack<Arch> acute = slope * vehicle::equations::polynomial<Pack<Arch>>(
+                                       MagicCurve<Pack<Arch>>::arc, slope * slope);
   const Pack<Arch> first = select(across > along, 0.5 * std::numbers::pi - acute, acute);
   const Pack<Arch> half = select(x < 0.0, std::numbers::pi - first, first);
   return select(y < 0.0, -half, half);

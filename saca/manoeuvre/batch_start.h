@@ -73,23 +73,43 @@ CarLane<T> car_lane(const Car& car, double grip) {
           .percussion_arm = t(equations::percussion_arm(car)),
           .driven_load = t(equations::driven_load(car)),
           .tyre = {t(car.tyre.stiffness), divisor<T>(car.tyre.shape), t(car.tyre.load_sensitivity),
-                   t(vehicle::equations::per_newton(car.tyre)),
-                   t(std::pow(std::tan(0.5 * std::numbers::pi / car.tyre.shape), 2))},
+                   t(vehicle::equations::per_newton(car.tyre)), t(2.0 * car.tyre.shape),
+                   t(car.tyre.stiffness / car.tyre.shape)},
           .tuning = {swerve_lane<T>(car.tuning.swerve), drift_lane<T>(car.tuning.drift)}};
+}
+
+template <class T>
+ShiftLane<T> shift_lane(const LaneShift& shift) {
+  const auto t = [](double value) { return static_cast<T>(value); };
+  const double swing = shift.ramp + shift.first;
+  const double last = swing + 2.0 * shift.ramp + shift.second;
+  return {.start_d = t(shift.start_d),
+          .start_v = t(shift.start_v),
+          .jerk = t(equations::jerk(shift)),
+          .change = {t(shift.ramp), t(swing), t(swing + 2.0 * shift.ramp), t(last)},
+          .end = t(duration(shift)),
+          .end_d = t(at(shift, duration(shift)).d)};
 }
 
 template <class T>
 MemoryLane<T> memory_lane(const ControllerState& memory) {
   const auto t = [](double value) { return static_cast<T>(value); };
-  const LaneShift& shift = memory.shift;
-  return {.shift = {t(shift.start_d), t(shift.start_v), t(equations::jerk(shift)), t(shift.ramp),
-                    t(shift.first), t(shift.second)},
+  return {.shift = shift_lane<T>(memory.shift),
           .end_d = t(memory.end_d),
           .time = t(memory.time),
           .speed = t(memory.speed),
-          .abs = {t(memory.abs.speed), {t(1), t(1), t(1), t(1)}, {t(0), t(0), t(0), t(0)}},
+          .abs = {t(memory.abs.speed),
+                  {t(1), t(1), t(1), t(1)},
+                  {t(0), t(0), t(0), t(0)},
+                  {t(0), t(0), t(0), t(0)}},
           .recovered_for = t(memory.recovered_for),
-          .drift = {t(memory.drift.yaw_rate), t(memory.drift.yaw_acceleration)}};
+          .drift = {t(memory.drift.yaw_rate), t(memory.drift.yaw_acceleration), t(0)}};
+}
+
+inline Kind kind_of(PolicyId policy) {
+  return manoeuvre::drifts(policy)                                       ? Kind::drifts
+         : policy == PolicyId::aeb || manoeuvre::brakes_to_speed(policy) ? Kind::brakes
+                                                                         : Kind::keeps_speed;
 }
 
 /// The brakes' dead time in steps.
@@ -97,9 +117,9 @@ struct Delay {
   std::size_t whole;
   double share;  ///< of one more, in [0, 1)
 };
-inline Delay delay_of(const vehicle::Vehicle& car) {
+inline Delay delay_of(const vehicle::Vehicle& car, Kind kind) {
   const double slots = std::round(car.brake_dead_time / vehicle::BrakeLine::slot);
-  const double steps = slots * vehicle::BrakeLine::slot / step;
+  const double steps = slots * vehicle::BrakeLine::slot / step_of(kind);
   const double whole = std::floor(steps + 1e-9);
   return {static_cast<std::size_t>(whole), std::max(0.0, steps - whole)};
 }
@@ -107,6 +127,7 @@ inline Delay delay_of(const vehicle::Vehicle& car) {
 template <class T>
 FixedLane<T> fixed_lane(const Car& car, const Ride& ride, const Plan& plan, double known_grip,
                         double curvature) {
+  const Kind kind = kind_of(plan.policy);
   const auto t = [](double value) { return static_cast<T>(value); };
   Car real = car;
   static_cast<vehicle::Vehicle&>(real) = ride.real();
@@ -117,9 +138,8 @@ FixedLane<T> fixed_lane(const Car& car, const Ride& ride, const Plan& plan, doub
           .curvature = t(curvature),
           .rest = t(plan.policy == PolicyId::aeb ? 1.0 : 0.0),
           .slower = t(brakes_to_speed(plan.policy) ? 1.0 : 0.0),
-          .drifts = t(manoeuvre::drifts(plan.policy) ? 1.0 : 0.0),
           .side = t(side(plan.policy)),
-          .delay_share = t(delay_of(ride.real()).share)};
+          .delay_share = t(delay_of(ride.real(), kind).share)};
 }
 
 /// @param X_LB  the car in the frame that the lanes move in

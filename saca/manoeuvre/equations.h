@@ -8,6 +8,7 @@
 #include "saca/core/number.h"
 #include "saca/core/units.h"
 #include "saca/manoeuvre/car.h"
+#include "saca/manoeuvre/drift.h"
 #include "saca/manoeuvre/lane_shift.h"
 #include "saca/vehicle/abs_equations.h"
 
@@ -158,11 +159,16 @@ inline Sides<T> turning_allowed(const Car& car, const State& state, const T& gri
   return {select(right, allowed, 1.0), select(right, 1.0, allowed)};
 }
 
+// Load on the front axle under an acceleration ahead [N].
+inline double front_load(const vehicle::Vehicle& car, double ax) {
+  const Wheelwise<double> loads = vehicle::equations::wheel_loads<double>(car, ax, 0.0);
+  return loads[front_left] + loads[front_right];
+}
+
 // Angle of the road wheels at which the front tyres push with the force that gives the demand.
 template <class T, class Car, class State>
 inline T steering_angle(const Car& car, const State& state, const T& grip, const T& demand) {
-  const Wheelwise<T> loads = vehicle::equations::wheel_loads<T>(car, state.a_B.x, 0.0);
-  const T load = loads[front_left] + loads[front_right];
+  const T load = front_load(car, state.a_B.x);
   const T peak = vehicle::equations::peak_friction<T>(car.tyre, 0.5 * load, grip);
   const T most = front_limit * peak * load;
   const T braking =
@@ -197,15 +203,16 @@ inline T holding_torque(const Car& car, const State& state, const T& speed, cons
   return force * car.wheel_radius;
 }
 
-// What a plan wants of the speed, beside keeping it.
-template <class Mask>
+// What a plan wants of the speed, beside keeping it. Where `may_brake` is false, neither mask
+// holds.
+template <class Mask, bool may_brake = true>
 struct Wants {
   Mask rest;    // at once: emergency braking
   Mask slower;  // down to the speed to keep
 };
 
-template <class Mask, class Memory>
-inline Mask stops(const Wants<Mask>& wants, const Memory& memory) {
+template <class Mask, bool may_brake, class Memory>
+inline Mask stops(const Wants<Mask, may_brake>& wants, const Memory& memory) {
   return wants.rest || (wants.slower && memory.speed < least_kept_speed);
 }
 
@@ -220,10 +227,14 @@ inline void begin_abs_where(const Mask& mask, const T& speed, Abs& abs) {
 }
 
 // Brakes or motor: what the plan wants of the speed, with what steering leaves.
-template <class T, class Mask, class Car, class State, class Memory, class Command>
-inline void command_speed(const Car& car, const Wants<Mask>& wants, const T& grip,
+template <class T, class Mask, bool may_brake, class Car, class State, class Memory, class Command>
+inline void command_speed(const Car& car, const Wants<Mask, may_brake>& wants, const T& grip,
                           const State& state, const T& sideways, double dt, Memory& memory,
                           Command& command) {
+  if constexpr (!may_brake) {
+    command.motor_torque = holding_torque<T>(car, state, memory.speed, grip);
+    return;
+  }
   constexpr double approach = 0.25;  // [s]: the last of the braking fades within the brakes' delay
   const Mask stop = stops(wants, memory);
   // Where a bend needs all the grip, only less speed helps: a stop always brakes.
@@ -246,9 +257,10 @@ inline void command_speed(const Car& car, const Wants<Mask>& wants, const T& gri
   }
 }
 
-template <class T, class Mask, class Car, class State, class Memory>
-inline void watch_recovery(const Car& car, const Wants<Mask>& wants, const PathPoint<T>& point,
-                           const State& state, double dt, Memory& memory) {
+template <class T, class Mask, bool may_brake, class Car, class State, class Memory>
+inline void watch_recovery(const Car& car, const Wants<Mask, may_brake>& wants,
+                           const PathPoint<T>& point, const State& state, double dt,
+                           Memory& memory) {
   constexpr double near_d = 0.2;      // [m]
   constexpr double near_speed = 1.0;  // [m/s]
   const double near_heading = from_degrees(2.0);
@@ -260,10 +272,10 @@ inline void watch_recovery(const Car& car, const Wants<Mask>& wants, const PathP
 }
 
 // What to tell a car that follows a path.
-template <class T, class Mask, class Car, class State, class Memory, class Command>
-inline void follow_path(const Car& car, const Wants<Mask>& wants, const T& curvature, const T& grip,
-                        const State& state, const PathPoint<T>& point, double dt, Memory& memory,
-                        Command& command) {
+template <class T, class Mask, bool may_brake, class Car, class State, class Memory, class Command>
+inline void follow_path(const Car& car, const Wants<Mask, may_brake>& wants, const T& curvature,
+                        const T& grip, const State& state, const PathPoint<T>& point, double dt,
+                        Memory& memory, Command& command) {
   const T demand = sideways_demand<T>(car, curvature, state, memory, point);
   const T most = grip * gravity;
   const T sideways = min(max(abs(demand), abs(state.a_B.y)), most);
@@ -313,6 +325,16 @@ inline T drift_motor(const Car& car, const Law& law, const T& grip, const T& spe
   return select(speed < slow && torque * vx > 0.0, 0.0, torque);
 }
 
+// How fast the turning rate grows [rad/s^2]; notes the rate.
+inline double turning_growth(DriftState& memory, double yaw_rate, double dt) {
+  const double growth = (yaw_rate - memory.yaw_rate) / dt;
+  memory.yaw_rate = yaw_rate;
+  return growth;
+}
+inline double smoothing_share(const DriftState& /*memory*/, double dt, double time) {
+  return std::min(1.0, dt / time);
+}
+
 // The drift to the left.
 template <class T, class Car, class Law, class Memory, class Command>
 inline void drift(const Car& car, const Law& law, const T& grip, const Drifting<T>& motion,
@@ -320,10 +342,9 @@ inline void drift(const Car& car, const Law& law, const T& grip, const Drifting<
   constexpr double smoothing = 0.02;    // [s]
   constexpr double over_brake = 1.6;    // of what a wheel can take: it locks
   constexpr double least_load = 500.0;  // [N] that a lifted wheel is braked for
-  const T growth = (motion.yaw_rate - memory.yaw_rate) / dt;
-  memory.yaw_acceleration =
-      memory.yaw_acceleration + std::min(1.0, dt / smoothing) * (growth - memory.yaw_acceleration);
-  memory.yaw_rate = motion.yaw_rate;
+  const T growth = turning_growth(memory, motion.yaw_rate, dt);
+  memory.yaw_acceleration = memory.yaw_acceleration + smoothing_share(memory, dt, smoothing) *
+                                                          (growth - memory.yaw_acceleration);
 
   const T speed = hypot(motion.vx, motion.vy);
   const T u = drift_demand<T>(law, grip, motion, speed, memory);

@@ -22,12 +22,15 @@ std::optional<LaneShift> with_amplitude(const LaneShift& draft, double way, doub
     return (at(shift, duration(shift)).d - shift.start_d - way) / amplitude;
   };
   const double y0 = beyond(least);
+  if (y0 > 0.0) {
+    return std::nullopt;
+  }
   const double y1 = beyond(least + 1.0);
   const double y2 = beyond(least + 2.0);
   const double bend = 0.5 * (y2 - 2.0 * y1 + y0);  // > 0: it is 1
   const double slope = y1 - y0 - bend;
   const double root = slope * slope - 4.0 * bend * y0;
-  if (y0 > 0.0 || !(root >= 0.0)) {
+  if (!(root >= 0.0)) {
     return std::nullopt;
   }
   const double more = (std::sqrt(root) - slope) / (2.0 * bend);
@@ -50,6 +53,9 @@ Lateral at(const LaneShift& shift, double time) noexcept {
 LaneShift lane_shift(double start_d, double start_v, double end_d, double amplitude,
                      double ramp) noexcept {
   const LaneShift draft{.start_d = start_d, .start_v = start_v, .ramp = ramp};
+  if (start_v == 0.0 && end_d == start_d) {
+    return {.start_d = end_d, .ramp = ramp};  // there already
+  }
   // A rate that already carries too far needs the other side first. Shorter ways need less
   // acceleration: the same ramps then reach less high.
   double size = amplitude;
@@ -61,7 +67,7 @@ LaneShift lane_shift(double start_d, double start_v, double end_d, double amplit
       }
     }
   }
-  return {.start_d = end_d, .ramp = ramp};  // there already
+  return {.start_d = end_d, .ramp = ramp};  // as good as there
 }
 
 double largest_rate(const LaneShift& shift) noexcept {

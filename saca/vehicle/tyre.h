@@ -56,7 +56,7 @@ constexpr T polynomial(const std::array<C, n>& c, const T& x) noexcept {
     if constexpr (n % 2 == 1) {
       pairs.back() = c.back();
     }
-    return polynomial(pairs, x * x);
+    return polynomial<T>(pairs, x * x);
   }
 }
 
@@ -83,8 +83,8 @@ inline T magic_ratio(const T& shape, const T& zz) noexcept {
   const T root = sqrt(1.0 + zz);
   const T w_over_z = 1.0 / (1.0 + root);
   const T y_over_z =
-      2.0 * shape * w_over_z * polynomial(MagicCurve<T>::arc, (root - 1.0) * w_over_z);
-  return y_over_z * polynomial(MagicCurve<T>::wave, zz * y_over_z * y_over_z);
+      2.0 * shape * w_over_z * polynomial<T>(MagicCurve<T>::arc, (root - 1.0) * w_over_z);
+  return y_over_z * polynomial<T>(MagicCurve<T>::wave, zz * y_over_z * y_over_z);
 }
 
 /// B of the magic formula: the curve's slope at zero, B C D, is stiffness * load at any friction.
