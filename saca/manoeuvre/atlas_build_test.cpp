@@ -100,28 +100,6 @@ TEST_F(AtlasBuild, PassesOverBrokenLinesOfItsJournal) {
   EXPECT_TRUE(same(*whole, *resumed));
 }
 
-// A line of a journal that is no node is driven again.
-TEST_F(AtlasBuild, PassesOverBrokenLinesOfItsJournal) {
-  const auto journal = folder_ / "journal";
-  const AtlasNodes whole = build_atlas(small_atlas_car(), tiny_grid(), 1, journal, on).value();
-  std::string text = read_file(journal).value();
-  const std::size_t first = text.find('\n') + 1;
-  const std::size_t second = text.find('\n', first) + 1;
-  const std::size_t third = text.find('\n', second) + 1;
-  text[text.find(' ', first) + 7] = 'g';
-  text.erase(third - 3, 2);
-  text.insert(third - 2, "x7 00\n-1 00\n\n99 00\n5\n");
-  ASSERT_EQ(write_file(journal, text), std::nullopt);
-  std::size_t remembered = 0;
-  const AtlasNodes resumed =
-      build_atlas(small_atlas_car(), tiny_grid(), 1, journal, [&](const AtlasProgress& progress) {
-        remembered = progress.remembered;
-        return true;
-      }).value();
-  EXPECT_EQ(remembered, whole->size() - 2);
-  EXPECT_TRUE(same(*whole, *resumed));
-}
-
 TEST_F(AtlasBuild, RefusesAJournalOfOtherWork) {
   const auto journal = folder_ / "journal";
   ASSERT_TRUE(build_atlas(small_atlas_car(), tiny_grid(), 1, journal, on).has_value());
