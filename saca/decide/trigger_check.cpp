@@ -14,18 +14,17 @@ using manoeuvre::Plan;
 using world::Scene;
 using world::Track;
 
-constexpr double looks_ahead = 10.0;  // [s]: nearly any stop
-constexpr double step = 0.1;          // [s] between poses
-constexpr int num_steps = 100;
-static_assert(num_steps * step == looks_ahead);
-constexpr std::size_t room = num_steps + 2;  // for the poses of a track
+constexpr double looks_ahead = 10.0;   // [s]: nearly any stop
+constexpr double going_on_step = 0.2;  // [s] between poses of who goes on as it does
+constexpr double reacting_step = 0.1;  // [s] of the ego, and of who reacts to it
+constexpr std::size_t room = 102;      // for the poses of a track: looks_ahead / step + 2
 
 void write_going_on(const world::Actor& actor, double start, Track& track) {
   track.start = start;
-  track.step = step;
+  track.step = going_on_step;
   track.X_WA.clear();
-  for (int k = 0; k <= num_steps; ++k) {
-    track.X_WA.push_back(world::actor_going_on(actor, k * step));
+  for (int k = 0; k * going_on_step <= looks_ahead; ++k) {
+    track.X_WA.push_back(world::actor_going_on(actor, k * going_on_step));
   }
 }
 
@@ -50,8 +49,8 @@ std::optional<double> TriggerCheck::harm_of(const Plan& plan, const Scene& scene
   }
   const std::span tracks(tracks_.data(), scene.actors.size());
   if (!followers.empty()) {
-    outcome::atlas_way(atlas_, plan, scene, {.step = step, .longest = looks_ahead}, X_WB_);
-    preview::let_react(scene, followers, X_WB_, scene.time + looks_ahead, step, tracks);
+    outcome::atlas_way(atlas_, plan, scene, {.step = reacting_step, .longest = looks_ahead}, X_WB_);
+    preview::let_react(scene, followers, X_WB_, scene.time + looks_ahead, reacting_step, tracks);
   }
   const outcome::Future future = outcome::future(atlas_, plan, scene, tracks, *harm_);
   return future.outside ? std::nullopt : std::optional(future.harm);
