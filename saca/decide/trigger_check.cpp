@@ -14,10 +14,10 @@ using manoeuvre::Plan;
 using world::Scene;
 using world::Track;
 
-constexpr double looks_ahead = 10.0;   // [s]: nearly any stop
-constexpr double going_on_step = 0.2;  // [s] between poses of who goes on as it does
-constexpr double reacting_step = 0.1;  // [s] of the ego, and of who reacts to it
-constexpr std::size_t room = 102;      // for the poses of a track: looks_ahead / step + 2
+constexpr double looks_ahead = 10.0;        // [s]: nearly any stop
+constexpr double going_on_step = 0.2;       // [s] between poses of who goes on as it does
+constexpr double reacting_step = 1.0 / 16;  // [s] of the ego, and of who reacts to it
+constexpr std::size_t room = 162;  // for the poses of a track: looks_ahead / reacting_step + 2
 
 void write_going_on(const world::Actor& actor, double start, Track& track) {
   track.start = start;

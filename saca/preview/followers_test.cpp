@@ -125,5 +125,27 @@ TEST(WithReactingFollowers, WantsOneTrackPerActor) {
   EXPECT_THROW((void)with_reacting_followers(scene, {}), ContractViolation);
 }
 
+// The finer forecast is the reference: steps three times as long move a follower by decimetres.
+TEST(LetReact, IsTheSameWhereNobodyElseIsInTheWay) {
+  Scene scene = ego_at(20.0);
+  scene.actors.push_back(car(1, {-75.0, 0.0}, 20.0));
+  scene.actors.push_back(car(2, {60.0, 3.5}, 5.0));
+  scene.actors.push_back(car(3, {-35.0, 0.0}, 20.0));
+  const Track X_WB = braking(20.0, 6.0);
+  const auto reference = with_reacting_followers(scene, all_going_on(scene))(along(X_WB));
+  const Followers followers = followers_of(scene);
+  ASSERT_EQ(followers.size(), 2U);
+  EXPECT_EQ(followers[0], 2U);  // the nearest first
+  EXPECT_EQ(followers[1], 0U);
+  std::vector<Track> tracks = all_going_on(scene);
+  let_react(scene, followers, X_WB, 8.0, 1.0 / 16, tracks);
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (double time = 0.0; time <= 8.0; time += 0.5) {
+      EXPECT_NEAR(pose_at(tracks[i], time).p.x, pose_at(reference[i], time).p.x, 0.4) << i << time;
+    }
+  }
+  EXPECT_THROW(let_react(scene, followers, X_WB, 8.0, 1.0 / 16, {}), ContractViolation);
+}
+
 }  // namespace
 }  // namespace saca::preview
