@@ -24,10 +24,9 @@ struct Made {
   std::optional<Error> not_written;
 };
 
-/// nullopt: interrupted. Errors are the journal's.
+/// nullopt: interrupted, which it is only when that is watched for. Errors are the journal's.
 Result<std::optional<Made>> made(const Inputs& inputs, const fs::path& file, int threads,
                                  const fs::path& journal) {
-  watch_for_interrupt();
   SteadyClock clock;
   const auto grid = manoeuvre::default_atlas_grid();
   ProgressLine line("atlas", static_cast<int>(num_nodes(grid)), clock);
@@ -58,6 +57,7 @@ Result<std::optional<manoeuvre::Atlas>> make_atlas(const Inputs& inputs, const f
     return *problem;
   }
   const fs::path journal = file.string() + ".journal";
+  watch_for_interrupt();
   const auto one = made(inputs, file, threads, journal);
   if (!one.has_value()) {
     return one.error();
@@ -76,17 +76,13 @@ Result<std::optional<manoeuvre::Atlas>> make_atlas(const Inputs& inputs, const f
   return std::optional(one.value()->atlas);
 }
 
-std::optional<manoeuvre::Atlas> usual_atlas(const Inputs& inputs) {
+manoeuvre::Atlas usual_atlas(const Inputs& inputs) {
   const fs::path file = atlas_place(inputs.places, inputs.car_name);
   const auto there = manoeuvre::read_atlas(file, inputs.car);
   if (there.has_value()) {
     return there.value();
   }
   const auto one = made(inputs, file, usual_threads(), {}).value();  // no journal, no error
-  if (!one) {
-    complain("interrupted");
-    return std::nullopt;
-  }
   if (one->not_written) {
     complain(one->not_written->message + "; the atlas is used, and built again next time");
   }

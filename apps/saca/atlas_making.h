@@ -18,7 +18,6 @@ namespace saca::app {
 
 /// The one at `atlas_place`. Where there is none that is right for this car and this program, it is
 /// built, in seconds, and kept there if it can be.
-/// @return  nullopt: interrupted, and told so
-[[nodiscard]] std::optional<manoeuvre::Atlas> usual_atlas(const Inputs& inputs);
+[[nodiscard]] manoeuvre::Atlas usual_atlas(const Inputs& inputs);
 
 }  // namespace saca::app

@@ -108,6 +108,7 @@ void bench_reflex(const Inputs& inputs, const manoeuvre::Atlas& atlas, Clock& cl
     }
     std::vector<double> times;
     times.reserve(static_cast<std::size_t>(num_calls));
+    std::vector<double> looked_ahead;  // times of those calls that asked the atlas
     int num_triggered = 0;
     for (int call = 0; call < num_calls; ++call) {
       decide::ReflexPlane plane(preview::Thresholds{}, decide::TriggerCheck(atlas, inputs.harm));
@@ -116,6 +117,9 @@ void bench_reflex(const Inputs& inputs, const manoeuvre::Atlas& atlas, Clock& cl
       plane.receive(plans);
       num_triggered += plane.step(scene).triggered ? 1 : 0;
       times.push_back(1e6 * to_seconds(clock.now() - start));
+      if (plane.decision() && plane.decision()->forecast) {
+        looked_ahead.push_back(times.back());
+      }
     }
     const std::vector<double> idle = machine_times(clock, percentile(times, 0.5), num_calls);
     const std::string suffix = fmt::format(".actors{}", num_actors);
@@ -124,6 +128,12 @@ void bench_reflex(const Inputs& inputs, const manoeuvre::Atlas& atlas, Clock& cl
       figures[fmt::format("decide.reflex_us.{}{}", name, suffix)] = percentile(times, share);
       figures[fmt::format("decide.machine_us.{}{}", name, suffix)] = percentile(idle, share);
     }
+    if (!looked_ahead.empty()) {
+      figures["decide.reflex_us.looks_ahead.p50" + suffix] = percentile(looked_ahead, 0.5);
+      figures["decide.reflex_us.looks_ahead.p99" + suffix] = percentile(looked_ahead, 0.99);
+    }
+    figures["decide.reflex_us.looks_ahead.share" + suffix] =
+        static_cast<double>(looked_ahead.size()) / num_calls;
     figures["decide.reflex_us.n" + suffix] = num_calls;
     figures["decide.reflex_us.triggered_share" + suffix] =
         static_cast<double>(num_triggered) / num_calls;
@@ -190,6 +200,7 @@ void bench_atlas(const manoeuvre::Car& car, const manoeuvre::Atlas& atlas,
       }
       for (const bool chooses : {false, true}) {
         std::vector<double> times;
+        int num_outside = 0;
         for (int call = 0; call < num_calls; ++call) {
           const std::size_t i = static_cast<std::size_t>(call) % scenes.size();
           const Clock::Time start = clock.now();
@@ -198,13 +209,13 @@ void bench_atlas(const manoeuvre::Car& car, const manoeuvre::Atlas& atlas,
                                chooses ? std::span<const double>(outcome::target_shares)
                                        : std::span<const double>(half));
           times.push_back(1e6 * to_seconds(clock.now() - start));
-          figures["atlas.outside"] = all[0].outside ? 1 : 0;
+          num_outside += all[0].outside ? 1 : 0;
         }
-        for (const auto& [name, share] : {std::pair{"p50", 0.5}, {"p99", 0.99}}) {
-          figures[fmt::format("atlas.futures_us.{}.actors{}{}{}", name, num_actors,
-                              spread ? ".spread" : "", chooses ? ".targets4" : "")] =
-              percentile(times, share);
-        }
+        const std::string suffix = fmt::format(".actors{}{}{}", num_actors, spread ? ".spread" : "",
+                                               chooses ? ".targets4" : "");
+        figures["atlas.futures_us.p50" + suffix] = percentile(times, 0.5);
+        figures["atlas.futures_us.p99" + suffix] = percentile(times, 0.99);
+        figures["atlas.outside_share" + suffix] = static_cast<double>(num_outside) / num_calls;
       }
     }
   }
@@ -223,10 +234,6 @@ int bench(const BenchOptions& options) {
     return bad_input;
   }
   const Inputs& inputs = read.value();
-  const auto atlas = usual_atlas(inputs);
-  if (!atlas) {
-    return was_interrupted;
-  }
   SteadyClock clock;
   json figures;
   const auto asked = [&](std::string_view what) {
@@ -236,12 +243,15 @@ int bench(const BenchOptions& options) {
     bench_vehicle(inputs.car, clock, figures);
   }
   const int fewer_calls = std::min(options.calls, 10'000);
-  if (asked("decide")) {
-    bench_reflex(inputs, *atlas, clock, options.calls, figures);
-    bench_trigger_check(inputs, *atlas, clock, fewer_calls, figures);
-  }
-  if (asked("atlas")) {
-    bench_atlas(inputs.car, *atlas, inputs.harm, clock, fewer_calls, figures);
+  if (asked("decide") || asked("atlas")) {
+    const manoeuvre::Atlas atlas = usual_atlas(inputs);
+    if (asked("decide")) {
+      bench_reflex(inputs, atlas, clock, options.calls, figures);
+      bench_trigger_check(inputs, atlas, clock, fewer_calls, figures);
+    }
+    if (asked("atlas")) {
+      bench_atlas(inputs.car, atlas, inputs.harm, clock, fewer_calls, figures);
+    }
   }
   if (options.as_json) {
     fmt::print("{}\n", figures.dump(1));

@@ -54,7 +54,7 @@ Result<std::optional<manoeuvre::Atlas>> open_atlas(const RunOptions& options,
     return std::optional<manoeuvre::Atlas>();
   }
   if (options.atlas.empty()) {
-    return usual_atlas(inputs);
+    return std::optional(usual_atlas(inputs));
   }
   auto atlas = manoeuvre::read_atlas(options.atlas, inputs.car);
   return atlas.has_value() ? Result<std::optional<manoeuvre::Atlas>>(std::optional(atlas.value()))
@@ -110,9 +110,6 @@ int run(const RunOptions& options) {
   if (!atlas.has_value()) {
     complain(atlas.error().message + " (--atlas off does without)");
     return bad_input;
-  }
-  if (!atlas.value() && options.atlas != "off") {
-    return was_interrupted;
   }
   std::unique_ptr<memory::Store> memory;
   if (!options.no_memory) {

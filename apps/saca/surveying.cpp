@@ -81,9 +81,9 @@ Result<std::vector<Finding>> look_on(const SuiteSource& source, std::size_t from
   std::vector<sim::Scenario> scenarios(to - from);
   std::vector<std::optional<Error>> problems(to - from);
   in_parallel(scenarios.size(), threads, [&](std::size_t i) {
-    auto sample = source.sample(from + i);
+    const auto sample = source.sample(from + i);
     if (sample.has_value()) {
-      scenarios[i] = std::move(sample.value().scenario);
+      scenarios[i] = sample.value().scenario;
     } else {
       problems[i] = sample.error();
     }

@@ -72,9 +72,9 @@ Result<std::optional<std::vector<Cell>>> try_all(const ScenarioInputs& inputs, d
     const std::size_t to = std::min(cells.size(), from + at_once);
     std::vector<std::optional<sim::Scenario>> varied(to - from);
     in_parallel(to - from, threads, [&](std::size_t i) {
-      auto scenario = scenario_at(inputs, time, axes, from + i);
+      const auto scenario = scenario_at(inputs, time, axes, from + i);
       if (scenario.has_value()) {
-        varied[i] = std::move(scenario.value());
+        varied[i] = scenario.value();
       } else {
         problems[from + i] = scenario.error();
       }

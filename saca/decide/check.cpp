@@ -1,6 +1,7 @@
 #include "saca/decide/check.h"
 
 #include <array>
+#include <span>
 
 #include "saca/outcome/ordering.h"
 #include "saca/reason/prompt.h"
@@ -26,9 +27,10 @@ Check check(const preview::PolicyFacts& plan, const preview::PolicyFacts& aeb,
 Check check(const manoeuvre::Plan& plan, const preview::Situation& situation,
             const preview::ForecastTools& tools) {
   const std::array plans{plan, manoeuvre::Plan{PolicyId::aeb, std::nullopt}};
+  const std::size_t needed = plan.policy == PolicyId::aeb ? 1 : 2;
   const world::Scene& scene = situation.scene_at_trigger;
-  const auto facts = rolled_out(scene, situation.tracks, plans, tools);
-  return check(facts[0], facts[1], scene);
+  const auto facts = rolled_out(scene, situation.tracks, std::span(plans).first(needed), tools);
+  return check(facts.front(), facts.back(), scene);
 }
 
 }  // namespace saca::decide

@@ -36,7 +36,7 @@ Decision ReflexPlane::decide(const world::Scene& scene) noexcept {
     decision.source = Source::forced;
   } else if (best != nullptr && *decision.similarity > match_similarity) {
     decision.gave_way_to_aeb = best->worse_than_aeb;
-    if (check_ && !best->worse_than_aeb) {
+    if (check_ && !best->worse_than_aeb && best->plan.policy != manoeuvre::PolicyId::aeb) {
       decision.forecast = check_->compare(best->plan, scene);
       decision.gave_way_to_aeb = decision.forecast && decision.forecast->plan_harms_more();
     }

@@ -5,7 +5,8 @@
 namespace saca::decide {
 namespace {
 
-/// A trigger among `count` others on three lanes, six plans in the cache: the longest way through.
+/// A trigger among `count` others on three lanes, six plans in the cache; without a check at the
+/// trigger (`saca bench decide` has it).
 void reflex_step(benchmark::State& state) {
   world::Scene scene;
   scene.ego.v_B = {20.0, 0.0};

@@ -14,17 +14,20 @@ using manoeuvre::Plan;
 using world::Scene;
 using world::Track;
 
-constexpr double looks_ahead = 10.0;        // [s]: nearly any stop
-constexpr double going_on_step = 0.2;       // [s] between poses of who goes on as it does
-constexpr double reacting_step = 1.0 / 16;  // [s] of the ego, and of who reacts to it
-constexpr std::size_t room = 162;  // for the poses of a track: looks_ahead / reacting_step + 2
+constexpr double looks_ahead = 10.0;          // [s]: nearly any stop
+constexpr double reacting_step = 1.0 / 16.0;  // [s] of the ego, and of who reacts to it
+constexpr double braking_step = 1.0 / 20.0;  // [s] of who goes on and brakes: its speed is read off
+constexpr double even_step = 1.0 / 5.0;      // [s] of who goes on evenly
+constexpr std::size_t room = static_cast<std::size_t>(looks_ahead / braking_step) + 2;
 
 void write_going_on(const world::Actor& actor, double start, Track& track) {
+  constexpr double even = 0.1;  // [m/s^2]
   track.start = start;
-  track.step = going_on_step;
+  track.step = norm(actor.a_W) < even ? even_step : braking_step;
   track.X_WA.clear();
-  for (int k = 0; k * going_on_step <= looks_ahead; ++k) {
-    track.X_WA.push_back(world::actor_going_on(actor, k * going_on_step));
+  const auto num_steps = static_cast<int>(looks_ahead / track.step + 0.5);
+  for (int k = 0; k <= num_steps; ++k) {
+    track.X_WA.push_back(world::actor_going_on(actor, k * track.step));
   }
 }
 
@@ -44,9 +47,6 @@ TriggerCheck::TriggerCheck(const manoeuvre::Atlas& atlas, const outcome::HarmMod
 
 std::optional<double> TriggerCheck::harm_of(const Plan& plan, const Scene& scene,
                                             const preview::Followers& followers) noexcept {
-  if (atlas_.outside(plan, scene)) {
-    return std::nullopt;
-  }
   const std::span tracks(tracks_.data(), scene.actors.size());
   if (!followers.empty()) {
     outcome::atlas_way(atlas_, plan, scene, {.step = reacting_step, .longest = looks_ahead}, X_WB_);
@@ -57,12 +57,16 @@ std::optional<double> TriggerCheck::harm_of(const Plan& plan, const Scene& scene
 }
 
 std::optional<Comparison> TriggerCheck::compare(const Plan& plan, const Scene& scene) noexcept {
+  constexpr Plan braking{manoeuvre::PolicyId::aeb, std::nullopt};
+  if (atlas_.outside(plan, scene) || atlas_.outside(braking, scene)) {
+    return std::nullopt;
+  }
   for (std::size_t i = 0; i < scene.actors.size(); ++i) {
     write_going_on(scene.actors[i], scene.time, tracks_[i]);
   }
   const preview::Followers followers = preview::followers_of(scene);
   const auto of_plan = harm_of(plan, scene, followers);
-  const auto of_aeb = harm_of({manoeuvre::PolicyId::aeb, std::nullopt}, scene, followers);
+  const auto of_aeb = harm_of(braking, scene, followers);
   if (!of_plan || !of_aeb) {
     return std::nullopt;
   }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "saca/manoeuvre/atlas_for_test.h"
 #include "saca/outcome/roll_out.h"
 
@@ -66,6 +68,39 @@ TEST(TriggerCheck, FollowersReactInBoth) {
   world::Scene far = road();
   far.actors.push_back(car({-60.0, 0.0}, 12.5));
   EXPECT_EQ(check.compare(plan(PolicyId::aes_left), far)->aeb, 0.0);
+}
+
+// Who comes up from behind, 3 m/s faster and 10 m behind, has to brake also for who goes on: it
+// does, so going on harms nobody.
+TEST(TriggerCheck, FollowersReactToAPlanThatStaysInItsLane) {
+  TriggerCheck check(small_atlas(), harm());
+  world::Scene scene = road();
+  scene.actors.push_back(car({-15.0, 0.0}, 15.5));
+  const auto told = check.compare(plan(PolicyId::no_intervention), scene);
+  ASSERT_TRUE(told.has_value());
+  EXPECT_EQ(told->plan, 0.0);
+  EXPECT_GT(told->aeb, 0.0);
+}
+
+// A lead that brakes with 6 m/s^2: going on hits it at 12.5 m/s less what it has left,
+// 6 m/s^2 t with 12.5 t - (12.5 t - 3 t^2) = 8 m, so t = 1.63 s and 9.8 m/s.
+TEST(TriggerCheck, KnowsHowFastWhoBrakesIs) {
+  TriggerCheck check(small_atlas(), harm());
+  world::Scene scene = road();
+  const double front = support(scene.ego_footprint, {}, {1.0, 0.0}).x;
+  scene.actors.push_back(car({front + 8.0 + 2.25, 0.0}, 12.5));
+  scene.actors[0].a_W = {-6.0, 0.0};
+  world::Track brakes{.step = 0.001, .X_WA = {}};  // as fine as can be: the reference
+  for (int k = 0; k <= 10'000; ++k) {
+    const double t = std::min(k * brakes.step, 12.5 / 6.0);
+    brakes.X_WA.push_back({scene.actors[0].X_WA.p + Vec2{12.5 * t - 3.0 * t * t, 0.0}, 0.0});
+  }
+  const manoeuvre::Plan on = plan(PolicyId::no_intervention);
+  const std::vector<world::Track> tracks{brakes};
+  const auto reference = roll_out(small_atlas_car(), on, scene, tracks, scene.grip, harm());
+  ASSERT_TRUE(reference.contact.has_value());
+  EXPECT_NEAR(reference.contact->relative_speed, 9.8, 0.3);
+  EXPECT_NEAR(check.compare(on, scene)->plan, reference.harm, 0.03 * reference.harm);
 }
 
 TEST(TriggerCheck, DoesNotTellWhatTheAtlasDoesNotHave) {

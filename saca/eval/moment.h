@@ -26,6 +26,8 @@ using loop::Moment;
 [[nodiscard]] std::optional<Moment> moment_of_trigger(const sim::Scenario& scenario,
                                                       const manoeuvre::Car& car,
                                                       const preview::Thresholds& thresholds = {});
+std::optional<Moment> moment_of_trigger(sim::Scenario&& scenario, const manoeuvre::Car& car,
+                                        const preview::Thresholds& thresholds = {}) = delete;
 
 /// The scene as it truly is at a time, among those who are there then.
 /// @param time  [s], in [0, scenario.duration]; taken to the nearest 10 ms

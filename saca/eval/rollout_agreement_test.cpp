@@ -63,7 +63,7 @@ struct Encounters {
 };
 
 outcome::Outcome scalar(const Moment& moment, const manoeuvre::Plan& plan) {
-  constexpr double horizon = 20.0;  // [s] as roll_out_all
+  constexpr double horizon = 20.0;  // [s] as roll_out_all, but where a stop takes longer
   const double grip = std::min(1.2, moment.grip * moment.unknown.grip);
   return play_out(drive(default_car(), plan, moment.scene, moment.grip, horizon, moment.unknown),
                   moment.scene, moment.others, shipped_harm(), grip)
@@ -73,7 +73,7 @@ outcome::Outcome scalar(const Moment& moment, const manoeuvre::Plan& plan) {
 // SACA_AGREEMENT_ENCOUNTERS says how many; `make soak` takes thousands.
 TEST(RolloutAgreement, TheBatchEndsAsTheScalarModelDoes) {
   const char* const wanted = std::getenv("SACA_AGREEMENT_ENCOUNTERS");
-  const Encounters encounters(wanted == nullptr ? 42 : std::stoi(wanted));
+  const Encounters encounters(wanted == nullptr ? 14 : std::stoi(wanted));
   const int threads = usual_threads();
   const auto batch = hindsights(encounters.moments, default_car(), shipped_harm(), threads);
   struct Pair {
@@ -122,7 +122,8 @@ TEST(RolloutAgreement, TheBatchEndsAsTheScalarModelDoes) {
       batch.size(), count, 100.0 * agree / count, best_agrees, batch.size(),
       percentile(speeds, 0.95), *std::max_element(speeds.begin(), speeds.end()),
       percentile(clearances, 0.95), *std::max_element(clearances.begin(), clearances.end()));
-  EXPECT_GE(count, 150);
+  EXPECT_GE(count, 80);
+  EXPECT_GE(best_agrees, 0.95 * static_cast<double>(batch.size()));
   EXPECT_GE(agree, 0.99 * count);
   EXPECT_LE(percentile(speeds, 0.95), 0.05);
   EXPECT_LE(percentile(clearances, 0.95), 0.05);

@@ -31,7 +31,9 @@ std::vector<Hindsights> hindsights(std::span<const Moment> moments, const manoeu
   std::vector<outcome::Course> courses = outcome::roll_out_all(car, attempts, harm, threads);
   for (std::size_t k = 0; k < courses.size(); ++k) {
     of_attempt[k]->course = std::move(courses[k]);
-    of_attempt[k]->facts.outcome = of_attempt[k]->course.outcome;
+    preview::PolicyFacts& facts = of_attempt[k]->facts;
+    facts.outcome = of_attempt[k]->course.outcome;
+    facts.probability = facts.outcome.contact ? 1.0 : 0.0;
   }
   return all;
 }

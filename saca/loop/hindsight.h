@@ -17,7 +17,8 @@ namespace saca::loop {
 /// One instant at which policies begin, and all that their outcome depends on.
 struct Moment {
   world::Scene scene;          ///< the truth but for `grip`, which is what the ego believes in
-  outcome::Others others;      ///< what the others truly do from then on, the ego's motion given
+  outcome::Others others;      ///< what the others truly do from then on, the ego's motion given;
+                               ///< may be called by several threads at once
   double grip = 0.0;           ///< true friction coefficient; `unknown` may change it
   manoeuvre::Unknown unknown;  ///< what else the ego's controller does not know
   std::optional<manoeuvre::Plan> carried_out;  ///< tried instead of its policy's default plan

@@ -73,6 +73,7 @@ json facts_json(const preview::PolicyFacts& facts, const world::Scene& scene) {
           {"clearance_m", driven ? json(facts.outcome.clearance) : json(nullptr)},
           {"collision_loss", driven ? json(facts.outcome.collision_loss) : json(nullptr)},
           {"harm", driven ? json(facts.outcome.harm) : json(nullptr)},
+          {"probability", driven ? json(facts.probability) : json(nullptr)},
           {"rolled_out", facts.rolled_out}};
 }
 

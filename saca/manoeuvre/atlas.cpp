@@ -250,7 +250,9 @@ AtlasGrid default_atlas_grid() {
   AtlasAxes swerve{{}, grips, axis({1.0, 2.0, 2.75, 3.5, 4.5, 7.0}), none};
   add_range(swerve.speeds, 5.0, 8.0, 0.5);
   add_range(swerve.speeds, 9.0, 25.0, 1.0);
-  AtlasAxes braked{{}, grips, swerve.ways, axis({0.25, 0.375, 0.5, 0.625, 0.75})};
+  // Beyond a quarter and three quarters: a target that was set a while ago is another share by now.
+  AtlasAxes braked{
+      {}, grips, swerve.ways, axis({0.2, 0.25, 0.3125, 0.375, 0.5, 0.625, 0.75, 0.85})};
   add_range(braked.speeds, 5.0, 8.0, 0.5);
   add_range(braked.speeds, 9.0, 13.0, 1.0);
   add_range(braked.speeds, 14.0, 20.0, 2.0);

@@ -64,20 +64,16 @@ constexpr double sway_factor = 0.2;        ///< the two other drives: true grip 
 /// Sway: x, y and heading of a drive on less and on more grip, minus those of the middle one, at
 /// equal shares of `sway_span`. Numbers are `scale` times the integer.
 struct AtlasNode {
-  float span = 0.0F;         ///< of the samples; to rest, or past the end [s]
-  float end = 0.0F;          ///< at rest, or lane recovered [s]; at most `span`
-  float sway_span = 0.0F;    ///< [s]
-  float forward = 0.0F;      ///< x at the end [m]
-  float sideways = 0.0F;     ///< y at the end [m]
-  float swept_left = 0.0F;   ///< farthest that the body reaches to the left of the start [m]
-  float swept_right = 0.0F;  ///< likewise to the right, negative [m]
-  std::uint32_t ended = 0;   ///< 1: it came to its end; 0: the horizon came first
+  float span = 0.0F;        ///< of the samples; to rest, or past the end [s]
+  float end = 0.0F;         ///< at rest, or lane recovered [s]; at most `span`
+  float sway_span = 0.0F;   ///< [s]
+  std::uint32_t ended = 0;  ///< 1: it came to its end; 0: the horizon came first
   std::array<float, 6> scale{};
   std::array<float, 6> sway_scale{};
   std::array<std::array<std::int16_t, atlas_samples>, 6> path{};
   std::array<std::array<std::int16_t, sway_samples>, 6> sway{};  ///< less grip, then more
 };
-static_assert(sizeof(AtlasNode) == 1052);
+static_assert(sizeof(AtlasNode) == 1036);
 
 /// One future of the ego, between nodes: a value that needs no atlas any more.
 struct AtlasPath {

@@ -26,7 +26,7 @@ namespace {
 constexpr double least_width = 2.0;  // lanes that `refusal` allows [m]
 constexpr double most_width = 6.0;
 constexpr double longest_stop = 120.0;  // [s]
-constexpr double keep_time = 20.0;      // as roll_out drives what never ends [s]
+constexpr double keep_time = 20.0;      // of what never ends [s]
 constexpr std::size_t nodes_at_once = 32;
 
 // Where on the grid.
@@ -186,20 +186,6 @@ void store_sway(const Trace& middle, const Trace& other, std::size_t first, Atla
   }
 }
 
-// How far the body reaches to either side of where it starts.
-void store_swept(const Car& car, const Trace& trace, AtlasNode& node) {
-  const world::Footprint body = footprint(car);
-  double left = 0.0;
-  double right = 0.0;
-  for (std::size_t i = 0; i < trace.look.size(); ++i) {
-    const Pose X_LB{{trace.look[i][0], trace.look[i][1]}, trace.look[i][2]};
-    left = std::max(left, support(body, X_LB, {0.0, 1.0}).y);
-    right = std::min(right, support(body, X_LB, {0.0, -1.0}).y);
-  }
-  node.swept_left = static_cast<float>(left);
-  node.swept_right = static_cast<float>(right);
-}
-
 // The builder drives just beyond the domain too, so that every cell which touches it has corners.
 Car unbounded(Car car) {
   car.tuning.domain.slowest.fill(0.0);
@@ -246,7 +232,7 @@ void drive_nodes(const Car& driven, std::vector<Node>& nodes) {
   }
 }
 
-AtlasNode stored_node(const Car& car, const Node& driven) {
+AtlasNode stored_node(const Node& driven) {
   const auto& [middle, less, more] = driven.traces;
   const bool rests = ends_at_rest(driven.point.kind);
   AtlasNode node;
@@ -254,9 +240,6 @@ AtlasNode stored_node(const Car& car, const Node& driven) {
   node.end = static_cast<float>(middle.end);
   node.ended = middle.ended ? 1 : 0;
   store_path(middle, node);
-  node.forward = static_cast<float>(middle.look.back()[0]);
-  node.sideways = static_cast<float>(middle.look.back()[1]);
-  store_swept(car, middle, node);
   if (driven.point.kind == AtlasKind::keep) {
     return node;  // rolls on whatever the grip
   }
@@ -405,8 +388,7 @@ std::vector<AtlasNode> atlas_nodes(const Car& car, const AtlasGrid& grid,
   }
   drive_nodes(driven, nodes);
   std::vector<AtlasNode> stored;
-  std::transform(nodes.begin(), nodes.end(), std::back_inserter(stored),
-                 [&](const Node& node) { return stored_node(car, node); });
+  std::transform(nodes.begin(), nodes.end(), std::back_inserter(stored), stored_node);
   return stored;
 }
 

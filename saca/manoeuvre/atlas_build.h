@@ -16,8 +16,9 @@
 
 namespace saca::manoeuvre {
 
-/// Changed by hand when the atlas' own meaning changes, so that older files are refused.
-constexpr std::uint32_t atlas_version = 2;
+/// Changed by hand when the atlas' own meaning changes, or the batch's scheme (`behaviour` knows
+/// the scalar model only), so that older files are refused.
+constexpr std::uint32_t atlas_version = 3;
 
 /// Names a car's parameters and tuning; with others nothing tabled is true.
 [[nodiscard]] std::uint64_t car_hash(const Car& car);

@@ -115,17 +115,15 @@ TEST_F(AtlasBuild, ANodeTellsHowItsDriveEnds) {
   const EgoMotion motion =
       drive(small_atlas_car(), {PolicyId::aeb, std::nullopt}, scene, 0.9, 20.0);
   const AtlasNode node = node_of(2);
-  EXPECT_NEAR(static_cast<double>(node.forward), motion.track.X_WA.back().p.x, 0.02);  // the batch
+  const double forward = node.path[0].back() * static_cast<double>(node.scale[0]);
+  EXPECT_NEAR(forward, motion.track.X_WA.back().p.x, 0.02);  // the batch
   EXPECT_EQ(node.ended, 1U);
-  // Straight on it sweeps its own width.
-  EXPECT_NEAR(static_cast<double>(node.swept_left), 0.5 * small_atlas_car().body_width, 0.01);
-  EXPECT_NEAR(static_cast<double>(node.swept_right), -0.5 * small_atlas_car().body_width, 0.01);
 }
 
 TEST_F(AtlasBuild, WhoStandsStaysAtOnce) {
   const AtlasNode node = node_of(0);
   EXPECT_EQ(node.end, 0.0F);
-  EXPECT_EQ(node.forward, 0.0F);
+  EXPECT_EQ(node.scale[0], 0.0F);
   EXPECT_EQ(node.ended, 1U);
 }
 

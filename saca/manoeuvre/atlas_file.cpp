@@ -92,7 +92,7 @@ Result<MappingPtr> mapped(const std::filesystem::path& path) {
   const bool known = ::fstat(file, &about) == 0 && S_ISREG(about.st_mode);
   const auto size = known ? static_cast<std::size_t>(about.st_size) : 0;
   void* const start =
-      size > 0 ? ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file, 0) : MAP_FAILED;
+      size > 0 ? ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE | MAP_POPULATE, file, 0) : MAP_FAILED;
   const std::string why = reason_now();
   ::close(file);
   if (!known || size < sizeof(Header)) {

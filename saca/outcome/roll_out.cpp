@@ -1,6 +1,7 @@
 #include "saca/outcome/roll_out.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "saca/core/contract.h"
@@ -15,9 +16,11 @@ namespace {
 // Of a policy that never ends: everybody who matters has come by [s].
 constexpr double clear_end = 20.0;
 
-// Time to drive: half as long again as an even stop takes, and time for the brakes to build up.
+// Time to drive: half as long again as an even stop takes, and time for the brakes to build up; in
+// whole seconds, so that many are the same.
 double longest(const world::Scene& scene, double grip) {
-  return std::max(clear_end, 1.0 + 1.5 * norm(scene.ego.v_B) / (grip * vehicle::gravity));
+  return std::max(clear_end,
+                  std::ceil(1.0 + 1.5 * norm(scene.ego.v_B) / (grip * vehicle::gravity)));
 }
 
 double true_grip(const Attempt& attempt) {

@@ -14,7 +14,8 @@
 namespace saca::outcome {
 
 /// What happens if `plan` is carried out in this scene: full dynamics to rest or a recovered lane,
-/// or, when neither comes, for 20 s. The reference, one at a time: `drive`, then `play_out`.
+/// or, when neither comes, for 20 s, and longer where even a stop takes longer. The reference, one
+/// at a time: `drive`, then `play_out`.
 /// @param grip  true friction coefficient
 /// @throws ContractViolation  if refusal(car, plan, scene) has a reason
 [[nodiscard]] Outcome roll_out(const manoeuvre::Car& car, const manoeuvre::Plan& plan,
@@ -25,8 +26,8 @@ namespace saca::outcome {
 struct Attempt {
   manoeuvre::Plan plan;
   const world::Scene* scene = nullptr;
-  const Others* others = nullptr;
-  double grip = 0.0;           ///< true friction coefficient
+  const Others* others = nullptr;  ///< may be called by several threads at once
+  double grip = 0.0;               ///< true friction coefficient
   manoeuvre::Unknown unknown;  ///< what else the controller does not know; its grip is a factor of
                                ///< `grip`
 };

@@ -48,22 +48,6 @@ outcome::Outcome outcome_of(const outcome::Future& future) {
           .end_time = future.end_time};
 }
 
-/// nullopt: outside the atlas.
-std::optional<PolicyFacts> read(const Plan& plan, const Scene& scene, const outcome::Others& others,
-                                const ForecastTools& tools) {
-  if (tools.atlas->outside(plan, scene)) {
-    return std::nullopt;
-  }
-  manoeuvre::EgoMotion way;
-  outcome::atlas_way(*tools.atlas, plan, scene, outcome::usual_way, way.track);
-  const std::vector<Track> tracks = others(way);
-  const outcome::Future future = outcome::future(*tools.atlas, plan, scene, tracks, *tools.harm);
-  if (future.outside) {
-    return std::nullopt;
-  }
-  return PolicyFacts{.plan = plan, .refusal = {}, .outcome = outcome_of(future)};
-}
-
 std::string refusal_of(const Plan& plan, const Scene& scene, const ForecastTools& tools) {
   return manoeuvre::refusal(*tools.car, plan, scene).value_or("");
 }
@@ -72,31 +56,57 @@ bool is_better(const PolicyFacts& a, const PolicyFacts& b) {
   return a.refusal.empty() && outcome::better(a.outcome, a.plan.policy, b.outcome, b.plan.policy);
 }
 
-/// All of those that can be driven, but for target speeds that the atlas does not have while it has
-/// another of the policy; or none.
-std::optional<std::vector<PolicyFacts>> all_read(const std::vector<Plan>& plans, const Scene& scene,
-                                                 const outcome::Others& others,
-                                                 const ForecastTools& tools) {
-  if (tools.atlas == nullptr) {
-    return std::nullopt;
+/// What the atlas has of each policy, and of 3 and 4 of the best of their target speeds.
+outcome::Futures read(const Scene& scene, const std::vector<Track>& tracks,
+                      const ForecastTools& tools) {
+  const Followers followers = followers_of(scene);
+  if (followers.empty()) {
+    return outcome::futures(*tools.atlas, scene, tracks, *tools.harm);
   }
-  std::vector<PolicyFacts> facts;
-  for (const Plan& plan : plans) {
-    std::string refusal = refusal_of(plan, scene, tools);
-    if (!refusal.empty()) {
-      facts.push_back({.plan = plan, .refusal = std::move(refusal), .outcome = {}});
-      continue;
+  constexpr double step = 1.0 / 16.0;  // [s] of who reacts
+  std::vector<Track> moved = tracks;
+  double until = scene.time;
+  for (const Track& track : tracks) {
+    until = std::max(until, world::end_time(track));
+  }
+  outcome::Futures best;
+  std::array<bool, manoeuvre::num_policies> found{};
+  for (const Plan& plan : all_plans(scene.ego.v_B.x)) {
+    outcome::Future one{.plan = plan};
+    one.outside = tools.atlas->outside(plan, scene);
+    if (!one.outside) {
+      Track X_WB;
+      outcome::atlas_way(*tools.atlas, plan, scene, outcome::usual_way, X_WB);
+      let_react(scene, followers, X_WB, until, step, moved);
+      one = outcome::future(*tools.atlas, plan, scene, moved, *tools.harm);
     }
-    if (auto one = read(plan, scene, others, tools)) {
-      facts.push_back(std::move(*one));
+    const std::size_t i = manoeuvre::index(plan.policy);
+    if (!found[i] || outcome::better(one, best[i])) {
+      best[i] = one;
+    }
+    found[i] = true;
+  }
+  return best;
+}
+
+/// nullopt: the atlas does not have all that can be driven.
+std::optional<AllFacts> read_facts(const Scene& scene, const std::vector<Track>& tracks,
+                                   const ForecastTools& tools) {
+  const outcome::Futures futures = read(scene, tracks, tools);
+  AllFacts facts;
+  for (std::size_t i = 0; i < facts.size(); ++i) {
+    facts[i] = {.plan = futures[i].plan,
+                .refusal = refusal_of(futures[i].plan, scene, tools),
+                .outcome = {}};
+    if (facts[i].refusal.empty()) {
+      if (futures[i].outside) {
+        return std::nullopt;
+      }
+      facts[i].outcome = outcome_of(futures[i]);
+      facts[i].probability = futures[i].probability;
     }
   }
-  const bool complete = std::all_of(
-      manoeuvre::all_policies.begin(), manoeuvre::all_policies.end(), [&](PolicyId policy) {
-        return std::any_of(facts.begin(), facts.end(),
-                           [&](const PolicyFacts& fact) { return fact.plan.policy == policy; });
-      });
-  return complete ? std::optional(std::move(facts)) : std::nullopt;
+  return facts;
 }
 
 }  // namespace
@@ -121,6 +131,7 @@ std::vector<PolicyFacts> rolled_out(const Scene& scene, const std::vector<Track>
   for (PolicyFacts& fact : facts) {
     if (fact.refusal.empty()) {
       fact.outcome = (next++)->outcome;
+      fact.probability = fact.outcome.contact ? 1.0 : 0.0;
     }
   }
   return facts;
@@ -129,18 +140,18 @@ std::vector<PolicyFacts> rolled_out(const Scene& scene, const std::vector<Track>
 AllFacts policy_facts(const Scene& scene, const std::vector<Track>& tracks,
                       const ForecastTools& tools) {
   expects(tools.car != nullptr && tools.harm != nullptr, "car and harm are given");
-  const std::vector<Plan> plans = all_plans(norm(scene.ego.v_B));
-  auto facts = all_read(plans, scene, with_reacting_followers(scene, tracks), tools);
-  if (!facts) {
-    facts = rolled_out(scene, tracks, plans, tools);
+  if (tools.atlas != nullptr) {
+    if (auto facts = read_facts(scene, tracks, tools)) {
+      return *facts;
+    }
   }
   AllFacts best;
   std::array<bool, manoeuvre::num_policies> found{};
-  for (PolicyFacts& fact : *facts) {
+  for (PolicyFacts& fact : rolled_out(scene, tracks, all_plans(scene.ego.v_B.x), tools)) {
     const std::size_t i = manoeuvre::index(fact.plan.policy);
-    PolicyFacts& best_so_far = best[i];
-    if (!found[i] || !best_so_far.refusal.empty() || is_better(fact, best_so_far)) {
-      best_so_far = std::move(fact);
+    const bool first_driven = !best[i].refusal.empty() && fact.refusal.empty();
+    if (!found[i] || first_driven || is_better(fact, best[i])) {
+      best[i] = std::move(fact);
     }
     found[i] = true;
   }

@@ -23,9 +23,10 @@ struct ForecastTools {
 /// behind the ego but react to it: see with_reacting_followers. 3 and 4 brake to whichever of
 /// outcome::target_shares of the speed is best.
 ///
-/// Read from the atlas in tenths of a millisecond. Where that has not all that can be driven, all
-/// of it is rolled out, in milliseconds: the atlas counts a first contact only, so figures of the
-/// two are not compared.
+/// Read from the atlas: a tenth of a millisecond, and where somebody follows some milliseconds.
+/// What spread scene and tracks have then counts in harm and probability. Where the atlas has not
+/// all that can be driven, all of it is rolled out, in tens of milliseconds: the atlas counts a
+/// first contact only, so figures of the two are not compared.
 [[nodiscard]] std::array<PolicyFacts, manoeuvre::num_policies> policy_facts(
     const world::Scene& scene, const std::vector<world::Track>& tracks, const ForecastTools& tools);
 

@@ -1,6 +1,7 @@
 #include "saca/preview/preview.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "saca/intent/intention.h"
 #include "saca/world/time_to_conflict.h"
@@ -95,12 +96,13 @@ std::optional<double> conflict_time(const Scene& scene, const std::vector<Track>
   return std::nullopt;
 }
 
-/// The actor at a later time on its track.
-Actor moved_on(Actor actor, const Track& track, double time) {
+/// The actor at a later time on its track, `after` seconds on.
+Actor moved_on(Actor actor, const Track& track, double time, double after) {
   actor.X_WA = world::pose_at(track, time);
   actor.v_W = world::velocity_at(track, time);
   actor.a_W = (1.0 / slope_time) * (world::velocity_at(track, time + slope_time) - actor.v_W);
   actor.yaw_rate = world::yaw_rate_at(track, time);
+  actor.position_sd = std::hypot(actor.position_sd, after * actor.velocity_sd);
   return actor;
 }
 
@@ -114,7 +116,7 @@ Scene moved_on(const Scene& scene, const std::vector<Track>& tracks, double afte
                .yaw_rate = speed * scene.road.curvature,
                .a_B = {}};
   for (std::size_t i = 0; i < later.actors.size(); ++i) {
-    later.actors[i] = moved_on(scene.actors[i], tracks[i], later.time);
+    later.actors[i] = moved_on(scene.actors[i], tracks[i], later.time, after);
   }
   return later;
 }

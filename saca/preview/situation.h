@@ -18,7 +18,9 @@ struct PolicyFacts {
   manoeuvre::Plan plan;
   std::string refusal;       ///< empty when the plan can be driven
   outcome::Outcome outcome;  ///< meaningless when refused
-  bool rolled_out = false;   ///< with full dynamics; else read from the atlas
+  double probability = 0.0;  ///< of contact with anybody, or an edge that stops the ego
+  bool rolled_out = false;  ///< with full dynamics; else read from the atlas, where outcome.harm is
+                            ///< the expected one, and contact that at the mean
 };
 
 /// A likely situation at the trigger: the forecast scene, with all that is computed about it.
@@ -28,7 +30,7 @@ struct Situation {
   std::vector<intent::Intention> intentions;        ///< one per actor: the combination itself
   std::vector<intent::IntentPosterior> posteriors;  ///< one per actor, when the preview was made
   std::vector<reach::ObstacleRisk> risks;           ///< one per actor, at the trigger
-  std::vector<world::Track> tracks;                 ///< one per actor, from the trigger on
+  std::vector<world::Track> tracks;                 ///< one per actor, from the preview on
   std::array<PolicyFacts, manoeuvre::num_policies> facts;
 };
 

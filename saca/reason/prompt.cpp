@@ -161,6 +161,14 @@ std::string harm_text(double harm) {
   return harm < smallest ? "no harm" : fmt::format("harm {:.4f}", harm);
 }
 
+// Where it is not sure whether there is contact, how likely it is.
+std::string chance_text(const preview::PolicyFacts& facts) {
+  constexpr double sure = 0.005;
+  return facts.probability < sure || facts.probability > 1.0 - sure
+             ? ""
+             : fmt::format(", contact {:.0f} % likely", 100.0 * facts.probability);
+}
+
 // The case's own texts are not told: they come from a file.
 std::string history_section(const std::optional<memory::Case>& nearest, double similarity) {
   if (!nearest) {
@@ -230,8 +238,9 @@ std::string policy_line(const preview::PolicyFacts& facts, const world::Scene& s
   }
   const bool oncoming = (side(policy) > 0 && scene.road.oncoming_left) ||
                         (side(policy) < 0 && scene.road.oncoming_right);
-  return fmt::format("{}{}, {}{}", label, outcome::describe(facts.outcome, scene),
-                     harm_text(facts.outcome.harm), oncoming ? ", oncoming lane" : "");
+  return fmt::format("{}{}{}, {}{}", label, outcome::describe(facts.outcome, scene),
+                     chance_text(facts), harm_text(facts.outcome.harm),
+                     oncoming ? ", oncoming lane" : "");
 }
 
 }  // namespace saca::reason

@@ -16,6 +16,10 @@ constexpr double most_position = 1e7;      // [m]
 constexpr double most_speed = 200.0;       // [m/s]
 constexpr double most_acceleration = 1e3;  // [m/s^2]
 constexpr double most_yaw_rate = 100.0;    // [rad/s]
+constexpr double least_size = 1e-3;        // [m]
+constexpr double most_size = 1e3;          // [m]
+constexpr double least_mass = 1e-3;        // [kg]
+constexpr double most_mass = 1e7;          // [kg]
 
 /// False for NaN.
 bool within(Vec2 a, double most) {
@@ -30,14 +34,14 @@ bool is_motion(const Pose& X, Vec2 v, Vec2 a, double yaw_rate) {
 
 bool is_sized(const Footprint& footprint) {
   const bool has_width = footprint.shape != Shape::segment;
-  return std::isfinite(footprint.length) && footprint.length > 0.0 &&
-         std::isfinite(footprint.width) &&
-         (has_width ? footprint.width > 0.0 : footprint.width == 0.0) &&
-         std::isfinite(footprint.centre_x);
+  const auto is_size = [](double size) { return size >= least_size && size <= most_size; };
+  return is_size(footprint.length) &&
+         (has_width ? is_size(footprint.width) : footprint.width == 0.0) &&
+         std::abs(footprint.centre_x) <= most_size;
 }
 
 bool is_mass(double mass) {
-  return std::isfinite(mass) && mass > 0.0;
+  return mass >= least_mass && mass <= most_mass;
 }
 
 /// A standard deviation or an age.
@@ -56,7 +60,8 @@ std::optional<std::string_view> broken_rule(const Actor& actor) {
     return "an actor's motion is finite and at most 200 m/s, 1000 m/s^2, 100 rad/s";
   }
   if (!is_sized(actor.footprint) || !is_mass(actor.mass)) {
-    return "an actor's length, width and mass are > 0; a segment's width is 0";
+    return "an actor's length and width are 1 mm to 1 km, a segment's width 0, its mass 1 g to "
+           "10,000 t";
   }
   if (actor.footprint.shape == Shape::segment && actor.kind != ActorKind::obstacle) {
     return "only an obstacle is a segment";
@@ -89,7 +94,7 @@ std::optional<std::string_view> broken_rule(const Scene& scene) {
   }
   if (!is_sized(scene.ego_footprint) || scene.ego_footprint.shape == Shape::segment ||
       !is_mass(scene.ego_mass)) {
-    return "the ego's length, width and mass are > 0";
+    return "the ego's length and width are 1 mm to 1 km, its mass 1 g to 10,000 t";
   }
   if (!is_valid(scene.road)) {
     return "the road is finite, its lane has a width and its edges lie left and right of it";

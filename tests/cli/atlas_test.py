@@ -1,6 +1,7 @@
 """`saca atlas`, and the atlas of `saca run`."""
 import json
 import pathlib
+import shutil
 import signal
 import subprocess
 import sys
@@ -9,22 +10,25 @@ import time
 import pytest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from program import BAD_INPUT, CANNOT_WRITE, INTERRUPTED, PROGRAM, WRONG_COMMAND_LINE, one_error, saca
+from program import BAD_INPUT, CANNOT_WRITE, INTERRUPTED, PROGRAM, ROOT, WRONG_COMMAND_LINE, one_error, saca
 
 
 def test_an_interrupted_build_goes_on_where_it_was(tmp_path):
-    def build_for(seconds):
+    journal = tmp_path / "own.atlas.journal"
+
+    def build_until(size):
         run = subprocess.Popen([PROGRAM, "atlas", "build", "--output", "own.atlas", "--threads", "1"], cwd=tmp_path,
                                stderr=subprocess.PIPE, text=True)
-        time.sleep(seconds)
+        while run.poll() is None and not (journal.exists() and journal.stat().st_size > size):
+            time.sleep(0.001)
         run.send_signal(signal.SIGINT)
         _, told = run.communicate(timeout=60)
         assert run.returncode == INTERRUPTED, told
         assert "the same command goes on" in told.lower()
-        return (tmp_path / "own.atlas.journal").read_bytes()
+        return journal.read_bytes()
 
-    first = build_for(0.5)
-    again = build_for(0.5)
+    first = build_until(1000)
+    again = build_until(len(first))
     assert not (tmp_path / "own.atlas").exists()
     assert again.startswith(first) and len(again) > len(first) > 1000
     # Nothing is driven twice.
@@ -61,8 +65,40 @@ def run(*arguments, cwd):
 
 
 def test_a_run_reads_its_forecasts_from_the_atlas(tmp_path):
-    assert forecasts(run(cwd=tmp_path)) == (True, {False})  # built where there is none
+    assert forecasts(run(cwd=tmp_path)) == (True, {False})
     assert forecasts(run("--atlas", "off", cwd=tmp_path)) == (False, {True})
+
+
+def test_a_run_builds_the_atlas_where_there_is_none_that_is_right(tmp_path):
+    program = tmp_path / "build" / "own" / "saca"
+    program.parent.mkdir(parents=True)
+    shutil.copy(PROGRAM, program)
+    for folder in ["data", "scenarios"]:
+        shutil.copytree(ROOT / folder, tmp_path / folder)
+    atlas = tmp_path / "atlases" / "compact_rwd_ev.atlas"
+
+    def own_run():
+        done = subprocess.run([program, "run", "one_way", "--llm", "off", "--pace", "lockstep", "--no-memory", "--json"],
+                              cwd=tmp_path, capture_output=True, text=True, check=True)
+        assert forecasts(done) == (True, {False})
+        return done.stderr
+
+    own_run()
+    built = atlas.read_bytes()
+    stamp = atlas.stat().st_mtime_ns
+    own_run()
+    assert atlas.stat().st_mtime_ns == stamp
+    car = tmp_path / "data" / "vehicles" / "compact_rwd_ev.toml"
+    text = car.read_text()
+    assert "stiffness = 18.0" in text
+    car.write_text(text.replace("stiffness = 18.0", "stiffness = 18.5"))
+    own_run()
+    assert atlas.read_bytes() != built
+    # Where it cannot be kept, it is used all the same.
+    atlas.unlink()
+    atlas.mkdir()
+    (atlas / "in the way").write_text("")
+    assert "built again next time" in own_run()
 
 
 def test_a_run_takes_the_atlas_that_it_is_told_and_no_other_cars(tmp_path):
