@@ -36,11 +36,6 @@ inline void keep_wider(const Axis& axis, float n_x, float n_y, float& gap, float
   x = wider ? sign * n_x : x;
   y = wider ? sign * n_y : y;
 }
-// The least gap that there can be between two looks, bulges apart.
-inline float least_of(float apart, float reach, float next_apart, float next_reach) noexcept {
-  const float nearer = std::min(std::abs(apart), std::abs(next_apart));
-  return (apart * next_apart > 0.0F ? nearer : 0.0F) - std::max(reach, next_reach);
-}
 
 }  // namespace
 
@@ -157,8 +152,8 @@ namespace {
   const auto b_y = static_cast<float>(b.half.y);
   const std::size_t begin = first * spans_per_group;
   const std::size_t end = (last + 1) * spans_per_group;
-  std::array<std::array<float, num_spans + 8>, 4> apart;  // along each axis, filled below
-  std::array<std::array<float, num_spans + 8>, 4> reach;
+  auto& apart = near.apart;
+  auto& reach = near.reach;
   std::array<float, num_spans + 8> size;  // of the way between the middles, about
   for (std::size_t k = begin; k < end + spans_per_group; ++k) {
     const float x = b.x[k] - a.x[k];
@@ -191,7 +186,8 @@ namespace {
   for (std::size_t k = begin; k < end; ++k) {
     float least = -1e30F;
     for (std::size_t i = 0; i < 4; ++i) {
-      least = std::max(least, least_of(apart[i][k], reach[i][k], apart[i][k + 1], reach[i][k + 1]));
+      least = std::max(least,
+                       narrowest_along(apart[i][k], reach[i][k], apart[i][k + 1], reach[i][k + 1]));
     }
     const float turn = a.turn[k] + b.turn[k];
     const float moved = std::abs(b.x[k + 1] - b.x[k] - a.x[k + 1] + a.x[k]) +
@@ -199,8 +195,9 @@ namespace {
     const float bulge = std::min(bulge_in[k], static_cast<float>(standing) + 0.5F * moved);
     // Axes that turn by d, evenly or not, sway what lies r away by r d / 8, and what moves along
     // by a quarter of d times its way.
-    near.least[k] =
-        least - bulge - 0.125F * turn * (1.0F + turn) * (size[k] + corners) - 0.25F * turn * moved;
+    const float sway = 0.125F * turn * (1.0F + turn) * (size[k] + corners);
+    near.slack[k] = bulge + sway + 0.25F * turn * moved;
+    near.least[k] = least - bulge - sway - 0.25F * turn * moved;
   }
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "saca/world/footprint.h"
@@ -89,7 +91,20 @@ struct NearLooks {
   alignas(32) LookRow n_x;    ///< the direction of that gap, from a to b, in W
   alignas(32) LookRow n_y;    ///< likewise
   alignas(32) LookRow least;  ///< gaps within the span are not smaller [m]
+  /// Along the length and width of `a`, then of `b`, at each look.
+  alignas(32) std::array<LookRow, 4> apart;  ///< of the middles, positive where b lies ahead [m]
+  alignas(32) std::array<LookRow, 4> reach;  ///< of both [m]
+  alignas(32) LookRow slack;  ///< the ways' bulges and turns within the span cost no gap more [m]
 };
+
+/// The least gap along an axis that there can be between two looks, slack apart [m].
+/// @param apart  of the middles along it, signed
+/// @param reach  of both bodies
+[[nodiscard]] inline float narrowest_along(float apart, float reach, float next_apart,
+                                           float next_reach) noexcept {
+  const float nearer = std::min(std::abs(apart), std::abs(next_apart));
+  return (apart * next_apart > 0.0F ? nearer : 0.0F) - std::max(reach, next_reach);
+}
 
 /// Fills `near` for the groups from `first` to `last`, and the look behind them. Velocities that
 /// change by more than 20 m/s^2 against each other, or all at once within a span, may deceive it.
