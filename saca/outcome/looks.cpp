@@ -93,12 +93,20 @@ Looks looks_of(const world::Track& track, const world::Footprint& footprint, dou
   LookRow yaw{};
   const double per_second = 1.0 / track.step;
   const auto last = static_cast<double>(track.X_WA.size() - 1);
-  std::size_t k = 0;
-  for (; k <= num_spans; ++k) {
-    const double place = std::max((start + look_time(k) - track.start) * per_second, 0.0);
+  std::array<double, num_spans + 1> places;
+  std::size_t on_track = 0;  // looks
+  for (; on_track <= num_spans; ++on_track) {
+    const double place = std::max((start + look_time(on_track) - track.start) * per_second, 0.0);
     if (place >= last) {
       break;
     }
+    places[on_track] = place;
+    // The poses lie far from each other: fetched all at once, none is waited for alone.
+    __builtin_prefetch(&track.X_WA[static_cast<std::size_t>(place)]);
+  }
+  std::size_t k = 0;
+  for (; k < on_track; ++k) {
+    const double place = places[k];
     const auto i = static_cast<std::size_t>(place);
     const Pose& a = track.X_WA[i];
     const Pose& b = track.X_WA[i + 1];
