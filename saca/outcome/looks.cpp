@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "saca/manoeuvre/batch.h"
-
 namespace saca::outcome {
 namespace {
 
@@ -68,9 +66,8 @@ namespace {
   }
 }
 
-}  // namespace
-
-void complete(Looks& looks, const world::Footprint& footprint) noexcept {
+[[gnu::always_inline]] inline void complete_all(Looks& looks,
+                                                const world::Footprint& footprint) noexcept {
   looks.half = half_axes(footprint);
   looks.reach = std::sqrt(dot(looks.half, looks.half));
   fill_turns(looks);
@@ -85,6 +82,26 @@ void complete(Looks& looks, const world::Footprint& footprint) noexcept {
     looks.high_x[g] += bulge;
     looks.high_y[g] += bulge;
   }
+}
+
+#if defined(__x86_64__)
+[[gnu::target("avx2")]] void complete_in_avx2(Looks& looks,
+                                              const world::Footprint& footprint) noexcept {
+  complete_all(looks, footprint);
+}
+#endif
+
+}  // namespace
+
+void complete(Looks& looks, const world::Footprint& footprint,
+              [[maybe_unused]] manoeuvre::Level level) noexcept {
+#if defined(__x86_64__)
+  if (level != manoeuvre::Level::baseline) {
+    complete_in_avx2(looks, footprint);
+    return;
+  }
+#endif
+  complete_all(looks, footprint);
 }
 
 Looks looks_of(const world::Track& track, const world::Footprint& footprint, double start,
@@ -219,10 +236,10 @@ namespace {
 }  // namespace
 
 // The same numbers on each instruction set: no operation is fused or put in another order.
-void look_over(const Looks& a, const Looks& b, std::size_t first, std::size_t last,
-               NearLooks& near) noexcept {
+void look_over(const Looks& a, const Looks& b, std::size_t first, std::size_t last, NearLooks& near,
+               [[maybe_unused]] manoeuvre::Level level) noexcept {
 #if defined(__x86_64__)
-  if (available(manoeuvre::Level::avx2)) {
+  if (level != manoeuvre::Level::baseline) {
     look_over_in_avx2(a, b, first, last, near);
     return;
   }

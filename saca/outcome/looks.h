@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "saca/manoeuvre/batch.h"
 #include "saca/world/footprint.h"
 #include "saca/world/track.h"
 
@@ -74,7 +75,9 @@ inline void direction(float angle, float& cosine, float& sine) noexcept {
 }
 
 /// What follows from place and direction: turn, half, reach and the rectangles.
-void complete(Looks& looks, const world::Footprint& footprint) noexcept;
+/// @param level  available; the numbers are the same on each
+void complete(Looks& looks, const world::Footprint& footprint,
+              manoeuvre::Level level = manoeuvre::best()) noexcept;
 
 /// Of a body on a track; before it starts and after it ends it stands.
 /// @param start     the scene's time [s]
@@ -108,7 +111,8 @@ struct NearLooks {
 
 /// Fills `near` for the groups from `first` to `last`, and the look behind them. Velocities that
 /// change by more than 20 m/s^2 against each other, or all at once within a span, may deceive it.
-void look_over(const Looks& a, const Looks& b, std::size_t first, std::size_t last,
-               NearLooks& near) noexcept;
+/// @param level  available; the numbers are the same on each
+void look_over(const Looks& a, const Looks& b, std::size_t first, std::size_t last, NearLooks& near,
+               manoeuvre::Level level = manoeuvre::best()) noexcept;
 
 }  // namespace saca::outcome
