@@ -122,14 +122,18 @@ float fill(const CloserLook& pair, const Window& window, const NearLooks& near,
   float least = never;
   for (std::size_t k = window.begin(); k < window.end(); ++k) {
     const bool seen = window.holds(k) && near.gap[k] > nowhere && near.gap[k + 1] > nowhere;
-    rows.bound[k] = seen ? rows.bound[k] : never;
+    if (!seen) {
+      rows.bound[k] = never;
+    }
     least = std::min(least, rows.bound[k]);
   }
   const auto from = static_cast<float>(window.from);
   const auto to = static_cast<float>(window.to);
   for (std::size_t k = window.begin(); k <= window.end(); ++k) {
     const bool inside = look_times[k] >= from && look_times[k] <= to && near.gap[k] > nowhere;
-    rows.most[k] = inside ? rows.most[k] : never;
+    if (!inside) {
+      rows.most[k] = never;
+    }
   }
   return least;
 }
