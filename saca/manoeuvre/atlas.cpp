@@ -296,6 +296,14 @@ AtlasInstant at(const AtlasPath& path, double time) noexcept {
   return last;
 }
 
+double sway_share(double grip_factor) noexcept {
+  constexpr double least_factor = 0.1;
+  constexpr double of_less = 1.0 / (1.0 - sway_factor) - 1.0;
+  constexpr double of_more = 1.0 - 1.0 / (1.0 + sway_factor);
+  const double shorter = 1.0 - 1.0 / std::max(grip_factor, least_factor);
+  return shorter / (shorter < 0.0 ? of_less : of_more);
+}
+
 Sway sway_at(const AtlasPath& path, double time, double grip_factor) noexcept {
   if (!(path.sway_span > 0.0)) {
     return {};
@@ -304,7 +312,7 @@ Sway sway_at(const AtlasPath& path, double time, double grip_factor) noexcept {
   const double place = std::clamp(time / path.sway_span * last, 0.0, last);
   const std::size_t i = std::min(static_cast<std::size_t>(place), sway_samples - 2);
   const double u = place - static_cast<double>(i);
-  const double off = (grip_factor - 1.0) / sway_factor;
+  const double off = sway_share(grip_factor);
   const std::size_t first = off < 0.0 ? 0 : 3;
   const auto value = [&](std::size_t c) {
     const auto& sway = path.sway[first + c];

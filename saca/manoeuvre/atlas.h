@@ -102,13 +102,18 @@ struct AtlasInstant {
 ///              at the offset, heading and speed of the end
 [[nodiscard]] AtlasInstant at(const AtlasPath& path, double time) noexcept;
 
+/// How much of the sway of a drive on less (negative) or more grip another grip gives: -1 and 1 at
+/// 1 -+ sway_factor. Ways and times go with 1 / grip, between the drives and beyond.
+/// @param grip_factor  true over believed grip; less than 0.1, the least that is drawn, counts so
+[[nodiscard]] double sway_share(double grip_factor) noexcept;
+
 /// What less or more grip than believed does to the ego's place.
 struct Sway {
   double x = 0.0;        ///< [m]
   double y = 0.0;        ///< [m]
   double heading = 0.0;  ///< [rad]
 };
-/// @param grip_factor  true over believed grip; beyond 1 +- sway_factor the line goes on
+/// @param grip_factor  true over believed grip
 [[nodiscard]] Sway sway_at(const AtlasPath& path, double time, double grip_factor) noexcept;
 
 /// Why a manoeuvre cannot be read from the atlas.

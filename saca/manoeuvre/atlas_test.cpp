@@ -171,6 +171,17 @@ TEST(Atlas, SwayHoldsNineOfTenDrivesOnOtherGrip) {
   EXPECT_GE(held, 48) << "of " << looked;
 }
 
+// A stop from speed v takes v^2 / (2 grip g): the two drives and every grip lie on its curve.
+TEST(Atlas, SwaysAsStoppingDistancesDo) {
+  const auto longer = [](double factor) { return 1.0 / factor - 1.0; };
+  for (const double factor : {0.5, 0.7, 0.8, 0.94, 1.0, 1.06, 1.2, 1.5}) {
+    const double drive = factor < 1.0 ? 1.0 - sway_factor : 1.0 + sway_factor;
+    EXPECT_NEAR(std::abs(sway_share(factor)) * longer(drive), longer(factor), 1e-12) << factor;
+    EXPECT_EQ(sway_share(factor) < 0.0, factor < 1.0);
+  }
+  EXPECT_EQ(sway_share(-3.0), sway_share(0.1));
+}
+
 TEST(Atlas, SaysWhyItCannotBeRead) {
   const world::Scene good = atlas_scene(12.5, 0.85);
   const auto why = [](const world::Scene& scene, PolicyId policy, double share = 0.4) {

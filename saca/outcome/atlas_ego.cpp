@@ -33,8 +33,9 @@ AtlasEgo::AtlasEgo(const manoeuvre::AtlasPath& path, const world::Scene& scene) 
                             : path.end;
   fill_directions();
   fill_looks();
-  grip_share_ = scene.grip_sd / (scene.grip * manoeuvre::sway_factor);
-  if (grip_share_ > 0.0) {
+  if (scene.grip_sd > 0.0) {
+    const double off = scene.grip_sd / scene.grip;
+    grip_shares_ = {-manoeuvre::sway_share(1.0 - off), manoeuvre::sway_share(1.0 + off)};
     fill_sways();
   }
 }
@@ -135,23 +136,25 @@ void AtlasEgo::fill_sways() noexcept {
       most = std::max(
           most, path.sway[c][i] * path.sway[c][i] + path.sway[c + 1][i] * path.sway[c + 1][i]);
     }
-    most_sway_ = std::max(most_sway_, grip_share_ * std::sqrt(static_cast<double>(most)));
+    const double share = c == 0 ? grip_shares_.less : grip_shares_.more;
+    most_sway_ = std::max(most_sway_, share * std::sqrt(static_cast<double>(most)));
   }
   constexpr double last = manoeuvre::sway_samples - 1;
   const double per_second = path.sway_span > 0.0 ? last / path.sway_span : 0.0;
-  const auto scale = static_cast<float>(path.sway_span > 0.0 ? grip_share_ : 0.0);
+  const auto of_less = static_cast<float>(path.sway_span > 0.0 ? grip_shares_.less : 0.0);
+  const auto of_more = static_cast<float>(path.sway_span > 0.0 ? grip_shares_.more : 0.0);
   for (std::size_t k = 0; k <= num_spans; ++k) {
     const double place = std::min(look_time(k) * per_second, last);
     const std::size_t i = std::min(static_cast<std::size_t>(place), manoeuvre::sway_samples - 2);
     const auto share = static_cast<float>(place - static_cast<double>(i));
     const auto value = [&](std::size_t c) {
       const auto& row = path.sway[c];
-      return scale * (row[i] + share * (row[i + 1] - row[i]));
+      return row[i] + share * (row[i + 1] - row[i]);
     };
-    const float less_x = value(0);
-    const float less_y = value(1);
-    const float more_x = value(3);
-    const float more_y = value(4);
+    const float less_x = of_less * value(0);
+    const float less_y = of_less * value(1);
+    const float more_x = of_more * value(3);
+    const float more_y = of_more * value(4);
     sway_looks_.less_x[k] = lane_x_[k] * less_x - lane_y_[k] * less_y;
     sway_looks_.less_y[k] = lane_y_[k] * less_x + lane_x_[k] * less_y;
     sway_looks_.more_x[k] = lane_x_[k] * more_x - lane_y_[k] * more_y;

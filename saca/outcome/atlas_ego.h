@@ -34,6 +34,13 @@ class AtlasEgo {
   };
   [[nodiscard]] Sways sways(double time) const noexcept;
 
+  /// How much of the atlas' sways the grip's standard deviation gives, both >= 0.
+  struct GripShares {
+    double less = 0.0;
+    double more = 0.0;
+  };
+  [[nodiscard]] const GripShares& grip_shares() const noexcept { return grip_shares_; }
+
   [[nodiscard]] const manoeuvre::AtlasPath& path() const noexcept { return *path_; }
   [[nodiscard]] const world::Scene& scene() const noexcept { return *scene_; }
   /// How long it is looked at [s]: two seconds beyond a recovered lane; at rest, without end.
@@ -71,7 +78,7 @@ class AtlasEgo {
   Vec2 along_;                      // direction of the lane at X_WL, in W
   manoeuvre::AtlasInstant at_end_;  // of the path
   double last_look_ = 0.0;
-  double grip_share_ = 0.0;  // standard deviation of the grip over what the atlas' sways stand for
+  GripShares grip_shares_;
   double most_sway_ = 0.0;
   Looks looks_;
   SwayLooks sway_looks_{};

@@ -31,20 +31,6 @@ OnTrack on_track(const Track& track, double time) noexcept {
   return {{a.p + u * way, a.yaw + u * turn}, (1.0 / track.step) * way, turn / track.step};
 }
 
-// Of the gap along a direction: what both places spread.
-Spread spread_of(const AtlasEgo& ego, const world::Actor& actor, double time, Vec2 n_W) noexcept {
-  const double moved = actor.velocity_sd * time;
-  Spread spread{0.0, actor.position_sd * actor.position_sd + moved * moved};
-  if (ego.scene().grip_sd > 0.0) {
-    const AtlasEgo::Sways sways = ego.sways(time);
-    const Spread grip = of_halves(dot(n_W, sways.less_W), dot(n_W, sways.more_W));
-    // The ego farther along n_W leaves a smaller gap.
-    spread.mean = -grip.mean;
-    spread.variance += grip.variance;
-  }
-  return spread;
-}
-
 }  // namespace
 
 CloserLook::CloserLook(const AtlasEgo& ego, std::size_t actor, const Track& track,
@@ -85,8 +71,9 @@ CloserLook::Look CloserLook::look(double time) const noexcept {
   const Instant ego = ego_->at(time);
   const OnTrack other = on_track(*track_, start_ + time);
   Look now{.time = time};
-  now.gap = gap_between(body_at(ego_->scene().ego_footprint, ego.X_WB),
-                        body_at(actor_->footprint, other.X_WA));
+  now.mine = body_at(ego_->scene().ego_footprint, ego.X_WB);
+  now.other = body_at(actor_->footprint, other.X_WA);
+  now.gap = gap_between(now.mine, now.other);
   now.size = exact(time, now.gap.size);
   const double turning = reach_ * (std::abs(ego.yaw_rate) + std::abs(other.yaw_rate));
   now.closing = dot(now.gap.n, ego.v_W - other.v_W) + turning;
@@ -97,9 +84,24 @@ double CloserLook::sd_until(double time) const noexcept {
   return actor_->position_sd + actor_->velocity_sd * time + ego_->most_sway();
 }
 
-double CloserLook::score(const Look& now) const noexcept {
-  const Spread here = spread_of(*ego_, *actor_, now.time, now.gap.n);
-  return (now.gap.size + here.mean) / std::sqrt(std::max(here.variance, least_sd * least_sd));
+CloserLook::Scores CloserLook::scores(const Look& now) const noexcept {
+  const double moved = actor_->velocity_sd * now.time;
+  const double of_actor = actor_->position_sd * actor_->position_sd + moved * moved;
+  const bool sways = ego_->scene().grip_sd > 0.0;
+  const AtlasEgo::Sways grip = sways ? ego_->sways(now.time) : AtlasEgo::Sways{};
+  const auto score = [&](const Gap& gap) {
+    const Spread along = of_halves(dot(gap.n, grip.less_W), dot(gap.n, grip.more_W));
+    const double variance = std::max(of_actor + along.variance, least_sd * least_sd);
+    // The ego farther along n leaves a smaller gap.
+    return Score{(gap.size - along.mean) / std::sqrt(variance), gap.n};
+  };
+  Scores all{.most = score(now.gap).size, .of_axis = {}};
+  const std::array<Gap, 4> gaps = gaps_along_axes(now.mine, now.other);
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    all.of_axis[i] = score(gaps[i]);
+    all.most = std::max(all.most, all.of_axis[i].size);
+  }
+  return all;
 }
 
 }  // namespace saca::outcome

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
 #include "saca/outcome/atlas_ego.h"
@@ -63,6 +64,8 @@ class CloserLook {
 
   struct Look {
     double time = 0.0;
+    Body mine;
+    Body other;
     Gap gap;
     double size = 0.0;     ///< of the gap; exact where it decides on contact [m]
     double closing = 0.0;  ///< along the gap, turning included [m/s]
@@ -73,8 +76,18 @@ class CloserLook {
   [[nodiscard]] double gap_at(double time) const noexcept;
   /// Exact; 0 while they touch [m].
   [[nodiscard]] double distance_at(double time) const noexcept;
-  /// How many standard deviations of the gap are between them.
-  [[nodiscard]] double score(const Look& now) const noexcept;
+  /// How many standard deviations are between them along a gap's direction.
+  struct Score {
+    double size = 0.0;
+    Vec2 n;  ///< of the gap
+  };
+  struct Scores {
+    double most = 0.0;             ///< of all directions that are looked at
+    std::array<Score, 4> of_axis;  ///< as gaps_along_axes
+  };
+  /// They touch when they do along every direction, so that no score makes it likelier than the
+  /// largest allows.
+  [[nodiscard]] Scores scores(const Look& now) const noexcept;
   /// At most so much do both places spread until then [m].
   [[nodiscard]] double sd_until(double time) const noexcept;
   [[nodiscard]] bool spreads() const noexcept { return spreads_; }

@@ -61,7 +61,7 @@ TEST(CloserLook, ScoresInStandardDeviations) {
   const Looks looks = looks_of(now.track, now.scene.actors[0].footprint, 0.0, {});
   const CloserLook both(ego, 0, now.track, looks);
   EXPECT_TRUE(both.spreads());
-  EXPECT_NEAR(both.score(both.look(0.0)), 25.5 / 2.0, 1e-9);
+  EXPECT_NEAR(both.scores(both.look(0.0)).most, 25.5 / 2.0, 1e-9);
   EXPECT_GE(both.sd_until(1.0), 2.0);
 }
 

@@ -84,12 +84,12 @@ SideSway side_sway(const AtlasEgo& ego, Side side) noexcept {
   if (!sway.any) {
     return sway;
   }
-  const auto share = static_cast<float>(sign_of(side) * ego.scene().grip_sd /
-                                        (ego.scene().grip * manoeuvre::sway_factor));
+  const auto of_less = static_cast<float>(sign_of(side) * ego.grip_shares().less);
+  const auto of_more = static_cast<float>(sign_of(side) * ego.grip_shares().more);
   float most = 0.0F;
   for (std::size_t i = 0; i < manoeuvre::sway_samples; ++i) {
-    const float less = share * path.sway[1][i];
-    const float more = share * path.sway[4][i];
+    const float less = of_less * path.sway[1][i];
+    const float more = of_more * path.sway[4][i];
     sway.mean[i] = 0.3989423F * (less + more);  // as of_halves
     sway.variance[i] =
         std::max(0.0F, 0.5F * (less * less + more * more) - sway.mean[i] * sway.mean[i]);

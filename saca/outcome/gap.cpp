@@ -63,6 +63,15 @@ Body body_at(const world::Footprint& footprint, const Pose& X_WB) noexcept {
           X_WB.p + footprint.centre_x * along, along};
 }
 
+std::array<Gap, 4> gaps_along_axes(const Body& a, const Body& b) noexcept {
+  std::array<Gap, 4> gaps;
+  look_along(a, b, a.along, gaps[0]);
+  look_along(a, b, left_of(a.along), gaps[1]);
+  look_along(a, b, b.along, gaps[2]);
+  look_along(a, b, left_of(b.along), gaps[3]);
+  return gaps;
+}
+
 Gap gap_between(const Body& a, const Body& b) noexcept {
   Gap gap;
   if (!a.round && !b.round) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <limits>
 
 #include "saca/core/pose.h"
@@ -28,6 +29,9 @@ struct Gap {
   double size = -std::numeric_limits<double>::infinity();  ///< [m]; infinite where a body is none
   Vec2 n;                                                  ///< from a to b
 };
+
+/// Along each axis of `a` and of `b`: length, width, length, width.
+[[nodiscard]] std::array<Gap, 4> gaps_along_axes(const Body& a, const Body& b) noexcept;
 
 /// Along the axes of both, and of what is round towards the nearest point of the other: with two
 /// boxes at least 0 exactly when they do not overlap.

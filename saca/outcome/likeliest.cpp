@@ -1,130 +1,228 @@
 #include "saca/outcome/likeliest.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
+
+#include "saca/manoeuvre/batch.h"
 
 namespace saca::outcome {
 namespace {
 
 constexpr float nowhere = -1e29F;  // gap of what is no number [m]
+constexpr std::size_t num_axes = 4;
 
 double normal_below(double x) noexcept {
   return 0.5 * std::erfc(-x * std::sqrt(0.5));
 }
 
-// How many standard deviations of the gap are between them at the looks of a window.
-struct Scores {
-  LookRow score;  // infinite outside of its time
-  LookRow mean;   // that is added to the gap [m]
-  LookRow per_sd;
-  double least = 0.0;  // of no score within the window, between the looks too
-
-  [[nodiscard]] double of(float gap, std::size_t k) const noexcept {
-    return static_cast<double>((gap + mean[k]) * per_sd[k]);
-  }
+// How many standard deviations of the gap are between them along each axis, at the looks.
+struct ScoreRows {
+  alignas(32) std::array<LookRow, num_axes> of_axis;
+  alignas(32) LookRow most;   // of the axes
+  alignas(32) LookRow bound;  // within the span no largest score is smaller
 };
 
-void spread_at(const CloserLook& pair, const Window& window, const NearLooks& near,
-               Scores& scores) noexcept {
+// Along one axis: what is added to the gap, and to how many standard deviations it is then.
+struct SpreadRows {
+  alignas(32) LookRow mean;  // [m]
+  alignas(32) LookRow per_sd;
+};
+
+struct Range {
+  std::size_t begin;
+  std::size_t end;
+};
+
+[[gnu::always_inline]] inline void spread_along(const LookRow& n_x, const LookRow& n_y,
+                                                const LookRow& apart, const CloserLook& pair,
+                                                const Range& range, SpreadRows& spread) noexcept {
+  const AtlasEgo::SwayLooks& sway = pair.ego().sway_looks();
   const auto place_sd = static_cast<float>(pair.actor().position_sd);
   const auto speed_sd = static_cast<float>(pair.actor().velocity_sd);
-  const std::size_t end = window.end() + spans_per_group;
-  for (std::size_t k = window.begin(); k < end; ++k) {
-    const float moved = speed_sd * look_times[k];
-    scores.mean[k] = 0.0F;
-    scores.per_sd[k] = place_sd * place_sd + moved * moved;
-  }
-  if (pair.ego().scene().grip_sd > 0.0) {
-    const AtlasEgo::SwayLooks& sway = pair.ego().sway_looks();
-    constexpr float mean_share = 0.3989423F;  // 1 / sqrt(2 pi), as in of_halves
-    for (std::size_t k = window.begin(); k < end; ++k) {
-      const float less = near.n_x[k] * sway.less_x[k] + near.n_y[k] * sway.less_y[k];
-      const float more = near.n_x[k] * sway.more_x[k] + near.n_y[k] * sway.more_y[k];
-      scores.mean[k] = -mean_share * (less + more);
-      scores.per_sd[k] += 0.5F * (less * less + more * more) - scores.mean[k] * scores.mean[k];
-    }
-  }
+  constexpr float mean_share = 0.3989423F;  // 1 / sqrt(2 pi), as in of_halves
   constexpr auto least_variance = static_cast<float>(least_sd * least_sd);
-  for (std::size_t k = window.begin(); k < end; ++k) {
-    scores.per_sd[k] = 1.0F / std::sqrt(std::max(scores.per_sd[k], least_variance));
+  for (std::size_t k = range.begin; k < range.end; ++k) {
+    const float less = n_x[k] * sway.less_x[k] + n_y[k] * sway.less_y[k];
+    const float more = n_x[k] * sway.more_x[k] + n_y[k] * sway.more_y[k];
+    const float mean = mean_share * (less + more);
+    const float moved = speed_sd * look_times[k];
+    const float variance =
+        place_sd * place_sd + moved * moved + 0.5F * (less * less + more * more) - mean * mean;
+    spread.mean[k] = apart[k] < 0.0F ? mean : -mean;
+    spread.per_sd[k] = 1.0F / std::sqrt(std::max(variance, least_variance));
   }
 }
 
-void fill(const CloserLook& pair, const Window& window, const NearLooks& near,
-          Scores& scores) noexcept {
-  spread_at(pair, window, near, scores);
-  float least = std::numeric_limits<float>::infinity();
-  for (std::size_t k = window.begin(); k < window.end(); ++k) {
-    const float lowest = near.least[k] + std::min(scores.mean[k], scores.mean[k + 1]);
-    const float per_sd = lowest > 0.0F ? std::min(scores.per_sd[k], scores.per_sd[k + 1])
-                                       : std::max(scores.per_sd[k], scores.per_sd[k + 1]);
-    least = std::min(least, lowest * per_sd);
+[[gnu::always_inline]] inline void fill_axis(std::size_t axis, const CloserLook& pair,
+                                             const Range& range, const NearLooks& near,
+                                             ScoreRows& rows) noexcept {
+  const Looks& body = axis < 2 ? pair.ego().looks() : pair.looks();
+  const LookRow& apart = near.apart[axis];
+  const LookRow& reach = near.reach[axis];
+  LookRow left_x;  // of what looks along its length
+  SpreadRows spread;
+  if (axis % 2 == 0) {
+    spread_along(body.cosine, body.sine, apart, pair, range, spread);
+  } else {
+    for (std::size_t k = range.begin; k < range.end; ++k) {
+      left_x[k] = -body.sine[k];
+    }
+    spread_along(left_x, body.cosine, apart, pair, range, spread);
   }
-  scores.least = static_cast<double>(least);
+  for (std::size_t k = range.begin; k < range.end; ++k) {
+    const float score = (std::abs(apart[k]) - reach[k] + spread.mean[k]) * spread.per_sd[k];
+    rows.of_axis[axis][k] = score;
+    rows.most[k] = std::max(rows.most[k], score);
+  }
+  for (std::size_t k = range.begin; k + spans_per_group < range.end; ++k) {
+    const float gap =
+        narrowest_along(apart[k], reach[k], apart[k + 1], reach[k + 1]) - near.slack[k];
+    const float lowest = gap + std::min(spread.mean[k], spread.mean[k + 1]);
+    const float fewest = std::min(spread.per_sd[k], spread.per_sd[k + 1]);
+    const float highest = std::max(spread.per_sd[k], spread.per_sd[k + 1]);
+    rows.bound[k] = std::max(rows.bound[k], lowest * (lowest > 0.0F ? fewest : highest));
+  }
+}
+
+[[gnu::always_inline]] inline void fill_axes(const CloserLook& pair, const Range& range,
+                                             const NearLooks& near, ScoreRows& rows) noexcept {
+  rows.most.fill(-std::numeric_limits<float>::infinity());
+  rows.bound.fill(-std::numeric_limits<float>::infinity());
+  for (std::size_t axis = 0; axis < num_axes; ++axis) {
+    fill_axis(axis, pair, range, near, rows);
+  }
+}
+
+#if defined(__x86_64__)
+[[gnu::target("avx2")]] void fill_axes_in_avx2(const CloserLook& pair, const Range& range,
+                                               const NearLooks& near, ScoreRows& rows) noexcept {
+  fill_axes(pair, range, near, rows);
+}
+#endif
+
+// The same numbers on each instruction set: no operation is fused or put in another order.
+void fill_all(const CloserLook& pair, const Range& range, const NearLooks& near,
+              ScoreRows& rows) noexcept {
+#if defined(__x86_64__)
+  if (manoeuvre::best() != manoeuvre::Level::baseline) {
+    fill_axes_in_avx2(pair, range, near, rows);
+    return;
+  }
+#endif
+  fill_axes(pair, range, near, rows);
+}
+
+// What is outside of its time, or no number, is infinitely unlikely. Returns the least bound.
+float fill(const CloserLook& pair, const Window& window, const NearLooks& near,
+           ScoreRows& rows) noexcept {
+  fill_all(pair, {window.begin(), window.end() + spans_per_group}, near, rows);
+  constexpr float never = std::numeric_limits<float>::infinity();
+  float least = never;
+  for (std::size_t k = window.begin(); k < window.end(); ++k) {
+    const bool seen = window.holds(k) && near.gap[k] > nowhere && near.gap[k + 1] > nowhere;
+    if (!seen) {
+      rows.bound[k] = never;
+    }
+    least = std::min(least, rows.bound[k]);
+  }
   const auto from = static_cast<float>(window.from);
   const auto to = static_cast<float>(window.to);
   for (std::size_t k = window.begin(); k <= window.end(); ++k) {
     const bool inside = look_times[k] >= from && look_times[k] <= to && near.gap[k] > nowhere;
-    scores.score[k] = inside ? (near.gap[k] + scores.mean[k]) * scores.per_sd[k]
-                             : std::numeric_limits<float>::infinity();
+    if (!inside) {
+      rows.most[k] = never;
+    }
   }
+  return least;
 }
 
-// Where the widest gap is along one axis before and along another after: there the score has a
-// step or a valley.
-struct Turn {
-  std::size_t span = 0;
-  double time = 0.0;   // about [s]
-  double score = 0.0;  // about
+// The scores along all axes at one time.
+struct End {
+  double time = 0.0;  // [s]
+  std::array<CloserLook::Score, num_axes> of_axis;
 };
 
-// Of a span: where the lines of the gap on both sides cross.
-std::optional<Turn> turn_in(const Window& window, const NearLooks& near, const Scores& scores,
-                            std::size_t k) noexcept {
-  const float alike = near.n_x[k] * near.n_x[k + 1] + near.n_y[k] * near.n_y[k + 1];
-  const bool seen = std::isfinite(scores.score[k]) && std::isfinite(scores.score[k + 1]);
-  if (alike > 0.9F || !seen) {
-    return std::nullopt;
+End end_at(const CloserLook& pair, const NearLooks& near, const ScoreRows& rows,
+           std::size_t k) noexcept {
+  End end{.time = look_time(k), .of_axis = {}};
+  for (std::size_t axis = 0; axis < num_axes; ++axis) {
+    const Looks& body = axis < 2 ? pair.ego().looks() : pair.looks();
+    const Vec2 along{static_cast<double>(body.cosine[k]), static_cast<double>(body.sine[k])};
+    const Vec2 n = axis % 2 == 0 ? along : left_of(along);
+    end.of_axis[axis] = {static_cast<double>(rows.of_axis[axis][k]),
+                         near.apart[axis][k] < 0.0F ? -n : n};
   }
-  const float span = look_times[k + 1] - look_times[k];
-  float falls = 0.0F;
-  float rises = 0.0F;
-  if (k > window.begin()) {
-    falls = (near.gap[k] - near.gap[k - 1]) / (look_times[k] - look_times[k - 1]);
-  }
-  if (k + 2 <= window.end()) {
-    rises = (near.gap[k + 2] - near.gap[k + 1]) / (look_times[k + 2] - look_times[k + 1]);
-  }
-  const float after = (near.gap[k + 1] - near.gap[k] - rises * span) / (falls - rises);
-  const float inside = after > 0.0F && after < span ? after : 0.5F * span;
-  const float gap = near.gap[k] + falls * inside;
-  return Turn{k, look_time(k) + static_cast<double>(inside),
-              std::min(scores.of(gap, k), scores.of(gap, k + 1))};
+  return end;
 }
 
-// Looks on both sides of a turn, ever closer to it.
+// Where the largest score is least, each axis' a straight line between two times. An axis that the
+// one passes from behind to ahead of the other tells nothing.
+struct Valley {
+  double time = 0.0;
+  double score = std::numeric_limits<double>::infinity();
+};
+
+Valley valley_between(const End& low, const End& high, const Window& window) noexcept {
+  const double span = high.time - low.time;
+  const double first = std::max(0.0, (window.from - low.time) / span);
+  const double last = std::min(1.0, (window.to - low.time) / span);
+  std::array<double, num_axes> from{};
+  std::array<double, num_axes> rise{};
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < num_axes; ++i) {
+    if (dot(low.of_axis[i].n, high.of_axis[i].n) > 0.0) {
+      from[count] = low.of_axis[i].size;
+      rise[count] = high.of_axis[i].size - low.of_axis[i].size;
+      ++count;
+    }
+  }
+  Valley least{.time = low.time + 0.5 * (first + last) * span};
+  if (count == 0) {
+    least.score = -std::numeric_limits<double>::infinity();
+    return least;
+  }
+  const auto look = [&](double share) {
+    if (!(share >= first && share <= last)) {
+      return;
+    }
+    double most = from[0] + share * rise[0];
+    for (std::size_t i = 1; i < count; ++i) {
+      most = std::max(most, from[i] + share * rise[i]);
+    }
+    least = most < least.score ? Valley{low.time + share * span, most} : least;
+  };
+  look(first);
+  look(last);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      look((from[i] - from[j]) / (rise[j] - rise[i]));
+    }
+  }
+  return least;
+}
+
+// Looks where the lines of the scores meet lowest, and again between those looks.
 template <class Keep>
-void look_beside(const CloserLook& pair, const NearLooks& near, const Turn& turn,
-                 const Keep& keep) noexcept {
-  const std::size_t k = turn.span;
-  double low = look_time(k);
-  double high = look_time(k + 1);
-  double time = turn.time;
-  double step = 0.02;  // [s]
-  for (int i = 0; i < 4; ++i) {
-    const CloserLook::Look now = pair.look(time);
-    keep(now);
-    const auto along = [&](std::size_t at) {
-      return now.gap.n.x * static_cast<double>(near.n_x[at]) +
-             now.gap.n.y * static_cast<double>(near.n_y[at]);
-    };
-    const bool before = along(k) > along(k + 1);
-    (before ? low : high) = time;
-    const double middle = 0.5 * (low + high);
-    time = before ? std::min(time + step, middle) : std::max(time - step, middle);
-    step *= 0.5;
+void look_into(const Window& window, End low, End high, Valley valley, const Keep& keep) noexcept {
+  constexpr double close = 0.05;  // standard deviations
+  double best = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 5; ++i) {
+    const CloserLook::Scores now = keep(valley.time);
+    best = std::min(best, now.most);
+    const End middle{valley.time, now.of_axis};
+    const bool inside = middle.time > low.time && middle.time < high.time;
+    if (!inside || now.most < valley.score + close) {
+      return;
+    }
+    const Valley before = valley_between(low, middle, window);
+    const Valley after = valley_between(middle, high, window);
+    (before.score < after.score ? high : low) = middle;
+    valley = before.score < after.score ? before : after;
+    if (!(valley.score < best - close)) {
+      return;
+    }
   }
 }
 
@@ -135,46 +233,53 @@ void find_likeliest(const CloserLook& pair, const Window& window, const NearLook
   if (!window.any) {
     return;
   }
-  Scores scores;
-  fill(pair, window, near, scores);
-  if (scores.least > sure_sd) {
+  ScoreRows rows;
+  if (static_cast<double>(fill(pair, window, near, rows)) > sure_sd) {
     return;
   }
-  const auto likeliest =
-      static_cast<std::size_t>(std::min_element(scores.score.begin() + window.begin(),
-                                                scores.score.begin() + window.end() + 1) -
-                               scores.score.begin());
-  const auto at_look = static_cast<double>(scores.score[likeliest]);
+  const auto likeliest = static_cast<std::size_t>(
+      std::min_element(rows.most.begin() + window.begin(), rows.most.begin() + window.end() + 1) -
+      rows.most.begin());
+  const auto at_look = static_cast<double>(rows.most[likeliest]);
   if (at_look < -sure_sd - 1.0) {
     found.probability = normal_below(-at_look);
     found.nearest = look_time(likeliest);
     return;
   }
   double best = std::numeric_limits<double>::infinity();
-  const auto keep = [&](const CloserLook::Look& now) {
-    const double score = pair.score(now);
-    if (!(score < best)) {
-      return false;
+  const auto keep = [&](double time) {
+    const CloserLook::Look now = pair.look(time);
+    const CloserLook::Scores scores = pair.scores(now);
+    if (scores.most < best) {
+      best = scores.most;
+      found.nearest = now.time;
+      found.gap = now.gap.size;
+      found.n_W = now.gap.n;
     }
-    best = score;
-    found.nearest = now.time;
-    found.gap = now.gap.size;
-    found.n_W = now.gap.n;
-    return true;
+    return scores;
   };
-  std::optional<Turn> deepest;
+  Valley deepest;
+  std::size_t span = 0;
   for (std::size_t k = window.begin(); k < window.end(); ++k) {
-    const auto turn = turn_in(window, near, scores, k);
-    deepest = turn && (!deepest || turn->score < deepest->score) ? turn : deepest;
+    if (static_cast<double>(rows.bound[k]) < std::min(at_look, sure_sd)) {
+      const Valley valley =
+          valley_between(end_at(pair, near, rows, k), end_at(pair, near, rows, k + 1), window);
+      span = valley.score < deepest.score ? k : span;
+      deepest = valley.score < deepest.score ? valley : deepest;
+    }
   }
-  if (deepest && deepest->score < at_look) {
-    look_beside(pair, near, *deepest, keep);
+  if (deepest.score < std::min(at_look, sure_sd)) {
+    look_into(window, end_at(pair, near, rows, span), end_at(pair, near, rows, span + 1), deepest,
+              keep);
   }
   if (!(best < at_look)) {
-    narrow(window, likeliest, 4, [&](double time) { return keep(pair.look(time)); });
+    narrow(window, likeliest, 4, [&](double time) {
+      const double before = best;
+      return keep(time).most < before;
+    });
   }
   if (found.contact && best > 0.0) {
-    keep(pair.look(*found.contact));
+    keep(*found.contact);
   }
   found.probability = normal_below(-best);
 }

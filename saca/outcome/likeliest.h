@@ -6,8 +6,9 @@
 
 namespace saca::outcome {
 
-/// When contact is likeliest, and how likely then: the normal distribution at the smallest number
-/// of standard deviations of the gap. Sets probability, and where it is not negligible nearest, gap
+/// When contact is likeliest, and how likely then: at each instant the normal distribution at the
+/// largest number of standard deviations of the gap along any axis; of all instants at the
+/// smallest. Sets probability, and where it is not negligible nearest, gap
 /// and n_W.
 /// @param near   filled for the window
 /// @param found  its contact is known

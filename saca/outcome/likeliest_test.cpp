@@ -46,7 +46,7 @@ TEST(Likeliest, IsTheSmallestScoreOfManyLooks) {
     find_likeliest(both, window, *near, found);
     double least = 1e9;
     for (double time = 0.0; time <= 3.2; time += 0.005) {
-      least = std::min(least, both.score(both.look(time)));
+      least = std::min(least, both.scores(both.look(time)).most);
     }
     const double true_chance = 0.5 * std::erfc(least * std::sqrt(0.5));
     EXPECT_LE(found.probability, true_chance + 0.02) << i;
@@ -58,6 +58,41 @@ TEST(Likeliest, IsTheSmallestScoreOfManyLooks) {
   }
   EXPECT_GT(counted, 40);
   EXPECT_LE(off, counted / 10);
+}
+
+// A stop on another grip is longer or shorter, not farther aside: who stands beside its way by
+// 5 cm is not struck, though ahead of its end there are only 10 cm.
+TEST(Likeliest, WhatGripDoesNotMoveAsideMissesWhoIsBeside) {
+  world::Scene scene = manoeuvre::atlas_scene(12.5, 0.85);
+  scene.grip_sd = 0.06;
+  const AtlasPath path = manoeuvre::small_atlas().path({PolicyId::aeb, std::nullopt}, scene);
+  const AtlasEgo ego(path, scene);
+  const Pose rest = ego.at(path.end + 1.0).X_WB;
+  const world::Footprint& body = scene.ego_footprint;
+  const auto chance = [&](double ahead, double aside) {
+    world::Scene with = scene;
+    world::Actor actor{.id = 1, .footprint = {}, .mass = 1500.0};
+    actor.footprint = body;
+    actor.X_WA = {{rest.p.x + ahead, rest.p.y + aside}, 0.0};
+    with.actors.push_back(actor);
+    const world::Track track = steady(actor.X_WA, {}, 0.0, 3.2);
+    const AtlasEgo among(path, with);
+    const Looks looks = looks_of(track, actor.footprint, 0.0, {});
+    const auto near = std::make_unique<NearLooks>();
+    look_over(among.looks(), looks, 0, num_groups - 1, *near);
+    Meeting found;
+    find_likeliest(CloserLook(among, 0, track, looks),
+                   {.from = 0.0, .to = 22.0, .first = 0, .last = num_groups - 1, .any = true},
+                   *near, found);
+    return found.probability;
+  };
+  EXPECT_LT(chance(body.length + 0.1, body.width + 0.05), 1e-4);
+  EXPECT_LT(chance(body.length + 0.1, -body.width - 0.05), 1e-4);
+  // Straight ahead it is, at rest, as likely as ways that long are.
+  const AtlasEgo::Sways sways = ego.sways(path.end + 5.0);
+  const Spread longer = of_halves(sways.less_W.x, sways.more_W.x);
+  EXPECT_NEAR(chance(body.length + 0.1, 0.0),
+              0.5 * std::erfc((0.1 - longer.mean) / std::sqrt(2.0 * longer.variance)), 0.01);
 }
 
 // Nobody is near: nothing is likely.

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "saca/manoeuvre/batch.h"
-
 namespace saca::outcome {
 namespace {
 
@@ -35,11 +33,6 @@ inline void keep_wider(const Axis& axis, float n_x, float n_y, float& gap, float
   gap = wider ? size : gap;
   x = wider ? sign * n_x : x;
   y = wider ? sign * n_y : y;
-}
-// The least gap that there can be between two looks, bulges apart.
-inline float least_of(float apart, float reach, float next_apart, float next_reach) noexcept {
-  const float nearer = std::min(std::abs(apart), std::abs(next_apart));
-  return (apart * next_apart > 0.0F ? nearer : 0.0F) - std::max(reach, next_reach);
 }
 
 }  // namespace
@@ -73,9 +66,8 @@ namespace {
   }
 }
 
-}  // namespace
-
-void complete(Looks& looks, const world::Footprint& footprint) noexcept {
+[[gnu::always_inline]] inline void complete_all(Looks& looks,
+                                                const world::Footprint& footprint) noexcept {
   looks.half = half_axes(footprint);
   looks.reach = std::sqrt(dot(looks.half, looks.half));
   fill_turns(looks);
@@ -92,18 +84,46 @@ void complete(Looks& looks, const world::Footprint& footprint) noexcept {
   }
 }
 
+#if defined(__x86_64__)
+[[gnu::target("avx2")]] void complete_in_avx2(Looks& looks,
+                                              const world::Footprint& footprint) noexcept {
+  complete_all(looks, footprint);
+}
+#endif
+
+}  // namespace
+
+void complete(Looks& looks, const world::Footprint& footprint,
+              [[maybe_unused]] manoeuvre::Level level) noexcept {
+#if defined(__x86_64__)
+  if (level != manoeuvre::Level::baseline) {
+    complete_in_avx2(looks, footprint);
+    return;
+  }
+#endif
+  complete_all(looks, footprint);
+}
+
 Looks looks_of(const world::Track& track, const world::Footprint& footprint, double start,
                Vec2 origin_W) noexcept {
   Looks looks;
   LookRow yaw{};
   const double per_second = 1.0 / track.step;
   const auto last = static_cast<double>(track.X_WA.size() - 1);
-  std::size_t k = 0;
-  for (; k <= num_spans; ++k) {
-    const double place = std::max((start + look_time(k) - track.start) * per_second, 0.0);
+  std::array<double, num_spans + 1> places;
+  std::size_t on_track = 0;  // looks
+  for (; on_track <= num_spans; ++on_track) {
+    const double place = std::max((start + look_time(on_track) - track.start) * per_second, 0.0);
     if (place >= last) {
       break;
     }
+    places[on_track] = place;
+    // The poses lie far from each other: fetched all at once, none is waited for alone.
+    __builtin_prefetch(&track.X_WA[static_cast<std::size_t>(place)]);
+  }
+  std::size_t k = 0;
+  for (; k < on_track; ++k) {
+    const double place = places[k];
     const auto i = static_cast<std::size_t>(place);
     const Pose& a = track.X_WA[i];
     const Pose& b = track.X_WA[i + 1];
@@ -157,8 +177,8 @@ namespace {
   const auto b_y = static_cast<float>(b.half.y);
   const std::size_t begin = first * spans_per_group;
   const std::size_t end = (last + 1) * spans_per_group;
-  std::array<std::array<float, num_spans + 8>, 4> apart;  // along each axis, filled below
-  std::array<std::array<float, num_spans + 8>, 4> reach;
+  auto& apart = near.apart;
+  auto& reach = near.reach;
   std::array<float, num_spans + 8> size;  // of the way between the middles, about
   for (std::size_t k = begin; k < end + spans_per_group; ++k) {
     const float x = b.x[k] - a.x[k];
@@ -191,7 +211,8 @@ namespace {
   for (std::size_t k = begin; k < end; ++k) {
     float least = -1e30F;
     for (std::size_t i = 0; i < 4; ++i) {
-      least = std::max(least, least_of(apart[i][k], reach[i][k], apart[i][k + 1], reach[i][k + 1]));
+      least = std::max(least,
+                       narrowest_along(apart[i][k], reach[i][k], apart[i][k + 1], reach[i][k + 1]));
     }
     const float turn = a.turn[k] + b.turn[k];
     const float moved = std::abs(b.x[k + 1] - b.x[k] - a.x[k + 1] + a.x[k]) +
@@ -199,8 +220,9 @@ namespace {
     const float bulge = std::min(bulge_in[k], static_cast<float>(standing) + 0.5F * moved);
     // Axes that turn by d, evenly or not, sway what lies r away by r d / 8, and what moves along
     // by a quarter of d times its way.
-    near.least[k] =
-        least - bulge - 0.125F * turn * (1.0F + turn) * (size[k] + corners) - 0.25F * turn * moved;
+    const float sway = 0.125F * turn * (1.0F + turn) * (size[k] + corners);
+    near.slack[k] = bulge + sway + 0.25F * turn * moved;
+    near.least[k] = least - bulge - sway - 0.25F * turn * moved;
   }
 }
 
@@ -214,10 +236,10 @@ namespace {
 }  // namespace
 
 // The same numbers on each instruction set: no operation is fused or put in another order.
-void look_over(const Looks& a, const Looks& b, std::size_t first, std::size_t last,
-               NearLooks& near) noexcept {
+void look_over(const Looks& a, const Looks& b, std::size_t first, std::size_t last, NearLooks& near,
+               [[maybe_unused]] manoeuvre::Level level) noexcept {
 #if defined(__x86_64__)
-  if (available(manoeuvre::Level::avx2)) {
+  if (level != manoeuvre::Level::baseline) {
     look_over_in_avx2(a, b, first, last, near);
     return;
   }

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
+#include "saca/manoeuvre/batch.h"
 #include "saca/world/footprint.h"
 #include "saca/world/track.h"
 
@@ -72,7 +75,9 @@ inline void direction(float angle, float& cosine, float& sine) noexcept {
 }
 
 /// What follows from place and direction: turn, half, reach and the rectangles.
-void complete(Looks& looks, const world::Footprint& footprint) noexcept;
+/// @param level  available; the numbers are the same on each
+void complete(Looks& looks, const world::Footprint& footprint,
+              manoeuvre::Level level = manoeuvre::best()) noexcept;
 
 /// Of a body on a track; before it starts and after it ends it stands.
 /// @param start     the scene's time [s]
@@ -89,11 +94,25 @@ struct NearLooks {
   alignas(32) LookRow n_x;    ///< the direction of that gap, from a to b, in W
   alignas(32) LookRow n_y;    ///< likewise
   alignas(32) LookRow least;  ///< gaps within the span are not smaller [m]
+  /// Along the length and width of `a`, then of `b`, at each look.
+  alignas(32) std::array<LookRow, 4> apart;  ///< of the middles, positive where b lies ahead [m]
+  alignas(32) std::array<LookRow, 4> reach;  ///< of both [m]
+  alignas(32) LookRow slack;  ///< the ways' bulges and turns within the span cost no gap more [m]
 };
+
+/// The least gap along an axis that there can be between two looks, slack apart [m].
+/// @param apart  of the middles along it, signed
+/// @param reach  of both bodies
+[[nodiscard]] inline float narrowest_along(float apart, float reach, float next_apart,
+                                           float next_reach) noexcept {
+  const float nearer = std::min(std::abs(apart), std::abs(next_apart));
+  return (apart * next_apart > 0.0F ? nearer : 0.0F) - std::max(reach, next_reach);
+}
 
 /// Fills `near` for the groups from `first` to `last`, and the look behind them. Velocities that
 /// change by more than 20 m/s^2 against each other, or all at once within a span, may deceive it.
-void look_over(const Looks& a, const Looks& b, std::size_t first, std::size_t last,
-               NearLooks& near) noexcept;
+/// @param level  available; the numbers are the same on each
+void look_over(const Looks& a, const Looks& b, std::size_t first, std::size_t last, NearLooks& near,
+               manoeuvre::Level level = manoeuvre::best()) noexcept;
 
 }  // namespace saca::outcome

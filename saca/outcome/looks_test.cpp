@@ -122,6 +122,39 @@ TEST(Looks, GapOfBoxesIsThatOfACloserLook) {
   }
 }
 
+// To the last bit, on whatever instruction sets there are here.
+TEST(Looks, AreTheSameOnEachInstructionSet) {
+  std::mt19937_64 rng(7);
+  const Footprint car{.length = 4.5, .width = 1.8, .centre_x = 0.3};
+  for (const auto level : {manoeuvre::Level::avx2, manoeuvre::Level::avx512}) {
+    if (!manoeuvre::available(level)) {
+      continue;
+    }
+    for (int i = 0; i < 50; ++i) {
+      Looks a = looks_of(lively(rng), car, 3.0, {});
+      Looks b = looks_of(lively(rng), car, 3.0, {});
+      const auto wide = std::make_unique<NearLooks>();
+      const auto plain = std::make_unique<NearLooks>();
+      complete(a, car, level);
+      complete(b, car, level);
+      look_over(a, b, 0, num_groups - 1, *wide, level);
+      const Looks wide_a = a;
+      complete(a, car, manoeuvre::Level::baseline);
+      complete(b, car, manoeuvre::Level::baseline);
+      look_over(a, b, 0, num_groups - 1, *plain, manoeuvre::Level::baseline);
+      EXPECT_EQ(wide_a.low_x, a.low_x);
+      EXPECT_EQ(wide_a.high_y, a.high_y);
+      for (std::size_t k = 0; k < num_spans; ++k) {
+        EXPECT_EQ(wide_a.turn[k], a.turn[k]);
+        EXPECT_EQ(wide->gap[k], plain->gap[k]);
+        EXPECT_EQ(wide->n_x[k], plain->n_x[k]);
+        EXPECT_EQ(wide->n_y[k], plain->n_y[k]);
+        EXPECT_EQ(wide->least[k], plain->least[k]);
+      }
+    }
+  }
+}
+
 TEST(Looks, DirectionsAreThoseOfAngles) {
   for (float angle = -3.2F; angle < 3.2F; angle += 0.01F) {
     float cosine = 0.0F;

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
+#include <type_traits>
 
 #include "saca/outcome/closer_look.h"
 #include "saca/outcome/false_position.h"
@@ -35,13 +37,20 @@ double least_of(const Window& window, const NearLooks& near) noexcept {
   return static_cast<double>(least);
 }
 
-// The look of a window at which they are nearest.
+// The look of a window at which they are nearest: at either end of a span that lies in it.
 std::size_t nearest_look(const Window& window, const NearLooks& near) noexcept {
+  std::size_t begin = window.begin();
+  std::size_t end = window.end();
+  while (begin < end && !window.holds(begin)) {
+    ++begin;
+  }
+  while (begin < end && !window.holds(end - 1)) {
+    --end;
+  }
   std::size_t nearest = num_spans;
   float gap = std::numeric_limits<float>::infinity();
-  for (std::size_t k = window.begin(); k <= window.end(); ++k) {
-    const bool inside = window.holds(std::min(k, num_spans - 1)) || (k > 0 && window.holds(k - 1));
-    if (inside && near.gap[k] < gap) {
+  for (std::size_t k = begin; k <= end && begin < end; ++k) {
+    if (near.gap[k] < gap) {
       gap = near.gap[k];
       nearest = k;
     }
@@ -234,43 +243,71 @@ Meeting Pair::meet(double until) noexcept {
   return found;
 }
 
+// Room for all pairs; only those that there are get made.
+class Pairs {
+ public:
+  Pairs() noexcept {}  // NOLINT(*-member-init): that is what it is for
+
+  void add(const AtlasEgo& ego, std::size_t actor, const Track& track,
+           const Looks& looks) noexcept {
+    std::construct_at(&pairs_[actor], ego, actor, track, looks);
+  }
+  [[nodiscard]] Pair& operator[](std::size_t actor) noexcept { return pairs_[actor]; }
+
+ private:
+  static_assert(std::is_trivially_destructible_v<Pair>);
+  union {
+    std::array<Pair, world::max_actors> pairs_;
+  };
+};
+
+// The smallest clearance that any of them has at the mean.
+double least_clearance(Pairs& pairs, std::size_t count, double of_interest, double until) noexcept {
+  double clearance = of_interest;
+  std::array<bool, world::max_actors> done{};
+  while (clearance > 0.0) {
+    std::size_t nearest = count;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!done[i] && (nearest == count || pairs[i].least() < pairs[nearest].least())) {
+        nearest = i;
+      }
+    }
+    if (nearest == count || !(pairs[nearest].least() < clearance)) {
+      break;
+    }
+    clearance = pairs[nearest].clearance(clearance, until);
+    done[nearest] = true;
+  }
+  return clearance;
+}
+
 }  // namespace
 
 Meetings meetings(const AtlasEgo& ego, std::span<const Track> tracks, std::span<const Looks> looks,
                   double of_interest, double until) noexcept {
   Meetings all;
-  std::array<std::optional<Pair>, world::max_actors> pairs;
+  Pairs pairs;
+  std::array<std::size_t, world::max_actors> order;  // who may be struck first, first
   for (std::size_t i = 0; i < tracks.size(); ++i) {
-    pairs[i].emplace(ego, i, tracks[i], looks[i]);
+    pairs.add(ego, i, tracks[i], looks[i]);
     all.push_back({});
+    std::size_t place = i;
+    for (; place > 0 && pairs[order[place - 1]].first_group() > pairs[i].first_group(); --place) {
+      order[place] = order[place - 1];
+    }
+    order[place] = i;
   }
   bool touches = false;
-  for (std::size_t group = 0; group <= num_groups; ++group) {  // who may be struck first, first
-    for (std::size_t i = 0; i < tracks.size(); ++i) {
-      if (pairs[i]->first_group() != group) {
-        continue;
-      }
-      all[i] = pairs[i]->meet(until);
-      touches = touches || all[i].contact;
-      if (all[i].contact &&
-          all[i].probability * ego.scene().actors[i].existence > 1.0 - negligible) {
-        until = std::min(until, *all[i].contact);
-      }
+  for (std::size_t rank = 0; rank < tracks.size(); ++rank) {
+    const std::size_t i = order[rank];
+    all[i] = pairs[i].meet(until);
+    touches = touches || all[i].contact;
+    if (all[i].contact && all[i].probability * ego.scene().actors[i].existence > 1.0 - negligible) {
+      until = std::min(until, *all[i].contact);
     }
   }
-  double clearance = touches ? 0.0 : of_interest;
-  while (clearance > 0.0) {
-    const auto nearer = [](const std::optional<Pair>& a, const std::optional<Pair>& b) {
-      return a && (!b || a->least() < b->least());
-    };
-    std::optional<Pair>& nearest =
-        *std::min_element(pairs.begin(), pairs.begin() + tracks.size(), nearer);
-    if (tracks.empty() || !nearest || !(nearest->least() < clearance)) {
-      break;
-    }
-    clearance = nearest->clearance(clearance, until);
-    nearest.reset();
-  }
+  const double clearance =
+      touches ? 0.0 : least_clearance(pairs, tracks.size(), of_interest, until);
   for (Meeting& met : all) {
     met.clearance = clearance;
   }

@@ -27,7 +27,8 @@ using Meetings = StaticVector<Meeting, world::max_actors>;
 /// Contact and clearance at the mean: steps that the gap along its own direction allows, but for at
 /// least 10 ms: shorter touches may be missed. Probability: at the likeliest instant, normal errors
 /// of the actor's place (which grow with its velocity's) and of the ego's under wrong grip against
-/// the gap in its direction. It is a lower bound of that over all instants together.
+/// the gap along whichever axis of either body makes contact least likely: they touch when they do
+/// along all. It is the chance of one instant, not of all of them together.
 [[nodiscard]] Meetings meetings(const AtlasEgo& ego, std::span<const world::Track> tracks,
                                 std::span<const Looks> looks, double of_interest,
                                 double until) noexcept;
