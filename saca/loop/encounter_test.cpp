@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "saca/manoeuvre/atlas_for_test.h"
 #include "saca/manoeuvre/default_car.h"
 
 namespace saca::loop {
@@ -113,6 +114,45 @@ TEST_F(EncounterTest, ACheckedAnswerIsCarriedOut) {
   EXPECT_TRUE(has(record, EventKind::rest));
   EXPECT_EQ(record.previews[static_cast<std::size_t>(*record.decision->preview)].plan->policy,
             PolicyId::aes_left);
+}
+
+// 12.8 m/s on grip 0.85, less what drag takes, lies in the small atlas all the way.
+TEST_F(EncounterTest, WithAnAtlasForecastsAndTheLastCheckAreReadFromIt) {
+  sim::Scenario scenario = wreck_on_wet_road();
+  scenario.grip = 0.85;
+  scenario.ego = sim::EgoStart{.pose = {}, .speed = 12.8};
+  std::get<sim::Script>(scenario.actors[0].motion).start.s = 65.0;
+  sim::ScenarioActor follower = scenario.actors[0];  // because of whom braking is not the best
+  follower.id = 2;
+  follower.motion = sim::Script{
+      .start = {.s = -8.5}, .speed = 12.8, .behaviour = sim::Behaviour::constant_velocity};
+  scenario.actors.push_back(follower);
+  Says model(PolicyId::aes_left);
+  const manoeuvre::Atlas& atlas = manoeuvre::small_atlas();
+  const auto play_with_atlas = [&] {
+    return run({.scenario = &scenario,
+                .car = &car_,
+                .harm = &harm_,
+                .atlas = &atlas,
+                .pace = Pace::lockstep,
+                .costs = {.preview = 0.05, .prompt_token = 0.001, .reply_token = 0.01},
+                .model = &model,
+                .clock = &clock_},
+               quiet_)
+        .value();
+  };
+  const Record record = play_with_atlas();
+  ASSERT_FALSE(record.previews.empty());
+  for (const preview::PolicyFacts& fact : record.previews[0].situation.facts) {
+    EXPECT_FALSE(fact.rolled_out) << name(fact.plan.policy);
+  }
+  ASSERT_TRUE(record.decision.has_value());
+  EXPECT_EQ(record.decision->plan.policy, PolicyId::aes_left);
+  ASSERT_TRUE(record.decision->forecast.has_value());
+  EXPECT_LT(record.decision->forecast->plan, record.decision->forecast->aeb);
+  const Record again = play_with_atlas();
+  EXPECT_EQ(again.decision->forecast->aeb, record.decision->forecast->aeb);
+  EXPECT_EQ(again.result.clearance, record.result.clearance);
 }
 
 TEST_F(EncounterTest, ABadAnswerFailsTheCheckAndItBrakes) {

@@ -117,10 +117,11 @@ bool stops(const Chance& chance, const Scene& scene) noexcept {
 void judge(const Chances& chances, const AtlasEgo& ego, std::span<const Track> tracks,
            const HarmModel& harm, Future& future) noexcept {
   const Scene& scene = ego.scene();
-  double unharmed = 1.0;  // probability that nobody has been struck so far
-  std::optional<Contact> crossed;
+  double unharmed = 1.0;        // probability that nobody has been struck so far
+  std::optional<Blow> met;      // at the mean
+  std::optional<Blow> crossed;  // likewise an edge that lets the ego go on
   for (const Chance& chance : chances) {
-    if (unharmed < negligible && future.contact) {
+    if (unharmed < negligible && met) {
       break;
     }
     const std::optional<Blow> blow = blow_of(chance, ego, scene, tracks, harm);
@@ -131,18 +132,19 @@ void judge(const Chances& chances, const AtlasEgo& ego, std::span<const Track> t
     const double size = harm_of(*blow, scene, harm);
     future.harm += unharmed * chance.probability * size;
     const bool ends = stops(chance, scene);
-    if (chance.meeting.contact && !future.contact) {
+    if (chance.meeting.contact && !met) {
       const double there = chance.actor ? scene.actors[*chance.actor].existence : 1.0;
       future.harm_at_mean += there * size;
-      (ends ? future.contact : crossed) = blow->contact;
+      (ends ? met : crossed) = blow;
     }
     if (ends) {
       unharmed *= 1.0 - chance.probability;
     }
   }
   future.probability = 1.0 - unharmed;
-  future.contact = future.contact ? future.contact : crossed;
-  if (future.contact) {
+  if (const std::optional<Blow>& first = met ? met : crossed) {
+    future.contact = first->contact;
+    future.collision_loss = first->loss;
     future.clearance = 0.0;
   }
 }

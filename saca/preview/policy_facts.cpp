@@ -8,7 +8,6 @@
 #include "saca/manoeuvre/drive.h"
 #include "saca/outcome/atlas_way.h"
 #include "saca/outcome/futures.h"
-#include "saca/outcome/loss.h"
 #include "saca/outcome/ordering.h"
 #include "saca/outcome/roll_out.h"
 #include "saca/preview/followers.h"
@@ -40,9 +39,7 @@ std::vector<Plan> all_plans(double speed) {
 
 outcome::Outcome outcome_of(const outcome::Future& future) {
   return {.contact = future.contact,
-          .collision_loss = future.contact ? outcome::collision_loss(future.contact->ego_face,
-                                                                     future.contact->relative_speed)
-                                           : 0.0,
+          .collision_loss = future.collision_loss,
           .harm = future.harm,
           .clearance = future.clearance,
           .end_time = future.end_time};
