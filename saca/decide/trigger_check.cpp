@@ -1,5 +1,6 @@
 #include "saca/decide/trigger_check.h"
 
+#include <cmath>
 #include <span>
 
 #include "saca/outcome/atlas_way.h"
@@ -25,9 +26,9 @@ void write_going_on(const world::Actor& actor, double start, Track& track) {
   track.start = start;
   track.step = norm(actor.a_W) < even ? even_step : braking_step;
   track.X_WA.clear();
-  const auto num_steps = static_cast<int>(looks_ahead / track.step + 0.5);
-  for (int k = 0; k <= num_steps; ++k) {
-    track.X_WA.push_back(world::actor_going_on(actor, k * track.step));
+  const long num_steps = std::lround(looks_ahead / track.step);
+  for (long k = 0; k <= num_steps; ++k) {
+    track.X_WA.push_back(world::actor_going_on(actor, static_cast<double>(k) * track.step));
   }
 }
 
