@@ -32,9 +32,9 @@ struct Attempt {
                                ///< `grip`
 };
 
-/// What comes of each, driven side by side by the batch (manoeuvre/batch.h): as `roll_out`, but
-/// that the ego's way may be centimetres off, and twenty times as fast. One does not depend on the
-/// others.
+/// What comes of each, driven side by side by the batch (manoeuvre/batch.h): as `roll_out`, but the
+/// ego's way may be centimetres off, and takes a fiftieth of the time or less. One does not depend
+/// on the others.
 /// @param threads  >= 1; they do not change the result
 /// @return         in the order of `attempts`
 /// @throws ContractViolation  as roll_out

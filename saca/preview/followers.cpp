@@ -15,8 +15,7 @@ using world::Actor;
 using world::Scene;
 using world::Track;
 
-constexpr double usual_step = 0.02;    // [s]
-constexpr double watched_after = 3.0;  // [s] beyond the ego's motion: any reaction and a firm stop
+constexpr double usual_step = 0.02;  // [s]
 
 /// @param seen  whom it looks at beside the ego
 void let_one_react(const Scene& scene, std::size_t follower, const Followers& seen,

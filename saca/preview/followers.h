@@ -11,6 +11,9 @@
 
 namespace saca::preview {
 
+/// How long followers are watched beyond the ego's own motion [s]: any reaction and a firm stop.
+constexpr double watched_after = 3.0;
+
 /// Those who follow in the ego's path (world::is_follower): indices of the scene's actors, the
 /// nearest to the ego first.
 using Followers = StaticVector<std::size_t, world::max_actors>;

@@ -62,10 +62,6 @@ outcome::Futures read(const Scene& scene, const std::vector<Track>& tracks,
   }
   constexpr double step = 1.0 / 16.0;  // [s] of who reacts
   std::vector<Track> moved = tracks;
-  double until = scene.time;
-  for (const Track& track : tracks) {
-    until = std::max(until, world::end_time(track));
-  }
   outcome::Futures best;
   std::array<bool, manoeuvre::num_policies> found{};
   for (const Plan& plan : all_plans(scene.ego.v_B.x)) {
@@ -74,7 +70,7 @@ outcome::Futures read(const Scene& scene, const std::vector<Track>& tracks,
     if (!one.outside) {
       Track X_WB;
       outcome::atlas_way(*tools.atlas, plan, scene, outcome::usual_way, X_WB);
-      let_react(scene, followers, X_WB, until, step, moved);
+      let_react(scene, followers, X_WB, world::end_time(X_WB) + watched_after, step, moved);
       one = outcome::future(*tools.atlas, plan, scene, moved, *tools.harm);
     }
     const std::size_t i = manoeuvre::index(plan.policy);

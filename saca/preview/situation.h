@@ -18,7 +18,8 @@ struct PolicyFacts {
   manoeuvre::Plan plan;
   std::string refusal;       ///< empty when the plan can be driven
   outcome::Outcome outcome;  ///< meaningless when refused
-  double probability = 0.0;  ///< of contact with anybody, or an edge that stops the ego
+  double probability = 0.0;  ///< of contact with anybody, or an edge that stops the ego;
+                             ///< rolled out: 1 with any contact
   bool rolled_out = false;  ///< with full dynamics; else read from the atlas, where outcome.harm is
                             ///< the expected one, and contact that at the mean
 };
