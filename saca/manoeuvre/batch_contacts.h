@@ -159,12 +159,7 @@ inline Pair<T> body_rates(const CarLane<T>& car, const vehicle::equations::Flow<
   const T air = car.air_drag * hypot(vx, vy);
   const Pair<T> force{(left + right) - air * vx, (front + rear) - air * vy};
   const T torque = car.front_arm * front - car.rear_arm * rear + car.half_track * (right - left);
-  rate[F::x] = heading.cosine * vx - heading.sine * vy;
-  rate[F::y] = heading.sine * vx + heading.cosine * vy;
-  rate[F::yaw] = flow[F::yaw_rate];
-  rate[F::vx] = force.x / car.mass + flow[F::yaw_rate] * vy;
-  rate[F::vy] = force.y / car.mass - flow[F::yaw_rate] * vx;
-  rate[F::yaw_rate] = torque / car.yaw_inertia;
+  vehicle::equations::body_motion<T>(car, flow, heading, force, torque, rate);
   return force;
 }
 

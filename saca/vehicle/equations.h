@@ -189,7 +189,22 @@ inline void wheel_rates(const Car& car, const Flow<T>& flow, const Wheels<T>& wh
   }
 }
 
-/// Rates of the body's place and velocity.
+/// Rates of the body's place and velocity under a force [N], expressed in B, and a torque [N m].
+template <class T, class Car>
+inline void body_motion(const Car& car, const Flow<T>& flow, const Turn<T>& heading,
+                        const Pair<T>& force, const T& torque, Flow<T>& rate) {
+  using F = Flow<T>;
+  const T vx = flow[F::vx];
+  const T vy = flow[F::vy];
+  rate[F::x] = heading.cosine * vx - heading.sine * vy;
+  rate[F::y] = heading.sine * vx + heading.cosine * vy;
+  rate[F::yaw] = flow[F::yaw_rate];
+  rate[F::vx] = force.x / car.mass + flow[F::yaw_rate] * vy;
+  rate[F::vy] = force.y / car.mass - flow[F::yaw_rate] * vx;
+  rate[F::yaw_rate] = torque / car.yaw_inertia;
+}
+
+/// The same under the forces of the wheels and the air.
 /// @return  the force on the body [N]
 template <class T, class Car>
 inline Pair<T> body_rates(const Car& car, const Flow<T>& flow, const Wheels<T>& wheels,
@@ -211,12 +226,7 @@ inline Pair<T> body_rates(const Car& car, const Flow<T>& flow, const Wheels<T>& 
   const T vy = flow[F::vy];
   const T air = air_drag(car) * sqrt(vx * vx + vy * vy);
   force = {force.x - air * vx, force.y - air * vy};
-  rate[F::x] = heading.cosine * vx - heading.sine * vy;
-  rate[F::y] = heading.sine * vx + heading.cosine * vy;
-  rate[F::yaw] = flow[F::yaw_rate];
-  rate[F::vx] = force.x / car.mass + flow[F::yaw_rate] * vy;
-  rate[F::vy] = force.y / car.mass - flow[F::yaw_rate] * vx;
-  rate[F::yaw_rate] = torque / car.yaw_inertia;
+  body_motion(car, flow, heading, force, torque, rate);
   return force;
 }
 
