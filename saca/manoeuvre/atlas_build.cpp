@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -206,29 +205,24 @@ double longest_of(const Point& point) {
 }
 
 void drive_nodes(const Car& driven, std::vector<Node>& nodes) {
-  std::map<double, std::vector<std::size_t>> by_horizon;  // rounded up: few calls for many drives
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    by_horizon[std::ceil(longest_of(nodes[i].point))].push_back(i);
+  std::vector<Drive> drives;
+  for (const Node& node : nodes) {
+    const Point& point = node.point;
+    const world::Scene scene = scene_of(driven, point);
+    for (const double factor : grip_factors) {
+      drives.push_back({.car = &driven,
+                        .plan = plan_of(point),
+                        .ego = scene.ego,
+                        .road = scene.road,
+                        .known_grip = point.grip,
+                        .grip = std::min(1.2, point.grip * factor),
+                        .longest = std::ceil(longest_of(point))});
+    }
   }
-  for (const auto& [horizon, indices] : by_horizon) {
-    std::vector<Drive> drives;
-    for (const std::size_t i : indices) {
-      const Point& point = nodes[i].point;
-      const world::Scene scene = scene_of(driven, point);
-      for (const double factor : grip_factors) {
-        drives.push_back({.car = &driven,
-                          .plan = plan_of(point),
-                          .ego = scene.ego,
-                          .road = scene.road,
-                          .known_grip = point.grip,
-                          .grip = std::min(1.2, point.grip * factor)});
-      }
-    }
-    const std::vector<EgoMotion> motions = drive_all(drives, horizon);
-    for (std::size_t k = 0; k < motions.size(); ++k) {
-      Node& node = nodes[indices[k / grip_factors.size()]];
-      node.traces[k % grip_factors.size()] = trace_of(motions[k], longest_of(node.point));
-    }
+  const std::vector<EgoMotion> motions = drive_all(drives, longest_stop);
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    Node& node = nodes[k / grip_factors.size()];
+    node.traces[k % grip_factors.size()] = trace_of(motions[k], longest_of(node.point));
   }
 }
 

@@ -49,12 +49,16 @@ struct Prepared {
   LaneImage image;
   Pose X_WS;  // the frame it moves in, S: on its lane, abreast of where it starts
   EndsWith ends_with;
+  int num_poses;  // beyond the first
 };
 
-Prepared prepared(const Drive& drive, EgoMotion& motion, int num_poses) {
+Prepared prepared(const Drive& drive, EgoMotion& motion, double horizon) {
   constexpr int usual_poses = 255;  // most drives that end are over before
 
   expects(drive.car != nullptr, "a drive has a car");
+  expects(drive.longest >= 0.0, "longest >= 0 s");
+  const auto num_poses =
+      static_cast<int>(std::lround(std::min(horizon, drive.longest) / lanes::pose_step));
   const Ride ride(*drive.car, drive.plan, scene_of(drive), drive.grip, drive.unknown);
   const vehicle::VehicleState& state = ride.state();
   const double s = world::to_lane(drive.road, state.X_WB).s;
@@ -80,14 +84,15 @@ Prepared prepared(const Drive& drive, EgoMotion& motion, int num_poses) {
                                              drive.road.curvature),
                     lanes::moving_lane<float>(ride, inverse(X_WS) * state.X_WB, ride.memory())},
           .X_WS = X_WS,
-          .ends_with = ends_with};
+          .ends_with = ends_with,
+          .num_poses = num_poses};
 }
 
 // The lanes of one pack, and the drives in them.
 class Packed {
  public:
-  Packed(const lanes::Kernel& kernel, int num_poses)
-      : kernel_(kernel), num_poses_(num_poses), memory_(numbers_per_lane * kernel.num_lanes + 16) {
+  Packed(const lanes::Kernel& kernel, double horizon)
+      : kernel_(kernel), horizon_(horizon), memory_(numbers_per_lane * kernel.num_lanes + 16) {
     void* start = memory_.data();
     std::size_t space = memory_.size() * sizeof(float);
     numbers_ = static_cast<float*>(std::align(64, space - 64, start, space));
@@ -120,6 +125,7 @@ class Packed {
     double cosine = 1.0;  // of its yaw
     double sine = 0.0;
     EndsWith ends_with = EndsWith::nothing;
+    int num_poses = 0;
   };
 
   // The place of a number of the image, in one lane.
@@ -142,13 +148,14 @@ class Packed {
     while (next_ < queue.size()) {
       const std::size_t index = queue[next_++];
       EgoMotion& motion = motions[index];
-      const Prepared start = prepared(drives[index], motion, num_poses_);
-      if (motion.ended || num_poses_ == 0) {
+      const Prepared start = prepared(drives[index], motion, horizon_);
+      if (motion.ended || start.num_poses == 0) {
         continue;
       }
       put(start.image, lane);
-      lanes_[lane] = {&motion, start.X_WS, std::cos(start.X_WS.yaw), std::sin(start.X_WS.yaw),
-                      start.ends_with};
+      lanes_[lane] = {
+          &motion,         start.X_WS,     std::cos(start.X_WS.yaw), std::sin(start.X_WS.yaw),
+          start.ends_with, start.num_poses};
       ++num_busy_;
       return;
     }
@@ -177,7 +184,7 @@ class Packed {
     motion.v_B.push_back(v_B);
     motion.yaw_rate.push_back(flow(LaneFlow::yaw_rate, lane));
     motion.ended = has_ended(lane);
-    return !motion.ended && static_cast<int>(motion.v_B.size()) <= num_poses_;
+    return !motion.ended && static_cast<int>(motion.v_B.size()) <= busy.num_poses;
   }
 
   [[nodiscard]] bool has_ended(std::size_t lane) {
@@ -201,7 +208,7 @@ class Packed {
   }
 
   lanes::Kernel kernel_;
-  int num_poses_;
+  double horizon_;  // [s]
   std::vector<float> memory_;
   float* numbers_ = nullptr;
   std::array<Busy, lanes::most_lanes> lanes_{};
@@ -273,7 +280,6 @@ void drive_all(std::span<const Drive> drives, double horizon, std::vector<EgoMot
   expects(threads >= 1, "threads >= 1");
   expects(available(level), "the level is available");
   const lanes::Kernel kernel = kernel_for(level);
-  const int num_poses = static_cast<int>(std::lround(horizon / lanes::pose_step));
   std::vector<QueueKey> keys;
   keys.reserve(drives.size());
   for (const Drive& drive : drives) {
@@ -302,7 +308,7 @@ void drive_all(std::span<const Drive> drives, double horizon, std::vector<EgoMot
   motions.resize(drives.size());
   in_parallel(queues.size(), threads, [&](std::size_t i) {
     const QueueKey& key = keys[queues[i].front()];
-    Packed(kernel, num_poses).drive(drives, queues[i], motions, key.kind, key.late);
+    Packed(kernel, horizon).drive(drives, queues[i], motions, key.kind, key.late);
   });
 }
 

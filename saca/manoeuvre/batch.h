@@ -23,6 +23,7 @@ struct Drive {
   double known_grip = 0.9;  ///< what the controller takes the road's grip to be [-]
   double grip = 0.9;        ///< what it is [-], in (0, 1.2]
   Unknown unknown;
+  double longest = 3600.0;  ///< how long it is driven at most, whatever the batch's horizon [s]
 };
 
 /// The scene that `drive(...)` takes of it; nobody else is there.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "saca/core/contract.h"
 #include "saca/core/parallel.h"
@@ -16,8 +15,8 @@ namespace {
 // Of a policy that never ends: everybody who matters has come by [s].
 constexpr double clear_end = 20.0;
 
-// Time to drive: half as long again as an even stop takes, and time for the brakes to build up; in
-// whole seconds, so that many are the same.
+// Time to drive: half as long again as an even stop takes, and time for the brakes to build up, in
+// whole seconds.
 double longest(const world::Scene& scene, double grip) {
   return std::max(clear_end,
                   std::ceil(1.0 + 1.5 * norm(scene.ego.v_B) / (grip * vehicle::gravity)));
@@ -35,7 +34,8 @@ manoeuvre::Drive drive_of(const manoeuvre::Car& car, const Attempt& attempt) {
           .road = attempt.scene->road,
           .known_grip = attempt.scene->grip,
           .grip = attempt.grip,
-          .unknown = attempt.unknown};
+          .unknown = attempt.unknown,
+          .longest = longest(*attempt.scene, true_grip(attempt))};
 }
 
 }  // namespace
@@ -47,26 +47,20 @@ Outcome roll_out(const manoeuvre::Car& car, const manoeuvre::Plan& plan, const w
 
 std::vector<Course> roll_out_all(const manoeuvre::Car& car, std::span<const Attempt> attempts,
                                  const HarmModel& harm, int threads) {
-  std::map<double, std::vector<std::size_t>> by_horizon;  // nearly always one
-  for (std::size_t i = 0; i < attempts.size(); ++i) {
-    expects(attempts[i].scene != nullptr && attempts[i].others != nullptr,
+  std::vector<manoeuvre::Drive> drives;
+  double horizon = 0.0;
+  for (const Attempt& attempt : attempts) {
+    expects(attempt.scene != nullptr && attempt.others != nullptr,
             "an attempt has a scene and the others' motion");
-    by_horizon[longest(*attempts[i].scene, true_grip(attempts[i]))].push_back(i);
+    drives.push_back(drive_of(car, attempt));
+    horizon = std::max(horizon, drives.back().longest);
   }
+  const auto motions = drive_all(drives, horizon, threads);
   std::vector<Course> courses(attempts.size());
-  for (const auto& [horizon, indices] : by_horizon) {
-    std::vector<manoeuvre::Drive> drives;
-    drives.reserve(indices.size());
-    for (const std::size_t i : indices) {
-      drives.push_back(drive_of(car, attempts[i]));
-    }
-    const auto motions = drive_all(drives, horizon, threads);
-    in_parallel(indices.size(), threads, [&, &which = indices](std::size_t k) {
-      const Attempt& attempt = attempts[which[k]];
-      courses[which[k]] =
-          play_out(motions[k], *attempt.scene, *attempt.others, harm, true_grip(attempt));
-    });
-  }
+  in_parallel(attempts.size(), threads, [&](std::size_t i) {
+    const Attempt& attempt = attempts[i];
+    courses[i] = play_out(motions[i], *attempt.scene, *attempt.others, harm, true_grip(attempt));
+  });
   return courses;
 }
 
