@@ -9,7 +9,7 @@
 #include "saca/manoeuvre/plan.h"
 #include "saca/manoeuvre/unknown.h"
 #include "saca/outcome/outcome.h"
-#include "saca/preview/situation.h"
+#include "saca/preview/policy_facts.h"
 #include "saca/world/scene.h"
 
 namespace saca::loop {
@@ -25,14 +25,11 @@ struct Moment {
 };
 
 /// What one policy would have led to, knowing what the others really did.
-struct Hindsight {
-  preview::PolicyFacts facts;
-  outcome::Course course;  ///< to its end; empty when refused
-};
+using Hindsight = preview::RolledOut;
 using Hindsights = std::array<Hindsight, manoeuvre::num_policies>;  ///< by PolicyId
 
-/// All eight policies, begun at each moment, on the true grip: outcome::roll_out_all. One moment
-/// does not depend on the others.
+/// All eight policies, begun at each moment, on the true grip: preview::tried. One moment does not
+/// depend on the others.
 /// @param threads  >= 1; they do not change the result
 [[nodiscard]] std::vector<Hindsights> hindsights(std::span<const Moment> moments,
                                                  const manoeuvre::Car& car,

@@ -9,7 +9,6 @@
 #include "saca/outcome/atlas_way.h"
 #include "saca/outcome/futures.h"
 #include "saca/outcome/ordering.h"
-#include "saca/outcome/roll_out.h"
 #include "saca/preview/followers.h"
 
 namespace saca::preview {
@@ -45,8 +44,8 @@ outcome::Outcome outcome_of(const outcome::Future& future) {
           .end_time = future.end_time};
 }
 
-std::string refusal_of(const Plan& plan, const Scene& scene, const ForecastTools& tools) {
-  return manoeuvre::refusal(*tools.car, plan, scene).value_or("");
+std::string refusal_of(const manoeuvre::Car& car, const Plan& plan, const Scene& scene) {
+  return manoeuvre::refusal(car, plan, scene).value_or("");
 }
 
 bool is_better(const PolicyFacts& a, const PolicyFacts& b) {
@@ -89,7 +88,7 @@ std::optional<AllFacts> read_facts(const Scene& scene, const std::vector<Track>&
   AllFacts facts;
   for (std::size_t i = 0; i < facts.size(); ++i) {
     facts[i] = {.plan = futures[i].plan,
-                .refusal = refusal_of(futures[i].plan, scene, tools),
+                .refusal = refusal_of(*tools.car, futures[i].plan, scene),
                 .outcome = {}};
     if (facts[i].refusal.empty()) {
       if (futures[i].outside) {
@@ -104,28 +103,44 @@ std::optional<AllFacts> read_facts(const Scene& scene, const std::vector<Track>&
 
 }  // namespace
 
+std::vector<RolledOut> tried(const manoeuvre::Car& car, std::span<const outcome::Attempt> attempts,
+                             const outcome::HarmModel& harm, int threads) {
+  std::vector<RolledOut> all(attempts.size());
+  std::vector<outcome::Attempt> driven;
+  for (std::size_t i = 0; i < attempts.size(); ++i) {
+    const outcome::Attempt& attempt = attempts[i];
+    expects(attempt.scene != nullptr, "an attempt has a scene");
+    all[i].facts = {.plan = attempt.plan,
+                    .refusal = refusal_of(car, attempt.plan, *attempt.scene),
+                    .outcome = {},
+                    .rolled_out = true};
+    if (all[i].facts.refusal.empty()) {
+      driven.push_back(attempt);
+    }
+  }
+  std::vector<outcome::Course> courses = roll_out_all(car, driven, harm, threads);
+  auto next = courses.begin();
+  for (auto& [facts, course] : all) {
+    if (facts.refusal.empty()) {
+      course = std::move(*next++);
+      facts.outcome = course.outcome;
+      facts.probability = course.outcome.contact ? 1.0 : 0.0;
+    }
+  }
+  return all;
+}
+
 std::vector<PolicyFacts> rolled_out(const Scene& scene, const std::vector<Track>& tracks,
                                     std::span<const Plan> plans, const ForecastTools& tools) {
   expects(tools.car != nullptr && tools.harm != nullptr, "car and harm are given");
   const outcome::Others others = with_reacting_followers(scene, tracks);
-  std::vector<PolicyFacts> facts;
   std::vector<outcome::Attempt> attempts;
   for (const Plan& plan : plans) {
-    facts.push_back({.plan = plan,
-                     .refusal = refusal_of(plan, scene, tools),
-                     .outcome = {},
-                     .rolled_out = true});
-    if (facts.back().refusal.empty()) {
-      attempts.push_back({plan, &scene, &others, scene.grip, {}});
-    }
+    attempts.push_back({plan, &scene, &others, scene.grip, {}});
   }
-  const auto courses = outcome::roll_out_all(*tools.car, attempts, *tools.harm);
-  auto next = courses.begin();
-  for (PolicyFacts& fact : facts) {
-    if (fact.refusal.empty()) {
-      fact.outcome = (next++)->outcome;
-      fact.probability = fact.outcome.contact ? 1.0 : 0.0;
-    }
+  std::vector<PolicyFacts> facts;
+  for (RolledOut& one : tried(*tools.car, attempts, *tools.harm)) {
+    facts.push_back(std::move(one.facts));
   }
   return facts;
 }

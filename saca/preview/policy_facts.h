@@ -8,6 +8,7 @@
 #include "saca/manoeuvre/car.h"
 #include "saca/manoeuvre/plan.h"
 #include "saca/outcome/harm.h"
+#include "saca/outcome/roll_out.h"
 #include "saca/preview/situation.h"
 
 namespace saca::preview {
@@ -29,6 +30,17 @@ struct ForecastTools {
 /// first contact only, so figures of the two are not compared.
 [[nodiscard]] std::array<PolicyFacts, manoeuvre::num_policies> policy_facts(
     const world::Scene& scene, const std::vector<world::Track>& tracks, const ForecastTools& tools);
+
+/// What one plan led to with full dynamics.
+struct RolledOut {
+  PolicyFacts facts;
+  outcome::Course course;  ///< to its end; empty when refused
+};
+/// outcome::roll_out_all of those attempts that can be driven; the others are refused.
+/// @return  in the order of `attempts`
+[[nodiscard]] std::vector<RolledOut> tried(const manoeuvre::Car& car,
+                                           std::span<const outcome::Attempt> attempts,
+                                           const outcome::HarmModel& harm, int threads = 1);
 
 /// What these plans end in, with full dynamics, whatever the atlas says: for the rollout check.
 [[nodiscard]] std::vector<PolicyFacts> rolled_out(const world::Scene& scene,
