@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "saca/core/file.h"
 #include "saca/manoeuvre/atlas_for_test.h"
@@ -40,6 +41,17 @@ bool on(const AtlasProgress&) {
   return true;
 }
 
+// Goes on with a journal; and how many nodes that knew.
+std::pair<AtlasNodes, std::size_t> resume(const std::filesystem::path& journal) {
+  std::size_t remembered = 0;
+  const auto note = [&](const AtlasProgress& progress) {
+    remembered = progress.remembered;
+    return true;
+  };
+  const AtlasNodes nodes = build_atlas(small_atlas_car(), tiny_grid(), 1, journal, note).value();
+  return {nodes, remembered};
+}
+
 class AtlasBuild : public testing::Test {
  protected:
   void SetUp() override {
@@ -67,12 +79,7 @@ TEST_F(AtlasBuild, GoesOnWhereItWasStopped) {
         return progress.done < 1;
       }).value();
   EXPECT_EQ(stopped, nullptr);
-  std::size_t remembered = 0;
-  const AtlasNodes resumed =
-      build_atlas(small_atlas_car(), tiny_grid(), 1, journal, [&](const AtlasProgress& progress) {
-        remembered = progress.remembered;
-        return true;
-      }).value();
+  const auto [resumed, remembered] = resume(journal);
   EXPECT_GT(remembered, 0U);
   EXPECT_LT(remembered, whole->size());
   EXPECT_TRUE(same(*whole, *resumed));
@@ -90,12 +97,7 @@ TEST_F(AtlasBuild, PassesOverBrokenLinesOfItsJournal) {
   text.erase(third - 3, 2);
   text.insert(third - 2, "x7 00\n-1 00\n\n99 00\n5\n");
   ASSERT_EQ(write_file(journal, text), std::nullopt);
-  std::size_t remembered = 0;
-  const AtlasNodes resumed =
-      build_atlas(small_atlas_car(), tiny_grid(), 1, journal, [&](const AtlasProgress& progress) {
-        remembered = progress.remembered;
-        return true;
-      }).value();
+  const auto [resumed, remembered] = resume(journal);
   EXPECT_EQ(remembered, whole->size() - 2);
   EXPECT_TRUE(same(*whole, *resumed));
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "saca/manoeuvre/atlas_for_test.h"
+#include "saca/outcome/atlas_ego_for_test.h"
 #include "saca/outcome/edge.h"
 
 namespace saca::outcome {
@@ -15,15 +16,6 @@ using manoeuvre::atlas_scene;
 using manoeuvre::AtlasPath;
 using manoeuvre::PolicyId;
 using manoeuvre::small_atlas;
-
-// The same way as poses every 5 ms, for the exact search.
-world::Track sampled(const AtlasEgo& ego, double until) {
-  world::Track track{.start = ego.scene().time, .step = 0.005, .X_WA = {}};
-  for (int k = 0; k * track.step <= until; ++k) {
-    track.X_WA.push_back(ego.at(k * track.step).X_WB);
-  }
-  return track;
-}
 
 TEST(EdgeSweep, AnEdgeIsCrossedWhenEdgeApproachSaysSo) {
   for (const double curvature : {0.0, 0.004}) {

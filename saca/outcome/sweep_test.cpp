@@ -12,6 +12,7 @@
 #include "saca/core/percentile.h"
 #include "saca/manoeuvre/atlas_for_test.h"
 #include "saca/outcome/approach.h"
+#include "saca/outcome/atlas_ego_for_test.h"
 #include "saca/outcome/encounters_for_test.h"
 
 namespace saca::outcome {
@@ -22,15 +23,6 @@ using manoeuvre::atlas_scene;
 using manoeuvre::AtlasPath;
 using manoeuvre::PolicyId;
 using manoeuvre::small_atlas;
-
-// The same way as poses every 5 ms, for the exact search that other tests hold to brute force.
-world::Track sampled(const AtlasEgo& ego, double until) {
-  world::Track track{.start = ego.scene().time, .step = 0.005, .X_WA = {}};
-  for (int k = 0; k * track.step <= until; ++k) {
-    track.X_WA.push_back(ego.at(k * track.step).X_WB);
-  }
-  return track;
-}
 
 // A scene with somebody who crosses, comes or drives along, on a straight track.
 world::Scene random_scene(std::mt19937_64& rng, world::Track& track) {
