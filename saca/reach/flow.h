@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "saca/reach/grid.h"
+
+/// What the solver must know about a system: how its value changes, a row of cells at a time.
+///
+/// A system is written as a struct of this shape (`examples/own_dynamics` has one) and made into a
+/// `Flow` by `flow_of` (`flow_of.h`):
+///
+///     struct Brake {                                   // x' = v, v' = a, |a| <= strongest
+///       static constexpr std::size_t dimensions = 2;
+///       double strongest;
+///       struct Row {                                   // cells along the first axis
+///         double v, strongest;
+///         template <class N> N hamiltonian(const N& x, const std::array<N, 2>& p) const {
+///           return v * p[0] - strongest * abs(p[1]);   // the best (or worst) of all inputs: f . p
+///         }
+///         template <class N> std::array<N, 2> speeds(const N& x) const {
+///           return {std::abs(v), strongest};           // |dH/dp_i| at most, for any gradient
+///         }
+///       };
+///       Row row(const std::array<double, 2>& x) const { return {x[1], strongest}; }  // x[0] is
+///       not set
+///     };
+///
+/// Two members of a row are optional:
+///
+///     std::array<int, 2> direction;   // sign of each state's rate where every input has the same
+///     all
+///                                     // along the row, else 0: that axis takes one difference,
+///                                     exact
+///     template <class N> N upwind(const N& x, const std::array<N, 2>& left,
+///                                 const std::array<N, 2>& right) const;  // in place of
+///                                     // Lax-Friedrichs: a monotone numerical Hamiltonian in
+///                                     closed
+///                                     // form, falling in `left` and rising in `right`
+///
+/// The value obeys V_tau = H(x, grad V), tau being the time to go: H = min over u of f . grad V
+/// where inputs avoid what is unsafe (V >= 0), max where they seek it.
+namespace saca::reach {
+
+/// One-sided differences, by the smoothness that they make use of.
+enum class Differences : std::uint8_t { upwind1, eno2, eno3, weno5 };
+
+/// Runge-Kutta steps that keep the variation from growing.
+enum class Steps : std::uint8_t { euler, tvd_rk2, tvd_rk3 };
+
+/// What is done with the values from step to step.
+enum class Tube : std::uint8_t {
+  set,      ///< nothing: states that are unsafe after exactly that time
+  tube,     ///< none falls: unsafe once is unsafe for good
+  highest,  ///< none is below h: the running maximum of h (eq. 1 of the paper); h may have any
+            ///< slope
+};
+
+/// One Runge-Kutta stage over some rows: out = keep x old + (1 - keep) x (values + dt x rate).
+template <class Real>
+struct Stage {
+  const Real* values = nullptr;
+  const Real* old = nullptr;
+  const Real* h = nullptr;  ///< read for Tube::highest alone
+  Real* out = nullptr;      ///< none of the others
+  double keep = 0.0;
+  double dt = 0.0;
+  Tube tube = Tube::highest;
+  std::size_t first_row = 0, end_row = 0;
+};
+
+/// What came out of some rows.
+struct Swept {
+  double greatest_change = 0.0;            ///< of |out - old|
+  std::optional<std::size_t> broken_cell;  ///< the first whose value is no number
+};
+
+/// A system on a grid, ready to be solved; made by `flow_of`.
+template <class Real>
+struct Flow {
+  std::size_t dimensions = 0;
+  /// Sweeps some rows; called from several threads with rows of their own. Arrays reach
+  /// `readable_beyond` numbers beyond the grid's cells.
+  std::function<Swept(const Stage<Real>&)> sweep;
+  /// Largest sum over the axes of speed / spacing, over all cells [1/s].
+  double crossings_per_second = 0.0;
+};
+
+/// Numbers beyond the last cell that a sweep may read.
+constexpr std::size_t readable_beyond = 64;
+
+}  // namespace saca::reach
