@@ -30,8 +30,9 @@ function show_controls() {
     sliders.push(slider("horizon", { min: 0, max: record.times_s.length - 1, step: 1, value: shown.time }, (k) => num(record.times_s[k], 2, "s"),
       (k) => { shown.time = k; }));
   }
+  sliders.push(slider("zoom", { min: 1, max: 8, step: 0.05, value: record.start.zoom }, (factor) => `${num(factor, 2)}\u00A0\u00D7`,
+    (factor) => plot.zoom(factor)));
   by_id("controls").append(...sliders);
-  by_id("controls").hidden = sliders.length === 0;
 }
 
 let asked = false;
@@ -46,7 +47,7 @@ function draw() {
   const share = plot.show(shown.time, shown.others, course_axis >= 0 ? shown.others[course_axis] : null);
   const at = others_in_words();
   const words = `${record.axes[0].name} and ${record.axes[1].name}${at.length ? ` at ${at.join(", ")}` : ""}, horizon ${num(record.times_s[shown.time], 2, "s")}`;
-  by_id("sentence").textContent = `V over ${words}: ${num(100 * share, 1, "%")} of the plane is unsafe.`;
+  by_id("sentence").textContent = `V over ${words}: ${num(100 * share, 1, "%")} of what is shown is unsafe.`;
   by_id("map").setAttribute("aria-label", by_id("sentence").textContent);
 }
 

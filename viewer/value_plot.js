@@ -31,7 +31,17 @@ class ValuePlot {
     Object.assign(this, { canvas, record, table });
     this.danger = packed_shades(record.colours.danger);
     this.safety = packed_shades(record.colours.safety);
-    this.range = table.lines.map((line) => [line[0].at, line[line.length - 1].at]);
+    this.whole = table.lines.map((line) => [line[0].at, line[line.length - 1].at]);
+    this.zoom(record.start.zoom);
+  }
+
+  /** Looks closer, about the origin where the plane has it; safe colours then end nearer to 0. */
+  zoom(factor) {
+    this.range = this.whole.map(([low, high]) => {
+      const middle = low < 0 && high > 0 ? 0 : (low + high) / 2;
+      return [middle + (low - middle) / factor, middle + (high - middle) / factor];
+    });
+    this.lowest = this.record.scale.lowest / factor;
   }
 
   layout(width) {
@@ -51,7 +61,7 @@ class ValuePlot {
   /** @return  the unsafe share of the plane */
   show(time, others, course) {
     const columns = Math.round(this.wide * this.dense), rows = Math.round(this.high * this.dense);
-    this.raster = raster_of(this.table, this.table.plane(time, others), columns, rows);
+    this.raster = raster_of(this.table, this.table.plane(time, others), this.range, columns, rows);
     [this.columns, this.rows] = [columns, rows];
     const pen = this.canvas.getContext("2d");
     pen.setTransform(1, 0, 0, 1, 0, 0);
@@ -74,7 +84,7 @@ class ValuePlot {
   }
 
   shade(value) {
-    const { lowest, highest } = this.record.scale;
+    const lowest = this.lowest, { highest } = this.record.scale;
     return value >= 0 ? this.danger[Math.min(shades, Math.round((shades * value) / highest))]
       : this.safety[Math.min(shades, Math.round((shades * value) / lowest))];
   }
@@ -177,7 +187,7 @@ class ValuePlot {
 
   /** Each side of 0 takes half of the bar. */
   draw_bar(pen) {
-    const { lowest, highest } = this.record.scale, x = plot_room.left + this.wide + 24, half = this.high / 2;
+    const lowest = this.lowest, { highest } = this.record.scale, x = plot_room.left + this.wide + 24, half = this.high / 2;
     for (let i = 0; i < this.high; i++) {
       const up = 1 - (i + 0.5) / half, value = up >= 0 ? up * highest : -up * lowest, packed = this.shade(value);
       pen.fillStyle = `rgb(${packed & 255} ${(packed >> 8) & 255} ${(packed >> 16) & 255})`;

@@ -95,10 +95,10 @@ function among(points, low, high, count) {
   return { at, share };
 }
 
-/** A plane's values at the middles of columns x rows pixels, the highest y first. */
-function raster_of(table, plane, columns, rows) {
+/** A plane's values at the middles of columns x rows pixels over `range`, the highest y first. */
+function raster_of(table, plane, range, columns, rows) {
   const [xs, ys] = table.lines, wide = xs.length;
-  const x = among(xs, xs[0].at, xs[wide - 1].at, columns), y = among(ys, ys[0].at, ys[ys.length - 1].at, rows);
+  const x = among(xs, ...range[0], columns), y = among(ys, ...range[1], rows);
   const out = new Float32Array(columns * rows);
   for (let r = 0; r < rows; r++) {
     const from = y.at[rows - 1 - r] * wide, up = y.share[rows - 1 - r];

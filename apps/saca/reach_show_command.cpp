@@ -14,6 +14,7 @@
 #include "apps/saca/places.h"
 #include "apps/saca/reach_commands.h"
 #include "saca/core/file.h"
+#include "saca/core/vec2.h"
 #include "saca/reach/value_file.h"
 #include "saca/reach/value_table.h"
 #include "saca/report/html_report.h"
@@ -34,6 +35,7 @@ struct ReachShowOptions {
   std::optional<double> speed;   // [m/s]
   std::optional<double> course;  // [deg]
   std::optional<double> time;    // [s]
+  std::optional<double> zoom;    // none: so that the danger can be seen
   std::vector<std::string> at;   // name=value, in the unit that is read
 };
 
@@ -151,9 +153,8 @@ report::MapRange shown_range(const reach::Axis& axis) {
   return {both ? -axis.last : axis.first, axis.last};
 }
 
-report::PlotAxis plot_axis_of(const reach::Axis& axis) {
+report::PlotAxis plot_axis_of(const reach::Axis& axis, const report::MapRange& range) {
   const ReadUnit read = report::read_unit(axis.name);
-  const report::MapRange range = shown_range(axis);
   return {axis.name, read.unit, range.low * read.factor, range.high * read.factor};
 }
 
@@ -169,14 +170,26 @@ std::string what_is_shown(const Solved& solved, const report::ValueView& view) {
                              solved.complete ? "" : " (stopped before its end)");
 }
 
+double usual_zoom(const Solved& solved, const report::ValueView& view) {
+  constexpr int side = 160;  // of a coarse map
+  const report::MapRange x = shown_range(solved.grid.axes[0]);
+  const report::MapRange y = shown_range(solved.grid.axes[1]);
+  const reach::ValueTable table(solved.grid, reach::snapshot(solved, view.time));
+  return report::zoom_on_danger(report::value_map(table, x, y, side, side, view.others),
+                                report::zoom_middle(x, y));
+}
+
 Result<std::string> png_of(const Solved& solved, const report::ValueView& view) {
   const std::vector<reach::Axis>& axes = solved.grid.axes;
-  const std::vector<float> values = reach::snapshot(solved, view.time);
-  report::ValuePicture picture{.scale = report::scale_of(values),
-                               .title = view.title,
+  const report::MapRange all_x = shown_range(axes[0]);
+  const report::MapRange all_y = shown_range(axes[1]);
+  const Vec2 middle = report::zoom_middle(all_x, all_y);
+  const report::MapRange x = report::zoomed(all_x, middle.x, view.zoom);
+  const report::MapRange y = report::zoomed(all_y, middle.y, view.zoom);
+  report::ValuePicture picture{.title = view.title,
                                .lines = {what_is_shown(solved, view)},
-                               .x = plot_axis_of(axes[0]),
-                               .y = plot_axis_of(axes[1]),
+                               .x = plot_axis_of(axes[0], x),
+                               .y = plot_axis_of(axes[1], y),
                                .value_words = "V [m]",
                                .outline = report::obstacle_outline(solved.problem)};
   for (std::size_t d = 2; d < axes.size(); ++d) {
@@ -185,8 +198,9 @@ Result<std::string> png_of(const Solved& solved, const report::ValueView& view) 
     }
   }
   const report::RasterSize size = report::raster_size(picture.x, picture.y);
-  picture.map = report::value_map(reach::ValueTable(solved.grid, values), shown_range(axes[0]),
-                                  shown_range(axes[1]), size.columns, size.rows, view.others);
+  const reach::ValueTable table(solved.grid, reach::snapshot(solved, view.time));
+  picture.map = report::value_map(table, x, y, size.columns, size.rows, view.others);
+  picture.scale = report::scale_of(picture.map.values);
   return report::value_png(picture);
 }
 
@@ -217,9 +231,10 @@ int show(const ReachShowOptions& options) {
     return not_shown(others.has_value() ? time.error() : others.error());
   }
   const std::string stem = fs::path(options.file).stem().string();
-  const report::ValueView view{.title = report::problem_name(solved.problem).value_or(stem),
-                               .others = others.value(),
-                               .time = time.value()};
+  report::ValueView view{.title = report::problem_name(solved.problem).value_or(stem),
+                         .others = others.value(),
+                         .time = time.value()};
+  view.zoom = options.zoom ? *options.zoom : usual_zoom(solved, view);
   const auto made = kind == ".png" ? png_of(solved, view)
                                    : report::value_report(report::value_json(solved, view));
   if (!made.has_value()) {
@@ -249,6 +264,10 @@ void add_reach_show(CLI::App& reach, int& exit_code) {
   command->add_option("--course-deg", options->course, "Default: 0");
   command->add_option("--time-s", options->time,
                       "A horizon that the file has; default: the longest");
+  command
+      ->add_option("--zoom", options->zoom,
+                   "Into the middle of the plane; 1: all of it; default: shows all danger")
+      ->check(CLI::Range(1.0, 8.0));
   command->add_option("--at", options->at,
                       "NAME=VALUE of another axis; angles in deg, else in SI units");
   command->callback([options, &exit_code] { exit_code = show(*options); });

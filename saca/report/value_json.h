@@ -22,6 +22,7 @@ struct ValueView {
   std::string title;
   reach::State others{};  ///< coordinates from the third axis on
   std::size_t time = 0;   ///< number of a snapshot
+  double zoom = 1.0;      ///< 1: the whole plane; in [1, 8]
 };
 
 /// Values that a page holds at most: about 5.6 MB of text.

@@ -81,7 +81,8 @@ double meant(int byte, const json& page) {
 
 TEST(ValueJson, HoldsEveryValueWithinItsRoundingAndWithItsSign) {
   const Solved solved = solved_on(small_grid(), 3);
-  const json page = json::parse(value_json(solved, {.title = "a", .others = {}, .time = 1}));
+  const json page =
+      json::parse(value_json(solved, {.title = "a", .others = {}, .time = 1, .zoom = 2.5}));
   const std::vector<int> bytes = decoded(page["values"]);
   const std::size_t cells = reach::num_cells(solved.grid);
   ASSERT_EQ(bytes.size(), 3 * cells);
@@ -93,6 +94,7 @@ TEST(ValueJson, HoldsEveryValueWithinItsRoundingAndWithItsSign) {
     ASSERT_EQ(bytes[i] >= 128, value >= 0.0);
   }
   EXPECT_EQ(page["start"]["time"], 1);
+  EXPECT_EQ(page["start"]["zoom"], 2.5);
   EXPECT_EQ(page["times_s"], json::array({0.0, 0.5, 1.0}));
   EXPECT_EQ(page["outline"].size(), 4U);
 }

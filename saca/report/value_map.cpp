@@ -109,6 +109,34 @@ ValueMap value_map(const reach::ValueTable& table, const MapRange& x, const MapR
   return map;
 }
 
+double zoom_on_danger(const ValueMap& map, Vec2 middle) {
+  constexpr double most = 8.0;
+  constexpr double share = 0.6;
+  double zoom = most;
+  for (int row = 0; row < map.rows; ++row) {
+    for (int column = 0; column < map.columns; ++column) {
+      if (map.values[map.index(column, row)] >= 0.0F) {
+        const Vec2 at = map.middle(column, row) - middle;
+        const double room_x = at.x < 0.0 ? middle.x - map.x.low : map.x.high - middle.x;
+        const double room_y = at.y < 0.0 ? middle.y - map.y.low : map.y.high - middle.y;
+        zoom = std::min({zoom, share * room_x / std::abs(at.x), share * room_y / std::abs(at.y)});
+      }
+    }
+  }
+  return std::max(zoom, 1.0);
+}
+
+Vec2 zoom_middle(const MapRange& x, const MapRange& y) {
+  const auto middle = [](const MapRange& range) {
+    return range.low < 0.0 && range.high > 0.0 ? 0.0 : 0.5 * (range.low + range.high);
+  };
+  return {middle(x), middle(y)};
+}
+
+MapRange zoomed(const MapRange& range, double middle, double zoom) {
+  return {middle + (range.low - middle) / zoom, middle + (range.high - middle) / zoom};
+}
+
 std::vector<std::array<Vec2, 2>> zero_line(const ValueMap& map) {
   std::vector<std::array<Vec2, 2>> line;
   for (int row = 0; row + 1 < map.rows; ++row) {

@@ -40,6 +40,15 @@ struct ValueMap {
                                  const MapRange& y, int columns, int rows,
                                  const reach::State& others);
 
+/// How far to look closer at the middle of the plane, so that what is unsafe there can be seen: the
+/// greatest of 1 to 8 at which all of a map's unsafe places lie within 60 % of each range.
+/// @param middle  that stays where it is
+[[nodiscard]] double zoom_on_danger(const ValueMap& map, Vec2 middle);
+
+/// Origin where the ranges have it inside, else their middles.
+[[nodiscard]] Vec2 zoom_middle(const MapRange& x, const MapRange& y);
+[[nodiscard]] MapRange zoomed(const MapRange& range, double middle, double zoom);
+
 /// Where the value is 0 between the middles: pieces of line, in the plane's coordinates. Marching
 /// squares; nothing is drawn where a corner lies outside the table.
 [[nodiscard]] std::vector<std::array<Vec2, 2>> zero_line(const ValueMap& map);

@@ -50,6 +50,30 @@ TEST(ValueMap, RefusesEmptyRanges) {
   EXPECT_THROW((void)value_map(cone(), {0.0, 1.0}, {0.0, 1.0}, 1, 4, {}), ContractViolation);
 }
 
+TEST(Zoom, KeepsAllDangerWithinItsShareOfTheRanges) {
+  const MapRange x{-9.0, 9.0};
+  const MapRange y{-9.0, 9.0};
+  const ValueMap map = value_map(cone(), x, y, 180, 180, {0.0, 0.0, 2.0});
+  // Unsafe: within 3 m of (1, -2), thus up to 5 m from the origin along -y.
+  const double zoom = zoom_on_danger(map, zoom_middle(x, y));
+  EXPECT_NEAR(zoom, 0.6 * 9.0 / 5.0, 0.03);
+  const MapRange closer = zoomed(y, 0.0, zoom);
+  EXPECT_NEAR(closer.low * 0.6, -5.0, 0.15);
+  EXPECT_NEAR(closer.high, -closer.low, 1e-12);
+}
+
+TEST(Zoom, IsBoundedAndTurnsAboutTheOriginOrTheMiddle) {
+  ValueMap map = value_map(cone(), {-9.0, 9.0}, {-9.0, 9.0}, 20, 20, {});
+  map.values.assign(400, 1.0F);
+  EXPECT_EQ(zoom_on_danger(map, {0.0, 0.0}), 1.0);
+  map.values.assign(400, -1.0F);
+  EXPECT_EQ(zoom_on_danger(map, {0.0, 0.0}), 8.0);
+  EXPECT_EQ(zoom_middle({-1.0, 9.0}, {2.0, 6.0}).x, 0.0);
+  EXPECT_EQ(zoom_middle({-1.0, 9.0}, {2.0, 6.0}).y, 4.0);
+  EXPECT_DOUBLE_EQ(zoomed({2.0, 6.0}, 4.0, 2.0).low, 3.0);
+  EXPECT_DOUBLE_EQ(zoomed({2.0, 6.0}, 4.0, 2.0).high, 5.0);
+}
+
 TEST(ZeroLine, OfAConeIsItsCircle) {
   const ValueMap map = value_map(cone(), {-9.0, 9.0}, {-9.0, 9.0}, 90, 90, {0.0, 0.0, 1.0});
   const auto line = zero_line(map);
