@@ -24,6 +24,12 @@ function ticks_between(low, high, count) {
   return ticks;
 }
 
+/** The least of 1, 2, 5, 10, ... times a power of ten that is not below a value. */
+function rounded_up(value) {
+  const decade = 10 ** Math.floor(Math.log10(value));
+  return [1, 2, 5, 10].map((k) => k * decade).find((round) => round >= value * (1 - 1e-6));
+}
+
 const plain = (value) => String(Number(value.toPrecision(6))).replace("-", "\u2212");
 
 class ValuePlot {
@@ -41,7 +47,7 @@ class ValuePlot {
       const middle = low < 0 && high > 0 ? 0 : (low + high) / 2;
       return [middle + (low - middle) / factor, middle + (high - middle) / factor];
     });
-    this.lowest = this.record.scale.lowest / factor;
+    this.lowest = -rounded_up(-this.record.scale.lowest / factor);
   }
 
   layout(width) {
