@@ -94,6 +94,7 @@ double usual_coordinate(const reach::Axis& axis) {
 
 std::string names_of(const std::vector<reach::Axis>& axes) {
   std::vector<std::string> names;
+  names.reserve(axes.size());
   for (const reach::Axis& axis : axes) {
     names.push_back(axis.name);
   }

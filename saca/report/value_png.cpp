@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <numbers>
@@ -59,7 +60,7 @@ Surface raster(const ValueMap& map, const ValueScale& scale) {
                                       : 0xff000000U | std::uint32_t{colour.red} << 16U |
                                             std::uint32_t{colour.green} << 8U | colour.blue;
       std::copy_n(reinterpret_cast<const unsigned char*>(&pixel), sizeof pixel,  // NOLINT
-                  line + column * static_cast<int>(sizeof pixel));
+                  line + static_cast<std::ptrdiff_t>(column) * 4);
     }
   }
   cairo_surface_mark_dirty(surface.get());
