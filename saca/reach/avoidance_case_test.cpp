@@ -21,7 +21,7 @@ constexpr double pi = std::numbers::pi;
 
 const std::string small_case = R"(schema = "saca.avoidance/1"
 name = "small"
-horizon_s = 2.0
+seen_from = "obstacle"
 snapshots_s = [0.5, 2.0]
 [car]
 grip = 0.5
@@ -66,9 +66,9 @@ AvoidanceCase parsed(const std::string& text) {
 
 /// A disc of radius 1 m beside a left edge: its value is known.
 AvoidanceCase disc_at_edge(int refined) {
-  std::string text =
-      with(small_case, "shape = \"ellipse\"\nlength_m = 7.0\nwidth_m = 3.5\nspeed_mps = 3.0",
-           "shape = \"left_edge\"");
+  std::string text = with(with(small_case, "seen_from = \"obstacle\"\n", ""),
+                          "shape = \"ellipse\"\nlength_m = 7.0\nwidth_m = 3.5\nspeed_mps = 3.0",
+                          "shape = \"left_edge\"");
   text = with(text, "shape = \"box\"\nlength_m = 4.0\nwidth_m = 2.0\ncentre_m = -0.2",
               "shape = \"ellipse\"\nlength_m = 2.0\nwidth_m = 2.0\ncentre_m = 0.0");
   text = with(text, "[grid.x]\nfirst_m = -20.0\nlast_m = 12.0\npoints = 9\nstretch_m = 6.0\n", "");
@@ -98,8 +98,9 @@ std::vector<float> solved(const AvoidanceCase& problem, const System& system, do
 TEST(AvoidanceCase, ReadsEveryKey) {
   const AvoidanceCase problem = parsed(small_case);
   EXPECT_EQ(problem.name, "small");
-  EXPECT_EQ(problem.horizon, 2.0);
-  EXPECT_EQ(problem.snapshots, (std::vector<double>{0.5, 2.0}));
+  EXPECT_EQ(problem.text, small_case);
+  EXPECT_EQ(problem.view, View::obstacle);
+  EXPECT_EQ(problem.times, (std::vector<double>{0.5, 2.0}));
   EXPECT_EQ(problem.system.grip, 0.5);
   EXPECT_EQ(problem.system.tightest_curvature, 0.2);
   EXPECT_EQ(problem.system.drive_share, 0.4);
@@ -134,7 +135,9 @@ TEST(AvoidanceCase, RefusesWhatItDoesNotKnow) {
   EXPECT_THAT(message("drive_share = 0.4\n", ""), HasSubstr("drive_share"));
   EXPECT_THAT(message("\"ellipse\"", "\"blob\""), AllOf(HasSubstr("left_edge"), HasSubstr("blob")));
   EXPECT_THAT(message("\"box\"", "\"left_edge\""), HasSubstr("want box, ellipse, segment, got"));
-  EXPECT_THAT(message("[0.5, 2.0]", "[0.5, 2.5]"), HasSubstr("snapshots_s"));
+  EXPECT_THAT(message("[0.5, 2.0]", "[]"), HasSubstr("snapshots_s"));
+  EXPECT_THAT(message("\"obstacle\"", "\"moon\""), HasSubstr("want ego or obstacle, got moon"));
+  EXPECT_THAT(message("\"obstacle\"", "\"ego\""), HasSubstr("ahead"));
   EXPECT_THAT(message("[0.5, 2.0]", "[2.0, 0.5]"), HasSubstr("rising"));
   EXPECT_THAT(message("last_m = 12.0", "last_m = -30.0"), HasSubstr("last_m"));
   EXPECT_THAT(message("points = 9", "points = 1"), HasSubstr("points"));
@@ -153,6 +156,20 @@ TEST(AvoidanceCase, EveryFileOfTheDataCanBeRead) {
   }
   EXPECT_THAT(names, testing::IsSupersetOf({"parked_car", "paper_ellipse", "truck", "walker",
                                             "moving_car", "road_edge"}));
+}
+
+// The same bodies in the same place, whoever looks.
+TEST(AvoidanceCase, BothViewsHaveTheSameIntrusion) {
+  const AvoidanceCase problem = parsed(small_case);
+  AvoidanceCase seen = problem;
+  seen.view = View::ego;
+  for (std::size_t i = 0; i < num_cells(problem.grid); i += 7) {
+    const State state = state_at(problem.grid, i);
+    EXPECT_NEAR(intrusion_at(seen, grid_state(View::ego, state)), intrusion_at(problem, state),
+                1e-9);
+  }
+  EXPECT_EQ(grid_state(View::obstacle, {1.0, 2.0, 3.0, 4.0}), (State{1.0, 2.0, 3.0, 4.0}));
+  EXPECT_EQ(grid_state(View::edge, {1.0, 2.0, 3.0, 4.0}), (State{2.0, 3.0, 4.0, 0.0}));
 }
 
 TEST(AvoidanceCase, UnsafeIsTheIntrusionAtEveryCell) {
