@@ -11,7 +11,6 @@
 #include "saca/core/file.h"
 #include "saca/reach/avoidance_ahead.h"
 #include "saca/reach/intrusion.h"
-#include "saca/reach/own_systems.h"
 
 namespace saca::reach {
 namespace {
@@ -125,19 +124,6 @@ View case_view(Table& root, bool beside_edge) {
   return word == "ego" ? View::ego : View::obstacle;
 }
 
-template <class Real>
-Flow<Real> flow_of_case(const AvoidanceCase& problem, const Grid& grid, Differences differences) {
-  switch (problem.view) {
-    case View::ego:
-      return own_flow<Real>(grid, AvoidanceAhead{problem.system}, differences);
-    case View::edge:
-      return own_flow<Real>(grid, EdgeAvoidance{problem.system}, differences);
-    case View::obstacle:
-      break;
-  }
-  return own_flow<Real>(grid, problem.system, differences);
-}
-
 State padded_state(std::span<const double> entries) {
   State state{};
   std::copy(entries.begin(), entries.end(), state.begin());
@@ -212,25 +198,6 @@ double intrusion_at(const AvoidanceCase& problem, const State& state) {
   const Pose X{{state[0], state[1]}, state[2]};
   return problem.view == View::ego ? intrusion(problem.ego, {}, *problem.obstacle, X)
                                    : intrusion(problem.ego, X, *problem.obstacle, {});
-}
-
-Problem avoidance_problem(const AvoidanceCase& problem) {
-  return {.text = problem.text,
-          .grid = problem.grid,
-          .times = problem.times,
-          .tube = Tube::highest,
-          .unsafe =
-              [problem](std::span<const double> state) {
-                return intrusion_at(problem, padded_state(state));
-              },
-          .in_floats =
-              [problem](const Grid& on, Differences differences) {
-                return flow_of_case<float>(problem, on, differences);
-              },
-          .in_doubles =
-              [problem](const Grid& on, Differences differences) {
-                return flow_of_case<double>(problem, on, differences);
-              }};
 }
 
 template <class Real>

@@ -10,7 +10,6 @@
 #include "saca/core/result.h"
 #include "saca/reach/avoidance.h"
 #include "saca/reach/grid.h"
-#include "saca/reach/solve.h"
 #include "saca/world/footprint.h"
 
 namespace saca::reach {
@@ -52,9 +51,6 @@ struct AvoidanceCase {
 /// @tparam Real  float or double
 template <class Real>
 [[nodiscard]] std::vector<Real> unsafe(const AvoidanceCase& problem, int threads);
-
-/// The case, ready to be solved.
-[[nodiscard]] Problem avoidance_problem(const AvoidanceCase& problem);
 
 extern template std::vector<float> unsafe(const AvoidanceCase&, int);
 extern template std::vector<double> unsafe(const AvoidanceCase&, int);

@@ -12,6 +12,7 @@
 
 #include "saca/reach/intrusion.h"
 #include "saca/reach/own_systems.h"
+#include "saca/reach/solve.h"
 #include "saca/reach/solver.h"
 
 namespace saca::reach {
