@@ -24,6 +24,7 @@ void add_tune(CLI::App& line, int& exit_code);
 void add_atlas(CLI::App& line, int& exit_code);
 void add_reach(CLI::App& line, int& exit_code);
 void add_vehicle(CLI::App& line, int& exit_code);
+void add_reach(CLI::App& line, int& exit_code);
 void add_bench(CLI::App& line, int& exit_code);
 
 }  // namespace saca::app

@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
     add_atlas(line, exit_code);
     add_reach(line, exit_code);
     add_vehicle(line, exit_code);
+    add_reach(line, exit_code);
     add_bench(line, exit_code);
     try {
       line.parse(argc, argv);

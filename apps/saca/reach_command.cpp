@@ -8,6 +8,7 @@ void add_reach(CLI::App& line, int& exit_code) {
       "reach", "Which states can still be saved: solve, show and compare Hamilton-Jacobi values");
   reach->require_subcommand(1);
   add_reach_solve(*reach, exit_code);
+  add_reach_show(*reach, exit_code);
 }
 
 }  // namespace saca::app

@@ -88,4 +88,8 @@ Result<std::string> drive_report(std::string_view record_json) {
   return filled(drive_page, record_json, "saca.drive/1");
 }
 
+Result<std::string> value_report(std::string_view record_json) {
+  return filled(value_page, record_json, "saca.value_page/1");
+}
+
 }  // namespace saca::report

@@ -20,4 +20,7 @@ namespace saca::report {
 /// The same for the record of one manoeuvre, schema `saca.drive/1`.
 [[nodiscard]] Result<std::string> drive_report(std::string_view record_json);
 
+/// The same for a solved value, schema `saca.value_page/1` (`value_json`).
+[[nodiscard]] Result<std::string> value_report(std::string_view record_json);
+
 }  // namespace saca::report

@@ -25,11 +25,14 @@ struct Report {
 
 class HtmlReport : public testing::TestWithParam<Report> {};
 
-INSTANTIATE_TEST_SUITE_P(Both, HtmlReport,
+INSTANTIATE_TEST_SUITE_P(All, HtmlReport,
                          testing::Values(Report{"saca.record/1", html_report, &encounter_page},
-                                         Report{"saca.drive/1", drive_report, &drive_page}),
+                                         Report{"saca.drive/1", drive_report, &drive_page},
+                                         Report{"saca.value_page/1", value_report, &value_page}),
                          [](const auto& made) {
-                           return made.param.schema == "saca.drive/1" ? "Drive" : "Encounter";
+                           return made.param.schema == "saca.drive/1"    ? "Drive"
+                                  : made.param.schema == "saca.record/1" ? "Encounter"
+                                                                         : "Value";
                          });
 
 std::size_t count(std::string_view text, std::string_view what) {

@@ -13,5 +13,6 @@ struct Page {
 
 extern const Page encounter_page;  ///< shows schema `saca.record/1`
 extern const Page drive_page;      ///< shows schema `saca.drive/1`
+extern const Page value_page;      ///< shows schema `saca.value_page/1`
 
 }  // namespace saca::report
