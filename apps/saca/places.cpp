@@ -68,6 +68,10 @@ fs::path atlas_place(const Places& places, const std::string& car) {
   return places.root / "atlases" / (car + ".atlas");
 }
 
+fs::path danger_place(const Places& places, const std::string& car, const std::string& table) {
+  return places.root / "reach" / car / (table + ".h5");
+}
+
 std::optional<Error> make_folder_of(const fs::path& file) {
   std::error_code problem;
   if (file.has_parent_path()) {

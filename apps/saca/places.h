@@ -41,6 +41,10 @@ struct Places {
 /// @param car  its name
 [[nodiscard]] std::filesystem::path atlas_place(const Places& places, const std::string& car);
 
+/// Likewise one of its tables of danger.
+[[nodiscard]] std::filesystem::path danger_place(const Places& places, const std::string& car,
+                                                 const std::string& table);
+
 /// Makes the folder that `file` is to lie in.
 [[nodiscard]] std::optional<Error> make_folder_of(const std::filesystem::path& file);
 

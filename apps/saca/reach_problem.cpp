@@ -25,7 +25,7 @@ Result<reach::Problem> find_problem(const Places& places, const std::string& nam
   if (!found.has_value()) {
     return found.error();
   }
-  return reach::avoidance_problem(found.value(), text.value());
+  return reach::avoidance_problem(found.value());
 }
 
 }  // namespace saca::app

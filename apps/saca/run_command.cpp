@@ -7,6 +7,7 @@
 
 #include "apps/saca/atlas_making.h"
 #include "apps/saca/commands.h"
+#include "apps/saca/danger_making.h"
 #include "apps/saca/inputs.h"
 #include "apps/saca/model.h"
 #include "apps/saca/story.h"
@@ -30,6 +31,7 @@ struct RunOptions {
   std::optional<int> policy;
   std::optional<std::uint64_t> seed;
   std::string atlas;
+  std::string danger;
   std::string memory = "runs/memory.sqlite";
   bool no_memory = false;
   std::string output = "runs";
@@ -59,6 +61,16 @@ Result<std::optional<manoeuvre::Atlas>> open_atlas(const RunOptions& options,
   auto atlas = manoeuvre::read_atlas(options.atlas, inputs.car);
   return atlas.has_value() ? Result<std::optional<manoeuvre::Atlas>>(std::optional(atlas.value()))
                            : atlas.error();
+}
+
+/// nullopt: no tables are wanted.
+Result<std::optional<reach::DangerModel>> open_danger(const RunOptions& options,
+                                                      const ScenarioInputs& inputs) {
+  if (options.danger == "off") {
+    return std::optional<reach::DangerModel>();
+  }
+  auto model = usual_danger(inputs);
+  return model.has_value() ? Result(std::optional(std::move(model).value())) : model.error();
 }
 
 std::optional<Error> write_outputs(const std::string& record, const fs::path& folder,
@@ -111,6 +123,10 @@ int run(const RunOptions& options) {
     complain(atlas.error().message + " (--atlas off does without)");
     return bad_input;
   }
+  const auto danger = open_danger(options, inputs.value());
+  if (!danger.has_value()) {
+    return refused(danger.error());
+  }
   std::unique_ptr<memory::Store> memory;
   if (!options.no_memory) {
     if (const auto problem = make_folder_of(options.memory)) {
@@ -138,6 +154,7 @@ int run(const RunOptions& options) {
       .car = &inputs.value().car,
       .harm = &inputs.value().harm,
       .atlas = atlas.value() ? &*atlas.value() : nullptr,
+      .danger = danger.value() ? &*danger.value() : nullptr,
       .pace = pace,
       .costs = costs.value(),
       .model = model.value().get(),
@@ -214,6 +231,10 @@ void add_run(CLI::App& line, int& exit_code) {
   command->add_option("--atlas", options->atlas,
                       "A file of `saca atlas build` for this car, or off: every forecast is rolled "
                       "out (default: it is built when needed)");
+  command
+      ->add_option("--danger", options->danger,
+                   "off: risks by a few evasions (default: solved tables, made when needed)")
+      ->check(CLI::IsMember({"off"}));
   command->add_option("--memory", options->memory, "The memory bank")->capture_default_str();
   command->add_flag("--no-memory", options->no_memory, "Neither ask nor fill a memory");
   command->add_option("--output", options->output, "Folder for records and reports")

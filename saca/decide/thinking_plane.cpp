@@ -69,8 +69,10 @@ void ThinkingPlane::describe_scene(const Round& round, const preview::Threat& th
   tell(round, EventKind::preview,
        fmt::format("{} may be in conflict with the ego in {:.1f} s: preview starts",
                    actor_name(scene.actors[threat.actor]), threat.time));
-  for (const world::Actor& actor : scene.actors) {
-    const reach::ObstacleRisk risk = reach::obstacle_risk(scene, actor);
+  const auto risks = preview::obstacle_risks(scene, tools_.forecast);
+  for (std::size_t i = 0; i < risks.size(); ++i) {
+    const world::Actor& actor = scene.actors[i];
+    const reach::ObstacleRisk& risk = risks[i];
     tell(round, EventKind::risk,
          fmt::format("{}: risk {:.2f}, {}", actor_name(actor), risk.risk, explanation(risk)));
     tell(round, EventKind::intention,

@@ -135,7 +135,7 @@ std::optional<manoeuvre::Plan> Encounter::forced_plan(const Setup& setup) {
 }
 
 decide::ThinkingTools Encounter::tools() {
-  decide::ThinkingTools tools{.forecast = {setup_.car, setup_.harm, setup_.atlas},
+  decide::ThinkingTools tools{.forecast = {setup_.car, setup_.harm, setup_.atlas, setup_.danger},
                               .memory = setup_.memory,
                               .model = setup_.model,
                               .clock = setup_.clock};

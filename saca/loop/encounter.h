@@ -35,6 +35,7 @@ struct Setup {
   const manoeuvre::Car* car = nullptr;
   const outcome::HarmModel* harm = nullptr;
   const manoeuvre::Atlas* atlas = nullptr;  ///< of the car; nullptr: all forecasts are rolled out
+  const reach::DangerModel* danger = nullptr;  ///< of the car; nullptr: the best of few evasions
   preview::Thresholds thresholds;
   Pace pace = Pace::lockstep;
   ThinkingCosts costs;                        ///< for lockstep

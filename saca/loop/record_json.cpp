@@ -111,6 +111,8 @@ json preview_json(const decide::Preview& preview) {
                       {"intention", name(situation.intentions[i])},
                       {"posterior", posterior},
                       {"risk", situation.risks[i].risk},
+                      {"value_m", situation.risks[i].value},
+                      {"value_exact", situation.risks[i].exact},
                       {"risk_text", explanation(situation.risks[i])}});
   }
   json facts = json::array();

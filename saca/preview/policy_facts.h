@@ -10,6 +10,7 @@
 #include "saca/outcome/harm.h"
 #include "saca/outcome/roll_out.h"
 #include "saca/preview/situation.h"
+#include "saca/reach/danger.h"
 
 namespace saca::preview {
 
@@ -17,7 +18,8 @@ namespace saca::preview {
 struct ForecastTools {
   const manoeuvre::Car* car = nullptr;
   const outcome::HarmModel* harm = nullptr;
-  const manoeuvre::Atlas* atlas = nullptr;  ///< of this car; nullptr: everything is rolled out
+  const manoeuvre::Atlas* atlas = nullptr;     ///< of this car; nullptr: everything is rolled out
+  const reach::DangerModel* danger = nullptr;  ///< of this car; nullptr: the best of few evasions
 };
 
 /// What each policy ends in when it begins in `scene` and the actors follow their tracks, those

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "saca/intent/intention.h"
+#include "saca/reach/car_limits.h"
 #include "saca/world/time_to_conflict.h"
 
 namespace saca::preview {
@@ -146,9 +147,7 @@ std::vector<Situation> situations(const Scene& scene, const Thresholds& threshol
     situation.probability = combination.probability;
     situation.intentions = std::move(combination.intentions);
     situation.posteriors = posteriors;
-    for (const Actor& actor : situation.scene_at_trigger.actors) {
-      situation.risks.push_back(reach::obstacle_risk(situation.scene_at_trigger, actor));
-    }
+    situation.risks = obstacle_risks(situation.scene_at_trigger, tools);
     situation.facts = policy_facts(situation.scene_at_trigger, tracks, tools);
     situation.tracks = std::move(tracks);
     found.push_back(std::move(situation));
@@ -157,6 +156,20 @@ std::vector<Situation> situations(const Scene& scene, const Thresholds& threshol
     }
   }
   return found;
+}
+
+std::vector<reach::ObstacleRisk> obstacle_risks(const Scene& scene, const ForecastTools& tools) {
+  const auto judged = [&](const reach::DangerModel& model) {
+    std::vector<reach::ObstacleRisk> risks;
+    for (const Actor& actor : scene.actors) {
+      risks.push_back(reach::obstacle_risk(scene, actor, model));
+    }
+    return risks;
+  };
+  if (tools.danger != nullptr) {
+    return judged(*tools.danger);
+  }
+  return judged({reach::avoidance_of(*tools.car, scene.grip), scene.ego_footprint, {}});
 }
 
 }  // namespace saca::preview

@@ -24,4 +24,8 @@ constexpr std::size_t max_situations = 3;
                                                 const Thresholds& thresholds,
                                                 const ForecastTools& tools);
 
+/// reach::obstacle_risk of each actor, by the tools' tables where they have any.
+[[nodiscard]] std::vector<reach::ObstacleRisk> obstacle_risks(const world::Scene& scene,
+                                                              const ForecastTools& tools);
+
 }  // namespace saca::preview

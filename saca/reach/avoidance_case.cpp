@@ -9,6 +9,7 @@
 #include "saca/config/config.h"
 #include "saca/core/contract.h"
 #include "saca/core/file.h"
+#include "saca/reach/avoidance_ahead.h"
 #include "saca/reach/intrusion.h"
 
 namespace saca::reach {
@@ -54,8 +55,9 @@ Axis place_axis(Table table, std::string_view name, bool mirrored) {
   return axis;
 }
 
-Axis course_axis(Table table) {
-  return {.name = "course",
+/// A direction: all around.
+Axis angle_axis(Table table, std::string_view name) {
+  return {.name = std::string(name),
           .first = -pi,
           .last = pi,
           .points = case_points(table),
@@ -70,18 +72,21 @@ Axis speed_axis(Table table) {
   return axis;
 }
 
-Grid case_grid(Table table, bool beside_edge) {
+Grid case_grid(Table table, View view) {
+  const bool is_ego = view == View::ego;
+  const std::string_view along = is_ego ? "ahead" : "x";
+  const std::string_view across = is_ego ? "left" : "y";
+  const std::string_view angle = is_ego ? "turned" : "course";
   Grid grid;
-  if (beside_edge) {
-    grid.axes.push_back(place_axis(table.table("y"), "y", false));
-  } else {
-    grid.axes.push_back(place_axis(table.table("x"), "x", false));
-    Axis y = place_axis(table.table("y"), "y", true);
-    y.edge = Edge::mirrored;
-    y.turned = 2;
-    grid.axes.push_back(y);
+  if (view != View::edge) {
+    grid.axes.push_back(place_axis(table.table(along), along, false));
   }
-  grid.axes.push_back(course_axis(table.table("course")));
+  grid.axes.push_back(place_axis(table.table(across), across, view != View::edge));
+  if (view != View::edge) {  // left and right are alike
+    grid.axes.back().edge = Edge::mirrored;
+    grid.axes.back().turned = 2;
+  }
+  grid.axes.push_back(angle_axis(table.table(angle), angle));
   grid.axes.push_back(speed_axis(table.table("speed")));
   return grid;
 }
@@ -94,15 +99,35 @@ Avoidance case_system(Table table) {
   return system;
 }
 
-void case_times(Table& root, AvoidanceCase& problem) {
-  problem.horizon = root.number("horizon_s", {0.01, 100.0});
-  problem.snapshots = root.numbers("snapshots_s", {1e-6, problem.horizon});
-  const auto not_rising = std::adjacent_find(problem.snapshots.begin(), problem.snapshots.end(),
-                                             [](double a, double b) { return a >= b; });
-  if (not_rising != problem.snapshots.end()) {
+std::vector<double> case_times(Table& root) {
+  std::vector<double> times = root.numbers("snapshots_s", {0.01, 100.0});
+  if (times.empty()) {
+    root.reject("snapshots_s", "want at least one time");
+  }
+  const auto not_rising =
+      std::adjacent_find(times.begin(), times.end(), [](double a, double b) { return a >= b; });
+  if (not_rising != times.end()) {
     root.reject("snapshots_s", fmt::format("want rising times, got {} before {}", *not_rising,
                                            *std::next(not_rising)));
   }
+  return times;
+}
+
+View case_view(Table& root, bool beside_edge) {
+  if (beside_edge) {
+    return View::edge;
+  }
+  const std::string word = root.text("seen_from");
+  if (word != "ego" && word != "obstacle") {
+    root.reject("seen_from", fmt::format("want ego or obstacle, got {}", word));
+  }
+  return word == "ego" ? View::ego : View::obstacle;
+}
+
+State padded_state(std::span<const double> entries) {
+  State state{};
+  std::copy(entries.begin(), entries.end(), state.begin());
+  return state;
 }
 
 /// The grid without its last axis, speed, on which h does not depend.
@@ -131,7 +156,8 @@ Result<AvoidanceCase> parse_avoidance_case(std::string_view text, std::string_vi
   AvoidanceCase problem;
   root.want_schema("saca.avoidance/1");
   problem.name = root.plain_name("name");
-  case_times(root, problem);
+  problem.text = text;
+  problem.times = case_times(root);
   problem.system = case_system(root.table("car"));
   Table ego = root.table("ego");
   problem.ego = case_footprint(ego, "").value_or(world::Footprint{});
@@ -141,7 +167,8 @@ Result<AvoidanceCase> parse_avoidance_case(std::string_view text, std::string_vi
   if (problem.obstacle) {
     problem.system.obstacle_speed = obstacle.number("speed_mps", {-60.0, 60.0});
   }
-  problem.grid = case_grid(root.table("grid"), !problem.obstacle);
+  problem.view = case_view(root, !problem.obstacle);
+  problem.grid = case_grid(root.table("grid"), problem.view);
   if (const auto error = document.value().error(); error.has_value()) {
     return *error;
   }
@@ -151,20 +178,32 @@ Result<AvoidanceCase> parse_avoidance_case(std::string_view text, std::string_vi
   return problem;
 }
 
+State grid_state(View view, const State& state) {
+  switch (view) {
+    case View::ego:
+      return seen_by_ego(state);
+    case View::edge:
+      return {state[1], state[2], state[3], 0.0};
+    case View::obstacle:
+      break;
+  }
+  return state;
+}
+
 double intrusion_at(const AvoidanceCase& problem, const State& state) {
-  if (!problem.obstacle) {
+  expects(problem.obstacle.has_value() == (problem.view != View::edge), "the view fits");
+  if (problem.view == View::edge) {
     return intrusion(problem.ego, {{0.0, state[0]}, state[1]}, HalfPlane{});
   }
-  return intrusion(problem.ego, {{state[0], state[1]}, state[2]}, *problem.obstacle, {});
+  const Pose X{{state[0], state[1]}, state[2]};
+  return problem.view == View::ego ? intrusion(problem.ego, {}, *problem.obstacle, X)
+                                   : intrusion(problem.ego, X, *problem.obstacle, {});
 }
 
 template <class Real>
 std::vector<Real> unsafe(const AvoidanceCase& problem, int threads) {
-  expects(problem.grid.axes.size() == (problem.obstacle ? 4 : 3), "the grid fits the obstacle");
   const auto h = [&](std::span<const double> place) {
-    State state{};
-    std::copy(place.begin(), place.end(), state.begin());
-    return intrusion_at(problem, state);
+    return intrusion_at(problem, padded_state(place));
   };
   std::vector<Real> values = sampled<Real>(without_speed(problem.grid), h, threads);
   const auto at_one_speed = static_cast<std::ptrdiff_t>(values.size());

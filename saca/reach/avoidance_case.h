@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -13,19 +14,24 @@
 
 namespace saca::reach {
 
+/// The coordinates in which a case is solved, and what its grid's axes are.
+enum class View : std::uint8_t {
+  obstacle,  ///< x, y, course, speed: `Avoidance`; y is mirrored and turns course
+  ego,       ///< ahead, left, turned, speed: `AvoidanceAhead`; left is mirrored and turns turned
+  edge,      ///< y, course, speed: `EdgeAvoidance`, beside a road edge alone
+};
+
 /// One avoidance problem as it stands in a file of `data/reach/`.
 struct AvoidanceCase {
   std::string name;
+  std::string text;  ///< the file's
+  View view = View::obstacle;
   Avoidance system;
   world::Footprint ego;  ///< about the centre of mass
-  /// At the origin, its length along x. nullopt: all ground with y >= 0, beyond a road's left edge;
-  /// then x does not matter and the state is y, course, speed (`EdgeAvoidance`).
+  /// At the origin, its length along x. nullopt: all ground with y >= 0, beyond a road's left edge.
   std::optional<world::Footprint> obstacle;
-  /// x, y, course, speed, or the last three. Beside an obstacle y is mirrored, for left and right
-  /// are alike, and turns course.
   Grid grid;
-  double horizon = 0.0;           ///< [s], > 0
-  std::vector<double> snapshots;  ///< [s], rising, in (0, horizon]
+  std::vector<double> times;  ///< of the snapshots [s], > 0, rising; the last is the horizon
 };
 
 /// @return  Error::Code::unreadable, or ::malformed naming file, line and what is wanted
@@ -33,6 +39,9 @@ struct AvoidanceCase {
 /// @param source  name for messages
 [[nodiscard]] Result<AvoidanceCase> parse_avoidance_case(std::string_view text,
                                                          std::string_view source);
+
+/// Coordinates of the case's grid for x, y, course and speed in the obstacle's frame.
+[[nodiscard]] State grid_state(View view, const State& state);
 
 /// h: how deep the ego stands in the obstacle, or beyond the edge [m].
 /// @param state  of the case's grid

@@ -12,6 +12,7 @@
 
 #include "saca/reach/intrusion.h"
 #include "saca/reach/own_systems.h"
+#include "saca/reach/solve.h"
 #include "saca/reach/solver.h"
 
 namespace saca::reach {
@@ -21,7 +22,7 @@ constexpr double pi = std::numbers::pi;
 
 const std::string small_case = R"(schema = "saca.avoidance/1"
 name = "small"
-horizon_s = 2.0
+seen_from = "obstacle"
 snapshots_s = [0.5, 2.0]
 [car]
 grip = 0.5
@@ -66,9 +67,9 @@ AvoidanceCase parsed(const std::string& text) {
 
 /// A disc of radius 1 m beside a left edge: its value is known.
 AvoidanceCase disc_at_edge(int refined) {
-  std::string text =
-      with(small_case, "shape = \"ellipse\"\nlength_m = 7.0\nwidth_m = 3.5\nspeed_mps = 3.0",
-           "shape = \"left_edge\"");
+  std::string text = with(with(small_case, "seen_from = \"obstacle\"\n", ""),
+                          "shape = \"ellipse\"\nlength_m = 7.0\nwidth_m = 3.5\nspeed_mps = 3.0",
+                          "shape = \"left_edge\"");
   text = with(text, "shape = \"box\"\nlength_m = 4.0\nwidth_m = 2.0\ncentre_m = -0.2",
               "shape = \"ellipse\"\nlength_m = 2.0\nwidth_m = 2.0\ncentre_m = 0.0");
   text = with(text, "[grid.x]\nfirst_m = -20.0\nlast_m = 12.0\npoints = 9\nstretch_m = 6.0\n", "");
@@ -98,8 +99,9 @@ std::vector<float> solved(const AvoidanceCase& problem, const System& system, do
 TEST(AvoidanceCase, ReadsEveryKey) {
   const AvoidanceCase problem = parsed(small_case);
   EXPECT_EQ(problem.name, "small");
-  EXPECT_EQ(problem.horizon, 2.0);
-  EXPECT_EQ(problem.snapshots, (std::vector<double>{0.5, 2.0}));
+  EXPECT_EQ(problem.text, small_case);
+  EXPECT_EQ(problem.view, View::obstacle);
+  EXPECT_EQ(problem.times, (std::vector<double>{0.5, 2.0}));
   EXPECT_EQ(problem.system.grip, 0.5);
   EXPECT_EQ(problem.system.tightest_curvature, 0.2);
   EXPECT_EQ(problem.system.drive_share, 0.4);
@@ -134,7 +136,9 @@ TEST(AvoidanceCase, RefusesWhatItDoesNotKnow) {
   EXPECT_THAT(message("drive_share = 0.4\n", ""), HasSubstr("drive_share"));
   EXPECT_THAT(message("\"ellipse\"", "\"blob\""), AllOf(HasSubstr("left_edge"), HasSubstr("blob")));
   EXPECT_THAT(message("\"box\"", "\"left_edge\""), HasSubstr("want box, ellipse, segment, got"));
-  EXPECT_THAT(message("[0.5, 2.0]", "[0.5, 2.5]"), HasSubstr("snapshots_s"));
+  EXPECT_THAT(message("[0.5, 2.0]", "[]"), HasSubstr("snapshots_s"));
+  EXPECT_THAT(message("\"obstacle\"", "\"moon\""), HasSubstr("want ego or obstacle, got moon"));
+  EXPECT_THAT(message("\"obstacle\"", "\"ego\""), HasSubstr("ahead"));
   EXPECT_THAT(message("[0.5, 2.0]", "[2.0, 0.5]"), HasSubstr("rising"));
   EXPECT_THAT(message("last_m = 12.0", "last_m = -30.0"), HasSubstr("last_m"));
   EXPECT_THAT(message("points = 9", "points = 1"), HasSubstr("points"));
@@ -153,6 +157,20 @@ TEST(AvoidanceCase, EveryFileOfTheDataCanBeRead) {
   }
   EXPECT_THAT(names, testing::IsSupersetOf({"parked_car", "paper_ellipse", "truck", "walker",
                                             "moving_car", "road_edge"}));
+}
+
+// The same bodies in the same place, whoever looks.
+TEST(AvoidanceCase, BothViewsHaveTheSameIntrusion) {
+  const AvoidanceCase problem = parsed(small_case);
+  AvoidanceCase seen = problem;
+  seen.view = View::ego;
+  for (std::size_t i = 0; i < num_cells(problem.grid); i += 7) {
+    const State state = state_at(problem.grid, i);
+    EXPECT_NEAR(intrusion_at(seen, grid_state(View::ego, state)), intrusion_at(problem, state),
+                1e-9);
+  }
+  EXPECT_EQ(grid_state(View::obstacle, {1.0, 2.0, 3.0, 4.0}), (State{1.0, 2.0, 3.0, 4.0}));
+  EXPECT_EQ(grid_state(View::edge, {1.0, 2.0, 3.0, 4.0}), (State{2.0, 3.0, 4.0, 0.0}));
 }
 
 TEST(AvoidanceCase, UnsafeIsTheIntrusionAtEveryCell) {
@@ -204,6 +222,79 @@ TEST(AvoidanceCase, ValueBesideAnEdgeIsThatOfTheClosedForm) {
 
 // Scaling the speeds, and with them the time, leaves every number of the scheme the same, up to the
 // rounding of floats: 1e-6 of 20 m, over some ten steps.
+std::vector<float> solved_to(AvoidanceCase problem, double horizon, const Scheme& scheme) {
+  problem.times = {horizon};
+  const auto result = solve(avoidance_problem(problem), scheme, std::nullopt, {});
+  EXPECT_TRUE(result.has_value()) << (result.has_value() ? "" : result.error().message);
+  return snapshot(result.value(), 0);
+}
+
+/// The small case seen from the ego.
+AvoidanceCase small_case_seen() {
+  std::string text = with(small_case, "\"obstacle\"", "\"ego\"");
+  text = with(text, "grid.x", "grid.ahead");
+  text = with(text, "first_m = -20.0\nlast_m = 12.0", "first_m = -12.0\nlast_m = 20.0");
+  text = with(text, "grid.y", "grid.left");
+  return parsed(with(text, "grid.course", "grid.turned"));
+}
+
+// First differences and Euler's equal steps are a monotone scheme, for which this holds exactly but
+// for the open ends: values go on there with the last slope, which is no monotone rule. That, and
+// steps that differ with the inputs, are worth 0.1 m of 20 m on this coarse grid.
+TEST(AvoidanceCase, LongerHorizonsAndLessGripAreNeverSafer) {
+  const Scheme monotone{
+      .differences = Differences::upwind1, .steps = Steps::euler, .cfl = 0.9, .with_error = false};
+  for (const AvoidanceCase& problem : {parsed(small_case), small_case_seen()}) {
+    AvoidanceCase better = problem;
+    better.system.grip = 0.8;
+    AvoidanceCase wider = problem;
+    wider.system.tightest_curvature = 0.3;
+    wider.system.drive_share = 0.6;
+    const auto h = unsafe<float>(problem, 1);
+    const Flow<float> flow =
+        avoidance_problem(problem).in_floats(problem.grid, monotone.differences);
+    const double step = monotone.cfl / flow.crossings_per_second;
+    const auto soon = solved_to(problem, 8 * step, monotone);
+    const auto late = solved_to(problem, 24 * step, monotone);
+    const auto late_better = solved_to(better, 24 * step, monotone);
+    const auto late_wider = solved_to(wider, 24 * step, monotone);
+    double gained = 0.0;
+    for (std::size_t i = 0; i < h.size(); ++i) {
+      EXPECT_LE(h[i], soon[i]);
+      EXPECT_LE(soon[i], late[i] + 0.1F);
+      EXPECT_LE(late_better[i], late[i] + 0.1F);
+      EXPECT_LE(late_wider[i], late[i] + 0.1F);
+      gained = std::max(gained, static_cast<double>(late[i] - late_better[i]));
+    }
+    EXPECT_GT(gained, 0.3);
+  }
+}
+
+// The mirrored half and the whole are the same problem.
+TEST(AvoidanceCase, LeftAndRightAreAlike) {
+  for (const AvoidanceCase& half : {parsed(small_case), small_case_seen()}) {
+    AvoidanceCase whole = half;
+    Axis& across = whole.grid.axes[1];
+    across.edge = Edge::open;
+    across.turned = std::nullopt;
+    across.first = -across.last;
+    across.points = 2 * across.points - 1;
+    const auto values = solved_to(half, 1.0, {.with_error = false});
+    const auto all = solved_to(whole, 1.0, {.with_error = false});
+    const int beyond = half.grid.axes[1].points - 1;  // points at y < 0
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      Cell cell = cell_at(half.grid, i);
+      cell[1] += beyond;
+      const std::vector<std::size_t> stride = strides(whole.grid);
+      std::size_t number = 0;
+      for (std::size_t axis = 0; axis < stride.size(); ++axis) {
+        number += stride[axis] * static_cast<std::size_t>(cell[axis]);
+      }
+      ASSERT_NEAR(values[i], all[number], 1e-4) << described(half.grid, state_at(half.grid, i));
+    }
+  }
+}
+
 TEST(AvoidanceCase, SolvedAtAnotherGripIsTheSameValueAtScaledSpeeds) {
   const AvoidanceCase problem = parsed(small_case);
   const auto values = solved(problem, problem.system, 1.0);

@@ -20,6 +20,8 @@ template Flow<float> own_flow(const Grid&, const Air3d&, Differences, Level);
 template Flow<double> own_flow(const Grid&, const Air3d&, Differences, Level);
 template Flow<float> own_flow(const Grid&, const Avoidance&, Differences, Level);
 template Flow<double> own_flow(const Grid&, const Avoidance&, Differences, Level);
+template Flow<float> own_flow(const Grid&, const AvoidanceAhead&, Differences, Level);
+template Flow<double> own_flow(const Grid&, const AvoidanceAhead&, Differences, Level);
 template Flow<float> own_flow(const Grid&, const EdgeAvoidance&, Differences, Level);
 template Flow<double> own_flow(const Grid&, const EdgeAvoidance&, Differences, Level);
 

@@ -13,6 +13,8 @@ template Kernel<float, Air3d> kernel_avx2(Differences);
 template Kernel<double, Air3d> kernel_avx2(Differences);
 template Kernel<float, Avoidance> kernel_avx2(Differences);
 template Kernel<double, Avoidance> kernel_avx2(Differences);
+template Kernel<float, AvoidanceAhead> kernel_avx2(Differences);
+template Kernel<double, AvoidanceAhead> kernel_avx2(Differences);
 template Kernel<float, EdgeAvoidance> kernel_avx2(Differences);
 template Kernel<double, EdgeAvoidance> kernel_avx2(Differences);
 

@@ -2,6 +2,7 @@
 
 #include "saca/reach/air3d.h"
 #include "saca/reach/avoidance.h"
+#include "saca/reach/avoidance_ahead.h"
 #include "saca/reach/sweep.h"
 
 /// Inner loops of the project's own systems by instruction set. Not part of the library's

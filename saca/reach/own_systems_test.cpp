@@ -51,6 +51,11 @@ TEST(OwnFlow, IsTheSameOnEachInstructionSet) {
         course,
         speed}},
       Avoidance{.obstacle_speed = 4.0});
+  expect_levels_agree({{{.name = "ahead", .first = -10.0, .last = 20.0, .points = 17},
+                        {.name = "left", .first = -10.0, .last = 10.0, .points = 8},
+                        course,
+                        speed}},
+                      AvoidanceAhead{{.obstacle_speed = 4.0}});
   expect_levels_agree({{{.name = "y", .first = -20.0, .last = 10.0, .points = 17}, course, speed}},
                       EdgeAvoidance{});
 }

@@ -1,31 +1,44 @@
 #pragma once
 
-#include <optional>
 #include <string>
 
+#include "saca/reach/danger.h"
 #include "saca/world/scene.h"
 
 namespace saca::reach {
 
-/// How dangerous an actor is to the ego, in view of what the ego can still do.
-struct ObstacleRisk {
-  double risk = 0.0;  ///< in [0, 1]; 0 no conflict, 1 braking and swerving both come too late
-  std::optional<double>
-      room_needed;          ///< by the better of braking and swerving [m]; nullopt: no conflict
-  double room_there = 0.0;  ///< from the ego to the actor along the ego's path [m]
-  bool swerve_is_better = false;  ///< of the two
+/// V_h between which the risk rises from 0 to 1: the sensitivity parameters of eq. 4.
+struct RiskScale {
+  double lowest = -30.0;  ///< V_h^min [m]
+  double highest = 0.0;   ///< V_h^max [m]
 };
 
-/// Room needed by the best of braking and swerving over the room there, at most 1.
-///
-/// Braking: the way that the ego takes until it is at rest (or as slow as an actor that drives on)
-/// beyond that of the actor, at grip x g after 0.10 s. Swerving: the way until the footprints are
-/// clear of each other to the side where the road is wide enough, at 0.8 x grip x g after 0.12 s.
-/// Both delays reproduce the reference manoeuvres in docs/architecture.md. A conflict is looked for
-/// over 10 s, with 0.5 s tolerance for crossing traffic.
-[[nodiscard]] ObstacleRisk obstacle_risk(const world::Scene& scene, const world::Actor& actor);
+/// Vehicles and obstacles: from a miss by 30 m, the authors' own number, to a touch. People outside
+/// vehicles: to a miss by 1 m, which is no longer a miss for somebody who may take a step.
+[[nodiscard]] RiskScale risk_scale(world::ActorKind kind);
 
-/// The same in one line, e.g. "braking needs 18.2 m of the 25.0 m that are there".
+/// How dangerous an actor is to the ego, in view of what the ego can still do.
+struct ObstacleRisk {
+  double risk = 0.0;     ///< R(x) of eq. 4, in [0, 1]
+  double value = -30.0;  ///< V_h [m]: depth of the best evasion's contact; < 0: its room
+  bool exact = true;     ///< as in `Danger`, and the actor moves as the problem says
+};
+
+/// V_h of the actor as an obstacle that keeps its velocity, and the risk that follows (eq. 4).
+///
+/// The problem knows neither the road's edges nor other actors nor that the actor may brake or
+/// turn: those are what `intent` and the rollouts are for. An actor that slides aside by more than
+/// 0.5 m/s moves along its velocity for the problem, its body being that of a disc around it; the
+/// answer is then conservative, not exact.
+[[nodiscard]] ObstacleRisk obstacle_risk(const world::Scene& scene, const world::Actor& actor,
+                                         const DangerModel& model);
+
+/// The meeting of ego and actor, by the frame of `avoidance.h`.
+[[nodiscard]] Meeting meeting_of(const world::Scene& scene, const world::Actor& actor);
+/// The obstacle's frame in the world: where its x points, there it moves.
+[[nodiscard]] Pose obstacle_frame(const world::Actor& actor);
+
+/// The same in one line: "best evasion misses by 1.2 m", "best evasion still hits 0.4 m deep".
 [[nodiscard]] std::string explanation(const ObstacleRisk& risk);
 
 }  // namespace saca::reach

@@ -184,10 +184,10 @@ Problem air3d_problem(const Grid& grid, const Air3d& game) {
               }};
 }
 
-Problem avoidance_problem(const AvoidanceCase& asked, std::string text) {
-  Problem problem{.text = std::move(text),
+Problem avoidance_problem(const AvoidanceCase& asked) {
+  Problem problem{.text = asked.text,
                   .grid = asked.grid,
-                  .times = asked.snapshots,
+                  .times = asked.times,
                   .tube = Tube::highest,
                   .unsafe =
                       [asked](std::span<const double> x) {
@@ -197,9 +197,6 @@ Problem avoidance_problem(const AvoidanceCase& asked, std::string text) {
                       },
                   .in_floats = {},
                   .in_doubles = {}};
-  if (problem.times.empty() || problem.times.back() < asked.horizon) {
-    problem.times.push_back(asked.horizon);
-  }
   const auto set_flows = [&](const auto& system) {
     problem.in_floats = [system](const Grid& on, Differences differences) {
       return own_flow<float>(on, system, differences);
@@ -208,10 +205,16 @@ Problem avoidance_problem(const AvoidanceCase& asked, std::string text) {
       return own_flow<double>(on, system, differences);
     };
   };
-  if (asked.obstacle) {
-    set_flows(asked.system);
-  } else {
-    set_flows(EdgeAvoidance{asked.system});
+  switch (asked.view) {
+    case View::obstacle:
+      set_flows(asked.system);
+      break;
+    case View::ego:
+      set_flows(AvoidanceAhead{asked.system});
+      break;
+    case View::edge:
+      set_flows(EdgeAvoidance{asked.system});
+      break;
   }
   return problem;
 }

@@ -32,8 +32,7 @@ struct Problem {
 [[nodiscard]] Problem air3d_problem(const Grid& grid, const Air3d& game = {});
 
 /// What a case file asks for.
-/// @param text  of the file
-[[nodiscard]] Problem avoidance_problem(const AvoidanceCase& asked, std::string text);
+[[nodiscard]] Problem avoidance_problem(const AvoidanceCase& asked);
 
 struct Scheme {
   Differences differences = Differences::weno5;

@@ -1,0 +1,29 @@
+#include "saca/reach/car_limits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "saca/core/contract.h"
+
+namespace saca::reach {
+
+Avoidance avoidance_of(const vehicle::Vehicle& car, double grip) {
+  expects(grip > 0.0, "grip > 0");
+  const double wheelbase = car.front_arm + car.rear_arm;
+  const double front_load = car.rear_arm / wheelbase;  // of the weight
+  // An axle that takes a part of the drive spins when that exceeds its load's part of the grip.
+  const auto most = [](double load, double part) {
+    return part > 0.0 ? load / part : std::numeric_limits<double>::infinity();
+  };
+  const double by_grip = std::min(most(front_load, car.motor_front_share),
+                                  most(1.0 - front_load, 1.0 - car.motor_front_share));
+  const double by_motor = car.motor_limit / (car.wheel_radius * car.mass * vehicle::gravity * grip);
+  return {.grip = grip,
+          .tightest_curvature =
+              1.0 / std::hypot(wheelbase / std::tan(car.steering_limit), car.rear_arm),
+          .drive_share = std::min({1.0, by_grip, by_motor}),
+          .obstacle_speed = 0.0};
+}
+
+}  // namespace saca::reach

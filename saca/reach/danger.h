@@ -1,0 +1,72 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "saca/reach/avoidance.h"
+#include "saca/reach/value_table.h"
+#include "saca/world/footprint.h"
+
+namespace saca::reach {
+
+/// The ego and one obstacle that keeps its velocity, as the avoidance problem sees them.
+struct Meeting {
+  world::Footprint ego;       ///< about its centre of mass
+  world::Footprint obstacle;  ///< about its own centre: centre_x is not used
+  double grip = 0.9;
+  double obstacle_speed = 0.0;  ///< along its x, >= 0 [m/s]
+  State state{};                ///< x, y, course, speed of the ego in the obstacle's frame
+};
+
+/// V_h of a meeting (eq. 1 of the paper).
+struct Danger {
+  double value = 0.0;  ///< how deep the best evasion still runs into the obstacle, its known error
+                       ///< added [m]; less than 0: minus the room by which it misses
+  bool exact = false;  ///< read from a solved table; else the best of a few evasions: no evasion
+                       ///< need be worse, the best may be better
+};
+
+/// A solved avoidance problem: one obstacle at one speed.
+struct DangerTable {
+  world::Footprint obstacle;
+  double obstacle_speed = 0.0;
+  std::shared_ptr<const ValueTable> values;  ///< over x, y, course, speed
+};
+
+/// By how much two bodies about their own centres differ: what each reaches beyond the other [m].
+[[nodiscard]] double misfit(const world::Footprint& a, const world::Footprint& b);
+
+/// How dangerous obstacles are to one car, by solved tables where there are any.
+///
+/// Tables of one grip serve all (`scaled_to`). Between two obstacle speeds values are interpolated.
+/// A body that reaches beyond that of the table by d adds d to the value: it lies within the
+/// table's body grown by d, and a value shifts as its h does. Beyond a table's ends, or without
+/// one, the ego first goes straight on, or brakes, until there is one; or the best of a few
+/// constant inputs is taken, followed to the end. Both are evasions, so V_h is at most what is
+/// told.
+class DangerModel {
+ public:
+  /// @param car     limits of the car; its grip is that of the tables
+  /// @param ego     the tables' ego
+  /// @param tables  of any obstacles and speeds, in any order; may be none
+  /// @throws ContractViolation  if a table is not over four axes, or a number is out of range
+  DangerModel(const Avoidance& car, const world::Footprint& ego, std::vector<DangerTable> tables);
+
+  /// @throws ContractViolation  if a number of the meeting is not finite, a size not > 0, or the
+  ///                            grip or a speed out of range
+  [[nodiscard]] Danger danger(const Meeting& meeting) const;
+
+ private:
+  /// Tables of one obstacle, by rising speed.
+  using Family = std::vector<DangerTable>;
+
+  [[nodiscard]] const Family* family_for(const world::Footprint& obstacle) const;
+  [[nodiscard]] Danger by_tables(const Family& family, const Meeting& meeting) const;
+  [[nodiscard]] Danger by_few_evasions(const Meeting& meeting) const;
+
+  Avoidance car_;
+  world::Footprint ego_;
+  std::vector<Family> families_;
+};
+
+}  // namespace saca::reach

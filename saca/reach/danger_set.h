@@ -1,0 +1,37 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "saca/reach/avoidance_case.h"
+#include "saca/reach/danger.h"
+
+namespace saca::reach {
+
+/// A kind of obstacle that is to be judged, and how fast it may become on which grip.
+struct ToBeJudged {
+  world::Footprint obstacle;
+  double top_speed = 0.0;  ///< [m/s], >= 0
+};
+
+/// A table that a `DangerModel` is to have.
+struct DangerCase {
+  std::string name;  ///< of its file: body and speed, e.g. "car_10mps"
+  std::string text;  ///< TOML, as of a case in data/reach: what the file of its values answers
+  AvoidanceCase asked;
+};
+
+/// The tables with which these obstacles can be judged: for each, those of the standard body
+/// nearest to it (person or cycle, car, truck, articulated truck) at rest and in steps of speed up
+/// to its top speed. Each has 0.67 million cells and takes seconds to solve.
+///
+/// The steps, and the cells: docs/decisions/0014 has what they cost in accuracy.
+/// @param car   of the ego; its grip is that of the tables
+/// @param grip  of the road on which they are to serve: on less than the tables' a speed counts for
+///              more [-], > 0
+[[nodiscard]] std::vector<DangerCase> danger_cases(const Avoidance& car,
+                                                   const world::Footprint& ego, double grip,
+                                                   std::span<const ToBeJudged> wanted);
+
+}  // namespace saca::reach

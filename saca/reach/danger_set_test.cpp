@@ -1,0 +1,66 @@
+#include "saca/reach/danger_set.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "saca/core/contract.h"
+
+namespace saca::reach {
+namespace {
+
+using testing::ElementsAre;
+using world::Footprint;
+using world::Shape;
+
+constexpr Avoidance car{.grip = 0.9, .tightest_curvature = 0.235, .drive_share = 0.48};
+constexpr Footprint ego{.length = 4.7, .width = 1.9, .centre_x = -0.1};
+
+std::vector<std::string> names(double grip, std::vector<ToBeJudged> wanted) {
+  std::vector<std::string> found;
+  for (const DangerCase& one : danger_cases(car, ego, grip, wanted)) {
+    found.push_back(one.name);
+  }
+  return found;
+}
+
+TEST(DangerCases, AreOfTheBodyNearestToWhatIsThere) {
+  EXPECT_THAT(names(0.9, {{{.length = 4.4, .width = 1.8}, 0.0}}), ElementsAre("car_0mps"));
+  EXPECT_THAT(names(0.9, {{{.length = 0.5, .width = 0.5}, 0.0}}), ElementsAre("person_0mps"));
+  EXPECT_THAT(names(0.9, {{{.length = 1.8, .width = 0.6}, 0.0}}), ElementsAre("person_0mps"));
+  EXPECT_THAT(names(0.9, {{{.length = 8.5, .width = 2.5}, 0.0}}), ElementsAre("truck_0mps"));
+  EXPECT_THAT(names(0.9, {{{.length = 18.0, .width = 2.5}, 0.0}}), ElementsAre("articulated_0mps"));
+  EXPECT_THAT(names(0.9, {}), testing::IsEmpty());
+}
+
+TEST(DangerCases, ReachUpToTheTopSpeedAndOnlyOnce) {
+  const Footprint body{.length = 4.8, .width = 1.9};
+  EXPECT_THAT(names(0.9, {{body, 10.0}, {body, 3.0}}),
+              ElementsAre("car_0mps", "car_5mps", "car_10mps"));
+  EXPECT_THAT(names(0.9, {{body, 10.1}}), testing::SizeIs(4));
+}
+
+// On a quarter of the grip a speed counts twice.
+TEST(DangerCases, OnLessGripReachFarther) {
+  const Footprint body{.length = 4.8, .width = 1.9};
+  EXPECT_THAT(names(0.225, {{body, 10.0}}), testing::SizeIs(5));
+}
+
+TEST(DangerCases, HoldWhatTheyWereAskedFor) {
+  const auto cases =
+      danger_cases(car, ego, 0.9, std::vector<ToBeJudged>{{{.length = 4.8, .width = 1.9}, 2.0}});
+  ASSERT_EQ(cases.size(), 2U);
+  const AvoidanceCase& asked = cases[1].asked;
+  EXPECT_EQ(asked.system.obstacle_speed, 5.0);
+  EXPECT_EQ(asked.system.drive_share, 0.48);
+  EXPECT_EQ(asked.ego.centre_x, -0.1);
+  EXPECT_EQ(asked.obstacle->length, 4.8);
+  EXPECT_EQ(num_cells(asked.grid), 41U * 21U * 60U * 13U);
+  EXPECT_NE(cases[0].text, cases[1].text);
+  EXPECT_THROW((void)danger_cases(car, ego, 0.9, std::vector<ToBeJudged>{{ego, -1.0}}),
+               ContractViolation);
+}
+
+}  // namespace
+}  // namespace saca::reach

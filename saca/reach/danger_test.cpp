@@ -1,0 +1,174 @@
+#include "saca/reach/danger.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "saca/core/contract.h"
+#include "saca/reach/own_systems.h"
+#include "saca/reach/solve.h"
+
+namespace saca::reach {
+namespace {
+
+using world::Footprint;
+using world::Shape;
+
+constexpr double pi = std::numbers::pi;
+constexpr Avoidance car{.grip = 0.9, .tightest_curvature = 0.235, .drive_share = 0.48};
+constexpr Footprint disc{.shape = Shape::ellipse, .length = 2.0, .width = 2.0};
+constexpr Footprint ego{.shape = Shape::ellipse, .length = 2.0, .width = 2.0};
+
+/// Two discs of radius 1: h = 2 - distance.
+AvoidanceCase discs(double obstacle_speed) {
+  AvoidanceCase asked;
+  asked.system = car;
+  asked.system.obstacle_speed = obstacle_speed;
+  asked.ego = ego;
+  asked.obstacle = disc;
+  asked.grid.axes = {
+      {.name = "x", .first = -40.0, .last = 40.0, .points = 33, .stretch = 6.0},
+      {.name = "y",
+       .first = 0.0,
+       .last = 40.0,
+       .points = 17,
+       .edge = Edge::mirrored,
+       .stretch = 6.0,
+       .turned = 2},
+      {.name = "course", .first = -pi, .last = pi, .points = 32, .edge = Edge::periodic},
+      {.name = "speed", .first = 0.0, .last = 20.0, .points = 9}};
+  asked.horizon = 3.0;
+  return asked;
+}
+
+DangerTable solved(double obstacle_speed) {
+  const Problem problem = avoidance_problem(discs(obstacle_speed), "");
+  const auto values = solve(problem, {.steps = Steps::tvd_rk2, .threads = 2}, std::nullopt, {});
+  EXPECT_TRUE(values.has_value());
+  return {disc, obstacle_speed,
+          std::make_shared<ValueTable>(problem.grid, snapshot(values.value(), 0),
+                                       values.value().error)};
+}
+
+const DangerModel& with_tables() {
+  static const DangerModel model(car, ego, {solved(3.0), solved(0.0)});
+  return model;
+}
+const DangerModel& without() {
+  static const DangerModel model(car, ego, {});
+  return model;
+}
+
+Meeting ahead(double distance, double speed) {
+  return {.ego = ego,
+          .obstacle = disc,
+          .grip = 0.9,
+          .obstacle_speed = 0.0,
+          .state = {-distance, 0.0, 0.0, speed}};
+}
+
+// Braking alone comes to rest v^2 / 2 mu g before: no evasion can be worse than that.
+TEST(Danger, IsNoMoreThanBrakingLeaves) {
+  for (const DangerModel* model : {&with_tables(), &without()}) {
+    for (const double v : {5.0, 10.0, 15.0}) {
+      for (const double distance : {10.0, 16.0, 20.0}) {
+        const double by_braking = 2.0 - (distance - v * v / (2.0 * 0.9 * 9.80665));
+        const double slack = model == &without() ? 1e-3 : 1.5;  // the table's own error is added
+        EXPECT_LE(model->danger(ahead(distance, v)).value,
+                  std::max(by_braking, 2.0 - distance) + slack)
+            << v << ' ' << distance;
+      }
+    }
+  }
+}
+
+// The few evasions are evasions: the exact value is below theirs, up to its own error.
+TEST(Danger, OfATableIsNoMoreThanOfAFewEvasions) {
+  double exact_sum = 0.0;
+  double few_sum = 0.0;
+  for (const double v : {6.0, 12.0, 18.0}) {
+    for (const double distance : {8.0, 14.0, 20.0}) {
+      for (const double aside : {0.0, 1.0, -2.5}) {
+        Meeting meeting = ahead(distance, v);
+        meeting.state[1] = aside;
+        const Danger exact = with_tables().danger(meeting);
+        EXPECT_TRUE(exact.exact);
+        const Danger few = without().danger(meeting);
+        EXPECT_FALSE(few.exact);
+        EXPECT_LT(exact.value, few.value + 1.5) << v << ' ' << distance << ' ' << aside;
+        exact_sum += exact.value;
+        few_sum += few.value;
+      }
+    }
+  }
+  EXPECT_LT(exact_sum, few_sum + 27 * 0.5);
+}
+
+TEST(Danger, IsTheSameToTheLeftAndToTheRight) {
+  for (const double v : {6.0, 12.0}) {
+    Meeting left = ahead(12.0, v);
+    left.state = {-12.0, 1.3, 0.1, v};
+    Meeting right = left;
+    right.state = {-12.0, -1.3, -0.1, v};
+    EXPECT_NEAR(with_tables().danger(left).value, with_tables().danger(right).value, 1e-6);
+    EXPECT_NEAR(without().danger(left).value, without().danger(right).value, 1e-6);
+  }
+}
+
+// On a quarter of the grip everything runs the same way at half the speed.
+TEST(Danger, OnLessGripIsThatOfAHigherSpeed) {
+  Meeting icy = ahead(14.0, 6.0);
+  icy.grip = 0.225;
+  EXPECT_NEAR(with_tables().danger(icy).value, with_tables().danger(ahead(14.0, 12.0)).value, 1e-9);
+  EXPECT_NEAR(without().danger(icy).value, without().danger(ahead(14.0, 12.0)).value, 0.05);
+}
+
+TEST(Danger, BetweenTwoObstacleSpeedsLiesBetweenThem) {
+  Meeting meeting = ahead(14.0, 12.0);
+  const double at_rest = with_tables().danger(meeting).value;
+  meeting.obstacle_speed = 3.0;
+  const double driving = with_tables().danger(meeting).value;
+  meeting.obstacle_speed = 1.5;
+  EXPECT_LT(driving, at_rest);
+  EXPECT_GT(with_tables().danger(meeting).value, driving);
+  EXPECT_LT(with_tables().danger(meeting).value, at_rest);
+  meeting.obstacle_speed = 4.0;  // faster than any table
+  EXPECT_FALSE(with_tables().danger(meeting).exact);
+}
+
+TEST(Danger, GrowsByWhatABodyReachesBeyondTheTables) {
+  Meeting meeting = ahead(14.0, 12.0);
+  const double usual = with_tables().danger(meeting).value;
+  meeting.obstacle.length = meeting.obstacle.width = 2.6;
+  EXPECT_NEAR(with_tables().danger(meeting).value, usual + std::hypot(0.3, 0.3), 1e-9);
+  meeting.obstacle = disc;
+  meeting.ego.length = meeting.ego.width = 2.4;
+  EXPECT_NEAR(with_tables().danger(meeting).value, usual + std::hypot(0.2, 0.2), 1e-9);
+}
+
+TEST(Danger, BeyondTheGridIsToldCarefullyAndFlagged) {
+  const Danger far = with_tables().danger(ahead(60.0, 18.0));  // 42 m to go, 18.4 m to stop
+  EXPECT_FALSE(far.exact);
+  EXPECT_LT(far.value, -10.0);
+  EXPECT_GE(far.value, 2.0 - 60.0);
+  const Danger fast = with_tables().danger(ahead(30.0, 30.0));  // stops in 51 m
+  EXPECT_FALSE(fast.exact);
+  EXPECT_GT(fast.value, -3.0);
+}
+
+TEST(Danger, RefusesWhatIsNoMeeting) {
+  Meeting meeting = ahead(14.0, 12.0);
+  meeting.state[0] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW((void)with_tables().danger(meeting), ContractViolation);
+  meeting = ahead(14.0, -1.0);
+  EXPECT_THROW((void)with_tables().danger(meeting), ContractViolation);
+  meeting = ahead(14.0, 1.0);
+  meeting.grip = 0.0;
+  EXPECT_THROW((void)with_tables().danger(meeting), ContractViolation);
+  EXPECT_THROW(DangerModel(car, ego, {{disc, 0.0, nullptr}}), ContractViolation);
+}
+
+}  // namespace
+}  // namespace saca::reach
