@@ -55,14 +55,14 @@ std::vector<reach::ToBeJudged> to_be_judged(const sim::Scenario& scenario,
 
 std::optional<Solved> kept_table(const fs::path& file, const reach::DangerCase& wanted) {
   auto there = reach::read_solved(file);
-  if (!there.has_value() || !there.value().complete || there.value().problem != wanted.text) {
+  if (!there.has_value() || !there.value().complete || there.value().problem != wanted.asked.text) {
     return std::nullopt;
   }
   return std::move(there).value();
 }
 
 Result<Solved> solved_table(const fs::path& file, const reach::DangerCase& wanted) {
-  const reach::Problem problem = reach::avoidance_problem(wanted.asked, wanted.text);
+  const reach::Problem problem = reach::avoidance_problem(wanted.asked);
   SteadyClock clock;
   constexpr int permille = 1'000;
   ProgressLine line("danger of " + wanted.name, permille, clock);
@@ -103,7 +103,7 @@ Result<reach::DangerModel> usual_danger(const ScenarioInputs& inputs) {
       solved = std::move(made).value();
     }
     const std::vector<float> values = snapshot(*solved, solved->times.size() - 1);
-    tables.push_back({*wanted.asked.obstacle, wanted.asked.system.obstacle_speed,
+    tables.push_back({*wanted.asked.obstacle, wanted.asked.system.obstacle_speed, wanted.asked.view,
                       std::make_shared<reach::ValueTable>(solved->grid, values, solved->error)});
   }
   return reach::DangerModel(limits, ego, std::move(tables));

@@ -102,13 +102,13 @@ double time_to_align(const State& state, double obstacle_speed) {
 /// Between two tables; what their values, brought together, still differ by is part of the error.
 Looked looked(const Around& tables, const State& state, double obstacle_speed) {
   if (tables.share <= 0.0) {
-    return tables.low->values->at(state);
+    return tables.low->values->at(grid_state(tables.low->view, state));
   }
   const double time = time_to_align(state, obstacle_speed);
   const auto by = [&](const DangerTable& table) {
     State there = state;
     there[0] += (table.obstacle_speed - obstacle_speed) * time;
-    return table.values->at(there);
+    return table.values->at(grid_state(table.view, there));
   };
   const Looked low = by(*tables.low);
   const Looked high = by(*tables.high);
@@ -130,7 +130,8 @@ DangerModel::DangerModel(const Avoidance& car, const Footprint& ego,
   static_cast<void>(limits_at(car, 0.0));  // the car's numbers are in range
   for (DangerTable& table : tables) {
     expects(table.values != nullptr && table.values->grid().axes.size() == 4,
-            "tables are over x, y, course and speed");
+            "tables have four axes");
+    expects(table.view != View::edge, "tables are of an obstacle");
     expects(table.obstacle_speed >= 0.0, "obstacle_speed >= 0");
     const auto family = std::find_if(families_.begin(), families_.end(), [&](const Family& f) {
       return same(f.front().obstacle, table.obstacle);

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "saca/reach/avoidance.h"
+#include "saca/reach/avoidance_case.h"
 #include "saca/reach/value_table.h"
 #include "saca/world/footprint.h"
 
@@ -30,7 +30,8 @@ struct Danger {
 struct DangerTable {
   world::Footprint obstacle;
   double obstacle_speed = 0.0;
-  std::shared_ptr<const ValueTable> values;  ///< over x, y, course, speed
+  View view = View::obstacle;  ///< View::ego, or this: the axes of `values`
+  std::shared_ptr<const ValueTable> values;
 };
 
 /// By how much two bodies about their own centres differ: what each reaches beyond the other [m].

@@ -46,7 +46,7 @@ std::string text_of(std::string_view title, const Avoidance& car, const Footprin
   std::string text;
   const auto to = std::back_inserter(text);
   fmt::format_to(to, "schema = \"saca.avoidance/1\"\nname = \"{}\"\n", title);
-  fmt::format_to(to, "horizon_s = 4.0\nsnapshots_s = [4.0]\n\n");
+  fmt::format_to(to, "seen_from = \"ego\"\nsnapshots_s = [4.0]\n\n");
   fmt::format_to(to, "[car]\ngrip = {}\ntightest_curvature_1pm = {}\ndrive_share = {}\n\n",
                  car.grip, car.tightest_curvature, car.drive_share);
   const auto add_body = [&](const Footprint& body) {
@@ -60,9 +60,10 @@ std::string text_of(std::string_view title, const Avoidance& car, const Footprin
   fmt::format_to(to, "centre_m = {}\n\n[obstacle]\n", ego.centre_x);
   add_body(obstacle);
   fmt::format_to(to, "speed_mps = {}\n\n", speed);
-  fmt::format_to(to, "[grid.x]\nfirst_m = -60.0\nlast_m = 60.0\npoints = 41\nstretch_m = 8.0\n\n");
-  fmt::format_to(to, "[grid.y]\nlast_m = 60.0\npoints = 21\nstretch_m = 8.0\n\n");
-  fmt::format_to(to, "[grid.course]\npoints = 60\n\n[grid.speed]\nlast_mps = 30.0\npoints = 13\n");
+  fmt::format_to(to,
+                 "[grid.ahead]\nfirst_m = -14.0\nlast_m = 60.0\npoints = 48\nstretch_m = 12.0\n\n");
+  fmt::format_to(to, "[grid.left]\nlast_m = 30.0\npoints = 26\nstretch_m = 6.0\n\n");
+  fmt::format_to(to, "[grid.turned]\npoints = 36\n\n[grid.speed]\nlast_mps = 30.0\npoints = 13\n");
   return text;
 }
 
@@ -86,12 +87,10 @@ std::vector<DangerCase> danger_cases(const Avoidance& car, const Footprint& ego,
         top_speeds[body] < 0.0 ? -1 : static_cast<int>(std::ceil(top_speeds[body] / speed_step));
     for (int i = 0; i <= steps; ++i) {
       const double speed = i * speed_step;
-      DangerCase one{.name = fmt::format("{}_{}mps", of.name, speed), .text = {}, .asked = {}};
-      one.text = text_of(one.name, car, ego, of.footprint, speed);
-      auto asked = parse_avoidance_case(one.text, one.name);
+      std::string title = fmt::format("{}_{}mps", of.name, speed);
+      auto asked = parse_avoidance_case(text_of(title, car, ego, of.footprint, speed), title);
       expects(asked.has_value(), "car and ego are within what a case may hold");
-      one.asked = std::move(asked).value();
-      cases.push_back(std::move(one));
+      cases.push_back({std::move(title), std::move(asked).value()});
     }
   }
   return cases;

@@ -17,9 +17,8 @@ struct ToBeJudged {
 
 /// A table that a `DangerModel` is to have.
 struct DangerCase {
-  std::string name;  ///< of its file: body and speed, e.g. "car_10mps"
-  std::string text;  ///< TOML, as of a case in data/reach: what the file of its values answers
-  AvoidanceCase asked;
+  std::string name;     ///< of its file: body and speed, e.g. "car_10mps"
+  AvoidanceCase asked;  ///< with a text like that of a case in data/reach
 };
 
 /// The tables with which these obstacles can be judged: for each, those of the standard body

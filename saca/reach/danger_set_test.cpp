@@ -56,8 +56,8 @@ TEST(DangerCases, HoldWhatTheyWereAskedFor) {
   EXPECT_EQ(asked.system.drive_share, 0.48);
   EXPECT_EQ(asked.ego.centre_x, -0.1);
   EXPECT_EQ(asked.obstacle->length, 4.8);
-  EXPECT_EQ(num_cells(asked.grid), 41U * 21U * 60U * 13U);
-  EXPECT_NE(cases[0].text, cases[1].text);
+  EXPECT_EQ(num_cells(asked.grid), 48U * 26U * 36U * 13U);
+  EXPECT_NE(cases[0].asked.text, asked.text);
   EXPECT_THROW((void)danger_cases(car, ego, 0.9, std::vector<ToBeJudged>{{ego, -1.0}}),
                ContractViolation);
 }

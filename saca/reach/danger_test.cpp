@@ -39,15 +39,15 @@ AvoidanceCase discs(double obstacle_speed) {
        .turned = 2},
       {.name = "course", .first = -pi, .last = pi, .points = 32, .edge = Edge::periodic},
       {.name = "speed", .first = 0.0, .last = 20.0, .points = 9}};
-  asked.horizon = 3.0;
+  asked.times = {3.0};
   return asked;
 }
 
 DangerTable solved(double obstacle_speed) {
-  const Problem problem = avoidance_problem(discs(obstacle_speed), "");
+  const Problem problem = avoidance_problem(discs(obstacle_speed));
   const auto values = solve(problem, {.steps = Steps::tvd_rk2, .threads = 2}, std::nullopt, {});
   EXPECT_TRUE(values.has_value());
-  return {disc, obstacle_speed,
+  return {disc, obstacle_speed, View::obstacle,
           std::make_shared<ValueTable>(problem.grid, snapshot(values.value(), 0),
                                        values.value().error)};
 }
@@ -167,7 +167,7 @@ TEST(Danger, RefusesWhatIsNoMeeting) {
   meeting = ahead(14.0, 1.0);
   meeting.grip = 0.0;
   EXPECT_THROW((void)with_tables().danger(meeting), ContractViolation);
-  EXPECT_THROW(DangerModel(car, ego, {{disc, 0.0, nullptr}}), ContractViolation);
+  EXPECT_THROW(DangerModel(car, ego, {{disc, 0.0, View::obstacle, nullptr}}), ContractViolation);
 }
 
 }  // namespace
