@@ -71,7 +71,19 @@ struct Stage {
   double dt = 0.0;
   Tube tube = Tube::highest;
   std::size_t first_row = 0, end_row = 0;
+  std::array<double, max_dimensions>
+      steepness{};          ///< along each axis, of h: greatest difference
+                            ///< between neighbours, > 0; scales WENO's weights
+  Real* scratch = nullptr;  ///< `scratch_needed` numbers of this thread's own
 };
+
+/// Numbers beyond the last cell of each array that a sweep may read (and never uses).
+constexpr std::size_t readable_beyond = 64;
+
+[[nodiscard]] inline std::size_t scratch_needed(const Grid& grid) {
+  const std::size_t row = static_cast<std::size_t>(grid.axes[0].points) + 2 * readable_beyond;
+  return 10 * row;  // the padded row, and three rows beyond an edge of each other axis
+}
 
 /// What came out of some rows.
 struct Swept {
@@ -83,14 +95,10 @@ struct Swept {
 template <class Real>
 struct Flow {
   std::size_t dimensions = 0;
-  /// Sweeps some rows; called from several threads with rows of their own. Arrays reach
-  /// `readable_beyond` numbers beyond the grid's cells.
+  /// Sweeps some rows; called from several threads with rows of their own.
   std::function<Swept(const Stage<Real>&)> sweep;
   /// Largest sum over the axes of speed / spacing, over all cells [1/s].
   double crossings_per_second = 0.0;
 };
-
-/// Numbers beyond the last cell that a sweep may read.
-constexpr std::size_t readable_beyond = 64;
 
 }  // namespace saca::reach

@@ -53,13 +53,14 @@ class Solver {
 
  private:
   [[nodiscard]] Swept stage(const std::vector<Real>& values, std::vector<Real>& out, double keep,
-                            double dt) const;
+                            double dt);
 
   Grid grid_;
   Flow<Real> flow_;
   Settings settings_;
   std::size_t cells_ = 0;
-  std::vector<Real> h_, now_, first_, second_;
+  std::vector<Real> h_, now_, first_, second_, scratch_;
+  std::array<double, max_dimensions> steepness_{};
   double time_ = 0.0;
   double longest_step_ = 0.0;
   double greatest_rate_ = 0.0;

@@ -1,0 +1,370 @@
+#include "saca/reach/solver.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "saca/reach/systems_for_test.h"
+
+namespace saca::reach {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Even axes from -half to half.
+Grid square(std::size_t dimensions, double half, int points) {
+  Grid grid;
+  for (std::size_t d = 0; d < dimensions; ++d) {
+    grid.axes.push_back({.name = std::string(1, static_cast<char>('x' + d)),
+                         .first = -half,
+                         .last = half,
+                         .points = points});
+  }
+  return grid;
+}
+
+template <class Real>
+std::vector<Real> solved(const Grid& grid, const Flow<Real>& flow, const std::vector<Real>& h,
+                         double horizon, const Settings& settings) {
+  Solver<Real> solver(grid, flow, h, settings);
+  while (solver.time() < horizon) {
+    const auto taken = solver.step(horizon);
+    EXPECT_TRUE(taken.has_value()) << (taken.has_value() ? "" : taken.error().message);
+    if (!taken.has_value()) {
+      break;
+    }
+  }
+  EXPECT_EQ(solver.time(), horizon);
+  return {solver.values().begin(), solver.values().end()};
+}
+
+double radius(std::span<const double> x) {
+  double sum = 0.0;
+  for (const double c : x) {
+    sum += c * c;
+  }
+  return std::sqrt(sum);
+}
+
+// Largest error of a smooth periodic value carried along: V(x, tau) = h(x + v tau).
+double motion_error(Differences differences, Steps steps, int points, double cfl) {
+  Grid grid = square(2, pi, points);
+  grid.axes[0].edge = grid.axes[1].edge = Edge::periodic;
+  const ConstantMotion system{1.0, -0.5};
+  const auto h_at = [](double x, double y) { return std::sin(x) * std::cos(y); };
+  const auto h = sampled<double>(
+      grid, [&](auto x) { return h_at(x[0], x[1]); }, 1);
+  const auto values = solved<double>(grid, flow_of<double>(grid, system, differences), h, 1.0,
+                                     {.tube = Tube::set, .steps = steps, .cfl = cfl});
+  double worst = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const State x = state_at(grid, i);
+    worst = std::max(worst, std::abs(values[i] - h_at(x[0] + 1.0, x[1] - 0.5)));
+  }
+  return worst;
+}
+
+// Steps so short that only the differences count.
+TEST(Solver, ConvergesInTheOrderOfItsDifferences) {
+  const auto order = [](Differences differences, int coarse) {
+    return std::log2(motion_error(differences, Steps::tvd_rk3, coarse, 0.1) /
+                     motion_error(differences, Steps::tvd_rk3, 2 * coarse, 0.1));
+  };
+  EXPECT_NEAR(order(Differences::upwind1, 40), 1.0, 0.15);
+  EXPECT_GT(order(Differences::eno2, 40), 1.5);  // its order falls at extrema, in the largest error
+  EXPECT_GT(order(Differences::eno3, 40), 2.5);
+  EXPECT_GT(order(Differences::weno5, 20), 4.0);
+}
+
+TEST(Solver, ConvergesInTheOrderOfItsSteps) {
+  const auto order = [](Steps steps) {  // differences far better than the steps
+    const double coarse = motion_error(Differences::weno5, steps, 120, 1.0);
+    return std::log2(coarse / motion_error(Differences::weno5, steps, 120, 0.5));
+  };
+  EXPECT_NEAR(order(Steps::euler), 1.0, 0.2);
+  EXPECT_NEAR(order(Steps::tvd_rk2), 2.0, 0.2);
+  EXPECT_NEAR(order(Steps::tvd_rk3), 3.0, 0.3);
+}
+
+class Disc : public testing::TestWithParam<std::size_t> {};
+
+// h = radius - distance. Whoever seeks it at speed 1 is in it after tau from radius + tau: V = h +
+// tau. Whoever leaves it: V = h - tau, but at the centre, from which all ways are as long.
+TEST_P(Disc, GrowsAndShrinksAtItsSpeed) {
+  const std::size_t D = GetParam();
+  const Grid grid = square(D, 2.0, D == 3 ? 41 : 81);
+  const auto h = sampled<double>(
+      grid, [](auto x) { return 1.0 - radius(x); }, 1);
+  const auto check = [&](double speed) {
+    const Flow<double> flow = D == 1   ? flow_of<double>(grid, AnyDirection<1>{speed})
+                              : D == 2 ? flow_of<double>(grid, AnyDirection<2>{speed})
+                                       : flow_of<double>(grid, AnyDirection<3>{speed});
+    const auto values = solved<double>(grid, flow, h, 0.5, {.tube = Tube::set});
+    double worst = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const State x = state_at(grid, i);
+      const double r = radius({x.data(), D});
+      if (r > 0.8 && r < 1.7) {
+        worst = std::max(worst, std::abs(values[i] - (1.0 - r + 0.5 * speed)));
+      }
+    }
+    return worst;
+  };
+  const double spacing = grid.axes[0].last * 2.0 / (grid.axes[0].points - 1);
+  EXPECT_LT(check(1.0), 0.02 * spacing);
+  EXPECT_LT(check(-1.0), 0.02 * spacing);
+}
+INSTANTIATE_TEST_SUITE_P(Dimensions, Disc, testing::Values(1U, 2U, 3U));
+
+// Braking before a wall at 0: from v at x < 0 the car comes to x + v^2 / 2a; it hits when that is
+// >= 0. The running maximum of h = x is that (v > 0), or x itself (v <= 0).
+double braking_error(int points) {
+  Grid grid;
+  grid.axes = {{.name = "x", .first = -6.0, .last = 2.0, .points = points},
+               {.name = "v", .first = -2.0, .last = 3.0, .points = points}};
+  const auto h = sampled<double>(
+      grid, [](auto x) { return x[0]; }, 1);
+  const auto values =
+      solved<double>(grid, flow_of<double>(grid, DoubleIntegrator{1.0}), h, 4.0, {});
+  double sum = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const State x = state_at(grid, i);
+    const double v = std::max(0.0, x[1]);
+    const double expected = x[0] + 0.5 * v * v;
+    sum += expected < 1.5 ? std::abs(values[i] - expected) : 0.0;  // beyond: out of the grid
+  }
+  return sum / static_cast<double>(values.size());
+}
+
+TEST(Solver, FindsTheStatesFromWhichBrakingIsTooLate) {
+  const double coarse = braking_error(41);
+  const double fine = braking_error(81);
+  EXPECT_LT(fine, 0.02);
+  EXPECT_GT(coarse / fine, 1.7);  // first order at least: the value has a kink at v = 0
+}
+
+TEST(Solver, AHigherHorizonAndWeakerBrakesAreNeverSafer) {
+  const Grid grid = square(2, 3.0, 41);
+  const auto h = sampled<double>(
+      grid, [](auto x) { return 1.0 - radius(x); }, 1);
+  const auto value = [&](double brakes, double horizon) {
+    return solved<double>(grid,
+                          flow_of<double>(grid, DoubleIntegrator{brakes}, Differences::upwind1), h,
+                          horizon, {.steps = Steps::euler});
+  };
+  const auto strong = value(1.0, 1.0);
+  const auto weak = value(0.7, 1.0);
+  const auto later = value(1.0, 2.0);
+  for (std::size_t i = 0; i < h.size(); ++i) {
+    EXPECT_GE(strong[i], h[i]);
+    EXPECT_GE(weak[i], strong[i] - 2e-2);   // their steps differ in length
+    EXPECT_GE(later[i], strong[i] - 1e-3);  // what goes on beyond an open edge is not monotone
+  }
+}
+
+// What a disc's tube covers once stays covered, though what it has covered moves on.
+TEST(Solver, ATubeKeepsWhatWasUnsafeOnce) {
+  Grid grid = square(2, 3.0, 61);
+  const auto h = sampled<double>(
+      grid, [](auto x) { return 0.5 - radius(x); }, 1);
+  const ConstantMotion system{1.0, 0.0};
+  const auto at = [&](Tube tube, double x) {
+    const auto values = solved<double>(grid, flow_of<double>(grid, system), h, 1.5, {.tube = tube});
+    const auto i = static_cast<std::size_t>(std::lround((x + 3.0) / 0.1));
+    return values[30 * 61 + i];
+  };
+  EXPECT_NEAR(at(Tube::set, -1.5), 0.5, 0.12);  // the disc's tip, 1.5 s before; rounded by a cell
+  EXPECT_NEAR(at(Tube::set, 0.0), -1.0, 0.02);
+  EXPECT_NEAR(at(Tube::tube, 0.0), 0.5, 0.03);
+  EXPECT_NEAR(at(Tube::tube, -0.7), 0.5, 0.03);
+  EXPECT_NEAR(at(Tube::highest, -0.7), 0.5, 0.03);
+  EXPECT_NEAR(at(Tube::highest, 1.0), -0.5, 0.02);
+}
+
+TEST(Solver, FloatsAreAsGoodAsTheGrid) {
+  const Grid grid = square(2, 2.0, 61);
+  const auto of = [](auto x) { return 1.0 - radius(x); };
+  const auto doubles = solved<double>(grid, flow_of<double>(grid, DoubleIntegrator{1.0}),
+                                      sampled<double>(grid, of, 1), 1.0, {});
+  const auto floats = solved<float>(grid, flow_of<float>(grid, DoubleIntegrator{1.0}),
+                                    sampled<float>(grid, of, 1), 1.0, {});
+  for (std::size_t i = 0; i < doubles.size(); ++i) {
+    EXPECT_NEAR(static_cast<double>(floats[i]), doubles[i], 1e-4);  // differences of 1e-7 over 0.07
+  }
+}
+
+TEST(Solver, ThreadsChangeNoBit) {
+  const Grid grid = square(3, 2.0, 23);
+  const auto h = sampled<float>(
+      grid, [](auto x) { return 1.0 - radius(x); }, 1);
+  const Flow<float> flow = flow_of<float>(grid, AnyDirection<3>{1.0});
+  EXPECT_EQ(solved<float>(grid, flow, h, 0.4, {.threads = 1}),
+            solved<float>(grid, flow, h, 0.4, {.threads = 3}));
+}
+
+// Half of a mirrored world is the whole: a disc ahead, motion that turns with the heading.
+struct Unicycle {  // x' = cos, y' = sin of the heading; heading' within 1, avoiding
+  static constexpr std::size_t dimensions = 3;
+  struct Row {
+    double vx, vy;
+    template <class N>
+    N hamiltonian(const N& /*x*/, const std::array<N, 3>& p) const {
+      return vx * p[0] + vy * p[1] - abs(p[2]);
+    }
+    template <class N>
+    std::array<N, 3> speeds(const N& /*x*/) const {
+      return {N(std::abs(vx)), N(std::abs(vy)), N(1.0)};
+    }
+  };
+  [[nodiscard]] Row row(const std::array<double, 3>& x) const {
+    return {std::cos(x[2]), std::sin(x[2])};
+  }
+};
+
+TEST(Solver, AMirroredHalfIsTheWhole) {
+  Grid whole = square(3, 3.0, 25);
+  whole.axes[2] = {
+      .name = "heading", .first = -pi, .last = pi, .points = 16, .edge = Edge::periodic};
+  Grid half = whole;
+  half.axes[1] = {
+      .name = "y", .first = 0.0, .last = 3.0, .points = 13, .edge = Edge::mirrored, .turned = 2};
+  const auto of = [](std::span<const double> x) { return 1.0 - std::hypot(x[0], x[1]); };
+  const auto of_whole = solved<double>(whole, flow_of<double>(whole, Unicycle{}),
+                                       sampled<double>(whole, of, 1), 1.5, {});
+  const auto of_half = solved<double>(half, flow_of<double>(half, Unicycle{}),
+                                      sampled<double>(half, of, 1), 1.5, {});
+  for (std::size_t i = 0; i < of_half.size(); ++i) {
+    const Cell c = cell_at(half, i);
+    const auto j = static_cast<std::size_t>(c[0] + 25 * (c[1] + 12 + 25 * c[2]));
+    const auto image = static_cast<std::size_t>(c[0] + 25 * (12 - c[1] + 25 * ((16 - c[2]) % 16)));
+    EXPECT_NEAR(of_half[i], of_whole[j], 1e-9);
+    EXPECT_NEAR(of_whole[image], of_whole[j], 1e-9);  // the whole is its own mirror image
+  }
+}
+
+// An axis that is finest near 0 gives the same answer as an even one, where both are fine.
+TEST(Solver, AStretchedAxisIsAnEvenOneInOtherUnits) {
+  Grid grid = square(2, 8.0, 81);
+  grid.axes[0].stretch = grid.axes[1].stretch = 2.0;
+  const auto h = sampled<double>(
+      grid, [](auto x) { return 1.0 - radius(x); }, 1);
+  const auto values = solved<double>(grid, flow_of<double>(grid, AnyDirection<2>{1.0}), h, 2.0,
+                                     {.tube = Tube::set});
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const State x = state_at(grid, i);
+    const double r = radius({x.data(), 2});
+    if (r > 2.5 && r < 5.0) {  // nearer, the middle is reached: V = 1
+      EXPECT_NEAR(values[i], 3.0 - r, 0.01) << x[0] << ' ' << x[1];
+    }
+  }
+}
+
+/// x' = 1.
+struct Drift {
+  static constexpr std::size_t dimensions = 1;
+  struct Row {
+    template <class N>
+    N hamiltonian(const N& /*x*/, const std::array<N, 1>& p) const {
+      return p[0];
+    }
+    template <class N>
+    std::array<N, 1> speeds(const N& /*x*/) const {
+      return {N(1.0)};
+    }
+  };
+  [[nodiscard]] Row row(const std::array<double, 1>& /*x*/) const { return {}; }
+};
+
+// Nothing unsafe comes in over an open edge, nor anything safe.
+TEST(Solver, AnOpenEdgeKeepsTheSign) {
+  const Grid grid = square(1, 1.0, 21);
+  const auto h = sampled<double>(
+      grid, [](auto x) { return x[0] - 2.0; }, 1);  // unsafe beyond 2
+  for (const double v :
+       solved<double>(grid, flow_of<double>(grid, Drift{}), h, 5.0, {.tube = Tube::set})) {
+    EXPECT_LT(v, 0.0);
+  }
+}
+
+/// Its Hamiltonian is no number at one place.
+struct Broken {
+  static constexpr std::size_t dimensions = 2;
+  struct Row {
+    double y;
+    template <class N>
+    N hamiltonian(const N& x, const std::array<N, 2>& p) const {
+      return p[0] + sqrt(abs(x + y) - 0.01) * 0.0;
+    }
+    template <class N>
+    std::array<N, 2> speeds(const N& /*x*/) const {
+      return {N(1.0), N(0.0)};
+    }
+  };
+  [[nodiscard]] Row row(const std::array<double, 2>& x) const { return {x[1]}; }
+};
+
+TEST(Solver, NamesTheCellWhoseHamiltonianIsNoNumber) {
+  Grid grid = square(2, 1.0, 5);
+  grid.axes[1].first = -1.0;
+  const auto h = sampled<float>(
+      grid, [](auto x) { return radius(x); }, 1);
+  Solver<float> solver(grid, flow_of<float>(grid, Broken{}), h, {.threads = 2});
+  const auto step = solver.step(1.0);
+  ASSERT_FALSE(step.has_value());
+  EXPECT_THAT(step.error().message, testing::HasSubstr("cell 4 (x = 1, y = -1)"));  // x + y = 0
+  EXPECT_EQ(solver.time(), 0.0);
+  EXPECT_TRUE(std::equal(h.begin(), h.end(), solver.values().begin()));
+}
+
+TEST(Solver, GoesOnFromWhereAnotherStopped) {
+  const Grid grid = square(2, 2.0, 31);
+  const auto h = sampled<float>(
+      grid, [](auto x) { return 1.0 - radius(x); }, 1);
+  const Flow<float> flow = flow_of<float>(grid, DoubleIntegrator{1.0});
+  Solver<float> whole(grid, flow, h, {});
+  Solver<float> first(grid, flow, h, {});
+  while (whole.time() < 1.0) {
+    ASSERT_TRUE(whole.step(whole.time() < 0.5 ? 0.5 : 1.0).has_value());
+  }
+  while (first.time() < 0.5) {
+    ASSERT_TRUE(first.step(0.5).has_value());
+  }
+  Solver<float> second(grid, flow, h, {});
+  second.resume(first.time(), first.values());
+  while (second.time() < 1.0) {
+    ASSERT_TRUE(second.step(1.0).has_value());
+  }
+  EXPECT_TRUE(std::equal(whole.values().begin(), whole.values().end(), second.values().begin()));
+}
+
+TEST(Solver, RefusesWhatDoesNotFit) {
+  const Grid grid = square(2, 2.0, 11);
+  const auto h = sampled<float>(
+      grid, [](auto x) { return radius(x); }, 1);
+  const Flow<float> flow = flow_of<float>(grid, DoubleIntegrator{1.0});
+  EXPECT_THROW(Solver<float>(grid, flow, std::vector<float>(10), {}), ContractViolation);
+  EXPECT_THROW(Solver<float>(grid, flow, h, {.cfl = 0.0}), ContractViolation);
+  EXPECT_THROW(Solver<float>(grid, flow, h, {.cfl = 1.1}), ContractViolation);
+  EXPECT_THROW(Solver<float>(grid, flow, h, {.threads = 0}), ContractViolation);
+  auto holed = h;
+  holed[7] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW(Solver<float>(grid, flow, holed, {}), ContractViolation);
+  EXPECT_THROW((void)flow_of<float>(grid, AnyDirection<3>{1.0}), ContractViolation);
+  Solver<float> solver(grid, flow, h, {});
+  EXPECT_THROW((void)solver.step(0.0), ContractViolation);
+  EXPECT_THROW((void)solver.step(std::nan("")), ContractViolation);
+}
+
+TEST(MemoryNeeded, IsFourArraysAndLittleMore) {
+  const Grid grid = square(3, 1.0, 50);
+  const std::size_t needed = memory_needed(grid, sizeof(float), {.threads = 2});
+  EXPECT_GT(needed, 4U * 125'000U * 4U);
+  EXPECT_LT(needed, 4U * 125'000U * 4U + 100'000U);
+  EXPECT_LT(memory_needed(grid, sizeof(float), {.tube = Tube::set}), needed);
+}
+
+}  // namespace
+}  // namespace saca::reach
