@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "saca/core/result.h"
+#include "saca/reach/grid.h"
+
+namespace saca::reach {
+
+/// Values at one or more times.   (times x num_cells)
+template <class Real>
+using Snapshots = std::vector<std::vector<Real>>;
+
+/// What a solver has found, and for what; its last snapshot is enough to go on from.
+struct Solved {
+  Grid grid;
+  std::string problem;        ///< TOML text of the case that it answers
+  bool complete = false;      ///< false: stopped before its horizon
+  std::vector<double> times;  ///< tau of each snapshot [s], >= 0, increasing; at least one
+  std::variant<Snapshots<float>, Snapshots<double>> values;
+  std::vector<float> error;  ///< of the last snapshot, per cell, >= 0; empty: not known
+
+  [[nodiscard]] bool doubles() const { return values.index() == 1; }
+};
+
+/// One snapshot's values as float, whatever the precision kept.
+/// @param time  number of the snapshot
+/// @throws ContractViolation  if there is no such snapshot
+[[nodiscard]] std::vector<float> snapshot(const Solved& solved, std::size_t time);
+
+/// The snapshot nearest to a time [s].
+[[nodiscard]] std::size_t nearest_snapshot(const Solved& solved, double time);
+
+/// Puts it into an HDF5 file (docs/formats.md), in one step: readers see the old file or the whole
+/// new one, also after a kill. The file's first 512 bytes hold a check sum of the rest.
+///
+/// @return  nullopt when it is on the disk, else the reason
+/// @throws ContractViolation  if the grid breaks a rule, sizes do not fit, times do not increase or
+///                            a number is not finite
+[[nodiscard]] std::optional<Error> write_solved(const std::filesystem::path& path,
+                                                const Solved& solved);
+
+/// Reads it back, the same bits. Damage of any kind is found by the check sum before HDF5 sees the
+/// file; all that the file says is checked all the same.
+///
+/// @return  unreadable, or malformed: one line with the file, the part, what was wanted, what came
+[[nodiscard]] Result<Solved> read_solved(const std::filesystem::path& path);
+
+}  // namespace saca::reach
