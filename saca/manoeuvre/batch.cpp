@@ -248,25 +248,6 @@ world::Scene scene_of(const Drive& drive) {
   return scene;
 }
 
-bool available(Level level) noexcept {
-#if defined(__x86_64__)
-  if (level == Level::avx2) {
-    return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
-  }
-  if (level == Level::avx512) {
-    return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512cd") != 0 &&
-           __builtin_cpu_supports("avx512dq") != 0 && __builtin_cpu_supports("avx512bw") != 0;
-  }
-#endif
-  return level == Level::baseline;
-}
-
-Level best() noexcept {
-  return available(Level::avx512) ? Level::avx512
-         : available(Level::avx2) ? Level::avx2
-                                  : Level::baseline;
-}
-
 std::vector<EgoMotion> drive_all(std::span<const Drive> drives, double horizon, int threads,
                                  Level level) {
   std::vector<EgoMotion> motions;

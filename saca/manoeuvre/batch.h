@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "saca/core/level.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/manoeuvre/drive.h"
 #include "saca/manoeuvre/plan.h"
@@ -29,14 +30,6 @@ struct Drive {
 /// The scene that `drive(...)` takes of it; nobody else is there.
 [[nodiscard]] world::Scene scene_of(const Drive& drive);
 
-/// Instruction sets that the batch is compiled for.
-enum class Level : std::uint8_t { baseline, avx2, avx512 };
-
-/// Whether this processor has it, and this program was compiled for it.
-[[nodiscard]] bool available(Level level) noexcept;
-/// The largest that is available.
-[[nodiscard]] Level best() noexcept;
-
 /// As `drive(...)` for each, many at once in the lanes of SIMD packs: mixed cars, plans, roads,
 /// grips and starts.
 ///
@@ -53,10 +46,10 @@ enum class Level : std::uint8_t { baseline, avx2, avx512 };
 /// A drive's result depends on nothing but the drive itself, bit by bit: neither on the others, nor
 /// on their order or number.
 [[nodiscard]] std::vector<EgoMotion> drive_all(std::span<const Drive> drives, double horizon,
-                                               int threads = 1, Level level = best());
+                                               int threads = 1, Level level = best_level());
 /// The same into `motions`, whose memory is used again: for many batches in a row. What `motions`
 /// hold after an exception is not told.
 void drive_all(std::span<const Drive> drives, double horizon, std::vector<EgoMotion>& motions,
-               int threads = 1, Level level = best());
+               int threads = 1, Level level = best_level());
 
 }  // namespace saca::manoeuvre

@@ -106,7 +106,7 @@ struct Range {
 void fill_all(const CloserLook& pair, const Range& range, const NearLooks& near,
               ScoreRows& rows) noexcept {
 #if defined(__x86_64__)
-  if (manoeuvre::best() != manoeuvre::Level::baseline) {
+  if (best_level() != Level::baseline) {
     fill_axes_in_avx2(pair, range, near, rows);
     return;
   }

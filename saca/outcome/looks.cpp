@@ -94,9 +94,9 @@ namespace {
 }  // namespace
 
 void complete(Looks& looks, const world::Footprint& footprint,
-              [[maybe_unused]] manoeuvre::Level level) noexcept {
+              [[maybe_unused]] Level level) noexcept {
 #if defined(__x86_64__)
-  if (level != manoeuvre::Level::baseline) {
+  if (level != Level::baseline) {
     complete_in_avx2(looks, footprint);
     return;
   }
@@ -237,9 +237,9 @@ namespace {
 
 // The same numbers on each instruction set: no operation is fused or put in another order.
 void look_over(const Looks& a, const Looks& b, std::size_t first, std::size_t last, NearLooks& near,
-               [[maybe_unused]] manoeuvre::Level level) noexcept {
+               [[maybe_unused]] Level level) noexcept {
 #if defined(__x86_64__)
-  if (level != manoeuvre::Level::baseline) {
+  if (level != Level::baseline) {
     look_over_in_avx2(a, b, first, last, near);
     return;
   }

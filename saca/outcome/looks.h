@@ -76,8 +76,7 @@ inline void direction(float angle, float& cosine, float& sine) noexcept {
 
 /// What follows from place and direction: turn, half, reach and the rectangles.
 /// @param level  available; the numbers are the same on each
-void complete(Looks& looks, const world::Footprint& footprint,
-              manoeuvre::Level level = manoeuvre::best()) noexcept;
+void complete(Looks& looks, const world::Footprint& footprint, Level level = best_level()) noexcept;
 
 /// Of a body on a track; before it starts and after it ends it stands.
 /// @param start     the scene's time [s]
@@ -113,6 +112,6 @@ struct NearLooks {
 /// change by more than 20 m/s^2 against each other, or all at once within a span, may deceive it.
 /// @param level  available; the numbers are the same on each
 void look_over(const Looks& a, const Looks& b, std::size_t first, std::size_t last, NearLooks& near,
-               manoeuvre::Level level = manoeuvre::best()) noexcept;
+               Level level = best_level()) noexcept;
 
 }  // namespace saca::outcome

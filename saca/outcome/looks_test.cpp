@@ -126,8 +126,8 @@ TEST(Looks, GapOfBoxesIsThatOfACloserLook) {
 TEST(Looks, AreTheSameOnEachInstructionSet) {
   std::mt19937_64 rng(7);
   const Footprint car{.length = 4.5, .width = 1.8, .centre_x = 0.3};
-  for (const auto level : {manoeuvre::Level::avx2, manoeuvre::Level::avx512}) {
-    if (!manoeuvre::available(level)) {
+  for (const auto level : {Level::avx2, Level::avx512}) {
+    if (!available(level)) {
       continue;
     }
     for (int i = 0; i < 50; ++i) {
@@ -139,9 +139,9 @@ TEST(Looks, AreTheSameOnEachInstructionSet) {
       complete(b, car, level);
       look_over(a, b, 0, num_groups - 1, *wide, level);
       const Looks wide_a = a;
-      complete(a, car, manoeuvre::Level::baseline);
-      complete(b, car, manoeuvre::Level::baseline);
-      look_over(a, b, 0, num_groups - 1, *plain, manoeuvre::Level::baseline);
+      complete(a, car, Level::baseline);
+      complete(b, car, Level::baseline);
+      look_over(a, b, 0, num_groups - 1, *plain, Level::baseline);
       EXPECT_EQ(wide_a.low_x, a.low_x);
       EXPECT_EQ(wide_a.high_y, a.high_y);
       for (std::size_t k = 0; k < num_spans; ++k) {

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+
+namespace saca {
+
+/// Instruction sets that inner loops are compiled for.
+enum class Level : std::uint8_t { baseline, avx2, avx512 };
+
+/// Whether this processor has it.
+[[nodiscard]] bool available(Level level) noexcept;
+/// The largest that is available.
+[[nodiscard]] Level best_level() noexcept;
+
+}  // namespace saca

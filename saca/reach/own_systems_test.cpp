@@ -1,0 +1,63 @@
+#include "saca/reach/own_systems.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "saca/core/contract.h"
+#include "saca/reach/solver.h"
+
+namespace saca::reach {
+namespace {
+
+/// Values after a short march, in doubles.
+template <class System>
+std::vector<double> marched(const Grid& grid, const System& system, Differences differences,
+                            Level level) {
+  const auto h = sampled<double>(
+      grid, [](auto x) { return 3.0 - std::hypot(x[0], 0.7 * x[1]); }, 1);
+  Solver<double> solver(grid, own_flow<double>(grid, system, differences, level), h, {});
+  while (solver.time() < 0.2) {
+    EXPECT_TRUE(solver.step(0.2).has_value());
+  }
+  return {solver.values().begin(), solver.values().end()};
+}
+
+template <class System>
+void expect_levels_agree(const Grid& grid, const System& system) {
+  for (const Differences differences :
+       {Differences::upwind1, Differences::eno2, Differences::eno3, Differences::weno5}) {
+    const auto plain = marched(grid, system, differences, Level::baseline);
+    const auto wide = marched(grid, system, differences, best_level());
+    ASSERT_EQ(plain.size(), wide.size());
+    // ENO chooses between stencils, which a rounding may turn over where they are alike.
+    const bool chooses = differences == Differences::eno2 || differences == Differences::eno3;
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+      ASSERT_NEAR(plain[i], wide[i], chooses ? 1e-3 : 1e-9);
+    }
+  }
+}
+
+TEST(OwnFlow, IsTheSameOnEachInstructionSet) {
+  const double pi = std::numbers::pi;
+  expect_levels_agree(air3d_grid(27, 21, 12), Air3d{});
+  const Axis course{
+      .name = "course", .first = -pi, .last = pi, .points = 12, .edge = Edge::periodic};
+  const Axis speed{.name = "speed", .first = 0.0, .last = 20.0, .points = 6};
+  expect_levels_agree(
+      {{{.name = "x", .first = -20.0, .last = 10.0, .points = 17},
+        {.name = "y", .first = 0.0, .last = 10.0, .points = 8, .edge = Edge::mirrored, .turned = 2},
+        course,
+        speed}},
+      Avoidance{.obstacle_speed = 4.0});
+  expect_levels_agree({{{.name = "y", .first = -20.0, .last = 10.0, .points = 17}, course, speed}},
+                      EdgeAvoidance{});
+}
+
+TEST(OwnFlow, RefusesAGridOfOtherDimensions) {
+  EXPECT_THROW((void)own_flow<float>(air3d_grid(10, 10, 10), Avoidance{}), ContractViolation);
+}
+
+}  // namespace
+}  // namespace saca::reach
