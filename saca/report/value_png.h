@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "saca/core/result.h"
+#include "saca/report/plot_axes.h"
+#include "saca/report/value_map.h"
+
+namespace saca::report {
+
+/// A map with all that a reader needs.
+struct ValuePicture {
+  ValueMap map;
+  ValueScale scale;
+  std::string title;
+  std::vector<std::string> lines;  ///< below it
+  PlotAxis x, y;                   ///< over the map's ranges, in the unit that is to be read
+  std::string value_words;         ///< beside the colours
+  std::vector<Vec2> outline;       ///< of the obstacle, in the map's coordinates; empty: none
+  std::optional<double> course;    ///< in which the ego moves [rad]; nullopt: no arrow
+};
+
+/// How many rectangles a map should have for `value_png`: one for each pixel of the plot. Axes of
+/// equal units are drawn to scale, within reason.
+struct RasterSize {
+  int columns = 0;
+  int rows = 0;
+};
+[[nodiscard]] RasterSize raster_size(const PlotAxis& x, const PlotAxis& y);
+
+/// The picture as bytes of a PNG file: values as colours, the zero level as a black line, the
+/// obstacle in red, axes, colour bar.
+/// @return  an error when there is no memory for it
+[[nodiscard]] Result<std::string> value_png(const ValuePicture& picture);
+
+/// The colours alone, a pixel for each rectangle, the highest y on top; clear outside the table.
+/// For pages that draw the rest themselves.
+[[nodiscard]] Result<std::string> raster_png(const ValueMap& map, const ValueScale& scale);
+
+}  // namespace saca::report

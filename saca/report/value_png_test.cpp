@@ -1,0 +1,124 @@
+#include "saca/report/value_png.h"
+
+#include <cairo.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstring>
+#include <memory>
+#include <string>
+
+namespace saca::report {
+namespace {
+
+/// A PNG, decoded by Cairo's reader.
+class Decoded {
+ public:
+  explicit Decoded(std::string bytes) : bytes_(std::move(bytes)) {
+    const auto read = [](void* from, unsigned char* to, unsigned length) {
+      auto& self = *static_cast<Decoded*>(from);
+      if (self.at_ + length > self.bytes_.size()) {
+        return CAIRO_STATUS_READ_ERROR;
+      }
+      std::memcpy(to, self.bytes_.data() + self.at_, length);
+      self.at_ += length;
+      return CAIRO_STATUS_SUCCESS;
+    };
+    surface_.reset(cairo_image_surface_create_from_png_stream(read, this));
+    EXPECT_EQ(cairo_surface_status(surface_.get()), CAIRO_STATUS_SUCCESS);
+  }
+  [[nodiscard]] int width() const { return cairo_image_surface_get_width(surface_.get()); }
+  [[nodiscard]] int height() const { return cairo_image_surface_get_height(surface_.get()); }
+  [[nodiscard]] Rgb at(int x, int y) const {
+    const unsigned char* const p = pixel(x, y);
+    return {p[2], p[1], p[0]};
+  }
+  [[nodiscard]] int alpha(int x, int y) const { return pixel(x, y)[3]; }
+  [[nodiscard]] int count(const Rgb& colour) const {
+    int found = 0;
+    for (int y = 0; y < height(); ++y) {
+      for (int x = 0; x < width(); ++x) {
+        found += at(x, y) == colour ? 1 : 0;
+      }
+    }
+    return found;
+  }
+
+ private:
+  [[nodiscard]] const unsigned char* pixel(int x, int y) const {
+    return cairo_image_surface_get_data(surface_.get()) +
+           y * cairo_image_surface_get_stride(surface_.get()) + 4 * x;
+  }
+  struct Destroy {
+    void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+  };
+  std::string bytes_;
+  std::size_t at_ = 0;
+  std::unique_ptr<cairo_surface_t, Destroy> surface_;
+};
+
+ValueMap quarters() {  // 3 x 2, the upper right one outside
+  return {.x = {-10.0, 20.0},
+          .y = {-5.0, 10.0},
+          .columns = 3,
+          .rows = 2,
+          .values = {-20.0F, -8.0F, 0.0F, 2.0F, 0.8F, 1.0F},
+          .inside = {1, 1, 1, 1, 1, 0}};
+}
+
+ValuePicture picture() {
+  return {.map = quarters(),
+          .scale = {.lowest = -20.0, .highest = 2.0},
+          .title = "parked_car",
+          .lines = {"V over x and y", "course 0 deg"},
+          .x = {"x", "m", -10.0, 20.0},
+          .y = {"y", "m", -5.0, 10.0},
+          .value_words = "V [m]",
+          .outline = {{-2.0, -1.0}, {2.0, -1.0}, {2.0, 1.0}, {-2.0, 1.0}},
+          .course = 0.0};
+}
+
+TEST(RasterPng, HasAPixelForEachRectangleWithTheHighestYOnTop) {
+  const ValueScale scale{.lowest = -20.0, .highest = 2.0};
+  const Decoded png(raster_png(quarters(), scale).value());
+  ASSERT_EQ(png.width(), 3);
+  ASSERT_EQ(png.height(), 2);
+  EXPECT_EQ(png.at(0, 0), danger_colours.back());   // 2.0
+  EXPECT_EQ(png.at(1, 0), danger_colours[2]);       // 0.8: two fifths
+  EXPECT_EQ(png.at(0, 1), safety_colours.back());   // -20
+  EXPECT_EQ(png.at(1, 1), safety_colours[2]);       // -8: two fifths
+  EXPECT_EQ(png.at(2, 1), danger_colours.front());  // 0
+  EXPECT_EQ(png.alpha(2, 1), 255);
+  EXPECT_EQ(png.alpha(2, 0), 0);
+}
+
+TEST(ValuePng, DrawsEqualUnitsToScale) {
+  const RasterSize size = raster_size({"x", "m", -60.0, 60.0}, {"y", "m", -30.0, 30.0});
+  EXPECT_EQ(size.rows * 2, size.columns);
+  const RasterSize narrow = raster_size({"x", "m", 0.0, 100.0}, {"y", "m", 0.0, 1.0});
+  EXPECT_GE(narrow.rows, 200);
+}
+
+TEST(ValuePng, HasTheColoursTheObstacleAndTheZeroLine) {
+  const auto bytes = value_png(picture());
+  ASSERT_TRUE(bytes.has_value());
+  const Decoded png(bytes.value());
+  const RasterSize size = raster_size(picture().x, picture().y);
+  EXPECT_GT(png.width(), size.columns);
+  EXPECT_GT(png.height(), size.rows);
+  EXPECT_GT(png.count({230, 0, 0}), 100);  // the outline, about 4 m x 25 px
+  ValuePicture without = picture();
+  without.outline.clear();
+  EXPECT_EQ(Decoded(value_png(without).value()).count({230, 0, 0}), 0);
+  const Rgb line{23, 32, 42};
+  const int dark = Decoded(value_png(without).value()).count(line);
+  without.map.values = std::vector<float>(6, 1.0F);
+  EXPECT_LT(Decoded(value_png(without).value()).count(line), dark - 200);
+}
+
+TEST(ValuePng, TheSamePictureMakesTheSameBytes) {
+  EXPECT_EQ(value_png(picture()).value(), value_png(picture()).value());
+}
+
+}  // namespace
+}  // namespace saca::report
