@@ -30,7 +30,8 @@ std::vector<Real> readable(std::size_t cells) {
   return std::vector<Real>(cells + readable_beyond, Real(0));
 }
 
-/// Greatest difference between neighbours along an axis; 1 where there is none.
+/// Greatest difference between neighbours along an axis, but a thousandth of h's range at least:
+/// where h does not depend on the axis, its rounding is no measure of what the value will do.
 template <class Real>
 double steepness(const Grid& grid, std::span<const Real> h, std::size_t axis) {
   const std::size_t stride = strides(grid)[axis];
@@ -41,6 +42,8 @@ double steepness(const Grid& grid, std::span<const Real> h, std::size_t axis) {
       greatest = std::max(greatest, std::abs(static_cast<double>(h[i + stride] - h[i])));
     }
   }
+  const auto [low, high] = std::minmax_element(h.begin(), h.end());
+  greatest = std::max(greatest, 1e-3 * (static_cast<double>(*high) - static_cast<double>(*low)));
   return greatest > 0.0 ? greatest : 1.0;
 }
 

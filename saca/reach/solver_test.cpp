@@ -340,6 +340,18 @@ TEST(Solver, GoesOnFromWhereAnotherStopped) {
   EXPECT_TRUE(std::equal(whole.values().begin(), whole.values().end(), second.values().begin()));
 }
 
+// An ellipse with equal axes, say, reaches as far in every direction but for rounding.
+TEST(Solver, RoundingOfHAlongAnAxisIsHarmless) {
+  const Grid grid = square(2, 4.0, 41);
+  const auto h = sampled<float>(
+      grid, [](auto x) { return x[0] + (std::sin(9.0 * x[1]) > 0.0 ? 1e-6 : 0.0); }, 1);
+  Solver<float> solver(grid, flow_of<float>(grid, DoubleIntegrator{1.0}), h, {});
+  while (solver.time() < 1.0) {
+    const auto taken = solver.step(1.0);
+    ASSERT_TRUE(taken.has_value()) << taken.error().message;
+  }
+}
+
 TEST(Solver, RefusesWhatDoesNotFit) {
   const Grid grid = square(2, 2.0, 11);
   const auto h = sampled<float>(

@@ -1,0 +1,181 @@
+#include "saca/reach/avoidance_case.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <numbers>
+#include <span>
+
+#include "saca/config/config.h"
+#include "saca/core/contract.h"
+#include "saca/core/file.h"
+#include "saca/reach/intrusion.h"
+
+namespace saca::reach {
+namespace {
+
+using config::Table;
+
+constexpr double pi = std::numbers::pi;
+constexpr int most_points = 2'000;  // of an axis
+
+/// @param edge_name  an obstacle's shape beside those of footprints; empty: none is allowed
+std::optional<world::Footprint> case_footprint(Table& table, std::string_view edge_name) {
+  const std::string word = table.text("shape");
+  if (!edge_name.empty() && word == edge_name) {
+    return std::nullopt;
+  }
+  const auto shape = world::shape_from(word);
+  if (!shape) {
+    table.reject("shape", fmt::format("want box, ellipse, segment{}{}, got {}",
+                                      edge_name.empty() ? "" : ", ", edge_name, word));
+  }
+  world::Footprint footprint{.shape = shape.value_or(world::Shape::box)};
+  footprint.length = table.number("length_m", {0.1, 40.0});
+  if (footprint.shape != world::Shape::segment) {
+    footprint.width = table.number("width_m", {0.1, 20.0});
+  }
+  return footprint;
+}
+
+int case_points(Table& table) {
+  return static_cast<int>(table.integer("points", 4, most_points));
+}
+
+Axis place_axis(Table table, std::string_view name, bool mirrored) {
+  Axis axis{.name = std::string(name)};
+  axis.first = mirrored ? 0.0 : table.number("first_m", {-1'000.0, 1'000.0});
+  axis.last = table.number("last_m", {-1'000.0, 1'000.0});
+  axis.points = case_points(table);
+  axis.stretch = table.optional_number("stretch_m", {0.1, 10'000.0}).value_or(0.0);
+  if (!(axis.last > axis.first)) {
+    table.reject("last_m", fmt::format("want more than {}, got {}", axis.first, axis.last));
+  }
+  return axis;
+}
+
+Axis course_axis(Table table) {
+  return {.name = "course",
+          .first = -pi,
+          .last = pi,
+          .points = case_points(table),
+          .edge = Edge::periodic};
+}
+
+Axis speed_axis(Table table) {
+  Axis axis{.name = "speed"};
+  axis.last = table.number("last_mps", {1.0, 100.0});
+  axis.points = case_points(table);
+  axis.stretch = table.optional_number("stretch_mps", {0.1, 10'000.0}).value_or(0.0);
+  return axis;
+}
+
+Grid case_grid(Table table, bool beside_edge) {
+  Grid grid;
+  if (beside_edge) {
+    grid.axes.push_back(place_axis(table.table("y"), "y", false));
+  } else {
+    grid.axes.push_back(place_axis(table.table("x"), "x", false));
+    Axis y = place_axis(table.table("y"), "y", true);
+    y.edge = Edge::mirrored;
+    y.turned = 2;
+    grid.axes.push_back(y);
+  }
+  grid.axes.push_back(course_axis(table.table("course")));
+  grid.axes.push_back(speed_axis(table.table("speed")));
+  return grid;
+}
+
+Avoidance case_system(Table table) {
+  Avoidance system;
+  system.grip = table.number("grip", {0.05, 1.5});
+  system.tightest_curvature = table.number("tightest_curvature_1pm", {0.01, 1.0});
+  system.drive_share = table.number("drive_share", {0.0, 1.0});
+  return system;
+}
+
+void case_times(Table& root, AvoidanceCase& problem) {
+  problem.horizon = root.number("horizon_s", {0.01, 100.0});
+  problem.snapshots = root.numbers("snapshots_s", {1e-6, problem.horizon});
+  const auto not_rising = std::adjacent_find(problem.snapshots.begin(), problem.snapshots.end(),
+                                             [](double a, double b) { return a >= b; });
+  if (not_rising != problem.snapshots.end()) {
+    root.reject("snapshots_s", fmt::format("want rising times, got {} before {}", *not_rising,
+                                           *std::next(not_rising)));
+  }
+}
+
+/// The grid without its last axis, speed, on which h does not depend.
+Grid without_speed(const Grid& grid) {
+  Grid rest = grid;
+  rest.axes.pop_back();
+  return rest;
+}
+
+}  // namespace
+
+Result<AvoidanceCase> read_avoidance_case(const std::filesystem::path& path) {
+  const auto text = read_file(path);
+  if (!text.has_value()) {
+    return text.error();
+  }
+  return parse_avoidance_case(text.value(), path.string());
+}
+
+Result<AvoidanceCase> parse_avoidance_case(std::string_view text, std::string_view source) {
+  const auto document = config::Document::parse(text, source);
+  if (!document.has_value()) {
+    return document.error();
+  }
+  Table root = document.value().root();
+  AvoidanceCase problem;
+  root.want_schema("saca.avoidance/1");
+  problem.name = root.plain_name("name");
+  case_times(root, problem);
+  problem.system = case_system(root.table("car"));
+  Table ego = root.table("ego");
+  problem.ego = case_footprint(ego, "").value_or(world::Footprint{});
+  problem.ego.centre_x = ego.number("centre_m", {-20.0, 20.0});
+  Table obstacle = root.table("obstacle");
+  problem.obstacle = case_footprint(obstacle, "left_edge");
+  if (problem.obstacle) {
+    problem.system.obstacle_speed = obstacle.number("speed_mps", {-60.0, 60.0});
+  }
+  problem.grid = case_grid(root.table("grid"), !problem.obstacle);
+  if (const auto error = document.value().error(); error.has_value()) {
+    return *error;
+  }
+  if (const auto broken = broken_rule(problem.grid)) {
+    return Error{Error::Code::malformed, fmt::format("{}: {}", source, *broken)};
+  }
+  return problem;
+}
+
+double intrusion_at(const AvoidanceCase& problem, const State& state) {
+  if (!problem.obstacle) {
+    return intrusion(problem.ego, {{0.0, state[0]}, state[1]}, HalfPlane{});
+  }
+  return intrusion(problem.ego, {{state[0], state[1]}, state[2]}, *problem.obstacle, {});
+}
+
+template <class Real>
+std::vector<Real> unsafe(const AvoidanceCase& problem, int threads) {
+  expects(problem.grid.axes.size() == (problem.obstacle ? 4 : 3), "the grid fits the obstacle");
+  const auto h = [&](std::span<const double> place) {
+    State state{};
+    std::copy(place.begin(), place.end(), state.begin());
+    return intrusion_at(problem, state);
+  };
+  std::vector<Real> values = sampled<Real>(without_speed(problem.grid), h, threads);
+  const auto at_one_speed = static_cast<std::ptrdiff_t>(values.size());
+  values.resize(num_cells(problem.grid));
+  for (auto to = values.begin() + at_one_speed; to != values.end(); to += at_one_speed) {
+    std::copy_n(values.begin(), at_one_speed, to);
+  }
+  return values;
+}
+
+template std::vector<float> unsafe(const AvoidanceCase&, int);
+template std::vector<double> unsafe(const AvoidanceCase&, int);
+
+}  // namespace saca::reach
