@@ -37,11 +37,6 @@ struct AtlasOptions {
   bool as_json = false;
 };
 
-int refused(const Error& problem) {
-  complain(problem.message);
-  return problem.code == Error::Code::unwritable ? cannot_write : bad_input;
-}
-
 int build(const AtlasOptions& options) {
   const auto inputs = read_inputs(options.car);
   if (!inputs.has_value()) {

@@ -84,4 +84,9 @@ void complain(const std::string& message) {
   fmt::print(stderr, "saca: {}\n", message);
 }
 
+int refused(const Error& problem) {
+  complain(problem.message);
+  return problem.code == Error::Code::unwritable ? cannot_write : bad_input;
+}
+
 }  // namespace saca::app

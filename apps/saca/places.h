@@ -47,4 +47,7 @@ struct Places {
 /// Says what is wrong on the error stream.
 void complain(const std::string& message);
 
+/// Says it; the exit code that goes with it.
+[[nodiscard]] int refused(const Error& problem);
+
 }  // namespace saca::app

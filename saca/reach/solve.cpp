@@ -184,6 +184,38 @@ Problem air3d_problem(const Grid& grid, const Air3d& game) {
               }};
 }
 
+Problem avoidance_problem(const AvoidanceCase& asked, std::string text) {
+  Problem problem{.text = std::move(text),
+                  .grid = asked.grid,
+                  .times = asked.snapshots,
+                  .tube = Tube::highest,
+                  .unsafe =
+                      [asked](std::span<const double> x) {
+                        State state{};
+                        std::copy(x.begin(), x.end(), state.begin());
+                        return intrusion_at(asked, state);
+                      },
+                  .in_floats = {},
+                  .in_doubles = {}};
+  if (problem.times.empty() || problem.times.back() < asked.horizon) {
+    problem.times.push_back(asked.horizon);
+  }
+  const auto set_flows = [&](const auto& system) {
+    problem.in_floats = [system](const Grid& on, Differences differences) {
+      return own_flow<float>(on, system, differences);
+    };
+    problem.in_doubles = [system](const Grid& on, Differences differences) {
+      return own_flow<double>(on, system, differences);
+    };
+  };
+  if (asked.obstacle) {
+    set_flows(asked.system);
+  } else {
+    set_flows(EdgeAvoidance{asked.system});
+  }
+  return problem;
+}
+
 std::size_t memory_needed(const Problem& problem, const Scheme& scheme) {
   const std::size_t bytes = scheme.doubles ? sizeof(double) : sizeof(float);
   // Beside the solver: h while it is handed over, the snapshots, and writing one of them.

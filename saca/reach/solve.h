@@ -9,6 +9,7 @@
 
 #include "saca/core/result.h"
 #include "saca/reach/air3d.h"
+#include "saca/reach/avoidance_case.h"
 #include "saca/reach/flow.h"
 #include "saca/reach/grid.h"
 #include "saca/reach/solver.h"
@@ -29,6 +30,10 @@ struct Problem {
 
 /// Mitchell's game, to 2.8 s.
 [[nodiscard]] Problem air3d_problem(const Grid& grid, const Air3d& game = {});
+
+/// What a case file asks for.
+/// @param text  of the file
+[[nodiscard]] Problem avoidance_problem(const AvoidanceCase& asked, std::string text);
 
 struct Scheme {
   Differences differences = Differences::weno5;

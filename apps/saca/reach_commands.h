@@ -1,0 +1,11 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace saca::app {
+
+// Each adds one subcommand of `saca reach`; exit codes as in `commands.h`.
+
+void add_reach_solve(CLI::App& reach, int& exit_code);
+
+}  // namespace saca::app
