@@ -56,7 +56,7 @@ Result<std::string> picture(const AuthorsPage& page, const AuthorsView& view, Va
 
 Result<std::string> pair_of(const AuthorsPage& page, const AuthorsView& view,
                             const reach::ValueTable& table, const reach::AuthorsNetwork& network) {
-  const RasterSize size = raster_size(plot_axis("x", shown_x), plot_axis("y", shown_y));
+  constexpr RasterSize size{320, 100};  // 0.2 m: the network takes its time
   const auto solved = picture(page, view,
                               value_map(table, shown_x, shown_y, size.columns, size.rows,
                                         {0.0, 0.0, view.course, view.speed}),
