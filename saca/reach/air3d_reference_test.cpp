@@ -150,25 +150,37 @@ TEST(Air3dSolved, LeftAndRightAreAlike) {
   }
 }
 
-TEST(Air3dSolved, LongerHorizonNeverSavesAnybody) {
-  const Grid grid = small_grid();
-  for (const Tube tube : {Tube::tube, Tube::highest}) {
-    // Rates that only raise V let it fall by rounding alone; beside a running maximum dissipation
-    // rounds off tops where they stand: a few per cent of the spacing of 1 m.
-    const double slack = tube == Tube::tube ? 1e-12 : 0.05;
-    auto before = start<double>(grid);
-    Solver<double> solver(grid, own_flow<double>(grid, Air3d{}), before, {.tube = tube});
-    for (const double horizon : {0.4, 0.8, 1.2}) {
-      while (solver.time() < horizon) {
-        ASSERT_TRUE(solver.step(horizon).has_value());
-      }
-      for (std::size_t i = 0; i < before.size(); ++i) {
-        ASSERT_GE(solver.values()[i], before[i] - slack) << described(grid, state_at(grid, i));
-      }
-      EXPECT_GT(tube_volume<double>(grid, solver.values()), tube_volume<double>(grid, before));
-      before.assign(solver.values().begin(), solver.values().end());
+/// How far a value of at most `about` in size falls at most between 0, 0.4, 0.8 and 1.2 s [m]; the
+/// tube must grow each time.
+double greatest_fall(int scale, Tube tube, double about) {
+  const Grid grid = air3d_grid(26 * scale + 1, 20 * scale + 1, 20 * scale);
+  auto before = start<double>(grid);
+  Solver<double> solver(grid, own_flow<double>(grid, Air3d{}), before, {.tube = tube});
+  double fall = 0.0;
+  for (const double horizon : {0.4, 0.8, 1.2}) {
+    while (solver.time() < horizon) {
+      EXPECT_TRUE(solver.step(horizon).has_value());
     }
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      if (std::abs(before[i]) <= about) {
+        fall = std::max(fall, before[i] - solver.values()[i]);
+      }
+    }
+    EXPECT_GT(tube_volume<double>(grid, solver.values()), tube_volume<double>(grid, before));
+    before.assign(solver.values().begin(), solver.values().end());
   }
+  return fall;
+}
+
+TEST(Air3dSolved, LongerHorizonNeverSavesAnybody) {
+  constexpr double anywhere = 100.0;
+  EXPECT_LT(greatest_fall(1, Tube::tube, anywhere), 1e-12);  // rounding
+  // Beside a running maximum the grid's error may let values fall; about the tube's surface it goes
+  // down with the spacing. More than 10 m from being caught values do fall, by up to 1.4 m on any
+  // grid: they came in over the open ends, where what lies beyond is made up.
+  const double coarse = greatest_fall(1, Tube::highest, 1.0);
+  const double fine = greatest_fall(2, Tube::highest, 1.0);
+  EXPECT_GT(coarse / fine, 1.5) << coarse << " m, " << fine << " m";
 }
 
 TEST(Air3dSolved, WhoMayTurnMoreGains) {
