@@ -31,10 +31,12 @@ test: setup model
 bench: build model
 	@tools/bench.sh
 
-# Long runs: kills in the middle of memory's writes; first contacts against brute force; the batch against the scalar model; evasions against the values that they follow.
+# Long runs: kills in the middle of memory's writes; first contacts against brute force; the batch
+# against the scalar model; evasions against the values that they follow; air3D on fine grids.
 soak: setup
-	@cmake --preset dev > /dev/null && cmake --build --preset dev --target memory_store_test outcome_exactness_test eval_rollout_agreement_test reach_follow_agreement_test -- --quiet
+	@cmake --preset dev > /dev/null && cmake --build --preset dev --target memory_store_test outcome_exactness_test eval_rollout_agreement_test reach_follow_agreement_test reach_air3d_reference_test -- --quiet
 	SACA_SOAK_KILLS=$${SACA_SOAK_KILLS:-500} build/dev/modules/memory/memory_store_test --gtest_filter='*Killed*'
 	SACA_SOAK_PAIRS=$${SACA_SOAK_PAIRS:-100000} build/dev/modules/outcome/outcome_exactness_test
 	SACA_AGREEMENT_ENCOUNTERS=$${SACA_AGREEMENT_ENCOUNTERS:-4000} build/dev/modules/eval/eval_rollout_agreement_test
 	SACA_SOAK_REACH=1 build/dev/modules/reach/reach_follow_agreement_test
+	SACA_SOAK_AIR3D=1 build/dev/modules/reach/reach_air3d_reference_test

@@ -15,6 +15,7 @@
 #include "apps/saca/commands.h"
 #include "apps/saca/inputs.h"
 #include "apps/saca/places.h"
+#include "apps/saca/reach_bench.h"
 #include "saca/core/clock.h"
 #include "saca/core/percentile.h"
 #include "saca/decide/reflex_plane.h"
@@ -242,6 +243,9 @@ int bench(const BenchOptions& options) {
   if (asked("vehicle")) {
     bench_vehicle(inputs.car, clock, figures);
   }
+  if (asked("reach")) {
+    bench_reach(clock, figures);
+  }
   const int fewer_calls = std::min(options.calls, 10'000);
   if (asked("decide") || asked("atlas")) {
     const manoeuvre::Atlas atlas = usual_atlas(inputs);
@@ -267,10 +271,11 @@ int bench(const BenchOptions& options) {
 
 void add_bench(CLI::App& line, int& exit_code) {
   CLI::App* const command = line.add_subcommand(
-      "bench", "Measure: vehicle steps, the reflex plane with its check, the atlas");
+      "bench",
+      "Measure: vehicle steps, the reflex plane with its check, the atlas, the solver of reach");
   const auto options = std::make_shared<BenchOptions>();
-  command->add_option("what", options->what, "all, vehicle, decide or atlas")
-      ->check(CLI::IsMember({"all", "vehicle", "decide", "atlas"}))
+  command->add_option("what", options->what, "all, vehicle, decide, atlas or reach")
+      ->check(CLI::IsMember({"all", "vehicle", "decide", "atlas", "reach"}))
       ->capture_default_str();
   command->add_option("--calls", options->calls, "Of the reflex plane, for each number of actors")
       ->check(CLI::Range(1'000, 100'000'000))

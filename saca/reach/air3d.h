@@ -62,4 +62,14 @@ struct Air3d {
 /// @param state  (3)
 [[nodiscard]] double intrusion(const Air3d& game, std::span<const double> state);
 
+/// Volume of {V >= 0} on a grid of three evenly spaced axes: along each line of points in the first
+/// axis the length on which V, linear between points, is >= 0; the lines' lengths summed times the
+/// spacings, those at the ends of open axes by half.
+/// @param values  one per cell
+template <class Real>
+[[nodiscard]] double tube_volume(const Grid& grid, std::span<const Real> values);
+
+extern template double tube_volume(const Grid&, std::span<const float>);
+extern template double tube_volume(const Grid&, std::span<const double>);
+
 }  // namespace saca::reach

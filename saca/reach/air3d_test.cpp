@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <vector>
 
 namespace saca::reach {
 namespace {
@@ -138,6 +139,35 @@ TEST(Air3d, CaughtIsWhoIsWithinTheRadius) {
   EXPECT_DOUBLE_EQ(intrusion(game, State3{3.0, -4.0, 1.0}), 0.0);
   EXPECT_DOUBLE_EQ(intrusion(game, State3{0.0, 0.0, 2.0}), 5.0);
   EXPECT_DOUBLE_EQ(intrusion(game, State3{6.0, 8.0, 0.0}), -5.0);
+}
+
+// A straight value is cut exactly wherever the cut falls: x + y / 4 >= 1 in the room of the grid.
+TEST(TubeVolume, IsExactForAPlane) {
+  const Grid grid = air3d_grid(14, 11, 8);
+  const auto values = sampled<double>(
+      grid, [](auto x) { return x[0] + 0.25 * x[1] - 1.0; }, 1);
+  // mean length 20 - 1 in x, times 20 in y (the slanted end cancels), times 2 pi
+  EXPECT_NEAR(tube_volume<double>(grid, values), 19.0 * 20.0 * 2.0 * std::numbers::pi, 1e-9);
+}
+
+// The lines' lengths go to zero like a square root at the rim, where the sum's order is 3/2.
+TEST(TubeVolume, OfTheCaptureCylinderConverges) {
+  const auto error = [](int scale) {
+    const Grid grid = air3d_grid(26 * scale + 1, 20 * scale + 1, 4);
+    const auto h = sampled<float>(
+        grid, [](auto x) { return intrusion({}, x); }, 1);
+    return std::abs(tube_volume<float>(grid, h) - 25.0 * std::numbers::pi * 2.0 * std::numbers::pi);
+  };
+  EXPECT_NEAR(std::log2(error(2) / error(16)) / 3.0, 1.5, 0.1);
+  EXPECT_LT(error(16), 0.3);
+}
+
+TEST(TubeVolume, IsZeroOrAllOfTheRoom) {
+  const Grid grid = air3d_grid(5, 6, 7);
+  const std::vector<float> safe(num_cells(grid), -1.0F);
+  const std::vector<float> caught(num_cells(grid), 0.0F);
+  EXPECT_EQ(tube_volume<float>(grid, safe), 0.0);
+  EXPECT_NEAR(tube_volume<float>(grid, caught), 26.0 * 20.0 * 2.0 * std::numbers::pi, 1e-9);
 }
 
 }  // namespace

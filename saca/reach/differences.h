@@ -11,6 +11,14 @@ struct Sides {
   N left, right;
 };
 
+/// How steep a value is along an axis at most, between neighbours: what scales weights.
+template <class N>
+struct Steepness {
+  N inverse, sixth;
+  Steepness() = default;
+  explicit Steepness(double steepness) : inverse(1.0 / steepness), sixth(steepness / 6.0) {}
+};
+
 /// @param v  the cell's value and those of its three neighbours on either side   (7)
 ///
 /// Source: Osher and Fedkiw, Level Set Methods and Dynamic Implicit Surfaces, 2003, chapter 3.
@@ -24,14 +32,14 @@ inline N less_in_size(const N& a, const N& b) {
 
 template <class N>
 struct OneSided<Differences::upwind1, N> {
-  static Sides<N> of(const std::array<N, 7>& v, const N& /*steepness*/) {
+  static Sides<N> of(const std::array<N, 7>& v, const Steepness<N>& /*scale*/) {
     return {v[3] - v[2], v[4] - v[3]};
   }
 };
 
 template <class N>
 struct OneSided<Differences::eno2, N> {
-  static Sides<N> of(const std::array<N, 7>& v, const N& /*steepness*/) {
+  static Sides<N> of(const std::array<N, 7>& v, const Steepness<N>& /*scale*/) {
     const N left = v[3] - v[2];
     const N right = v[4] - v[3];
     const N here = right - left;  // second differences at the cell and at its neighbours
@@ -43,7 +51,7 @@ struct OneSided<Differences::eno2, N> {
 
 template <class N>
 struct OneSided<Differences::eno3, N> {
-  static Sides<N> of(const std::array<N, 7>& v, const N& /*steepness*/) {
+  static Sides<N> of(const std::array<N, 7>& v, const Steepness<N>& /*scale*/) {
     std::array<N, 6> d;  // first, second and third differences, from left to right
     for (std::size_t k = 0; k < 6; ++k) {
       d[k] = v[k + 1] - v[k];
@@ -72,24 +80,23 @@ struct OneSided<Differences::eno3, N> {
 /// neither on the values' scale nor on the precision's range.
 template <class N>
 struct OneSided<Differences::weno5, N> {
-  static Sides<N> of(const std::array<N, 7>& v, const N& steepness) {
+  static Sides<N> of(const std::array<N, 7>& v, const Steepness<N>& scale) {
     std::array<N, 6> d;
     for (std::size_t k = 0; k < 6; ++k) {
       d[k] = v[k + 1] - v[k];
     }
-    const N unit = 1.0 / steepness;
     std::array<N, 5> e;
     for (std::size_t k = 0; k < 5; ++k) {
-      e[k] = (d[k + 1] - d[k]) * unit;
+      e[k] = (d[k + 1] - d[k]) * scale.inverse;
     }
     std::array<N, 4> bend;  // 13/12 of the squared third differences, and what keeps it from zero
     for (std::size_t k = 0; k < 4; ++k) {
       const N f = e[k + 1] - e[k];
       bend[k] = fma(f * (13.0 / 12.0), f, N(1e-6));
     }
-    const N sixth = steepness * (1.0 / 6.0);
-    return {fma(correction(e[0], e[1], e[2], e[3], bend[0], bend[1], bend[2]), sixth, d[2]),
-            fma(correction(-e[4], -e[3], -e[2], -e[1], bend[3], bend[2], bend[1]), sixth, d[3])};
+    return {
+        fma(correction(e[0], e[1], e[2], e[3], bend[0], bend[1], bend[2]), scale.sixth, d[2]),
+        fma(correction(-e[4], -e[3], -e[2], -e[1], bend[3], bend[2], bend[1]), scale.sixth, d[3])};
   }
 
  private:

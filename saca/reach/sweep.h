@@ -181,7 +181,16 @@ struct Sweep {
 
   const GridView<Real>& grid;
   const Stage<Real>& stage;
+  const N dt, keep, take;
+  std::array<Steepness<N>, D> steepness;
   N finite = 0.0, greatest_change = 0.0;  // `finite` stays 0 until a value is no number
+
+  Sweep(const GridView<Real>& on, const Stage<Real>& one)
+      : grid(on), stage(one), dt(one.dt), keep(one.keep), take(1.0 - one.keep) {
+    for (std::size_t d = 0; d < D; ++d) {
+      steepness[d] = Steepness<N>(one.steepness[d]);
+    }
+  }
 
   /// Everything about a row that its packs share.
   struct Job {
@@ -218,7 +227,7 @@ struct Sweep {
       for (std::size_t k = 0; k < 7; ++k) {
         v[k] = N::load(job.neighbours[d][k] + i);
       }
-      const auto sides = OneSided<differences, N>::of(v, N(stage.steepness[d]));
+      const auto sides = OneSided<differences, N>::of(v, steepness[d]);
       const N scale = d == 0 ? N::load(grid.per_spacing[0] + i) : N(job.per_spacing[d]);
       const int direction = direction_of<D>(job.row, d);
       left[d] = (direction > 0 ? sides.right : sides.left) * scale;
@@ -235,9 +244,9 @@ struct Sweep {
     }
     const N old = N::load(stage.old + cell);
     const N values = N::load(stage.values + cell);
-    N next = fma(change, N(stage.dt), values);
+    N next = fma(change, dt, values);
     if (stage.keep > 0.0) {
-      next = fma(old, N(stage.keep), next * (1.0 - stage.keep));
+      next = fma(old, keep, next * take);
     }
     if (stage.tube == Tube::highest) {
       // `max` of some sets passes over what is no number if it stands first
@@ -285,7 +294,7 @@ struct Sweep {
 
 template <class Real, class Arch, Differences differences, class System>
 inline Swept sweep(const System& system, const GridView<Real>& grid, const Stage<Real>& stage) {
-  Sweep<Real, Arch, differences, System> work{grid, stage};
+  Sweep<Real, Arch, differences, System> work(grid, stage);
   for (std::size_t r = stage.first_row; r < stage.end_row; ++r) {
     const auto job = work.job_of(system, Place<System::dimensions>(grid, r));
     for (std::ptrdiff_t i = 0; i < grid.points[0];

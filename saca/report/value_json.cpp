@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "saca/core/contract.h"
+#include "saca/report/base64.h"
 #include "saca/report/value_map.h"
 
 namespace saca::report {
@@ -18,23 +19,6 @@ using nlohmann::json;
 using Picked = std::vector<std::size_t>;  // points, or snapshots, that the page gets
 
 constexpr std::size_t most_page_times = 12;
-
-std::string base64(const std::string& bytes) {
-  constexpr std::string_view digits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto byte = [&](std::size_t k) {
-      return k < bytes.size() ? std::uint32_t{static_cast<unsigned char>(bytes[k])} : 0U;
-    };
-    const std::uint32_t triple = byte(i) << 16U | byte(i + 1) << 8U | byte(i + 2);
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += i + k <= bytes.size() ? digits[triple >> (18U - 6U * k) & 63U] : '=';
-    }
-  }
-  return text;
-}
 
 /// Every `step`-th of `count`; the last too, unless the axis goes on at the first.
 Picked every(std::size_t step, std::size_t count, bool with_last) {

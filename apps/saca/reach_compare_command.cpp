@@ -1,0 +1,157 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/saca/places.h"
+#include "apps/saca/reach_commands.h"
+#include "saca/core/file.h"
+#include "saca/core/units.h"
+#include "saca/reach/authors_comparison.h"
+#include "saca/reach/avoidance_case.h"
+#include "saca/reach/value_file.h"
+#include "saca/reach/value_table.h"
+#include "saca/report/authors_page.h"
+
+namespace saca::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using reach::Agreement;
+using reach::AuthorsComparison;
+
+struct CompareOptions {
+  std::string file;
+  std::string network;
+  std::string output = "reach/authors_network.html";
+  std::optional<double> speed_mps, course_deg;
+  bool as_json = false;
+};
+
+/// The network knows of no motion of the obstacle.
+std::optional<Error> not_at_rest(const std::string& file, const std::string& problem_text) {
+  const auto problem = reach::parse_avoidance_case(problem_text, file);
+  if (!problem.has_value()) {
+    return problem.error();
+  }
+  const double speed = problem.value().system.obstacle_speed;
+  if (speed != 0.0) {
+    return Error{Error::Code::out_of_range,
+                 fmt::format("{}: want an obstacle at rest, got one at {:g} m/s", file, speed)};
+  }
+  return std::nullopt;
+}
+
+std::vector<report::AuthorsView> views_asked_for(const CompareOptions& options) {
+  if (options.speed_mps || options.course_deg) {
+    return {{from_degrees(options.course_deg.value_or(0.0)), options.speed_mps.value_or(10.0)}};
+  }
+  const double aslant = from_degrees(20.0);
+  return {{0.0, 5.0}, {0.0, 10.0}, {0.0, 18.0}, {aslant, 5.0}, {aslant, 18.0}};
+}
+
+json agreement_figures(const AuthorsComparison& found) {
+  const Agreement& all = found.all;
+  json all_of_them{{"reach.authors_net.n", all.states},
+                   {"reach.authors_net.n_unsafe", all.unsafe},
+                   {"reach.authors_net.n_outside", found.outside},
+                   {"reach.authors_net.sign_agreement", all.sign_agreement()},
+                   {"reach.authors_net.false_safe", all.false_safe_share()},
+                   {"reach.authors_net.false_alarm", all.false_alarm_share()}};
+  for (const auto& one : found.by_speed) {
+    const std::string at = fmt::format(".speed{:g}", one.speed);
+    all_of_them["reach.authors_net.false_safe" + at] = one.agreement.false_safe_share();
+    all_of_them["reach.authors_net.false_alarm" + at] = one.agreement.false_alarm_share();
+  }
+  return all_of_them;
+}
+
+void tell_agreement(const AuthorsComparison& found) {
+  const auto line = [](const std::string& head, const Agreement& agreement) {
+    fmt::print("{:>8} {:8} {:8} {:9.1f} % {:9.1f} % {:9.1f} %", head, agreement.states,
+               agreement.unsafe, 100.0 * agreement.sign_agreement(),
+               100.0 * agreement.false_safe_share(), 100.0 * agreement.false_alarm_share());
+  };
+  fmt::print("{:>8} {:>8} {:>8} {:>11} {:>11} {:>11}   mean value [m], solved and network\n", "m/s",
+             "states", "unsafe", "same sign", "false safe", "false alarm");
+  for (const auto& one : found.by_speed) {
+    line(fmt::format("{:g}", one.speed), one.agreement);
+    fmt::print("   {:6.1f} {:6.1f}\n", one.mean_solved, one.mean_network);
+  }
+  line("all", found.all);
+  fmt::print("\n");
+  if (found.outside > 0) {
+    fmt::print("{} states of the network's range lie outside the solution\n", found.outside);
+  }
+}
+
+int compare_values(const CompareOptions& options) {
+  const auto solved = reach::read_solved(options.file);
+  if (!solved.has_value()) {
+    return refused(solved.error());
+  }
+  const auto network = reach::read_authors_network(options.network);
+  if (!network.has_value()) {
+    return refused(network.error());
+  }
+  const reach::ValueTable table(solved.value().grid,
+                                snapshot(solved.value(), solved.value().times.size() - 1));
+  const auto found = compare_with_authors(table, network.value());
+  if (!found.has_value()) {
+    return refused({found.error().code, options.file + ": " + found.error().message});
+  }
+  if (const auto moves = not_at_rest(options.file, solved.value().problem)) {
+    return refused(*moves);
+  }
+  const std::string& text = solved.value().problem;
+  const report::AuthorsPage page{.case_name = report::problem_name(text).value_or(options.file),
+                                 .network_name = fs::path(options.network).filename().string(),
+                                 .outline = report::obstacle_outline(text),
+                                 .views = views_asked_for(options)};
+  const auto html = authors_page(page, table, network.value(), found.value());
+  if (!html.has_value()) {
+    return refused(html.error());
+  }
+  auto problem = make_folder_of(options.output);
+  if (!problem) {
+    problem = write_file(options.output, html.value());
+  }
+  if (problem) {
+    return refused(*problem);
+  }
+  if (options.as_json) {
+    fmt::print("{}\n", agreement_figures(found.value()).dump(1));
+    return success;
+  }
+  tell_agreement(found.value());
+  fmt::print("Maps: {}\n", fs::absolute(options.output).string());
+  return success;
+}
+
+}  // namespace
+
+void add_reach_compare(CLI::App& reach, int& exit_code) {
+  CLI::App* const command = reach.add_subcommand(
+      "compare", "Hold the value network that the paper's authors published to a solved value");
+  const auto options = std::make_shared<CompareOptions>();
+  command->add_option("file", options->file, "Solved values over x, y, course, speed (HDF5)")
+      ->required();
+  command->add_option("--network", options->network, "The published safe_value_params.npz")
+      ->required();
+  command->add_option("--output", options->output, "The page")->capture_default_str();
+  command
+      ->add_option("--speed-mps", options->speed_mps, "Of the one pair of maps; default: several")
+      ->check(CLI::Range(0.0, 18.0));
+  command->add_option("--course-deg", options->course_deg, "Likewise")
+      ->check(CLI::Range(-40.0, 40.0));
+  command->add_flag("--json", options->as_json, "For programs");
+  command->callback([options, &exit_code] { exit_code = compare_values(*options); });
+}
+
+}  // namespace saca::app

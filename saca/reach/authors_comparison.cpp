@@ -1,0 +1,94 @@
+#include "saca/reach/authors_comparison.h"
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "saca/core/units.h"
+
+namespace saca::reach {
+namespace {
+
+double share(std::size_t part, std::size_t of, double of_none) {
+  return of == 0 ? of_none : static_cast<double>(part) / static_cast<double>(of);
+}
+
+std::vector<AuthorsState> lattice_at(double speed) {
+  std::vector<AuthorsState> states;
+  for (int x = -50; x <= 0; ++x) {
+    for (int y = -8; y <= 8; ++y) {
+      for (int yaw = -40; yaw <= 40; yaw += 5) {
+        states.push_back({static_cast<double>(x), static_cast<double>(y),
+                          from_degrees(static_cast<double>(yaw)), speed});
+      }
+    }
+  }
+  return states;
+}
+
+void count(Agreement& agreement, double solved, double network) {
+  ++agreement.states;
+  agreement.unsafe += solved >= 0.0 ? 1 : 0;
+  agreement.false_safe += solved >= 0.0 && !(network >= 0.0) ? 1 : 0;
+  agreement.false_alarm += solved < 0.0 && network >= 0.0 ? 1 : 0;
+}
+
+void add(Agreement& sum, const Agreement& more) {
+  sum.states += more.states;
+  sum.unsafe += more.unsafe;
+  sum.false_safe += more.false_safe;
+  sum.false_alarm += more.false_alarm;
+}
+
+}  // namespace
+
+double Agreement::sign_agreement() const {
+  return share(states - false_safe - false_alarm, states, 1.0);
+}
+double Agreement::false_safe_share() const {
+  return share(false_safe, unsafe, 0.0);
+}
+double Agreement::false_alarm_share() const {
+  return share(false_alarm, states - unsafe, 0.0);
+}
+
+Result<AuthorsComparison> compare_with_authors(const ValueTable& table,
+                                               const AuthorsNetwork& network) {
+  constexpr std::array<std::string_view, 4> wanted{"x", "y", "course", "speed"};
+  const auto& axes = table.grid().axes;
+  bool as_wanted = axes.size() == wanted.size();
+  std::string came;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    as_wanted = as_wanted && axes[i].name == wanted[i];
+    came += (i == 0 ? "" : ", ") + axes[i].name;
+  }
+  if (!as_wanted) {
+    return Error{Error::Code::malformed, "want values over x, y, course, speed, got " + came};
+  }
+  AuthorsComparison all;
+  for (int speed = 0; speed <= 18; ++speed) {
+    AuthorsComparison::AtSpeed here{.speed = static_cast<double>(speed)};
+    const std::vector<AuthorsState> states = lattice_at(here.speed);
+    const std::vector<double> values = network.values(states);
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const Looked solved =
+          table.at(State{states[i].x, states[i].y, states[i].yaw, states[i].speed});
+      if (!solved.inside) {
+        ++all.outside;
+        continue;
+      }
+      count(here.agreement, solved.value, values[i]);
+      here.mean_solved += solved.value;
+      here.mean_network += values[i];
+    }
+    if (here.agreement.states > 0) {
+      here.mean_solved /= static_cast<double>(here.agreement.states);
+      here.mean_network /= static_cast<double>(here.agreement.states);
+      add(all.all, here.agreement);
+      all.by_speed.push_back(here);
+    }
+  }
+  return all;
+}
+
+}  // namespace saca::reach

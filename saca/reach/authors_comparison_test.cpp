@@ -1,0 +1,104 @@
+#include "saca/reach/authors_comparison.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace saca::reach {
+namespace {
+
+/// A network whose value is offset + slope x (x + 50) / 50, where that is right of 0 and x > -50.
+AuthorsNetwork along_x(double slope, double offset) {
+  const std::map<std::string, NpyArray> arrays{
+      {"MLP_0_Dense_0_kernel", {{4, 1}, {1.0, 0.0, 0.0, 0.0}}},
+      {"MLP_0_Dense_0_bias", {{1}, {0.0}}},
+      {"MLP_0_Dense_1_kernel", {{1, 1}, {1.0}}},
+      {"MLP_0_Dense_1_bias", {{1}, {0.0}}},
+      {"OutputVDense_kernel", {{1, 1}, {slope}}},
+      {"OutputVDense_bias", {{1}, {offset}}}};
+  return AuthorsNetwork::from(arrays, "made here").value();
+}
+
+ValueTable table_of(const std::function<double(std::span<const double>)>& value,
+                    double x_first = -60.0, double speed_last = 20.0) {
+  const double pi = std::numbers::pi;
+  const Grid grid{
+      {{.name = "x", .first = x_first, .last = 20.0, .points = 41},
+       {.name = "y", .first = -10.0, .last = 10.0, .points = 5},
+       {.name = "course", .first = -pi, .last = pi, .points = 8, .edge = Edge::periodic},
+       {.name = "speed", .first = 0.0, .last = speed_last, .points = 5}}};
+  return {grid, sampled<float>(grid, value, 1)};
+}
+
+constexpr std::size_t places = 17 * 17;          // y and yaw
+constexpr std::size_t each_speed = 51 * places;  // and x
+
+TEST(Agreement, CountsBecomeShares) {
+  const Agreement counts{.states = 100, .unsafe = 40, .false_safe = 10, .false_alarm = 15};
+  EXPECT_DOUBLE_EQ(counts.sign_agreement(), 0.75);
+  EXPECT_DOUBLE_EQ(counts.false_safe_share(), 0.25);
+  EXPECT_DOUBLE_EQ(counts.false_alarm_share(), 0.25);
+  EXPECT_EQ(Agreement{}.sign_agreement(), 1.0);
+  EXPECT_EQ(Agreement{}.false_safe_share(), 0.0);
+}
+
+// Solved: unsafe from x = -10.5 m on. Network: from x = -20.5 m on.
+TEST(CompareWithAuthors, TooCarefulANetworkGivesFalseAlarms) {
+  const auto found =
+      compare_with_authors(table_of([](auto x) { return x[0] + 10.5; }), along_x(50.0, -29.5));
+  ASSERT_TRUE(found.has_value());
+  const Agreement& all = found.value().all;
+  EXPECT_EQ(all.states, 19 * each_speed);
+  EXPECT_EQ(all.unsafe, 19 * 11 * places);  // x = -10 ... 0 m
+  EXPECT_EQ(all.false_safe, 0U);
+  EXPECT_EQ(all.false_alarm, 19 * 10 * places);  // x = -20 ... -11 m
+  EXPECT_EQ(found.value().outside, 0U);
+}
+
+TEST(CompareWithAuthors, TooCarelessANetworkIsFalselySafe) {
+  const auto found =
+      compare_with_authors(table_of([](auto x) { return x[0] + 20.5; }), along_x(50.0, -39.5));
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found.value().all.false_safe, 19 * 10 * places);
+  EXPECT_EQ(found.value().all.false_alarm, 0U);
+}
+
+TEST(CompareWithAuthors, SpeedsAreToldApart) {  // solved: unsafe from 9.5 m/s on; network: never
+  const auto found =
+      compare_with_authors(table_of([](auto x) { return x[3] - 9.5; }), along_x(0.0, -2.0));
+  ASSERT_TRUE(found.has_value());
+  ASSERT_EQ(found.value().by_speed.size(), 19U);
+  for (const auto& one : found.value().by_speed) {
+    EXPECT_EQ(one.agreement.states, each_speed);
+    EXPECT_EQ(one.agreement.false_safe, one.speed > 9.5 ? each_speed : 0U) << one.speed;
+    EXPECT_NEAR(one.mean_solved, one.speed - 9.5, 1e-4);
+    EXPECT_NEAR(one.mean_network, -2.0, 1e-5);
+  }
+}
+
+TEST(CompareWithAuthors, WhatTheTableDoesNotHoldIsLeftOutAndCounted) {
+  const auto found =
+      compare_with_authors(table_of([](auto) { return -1.0; }, -40.0, 10.0), along_x(0.0, -2.0));
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found.value().all.states, 11 * 41 * places);
+  EXPECT_EQ(found.value().outside, 19 * each_speed - 11 * 41 * places);
+  EXPECT_EQ(found.value().by_speed.size(), 11U);
+}
+
+TEST(CompareWithAuthors, OtherAxesAreRefused) {
+  const Grid grid{{{.name = "x", .first = 0.0, .last = 1.0, .points = 4},
+                   {.name = "speed", .first = 0.0, .last = 1.0, .points = 4}}};
+  const std::vector<float> values(16, 0.0F);
+  const auto found = compare_with_authors(ValueTable(grid, values), along_x(1.0, 0.0));
+  ASSERT_FALSE(found.has_value());
+  EXPECT_EQ(found.error().message, "want values over x, y, course, speed, got x, speed");
+}
+
+}  // namespace
+}  // namespace saca::reach

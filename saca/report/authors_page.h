@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "saca/core/result.h"
+#include "saca/reach/authors_comparison.h"
+#include "saca/reach/authors_network.h"
+#include "saca/reach/value_table.h"
+#include "saca/report/value_map.h"
+
+namespace saca::report {
+
+/// The network's values over a plane, as `value_map` has a table's.
+/// @return  `inside` is `in_authors_range`
+[[nodiscard]] ValueMap authors_map(const reach::AuthorsNetwork& network, const MapRange& x,
+                                   const MapRange& y, int columns, int rows, double yaw,
+                                   double speed);
+
+/// Where a pair of maps is taken.
+struct AuthorsView {
+  double course = 0.0;  ///< [rad]
+  double speed = 0.0;   ///< [m/s]
+};
+
+/// One page: a solved value and the published network side by side, and how they agree.
+struct AuthorsPage {
+  std::string case_name, network_name;
+  std::vector<Vec2> outline;  ///< of the obstacle [m]; empty: none
+  std::vector<AuthorsView> views;
+};
+
+/// @return  HTML that needs no other file; an error when there is no memory for a picture
+[[nodiscard]] Result<std::string> authors_page(const AuthorsPage& page,
+                                               const reach::ValueTable& table,
+                                               const reach::AuthorsNetwork& network,
+                                               const reach::AuthorsComparison& comparison);
+
+}  // namespace saca::report
