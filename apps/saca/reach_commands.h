@@ -6,6 +6,7 @@ namespace saca::app {
 
 // Each adds one subcommand of `saca reach`; exit codes as in `commands.h`.
 
+void add_reach_check(CLI::App& reach, int& exit_code);
 void add_reach_compare(CLI::App& reach, int& exit_code);
 void add_reach_solve(CLI::App& reach, int& exit_code);
 void add_reach_show(CLI::App& reach, int& exit_code);

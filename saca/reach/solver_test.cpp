@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "saca/reach/systems_for_test.h"
+#include "saca/reach/known_systems.h"
 
 namespace saca::reach {
 namespace {
