@@ -2,7 +2,7 @@
 
 const arrow_seconds = 0.5;  // how much of its way a velocity arrow shows
 const trail_seconds = 2.5;
-const risk_shown = 0.5;     // from here on an actor is drawn as a threat
+const risk_shown = 0.75;     // from here on an actor is drawn as a threat
 
 class PlanView {
   constructor(canvas, record) {

@@ -107,13 +107,14 @@ json preview_json(const decide::Preview& preview) {
       posterior[std::string(name(intention))] =
           situation.posteriors[i][static_cast<std::size_t>(intention)];
     }
-    actors.push_back({{"id", actor_name(scene.actors[i])},
-                      {"intention", name(situation.intentions[i])},
-                      {"posterior", posterior},
-                      {"risk", situation.risks[i].risk},
-                      {"value_m", situation.risks[i].value},
-                      {"value_exact", situation.risks[i].exact},
-                      {"risk_text", explanation(situation.risks[i])}});
+    actors.push_back(
+        {{"id", actor_name(scene.actors[i])},
+         {"intention", name(situation.intentions[i])},
+         {"posterior", posterior},
+         {"risk", situation.risks[i].risk},
+         {"value_m", situation.risks[i].judged ? json(situation.risks[i].value) : json()},
+         {"value_exact", situation.risks[i].exact},
+         {"risk_text", explanation(situation.risks[i])}});
   }
   json facts = json::array();
   for (const preview::PolicyFacts& fact : situation.facts) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "saca/world/time_to_conflict.h"
+
 namespace saca::reach {
 namespace {
 
@@ -72,15 +74,22 @@ Meeting meeting_of(const world::Scene& scene, const Actor& actor) {
 
 ObstacleRisk obstacle_risk(const world::Scene& scene, const Actor& actor,
                            const DangerModel& model) {
+  if (world::is_behind(scene, actor)) {
+    return {.risk = 0.0, .value = 0.0, .exact = false, .judged = false};
+  }
   const Danger danger = model.danger(meeting_of(scene, actor));
   const RiskScale scale = risk_scale(actor.kind);
   const double share = (danger.value - scale.lowest) / (scale.highest - scale.lowest);
   return {.risk = std::clamp(share, 0.0, 1.0),
           .value = danger.value,
-          .exact = danger.exact && !slides(actor)};
+          .exact = danger.exact && !slides(actor),
+          .judged = true};
 }
 
 std::string explanation(const ObstacleRisk& risk) {
+  if (!risk.judged) {
+    return "behind the ego: not judged";
+  }
   const char* const about = risk.exact ? "" : risk.value >= 0.0 ? "at most " : "at least ";
   if (risk.value >= 0.0) {
     return fmt::format("best evasion still hits {}{:.1f} m deep", about, risk.value);

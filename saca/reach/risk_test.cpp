@@ -60,8 +60,16 @@ TEST(ObstacleRisk, IsOneWhereNothingHelps) {
 }
 
 TEST(ObstacleRisk, IsZeroThirtyMetresAway) {
-  EXPECT_EQ(obstacle_risk(road(5.0), car({-60.0, 0.0}, {}), model()).risk, 0.0);
-  EXPECT_NEAR(obstacle_risk(road(5.0), car({-60.0, 0.0}, {}), model()).value, -56.0, 1e-6);
+  const ObstacleRisk far = obstacle_risk(road(5.0), car({0.0, 60.0}, {}, 0.5 * pi), model());
+  EXPECT_EQ(far.risk, 0.0);
+  EXPECT_NEAR(far.value, -57.0, 1e-3);  // half a width and half a length nearer than the middles
+}
+
+TEST(ObstacleRisk, AFollowerIsNotJudged) {
+  const ObstacleRisk risk = obstacle_risk(road(15.0), car({-9.0, 0.0}, {19.0, 0.0}), model());
+  EXPECT_EQ(risk.risk, 0.0);
+  EXPECT_FALSE(risk.judged);
+  EXPECT_EQ(explanation(risk), "behind the ego: not judged");
 }
 
 TEST(ObstacleRisk, GrowsWithSpeedAndWithIce) {
