@@ -12,6 +12,7 @@ class PlanView {
     this.zoom = 1;
     this.ghost_preview = null;  // index
     this.ghost_policies = new Set();
+    this.danger = new DangerLayer(record);
     this.read_colours();
     this.resize();
   }
@@ -22,6 +23,7 @@ class PlanView {
       "actor", "actor-line", "threat", "threat-line", "contact", "forecast", "hindsight", "halo", "ink", "wheel", "glass"];
     this.colours = {};
     for (const name of names) this.colours[name.replace("-", "_")] = style.getPropertyValue(`--${name}`).trim();
+    this.danger.read_colours(style);
   }
 
   resize() {
@@ -109,12 +111,14 @@ class PlanView {
   }
 
   draw_bodies(g, frame, view, t) {
+    this.danger.draw(g, frame, t, 1 / view.scale);
     this.trails(g, t, view);
     this.paths(g, t, view);
     for (const actor of list(frame.actors)) this.velocity(g, actor, view);
     this.velocity(g, { ...frame.ego, heading_deg: frame.ego.heading_deg + (frame.ego.sideslip_deg || 0) }, view, true);
     for (const actor of list(frame.actors)) this.actor(g, actor, view);
     this.ego(g, frame.ego);
+    this.centre_of_mass(g, frame, t, view);
     this.forecast(g, t, view, frame);
     this.contact(g, t, view);
     this.pixel_units(g);
@@ -156,6 +160,19 @@ class PlanView {
     this.polygon(g, at, [[centre - 0.62 * l, 0.66 * w], [centre - 0.74 * l, 0.72 * w], [centre - 0.74 * l, -0.72 * w], [centre - 0.62 * l, -0.66 * w]], this.colours.glass);
     this.polygon(g, at, [[centre + 0.92 * l, 0], [centre + 0.62 * l, 0.3 * w], [centre + 0.62 * l, -0.3 * w]], this.colours.halo);
     this.wheels(g, at, shape, body.steering_deg || 0);
+  }
+
+  /** The place that the danger map is about: red where that is red. */
+  centre_of_mass(g, frame, t, view) {
+    const value = this.danger.value(frame, t, frame.ego), px = 1 / view.scale;
+    if (value === null) return;
+    g.beginPath();
+    g.arc(frame.ego.x_m, frame.ego.y_m, 4 * px, 0, 2 * Math.PI);
+    g.fillStyle = value >= 0 ? this.colours.contact : this.colours.ego_dark;
+    g.fill();
+    g.lineWidth = 1.5 * px;
+    g.strokeStyle = this.colours.halo;
+    g.stroke();
   }
 
   wheels(g, at, shape, steering_deg) {

@@ -85,6 +85,16 @@ function show_in_plan(k) {
   by_id("stage").scrollIntoView({ block: "start", behavior: calm() ? "auto" : "smooth" });
 }
 
+/** Shows and hides the danger map, and says what it is; nothing where the record has none. */
+function danger_switch() {
+  const { danger } = plan;
+  if (!danger.maps.length) return "";
+  return el("label", { class: "key switch" }, el("input", { type: "checkbox", id: "danger-switch", checked: true, onchange: (e) => {
+    danger.shown = e.target.checked;
+    page.show();
+  } }), swatch("danger-map"), `where the ego's centre (dot) may be at this speed and course: red = no evasion avoids ${danger.actor}`);
+}
+
 function show_legend() {
   const { road } = record, key = (kind, text) => el("span", { class: "key" }, swatch(kind), text);
   const edge = (side, what, at) => (what ? `${side} edge ${num(Math.abs(at), 1, "m")}: ${what === "unmarked" ? "open ground" : what}` : null);
@@ -93,7 +103,7 @@ function show_legend() {
     edge("right", road.right_beyond, road.right_edge_m), is_number(record.grip) ? `grip ${num(record.grip, 2)}` : null].filter(Boolean).join(" · ");
   const plan_has_threat = record.actors.some((actor) => plan.is_threat(actor.id));
   by_id("legend").append(key("ego", "ego"), plan_has_threat ? key("threat", `at risk ≥ ${risk_shown}, or hit`) : "", record.actors.length ? key("actor", plan_has_threat ? "other actor" : "actor") : "",
-    record.result.contact ? key("contact", "contact") : "", el("span", { text: `arrows: way in ${arrow_seconds} s` }), el("span", { class: "road-words", text: words }));
+    record.result.contact ? key("contact", "contact") : "", danger_switch(), el("span", { text: `arrows: way in ${arrow_seconds} s` }), el("span", { class: "road-words", text: words }));
 }
 
 // --- window, start --------------------------------------------------------------------------------

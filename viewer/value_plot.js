@@ -2,18 +2,6 @@
 
 const plot_room = { left: 66, right: 118, top: 12, bottom: 48 };
 const plot_height = { least: 240, most: 640 };
-const shades = 512;  // of each side of 0
-
-/** Colours of one side as packed pixels, from 0 outwards. */
-function packed_shades(colours) {
-  const out = new Uint32Array(shades + 1);
-  for (let i = 0; i <= shades; i++) {
-    const at = (i / shades) * (colours.length - 1), low = Math.min(Math.floor(at), colours.length - 2), rest = at - low;
-    const [r, g, b] = [0, 1, 2].map((k) => Math.round(colours[low][k] + rest * (colours[low + 1][k] - colours[low][k])));
-    out[i] = (255 << 24) | (b << 16) | (g << 8) | r;
-  }
-  return out;
-}
 
 /** Round numbers between two ends, at most `count` or so. */
 function ticks_between(low, high, count) {

@@ -364,6 +364,9 @@ void Encounter::conclude() {
                    [](const Event& a, const Event& b) { return a.time < b.time; });
   record_.previews = plane_.previews();
   record_.deadline_misses = plane_.deadline_misses();
+  if (setup_.danger != nullptr) {
+    record_.danger_maps = danger_maps(record_, *setup_.danger);
+  }
   if (!reflex_times_.empty()) {
     std::sort(reflex_times_.begin(), reflex_times_.end());
     record_.reflex = {reflex_times_.size(), reflex_times_[reflex_times_.size() / 2],

@@ -12,6 +12,7 @@
 #include "saca/decide/event.h"
 #include "saca/decide/reflex_plane.h"
 #include "saca/loop/charged_model.h"
+#include "saca/loop/danger_map.h"
 #include "saca/loop/hindsight.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/memory/store.h"
@@ -88,6 +89,7 @@ struct Record {
   std::vector<world::Actor> met;        ///< the actors that result.contact counts in
   std::optional<Hindsights> hindsight;  ///< if triggered
   std::optional<manoeuvre::PolicyId> best;
+  std::optional<DangerMaps> danger_maps;    ///< by `Setup::danger`
   std::optional<outcome::Outcome> driver;   ///< what the recorded driver's own motion led to
   std::vector<world::Actor> met_by_driver;  ///< the actors that driver->contact counts in
   std::optional<memory::CaseId> stored;     ///< the case that memory learnt

@@ -227,6 +227,46 @@ json result_json(const Record& record) {
   return out;
 }
 
+/// A row in tenths of a metre, "." where nothing is known: a tenth of what numbers on lines of
+/// their own would take.
+std::string row_text(const DangerMap& map, int row) {
+  constexpr double per_metre = 10.0;
+  std::string text;
+  for (int column = 0; column < map.columns; ++column) {
+    const auto& value = map.values[static_cast<std::size_t>(row * map.columns + column)];
+    text += column > 0 ? " " : "";
+    // Down, so that what is safe stays less than 0.
+    text += value ? std::to_string(std::lround(std::floor(per_metre * *value))) : ".";
+  }
+  return text;
+}
+
+json danger_map_json(const DangerMap& map) {
+  json rows = json::array();
+  for (int row = 0; row < map.rows; ++row) {
+    rows.push_back(row_text(map, row));
+  }
+  return {{"t_s", map.time},
+          {"speed_mps", map.ego_speed},
+          {"course_deg", to_degrees(map.ego_yaw)},
+          {"x_m", map.X_AM.p.x},
+          {"y_m", map.X_AM.p.y},
+          {"heading_deg", to_degrees(map.X_AM.yaw)},
+          {"first_x_m", map.first_M.x},
+          {"first_y_m", map.first_M.y},
+          {"step_m", map.step},
+          {"rows", rows}};
+}
+
+json danger_maps_json(const std::optional<DangerMaps>& maps) {
+  if (!maps) {
+    return nullptr;
+  }
+  json all = json::array();
+  std::transform(maps->maps.begin(), maps->maps.end(), std::back_inserter(all), danger_map_json);
+  return {{"actor", maps->actor}, {"interval_s", maps->interval}, {"maps", all}};
+}
+
 /// When the first event of a kind came, after SACA took the wheel at T2 [s]; null when none did.
 json after_t2(const Record& record, decide::EventKind kind) {
   const auto first = [&](decide::EventKind wanted) {
@@ -291,6 +331,7 @@ std::string record_json(const Setup& setup, const Record& record) {
        record.driver ? outcome_json(*record.driver, record.met_by_driver) : json(nullptr)},
       {"hindsight", hindsight_json(record)},
       {"best", record.best ? json(manoeuvre::index(*record.best)) : json(nullptr)},
+      {"danger_maps", danger_maps_json(record.danger_maps)},
       {"case", record.stored ? json(*record.stored) : json(nullptr)},
       {"timing",
        {{"reflex_calls", record.reflex.calls},

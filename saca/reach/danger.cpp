@@ -118,6 +118,45 @@ Looked looked(const Around& tables, const State& state, double obstacle_speed) {
           low.inside && high.inside};
 }
 
+/// What a family tells of one meeting at whatever state it comes to.
+struct LookUp {
+  Around tables;
+  double speed_factor;    ///< to the tables' grip
+  double obstacle_speed;  ///< there [m/s]
+  double grown;           ///< by how much the bodies reach beyond the tables' [m]
+
+  /// nullopt: beyond the tables' ends.
+  [[nodiscard]] std::optional<double> at(State state) const {
+    state[3] *= speed_factor;
+    const Looked found = looked(tables, state, obstacle_speed);
+    return found.inside ? std::optional(found.value + found.error + grown) : std::nullopt;
+  }
+};
+
+/// nullopt: the obstacle is faster than any table's.
+std::optional<LookUp> look_up(const std::vector<DangerTable>& family, const Avoidance& car,
+                              const Footprint& ego, const Meeting& meeting) {
+  const Scaled scaled = scaled_to(system_of(car, meeting), car.grip);
+  const double obstacle_speed = meeting.obstacle_speed * scaled.speed_factor;
+  const auto tables = around(family, obstacle_speed);
+  if (!tables) {
+    return std::nullopt;
+  }
+  const double grown = beyond(centred(meeting.obstacle), centred(family.front().obstacle)) +
+                       beyond(meeting.ego, ego);
+  return LookUp{*tables, scaled.speed_factor, obstacle_speed, grown};
+}
+
+void require(const Meeting& meeting) {
+  expects(meeting.grip > 0.0 && meeting.grip <= 1.5, "0 < grip <= 1.5");
+  expects(meeting.obstacle_speed >= 0.0 && std::isfinite(meeting.obstacle_speed),
+          "obstacle_speed >= 0");
+  expects(std::all_of(meeting.state.begin(), meeting.state.end(),
+                      [](double x) { return std::isfinite(x); }) &&
+              meeting.state[3] >= 0.0,
+          "a finite state, speed >= 0");
+}
+
 }  // namespace
 
 double misfit(const Footprint& a, const Footprint& b) {
@@ -161,19 +200,11 @@ const DangerModel::Family* DangerModel::family_for(const Footprint& obstacle) co
 }
 
 Danger DangerModel::by_tables(const Family& family, const Meeting& meeting) const {
-  const Scaled scaled = scaled_to(system_of(car_, meeting), car_.grip);
-  const auto tables = around(family, meeting.obstacle_speed * scaled.speed_factor);
-  if (!tables) {
+  const auto values = look_up(family, car_, ego_, meeting);
+  if (!values) {
     return by_few_evasions(meeting);
   }
-  const double grown = beyond(centred(meeting.obstacle), centred(family.front().obstacle)) +
-                       beyond(meeting.ego, ego_);
-  const auto value_at = [&](State state) {
-    state[3] *= scaled.speed_factor;
-    const Looked found = looked(*tables, state, meeting.obstacle_speed * scaled.speed_factor);
-    return found.inside ? std::optional(found.value + found.error + grown) : std::nullopt;
-  };
-  if (const auto here = value_at(meeting.state)) {
+  if (const auto here = values->at(meeting.state)) {
     return {*here, true};
   }
   const Avoidance system = system_of(car_, meeting);
@@ -183,7 +214,7 @@ Danger DangerModel::by_tables(const Family& family, const Meeting& meeting) cons
     double highest = intrusion_of(meeting, state);
     for (int k = 0; k * input_step < look_ahead; ++k) {
       state = driven(system, state, input, input_step);
-      if (const auto there = value_at(state)) {
+      if (const auto there = values->at(state)) {
         highest = std::max(highest, *there);
         break;
       }
@@ -212,15 +243,16 @@ Danger DangerModel::by_few_evasions(const Meeting& meeting) const {
 }
 
 Danger DangerModel::danger(const Meeting& meeting) const {
-  expects(meeting.grip > 0.0 && meeting.grip <= 1.5, "0 < grip <= 1.5");
-  expects(meeting.obstacle_speed >= 0.0 && std::isfinite(meeting.obstacle_speed),
-          "obstacle_speed >= 0");
-  expects(std::all_of(meeting.state.begin(), meeting.state.end(),
-                      [](double x) { return std::isfinite(x); }) &&
-              meeting.state[3] >= 0.0,
-          "a finite state, speed >= 0");
+  require(meeting);
   const Family* const family = family_for(meeting.obstacle);
   return family != nullptr ? by_tables(*family, meeting) : by_few_evasions(meeting);
+}
+
+std::optional<double> DangerModel::exact(const Meeting& meeting) const {
+  require(meeting);
+  const Family* const family = family_for(meeting.obstacle);
+  const auto values = family != nullptr ? look_up(*family, car_, ego_, meeting) : std::nullopt;
+  return values ? values->at(meeting.state) : std::nullopt;
 }
 
 }  // namespace saca::reach

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "saca/core/contract.h"
 #include "saca/reach/own_systems.h"
@@ -158,6 +159,16 @@ TEST(Danger, BeyondTheGridIsToldCarefullyAndFlagged) {
   EXPECT_GT(fast.value, -3.0);
 }
 
+TEST(Danger, ExactIsTheTablesOrNothing) {
+  EXPECT_EQ(with_tables().exact(ahead(14.0, 12.0)), with_tables().danger(ahead(14.0, 12.0)).value);
+  EXPECT_EQ(with_tables().exact(ahead(60.0, 18.0)), std::nullopt);  // beyond the grid
+  EXPECT_EQ(with_tables().exact(ahead(30.0, 30.0)), std::nullopt);
+  Meeting meeting = ahead(14.0, 12.0);
+  meeting.obstacle_speed = 4.0;  // faster than any table
+  EXPECT_EQ(with_tables().exact(meeting), std::nullopt);
+  EXPECT_EQ(without().exact(ahead(14.0, 12.0)), std::nullopt);
+}
+
 TEST(Danger, RefusesWhatIsNoMeeting) {
   Meeting meeting = ahead(14.0, 12.0);
   meeting.state[0] = std::numeric_limits<double>::quiet_NaN();
@@ -167,6 +178,7 @@ TEST(Danger, RefusesWhatIsNoMeeting) {
   meeting = ahead(14.0, 1.0);
   meeting.grip = 0.0;
   EXPECT_THROW((void)with_tables().danger(meeting), ContractViolation);
+  EXPECT_THROW((void)with_tables().exact(meeting), ContractViolation);
   EXPECT_THROW(DangerModel(car, ego, {{disc, 0.0, View::obstacle, nullptr}}), ContractViolation);
 }
 

@@ -1,10 +1,14 @@
 #include "saca/report/html_report.h"
 
+#include <fmt/core.h>
+
+#include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "saca/core/contract.h"
 #include "saca/report/page.h"
+#include "saca/report/value_map.h"
 
 namespace saca::report {
 namespace {
@@ -62,8 +66,23 @@ void fill(std::string& page, std::string_view& rest, std::string_view marker,
   rest.remove_prefix(at + marker.size());
 }
 
-Result<std::string> filled(const Page& page, std::string_view record_json,
-                           std::string_view schema) {
+std::string list_of(const std::array<Rgb, 6>& colours) {
+  std::string text;
+  for (const Rgb& c : colours) {
+    text += fmt::format("{}#{:02x}{:02x}{:02x}", text.empty() ? "" : ", ", c.red, c.green, c.blue);
+  }
+  return text;
+}
+
+/// Colours of values, from 0 outwards, for style and script.
+std::string value_colours() {
+  return fmt::format(":root {{ --value-danger: {}; --value-safety: {}; }}\n",
+                     list_of(danger_colours), list_of(safety_colours));
+}
+
+/// @param more_css  that follows the page's own
+Result<std::string> filled(const Page& page, std::string_view record_json, std::string_view schema,
+                           const std::string& more_css = {}) {
   if (auto error = problem(record_json, schema)) {
     return *std::move(error);
   }
@@ -71,7 +90,7 @@ Result<std::string> filled(const Page& page, std::string_view record_json,
   std::string text;
   text.reserve(page.html.size() + page.css.size() + page.js.size() + record.size());
   std::string_view rest = page.html;
-  fill(text, rest, css_marker, page.css);
+  fill(text, rest, css_marker, std::string(page.css) + more_css);
   fill(text, rest, record_marker, record);
   fill(text, rest, js_marker, page.js);
   text += rest;
@@ -81,7 +100,7 @@ Result<std::string> filled(const Page& page, std::string_view record_json,
 }  // namespace
 
 Result<std::string> html_report(std::string_view record_json) {
-  return filled(encounter_page, record_json, "saca.record/1");
+  return filled(encounter_page, record_json, "saca.record/1", value_colours());
 }
 
 Result<std::string> drive_report(std::string_view record_json) {

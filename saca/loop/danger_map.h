@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "saca/core/pose.h"
+#include "saca/reach/danger.h"
+#include "saca/world/scene.h"
+
+namespace saca::loop {
+
+struct Record;
+
+/// V_h of one actor over the places where the ego's centre of mass could be, at the course and
+/// speed that it has: where no evasion would help any more, and by how much one would elsewhere.
+///
+/// Frame M: at the obstacle's centre, x towards the ego; it moves with the actor.
+struct DangerMap {
+  double time = 0.0;       ///< [s]
+  double ego_speed = 0.0;  ///< [m/s]
+  double ego_yaw = 0.0;    ///< the ego's course, in W [rad]
+  Pose X_AM;               ///< M in the actor's body frame
+  Vec2 first_M;            ///< of the first point [m]
+  double step = 1.0;       ///< between points, in x and in y [m]
+  int columns = 0;
+  int rows = 0;
+  std::vector<std::optional<double>> values;  ///< row by row from the lowest y, x runs first [m];
+                                              ///< nullopt: beyond the solved tables
+
+  [[nodiscard]] Vec2 point_M(int column, int row) const {
+    return first_M + Vec2{column * step, row * step};
+  }
+};
+
+/// The map of one instant, on about 1200 points around the actor and the ego.
+/// @return  nullopt when no table holds the ego's own state
+[[nodiscard]] std::optional<DangerMap> danger_map(const world::Scene& scene,
+                                                  const world::Actor& actor,
+                                                  const reach::DangerModel& model);
+
+/// The maps of a run: one actor's.
+struct DangerMaps {
+  std::string actor;            ///< its name
+  double interval = 0.25;       ///< for which each holds [s]
+  std::vector<DangerMap> maps;  ///< by time, 1 to 16
+};
+
+/// Of the actor with the largest risk in the preview that the decision was made by, or else in the
+/// last one; from T2 on, while the ego moves and tables hold its state. In the true scenes, on the
+/// true grip: a map tells what could be avoided, not what SACA took for avoidable.
+/// @return  nullopt when nothing was previewed, or there is no such instant
+[[nodiscard]] std::optional<DangerMaps> danger_maps(const Record& record,
+                                                    const reach::DangerModel& model);
+
+}  // namespace saca::loop
