@@ -1,7 +1,7 @@
 // The danger maps of a record (docs/formats.md), under the cars: each moves with its actor until the next one follows.
 
 const finer = 4;                              // pixels of a picture per step of the map
-const deepest = 2, roomiest = 10;             // [m]: deeper is not redder, more room is not shown
+const deepest = 2, roomiest = 5;              // [m]: deeper is not redder, more room is not shown
 const veil = { danger: 0.62, safety: 0.42 };  // opacity; the road stays visible
 
 const is_danger_map = (map) => ["t_s", "x_m", "y_m", "heading_deg", "first_x_m", "first_y_m", "step_m"].every((key) => is_number(map?.[key])) &&

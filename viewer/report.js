@@ -92,7 +92,7 @@ function danger_switch() {
   return el("label", { class: "key switch" }, el("input", { type: "checkbox", id: "danger-switch", checked: true, onchange: (e) => {
     danger.shown = e.target.checked;
     page.show();
-  } }), swatch("danger-map"), `where the ego's centre (dot) may be at this speed and course: red = no evasion avoids ${danger.actor}`);
+  } }), swatch("danger-map"), `where the ego's centre (dot) may be at this speed and course: red = no evasion avoids ${danger.actor}, blue = one does`);
 }
 
 function show_legend() {

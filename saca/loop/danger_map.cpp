@@ -1,8 +1,11 @@
 #include "saca/loop/danger_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
+#include "saca/core/angle.h"
 #include "saca/loop/encounter.h"
 #include "saca/reach/risk.h"
 
@@ -14,10 +17,10 @@ using world::Scene;
 
 constexpr double shortest_interval = 0.25;  // [s]
 constexpr int most_maps = 16;
-constexpr double most_points = 1225.0;   // of one map: what a record can bear
-constexpr double around_obstacle = 8.0;  // [m]: beyond it most evasions have room
-constexpr double around_ego = 5.0;       // [m]
-constexpr double crawl = 0.5;            // [m/s]: below it there is nothing left to evade by
+constexpr double most_points = 1225.0;  // of one map: what a record can bear
+constexpr double around = 8.0;          // [m], both bodies: beyond it there is room to spare
+constexpr double to_swerve = 1.0;       // [s]: 0.5 g lead 2.5 m aside meanwhile
+constexpr double crawl = 0.5;           // [m/s]: below it there is nothing left to evade by
 
 const Actor* named(const Scene& scene, std::string_view name) {
   const auto found = std::find_if(scene.actors.begin(), scene.actors.end(),
@@ -35,7 +38,7 @@ const decide::Preview* preview_that_counts(const Record& record) {
 }
 
 /// By risk; where that is the same, by value.
-std::optional<std::string> most_dangerous(const preview::Situation& situation) {
+std::string most_dangerous(const preview::Situation& situation) {
   const auto& actors = situation.scene_at_trigger.actors;
   std::size_t most = 0;
   for (std::size_t i = 1; i < actors.size(); ++i) {
@@ -45,7 +48,44 @@ std::optional<std::string> most_dangerous(const preview::Situation& situation) {
       most = i;
     }
   }
-  return actors.empty() ? std::nullopt : std::optional(actor_name(actors[most]));
+  return actor_name(actors[most]);
+}
+
+/// Names of the actors to be mapped, the first that can be.
+std::vector<std::string> candidates(const Record& record) {
+  std::vector<std::string> names;
+  if (record.threat) {
+    names.push_back(*record.threat);
+  }
+  const decide::Preview* const preview = preview_that_counts(record);
+  if (preview != nullptr && !preview->situation.scene_at_trigger.actors.empty()) {
+    names.push_back(most_dangerous(preview->situation));
+  }
+  return names;
+}
+
+/// Object minus ego.
+Vec2 relative_velocity(const reach::Meeting& meeting) {
+  const double course = meeting.state[2];
+  return Vec2{meeting.obstacle_speed, 0.0} -
+         meeting.state[3] * Vec2{std::cos(course), std::sin(course)};
+}
+
+/// M in the obstacle's frame: the ego comes from where its x points.
+Pose map_frame(const reach::Meeting& meeting) {
+  const Vec2 v_rel_O = relative_velocity(meeting);
+  const Vec2 from_O = norm(v_rel_O) > crawl ? v_rel_O : Vec2{meeting.state[0], meeting.state[1]};
+  return {{}, std::atan2(from_O.y, from_O.x)};
+}
+
+/// Two corners of the map, in M: around the obstacle, from where it is too late to swerve, and
+/// around the ego.
+std::array<Vec2, 2> corners_M(const reach::Meeting& meeting, Vec2 ego_M) {
+  const double closing = norm(relative_velocity(meeting));
+  const double margin = world::bounding_radius(meeting.obstacle) + around;
+  return {Vec2{std::min(-margin, ego_M.x - around), std::min(-margin, ego_M.y - around)},
+          Vec2{std::max(margin + to_swerve * closing, ego_M.x + around),
+               std::max(margin, ego_M.y + around)}};
 }
 
 /// The frames from T2 on in which there is a map to be drawn.
@@ -62,6 +102,22 @@ std::vector<const Frame*> mapped_frames(const Record& record, std::string_view n
   return frames;
 }
 
+/// @param frames  of which there are some, with maps
+DangerMaps maps_of(const std::vector<const Frame*>& frames, const std::string& name,
+                   const reach::DangerModel& model) {
+  const double span = frames.back()->scene.time - frames.front()->scene.time;
+  DangerMaps maps{.actor = name, .interval = std::max(shortest_interval, span / most_maps)};
+  for (const Frame* const frame : frames) {
+    constexpr double rounding = 1e-6;  // [s], of times that are summed up
+    const bool is_due =
+        maps.maps.empty() || frame->scene.time >= maps.maps.back().time + maps.interval - rounding;
+    if (is_due && maps.maps.size() < most_maps) {
+      maps.maps.push_back(danger_map(frame->scene, *named(frame->scene, name), model).value());
+    }
+  }
+  return maps;
+}
+
 }  // namespace
 
 std::optional<DangerMap> danger_map(const Scene& scene, const Actor& actor,
@@ -71,18 +127,18 @@ std::optional<DangerMap> danger_map(const Scene& scene, const Actor& actor,
     return std::nullopt;
   }
   const Pose X_WO = reach::obstacle_frame(actor);
-  const Vec2 ego_O{meeting.state[0], meeting.state[1]};
-  const Pose X_OM{{}, std::atan2(ego_O.y, ego_O.x)};
-  const double margin = world::bounding_radius(meeting.obstacle) + around_obstacle;
-  const double length = margin + std::max(margin, norm(ego_O) + around_ego);
+  const Pose X_OM = map_frame(meeting);
+  const auto [low, high] =
+      corners_M(meeting, inverse(X_OM) * Vec2{meeting.state[0], meeting.state[1]});
+  const Vec2 size = high - low;
   DangerMap map{.time = scene.time,
                 .ego_speed = meeting.state[3],
                 .ego_yaw = wrap_angle(meeting.state[2] + X_WO.yaw),
                 .X_AM = inverse(actor.X_WA) * (X_WO * X_OM),
-                .first_M = {-margin, -margin},
-                .step = std::sqrt(length * 2.0 * margin / most_points)};
-  map.columns = static_cast<int>(length / map.step) + 1;
-  map.rows = static_cast<int>(2.0 * margin / map.step) + 1;
+                .first_M = low,
+                .step = std::sqrt(size.x * size.y / most_points)};
+  map.columns = static_cast<int>(size.x / map.step) + 1;
+  map.rows = static_cast<int>(size.y / map.step) + 1;
   for (int row = 0; row < map.rows; ++row) {
     for (int column = 0; column < map.columns; ++column) {
       const Vec2 p_O = X_OM * map.point_M(column, row);
@@ -95,27 +151,13 @@ std::optional<DangerMap> danger_map(const Scene& scene, const Actor& actor,
 }
 
 std::optional<DangerMaps> danger_maps(const Record& record, const reach::DangerModel& model) {
-  const decide::Preview* const preview = preview_that_counts(record);
-  const auto name = preview != nullptr ? most_dangerous(preview->situation) : std::nullopt;
-  if (!name) {
-    return std::nullopt;
-  }
-  const std::vector<const Frame*> frames = mapped_frames(record, *name, model);
-  if (frames.empty()) {
-    return std::nullopt;
-  }
-  const double first = frames.front()->scene.time;
-  const double span = frames.back()->scene.time - first;
-  DangerMaps maps{.actor = *name, .interval = std::max(shortest_interval, span / most_maps)};
-  for (const Frame* const frame : frames) {
-    constexpr double rounding = 1e-6;  // [s], of times that are summed up
-    const bool is_due =
-        maps.maps.empty() || frame->scene.time >= maps.maps.back().time + maps.interval - rounding;
-    if (is_due && maps.maps.size() < most_maps) {
-      maps.maps.push_back(*danger_map(frame->scene, *named(frame->scene, *name), model));
+  for (const std::string& name : candidates(record)) {
+    const std::vector<const Frame*> frames = mapped_frames(record, name, model);
+    if (!frames.empty()) {
+      return maps_of(frames, name, model);
     }
   }
-  return maps;
+  return std::nullopt;
 }
 
 }  // namespace saca::loop

@@ -15,7 +15,7 @@ struct Record;
 /// V_h of one actor over the places where the ego's centre of mass could be, at the course and
 /// speed that it has: where no evasion would help any more, and by how much one would elsewhere.
 ///
-/// Frame M: at the obstacle's centre, x towards the ego; it moves with the actor.
+/// Frame M: at the obstacle's centre, x where the ego comes from; it moves with the actor.
 struct DangerMap {
   double time = 0.0;       ///< [s]
   double ego_speed = 0.0;  ///< [m/s]
@@ -33,7 +33,8 @@ struct DangerMap {
   }
 };
 
-/// The map of one instant, on about 1200 points around the actor and the ego.
+/// The map of one instant, on about 1200 points around the actor and the ego, and from where it is
+/// too late to swerve.
 /// @return  nullopt when no table holds the ego's own state
 [[nodiscard]] std::optional<DangerMap> danger_map(const world::Scene& scene,
                                                   const world::Actor& actor,
@@ -46,10 +47,11 @@ struct DangerMaps {
   std::vector<DangerMap> maps;  ///< by time, 1 to 16
 };
 
-/// Of the actor with the largest risk in the preview that the decision was made by, or else in the
-/// last one; from T2 on, while the ego moves and tables hold its state. In the true scenes, on the
-/// true grip: a map tells what could be avoided, not what SACA took for avoidable.
-/// @return  nullopt when nothing was previewed, or there is no such instant
+/// Of the threat that set off the trigger; without one, or where no table has it, of the actor with
+/// the largest risk in the preview that the decision was made by, or else in the last one. From T2
+/// on, while the ego moves and tables hold its state. In the true scenes, on the true grip: a map
+/// tells what could be avoided, not what SACA took for avoidable.
+/// @return  nullopt when there is no such actor or no such instant
 [[nodiscard]] std::optional<DangerMaps> danger_maps(const Record& record,
                                                     const reach::DangerModel& model);
 

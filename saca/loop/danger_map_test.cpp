@@ -118,6 +118,56 @@ TEST(DangerMap, IsOfTheTablesOnly) {
   EXPECT_FALSE(danger_map(near, near.actors[0], without).has_value());
 }
 
+/// `count` frames of 20 ms with car1 and car2, both within the tables.
+Record driving(int count) {
+  Record record;
+  for (int k = 0; k < count; ++k) {
+    Frame frame{.phase = Phase::driving, .scene = meeting({10.0, 5.0})};
+    frame.scene.time = 0.02 * k;
+    world::Actor second = frame.scene.actors[0];
+    second.id = 2;
+    second.X_WA.p.y += 10.0;
+    frame.scene.actors.push_back(second);
+    record.frames.push_back(frame);
+  }
+  return record;
+}
+
+TEST(DangerMaps, AreOfTheTriggersThreatOrElseOfTheLargestRisk) {
+  const reach::DangerModel model = sloping(60.0);
+  Record record = driving(2);
+  EXPECT_FALSE(danger_maps(record, model).has_value());  // nobody threatens
+  record.previews.emplace_back();
+  preview::Situation& situation = record.previews[0].situation;
+  situation.scene_at_trigger = record.frames[0].scene;
+  situation.risks.resize(2);
+  situation.risks[0].risk = 0.4;
+  situation.risks[1].risk = 0.6;
+  EXPECT_EQ(danger_maps(record, model).value().actor, "car2");
+  situation.risks[0] = {.risk = 0.6, .value = -3.0};
+  situation.risks[1] = {.risk = 0.6, .value = -4.0};
+  EXPECT_EQ(danger_maps(record, model).value().actor, "car1");
+  record.threat = "car2";
+  EXPECT_EQ(danger_maps(record, model).value().actor, "car2");
+  record.threat = "car3";  // never seen
+  EXPECT_EQ(danger_maps(record, model).value().actor, "car1");
+}
+
+TEST(DangerMaps, AreSpreadOverAllOfALongRun) {
+  const reach::DangerModel model = sloping(60.0);
+  Record record = driving(1'001);  // 20 s
+  for (int k = 0; k < 100; ++k) {
+    record.frames[static_cast<std::size_t>(k)].phase = Phase::recorded;
+  }
+  record.threat = "car1";
+  const DangerMaps maps = danger_maps(record, model).value();
+  EXPECT_LE(maps.maps.size(), 16U);
+  EXPECT_GE(maps.maps.size(), 15U);
+  EXPECT_NEAR(maps.maps.front().time, 2.0, 1e-9);  // not before T2
+  EXPECT_GE(maps.maps.back().time + maps.interval, 20.0 - 16 * 0.02);
+  EXPECT_NEAR(maps.interval, 18.0 / 16.0, 1e-9);
+}
+
 class Quiet final : public Listener {
  public:
   void on_event(const decide::Event&) override {}

@@ -301,6 +301,7 @@ void Encounter::execute(const preview::Threat& threat) {
   controller_ = manoeuvre::begin(*setup_.car, plan_, scene);
   record_.decision = decision;
   record_.at_trigger = stepper_.whole_scene();
+  record_.threat = actor_name(scene.actors[threat.actor]);
   seen_at_trigger_ = scene;
   others_at_trigger_ = stepper_.others();
   // The plan stands; now it can be talked about.

@@ -85,6 +85,7 @@ struct Record {
   std::vector<decide::Preview> previews;
   std::optional<decide::Decision> decision;
   std::optional<world::Scene> at_trigger;  ///< the truth
+  std::optional<std::string> threat;       ///< the actor that set off the trigger
   outcome::Outcome result;
   std::vector<world::Actor> met;        ///< the actors that result.contact counts in
   std::optional<Hindsights> hindsight;  ///< if triggered

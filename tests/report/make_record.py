@@ -359,14 +359,34 @@ def with_draws(record, encounter):
     return record
 
 
+DANGER_RADIUS = 3.0
+
+
+def with_danger_maps(record, actor):
+    """Maps every quarter of a second up to 1 s after the trigger: V falls by 1 per metre, and is 0 on a circle about a place 0.5 m ahead of the
+    actor's middle. Their frame looks back; one corner is not known."""
+    first, step, columns, rows = (-8.5, -9.0), 1.0, 30, 19
+
+    def row(r):
+        at = [(first[0] + step * c, first[1] + step * r) for c in range(columns)]
+        return " ".join("." if r == 0 and x < -6 else str(math.floor(10 * (DANGER_RADIUS - math.hypot(x, y)))) for x, y in at)
+
+    start, end = record["events"][0]["t_s"], record["decision"]["time_s"] + 1.0
+    record["danger_maps"] = {"actor": actor, "interval_s": 0.25, "maps": [
+        {"t_s": start + 0.25 * k, "speed_mps": 20.0, "course_deg": 0.0, "x_m": 0.5, "y_m": 0.0, "heading_deg": 180.0, "first_x_m": first[0],
+         "first_y_m": first[1], "step_m": step, "rows": [row(r) for r in range(rows)]} for k in range(int((end - start) / 0.25) + 1)]}
+    return record
+
+
 def contact():
     road = Road()
     movers = [Mover("car1", 39.0, 0.0, 20.0, 1.0, 2.3), Mover("van1", -26.0, 0.2, 20.5, 4.5, 5.0),
               Mover("car2", -55.0, 3.4, 23.0), Mover("pedestrian1", 96.0, -3.6, 1.3, heading_deg=180)]
     encounter = Encounter(road, movers, 20.0, 0.5)
-    return with_draws(played("synthetic_contact", "Test data: lead car brakes on a wet road", encounter, 0,
-                             "synthetic stand-in for a language model", ["reason", "reason", "check"],
-                             "Synthetic driver: braked 0.6 s after the trigger and struck car1 at 9.1 m/s."), encounter)
+    record = with_draws(played("synthetic_contact", "Test data: lead car brakes on a wet road", encounter, 0,
+                               "synthetic stand-in for a language model", ["reason", "reason", "check"],
+                               "Synthetic driver: braked 0.6 s after the trigger and struck car1 at 9.1 m/s."), encounter)
+    return with_danger_maps(record, "car1")
 
 
 def clear():

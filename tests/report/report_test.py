@@ -426,6 +426,60 @@ def test_ghosts_come_and_go(show):
     assert green_near() == 0
 
 
+def danger_beside(page, record, t):
+    """What the map adds to a line from 0.5 m ahead of car1's middle to its right, where no name is: { metres: (red, green, blue) }."""
+    body = next(a for a in frame_at(record, t)["actors"] if a["id"] == "car1")
+
+    def line():
+        page.settle()
+        points = {d: on_screen(page, *in_body(body, 0.5, -d)) for d in (k / 10 for k in range(12, 85))}
+        x, top = round(points[1.2][0]), round(points[1.2][1])
+        column = page.pixels(x, top, 1, round(points[8.4][1]) - top + 1)  # the road runs to the right
+        return {d: column[round(y) - top][0] for d, (_, y) in points.items()}
+
+    page.run(f"page.seek({t})")
+    shown = line()
+    page.run("by_id('danger-switch').click()")
+    hidden = line()
+    page.run("by_id('danger-switch').click()")
+    assert line() == shown
+    return {d: tuple(p - q for p, q in zip(shown[d], hidden[d])) for d in shown}
+
+
+@pytest.mark.parametrize("later", [0.0, 0.2])
+def test_the_danger_map_is_red_where_unsafe_and_moves_with_its_actor(show, later):
+    page, record = show(RECORDS["contact"]), RECORDS["contact"]
+    radius, given = make_record.DANGER_RADIUS, record["danger_maps"]["maps"]
+    assert page.problems == []
+    t = round((given[8]["t_s"] + later) / 0.02) * 0.02
+    page.run(f"page.seek({t}); plan.zoom *= 13 / plan.last_view.scale; page.show()")  # 8.4 m are in the picture
+    for d, (red, _, blue) in danger_beside(page, record, t).items():
+        if d < radius - 0.3:
+            assert red > blue + 25, d
+        elif radius + 0.3 < d < radius + 2.5:
+            assert blue > red + 5, d
+        elif d > radius + 5.3:  # where there is room to spare nothing is drawn
+            assert (red, blue) == (0, 0), d
+    after = given[-1]["t_s"] + 1.0
+    if after < record["frames"][-1]["t_s"]:
+        assert all(difference == (0, 0, 0) for difference in danger_beside(page, record, after).values())
+
+
+def test_the_danger_map_says_what_it_is(show):
+    page = show(RECORDS["contact"])
+    label = "by_id('danger-switch').closest('label').innerText"
+    assert "red = no evasion avoids car1" in page.run(label)
+    # V of the ego's own place, by the record's own rule, turned half round: the map looks back.
+    record = RECORDS["contact"]
+    frame = frame_at(record, record["danger_maps"]["maps"][4]["t_s"])
+    body = next(a for a in frame["actors"] if a["id"] == "car1")
+    centre = in_body(body, 0.5, 0)
+    p = in_body(body, -10.0, 2.0)
+    value = page.run(f"plan.danger.value(frame_at(record, {frame['t_s']}), {frame['t_s']}, {{x_m: {p[0]}, y_m: {p[1]}}})")
+    assert abs(value - (make_record.DANGER_RADIUS - math.dist(p, centre))) < 0.35  # rounded down, nearest of four dots a metre
+    assert not show(RECORDS["clear"]).run("Boolean(by_id('danger-switch'))"), "nothing to switch"
+
+
 # --- appearance ----------------------------------------------------------------------------------
 
 
