@@ -360,7 +360,7 @@ std::optional<Error> bench_risk(const manoeuvre::Car& car, Clock& clock, json& f
 }  // namespace
 
 std::optional<Error> bench_air3d(const fs::path& root, Clock& clock, json& figures) {
-  constexpr int repeats = 5;
+  constexpr int repeats = 2;
   return bench_air3d_on(coarse_air, repeats, root, clock, figures);
 }
 
