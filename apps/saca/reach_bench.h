@@ -19,7 +19,7 @@ namespace saca::app {
                                                nlohmann::json& figures);
 
 /// All of `saca bench reach`: the above on the fine grid too; a parked car in four dimensions,
-/// as `saca reach solve` does it (reach.avoid4d.); look-ups of a value and of a danger
+/// as the tables of `saca run` are solved (reach.avoid4d.); look-ups of a value and of a danger
 /// (reach.lookup_us., reach.risk_us.); and how near the four-dimensional solver is to what the
 /// memory's speed allows (reach.roofline_share: 1 is as fast as numbers can be moved). What it is
 /// at is told on the error stream.
