@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <random>
 #include <span>
 #include <string>
@@ -243,8 +244,14 @@ int bench(const BenchOptions& options) {
   if (asked("vehicle")) {
     bench_vehicle(inputs.car, clock, figures);
   }
+  std::optional<Error> problem;
   if (asked("reach")) {
-    bench_reach(clock, figures);
+    problem = bench_reach(inputs.places.root, inputs.car, clock, figures);
+  } else if (asked("air3d")) {
+    problem = bench_air3d(inputs.places.root, clock, figures);
+  }
+  if (problem) {
+    return refused(*problem);
   }
   const int fewer_calls = std::min(options.calls, 10'000);
   if (asked("decide") || asked("atlas")) {
@@ -274,8 +281,10 @@ void add_bench(CLI::App& line, int& exit_code) {
       "bench",
       "Measure: vehicle steps, the reflex plane with its check, the atlas, the solver of reach");
   const auto options = std::make_shared<BenchOptions>();
-  command->add_option("what", options->what, "all, vehicle, decide, atlas or reach")
-      ->check(CLI::IsMember({"all", "vehicle", "decide", "atlas", "reach"}))
+  command
+      ->add_option("what", options->what,
+                   "all, vehicle, decide, atlas, reach, or air3d: a part of reach")
+      ->check(CLI::IsMember({"all", "vehicle", "decide", "atlas", "reach", "air3d"}))
       ->capture_default_str();
   command->add_option("--calls", options->calls, "Of the reflex plane, for each number of actors")
       ->check(CLI::Range(1'000, 100'000'000))

@@ -11,36 +11,38 @@
 
 /// What the solver must know about a system: how its value changes, a row of cells at a time.
 ///
-/// A system is written as a struct of this shape (`examples/own_dynamics` has one) and made into a
-/// `Flow` by `flow_of` (`flow_of.h`):
+/// A system is written as a struct of this shape (this one: `examples/own_dynamics`) and made into
+/// a `Flow` by `flow_of` (`flow_of.h`):
 ///
-///     struct Brake {                                   // x' = v, v' = a, |a| <= strongest
+///     struct Brake {  // x' = v, v' = a, |a| <= strongest
 ///       static constexpr std::size_t dimensions = 2;
 ///       double strongest;
-///       struct Row {                                   // cells along the first axis
+///       struct Row {  // cells along the first axis
 ///         double v, strongest;
-///         template <class N> N hamiltonian(const N& x, const std::array<N, 2>& p) const {
-///           return v * p[0] - strongest * abs(p[1]);   // the best (or worst) of all inputs: f . p
+///         template <class N>
+///         N hamiltonian(const N& /*x*/, const std::array<N, 2>& p) const {
+///           return v * p[0] - strongest * abs(p[1]);  // the best of all inputs: f . p
 ///         }
-///         template <class N> std::array<N, 2> speeds(const N& x) const {
-///           return {std::abs(v), strongest};           // |dH/dp_i| at most, for any gradient
+///         template <class N>
+///         std::array<N, 2> speeds(const N& /*x*/) const {
+///           return {std::abs(v), strongest};  // |dH/dp_i| at most, for any gradient
 ///         }
 ///       };
-///       Row row(const std::array<double, 2>& x) const { return {x[1], strongest}; }  // x[0] is
-///       not set
+///       // x[0] is not set: it goes along the row
+///       Row row(const std::array<double, 2>& x) const { return {x[1], strongest}; }
 ///     };
 ///
 /// Two members of a row are optional:
 ///
-///     std::array<int, 2> direction;   // sign of each state's rate where every input has the same
-///     all
-///                                     // along the row, else 0: that axis takes one difference,
-///                                     exact
-///     template <class N> N upwind(const N& x, const std::array<N, 2>& left,
-///                                 const std::array<N, 2>& right) const;  // in place of
-///                                     // Lax-Friedrichs: a monotone numerical Hamiltonian in
-///                                     closed
-///                                     // form, falling in `left` and rising in `right`
+///     std::array<int, 2> direction;
+///
+/// the sign of each state's rate where every input has the same all along the row, else 0: that
+/// axis takes one difference, which is exact; and, in place of Lax-Friedrichs,
+///
+///     template <class N>
+///     N upwind(const N& x, const std::array<N, 2>& left, const std::array<N, 2>& right) const;
+///
+/// a monotone numerical Hamiltonian in closed form, falling in `left` and rising in `right`.
 ///
 /// The value obeys V_tau = H(x, grad V), tau being the time to go: H = min over u of f . grad V
 /// where inputs avoid what is unsafe (V >= 0), max where they seek it.

@@ -156,8 +156,9 @@ class ValueWriter {
   void text(const char* name, const std::string& text) {
     const Hdf5Handle type = text_type(text.size());
     const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+    const Hdf5Handle layout = timeless();
     const Hdf5Handle set(
-        H5Dcreate2(file(), name, type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+        H5Dcreate2(file(), name, type.id(), space.id(), H5P_DEFAULT, layout.id(), H5P_DEFAULT),
         H5Dclose);
     note(set.good() &&
          H5Dwrite(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()) >= 0);
@@ -204,9 +205,15 @@ class ValueWriter {
   [[nodiscard]] hid_t file() const { return file_.id(); }
 
  private:
-  /// Without times of objects: the same values make the same file.
   static Hdf5Handle create(const Hdf5Handle& access) {
     return {H5Fcreate("in memory", H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose};
+  }
+
+  /// A data set that does not note when it was made: the same values make the same file.
+  static Hdf5Handle timeless() {
+    Hdf5Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_obj_track_times(layout.id(), false);
+    return layout;
   }
 
   static Hdf5Handle chunked(const std::vector<hsize_t>& shape) {
@@ -215,8 +222,7 @@ class ValueWriter {
     for (std::size_t d = shape.size(); d-- > 0 && room > 1; room /= chunk[d]) {
       chunk[d] = std::min(shape[d], room);
     }
-    Hdf5Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    H5Pset_obj_track_times(layout.id(), false);
+    Hdf5Handle layout = timeless();
     H5Pset_chunk(layout.id(), static_cast<int>(chunk.size()), chunk.data());
     H5Pset_shuffle(layout.id());
     H5Pset_deflate(layout.id(), deflate_level);

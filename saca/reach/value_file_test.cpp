@@ -168,6 +168,21 @@ TEST_F(ValueFile, GivesBackMoreThanOneChunkInFourDimensions) {
   expect_same<float>(read_solved(path_).value(), solved);
 }
 
+// Else the same values, a second later, make another file.
+TEST_F(ValueFile, NotesNoTimeOfWriting) {
+  Solved solved = small_solved<float>();
+  solved.error = std::vector<float>(num_cells(solved.grid), 0.25F);
+  ASSERT_FALSE(write_solved(path_, solved));
+  const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  ASSERT_GE(file, 0);
+  for (const char* const name : {"axis_0", "problem", "times", "values", "error"}) {
+    H5O_info_t about{};
+    ASSERT_GE(H5Oget_info_by_name2(file, name, &about, H5O_INFO_TIME, H5P_DEFAULT), 0) << name;
+    EXPECT_EQ(about.mtime, 0) << name;
+  }
+  H5Fclose(file);
+}
+
 TEST_F(ValueFile, IsPlainHdf5ForOthersWithTheFastestAxisLast) {
   const Solved solved = small_solved<float>();
   ASSERT_FALSE(write_solved(path_, solved));

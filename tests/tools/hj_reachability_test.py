@@ -2,6 +2,7 @@
 import importlib.util
 import json
 import math
+import os
 import pathlib
 import subprocess
 
@@ -69,9 +70,12 @@ def test_a_stretch_is_cut_where_the_line_is_zero(left, right, share):
     assert make.covered(left, right) == pytest.approx(share)
 
 
-def test_a_race_without_its_figure_is_refused():
-    with pytest.raises(SystemExit, match="want the figure reach.air3d_s.101x79x100.float.threads"):
-        make.our_time({"reach.other": 1.0})
+@pytest.mark.parametrize("double, suffix", [(False, ""), (True, ".double")])
+def test_a_race_without_its_figure_is_refused(double, suffix):
+    name = f"reach.air3d_51x40x50.seconds.t{os.cpu_count()}{suffix}"
+    with pytest.raises(SystemExit, match=f"want the figure {name}, got"):
+        make.our_time({"reach.other": 1.0}, double)
+    assert make.our_time({name: 2.5}, double) == 2.5
 
 
 def test_other_words_are_refused():

@@ -3,7 +3,7 @@
 # usage: tools/hj_reachability/run.sh setup|reference|time
 #   setup       makes the environment only
 #   reference   writes data/reference/air3d_hj_reachability.json (6 minutes on two cores)
-#   time        times it beside build/release/saca bench reach; prints JSON
+#   time        times it beside build/release/saca bench air3d, in floats and doubles; prints JSON
 # Needs the network at its first run, and tools/setup.sh. Versions and sha256: requirements.txt.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
