@@ -59,12 +59,12 @@ function lay_out() {
 
 function show_legend() {
   const key = (kind, text) => el("span", { class: "key" }, el("i", { class: `swatch ${kind}`, "aria-hidden": "true" }), text);
-  by_id("legend").append(key("unsafe", "V \u2265 0: nothing helps any more"), key("safe", "V < 0: can be avoided"), key("zero", "V = 0"),
+  by_id("legend").append(key("unsafe", "V \u2265 0: nothing helps any more"), key("safe", "V < 0: can be avoided"), key("zero", "V = 0"), record.shown ? key("unknown", "not solved for") : "",
     record.outline.length ? key("outline", "obstacle") : "", course_axis >= 0 ? el("span", { text: "arrow: course" }) : "",
     el("span", { id: "reading", text: "point at the map to read it" }));
   by_id("map").addEventListener("pointermove", (event) => {
     const read = plot.reading(event), [x, y] = shown_axes;
-    by_id("reading").textContent = read
+    by_id("reading").textContent = read && Number.isNaN(read.value) ? "not solved for" : read
       ? `${x.name} ${in_words(x, read.x)}, ${y.name} ${in_words(y, read.y)}: V ${num(read.value, 2, record.value_unit)}` : "";
   });
 }

@@ -1,6 +1,7 @@
 // The map: values as colours, the zero level, the obstacle, axes and the bar of colours.
 
 const plot_room = { left: 66, right: 118, top: 12, bottom: 48 };
+const not_kept = 0xffe6e2de;  // grey, packed: no value has it
 const plot_height = { least: 240, most: 640 };
 
 /** Round numbers between two ends, at most `count` or so. */
@@ -87,7 +88,7 @@ class ValuePlot {
 
   coloured() {
     const image = new ImageData(this.columns, this.rows), pixels = new Uint32Array(image.data.buffer);
-    for (let i = 0; i < pixels.length; i++) pixels[i] = Number.isNaN(this.raster[i]) ? 0 : this.shade(this.raster[i]);
+    for (let i = 0; i < pixels.length; i++) pixels[i] = Number.isNaN(this.raster[i]) ? not_kept : this.shade(this.raster[i]);
     return image;
   }
 

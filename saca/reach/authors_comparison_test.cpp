@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "saca/reach/obstacle_frame.h"
+
 namespace saca::reach {
 namespace {
 
@@ -78,6 +80,34 @@ TEST(CompareWithAuthors, SpeedsAreToldApart) {  // solved: unsafe from 9.5 m/s o
     EXPECT_NEAR(one.mean_solved, one.speed - 9.5, 1e-4);
     EXPECT_NEAR(one.mean_network, -2.0, 1e-5);
   }
+}
+
+TEST(CompareWithAuthors, AValueSeenFromTheEgoIsHeldToTheSameStates) {
+  const double pi = std::numbers::pi;
+  const Grid grid{
+      {{.name = "ahead", .first = -60.0, .last = 60.0, .points = 121},
+       {.name = "left",
+        .first = 0.0,
+        .last = 60.0,
+        .points = 61,
+        .edge = Edge::mirrored,
+        .turned = 2},
+       {.name = "turned", .first = -pi, .last = pi, .points = 8, .edge = Edge::periodic},
+       {.name = "speed", .first = 0.0, .last = 20.0, .points = 4}}};
+  const ValueTable table(grid, sampled<float>(
+                                   grid, [](auto s) { return 10.25 - std::hypot(s[0], s[1]); }, 1));
+  const AuthorsComparison found =
+      compare_with_authors(in_obstacle_frame(table, View::ego), along_x(0.0, -2.0));
+  std::size_t within = 0;
+  for (int x = -50; x <= 0; ++x) {
+    for (int y = -8; y <= 8; ++y) {
+      within += std::hypot(x, y) < 10.25 ? 1U : 0U;  // the nearest: 10.20 and 10.30 m
+    }
+  }
+  EXPECT_EQ(found.outside, 0U);
+  EXPECT_EQ(found.all.states, 19 * each_speed);
+  EXPECT_EQ(found.all.unsafe, 19 * 17 * within);
+  EXPECT_EQ(found.all.false_safe, found.all.unsafe);
 }
 
 TEST(CompareWithAuthors, WhatTheTableDoesNotHoldIsLeftOutAndCounted) {
