@@ -4,10 +4,11 @@ const record = JSON.parse(by_id("record").textContent);
 const table_of_values = new ValueTable(record);
 const plot = new ValuePlot(by_id("map"), record, table_of_values);
 const shown = { time: record.start.time, others: [...record.start.others] };
-const course_axis = record.axes.findIndex((axis, d) => d >= 2 && axis.name === "course");
+const shown_axes = plot.axes;
+const course_axis = shown_axes.findIndex((axis, d) => d >= 2 && axis.name === "course");
 
 const in_words = (axis, value, decimals = 1) => num(value * axis.factor, decimals, axis.unit);
-const others_in_words = () => record.axes.slice(2).map((axis, i) => `${axis.name} ${in_words(axis, shown.others[i + 2])}`);
+const others_in_words = () => shown_axes.slice(2).map((axis, i) => `${axis.name} ${in_words(axis, shown.others[i + 2])}`);
 
 function slider(name, { min, max, step, value }, words, change) {
   const out = el("output", { text: words(value) });
@@ -21,7 +22,7 @@ function slider(name, { min, max, step, value }, words, change) {
 }
 
 function show_controls() {
-  const sliders = record.axes.slice(2).map((axis, i) => {
+  const sliders = shown_axes.slice(2).map((axis, i) => {
     const at = axis.coordinates, max = axis.edge === "periodic" ? axis.last : at[at.length - 1];
     return slider(axis.name, { min: at[0], max, step: (max - at[0]) / 360, value: shown.others[i + 2] }, (value) => in_words(axis, value),
       (value) => { shown.others[i + 2] = value; });
@@ -40,30 +41,30 @@ let asked = false;
 function later() {
   if (asked) return;
   asked = true;
-  requestAnimationFrame(() => { asked = false; draw(); });
+  requestAnimationFrame(() => { asked = false; lay_out(); });
 }
 
 function draw() {
   const share = plot.show(shown.time, shown.others, course_axis >= 0 ? shown.others[course_axis] : null);
   const at = others_in_words();
-  const words = `${record.axes[0].name} and ${record.axes[1].name}${at.length ? ` at ${at.join(", ")}` : ""}, horizon ${num(record.times_s[shown.time], 2, "s")}`;
+  const words = `${shown_axes[0].name} and ${shown_axes[1].name}${at.length ? ` at ${at.join(", ")}` : ""}, horizon ${num(record.times_s[shown.time], 2, "s")}`;
   by_id("sentence").textContent = `V over ${words}: ${num(100 * share, 1, "%")} of what is shown is unsafe.`;
   by_id("map").setAttribute("aria-label", by_id("sentence").textContent);
 }
 
 function lay_out() {
-  plot.layout(by_id("map-box").clientWidth - 24);
+  plot.layout(by_id("map-box").clientWidth - 24, shown.others);
   draw();
 }
 
 function show_legend() {
   const key = (kind, text) => el("span", { class: "key" }, el("i", { class: `swatch ${kind}`, "aria-hidden": "true" }), text);
-  by_id("legend").append(key("unsafe", "V \u2265 0: nothing helps any more"), key("safe", "V < 0: can be avoided"), key("zero", "V = 0"),
+  by_id("legend").append(key("unsafe", "V \u2265 0: nothing helps any more"), key("safe", "V < 0: can be avoided"), key("zero", "V = 0"), record.shown ? key("unknown", "not solved for") : "",
     record.outline.length ? key("outline", "obstacle") : "", course_axis >= 0 ? el("span", { text: "arrow: course" }) : "",
     el("span", { id: "reading", text: "point at the map to read it" }));
   by_id("map").addEventListener("pointermove", (event) => {
-    const read = plot.reading(event), [x, y] = record.axes;
-    by_id("reading").textContent = read
+    const read = plot.reading(event), [x, y] = shown_axes;
+    by_id("reading").textContent = read && Number.isNaN(read.value) ? "not solved for" : read
       ? `${x.name} ${in_words(x, read.x)}, ${y.name} ${in_words(y, read.y)}: V ${num(read.value, 2, record.value_unit)}` : "";
   });
 }

@@ -1,6 +1,7 @@
 // The map: values as colours, the zero level, the obstacle, axes and the bar of colours.
 
 const plot_room = { left: 66, right: 118, top: 12, bottom: 48 };
+const not_kept = 0xffe6e2de;  // grey, packed: no value has it
 const plot_height = { least: 240, most: 640 };
 
 /** Round numbers between two ends, at most `count` or so. */
@@ -25,21 +26,22 @@ class ValuePlot {
     Object.assign(this, { canvas, record, table });
     this.danger = packed_shades(record.colours.danger);
     this.safety = packed_shades(record.colours.safety);
-    this.whole = table.lines.map((line) => [line[0].at, line[line.length - 1].at]);
+    this.axes = record.shown ?? record.axes;
     this.zoom(record.start.zoom);
   }
 
   /** Looks closer, about the origin where the plane has it; safe colours then end nearer to 0. */
   zoom(factor) {
-    this.range = this.whole.map(([low, high]) => {
-      const middle = low < 0 && high > 0 ? 0 : (low + high) / 2;
-      return [middle + (low - middle) / factor, middle + (high - middle) / factor];
-    });
+    this.factor = factor;
     this.lowest = -rounded_up(-this.record.scale.lowest / factor);
   }
 
-  layout(width) {
-    const [x, y] = this.range, same = this.record.axes[0].unit === this.record.axes[1].unit;
+  layout(width, others) {
+    this.range = this.table.whole(others).map(([low, high]) => {
+      const middle = low < 0 && high > 0 ? 0 : (low + high) / 2;
+      return [middle + (low - middle) / this.factor, middle + (high - middle) / this.factor];
+    });
+    const [x, y] = this.range, same = this.axes[0].unit === this.axes[1].unit;
     let wide = Math.max(200, width - plot_room.left - plot_room.right);
     let high = same ? (wide * (y[1] - y[0])) / (x[1] - x[0]) : 0.62 * wide;
     if (same && high > plot_height.most) wide *= plot_height.most / high;
@@ -52,10 +54,10 @@ class ValuePlot {
     [this.canvas.style.width, this.canvas.style.height] = all.map((n) => `${n}px`);
   }
 
-  /** @return  the unsafe share of the plane */
+  /** @return  the unsafe share of what is kept of the plane */
   show(time, others, course) {
     const columns = Math.round(this.wide * this.dense), rows = Math.round(this.high * this.dense);
-    this.raster = raster_of(this.table, this.table.plane(time, others), this.range, columns, rows);
+    this.raster = this.table.raster(time, others, this.range, columns, rows);
     [this.columns, this.rows] = [columns, rows];
     const pen = this.canvas.getContext("2d");
     pen.setTransform(1, 0, 0, 1, 0, 0);
@@ -74,7 +76,8 @@ class ValuePlot {
     pen.setTransform(this.dense, 0, 0, this.dense, 0, 0);
     this.draw_axes(pen);
     this.draw_bar(pen);
-    return this.raster.reduce((n, v) => n + (v >= 0 ? 1 : 0), 0) / this.raster.length;
+    const kept = this.raster.reduce((n, v) => n + (Number.isNaN(v) ? 0 : 1), 0);
+    return this.raster.reduce((n, v) => n + (v >= 0 ? 1 : 0), 0) / Math.max(1, kept);
   }
 
   shade(value) {
@@ -85,13 +88,15 @@ class ValuePlot {
 
   coloured() {
     const image = new ImageData(this.columns, this.rows), pixels = new Uint32Array(image.data.buffer);
-    for (let i = 0; i < pixels.length; i++) pixels[i] = this.shade(this.raster[i]);
+    for (let i = 0; i < pixels.length; i++) pixels[i] = Number.isNaN(this.raster[i]) ? not_kept : this.shade(this.raster[i]);
     return image;
   }
 
   draw_zero(pen) {
     pen.beginPath();
-    for (const [x0, y0, x1, y1] of zero_pieces(this.raster, this.columns, this.rows, 2)) {
+    for (const piece of zero_pieces(this.raster, this.columns, this.rows, 2)) {
+      if (!piece.every(Number.isFinite)) continue;
+      const [x0, y0, x1, y1] = piece;
       pen.moveTo(x0, y0);
       pen.lineTo(x1, y1);
     }
@@ -139,8 +144,8 @@ class ValuePlot {
   }
 
   draw_axes(pen) {
-    const { left, top } = plot_room, bottom = top + this.high, [ax, ay] = this.record.axes;
-    const [x, y] = this.range.map(([low, high], d) => [low * this.record.axes[d].factor, high * this.record.axes[d].factor]);
+    const { left, top } = plot_room, bottom = top + this.high, [ax, ay] = this.axes;
+    const [x, y] = this.range.map(([low, high], d) => [low * this.axes[d].factor, high * this.axes[d].factor]);
     pen.strokeStyle = this.ink("--soft");
     pen.fillStyle = this.ink("--ink");
     pen.lineWidth = 1;

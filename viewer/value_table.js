@@ -1,4 +1,5 @@
-// The values of a record (docs/formats.md, saca.value_page/1): decoded, and read over the plane of the first two axes.
+// The values of a record (docs/formats.md, saca.value_page/1): decoded, and read over the plane that is shown: of the first two
+// axes, or of x and y in the obstacle's frame where they are kept as the ego sees them.
 
 /** A byte as its value: the square root is what was rounded, finest about 0, and no sign is lost. */
 function decoded_values(extent) {
@@ -17,6 +18,7 @@ function bytes_of(base64) {
 class ValueTable {
   constructor(record) {
     this.axes = record.axes;
+    this.seen_from_ego = record.shown !== null;
     this.bytes = bytes_of(record.values);
     this.meaning = decoded_values(record.extent);
     this.strides = [];
@@ -76,6 +78,20 @@ class ValueTable {
     return out;
   }
 
+  /** Ends of both coordinates of the plane that is shown. */
+  whole(others) {
+    const [along, across] = this.lines.map((line) => [line[0].at, line[line.length - 1].at]);
+    if (!this.seen_from_ego) return [along, across];
+    const c = Math.cos(others[2]), s = Math.sin(others[2]), corners = along.flatMap((ahead) => across.map((left) => [s * left - c * ahead, -s * ahead - c * left]));
+    return [0, 1].map((d) => [Math.min(...corners.map((at) => at[d])), Math.max(...corners.map((at) => at[d]))]);
+  }
+
+  /** Values at the middles of columns x rows pixels over `range`, the highest y first; NaN: not kept. */
+  raster(time, others, range, columns, rows) {
+    if (!this.seen_from_ego) return raster_of(this, this.plane(time, others), range, columns, rows);
+    return turned_raster_of(this, this.plane(time, [0, 0, -others[2], others[3]]), others[2], range, columns, rows);
+  }
+
   turned(others, ...flipped) {
     const state = [...others];
     flipped.forEach((is, d) => { if (is && is_number(this.axes[d].turned)) state[this.axes[d].turned] *= -1; });
@@ -95,6 +111,12 @@ function among(points, low, high, count) {
   return { at, share };
 }
 
+/** Between four values of a plane: `i`, the next, and both of the next row. */
+function mixed(plane, i, wide, share, up) {
+  const low = plane[i] + share * (plane[i + 1] - plane[i]), high = plane[i + wide] + share * (plane[i + wide + 1] - plane[i + wide]);
+  return low + up * (high - low);
+}
+
 /** A plane's values at the middles of columns x rows pixels over `range`, the highest y first. */
 function raster_of(table, plane, range, columns, rows) {
   const [xs, ys] = table.lines, wide = xs.length;
@@ -103,9 +125,33 @@ function raster_of(table, plane, range, columns, rows) {
   for (let r = 0; r < rows; r++) {
     const from = y.at[rows - 1 - r] * wide, up = y.share[rows - 1 - r];
     for (let c = 0; c < columns; c++) {
-      const i = from + x.at[c], s = x.share[c];
-      const low = plane[i] + s * (plane[i + 1] - plane[i]), high = plane[i + wide] + s * (plane[i + wide + 1] - plane[i + wide]);
-      out[r * columns + c] = low + up * (high - low);
+      out[r * columns + c] = mixed(plane, from + x.at[c], wide, x.share[c], up);
+    }
+  }
+  return out;
+}
+
+/** The point below a coordinate, looked for from `p` on: pixels follow one another closely. */
+function point_below(at, p, coordinate) {
+  while (p > 0 && at[p] > coordinate) p--;
+  while (p + 2 < at.length && at[p + 1] <= coordinate) p++;
+  return p;
+}
+
+/** Likewise of a plane of ahead and left, over x and y of the ego in the obstacle's frame; NaN beyond the plane. */
+function turned_raster_of(table, plane, course, range, columns, rows) {
+  const [aheads, lefts] = table.lines.map((line) => Float64Array.from(line, (p) => p.at)), wide = aheads.length;
+  const [[x0, x1], [y0, y1]] = range, cos = Math.cos(course), sin = Math.sin(course);
+  const out = new Float32Array(columns * rows).fill(NaN);
+  let i = 0, j = 0;
+  for (let r = 0, n = 0; r < rows; r++) {
+    const y = y1 - ((r + 0.5) * (y1 - y0)) / rows;
+    for (let c = 0; c < columns; c++, n++) {
+      const x = x0 + ((c + 0.5) * (x1 - x0)) / columns, ahead = -(cos * x + sin * y), left = sin * x - cos * y;
+      if (!(ahead >= aheads[0] && ahead <= aheads[wide - 1] && left >= lefts[0] && left <= lefts[lefts.length - 1])) continue;
+      i = point_below(aheads, i, ahead);
+      j = point_below(lefts, j, left);
+      out[n] = mixed(plane, j * wide + i, wide, (ahead - aheads[i]) / (aheads[i + 1] - aheads[i]), (left - lefts[j]) / (lefts[j + 1] - lefts[j]));
     }
   }
   return out;

@@ -14,6 +14,7 @@
 #include "saca/core/units.h"
 #include "saca/reach/authors_comparison.h"
 #include "saca/reach/avoidance_case.h"
+#include "saca/reach/obstacle_frame.h"
 #include "saca/reach/value_file.h"
 #include "saca/reach/value_table.h"
 #include "saca/report/authors_page.h"
@@ -34,11 +35,21 @@ struct CompareOptions {
   bool as_json = false;
 };
 
-/// The network knows of no motion of the obstacle.
-std::optional<Error> not_at_rest(const std::string& file, const std::string& problem_text) {
-  const auto problem = reach::parse_avoidance_case(problem_text, file);
+/// The network knows of one obstacle and of no motion of it.
+std::optional<Error> not_comparable(const std::string& file, const reach::Solved& solved) {
+  const auto problem = reach::parse_avoidance_case(solved.problem, file);
   if (!problem.has_value()) {
     return problem.error();
+  }
+  if (reach::view_of(solved).value_or(reach::View::edge) == reach::View::edge) {
+    std::string came;
+    for (const reach::Axis& axis : solved.grid.axes) {
+      came += (came.empty() ? "" : ", ") + axis.name;
+    }
+    return Error{Error::Code::malformed,
+                 fmt::format("{}: want values over x, y, course, speed or, seen from the ego, "
+                             "ahead, left, turned, speed, got {}",
+                             file, came)};
   }
   const double speed = problem.value().system.obstacle_speed;
   if (speed != 0.0) {
@@ -96,25 +107,24 @@ int compare_values(const CompareOptions& options) {
   if (!solved.has_value()) {
     return refused(solved.error());
   }
+  if (const auto problem = not_comparable(options.file, solved.value())) {
+    return refused(*problem);
+  }
   const auto network = reach::read_authors_network(options.network);
   if (!network.has_value()) {
     return refused(network.error());
   }
   const reach::ValueTable table(solved.value().grid,
                                 snapshot(solved.value(), solved.value().times.size() - 1));
-  const auto found = compare_with_authors(table, network.value());
-  if (!found.has_value()) {
-    return refused({found.error().code, options.file + ": " + found.error().message});
-  }
-  if (const auto moves = not_at_rest(options.file, solved.value().problem)) {
-    return refused(*moves);
-  }
+  const reach::View view = reach::view_of(solved.value()).value_or(reach::View::obstacle);
+  const reach::ValueAt value = in_obstacle_frame(table, view);
+  const AuthorsComparison found = compare_with_authors(value, network.value());
   const std::string& text = solved.value().problem;
   const report::AuthorsPage page{.case_name = report::problem_name(text).value_or(options.file),
                                  .network_name = fs::path(options.network).filename().string(),
                                  .outline = report::obstacle_outline(text),
                                  .views = views_asked_for(options)};
-  const auto html = authors_page(page, table, network.value(), found.value());
+  const auto html = authors_page(page, value, network.value(), found);
   if (!html.has_value()) {
     return refused(html.error());
   }
@@ -126,10 +136,10 @@ int compare_values(const CompareOptions& options) {
     return refused(*problem);
   }
   if (options.as_json) {
-    fmt::print("{}\n", agreement_figures(found.value()).dump(1));
+    fmt::print("{}\n", agreement_figures(found).dump(1));
     return success;
   }
-  tell_agreement(found.value());
+  tell_agreement(found);
   fmt::print("Maps: {}\n", fs::absolute(options.output).string());
   return success;
 }
@@ -140,7 +150,7 @@ void add_reach_compare(CLI::App& reach, int& exit_code) {
   CLI::App* const command = reach.add_subcommand(
       "compare", "Hold the value network that the paper's authors published to a solved value");
   const auto options = std::make_shared<CompareOptions>();
-  command->add_option("file", options->file, "Solved values over x, y, course, speed (HDF5)")
+  command->add_option("file", options->file, "Solved values beside an obstacle at rest (HDF5)")
       ->required();
   command->add_option("--network", options->network, "The published safe_value_params.npz")
       ->required();

@@ -15,6 +15,7 @@
 #include "apps/saca/reach_commands.h"
 #include "saca/core/file.h"
 #include "saca/core/vec2.h"
+#include "saca/reach/obstacle_frame.h"
 #include "saca/reach/value_file.h"
 #include "saca/reach/value_table.h"
 #include "saca/report/html_report.h"
@@ -102,9 +103,8 @@ std::string names_of(const std::vector<reach::Axis>& axes) {
 }
 
 /// Coordinates from the third axis on.
-Result<reach::State> other_coordinates(const Solved& solved, const std::vector<Wish>& wishes,
-                                       const std::string& file) {
-  const std::vector<reach::Axis>& axes = solved.grid.axes;
+Result<reach::State> other_coordinates(const std::vector<reach::Axis>& axes,
+                                       const std::vector<Wish>& wishes, const std::string& file) {
   reach::State others{};
   for (std::size_t d = 2; d < axes.size(); ++d) {
     others[d] = usual_coordinate(axes[d]);
@@ -161,7 +161,7 @@ report::PlotAxis plot_axis_of(const reach::Axis& axis, const report::MapRange& r
 
 /// "V over x and y at course 0 deg, speed 12 m/s, horizon 4 s"
 std::string what_is_shown(const Solved& solved, const report::ValueView& view) {
-  const std::vector<reach::Axis>& axes = solved.grid.axes;
+  const std::vector<reach::Axis> axes = report::shown_axes(solved, view.others[2]);
   std::string words = fmt::format("V over {} and {}", axes[0].name, axes[1].name);
   for (std::size_t d = 2; d < axes.size(); ++d) {
     words += fmt::format("{} {} {}", d == 2 ? " at" : ",", axes[d].name,
@@ -171,17 +171,28 @@ std::string what_is_shown(const Solved& solved, const report::ValueView& view) {
                              solved.complete ? "" : " (stopped before its end)");
 }
 
-double usual_zoom(const Solved& solved, const report::ValueView& view) {
-  constexpr int side = 160;  // of a coarse map
-  const report::MapRange x = shown_range(solved.grid.axes[0]);
-  const report::MapRange y = shown_range(solved.grid.axes[1]);
+/// The snapshot's values over the plane.
+report::ValueMap map_of(const Solved& solved, const report::ValueView& view,
+                        const report::MapRange& x, const report::MapRange& y,
+                        const report::RasterSize& size) {
   const reach::ValueTable table(solved.grid, reach::snapshot(solved, view.time));
-  return report::zoom_on_danger(report::value_map(table, x, y, side, side, view.others),
-                                report::zoom_middle(x, y));
+  if (reach::view_of(solved) == reach::View::ego) {
+    return report::value_map(reach::in_obstacle_frame(table, reach::View::ego), x, y, size.columns,
+                             size.rows, view.others);
+  }
+  return report::value_map(table, x, y, size.columns, size.rows, view.others);
+}
+
+double usual_zoom(const Solved& solved, const report::ValueView& view) {
+  constexpr report::RasterSize coarse{160, 160};
+  const std::vector<reach::Axis> axes = report::shown_axes(solved, view.others[2]);
+  const report::MapRange x = shown_range(axes[0]);
+  const report::MapRange y = shown_range(axes[1]);
+  return report::zoom_on_danger(map_of(solved, view, x, y, coarse), report::zoom_middle(x, y));
 }
 
 Result<std::string> png_of(const Solved& solved, const report::ValueView& view) {
-  const std::vector<reach::Axis>& axes = solved.grid.axes;
+  const std::vector<reach::Axis> axes = report::shown_axes(solved, view.others[2]);
   const report::MapRange all_x = shown_range(axes[0]);
   const report::MapRange all_y = shown_range(axes[1]);
   const Vec2 middle = report::zoom_middle(all_x, all_y);
@@ -199,8 +210,7 @@ Result<std::string> png_of(const Solved& solved, const report::ValueView& view) 
     }
   }
   const report::RasterSize size = report::raster_size(picture.x, picture.y);
-  const reach::ValueTable table(solved.grid, reach::snapshot(solved, view.time));
-  picture.map = report::value_map(table, x, y, size.columns, size.rows, view.others);
+  picture.map = map_of(solved, view, x, y, size);
   picture.scale = report::scale_of(picture.map.values);
   return report::value_png(picture);
 }
@@ -226,7 +236,8 @@ int show(const ReachShowOptions& options) {
     complain(fmt::format("{}: want a grid of at least two axes to show, got one", options.file));
     return bad_input;
   }
-  const auto others = other_coordinates(solved, wishes.value(), options.file);
+  const auto others =
+      other_coordinates(report::shown_axes(solved, 0.0), wishes.value(), options.file);
   const auto time = chosen_snapshot(solved, options.time, options.file);
   if (!others.has_value() || !time.has_value()) {
     return not_shown(others.has_value() ? time.error() : others.error());
@@ -255,7 +266,7 @@ int show(const ReachShowOptions& options) {
 
 void add_reach_show(CLI::App& reach, int& exit_code) {
   CLI::App* const command = reach.add_subcommand(
-      "show", "A solved value over the plane of its first two coordinates, as PNG or HTML");
+      "show", "A solved value over x and y, or its first two coordinates, as PNG or HTML");
   const auto options = std::make_shared<ReachShowOptions>();
   command->add_option("FILE", options->file, "What saca reach solve left")->required();
   command

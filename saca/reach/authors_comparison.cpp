@@ -1,9 +1,5 @@
 #include "saca/reach/authors_comparison.h"
 
-#include <array>
-#include <string>
-#include <string_view>
-
 #include "saca/core/units.h"
 
 namespace saca::reach {
@@ -52,33 +48,20 @@ double Agreement::false_alarm_share() const {
   return share(false_alarm, states - unsafe, 0.0);
 }
 
-Result<AuthorsComparison> compare_with_authors(const ValueTable& table,
-                                               const AuthorsNetwork& network) {
-  constexpr std::array<std::string_view, 4> wanted{"x", "y", "course", "speed"};
-  const auto& axes = table.grid().axes;
-  bool as_wanted = axes.size() == wanted.size();
-  std::string came;
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    as_wanted = as_wanted && axes[i].name == wanted[i];
-    came += (i == 0 ? "" : ", ") + axes[i].name;
-  }
-  if (!as_wanted) {
-    return Error{Error::Code::malformed, "want values over x, y, course, speed, got " + came};
-  }
+AuthorsComparison compare_with_authors(const ValueAt& solved, const AuthorsNetwork& network) {
   AuthorsComparison all;
   for (int speed = 0; speed <= 18; ++speed) {
     AuthorsComparison::AtSpeed here{.speed = static_cast<double>(speed)};
     const std::vector<AuthorsState> states = lattice_at(here.speed);
     const std::vector<double> values = network.values(states);
     for (std::size_t i = 0; i < states.size(); ++i) {
-      const Looked solved =
-          table.at(State{states[i].x, states[i].y, states[i].yaw, states[i].speed});
-      if (!solved.inside) {
+      const Looked found = solved({states[i].x, states[i].y, states[i].yaw, states[i].speed});
+      if (!found.inside) {
         ++all.outside;
         continue;
       }
-      count(here.agreement, solved.value, values[i]);
-      here.mean_solved += solved.value;
+      count(here.agreement, found.value, values[i]);
+      here.mean_solved += found.value;
       here.mean_network += values[i];
     }
     if (here.agreement.states > 0) {

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "saca/core/result.h"
 #include "saca/reach/authors_network.h"
 #include "saca/reach/value_table.h"
 
@@ -37,10 +36,9 @@ struct AuthorsComparison {
 /// Over all states of `in_authors_range` on an even lattice: each metre in x and y, each 5 deg of
 /// yaw to either side, each m/s.
 ///
-/// @param table  of x [m], y [m], course [rad], speed [m/s] relative to an obstacle at rest; the
-///               course stands for the yaw, as the solved car does not slip
-/// @return       Error::Code::malformed: the table's axes are others
-[[nodiscard]] Result<AuthorsComparison> compare_with_authors(const ValueTable& table,
-                                                             const AuthorsNetwork& network);
+/// @param solved  of x [m], y [m], course [rad], speed [m/s] relative to an obstacle at rest; the
+///                course stands for the yaw, as the solved car does not slip
+[[nodiscard]] AuthorsComparison compare_with_authors(const ValueAt& solved,
+                                                     const AuthorsNetwork& network);
 
 }  // namespace saca::reach

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct Looked {
   double error = 0.0;   ///< greatest of the cells read; 0 where none are known
   bool inside = false;  ///< within all open ends; else `value` is that of the nearest state inside
 };
+
+/// The value of a state, however it is kept.
+using ValueAt = std::function<Looked(const State&)>;
 
 /// A solved value, made ready to be asked for at any state.
 ///

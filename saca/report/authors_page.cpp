@@ -55,10 +55,10 @@ Result<std::string> picture(const AuthorsPage& page, const AuthorsView& view, Va
 }
 
 Result<std::string> pair_of(const AuthorsPage& page, const AuthorsView& view,
-                            const reach::ValueTable& table, const reach::AuthorsNetwork& network) {
+                            const reach::ValueAt& value, const reach::AuthorsNetwork& network) {
   constexpr RasterSize size{320, 100};  // 0.2 m: the network takes its time
   const auto solved = picture(page, view,
-                              value_map(table, shown_x, shown_y, size.columns, size.rows,
+                              value_map(value, shown_x, shown_y, size.columns, size.rows,
                                         {0.0, 0.0, view.course, view.speed}),
                               "Solved: " + page.case_name);
   if (!solved.has_value()) {
@@ -123,7 +123,7 @@ ValueMap authors_map(const reach::AuthorsNetwork& network, const MapRange& x, co
   return map;
 }
 
-Result<std::string> authors_page(const AuthorsPage& page, const reach::ValueTable& table,
+Result<std::string> authors_page(const AuthorsPage& page, const reach::ValueAt& value,
                                  const reach::AuthorsNetwork& network,
                                  const reach::AuthorsComparison& comparison) {
   const std::string title = "A solved value and the published network";
@@ -139,7 +139,7 @@ Result<std::string> authors_page(const AuthorsPage& page, const reach::ValueTabl
       "1; outside that it is left blank and nothing is counted. On which obstacle, car and grip it "
       "was trained is not published with it.</p>\n";
   for (const AuthorsView& view : page.views) {
-    const auto pair = pair_of(page, view, table, network);
+    const auto pair = pair_of(page, view, value, network);
     if (!pair.has_value()) {
       return pair;
     }

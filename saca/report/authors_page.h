@@ -30,9 +30,9 @@ struct AuthorsPage {
   std::vector<AuthorsView> views;
 };
 
+/// @param value  as it was compared
 /// @return  HTML that needs no other file; an error when there is no memory for a picture
-[[nodiscard]] Result<std::string> authors_page(const AuthorsPage& page,
-                                               const reach::ValueTable& table,
+[[nodiscard]] Result<std::string> authors_page(const AuthorsPage& page, const reach::ValueAt& value,
                                                const reach::AuthorsNetwork& network,
                                                const reach::AuthorsComparison& comparison);
 

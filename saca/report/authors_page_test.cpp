@@ -29,7 +29,7 @@ reach::AuthorsNetwork scaled_x() {
   return reach::AuthorsNetwork::from(arrays, "made here").value();
 }
 
-reach::ValueTable flat_table() {
+reach::ValueAt flat_value() {
   const double pi = std::numbers::pi;
   const reach::Grid grid{
       {{.name = "x", .first = -60.0, .last = 20.0, .points = 5},
@@ -37,7 +37,9 @@ reach::ValueTable flat_table() {
        {.name = "course", .first = -pi, .last = pi, .points = 8, .edge = reach::Edge::periodic},
        {.name = "speed", .first = 0.0, .last = 20.0, .points = 5}}};
   const std::vector<float> values(num_cells(grid), -1.0F);
-  return {grid, values};
+  return [table = reach::ValueTable(grid, values)](const reach::State& state) {
+    return table.at(state);
+  };
 }
 
 TEST(AuthorsMap, HasTheNetworksValuesAtTheMiddlesAndItsRange) {
@@ -73,7 +75,7 @@ TEST(AuthorsPage, ShowsEachViewTwiceAndEachSpeedOnce) {
                                   .network_name = "net.npz",
                                   .outline = {},
                                   .views = {{0.0, 5.0}, {from_degrees(20.0), 10.0}}},
-                                 flat_table(), scaled_x(), comparison);
+                                 flat_value(), scaled_x(), comparison);
   ASSERT_TRUE(page.has_value()) << page.error().message;
   const std::string& html = page.value();
   std::size_t pictures = 0;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "saca/core/contract.h"
+#include "saca/reach/obstacle_frame.h"
 #include "saca/report/base64.h"
 #include "saca/report/value_map.h"
 
@@ -116,6 +117,11 @@ json axis_json(const reach::Axis& axis, const Picked& picked) {
           {"coordinates", coordinates}};
 }
 
+Picked ends_of(const reach::Axis& axis) {
+  const auto last = static_cast<std::size_t>(axis.points) - 1;
+  return axis.edge == reach::Edge::periodic ? Picked{0} : Picked{0, last};
+}
+
 json colours_json(const std::array<Rgb, 6>& colours) {
   json list = json::array();
   for (const Rgb& c : colours) {
@@ -138,13 +144,19 @@ ValueScale extent_of(const std::vector<std::vector<float>>& snapshots) {
 }  // namespace
 
 ReadUnit read_unit(std::string_view axis_name) {
-  if (axis_name == "x" || axis_name == "y") {
+  if (axis_name == "x" || axis_name == "y" || axis_name == "ahead" || axis_name == "left") {
     return {"m", 1.0};
   }
-  if (axis_name == "course" || axis_name == "heading") {
+  if (axis_name == "course" || axis_name == "heading" || axis_name == "turned") {
     return {"deg", 180.0 / std::numbers::pi};
   }
   return {axis_name == "speed" || axis_name == "v" ? "m/s" : "", 1.0};
+}
+
+std::vector<reach::Axis> shown_axes(const reach::Solved& solved, double course) {
+  return reach::view_of(solved) == reach::View::ego
+             ? reach::axes_in_obstacle_frame(solved.grid, course)
+             : solved.grid.axes;
 }
 
 std::string value_json(const reach::Solved& solved, const ValueView& view,
@@ -171,6 +183,13 @@ std::string value_json(const reach::Solved& solved, const ValueView& view,
     axes.push_back(axis_json(grid.axes[d], picked[d]));
     others.push_back(view.others[d]);
   }
+  json shown;
+  if (reach::view_of(solved) == reach::View::ego) {
+    shown = json::array();
+    for (const reach::Axis& axis : shown_axes(solved, view.others[2])) {
+      shown.push_back(axis_json(axis, ends_of(axis)));
+    }
+  }
   json outline = json::array();
   for (const Vec2 p : obstacle_outline(solved.problem)) {
     outline.push_back({p.x, p.y});
@@ -188,6 +207,7 @@ std::string value_json(const reach::Solved& solved, const ValueView& view,
       {"times_s", times_s},
       {"start", {{"time", start}, {"others", others}, {"zoom", view.zoom}}},
       {"axes", axes},
+      {"shown", shown},
       {"value_words", "V [m]"},
       {"value_unit", "m"},
       {"extent", {{"lowest", extent.lowest}, {"highest", extent.highest}}},

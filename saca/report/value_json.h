@@ -3,7 +3,9 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "saca/reach/grid.h"
 #include "saca/reach/value_file.h"
 
 namespace saca::report {
@@ -14,13 +16,18 @@ struct ReadUnit {
   double factor = 1.0;
 };
 
-/// By the axis' name: x, y [m]; course, heading [deg]; speed, v [m/s].
+/// By the axis' name: x, y, ahead, left [m]; course, heading, turned [deg]; speed, v [m/s].
 [[nodiscard]] ReadUnit read_unit(std::string_view axis_name);
+
+/// The coordinates in which a solution is shown: those of its grid; of what was solved as seen from
+/// the ego, x, y, course and speed in the obstacle's frame.
+/// @param course  at which x and y just span what the grid holds [rad]
+[[nodiscard]] std::vector<reach::Axis> shown_axes(const reach::Solved& solved, double course);
 
 /// What a page shows first.
 struct ValueView {
   std::string title;
-  reach::State others{};  ///< coordinates from the third axis on
+  reach::State others{};  ///< shown coordinates from the third on
   std::size_t time = 0;   ///< number of a snapshot
   double zoom = 1.0;      ///< 1: the whole plane; in [1, 8]
 };

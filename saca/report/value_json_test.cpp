@@ -157,6 +157,42 @@ TEST(ValueJson, ReadsAnglesInDegrees) {
   EXPECT_EQ(read_unit("pressure").unit, "");
 }
 
+TEST(ValueJson, ShowsTheGridsOwnAxes) {
+  const Solved solved = solved_on(small_grid(), 1);
+  EXPECT_TRUE(json::parse(value_json(solved, {}))["shown"].is_null());
+  EXPECT_EQ(shown_axes(solved, 1.0)[0].first, -9.0);
+}
+
+TEST(ValueJson, ShowsWhatTheEgoSeesInTheObstaclesFrame) {
+  Grid grid = small_grid();
+  grid.axes[0] = {.name = "ahead", .first = -6.0, .last = 9.0, .points = 9};
+  grid.axes[1].name = "left";
+  grid.axes[2].name = "turned";
+  Solved solved = solved_on(grid, 1);
+  solved.problem =
+      "schema = \"saca.avoidance/1\"\nname = \"a\"\nseen_from = \"ego\"\nsnapshots_s = [1.0]\n"
+      "[car]\ngrip = 0.9\ntightest_curvature_1pm = 0.2\ndrive_share = 0.5\n"
+      "[ego]\nshape = \"box\"\nlength_m = 4\nwidth_m = 2\ncentre_m = 0\n"
+      "[obstacle]\nshape = \"box\"\nlength_m = 4\nwidth_m = 2\nspeed_mps = 0\n"
+      "[grid.ahead]\nfirst_m = -6\nlast_m = 9\npoints = 9\n[grid.left]\nlast_m = 4\npoints = 5\n"
+      "[grid.turned]\npoints = 6\n[grid.speed]\nlast_mps = 30\npoints = 4\n";
+  const reach::State others{0.0, 0.0, 0.5 * pi, 12.0};
+  const json page = json::parse(value_json(solved, {.title = "a", .others = others}));
+  EXPECT_EQ(page["axes"][0]["name"], "ahead");  // as they are kept
+  EXPECT_EQ(page["axes"][2]["unit"], "deg");
+  const json& shown = page["shown"];
+  ASSERT_EQ(shown.size(), 4U);
+  EXPECT_EQ(shown[0]["name"], "x");
+  EXPECT_EQ(shown[1]["name"], "y");
+  EXPECT_EQ(shown[2]["name"], "course");
+  EXPECT_EQ(shown[3]["name"], "speed");
+  EXPECT_NEAR(shown[0]["coordinates"][0], -4.0, 1e-9);  // across the course
+  EXPECT_NEAR(shown[1]["coordinates"][0], -9.0, 1e-9);  // the obstacle 9 m ahead
+  EXPECT_NEAR(shown[1]["coordinates"][1], 6.0, 1e-9);
+  EXPECT_EQ(shown[2]["edge"], "periodic");
+  EXPECT_EQ(page["start"]["others"][2], 0.5 * pi);
+}
+
 TEST(ValueJson, RefusesWhatItCannotShow) {
   const Solved solved = solved_on({{small_grid().axes[3]}}, 1);
   EXPECT_THROW((void)value_json(solved, {}), ContractViolation);

@@ -86,11 +86,10 @@ Vec2 ValueMap::middle(int column, int row) const {
           y.low + (row + 0.5) * (y.high - y.low) / rows};
 }
 
-ValueMap value_map(const reach::ValueTable& table, const MapRange& x, const MapRange& y,
-                   int columns, int rows, const reach::State& others) {
+ValueMap value_map(const reach::ValueAt& value, const MapRange& x, const MapRange& y, int columns,
+                   int rows, const reach::State& others) {
   expects(x.low < x.high && y.low < y.high, "low < high");
   expects(columns >= 2 && rows >= 2, "columns >= 2, rows >= 2");
-  expects(table.grid().axes.size() >= 2, "the table has at least two axes");
   ValueMap map{.x = x, .y = y, .columns = columns, .rows = rows, .values = {}, .inside = {}};
   const std::size_t size = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
   map.values.reserve(size);
@@ -101,12 +100,19 @@ ValueMap value_map(const reach::ValueTable& table, const MapRange& x, const MapR
       const Vec2 at = map.middle(column, row);
       state[0] = at.x;
       state[1] = at.y;
-      const reach::Looked looked = table.at(state);
+      const reach::Looked looked = value(state);
       map.values.push_back(static_cast<float>(looked.value));
       map.inside.push_back(looked.inside ? 1 : 0);
     }
   }
   return map;
+}
+
+ValueMap value_map(const reach::ValueTable& table, const MapRange& x, const MapRange& y,
+                   int columns, int rows, const reach::State& others) {
+  expects(table.grid().axes.size() >= 2, "the table has at least two axes");
+  return value_map([&](const reach::State& state) { return table.at(state); }, x, y, columns, rows,
+                   others);
 }
 
 double zoom_on_danger(const ValueMap& map, Vec2 middle) {
@@ -115,7 +121,8 @@ double zoom_on_danger(const ValueMap& map, Vec2 middle) {
   double zoom = most;
   for (int row = 0; row < map.rows; ++row) {
     for (int column = 0; column < map.columns; ++column) {
-      if (map.values[map.index(column, row)] >= 0.0F) {
+      const std::size_t i = map.index(column, row);
+      if (map.inside[i] != 0 && map.values[i] >= 0.0F) {
         const Vec2 at = map.middle(column, row) - middle;
         const double room_x = at.x < 0.0 ? middle.x - map.x.low : map.x.high - middle.x;
         const double room_y = at.y < 0.0 ? middle.y - map.y.low : map.y.high - middle.y;

@@ -35,13 +35,16 @@ struct ValueMap {
 /// @param others   the further coordinates: of the avoidance problem {0, 0, course, speed}; the
 ///                 first two are not read
 /// @param columns, rows  >= 2
-/// @throws ContractViolation  if a range is empty or the table has one axis
+/// @throws ContractViolation  if a range is empty
+[[nodiscard]] ValueMap value_map(const reach::ValueAt& value, const MapRange& x, const MapRange& y,
+                                 int columns, int rows, const reach::State& others);
+/// @throws ContractViolation  likewise, or if the table has one axis
 [[nodiscard]] ValueMap value_map(const reach::ValueTable& table, const MapRange& x,
                                  const MapRange& y, int columns, int rows,
                                  const reach::State& others);
 
 /// How far to look closer at the middle of the plane, so that what is unsafe there can be seen: the
-/// greatest of 1 to 8 at which all of a map's unsafe places lie within 60 % of each range.
+/// greatest of 1 to 8 at which all of a map's unsafe places inside lie within 60 % of each range.
 /// @param middle  that stays where it is
 [[nodiscard]] double zoom_on_danger(const ValueMap& map, Vec2 middle);
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "saca/core/contract.h"
+#include "saca/reach/obstacle_frame.h"
 
 namespace saca::report {
 namespace {
@@ -43,6 +44,49 @@ TEST(ValueMap, SaysWhatLiesOutside) {
   const ValueMap map = value_map(cone(), {-14.0, 10.0}, {-10.0, 10.0}, 12, 4, {});
   EXPECT_EQ(map.inside[map.index(1, 2)], 0);  // x = -11
   EXPECT_EQ(map.inside[map.index(2, 2)], 1);  // x = -9
+}
+
+/// V = minus the distance from the obstacle, on ahead and left or on x and y.
+ValueTable distance_over(reach::View view) {
+  const double pi = 3.14159265358979324;
+  const bool ego = view == reach::View::ego;
+  const Grid grid{{{.name = ego ? "ahead" : "x", .first = -12.0, .last = 12.0, .points = 97},
+                   {.name = ego ? "left" : "y",
+                    .first = 0.0,
+                    .last = 12.0,
+                    .points = 49,
+                    .edge = reach::Edge::mirrored,
+                    .turned = 2},
+                   {.name = ego ? "turned" : "course",
+                    .first = -pi,
+                    .last = pi,
+                    .points = 8,
+                    .edge = reach::Edge::periodic},
+                   {.name = "speed", .first = 0.0, .last = 20.0, .points = 4}}};
+  return {grid, reach::sampled<float>(
+                    grid, [](std::span<const double> s) { return -std::hypot(s[0], s[1]); }, 1)};
+}
+
+TEST(ValueMap, IsTheSameFromEitherView) {
+  const ValueTable from_ego = distance_over(reach::View::ego);
+  const ValueTable from_obstacle = distance_over(reach::View::obstacle);
+  const reach::State others{0.0, 0.0, 0.6, 11.0};
+  const ValueMap one = value_map(reach::in_obstacle_frame(from_ego, reach::View::ego), {-8.0, 8.0},
+                                 {-8.0, 8.0}, 40, 40, others);
+  const ValueMap other = value_map(from_obstacle, {-8.0, 8.0}, {-8.0, 8.0}, 40, 40, others);
+  for (std::size_t i = 0; i < one.values.size(); ++i) {
+    ASSERT_NEAR(one.values[i], other.values[i], 0.05) << i;  // the tables' spacing is 1/4
+    ASSERT_EQ(one.inside[i], 1);
+  }
+}
+
+TEST(Zoom, LeavesOutWhatLiesOutside) {
+  ValueMap map = value_map(cone(), {-9.0, 9.0}, {-9.0, 9.0}, 20, 20, {});
+  map.values.assign(400, -1.0F);
+  map.values[0] = 1.0F;
+  EXPECT_EQ(zoom_on_danger(map, {0.0, 0.0}), 1.0);
+  map.inside[0] = 0;
+  EXPECT_EQ(zoom_on_danger(map, {0.0, 0.0}), 8.0);
 }
 
 TEST(ValueMap, RefusesEmptyRanges) {

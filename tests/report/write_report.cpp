@@ -1,4 +1,4 @@
-// write_report encounter|drive <record.json> <report.html>: for the tests of the pages.
+// write_report encounter|drive|value <record.json> <report.html>: for the tests of the pages.
 #include <cstdio>
 #include <string_view>
 
@@ -7,8 +7,8 @@
 
 int main(int argc, char** argv) {
   const std::string_view kind = argc == 4 ? argv[1] : "";
-  if (kind != "encounter" && kind != "drive") {
-    std::fputs("usage: write_report encounter|drive <record.json> <report.html>\n", stderr);
+  if (kind != "encounter" && kind != "drive" && kind != "value") {
+    std::fputs("usage: write_report encounter|drive|value <record.json> <report.html>\n", stderr);
     return 2;
   }
   const auto record = saca::read_file(argv[2]);
@@ -16,8 +16,9 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s\n", record.error().message.c_str());
     return 1;
   }
-  const auto page = kind == "drive" ? saca::report::drive_report(record.value())
-                                    : saca::report::html_report(record.value());
+  const auto page = kind == "drive"   ? saca::report::drive_report(record.value())
+                    : kind == "value" ? saca::report::value_report(record.value())
+                                      : saca::report::html_report(record.value());
   if (!page.has_value()) {
     std::fprintf(stderr, "%s: %s\n", argv[2], page.error().message.c_str());
     return 1;
