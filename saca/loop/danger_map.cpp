@@ -80,7 +80,7 @@ Pose map_frame(const reach::Meeting& meeting) {
 
 /// Two corners of the map, in M: around the obstacle, from where it is too late to swerve, and
 /// around the ego.
-std::array<Vec2, 2> corners_M(const reach::Meeting& meeting, Vec2 ego_M) {
+std::array<Vec2, 2> corners(const reach::Meeting& meeting, Vec2 ego_M) {
   const double closing = norm(relative_velocity(meeting));
   const double margin = world::bounding_radius(meeting.obstacle) + around;
   return {Vec2{std::min(-margin, ego_M.x - around), std::min(-margin, ego_M.y - around)},
@@ -129,7 +129,7 @@ std::optional<DangerMap> danger_map(const Scene& scene, const Actor& actor,
   const Pose X_WO = reach::obstacle_frame(actor);
   const Pose X_OM = map_frame(meeting);
   const auto [low, high] =
-      corners_M(meeting, inverse(X_OM) * Vec2{meeting.state[0], meeting.state[1]});
+      corners(meeting, inverse(X_OM) * Vec2{meeting.state[0], meeting.state[1]});
   const Vec2 size = high - low;
   DangerMap map{.time = scene.time,
                 .ego_speed = meeting.state[3],
@@ -141,7 +141,7 @@ std::optional<DangerMap> danger_map(const Scene& scene, const Actor& actor,
   map.rows = static_cast<int>(size.y / map.step) + 1;
   for (int row = 0; row < map.rows; ++row) {
     for (int column = 0; column < map.columns; ++column) {
-      const Vec2 p_O = X_OM * map.point_M(column, row);
+      const Vec2 p_O = X_OM * map.point(column, row);
       meeting.state[0] = p_O.x;
       meeting.state[1] = p_O.y;
       map.values.push_back(model.exact(meeting));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,8 +29,13 @@ struct DangerMap {
   std::vector<std::optional<double>> values;  ///< row by row from the lowest y, x runs first [m];
                                               ///< nullopt: beyond the solved tables
 
-  [[nodiscard]] Vec2 point_M(int column, int row) const {
+  /// In M.
+  [[nodiscard]] Vec2 point(int column, int row) const {
     return first_M + Vec2{column * step, row * step};
+  }
+  [[nodiscard]] std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+           static_cast<std::size_t>(column);
   }
 };
 

@@ -71,9 +71,9 @@ TEST(DangerMap, HoldsTheValueOfTheEgoAtEachPoint) {
   ASSERT_EQ(map->values.size(), static_cast<std::size_t>(map->rows * map->columns));
   for (int row = 0; row < map->rows; ++row) {
     for (int column = 0; column < map->columns; ++column) {
-      const Vec2 p_W = scene.actors[0].X_WA * (map->X_AM * map->point_M(column, row));
+      const Vec2 p_W = scene.actors[0].X_WA * (map->X_AM * map->point(column, row));
       const Vec2 p_O = rotated(p_W - Vec2{30.0, -4.0}, -2.0);
-      const auto& value = map->values[static_cast<std::size_t>(row * map->columns + column)];
+      const auto& value = map->values[map->index(column, row)];
       ASSERT_TRUE(value.has_value());
       ASSERT_NEAR(*value, slope(p_O, 12.0), 1e-5) << row << ' ' << column;  // tables are floats
     }
@@ -89,7 +89,7 @@ TEST(DangerMap, ReachesAroundBothAndStaysSmall) {
     EXPECT_LE(map->values.size(), 1'400U);
     EXPECT_GE(map->values.size(), 900U);
     const Vec2 ego_M = inverse(map->X_AM) * (inverse(scene.actors[0].X_WA) * ego_W);
-    const Vec2 last_M = map->point_M(map->columns - 1, map->rows - 1);
+    const Vec2 last_M = map->point(map->columns - 1, map->rows - 1);
     for (const Vec2 p : {ego_M, Vec2{0.0, 0.0}}) {
       EXPECT_GT(p.x, map->first_M.x + 3.0);
       EXPECT_GT(p.y, map->first_M.y + 3.0);
@@ -106,9 +106,9 @@ TEST(DangerMap, IsOfTheTablesOnly) {
   ASSERT_TRUE(map.has_value());
   for (int row = 0; row < map->rows; ++row) {
     for (int column = 0; column < map->columns; ++column) {
-      const Vec2 p_W = near.actors[0].X_WA * (map->X_AM * map->point_M(column, row));
+      const Vec2 p_W = near.actors[0].X_WA * (map->X_AM * map->point(column, row));
       const Vec2 p_O = rotated(p_W - Vec2{30.0, -4.0}, -2.0);
-      EXPECT_EQ(map->values[static_cast<std::size_t>(row * map->columns + column)].has_value(),
+      EXPECT_EQ(map->values[map->index(column, row)].has_value(),
                 std::abs(p_O.x) <= 20.0 && std::abs(p_O.y) <= 20.0);
     }
   }
@@ -207,9 +207,7 @@ double between_points(const DangerMap& map, Vec2 p_M) {
   const Vec2 at = (1.0 / map.step) * (p_M - map.first_M);
   const int column = static_cast<int>(at.x);
   const int row = static_cast<int>(at.y);
-  const auto value = [&](int c, int r) {
-    return map.values.at(static_cast<std::size_t>(r * map.columns + c)).value();
-  };
+  const auto value = [&](int c, int r) { return map.values.at(map.index(c, r)).value(); };
   return std::lerp(std::lerp(value(column, row), value(column + 1, row), at.x - column),
                    std::lerp(value(column, row + 1), value(column + 1, row + 1), at.x - column),
                    at.y - row);
@@ -236,8 +234,8 @@ TEST_F(DangerMapsTest, AgreeWithTheRiskAlongTheRun) {
     EXPECT_NEAR(between_points(map, ego_M), obstacle_risk(frame->scene, actor, model_).value, 0.05);
     for (int row = 0; row < map.rows; ++row) {
       for (int column = 0; column < map.columns; ++column) {
-        const double distance = norm(map.point_M(column, row));
-        const auto& value = map.values[static_cast<std::size_t>(row * map.columns + column)];
+        const double distance = norm(map.point(column, row));
+        const auto& value = map.values[map.index(column, row)];
         ASSERT_TRUE(value.has_value());
         if (distance < 0.5 || distance > 3.0) {  // of 2 m, give or take the cells
           EXPECT_EQ(*value >= 0.0, distance < 2.0) << distance;

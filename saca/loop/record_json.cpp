@@ -233,7 +233,7 @@ std::string row_text(const DangerMap& map, int row) {
   constexpr double per_metre = 10.0;
   std::string text;
   for (int column = 0; column < map.columns; ++column) {
-    const auto& value = map.values[static_cast<std::size_t>(row * map.columns + column)];
+    const auto& value = map.values[map.index(column, row)];
     text += column > 0 ? " " : "";
     // Down, so that what is safe stays less than 0.
     text += value ? std::to_string(std::lround(std::floor(per_metre * *value))) : ".";
