@@ -33,7 +33,7 @@ struct Air3d {
     double evader_turn_rate, pursuer_turn_rate;
 
     template <class N>
-    N hamiltonian(const N& x, const std::array<N, 3>& p) const {
+    [[nodiscard]] N hamiltonian(const N& x, const std::array<N, 3>& p) const {
       using std::abs;
       const N by_evader = y * p[0] - x * p[1] - p[2];
       return drift_x * p[0] + drift_y * p[1] - evader_turn_rate * abs(by_evader) +
@@ -41,7 +41,7 @@ struct Air3d {
     }
 
     template <class N>
-    std::array<N, 3> speeds(const N& x) const {
+    [[nodiscard]] std::array<N, 3> speeds(const N& x) const {
       using std::abs;
       return {N(std::abs(drift_x) + evader_turn_rate * std::abs(y)),
               std::abs(drift_y) + evader_turn_rate * abs(x),

@@ -42,7 +42,8 @@ TEST(AvoidanceOf, DrivesWithWhatStandsOnTheDrivenWheels) {
 TEST(AvoidanceOf, DrivesNoHarderThanTheMotor) {
   vehicle::Vehicle car = rear_driven();
   car.motor_limit = 1'000.0;
-  EXPECT_NEAR(avoidance_of(car, 0.9).drive_share, 1'000.0 / 0.32 / 1'700.0 / (0.9 * 9.80665), 1e-12);
+  EXPECT_NEAR(avoidance_of(car, 0.9).drive_share, 1'000.0 / 0.32 / 1'700.0 / (0.9 * 9.80665),
+              1e-12);
   car.motor_limit = 0.0;
   EXPECT_EQ(avoidance_of(car, 0.9).drive_share, 0.0);
   EXPECT_THROW((void)avoidance_of(car, 0.0), ContractViolation);

@@ -15,11 +15,11 @@ struct ConstantMotion {
   struct Row {
     double vx, vy;
     template <class N>
-    N hamiltonian(const N& /*x*/, const std::array<N, 2>& p) const {
+    [[nodiscard]] N hamiltonian(const N& /*x*/, const std::array<N, 2>& p) const {
       return vx * p[0] + vy * p[1];
     }
     template <class N>
-    std::array<N, 2> speeds(const N& /*x*/) const {
+    [[nodiscard]] std::array<N, 2> speeds(const N& /*x*/) const {
       return {N(std::abs(vx)), N(std::abs(vy))};
     }
   };
@@ -34,7 +34,7 @@ struct AnyDirection {
   struct Row {
     double speed;
     template <class N>
-    N hamiltonian(const N& /*x*/, const std::array<N, D>& p) const {
+    [[nodiscard]] N hamiltonian(const N& /*x*/, const std::array<N, D>& p) const {
       N sum = p[0] * p[0];
       for (std::size_t d = 1; d < D; ++d) {
         sum = sum + p[d] * p[d];
@@ -42,7 +42,7 @@ struct AnyDirection {
       return speed * sqrt(sum);
     }
     template <class N>
-    std::array<N, D> speeds(const N& /*x*/) const {
+    [[nodiscard]] std::array<N, D> speeds(const N& /*x*/) const {
       std::array<N, D> all;
       all.fill(N(std::abs(speed)));
       return all;
@@ -58,11 +58,11 @@ struct DoubleIntegrator {
   struct Row {
     double v, strongest;
     template <class N>
-    N hamiltonian(const N& /*x*/, const std::array<N, 2>& p) const {
+    [[nodiscard]] N hamiltonian(const N& /*x*/, const std::array<N, 2>& p) const {
       return v * p[0] - strongest * abs(p[1]);
     }
     template <class N>
-    std::array<N, 2> speeds(const N& /*x*/) const {
+    [[nodiscard]] std::array<N, 2> speeds(const N& /*x*/) const {
       return {N(std::abs(v)), N(strongest)};
     }
   };
