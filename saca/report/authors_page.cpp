@@ -57,14 +57,14 @@ Result<std::string> picture(const AuthorsPage& page, const AuthorsView& view, Va
 Result<std::string> pair_of(const AuthorsPage& page, const AuthorsView& view,
                             const reach::ValueAt& value, const reach::AuthorsNetwork& network) {
   constexpr RasterSize size{320, 100};  // 0.2 m: the network takes its time
-  const auto solved = picture(page, view,
-                              value_map(value, shown_x, shown_y, size.columns, size.rows,
-                                        {0.0, 0.0, view.course, view.speed}),
-                              "Solved: " + page.case_name);
+  auto solved = picture(page, view,
+                        value_map(value, shown_x, shown_y, size.columns, size.rows,
+                                  {0.0, 0.0, view.course, view.speed}),
+                        "Solved: " + page.case_name);
   if (!solved.has_value()) {
     return solved;
   }
-  const auto published = picture(
+  auto published = picture(
       page, view,
       authors_map(network, shown_x, shown_y, size.columns, size.rows, view.course, view.speed),
       "Published network: " + page.network_name);
@@ -139,7 +139,7 @@ Result<std::string> authors_page(const AuthorsPage& page, const reach::ValueAt& 
       "1; outside that it is left blank and nothing is counted. On which obstacle, car and grip it "
       "was trained is not published with it.</p>\n";
   for (const AuthorsView& view : page.views) {
-    const auto pair = pair_of(page, view, value, network);
+    auto pair = pair_of(page, view, value, network);
     if (!pair.has_value()) {
       return pair;
     }
