@@ -46,11 +46,6 @@ struct Wish {
   double value = 0.0;  // in the unit that is read
 };
 
-int not_shown(const Error& problem) {
-  complain(problem.message);
-  return problem.code == Error::Code::unwritable ? cannot_write : bad_input;
-}
-
 Result<Wish> parsed_wish(const std::string& text) {
   const std::size_t sign = text.find('=');
   Wish wish{.axis = text.substr(0, sign)};
@@ -229,7 +224,7 @@ int show(const ReachShowOptions& options) {
   }
   const auto read = reach::read_solved(options.file);
   if (!read.has_value()) {
-    return not_shown(read.error());
+    return refused(read.error());
   }
   const Solved& solved = read.value();
   if (solved.grid.axes.size() < 2) {
@@ -240,7 +235,7 @@ int show(const ReachShowOptions& options) {
       other_coordinates(report::shown_axes(solved, 0.0), wishes.value(), options.file);
   const auto time = chosen_snapshot(solved, options.time, options.file);
   if (!others.has_value() || !time.has_value()) {
-    return not_shown(others.has_value() ? time.error() : others.error());
+    return refused(others.has_value() ? time.error() : others.error());
   }
   const std::string stem = fs::path(options.file).stem().string();
   report::ValueView view{.title = report::problem_name(solved.problem).value_or(stem),
@@ -250,13 +245,13 @@ int show(const ReachShowOptions& options) {
   const auto made = kind == ".png" ? png_of(solved, view)
                                    : report::value_report(report::value_json(solved, view));
   if (!made.has_value()) {
-    return not_shown(made.error());
+    return refused(made.error());
   }
   if (const auto problem = make_folder_of(options.output)) {
-    return not_shown(*problem);
+    return refused(*problem);
   }
   if (const auto problem = write_file(options.output, made.value())) {
-    return not_shown(*problem);
+    return refused(*problem);
   }
   fmt::print("{}: {}\n", options.output, what_is_shown(solved, view));
   return success;
