@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include "saca/core/angle.h"
 #include "saca/loop/encounter.h"
@@ -37,18 +40,20 @@ const decide::Preview* preview_that_counts(const Record& record) {
              : &record.previews.back();
 }
 
-/// By risk; where that is the same, by value.
-std::string most_dangerous(const preview::Situation& situation) {
+/// By risk; where that is the same, by value. nullopt: nobody is judged.
+std::optional<std::string> most_dangerous(const preview::Situation& situation) {
   const auto& actors = situation.scene_at_trigger.actors;
-  std::size_t most = 0;
-  for (std::size_t i = 1; i < actors.size(); ++i) {
+  std::optional<std::size_t> most;
+  for (std::size_t i = 0; i < actors.size(); ++i) {
     const reach::ObstacleRisk& a = situation.risks[i];
-    const reach::ObstacleRisk& b = situation.risks[most];
-    if (a.risk > b.risk || (a.risk == b.risk && a.value > b.value)) {
+    const auto key = [](const reach::ObstacleRisk& risk) {
+      return std::pair(risk.risk, risk.value);
+    };
+    if (a.judged && (!most || key(a) > key(situation.risks[*most]))) {
       most = i;
     }
   }
-  return actor_name(actors[most]);
+  return most ? std::optional(actor_name(actors[*most])) : std::nullopt;
 }
 
 /// Names of the actors to be mapped, the first that can be.
@@ -58,8 +63,8 @@ std::vector<std::string> candidates(const Record& record) {
     names.push_back(*record.threat);
   }
   const decide::Preview* const preview = preview_that_counts(record);
-  if (preview != nullptr && !preview->situation.scene_at_trigger.actors.empty()) {
-    names.push_back(most_dangerous(preview->situation));
+  if (const auto most = preview != nullptr ? most_dangerous(preview->situation) : std::nullopt) {
+    names.push_back(*most);
   }
   return names;
 }

@@ -147,6 +147,12 @@ TEST(DangerMaps, AreOfTheTriggersThreatOrElseOfTheLargestRisk) {
   situation.risks[0] = {.risk = 0.6, .value = -3.0};
   situation.risks[1] = {.risk = 0.6, .value = -4.0};
   EXPECT_EQ(danger_maps(record, model).value().actor, "car1");
+  situation.risks[0] = {.risk = 0.0, .value = 0.0, .judged = false};  // who is behind
+  situation.risks[1] = {.risk = 0.0, .value = -40.0};
+  EXPECT_EQ(danger_maps(record, model).value().actor, "car2");
+  situation.risks[1].judged = false;
+  EXPECT_FALSE(danger_maps(record, model).has_value());
+  situation.risks[0] = {.risk = 0.6, .value = -3.0};
   record.threat = "car2";
   EXPECT_EQ(danger_maps(record, model).value().actor, "car2");
   record.threat = "car3";  // never seen

@@ -16,9 +16,9 @@ namespace {
 
 using world::Footprint;
 
-constexpr double look_ahead = 8.0;  // [s]: longer than the preview, and than a stop on ice takes
-constexpr double input_step = 0.1;  // [s], of inputs on the way to a table
-constexpr int num_few = 16;         // of the constant accelerations, where there is no table
+constexpr double look_ahead = 16.0;  // [s]: longer than a stop from 45 m/s on grip 0.3 takes
+constexpr double input_step = 0.1;   // [s], of inputs on the way to a table
+constexpr int num_few = 16;          // of the constant accelerations, where there is no table
 
 bool same(const Footprint& a, const Footprint& b) {
   return a.shape == b.shape && a.length == b.length && a.width == b.width;
@@ -37,7 +37,8 @@ double beyond(const Footprint& body, const Footprint& table) {
   const double rear = table.centre_x - other.x - (body.centre_x - half.x);
   const double along = std::max({0.0, front, rear});
   const double across = std::max(0.0, half.y - other.y);
-  if (body.shape == table.shape || table.shape == world::Shape::box) {
+  const bool same_middle = body.centre_x == table.centre_x;
+  if (table.shape == world::Shape::box || (body.shape == table.shape && same_middle)) {
     return std::hypot(along, across);
   }
   const double corner = std::hypot(half.x + std::abs(body.centre_x - table.centre_x), half.y);
@@ -49,10 +50,6 @@ Footprint centred(Footprint footprint) {
   return footprint;
 }
 
-double reach_of(const Footprint& ego) {
-  return world::bounding_radius(ego);
-}
-
 double intrusion_of(const Meeting& meeting, const State& state) {
   const Pose X_OE{{state[0], state[1]}, state[2]};
   return intrusion(meeting.ego, X_OE, centred(meeting.obstacle), Pose{});
@@ -60,7 +57,7 @@ double intrusion_of(const Meeting& meeting, const State& state) {
 
 Avoidance system_of(const Avoidance& car, const Meeting& meeting) {
   Avoidance system = car;
-  system.grip = meeting.grip;
+  system.grip = std::min(meeting.grip, car.grip);  // a motor's share of more would be less
   system.obstacle_speed = meeting.obstacle_speed;
   return system;
 }
@@ -73,7 +70,9 @@ struct Around {
 };
 
 std::optional<Around> around(const std::vector<DangerTable>& family, double speed) {
-  if (speed > family.back().obstacle_speed || speed < family.front().obstacle_speed) {
+  constexpr double rounding = 1e-6;  // [m/s]
+  if (speed > family.back().obstacle_speed + rounding ||
+      speed < family.front().obstacle_speed - rounding) {
     return std::nullopt;
   }
   std::size_t i = 0;
@@ -83,7 +82,8 @@ std::optional<Around> around(const std::vector<DangerTable>& family, double spee
   const DangerTable& low = family[i];
   const DangerTable& high = family[std::min(i + 1, family.size() - 1)];
   const double span = high.obstacle_speed - low.obstacle_speed;
-  return Around{&low, &high, span > 0.0 ? (speed - low.obstacle_speed) / span : 0.0};
+  const double share = span > 0.0 ? (speed - low.obstacle_speed) / span : 0.0;
+  return Around{&low, &high, std::clamp(share, 0.0, 1.0)};
 }
 
 // Two obstacles of different speeds are compared where they would be when it comes to the worst,
@@ -147,6 +147,34 @@ std::optional<LookUp> look_up(const std::vector<DangerTable>& family, const Avoi
   return LookUp{*tables, scaled.speed_factor, obstacle_speed, grown};
 }
 
+/// One step of an evasion, or all of it.
+Followed driven_by(const Avoidance& system, const Meeting& meeting, const State& state,
+                   const Acceleration& input, double longest) {
+  return follow(
+      system, [&](const State& at) { return intrusion_of(meeting, at); },
+      world::bounding_radius(meeting.ego), [&](const State&) { return input; }, state, input_step,
+      longest);
+}
+
+/// The highest h on the way to where a table takes over, and what that tells.
+double until_a_table(const LookUp& values, const Avoidance& system, const Meeting& meeting,
+                     const Acceleration& input) {
+  State state = meeting.state;
+  double highest = -std::numeric_limits<double>::infinity();
+  for (int k = 0; k * input_step < look_ahead; ++k) {
+    const Followed way = driven_by(system, meeting, state, input, input_step);
+    highest = std::max(highest, way.highest);
+    if (way.is_settled) {
+      break;
+    }
+    state = way.last;
+    if (const auto there = values.at(state)) {
+      return std::max(highest, *there);
+    }
+  }
+  return highest;
+}
+
 void require(const Meeting& meeting) {
   expects(meeting.grip > 0.0 && meeting.grip <= 1.5, "0 < grip <= 1.5");
   expects(meeting.obstacle_speed >= 0.0 && std::isfinite(meeting.obstacle_speed),
@@ -208,19 +236,9 @@ Danger DangerModel::by_tables(const Family& family, const Meeting& meeting) cons
     return {*here, true};
   }
   const Avoidance system = system_of(car_, meeting);
-  double least = std::numeric_limits<double>::infinity();
+  double least = by_few_evasions(meeting).value;
   for (const Acceleration& input : {straight_on, braked}) {
-    State state = meeting.state;
-    double highest = intrusion_of(meeting, state);
-    for (int k = 0; k * input_step < look_ahead; ++k) {
-      state = driven(system, state, input, input_step);
-      if (const auto there = values->at(state)) {
-        highest = std::max(highest, *there);
-        break;
-      }
-      highest = std::max(highest, intrusion_of(meeting, state));
-    }
-    least = std::min(least, highest);
+    least = std::min(least, until_a_table(*values, system, meeting, input));
   }
   return {least, false};
 }
@@ -233,11 +251,7 @@ Danger DangerModel::by_few_evasions(const Meeting& meeting) const {
     const double angle = 2.0 * std::numbers::pi * i / num_few;
     const Acceleration input =
         i < 0 ? straight_on : Acceleration{disc * std::cos(angle), disc * std::sin(angle)};
-    const Followed way = follow(
-        system, [&](const State& state) { return intrusion_of(meeting, state); },
-        reach_of(meeting.ego), [&](const State&) { return input; }, meeting.state, input_step,
-        look_ahead);
-    least = std::min(least, way.highest);
+    least = std::min(least, driven_by(system, meeting, meeting.state, input, look_ahead).highest);
   }
   return {least, false};
 }

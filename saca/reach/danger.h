@@ -12,9 +12,9 @@ namespace saca::reach {
 
 /// The ego and one obstacle that keeps its velocity, as the avoidance problem sees them.
 struct Meeting {
-  world::Footprint ego;       ///< about its centre of mass
-  world::Footprint obstacle;  ///< about its own centre: centre_x is not used
-  double grip = 0.9;
+  world::Footprint ego;         ///< about its centre of mass
+  world::Footprint obstacle;    ///< about its own centre: centre_x is not used
+  double grip = 0.9;            ///< of the road, in (0, 1.5]
   double obstacle_speed = 0.0;  ///< along its x, >= 0 [m/s]
   State state{};                ///< x, y, course, speed of the ego in the obstacle's frame
 };
@@ -40,12 +40,12 @@ struct DangerTable {
 
 /// How dangerous obstacles are to one car, by solved tables where there are any.
 ///
-/// Tables of one grip serve all (`scaled_to`). Between two obstacle speeds values are interpolated.
-/// A body that reaches beyond that of the table by d adds d to the value: it lies within the
-/// table's body grown by d, and a value shifts as its h does. Beyond a table's ends, or without
-/// one, the ego first goes straight on, or brakes, until there is one; or the best of a few
-/// constant inputs is taken, followed to the end. Both are evasions, so V_h is at most what is
-/// told.
+/// Tables of one grip serve all lower ones (`scaled_to`), at speeds up to theirs times
+/// sqrt(grip / theirs); more grip is taken as theirs. Between two obstacle speeds values are
+/// interpolated. A body that reaches beyond that of the table by d adds d to the value: it lies
+/// within the table's body grown by d, and a value shifts as its h does. Beyond a table's ends, or
+/// without one, a few constant inputs are followed to the end, and straight on and braking until a
+/// table takes over. All are evasions, so V_h is at most the best of them, which is told.
 class DangerModel {
  public:
   /// @param car     limits of the car; its grip is that of the tables

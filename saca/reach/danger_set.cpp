@@ -33,6 +33,7 @@ constexpr std::array<StandardBody, 4> standard_bodies{
      {"articulated", {.shape = Shape::box, .length = 16.5, .width = 2.55}}}};
 
 constexpr double speed_step = 5.0;  // [m/s]: see the decision named in the header
+constexpr double faster = 1.0;      // [m/s]: by perception's noise, or in a forecast
 
 const StandardBody& nearest_body(const Footprint& obstacle) {
   return *std::min_element(standard_bodies.begin(), standard_bodies.end(),
@@ -71,7 +72,7 @@ std::string text_of(std::string_view title, const Avoidance& car, const Footprin
 
 std::vector<DangerCase> danger_cases(const Avoidance& car, const Footprint& ego, double grip,
                                      std::span<const ToBeJudged> wanted) {
-  const double speed_factor = scaled_to({.grip = grip}, car.grip).speed_factor;
+  const double speed_factor = scaled_to({.grip = std::min(grip, car.grip)}, car.grip).speed_factor;
   std::array<double, standard_bodies.size()> top_speeds;
   top_speeds.fill(-1.0);  // not wanted
   for (const ToBeJudged& one : wanted) {
@@ -83,8 +84,9 @@ std::vector<DangerCase> danger_cases(const Avoidance& car, const Footprint& ego,
   std::vector<DangerCase> cases;
   for (std::size_t body = 0; body < standard_bodies.size(); ++body) {
     const StandardBody& of = standard_bodies[body];
-    const int steps =
-        top_speeds[body] < 0.0 ? -1 : static_cast<int>(std::ceil(top_speeds[body] / speed_step));
+    constexpr double rounding = 1e-6;
+    const double top = top_speeds[body] > 0.0 ? top_speeds[body] + faster : top_speeds[body];
+    const int steps = top < 0.0 ? -1 : static_cast<int>(std::ceil(top / speed_step - rounding));
     for (int i = 0; i <= steps; ++i) {
       const double speed = i * speed_step;
       std::string title = fmt::format("{}_{}mps", of.name, speed);

@@ -34,17 +34,20 @@ TEST(DangerCases, AreOfTheBodyNearestToWhatIsThere) {
   EXPECT_THAT(names(0.9, {}), testing::IsEmpty());
 }
 
-TEST(DangerCases, ReachUpToTheTopSpeedAndOnlyOnce) {
+// With 1 m/s to spare: perception's noise, and forecasts, make it seem faster.
+TEST(DangerCases, ReachBeyondTheTopSpeedAndOnlyOnce) {
   const Footprint body{.length = 4.8, .width = 1.9};
-  EXPECT_THAT(names(0.9, {{body, 10.0}, {body, 3.0}}),
+  EXPECT_THAT(names(0.9, {{body, 9.0}, {body, 3.0}}),
               ElementsAre("car_0mps", "car_5mps", "car_10mps"));
-  EXPECT_THAT(names(0.9, {{body, 10.1}}), testing::SizeIs(4));
+  EXPECT_THAT(names(0.9, {{body, 9.0 + 1e-12}}), testing::SizeIs(3));
+  EXPECT_THAT(names(0.9, {{body, 9.1}}), testing::SizeIs(4));
 }
 
 // On a quarter of the grip a speed counts twice.
 TEST(DangerCases, OnLessGripReachFarther) {
   const Footprint body{.length = 4.8, .width = 1.9};
-  EXPECT_THAT(names(0.225, {{body, 10.0}}), testing::SizeIs(5));
+  EXPECT_THAT(names(0.225, {{body, 9.5}}), testing::SizeIs(5));
+  EXPECT_EQ(names(1.2, {{body, 9.0}}), names(0.9, {{body, 9.0}})) << "more is taken as the tables'";
 }
 
 TEST(DangerCases, HoldWhatTheyWereAskedFor) {

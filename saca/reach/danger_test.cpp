@@ -126,6 +126,22 @@ TEST(Danger, OnLessGripIsThatOfAHigherSpeed) {
   EXPECT_NEAR(without().danger(icy).value, without().danger(ahead(14.0, 12.0)).value, 0.05);
 }
 
+// A motor-limited car does not gain what more grip would give.
+TEST(Danger, MoreGripThanTheTablesIsTakenAsTheirs) {
+  Meeting grippy = ahead(14.0, 12.0);
+  grippy.grip = 1.2;
+  EXPECT_EQ(with_tables().danger(grippy).value, with_tables().danger(ahead(14.0, 12.0)).value);
+  EXPECT_EQ(without().danger(grippy).value, without().danger(ahead(14.0, 12.0)).value);
+}
+
+TEST(Danger, ATableServesItsSpeedButForRounding) {
+  Meeting meeting = ahead(14.0, 12.0);
+  meeting.obstacle_speed = 3.0;
+  const double there = with_tables().exact(meeting).value();
+  meeting.obstacle_speed = 3.0 + 1e-9;
+  EXPECT_NEAR(with_tables().exact(meeting).value_or(0.0), there, 1e-6);
+}
+
 TEST(Danger, BetweenTwoObstacleSpeedsLiesBetweenThem) {
   Meeting meeting = ahead(14.0, 12.0);
   const double at_rest = with_tables().danger(meeting).value;
@@ -149,6 +165,19 @@ TEST(Danger, GrowsByWhatABodyReachesBeyondTheTables) {
   EXPECT_NEAR(with_tables().danger(meeting).value, usual + std::hypot(0.2, 0.2), 1e-9);
 }
 
+// A disc of 1 m about a point 0.5 m ahead reaches 0.5 m beyond the same disc about the origin, also
+// where neither its front nor its side does so alone.
+TEST(Danger, GrowsByWhatABodyWithAnotherMiddleReachesBeyond) {
+  Meeting meeting = ahead(14.0, 12.0);
+  const double usual = with_tables().danger(meeting).value;
+  meeting.ego.centre_x = 0.5;
+  EXPECT_GE(with_tables().danger(meeting).value, usual + 0.5);
+  const Footprint ellipse{.shape = Shape::ellipse, .length = 4.0, .width = 2.0};
+  const DangerModel wide(car, ellipse, {{disc, 0.0, View::obstacle, solved(0.0).values}});
+  meeting.ego.centre_x = 1.0;  // at 45 deg from its middle it is 0.13 m outside of the ellipse
+  EXPECT_GE(wide.danger(meeting).value, usual + 0.13);
+}
+
 TEST(Danger, BeyondTheGridIsToldCarefullyAndFlagged) {
   const Danger far = with_tables().danger(ahead(60.0, 18.0));  // 42 m to go, 18.4 m to stop
   EXPECT_FALSE(far.exact);
@@ -157,6 +186,24 @@ TEST(Danger, BeyondTheGridIsToldCarefullyAndFlagged) {
   const Danger fast = with_tables().danger(ahead(30.0, 30.0));  // stops in 51 m
   EXPECT_FALSE(fast.exact);
   EXPECT_GT(fast.value, -3.0);
+}
+
+// 0.05 s before two discs lie on each other nothing moves one aside by more than 0.5 x 9 x 0.05^2 =
+// 0.01 m; 0.05 s later they are apart again. No table has these speeds.
+TEST(Danger, BeyondTheGridItIsLookedAtAllTheWay) {
+  for (const double speed : {30.0, 45.0, 50.0}) {
+    const Danger through = with_tables().danger(ahead(0.05 * speed, speed));
+    EXPECT_FALSE(through.exact);
+    EXPECT_NEAR(through.value, 2.0, 0.1) << speed;
+  }
+}
+
+// Without tables and on ice: what only a swerve misses is not told by going straight or braking.
+TEST(Danger, BeyondTheGridASwerveCounts) {
+  const Danger swerved = with_tables().danger(ahead(38.0, 25.0));  // 1.5 s: 10 m aside; stop: 35 m
+  EXPECT_FALSE(swerved.exact);
+  EXPECT_LE(swerved.value, without().danger(ahead(38.0, 25.0)).value);
+  EXPECT_LT(swerved.value, -4.0);
 }
 
 TEST(Danger, ExactIsTheTablesOrNothing) {

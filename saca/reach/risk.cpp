@@ -29,16 +29,39 @@ bool is_round(const world::Footprint& footprint) {
   return footprint.shape == world::Shape::ellipse && footprint.length == footprint.width;
 }
 
+/// The disc about its own centre that holds a body however it is turned.
+world::Footprint disc_around(const world::Footprint& body) {
+  const Vec2 half = world::half_axes(body);
+  const double diameter = 2.0 * (body.shape == world::Shape::box ? std::hypot(half.x, half.y)
+                                                                 : std::max(half.x, half.y));
+  return {.shape = world::Shape::ellipse, .length = diameter, .width = diameter};
+}
+
 /// What stands for the actor in its frame: itself, or the disc around it where it slides.
 world::Footprint body_of(const Actor& actor) {
-  if (!slides(actor) || is_round(actor.footprint)) {
-    return actor.footprint;
+  return slides(actor) && !is_round(actor.footprint) ? disc_around(actor.footprint)
+                                                     : actor.footprint;
+}
+
+/// Of the ego [rad]. At a crawl the course is the heading, whatever the noise of v says.
+double sideslip_of(const world::EgoState& ego) {
+  return norm(ego.v_B) > still ? std::atan2(ego.v_B.y, ego.v_B.x) : 0.0;
+}
+
+/// The problem's body axis is the course; beyond this a car is not where the problem has it.
+bool drifts(const world::EgoState& ego) {
+  constexpr double most = 0.1;  // [rad]: moves the ends of a car by 0.25 m
+  return std::abs(sideslip_of(ego)) > most;
+}
+
+/// The disc around its centre of mass, where it drifts.
+world::Footprint body_of(const world::Scene& scene) {
+  const world::Footprint& body = scene.ego_footprint;
+  if (!drifts(scene.ego)) {
+    return body;
   }
-  const Vec2 half = world::half_axes(actor.footprint);
-  const double diameter =
-      2.0 * (actor.footprint.shape == world::Shape::box ? std::hypot(half.x, half.y)
-                                                        : std::max(half.x, half.y));
-  return {.shape = world::Shape::ellipse, .length = diameter, .width = diameter};
+  const double radius = world::bounding_radius(body);
+  return {.shape = world::Shape::ellipse, .length = 2.0 * radius, .width = 2.0 * radius};
 }
 
 }  // namespace
@@ -62,14 +85,12 @@ Meeting meeting_of(const world::Scene& scene, const Actor& actor) {
   const Pose X_WO = obstacle_frame(actor);
   const Vec2 p_O = inverse(X_WO) * scene.ego.X_WB.p;
   const double speed = norm(actor.v_W);
-  // The body's axis is the course: at a crawl that is its heading, whatever the noise of v says.
-  const double ego_speed = norm(scene.ego.v_B);
-  const double sideslip = ego_speed > still ? std::atan2(scene.ego.v_B.y, scene.ego.v_B.x) : 0.0;
-  return {.ego = scene.ego_footprint,
+  const double course = scene.ego.X_WB.yaw + sideslip_of(scene.ego);
+  return {.ego = body_of(scene),
           .obstacle = body_of(actor),
           .grip = scene.grip,
           .obstacle_speed = speed > still ? speed : 0.0,
-          .state = {p_O.x, p_O.y, wrap_angle(scene.ego.X_WB.yaw + sideslip - X_WO.yaw), ego_speed}};
+          .state = {p_O.x, p_O.y, wrap_angle(course - X_WO.yaw), norm(scene.ego.v_B)}};
 }
 
 ObstacleRisk obstacle_risk(const world::Scene& scene, const Actor& actor,
@@ -82,7 +103,7 @@ ObstacleRisk obstacle_risk(const world::Scene& scene, const Actor& actor,
   const double share = (danger.value - scale.lowest) / (scale.highest - scale.lowest);
   return {.risk = std::clamp(share, 0.0, 1.0),
           .value = danger.value,
-          .exact = danger.exact && !slides(actor),
+          .exact = danger.exact && !slides(actor) && !drifts(scene.ego),
           .judged = true};
 }
 

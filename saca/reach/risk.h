@@ -21,7 +21,7 @@ struct RiskScale {
 struct ObstacleRisk {
   double risk = 0.0;     ///< R(x) of eq. 4, in [0, 1]
   double value = -30.0;  ///< V_h [m]: depth of the best evasion's contact; < 0: its room
-  bool exact = true;     ///< as in `Danger`, and the actor moves as the problem says
+  bool exact = true;     ///< as in `Danger`, and both move as the problem says
   bool judged = true;  ///< false: behind the ego, where braking and swerving would be wrong; 0 then
 };
 
@@ -29,9 +29,9 @@ struct ObstacleRisk {
 ///
 /// The problem knows neither the road's edges nor other actors nor that the actor may brake or
 /// turn: those are what `intent` and the rollouts are for. An actor that slides aside by more than
-/// 0.5 m/s moves along its velocity for the problem, its body being that of a disc around it; the
-/// answer is then conservative, not exact. Who is behind the ego is not judged
-/// (docs/decisions/0005).
+/// 0.5 m/s moves along its velocity for the problem, its body being that of a disc around it, and
+/// an ego whose sideslip exceeds 0.1 rad likewise; the answer is then conservative, not exact. Who
+/// is behind the ego is not judged (docs/decisions/0005).
 [[nodiscard]] ObstacleRisk obstacle_risk(const world::Scene& scene, const world::Actor& actor,
                                          const DangerModel& model);
 

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <vector>
 
 namespace saca::reach {
 namespace {
@@ -70,6 +72,40 @@ TEST(ObstacleRisk, AFollowerIsNotJudged) {
   EXPECT_EQ(risk.risk, 0.0);
   EXPECT_FALSE(risk.judged);
   EXPECT_EQ(explanation(risk), "behind the ego: not judged");
+}
+
+TEST(ObstacleRisk, AnEgoThatDriftsIsADisc) {
+  Scene scene = road(10.0);
+  scene.ego.X_WB.yaw = 0.5 * pi;  // broadside
+  scene.ego.v_B = {0.0, -10.0};
+  const Meeting broadside = meeting_of(scene, wall(30.0));
+  EXPECT_NEAR(broadside.state[2], 0.0, 1e-12);
+  EXPECT_NEAR(broadside.ego.length, 2.0 * std::hypot(2.0, 1.0), 1e-12);
+  EXPECT_NEAR(broadside.ego.width, 2.0 * std::hypot(2.0, 1.0), 1e-12);
+  EXPECT_EQ(broadside.ego.shape, world::Shape::ellipse);
+  // A little sideslip, as in any bend, leaves the body as it is.
+  scene.ego.v_B = {10.0, 0.5};
+  EXPECT_EQ(meeting_of(scene, wall(30.0)).ego.length, 4.0);
+}
+
+TEST(ObstacleRisk, IsExactWhereATableHasItAndBothMoveAsItSays) {
+  const Grid grid{
+      {{.name = "x", .first = -50.0, .last = 50.0, .points = 4},
+       {.name = "y", .first = -50.0, .last = 50.0, .points = 4},
+       {.name = "course", .first = -pi, .last = pi, .points = 8, .edge = Edge::periodic},
+       {.name = "speed", .first = 0.0, .last = 30.0, .points = 4}}};
+  const std::vector<float> five_metres(num_cells(grid), -5.0F);
+  const world::Footprint body{.length = 4.0, .width = 2.0};
+  const DangerModel table(
+      {}, body, {{body, 0.0, View::obstacle, std::make_shared<ValueTable>(grid, five_metres)}});
+  Scene scene = road(10.0);
+  const Actor parked = car({20.0, 0.0}, {});
+  EXPECT_TRUE(obstacle_risk(scene, parked, table).exact);
+  EXPECT_FALSE(obstacle_risk(scene, car({60.0, 0.0}, {}), table).exact);
+  EXPECT_FALSE(obstacle_risk(scene, car({20.0, 0.0}, {-8.0, 0.0}), table).exact);
+  EXPECT_FALSE(obstacle_risk(scene, car({20.0, 0.0}, {0.0, 1.0}), table).exact);  // slides
+  scene.ego.v_B = {10.0, 2.0};
+  EXPECT_FALSE(obstacle_risk(scene, parked, table).exact);  // drifts
 }
 
 TEST(ObstacleRisk, GrowsWithSpeedAndWithIce) {
