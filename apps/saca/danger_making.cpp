@@ -1,6 +1,13 @@
 #include "apps/saca/danger_making.h"
 
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -61,52 +68,91 @@ std::optional<Solved> kept_table(const fs::path& file, const reach::DangerCase& 
   return std::move(there).value();
 }
 
-Result<Solved> solved_table(const fs::path& file, const reach::DangerCase& wanted) {
+/// While it lives, other programs that make tables in this folder wait. A folder that cannot be
+/// opened is not held: nobody can keep anything there either.
+class FolderHold {
+ public:
+  explicit FolderHold(const fs::path& folder)
+      : folder_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (folder_ < 0 || ::flock(folder_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) {
+      return;
+    }
+    complain(folder.string() + ": another program makes tables there; this one waits for it");
+    while (::flock(folder_, LOCK_EX) != 0 && errno == EINTR) {
+    }
+  }
+  ~FolderHold() {
+    if (folder_ >= 0) {
+      ::close(folder_);
+    }
+  }
+  FolderHold(const FolderHold&) = delete;
+  FolderHold& operator=(const FolderHold&) = delete;
+
+ private:
+  int folder_;
+};
+
+Result<Solved> solved_now(const reach::DangerCase& wanted) {
   const reach::Problem problem = reach::avoidance_problem(wanted.asked);
   SteadyClock clock;
   constexpr int permille = 1'000;
   ProgressLine line("danger of " + wanted.name, permille, clock);
-  auto solved = reach::solve(
+  return reach::solve(
       problem, {.steps = reach::Steps::tvd_rk2, .cfl = 0.9, .threads = usual_threads()},
       std::nullopt, {.step = [&](double tau) {
         line.show(static_cast<int>(permille * tau / problem.times.back()), 0, " per mille");
         return true;
       }});
-  if (!solved.has_value()) {
-    return solved.error();
-  }
-  auto not_kept = make_folder_of(file);
-  if (!not_kept) {
-    not_kept = reach::write_solved(file, solved.value());
-  }
-  if (not_kept) {
-    complain(not_kept->message + "; the table is used, and solved again next time");
-  }
-  return solved;
 }
 
 }  // namespace
 
-Result<reach::DangerModel> usual_danger(const ScenarioInputs& inputs) {
+std::vector<reach::DangerCase> needed_tables(const ScenarioInputs& inputs) {
   const world::Footprint ego = manoeuvre::footprint(inputs.car);
-  const reach::Avoidance limits = reach::avoidance_of(inputs.car, table_grip);
-  std::vector<reach::DangerTable> tables;
-  for (const reach::DangerCase& wanted : reach::danger_cases(
-           limits, ego, sim::believed_grip(inputs.scenario), to_be_judged(inputs.scenario, ego))) {
-    const fs::path file = danger_place(inputs.places, inputs.car_name, wanted.name);
-    std::optional<Solved> solved = kept_table(file, wanted);
-    if (!solved) {
-      auto made = solved_table(file, wanted);
-      if (!made.has_value()) {
-        return made.error();
-      }
-      solved = std::move(made).value();
-    }
-    const std::vector<float> values = snapshot(*solved, solved->times.size() - 1);
-    tables.push_back({*wanted.asked.obstacle, wanted.asked.system.obstacle_speed, wanted.asked.view,
-                      std::make_shared<reach::ValueTable>(solved->grid, values, solved->error)});
+  return reach::danger_cases(reach::avoidance_of(inputs.car, table_grip), ego,
+                             sim::believed_grip(inputs.scenario),
+                             to_be_judged(inputs.scenario, ego));
+}
+
+Result<ReadyTable> ready_table(const Inputs& inputs, const reach::DangerCase& wanted) {
+  const fs::path file = danger_place(inputs.places, inputs.car_name, wanted.name);
+  if (auto kept = kept_table(file, wanted)) {
+    return ReadyTable{.table = *std::move(kept), .file = file, .was_there = true};
   }
-  return reach::DangerModel(limits, ego, std::move(tables));
+  auto not_kept = make_folder_of(file);
+  const FolderHold hold(file.parent_path());
+  if (auto kept = kept_table(file, wanted)) {  // while this program waited
+    return ReadyTable{.table = *std::move(kept), .file = file, .was_there = true};
+  }
+  auto solved = solved_now(wanted);
+  if (!solved.has_value()) {
+    return solved.error();
+  }
+  if (!not_kept) {
+    not_kept = reach::write_solved(file, solved.value());
+  }
+  return ReadyTable{
+      .table = std::move(solved).value(), .file = file, .not_kept = std::move(not_kept)};
+}
+
+Result<reach::DangerModel> usual_danger(const ScenarioInputs& inputs) {
+  std::vector<reach::DangerTable> tables;
+  for (const reach::DangerCase& wanted : needed_tables(inputs)) {
+    const auto ready = ready_table(inputs, wanted);
+    if (!ready.has_value()) {
+      return ready.error();
+    }
+    if (const auto& problem = ready.value().not_kept) {
+      complain(problem->message + "; the table is used, and solved again next time");
+    }
+    const Solved& solved = ready.value().table;
+    tables.push_back({*wanted.asked.obstacle, wanted.asked.system.obstacle_speed, wanted.asked.view,
+                      std::make_shared<reach::ValueTable>(
+                          solved.grid, snapshot(solved, solved.times.size() - 1), solved.error)});
+  }
+  return reach::DangerModel(reach::avoidance_of(inputs.car, table_grip),
+                            manoeuvre::footprint(inputs.car), std::move(tables));
 }
 
 }  // namespace saca::app

@@ -1,15 +1,34 @@
 #pragma once
 
+#include <filesystem>
+#include <optional>
+#include <vector>
+
 #include "apps/saca/inputs.h"
 #include "saca/core/result.h"
 #include "saca/reach/danger.h"
+#include "saca/reach/danger_set.h"
+#include "saca/reach/solve.h"
 
 namespace saca::app {
 
-/// With the tables that the scenario's actors need, from `danger_place`. Those that are not there,
-/// or not right for this car, are solved, seconds each, with progress on the error stream, and kept
-/// there if they can be.
+/// The tables that the scenario's actors need.
+[[nodiscard]] std::vector<reach::DangerCase> needed_tables(const ScenarioInputs& inputs);
+
+struct ReadyTable {
+  reach::Solved table;
+  std::filesystem::path file;     ///< its `danger_place`
+  bool was_there = false;         ///< and right for this car; else it was solved
+  std::optional<Error> not_kept;  ///< why it could not be written
+};
+
+/// Reads a table; solves it, in seconds, with progress on the error stream, where it is not there.
+/// A program that already makes tables of this car is waited for.
 /// @return  an error where a car's limits are beyond what can be solved
+[[nodiscard]] Result<ReadyTable> ready_table(const Inputs& inputs, const reach::DangerCase& wanted);
+
+/// With all tables that the scenario's actors need.
+/// @return  likewise
 [[nodiscard]] Result<reach::DangerModel> usual_danger(const ScenarioInputs& inputs);
 
 }  // namespace saca::app

@@ -8,6 +8,7 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/places.h"
+#include "apps/saca/within.h"
 #include "saca/core/file.h"
 #include "saca/core/parallel.h"
 #include "saca/core/units.h"
@@ -163,10 +164,10 @@ void add_drive(CLI::App& line, int& exit_code) {
   const auto options = std::make_shared<DriveOptions>();
   command->add_option("--policy", options->policy, "0 to 7")->check(CLI::Range(0, 7))->required();
   command->add_option("--speed", options->speed, "At the start [m/s]")
-      ->check(CLI::Range(0.0, 100.0))
+      ->check(within(0.0, 100.0))
       ->capture_default_str();
   command->add_option("--grip", options->grip, "Friction coefficient of the road")
-      ->check(CLI::Range(0.01, 1.2))
+      ->check(within(0.01, 1.2))
       ->capture_default_str();
   command->add_option("--target-speed", options->target_speed,
                       "Of policies 3 and 4 [m/s] (default: half the speed)");
@@ -175,7 +176,7 @@ void add_drive(CLI::App& line, int& exit_code) {
   command
       ->add_option("--seconds", options->seconds,
                    "Watch it no longer than this (default: 30, of policy 7: 3)")
-      ->check(CLI::Range(0.01, 600.0));
+      ->check(within(0.01, 600.0));
   command
       ->add_option("--draws", options->draws,
                    "Again so many times, with grip, mass, lags, ... not as the controller thinks")

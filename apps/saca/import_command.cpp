@@ -7,6 +7,7 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/places.h"
+#include "apps/saca/within.h"
 #include "saca/core/file.h"
 #include "saca/sim/hundred_car.h"
 #include "saca/sim/traffic_recording.h"
@@ -137,11 +138,11 @@ void add_commonroad(CLI::App& command, int& exit_code) {
   traffic
       ->add_option("--from_s", options->request.from,
                    "Where in the file's time the scenario begins; without it where the ego does")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(within(0.0, 1e6));
   traffic
       ->add_option("--after_s", options->request.after,
                    "How long the scenario goes on after the recording, everybody straight on")
-      ->check(CLI::Range(0.0, 60.0))
+      ->check(within(0.0, 60.0))
       ->capture_default_str();
   traffic->add_option("--output", options->output, "The scenario file")->required();
   traffic->add_flag("--json", options->as_json, "For programs");
@@ -162,10 +163,10 @@ void add_import(CLI::App& line, int& exit_code) {
       ->required();
   study->add_option("--event", options->request.event, "Event id")->required();
   study->add_option("--before_s", options->request.before, "Kept before the conflict")
-      ->check(CLI::Range(1.0, 60.0))
+      ->check(within(1.0, 60.0))
       ->capture_default_str();
   study->add_option("--after_s", options->request.after, "Kept after the last evasive manoeuvre")
-      ->check(CLI::Range(0.0, 60.0))
+      ->check(within(0.0, 60.0))
       ->capture_default_str();
   study->add_option("--narrative", options->request.narrative, "The study's own words, quoted");
   study->add_option("--output", options->output, "The scenario file; without it, to the terminal");

@@ -1,12 +1,34 @@
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <system_error>
 
 #include "apps/saca/commands.h"
 #include "apps/saca/places.h"
 
+namespace {
+
+// OpenMP's waiting threads would spin for milliseconds at each barrier, which beside another busy
+// program halves the speed of both. Its library reads how they are to wait when it is loaded,
+// before main: hence this way of being earlier. Whoever sets the variable is obeyed.
+constexpr const char* how_to_wait = "OMP_WAIT_POLICY";
+bool waiting_was_chosen_here = false;
+
+void choose_waiting(int /*argc*/, char** /*argv*/, char** /*environment*/) {
+  if (std::getenv(how_to_wait) == nullptr) {
+    waiting_was_chosen_here = ::setenv(how_to_wait, "passive", 0) == 0;
+  }
+}
+[[gnu::section(".preinit_array"),
+  gnu::used]] void (*const chooses_waiting)(int, char**, char**) = choose_waiting;
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace saca::app;
+  if (waiting_was_chosen_here) {  // not for the language model's process
+    ::unsetenv(how_to_wait);
+  }
   try {
     CLI::App line{
         "SACA chooses, in the last seconds before a crash, the manoeuvre that harms least."};

@@ -2,13 +2,14 @@
 
 #include <fmt/core.h>
 
+#include "apps/saca/within.h"
 #include "saca/eval/moment.h"
 
 namespace saca::app {
 
 void add_at(CLI::App& command, std::optional<double>& at) {
   command.add_option("--at_s", at, "When they begin (default: at the trigger)")
-      ->check(CLI::Range(0.0, 600.0));
+      ->check(within(0.0, 600.0));
 }
 
 Result<double> decision_time(const ScenarioInputs& inputs, const std::optional<double>& at) {

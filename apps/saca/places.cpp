@@ -1,7 +1,10 @@
 #include "apps/saca/places.h"
 
 #include <fmt/core.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -60,16 +63,57 @@ fs::path find_scenario(const Places& places, const std::string& name) {
   return find_shipped(places.root / "scenarios", name);
 }
 
+fs::path find_reach_case(const Places& places, const std::string& name) {
+  return find_shipped(places.root / "data" / "reach", name);
+}
+
 fs::path find_car(const Places& places, const std::string& name) {
   return find_shipped(places.root / "data" / "vehicles", name);
 }
 
+std::vector<fs::path> shipped_scenarios(const Places& places) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(places.root / "scenarios")) {
+    if (entry.path().extension() == ".toml" && entry.path().filename() != "splits.toml") {
+      files.push_back(entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+namespace {
+
+/// Where what takes long to make is kept.
+fs::path kept_place(const Places& places, const fs::path& file) {
+  std::error_code problem;
+  if (fs::exists(places.root / file, problem) || ::access(places.root.c_str(), W_OK) == 0) {
+    return places.root / file;
+  }
+  if (const char* const cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != 0) {
+    return fs::path(cache) / "saca" / file;
+  }
+  const char* const home = std::getenv("HOME");
+  return (home == nullptr ? places.root : fs::path(home) / ".cache" / "saca") / file;
+}
+
+}  // namespace
+
 fs::path atlas_place(const Places& places, const std::string& car) {
-  return places.root / "atlases" / (car + ".atlas");
+  return kept_place(places, fs::path("atlases") / (car + ".atlas"));
 }
 
 fs::path danger_place(const Places& places, const std::string& car, const std::string& table) {
-  return places.root / "reach" / car / (table + ".h5");
+  return kept_place(places, fs::path("reach") / car / (table + ".h5"));
+}
+
+bool is_png_or_html(const std::string& output) {
+  const fs::path extension = fs::path(output).extension();
+  if (extension == ".png" || extension == ".html") {
+    return true;
+  }
+  complain(fmt::format("--output: want a name that ends in .png or .html, got '{}'", output));
+  return false;
 }
 
 std::optional<Error> make_folder_of(const fs::path& file) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "saca/core/result.h"
 
@@ -34,10 +35,17 @@ struct Places {
 /// A scenario by its path, or by the name of a shipped one.
 [[nodiscard]] std::filesystem::path find_scenario(const Places& places, const std::string& name);
 
+/// A case of `data/reach` likewise.
+[[nodiscard]] std::filesystem::path find_reach_case(const Places& places, const std::string& name);
+
 /// A car's file by its path, or by the name of a shipped one.
 [[nodiscard]] std::filesystem::path find_car(const Places& places, const std::string& name);
 
-/// Where the atlas of a car is looked for, and built.
+/// The shipped ones' files, by name.
+[[nodiscard]] std::vector<std::filesystem::path> shipped_scenarios(const Places& places);
+
+/// Where the atlas of a car is looked for, and built: with the program's own files, or, where these
+/// may not be written and hold none, in the user's cache ($XDG_CACHE_HOME/saca or ~/.cache/saca).
 /// @param car  its name
 [[nodiscard]] std::filesystem::path atlas_place(const Places& places, const std::string& car);
 
@@ -47,6 +55,9 @@ struct Places {
 
 /// Makes the folder that `file` is to lie in.
 [[nodiscard]] std::optional<Error> make_folder_of(const std::filesystem::path& file);
+
+/// Whether the name of an --output ends in .png or .html; where it does not, that is said.
+[[nodiscard]] bool is_png_or_html(const std::string& output);
 
 /// Says what is wrong on the error stream.
 void complain(const std::string& message);

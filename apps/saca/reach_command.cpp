@@ -11,6 +11,7 @@ void add_reach(CLI::App& line, int& exit_code) {
   add_reach_compare(*reach, exit_code);
   add_reach_solve(*reach, exit_code);
   add_reach_show(*reach, exit_code);
+  add_reach_tables(*reach, exit_code);
 }
 
 }  // namespace saca::app

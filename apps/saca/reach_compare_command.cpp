@@ -10,6 +10,7 @@
 
 #include "apps/saca/places.h"
 #include "apps/saca/reach_commands.h"
+#include "apps/saca/within.h"
 #include "saca/core/file.h"
 #include "saca/core/units.h"
 #include "saca/reach/authors_comparison.h"
@@ -31,7 +32,8 @@ struct CompareOptions {
   std::string file;
   std::string network;
   std::string output = "reach/authors_network.html";
-  std::optional<double> speed_mps, course_deg;
+  std::vector<double> speeds_mps;
+  std::optional<double> course_deg;
   bool as_json = false;
 };
 
@@ -39,7 +41,13 @@ struct CompareOptions {
 std::optional<Error> not_comparable(const std::string& file, const reach::Solved& solved) {
   const auto problem = reach::parse_avoidance_case(solved.problem, file);
   if (!problem.has_value()) {
-    return problem.error();
+    return Error{Error::Code::malformed,
+                 file + ": want a solved case of avoidance; " + problem.error().message};
+  }
+  if (!solved.complete) {
+    return Error{Error::Code::out_of_range,
+                 fmt::format("{}: want a whole solution, got one that was stopped at {:.3g} s",
+                             file, solved.times.back())};
   }
   if (reach::view_of(solved).value_or(reach::View::edge) == reach::View::edge) {
     std::string came;
@@ -60,8 +68,12 @@ std::optional<Error> not_comparable(const std::string& file, const reach::Solved
 }
 
 std::vector<report::AuthorsView> views_asked_for(const CompareOptions& options) {
-  if (options.speed_mps || options.course_deg) {
-    return {{from_degrees(options.course_deg.value_or(0.0)), options.speed_mps.value_or(10.0)}};
+  if (!options.speeds_mps.empty() || options.course_deg) {
+    std::vector<report::AuthorsView> views;
+    for (const double speed : options.speeds_mps.empty() ? std::vector{10.0} : options.speeds_mps) {
+      views.push_back({from_degrees(options.course_deg.value_or(0.0)), speed});
+    }
+    return views;
   }
   const double aslant = from_degrees(20.0);
   return {{0.0, 5.0}, {0.0, 10.0}, {0.0, 18.0}, {aslant, 5.0}, {aslant, 18.0}};
@@ -103,6 +115,9 @@ void tell_agreement(const AuthorsComparison& found) {
 }
 
 int compare_values(const CompareOptions& options) {
+  if (!is_png_or_html(options.output)) {
+    return wrong_command_line;
+  }
   const auto solved = reach::read_solved(options.file);
   if (!solved.has_value()) {
     return refused(solved.error());
@@ -124,13 +139,15 @@ int compare_values(const CompareOptions& options) {
                                  .network_name = fs::path(options.network).filename().string(),
                                  .outline = report::obstacle_outline(text),
                                  .views = views_asked_for(options)};
-  const auto html = authors_page(page, value, network.value(), found);
-  if (!html.has_value()) {
-    return refused(html.error());
+  const auto made = fs::path(options.output).extension() == ".png"
+                        ? authors_png(page, value, network.value())
+                        : authors_page(page, value, network.value(), found);
+  if (!made.has_value()) {
+    return refused(made.error());
   }
   auto problem = make_folder_of(options.output);
   if (!problem) {
-    problem = write_file(options.output, html.value());
+    problem = write_file(options.output, made.value());
   }
   if (problem) {
     return refused(*problem);
@@ -154,12 +171,14 @@ void add_reach_compare(CLI::App& reach, int& exit_code) {
       ->required();
   command->add_option("--network", options->network, "The published safe_value_params.npz")
       ->required();
-  command->add_option("--output", options->output, "The page")->capture_default_str();
+  command->add_option("--output", options->output, "The page (.html), or its maps alone (.png)")
+      ->capture_default_str();
   command
-      ->add_option("--speed-mps", options->speed_mps, "Of the one pair of maps; default: several")
-      ->check(CLI::Range(0.0, 18.0));
-  command->add_option("--course-deg", options->course_deg, "Likewise")
-      ->check(CLI::Range(-40.0, 40.0));
+      ->add_option("--speed-mps", options->speeds_mps,
+                   "Of the pairs of maps; default: some of each")
+      ->check(within(0.0, 18.0));
+  command->add_option("--course-deg", options->course_deg, "Likewise, one for all")
+      ->check(within(-40.0, 40.0));
   command->add_flag("--json", options->as_json, "For programs");
   command->callback([options, &exit_code] { exit_code = compare_values(*options); });
 }

@@ -13,8 +13,7 @@ Result<reach::Problem> find_problem(const Places& places, const std::string& nam
   if (name == "air3d") {
     return reach::air3d_problem(reach::air3d_grid(101, 79, 100));
   }
-  const fs::path shipped = places.root / "data" / "reach" / (name + ".toml");
-  const fs::path path = fs::exists(name) ? fs::path(name) : shipped;
+  const fs::path path = find_reach_case(places, name);
   const auto text = read_file(path);
   if (!text.has_value()) {
     return Error{Error::Code::unreadable,

@@ -13,6 +13,7 @@
 
 #include "apps/saca/places.h"
 #include "apps/saca/reach_commands.h"
+#include "apps/saca/within.h"
 #include "saca/core/file.h"
 #include "saca/core/vec2.h"
 #include "saca/reach/obstacle_frame.h"
@@ -104,7 +105,13 @@ Result<reach::State> other_coordinates(const std::vector<reach::Axis>& axes,
   for (std::size_t d = 2; d < axes.size(); ++d) {
     others[d] = usual_coordinate(axes[d]);
   }
-  for (const Wish& wish : wishes) {
+  for (std::size_t i = 0; i < wishes.size(); ++i) {
+    const Wish& wish = wishes[i];
+    if (std::any_of(wishes.begin(), wishes.begin() + static_cast<std::ptrdiff_t>(i),
+                    [&](const Wish& earlier) { return earlier.axis == wish.axis; })) {
+      return Error{Error::Code::out_of_range,
+                   fmt::format("{}: {} is asked for twice", file, wish.axis)};
+    }
     const auto axis = std::find_if(axes.begin() + 2, axes.end(),
                                    [&](const reach::Axis& a) { return a.name == wish.axis; });
     if (axis == axes.end()) {
@@ -116,8 +123,8 @@ Result<reach::State> other_coordinates(const std::vector<reach::Axis>& axes,
     const double value = wish.value / report::read_unit(axis->name).factor;
     const double least = axis->edge == reach::Edge::mirrored ? -axis->last : axis->first;
     constexpr double rounding = 1e-9;
-    if (!std::isfinite(value) || (axis->edge != reach::Edge::periodic &&
-                                  (value < least - rounding || value > axis->last + rounding))) {
+    const double turn = axis->edge == reach::Edge::periodic ? axis->last - axis->first : 0.0;
+    if (!(value >= least - turn - rounding && value <= axis->last + turn + rounding)) {
       return Error{
           Error::Code::out_of_range,
           fmt::format("{}: {}: want {} to {}, got {}", file, axis->name, with_unit(least, *axis),
@@ -211,10 +218,7 @@ Result<std::string> png_of(const Solved& solved, const report::ValueView& view) 
 }
 
 int show(const ReachShowOptions& options) {
-  const std::string kind = fs::path(options.output).extension().string();
-  if (kind != ".png" && kind != ".html") {
-    complain(
-        fmt::format("--output: want a name that ends in .png or .html, got '{}'", options.output));
+  if (!is_png_or_html(options.output)) {
     return wrong_command_line;
   }
   const auto wishes = wishes_of(options);
@@ -242,8 +246,9 @@ int show(const ReachShowOptions& options) {
                          .others = others.value(),
                          .time = time.value()};
   view.zoom = options.zoom ? *options.zoom : usual_zoom(solved, view);
-  const auto made = kind == ".png" ? png_of(solved, view)
-                                   : report::value_report(report::value_json(solved, view));
+  const auto made = fs::path(options.output).extension() == ".png"
+                        ? png_of(solved, view)
+                        : report::value_report(report::value_json(solved, view));
   if (!made.has_value()) {
     return refused(made.error());
   }
@@ -274,7 +279,7 @@ void add_reach_show(CLI::App& reach, int& exit_code) {
   command
       ->add_option("--zoom", options->zoom,
                    "Into the middle of the plane; 1: all of it; default: shows all danger")
-      ->check(CLI::Range(1.0, 8.0));
+      ->check(within(1.0, 8.0));
   command->add_option("--at", options->at,
                       "NAME=VALUE of another axis; angles in deg, else in SI units");
   command->callback([options, &exit_code] { exit_code = show(*options); });

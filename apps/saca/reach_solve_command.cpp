@@ -14,6 +14,7 @@
 #include "apps/saca/progress.h"
 #include "apps/saca/reach_commands.h"
 #include "apps/saca/reach_problem.h"
+#include "apps/saca/within.h"
 #include "saca/core/clock.h"
 #include "saca/core/parallel.h"
 #include "saca/reach/solve.h"
@@ -69,7 +70,8 @@ std::optional<Error> too_little_memory(const Problem& problem, const SolveOption
 
 /// What an earlier, stopped run of the same command left.
 Result<std::optional<Solved>> begun(const fs::path& part) {
-  if (!fs::exists(part)) {
+  std::error_code none;
+  if (!fs::exists(part, none)) {
     return std::optional<Solved>();
   }
   auto there = reach::read_solved(part);
@@ -116,6 +118,10 @@ int solve_case(const SolveOptions& options) {
   }
   if (auto wrong = make_folder_of(options.output)) {
     return refused(*wrong);
+  }
+  std::error_code none;
+  if (fs::is_directory(options.output, none)) {
+    return refused({Error::Code::unwritable, options.output + ": is a folder, want a file"});
   }
   watch_for_interrupt();
   SteadyClock clock;
@@ -165,14 +171,14 @@ void add_reach_solve(CLI::App& reach, int& exit_code) {
       ->check(CLI::IsMember({"euler", "rk2", "rk3"}))
       ->capture_default_str();
   command->add_option("--cfl", options->scheme.cfl, "Share of the longest stable step")
-      ->check(CLI::Range(0.01, 1.0))
+      ->check(within(0.01, 1.0))
       ->capture_default_str();
   command->add_flag("--double", options->scheme.doubles, "In doubles; default: floats");
   command->add_option("--threads", options->scheme.threads)
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   command->add_option("--memory-mib", options->memory_mib, "Refuse what takes more")
-      ->check(CLI::PositiveNumber);
+      ->check(within(0.001, 1e9));
   command->add_flag("--without-error", options->without_error,
                     "Do not solve on half as many points as well");
   command->add_flag("--json", options->as_json, "For programs");

@@ -1,9 +1,7 @@
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include "apps/saca/commands.h"
 #include "apps/saca/places.h"
@@ -20,16 +18,9 @@ int list_scenarios(bool as_json) {
     complain(places.error().message);
     return bad_input;
   }
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(places.value().root / "scenarios")) {
-    if (entry.path().extension() == ".toml" && entry.path().filename() != "splits.toml") {
-      files.push_back(entry.path());
-    }
-  }
-  std::sort(files.begin(), files.end());
   nlohmann::json list = nlohmann::json::array();
   int code = success;
-  for (const fs::path& file : files) {
+  for (const fs::path& file : shipped_scenarios(places.value())) {
     const auto scenario = sim::load_scenario(file);
     if (!scenario.has_value()) {
       complain(scenario.error().message);

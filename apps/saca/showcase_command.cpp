@@ -10,6 +10,7 @@
 #include "apps/saca/pictures.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/surveying.h"
+#include "apps/saca/within.h"
 #include "saca/core/file.h"
 #include "saca/eval/showcase.h"
 
@@ -173,7 +174,7 @@ void add_search_showcase(CLI::App& line, int& exit_code) {
   const auto options = std::make_shared<ShowcaseCommand>();
   add_survey_options(*command, options->survey);
   command->add_option("--clear", options->rule.clear, "Least expected harm that it spares")
-      ->check(CLI::Range(0.0, 10.0))
+      ->check(within(0.0, 10.0))
       ->capture_default_str();
   command->add_option("--draws", options->rule.draws, "Under which it must do so")
       ->check(CLI::Range(2, 1'000'000))

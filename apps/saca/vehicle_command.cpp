@@ -8,6 +8,7 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/places.h"
+#include "apps/saca/within.h"
 #include "saca/core/file.h"
 #include "saca/core/names.h"
 #include "saca/core/units.h"
@@ -182,7 +183,7 @@ void add_fit(CLI::App& command, int& exit_code) {
       ->required();
   fit->add_option("--output", options->output, "The fitted car's file")->required();
   fit->add_option("--grip", options->grip, "Of the road, as far as known; it is fitted too")
-      ->check(CLI::Range(0.1, 1.2))
+      ->check(within(0.1, 1.2))
       ->capture_default_str();
   fit->add_flag("--force", options->force, "Write over the base");
   fit->add_flag("--json", options->as_json, "For programs");
@@ -200,19 +201,17 @@ void add_test_drive(CLI::App& command, int& exit_code) {
       ->capture_default_str();
   drive->add_option("--output", options->output, "The log, a CSV file")->required();
   drive->add_option("--speed_mps", options->drive.speed)
-      ->check(CLI::Range(6.0, 60.0))
+      ->check(within(6.0, 60.0))
       ->capture_default_str();
-  drive->add_option("--grip", options->drive.grip)
-      ->check(CLI::Range(0.1, 1.2))
-      ->capture_default_str();
+  drive->add_option("--grip", options->drive.grip)->check(within(0.1, 1.2))->capture_default_str();
   drive->add_option("--deceleration_mps2", options->drive.deceleration, "Wanted of a brake test")
-      ->check(CLI::Range(1.0, 20.0))
+      ->check(within(1.0, 20.0))
       ->capture_default_str();
   drive->add_option("--steering_deg", options->steering_deg, "A step steer's, > 0 to the left")
-      ->check(CLI::Range(-15.0, 15.0))
+      ->check(within(-15.0, 15.0))
       ->capture_default_str();
   drive->add_option("--noise", options->drive.noise, "Over that of usual sensors")
-      ->check(CLI::Range(0.0, 100.0))
+      ->check(within(0.0, 100.0))
       ->capture_default_str();
   drive->add_option("--seed", options->drive.seed, "Of the noise")->capture_default_str();
   drive->callback([options, &exit_code] { exit_code = drive_test(*options); });

@@ -37,6 +37,9 @@ Result<std::string> read_file(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path, problem)) {
     return Error{Error::Code::unreadable, path.string() + ": is a folder, want a file"};
   }
+  if (std::filesystem::is_character_file(path, problem)) {  // it may never end
+    return Error{Error::Code::unreadable, path.string() + ": is a device, want a file"};
+  }
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) {

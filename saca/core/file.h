@@ -9,7 +9,7 @@
 
 namespace saca {
 
-/// The whole file as bytes.
+/// The whole file as bytes; no device.
 /// @return  Error::Code::unreadable, naming the path and the system's reason
 [[nodiscard]] Result<std::string> read_file(const std::filesystem::path& path);
 

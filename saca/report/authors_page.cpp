@@ -3,7 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <iterator>
+#include <utility>
 
 #include "saca/core/contract.h"
 #include "saca/core/units.h"
@@ -33,10 +36,9 @@ PlotAxis plot_axis(const std::string& name, const MapRange& range) {
   return {.name = name, .unit = "m", .low = range.low, .high = range.high};
 }
 
-/// One picture as an element.
-Result<std::string> picture(const AuthorsPage& page, const AuthorsView& view, ValueMap map,
-                            const std::string& whose) {
-  ValuePicture all{
+ValuePicture picture(const AuthorsPage& page, const AuthorsView& view, ValueMap map,
+                     const std::string& whose) {
+  return {
       .map = std::move(map),
       .scale = shown_scale,
       .title = whose,
@@ -46,32 +48,34 @@ Result<std::string> picture(const AuthorsPage& page, const AuthorsView& view, Va
       .value_words = "value [m], unsafe from 0",
       .outline = page.outline,
       .course = view.course};
-  const auto png = value_png(all);
-  if (!png.has_value()) {
-    return png.error();
-  }
-  return fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">\n",
-                     escaped(whose + ", " + all.lines.front()), base64(png.value()));
 }
 
-Result<std::string> pair_of(const AuthorsPage& page, const AuthorsView& view,
-                            const reach::ValueAt& value, const reach::AuthorsNetwork& network) {
+/// Solved, and published.
+std::array<ValuePicture, 2> pair_of(const AuthorsPage& page, const AuthorsView& view,
+                                    const reach::ValueAt& value,
+                                    const reach::AuthorsNetwork& network) {
   constexpr RasterSize size{320, 100};  // 0.2 m: the network takes its time
-  auto solved = picture(page, view,
-                        value_map(value, shown_x, shown_y, size.columns, size.rows,
-                                  {0.0, 0.0, view.course, view.speed}),
-                        "Solved: " + page.case_name);
-  if (!solved.has_value()) {
-    return solved;
+  return {picture(page, view,
+                  value_map(value, shown_x, shown_y, size.columns, size.rows,
+                            {0.0, 0.0, view.course, view.speed}),
+                  "Solved: " + page.case_name),
+          picture(page, view,
+                  authors_map(network, shown_x, shown_y, size.columns, size.rows, view.course,
+                              view.speed),
+                  "Published network: " + page.network_name)};
+}
+
+Result<std::string> elements(const std::array<ValuePicture, 2>& pair) {
+  std::string html = "<div class=\"pair\">\n";
+  for (const ValuePicture& one : pair) {
+    const auto png = value_png(one);
+    if (!png.has_value()) {
+      return png.error();
+    }
+    html += fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">\n",
+                        escaped(one.title + ", " + one.lines.front()), base64(png.value()));
   }
-  auto published = picture(
-      page, view,
-      authors_map(network, shown_x, shown_y, size.columns, size.rows, view.course, view.speed),
-      "Published network: " + page.network_name);
-  if (!published.has_value()) {
-    return published;
-  }
-  return "<div class=\"pair\">\n" + solved.value() + published.value() + "</div>\n";
+  return html + "</div>\n";
 }
 
 std::string row(const std::string& head, const reach::Agreement& agreement,
@@ -139,7 +143,7 @@ Result<std::string> authors_page(const AuthorsPage& page, const reach::ValueAt& 
       "1; outside that it is left blank and nothing is counted. On which obstacle, car and grip it "
       "was trained is not published with it.</p>\n";
   for (const AuthorsView& view : page.views) {
-    auto pair = pair_of(page, view, value, network);
+    auto pair = elements(pair_of(page, view, value, network));
     if (!pair.has_value()) {
       return pair;
     }
@@ -155,6 +159,15 @@ Result<std::string> authors_page(const AuthorsPage& page, const reach::ValueAt& 
                         comparison.outside);
   }
   return html + "</body></html>\n";
+}
+
+Result<std::string> authors_png(const AuthorsPage& page, const reach::ValueAt& value,
+                                const reach::AuthorsNetwork& network) {
+  std::vector<ValuePicture> all;
+  for (const AuthorsView& view : page.views) {
+    std::ranges::move(pair_of(page, view, value, network), std::back_inserter(all));
+  }
+  return value_png(all, 2);
 }
 
 }  // namespace saca::report

@@ -36,4 +36,9 @@ struct AuthorsPage {
                                                const reach::AuthorsNetwork& network,
                                                const reach::AuthorsComparison& comparison);
 
+/// The maps alone, a pair in each row, as bytes of a PNG file.
+/// @return  likewise
+[[nodiscard]] Result<std::string> authors_png(const AuthorsPage& page, const reach::ValueAt& value,
+                                              const reach::AuthorsNetwork& network);
+
 }  // namespace saca::report

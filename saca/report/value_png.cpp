@@ -108,7 +108,7 @@ class Canvas {
     cairo_stroke(cairo());
   }
   void text(Vec2 at, const std::string& words, double size, const Rgb& rgb, Align align,
-            bool bold = false, double turned = 0.0) const {
+            bool bold = false, double turned = 0.0, double outline = 0.0) const {
     colour(rgb);
     cairo_select_font_face(cairo(), "sans-serif", CAIRO_FONT_SLANT_NORMAL,
                            bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
@@ -120,7 +120,13 @@ class Canvas {
     cairo_translate(cairo(), at.x, at.y);
     cairo_rotate(cairo(), turned);
     cairo_move_to(cairo(), -share * extents.x_advance, 0.0);
-    cairo_show_text(cairo(), words.c_str());
+    if (outline > 0.0) {
+      cairo_text_path(cairo(), words.c_str());
+      cairo_set_line_width(cairo(), outline);
+      cairo_stroke(cairo());
+    } else {
+      cairo_show_text(cairo(), words.c_str());
+    }
     cairo_restore(cairo());
   }
   /// Once in white and wide, so that it stands out from any colour, then in its own.
@@ -206,7 +212,12 @@ void draw_arrow(const Canvas& canvas, const PlotArea& plot, double course) {
       canvas.line(tip, tip + head * Vec2{std::cos(angle), -std::sin(angle)}, width, colour);
     }
   }
-  canvas.text(plot.at + Vec2{66.0, 42.0}, "ego's course", 12.0, ink, Align::left);
+  const Vec2 beside = plot.at + Vec2{66.0, 42.0};
+  constexpr double text_halo = 3.0;
+  for (const double width : {text_halo, 0.0}) {
+    canvas.text(beside, "ego's course", 12.0, width > 0.0 ? paper : ink, Align::left, false, 0.0,
+                width);
+  }
 }
 
 void draw_axes(const Canvas& canvas, const PlotArea& plot) {
@@ -255,29 +266,23 @@ void draw_bar(const Canvas& canvas, const PlotArea& plot, const ValuePicture& pi
               true, 0.5 * std::numbers::pi);
 }
 
-}  // namespace
-
-RasterSize raster_size(const PlotAxis& x, const PlotAxis& y) {
-  expects(x.low < x.high && y.low < y.high, "low < high");
-  const double wanted =
-      x.unit == y.unit ? plot_width * (y.high - y.low) / (x.high - x.low) : 0.62 * plot_width;
-  const double height = std::clamp(wanted, double{least_plot_height}, double{most_plot_height});
-  return {plot_width, static_cast<int>(std::lround(height))};
+double top_of_plot(const ValuePicture& picture) {
+  return top_room + text_line * static_cast<double>(picture.lines.size());
 }
 
-Result<std::string> value_png(const ValuePicture& picture) {
-  const double top = top_room + text_line * static_cast<double>(picture.lines.size());
+SvgSize picture_size(const ValuePicture& picture) {
+  return {left_room + plot_width + right_room,
+          top_of_plot(picture) + raster_size(picture.x, picture.y).rows + bottom_room};
+}
+
+/// With its upper left corner at the canvas' origin.
+void draw_picture(const Canvas& canvas, const ValuePicture& picture) {
   const RasterSize size = raster_size(picture.x, picture.y);
-  const ValueLayout layout{.plot = {.at = {left_room, top},
+  const ValueLayout layout{.plot = {.at = {left_room, top_of_plot(picture)},
                                     .size = {double{plot_width}, static_cast<double>(size.rows)},
                                     .x = picture.x,
                                     .y = picture.y},
                            .map = &picture.map};
-  const double width = left_room + plot_width + right_room;
-  const double height = top + size.rows + bottom_room;
-  const Surface surface = new_surface(static_cast<int>(width), static_cast<int>(height));
-  const Canvas canvas(surface.get());
-  canvas.rect({0.0, 0.0}, {width, height}, paper);
   canvas.text({left_room, 28.0}, picture.title, 18.0, ink, Align::left, true);
   double y = 28.0 + text_line;
   for (const std::string& line : picture.lines) {
@@ -290,8 +295,45 @@ Result<std::string> value_png(const ValuePicture& picture) {
     draw_arrow(canvas, layout.plot, *picture.course);
   }
   draw_bar(canvas, layout.plot, picture);
+}
+
+}  // namespace
+
+RasterSize raster_size(const PlotAxis& x, const PlotAxis& y) {
+  expects(x.low < x.high && y.low < y.high, "low < high");
+  const double wanted =
+      x.unit == y.unit ? plot_width * (y.high - y.low) / (x.high - x.low) : 0.62 * plot_width;
+  const double height = std::clamp(wanted, double{least_plot_height}, double{most_plot_height});
+  return {plot_width, static_cast<int>(std::lround(height))};
+}
+
+Result<std::string> value_png(std::span<const ValuePicture> pictures, int columns) {
+  expects(!pictures.empty() && columns >= 1, "a picture, and a column");
+  double width = 0.0;
+  double height = 0.0;
+  for (const ValuePicture& picture : pictures) {
+    const SvgSize size = picture_size(picture);
+    width = std::max(width, size.width);
+    height = std::max(height, size.height);
+  }
+  const int count = static_cast<int>(pictures.size());
+  const int rows = (count + columns - 1) / columns;
+  const SvgSize all{width * std::min(columns, count), height * rows};
+  const Surface surface = new_surface(static_cast<int>(all.width), static_cast<int>(all.height));
+  const Canvas canvas(surface.get());
+  canvas.rect({0.0, 0.0}, all, paper);
+  for (int i = 0; i < count; ++i) {
+    cairo_save(canvas.cairo());
+    cairo_translate(canvas.cairo(), width * (i % columns), height * (i / columns));
+    draw_picture(canvas, pictures[static_cast<std::size_t>(i)]);
+    cairo_restore(canvas.cairo());
+  }
   cairo_surface_flush(surface.get());
   return png_bytes(surface.get());
+}
+
+Result<std::string> value_png(const ValuePicture& picture) {
+  return value_png({&picture, 1}, 1);
 }
 
 Result<std::string> raster_png(const ValueMap& map, const ValueScale& scale) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,9 +31,11 @@ struct RasterSize {
 };
 [[nodiscard]] RasterSize raster_size(const PlotAxis& x, const PlotAxis& y);
 
-/// The picture as bytes of a PNG file: values as colours, the zero level as a black line, the
-/// obstacle in red, axes, colour bar.
+/// Pictures as bytes of one PNG file, row by row: values as colours, the zero level as a black
+/// line, the obstacle in red, axes, colour bar.
+/// @param columns  >= 1
 /// @return  an error when there is no memory for it
+[[nodiscard]] Result<std::string> value_png(std::span<const ValuePicture> pictures, int columns);
 [[nodiscard]] Result<std::string> value_png(const ValuePicture& picture);
 
 /// The colours alone, a pixel for each rectangle, the highest y on top; clear outside the table.

@@ -116,6 +116,25 @@ TEST(ValuePng, HasTheColoursTheObstacleAndTheZeroLine) {
   EXPECT_LT(Decoded(value_png(without).value()).count(line), dark - 200);
 }
 
+TEST(ValuePng, PutsPicturesRowByRow) {
+  const Decoded one(value_png(picture()).value());
+  ValuePicture safe = picture();  // all of it dark blue
+  safe.map.values = std::vector<float>(6, -20.0F);
+  const std::array<ValuePicture, 3> three{picture(), safe, picture()};
+  const Decoded sheet(value_png(three, 2).value());
+  ASSERT_EQ(sheet.width(), 2 * one.width());
+  ASSERT_EQ(sheet.height(), 2 * one.height());
+  for (const int x : {one.width() / 3, one.width() / 2}) {
+    const int y = one.height() / 2;
+    EXPECT_EQ(sheet.at(x, y), one.at(x, y));
+    EXPECT_EQ(sheet.at(x, one.height() + y), one.at(x, y));
+  }
+  const int x = one.width() / 2;
+  const int y = one.height() / 2;
+  EXPECT_EQ(sheet.at(one.width() + x, y), safety_colours.back());
+  EXPECT_EQ(sheet.at(one.width() + x, one.height() + y), (Rgb{255, 255, 255})) << "no fourth";
+}
+
 TEST(ValuePng, TheSamePictureMakesTheSameBytes) {
   EXPECT_EQ(value_png(picture()).value(), value_png(picture()).value());
 }

@@ -1,8 +1,11 @@
-"""`saca reach solve`, `show` and `compare`."""
+"""`saca reach solve`, `show`, `compare` and `tables`."""
 import base64
+import fcntl
 import json
+import os
 import pathlib
 import re
+import shutil
 import signal
 import struct
 import subprocess
@@ -13,7 +16,7 @@ import zipfile
 import pytest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from program import BAD_INPUT, CANNOT_WRITE, INTERRUPTED, PROGRAM, SUCCESS, WRONG_COMMAND_LINE, one_error, saca
+from program import BAD_INPUT, CANNOT_WRITE, INTERRUPTED, PROGRAM, ROOT, SUCCESS, WRONG_COMMAND_LINE, one_error, saca
 
 CASE = """
 schema = "saca.avoidance/1"
@@ -254,6 +257,8 @@ def test_a_page_holds_the_values(tiny):
     (["--speed-mps", 19], BAD_INPUT, "speed: want 0 m/s to 18 m/s, got 19 m/s"),
     (["--speed-mps", -1], BAD_INPUT, "speed"),
     (["--speed-mps", "nan"], BAD_INPUT, "speed"),
+    (["--course-deg", 1e9], BAD_INPUT, "course: want"),
+    (["--course-deg", 40, "--at", "course=10"], BAD_INPUT, "course is asked for twice"),
     (["--at", "height=1"], BAD_INPUT, "no axis 'height'"),
     (["--at", "x=1"], BAD_INPUT, "the first two are the plane"),
     (["--time-s", 0.7], BAD_INPUT, "want one of 0.5, 1"),
@@ -306,6 +311,11 @@ def test_a_network_that_always_says_the_same_is_wrong_on_the_other_side(tiny, bi
     assert figures["n"] + figures["n_outside"] == 51 * 17 * 17 * 19
     assert figures["n"] == 31 * 17 * 17 * 19  # the grid begins at -30 m
     assert "</html>" in (folder / "maps.html").read_text()
+    assert compare(folder, "--network", name, "--output", "maps.png").returncode == SUCCESS
+    png = (folder / "maps.png").read_bytes()
+    assert png[:8] == b"\x89PNG\r\n\x1a\n"
+    width, height = struct.unpack(">II", png[16:24])
+    assert width > 1500 and height > width, "five pairs below each other"
 
 
 def test_what_cannot_be_compared_is_said(tiny, tmp_path):
@@ -315,6 +325,80 @@ def test_what_cannot_be_compared_is_said(tiny, tmp_path):
     assert "cut.npz" in one_error(compare(folder, "--network", "cut.npz"), BAD_INPUT)
     good = network(folder / "good.npz", 0.0)
     assert "tiny.toml" in one_error(compare(folder, "--network", good, "--output", "tiny.toml/a.html"), CANNOT_WRITE)
+    assert ".png or .html" in one_error(compare(folder, "--network", good, "--output", "a.svg"), WRONG_COMMAND_LINE)
     solved(folder, case(folder, "moving.toml", ("speed_mps = 0.0", "speed_mps = 5.0")), "--without-error")
     error = one_error(saca("reach", "compare", "reach/moving.h5", "--network", good, cwd=folder), BAD_INPUT)
     assert "moving.h5" in error and "at rest" in error
+
+
+def test_a_stopped_or_foreign_solution_is_not_compared(tiny, tmp_path):
+    folder, _ = tiny
+    good = network(tmp_path / "good.npz", 0.0)
+    run = subprocess.Popen([PROGRAM, "reach", "solve", "paper_ellipse", "--output", "half.h5"], cwd=tmp_path,
+                           stderr=subprocess.PIPE, text=True)
+    run.stderr.readline()  # it is under way
+    run.send_signal(signal.SIGINT)
+    run.communicate(timeout=60)
+    assert run.returncode == INTERRUPTED
+    error = one_error(saca("reach", "compare", "half.h5.part", "--network", good, cwd=tmp_path), BAD_INPUT)
+    assert "half.h5.part" in error and "stopped" in error
+
+
+@pytest.mark.parametrize("arguments", [
+    ["solve", "air3d", "--cfl", "nan"], ["solve", "air3d", "--memory-mib", "nan"], ["show", "a.h5", "--zoom", "nan"],
+    ["compare", "a.h5", "--network", "n.npz", "--speed-mps", "nan"], ["solve", "air3d", "--cfl", "0.5x"]])
+def test_what_is_no_number_is_refused(arguments, tmp_path):
+    run = saca("reach", *arguments, *(["--output", "a.png"] if arguments[0] == "show" else []), cwd=tmp_path)
+    assert run.returncode == WRONG_COMMAND_LINE and "want a number in [" in run.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_what_is_no_case_is_named_as_it_was_asked_for(tmp_path):
+    assert "x" * 5000 in one_error(saca("reach", "solve", "x" * 5000, cwd=tmp_path), BAD_INPUT)
+    error = one_error(saca("reach", "solve", "none.toml", cwd=tmp_path), BAD_INPUT)
+    assert "none.toml" in error and "none.toml.toml" not in error
+    assert "is a device" in one_error(saca("reach", "solve", "/dev/zero", cwd=tmp_path), BAD_INPUT)
+
+
+def test_a_folder_as_output_is_refused_before_it_is_solved(tmp_path):
+    (tmp_path / "there").mkdir()
+    assert "is a folder" in one_error(saca("reach", "solve", "paper_ellipse", "--output", "there", cwd=tmp_path), CANNOT_WRITE)
+    assert [path.name for path in tmp_path.iterdir()] == ["there"]
+
+
+@pytest.fixture
+def twin(tmp_path):
+    """A scenario whose car is the usual one under another name: its tables are the same. With the folder of its tables."""
+    name = "twin_of_" + tmp_path.name
+    car = tmp_path / f"{name}.toml"
+    shutil.copy(ROOT / "data/vehicles/compact_rwd_ev.toml", car)
+    shutil.copy(ROOT / "data/vehicles/compact_rwd_ev.tuning.toml", tmp_path / f"{name}.tuning.toml")
+    scenario = tmp_path / "twin.toml"
+    usual = (ROOT / "scenarios/one_way.toml").read_text()
+    scenario.write_text(usual.replace('car = "compact_rwd_ev"', f'car = "{car}"'))
+    folder = ROOT / "reach" / name
+    folder.mkdir(parents=True)
+    yield scenario, folder
+    shutil.rmtree(folder)
+
+
+def test_tables_are_waited_for_while_another_program_makes_them(twin, tmp_path):
+    scenario, folder = twin
+    other = os.open(folder, os.O_RDONLY)
+    fcntl.flock(other, fcntl.LOCK_EX)
+    run = subprocess.Popen([PROGRAM, "reach", "tables", scenario, "--json"], cwd=tmp_path, text=True,
+                           stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    told = run.stderr.readline()
+    assert str(folder) in told and "another program" in told
+    needed = json.loads(saca("reach", "tables", "one_way", "--json", cwd=tmp_path).stdout)
+    for table in needed:
+        shutil.copy(table["file"], folder)  # made by the other program
+    os.close(other)
+    out, rest = run.communicate(timeout=60)
+    assert run.returncode == SUCCESS and rest == ""
+    assert [(table["table"], table["was_there"]) for table in json.loads(out)] == \
+        [(table["table"], True) for table in needed]
+
+
+def test_tables_of_what_is_not_there_are_refused(tmp_path):
+    assert "none" in one_error(saca("reach", "tables", "none", cwd=tmp_path), BAD_INPUT)
