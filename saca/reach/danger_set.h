@@ -23,8 +23,8 @@ struct DangerCase {
 
 /// The tables with which these obstacles can be judged: for each, those of the standard body
 /// nearest to it (person or cycle, car, truck, articulated truck) at rest and in steps of speed up
-/// to 1 m/s beyond its top speed, with which perception or a forecast may see it. Each has 0.58 million cells and
-/// takes seconds to solve.
+/// to 1 m/s beyond its top speed, as perception or a forecast may have it. Each has 0.58 million
+/// cells and takes seconds to solve.
 ///
 /// The steps, and the cells: docs/decisions/0014 has what they cost in accuracy.
 /// @param car   of the ego; its grip is that of the tables
