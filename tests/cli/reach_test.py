@@ -253,6 +253,46 @@ def test_a_page_holds_the_values(tiny):
     assert all(metres[last] > -0.1 for first, last in zip(values[:NUM_CELLS], values[NUM_CELLS:]) if first >= 128)
 
 
+FROM_THE_EGO = [
+    ('seen_from = "obstacle"', 'seen_from = "ego"'),
+    ("[grid.x]\nfirst_m = -30.0\nlast_m = 10.0\npoints = 21", "[grid.ahead]\nfirst_m = -10.0\nlast_m = 30.0\npoints = 21\nstretch_m = 12.0"),
+    ("[grid.y]\nlast_m = 12.0", "[grid.left]\nstretch_m = 6.0\nlast_m = 12.0"), ("[grid.course]", "[grid.turned]")]
+
+
+def test_seen_from_the_ego_it_is_the_same_value(tiny, tmp_path):
+    solved(tmp_path, case(tmp_path, "tiny.toml", *FROM_THE_EGO))
+    run = show(tmp_path, "--speed-mps", 9, "--output", "a.png")
+    assert run.returncode == SUCCESS and run.stdout.startswith("a.png: V over x and y at course 0 deg"), run.stdout + run.stderr
+    assert show(tmp_path, "--output", "a.html").returncode == SUCCESS
+    name = network(tmp_path / "never.npz", -1.0)
+    figures = []
+    for folder in (tmp_path, tiny[0]):
+        run = compare(folder, "--network", tmp_path / name, "--output", tmp_path / "maps.html", "--json")
+        assert run.returncode == SUCCESS, run.stderr
+        told = json.loads(run.stdout)
+        figures.append(told["reach.authors_net.n_unsafe"])
+    assert figures[0] == pytest.approx(figures[1], rel=0.25)  # cells of 2 m
+
+
+def test_errors_against_known_answers_fall_with_the_order_of_the_differences(tmp_path):
+    run = saca("reach", "check", "--grids", 3, "--picture", "orders.svg", "--json", cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    figures = json.loads(run.stdout)
+    wave = {name: figures[f"reach.check.a_wave_carried_along_{name}.order"] for name in ("upwind", "eno2", "eno3", "weno5")}
+    assert wave == pytest.approx({"upwind": 1, "eno2": 2, "eno3": 3, "weno5": 5}, abs=0.2)
+    assert all(value < 0.03 for key, value in figures.items() if key.endswith("error_m"))
+    assert (tmp_path / "orders.svg").read_text().rstrip().endswith("</svg>")
+    assert one_error(saca("reach", "check", "--grids", 2, "--picture", tmp_path, cwd=tmp_path), CANNOT_WRITE)
+
+
+def test_the_papers_obstacle_has_the_papers_risk(tmp_path):
+    run = saca("run", "one_way", "--pace", "lockstep", "--llm", "off", "--no-memory", "--json", cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    ahead = json.loads(run.stdout)["previews"][0]["actors"][0]
+    assert ahead["id"] == "obstacle1" and ahead["value_exact"]
+    assert ahead["risk"] == pytest.approx(0.78, abs=0.03)  # Fig. 10
+
+
 @pytest.mark.parametrize("arguments, code, wanted", [
     (["--speed-mps", 19], BAD_INPUT, "speed: want 0 m/s to 18 m/s, got 19 m/s"),
     (["--speed-mps", -1], BAD_INPUT, "speed"),
