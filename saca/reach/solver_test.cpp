@@ -44,7 +44,7 @@ double motion_error(Differences differences, Steps steps, int points, double cfl
   const auto h_at = [](double x, double y) { return std::sin(x) * std::cos(y); };
   const auto h = sampled<double>(
       grid, [&](auto x) { return h_at(x[0], x[1]); }, 1);
-  const auto values = marched<double>(grid, flow_of<double>(grid, system, differences), h, 1.0,
+  const auto values = marched<double>(grid, known_flow<double>(grid, system, differences), h, 1.0,
                                       {.tube = Tube::set, .steps = steps, .cfl = cfl});
   double worst = 0.0;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -86,9 +86,9 @@ TEST_P(Disc, GrowsAndShrinksAtItsSpeed) {
   const auto h = sampled<double>(
       grid, [](auto x) { return 1.0 - radius(x); }, 1);
   const auto check = [&](double speed) {
-    const Flow<double> flow = D == 1   ? flow_of<double>(grid, AnyDirection<1>{speed})
-                              : D == 2 ? flow_of<double>(grid, AnyDirection<2>{speed})
-                                       : flow_of<double>(grid, AnyDirection<3>{speed});
+    const Flow<double> flow = D == 1   ? known_flow<double>(grid, AnyDirection<1>{speed})
+                              : D == 2 ? known_flow<double>(grid, AnyDirection<2>{speed})
+                                       : known_flow<double>(grid, AnyDirection<3>{speed});
     const auto values = marched<double>(grid, flow, h, 0.5, {.tube = Tube::set});
     double worst = 0.0;
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -115,7 +115,7 @@ double braking_error(int points) {
   const auto h = sampled<double>(
       grid, [](auto x) { return x[0]; }, 1);
   const auto values =
-      marched<double>(grid, flow_of<double>(grid, DoubleIntegrator{1.0}), h, 4.0, {});
+      marched<double>(grid, known_flow<double>(grid, DoubleIntegrator{1.0}), h, 4.0, {});
   double sum = 0.0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const State x = state_at(grid, i);
@@ -139,8 +139,8 @@ TEST(Solver, AHigherHorizonAndWeakerBrakesAreNeverSafer) {
       grid, [](auto x) { return 1.0 - radius(x); }, 1);
   const auto value = [&](double brakes, double horizon) {
     return marched<double>(grid,
-                           flow_of<double>(grid, DoubleIntegrator{brakes}, Differences::upwind1), h,
-                           horizon, {.steps = Steps::euler});
+                           known_flow<double>(grid, DoubleIntegrator{brakes}, Differences::upwind1),
+                           h, horizon, {.steps = Steps::euler});
   };
   const auto strong = value(1.0, 1.0);
   const auto weak = value(0.7, 1.0);
@@ -160,7 +160,7 @@ TEST(Solver, ATubeKeepsWhatWasUnsafeOnce) {
   const ConstantMotion system{1.0, 0.0};
   const auto at = [&](Tube tube, double x) {
     const auto values =
-        marched<double>(grid, flow_of<double>(grid, system), h, 1.5, {.tube = tube});
+        marched<double>(grid, known_flow<double>(grid, system), h, 1.5, {.tube = tube});
     const auto i = static_cast<std::size_t>(std::lround((x + 3.0) / 0.1));
     return values[30 * 61 + i];
   };
@@ -175,9 +175,9 @@ TEST(Solver, ATubeKeepsWhatWasUnsafeOnce) {
 TEST(Solver, FloatsAreAsGoodAsTheGrid) {
   const Grid grid = square(2, 2.0, 61);
   const auto of = [](auto x) { return 1.0 - radius(x); };
-  const auto doubles = marched<double>(grid, flow_of<double>(grid, DoubleIntegrator{1.0}),
+  const auto doubles = marched<double>(grid, known_flow<double>(grid, DoubleIntegrator{1.0}),
                                        sampled<double>(grid, of, 1), 1.0, {});
-  const auto floats = marched<float>(grid, flow_of<float>(grid, DoubleIntegrator{1.0}),
+  const auto floats = marched<float>(grid, known_flow<float>(grid, DoubleIntegrator{1.0}),
                                      sampled<float>(grid, of, 1), 1.0, {});
   for (std::size_t i = 0; i < doubles.size(); ++i) {
     EXPECT_NEAR(static_cast<double>(floats[i]), doubles[i], 1e-4);  // differences of 1e-7 over 0.07
@@ -188,7 +188,7 @@ TEST(Solver, ThreadsChangeNoBit) {
   const Grid grid = square(3, 2.0, 23);
   const auto h = sampled<float>(
       grid, [](auto x) { return 1.0 - radius(x); }, 1);
-  const Flow<float> flow = flow_of<float>(grid, AnyDirection<3>{1.0});
+  const Flow<float> flow = known_flow<float>(grid, AnyDirection<3>{1.0});
   EXPECT_EQ(marched<float>(grid, flow, h, 0.4, {.threads = 1}),
             marched<float>(grid, flow, h, 0.4, {.threads = 3}));
 }
@@ -239,7 +239,7 @@ TEST(Solver, AStretchedAxisIsAnEvenOneInOtherUnits) {
   grid.axes[0].stretch = grid.axes[1].stretch = 2.0;
   const auto h = sampled<double>(
       grid, [](auto x) { return 1.0 - radius(x); }, 1);
-  const auto values = marched<double>(grid, flow_of<double>(grid, AnyDirection<2>{1.0}), h, 2.0,
+  const auto values = marched<double>(grid, known_flow<double>(grid, AnyDirection<2>{1.0}), h, 2.0,
                                       {.tube = Tube::set});
   for (std::size_t i = 0; i < values.size(); ++i) {
     const State x = state_at(grid, i);
@@ -311,7 +311,7 @@ TEST(Solver, GoesOnFromWhereAnotherStopped) {
   const Grid grid = square(2, 2.0, 31);
   const auto h = sampled<float>(
       grid, [](auto x) { return 1.0 - radius(x); }, 1);
-  const Flow<float> flow = flow_of<float>(grid, DoubleIntegrator{1.0});
+  const Flow<float> flow = known_flow<float>(grid, DoubleIntegrator{1.0});
   Solver<float> whole(grid, flow, h, {});
   Solver<float> first(grid, flow, h, {});
   march(whole, 0.5);
@@ -328,7 +328,7 @@ TEST(Solver, RoundingOfHAlongAnAxisIsHarmless) {
   const Grid grid = square(2, 4.0, 41);
   const auto h = sampled<float>(
       grid, [](auto x) { return x[0] + (std::sin(9.0 * x[1]) > 0.0 ? 1e-6 : 0.0); }, 1);
-  Solver<float> solver(grid, flow_of<float>(grid, DoubleIntegrator{1.0}), h, {});
+  Solver<float> solver(grid, known_flow<float>(grid, DoubleIntegrator{1.0}), h, {});
   march(solver, 1.0);
 }
 
@@ -336,7 +336,7 @@ TEST(Solver, RefusesWhatDoesNotFit) {
   const Grid grid = square(2, 2.0, 11);
   const auto h = sampled<float>(
       grid, [](auto x) { return radius(x); }, 1);
-  const Flow<float> flow = flow_of<float>(grid, DoubleIntegrator{1.0});
+  const Flow<float> flow = known_flow<float>(grid, DoubleIntegrator{1.0});
   EXPECT_THROW(Solver<float>(grid, flow, std::vector<float>(10), {}), ContractViolation);
   EXPECT_THROW(Solver<float>(grid, flow, h, {.cfl = 0.0}), ContractViolation);
   EXPECT_THROW(Solver<float>(grid, flow, h, {.cfl = 1.1}), ContractViolation);
@@ -344,7 +344,7 @@ TEST(Solver, RefusesWhatDoesNotFit) {
   auto holed = h;
   holed[7] = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THROW(Solver<float>(grid, flow, holed, {}), ContractViolation);
-  EXPECT_THROW((void)flow_of<float>(grid, AnyDirection<3>{1.0}), ContractViolation);
+  EXPECT_THROW((void)known_flow<float>(grid, AnyDirection<3>{1.0}), ContractViolation);
   Solver<float> solver(grid, flow, h, {});
   EXPECT_THROW((void)solver.step(0.0), ContractViolation);
   EXPECT_THROW((void)solver.step(std::nan("")), ContractViolation);
