@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "saca/core/file.h"
+#include "saca/reach/march_for_test.h"
 #include "saca/reach/own_systems.h"
-#include "saca/reach/solver.h"
 
 /// The solver beside hj_reachability, which solved the same with the same differences, dissipation
 /// and steps (tools/hj_reachability); what is left are its edges, its weights and rounding.
@@ -51,16 +51,8 @@ std::vector<Real> start(const Grid& grid, const Air3d& game = {}) {
 template <class Real>
 std::vector<Real> solved(const Grid& grid, double horizon, const Settings& settings = {},
                          const Air3d& game = {}, Level level = best_level()) {
-  Solver<Real> solver(grid, own_flow<Real>(grid, game, Differences::weno5, level),
-                      start<Real>(grid, game), settings);
-  while (solver.time() < horizon) {
-    const auto taken = solver.step(horizon);
-    EXPECT_TRUE(taken.has_value()) << (taken.has_value() ? "" : taken.error().message);
-    if (!taken.has_value()) {
-      break;
-    }
-  }
-  return {solver.values().begin(), solver.values().end()};
+  return marched(grid, own_flow<Real>(grid, game, Differences::weno5, level),
+                 start<Real>(grid, game), horizon, settings);
 }
 
 struct Distance {
@@ -158,9 +150,7 @@ double greatest_fall(int scale, Tube tube, double about) {
   Solver<double> solver(grid, own_flow<double>(grid, Air3d{}), before, {.tube = tube});
   double fall = 0.0;
   for (const double horizon : {0.4, 0.8, 1.2}) {
-    while (solver.time() < horizon) {
-      EXPECT_TRUE(solver.step(horizon).has_value());
-    }
+    march(solver, horizon);
     for (std::size_t i = 0; i < before.size(); ++i) {
       if (std::abs(before[i]) <= about) {
         fall = std::max(fall, before[i] - solver.values()[i]);

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "saca/reach/intrusion.h"
+#include "saca/reach/march_for_test.h"
 #include "saca/reach/own_systems.h"
 #include "saca/reach/solve.h"
-#include "saca/reach/solver.h"
 
 namespace saca::reach {
 namespace {
@@ -84,16 +84,8 @@ AvoidanceCase disc_at_edge(int refined) {
 
 template <class System>
 std::vector<float> solved(const AvoidanceCase& problem, const System& system, double horizon) {
-  Solver<float> solver(problem.grid, own_flow<float>(problem.grid, system),
-                       unsafe<float>(problem, 1), {});
-  while (solver.time() < horizon) {
-    const auto taken = solver.step(horizon);
-    EXPECT_TRUE(taken.has_value()) << (taken.has_value() ? "" : taken.error().message);
-    if (!taken.has_value()) {
-      break;
-    }
-  }
-  return {solver.values().begin(), solver.values().end()};
+  return marched(problem.grid, own_flow<float>(problem.grid, system), unsafe<float>(problem, 1),
+                 horizon);
 }
 
 TEST(AvoidanceCase, ReadsEveryKey) {

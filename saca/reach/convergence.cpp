@@ -58,7 +58,7 @@ Known carried(std::string_view name, Differences differences) {
   return {
       .name = "a wave carried along, " + std::string(name),
       .grid = [](int points) { return square_of(std::numbers::pi, points - 1, Edge::periodic); },
-      .flow = [=](const Grid& grid) { return flow_of<double>(grid, motion, differences); },
+      .flow = [=](const Grid& grid) { return known_flow<double>(grid, motion, differences); },
       .h = [=](std::span<const double> x) { return value(x[0], x[1]); },
       .answer = [=](const State& x) { return value(x[0] + motion.vx, x[1] + motion.vy); },
       .counts = [](const State&) { return true; },
@@ -68,18 +68,19 @@ Known carried(std::string_view name, Differences differences) {
 
 Known disc_that(std::string_view does, double speed) {
   const auto radius = [](double x, double y) { return std::hypot(x, y); };
-  return {.name = "a disc that " + std::string(does) + ", WENO5",
-          .grid = [](int points) { return square_of(2.0, points, Edge::open); },
-          .flow = [=](const Grid& grid) { return flow_of<double>(grid, AnyDirection<2>{speed}); },
-          .h = [=](std::span<const double> x) { return 1.0 - radius(x[0], x[1]); },
-          .answer = [=](const State& x) { return 1.0 - radius(x[0], x[1]) + 0.5 * speed; },
-          .counts =
-              [=](const State& x) {
-                const double r = radius(x[0], x[1]);
-                return r > 1.0 && r < 1.5;  // off the tip and its rounding, and off the edges
-              },
-          .horizon = 0.5,
-          .settings = {.tube = Tube::set}};
+  return {
+      .name = "a disc that " + std::string(does) + ", WENO5",
+      .grid = [](int points) { return square_of(2.0, points, Edge::open); },
+      .flow = [=](const Grid& grid) { return known_flow<double>(grid, AnyDirection<2>{speed}); },
+      .h = [=](std::span<const double> x) { return 1.0 - radius(x[0], x[1]); },
+      .answer = [=](const State& x) { return 1.0 - radius(x[0], x[1]) + 0.5 * speed; },
+      .counts =
+          [=](const State& x) {
+            const double r = radius(x[0], x[1]);
+            return r > 1.0 && r < 1.5;  // off the tip and its rounding, and off the edges
+          },
+      .horizon = 0.5,
+      .settings = {.tube = Tube::set}};
 }
 
 Known braking_before_a_wall() {
@@ -98,7 +99,7 @@ Known braking_before_a_wall() {
                 grid.axes[1].last = 3.0;
                 return grid;
               },
-          .flow = [](const Grid& grid) { return flow_of<double>(grid, DoubleIntegrator{1.0}); },
+          .flow = [](const Grid& grid) { return known_flow<double>(grid, DoubleIntegrator{1.0}); },
           .h = [](std::span<const double> x) { return x[0]; },
           .answer = answer,
           .counts = [=](const State& x) { return answer(x) < 1.5; },  // within the grid to its end

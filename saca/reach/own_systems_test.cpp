@@ -6,30 +6,26 @@
 #include <numbers>
 
 #include "saca/core/contract.h"
-#include "saca/reach/solver.h"
+#include "saca/reach/march_for_test.h"
 
 namespace saca::reach {
 namespace {
 
 /// Values after a short march, in doubles.
 template <class System>
-std::vector<double> marched(const Grid& grid, const System& system, Differences differences,
-                            Level level) {
+std::vector<double> soon(const Grid& grid, const System& system, Differences differences,
+                         Level level) {
   const auto h = sampled<double>(
       grid, [](auto x) { return 3.0 - std::hypot(x[0], 0.7 * x[1]); }, 1);
-  Solver<double> solver(grid, own_flow<double>(grid, system, differences, level), h, {});
-  while (solver.time() < 0.2) {
-    EXPECT_TRUE(solver.step(0.2).has_value());
-  }
-  return {solver.values().begin(), solver.values().end()};
+  return marched(grid, own_flow<double>(grid, system, differences, level), h, 0.2);
 }
 
 template <class System>
 void expect_levels_agree(const Grid& grid, const System& system) {
   for (const Differences differences :
        {Differences::upwind1, Differences::eno2, Differences::eno3, Differences::weno5}) {
-    const auto plain = marched(grid, system, differences, Level::baseline);
-    const auto wide = marched(grid, system, differences, best_level());
+    const auto plain = soon(grid, system, differences, Level::baseline);
+    const auto wide = soon(grid, system, differences, best_level());
     ASSERT_EQ(plain.size(), wide.size());
     // ENO chooses between stencils, which a rounding may turn over where they are alike.
     const bool chooses = differences == Differences::eno2 || differences == Differences::eno3;

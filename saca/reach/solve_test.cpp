@@ -21,10 +21,10 @@ Problem braking(int points) {
   problem.times = {1.0, 2.0, 4.0};
   problem.unsafe = [](std::span<const double> x) { return x[0]; };
   problem.in_floats = [](const Grid& grid, Differences differences) {
-    return flow_of<float>(grid, DoubleIntegrator{1.0}, differences);
+    return known_flow<float>(grid, DoubleIntegrator{1.0}, differences);
   };
   problem.in_doubles = [](const Grid& grid, Differences differences) {
-    return flow_of<double>(grid, DoubleIntegrator{1.0}, differences);
+    return known_flow<double>(grid, DoubleIntegrator{1.0}, differences);
   };
   return problem;
 }
