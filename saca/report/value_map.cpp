@@ -192,18 +192,20 @@ std::vector<Vec2> obstacle_outline(std::string_view problem_toml) {
   }
   const std::string shape = obstacle->optional_text("shape").value_or("");
   const double length = obstacle->optional_number("length_m").value_or(0.0);
-  const double width =
-      obstacle->optional_number("width_m").value_or(shape == "disc" ? length : 0.0);
+  const double width = obstacle->optional_number("width_m").value_or(0.0);
+  const double x = 0.5 * length;
+  if (shape == "segment" && length > 0.0) {
+    return {{-x, 0.0}, {x, 0.0}};
+  }
   if (!(length > 0.0 && width > 0.0)) {
     return {};
   }
   if (shape == "box") {
-    const double x = 0.5 * length;
     const double y = 0.5 * width;
     return {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
   }
   std::vector<Vec2> outline;
-  for (int i = 0; i < outline_points && (shape == "ellipse" || shape == "disc"); ++i) {
+  for (int i = 0; i < outline_points && shape == "ellipse"; ++i) {
     outline.push_back(on_ellipse(i, length, width));
   }
   return outline;

@@ -191,9 +191,9 @@ TEST(ObstacleOutline, IsWhatTheCaseSays) {
        obstacle_outline("[obstacle]\nshape = \"ellipse\"\nlength_m = 7.0\nwidth_m = 3.5")) {
     EXPECT_NEAR(p.x * p.x / (3.5 * 3.5) + p.y * p.y / (1.75 * 1.75), 1.0, 1e-12);
   }
-  const auto disc = obstacle_outline("[obstacle]\nshape = \"disc\"\nlength_m = 0.6");
-  ASSERT_FALSE(disc.empty());
-  EXPECT_NEAR(std::hypot(disc[9].x, disc[9].y), 0.3, 1e-12);
+  const auto wall = obstacle_outline("[obstacle]\nshape = \"segment\"\nlength_m = 6.0");
+  ASSERT_EQ(wall.size(), 2U);
+  EXPECT_EQ(norm(wall[1] - wall[0]), 6.0);
 }
 
 TEST(ObstacleOutline, IsEmptyWhereThereIsNone) {

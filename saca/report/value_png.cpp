@@ -336,9 +336,4 @@ Result<std::string> value_png(const ValuePicture& picture) {
   return value_png({&picture, 1}, 1);
 }
 
-Result<std::string> raster_png(const ValueMap& map, const ValueScale& scale) {
-  const Surface surface = raster(map, scale);
-  return png_bytes(surface.get());
-}
-
 }  // namespace saca::report

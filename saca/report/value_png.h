@@ -38,8 +38,4 @@ struct RasterSize {
 [[nodiscard]] Result<std::string> value_png(std::span<const ValuePicture> pictures, int columns);
 [[nodiscard]] Result<std::string> value_png(const ValuePicture& picture);
 
-/// The colours alone, a pixel for each rectangle, the highest y on top; clear outside the table.
-/// For pages that draw the rest themselves.
-[[nodiscard]] Result<std::string> raster_png(const ValueMap& map, const ValueScale& scale);
-
 }  // namespace saca::report
