@@ -324,7 +324,8 @@ Result<std::string> value_png(std::span<const ValuePicture> pictures, int column
   canvas.rect({0.0, 0.0}, all, paper);
   for (int i = 0; i < count; ++i) {
     cairo_save(canvas.cairo());
-    cairo_translate(canvas.cairo(), width * (i % columns), height * (i / columns));
+    const int row = i / columns;
+    cairo_translate(canvas.cairo(), width * (i % columns), height * row);
     draw_picture(canvas, pictures[static_cast<std::size_t>(i)]);
     cairo_restore(canvas.cairo());
   }
