@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include "saca/reach/differences.h"
 #include "saca/reach/flow.h"
@@ -20,6 +21,8 @@ struct GridView {
   std::array<std::ptrdiff_t, max_dimensions> points{}, stride{};
   std::array<Edge, max_dimensions> edge{};
   std::array<std::ptrdiff_t, max_dimensions> turned{};  ///< -1: none
+  /// Of a mirrored axis: point i of the turned one has its image at this - i, around the circle.
+  std::array<std::ptrdiff_t, max_dimensions> image_sum{};
   std::array<const double*, max_dimensions> coordinates{};
   const Real* first_coordinates = nullptr;  ///< of the first axis, readable beyond
   std::array<const Real*, max_dimensions>
@@ -68,7 +71,14 @@ inline Real going_on(Real edge, Real inner_neighbour, std::ptrdiff_t steps) {
   return edge + static_cast<Real>(steps) * (edge < Real(0) ? -slope : slope);
 }
 
-/// The row on the other side of a mirrored axis.
+/// The number of a turned axis' point that is the image of point i, behind a mirrored axis.
+template <class Real>
+inline std::ptrdiff_t image_of(const GridView<Real>& grid, std::size_t mirrored, std::ptrdiff_t i) {
+  const std::ptrdiff_t points = grid.points[static_cast<std::size_t>(grid.turned[mirrored])];
+  return (grid.image_sum[mirrored] - i + points) % points;
+}
+
+/// The row on the other side of a mirrored axis; a turned first axis is not yet turned in it.
 template <std::size_t D, class Real>
 inline const Real* mirror_image(const GridView<Real>& grid, const Real* values, Place<D> place,
                                 std::size_t axis, std::ptrdiff_t index) {
@@ -78,7 +88,7 @@ inline const Real* mirror_image(const GridView<Real>& grid, const Real* values, 
   const std::ptrdiff_t turned = grid.turned[axis];
   if (turned > 0) {
     const auto t = static_cast<std::size_t>(turned);
-    place.index[t] = (grid.points[t] - place.index[t]) % grid.points[t];
+    place.index[t] = image_of(grid, axis, place.index[t]);
   }
   return values + place.first_cell(grid);
 }
@@ -102,6 +112,13 @@ inline std::array<const Real*, 7> neighbours(const GridView<Real>& grid, const R
       to = row + ((index % points + points) % points - here) * stride;
     } else if (index < 0 && grid.edge[axis] == Edge::mirrored) {
       to = mirror_image<D>(grid, values, place, axis, -index);
+      if (grid.turned[axis] == 0) {
+        for (std::ptrdiff_t i = 0; i < grid.points[0]; ++i) {
+          scratch[i] = to[image_of(grid, axis, i)];
+        }
+        to = scratch;
+        scratch += scratch_row;
+      }
     } else {
       const std::ptrdiff_t end = index < 0 ? 0 : points - 1;
       const std::ptrdiff_t beyond = std::abs(index - end);
