@@ -329,34 +329,69 @@ TEST(Solver, AnOpenEdgeKeepsTheSign) {
   }
 }
 
-/// Its Hamiltonian is no number at one place.
+/// Its Hamiltonian is no finite number where x + y = 0: numerator / 0.
 struct Broken {
   static constexpr std::size_t dimensions = 2;
+  double numerator = 0.0;
   struct Row {
-    double y;
+    double y, numerator;
     template <class N>
     N hamiltonian(const N& x, const std::array<N, 2>& p) const {
-      return p[0] + sqrt(abs(x + y) - 0.01) * 0.0;
+      return p[0] + N(numerator) / abs(x + y);
     }
     template <class N>
     std::array<N, 2> speeds(const N& /*x*/) const {
       return {N(1.0), N(0.0)};
     }
   };
-  [[nodiscard]] Row row(const std::array<double, 2>& x) const { return {x[1]}; }
+  [[nodiscard]] Row row(const std::array<double, 2>& x) const { return {x[1], numerator}; }
 };
 
-TEST(Solver, NamesTheCellWhoseHamiltonianIsNoNumber) {
-  Grid grid = square(2, 1.0, 5);
-  grid.axes[1].first = -1.0;
-  const auto h = sampled<float>(
+template <class Real>
+void expect_cell_named(Tube tube, double numerator) {
+  const Grid grid = square(2, 1.0, 5);
+  const auto h = sampled<Real>(
       grid, [](auto x) { return radius(x); }, 1);
-  Solver<float> solver(grid, flow_of<float>(grid, Broken{}), h, {.threads = 2});
+  const auto flow = flow_of<Real>(grid, Broken{numerator}, Differences::upwind1);
+  Solver<Real> solver(grid, flow, h, {.tube = tube, .threads = 2});
   const auto step = solver.step(1.0);
   ASSERT_FALSE(step.has_value());
-  EXPECT_THAT(step.error().message, testing::HasSubstr("cell 4 (x = 1, y = -1)"));  // x + y = 0
+  EXPECT_THAT(step.error().message, testing::HasSubstr("cell 4 (x = 1, y = -1)"));
   EXPECT_EQ(solver.time(), 0.0);
   EXPECT_TRUE(std::equal(h.begin(), h.end(), solver.values().begin()));
+}
+
+TEST(Solver, NamesTheCellWhoseHamiltonianIsNoNumber) {
+  for (const Tube tube : {Tube::set, Tube::tube, Tube::highest}) {
+    for (const double numerator : {0.0, -1.0, 1.0}) {  // no number, -infinity, infinity
+      SCOPED_TRACE(testing::Message() << "tube " << static_cast<int>(tube) << ", " << numerator);
+      expect_cell_named<float>(tube, numerator);
+      expect_cell_named<double>(tube, numerator);
+    }
+  }
+}
+
+/// Its speed is no number where x = -1.
+struct SpeedLost {
+  static constexpr std::size_t dimensions = 2;
+  struct Row {
+    template <class N>
+    N hamiltonian(const N& /*x*/, const std::array<N, 2>& p) const {
+      return p[0];
+    }
+    template <class N>
+    std::array<N, 2> speeds(const N& x) const {
+      return {N(2.0) + N(0.0) / abs(x + N(1.0)), N(0.0)};
+    }
+  };
+  [[nodiscard]] Row row(const std::array<double, 2>& /*x*/) const { return {}; }
+};
+
+TEST(Solver, RefusesSpeedsThatAreNoNumber) {
+  const Grid grid = square(2, 1.0, 9);  // cells of speed 2 follow the one that has none
+  const Flow<double> flow = flow_of<double>(grid, SpeedLost{}, Differences::upwind1);
+  EXPECT_TRUE(std::isnan(flow.crossings_per_second));
+  EXPECT_THROW(Solver<double>(grid, flow, std::vector<double>(81), {}), ContractViolation);
 }
 
 TEST(Solver, GoesOnFromWhereAnotherStopped) {

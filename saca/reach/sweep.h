@@ -256,8 +256,10 @@ struct Sweep {
   void pack(const Job& job, std::ptrdiff_t i) {
     const std::ptrdiff_t cell = job.cell + i;
     N change = rate(job, i);
+    // The maximum of some sets passes over what is no number, and -infinity is below any: taking
+    // x - x away, which is 0 of every other x, keeps both.
     if (stage.tube == Tube::tube) {
-      change = max(change, N(0.0));
+      change = max(N(0.0), change) - (change - change);
     }
     const N old = N::load(stage.old + cell);
     const N values = N::load(stage.values + cell);
@@ -266,8 +268,7 @@ struct Sweep {
       next = fma(old, keep, next * take);
     }
     if (stage.tube == Tube::highest) {
-      // `max` of some sets passes over what is no number if it stands first
-      next = max(N::load(stage.h + cell), next);
+      next = max(N::load(stage.h + cell), next) - (next - next);
     }
     const std::ptrdiff_t left = grid.points[0] - i;
     if (left < static_cast<std::ptrdiff_t>(N::size)) {
@@ -347,7 +348,9 @@ inline double crossings(const System& system, const GridView<Real>& grid, std::s
           std::min<std::ptrdiff_t>(grid.points[0] - i, static_cast<std::ptrdiff_t>(N::size));
       for (std::ptrdiff_t k = 0; k < used; ++k) {
         const auto value = static_cast<double>(lanes[static_cast<std::size_t>(k)]);
-        greatest = value <= greatest ? greatest : value;  // what is no number stays and is found
+        if (!std::isnan(greatest) && !(value <= greatest)) {
+          greatest = value;  // what is no number stays and is found
+        }
       }
     }
   }
