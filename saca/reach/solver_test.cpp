@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 
 #include "saca/reach/flow_of.h"
 #include "saca/reach/known_systems.h"
@@ -392,6 +393,25 @@ TEST(Solver, RefusesSpeedsThatAreNoNumber) {
   const Flow<double> flow = flow_of<double>(grid, SpeedLost{}, Differences::upwind1);
   EXPECT_TRUE(std::isnan(flow.crossings_per_second));
   EXPECT_THROW(Solver<double>(grid, flow, std::vector<double>(81), {}), ContractViolation);
+}
+
+TEST(Solver, HandsOnWhatASystemThrows) {
+  const Grid grid = square(2, 1.0, 11);
+  const auto h = sampled<double>(
+      grid, [](auto x) { return radius(x); }, 1);
+  Flow<double> flow = known_flow<double>(grid, DoubleIntegrator{1.0});
+  flow.sweep = [sound = flow.sweep](const Stage<double>& stage) {
+    if (stage.end_row == 11) {
+      throw std::domain_error("no such speed");
+    }
+    return sound(stage);
+  };
+  for (const int threads : {1, 3}) {
+    Solver<double> solver(grid, flow, h, {.threads = threads});
+    EXPECT_THROW((void)solver.step(1.0), std::domain_error);
+    EXPECT_EQ(solver.time(), 0.0);
+    EXPECT_TRUE(std::equal(h.begin(), h.end(), solver.values().begin()));
+  }
 }
 
 TEST(Solver, GoesOnFromWhereAnotherStopped) {
