@@ -54,7 +54,7 @@ function(saca_module name)
   set_target_properties(saca_${name} PROPERTIES EXPORT_NAME ${name})
   install(TARGETS saca_${name} EXPORT saca_targets)
   file(GLOB headers *.h)
-  list(FILTER headers EXCLUDE REGEX "_(kernel|kernel_of|pack)\\.h$")  # of kernels: not for others
+  list(FILTER headers EXCLUDE REGEX "_(kernel|kernel_of|pack|handle)\\.h$")  # of kernels and of other libraries: not for others
   install(FILES ${headers} DESTINATION include/saca/${name})
   if(NOT SACA_DEVELOPER)
     return()

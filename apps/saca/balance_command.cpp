@@ -7,6 +7,7 @@
 #include <string>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/places.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/surveying.h"
 #include "saca/core/proportion.h"
@@ -77,11 +78,11 @@ json figures_of(const eval::Balance& balance, const std::string& suite) {
 int run(const BalanceCommand& options) {
   const auto source = SuiteSource::open(options.survey, "balance");
   if (!source.has_value()) {
-    return complain_of(source.error());
+    return refused(source.error());
   }
   const auto found = survey(source.value(), options.survey);
   if (!found.has_value()) {
-    return complain_of(found.error());
+    return refused(found.error());
   }
   if (!found.value()) {
     complain("interrupted; the same command goes on where this one stopped");

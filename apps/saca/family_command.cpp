@@ -66,14 +66,12 @@ std::optional<Error> write_picture(const FamilyCommand& options,
 int run(const FamilyCommand& options) {
   const auto inputs = read_inputs(options.car);
   if (!inputs.has_value()) {
-    complain(inputs.error().message);
-    return bad_input;
+    return refused(inputs.error());
   }
   const auto family = read_family(inputs.value().places, options.name);
   const auto splits = read_splits(inputs.value().places);
   if (!family.has_value() || !splits.has_value()) {
-    complain(family.has_value() ? splits.error().message : family.error().message);
-    return bad_input;
+    return refused(family.has_value() ? splits.error() : family.error());
   }
   std::optional<sim::TestLog> log;
   if (!options.test_log.empty()) {
@@ -83,8 +81,8 @@ int run(const FamilyCommand& options) {
   const auto seed =
       sim::seed_for(splits.value(), *sim::split_from(options.split), family.value().name, log);
   if (!seed.has_value()) {
-    complain(seed.error().message + (options.split == "test" ? " (--test-log FILE)" : ""));
-    return seed.error().code == Error::Code::unwritable ? cannot_write : bad_input;
+    const std::string hint = options.split == "test" ? " (--test-log FILE)" : "";
+    return refused({seed.error().code, seed.error().message + hint});
   }
   report::ContactSheet sheet;
   sheet.heading = fmt::format("{}: {}", family.value().name, family.value().title);
@@ -95,8 +93,7 @@ int run(const FamilyCommand& options) {
     const auto sample = sim::sample(family.value(), seed.value(), static_cast<std::uint64_t>(k),
                                     inputs.value().car_name, ego);
     if (!sample.has_value()) {
-      complain(sample.error().message);
-      return bad_input;
+      return refused(sample.error());
     }
     const sim::Scenario& scenario = options.twins ? sample.value().twin : sample.value().scenario;
     fs::path file;
@@ -107,16 +104,14 @@ int run(const FamilyCommand& options) {
         problem = write_file(file, sim::write_scenario(scenario));
       }
       if (problem) {
-        complain(problem->message);
-        return cannot_write;
+        return refused(*problem);
       }
     }
     list.push_back(json_of(scenario, file));
     sheet.scenes.push_back(thumbnail(scenario, inputs.value()));
   }
   if (const auto problem = write_picture(options, sheet)) {
-    complain(problem->message);
-    return cannot_write;
+    return refused(*problem);
   }
   if (options.as_json) {
     fmt::print("{}\n", json{{"schema", "saca.family_samples/1"},

@@ -110,18 +110,15 @@ std::optional<Error> write_trace(const fs::path& file, const loop::Setup& setup,
 int run(const RunOptions& options) {
   const auto inputs = read_scenario_inputs(options.scenario);
   if (!inputs.has_value()) {
-    complain(inputs.error().message);
-    return bad_input;
+    return refused(inputs.error());
   }
   const auto costs = read_costs(inputs.value().places);
   if (!costs.has_value()) {
-    complain(costs.error().message);
-    return bad_input;
+    return refused(costs.error());
   }
   const auto atlas = open_atlas(options, inputs.value());
   if (!atlas.has_value()) {
-    complain(atlas.error().message + " (--atlas off does without)");
-    return bad_input;
+    return refused({atlas.error().code, atlas.error().message + " (--atlas off does without)"});
   }
   const auto danger = open_danger(options, inputs.value());
   if (!danger.has_value()) {
@@ -130,8 +127,7 @@ int run(const RunOptions& options) {
   std::unique_ptr<memory::Store> memory;
   if (!options.no_memory) {
     if (const auto problem = make_folder_of(options.memory)) {
-      complain(problem->message);
-      return cannot_write;
+      return refused(*problem);
     }
     auto opened = memory::Store::open(options.memory);
     if (!opened.has_value()) {
@@ -145,8 +141,7 @@ int run(const RunOptions& options) {
   const auto model =
       ChosenModel::open(inputs.value().places, options.model, options.record_replies, pace, clock);
   if (!model.has_value()) {
-    complain(model.error().message);
-    return bad_input;
+    return refused(model.error());
   }
 
   const loop::Setup setup{
@@ -170,8 +165,7 @@ int run(const RunOptions& options) {
   const auto record =
       loop::run(setup, options.as_json ? static_cast<loop::Listener&>(silence) : story);
   if (!record.has_value()) {
-    complain(record.error().message);
-    return bad_input;
+    return refused(record.error());
   }
   const std::string text = loop::record_json(setup, record.value());
   const fs::path folder = fs::path(options.output) / inputs.value().scenario.name;

@@ -8,6 +8,7 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/pictures.h"
+#include "apps/saca/places.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/surveying.h"
 #include "saca/core/file.h"
@@ -112,11 +113,11 @@ std::optional<Error> write(const Shown& one, const std::string& output) {
 int run(const ShowcaseCommand& options) {
   const auto source = SuiteSource::open(options.survey, "search-showcase");
   if (!source.has_value()) {
-    return complain_of(source.error());
+    return refused(source.error());
   }
   const auto findings = survey(source.value(), options.survey);
   if (!findings.has_value()) {
-    return complain_of(findings.error());
+    return refused(findings.error());
   }
   bool stopped = !findings.value();
   json list = json::array();
@@ -127,7 +128,7 @@ int run(const ShowcaseCommand& options) {
     }
     const auto found = shown(source.value(), *findings.value(), policy, options);
     if (!found.has_value()) {
-      return complain_of(found.error());
+      return refused(found.error());
     }
     stopped = !found.value();
     if (stopped) {
@@ -136,7 +137,7 @@ int run(const ShowcaseCommand& options) {
     missing += wanted(policy) - static_cast<int>(found.value()->size());
     for (const Shown& one : *found.value()) {
       if (const auto problem = write(one, options.output)) {
-        return complain_of(*problem);
+        return refused(*problem);
       }
       const eval::Margin margin = margin_of_best(one.oracle);
       list.push_back({{"policy", manoeuvre::index(policy)},

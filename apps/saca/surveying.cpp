@@ -209,11 +209,6 @@ Result<std::optional<std::vector<Finding>>> survey(const SuiteSource& source,
   return std::optional(found);
 }
 
-int complain_of(const Error& error) {
-  complain(error.message);
-  return error.code == Error::Code::unwritable ? cannot_write : bad_input;
-}
-
 void add_survey_options(CLI::App& command, SurveyOptions& options) {
   command.add_option("--suite", options.suite, "Which mixture of families")->capture_default_str();
   command.add_option("--count", options.count, "How many encounters")

@@ -55,8 +55,4 @@ class SuiteSource {
 [[nodiscard]] Result<std::optional<std::vector<eval::Finding>>> survey(
     const SuiteSource& source, const SurveyOptions& options);
 
-/// Says what is wrong.
-/// @return  the exit code for it
-[[nodiscard]] int complain_of(const Error& error);
-
 }  // namespace saca::app

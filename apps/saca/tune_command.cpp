@@ -122,18 +122,13 @@ int stopped(const fs::path& output) {
 
 /// Exit code for a law that was not found: it failed, or was interrupted.
 int not_tuned(const Result<std::optional<double>>& cost, const fs::path& output) {
-  if (cost.has_value()) {
-    return stopped(output);
-  }
-  complain(cost.error().message);
-  return cost.error().code == Error::Code::unwritable ? cannot_write : bad_input;
+  return cost.has_value() ? stopped(output) : refused(cost.error());
 }
 
 int tune_car(TuneOptions options) {
   const auto places = find_places();
   if (!places.has_value()) {
-    complain(places.error().message);
-    return bad_input;
+    return refused(places.error());
   }
   const fs::path car_file = find_car(places.value(), options.car);
   if (options.from.empty()) {
@@ -144,8 +139,7 @@ int tune_car(TuneOptions options) {
       options.output.empty() ? manoeuvre::tuning_path(car_file) : fs::path(options.output);
   auto start = read_start(car_file, manoeuvre::tuning_path(find_car(places.value(), options.from)));
   if (!start.has_value()) {
-    complain(start.error().message);
-    return bad_input;
+    return refused(start.error());
   }
   Car car = start.value();
   watch_for_interrupt();
@@ -176,8 +170,7 @@ int tune_car(TuneOptions options) {
       fmt::format("Made by: {}\nCosts: lane change {:.4f}, T-drift {:.4f} (saca/tune/trials.h).",
                   command_line(options), *swerve.value(), *drift.value());
   if (auto problem = write_file(output, manoeuvre::tuning_text(car.tuning, comment))) {
-    complain(problem->message);
-    return cannot_write;
+    return refused(*problem);
   }
   fs::remove(swerve_journal);
   fs::remove(drift_journal);

@@ -8,8 +8,8 @@
 #include "apps/saca/commands.h"
 #include "apps/saca/inputs.h"
 #include "apps/saca/moment_option.h"
+#include "apps/saca/places.h"
 #include "apps/saca/progress.h"
-#include "apps/saca/surveying.h"
 #include "saca/core/file.h"
 #include "saca/core/parallel.h"
 #include "saca/eval/whatif.h"
@@ -188,32 +188,31 @@ void print_counts(const std::vector<Cell>& cells) {
 int run(const WhatifCommand& options) {
   const auto inputs = read_scenario_inputs(options.scenario);
   if (!inputs.has_value()) {
-    return complain_of(inputs.error());
+    return refused(inputs.error());
   }
   std::vector<Axis> axes;
   for (const std::string& text : options.vary) {
     const auto axis = eval::parse_axis(text, inputs.value().scenario);
     if (!axis.has_value()) {
-      return complain_of({axis.error().code, "--vary " + axis.error().message});
+      return refused({axis.error().code, "--vary " + axis.error().message});
     }
     axes.push_back(axis.value());
   }
   if (axes.size() == 2 && axes[0].what == axes[1].what) {
-    return complain_of({Error::Code::malformed,
-                        "--vary: want two different numbers, got " + axes[0].what + " twice"});
+    return refused({Error::Code::malformed,
+                    "--vary: want two different numbers, got " + axes[0].what + " twice"});
   }
   if (num_cells(axes) > most_cells) {
-    return complain_of(
-        {Error::Code::out_of_range,
-         fmt::format("--vary: want at most {} scenes, got {}", most_cells, num_cells(axes))});
+    return refused({Error::Code::out_of_range, fmt::format("--vary: want at most {} scenes, got {}",
+                                                           most_cells, num_cells(axes))});
   }
   const auto time = decision_time(inputs.value(), options.at);
   if (!time.has_value()) {
-    return complain_of(time.error());
+    return refused(time.error());
   }
   const auto cells = try_all(inputs.value(), time.value(), axes, options.threads);
   if (!cells.has_value()) {
-    return complain_of(cells.error());
+    return refused(cells.error());
   }
   if (!cells.value()) {
     complain("interrupted; nothing was written");
@@ -224,7 +223,7 @@ int run(const WhatifCommand& options) {
     problem = write_file(options.svg, picture(inputs.value(), time.value(), axes, *cells.value()));
   }
   if (problem) {
-    return complain_of(*problem);
+    return refused(*problem);
   }
   if (!options.as_json) {
     fmt::print("{}, {} scenes, from {:.2f} s on\n", inputs.value().scenario.title,

@@ -10,31 +10,13 @@
 #include <vector>
 
 #include "saca/core/contract.h"
-#include "saca/reach/pack.h"
+#include "saca/reach/avoidance_for_test.h"
 
 namespace saca::reach {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double g = 9.80665;  // standard gravity [m/s^2]
-using Number = Pack<double, xsimd::default_arch>;
-using State4 = std::array<double, 4>;
-
-std::array<Number, 4> packed(const State4& p) {
-  return {Number(p[0]), Number(p[1]), Number(p[2]), Number(p[3])};
-}
-double only(const Number& number) {
-  std::array<double, Number::size> values{};
-  number.store(values.data());
-  return values[0];
-}
-double hamiltonian(const Avoidance& system, const State4& state, const State4& p) {
-  return only(system.row(state).hamiltonian(Number(state[0]), packed(p)));
-}
-double upwind(const Avoidance& system, const State4& state, const State4& left,
-              const State4& right) {
-  return only(system.row(state).upwind(Number(state[0]), packed(left), packed(right)));
-}
 
 /// The admissible inputs by the words of the problem: a polar grid of the disc, what the other two
 /// limits cut off being moved onto them (they are straight lines), and their corners with the
@@ -67,14 +49,13 @@ std::vector<Acceleration> admissible(const Avoidance& car, double speed, int num
 }
 
 /// The least rate over those inputs, each with the differences of the sides to which it moves.
-double enumerated(const Avoidance& system, const State4& state, const State4& left,
-                  const State4& right, int num_angles = 720) {
+double enumerated(const Avoidance& system, const State& state, const State& left,
+                  const State& right, int num_angles = 720) {
   const double speed = state[3];
   double least = 1e300;
   for (const Acceleration& input : admissible(system, speed, num_angles)) {
-    const State4 rate{speed * std::cos(state[2]) - system.obstacle_speed,
-                      speed * std::sin(state[2]), speed > 0.0 ? input.across / speed : 0.0,
-                      input.along};
+    const State rate{speed * std::cos(state[2]) - system.obstacle_speed, speed * std::sin(state[2]),
+                     speed > 0.0 ? input.across / speed : 0.0, input.along};
     double sum = 0.0;
     for (std::size_t i = 0; i < 4; ++i) {
       sum += rate.at(i) * (rate.at(i) > 0.0 ? right.at(i) : left.at(i));
@@ -84,45 +65,20 @@ double enumerated(const Avoidance& system, const State4& state, const State4& le
   return least;
 }
 
-struct Draws {
-  std::mt19937_64 engine;
-
-  double in(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine);
-  }
-  Avoidance system() {
-    return {.grip = in(0.2, 1.0),
-            .tightest_curvature = in(0.05, 0.3),
-            .drive_share = engine() % 8 == 0 ? static_cast<double>(engine() % 2) : in(0.0, 1.0),
-            .obstacle_speed = engine() % 2 == 0 ? 0.0 : in(-20.0, 20.0)};
-  }
-  State4 state() {
-    const std::array<double, 4> speeds{0.0, in(0.0, 0.01), in(0.0, 8.0), in(0.0, 40.0)};
-    return {in(-50.0, 50.0), in(-50.0, 50.0), in(-pi, pi), speeds.at(engine() % 4)};
-  }
-  State4 gradient() {
-    State4 p{in(-1.0, 1.0), in(-1.0, 1.0), in(-9.0, 9.0), in(-1.0, 1.0)};
-    for (double& slope : p) {
-      slope *= engine() % 5 == 0 ? 0.0 : 1.0;
-    }
-    return p;
-  }
-};
-
 /// What 720 directions miss of the best one: its size times half a step squared, halved.
-double missed(const Avoidance& system, const State4& state, double course_slope,
+double missed(const Avoidance& system, const State& state, double course_slope,
               double speed_slope) {
   const double q = state[3] > 0.0 ? std::abs(course_slope) / state[3] : 0.0;
   return system.grip * g * std::hypot(q, speed_slope) * 0.5 * std::pow(pi / 720, 2) + 1e-9;
 }
 
 TEST(Avoidance, HamiltonianIsTheLeastRateOverEnumeratedInputs) {
-  Draws draws{std::mt19937_64(11)};
+  AvoidanceDraws draws{std::mt19937_64(11)};
   std::array<int, 3> num_bound{};  // by the disc alone, by the drive, by the curvature
   for (int i = 0; i < 4'000; ++i) {
     const Avoidance system = draws.system();
-    const State4 state = draws.state();
-    const State4 p = draws.gradient();
+    const State state = draws.state();
+    const State p = draws.gradient();
     const double found = hamiltonian(system, state, p);
     const double expected = enumerated(system, state, p, p);
     const double slack = missed(system, state, p[2], p[3]);
@@ -161,12 +117,12 @@ TEST(Avoidance, HamiltonianHasClosedFormsByHand) {
 
 // With one-sided slopes the enumeration takes each from the side that its input moves to.
 TEST(Avoidance, UpwindIsTheLeastOverInputsWithTheirOwnSides) {
-  Draws draws{std::mt19937_64(12)};
+  AvoidanceDraws draws{std::mt19937_64(12)};
   for (int i = 0; i < 4'000; ++i) {
     const Avoidance system = draws.system();
-    const State4 state = draws.state();
-    const State4 left = draws.gradient();
-    const State4 right = draws.gradient();
+    const State state = draws.state();
+    const State left = draws.gradient();
+    const State right = draws.gradient();
     const double found = upwind(system, state, left, right);
     const double expected = enumerated(system, state, left, right);
     const double slack = missed(system, state, std::max(std::abs(left[2]), std::abs(right[2])),
@@ -176,39 +132,14 @@ TEST(Avoidance, UpwindIsTheLeastOverInputsWithTheirOwnSides) {
   }
 }
 
+constexpr auto seen_by_obstacle = [](const Avoidance& car) { return car; };
+
 TEST(Avoidance, UpwindFallsInTheLeftSlopesAndRisesInTheRightOnes) {
-  Draws draws{std::mt19937_64(13)};
-  for (int i = 0; i < 20'000; ++i) {
-    const Avoidance system = draws.system();
-    const State4 state = draws.state();
-    const State4 left = draws.gradient();
-    const State4 right = draws.gradient();
-    const double before = upwind(system, state, left, right);
-    State4 steeper = left;
-    steeper.at(draws.engine() % 4) += draws.in(0.0, 2.0);
-    EXPECT_LE(upwind(system, state, steeper, right), before + 1e-9) << i;
-    steeper = right;
-    steeper.at(draws.engine() % 4) += draws.in(0.0, 2.0);
-    EXPECT_GE(upwind(system, state, left, steeper), before - 1e-9) << i;
-  }
+  expect_monotone(13, seen_by_obstacle);
 }
 
 TEST(Avoidance, SpeedsBoundTheHamiltoniansSlopes) {
-  Draws draws{std::mt19937_64(14)};
-  for (int i = 0; i < 4'000; ++i) {
-    const Avoidance system = draws.system();
-    const State4 state = draws.state();
-    const State4 p = draws.gradient();
-    const auto bounds = system.row(state).speeds(Number(state[0]));
-    for (std::size_t axis = 0; axis < 4; ++axis) {
-      State4 other = p;
-      other.at(axis) += draws.in(-1.0, 1.0);
-      const double change = hamiltonian(system, state, other) - hamiltonian(system, state, p);
-      EXPECT_LE(std::abs(change),
-                only(bounds.at(axis)) * std::abs(other.at(axis) - p.at(axis)) + 1e-9)
-          << i << " axis " << axis;
-    }
-  }
+  expect_bounded_by_speeds(14, seen_by_obstacle);
 }
 
 TEST(Avoidance, DirectionIsTheSignOfTheRatesThatNoInputChanges) {
@@ -219,12 +150,12 @@ TEST(Avoidance, DirectionIsTheSignOfTheRatesThatNoInputChanges) {
 }
 
 TEST(Avoidance, BestInputIsAdmissibleAndReachesTheHamiltonian) {
-  Draws draws{std::mt19937_64(15)};
+  AvoidanceDraws draws{std::mt19937_64(15)};
   for (int i = 0; i < 4'000; ++i) {
     const Avoidance system = draws.system();
-    const State4 state = draws.state();
+    const State state = draws.state();
     const double speed = state[3];
-    const State4 p = draws.gradient();
+    const State p = draws.gradient();
     const Acceleration best = best_input(system, speed, p);
     const double disc = system.grip * g;
     EXPECT_LE(std::hypot(best.along, best.across), disc * (1.0 + 1e-12));
@@ -240,15 +171,15 @@ TEST(Avoidance, BestInputIsAdmissibleAndReachesTheHamiltonian) {
 // V(x, y, course, v; grip, T) = V0(x, y, course, f v; grip0, T / f) has the slopes p_v = f p_v0 and
 // the rate V_T = V0_T / f: the two equations are one if H = H0 / f.
 TEST(Avoidance, AnotherGripIsTheSameProblemAtAnotherPace) {
-  Draws draws{std::mt19937_64(16)};
+  AvoidanceDraws draws{std::mt19937_64(16)};
   for (int i = 0; i < 4'000; ++i) {
     const Avoidance system = draws.system();
-    const State4 state = draws.state();
-    const State4 p = draws.gradient();
+    const State state = draws.state();
+    const State p = draws.gradient();
     const Scaled scaled = scaled_to(system, 0.9);
-    State4 there = state;
+    State there = state;
     there[3] *= scaled.speed_factor;
-    State4 slopes = p;
+    State slopes = p;
     slopes[3] /= scaled.speed_factor;
     EXPECT_NEAR(hamiltonian(system, state, p),
                 hamiltonian(scaled.system, there, slopes) * scaled.time_factor, 1e-9)
@@ -263,15 +194,15 @@ TEST(Avoidance, AnotherGripIsTheSameProblemAtAnotherPace) {
 
 // Beside an edge along x nothing depends on x: the same rates with p_x = 0.
 TEST(EdgeAvoidance, IsTheSameCarWithoutX) {
-  Draws draws{std::mt19937_64(17)};
+  AvoidanceDraws draws{std::mt19937_64(17)};
   for (int i = 0; i < 1'000; ++i) {
     const Avoidance car = draws.system();
-    const State4 state = draws.state();
-    State4 left = draws.gradient();
-    State4 right = draws.gradient();
+    const State state = draws.state();
+    State left = draws.gradient();
+    State right = draws.gradient();
     left[0] = right[0] = 0.0;
     const auto row = EdgeAvoidance{car}.row({state[1], state[2], state[3]});
-    const auto last = [](const State4& p) {
+    const auto last = [](const State& p) {
       return std::array<Number, 3>{Number(p[1]), Number(p[2]), Number(p[3])};
     };
     EXPECT_EQ(only(row.upwind(Number(0.0), last(left), last(right))),

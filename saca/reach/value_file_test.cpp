@@ -157,32 +157,6 @@ TEST_F(ValueFile, GivesBackEveryBitInBothPrecisions) {
   expect_same<double>(read_solved(path_).value(), solved);
 }
 
-TEST_F(ValueFile, GivesBackMoreThanOneChunkInFourDimensions) {
-  Solved solved{.grid = {{{.name = "a", .first = 0.0, .last = 1.0, .points = 40},
-                          {.name = "b", .first = 0.0, .last = 1.0, .points = 30},
-                          {.name = "c", .first = 0.0, .last = 1.0, .points = 70},
-                          {.name = "d", .first = 0.0, .last = 1.0, .points = 5}}},
-                .times = {4.0}};
-  solved.values = Snapshots<float>{any_values<float>(num_cells(solved.grid), 9)};
-  ASSERT_FALSE(write_solved(path_, solved));
-  expect_same<float>(read_solved(path_).value(), solved);
-}
-
-// Else the same values, a second later, make another file.
-TEST_F(ValueFile, NotesNoTimeOfWriting) {
-  Solved solved = small_solved<float>();
-  solved.error = std::vector<float>(num_cells(solved.grid), 0.25F);
-  ASSERT_FALSE(write_solved(path_, solved));
-  const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  ASSERT_GE(file, 0);
-  for (const char* const name : {"axis_0", "problem", "times", "values", "error"}) {
-    H5O_info_t about{};
-    ASSERT_GE(H5Oget_info_by_name2(file, name, &about, H5O_INFO_TIME, H5P_DEFAULT), 0) << name;
-    EXPECT_EQ(about.mtime, 0) << name;
-  }
-  H5Fclose(file);
-}
-
 TEST_F(ValueFile, IsPlainHdf5ForOthersWithTheFastestAxisLast) {
   const Solved solved = small_solved<float>();
   ASSERT_FALSE(write_solved(path_, solved));
@@ -321,25 +295,6 @@ TEST_F(ValueFile, RefusesWhatIsNoNumberAndSaysWhere) {
     put_set(file, "error", H5T_IEEE_F32LE, {6, 5, 9}, std::vector<float>(270, -1.0F));
   });
   EXPECT_THAT(refusal(), HasSubstr("a.h5: data set error: want numbers >= 0"));
-}
-
-TEST_F(ValueFile, TakesNoMemoryForNumbersThatAreNotThere) {
-  edit([](hid_t file) {  // 4 x 10^9 cells, none of them kept
-    set_number(file, "axis_0", "points", 2000.0);
-    set_number(file, "axis_1", "points", 2000.0);
-    set_number(file, "axis_2", "points", 1000.0);
-    H5Ldelete(file, "values", H5P_DEFAULT);
-    const std::array<hsize_t, 4> shape{3, 1000, 2000, 2000};
-    const std::array<hsize_t, 4> chunk{1, 1, 64, 64};
-    const hid_t space = H5Screate_simple(4, shape.data(), nullptr);
-    const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
-    H5Pset_chunk(layout, 4, chunk.data());
-    H5Dclose(H5Dcreate2(file, "values", H5T_IEEE_F32LE, space, H5P_DEFAULT, layout, H5P_DEFAULT));
-    H5Pclose(layout);
-    H5Sclose(space);
-  });
-  EXPECT_THAT(refusal(),
-              HasSubstr("data set values: want 3 x 1000 x 2000 x 2000 numbers, got fewer bytes"));
 }
 
 TEST_F(ValueFile, ARefusalIsOneLine) {
