@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view file_format = "saca.value/1";
+constexpr std::string_view file_format = "saca.value/2";
 constexpr std::string_view any_format = "saca.value/";
 constexpr std::string_view hdf5_signature = "\x89HDF\r\n\x1a\n";
 constexpr std::size_t head_size = 512;  // a user block, which HDF5 wants to be of such a size
@@ -82,6 +82,7 @@ std::optional<std::string> hdf5_part(const Solved& solved) {
   config::Hdf5Writer writer;
   writer.attribute(".", "format", std::string(file_format));
   writer.attribute(".", "complete", std::int32_t{solved.complete});
+  writer.attribute(".", "scheme", solved.scheme);
   writer.attribute(".", "dimensions", static_cast<std::int32_t>(solved.grid.axes.size()));
   for (std::size_t d = 0; d < solved.grid.axes.size(); ++d) {
     write_axis(writer, fmt::format("axis_{}", d), solved.grid.axes[d]);
@@ -215,6 +216,7 @@ Solved read_parts(config::Hdf5Reader& reader) {
     reader.reject("attribute format", std::string(file_format), format);
   }
   solved.complete = reader.whole(".", "complete", 0, 1) == 1;
+  solved.scheme = reader.text_attribute(".", "scheme");
   solved.grid = read_grid(reader);
   solved.problem = reader.text("problem");
   solved.times = read_times(reader);

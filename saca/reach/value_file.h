@@ -16,11 +16,13 @@ namespace saca::reach {
 template <class Real>
 using Snapshots = std::vector<std::vector<Real>>;
 
-/// What a solver has found, and for what; its last snapshot is enough to go on from.
+/// What a solver has found, and for what; its last snapshot is enough to go on from, by the same
+/// scheme.
 struct Solved {
   Grid grid;
-  std::string problem;        ///< TOML text of the case that it answers
-  bool complete = false;      ///< false: stopped before its horizon
+  std::string problem;    ///< TOML text of the case that it answers
+  std::string scheme;     ///< by which it was solved (`described` in `solve.h`); empty: not told
+  bool complete = false;  ///< false: stopped before its horizon
   std::vector<double> times;  ///< tau of each snapshot [s], >= 0, increasing; at least one
   std::variant<Snapshots<float>, Snapshots<double>> values;
   std::vector<float> error;  ///< of the last snapshot, per cell, >= 0; empty: not known
