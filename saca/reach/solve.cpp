@@ -354,21 +354,24 @@ std::string described(const Scheme& scheme) {
 }
 
 std::size_t memory_needed(const Problem& problem, const Scheme& scheme) {
-  constexpr std::size_t around = std::size_t{6} << 20;  // threads, and buffers of a file
+  constexpr std::size_t around = std::size_t{12} << 20;  // threads, and how a file in memory grows
   const std::size_t bytes = scheme.doubles ? sizeof(double) : sizeof(float);
   const Settings settings = settings_of(problem, scheme);
   const std::size_t cells = num_cells(problem.grid);
-  // h while it is handed over to the solver, or where it was stopped: one beside the snapshots.
-  const std::size_t marching = memory_needed(problem.grid, bytes, settings) + cells * bytes;
+  const std::size_t snapshots = problem.times.size() * cells * bytes;
+  const std::size_t error = scheme.with_error ? cells * sizeof(float) : 0;
+  // While it marches: beside the solver h, before it is handed over, or the snapshots' file; where
+  // it was stopped is one of the snapshots.
+  const std::size_t marching = memory_needed(problem.grid, bytes, settings) + snapshots;
   std::size_t comparing = 0;
   if (const auto coarse = scheme.with_error ? coarser(problem.grid) : std::nullopt) {
     const std::size_t values = num_cells(*coarse) * bytes;
     const std::size_t table =
         ValueTable::memory_needed(*coarse) + num_cells(*coarse) * sizeof(float);
-    comparing = std::max(memory_needed(*coarse, bytes, settings) + values,
-                         values + table + cells * sizeof(float));
+    comparing = std::max(memory_needed(*coarse, bytes, settings) + values, values + table + error);
   }
-  return problem.times.size() * cells * bytes + std::max(marching, comparing) + around;
+  const std::size_t keeping = 2 * error + snapshots;  // the error, and the file of all
+  return snapshots + std::max({marching, comparing, keeping}) + around;
 }
 
 Result<Solved> solve(const Problem& problem, const Scheme& scheme, std::optional<Solved> begun,
