@@ -63,6 +63,13 @@ inline Hdf5Handle memory_file_access() {
   return access;
 }
 
+/// Nobody else is locked out: a file is put in its place whole, and never changed there.
+inline Hdf5Handle without_lock() {
+  Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_file_locking(access.id(), false, true);
+  return access;
+}
+
 template <class Real>
 hid_t file_type() {
   return sizeof(Real) == sizeof(double) ? H5T_IEEE_F64LE : H5T_IEEE_F32LE;

@@ -29,14 +29,9 @@ std::string set_part(const char* name) {
 }  // namespace
 
 struct Hdf5Reader::State {
-  State(std::string source_name, std::string_view bytes)
-      : source(std::move(source_name)), file(open(access, bytes)) {}
-
-  static Hdf5Handle open(const Hdf5Handle& access, std::string_view bytes) {
-    std::string image(bytes);  // the interface wants to be able to change it
-    H5Pset_file_image(access.id(), image.data(), image.size());
-    return {H5Fopen("in memory", H5F_ACC_RDONLY, access.id()), H5Fclose};
-  }
+  State(std::string source_name, const std::filesystem::path& path)
+      : source(std::move(source_name)),
+        file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose) {}
 
   void reject(const std::string& part, const std::string& message) {
     if (!problem) {
@@ -81,12 +76,12 @@ struct Hdf5Reader::State {
   Hdf5Session session;
   std::string source;
   std::optional<Error> problem;
-  Hdf5Handle access = memory_file_access();
+  Hdf5Handle access = without_lock();
   Hdf5Handle file;
 };
 
-Hdf5Reader::Hdf5Reader(std::string source, std::string_view bytes)
-    : state_(std::make_unique<State>(std::move(source), bytes)) {
+Hdf5Reader::Hdf5Reader(std::string source, const std::filesystem::path& path)
+    : state_(std::make_unique<State>(std::move(source), path)) {
   if (!state_->file.good()) {
     reject("file", "HDF5", "what HDF5 cannot open");
   }

@@ -2,23 +2,23 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "saca/core/result.h"
 
 namespace saca::config {
 
-/// Reads an HDF5 file in memory strictly, as `Document` does TOML: the first thing that is wrong is
+/// Reads an HDF5 file strictly, as `Document` does TOML: the first thing that is wrong is
 /// remembered as "source: part: want this, got that", and nothing is read any more; what is
 /// returned then is of the right kind. Other threads wait as for `Hdf5Writer`.
 class Hdf5Reader {
  public:
   /// @param source  name for messages, usually the path
-  Hdf5Reader(std::string source, std::string_view bytes);
+  Hdf5Reader(std::string source, const std::filesystem::path& path);
   ~Hdf5Reader();
   Hdf5Reader(const Hdf5Reader&) = delete;
   Hdf5Reader& operator=(const Hdf5Reader&) = delete;

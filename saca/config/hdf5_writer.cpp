@@ -108,18 +108,16 @@ void Hdf5Writer::numbers(const char* name, const std::vector<std::size_t>& exten
   }
 }
 
-std::optional<std::string> Hdf5Writer::bytes() {
+std::optional<std::string_view> Hdf5Writer::bytes() {
   const hid_t file = state_->file.id();
   state_->note(H5Fflush(file, H5F_SCOPE_GLOBAL) >= 0);
   const ssize_t size = state_->good ? H5Fget_file_image(file, nullptr, 0) : -1;
-  if (size <= 0) {
+  void* address = nullptr;  // of a pointer to where the file lies
+  if (size <= 0 || H5Fget_vfd_handle(file, state_->access.id(), &address) < 0) {
     return std::nullopt;
   }
-  std::string image(static_cast<std::size_t>(size), '\0');
-  if (H5Fget_file_image(file, image.data(), image.size()) != size) {
-    return std::nullopt;
-  }
-  return image;
+  return std::string_view(*static_cast<const char* const*>(address),
+                          static_cast<std::size_t>(size));
 }
 
 template void Hdf5Writer::numbers(const char*, const std::vector<std::size_t>&,

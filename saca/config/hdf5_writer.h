@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace saca::config {
@@ -36,8 +37,8 @@ class Hdf5Writer {
   void numbers(const char* name, const std::vector<std::size_t>& extents,
                const std::vector<const Real*>& parts);
 
-  /// All that was written; nullopt: something went wrong.
-  [[nodiscard]] std::optional<std::string> bytes();
+  /// All that was written, until more is; nullopt: something went wrong.
+  [[nodiscard]] std::optional<std::string_view> bytes();
 
  private:
   struct State;

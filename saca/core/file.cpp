@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <iterator>
+#include <utility>
 
 namespace saca {
 namespace {
@@ -18,7 +18,6 @@ std::string reason() {
   return std::strerror(errno);  // NOLINT(concurrency-mt-unsafe): glibc's is thread-safe
 }
 
-/// Writes all of `text` to the file and forces it to the disk.
 bool write_all(int file, std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = ::write(file, text.data(), text.size());
@@ -27,12 +26,21 @@ bool write_all(int file, std::string_view text) {
     }
     text.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(written, 0)));
   }
-  return ::fsync(file) == 0;
+  return true;
 }
 
 }  // namespace
 
 Result<std::string> read_file(const std::filesystem::path& path) {
+  std::string text;
+  if (auto problem = read_file(path, [&](std::string_view bytes) { text += bytes; })) {
+    return *std::move(problem);
+  }
+  return text;
+}
+
+std::optional<Error> read_file(const std::filesystem::path& path,
+                               const std::function<void(std::string_view)>& take) {
   std::error_code problem;
   if (std::filesystem::is_directory(path, problem)) {
     return Error{Error::Code::unreadable, path.string() + ": is a folder, want a file"};
@@ -45,21 +53,33 @@ Result<std::string> read_file(const std::filesystem::path& path) {
   if (!file) {
     return Error{Error::Code::unreadable, path.string() + ": cannot be opened: " + reason()};
   }
-  std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  std::string bytes(std::size_t{1} << 20, '\0');
+  while (file) {
+    file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    take(std::string_view(bytes).substr(0, static_cast<std::size_t>(file.gcount())));
+  }
   if (file.bad()) {
     return Error{Error::Code::unreadable, path.string() + ": cannot be read: " + reason()};
   }
-  return text;
+  return std::nullopt;
 }
 
 std::optional<Error> write_file(const std::filesystem::path& path, std::string_view text) {
+  return write_file(path, {text});
+}
+
+std::optional<Error> write_file(const std::filesystem::path& path,
+                                std::initializer_list<std::string_view> parts) {
   std::string draft = path.string() + ".XXXXXX";
   const int file = ::mkstemp(draft.data());
   if (file < 0) {
     return Error{Error::Code::unwritable, path.string() + ": cannot be created: " + reason()};
   }
   constexpr mode_t readable_by_all = 0644;
-  bool good = ::fchmod(file, readable_by_all) == 0 && write_all(file, text);
+  bool good = ::fchmod(file, readable_by_all) == 0 &&
+              std::all_of(parts.begin(), parts.end(),
+                          [file](std::string_view part) { return write_all(file, part); }) &&
+              ::fsync(file) == 0;
   std::string why = good ? "" : reason();
   good = ::close(file) == 0 && good;
   if (good && ::rename(draft.c_str(), path.c_str()) == 0) {

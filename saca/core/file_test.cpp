@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string_view>
+
 namespace saca {
 namespace {
 
@@ -60,6 +63,23 @@ TEST_F(File, SaysWhyItCannotBeCreated) {
   const auto problem = write_file(folder_ / "no" / "folder" / "x", "text");
   ASSERT_TRUE(problem.has_value());
   EXPECT_THAT(problem->message, HasSubstr("No such file"));
+}
+
+TEST_F(File, IsHandedOnInParts) {
+  std::string whole((std::size_t{5} << 19) + 7, 'a');  // two and a half parts
+  whole[std::size_t{1} << 20] = 'b';
+  const std::string_view parts = whole;
+  ASSERT_FALSE(write_file(folder_ / "x", {parts.substr(0, 9), parts.substr(9)}).has_value());
+  std::string joined;
+  std::size_t longest = 0;
+  const auto take = [&](std::string_view bytes) {
+    joined += bytes;
+    longest = std::max(longest, bytes.size());
+  };
+  EXPECT_FALSE(read_file(folder_ / "x", take).has_value());
+  EXPECT_EQ(joined, whole);
+  EXPECT_EQ(longest, std::size_t{1} << 20);
+  EXPECT_TRUE(read_file(folder_ / "y", take).has_value());
 }
 
 }  // namespace

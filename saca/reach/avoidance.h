@@ -157,7 +157,9 @@ N Limits::gain(const N& course_left, const N& course_right, const N& speed_left,
                               N(disc) * r_driving);
   const N driven = where_less(disc_q, N(across_driven) * r_driving,
                               driving * N(drive) + q * N(across_driven), curved);
-  return max(braked, driven);
+  // Where one of two is no number, the maximum of some sets is the other: the two slopes that it
+  // may pass over count nothing else.
+  return max(braked, driven) + N(0.0) * (course_left - speed_left);
 }
 
 }  // namespace saca::reach

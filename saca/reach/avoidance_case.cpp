@@ -130,13 +130,6 @@ State padded_state(std::span<const double> entries) {
   return state;
 }
 
-/// The grid without its last axis, speed, on which h does not depend.
-Grid without_speed(const Grid& grid) {
-  Grid rest = grid;
-  rest.axes.pop_back();
-  return rest;
-}
-
 }  // namespace
 
 Result<AvoidanceCase> read_avoidance_case(const std::filesystem::path& path) {
@@ -205,13 +198,7 @@ std::vector<Real> unsafe(const AvoidanceCase& problem, int threads) {
   const auto h = [&](std::span<const double> place) {
     return intrusion_at(problem, padded_state(place));
   };
-  std::vector<Real> values = sampled<Real>(without_speed(problem.grid), h, threads);
-  const auto at_one_speed = static_cast<std::ptrdiff_t>(values.size());
-  values.resize(num_cells(problem.grid));
-  for (auto to = values.begin() + at_one_speed; to != values.end(); to += at_one_speed) {
-    std::copy_n(values.begin(), at_one_speed, to);
-  }
-  return values;
+  return sampled<Real>(problem.grid, h, threads, true);  // at any speed
 }
 
 template std::vector<float> unsafe(const AvoidanceCase&, int);

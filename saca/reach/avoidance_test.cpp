@@ -138,6 +138,19 @@ TEST(Avoidance, UpwindFallsInTheLeftSlopesAndRisesInTheRightOnes) {
   expect_monotone(13, seen_by_obstacle);
 }
 
+TEST(Avoidance, ASlopeThatIsNoNumberIsNotPassedOver) {
+  const Limits limits = limits_at({}, 10.0);
+  for (std::size_t lost = 0; lost < 4; ++lost) {
+    for (const double other : {-1.0, 0.0, 1.0}) {
+      std::array<Number, 4> slopes{other, other, other, other};
+      EXPECT_TRUE(std::isfinite(only(limits.gain(slopes[0], slopes[1], slopes[2], slopes[3]))));
+      slopes[lost] = std::nan("");
+      EXPECT_TRUE(std::isnan(only(limits.gain(slopes[0], slopes[1], slopes[2], slopes[3]))))
+          << lost << ", others " << other;
+    }
+  }
+}
+
 TEST(Avoidance, SpeedsBoundTheHamiltoniansSlopes) {
   expect_bounded_by_speeds(14, seen_by_obstacle);
 }

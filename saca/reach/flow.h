@@ -44,6 +44,8 @@
 ///
 /// a monotone numerical Hamiltonian in closed form, falling in `left` and rising in `right`.
 ///
+/// What one of them throws ends the solver's step and comes out of it.
+///
 /// The value obeys V_tau = H(x, grad V), tau being the time to go: H = min over u of f . grad V
 /// where inputs avoid what is unsafe (V >= 0), max where they seek it.
 namespace saca::reach {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -22,6 +23,7 @@ class GridArrays {
       view_.stride[d] = static_cast<std::ptrdiff_t>(stride[d]);
       view_.edge[d] = axis.edge;
       view_.turned[d] = axis.turned ? static_cast<std::ptrdiff_t>(*axis.turned) : -1;
+      view_.image_sum[d] = axis.turned ? image_sum(grid.axes[*axis.turned]) : 0;
       for (int i = 0; i < axis.points; ++i) {
         coordinates_[d].push_back(coordinate(axis, i));
         per_spacing_[d].push_back(static_cast<Real>(1.0 / spacing(axis, i)));
@@ -42,6 +44,13 @@ class GridArrays {
   [[nodiscard]] const GridView<Real>& view() const { return view_; }
 
  private:
+  /// Numbers of two points that lie the same on both sides of 0, summed, in [0, points).
+  static std::ptrdiff_t image_sum(const Axis& turned) {
+    const auto points = std::ptrdiff_t{turned.points};
+    const std::ptrdiff_t sum = std::lround(-2.0 * turned.first / spacing(turned, 0)) % points;
+    return sum < 0 ? sum + points : sum;
+  }
+
   GridView<Real> view_;
   std::array<std::vector<double>, max_dimensions> coordinates_;
   std::array<std::vector<Real>, max_dimensions> per_spacing_;

@@ -149,22 +149,29 @@ double point_of(const Axis& axis, double coordinate) {
 template <class Real>
 std::vector<Real> sampled(const Grid& grid,
                           const std::function<double(std::span<const double>)>& function,
-                          int threads) {
+                          int threads, bool alike_last) {
   expects(!broken_rule(grid), "grid breaks no rule");
+  expects(!alike_last || grid.axes.size() > 1, "more than one axis");
   std::vector<Real> values(num_cells(grid));
   const auto row = static_cast<std::size_t>(grid.axes[0].points);
-  in_parallel(values.size() / row, threads, [&](std::size_t r) {
+  const std::size_t asked = alike_last ? strides(grid).back() : values.size();
+  in_parallel(asked / row, threads, [&](std::size_t r) {
     for (std::size_t i = r * row; i < (r + 1) * row; ++i) {
       const State state = state_at(grid, i);
       values[i] = static_cast<Real>(function({state.data(), grid.axes.size()}));
     }
   });
+  for (std::size_t i = asked; i < values.size(); ++i) {
+    values[i] = values[i - asked];
+  }
   return values;
 }
 
 template std::vector<float> sampled(const Grid&,
-                                    const std::function<double(std::span<const double>)>&, int);
+                                    const std::function<double(std::span<const double>)>&, int,
+                                    bool);
 template std::vector<double> sampled(const Grid&,
-                                     const std::function<double(std::span<const double>)>&, int);
+                                     const std::function<double(std::span<const double>)>&, int,
+                                     bool);
 
 }  // namespace saca::reach

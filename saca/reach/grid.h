@@ -30,12 +30,14 @@ struct Axis {
                          ///< spaced number: even within about `stretch` of 0, growing beyond
   std::optional<std::size_t> turned = std::nullopt;  ///< mirrored: the periodic axis whose
                                                      ///< coordinate changes its sign as well
+  bool operator==(const Axis&) const = default;
 };
 
 /// Points of 1 to 4 axes; a value at each. The first axis' points lie next to one another in
 /// memory: cell (i, j, k, l) is number i + n0 (j + n1 (k + n2 l)).
 struct Grid {
   std::vector<Axis> axes;
+  bool operator==(const Grid&) const = default;
 };
 
 /// A cell or a state: as many entries as the grid has axes; the rest is 0.
@@ -60,16 +62,19 @@ using State = std::array<double, max_dimensions>;
 [[nodiscard]] double point_of(const Axis& axis, double coordinate);
 
 /// A function's values at all points.
-/// @param function  of the state (as many entries as axes); called from several threads
+/// @param function    of the state (as many entries as axes); called from several threads
+/// @param alike_last  it is the same all along the last axis, and asked at its first point alone;
+///                    not of a grid of one axis
 template <class Real>
 [[nodiscard]] std::vector<Real> sampled(
-    const Grid& grid, const std::function<double(std::span<const double>)>& function, int threads);
+    const Grid& grid, const std::function<double(std::span<const double>)>& function, int threads,
+    bool alike_last = false);
 
 extern template std::vector<float> sampled(const Grid&,
                                            const std::function<double(std::span<const double>)>&,
-                                           int);
+                                           int, bool);
 extern template std::vector<double> sampled(const Grid&,
                                             const std::function<double(std::span<const double>)>&,
-                                            int);
+                                            int, bool);
 
 }  // namespace saca::reach

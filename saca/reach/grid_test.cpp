@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -81,6 +83,19 @@ TEST(Sampled, HasEachCellsValueOnAnyNumberOfThreads) {
     EXPECT_DOUBLE_EQ(values[i], x[0] + 10.0 * x[1] + 100.0 * x[2]);
   }
   EXPECT_EQ(values, sampled<double>(grid, of, 1));
+}
+
+TEST(Sampled, AsksOnceForWhatIsAlikeAlongTheLastAxis) {
+  const Grid grid = usual();
+  const auto of = [](std::span<const double> x) { return x[0] + 10.0 * x[1]; };
+  std::atomic<int> asked = 0;
+  const auto counted = [&](std::span<const double> x) {
+    ++asked;
+    return of(x);
+  };
+  EXPECT_EQ(sampled<float>(grid, counted, 2, true), sampled<float>(grid, of, 1));
+  EXPECT_EQ(asked, 9 * 5);
+  EXPECT_THROW((void)sampled<float>({.axes = {grid.axes[0]}}, of, 1, true), ContractViolation);
 }
 
 std::string refused(const std::function<void(Grid&)>& change) {

@@ -56,6 +56,36 @@ TEST(OwnFlow, IsTheSameOnEachInstructionSet) {
                       EdgeAvoidance{});
 }
 
+/// Whether a first step of `h` is refused.
+template <class Real>
+bool refused(const Grid& grid, const Flow<Real>& flow, const std::vector<Real>& h, Tube tube) {
+  return !Solver<Real>(grid, flow, h, {.tube = tube}).step(0.01).has_value();
+}
+
+template <class Real>
+void expect_nan_found(Level level, Tube tube) {
+  const Grid grid = air3d_grid(9, 8, 6);
+  Flow<Real> flow =
+      own_flow<Real>(grid, Air3d{.pursuer_turn_rate = std::nan("")}, Differences::weno5, level);
+  flow.crossings_per_second = 1.0;  // which are no number either
+  const auto h = sampled<Real>(
+      grid, [](auto x) { return 3.0 - std::hypot(x[0], 0.7 * x[1]); }, 1);
+  EXPECT_TRUE(refused(grid, flow, h, tube));
+}
+
+TEST(OwnFlow, FindsWhatIsNoNumberOnEachInstructionSet) {
+  for (const Level level : {Level::baseline, Level::avx2}) {
+    for (const Tube tube : {Tube::set, Tube::tube, Tube::highest}) {
+      if (available(level)) {
+        SCOPED_TRACE(testing::Message()
+                     << "level " << static_cast<int>(level) << ", tube " << static_cast<int>(tube));
+        expect_nan_found<float>(level, tube);
+        expect_nan_found<double>(level, tube);
+      }
+    }
+  }
+}
+
 TEST(OwnFlow, RefusesAGridOfOtherDimensions) {
   EXPECT_THROW((void)own_flow<float>(air3d_grid(10, 10, 10), Avoidance{}), ContractViolation);
 }

@@ -1,12 +1,19 @@
 #include "saca/reach/solve.h"
 
+#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <variant>
 
 #include "saca/core/contract.h"
+#include "saca/core/parallel.h"
 #include "saca/reach/own_systems.h"
 #include "saca/reach/value_table.h"
 
@@ -36,14 +43,72 @@ std::optional<Grid> coarser(const Grid& grid) {
   return broken_rule(coarse) ? std::nullopt : std::optional(coarse);
 }
 
-/// Whether `begun` can be gone on with.
+Error another(const std::string& what, const std::string& begun, const std::string& wanted) {
+  return {Error::Code::malformed,
+          fmt::format("it was begun {} {}, wanted {}", what, begun, wanted)};
+}
+
+std::string described(const Axis& axis) {
+  constexpr std::array<std::string_view, 3> edges{"open", "periodic", "mirrored"};
+  return fmt::format("{} in [{}, {}], {} points, {}, stretch {}{}", axis.name, axis.first,
+                     axis.last, axis.points, edges.at(static_cast<std::size_t>(axis.edge)),
+                     axis.stretch,
+                     axis.turned ? fmt::format(", turning axis {}", *axis.turned + 1) : "");
+}
+
+/// nullopt: none.
+std::optional<Error> another_grid(const Grid& begun, const Grid& wanted) {
+  if (begun.axes.size() != wanted.axes.size()) {
+    return another("on a grid of", fmt::format("{} axes", begun.axes.size()),
+                   fmt::format("{}", wanted.axes.size()));
+  }
+  for (std::size_t d = 0; d < wanted.axes.size(); ++d) {
+    if (begun.axes[d] != wanted.axes[d]) {
+      return another("on another grid: with", described(begun.axes[d]), described(wanted.axes[d]));
+    }
+  }
+  return std::nullopt;
+}
+
+/// Whether snapshots at `begun` are the first of those at `wanted`, but for where it was stopped.
+bool are_first_of(const std::vector<double>& begun, const std::vector<double>& wanted) {
+  const auto [left, right] =
+      std::mismatch(begun.begin(), begun.end(), wanted.begin(), wanted.end());
+  return left == begun.end() ||
+         (left + 1 == begun.end() && right != wanted.end() && *left < *right);
+}
+
+bool fits_itself(const Solved& begun) {
+  return !begun.times.empty() &&
+         std::visit(
+             [&](const auto& snapshots) {
+               return snapshots.size() == begun.times.size() &&
+                      std::all_of(snapshots.begin(), snapshots.end(), [&](const auto& values) {
+                        return values.size() == num_cells(begun.grid);
+                      });
+             },
+             begun.values);
+}
+
+/// Why `begun` cannot be gone on with.
 std::optional<Error> other_problem(const Problem& problem, const Scheme& scheme,
                                    const Solved& begun) {
   if (begun.problem != problem.text) {
     return Error{Error::Code::malformed, "it was begun for another problem"};
   }
-  if (begun.doubles() != scheme.doubles) {
-    return Error{Error::Code::malformed, "it was begun in the other precision"};
+  if (auto other = another_grid(begun.grid, problem.grid)) {
+    return other;
+  }
+  const std::string wanted = described(scheme);
+  if (begun.scheme != wanted || begun.doubles() != scheme.doubles) {
+    return another("by", begun.scheme.empty() ? "a scheme that is not told" : begun.scheme, wanted);
+  }
+  if (!fits_itself(begun)) {
+    return Error{Error::Code::malformed, "what was begun has not one value per time and cell"};
+  }
+  if (!are_first_of(begun.times, problem.times)) {
+    return another("for snapshots at", fmt::format("{} s", fmt::join(begun.times, ", ")),
+                   fmt::format("{} s", fmt::join(problem.times, ", ")));
   }
   return std::nullopt;
 }
@@ -54,14 +119,18 @@ class March {
  public:
   March(const Problem& problem, const Scheme& scheme, std::optional<Solved> begun)
       : problem_(problem),
-        solver_(problem.grid, flow_for<Real>(problem, problem.grid, scheme.differences),
-                sampled<Real>(problem.grid, problem.unsafe, scheme.threads),
-                settings_of(problem, scheme)) {
+        solver_(
+            problem.grid, flow_for<Real>(problem, problem.grid, scheme.differences),
+            sampled<Real>(problem.grid, problem.unsafe, scheme.threads, problem.unsafe_alike_last),
+            settings_of(problem, scheme)) {
     solved_.grid = problem.grid;
     solved_.problem = problem.text;
+    solved_.scheme = described(scheme);
     solved_.values = Snapshots<Real>{};
     if (begun) {
       solved_ = std::move(*begun);
+      solved_.complete = false;
+      solved_.error.clear();
       solver_.resume(solved_.times.back(), kept().back());
       if (!std::binary_search(problem.times.begin(), problem.times.end(), solved_.times.back())) {
         solved_.times.pop_back();  // where it was stopped is no time that is wanted
@@ -107,6 +176,48 @@ class March {
   Solved solved_;
 };
 
+/// Solves it on another grid, to the last time only.
+/// @return  nullopt: stopped
+template <class Real>
+Result<std::optional<Solved>> solved_on(const Grid& grid, Problem problem, const Scheme& scheme,
+                                        const Onlooker& onlooker) {
+  problem.grid = grid;
+  problem.times = {problem.times.back()};
+  March<Real> march(problem, scheme, std::nullopt);
+  const auto done = march.to_the_end({.step = onlooker.step});
+  if (!done.has_value()) {
+    return done.error();
+  }
+  return done.value() ? std::optional(std::move(march.solved())) : std::nullopt;
+}
+
+/// Distance of each value to what a table has there.
+template <class Real>
+std::vector<float> distances(const Grid& grid, const std::vector<Real>& values,
+                             const ValueTable& table, int threads) {
+  std::array<std::vector<double>, max_dimensions> coordinates;
+  for (std::size_t d = 0; d < grid.axes.size(); ++d) {
+    for (int i = 0; i < grid.axes[d].points; ++i) {
+      coordinates[d].push_back(coordinate(grid.axes[d], i));
+    }
+  }
+  std::vector<float> found(values.size());
+  const std::size_t row = coordinates[0].size();
+  in_parallel(values.size() / row, threads, [&](std::size_t r) {
+    const Cell cell = cell_at(grid, r * row);
+    State state{};
+    for (std::size_t d = 1; d < grid.axes.size(); ++d) {
+      state[d] = coordinates[d][static_cast<std::size_t>(cell[d])];
+    }
+    for (std::size_t i = 0; i < row; ++i) {
+      state[0] = coordinates[0][i];
+      const auto value = static_cast<double>(static_cast<float>(values[r * row + i]));
+      found[r * row + i] = static_cast<float>(std::abs(table.at(state).value - value));
+    }
+  });
+  return found;
+}
+
 /// The difference to the solution on half as many points; empty where there are too few.
 /// @return  nullopt: stopped
 template <class Real>
@@ -116,46 +227,48 @@ Result<std::optional<std::vector<float>>> error_of(const Problem& problem, const
   if (!grid) {
     return std::optional<std::vector<float>>(std::in_place);
   }
-  Problem coarse = problem;
-  coarse.grid = *grid;
-  coarse.times = {problem.times.back()};
-  March<Real> march(coarse, scheme, std::nullopt);
-  const auto done = march.to_the_end({.step = onlooker.step});
-  if (!done.has_value()) {
-    return done.error();
+  const auto coarse = solved_on<Real>(*grid, problem, scheme, onlooker);
+  if (!coarse.has_value()) {
+    return coarse.error();
   }
-  if (!done.value()) {
+  if (!coarse.value()) {
     return std::optional<std::vector<float>>();
   }
-  const ValueTable table(*grid, snapshot(march.solved(), 0));
-  const std::vector<float> values = snapshot(fine, fine.times.size() - 1);
-  std::vector<float> error(values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double other = table.at(state_at(problem.grid, i)).value;
-    error[i] = static_cast<float>(std::abs(other - static_cast<double>(values[i])));
-  }
-  return std::optional(std::move(error));
+  const ValueTable table(*grid, snapshot(*coarse.value(), 0));
+  const auto& values = std::get<Snapshots<Real>>(fine.values).back();
+  return std::optional(distances(problem.grid, values, table, scheme.threads));
 }
 
+/// @return  as far as it came, and whether that is the end
 template <class Real>
-Result<Solved> solve_in(const Problem& problem, const Scheme& scheme, std::optional<Solved> begun,
-                        const Onlooker& onlooker) {
+Result<std::pair<Solved, bool>> marched(const Problem& problem, const Scheme& scheme,
+                                        std::optional<Solved> begun, const Onlooker& onlooker) {
   March<Real> march(problem, scheme, std::move(begun));
   const auto done = march.to_the_end(onlooker);
   if (!done.has_value()) {
     return done.error();
   }
-  Solved solved = std::move(march.solved());
-  if (!done.value()) {
-    return solved;
+  return std::pair(std::move(march.solved()), done.value());
+}
+
+template <class Real>
+Result<Solved> solve_in(const Problem& problem, const Scheme& scheme, std::optional<Solved> begun,
+                        const Onlooker& onlooker) {
+  auto there = marched<Real>(problem, scheme, std::move(begun), onlooker);  // its solver has gone
+  if (!there.has_value()) {
+    return there.error();
   }
-  if (scheme.with_error && solved.error.empty()) {
+  auto [solved, is_the_end] = std::move(there).value();
+  if (!is_the_end) {
+    return std::move(solved);
+  }
+  if (scheme.with_error) {
     auto error = error_of<Real>(problem, scheme, solved, onlooker);
     if (!error.has_value()) {
       return error.error();
     }
     if (!error.value()) {
-      return solved;
+      return std::move(solved);
     }
     solved.error = *std::move(error).value();
   }
@@ -163,13 +276,23 @@ Result<Solved> solve_in(const Problem& problem, const Scheme& scheme, std::optio
   if (const auto wrong = onlooker.keep(solved)) {
     return *wrong;
   }
-  return solved;
+  return std::move(solved);
+}
+
+/// Whether nothing is left to be done.
+bool is_all(const Problem& problem, const Scheme& scheme, const Solved& begun) {
+  return begun.complete && begun.times == problem.times &&
+         (!scheme.with_error || !begun.error.empty() || !coarser(problem.grid));
 }
 
 }  // namespace
 
 Problem air3d_problem(const Grid& grid, const Air3d& game) {
-  return {.text = "system = \"air3d\"\n",
+  return {.text = fmt::format("system = \"air3d\"\nevader_speed_mps = {}\npursuer_speed_mps = {}\n"
+                              "evader_turn_rate_radps = {}\npursuer_turn_rate_radps = {}\n"
+                              "capture_radius_m = {}\n",
+                              game.evader_speed, game.pursuer_speed, game.evader_turn_rate,
+                              game.pursuer_turn_rate, game.capture_radius),
           .grid = grid,
           .times = {2.8},
           .tube = Tube::tube,
@@ -195,6 +318,7 @@ Problem avoidance_problem(const AvoidanceCase& asked) {
                         std::copy(x.begin(), x.end(), state.begin());
                         return intrusion_at(asked, state);
                       },
+                  .unsafe_alike_last = true,  // it is the speed
                   .in_floats = {},
                   .in_doubles = {}};
   const auto set_flows = [&](const auto& system) {
@@ -219,11 +343,35 @@ Problem avoidance_problem(const AvoidanceCase& asked) {
   return problem;
 }
 
+std::string described(const Scheme& scheme) {
+  constexpr std::array<std::string_view, 4> differences{"upwind1", "eno2", "eno3", "weno5"};
+  constexpr std::array<std::string_view, 3> steps{"euler", "rk2", "rk3"};
+  constexpr int solver = 1;
+  return fmt::format("{}, {}, cfl {}, {}, solver {}",
+                     differences.at(static_cast<std::size_t>(scheme.differences)),
+                     steps.at(static_cast<std::size_t>(scheme.steps)), scheme.cfl,
+                     scheme.doubles ? "doubles" : "floats", solver);
+}
+
 std::size_t memory_needed(const Problem& problem, const Scheme& scheme) {
+  constexpr std::size_t around = std::size_t{12} << 20;  // threads, and how a file in memory grows
   const std::size_t bytes = scheme.doubles ? sizeof(double) : sizeof(float);
-  // Beside the solver: h while it is handed over, the snapshots, and writing one of them.
-  return memory_needed(problem.grid, bytes, settings_of(problem, scheme)) +
-         (problem.times.size() + 2) * num_cells(problem.grid) * bytes;
+  const Settings settings = settings_of(problem, scheme);
+  const std::size_t cells = num_cells(problem.grid);
+  const std::size_t snapshots = problem.times.size() * cells * bytes;
+  const std::size_t error = scheme.with_error ? cells * sizeof(float) : 0;
+  // While it marches: beside the solver h, before it is handed over, or the snapshots' file; where
+  // it was stopped is one of the snapshots.
+  const std::size_t marching = memory_needed(problem.grid, bytes, settings) + snapshots;
+  std::size_t comparing = 0;
+  if (const auto coarse = scheme.with_error ? coarser(problem.grid) : std::nullopt) {
+    const std::size_t values = num_cells(*coarse) * bytes;
+    const std::size_t table =
+        ValueTable::memory_needed(*coarse) + num_cells(*coarse) * sizeof(float);
+    comparing = std::max(memory_needed(*coarse, bytes, settings) + values, values + table + error);
+  }
+  const std::size_t keeping = 2 * error + snapshots;  // the error, and the file of all
+  return snapshots + std::max({marching, comparing, keeping}) + around;
 }
 
 Result<Solved> solve(const Problem& problem, const Scheme& scheme, std::optional<Solved> begun,
@@ -236,7 +384,7 @@ Result<Solved> solve(const Problem& problem, const Scheme& scheme, std::optional
     if (const auto problem_of_it = other_problem(problem, scheme, *begun)) {
       return *problem_of_it;
     }
-    if (begun->complete) {
+    if (is_all(problem, scheme, *begun)) {
       return *std::move(begun);
     }
   }

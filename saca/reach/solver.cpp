@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <utility>
 
@@ -102,6 +103,7 @@ Swept Solver<Real>::stage(const std::vector<Real>& values, std::vector<Real>& ou
   const auto threads = static_cast<std::size_t>(settings_.threads);
   const std::size_t parts = std::min(rows, threads == 1 ? 1 : threads * 16);
   std::vector<Swept> swept(parts);
+  std::exception_ptr thrown;  // by the system: it must not leave the parallel region
 #pragma omp parallel num_threads(settings_.threads)
   {
 #ifdef _OPENMP
@@ -111,18 +113,26 @@ Swept Solver<Real>::stage(const std::vector<Real>& values, std::vector<Real>& ou
 #endif
 #pragma omp for schedule(dynamic)
     for (std::size_t part = 0; part < parts; ++part) {
-      swept[part] = flow_.sweep({.values = values.data(),
-                                 .old = now_.data(),
-                                 .h = h_.data(),
-                                 .out = out.data(),
-                                 .keep = keep,
-                                 .dt = dt,
-                                 .tube = settings_.tube,
-                                 .first_row = rows * part / parts,
-                                 .end_row = rows * (part + 1) / parts,
-                                 .steepness = steepness_,
-                                 .scratch = scratch_.data() + thread * scratch_needed(grid_)});
+      try {
+        swept[part] = flow_.sweep({.values = values.data(),
+                                   .old = now_.data(),
+                                   .h = h_.data(),
+                                   .out = out.data(),
+                                   .keep = keep,
+                                   .dt = dt,
+                                   .tube = settings_.tube,
+                                   .first_row = rows * part / parts,
+                                   .end_row = rows * (part + 1) / parts,
+                                   .steepness = steepness_,
+                                   .scratch = scratch_.data() + thread * scratch_needed(grid_)});
+      } catch (...) {
+#pragma omp critical(saca_reach_thrown)
+        thrown = std::current_exception();
+      }
     }
+  }
+  if (thrown) {
+    std::rethrow_exception(thrown);
   }
   Swept all;
   for (const Swept& part : swept) {

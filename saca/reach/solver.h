@@ -42,13 +42,14 @@ class Solver {
   /// @param until  [s], > time()
   /// @return       an error that names the cell when a value is no number; values are then those
   ///               before the step
+  /// @throws       what the system threw (the last of several threads'); the values are likewise
+  ///               those before the step
   [[nodiscard]] Result<double> step(double until);
 
   [[nodiscard]] double time() const { return time_; }  ///< tau [s]
   [[nodiscard]] std::span<const Real> values() const { return {now_.data(), cells_}; }
   /// Greatest change of a value in the last step, per second.
   [[nodiscard]] double greatest_rate() const { return greatest_rate_; }
-  [[nodiscard]] double longest_step() const { return longest_step_; }  ///< by the CFL rule [s]
   [[nodiscard]] const Grid& grid() const { return grid_; }
 
  private:
@@ -62,7 +63,7 @@ class Solver {
   std::vector<Real> h_, now_, first_, second_, scratch_;
   std::array<double, max_dimensions> steepness_{};
   double time_ = 0.0;
-  double longest_step_ = 0.0;
+  double longest_step_ = 0.0;  // by the CFL rule [s]
   double greatest_rate_ = 0.0;
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 
 #include "saca/reach/flow_of.h"
 #include "saca/reach/known_systems.h"
@@ -193,43 +194,95 @@ TEST(Solver, ThreadsChangeNoBit) {
             marched<float>(grid, flow, h, 0.4, {.threads = 3}));
 }
 
-// Half of a mirrored world is the whole: a disc ahead, motion that turns with the heading.
-struct Unicycle {  // x' = cos, y' = sin of the heading; heading' within 1, avoiding
+/// x' even and y' odd in the heading, of which each is periodic; heading' within 1, avoiding. Axes:
+/// heading first or last, and then `mirrored` tells which of the others is y.
+template <bool heading_first>
+struct Turning {
   static constexpr std::size_t dimensions = 3;
+  static constexpr std::size_t h = heading_first ? 0 : 2;
+  static constexpr std::size_t x = heading_first ? 1 : 0;
+  std::size_t mirrored = x + 1;
   struct Row {
-    double vx, vy;
+    double heading;
+    std::size_t mirrored;
     template <class N>
-    N hamiltonian(const N& /*x*/, const std::array<N, 3>& p) const {
-      return vx * p[0] + vy * p[1] - abs(p[2]);
+    N hamiltonian(const N& first, const std::array<N, 3>& p) const {
+      const auto [even, odd] = rates(heading_first ? first : N(heading));
+      const std::size_t other = 2 * x + 1 - mirrored;
+      return even * p[other] + odd * p[mirrored] - abs(p[h]);
     }
     template <class N>
-    std::array<N, 3> speeds(const N& /*x*/) const {
-      return {N(std::abs(vx)), N(std::abs(vy)), N(1.0)};
+    std::array<N, 3> speeds(const N& /*first*/) const {
+      std::array<N, 3> all;
+      all.fill(N(1.0));
+      return all;
+    }
+    /// Of a heading in [-pi, 2 pi): parabolas in place of cosine and sine.
+    template <class N>
+    static std::array<N, 2> rates(const N& any) {
+      const N heading = where_less(N(pi), any, any - N(2.0 * pi), any);
+      const N size = abs(heading);
+      return {N(1.0) - N(2.0 / pi) * size, heading * (N(pi) - size) * N(4.0 / (pi * pi))};
     }
   };
-  [[nodiscard]] Row row(const std::array<double, 3>& x) const {
-    return {std::cos(x[2]), std::sin(x[2])};
-  }
+  [[nodiscard]] Row row(const std::array<double, 3>& at) const { return {at[2], mirrored}; }
 };
 
-TEST(Solver, AMirroredHalfIsTheWhole) {
+/// Half a world, mirrored along one axis with the heading turned, beside the whole.
+template <bool heading_first>
+void expect_half_is_whole(std::size_t mirrored, double first_heading) {
+  using System = Turning<heading_first>;
   Grid whole = square(3, 2.0, 17);
-  whole.axes[2] = {
-      .name = "heading", .first = -pi, .last = pi, .points = 12, .edge = Edge::periodic};
+  whole.axes[System::h] = {.name = "heading",
+                           .first = first_heading,
+                           .last = first_heading + 2.0 * pi,
+                           .points = 12,
+                           .edge = Edge::periodic};
   Grid half = whole;
-  half.axes[1] = {
-      .name = "y", .first = 0.0, .last = 2.0, .points = 9, .edge = Edge::mirrored, .turned = 2};
-  const auto of = [](std::span<const double> x) { return 1.0 - std::hypot(x[0], x[1]); };
-  const auto of_whole = marched<double>(whole, flow_of<double>(whole, Unicycle{}),
-                                        sampled<double>(whole, of, 1), 0.6, {});
-  const auto of_half = marched<double>(half, flow_of<double>(half, Unicycle{}),
-                                       sampled<double>(half, of, 1), 0.6, {});
+  half.axes[mirrored] = {.name = "y",
+                         .first = 0.0,
+                         .last = 2.0,
+                         .points = 9,
+                         .edge = Edge::mirrored,
+                         .turned = System::h};
+  ASSERT_EQ(broken_rule(half), std::nullopt);
+  const auto of = [](std::span<const double> at) {  // off the middle of x, alike in y
+    return 1.0 - std::hypot(at[System::x] - 0.3, at[System::x + 1]);
+  };
+  const auto of_mirrored_x = [](std::span<const double> at) {
+    return 1.0 - std::hypot(at[System::x], at[System::x + 1] - 0.3);
+  };
+  const auto solved_on = [&](const Grid& grid) {
+    const auto h = mirrored == System::x ? sampled<double>(grid, of_mirrored_x, 1)
+                                         : sampled<double>(grid, of, 1);
+    return marched<double>(grid, flow_of<double>(grid, System{mirrored}), h, 0.6, {});
+  };
+  const auto of_whole = solved_on(whole);
+  const auto of_half = solved_on(half);
+  const auto stride = strides(whole);
+  double moved = 0.0;
   for (std::size_t i = 0; i < of_half.size(); ++i) {
-    const Cell c = cell_at(half, i);
-    const auto j = static_cast<std::size_t>(c[0] + 17 * (c[1] + 8 + 17 * c[2]));
-    const auto image = static_cast<std::size_t>(c[0] + 17 * (8 - c[1] + 17 * ((12 - c[2]) % 12)));
-    EXPECT_NEAR(of_half[i], of_whole[j], 1e-9);
-    EXPECT_NEAR(of_whole[image], of_whole[j], 1e-9);  // the whole is its own mirror image
+    Cell c = cell_at(half, i);
+    c[mirrored] += 8;
+    std::size_t j = 0;
+    for (std::size_t d = 0; d < 3; ++d) {
+      j += static_cast<std::size_t>(c[d]) * stride[d];
+    }
+    ASSERT_NEAR(of_half[i], of_whole[j], 1e-9) << described(half, state_at(half, i));
+    const State at = state_at(half, i);
+    moved = std::max(moved, of_half[i] - (mirrored == System::x ? of_mirrored_x(at) : of(at)));
+  }
+  EXPECT_GT(moved, 0.1);  // there was something to get wrong
+}
+
+TEST(Solver, AMirroredHalfIsTheWhole) {
+  const double spacing = pi / 6.0;
+  for (const double first : {-pi, -0.5 * pi, -pi + 0.5 * spacing, 0.0, -0.5 * spacing, spacing}) {
+    SCOPED_TRACE(first);
+    expect_half_is_whole<false>(0, first);
+    expect_half_is_whole<false>(1, first);
+    expect_half_is_whole<true>(1, first);
+    expect_half_is_whole<true>(2, first);
   }
 }
 
@@ -277,34 +330,88 @@ TEST(Solver, AnOpenEdgeKeepsTheSign) {
   }
 }
 
-/// Its Hamiltonian is no number at one place.
+/// Its Hamiltonian is no finite number where x + y = 0: numerator / 0.
 struct Broken {
   static constexpr std::size_t dimensions = 2;
+  double numerator = 0.0;
   struct Row {
-    double y;
+    double y, numerator;
     template <class N>
     N hamiltonian(const N& x, const std::array<N, 2>& p) const {
-      return p[0] + sqrt(abs(x + y) - 0.01) * 0.0;
+      return p[0] + N(numerator) / abs(x + y);
     }
     template <class N>
     std::array<N, 2> speeds(const N& /*x*/) const {
       return {N(1.0), N(0.0)};
     }
   };
-  [[nodiscard]] Row row(const std::array<double, 2>& x) const { return {x[1]}; }
+  [[nodiscard]] Row row(const std::array<double, 2>& x) const { return {x[1], numerator}; }
 };
 
-TEST(Solver, NamesTheCellWhoseHamiltonianIsNoNumber) {
-  Grid grid = square(2, 1.0, 5);
-  grid.axes[1].first = -1.0;
-  const auto h = sampled<float>(
+template <class Real>
+void expect_cell_named(Tube tube, double numerator) {
+  const Grid grid = square(2, 1.0, 5);
+  const auto h = sampled<Real>(
       grid, [](auto x) { return radius(x); }, 1);
-  Solver<float> solver(grid, flow_of<float>(grid, Broken{}), h, {.threads = 2});
+  const auto flow = flow_of<Real>(grid, Broken{numerator}, Differences::upwind1);
+  Solver<Real> solver(grid, flow, h, {.tube = tube, .threads = 2});
   const auto step = solver.step(1.0);
   ASSERT_FALSE(step.has_value());
-  EXPECT_THAT(step.error().message, testing::HasSubstr("cell 4 (x = 1, y = -1)"));  // x + y = 0
+  EXPECT_THAT(step.error().message, testing::HasSubstr("cell 4 (x = 1, y = -1)"));
   EXPECT_EQ(solver.time(), 0.0);
   EXPECT_TRUE(std::equal(h.begin(), h.end(), solver.values().begin()));
+}
+
+TEST(Solver, NamesTheCellWhoseHamiltonianIsNoNumber) {
+  for (const Tube tube : {Tube::set, Tube::tube, Tube::highest}) {
+    for (const double numerator : {0.0, -1.0, 1.0}) {  // no number, -infinity, infinity
+      SCOPED_TRACE(testing::Message() << "tube " << static_cast<int>(tube) << ", " << numerator);
+      expect_cell_named<float>(tube, numerator);
+      expect_cell_named<double>(tube, numerator);
+    }
+  }
+}
+
+/// Its speed is no number where x = -1.
+struct SpeedLost {
+  static constexpr std::size_t dimensions = 2;
+  struct Row {
+    template <class N>
+    N hamiltonian(const N& /*x*/, const std::array<N, 2>& p) const {
+      return p[0];
+    }
+    template <class N>
+    std::array<N, 2> speeds(const N& x) const {
+      return {N(2.0) + N(0.0) / abs(x + N(1.0)), N(0.0)};
+    }
+  };
+  [[nodiscard]] Row row(const std::array<double, 2>& /*x*/) const { return {}; }
+};
+
+TEST(Solver, RefusesSpeedsThatAreNoNumber) {
+  const Grid grid = square(2, 1.0, 9);  // cells of speed 2 follow the one that has none
+  const Flow<double> flow = flow_of<double>(grid, SpeedLost{}, Differences::upwind1);
+  EXPECT_TRUE(std::isnan(flow.crossings_per_second));
+  EXPECT_THROW(Solver<double>(grid, flow, std::vector<double>(81), {}), ContractViolation);
+}
+
+TEST(Solver, HandsOnWhatASystemThrows) {
+  const Grid grid = square(2, 1.0, 11);
+  const auto h = sampled<double>(
+      grid, [](auto x) { return radius(x); }, 1);
+  Flow<double> flow = known_flow<double>(grid, DoubleIntegrator{1.0});
+  flow.sweep = [sound = flow.sweep](const Stage<double>& stage) {
+    if (stage.end_row == 11) {
+      throw std::domain_error("no such speed");
+    }
+    return sound(stage);
+  };
+  for (const int threads : {1, 3}) {
+    Solver<double> solver(grid, flow, h, {.threads = threads});
+    EXPECT_THROW((void)solver.step(1.0), std::domain_error);
+    EXPECT_EQ(solver.time(), 0.0);
+    EXPECT_TRUE(std::equal(h.begin(), h.end(), solver.values().begin()));
+  }
 }
 
 TEST(Solver, GoesOnFromWhereAnotherStopped) {

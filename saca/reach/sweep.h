@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include "saca/reach/differences.h"
 #include "saca/reach/flow.h"
@@ -20,6 +21,8 @@ struct GridView {
   std::array<std::ptrdiff_t, max_dimensions> points{}, stride{};
   std::array<Edge, max_dimensions> edge{};
   std::array<std::ptrdiff_t, max_dimensions> turned{};  ///< -1: none
+  /// Of a mirrored axis: point i of the turned one has its image at this - i, around the circle.
+  std::array<std::ptrdiff_t, max_dimensions> image_sum{};
   std::array<const double*, max_dimensions> coordinates{};
   const Real* first_coordinates = nullptr;  ///< of the first axis, readable beyond
   std::array<const Real*, max_dimensions>
@@ -68,7 +71,14 @@ inline Real going_on(Real edge, Real inner_neighbour, std::ptrdiff_t steps) {
   return edge + static_cast<Real>(steps) * (edge < Real(0) ? -slope : slope);
 }
 
-/// The row on the other side of a mirrored axis.
+/// The number of a turned axis' point that is the image of point i, behind a mirrored axis.
+template <class Real>
+inline std::ptrdiff_t image_of(const GridView<Real>& grid, std::size_t mirrored, std::ptrdiff_t i) {
+  const std::ptrdiff_t points = grid.points[static_cast<std::size_t>(grid.turned[mirrored])];
+  return (grid.image_sum[mirrored] - i + points) % points;
+}
+
+/// The row on the other side of a mirrored axis; a turned first axis is not yet turned in it.
 template <std::size_t D, class Real>
 inline const Real* mirror_image(const GridView<Real>& grid, const Real* values, Place<D> place,
                                 std::size_t axis, std::ptrdiff_t index) {
@@ -78,7 +88,7 @@ inline const Real* mirror_image(const GridView<Real>& grid, const Real* values, 
   const std::ptrdiff_t turned = grid.turned[axis];
   if (turned > 0) {
     const auto t = static_cast<std::size_t>(turned);
-    place.index[t] = (grid.points[t] - place.index[t]) % grid.points[t];
+    place.index[t] = image_of(grid, axis, place.index[t]);
   }
   return values + place.first_cell(grid);
 }
@@ -102,6 +112,13 @@ inline std::array<const Real*, 7> neighbours(const GridView<Real>& grid, const R
       to = row + ((index % points + points) % points - here) * stride;
     } else if (index < 0 && grid.edge[axis] == Edge::mirrored) {
       to = mirror_image<D>(grid, values, place, axis, -index);
+      if (grid.turned[axis] == 0) {
+        for (std::ptrdiff_t i = 0; i < grid.points[0]; ++i) {
+          scratch[i] = to[image_of(grid, axis, i)];
+        }
+        to = scratch;
+        scratch += scratch_row;
+      }
     } else {
       const std::ptrdiff_t end = index < 0 ? 0 : points - 1;
       const std::ptrdiff_t beyond = std::abs(index - end);
@@ -239,8 +256,10 @@ struct Sweep {
   void pack(const Job& job, std::ptrdiff_t i) {
     const std::ptrdiff_t cell = job.cell + i;
     N change = rate(job, i);
+    // The maximum of some sets passes over what is no number, and -infinity is below any: taking
+    // x - x away, which is 0 of every other x, keeps both.
     if (stage.tube == Tube::tube) {
-      change = max(change, N(0.0));
+      change = max(N(0.0), change) - (change - change);
     }
     const N old = N::load(stage.old + cell);
     const N values = N::load(stage.values + cell);
@@ -249,8 +268,7 @@ struct Sweep {
       next = fma(old, keep, next * take);
     }
     if (stage.tube == Tube::highest) {
-      // `max` of some sets passes over what is no number if it stands first
-      next = max(N::load(stage.h + cell), next);
+      next = max(N::load(stage.h + cell), next) - (next - next);
     }
     const std::ptrdiff_t left = grid.points[0] - i;
     if (left < static_cast<std::ptrdiff_t>(N::size)) {
@@ -330,7 +348,9 @@ inline double crossings(const System& system, const GridView<Real>& grid, std::s
           std::min<std::ptrdiff_t>(grid.points[0] - i, static_cast<std::ptrdiff_t>(N::size));
       for (std::ptrdiff_t k = 0; k < used; ++k) {
         const auto value = static_cast<double>(lanes[static_cast<std::size_t>(k)]);
-        greatest = value <= greatest ? greatest : value;  // what is no number stays and is found
+        if (!std::isnan(greatest) && !(value <= greatest)) {
+          greatest = value;  // what is no number stays and is found
+        }
       }
     }
   }

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view file_format = "saca.value/1";
+constexpr std::string_view file_format = "saca.value/2";
 constexpr std::string_view any_format = "saca.value/";
 constexpr std::string_view hdf5_signature = "\x89HDF\r\n\x1a\n";
 constexpr std::size_t head_size = 512;  // a user block, which HDF5 wants to be of such a size
@@ -78,10 +78,10 @@ void write_axis(config::Hdf5Writer& writer, const std::string& where, const Axis
   writer.attribute(where, "turned", axis.turned ? static_cast<std::int32_t>(*axis.turned) : -1);
 }
 
-std::optional<std::string> hdf5_part(const Solved& solved) {
-  config::Hdf5Writer writer;
+void write_parts(config::Hdf5Writer& writer, const Solved& solved) {
   writer.attribute(".", "format", std::string(file_format));
   writer.attribute(".", "complete", std::int32_t{solved.complete});
+  writer.attribute(".", "scheme", solved.scheme);
   writer.attribute(".", "dimensions", static_cast<std::int32_t>(solved.grid.axes.size()));
   for (std::size_t d = 0; d < solved.grid.axes.size(); ++d) {
     write_axis(writer, fmt::format("axis_{}", d), solved.grid.axes[d]);
@@ -100,15 +100,33 @@ std::optional<std::string> hdf5_part(const Solved& solved) {
   if (!solved.error.empty()) {
     writer.numbers<float>("error", extents_of(solved.grid, std::nullopt), {solved.error.data()});
   }
-  return writer.bytes();
+}
+
+/// What a file begins with, and what that is to say of the rest.
+struct Outline {
+  std::string head;      // 512 bytes, or as many as there are
+  std::size_t size = 0;  // of the rest
+  Fnv sum;               // likewise
+};
+
+Result<Outline> outline_of(const fs::path& path) {
+  Outline outline;
+  const auto problem = read_file(path, [&](std::string_view bytes) {
+    const std::size_t of_head = std::min(bytes.size(), head_size - outline.head.size());
+    outline.head += bytes.substr(0, of_head);
+    outline.sum.add(bytes.substr(of_head));
+    outline.size += bytes.size() - of_head;
+  });
+  if (problem) {
+    return *problem;
+  }
+  return outline;
 }
 
 /// The first 512 bytes: format, size and check sum of what follows.
-std::string head_of(std::string_view body) {
-  Fnv sum;
-  sum.add(body);
+std::string head_for(const Outline& rest) {
   std::string head =
-      fmt::format("{}\nbytes {}\nfnv1a {:016x}\n", file_format, body.size(), sum.value());
+      fmt::format("{}\nbytes {}\nfnv1a {:016x}\n", file_format, rest.size, rest.sum.value());
   head.resize(head_size, '\0');
   return head;
 }
@@ -215,6 +233,7 @@ Solved read_parts(config::Hdf5Reader& reader) {
     reader.reject("attribute format", std::string(file_format), format);
   }
   solved.complete = reader.whole(".", "complete", 0, 1) == 1;
+  solved.scheme = reader.text_attribute(".", "scheme");
   solved.grid = read_grid(reader);
   solved.problem = reader.text("problem");
   solved.times = read_times(reader);
@@ -231,22 +250,23 @@ Solved read_parts(config::Hdf5Reader& reader) {
 }
 
 /// Why the first 512 bytes are not what the rest calls for.
-Error wrong_head(const std::string& source, std::string_view bytes) {
+Error wrong_head(const std::string& source, const Outline& outline) {
   const std::string wanted = fmt::format("{}: want a file of {}, got ", source, file_format);
   const auto told = [](const std::string& text) { return Error{Error::Code::malformed, text}; };
-  const std::string_view line = bytes.substr(0, bytes.find('\n'));
-  if (bytes.substr(0, hdf5_signature.size()) == hdf5_signature) {
+  const std::string_view head = outline.head;
+  const std::string_view line = head.substr(0, head.find('\n'));
+  if (head.substr(0, hdf5_signature.size()) == hdf5_signature) {
     return told(wanted + "HDF5 of another kind");
   }
   if (line.substr(0, any_format.size()) != any_format || line.size() > 2 * file_format.size()) {
-    return told(wanted + (bytes.empty() ? "an empty file" : "something else"));
+    return told(wanted + (head.empty() ? "an empty file" : "something else"));
   }
-  if (line != file_format && bytes.size() > line.size()) {
+  if (line != file_format && head.size() > line.size()) {
     return told(wanted + std::string(line));
   }
   return told(wanted + fmt::format("one of {} bytes whose size or check sum is not what its first "
                                    "lines say: it is cut off or damaged",
-                                   bytes.size()));
+                                   head.size() + outline.size));
 }
 
 }  // namespace
@@ -286,25 +306,27 @@ std::optional<Error> write_solved(const fs::path& path, const Solved& solved) {
         }
       },
       solved.values);
-  const std::optional<std::string> body = hdf5_part(solved);
+  config::Hdf5Writer writer;
+  write_parts(writer, solved);
+  const std::optional<std::string_view> body = writer.bytes();
   if (!body) {
     return Error{Error::Code::unwritable, path.string() + ": HDF5 cannot make the file in memory"};
   }
-  return write_file(path, head_of(*body) + *body);
+  Outline outline{.head = {}, .size = body->size(), .sum = {}};
+  outline.sum.add(*body);
+  return write_file(path, {head_for(outline), *body});
 }
 
 Result<Solved> read_solved(const fs::path& path) {
-  const auto bytes = read_file(path);
-  if (!bytes.has_value()) {
-    return bytes.error();
+  const auto outline = outline_of(path);
+  if (!outline.has_value()) {
+    return outline.error();
   }
-  const std::string_view all = bytes.value();
-  const std::string_view body = all.substr(std::min(head_size, all.size()));
-  if (all.substr(0, head_size) != head_of(body)) {
-    return wrong_head(path.string(), all);
+  if (outline.value().head != head_for(outline.value())) {
+    return wrong_head(path.string(), outline.value());
   }
   try {
-    config::Hdf5Reader reader(path.string(), body);
+    config::Hdf5Reader reader(path.string(), path);
     Solved solved = read_parts(reader);
     if (reader.problem()) {
       return *reader.problem();

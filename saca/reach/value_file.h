@@ -16,11 +16,13 @@ namespace saca::reach {
 template <class Real>
 using Snapshots = std::vector<std::vector<Real>>;
 
-/// What a solver has found, and for what; its last snapshot is enough to go on from.
+/// What a solver has found, and for what; its last snapshot is enough to go on from, by the same
+/// scheme.
 struct Solved {
   Grid grid;
-  std::string problem;        ///< TOML text of the case that it answers
-  bool complete = false;      ///< false: stopped before its horizon
+  std::string problem;    ///< TOML text of the case that it answers
+  std::string scheme;     ///< by which it was solved (`described` in `solve.h`); empty: not told
+  bool complete = false;  ///< false: stopped before its horizon
   std::vector<double> times;  ///< tau of each snapshot [s], >= 0, increasing; at least one
   std::variant<Snapshots<float>, Snapshots<double>> values;
   std::vector<float> error;  ///< of the last snapshot, per cell, >= 0; empty: not known
@@ -39,6 +41,7 @@ struct Solved {
 /// Puts it into an HDF5 file (docs/formats.md), in one step: readers see the old file or the whole
 /// new one, also after a kill. The file's first 512 bytes hold a check sum of the rest.
 ///
+/// Takes as many bytes as the file has, at most those of the values and errors and 4 MiB.
 /// @return  nullopt when it is on the disk, else the reason
 /// @throws ContractViolation  if the grid breaks a rule, sizes do not fit, times do not increase or
 ///                            a number is not finite

@@ -49,6 +49,7 @@ template <class Real>
 Solved small_solved() {
   Solved solved{.grid = small_grid(),
                 .problem = "[obstacle]\nshape = \"ellipse\"  # \xc3\xa4\n",
+                .scheme = "weno5, in words",
                 .complete = true,
                 .times = {0.0, 0.5, 2.0}};
   Snapshots<Real> values;
@@ -91,7 +92,7 @@ class ValueFile : public ::testing::Test {
 
   /// As docs/formats.md tells it.
   [[nodiscard]] static std::string sealed(const std::string& body,
-                                          const std::string& format = "saca.value/1") {
+                                          const std::string& format = "saca.value/2") {
     Fnv sum;
     sum.add(body);
     std::array<char, 17> digits{};
@@ -139,6 +140,7 @@ void expect_same(const Solved& came, const Solved& wanted) {
               std::tie(b.name, b.first, b.last, b.points, b.edge, b.stretch, b.turned));
   }
   EXPECT_EQ(came.problem, wanted.problem);
+  EXPECT_EQ(came.scheme, wanted.scheme);
   EXPECT_EQ(came.complete, wanted.complete);
   EXPECT_EQ(came.times, wanted.times);
   EXPECT_EQ(came.error, wanted.error);
@@ -153,6 +155,7 @@ TEST_F(ValueFile, GivesBackEveryBitInBothPrecisions) {
   solved = small_solved<double>();
   solved.complete = false;
   solved.problem = "";
+  solved.scheme = "";
   ASSERT_FALSE(write_solved(path_, solved));
   expect_same<double>(read_solved(path_).value(), solved);
 }
@@ -199,15 +202,15 @@ TEST_F(ValueFile, ASnapshotIsFloatInBothPrecisions) {
 TEST_F(ValueFile, RefusesWhatIsNoSuchFile) {
   EXPECT_THAT(refusal(), HasSubstr("a.h5: cannot be opened"));
   put("");
-  EXPECT_THAT(refusal(), HasSubstr("a.h5: want a file of saca.value/1, got an empty file"));
+  EXPECT_THAT(refusal(), HasSubstr("a.h5: want a file of saca.value/2, got an empty file"));
   put("# TOML\nname = 1\n");
   EXPECT_THAT(refusal(), HasSubstr("got something else"));
   ASSERT_FALSE(write_solved(path_, small_solved<float>()));
   const std::string body = bytes().substr(512);
   put(body);
   EXPECT_THAT(refusal(), HasSubstr("got HDF5 of another kind"));
-  put(sealed(body, "saca.value/2"));
-  EXPECT_THAT(refusal(), HasSubstr("want a file of saca.value/1, got saca.value/2"));
+  put(sealed(body, "saca.value/3"));
+  EXPECT_THAT(refusal(), HasSubstr("want a file of saca.value/2, got saca.value/3"));
   put(sealed("no HDF5 at all, but well sealed"));
   EXPECT_THAT(refusal(), HasSubstr("file: want HDF5, got what HDF5 cannot open"));
 }
@@ -218,7 +221,7 @@ TEST_F(ValueFile, RefusesAFileThatIsCutOffAnywhere) {
   for (std::size_t length = 0; length < whole.size();
        length += length < 600 ? 13 : whole.size() / 97) {
     put(whole.substr(0, length));
-    EXPECT_THAT(refusal(), HasSubstr("a.h5: want a file of saca.value/1, got")) << length;
+    EXPECT_THAT(refusal(), HasSubstr("a.h5: want a file of saca.value/2, got")) << length;
   }
   put(whole + "x");
   EXPECT_THAT(refusal(), HasSubstr("cut off or damaged"));
@@ -234,7 +237,7 @@ TEST_F(ValueFile, RefusesAFileWithAnyBitTurned) {
     char& byte = changed[chance() % range];
     byte = static_cast<char>(byte ^ static_cast<char>(1U << chance() % 8U));
     put(changed);
-    EXPECT_THAT(refusal(), HasSubstr("a.h5: want a file of saca.value/1, got"));
+    EXPECT_THAT(refusal(), HasSubstr("a.h5: want a file of saca.value/2, got"));
   }
 }
 
@@ -248,7 +251,7 @@ TEST_F(ValueFile, RefusesAPartThatIsMissing) {
     edit([&](hid_t file) { H5Adelete_by_name(file, "axis_1", name, H5P_DEFAULT); });
     EXPECT_THAT(refusal(), HasSubstr("a.h5: attribute axis_1/" + std::string(name) + ": want "));
   }
-  for (const char* const name : {"format", "complete", "dimensions"}) {
+  for (const char* const name : {"format", "complete", "scheme", "dimensions"}) {
     edit([&](hid_t file) { H5Adelete_by_name(file, ".", name, H5P_DEFAULT); });
     EXPECT_THAT(refusal(), HasSubstr("a.h5: attribute " + std::string(name) + ": want "));
   }

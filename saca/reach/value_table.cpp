@@ -72,6 +72,15 @@ void ValueTable::lay_out() {
   entries_.resize(block);
 }
 
+std::size_t ValueTable::memory_needed(const Grid& grid) {
+  std::size_t entries = 1;
+  for (const Axis& axis : grid.axes) {
+    const auto points = static_cast<std::size_t>(axis.points);
+    entries *= (points + block_side - 1) / block_side * block_side;
+  }
+  return entries * sizeof(Entry);
+}
+
 ValueTable::ValueTable(const Grid& grid, std::span<const float> values,
                        std::span<const float> errors)
     : grid_(grid), dimensions_(grid.axes.size()) {

@@ -36,6 +36,9 @@ class ValueTable {
   ///                            number or an error is none or negative
   ValueTable(const Grid& grid, std::span<const float> values, std::span<const float> errors = {});
 
+  /// Bytes of the values and errors of one.
+  [[nodiscard]] static std::size_t memory_needed(const Grid& grid);
+
   [[nodiscard]] Looked at(const State& state) const noexcept;
 
   /// Change of the value per unit of each coordinate: the difference of the interpolated values

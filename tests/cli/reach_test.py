@@ -85,7 +85,7 @@ def tiny(tmp_path_factory):
 
 def test_a_solution_is_where_its_name_says(tiny):
     folder, told = tiny
-    assert told["file"] == "reach/tiny.h5" and (folder / told["file"]).read_bytes().startswith(b"saca.value/1\n")
+    assert told["file"] == "reach/tiny.h5" and (folder / told["file"]).read_bytes().startswith(b"saca.value/2\n")
     assert (told["cells"], told["times_s"]) == (NUM_CELLS, [0.5, 1.0])
     run = saca("reach", "solve", "tiny.toml", "--output", "elsewhere/own.h5", cwd=folder)
     assert run.returncode == SUCCESS and (folder / "elsewhere" / "own.h5").exists()
@@ -185,7 +185,10 @@ def test_only_its_own_part_is_gone_on_with(tiny, tmp_path):
 
     part.write_bytes(whole)
     assert "another problem" in refused(other)
-    assert "other precision" in refused(name, "--double")
+    begun = "begun by weno5, rk3, cfl 0.75, floats, solver 1, wanted"
+    assert f"{begun} weno5, rk3, cfl 0.75, doubles, solver 1" in refused(name, "--double")
+    assert f"{begun} upwind1, euler, cfl 1, floats, solver 1" in refused(
+        name, "--differences", "upwind1", "--steps", "euler", "--cfl", "1")
     part.write_bytes(whole[:-100])
     assert "own.h5.part" in refused(name)
 
@@ -195,7 +198,7 @@ def test_only_its_own_part_is_gone_on_with(tiny, tmp_path):
     ("cut", lambda whole: whole[:-100], "cut off or damaged"),
     ("cut_early", lambda whole: whole[:700], "cut off or damaged"),
     ("flipped", lambda whole: whole[:2000] + bytes([whole[2000] ^ 1]) + whole[2001:], "cut off or damaged"),
-    ("newer", lambda whole: whole.replace(b"saca.value/1", b"saca.value/2", 1), "saca.value/2"),
+    ("newer", lambda whole: whole.replace(b"saca.value/2", b"saca.value/3", 1), "saca.value/3"),
     ("bare", lambda whole: whole[512:], "HDF5 of another kind"),
     ("text", lambda whole: b"x" * 5000, "something else")])
 @pytest.mark.parametrize("command", [["show", "--output", "a.png"], ["compare", "--network", "none.npz"]])
