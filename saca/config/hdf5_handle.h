@@ -56,9 +56,9 @@ class Hdf5Handle {
   Close close_;
 };
 
-inline Hdf5Handle memory_file_access() {
+/// @param growth  bytes at a time
+inline Hdf5Handle memory_file_access(std::size_t growth) {
   Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  constexpr std::size_t growth = std::size_t{1} << 22;
   H5Pset_fapl_core(access.id(), growth, 0);
   return access;
 }

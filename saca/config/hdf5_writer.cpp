@@ -40,8 +40,10 @@ Hdf5Handle chunked(const std::vector<hsize_t>& extents) {
 }  // namespace
 
 struct Hdf5Writer::State {
+  explicit State(std::size_t growth) : access(memory_file_access(growth)) {}
+
   Hdf5Session session;
-  Hdf5Handle access = memory_file_access();
+  Hdf5Handle access;
   Hdf5Handle file{H5Fcreate("in memory", H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose};
   bool good = true;
 
@@ -57,7 +59,7 @@ struct Hdf5Writer::State {
   }
 };
 
-Hdf5Writer::Hdf5Writer() : state_(std::make_unique<State>()) {}
+Hdf5Writer::Hdf5Writer(std::size_t growth) : state_(std::make_unique<State>(growth)) {}
 Hdf5Writer::~Hdf5Writer() = default;
 
 void Hdf5Writer::group(const std::string& name) {

@@ -15,7 +15,9 @@ namespace saca::config {
 /// works for one at a time; a thread must not have two of them at once.
 class Hdf5Writer {
  public:
-  Hdf5Writer();
+  /// @param growth  bytes of memory at a time: where the size is about known, growing by it spares
+  ///                copies
+  explicit Hdf5Writer(std::size_t growth = std::size_t{1} << 22);
   ~Hdf5Writer();
   Hdf5Writer(const Hdf5Writer&) = delete;
   Hdf5Writer& operator=(const Hdf5Writer&) = delete;

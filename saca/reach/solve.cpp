@@ -354,7 +354,7 @@ std::string described(const Scheme& scheme) {
 }
 
 std::size_t memory_needed(const Problem& problem, const Scheme& scheme) {
-  constexpr std::size_t around = std::size_t{12} << 20;  // threads, and how a file in memory grows
+  constexpr std::size_t around = std::size_t{12} << 20;  // libraries, threads, compressing
   const std::size_t bytes = scheme.doubles ? sizeof(double) : sizeof(float);
   const Settings settings = settings_of(problem, scheme);
   const std::size_t cells = num_cells(problem.grid);
@@ -362,7 +362,8 @@ std::size_t memory_needed(const Problem& problem, const Scheme& scheme) {
   const std::size_t error = scheme.with_error ? cells * sizeof(float) : 0;
   // While it marches: beside the solver h, before it is handed over, or the snapshots' file; where
   // it was stopped is one of the snapshots.
-  const std::size_t marching = memory_needed(problem.grid, bytes, settings) + snapshots;
+  const std::size_t marching =
+      memory_needed(problem.grid, bytes, settings) + snapshots + snapshots / 32;
   std::size_t comparing = 0;
   if (const auto coarse = scheme.with_error ? coarser(problem.grid) : std::nullopt) {
     const std::size_t values = num_cells(*coarse) * bytes;
@@ -370,7 +371,7 @@ std::size_t memory_needed(const Problem& problem, const Scheme& scheme) {
         ValueTable::memory_needed(*coarse) + num_cells(*coarse) * sizeof(float);
     comparing = std::max(memory_needed(*coarse, bytes, settings) + values, values + table + error);
   }
-  const std::size_t keeping = 2 * error + snapshots;  // the error, and the file of all
+  const std::size_t keeping = error + (snapshots + error) / 32 * 33;  // and the file of all
   return snapshots + std::max({marching, comparing, keeping}) + around;
 }
 

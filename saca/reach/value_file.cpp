@@ -78,6 +78,14 @@ void write_axis(config::Hdf5Writer& writer, const std::string& where, const Axis
   writer.attribute(where, "turned", axis.turned ? static_cast<std::int32_t>(*axis.turned) : -1);
 }
 
+/// Bytes of a file that cannot be compressed, and a little more.
+std::size_t largest_size(const Solved& solved) {
+  const std::size_t bytes = solved.doubles() ? sizeof(double) : sizeof(float);
+  const std::size_t numbers = solved.times.size() * num_cells(solved.grid) * bytes +
+                              solved.error.size() * sizeof(float) + solved.problem.size();
+  return numbers + numbers / 32 + (std::size_t{1} << 18);
+}
+
 void write_parts(config::Hdf5Writer& writer, const Solved& solved) {
   writer.attribute(".", "format", std::string(file_format));
   writer.attribute(".", "complete", std::int32_t{solved.complete});
@@ -306,7 +314,7 @@ std::optional<Error> write_solved(const fs::path& path, const Solved& solved) {
         }
       },
       solved.values);
-  config::Hdf5Writer writer;
+  config::Hdf5Writer writer(largest_size(solved));
   write_parts(writer, solved);
   const std::optional<std::string_view> body = writer.bytes();
   if (!body) {

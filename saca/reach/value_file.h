@@ -41,7 +41,7 @@ struct Solved {
 /// Puts it into an HDF5 file (docs/formats.md), in one step: readers see the old file or the whole
 /// new one, also after a kill. The file's first 512 bytes hold a check sum of the rest.
 ///
-/// Takes as many bytes as the file has, at most those of the values and errors and 4 MiB.
+/// Takes as many bytes as the values and errors have, and some 3 % more.
 /// @return  nullopt when it is on the disk, else the reason
 /// @throws ContractViolation  if the grid breaks a rule, sizes do not fit, times do not increase or
 ///                            a number is not finite
