@@ -88,8 +88,8 @@ constexpr std::array<Rgb, 6> safety_colours{{{244, 248, 250},
 [[nodiscard]] Rgb colour_of(double value, const ValueScale& scale);
 
 /// The outline of what is to be avoided, as a case's file tells it under [obstacle]: shape
-/// ("ellipse", "box", "segment"), length_m and width_m, whole lengths along x and y, its middle at the
-/// origin [m]. Closed: the last point joins the first.
+/// ("ellipse", "box", "segment"), length_m and width_m, whole lengths along x and y, its middle at
+/// the origin [m]. Closed: the last point joins the first.
 /// @return  empty when there is none, or it is told in another way
 [[nodiscard]] std::vector<Vec2> obstacle_outline(std::string_view problem_toml);
 
