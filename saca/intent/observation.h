@@ -1,0 +1,30 @@
+#pragma once
+
+#include <limits>
+
+namespace saca::intent {
+
+/// Of a quantity that is not known.
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+/// What can be seen of one road user from outside at one instant, as a tracker knows it: noisy.
+/// A quantity that is NaN is not known.
+struct Observation {
+  double speed = 0.0;         ///< over ground [m/s], >= 0
+  double acceleration = 0.0;  ///< along its motion [m/s^2]
+  double yaw_rate = 0.0;      ///< [rad/s]
+  double offset = not_known;  ///< of its centre to the left of the nearest lane centre, along
+                              ///< its own direction [m]; NaN: on no lane
+  double lateral_speed = not_known;  ///< to the left across the lane [m/s]
+  double heading = not_known;        ///< of its body against the lane [rad]
+  double lane_width = not_known;     ///< [m]
+  double gap = not_known;            ///< to the one ahead in its lane, bumper to bumper [m];
+                                     ///< infinite: nobody is ahead
+  double gap_speed = not_known;      ///< speed of the one ahead less its own [m/s]
+  // Shared by the vehicle itself; most do not.
+  double steering = not_known;  ///< angle of the road wheels [rad]
+  double throttle = not_known;  ///< pedal, 0 to 1
+  double brake = not_known;     ///< likewise
+};
+
+}  // namespace saca::intent
