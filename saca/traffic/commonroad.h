@@ -12,7 +12,7 @@
 #include "saca/core/result.h"
 #include "saca/world/footprint.h"
 
-namespace saca::sim {
+namespace saca::traffic {
 
 // Recorded traffic with its map, as CommonRoad files hold it. Source of elements, units and frames:
 // CommonRoad: Documentation of the XML Format, version 2020a, Technical University of Munich.
@@ -85,4 +85,4 @@ struct CommonRoad {
 /// @return  nullptr when there is none
 [[nodiscard]] const Lanelet* find_lanelet(const CommonRoad& file, std::int64_t id);
 
-}  // namespace saca::sim
+}  // namespace saca::traffic

@@ -1,13 +1,13 @@
-#include "saca/sim/commonroad.h"
+#include "saca/traffic/commonroad.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "saca/core/csv.h"
-#include "saca/sim/xml_reading.h"
+#include "saca/traffic/xml_reading.h"
 
-namespace saca::sim {
+namespace saca::traffic {
 namespace {
 
 using pugi::xml_node;
@@ -297,4 +297,4 @@ const Lanelet* find_lanelet(const CommonRoad& file, std::int64_t id) {
   return found == file.lanelets.end() ? nullptr : &*found;
 }
 
-}  // namespace saca::sim
+}  // namespace saca::traffic
