@@ -82,6 +82,10 @@ struct CommonRoad {
 ///                (SPOT, occupancy sets): they are no recordings.
 [[nodiscard]] Result<CommonRoad> read_commonroad(std::string_view text, std::string_view source);
 
+/// Whether a file's `source` says that it holds set-based predictions (SPOT): no recording, though
+/// nothing is wrong with it. False for what is no XML.
+[[nodiscard]] bool is_set_based(std::string_view text);
+
 /// @return  nullptr when there is none
 [[nodiscard]] const Lanelet* find_lanelet(const CommonRoad& file, std::int64_t id);
 
