@@ -18,10 +18,10 @@ using intent::Observation;
 using traffic::RecordedVehicle;
 using traffic::Sample;
 
-constexpr std::size_t tracked = 5;         // steps over which a tracker forms differences
-constexpr std::size_t half_of_speed = 7;   // steps to both sides over which speeds are smoothed
-constexpr std::size_t half_of_accel = 2;   // likewise measured accelerations
-constexpr std::size_t half_aside = 7;      // likewise ways aside
+constexpr std::size_t tracked = 5;        // steps over which a tracker forms differences
+constexpr std::size_t half_of_speed = 7;  // steps to both sides over which speeds are smoothed
+constexpr std::size_t half_of_accel = 2;  // likewise measured accelerations
+constexpr std::size_t half_aside = 7;     // likewise ways aside
 
 /// Way to the left across the lanes since the lane was last found [m]; NaN: on no lane.
 std::vector<double> ways_aside(const RecordedVehicle& vehicle) {
@@ -75,8 +75,8 @@ double turning(const RecordedVehicle& vehicle, std::size_t now, double step) {
   return wrap_angle(sample.X_WA.yaw - before) / (static_cast<double>(back) * step);
 }
 
-/// Smoothed values and slopes of each stretch without gaps; NaN elsewhere, and in stretches too short
-/// for a slope.
+/// Smoothed values and slopes of each stretch without gaps; NaN elsewhere, and in stretches too
+/// short for a slope.
 traffic::Fit fit_stretches(const std::vector<double>& values, double step, std::size_t half) {
   traffic::Fit whole{std::vector<double>(values.size(), std::nan("")),
                      std::vector<double>(values.size(), std::nan(""))};
@@ -86,10 +86,10 @@ traffic::Fit fit_stretches(const std::vector<double>& values, double step, std::
       ++last;
     }
     if (last >= first + 3) {
-      const traffic::Fit fit = traffic::line_fit(
-          {values.begin() + static_cast<std::ptrdiff_t>(first),
-           values.begin() + static_cast<std::ptrdiff_t>(last)},
-          step, half);
+      const traffic::Fit fit =
+          traffic::line_fit({values.begin() + static_cast<std::ptrdiff_t>(first),
+                             values.begin() + static_cast<std::ptrdiff_t>(last)},
+                            step, half);
       std::copy(fit.values.begin(), fit.values.end(),
                 whole.values.begin() + static_cast<std::ptrdiff_t>(first));
       std::copy(fit.slopes.begin(), fit.slopes.end(),

@@ -75,8 +75,7 @@ LstmCrfImpl::LstmCrfImpl(double dropout)
   register_module("dropout", dropout_);
   start_ = register_parameter("start", torch::zeros({heads, classes}));
   // Staying is likelier than anything else: at 10 Hz a class lasts for tens of frames.
-  transition_ = register_parameter("transition",
-                                   3.0 * torch::eye(classes).repeat({heads, 1, 1}));
+  transition_ = register_parameter("transition", 3.0 * torch::eye(classes).repeat({heads, 1, 1}));
 }
 
 torch::Tensor LstmCrfImpl::emissions(const torch::Tensor& features) {
@@ -96,8 +95,7 @@ torch::Tensor LstmCrfImpl::start() const {
 }
 
 torch::Tensor LstmCrfImpl::transition() const {
-  return 0.5 *
-         (transition_ + transition_.index_select(-1, swapped_).index_select(-2, swapped_));
+  return 0.5 * (transition_ + transition_.index_select(-1, swapped_).index_select(-2, swapped_));
 }
 
 std::vector<torch::Tensor> LstmCrfImpl::forward_scores(const torch::Tensor& emissions,
@@ -124,8 +122,7 @@ Loss LstmCrfImpl::loss(const torch::Tensor& emissions, const Batch& batch) {
       torch::logsumexp(kept.back(), -1) - torch::logsumexp(free.back(), -1);
   const torch::Tensor filtered = torch::log_softmax(torch::stack(free, 1), -1);
   const torch::Tensor of_label =
-      filtered.gather(-1, batch.labels.unsqueeze(-1)).squeeze(-1) *
-      batch.known.to(torch::kFloat32);
+      filtered.gather(-1, batch.labels.unsqueeze(-1)).squeeze(-1) * batch.known.to(torch::kFloat32);
   return {-log_likelihood.sum() / num_known, -of_label.sum() / num_known};
 }
 

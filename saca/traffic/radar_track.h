@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "saca/sim/hundred_car_file.h"
+#include "saca/traffic/hundred_car_file.h"
 
-namespace saca::sim {
+namespace saca::traffic {
 
 enum class Radar : std::uint8_t { front, rear };
 
@@ -52,4 +52,4 @@ constexpr double outlier_bound = 1.0;   ///< from what the three rows on either 
                                                        std::size_t first, std::size_t last,
                                                        std::size_t conflict, std::size_t fewest);
 
-}  // namespace saca::sim
+}  // namespace saca::traffic

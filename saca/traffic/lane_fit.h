@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "saca/core/result.h"
-#include "saca/sim/commonroad.h"
+#include "saca/traffic/commonroad.h"
 #include "saca/world/road.h"
 
-namespace saca::sim {
+namespace saca::traffic {
 
 /// A lane of a map as the library's one arc, and how well that fits.
 struct LaneFit {
@@ -38,4 +38,4 @@ struct LaneFit {
 [[nodiscard]] Result<LaneFit> fit_lane(const CommonRoad& file, const Pose& start_W,
                                        std::span<const Vec2> way_W);
 
-}  // namespace saca::sim
+}  // namespace saca::traffic

@@ -11,7 +11,7 @@
 
 #include "saca/core/result.h"
 
-namespace saca::sim {
+namespace saca::traffic {
 
 /// One pass over an XML file: what went wrong first, and what was passed over.
 ///
@@ -62,4 +62,4 @@ class XmlReading {
 /// Where the first byte stands that is not part of UTF-8 as Unicode allows it.
 [[nodiscard]] std::optional<std::size_t> first_fault_of_utf8(std::string_view text);
 
-}  // namespace saca::sim
+}  // namespace saca::traffic

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-namespace saca::sim {
+namespace saca::traffic {
 
 // Noisy series of equal steps: what an importer does to recordings before anyone differentiates
 // them.
@@ -72,4 +72,4 @@ struct Fit {
 /// The integral from the first value on, by trapezia: as long as `rates`, from 0.
 [[nodiscard]] std::vector<double> integral(const std::vector<double>& rates, double step);
 
-}  // namespace saca::sim
+}  // namespace saca::traffic

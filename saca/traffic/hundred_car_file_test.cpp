@@ -1,4 +1,4 @@
-#include "saca/sim/hundred_car_file.h"
+#include "saca/traffic/hundred_car_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-namespace saca::sim {
+namespace saca::traffic {
 namespace {
 
 using testing::AllOf;
@@ -105,4 +105,4 @@ TEST(ReadHundredCarEvent, NamesWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::traffic

@@ -1,4 +1,4 @@
-#include "saca/sim/commonroad.h"
+#include "saca/traffic/commonroad.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,14 +7,14 @@
 
 #include "saca/core/file.h"
 
-namespace saca::sim {
+namespace saca::traffic {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
 
 std::string small_file() {
-  return read_file("saca/sim/testdata/commonroad_small.xml").value();
+  return read_file("saca/traffic/testdata/commonroad_small.xml").value();
 }
 
 CommonRoad small() {
@@ -195,4 +195,4 @@ TEST(ReadCommonRoad, RefusesEveryCut) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::traffic

@@ -1,4 +1,4 @@
-#include "saca/sim/xml_reading.h"
+#include "saca/traffic/xml_reading.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include "saca/core/csv.h"
 
-namespace saca::sim {
+namespace saca::traffic {
 namespace {
 
 using pugi::xml_node;
@@ -174,4 +174,4 @@ std::int64_t XmlReading::id(xml_node node, const char* attribute) {
   return static_cast<std::int64_t>(*value);
 }
 
-}  // namespace saca::sim
+}  // namespace saca::traffic

@@ -12,7 +12,7 @@
 #include "saca/core/result.h"
 #include "saca/world/footprint.h"
 
-namespace saca::sim {
+namespace saca::traffic {
 
 // Recorded traffic with its map, as CommonRoad files hold it. Source of elements, units and frames:
 // CommonRoad: Documentation of the XML Format, version 2020a, Technical University of Munich.
@@ -82,7 +82,11 @@ struct CommonRoad {
 ///                (SPOT, occupancy sets): they are no recordings.
 [[nodiscard]] Result<CommonRoad> read_commonroad(std::string_view text, std::string_view source);
 
+/// Whether a file's `source` says that it holds set-based predictions (SPOT): no recording, though
+/// nothing is wrong with it. False for what is no XML.
+[[nodiscard]] bool is_set_based(std::string_view text);
+
 /// @return  nullptr when there is none
 [[nodiscard]] const Lanelet* find_lanelet(const CommonRoad& file, std::int64_t id);
 
-}  // namespace saca::sim
+}  // namespace saca::traffic

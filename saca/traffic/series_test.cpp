@@ -1,4 +1,4 @@
-#include "saca/sim/series.h"
+#include "saca/traffic/series.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::sim {
+namespace saca::traffic {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -152,4 +152,4 @@ TEST(Normal3, SolvesAndLeavesTheUndeterminedAtZero) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::traffic

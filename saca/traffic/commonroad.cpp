@@ -1,13 +1,13 @@
-#include "saca/sim/commonroad.h"
+#include "saca/traffic/commonroad.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "saca/core/csv.h"
-#include "saca/sim/xml_reading.h"
+#include "saca/traffic/xml_reading.h"
 
-namespace saca::sim {
+namespace saca::traffic {
 namespace {
 
 using pugi::xml_node;
@@ -230,6 +230,8 @@ void read_location(Reading& reading, xml_node root, CommonRoad& file) {
   reading.ignore_but(location, {"gpsLatitude", "gpsLongitude"});
 }
 
+constexpr std::string_view set_based_mark = "SPOT";
+
 void read_about(Reading& reading, xml_node root, CommonRoad& file) {
   const std::string_view version = root.attribute("commonRoadVersion").value();
   if (version != "2020a") {
@@ -239,7 +241,7 @@ void read_about(Reading& reading, xml_node root, CommonRoad& file) {
   file.author = reading.text(root, "author");
   file.affiliation = reading.text(root, "affiliation");
   file.source = reading.text(root, "source");
-  if (file.source.find("SPOT") != std::string::npos) {
+  if (file.source.find(set_based_mark) != std::string::npos) {
     reading.fail(root, "attribute source: want a recording, got set-based predictions (SPOT)");
   }
   const char* const step = root.attribute("timeStepSize").value();
@@ -291,10 +293,19 @@ Result<CommonRoad> read_commonroad(std::string_view text, std::string_view sourc
   return file;
 }
 
+bool is_set_based(std::string_view text) {
+  pugi::xml_document document;
+  if (!document.load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8)) {
+    return false;
+  }
+  const std::string_view source = document.document_element().attribute("source").value();
+  return source.find(set_based_mark) != std::string_view::npos;
+}
+
 const Lanelet* find_lanelet(const CommonRoad& file, std::int64_t id) {
   const auto found = std::find_if(file.lanelets.begin(), file.lanelets.end(),
                                   [id](const Lanelet& lanelet) { return lanelet.id == id; });
   return found == file.lanelets.end() ? nullptr : &*found;
 }
 
-}  // namespace saca::sim
+}  // namespace saca::traffic

@@ -8,7 +8,7 @@
 #include "saca/core/result.h"
 #include "saca/core/static_vector.h"
 
-namespace saca::sim {
+namespace saca::traffic {
 
 // The files of the 100-Car Naturalistic Driving Study (Virginia Tech Transportation Institute), as
 // released. Source of columns, units and signs: Researcher Dictionary for Time-Series Data, version
@@ -75,4 +75,4 @@ struct HundredCarEvent {
                                                              std::string_view source,
                                                              std::int64_t event);
 
-}  // namespace saca::sim
+}  // namespace saca::traffic

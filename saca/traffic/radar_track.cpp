@@ -1,13 +1,13 @@
-#include "saca/sim/radar_track.h"
+#include "saca/traffic/radar_track.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "saca/core/contract.h"
-#include "saca/sim/series.h"
+#include "saca/traffic/series.h"
 
-namespace saca::sim {
+namespace saca::traffic {
 namespace {
 
 const StaticVector<RadarTarget, radar_columns>& seen_in(const HundredCarRow& row, Radar radar) {
@@ -201,4 +201,4 @@ std::optional<RadarTrack> follower_track(const std::vector<HundredCarRow>& rows,
   return track_of(*best);
 }
 
-}  // namespace saca::sim
+}  // namespace saca::traffic

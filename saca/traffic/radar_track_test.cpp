@@ -1,4 +1,4 @@
-#include "saca/sim/radar_track.h"
+#include "saca/traffic/radar_track.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::sim {
+namespace saca::traffic {
 namespace {
 
 std::vector<HundredCarRow> empty_rows(std::size_t size) {
@@ -108,4 +108,4 @@ TEST(FollowerTrack, MustBeSeenLongEnough) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::traffic

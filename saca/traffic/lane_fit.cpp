@@ -1,4 +1,4 @@
-#include "saca/sim/lane_fit.h"
+#include "saca/traffic/lane_fit.h"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "saca/core/units.h"
-#include "saca/sim/series.h"
+#include "saca/traffic/series.h"
 
-namespace saca::sim {
+namespace saca::traffic {
 namespace {
 
 constexpr double far_behind = 20.0;                                                        // [m]
@@ -356,4 +356,4 @@ Result<LaneFit> fit_lane(const CommonRoad& file, const Pose& start_W, std::span<
   return fit;
 }
 
-}  // namespace saca::sim
+}  // namespace saca::traffic

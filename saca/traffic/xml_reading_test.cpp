@@ -1,9 +1,9 @@
-#include "saca/sim/xml_reading.h"
+#include "saca/traffic/xml_reading.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace saca::sim {
+namespace saca::traffic {
 namespace {
 
 using testing::HasSubstr;
@@ -71,4 +71,4 @@ TEST(ShownText, CutsAndTrims) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::traffic

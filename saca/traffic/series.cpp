@@ -1,4 +1,4 @@
-#include "saca/sim/series.h"
+#include "saca/traffic/series.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::sim {
+namespace saca::traffic {
 namespace {
 
 /// Rows within `half` steps of `i`, as [first, last].
@@ -210,4 +210,4 @@ std::array<double, 3> Normal3::solution() const {
   return x;
 }
 
-}  // namespace saca::sim
+}  // namespace saca::traffic

@@ -1,13 +1,13 @@
-#include "saca/sim/hundred_car_file.h"
+#include "saca/traffic/hundred_car_file.h"
 
 #include <cmath>
 #include <optional>
 
 #include "saca/core/csv.h"
 #include "saca/core/units.h"
-#include "saca/sim/series.h"
+#include "saca/traffic/series.h"
 
-namespace saca::sim {
+namespace saca::traffic {
 namespace {
 
 constexpr std::size_t num_columns = 79;
@@ -167,4 +167,4 @@ Result<HundredCarEvent> read_hundred_car_event(std::string_view text, std::strin
                                            std::to_string(event) + ", got none"};
 }
 
-}  // namespace saca::sim
+}  // namespace saca::traffic

@@ -1,11 +1,11 @@
-#include "saca/sim/lane_fit.h"
+#include "saca/traffic/lane_fit.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace saca::sim {
+namespace saca::traffic {
 namespace {
 
 using testing::ElementsAre;
@@ -161,4 +161,4 @@ TEST(FitLane, IsNotCaughtInACircle) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::traffic
