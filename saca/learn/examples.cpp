@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 #include "saca/core/angle.h"
@@ -18,6 +19,9 @@ using intent::Observation;
 using traffic::RecordedVehicle;
 using traffic::Sample;
 
+// Recordings number vehicles as they come: near ids drove at the same time. Recordings that share a
+// vehicle make chains of many minutes; blocks of ids divide them without dividing any vehicle.
+constexpr std::int64_t ids_per_group = 100;
 constexpr std::size_t tracked = 5;        // steps over which a tracker forms differences
 constexpr std::size_t half_of_speed = 7;  // steps to both sides over which speeds are smoothed
 constexpr std::size_t half_of_accel = 2;  // likewise measured accelerations
@@ -163,7 +167,7 @@ std::vector<Sequence> examples_of(const traffic::RecordedSet& set, std::size_t l
       Sequence sequence{
           .name = fmt::format("{}/{}@{:.1f}", recording.name, vehicle.id, vehicle.start),
           .site = recording.site,
-          .group = recording.group,
+          .group = fmt::format("{}/{}", recording.group, vehicle.id / ids_per_group),
           .observations = observations_of(vehicle, recording.step),
           .labels = std::move(labels.classes),
           .scored = std::move(labels.scored),

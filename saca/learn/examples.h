@@ -19,7 +19,8 @@ namespace saca::learn {
 [[nodiscard]] TrueMotion true_motion(const traffic::RecordedVehicle& vehicle, double step);
 
 /// Every recorded vehicle of at least `least_frames` samples as a sequence; labels by `labels_of`
-/// on its true motion.
+/// on its true motion. A group is a recording's group and a block of a hundred vehicle ids: no
+/// vehicle is in two of them.
 /// @throws ContractViolation  if a recording has another step than frame_step
 [[nodiscard]] std::vector<Sequence> examples_of(const traffic::RecordedSet& set,
                                                 std::size_t least_frames = 20);

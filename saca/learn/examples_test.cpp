@@ -58,7 +58,7 @@ TEST(Examples, ALaneChangeIsOneAcrossTheLine) {
   ASSERT_EQ(sequences.size(), 1U);
   const Sequence& one = sequences[0];
   EXPECT_EQ(one.name, "a.xml/7@0.0");
-  EXPECT_EQ(one.group, "here 1");
+  EXPECT_EQ(one.group, "here 1/0");
   ASSERT_EQ(one.crossing_times.size(), 1U);
   EXPECT_NEAR(one.crossing_times[0], 5.0, 1e-9);
   EXPECT_EQ(one.labels[50], static_cast<std::uint8_t>(Intention::lane_left));

@@ -28,7 +28,7 @@ torch::Tensor mirror_signs() {
 }
 
 torch::Tensor mirrored_classes() {
-  const intent::Scores mirror = intent::mirrored({0.0, 1.0, 2.0, 3.0, 4.0, 5.0});
+  const intent::Scores mirror = intent::mirrored(intent::Scores{0.0, 1.0, 2.0, 3.0, 4.0, 5.0});
   torch::Tensor swapped = torch::zeros({classes}, torch::kInt64);
   for (std::size_t k = 0; k < num_classes; ++k) {
     swapped[static_cast<std::int64_t>(k)] = static_cast<std::int64_t>(mirror[k]);
