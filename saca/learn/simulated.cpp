@@ -7,14 +7,13 @@
 #include <limits>
 #include <optional>
 #include <random>
-#include <span>
 #include <utility>
 
 #include "saca/core/angle.h"
 #include "saca/core/contract.h"
 #include "saca/core/parallel.h"
 #include "saca/core/pose.h"
-#include "saca/learn/motion_labels.h"
+#include "saca/learn/labels.h"
 #include "saca/sim/chance.h"
 #include "saca/sim/perception.h"
 #include "saca/world/road.h"
@@ -171,18 +170,16 @@ std::vector<double> crossings(const DrivePlan& plan, const DriveMotion& motion) 
 }
 
 void add_labels(const DrivePlan& plan, const DriveMotion& motion, Sequence& sequence) {
-  const std::span<const double> acceleration(motion.acceleration);
-  std::vector<double> lateral_speed;
-  for (std::size_t i = DriveMotion::before; i < motion.speed.size(); ++i) {
-    lateral_speed.push_back(motion.slope[i] * motion.speed[i]);
+  TrueMotion truth;
+  for (std::size_t i = DriveMotion::before; i < motion.speed.size(); i += samples_per_frame) {
+    truth.acceleration.push_back(motion.acceleration[i]);
+    truth.lateral.push_back(motion.aside[i]);
+    truth.lateral_speed.push_back(motion.slope[i] * motion.speed[i]);
   }
-  MotionLabels fine =
-      motion_labels(acceleration.subspan(DriveMotion::before), lateral_speed, DriveMotion::step);
-  for (std::size_t i = 0; i < fine.labels.size(); i += samples_per_frame) {
-    sequence.labels.push_back(fine.labels[i]);
-  }
-  sequence.scored = away_from_changes(sequence.labels, frame_step);
-  sequence.braking_times = std::move(fine.braking_times);
+  Labels labels = labels_of(truth);
+  sequence.labels = std::move(labels.classes);
+  sequence.scored = std::move(labels.scored);
+  sequence.braking_times = std::move(labels.braking_times);
   sequence.crossing_times = crossings(plan, motion);
 }
 

@@ -12,7 +12,7 @@ namespace saca::learn {
 
 /// A simulated vehicle as somebody sees it, with what it truly does.
 ///
-/// Labels: `label_rule` on the true motion. What is seen: the true motion through
+/// Labels: `labels_of` the true motion. What is seen: the true motion through
 /// `sim::Perception`, its accelerations and turning rates backward differences over 0.5 s, as in a
 /// simulated encounter. Pedals and steering run 0.15 s ahead of what they cause.
 /// @param seed  of the errors of perception
