@@ -7,7 +7,6 @@
 #include <limits>
 #include <optional>
 #include <random>
-#include <span>
 #include <utility>
 
 #include "saca/core/angle.h"

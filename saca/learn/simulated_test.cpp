@@ -118,7 +118,7 @@ TEST(SimulatedSequence, IsTheTruthWithoutErrors) {
   EXPECT_NEAR(seen[32].acceleration, -4.0 * (0.2 / 0.4) * 0.1 / 0.5, 0.05) << "0.1 s^2 of ramp";
   // It falls below -2 m/s^2 half way up the ramp, 3.2 s.
   ASSERT_EQ(sequence.braking_times.size(), 1U);
-  EXPECT_NEAR(sequence.braking_times[0], 3.2, frame_step + 1e-9);
+  EXPECT_NEAR(sequence.braking_times[0], 3.2, 0.1 + 1e-9) << "frames are 0.1 s apart";
   EXPECT_TRUE(std::isnan(seen[20].brake)) << "does not share its pedals";
 }
 
@@ -150,6 +150,61 @@ TEST(SimulatedSequence, KeepsItsLaneInACurve) {
     EXPECT_NEAR(seen[t].lateral_speed, 0.0, 1e-9);
     EXPECT_NEAR(seen[t].gap, 40.0, 1e-6);
   }
+}
+
+/// Way to one side, by frames, of the motion that holds a frame: neighbours in which it goes on.
+double way_of_motion(const std::vector<double>& lateral, std::size_t frame, double side) {
+  const auto goes_on = [&](std::size_t from) {
+    return side * (lateral[from + 1] - lateral[from]) > 0.2 * frame_step;
+  };
+  std::size_t begin = frame;
+  std::size_t end = frame;
+  while (begin > 0 && goes_on(begin - 1)) {
+    --begin;
+  }
+  while (end + 1 < lateral.size() && goes_on(end)) {
+    ++end;
+  }
+  return side * (lateral[end] - lateral[begin]);
+}
+
+TEST(SimulatedSequence, LabelsAreWhatTheTrueMotionDoes) {
+  std::size_t sides = 0;
+  std::size_t brakings = 0;
+  for (std::uint64_t i = 0; i < 120; ++i) {
+    std::mt19937_64 rng(1000 + i);
+    const DrivePlan plan = draw_plan(rng);
+    const Sequence sequence = simulated_sequence(plan, 1, "a");
+    const DriveMotion motion = drive(plan);
+    std::vector<double> lateral;
+    for (std::size_t t = 0; t < sequence.labels.size(); ++t) {
+      lateral.push_back(motion.aside[DriveMotion::before + 10 * t]);
+    }
+    for (std::size_t t = 1; t + 1 < lateral.size(); ++t) {
+      if (!sequence.scored[t]) {
+        continue;
+      }
+      // Away from changes by 0.2 s what is true now was true 0.1 s ago and will be.
+      const std::string_view letter(&"MLRBlr"[sequence.labels[t]], 1);
+      const std::size_t now = DriveMotion::before + 10 * t;
+      const double slower = (motion.speed[now - 5] - motion.speed[now + 5]) / frame_step;
+      const double speed = (lateral[t + 1] - lateral[t - 1]) / (2.0 * frame_step);
+      if (letter.find_first_of("Blr") == 0) {
+        ASSERT_GT(slower, 1.0 - 0.1) << i << " " << t;
+        ++brakings;
+      }
+      if (letter.find_first_of("LRlr") == 0) {
+        const double side = letter.find_first_of("Ll") == 0 ? 1.0 : -1.0;
+        ASSERT_GT(side * speed, 0.2 - 0.05) << i << " " << t;
+        ASSERT_GT(way_of_motion(lateral, t, side), 1.0 - 0.1) << i << " " << t;
+        ++sides;
+      } else if (std::abs(speed) > 0.5) {
+        ASSERT_LT(way_of_motion(lateral, t, speed < 0.0 ? -1.0 : 1.0), 1.0) << i << " " << t;
+      }
+    }
+  }
+  EXPECT_GT(sides, 300U);
+  EXPECT_GT(brakings, 300U);
 }
 
 TEST(SimulatedSequence, PedalsGoBeforeWhatTheyCause) {
