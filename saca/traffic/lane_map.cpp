@@ -168,6 +168,18 @@ void fill_box(LaneMap::Line& line) {
   }
 }
 
+/// The step from a lane into one that lies right beside it, though the map does not say so; 0: the
+/// lanes overlap, lie apart or lead apart.
+int step_between(const LanePlace& from, const LanePlace& to) {
+  constexpr double slit = 0.5;                     // between the bounds, or overlap [m]
+  constexpr double parallel = from_degrees(10.0);  // of two lanes
+  const double apart = from.offset - to.offset;    // > 0: the new lane is to the left
+  const double wanted = 0.5 * (from.width + to.width);
+  const bool adjacent = std::abs(std::abs(apart) - wanted) <= slit &&
+                        std::abs(wrap_angle(from.heading - to.heading)) <= parallel;
+  return !adjacent ? 0 : apart > 0.0 ? 1 : -1;
+}
+
 std::vector<std::size_t> indices_of(const std::vector<std::int64_t>& ids,
                                     const std::map<std::int64_t, std::size_t>& index) {
   std::vector<std::size_t> indices;
@@ -180,7 +192,7 @@ std::vector<std::size_t> indices_of(const std::vector<std::int64_t>& ids,
 }
 
 std::optional<std::size_t> same_way_neighbour(const std::optional<Neighbour>& neighbour,
-                                    const std::map<std::int64_t, std::size_t>& index) {
+                                              const std::map<std::int64_t, std::size_t>& index) {
   if (!neighbour || !neighbour->same_direction) {
     return std::nullopt;
   }
@@ -311,7 +323,17 @@ LaneSighting LaneMap::follow(const std::optional<LanePlace>& before, const Pose&
     }
   }
   const std::vector<LanePlace> found = places(X_WA);
-  return {found.empty() ? std::nullopt : std::optional<LanePlace>(found.front()), 0};
+  if (found.empty()) {
+    return {};
+  }
+  LaneSighting sighting{found.front(), 0};
+  for (const std::size_t lanelet : lane) {
+    const std::optional<LanePlace> left_behind = place_in(lanelet, X_WA, found.front().width);
+    if (left_behind && sighting.lane_step == 0) {
+      sighting.lane_step = step_between(*left_behind, found.front());
+    }
+  }
+  return sighting;
 }
 
 LaneMap::Way LaneMap::way_ahead(const LanePlace& from, double reach) const {

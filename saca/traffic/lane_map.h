@@ -64,7 +64,9 @@ class LaneMap {
   [[nodiscard]] std::vector<LanePlace> places(const Pose& X_WA, double beyond = 0.0) const;
 
   /// Follows a body: it stays in its lane (that is, the lanelet or one after it) while it is within
-  /// lane_hold of it, then goes to the neighbour that holds it, or else is looked up anew.
+  /// lane_hold of it, then goes to the neighbour that holds it, or else is looked up anew. A lane
+  /// found anew that lies right beside the old one, within 0.5 m and 10 deg, counts as its
+  /// neighbour: maps do not name all.
   /// @param before  where it was; nullopt: nowhere
   [[nodiscard]] LaneSighting follow(const std::optional<LanePlace>& before, const Pose& X_WA) const;
 
