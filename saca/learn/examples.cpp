@@ -10,7 +10,8 @@
 
 #include "saca/core/angle.h"
 #include "saca/core/contract.h"
-#include "saca/traffic/series.h"
+#include "saca/core/vec2.h"
+#include "saca/traffic/rts_smoother.h"
 
 namespace saca::learn {
 namespace {
@@ -22,10 +23,7 @@ using traffic::Sample;
 // Recordings number vehicles as they come: near ids drove at the same time. Recordings that share a
 // vehicle make chains of many minutes; blocks of ids divide them without dividing any vehicle.
 constexpr std::int64_t ids_per_group = 100;
-constexpr std::size_t tracked = 5;        // steps over which a tracker forms differences
-constexpr std::size_t half_of_speed = 7;  // steps to both sides over which speeds are smoothed
-constexpr std::size_t half_of_accel = 2;  // likewise measured accelerations
-constexpr std::size_t half_aside = 7;     // likewise ways aside
+constexpr std::size_t tracked = 5;  // steps over which a tracker forms differences
 
 /// Way to the left across the lanes since the lane was last found [m]; NaN: on no lane.
 std::vector<double> ways_aside(const RecordedVehicle& vehicle) {
@@ -79,29 +77,45 @@ double turning(const RecordedVehicle& vehicle, std::size_t now, double step) {
   return wrap_angle(sample.X_WA.yaw - before) / (static_cast<double>(back) * step);
 }
 
-/// Smoothed values and slopes of each stretch without gaps; NaN elsewhere, and in stretches too
-/// short for a slope.
-traffic::Fit fit_stretches(const std::vector<double>& values, double step, std::size_t half) {
-  traffic::Fit whole{std::vector<double>(values.size(), std::nan("")),
-                     std::vector<double>(values.size(), std::nan(""))};
+/// Each stretch without gaps smoothed for itself; NaN elsewhere, and in stretches of less than
+/// three.
+traffic::AxisMotion smooth_stretches(const std::vector<double>& values, double step) {
+  const std::vector<double> nothing(values.size(), std::nan(""));
+  traffic::AxisMotion whole{nothing, nothing, nothing};
   for (std::size_t first = 0; first < values.size();) {
     std::size_t last = first;
     while (last < values.size() && !std::isnan(values[last])) {
       ++last;
     }
     if (last >= first + 3) {
-      const traffic::Fit fit =
-          traffic::line_fit({values.begin() + static_cast<std::ptrdiff_t>(first),
-                             values.begin() + static_cast<std::ptrdiff_t>(last)},
-                            step, half);
-      std::copy(fit.values.begin(), fit.values.end(),
-                whole.values.begin() + static_cast<std::ptrdiff_t>(first));
-      std::copy(fit.slopes.begin(), fit.slopes.end(),
-                whole.slopes.begin() + static_cast<std::ptrdiff_t>(first));
+      const auto begin = static_cast<std::ptrdiff_t>(first);
+      const traffic::AxisMotion motion = traffic::smooth_axis(
+          {values.begin() + begin, values.begin() + static_cast<std::ptrdiff_t>(last)}, {}, step);
+      std::copy(motion.position.begin(), motion.position.end(), whole.position.begin() + begin);
+      std::copy(motion.velocity.begin(), motion.velocity.end(), whole.velocity.begin() + begin);
+      std::copy(motion.acceleration.begin(), motion.acceleration.end(),
+                whole.acceleration.begin() + begin);
     }
     first = std::max(last, first + 1);
   }
   return whole;
+}
+
+/// Way along the heading since the first sample [m]: of positions where they are recorded, else of
+/// speeds.
+std::vector<double> ways_along(const RecordedVehicle& vehicle, double step) {
+  std::vector<double> ways{0.0};
+  for (std::size_t i = 1; i < vehicle.samples.size(); ++i) {
+    const Sample& last = vehicle.samples[i - 1];
+    const Sample& now = vehicle.samples[i];
+    double made = 0.5 * (last.speed + now.speed) * step;
+    if (!std::isnan(last.X_WA.yaw) && !std::isnan(now.X_WA.yaw)) {
+      const double course = last.X_WA.yaw + 0.5 * wrap_angle(now.X_WA.yaw - last.X_WA.yaw);
+      made = rotated(now.X_WA.p - last.X_WA.p, -course).x;
+    }
+    ways.push_back(ways.back() + made);
+  }
+  return ways;
 }
 
 }  // namespace
@@ -135,23 +149,21 @@ std::vector<Observation> observations_of(const RecordedVehicle& vehicle, double 
 }
 
 TrueMotion true_motion(const RecordedVehicle& vehicle, double step) {
-  std::vector<double> speeds;
+  TrueMotion motion;
+  motion.acceleration = smooth_stretches(ways_along(vehicle, step), step).acceleration;
   std::vector<double> measured;
   for (const Sample& sample : vehicle.samples) {
-    speeds.push_back(sample.speed);
     measured.push_back(sample.measured_acceleration);
   }
-  TrueMotion motion;
-  motion.acceleration = fit_stretches(speeds, step, half_of_speed).slopes;
-  const std::vector<double> smooth = fit_stretches(measured, step, half_of_accel).values;
+  const std::vector<double> smooth = smooth_stretches(measured, step).position;
   for (std::size_t i = 0; i < smooth.size(); ++i) {
     if (!std::isnan(smooth[i])) {
       motion.acceleration[i] = smooth[i];
     }
   }
-  traffic::Fit aside = fit_stretches(ways_aside(vehicle), step, half_aside);
-  motion.lateral = std::move(aside.values);
-  motion.lateral_speed = std::move(aside.slopes);
+  traffic::AxisMotion aside = smooth_stretches(ways_aside(vehicle), step);
+  motion.lateral = std::move(aside.position);
+  motion.lateral_speed = std::move(aside.velocity);
   return motion;
 }
 
