@@ -24,6 +24,10 @@ constexpr std::array<Intention, num_intentions> all_intentions{
     Intention::maintain, Intention::lane_left,  Intention::lane_right,
     Intention::brake,    Intention::brake_left, Intention::brake_right};
 
+/// Those under which a road user slows down.
+constexpr std::array<Intention, 3> braking_intentions{Intention::brake, Intention::brake_left,
+                                                      Intention::brake_right};
+
 /// The paper's letters: "M", "LC", "RC", "FB", "LB", "RB".
 [[nodiscard]] std::string_view name(Intention intention);
 

@@ -30,9 +30,11 @@ TEST(RecordJson, HoldsWhatTheFormatPromises) {
        .motion = sim::Script{.start = {.s = 40.0}, .behaviour = sim::Behaviour::hold}});
   const auto car = manoeuvre::default_car();
   const auto harm = outcome::read_harm("data/harm.toml").value();
+  const intent::Model intent;
   SteadyClock clock;
   Quiet quiet;
-  const loop::Setup setup{.scenario = &scenario, .car = &car, .harm = &harm, .clock = &clock};
+  const loop::Setup setup{
+      .scenario = &scenario, .car = &car, .harm = &harm, .intent = &intent, .clock = &clock};
   const Record record = run(setup, quiet).value();
   const json out = json::parse(record_json(setup, record));
 

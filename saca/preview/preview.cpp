@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "saca/intent/intention.h"
+#include "saca/preview/caution.h"
 #include "saca/reach/car_limits.h"
 #include "saca/world/time_to_conflict.h"
 
@@ -124,11 +125,11 @@ Scene moved_on(const Scene& scene, const std::vector<Track>& tracks, double afte
 
 }  // namespace
 
-std::vector<Situation> situations(const Scene& scene, const Thresholds& thresholds,
-                                  const ForecastTools& tools) {
+std::vector<Situation> situations(const Scene& scene, const intent::Beliefs& beliefs,
+                                  const Thresholds& thresholds, const ForecastTools& tools) {
   std::vector<IntentPosterior> posteriors;
-  for (const Actor& actor : scene.actors) {
-    posteriors.push_back(intent::posterior(scene, actor));
+  for (const intent::Belief& belief : cautious(scene, beliefs, thresholds)) {
+    posteriors.push_back(belief.now());
   }
   std::vector<Situation> found;
   for (Combination& combination : combinations(scene, posteriors, thresholds)) {

@@ -29,7 +29,8 @@ struct Situation {
   world::Scene scene_at_trigger;
   double probability = 0.0;                         ///< of this combination of intentions
   std::vector<intent::Intention> intentions;        ///< one per actor: the combination itself
-  std::vector<intent::IntentPosterior> posteriors;  ///< one per actor, when the preview was made
+  std::vector<intent::IntentPosterior> posteriors;  ///< one per actor, when the preview was made,
+                                                    ///< as `preview::cautious` has them
   std::vector<reach::ObstacleRisk> risks;           ///< one per actor, at the trigger
   std::vector<world::Track> tracks;                 ///< one per actor, from the preview on
   std::array<PolicyFacts, manoeuvre::num_policies> facts;

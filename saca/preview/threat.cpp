@@ -1,6 +1,7 @@
 #include "saca/preview/threat.h"
 
 #include "saca/intent/intention.h"
+#include "saca/preview/caution.h"
 #include "saca/world/time_to_conflict.h"
 
 namespace saca::preview {
@@ -24,7 +25,9 @@ std::optional<Threat> nearest_threat(const world::Scene& scene, double horizon, 
   return nearest;
 }
 
-std::optional<Threat> previewed_threat(const world::Scene& scene, const Thresholds& thresholds) {
+std::optional<Threat> previewed_threat(const world::Scene& scene, const intent::Beliefs& beliefs,
+                                       const Thresholds& thresholds) {
+  const intent::Beliefs prepared = cautious(scene, beliefs, thresholds);
   std::optional<Threat> nearest =
       nearest_threat(scene, thresholds.preview, thresholds.preview_tolerance);
   for (std::size_t i = 0; i < scene.actors.size(); ++i) {
@@ -32,7 +35,7 @@ std::optional<Threat> previewed_threat(const world::Scene& scene, const Threshol
     if (world::is_behind(scene, actor)) {
       continue;
     }
-    const intent::IntentPosterior posterior = intent::posterior(scene, actor);
+    const intent::IntentPosterior& posterior = prepared[i].now();
     for (const intent::Intention intention : intent::all_intentions) {
       if (posterior[static_cast<std::size_t>(intention)] < thresholds.least_posterior) {
         continue;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "saca/intent/observer.h"
 #include "saca/world/scene.h"
 
 namespace saca::preview {
@@ -32,7 +33,10 @@ struct Threat {
 
 /// The nearest conflict under any intention that is likely enough, crossing traffic with the wide
 /// tolerance; within thresholds.preview.
+/// @param beliefs  one per actor; those that are prepared for are `preview::cautious`
+/// @throws ContractViolation  if beliefs and actors differ in number
 [[nodiscard]] std::optional<Threat> previewed_threat(const world::Scene& scene,
+                                                     const intent::Beliefs& beliefs,
                                                      const Thresholds& thresholds);
 
 }  // namespace saca::preview
