@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "saca/intent/intention.h"
+#include "saca/intent/joint.h"
 #include "saca/preview/caution.h"
 #include "saca/reach/car_limits.h"
 #include "saca/world/time_to_conflict.h"
@@ -11,7 +12,6 @@
 namespace saca::preview {
 namespace {
 
-using intent::Intention;
 using intent::IntentPosterior;
 using world::Actor;
 using world::Scene;
@@ -19,60 +19,35 @@ using world::Track;
 
 constexpr double after_trigger = 8.0;  // [s] of tracks beyond the trigger: any stop from 25 m/s
 constexpr double slope_time = 0.05;    // [s] over which an acceleration is read off a track
-constexpr std::size_t num_candidates = 24;  // combinations that are looked at for conflicts
+constexpr std::size_t num_candidates = 24;  // hypotheses that are looked at for conflicts
 
-/// One intention for each actor.
-struct Combination {
-  double probability = 1.0;
-  std::vector<Intention> intentions;
-};
-
-/// The intentions of an actor that are worth a forecast of their own, with their probabilities: all
-/// likely ones if any of them leads into a conflict, else only the likeliest.
-std::vector<std::pair<Intention, double>> worth_forecasting(const Scene& scene, const Actor& actor,
-                                                            const IntentPosterior& posterior,
-                                                            const Thresholds& thresholds) {
-  std::vector<std::pair<Intention, double>> likely;
-  bool matters = false;
-  for (const Intention intention : intent::all_intentions) {
-    const double probability = posterior[static_cast<std::size_t>(intention)];
-    if (probability < thresholds.least_posterior) {
-      continue;
-    }
-    likely.emplace_back(intention, probability);
-    const Track track = intent::predicted_track(scene, actor, intention, thresholds.preview);
-    matters = matters || world::time_to_conflict(scene, actor, track, thresholds.preview,
-                                                 thresholds.preview_tolerance)
-                             .has_value();
-  }
-  if (matters && !world::is_behind(scene, actor)) {
+/// The intentions of an actor that are worth a forecast of their own: all likely ones if any of
+/// them leads into a conflict, else only the likeliest.
+intent::Choices worth_forecasting(const Scene& scene, const Actor& actor,
+                                  const IntentPosterior& posterior, const Thresholds& thresholds) {
+  const intent::Choices likely = intent::choices_of(posterior, thresholds.least_posterior);
+  const auto conflicts = [&](const intent::Choice& choice) {
+    const Track track = intent::predicted_track(scene, actor, choice.intention, thresholds.preview);
+    return world::time_to_conflict(scene, actor, track, thresholds.preview,
+                                   thresholds.preview_tolerance)
+        .has_value();
+  };
+  if (!world::is_behind(scene, actor) && std::any_of(likely.begin(), likely.end(), conflicts)) {
     return likely;
   }
-  return {{intent::likeliest(posterior), 1.0}};  // it makes no difference what else it does
+  intent::Choices one;  // it makes no difference what else it does
+  one.push_back({intent::likeliest(posterior), 1.0});
+  return one;
 }
 
-/// The likeliest combinations, in falling order. Exact: extending the best partial combinations
-/// never loses one of the best whole ones, since probabilities multiply.
-std::vector<Combination> combinations(const Scene& scene,
-                                      const std::vector<IntentPosterior>& posteriors,
-                                      const Thresholds& thresholds) {
-  std::vector<Combination> best(1);
+std::vector<intent::Hypothesis> hypotheses(const Scene& scene,
+                                           const std::vector<IntentPosterior>& posteriors,
+                                           const Thresholds& thresholds) {
+  std::vector<intent::Choices> choices;
   for (std::size_t i = 0; i < scene.actors.size(); ++i) {
-    std::vector<Combination> longer;
-    for (const auto& [intention, probability] :
-         worth_forecasting(scene, scene.actors[i], posteriors[i], thresholds)) {
-      for (const Combination& each : best) {
-        longer.push_back({each.probability * probability, each.intentions});
-        longer.back().intentions.push_back(intention);
-      }
-    }
-    std::stable_sort(longer.begin(), longer.end(), [](const Combination& a, const Combination& b) {
-      return a.probability > b.probability;
-    });
-    longer.resize(std::min(longer.size(), num_candidates));
-    best = std::move(longer);
+    choices.push_back(worth_forecasting(scene, scene.actors[i], posteriors[i], thresholds));
   }
-  return best;
+  return intent::likeliest_hypotheses(choices, num_candidates);
 }
 
 /// When the first conflict comes: with the trigger's tolerance, else with that of the preview.
@@ -132,10 +107,10 @@ std::vector<Situation> situations(const Scene& scene, const intent::Beliefs& bel
     posteriors.push_back(belief.now());
   }
   std::vector<Situation> found;
-  for (Combination& combination : combinations(scene, posteriors, thresholds)) {
+  for (intent::Hypothesis& hypothesis : hypotheses(scene, posteriors, thresholds)) {
     std::vector<Track> tracks;
     for (std::size_t i = 0; i < scene.actors.size(); ++i) {
-      tracks.push_back(intent::predicted_track(scene, scene.actors[i], combination.intentions[i],
+      tracks.push_back(intent::predicted_track(scene, scene.actors[i], hypothesis.intentions[i],
                                                thresholds.preview + after_trigger));
     }
     const auto conflict = conflict_time(scene, tracks, thresholds);
@@ -145,8 +120,8 @@ std::vector<Situation> situations(const Scene& scene, const intent::Beliefs& bel
     Situation situation;
     situation.scene_at_trigger =
         moved_on(scene, tracks, std::max(0.0, *conflict - thresholds.trigger));
-    situation.probability = combination.probability;
-    situation.intentions = std::move(combination.intentions);
+    situation.probability = hypothesis.probability;
+    situation.intentions = std::move(hypothesis.intentions);
     situation.posteriors = posteriors;
     situation.risks = obstacle_risks(situation.scene_at_trigger, tools);
     situation.facts = policy_facts(situation.scene_at_trigger, tracks, tools);

@@ -15,9 +15,9 @@ constexpr std::size_t max_situations = 3;
 /// The likely situations at the trigger that are in conflict, likeliest first, at most three, with
 /// all their facts.
 ///
-/// Every combination of likely intentions of those actors that may come into conflict is one
-/// situation (the 24 likeliest are looked at); the others do what is likeliest for them. The ego
-/// goes on as it does until T1 before the conflict. Empty when no combination is in conflict within
+/// Every hypothesis about those actors that may come into conflict is one situation (the 24
+/// likeliest are looked at); the others do what is likeliest for them. The ego
+/// goes on as it does until T1 before the conflict. Empty when no hypothesis has a conflict within
 /// T2.
 ///
 /// @param beliefs  one per actor; those that are prepared for are `preview::cautious`

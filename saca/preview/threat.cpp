@@ -1,6 +1,7 @@
 #include "saca/preview/threat.h"
 
 #include "saca/intent/intention.h"
+#include "saca/intent/joint.h"
 #include "saca/preview/caution.h"
 #include "saca/world/time_to_conflict.h"
 
@@ -35,13 +36,10 @@ std::optional<Threat> previewed_threat(const world::Scene& scene, const intent::
     if (world::is_behind(scene, actor)) {
       continue;
     }
-    const intent::IntentPosterior& posterior = prepared[i].now();
-    for (const intent::Intention intention : intent::all_intentions) {
-      if (posterior[static_cast<std::size_t>(intention)] < thresholds.least_posterior) {
-        continue;
-      }
+    for (const intent::Choice& choice :
+         intent::choices_of(prepared[i].now(), thresholds.least_posterior)) {
       const world::Track track =
-          intent::predicted_track(scene, actor, intention, thresholds.preview);
+          intent::predicted_track(scene, actor, choice.intention, thresholds.preview);
       const auto time = world::time_to_conflict(scene, actor, track, thresholds.preview,
                                                 thresholds.preview_tolerance);
       if (time && (!nearest || *time < nearest->time)) {
