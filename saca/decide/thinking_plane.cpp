@@ -86,7 +86,8 @@ bool ThinkingPlane::think(const world::Scene& scene, const intent::Beliefs& beli
   if (world::broken_rule(scene)) {
     return false;
   }
-  const auto threat = preview::previewed_threat(scene, beliefs, thresholds_);
+  const auto threat =
+      preview::previewed_threat(scene, beliefs, tools_.forecast.motion, thresholds_);
   if (!threat) {
     return false;
   }

@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "saca/world/scene.h"
-#include "saca/world/track.h"
 
 namespace saca::intent {
 
@@ -23,6 +22,9 @@ constexpr std::size_t num_intentions = 6;
 constexpr std::array<Intention, num_intentions> all_intentions{
     Intention::maintain, Intention::lane_left,  Intention::lane_right,
     Intention::brake,    Intention::brake_left, Intention::brake_right};
+
+/// Those that vehicles have.
+constexpr std::array<Intention, 6> vehicle_intentions = all_intentions;
 
 /// Those under which a road user slows down.
 constexpr std::array<Intention, 3> braking_intentions{Intention::brake, Intention::brake_left,
@@ -45,17 +47,5 @@ using IntentPosterior = std::array<double, num_intentions>;
 /// speed; the two are taken as independent. All are assumptions, but for 2 m/s^2, the project's own
 /// mark of braking. Obstacles and actors at rest maintain; pedestrians only maintain or stop.
 [[nodiscard]] IntentPosterior posterior(const world::Scene& scene, const world::Actor& actor);
-
-/// The actor's motion under an intention, from its state in the scene on.
-///
-/// Maintaining keeps the speed; braking uses the measured deceleration, or 6 m/s^2 while less than
-/// 2 m/s^2 are measured, until rest. Actors along the lane follow it, others the arc that their
-/// velocity and turning rate describe. A lane change to the next lane's centre takes the way that
-/// is driven in 4 s at the initial speed. (6 m/s^2 and 4 s are assumptions.)
-///
-/// @param horizon  [s], > 0
-/// @return         poses every 50 ms from scene.time on
-[[nodiscard]] world::Track predicted_track(const world::Scene& scene, const world::Actor& actor,
-                                           Intention intention, double horizon);
 
 }  // namespace saca::intent

@@ -1,9 +1,13 @@
 #pragma once
 
+#include "saca/intent/motion.h"
+
 namespace saca::intent {
 
-/// What was learned about intentions. Nothing is learned yet: intentions are told by a rule, and
-/// there is nothing to hold.
-struct Model {};
+/// What is known of intentions beforehand. What people intend is told by a rule, which has no
+/// numbers of its own to learn; how they move then is here.
+struct Model {
+  MotionLaw motion;
+};
 
 }  // namespace saca::intent

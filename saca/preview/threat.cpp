@@ -27,6 +27,7 @@ std::optional<Threat> nearest_threat(const world::Scene& scene, double horizon, 
 }
 
 std::optional<Threat> previewed_threat(const world::Scene& scene, const intent::Beliefs& beliefs,
+                                       const intent::MotionLaw& motion,
                                        const Thresholds& thresholds) {
   const intent::Beliefs prepared = cautious(scene, beliefs, thresholds);
   std::optional<Threat> nearest =
@@ -38,9 +39,9 @@ std::optional<Threat> previewed_threat(const world::Scene& scene, const intent::
     }
     for (const intent::Choice& choice :
          intent::choices_of(prepared[i].now(), thresholds.least_posterior)) {
-      const world::Track track =
-          intent::predicted_track(scene, actor, choice.intention, thresholds.preview);
-      const auto time = world::time_to_conflict(scene, actor, track, thresholds.preview,
+      const intent::Forecast forecast =
+          intent::motion_under(scene, actor, choice.intention, thresholds.preview, motion);
+      const auto time = world::time_to_conflict(scene, actor, forecast.track, thresholds.preview,
                                                 thresholds.preview_tolerance);
       if (time && (!nearest || *time < nearest->time)) {
         nearest = Threat{.actor = i, .time = *time};

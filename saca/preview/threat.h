@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "saca/intent/motion.h"
 #include "saca/intent/observer.h"
 #include "saca/world/scene.h"
 
@@ -37,6 +38,7 @@ struct Threat {
 /// @throws ContractViolation  if beliefs and actors differ in number
 [[nodiscard]] std::optional<Threat> previewed_threat(const world::Scene& scene,
                                                      const intent::Beliefs& beliefs,
+                                                     const intent::MotionLaw& motion,
                                                      const Thresholds& thresholds);
 
 }  // namespace saca::preview

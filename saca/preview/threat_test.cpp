@@ -31,7 +31,7 @@ Actor car(std::uint8_t id, Vec2 p_W, Vec2 v_W) {
 
 /// As seen for the first time.
 std::optional<Threat> previewed(const Scene& scene, const Thresholds& thresholds) {
-  return previewed_threat(scene, intent::beliefs_at_sight({}, scene), thresholds);
+  return previewed_threat(scene, intent::beliefs_at_sight({}, scene), {}, thresholds);
 }
 
 TEST(NearestThreat, IsTheEarliestOfAll) {
@@ -83,7 +83,15 @@ TEST(PreviewedThreat, LooksAtEveryLikelyIntention) {
   EXPECT_FALSE(nearest_threat(scene, 5.5, 2.0).has_value());
   const auto threat = previewed(scene, {});
   ASSERT_TRUE(threat.has_value());
-  EXPECT_NEAR(threat->time, std::sqrt(2.0 * 20.0 / 6.0), exactness);  // the assumed 6 m/s^2
+  // From 1.2 m/s^2 the deceleration rises to b within r, then stays: after r the way lost is
+  // 1.2 r^2 / 2 + (b - 1.2) r^2 / 6, the speed lost (1.2 + b) r / 2; 20 m at t.
+  const intent::MotionLaw law;
+  const double b = law.braking;
+  const double r = law.braking_rise;
+  const double way = 20.0 - 0.6 * r * r - (b - 1.2) * r * r / 6.0;
+  const double speed = 0.5 * (1.2 + b) * r;
+  const double time = r + (std::sqrt(speed * speed + 2.0 * b * way) - speed) / b;
+  EXPECT_NEAR(threat->time, time, exactness);
   EXPECT_FALSE(previewed(scene, {.least_posterior = 0.2}).has_value());
 }
 
