@@ -1,78 +1,47 @@
 #include "saca/intent/intention.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <numeric>
-#include <random>
+#include <set>
+#include <string_view>
 
 namespace saca::intent {
 namespace {
 
-using world::Actor;
+using testing::ElementsAre;
 using world::ActorKind;
-using world::Scene;
 
-Scene road_scene() {
-  Scene scene;
-  scene.ego.v_B = {20.0, 0.0};
-  scene.ego_footprint = {.length = 4.7, .width = 1.9};
-  scene.ego_mass = 1'700.0;
-  return scene;
-}
-
-Actor car(Vec2 p_W, Vec2 v_W, Vec2 a_W = {}) {
-  Actor actor{.id = 1, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1'500.0};
-  actor.X_WA = {p_W, norm(v_W) > 0.0 ? std::atan2(v_W.y, v_W.x) : 0.0};
-  actor.v_W = v_W;
-  actor.a_W = a_W;
-  return actor;
-}
-
-TEST(Posterior, IsADistribution) {
-  std::mt19937 rng(1);
-  std::uniform_real_distribution<double> u(-1.0, 1.0);
-  for (int i = 0; i < 1000; ++i) {
-    Actor actor = car({30.0 * u(rng), 9.0 * u(rng)}, {20.0 * u(rng), 9.0 * u(rng)},
-                      {9.0 * u(rng), 3.0 * u(rng)});
-    actor.kind = static_cast<ActorKind>(i % 7);
-    actor.yaw_rate = u(rng);
-    const IntentPosterior p = posterior(road_scene(), actor);
-    EXPECT_NEAR(std::accumulate(p.begin(), p.end(), 0.0), 1.0, 1e-12);
-    for (const double each : p) {
-      EXPECT_GE(each, 0.0);
-    }
+TEST(Intention, TheFirstSixAreThePapersInItsOrder) {
+  EXPECT_THAT(vehicle_intentions,
+              ElementsAre(Intention::maintain, Intention::lane_left, Intention::lane_right,
+                          Intention::brake, Intention::brake_left, Intention::brake_right));
+  for (std::size_t i = 0; i < num_intentions; ++i) {
+    EXPECT_EQ(static_cast<std::size_t>(all_intentions[i]), i);
   }
 }
 
-TEST(Posterior, SteadyDrivingIsMaintain) {
-  EXPECT_EQ(likeliest(posterior(road_scene(), car({30.0, 0.0}, {20.0, 0.0}))), Intention::maintain);
+TEST(Intention, HasANameOfItsOwn) {
+  std::set<std::string_view> names;
+  for (const Intention intention : all_intentions) {
+    names.insert(name(intention));
+  }
+  EXPECT_EQ(names.size(), num_intentions);
+  EXPECT_EQ(name(Intention::brake_left), "LB");
+  EXPECT_EQ(name(Intention::cross), "cross");
 }
 
-TEST(Posterior, HardDecelerationIsBraking) {
-  EXPECT_EQ(likeliest(posterior(road_scene(), car({30.0, 0.0}, {20.0, 0.0}, {-5.0, 0.0}))),
-            Intention::brake);
-  EXPECT_EQ(likeliest(posterior(road_scene(), car({30.0, 0.0}, {20.0, 0.0}, {5.0, 0.0}))),
-            Intention::maintain);
+TEST(Intention, WhoMayHaveItIsAMatterOfKind) {
+  EXPECT_EQ(intentions_of(ActorKind::motorcycle).size(), 6U);
+  EXPECT_THAT(intentions_of(ActorKind::bicycle),
+              ElementsAre(Intention::maintain, Intention::stop, Intention::cross));
+  EXPECT_THAT(intentions_of(ActorKind::obstacle), ElementsAre(Intention::maintain));
+  EXPECT_TRUE(is_walker(ActorKind::pedestrian));
+  EXPECT_FALSE(is_walker(ActorKind::motorcycle));
 }
 
-TEST(Posterior, LateralSpeedIsALaneChangeToItsOwnLeft) {
-  EXPECT_EQ(likeliest(posterior(road_scene(), car({30.0, -3.5}, {15.0, 1.2}))),
-            Intention::lane_left);
-  EXPECT_EQ(likeliest(posterior(road_scene(), car({30.0, 3.5}, {15.0, -1.2}, {-6.0, 0.0}))),
-            Intention::brake_right);
-  // Oncoming traffic that moves towards +y moves to its own right.
-  EXPECT_EQ(likeliest(posterior(road_scene(), car({60.0, 3.5}, {-15.0, 1.2}))),
-            Intention::lane_right);
-}
-
-TEST(Posterior, PedestriansAndBodiesAtRestDoNotChangeLanes) {
-  Actor walker = car({20.0, 4.0}, {0.0, -1.4});
-  walker.kind = ActorKind::pedestrian;
-  const IntentPosterior p = posterior(road_scene(), walker);
-  EXPECT_EQ(p[1] + p[2] + p[4] + p[5], 0.0);
-  EXPECT_GT(p[3], 0.0);
-  EXPECT_EQ(posterior(road_scene(), car({20.0, 0.0}, {}))[0], 1.0);
+TEST(Intention, OfEqualOnesTheFirstIsLikeliest) {
+  EXPECT_EQ(likeliest({0.2, 0.3, 0.2, 0.3}), Intention::lane_left);
 }
 
 }  // namespace

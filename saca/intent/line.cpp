@@ -12,13 +12,14 @@ Line line_of(const world::Scene& scene, const world::Actor& actor) {
   const double speed = norm(actor.v_W);
   expects(speed >= rest_speed, "the actor moves");
   const double course = std::atan2(actor.v_W.y, actor.v_W.x);
-  Line line{.road = scene.road,
-            .along_lane = !world::is_crossing(scene, actor),
-            .speed = speed,
-            .deceleration = -dot(actor.a_W, actor.v_W) / speed};
+  Line line{
+      .road = scene.road,
+      .along_lane = actor.kind != world::ActorKind::pedestrian && !world::is_crossing(scene, actor),
+      .speed = speed,
+      .deceleration = -dot(actor.a_W, actor.v_W) / speed};
   if (!line.along_lane) {
     line.road.X_WL = {actor.X_WA.p, course};
-    line.road.curvature = actor.yaw_rate / speed;
+    line.road.curvature = actor.kind == world::ActorKind::pedestrian ? 0.0 : actor.yaw_rate / speed;
     line.crab = wrap_angle(actor.X_WA.yaw - course);
     return line;
   }

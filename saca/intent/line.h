@@ -10,7 +10,7 @@ struct Line {
   world::Road road;           ///< X_WL is on the line where the road user is, x in its direction of
                               ///< travel
   bool along_lane = true;     ///< the line is that of a lane; else the arc that its velocity and
-                              ///< turning rate describe
+                              ///< turning rate describe; a pedestrian's is straight
   double speed = 0.0;         ///< [m/s]
   double lateral = 0.0;       ///< speed to the left of the lane [m/s]; 0 off the lanes
   double deceleration = 0.0;  ///< along its course [m/s^2]; negative: it speeds up

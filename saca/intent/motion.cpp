@@ -6,6 +6,7 @@
 
 #include "saca/core/contract.h"
 #include "saca/intent/line.h"
+#include "saca/intent/walkers.h"
 
 namespace saca::intent {
 namespace {
@@ -14,7 +15,7 @@ using world::Actor;
 using world::ActorKind;
 using world::Scene;
 
-constexpr double step = 0.05;           // [s]
+constexpr double step = motion_step;
 constexpr double least_scale = 0.1;     // nearer the centre of a bend there is no lane
 constexpr double settling_speed = 0.2;  // [m/s], assumption: less is wavering within the lane
 
@@ -163,20 +164,14 @@ Aside aside(const Line& line, double side, const MotionLaw& law) {
           .length = std::max(line.speed * time, peak / steepest * size)};
 }
 
-/// Standard deviation of the way after `time`, for an acceleration that is an Ornstein-Uhlenbeck
-/// process: sd t^2 / 2 at first. Twice integrated from its correlation.
-double wavered(const MotionLaw& law, double time) {
-  const double x = time / law.acceleration_time;
-  constexpr double small = 0.05;  // below it the sum loses its digits; the next term is x^6 / 72
-  const double variance =
-      x < small ? x * x * x * x * (0.25 - x / 15.0)
-                : 2.0 / 3.0 * x * x * x - x * x + 2.0 - 2.0 * std::exp(-x) * (1.0 + x);
-  return law.acceleration_sd * law.acceleration_time * law.acceleration_time * std::sqrt(variance);
-}
-
-Slowing slowing(const Line& line, bool brakes, const MotionLaw& law) {
-  if (!brakes) {
+Slowing slowing(const Line& line, ActorKind kind, Intention intention, const MotionLaw& law) {
+  if (!is_braking(intention)) {
     return {line.speed, 0.0, 0.0, 0.0};
+  }
+  if (intention == Intention::stop) {
+    const double usual = kind == ActorKind::pedestrian ? law.walking_stop : law.cycling_stop;
+    const double full = std::max(usual, line.deceleration);
+    return {line.speed, full, full, 0.0};
   }
   if (line.deceleration >= braking_mark) {
     return {line.speed, line.deceleration, line.deceleration, 0.0};
@@ -188,7 +183,9 @@ Slowing slowing(const Line& line, bool brakes, const MotionLaw& law) {
 void check(const MotionLaw& law) {
   expects(law.acceleration_sd >= 0.0 && law.acceleration_time > 0.0 && law.braking > 0.0 &&
               law.braking_log_sd >= 0.0 && law.braking_rise >= 0.0 && law.held_log_sd >= 0.0 &&
-              law.lane_change > 0.0 && law.lane_change_log_sd >= 0.0,
+              law.lane_change > 0.0 && law.lane_change_log_sd >= 0.0 && law.walking_speed > 0.0 &&
+              law.walking_stop > 0.0 && law.cycling_stop > 0.0 && law.starting > 0.0 &&
+              law.turning > 0.0,
           "a motion law's numbers are in their ranges");
 }
 
@@ -206,6 +203,16 @@ Forecast at_rest(const Scene& scene, const Actor& actor, double horizon) {
 
 }  // namespace
 
+// The correlation of an Ornstein-Uhlenbeck process, integrated twice over both times.
+double wavering_sd(const MotionLaw& law, double time) {
+  const double x = time / law.acceleration_time;
+  constexpr double small = 0.05;  // below it the sum loses its digits; the next term is x^6 / 72
+  const double variance =
+      x < small ? x * x * x * x * (0.25 - x / 15.0)
+                : 2.0 / 3.0 * x * x * x - x * x + 2.0 - 2.0 * std::exp(-x) * (1.0 + x);
+  return law.acceleration_sd * law.acceleration_time * law.acceleration_time * std::sqrt(variance);
+}
+
 Spread spread_at(const Forecast& forecast, double time) {
   expects(!forecast.spread.empty(), "a spread for each pose");
   const std::size_t last = forecast.spread.size() - 1;
@@ -222,15 +229,20 @@ Forecast motion_under(const Scene& scene, const Actor& actor, Intention intentio
                       const MotionLaw& law) {
   expects(horizon > 0.0, "horizon > 0");
   check(law);
+  const std::span<const Intention> possible = intentions_of(actor.kind);
+  expects(std::find(possible.begin(), possible.end(), intention) != possible.end(),
+          "somebody of this kind may intend this");
+  if (intention == Intention::cross) {
+    return crossing_motion(scene, actor, horizon, law);
+  }
   if (actor.kind == ActorKind::obstacle || norm(actor.v_W) < rest_speed) {
     return at_rest(scene, actor, horizon);
   }
   const Line line = line_of(scene, actor);
-  const bool brakes = std::find(braking_intentions.begin(), braking_intentions.end(), intention) !=
-                      braking_intentions.end();
-  const Slowing slowed = slowing(line, brakes, law);
+  const bool brakes = is_braking(intention);
+  const Slowing slowed = slowing(line, actor.kind, intention, law);
   const double log_sd = line.deceleration >= braking_mark ? law.held_log_sd : law.braking_log_sd;
-  const Aside moved = aside(line, side_of(intention), law);
+  const Aside moved = is_walker(actor.kind) ? Aside{} : aside(line, side_of(intention), law);
 
   Forecast forecast{.track = {.start = scene.time, .step = step, .X_WA = {actor.X_WA}},
                     .spread = {{actor.position_sd, actor.position_sd}}};
@@ -251,9 +263,10 @@ Forecast motion_under(const Scene& scene, const Actor& actor, Intention intentio
         line.road, {.s = along, .d = d, .heading = line.crab + std::asin(moved.slope_at(driven))}));
 
     const double perceived = std::hypot(actor.position_sd, actor.velocity_sd * slowed.moving(t));
-    const double of_speed = brakes ? log_sd * slowed.way_per_log(t) : wavered(law, t);
+    const double of_speed = brakes ? log_sd * slowed.way_per_log(t) : wavering_sd(law, t);
     const double of_change = law.lane_change_log_sd * moved.way_per_log(driven);
-    forecast.spread.push_back({std::hypot(perceived, of_speed), std::hypot(perceived, of_change)});
+    const double aside_sd = is_walker(actor.kind) && !brakes ? of_speed : of_change;
+    forecast.spread.push_back({std::hypot(perceived, of_speed), std::hypot(perceived, aside_sd)});
   }
   return forecast;
 }

@@ -3,16 +3,22 @@
 #include <algorithm>
 
 #include "saca/core/contract.h"
+#include "saca/intent/rule.h"
+#include "saca/intent/walkers.h"
 
 namespace saca::intent {
 namespace {
 
 constexpr double rounding = 1e-6;  // [s]: times are sums of steps
 
-/// The rule does not tell now from soon.
 Belief judged(const Model& /*model*/, const world::Scene& scene, const world::Actor& actor) {
   Belief belief;
-  belief.at.fill(posterior(scene, actor));
+  if (is_walker(actor.kind)) {
+    std::transform(horizons.begin(), horizons.end(), belief.at.begin(),
+                   [&](double ahead) { return walker_posterior(scene, actor, ahead); });
+  } else {
+    belief.at.fill(vehicle_posterior(scene, actor));  // the rule does not tell now from soon
+  }
   return belief;
 }
 

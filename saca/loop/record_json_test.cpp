@@ -46,7 +46,7 @@ TEST(RecordJson, HoldsWhatTheFormatPromises) {
   EXPECT_EQ(out["frames"][0]["ego"]["speed_mps"], 9.0);
   EXPECT_TRUE(out["scenario"]["driver"].is_null());
   EXPECT_EQ(out["previews"][0]["facts"].size(), 8U);
-  EXPECT_EQ(out["previews"][0]["actors"][0]["posterior"].size(), 6U);
+  EXPECT_EQ(out["previews"][0]["actors"][0]["posterior"].size(), 3U);  // of a walker
   EXPECT_EQ(out["decision"]["source"], "fallback");
   EXPECT_EQ(out["hindsight"].size(), 8U);
   EXPECT_FALSE(out["hindsight"][5]["refusal"].is_null());

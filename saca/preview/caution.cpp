@@ -1,7 +1,5 @@
 #include "saca/preview/caution.h"
 
-#include <numeric>
-
 #include "saca/core/contract.h"
 #include "saca/intent/intention.h"
 #include "saca/world/time_to_conflict.h"
@@ -11,6 +9,14 @@ namespace {
 
 using intent::Intention;
 using intent::IntentPosterior;
+
+double braking_probability(const IntentPosterior& posterior) {
+  double sum = 0.0;
+  for (const Intention intention : intent::all_intentions) {
+    sum += intent::is_braking(intention) ? posterior[static_cast<std::size_t>(intention)] : 0.0;
+  }
+  return sum;
+}
 
 double least_braking(const world::Scene& scene, const world::Actor& actor,
                      const Thresholds& thresholds, const Caution& caution) {
@@ -34,12 +40,10 @@ intent::Beliefs cautious(const world::Scene& scene, intent::Beliefs beliefs,
   expects(beliefs.size() == scene.actors.size(), "one belief per actor");
   for (std::size_t i = 0; i < beliefs.size(); ++i) {
     const double least = least_braking(scene, scene.actors[i], thresholds, caution);
+    const Intention slows =
+        intent::is_walker(scene.actors[i].kind) ? Intention::stop : Intention::brake;
     for (IntentPosterior& posterior : beliefs[i].at) {
-      const double braking =
-          std::accumulate(intent::braking_intentions.begin(), intent::braking_intentions.end(), 0.0,
-                          [&](double sum, Intention intention) {
-                            return sum + posterior[static_cast<std::size_t>(intention)];
-                          });
+      const double braking = braking_probability(posterior);
       if (braking >= least) {
         continue;
       }
@@ -47,7 +51,7 @@ intent::Beliefs cautious(const world::Scene& scene, intent::Beliefs beliefs,
       for (double& probability : posterior) {
         probability *= 1.0 - share;
       }
-      posterior[static_cast<std::size_t>(Intention::brake)] += share;
+      posterior[static_cast<std::size_t>(slows)] += share;
     }
   }
   return beliefs;

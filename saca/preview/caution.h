@@ -16,8 +16,8 @@ struct Caution {
 };
 
 /// The beliefs that a preview prepares for: where braking, moving aside or not, is less likely than
-/// `Caution` has it, as much of everything else gives way to plain braking as is missing, each in
-/// proportion.
+/// `Caution` has it, as much of everything else gives way to plain braking, or a walker's stop,
+/// as is missing, each in proportion.
 /// @param beliefs  one per actor
 /// @throws ContractViolation  if beliefs and actors differ in number
 [[nodiscard]] intent::Beliefs cautious(const world::Scene& scene, intent::Beliefs beliefs,

@@ -63,6 +63,17 @@ TEST(Cautious, WhoIsInConflictBrakesWithThreePercent) {
               1e-12);  // 36 m at 8 m/s
 }
 
+TEST(Cautious, AWalkerStopsInsteadOfBraking) {
+  Scene scene = ego_and({55.0, 6.0}, {0.0, -1.4});
+  scene.actors[0].kind = world::ActorKind::pedestrian;
+  IntentPosterior walks{};
+  walks[static_cast<std::size_t>(Intention::cross)] = 1.0;
+  const IntentPosterior p = prepared_for(scene, walks);
+  EXPECT_NEAR(p[static_cast<std::size_t>(Intention::stop)], 0.10, 1e-12);
+  EXPECT_NEAR(p[static_cast<std::size_t>(Intention::cross)], 0.90, 1e-12);
+  EXPECT_EQ(p[static_cast<std::size_t>(Intention::brake)], 0.0);
+}
+
 TEST(Cautious, OthersAreBelieved) {
   EXPECT_EQ(prepared_for(ego_and({40.0, 0.0}, {14.0, 0.0}), sure), sure);   // keeps its distance
   EXPECT_EQ(prepared_for(ego_and({40.0, 3.5}, {-14.0, 0.0}), sure), sure);  // in a lane of its own
