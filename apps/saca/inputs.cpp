@@ -23,7 +23,8 @@ Result<Inputs> read_inputs(const std::string& car) {
   return Inputs{.places = places.value(),
                 .car_name = file.stem().string(),
                 .car = read.value(),
-                .harm = harm.value()};
+                .harm = harm.value(),
+                .intent = {}};
 }
 
 Result<ScenarioInputs> read_scenario_inputs(const std::string& scenario) {

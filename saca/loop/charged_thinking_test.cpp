@@ -42,15 +42,15 @@ TEST(ChargedThinking, StartsNoRoundBeforeTheLastOneIsPaidFor) {
   world::Scene scene = wreck_ahead(car, 80.0);
 
   scene.time = 1.0;
-  thinking.think(plane, scene);
+  thinking.think(plane, scene, intent::beliefs_at_sight({}, scene));
   EXPECT_EQ(clock.now(), from_seconds(1.5));
   EXPECT_FALSE(thinking.take(1.49).has_value());
   scene.time = 1.3;
-  thinking.think(plane, scene);
+  thinking.think(plane, scene, intent::beliefs_at_sight({}, scene));
   EXPECT_EQ(clock.now(), from_seconds(1.5));  // still being charged
   EXPECT_TRUE(thinking.take(1.5).has_value());
   scene.time = 1.6;
-  thinking.think(plane, scene);
+  thinking.think(plane, scene, intent::beliefs_at_sight({}, scene));
   EXPECT_EQ(clock.now(), from_seconds(2.1));
 }
 

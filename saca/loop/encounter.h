@@ -11,6 +11,7 @@
 #include "saca/core/result.h"
 #include "saca/decide/event.h"
 #include "saca/decide/reflex_plane.h"
+#include "saca/intent/model.h"
 #include "saca/loop/charged_model.h"
 #include "saca/loop/danger_map.h"
 #include "saca/loop/hindsight.h"
@@ -35,6 +36,7 @@ struct Setup {
   const sim::Scenario* scenario = nullptr;
   const manoeuvre::Car* car = nullptr;
   const outcome::HarmModel* harm = nullptr;
+  const intent::Model* intent = nullptr;
   const manoeuvre::Atlas* atlas = nullptr;  ///< of the car; nullptr: all forecasts are rolled out
   const reach::DangerModel* danger = nullptr;  ///< of the car; nullptr: the best of few evasions
   preview::Thresholds thresholds;

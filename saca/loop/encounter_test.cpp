@@ -66,6 +66,7 @@ class EncounterTest : public testing::Test {
     return run({.scenario = &scenario,
                 .car = &car_,
                 .harm = &harm_,
+                .intent = &intent_,
                 .pace = Pace::lockstep,
                 .costs = {.preview = 0.05, .prompt_token = 0.001, .reply_token = 0.01},
                 .model = model,
@@ -82,6 +83,7 @@ class EncounterTest : public testing::Test {
   SteadyClock clock_;
   Quiet quiet_;
   manoeuvre::Car car_ = manoeuvre::default_car();
+  intent::Model intent_;
   outcome::HarmModel harm_ = outcome::read_harm("data/harm.toml").value();
 };
 
@@ -133,6 +135,7 @@ TEST_F(EncounterTest, WithAnAtlasForecastsAndTheLastCheckAreReadFromIt) {
     return run({.scenario = &scenario,
                 .car = &car_,
                 .harm = &harm_,
+                .intent = &intent_,
                 .atlas = &atlas,
                 .pace = Pace::lockstep,
                 .costs = {.preview = 0.05, .prompt_token = 0.001, .reply_token = 0.01},
@@ -210,8 +213,12 @@ TEST_F(EncounterTest, AnEmptyRoadIsLeftAlone) {
 TEST_F(EncounterTest, TheSameRunGivesTheSameRecordByteForByte) {
   Says model(PolicyId::aes_left);
   const auto scenario = wreck_on_wet_road();
-  loop::Setup setup{
-      .scenario = &scenario, .car = &car_, .harm = &harm_, .model = &model, .clock = &clock_};
+  loop::Setup setup{.scenario = &scenario,
+                    .car = &car_,
+                    .harm = &harm_,
+                    .intent = &intent_,
+                    .model = &model,
+                    .clock = &clock_};
   Record a = play(scenario, &model).value();
   Record b = play(scenario, &model).value();
   a.reflex = {};  // measured in real time
@@ -225,9 +232,13 @@ TEST_F(EncounterTest, AtRealPaceTheWorldDoesNotWait) {
   wreck.start.s = 36.0;  // triggers after a quarter of a second
   scenario.duration = 0.6;
   const Clock::Time start = clock_.now();
-  const auto played = run(
-      {.scenario = &scenario, .car = &car_, .harm = &harm_, .pace = Pace::real, .clock = &clock_},
-      quiet_);
+  const auto played = run({.scenario = &scenario,
+                           .car = &car_,
+                           .harm = &harm_,
+                           .intent = &intent_,
+                           .pace = Pace::real,
+                           .clock = &clock_},
+                          quiet_);
   ASSERT_TRUE(played.has_value());
   EXPECT_GE(clock_.now() - start, std::chrono::milliseconds(590));
   EXPECT_TRUE(played.value().decision.has_value());

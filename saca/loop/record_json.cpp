@@ -103,7 +103,7 @@ json preview_json(const decide::Preview& preview) {
   json actors = json::array();
   for (std::size_t i = 0; i < scene.actors.size(); ++i) {
     json posterior;
-    for (const intent::Intention intention : intent::all_intentions) {
+    for (const intent::Intention intention : intent::intentions_of(scene.actors[i].kind)) {
       posterior[std::string(name(intention))] =
           situation.posteriors[i][static_cast<std::size_t>(intention)];
     }

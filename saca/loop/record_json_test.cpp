@@ -30,9 +30,11 @@ TEST(RecordJson, HoldsWhatTheFormatPromises) {
        .motion = sim::Script{.start = {.s = 40.0}, .behaviour = sim::Behaviour::hold}});
   const auto car = manoeuvre::default_car();
   const auto harm = outcome::read_harm("data/harm.toml").value();
+  const intent::Model intent;
   SteadyClock clock;
   Quiet quiet;
-  const loop::Setup setup{.scenario = &scenario, .car = &car, .harm = &harm, .clock = &clock};
+  const loop::Setup setup{
+      .scenario = &scenario, .car = &car, .harm = &harm, .intent = &intent, .clock = &clock};
   const Record record = run(setup, quiet).value();
   const json out = json::parse(record_json(setup, record));
 
@@ -44,7 +46,7 @@ TEST(RecordJson, HoldsWhatTheFormatPromises) {
   EXPECT_EQ(out["frames"][0]["ego"]["speed_mps"], 9.0);
   EXPECT_TRUE(out["scenario"]["driver"].is_null());
   EXPECT_EQ(out["previews"][0]["facts"].size(), 8U);
-  EXPECT_EQ(out["previews"][0]["actors"][0]["posterior"].size(), 6U);
+  EXPECT_EQ(out["previews"][0]["actors"][0]["posterior"].size(), 3U);  // of a walker
   EXPECT_EQ(out["decision"]["source"], "fallback");
   EXPECT_EQ(out["hindsight"].size(), 8U);
   EXPECT_FALSE(out["hindsight"][5]["refusal"].is_null());

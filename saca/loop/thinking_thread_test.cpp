@@ -32,7 +32,7 @@ TEST(ThinkingThread, ThinksAboutTheNewestSceneAndEndsWhenAsked) {
     const ThinkingThread thread(plane, scenes, clock);
     const Clock::Time give_up = clock.now() + std::chrono::seconds(30);
     while (!any && clock.now() < give_up) {
-      scenes.publish({scene, clock.now()});
+      scenes.publish({scene, intent::beliefs_at_sight({}, scene), clock.now()});
       any = plans.take(received);
       clock.wait_until(clock.now() + std::chrono::milliseconds(1));
     }
