@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "saca/intent/shipped_model.h"
 #include "saca/manoeuvre/default_car.h"
 #include "saca/manoeuvre/ego.h"
 
@@ -88,8 +89,9 @@ class Thinking : public testing::Test {
              .reasoning = [this](std::int32_t, std::string_view text) { text_ += text; }}};
   }
   bool think(ThinkingPlane& plane, const Scene& scene) {
-    const intent::Beliefs beliefs =
-        world::broken_rule(scene) ? intent::Beliefs() : intent::beliefs_at_sight({}, scene);
+    const intent::Beliefs beliefs = world::broken_rule(scene)
+                                        ? intent::Beliefs()
+                                        : intent::beliefs_at_sight(intent::shipped_model(), scene);
     return plane.think(scene, beliefs, clock_.now());
   }
   [[nodiscard]] std::size_t count(EventKind kind) const {

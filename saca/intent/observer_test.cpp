@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "saca/core/contract.h"
+#include "saca/intent/shipped_model.h"
 #include "tests/support/count_allocations.h"
 
 namespace saca::intent {
@@ -45,7 +46,7 @@ Scene with(double time, std::initializer_list<Actor> actors) {
   return scene;
 }
 
-const Model model;
+const Model& model = shipped_model();
 
 TEST(Observer, HasOneBeliefPerActorInTheScenesOrder) {
   Observer observer(model);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "saca/intent/shipped_model.h"
 #include "saca/loop/encounter.h"
 #include "saca/manoeuvre/default_car.h"
 #include "saca/manoeuvre/ego.h"
@@ -202,7 +203,7 @@ class DangerMapsTest : public testing::Test {
   }
 
   manoeuvre::Car car_ = manoeuvre::default_car();
-  intent::Model intent_;
+  const intent::Model& intent_ = intent::shipped_model();
   outcome::HarmModel harm_ = outcome::read_harm("data/harm.toml").value();
   sim::Scenario scenario_{
       .name = "disc", .title = "A disc", .car = "x", .grip = 0.9, .duration = 4.0};

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "saca/intent/shipped_model.h"
 #include "saca/manoeuvre/atlas_for_test.h"
 #include "saca/manoeuvre/default_car.h"
 
@@ -83,7 +84,7 @@ class EncounterTest : public testing::Test {
   SteadyClock clock_;
   Quiet quiet_;
   manoeuvre::Car car_ = manoeuvre::default_car();
-  intent::Model intent_;
+  const intent::Model& intent_ = intent::shipped_model();
   outcome::HarmModel harm_ = outcome::read_harm("data/harm.toml").value();
 };
 

@@ -3,6 +3,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "saca/intent/shipped_model.h"
 #include "saca/loop/encounter.h"
 #include "saca/manoeuvre/default_car.h"
 
@@ -30,7 +31,7 @@ TEST(RecordJson, HoldsWhatTheFormatPromises) {
        .motion = sim::Script{.start = {.s = 40.0}, .behaviour = sim::Behaviour::hold}});
   const auto car = manoeuvre::default_car();
   const auto harm = outcome::read_harm("data/harm.toml").value();
-  const intent::Model intent;
+  const intent::Model& intent = intent::shipped_model();
   SteadyClock clock;
   Quiet quiet;
   const loop::Setup setup{

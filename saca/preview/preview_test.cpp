@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "saca/intent/shipped_model.h"
 #include "saca/manoeuvre/default_car.h"
 #include "saca/manoeuvre/ego.h"
 
@@ -34,7 +35,8 @@ Actor car(std::uint8_t id, Vec2 p_W, Vec2 v_W) {
 std::vector<Situation> look(const Scene& scene) {
   static const manoeuvre::Car car = manoeuvre::default_car();
   static const outcome::HarmModel harm = outcome::read_harm("data/harm.toml").value();
-  return situations(scene, intent::beliefs_at_sight({}, scene), {}, {.car = &car, .harm = &harm});
+  return situations(scene, intent::beliefs_at_sight(intent::shipped_model(), scene), {},
+                    {.car = &car, .harm = &harm});
 }
 
 TEST(Situations, AnEmptyRoadHasNone) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "saca/intent/shipped_model.h"
 #include "saca/world/time_to_conflict.h"
 
 namespace saca::preview {
@@ -31,7 +32,8 @@ Actor car(std::uint8_t id, Vec2 p_W, Vec2 v_W) {
 
 /// As seen for the first time.
 std::optional<Threat> previewed(const Scene& scene, const Thresholds& thresholds) {
-  return previewed_threat(scene, intent::beliefs_at_sight({}, scene), {}, thresholds);
+  return previewed_threat(scene, intent::beliefs_at_sight(intent::shipped_model(), scene), {},
+                          thresholds);
 }
 
 TEST(NearestThreat, IsTheEarliestOfAll) {
