@@ -192,7 +192,7 @@ void Hdf5Reader::want_numbers(const char* name, const std::vector<std::size_t>& 
 
 template <class Real>
 void Hdf5Reader::numbers(const char* name, const std::vector<std::size_t>& extents,
-                         const std::vector<Real*>& parts) {
+                         const std::vector<Real*>& parts, Numbers allowed) {
   Hdf5Parts along(extents, parts.size());
   want_numbers<Real>(name, extents);
   if (problem()) {
@@ -208,9 +208,8 @@ void Hdf5Reader::numbers(const char* name, const std::vector<std::size_t>& exten
       return;
     }
     const Real* const end = part + along.size();
-    const Real* const bad =
-        std::find_if(part, part + along.size(), [](Real x) { return !std::isfinite(x); });
-    if (bad != end) {
+    const Real* const bad = std::find_if<const Real*>(part, end, [](Real x) { return !std::isfinite(x); });
+    if (allowed == Numbers::finite && bad != end) {
       reject(set_part(name), "finite numbers", fmt::format("{} at {}", *bad, bad - part));
       return;
     }
@@ -233,8 +232,8 @@ template bool Hdf5Reader::is_of<double>(const char*) const;
 template void Hdf5Reader::want_numbers<float>(const char*, const std::vector<std::size_t>&);
 template void Hdf5Reader::want_numbers<double>(const char*, const std::vector<std::size_t>&);
 template void Hdf5Reader::numbers(const char*, const std::vector<std::size_t>&,
-                                  const std::vector<float*>&);
+                                  const std::vector<float*>&, Numbers);
 template void Hdf5Reader::numbers(const char*, const std::vector<std::size_t>&,
-                                  const std::vector<double*>&);
+                                  const std::vector<double*>&, Numbers);
 
 }  // namespace saca::config

@@ -12,6 +12,9 @@
 
 namespace saca::config {
 
+/// Which numbers a data set may hold.
+enum class Numbers : std::uint8_t { finite, all };
+
 /// Reads an HDF5 file strictly, as `Document` does TOML: the first thing that is wrong is
 /// remembered as "source: part: want this, got that", and nothing is read any more; what is
 /// returned then is of the right kind. Other threads wait as for `Hdf5Writer`.
@@ -44,11 +47,12 @@ class Hdf5Reader {
   /// as many numbers can be in there: before memory is taken for them.
   template <class Real>
   void want_numbers(const char* name, const std::vector<std::size_t>& extents);
-  /// Finite numbers, parts along the first axis one after another.
+  /// Numbers, parts along the first axis one after another.
+  /// @param allowed  others are rejected
   /// @throws ContractViolation  as Hdf5Writer::numbers
   template <class Real>
   void numbers(const char* name, const std::vector<std::size_t>& extents,
-               const std::vector<Real*>& parts);
+               const std::vector<Real*>& parts, Numbers allowed = Numbers::finite);
 
   /// Remembers what is wrong, unless something was before: for rules that join several parts.
   void reject(const std::string& part, const std::string& message);
@@ -66,8 +70,8 @@ extern template bool Hdf5Reader::is_of<double>(const char*) const;
 extern template void Hdf5Reader::want_numbers<float>(const char*, const std::vector<std::size_t>&);
 extern template void Hdf5Reader::want_numbers<double>(const char*, const std::vector<std::size_t>&);
 extern template void Hdf5Reader::numbers(const char*, const std::vector<std::size_t>&,
-                                         const std::vector<float*>&);
+                                         const std::vector<float*>&, Numbers);
 extern template void Hdf5Reader::numbers(const char*, const std::vector<std::size_t>&,
-                                         const std::vector<double*>&);
+                                         const std::vector<double*>&, Numbers);
 
 }  // namespace saca::config

@@ -15,9 +15,8 @@
 
 #include "saca/config/hdf5_reader.h"
 #include "saca/config/hdf5_writer.h"
+#include "saca/config/sealed_file.h"
 #include "saca/core/contract.h"
-#include "saca/core/file.h"
-#include "saca/core/fnv.h"
 
 namespace saca::reach {
 namespace {
@@ -25,9 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view file_format = "saca.value/2";
-constexpr std::string_view any_format = "saca.value/";
-constexpr std::string_view hdf5_signature = "\x89HDF\r\n\x1a\n";
-constexpr std::size_t head_size = 512;  // a user block, which HDF5 wants to be of such a size
 constexpr std::size_t most_cells = std::size_t{1} << 32;
 constexpr std::array<std::pair<Edge, std::string_view>, 3> edge_names{
     {{Edge::open, "open"}, {Edge::periodic, "periodic"}, {Edge::mirrored, "mirrored"}}};
@@ -108,35 +104,6 @@ void write_parts(config::Hdf5Writer& writer, const Solved& solved) {
   if (!solved.error.empty()) {
     writer.numbers<float>("error", extents_of(solved.grid, std::nullopt), {solved.error.data()});
   }
-}
-
-/// What a file begins with, and what that is to say of the rest.
-struct Outline {
-  std::string head;      // 512 bytes, or as many as there are
-  std::size_t size = 0;  // of the rest
-  Fnv sum;               // likewise
-};
-
-Result<Outline> outline_of(const fs::path& path) {
-  Outline outline;
-  const auto problem = read_file(path, [&](std::string_view bytes) {
-    const std::size_t of_head = std::min(bytes.size(), head_size - outline.head.size());
-    outline.head += bytes.substr(0, of_head);
-    outline.sum.add(bytes.substr(of_head));
-    outline.size += bytes.size() - of_head;
-  });
-  if (problem) {
-    return *problem;
-  }
-  return outline;
-}
-
-/// The first 512 bytes: format, size and check sum of what follows.
-std::string head_for(const Outline& rest) {
-  std::string head =
-      fmt::format("{}\nbytes {}\nfnv1a {:016x}\n", file_format, rest.size, rest.sum.value());
-  head.resize(head_size, '\0');
-  return head;
 }
 
 // --- reading
@@ -257,26 +224,6 @@ Solved read_parts(config::Hdf5Reader& reader) {
   return solved;
 }
 
-/// Why the first 512 bytes are not what the rest calls for.
-Error wrong_head(const std::string& source, const Outline& outline) {
-  const std::string wanted = fmt::format("{}: want a file of {}, got ", source, file_format);
-  const auto told = [](const std::string& text) { return Error{Error::Code::malformed, text}; };
-  const std::string_view head = outline.head;
-  const std::string_view line = head.substr(0, head.find('\n'));
-  if (head.substr(0, hdf5_signature.size()) == hdf5_signature) {
-    return told(wanted + "HDF5 of another kind");
-  }
-  if (line.substr(0, any_format.size()) != any_format || line.size() > 2 * file_format.size()) {
-    return told(wanted + (head.empty() ? "an empty file" : "something else"));
-  }
-  if (line != file_format && head.size() > line.size()) {
-    return told(wanted + std::string(line));
-  }
-  return told(wanted + fmt::format("one of {} bytes whose size or check sum is not what its first "
-                                   "lines say: it is cut off or damaged",
-                                   head.size() + outline.size));
-}
-
 }  // namespace
 
 std::vector<float> snapshot(const Solved& solved, std::size_t time) {
@@ -320,18 +267,12 @@ std::optional<Error> write_solved(const fs::path& path, const Solved& solved) {
   if (!body) {
     return Error{Error::Code::unwritable, path.string() + ": HDF5 cannot make the file in memory"};
   }
-  Outline outline{.head = {}, .size = body->size(), .sum = {}};
-  outline.sum.add(*body);
-  return write_file(path, {head_for(outline), *body});
+  return config::write_sealed(path, file_format, *body);
 }
 
 Result<Solved> read_solved(const fs::path& path) {
-  const auto outline = outline_of(path);
-  if (!outline.has_value()) {
-    return outline.error();
-  }
-  if (outline.value().head != head_for(outline.value())) {
-    return wrong_head(path.string(), outline.value());
+  if (const auto problem = config::check_sealed(path, file_format)) {
+    return *problem;
   }
   try {
     config::Hdf5Reader reader(path.string(), path);
