@@ -67,6 +67,17 @@ std::optional<double> mean(double sum, std::size_t count) {
 
 }  // namespace
 
+bool is_distribution(const ClassProbabilities& probabilities) {
+  double sum = 0.0;
+  for (const double p : probabilities) {
+    if (!(p >= 0.0 && p <= 1.0)) {
+      return false;
+    }
+    sum += p;
+  }
+  return std::abs(sum - 1.0) <= sum_tolerance;
+}
+
 std::size_t likeliest_class(const ClassProbabilities& probabilities) {
   return static_cast<std::size_t>(std::max_element(probabilities.begin(), probabilities.end()) -
                                   probabilities.begin());
@@ -93,14 +104,8 @@ void expect_whole(const Sequence& sequence) {
 void expect_forecasts_of(const Sequence& sequence, const Forecasts& forecasts) {
   for (const auto& of_head : forecasts.at) {
     expects(of_head.size() == sequence.observations.size(), "a forecast for each observation");
-    for (const ClassProbabilities& probabilities : of_head) {
-      double sum = 0.0;
-      for (const double p : probabilities) {
-        expects(p >= 0.0 && p <= 1.0, "probabilities in [0, 1]");
-        sum += p;
-      }
-      expects(std::abs(sum - 1.0) <= sum_tolerance, "probabilities sum to 1");
-    }
+    expects(std::all_of(of_head.begin(), of_head.end(), is_distribution),
+            "probabilities in [0, 1] that sum to 1");
   }
 }
 

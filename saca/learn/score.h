@@ -25,6 +25,9 @@ struct Forecasts {
   std::array<std::vector<ClassProbabilities>, num_heads> at;
 };
 
+/// Whether all are in [0, 1] and sum to 1, but for the rounding of single precision.
+[[nodiscard]] bool is_distribution(const ClassProbabilities& probabilities);
+
 /// The likeliest class; among equals the first.
 [[nodiscard]] std::size_t likeliest_class(const ClassProbabilities& probabilities);
 /// Likewise of each frame.
@@ -33,7 +36,7 @@ struct Forecasts {
 
 /// Throws unless the sequence's parts fit together and its labels are classes of vehicles.
 void expect_whole(const Sequence& sequence);
-/// Throws unless there is a forecast for each frame by each head, finite, in [0, 1], with sum 1.
+/// Throws unless there is a forecast for each frame by each head, and it is a distribution.
 void expect_forecasts_of(const Sequence& sequence, const Forecasts& forecasts);
 
 /// How often what was said of what.
