@@ -146,6 +146,10 @@ void add_traffic(CLI::App& line, int& exit_code) {
       {"commonroad", "CommonRoad files (XML 2020a) with recorded obstacles and lanelets", ".xml",
        traffic::pack_commonroad},
       exit_code);
+  add_pack_source(*packing,
+                  {"100car", "The 100-Car study's release: its events' cars", ".txt",
+                   traffic::pack_hundred_car},
+                  exit_code);
   CLI::App* const info = command->add_subcommand("info", "What a set holds");
   const auto file = std::make_shared<std::string>();
   const auto as_json = std::make_shared<bool>(false);

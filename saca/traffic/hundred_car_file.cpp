@@ -1,5 +1,6 @@
 #include "saca/traffic/hundred_car_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -16,6 +17,11 @@ constexpr std::size_t num_columns = 79;
 constexpr std::size_t sync_column = 1;
 constexpr std::size_t speed_column = 4;
 constexpr std::size_t yaw_rate_column = 6;
+constexpr std::size_t acceleration_column = 9;
+constexpr std::size_t left_mark_column = 14;  // of the lane tracker, in inches, > 0 to the right
+constexpr std::size_t right_mark_column = 15;
+constexpr std::size_t left_trust_column = 18;
+constexpr std::size_t right_trust_column = 19;
 constexpr std::size_t front_column = 20;  // seven ids; the rear radar's seven follow, and so on
 constexpr std::size_t rear_column = 27;
 constexpr std::size_t range_offset = 14;  // from an id to the same target's range
@@ -68,6 +74,12 @@ HundredCarRow row_of(const std::vector<double>& values, std::int64_t sync) {
   row.speed = values[speed_column] >= 0.0 ? from_mph(values[speed_column]) : missing;
   row.yaw_rate = from_degrees(values[yaw_rate_column]);
   row.brake = values[brake_column] > 0.5;
+  row.brake_known = !std::isnan(values[brake_column]);
+  row.acceleration = from_g(values[acceleration_column]);
+  row.left_mark = -from_inches(values[left_mark_column]);
+  row.right_mark = -from_inches(values[right_mark_column]);
+  const double trust = std::min(values[left_trust_column], values[right_trust_column]);
+  row.mark_trust = std::isnan(values[left_trust_column] + values[right_trust_column]) ? 0.0 : trust;
   row.front = targets(values, front_column, -1.0);
   row.rear = targets(values, rear_column, 1.0);
   return row;
@@ -133,6 +145,11 @@ Result<HundredCarEvent> read_hundred_car_event(std::string_view text, std::strin
       return malformed(source, line_number,
                        "want 69 tab-separated columns, got " + std::to_string(fields.size()));
     }
+    const std::optional<std::int64_t> vehicle = whole(number(fields[1]));
+    if (!vehicle) {
+      return malformed(source, line_number,
+                       "column 2: want the vehicle's number, got `" + std::string(fields[1]) + "`");
+    }
     const std::optional<std::int64_t> start = whole(number(fields[2]));
     const std::optional<std::int64_t> end = whole(number(fields[3]));
     if (!start || !end || *end < *start) {
@@ -143,7 +160,8 @@ Result<HundredCarEvent> read_hundred_car_event(std::string_view text, std::strin
     const auto word = [&fields](std::size_t column) {
       return std::string(trimmed(fields[column - 1]));
     };
-    return HundredCarEvent{.start_sync = *start,
+    return HundredCarEvent{.vehicle = *vehicle,
+                           .start_sync = *start,
                            .end_sync = *end,
                            .severity = word(5),
                            .nature = word(10),

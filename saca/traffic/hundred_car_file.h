@@ -30,6 +30,11 @@ struct HundredCarRow {
   double speed = 0.0;     ///< [m/s]
   double yaw_rate = 0.0;  ///< [rad/s], > 0 to the left
   bool brake = false;
+  bool brake_known = true;    ///< false: nothing was recorded of the pedal
+  double acceleration = 0.0;  ///< by the accelerometer, forward [m/s^2]
+  double left_mark = 0.0;     ///< of the lane, from the car's centre line, > 0 to the left [m]
+  double right_mark = 0.0;    ///< likewise: < 0 in the usual case
+  double mark_trust = 0.0;    ///< the tracker's word on the worse of both, up to about 1024
   StaticVector<RadarTarget, radar_columns> front;
   StaticVector<RadarTarget, radar_columns> rear;
 };
@@ -49,6 +54,7 @@ constexpr double hundred_car_step = 0.1;
 
 /// What people saw in the videos of one event; words are the study's.
 struct HundredCarEvent {
+  std::int64_t vehicle = 0;  ///< the study's number of the car; events of one may be one driver's
   std::int64_t start_sync = 0;  ///< the conflict begins
   std::int64_t end_sync = 0;    ///< the last evasive manoeuvre is over
   std::string severity;

@@ -63,6 +63,28 @@ TEST(ReadHundredCarRows, TurnsUnitsAndSigns) {
   EXPECT_DOUBLE_EQ(got.rear[0].azimuth, 0.02);  // its right is the car's left
 }
 
+// 1 in = 0.0254 m, 1 g = 9.80665 m/s^2: exact by definition.
+TEST(ReadHundredCarRows, TurnsLaneMarksToTheLeft) {
+  const auto rows = read_hundred_car_rows(row({{1, "7"},
+                                               {10, "-0.5"},
+                                               {15, "-100"},
+                                               {16, "50"},
+                                               {19, "1024"},
+                                               {20, "700"},
+                                               {78, "."}}) +
+                                              row({{1, "7"}, {2, "1"}, {19, "1024"}, {20, "."}}),
+                                          "f.txt", 7);
+  ASSERT_TRUE(rows.has_value()) << rows.error().message;
+  const HundredCarRow& got = rows.value().at(0);
+  EXPECT_DOUBLE_EQ(got.acceleration, -4.903325);
+  EXPECT_DOUBLE_EQ(got.left_mark, 2.54);
+  EXPECT_DOUBLE_EQ(got.right_mark, -1.27);
+  EXPECT_EQ(got.mark_trust, 700.0);
+  EXPECT_FALSE(got.brake_known);
+  EXPECT_EQ(rows.value().at(1).mark_trust, 0.0);
+  EXPECT_TRUE(rows.value().at(1).brake_known);
+}
+
 TEST(ReadHundredCarRows, KnowsWhatIsMissing) {
   const auto rows = read_hundred_car_rows(
       row({{1, "7"}, {2, "1"}, {5, "-1"}, {7, "."}, {79, ""}}) + "\r\n", "f.txt", 7);
@@ -97,11 +119,12 @@ TEST(ReadHundredCarEvent, NamesWhatIsWrong) {
   };
   EXPECT_THAT(message("8\t1\n"), HasSubstr("want a row of event 7"));
   EXPECT_THAT(message("7\t1\n"), HasSubstr("t.txt:1: want 69 tab-separated columns, got 2"));
-  std::string text = "7\t1\tsoon\t9";
+  std::string dots;
   for (int k = 4; k < 69; ++k) {
-    text += "\t.";
+    dots += "\t.";
   }
-  EXPECT_THAT(message(text), HasSubstr("`soon`"));
+  EXPECT_THAT(message("7\t1\tsoon\t9" + dots), HasSubstr("`soon`"));
+  EXPECT_THAT(message("7\tmine\t1\t9" + dots), HasSubstr("`mine`"));
 }
 
 }  // namespace

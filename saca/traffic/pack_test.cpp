@@ -136,5 +136,30 @@ TEST_F(Pack, TellsItsProgressAndStopsWhenTold) {
   EXPECT_EQ(stopped.error().code, Error::Code::too_late);
 }
 
+TEST_F(Pack, MakesASetOfEvents) {
+  const fs::path release = "saca/traffic/testdata";  // rows 281 to 342 of event 8911, car 1006
+  put("HundredCar_Public_4711.txt", "4711,1,2\n");
+  put("other.txt", "anything");
+  const auto files = files_in({release, folder_}, ".txt").value();
+  const auto made = pack_hundred_car(files, {});
+  ASSERT_TRUE(made.has_value()) << made.error().message;
+  ASSERT_EQ(made.value().set.recordings.size(), 1U);
+  const Recording& recording = made.value().set.recordings[0];
+  EXPECT_EQ(recording.name, "HundredCar_Public_8911.txt");
+  EXPECT_EQ(recording.group, "100car-1006");
+  EXPECT_EQ(recording.vehicles.at(0).samples.size(), 62U);
+  EXPECT_NEAR(recording.vehicles[0].samples[0].speed, 44.738726 * 0.44704, 1e-9);  // its first row
+  EXPECT_EQ(broken_rule(made.value().set), std::nullopt);
+  ASSERT_EQ(made.value().refused.size(), 1U);
+  EXPECT_THAT(made.value().refused[0], HasSubstr("4711"));
+}
+
+TEST_F(Pack, WantsATableOfEvents) {
+  put("HundredCar_Public_4711.txt", "4711,1,2\n");
+  const auto made = pack_hundred_car(files_in({folder_}, ".txt").value(), {});
+  ASSERT_FALSE(made.has_value());
+  EXPECT_THAT(made.error().message, HasSubstr("want a table of events"));
+}
+
 }  // namespace
 }  // namespace saca::traffic

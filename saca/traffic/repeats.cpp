@@ -16,8 +16,8 @@ namespace saca::traffic {
 namespace {
 
 constexpr std::size_t fewest_common = 10;  // samples that tell two tracks to be one, or are kept
-constexpr double alike_speed = 0.02;        // [m/s]: files round speeds to 0.01 or finer
-constexpr double alike_way = 0.3;           // [m]
+constexpr double alike_speed = 0.02;       // [m/s]: files round speeds to 0.01 or finer
+constexpr double alike_way = 0.3;          // [m]
 constexpr double least_change = 0.3;       // of the speed [m/s]: less looks alike at any time
 
 /// What a vehicle keeps from file to file: id and size [cm]; -1 where not known.
