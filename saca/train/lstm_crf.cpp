@@ -61,7 +61,7 @@ config::Tensor plain(const torch::Tensor& tensor) {
 
 }  // namespace
 
-LstmCrfImpl::LstmCrfImpl(double dropout)
+LstmCrfImpl::LstmCrfImpl(double dropout, bool with_chain)
     : input_(static_cast<std::int64_t>(num_features), width),
       lstm_(torch::nn::LSTMOptions(width, width).batch_first(true)),
       output_(2 * width, heads * classes),
@@ -73,9 +73,14 @@ LstmCrfImpl::LstmCrfImpl(double dropout)
   register_module("lstm", lstm_);
   register_module("output", output_);
   register_module("dropout", dropout_);
-  start_ = register_parameter("start", torch::zeros({heads, classes}));
+  start_ = register_parameter("start", torch::zeros({heads, classes}), with_chain);
   // Staying is likelier than anything else: at 10 Hz a class lasts for tens of frames.
-  transition_ = register_parameter("transition", 3.0 * torch::eye(classes).repeat({heads, 1, 1}));
+  const double staying = with_chain ? 3.0 : 0.0;
+  transition_ = register_parameter("transition",
+                                   staying * torch::eye(classes).repeat({heads, 1, 1}), with_chain);
+  if (!with_chain) {
+    mask_.zero_();
+  }
 }
 
 torch::Tensor LstmCrfImpl::emissions(const torch::Tensor& features) {

@@ -27,7 +27,9 @@ struct Loss {
 /// The network of intent/network.h with its chains, in a form that can be trained.
 class LstmCrfImpl : public torch::nn::Module {
  public:
-  explicit LstmCrfImpl(double dropout);
+  /// @param with_chain  false: without start and transition scores, which stay 0; each frame is
+  ///                    judged by its emissions alone
+  explicit LstmCrfImpl(double dropout, bool with_chain = true);
 
   /// Mean emissions of the world and of its mirror image.   (B x T x H x K)
   torch::Tensor emissions(const torch::Tensor& features);
@@ -55,7 +57,7 @@ class LstmCrfImpl : public torch::nn::Module {
   torch::Tensor transition_;
   torch::Tensor sign_;     ///< of each feature in the mirror
   torch::Tensor swapped_;  ///< class in the mirror
-  torch::Tensor mask_;     ///< of forbidden transitions: very negative   (K x K)
+  torch::Tensor mask_;  ///< of forbidden transitions: very negative   (K x K)
 };
 TORCH_MODULE(LstmCrf);
 

@@ -131,9 +131,10 @@ std::string fingerprint(const std::vector<Piece>& pieces, const TrainingPlan& pl
       hash.add(std::string_view(static_cast<const char*>(flat.data_ptr()), flat.nbytes()));
     }
   }
-  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {:x}", plan.seed, plan.epochs, plan.batch,
+  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {:x}", plan.seed, plan.epochs, plan.batch,
                      plan.longest, plan.step, plan.decay, plan.dropout, plan.filtered_share,
-                     plan.lane_loss, plan.ahead_loss, plan.pedals_loss, hash.value());
+                     plan.with_chain, plan.lane_loss, plan.ahead_loss, plan.pedals_loss,
+                     hash.value());
 }
 
 /// One training under way.
@@ -173,7 +174,7 @@ class Training {
  private:
   static LstmCrf seeded_network(const TrainingPlan& plan) {
     torch::manual_seed(plan.seed);
-    return LstmCrf(plan.dropout);
+    return LstmCrf(plan.dropout, plan.with_chain);
   }
 
   Epoch epoch(int number);

@@ -23,6 +23,7 @@ struct TrainingPlan {
   double decay = 1e-2;  ///< of weights
   double dropout = 0.3;
   double filtered_share = 0.5;  ///< of the loss of what a stream is told, beside the sequence's
+  bool with_chain = true;       ///< false: each frame is trained for itself
   double lane_loss = 0.1;       ///< share of pieces whose lane is hidden: somebody off the map
   double ahead_loss = 0.1;      ///< likewise of what is ahead
   double pedals_loss = 0.5;     ///< likewise of what the vehicle shares
