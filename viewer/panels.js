@@ -84,7 +84,7 @@ function preview_actors(preview) {
   const rows = list(preview.actors).map((actor) => ({ cells: [el("b", { text: actor.id }),
     el("span", {}, intention_words[actor.intention] ?? actor.intention ?? none, el("br"), posterior_bars(actor.posterior, actor.intention)),
     el("span", {}, bar(actor.risk, num(actor.risk, 2), actor.risk >= risk_shown ? "danger" : ""), el("small", { text: actor.risk_text ?? "" }))] }));
-  return rows.length ? table("Actors, their intentions and risks", ["Actor", "Intention in this preview, and all six", "Risk"], rows)
+  return rows.length ? table("Actors, their intentions and risks", ["Actor", "Intention in this preview, and all it may have", "Risk"], rows)
     : el("p", { class: "soft", text: "No actors." });
 }
 
