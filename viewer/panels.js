@@ -74,7 +74,8 @@ function show_result(record) {
 // --- previews -------------------------------------------------------------------------------------
 
 function posterior_bars(posterior, likeliest) {
-  return el("span", { class: "posterior" }, Object.entries(dict(posterior)).map(([name, p]) => el("span", {
+  const order = Object.keys(intention_words);
+  return el("span", { class: "posterior" }, Object.entries(dict(posterior)).sort(([a], [b]) => order.indexOf(a) - order.indexOf(b)).map(([name, p]) => el("span", {
     class: `intent ${name === likeliest ? "likeliest" : ""}`, title: `${intention_words[name] ?? name}: ${percent(p)}` },
     el("span", { class: "intent-bar", "aria-hidden": "true" }, el("span", { style: { height: `${Math.round(100 * (p || 0))}%` } })),
     el("span", { text: name }), el("span", { class: "hidden", text: percent(p) }))));
