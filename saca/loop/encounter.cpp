@@ -34,9 +34,10 @@ using world::Scene;
 constexpr std::array<std::string_view, 2> pace_names{"real", "lockstep"};
 constexpr std::array<std::string_view, 3> phase_names{"recorded", "driving", "manoeuvre"};
 
-constexpr int steps_per_look = 10;      // 100 Hz
-constexpr int looks_per_frame = 2;      // 50 Hz
-constexpr double rest_after_end = 2.0;  // [s] that the film goes on, as outcome::judge looks on
+constexpr int steps_per_look = 10;       // 100 Hz
+constexpr int looks_per_frame = 2;       // 50 Hz
+constexpr int looks_per_judgement = 10;  // 10 Hz, as intent::Observer judges
+constexpr double rest_after_end = 2.0;   // [s] that the film goes on, as outcome::judge looks on
 
 std::string policy_text(const manoeuvre::Plan& plan) {
   std::string text = fmt::format("{} {}", manoeuvre::index(plan.policy), name(plan.policy));
@@ -220,6 +221,9 @@ std::optional<Error> Encounter::look() {
     }
   }
   beliefs_ = &observer_.look(seen_);
+  if (num_looks_ % looks_per_judgement == 0) {
+    note(seen_, *beliefs_, record_.intentions);
+  }
   if (!woke_) {
     wake();
   }

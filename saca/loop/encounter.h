@@ -15,6 +15,7 @@
 #include "saca/loop/charged_model.h"
 #include "saca/loop/danger_map.h"
 #include "saca/loop/hindsight.h"
+#include "saca/loop/intentions_seen.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/memory/store.h"
 #include "saca/outcome/harm.h"
@@ -83,7 +84,8 @@ struct ReflexTiming {
 struct Record {
   double grip = 0.0;  ///< true friction coefficient of the road [-]
   std::vector<Frame> frames;
-  std::vector<decide::Event> events;  ///< by time
+  std::vector<IntentionsSeen> intentions;  ///< one per road user, in the order of first sight
+  std::vector<decide::Event> events;       ///< by time
   std::vector<decide::Preview> previews;
   std::optional<decide::Decision> decision;
   std::optional<world::Scene> at_trigger;  ///< the truth

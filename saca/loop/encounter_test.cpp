@@ -201,6 +201,25 @@ TEST_F(EncounterTest, WhatCannotBeDrivenBecomesBraking) {
   EXPECT_TRUE(has(record, EventKind::fault));
 }
 
+// An observer has watched since the beginning when SACA wakes.
+TEST_F(EncounterTest, IntentionsAreNotedFromTheFirstLookOnButNotOfObstacles) {
+  sim::Scenario scenario = wreck_on_wet_road();
+  scenario.actors[0].kind = world::ActorKind::obstacle;
+  scenario.actors.push_back({.id = 3,
+                             .footprint = {.length = 4.5, .width = 1.8},
+                             .mass = 1'500.0,
+                             .motion = sim::Script{.start = {.s = 60.0, .d = 3.5}, .speed = 20.0}});
+  const Record record = play(scenario).value();
+  ASSERT_EQ(record.intentions.size(), 1U);
+  const IntentionsSeen& seen = record.intentions[0];
+  EXPECT_EQ(seen.id, 3);
+  ASSERT_EQ(seen.times.size(), seen.beliefs.size());
+  for (std::size_t k = 0; k < seen.times.size(); ++k) {
+    EXPECT_NEAR(seen.times[k], 0.1 * static_cast<double>(k), 1e-9);
+  }
+  EXPECT_GT(seen.times.back(), record.decision->time);
+}
+
 TEST_F(EncounterTest, AnEmptyRoadIsLeftAlone) {
   sim::Scenario scenario = wreck_on_wet_road();
   scenario.actors.clear();

@@ -48,6 +48,17 @@ TEST(RecordJson, HoldsWhatTheFormatPromises) {
   EXPECT_TRUE(out["scenario"]["driver"].is_null());
   EXPECT_EQ(out["previews"][0]["facts"].size(), 8U);
   EXPECT_EQ(out["previews"][0]["actors"][0]["posterior"].size(), 3U);  // of a walker
+  // One row every 0.1 s from the start on; the times are those of looks.
+  ASSERT_EQ(out["intentions"].size(), 1U);
+  const json& seen = out["intentions"][0];
+  EXPECT_EQ(seen["actor"], "pedestrian1");
+  EXPECT_EQ(seen["of"], (json{"M", "stop", "cross"}));
+  EXPECT_EQ(seen["times_s"].size(), record.intentions[0].times.size());
+  EXPECT_EQ(seen["times_s"][0], 0.0);
+  EXPECT_NEAR(seen["times_s"][7].get<double>(), 0.7, 1e-9);
+  ASSERT_EQ(seen["now_permille"].size(), seen["times_s"].size());
+  ASSERT_EQ(seen["soon_permille"].size(), seen["times_s"].size());
+  EXPECT_EQ(seen["now_permille"][0], "920 0 80");  // it stands on the road: 8 % start to cross
   EXPECT_EQ(out["decision"]["source"], "fallback");
   EXPECT_EQ(out["hindsight"].size(), 8U);
   EXPECT_FALSE(out["hindsight"][5]["refusal"].is_null());
