@@ -133,6 +133,7 @@ void add_intent(CLI::App& line, int& exit_code) {
       line.add_subcommand("intent", "What road users are about to do: examples, scores, pictures");
   command->require_subcommand(1);
   add_examples(*command, exit_code);
+  add_intent_eval(*command, exit_code);
 }
 
 }  // namespace saca::app
