@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "saca/learn/labels.h"
+
+namespace saca::learn {
+
+/// A positive quantity's distribution: of its logarithm.
+struct LogNormal {
+  std::size_t num = 0;  ///< measured; with fewer than two the rest is 0
+  double median = 0.0;
+  double log_sd = 0.0;  ///< standard deviation of the natural logarithm
+};
+[[nodiscard]] LogNormal log_normal(const std::vector<double>& values);
+
+/// How people really drive: intent::MotionLaw's numbers, measured.
+struct MotionFit {
+  LogNormal
+      braking;     ///< mean deceleration from beyond the mark to its end, of each braking [m/s^2]
+  LogNormal rise;  ///< from half the hardest deceleration of a braking to it, twice [s]
+  LogNormal held;  ///< of one who brakes: mean deceleration of the next second over that of now
+  LogNormal lane_change;  ///< a lane's width at the highest lateral speed, as a polynomial of fifth
+                          ///< order would take [s]
+  double acceleration_sd = 0.0;    ///< of those who maintain, beyond doubt [m/s^2]
+  double acceleration_time = 0.0;  ///< after which its autocorrelation is 1/e [s]
+};
+
+/// @param motions  smoothed or simulated, at steps of `frame_step`
+/// @param lane_width  that lane changes are scaled to [m], > 0
+[[nodiscard]] MotionFit motion_fit(const std::vector<TrueMotion>& motions, double lane_width);
+
+}  // namespace saca::learn
