@@ -14,6 +14,8 @@
 #include "saca/traffic/commonroad.h"
 #include "saca/traffic/hundred_car_file.h"
 #include "saca/traffic/hundred_car_set.h"
+#include "saca/traffic/ngsim_csv.h"
+#include "saca/traffic/ngsim_set.h"
 #include "saca/traffic/recording_of_map.h"
 
 namespace saca::traffic {
@@ -172,6 +174,30 @@ Result<Packed> pack_hundred_car(const std::vector<fs::path>& files, const PackPr
   return pack_each(series, progress, [&](const fs::path& path, Packed& packed) {
     pack_event(path, *table, text.value(), packed);
   });
+}
+
+Result<Packed> pack_ngsim(const std::vector<fs::path>& files, const PackProgress& progress) {
+  NgsimTable table;
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    NgsimReader reader(files[k].string(), table);
+    if (const auto problem =
+            read_file(files[k], [&](std::string_view bytes) { reader.take(bytes); })) {
+      return *problem;
+    }
+    if (const auto problem = reader.finish()) {
+      return *problem;
+    }
+    if (progress && !progress(k + 1, files.size())) {
+      return Error{Error::Code::too_late, "stopped"};
+    }
+  }
+  Packed packed;
+  packed.set = set_of_ngsim(table, files.size() == 1 ? shown_name(files[0]) : "files");
+  if (packed.set.recordings.empty()) {
+    return Error{Error::Code::malformed, "want recorded vehicles of freeways, got none in " +
+                                             std::to_string(files.size()) + " files"};
+  }
+  return packed;
 }
 
 }  // namespace saca::traffic

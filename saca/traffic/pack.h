@@ -43,4 +43,10 @@ struct Packed {
 [[nodiscard]] Result<Packed> pack_hundred_car(const std::vector<std::filesystem::path>& files,
                                               const PackProgress& progress);
 
+/// NGSIM's own files as a set (ngsim_csv.h, ngsim_set.h); what several files hold of one recording
+/// goes together.
+/// @return  as above; also the first error of a file: who packs a gigabyte wants it whole
+[[nodiscard]] Result<Packed> pack_ngsim(const std::vector<std::filesystem::path>& files,
+                                        const PackProgress& progress);
+
 }  // namespace saca::traffic
