@@ -37,7 +37,7 @@ struct Packed {
 
 /// Events of the 100-Car study as a set, the car of each (hundred_car_set.h).
 /// @param files  of the release: the table of events (100CarEventVideoReducedData_v1_5.txt) and the
-///               series, one file for each event (HundredCar_Public_<event>.txt); others are passed
+///               series (HundredCar_*.txt), one event's or many events' rows; others are passed
 ///               over
 /// @return       as above; Error::Code::malformed also without a table
 [[nodiscard]] Result<Packed> pack_hundred_car(const std::vector<std::filesystem::path>& files,

@@ -77,7 +77,7 @@ def test_files_that_cannot_be_read_are_told_and_counted(recordings, tmp_path):
     assert packed.returncode == SUCCESS, packed.stderr
     assert "cut.xml" in packed.stderr and "spot.xml" not in packed.stderr
     skipped = json.loads(packed.stdout)["skipped"]
-    assert skipped["file: cannot be read"] == 1
+    assert skipped["file or event: cannot be read"] == 1
     assert skipped["file: set-based predictions (SPOT), no recording"] == 1
 
 
