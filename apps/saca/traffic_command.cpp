@@ -150,6 +150,10 @@ void add_traffic(CLI::App& line, int& exit_code) {
                   {"100car", "The 100-Car study's release: its events' cars", ".txt",
                    traffic::pack_hundred_car},
                   exit_code);
+  add_pack_source(*packing,
+                  {"ngsim", "NGSIM's own trajectories: CSV, the older text files, I-80's pairs",
+                   ".csv", traffic::pack_ngsim},
+                  exit_code);
   CLI::App* const info = command->add_subcommand("info", "What a set holds");
   const auto file = std::make_shared<std::string>();
   const auto as_json = std::make_shared<bool>(false);

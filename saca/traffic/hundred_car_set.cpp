@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "saca/traffic/lane_map.h"
 #include "saca/traffic/radar_track.h"
 #include "saca/traffic/recording_of_map.h"
 
@@ -15,8 +16,10 @@ constexpr double jump_slack = 0.8;        // of a jump against the lane's width 
 
 void set_lane(const HundredCarRow& row, Sample& sample) {
   const double width = row.left_mark - row.right_mark;
-  if (row.mark_trust > least_mark_trust && width >= narrowest_lane && width <= widest_lane) {
-    sample.offset = -0.5 * (row.left_mark + row.right_mark);
+  const double offset = -0.5 * (row.left_mark + row.right_mark);
+  if (row.mark_trust > least_mark_trust && width >= narrowest_lane && width <= widest_lane &&
+      std::abs(offset) <= 0.5 * width + lane_hold) {
+    sample.offset = offset;
     sample.lane_width = width;
   }
 }

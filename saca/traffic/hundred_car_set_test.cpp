@@ -63,12 +63,14 @@ TEST(HundredCarSet, BelievesOnlyMarksThatAreSure) {
   rows[3].left_mark = 0.2;  // a lane of 2.3 m
   rows[4].left_mark = 3.0;  // of 5.1 m
   rows[5].left_mark = not_known;
+  rows[6].left_mark = -0.5;  // a lane of the usual width, but the car is 0.5 m outside
+  rows[6].right_mark = -4.1;
   const std::vector<Sample> samples = samples_made_of(rows);
-  for (const std::size_t k : {2U, 3U, 4U, 5U}) {
+  for (const std::size_t k : {2U, 3U, 4U, 5U, 6U}) {
     EXPECT_TRUE(std::isnan(samples[k].offset)) << k;
     EXPECT_TRUE(std::isnan(samples[k].lane_width)) << k;
   }
-  EXPECT_FALSE(std::isnan(samples[6].offset));
+  EXPECT_FALSE(std::isnan(samples[7].offset));
 }
 
 /// Moves to one side by 0.2 m a row, over the mark into the next lane.

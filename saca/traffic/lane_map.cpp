@@ -12,6 +12,7 @@ namespace saca::traffic {
 namespace {
 
 constexpr double station_spacing = 1.0;           // of the centre line [m]
+constexpr double most_stations = 5000.0;          // of a lanelet: maps may be broken
 constexpr double run_on = 15.0;                   // into the lanelets before and after [m]
 constexpr double heading_reach = 3.0;             // to either side [m]
 constexpr double curvature_reach = 10.0;          // likewise
@@ -136,8 +137,8 @@ void fill_stations(const std::vector<RawLine>& raw, std::size_t which, LaneMap::
                    whole.at(std::max(way - heading_reach, 0.0));
     return std::atan2(d.y, d.x);
   };
-  const auto num =
-      static_cast<std::size_t>(std::max(1.0, std::ceil(inner.length() / station_spacing)));
+  const auto num = static_cast<std::size_t>(
+      std::clamp(std::ceil(inner.length() / station_spacing), 1.0, most_stations));
   for (std::size_t k = 0; k <= num; ++k) {
     const double way = inner.length() * static_cast<double>(k) / static_cast<double>(num);
     const auto [segment, share] = inner.segment_at(way);

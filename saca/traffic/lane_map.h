@@ -32,10 +32,11 @@ constexpr double lane_hold = 0.3;
 
 /// The lanes of a map, for looking up bodies in them.
 ///
-/// Centre lines are sampled a metre apart and run on into the straightest predecessor and
-/// successor, so that headings and curvatures do not end with a lanelet. A heading is the direction
-/// over 3 m to either side, a curvature the change of heading over 10 m to either side: corners of
-/// the map are rounded off, and a curve tighter than 20 m of length is blunted.
+/// Centre lines are sampled a metre apart (farther in lanelets of more than 5 km) and run on into
+/// the straightest predecessor and successor, so that headings and curvatures do not end with a
+/// lanelet. A heading is the direction over 3 m to either side, a curvature the change of heading
+/// over 10 m to either side: corners of the map are rounded off, and a curve tighter than 20 m of
+/// length is blunted.
 class LaneMap {
  public:
   explicit LaneMap(const CommonRoad& file);

@@ -234,6 +234,14 @@ TEST(LaneMap, EndsInAMapThatRunsInACircle) {
   EXPECT_EQ(map.way_ahead(from, 1e6).lanelets.size(), 2U);
 }
 
+TEST(LaneMap, TakesAMapThatIsFarTooLarge) {
+  CommonRoad file;
+  file.lanelets = {straight_lane(1, -1e8, 1e8, 0.0)};
+  const LaneMap map(file);
+  EXPECT_LE(map.lanelets().at(0).points_W.size(), 5001U);
+  EXPECT_NEAR(map.places({{12345.0, 0.5}, 0.0}).at(0).offset, 0.5, 1e-6);
+}
+
 TEST(LaneMap, PassesOverLaneletsWithoutLength) {
   CommonRoad file;
   file.lanelets = {straight_lane(1, 3.0, 3.0, 0.0)};

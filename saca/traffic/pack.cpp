@@ -14,6 +14,8 @@
 #include "saca/traffic/commonroad.h"
 #include "saca/traffic/hundred_car_file.h"
 #include "saca/traffic/hundred_car_set.h"
+#include "saca/traffic/ngsim_csv.h"
+#include "saca/traffic/ngsim_set.h"
 #include "saca/traffic/recording_of_map.h"
 
 namespace saca::traffic {
@@ -30,13 +32,13 @@ std::string shown_name(const fs::path& file) {
 }
 
 void refuse(const Error& error, Packed& packed) {
-  ++packed.set.skipped["file: cannot be read"];
+  ++packed.set.skipped["file or event: cannot be read"];
   packed.refused.push_back(error.message);
 }
 
 void keep(Recording recording, Packed& packed) {
   if (recording.vehicles.empty()) {
-    ++packed.set.skipped["file: no vehicle with enough samples"];
+    ++packed.set.skipped["file or event: no vehicle with enough samples"];
     return;
   }
   packed.set.recordings.push_back(std::move(recording));
@@ -81,36 +83,41 @@ Result<Packed> pack_each(const std::vector<fs::path>& files, const PackProgress&
 }
 
 constexpr std::string_view event_table = "100CarEventVideoReducedData_v1_5.txt";
-constexpr std::string_view series_prefix = "HundredCar_Public_";
+constexpr std::string_view series_prefix = "HundredCar_";
 
-/// The event in a series' name; nullopt: it is none.
-std::optional<std::int64_t> event_of(const fs::path& path) {
-  const std::string stem = path.stem().string();
-  if (stem.rfind(series_prefix, 0) != 0) {
-    return std::nullopt;
+/// Rows on end that have the same first field.
+std::string_view cut_event(std::string_view& rest) {
+  const auto first_field = [](std::string_view text) { return text.substr(0, text.find(',')); };
+  const std::string_view whole = rest;
+  const std::string_view event = first_field(whole.substr(0, whole.find('\n')));
+  while (!rest.empty() && first_field(rest.substr(0, rest.find('\n'))) == event) {
+    (void)cut_line(rest);
   }
-  const std::optional<double> number = finite_number(stem.substr(series_prefix.size()));
-  constexpr double most = 1e9;
-  return number && *number >= 0.0 && *number <= most && *number == std::floor(*number)
-             ? std::optional(static_cast<std::int64_t>(*number))
-             : std::nullopt;
+  return whole.substr(0, whole.size() - rest.size());
 }
 
-void pack_event(const fs::path& path, const fs::path& table_path, std::string_view table,
-                Packed& packed) {
-  const std::int64_t event = event_of(path).value();
-  const Result<std::string> text = read_file(path);
-  if (!text.has_value()) {
-    refuse(text.error(), packed);
+void pack_event(const fs::path& path, std::string_view rows_text, const fs::path& table_path,
+                std::string_view table, Packed& packed) {
+  const std::string_view field = trimmed(rows_text.substr(0, rows_text.find_first_of(",\r\n")));
+  if (field.empty()) {  // an empty line
     return;
   }
+  const std::string source = path.string() + ", event " + std::string(field.substr(0, 20));
+  const std::optional<double> number = finite_number(field);
+  constexpr double most = 1e9;
+  if (!number || !(*number >= 0.0 && *number <= most) || *number != std::floor(*number)) {
+    refuse({Error::Code::malformed, source + ": want a whole number in column 1"}, packed);
+    return;
+  }
+  const auto event = static_cast<std::int64_t>(*number);
   const auto told = read_hundred_car_event(table, table_path.string(), event);
-  const auto rows = read_hundred_car_rows(text.value(), path.string(), event);
+  const auto rows = read_hundred_car_rows(rows_text, source, event);
   if (!told.has_value() || !rows.has_value()) {
     refuse(told.has_value() ? rows.error() : told.error(), packed);
     return;
   }
-  keep(recording_of_event(rows.value(), told.value(), shown_name(path), packed.set.skipped),
+  keep(recording_of_event(rows.value(), told.value(), "event " + std::to_string(event),
+                          packed.set.skipped),
        packed);
 }
 
@@ -167,11 +174,43 @@ Result<Packed> pack_hundred_car(const std::vector<fs::path>& files, const PackPr
     return text.error();
   }
   std::vector<fs::path> series;
-  std::copy_if(files.begin(), files.end(), std::back_inserter(series),
-               [](const fs::path& path) { return event_of(path).has_value(); });
-  return pack_each(series, progress, [&](const fs::path& path, Packed& packed) {
-    pack_event(path, *table, text.value(), packed);
+  std::copy_if(files.begin(), files.end(), std::back_inserter(series), [](const fs::path& path) {
+    return path.filename().string().rfind(series_prefix, 0) == 0;
   });
+  return pack_each(series, progress, [&](const fs::path& path, Packed& packed) {
+    const Result<std::string> bytes = read_file(path);
+    if (!bytes.has_value()) {
+      refuse(bytes.error(), packed);
+      return;
+    }
+    for (std::string_view rest = bytes.value(); !rest.empty();) {
+      pack_event(path, cut_event(rest), *table, text.value(), packed);
+    }
+  });
+}
+
+Result<Packed> pack_ngsim(const std::vector<fs::path>& files, const PackProgress& progress) {
+  NgsimTable table;
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    NgsimReader reader(files[k].string(), table);
+    if (const auto problem =
+            read_file(files[k], [&](std::string_view bytes) { reader.take(bytes); })) {
+      return *problem;
+    }
+    if (const auto problem = reader.finish()) {
+      return *problem;
+    }
+    if (progress && !progress(k + 1, files.size())) {
+      return Error{Error::Code::too_late, "stopped"};
+    }
+  }
+  Packed packed;
+  packed.set = set_of_ngsim(table, files.size() == 1 ? shown_name(files[0]) : "files");
+  if (packed.set.recordings.empty()) {
+    return Error{Error::Code::malformed, "want recorded vehicles of freeways, got none in " +
+                                             std::to_string(files.size()) + " files"};
+  }
+  return packed;
 }
 
 }  // namespace saca::traffic

@@ -37,10 +37,16 @@ struct Packed {
 
 /// Events of the 100-Car study as a set, the car of each (hundred_car_set.h).
 /// @param files  of the release: the table of events (100CarEventVideoReducedData_v1_5.txt) and the
-///               series, one file for each event (HundredCar_Public_<event>.txt); others are passed
+///               series (HundredCar_*.txt), one event's or many events' rows; others are passed
 ///               over
 /// @return       as above; Error::Code::malformed also without a table
 [[nodiscard]] Result<Packed> pack_hundred_car(const std::vector<std::filesystem::path>& files,
                                               const PackProgress& progress);
+
+/// NGSIM's own files as a set (ngsim_csv.h, ngsim_set.h); what several files hold of one recording
+/// goes together.
+/// @return  as above; also the first error of a file: who packs a gigabyte wants it whole
+[[nodiscard]] Result<Packed> pack_ngsim(const std::vector<std::filesystem::path>& files,
+                                        const PackProgress& progress);
 
 }  // namespace saca::traffic

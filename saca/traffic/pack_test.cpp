@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "saca/core/file.h"
 
@@ -107,8 +108,8 @@ TEST_F(Pack, CountsFilesThatItCannotUse) {
   ASSERT_TRUE(made.has_value());
   const auto& skipped = made.value().set.skipped;
   EXPECT_EQ(skipped.at("file: set-based predictions (SPOT), no recording"), 1U);
-  EXPECT_EQ(skipped.at("file: cannot be read"), 1U);
-  EXPECT_EQ(skipped.at("file: no vehicle with enough samples"), 1U);
+  EXPECT_EQ(skipped.at("file or event: cannot be read"), 1U);
+  EXPECT_EQ(skipped.at("file or event: no vehicle with enough samples"), 1U);
   EXPECT_EQ(skipped.at("file: all its vehicles are kept from others"), 1U);
   ASSERT_EQ(made.value().refused.size(), 1U);
   EXPECT_THAT(made.value().refused[0], HasSubstr("c.xml"));
@@ -145,13 +146,38 @@ TEST_F(Pack, MakesASetOfEvents) {
   ASSERT_TRUE(made.has_value()) << made.error().message;
   ASSERT_EQ(made.value().set.recordings.size(), 1U);
   const Recording& recording = made.value().set.recordings[0];
-  EXPECT_EQ(recording.name, "HundredCar_Public_8911.txt");
+  EXPECT_EQ(recording.name, "event 8911");
   EXPECT_EQ(recording.group, "100car-1006");
   EXPECT_EQ(recording.vehicles.at(0).samples.size(), 62U);
   EXPECT_NEAR(recording.vehicles[0].samples[0].speed, 44.738726 * 0.44704, 1e-9);  // its first row
   EXPECT_EQ(broken_rule(made.value().set), std::nullopt);
   ASSERT_EQ(made.value().refused.size(), 1U);
   EXPECT_THAT(made.value().refused[0], HasSubstr("4711"));
+}
+
+TEST_F(Pack, TakesAFileOfManyEvents) {
+  const std::string rows =
+      read_file("saca/traffic/testdata/timeseries/HundredCar_Public_8911.txt").value();
+  std::string other;
+  for (std::string_view rest = rows; !rest.empty();) {
+    const std::string_view line = rest.substr(0, rest.find('\n') + 1);
+    other += "77" + std::string(line.substr(4));
+    rest.remove_prefix(line.size());
+  }
+  const std::string line =
+      read_file("saca/traffic/testdata/meta/100CarEventVideoReducedData_v1_5.txt").value();
+  const std::string last = line.substr(line.rfind("8911\t"));
+  put("100CarEventVideoReducedData_v1_5.txt", last + "\n77\t1010" + last.substr(9) + "\n");
+  put("HundredCar_Crash_Public_Compiled.txt", other + rows + "soon,1,2\n");
+  const auto made = pack_hundred_car(files_in({folder_}, ".txt").value(), {});
+  ASSERT_TRUE(made.has_value()) << made.error().message;
+  ASSERT_EQ(made.value().set.recordings.size(), 2U);
+  EXPECT_EQ(made.value().set.recordings[0].name, "event 77");
+  EXPECT_EQ(made.value().set.recordings[0].group, "100car-1010");
+  EXPECT_EQ(made.value().set.recordings[1].name, "event 8911");
+  EXPECT_EQ(made.value().set.recordings[1].vehicles[0].samples.size(), 62U);
+  ASSERT_EQ(made.value().refused.size(), 1U);
+  EXPECT_THAT(made.value().refused[0], HasSubstr("event soon: want a whole number"));
 }
 
 TEST_F(Pack, WantsATableOfEvents) {

@@ -93,6 +93,14 @@ bool same_motion(const RecordedVehicle& a, std::size_t first_a, const RecordedVe
   return true;
 }
 
+/// Whether its speed can tell a time at all.
+bool changes_speed(const RecordedVehicle& vehicle) {
+  const auto [least, most] =
+      std::minmax_element(vehicle.samples.begin(), vehicle.samples.end(),
+                          [](const Sample& a, const Sample& b) { return a.speed < b.speed; });
+  return most->speed - least->speed >= least_change;
+}
+
 /// Where b's first sample is among a's, < 0 before them, if they are one motion and at one place
 /// only.
 std::optional<std::int64_t> alignment(const RecordedVehicle& a, const RecordedVehicle& b) {
@@ -100,6 +108,9 @@ std::optional<std::int64_t> alignment(const RecordedVehicle& a, const RecordedVe
   const auto size_b = static_cast<std::int64_t>(b.samples.size());
   constexpr auto least = static_cast<std::int64_t>(fewest_common);
   std::optional<std::int64_t> found;
+  if (!changes_speed(a) || !changes_speed(b)) {
+    return found;
+  }
   for (std::int64_t shift = least - size_b; shift <= size_a - least; ++shift) {
     const std::int64_t first_a = std::max<std::int64_t>(shift, 0);
     const std::int64_t first_b = first_a - shift;

@@ -77,7 +77,7 @@ def test_files_that_cannot_be_read_are_told_and_counted(recordings, tmp_path):
     assert packed.returncode == SUCCESS, packed.stderr
     assert "cut.xml" in packed.stderr and "spot.xml" not in packed.stderr
     skipped = json.loads(packed.stdout)["skipped"]
-    assert skipped["file: cannot be read"] == 1
+    assert skipped["file or event: cannot be read"] == 1
     assert skipped["file: set-based predictions (SPOT), no recording"] == 1
 
 
@@ -108,3 +108,28 @@ def test_damage_of_a_set_is_found(recordings, tmp_path):
     (tmp_path / "set.h5").write_bytes(whole[:-1])
     assert "cut off or damaged" in one_error(saca("traffic", "info", "set.h5", cwd=tmp_path), BAD_INPUT)
     assert "something else" in one_error(saca("traffic", "info", SMALL, cwd=tmp_path), BAD_INPUT)
+
+
+def test_events_of_the_100_car_study_become_a_set(tmp_path):
+    run = saca("traffic", "pack", "100car", ROOT / "saca/traffic/testdata", "-o", "set.h5", "--json", cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    told = json.loads(run.stdout)
+    assert (told["all"]["recordings"], told["all"]["samples"]) == (1, 62)  # the excerpt has 62 rows
+    assert list(told["sites"]) == ["100car"]
+
+
+NGSIM = ("Vehicle_ID,Frame_ID,Total_Frames,Global_Time,Local_X,Local_Y,Global_X,Global_Y,v_length,v_Width,v_Class,v_Vel,v_Acc,"
+         "Lane_ID,Preceding,Following,Space_Headway,Time_Headway,Location\n")
+
+
+def test_ngsims_own_files_become_a_set(tmp_path):
+    rows = "".join(f"{car},{k},40,{1118846700000 + 100 * k},{6 + 12 * lane},{100 * gap + 5 * k},0,0,15,6,2,50,0,{lane},{lead},0,0,0,us-101\n"
+                   for car, lane, gap, lead in ((1, 1, 1, 0), (2, 1, 0, 1), (3, 2, 0, 0)) for k in range(40))
+    (tmp_path / "trajectories.csv").write_text(NGSIM + rows)
+    run = saca("traffic", "pack", "ngsim", "trajectories.csv", "-o", "set.h5", "--json", cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    everything = json.loads(run.stdout)["all"]
+    assert (everything["vehicles"], everything["samples"], everything["samples_with_lead"]) == (3, 120, 40)
+    (tmp_path / "trajectories.csv").write_text(NGSIM + rows.replace(",6,2,50,", ",6,2,fast,", 1))
+    message = saca("traffic", "pack", "ngsim", "trajectories.csv", "-o", "set.h5", cwd=tmp_path)
+    assert message.returncode == BAD_INPUT and "trajectories.csv:2: column v_vel: want a number" in message.stderr

@@ -4,6 +4,8 @@
 #include <string_view>
 
 #include "saca/sim/traffic_recording.h"
+#include "saca/traffic/recording_of_map.h"
+#include "saca/traffic/repeats.h"
 
 namespace {
 
@@ -32,6 +34,17 @@ void check(const traffic::CommonRoad& file) {
   }
 }
 
+/// What is packed of it breaks no rule of a set.
+void check_set(const traffic::CommonRoad& file) {
+  traffic::RecordedSet set;
+  set.recordings.push_back(traffic::recording_of_map(file, "fuzz.xml", set.skipped));
+  if (!set.recordings[0].vehicles.empty()) {
+    traffic::name_groups(set);
+    (void)traffic::drop_repeats(set);
+    require(!traffic::broken_rule(set));
+  }
+}
+
 /// A scenario that was made is one that can be read.
 void check(const traffic::CommonRoad& file, const sim::TrafficRequest& request) {
   const auto made = sim::traffic_scenario(file, request);
@@ -52,6 +65,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   check(file.value());
+  check_set(file.value());
   check(file.value(), {});
   for (const traffic::Obstacle& obstacle : file.value().obstacles) {
     check(file.value(), {.ego = obstacle.id});
