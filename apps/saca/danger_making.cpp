@@ -34,10 +34,6 @@ using reach::Solved;
 
 constexpr double table_grip = 0.9;  // dry: all others follow by scaling
 
-reach::Scheme table_scheme() {
-  return {.steps = reach::Steps::tvd_rk2, .cfl = 0.9, .threads = usual_threads()};
-}
-
 /// Bodies of all actors, each with the highest speed that it has while the ego stands at its start.
 std::vector<reach::ToBeJudged> to_be_judged(const sim::Scenario& scenario,
                                             const world::Footprint& ego) {
@@ -71,7 +67,7 @@ std::optional<Solved> kept_table(const fs::path& file, const reach::DangerCase& 
   }
   const Solved& kept = there.value();
   const bool right = kept.complete && !kept.error.empty() && kept.problem == wanted.asked.text &&
-                     kept.scheme == reach::described(table_scheme());
+                     kept.scheme == reach::described(reach::danger_scheme(usual_threads()));
   return right ? std::optional(std::move(there).value()) : std::nullopt;
 }
 
@@ -105,11 +101,11 @@ Result<Solved> solved_now(const reach::DangerCase& wanted) {
   SteadyClock clock;
   constexpr int permille = 1'000;
   ProgressLine line("danger of " + wanted.name, permille, clock);
-  return reach::solve(problem, table_scheme(), std::nullopt, {.step = [&](double tau) {
-                        line.show(static_cast<int>(permille * tau / problem.times.back()), 0,
-                                  " per mille");
-                        return true;
-                      }});
+  return reach::solve(
+      problem, reach::danger_scheme(usual_threads()), std::nullopt, {.step = [&](double tau) {
+        line.show(static_cast<int>(permille * tau / problem.times.back()), 0, " per mille");
+        return true;
+      }});
 }
 
 }  // namespace

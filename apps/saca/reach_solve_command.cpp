@@ -7,8 +7,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "apps/saca/places.h"
 #include "apps/saca/progress.h"
@@ -16,6 +19,7 @@
 #include "apps/saca/reach_problem.h"
 #include "apps/saca/within.h"
 #include "saca/core/clock.h"
+#include "saca/core/names.h"
 #include "saca/core/parallel.h"
 #include "saca/reach/solve.h"
 #include "saca/reach/value_file.h"
@@ -156,6 +160,10 @@ int solve_case(const SolveOptions& options) {
   return success;
 }
 
+CLI::IsMember one_of(std::span<const std::string_view> names) {
+  return CLI::IsMember(std::vector<std::string>(names.begin(), names.end()));
+}
+
 }  // namespace
 
 void add_reach_solve(CLI::App& reach, int& exit_code) {
@@ -165,10 +173,10 @@ void add_reach_solve(CLI::App& reach, int& exit_code) {
   command->add_option("case", options->name, "air3d, a name in data/reach, or a file")->required();
   command->add_option("--output", options->output, "HDF5 file; default: reach/CASE.h5");
   command->add_option("--differences", options->differences, "upwind1, eno2, eno3 or weno5")
-      ->check(CLI::IsMember({"upwind1", "eno2", "eno3", "weno5"}))
+      ->check(one_of(reach::difference_names))
       ->capture_default_str();
   command->add_option("--steps", options->steps, "Runge-Kutta: euler, rk2 or rk3")
-      ->check(CLI::IsMember({"euler", "rk2", "rk3"}))
+      ->check(one_of(reach::step_names))
       ->capture_default_str();
   command->add_option("--cfl", options->scheme.cfl, "Share of the longest stable step")
       ->check(within(0.01, 1.0))
@@ -183,19 +191,12 @@ void add_reach_solve(CLI::App& reach, int& exit_code) {
                     "Do not solve on half as many points as well");
   command->add_flag("--json", options->as_json, "For programs");
   command->callback([options, &exit_code] {
-    using reach::Differences;
-    using reach::Steps;
     if (options->output.empty()) {
       options->output = "reach/" + fs::path(options->name).stem().string() + ".h5";
     }
-    const std::string& d = options->differences;
-    options->scheme.differences = d == "upwind1" ? Differences::upwind1
-                                  : d == "eno2"  ? Differences::eno2
-                                  : d == "eno3"  ? Differences::eno3
-                                                 : Differences::weno5;
-    options->scheme.steps = options->steps == "euler" ? Steps::euler
-                            : options->steps == "rk2" ? Steps::tvd_rk2
-                                                      : Steps::tvd_rk3;
+    options->scheme.differences =
+        value_from<reach::Differences>(options->differences, reach::difference_names).value();
+    options->scheme.steps = value_from<reach::Steps>(options->steps, reach::step_names).value();
     options->scheme.with_error = !options->without_error;
     exit_code = solve_case(*options);
   });

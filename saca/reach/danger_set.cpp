@@ -98,4 +98,8 @@ std::vector<DangerCase> danger_cases(const Avoidance& car, const Footprint& ego,
   return cases;
 }
 
+Scheme danger_scheme(int threads) {
+  return {.steps = Steps::tvd_rk2, .cfl = 0.9, .threads = threads};
+}
+
 }  // namespace saca::reach

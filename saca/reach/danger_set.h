@@ -6,6 +6,7 @@
 
 #include "saca/reach/avoidance_case.h"
 #include "saca/reach/danger.h"
+#include "saca/reach/solve.h"
 
 namespace saca::reach {
 
@@ -33,5 +34,8 @@ struct DangerCase {
 [[nodiscard]] std::vector<DangerCase> danger_cases(const Avoidance& car,
                                                    const world::Footprint& ego, double grip,
                                                    std::span<const ToBeJudged> wanted);
+
+/// By which they are solved for runs.
+[[nodiscard]] Scheme danger_scheme(int threads);
 
 }  // namespace saca::reach

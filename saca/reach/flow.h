@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "saca/reach/grid.h"
@@ -52,9 +53,11 @@ namespace saca::reach {
 
 /// One-sided differences, by the smoothness that they make use of.
 enum class Differences : std::uint8_t { upwind1, eno2, eno3, weno5 };
+constexpr std::array<std::string_view, 4> difference_names{"upwind1", "eno2", "eno3", "weno5"};
 
 /// Runge-Kutta steps that keep the variation from growing.
 enum class Steps : std::uint8_t { euler, tvd_rk2, tvd_rk3 };
+constexpr std::array<std::string_view, 3> step_names{"euler", "rk2", "rk3"};
 
 /// What is done with the values from step to step.
 enum class Tube : std::uint8_t {

@@ -210,9 +210,8 @@ std::vector<DangerTable> tables_of_a_car(double top_speed, const Avoidance& limi
   const std::array<ToBeJudged, 1> wanted{{{.obstacle = {.length = 4.8, .width = 1.9},  //
                                            .top_speed = top_speed}}};
   for (const DangerCase& one : danger_cases(limits, ego, limits.grip, wanted)) {
-    const Scheme as_in_a_run{.steps = Steps::tvd_rk2, .cfl = 0.9, .threads = 2};
     tables.push_back({*one.asked.obstacle, one.asked.system.obstacle_speed, one.asked.view,
-                      std::make_shared<ValueTable>(solved_table(one.asked, as_in_a_run))});
+                      std::make_shared<ValueTable>(solved_table(one.asked, danger_scheme(2)))});
   }
   return tables;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace saca::reach {
@@ -18,6 +19,8 @@ enum class Edge {
   periodic,  ///< `last` is `first` again; it has no point of its own
   mirrored,  ///< `first` is 0: what lies beyond is the mirror image; the far end is open
 };
+/// By which files and messages call them.
+constexpr std::array<std::string_view, 3> edge_names{"open", "periodic", "mirrored"};
 
 /// One coordinate of the state space and its points.
 struct Axis {

@@ -29,18 +29,21 @@ bool is_round(const world::Footprint& footprint) {
   return footprint.shape == world::Shape::ellipse && footprint.length == footprint.width;
 }
 
-/// The disc about its own centre that holds a body however it is turned.
+/// The disc about its origin that holds a body however it is turned.
 world::Footprint disc_around(const world::Footprint& body) {
-  const Vec2 half = world::half_axes(body);
-  const double diameter = 2.0 * (body.shape == world::Shape::box ? std::hypot(half.x, half.y)
-                                                                 : std::max(half.x, half.y));
+  const double diameter = 2.0 * world::bounding_radius(body);
   return {.shape = world::Shape::ellipse, .length = diameter, .width = diameter};
 }
 
-/// What stands for the actor in its frame: itself, or the disc around it where it slides.
+/// What stands for the actor in its frame, about its own centre: itself, or the disc around it
+/// where it slides.
 world::Footprint body_of(const Actor& actor) {
-  return slides(actor) && !is_round(actor.footprint) ? disc_around(actor.footprint)
-                                                     : actor.footprint;
+  if (!slides(actor) || is_round(actor.footprint)) {
+    return actor.footprint;
+  }
+  world::Footprint centred = actor.footprint;
+  centred.centre_x = 0.0;
+  return disc_around(centred);
 }
 
 /// Of the ego [rad]. At a crawl the course is the heading, whatever the noise of v says.
@@ -56,12 +59,7 @@ bool drifts(const world::EgoState& ego) {
 
 /// The disc around its centre of mass, where it drifts.
 world::Footprint body_of(const world::Scene& scene) {
-  const world::Footprint& body = scene.ego_footprint;
-  if (!drifts(scene.ego)) {
-    return body;
-  }
-  const double radius = world::bounding_radius(body);
-  return {.shape = world::Shape::ellipse, .length = 2.0 * radius, .width = 2.0 * radius};
+  return drifts(scene.ego) ? disc_around(scene.ego_footprint) : scene.ego_footprint;
 }
 
 }  // namespace

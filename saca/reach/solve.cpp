@@ -13,6 +13,7 @@
 #include <variant>
 
 #include "saca/core/contract.h"
+#include "saca/core/names.h"
 #include "saca/core/parallel.h"
 #include "saca/reach/own_systems.h"
 #include "saca/reach/value_table.h"
@@ -49,10 +50,8 @@ Error another(const std::string& what, const std::string& begun, const std::stri
 }
 
 std::string described(const Axis& axis) {
-  constexpr std::array<std::string_view, 3> edges{"open", "periodic", "mirrored"};
   return fmt::format("{} in [{}, {}], {} points, {}, stretch {}{}", axis.name, axis.first,
-                     axis.last, axis.points, edges.at(static_cast<std::size_t>(axis.edge)),
-                     axis.stretch,
+                     axis.last, axis.points, name_of(axis.edge, edge_names), axis.stretch,
                      axis.turned ? fmt::format(", turning axis {}", *axis.turned + 1) : "");
 }
 
@@ -344,12 +343,9 @@ Problem avoidance_problem(const AvoidanceCase& asked) {
 }
 
 std::string described(const Scheme& scheme) {
-  constexpr std::array<std::string_view, 4> differences{"upwind1", "eno2", "eno3", "weno5"};
-  constexpr std::array<std::string_view, 3> steps{"euler", "rk2", "rk3"};
   constexpr int solver = 1;
-  return fmt::format("{}, {}, cfl {}, {}, solver {}",
-                     differences.at(static_cast<std::size_t>(scheme.differences)),
-                     steps.at(static_cast<std::size_t>(scheme.steps)), scheme.cfl,
+  return fmt::format("{}, {}, cfl {}, {}, solver {}", name_of(scheme.differences, difference_names),
+                     name_of(scheme.steps, step_names), scheme.cfl,
                      scheme.doubles ? "doubles" : "floats", solver);
 }
 

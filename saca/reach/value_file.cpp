@@ -17,6 +17,7 @@
 #include "saca/config/hdf5_writer.h"
 #include "saca/config/sealed_file.h"
 #include "saca/core/contract.h"
+#include "saca/core/names.h"
 
 namespace saca::reach {
 namespace {
@@ -25,8 +26,6 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view file_format = "saca.value/2";
 constexpr std::size_t most_cells = std::size_t{1} << 32;
-constexpr std::array<std::pair<Edge, std::string_view>, 3> edge_names{
-    {{Edge::open, "open"}, {Edge::periodic, "periodic"}, {Edge::mirrored, "mirrored"}}};
 
 /// Slowest axis first, as HDF5 has it.
 std::vector<std::size_t> extents_of(const Grid& grid, std::optional<std::size_t> times) {
@@ -67,9 +66,7 @@ void write_axis(config::Hdf5Writer& writer, const std::string& where, const Axis
   writer.attribute(where, "first", axis.first);
   writer.attribute(where, "last", axis.last);
   writer.attribute(where, "points", std::int32_t{axis.points});
-  const auto* const edge = std::find_if(edge_names.begin(), edge_names.end(),
-                                        [&](const auto& e) { return e.first == axis.edge; });
-  writer.attribute(where, "edge", std::string(edge->second));
+  writer.attribute(where, "edge", std::string(name_of(axis.edge, edge_names)));
   writer.attribute(where, "stretch", axis.stretch);
   writer.attribute(where, "turned", axis.turned ? static_cast<std::int32_t>(*axis.turned) : -1);
 }
@@ -115,10 +112,8 @@ Axis read_axis(config::Hdf5Reader& reader, const std::string& where) {
             .last = reader.number(where, "last"),
             .points = reader.whole(where, "points", 1, std::numeric_limits<std::int32_t>::max())};
   const std::string edge = reader.text_attribute(where, "edge");
-  const auto* const known = std::find_if(edge_names.begin(), edge_names.end(),
-                                         [&](const auto& e) { return e.second == edge; });
-  if (known != edge_names.end()) {
-    axis.edge = known->first;
+  if (const auto known = value_from<Edge>(edge, edge_names)) {
+    axis.edge = *known;
   } else {
     reader.reject(fmt::format("attribute {}/edge", where), "open, periodic or mirrored", edge);
   }

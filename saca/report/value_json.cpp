@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "saca/core/contract.h"
+#include "saca/core/names.h"
 #include "saca/reach/obstacle_frame.h"
 #include "saca/report/base64.h"
 #include "saca/report/value_map.h"
@@ -106,11 +107,10 @@ json axis_json(const reach::Axis& axis, const Picked& picked) {
   for (const std::size_t point : picked) {
     coordinates.push_back(reach::coordinate(axis, static_cast<int>(point)));
   }
-  constexpr std::array<const char*, 3> edges{"open", "periodic", "mirrored"};
   return {{"name", axis.name},
           {"unit", read.unit},
           {"factor", read.factor},
-          {"edge", edges[static_cast<std::size_t>(axis.edge)]},
+          {"edge", name_of(axis.edge, reach::edge_names)},
           {"last", axis.last},
           {"points", axis.points},
           {"turned", axis.turned ? json(*axis.turned) : json()},
