@@ -22,8 +22,8 @@ constexpr double sample_gap = 12.0;
 constexpr double sample_head = 22.0;
 constexpr double sample_line = 15.0;
 constexpr double place_height = 92.0;
-constexpr double speed_height = 56.0;
-constexpr double pull_height = 64.0;
+constexpr double speed_height = 74.0;
+constexpr double pull_height = 88.0;
 constexpr double label_height = 13.0;
 constexpr double belief_height = 44.0;
 constexpr double usual_lane = 3.5;  // [m]: where no width is known
@@ -241,7 +241,7 @@ std::vector<double> unwrapped_offsets(const std::vector<intent::Observation>& ob
 SvgSize intention_sample_size(const IntentionSample& sample) {
   const double panels = place_height + speed_height + pull_height + label_height +
                         belief_height * static_cast<double>(sample.bands.size()) +
-                        sample_gap * (4.0 + static_cast<double>(sample.bands.size()));
+                        sample_gap * (3.0 + static_cast<double>(sample.bands.size()));
   return {sample_width, panels_top(sample) + panels + axis_room_below};
 }
 

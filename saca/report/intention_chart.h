@@ -51,7 +51,7 @@ struct IntentionSample {
 
 /// What each colour means, in one line.
 [[nodiscard]] std::string intention_legend(Vec2 at);
-constexpr SvgSize intention_legend_size{520.0, 22.0};
+constexpr SvgSize intention_legend_size{600.0, 22.0};
 
 /// How often what was said of what, as a coloured table: a row is one truth.
 struct ConfusionChart {
