@@ -10,4 +10,5 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/sacaConfigVersion.cmake
 install(FILES ${PROJECT_BINARY_DIR}/sacaConfig.cmake ${PROJECT_BINARY_DIR}/sacaConfigVersion.cmake
   DESTINATION ${package})
 install(DIRECTORY data scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/saca)
+install(FILES models/intent/model.safetensors DESTINATION ${CMAKE_INSTALL_DATADIR}/saca/models/intent)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/saca)

@@ -74,7 +74,8 @@ function show_result(record) {
 // --- previews -------------------------------------------------------------------------------------
 
 function posterior_bars(posterior, likeliest) {
-  return el("span", { class: "posterior" }, Object.entries(dict(posterior)).map(([name, p]) => el("span", {
+  const order = Object.keys(intention_words);
+  return el("span", { class: "posterior" }, Object.entries(dict(posterior)).sort(([a], [b]) => order.indexOf(a) - order.indexOf(b)).map(([name, p]) => el("span", {
     class: `intent ${name === likeliest ? "likeliest" : ""}`, title: `${intention_words[name] ?? name}: ${percent(p)}` },
     el("span", { class: "intent-bar", "aria-hidden": "true" }, el("span", { style: { height: `${Math.round(100 * (p || 0))}%` } })),
     el("span", { text: name }), el("span", { class: "hidden", text: percent(p) }))));
@@ -84,7 +85,7 @@ function preview_actors(preview) {
   const rows = list(preview.actors).map((actor) => ({ cells: [el("b", { text: actor.id }),
     el("span", {}, intention_words[actor.intention] ?? actor.intention ?? none, el("br"), posterior_bars(actor.posterior, actor.intention)),
     el("span", {}, bar(actor.risk, num(actor.risk, 2), actor.risk >= risk_shown ? "danger" : ""), el("small", { text: actor.risk_text ?? "" }))] }));
-  return rows.length ? table("Actors, their intentions and risks", ["Actor", "Intention in this preview, and all six", "Risk"], rows)
+  return rows.length ? table("Actors, their intentions and risks", ["Actor", "Intention in this preview, and all it may have", "Risk"], rows)
     : el("p", { class: "soft", text: "No actors." });
 }
 

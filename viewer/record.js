@@ -2,12 +2,23 @@
 
 const intention_words = {
   M: "goes on", LC: "changes to the left", RC: "changes to the right", FB: "brakes", LB: "brakes and moves left",
-  RB: "brakes and moves right" };
+  RB: "brakes and moves right", stop: "stops", cross: "crosses the lane" };
 
 const event_words = {
   preview: "T2 preview", risk: "risk", intention: "intention", forecast: "forecast", memory: "memory", ask: "ask model",
   first_answer: "first answer", answer: "answer", check: "check", cached: "plan cached", trigger: "T1 trigger",
   match: "match", execute: "execute", contact: "contact", rest: "rest", fault: "fault" };
+
+/** Beliefs over time with their thousandths as shares; rows that do not fit the times and names are left out. */
+function read_intentions(raw) {
+  const row = (text) => String(text ?? "").split(" ").map((n) => Number(n) / 1000);
+  return list(raw).map(dict).map((one) => {
+    const of = list(one.of), whole = (r) => r.length === of.length && r.every((p) => is_number(p) && p >= 0);
+    const rows = list(one.times_s).map((t, k) => ({ t, now: row(list(one.now_permille)[k]), soon: row(list(one.soon_permille)[k]) }))
+      .filter(({ t, now, soon }) => is_number(t) && whole(now) && whole(soon));
+    return { actor: String(one.actor), of, times: rows.map((r) => r.t), now: rows.map((r) => r.now), soon: rows.map((r) => r.soon) };
+  }).filter((one) => one.times.length);
+}
 
 /** Event of a kind; the first, or null. */
 const first_event = (record, kind) => record.events.find((e) => e.kind === kind) ?? null;
@@ -19,7 +30,7 @@ function read_record(text) {
   const record = {
     ...raw, frames, events, scenario: dict(raw.scenario), road: dict(raw.road), ego: dict(raw.ego),
     actors: list(raw.actors), previews: list(raw.previews), decision: raw.decision ?? null, result: dict(raw.result),
-    hindsight: list(raw.hindsight), timing: dict(raw.timing), thresholds: dict(raw.thresholds) };
+    hindsight: list(raw.hindsight), intentions: read_intentions(raw.intentions), timing: dict(raw.timing), thresholds: dict(raw.thresholds) };
   record.start = frames.length ? frames[0].t_s : 0;
   // A contact lies between frames, a late answer may come after the last one.
   record.end = Math.max(record.start, ...frames.slice(-1).map((f) => f.t_s), ...(frames.length ? events : []).map((e) => e.t_s),

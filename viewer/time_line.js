@@ -1,4 +1,4 @@
-// Scrubber, phases, the lanes of both planes and the charts: strips over one time axis with one cursor.
+// Scrubber, phases, the lanes of both planes, the charts and the intentions: strips over one time axis with one cursor.
 
 const lanes = [
   { plane: "reflex", name: "Reflex plane", note: "never waits" },
@@ -46,6 +46,8 @@ class TimeLine {
         other: this.threat === null ? null : (f) => list(f.actors).find((a) => a.id === this.threat)?.speed_mps },
       { ...strip("Time to conflict", "", "chart"), key: "conflict", unit: "s", read: (f) => f.conflict_s, top: 8,
         limits: [["T2", this.record.thresholds.preview_s], ["T1", this.record.thresholds.trigger_s]] }];
+    this.intentions = new Intentions(this.record);
+    this.intentions.build(strip);
     this.axis_track = strip("", "", "axis").track;
     this.root.append(this.cursor);
     follow_pointer(this.root, (e) => e.target.closest(".track") && !e.target.closest("button, input"), (e) => this.go(e));
@@ -65,6 +67,7 @@ class TimeLine {
     this.draw_phases();
     lanes.forEach((lane, i) => this.draw_lane(this.lane_tracks[i], lane.plane));
     for (const chart of this.charts) this.draw_chart(chart);
+    this.intentions.layout((t) => this.x(t), this.from, this.width);
     this.draw_axis();
   }
 
@@ -196,5 +199,6 @@ class TimeLine {
       const v = frame ? chart.read(frame) : null;
       chart.value.textContent = num(v, 1, chart.unit);
     }
+    this.intentions.show(t);
   }
 }

@@ -23,6 +23,8 @@ void add_search_showcase(CLI::App& line, int& exit_code);
 void add_tune(CLI::App& line, int& exit_code);
 void add_atlas(CLI::App& line, int& exit_code);
 void add_reach(CLI::App& line, int& exit_code);
+void add_intent(CLI::App& line, int& exit_code);
+void add_traffic(CLI::App& line, int& exit_code);
 void add_vehicle(CLI::App& line, int& exit_code);
 void add_bench(CLI::App& line, int& exit_code);
 

@@ -52,7 +52,7 @@ struct TrafficOptions {
 
 nlohmann::json traffic_json(const sim::TrafficImport& made, const TrafficOptions& options) {
   const sim::TrafficReport& report = made.report;
-  const sim::LaneFit& lane = report.lane;
+  const traffic::LaneFit& lane = report.lane;
   nlohmann::json actors = nlohmann::json::array();
   for (const sim::TrafficActor& actor : report.actors) {
     actors.push_back({{"name", actor.name}, {"obstacle", actor.obstacle}});
@@ -86,7 +86,7 @@ nlohmann::json traffic_json(const sim::TrafficImport& made, const TrafficOptions
 
 void tell(const sim::TrafficImport& made, const TrafficOptions& options) {
   const sim::TrafficReport& report = made.report;
-  const sim::LaneFit& lane = report.lane;
+  const traffic::LaneFit& lane = report.lane;
   fmt::print("{}: {} vehicles around {}, {:.1f} s\n", options.output, made.scenario.actors.size(),
              options.request.ego ? fmt::format("obstacle {}", *options.request.ego)
                                  : "the planning problem's start",

@@ -1,5 +1,7 @@
 #include "apps/saca/inputs.h"
 
+#include <utility>
+
 #include "saca/manoeuvre/ego.h"
 
 namespace saca::app {
@@ -20,10 +22,15 @@ Result<Inputs> read_inputs(const std::string& car) {
   if (!harm.has_value()) {
     return harm.error();
   }
+  auto intent = intent::read_model(places.value().root / "models" / "intent" / "model.safetensors");
+  if (!intent.has_value()) {
+    return intent.error();
+  }
   return Inputs{.places = places.value(),
                 .car_name = file.stem().string(),
                 .car = read.value(),
-                .harm = harm.value()};
+                .harm = harm.value(),
+                .intent = std::move(intent).value()};
 }
 
 Result<ScenarioInputs> read_scenario_inputs(const std::string& scenario) {

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "apps/saca/places.h"
+#include "saca/intent/model.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/outcome/harm.h"
 #include "saca/sim/family.h"
@@ -17,6 +18,7 @@ struct Inputs {
   std::string car_name;
   manoeuvre::Car car;
   outcome::HarmModel harm;
+  intent::Model intent;
 };
 
 /// @param car  its file, or the name of a shipped one

@@ -51,6 +51,8 @@ int main(int argc, char** argv) {
     add_tune(line, exit_code);
     add_atlas(line, exit_code);
     add_reach(line, exit_code);
+    add_intent(line, exit_code);
+    add_traffic(line, exit_code);
     add_vehicle(line, exit_code);
     add_bench(line, exit_code);
     try {

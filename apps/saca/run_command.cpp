@@ -148,6 +148,7 @@ int run(const RunOptions& options) {
       .scenario = &inputs.value().scenario,
       .car = &inputs.value().car,
       .harm = &inputs.value().harm,
+      .intent = &inputs.value().intent,
       .atlas = atlas.value() ? &*atlas.value() : nullptr,
       .danger = danger.value() ? &*danger.value() : nullptr,
       .pace = pace,

@@ -156,6 +156,23 @@ TEST_F(Hdf5ReaderTest, RefusesWhatIsNoNumberAndSaysWhere) {
   EXPECT_EQ(found, "a.h5: data set numbers: want finite numbers, got inf at 1");  // of its part
 }
 
+TEST_F(Hdf5ReaderTest, TakesAllNumbersWhereAsked) {
+  edit([](hid_t file) {
+    std::vector<float> values = six;
+    values[4] = std::numeric_limits<float>::quiet_NaN();
+    const hid_t set = H5Dopen2(file, "numbers", H5P_DEFAULT);
+    ASSERT_GE(H5Dwrite(set, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0);
+    H5Dclose(set);
+  });
+  std::vector<float> values(6);
+  const std::string found = refusal([&](Hdf5Reader& reader) {
+    reader.numbers<float>("numbers", {2, 3}, {values.data()}, Numbers::all);
+  });
+  EXPECT_EQ(found, "");
+  EXPECT_EQ(values[3], six[3]);
+  EXPECT_TRUE(std::isnan(values[4]));
+}
+
 TEST_F(Hdf5ReaderTest, TakesNoMemoryForNumbersThatAreNotThere) {
   for (const std::array<hsize_t, 2> shape :
        {std::array<hsize_t, 2>{2'000'000'000, 2'000}, std::array<hsize_t, 2>{0, 2'000}}) {

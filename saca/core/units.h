@@ -20,6 +20,10 @@ constexpr double from_mph(double speed) {
 constexpr double from_feet(double length) {
   return length * 0.3048;
 }
+/// International inch: 0.0254 m exactly.
+constexpr double from_inches(double length) {
+  return length * 0.0254;
+}
 /// Standard gravity: 9.80665 m/s^2 exactly.
 constexpr double from_g(double acceleration) {
   return acceleration * 9.80665;

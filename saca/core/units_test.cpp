@@ -9,6 +9,7 @@ TEST(Units, AgreeWithTheirDefinitions) {
   EXPECT_DOUBLE_EQ(from_kmh(36.0), 10.0);
   EXPECT_DOUBLE_EQ(from_mph(1.0), 1609.344 / 3600.0);
   EXPECT_DOUBLE_EQ(from_feet(3.0), 0.9144);  // one yard
+  EXPECT_DOUBLE_EQ(from_inches(12.0), from_feet(1.0));
   EXPECT_DOUBLE_EQ(from_g(1.0), 9.80665);
   EXPECT_DOUBLE_EQ(from_degrees(180.0), std::numbers::pi);
 }

@@ -40,6 +40,7 @@ PolicyId choice(const reason::Answer& answer) {
 /// What one round shares among its steps.
 struct ThinkingPlane::Round {
   const world::Scene& scene;
+  const intent::Beliefs& beliefs;
   Clock::Time scene_at;
   const Clock& clock;
 
@@ -76,26 +77,29 @@ void ThinkingPlane::describe_scene(const Round& round, const preview::Threat& th
     tell(round, EventKind::risk,
          fmt::format("{}: risk {:.2f}, {}", actor_name(actor), risk.risk, explanation(risk)));
     tell(round, EventKind::intention,
-         fmt::format("{}: {}", actor_name(actor), probabilities(intent::posterior(scene, actor))));
+         fmt::format("{}: {}", actor_name(actor), probabilities(round.beliefs[i].now())));
   }
 }
 
-bool ThinkingPlane::think(const world::Scene& scene, Clock::Time scene_at) {
+bool ThinkingPlane::think(const world::Scene& scene, const intent::Beliefs& beliefs,
+                          Clock::Time scene_at) {
   if (world::broken_rule(scene)) {
     return false;
   }
-  const auto threat = preview::previewed_threat(scene, thresholds_);
+  const auto threat =
+      preview::previewed_threat(scene, beliefs, tools_.forecast.motion, thresholds_);
   if (!threat) {
     return false;
   }
-  const Round round{scene, scene_at, *tools_.clock};
+  const Round round{scene, beliefs, scene_at, *tools_.clock};
   if (previews_.empty()) {
     describe_scene(round, *threat);
   }
   std::vector<std::size_t> fresh;
   std::vector<std::size_t> unanswered;
   std::vector<std::size_t> now;
-  for (preview::Situation& situation : preview::situations(scene, thresholds_, tools_.forecast)) {
+  for (preview::Situation& situation :
+       preview::situations(scene, beliefs, thresholds_, tools_.forecast)) {
     if (situation.scene_at_trigger.time < round.now()) {
       continue;  // its trigger has passed while this was computed
     }

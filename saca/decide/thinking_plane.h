@@ -6,6 +6,7 @@
 #include "saca/core/clock.h"
 #include "saca/decide/event.h"
 #include "saca/decide/plan_cache.h"
+#include "saca/intent/observer.h"
 #include "saca/memory/store.h"
 #include "saca/preview/preview.h"
 #include "saca/preview/threat.h"
@@ -41,9 +42,10 @@ class ThinkingPlane {
   /// One round.
   ///
   /// @param scene     the newest one
+  /// @param beliefs   about its actors' intentions, one for each
   /// @param scene_at  when, on the clock, scene.time was
   /// @return          false when nothing threatens within T2: nothing was done
-  bool think(const world::Scene& scene, Clock::Time scene_at);
+  bool think(const world::Scene& scene, const intent::Beliefs& beliefs, Clock::Time scene_at);
 
   /// All that was thought so far, in order.
   [[nodiscard]] const std::vector<Preview>& previews() const { return previews_; }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "saca/intent/shipped_model.h"
 #include "saca/manoeuvre/default_car.h"
 #include "saca/manoeuvre/ego.h"
 
@@ -87,6 +88,12 @@ class Thinking : public testing::Test {
              .event = [this](const Event& event) { events_.push_back(event); },
              .reasoning = [this](std::int32_t, std::string_view text) { text_ += text; }}};
   }
+  bool think(ThinkingPlane& plane, const Scene& scene) {
+    const intent::Beliefs beliefs = world::broken_rule(scene)
+                                        ? intent::Beliefs()
+                                        : intent::beliefs_at_sight(intent::shipped_model(), scene);
+    return plane.think(scene, beliefs, clock_.now());
+  }
   [[nodiscard]] std::size_t count(EventKind kind) const {
     return static_cast<std::size_t>(std::count_if(
         events_.begin(), events_.end(), [&](const Event& event) { return event.kind == kind; }));
@@ -104,7 +111,7 @@ TEST_F(Thinking, StaysSilentWhereNothingThreatens) {
   ThinkingPlane thinking = plane(&model);
   Scene empty = wreck_ahead();
   empty.actors.clear();
-  EXPECT_FALSE(thinking.think(empty, clock_.now()));
+  EXPECT_FALSE(think(thinking, empty));
   EXPECT_EQ(model.num_asked, 0);
   EXPECT_TRUE(events_.empty());
 }
@@ -112,7 +119,7 @@ TEST_F(Thinking, StaysSilentWhereNothingThreatens) {
 TEST_F(Thinking, CachesWhatTheModelChoosesAndTheRolloutConfirms) {
   FixedModel model(PolicyId::aes_left, clock_);
   ThinkingPlane thinking = plane(&model);
-  EXPECT_TRUE(thinking.think(wreck_ahead(), clock_.now()));
+  EXPECT_TRUE(think(thinking, wreck_ahead()));
   ASSERT_EQ(thinking.previews().size(), 1U);
   const Preview& preview = thinking.previews()[0];
   ASSERT_TRUE(preview.check->passed) << preview.check->text;
@@ -127,7 +134,7 @@ TEST_F(Thinking, CachesWhatTheModelChoosesAndTheRolloutConfirms) {
 TEST_F(Thinking, NeverCachesWhatFailsTheCheck) {
   FixedModel model(PolicyId::no_intervention, clock_);  // drives into the wreck at 20 m/s
   ThinkingPlane thinking = plane(&model);
-  thinking.think(wreck_ahead(), clock_.now());
+  think(thinking, wreck_ahead());
   EXPECT_FALSE(thinking.previews()[0].check->passed);
   EXPECT_FALSE(thinking.previews()[0].plan.has_value());
   EXPECT_TRUE(published_.back().empty());
@@ -138,7 +145,7 @@ TEST_F(Thinking, NeverCachesWhatCannotBeDriven) {
   ThinkingPlane thinking = plane(&model);
   world::Scene scene = wreck_ahead();
   scene.grip = 0.15;
-  thinking.think(scene, clock_.now());
+  think(thinking, scene);
   EXPECT_FALSE(thinking.previews()[0].situation.facts[6].refusal.empty());
   EXPECT_FALSE(thinking.previews()[0].plan.has_value());
 }
@@ -146,7 +153,7 @@ TEST_F(Thinking, NeverCachesWhatCannotBeDriven) {
 TEST_F(Thinking, ASilentModelLeavesNothingBehindButARecord) {
   FixedModel model(std::nullopt, clock_);
   ThinkingPlane thinking = plane(&model);
-  EXPECT_TRUE(thinking.think(wreck_ahead(), clock_.now()));
+  EXPECT_TRUE(think(thinking, wreck_ahead()));
   EXPECT_EQ(thinking.deadline_misses(), 1);
   EXPECT_EQ(count(EventKind::fault), 1U);
   EXPECT_TRUE(published_.back().empty());
@@ -155,8 +162,8 @@ TEST_F(Thinking, ASilentModelLeavesNothingBehindButARecord) {
 TEST_F(Thinking, AsksAgainAfterTheModelFailed) {
   FixedModel model(std::nullopt, clock_);
   ThinkingPlane thinking = plane(&model);
-  thinking.think(wreck_ahead(), clock_.now());
-  thinking.think(wreck_ahead(), clock_.now());
+  think(thinking, wreck_ahead());
+  think(thinking, wreck_ahead());
   EXPECT_EQ(model.num_asked, 2);
   EXPECT_EQ(thinking.previews().size(), 1U);
 }
@@ -164,7 +171,7 @@ TEST_F(Thinking, AsksAgainAfterTheModelFailed) {
 TEST_F(Thinking, TheDeadlineIsTheTrigger) {
   FixedModel model(PolicyId::aeb, clock_);
   ThinkingPlane thinking = plane(&model);
-  thinking.think(wreck_ahead(), clock_.now());
+  think(thinking, wreck_ahead());
   const double deadline = std::chrono::duration<double>(model.last_deadline).count();
   // 70 m less half a wreck and the ego's front, at 20 m/s, less T1 and the margin of 50 ms.
   EXPECT_NEAR(deadline, (70.0 - 4.5) / 20.0 - 1.3 - 0.05, 0.011);
@@ -175,7 +182,7 @@ TEST_F(Thinking, DoesNotAskTwiceAboutTheSameSituation) {
   ThinkingPlane thinking = plane(&model);
   Scene scene = wreck_ahead();
   for (int k = 0; k < 5; ++k) {
-    thinking.think(scene, clock_.now());
+    think(thinking, scene);
     scene.time += 0.1;
     scene.ego.X_WB.p.x += 2.0;
     clock_.advance(std::chrono::milliseconds(100));
@@ -190,7 +197,7 @@ TEST_F(Thinking, IsNotAskedWhenItWouldBeTooLate) {
   ThinkingPlane thinking = plane(&model);
   Scene scene = wreck_ahead();
   scene.actors[0].X_WA.p.x = 31.0;  // 26.5 m, 1.33 s
-  thinking.think(scene, clock_.now());
+  think(thinking, scene);
   EXPECT_EQ(model.num_asked, 0);
 }
 
@@ -204,7 +211,7 @@ TEST_F(Thinking, UsesAKnownCaseWithoutAsking) {
   FixedModel model(PolicyId::aeb, clock_);
   {
     ThinkingPlane before = plane(&model, &store);  // to learn what the trigger looks like
-    before.think(wreck_ahead(), clock_.now());
+    think(before, wreck_ahead());
     ASSERT_EQ(model.num_asked, 1);
     ASSERT_TRUE(store
                     .add({.scene = before.previews()[0].situation.scene_at_trigger,
@@ -215,7 +222,7 @@ TEST_F(Thinking, UsesAKnownCaseWithoutAsking) {
                     .has_value());
   }
   ThinkingPlane thinking = plane(&model, &store);
-  thinking.think(wreck_ahead(), clock_.now());
+  think(thinking, wreck_ahead());
   EXPECT_EQ(model.num_asked, 1);
   EXPECT_EQ(thinking.previews()[0].gate, memory::Gate::cache);
   EXPECT_EQ(thinking.previews()[0].source, Source::memory);
@@ -227,7 +234,7 @@ TEST_F(Thinking, RefusesABrokenScene) {
   ThinkingPlane thinking = plane(nullptr);
   Scene broken = wreck_ahead();
   broken.grip = std::nan("");
-  EXPECT_FALSE(thinking.think(broken, clock_.now()));
+  EXPECT_FALSE(think(thinking, broken));
 }
 
 }  // namespace

@@ -2,14 +2,15 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 #include "saca/world/scene.h"
-#include "saca/world/track.h"
 
 namespace saca::intent {
 
-/// What a road user is about to do: eq. 5 of the paper, in its order.
+/// What a road user is about to do: eq. 5 of the paper, in its order; then what only pedestrians
+/// and cyclists do.
 enum class Intention : std::uint8_t {
   maintain,     ///< M
   lane_left,    ///< LC
@@ -17,14 +18,34 @@ enum class Intention : std::uint8_t {
   brake,        ///< FB
   brake_left,   ///< LB: braking while changing to the left
   brake_right,  ///< RB
+  stop,         ///< comes to rest where it is
+  cross,        ///< turns to cross the ego's lane, or starts to
 };
 
-constexpr std::size_t num_intentions = 6;
+constexpr std::size_t num_intentions = 8;
 constexpr std::array<Intention, num_intentions> all_intentions{
+    Intention::maintain,   Intention::lane_left,   Intention::lane_right, Intention::brake,
+    Intention::brake_left, Intention::brake_right, Intention::stop,       Intention::cross};
+
+/// Those of vehicles: cars, vans, trucks, motorcycles.
+constexpr std::array<Intention, 6> vehicle_intentions{
     Intention::maintain, Intention::lane_left,  Intention::lane_right,
     Intention::brake,    Intention::brake_left, Intention::brake_right};
+/// Those of walkers: pedestrians and cyclists.
+constexpr std::array<Intention, 3> walker_intentions{Intention::maintain, Intention::stop,
+                                                     Intention::cross};
 
-/// The paper's letters: "M", "LC", "RC", "FB", "LB", "RB".
+/// A pedestrian or a cyclist.
+[[nodiscard]] bool is_walker(world::ActorKind kind);
+
+/// What a road user of this kind may intend, in the order of the enumeration; an obstacle only
+/// maintains.
+[[nodiscard]] std::span<const Intention> intentions_of(world::ActorKind kind);
+
+/// It slows down: FB, LB, RB and stop.
+[[nodiscard]] bool is_braking(Intention intention);
+
+/// The paper's letters, "M", "LC", "RC", "FB", "LB", "RB"; and "stop", "cross".
 [[nodiscard]] std::string_view name(Intention intention);
 
 /// Probability of each intention, in the order of the enumeration; they sum to 1.
@@ -32,26 +53,5 @@ using IntentPosterior = std::array<double, num_intentions>;
 
 /// The likeliest intention; among equals the first.
 [[nodiscard]] Intention likeliest(const IntentPosterior& posterior);
-
-/// Probabilities from what is measured now: deceleration along the actor's course, and its lateral
-/// speed across the lane (of an actor that crosses the lane: the turn of its own course).
-///
-/// P(brakes) rises from 3 % (10 % for those who cross: they may give way) to 95 % about 2 m/s^2 of
-/// deceleration; P(moves left), P(moves right) rise from 2 % to 90 % about 0.5 m/s of lateral
-/// speed; the two are taken as independent. All are assumptions, but for 2 m/s^2, the project's own
-/// mark of braking. Obstacles and actors at rest maintain; pedestrians only maintain or stop.
-[[nodiscard]] IntentPosterior posterior(const world::Scene& scene, const world::Actor& actor);
-
-/// The actor's motion under an intention, from its state in the scene on.
-///
-/// Maintaining keeps the speed; braking uses the measured deceleration, or 6 m/s^2 while less than
-/// 2 m/s^2 are measured, until rest. Actors along the lane follow it, others the arc that their
-/// velocity and turning rate describe. A lane change to the next lane's centre takes the way that
-/// is driven in 4 s at the initial speed. (6 m/s^2 and 4 s are assumptions.)
-///
-/// @param horizon  [s], > 0
-/// @return         poses every 50 ms from scene.time on
-[[nodiscard]] world::Track predicted_track(const world::Scene& scene, const world::Actor& actor,
-                                           Intention intention, double horizon);
 
 }  // namespace saca::intent

@@ -87,11 +87,13 @@ Verdicts moves(const TrueMotion& motion, const LabelRule& rule, double side) {
   const auto speed = [&](std::size_t i) { return side * motion.lateral_speed[i]; };
   for (const Span& whole : spans_where(motion.lateral.size(),
                                        [&](std::size_t i) { return speed(i) > rule.aside_end; })) {
-    Span labelled = whole;
-    while (labelled.first < labelled.last && !(speed(labelled.first) > rule.aside_begin)) {
-      ++labelled.first;
+    std::size_t begin = whole.first;
+    while (begin < whole.last && !(speed(begin) > rule.aside_begin)) {
+      ++begin;
     }
-    mark(verdicts, labelled, judge_move(motion, rule, side, whole));
+    const Judged judged = judge_move(motion, rule, side, whole);
+    mark(verdicts, {whole.first, begin}, judged == Judged::no ? Judged::no : Judged::doubtful);
+    mark(verdicts, {begin, whole.last}, judged);
   }
   return verdicts;
 }
@@ -122,14 +124,17 @@ Verdicts brakings(const TrueMotion& motion, const LabelRule& rule, std::vector<d
          return motion.acceleration[i] < rule.braking_end;
        })) {
     const Judged judged = judge_braking(motion, rule, span);
-    mark(verdicts, span, judged);
-    if (judged == Judged::yes) {
-      std::size_t first = span.first;
-      while (motion.acceleration[first] > rule.braking) {
-        ++first;
-      }
-      times.push_back(static_cast<double>(first) * frame_step);
+    if (judged != Judged::yes) {
+      mark(verdicts, span, judged);
+      continue;
     }
+    std::size_t begin = span.first;
+    while (motion.acceleration[begin] > rule.braking) {
+      ++begin;
+    }
+    mark(verdicts, {span.first, begin}, Judged::doubtful);
+    mark(verdicts, {begin, span.last}, Judged::yes);
+    times.push_back(static_cast<double>(begin) * frame_step);
   }
   return verdicts;
 }

@@ -15,16 +15,16 @@ struct TrueMotion {
 /// When an act counts, and from when to when.
 struct LabelRule {
   // A lateral move: all the while the lateral speed keeps its side and stays above `aside_end`.
-  double aside_begin = 0.35;  ///< the label begins with this lateral speed [m/s]
+  double aside_begin = 0.35;  ///< the label begins with this lateral speed [m/s]; before, in doubt
   double aside_end = 0.20;    ///< and ends with this one
   double least_way = 1.0;     ///< of a move [m]
   double doubtful_way = 0.6;  ///< a shorter one is none; between, nobody can say
   double undone_within =
       1.5;  ///< [s] after its end: who has come back half of the way did not move
   // A braking: all the while the acceleration is below `braking_end`.
-  double braking = -2.0;           ///< what makes it one [m/s^2]
+  double braking = -2.0;           ///< the label begins with this [m/s^2]; before, in doubt
   double least_braking = 0.3;      ///< for so long [s]
-  double braking_end = -1.0;       ///< the label begins and ends with this [m/s^2]
+  double braking_end = -1.0;       ///< and ends with this [m/s^2]
   double least_loss = 1.5;         ///< of speed [m/s]
   double doubtful_braking = -1.6;  ///< one that reaches only this is doubtful [m/s^2]
   double around_change = 0.2;      ///< [s] to both sides of a change of label nobody can say
@@ -40,8 +40,8 @@ struct Labels {
 /// never does.
 ///
 /// A lane change (LC, RC) begins with the first lasting lateral motion and ends with it, beyond the
-/// line; braking (FB) is a deceleration beyond 2 m/s^2; both at once are LB, RB; all else is M.
-/// Acts that the ends of the motion cut off before they can be told are in doubt.
+/// line; braking (FB) is a deceleration beyond 2 m/s^2 and its end; both at once are LB, RB; all
+/// else is M. Acts that the ends of the motion cut off before they can be told are in doubt.
 /// @throws ContractViolation  if the three differ in length
 [[nodiscard]] Labels labels_of(const TrueMotion& motion, const LabelRule& rule = {});
 

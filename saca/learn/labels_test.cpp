@@ -56,6 +56,8 @@ TEST(Labels, ALaneChangeLastsAsLongAsItsLateralMotion) {
   EXPECT_FALSE(labels.scored[35]);  // 0.5 s: one frame before the change
   EXPECT_TRUE(labels.scored[50]);
   EXPECT_TRUE(labels.scored[20]);
+  EXPECT_TRUE(labels.scored[30]);   // at rest aside
+  EXPECT_FALSE(labels.scored[33]);  // 0.206 m/s: on its way to 0.35
 }
 
 TEST(Labels, AMirroredMotionHasMirroredLabels) {
@@ -91,7 +93,9 @@ TEST(Labels, BrakingIsBeyondTwoForThreeFramesAndASpeedLost) {
   add_braking(motion, -1.2, 45, 50);
   add_braking(motion, -0.9, 50, 60);
   const Labels labels = labels_of(motion);
-  EXPECT_EQ(count(labels, Intention::brake), 22U);  // 28 to 49
+  EXPECT_EQ(count(labels, Intention::brake), 20U);  // 30 to 49
+  EXPECT_FALSE(labels.scored[28]);                  // on its way there
+  EXPECT_TRUE(labels.scored[26]);
   ASSERT_EQ(labels.braking_times.size(), 1U);
   EXPECT_NEAR(labels.braking_times[0], 3.0, 1e-12);
 

@@ -4,13 +4,14 @@
 
 namespace saca::loop {
 
-void ChargedThinking::think(decide::ThinkingPlane& plane, const world::Scene& scene) {
+void ChargedThinking::think(decide::ThinkingPlane& plane, const world::Scene& scene,
+                            const intent::Beliefs& beliefs) {
   if (scene.time < free_at_) {
     return;
   }
   constexpr double shortest_round = 0.2;  // [s], as the thinking thread's breath
   clock_.wait_until(from_seconds(scene.time + round_));
-  if (plane.think(scene, from_seconds(scene.time))) {
+  if (plane.think(scene, beliefs, from_seconds(scene.time))) {
     free_at_ = std::max(free_at_, scene.time + std::max(round_, shortest_round));
   }
 }

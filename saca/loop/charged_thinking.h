@@ -7,6 +7,7 @@
 #include "saca/core/clock.h"
 #include "saca/decide/plan_cache.h"
 #include "saca/decide/thinking_plane.h"
+#include "saca/intent/observer.h"
 
 namespace saca::loop {
 
@@ -19,7 +20,8 @@ class ChargedThinking {
   ChargedThinking(double round, ManualClock& clock) : round_(round), clock_(clock) {}
 
   /// Thinks about the scene unless the last round is still being charged.
-  void think(decide::ThinkingPlane& plane, const world::Scene& scene);
+  void think(decide::ThinkingPlane& plane, const world::Scene& scene,
+             const intent::Beliefs& beliefs);
 
   /// For `decide::ThinkingOutput`: plans that are ready at `ready` [s].
   void publish(const decide::PlanCache& plans, double ready);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "saca/intent/shipped_model.h"
 #include "saca/loop/wreck_for_test.h"
 #include "saca/manoeuvre/default_car.h"
 
@@ -42,15 +43,15 @@ TEST(ChargedThinking, StartsNoRoundBeforeTheLastOneIsPaidFor) {
   world::Scene scene = wreck_ahead(car, 80.0);
 
   scene.time = 1.0;
-  thinking.think(plane, scene);
+  thinking.think(plane, scene, intent::beliefs_at_sight(intent::shipped_model(), scene));
   EXPECT_EQ(clock.now(), from_seconds(1.5));
   EXPECT_FALSE(thinking.take(1.49).has_value());
   scene.time = 1.3;
-  thinking.think(plane, scene);
+  thinking.think(plane, scene, intent::beliefs_at_sight(intent::shipped_model(), scene));
   EXPECT_EQ(clock.now(), from_seconds(1.5));  // still being charged
   EXPECT_TRUE(thinking.take(1.5).has_value());
   scene.time = 1.6;
-  thinking.think(plane, scene);
+  thinking.think(plane, scene, intent::beliefs_at_sight(intent::shipped_model(), scene));
   EXPECT_EQ(clock.now(), from_seconds(2.1));
 }
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "saca/intent/shipped_model.h"
 #include "saca/loop/encounter.h"
 #include "saca/manoeuvre/default_car.h"
 #include "saca/manoeuvre/ego.h"
@@ -193,11 +194,16 @@ class DangerMapsTest : public testing::Test {
          .motion = sim::Script{.start = {.s = 40.0}, .behaviour = sim::Behaviour::hold}});
   }
   [[nodiscard]] loop::Setup setup(const reach::DangerModel* danger) {
-    return {
-        .scenario = &scenario_, .car = &car_, .harm = &harm_, .danger = danger, .clock = &clock_};
+    return {.scenario = &scenario_,
+            .car = &car_,
+            .harm = &harm_,
+            .intent = &intent_,
+            .danger = danger,
+            .clock = &clock_};
   }
 
   manoeuvre::Car car_ = manoeuvre::default_car();
+  const intent::Model& intent_ = intent::shipped_model();
   outcome::HarmModel harm_ = outcome::read_harm("data/harm.toml").value();
   sim::Scenario scenario_{
       .name = "disc", .title = "A disc", .car = "x", .grip = 0.9, .duration = 4.0};

@@ -11,6 +11,7 @@
 #include "saca/core/latest_slot.h"
 #include "saca/core/names.h"
 #include "saca/decide/thinking_plane.h"
+#include "saca/intent/observer.h"
 #include "saca/loop/charged_thinking.h"
 #include "saca/loop/thinking_thread.h"
 #include "saca/loop/witness.h"
@@ -33,9 +34,10 @@ using world::Scene;
 constexpr std::array<std::string_view, 2> pace_names{"real", "lockstep"};
 constexpr std::array<std::string_view, 3> phase_names{"recorded", "driving", "manoeuvre"};
 
-constexpr int steps_per_look = 10;      // 100 Hz
-constexpr int looks_per_frame = 2;      // 50 Hz
-constexpr double rest_after_end = 2.0;  // [s] that the film goes on, as outcome::judge looks on
+constexpr int steps_per_look = 10;       // 100 Hz
+constexpr int looks_per_frame = 2;       // 50 Hz
+constexpr int looks_per_judgement = 10;  // 10 Hz, as intent::Observer judges
+constexpr double rest_after_end = 2.0;   // [s] that the film goes on, as outcome::judge looks on
 
 std::string policy_text(const manoeuvre::Plan& plan) {
   std::string text = fmt::format("{} {}", manoeuvre::index(plan.policy), name(plan.policy));
@@ -67,6 +69,7 @@ class Encounter {
         charged_(setup.costs.preview, simulated_clock_),
         stepper_(*setup.scenario, *setup.car,
                  setup.seed ? sim::draw_chance(*setup.seed, 0, 0.0) : sim::Chance{}),
+        observer_(*setup.intent),
         witness_(*setup.harm),
         reflex_(setup.thresholds, trigger_check(setup), forced_plan(setup)),
         plane_(tools(), setup.thresholds, output()) {}
@@ -99,6 +102,7 @@ class Encounter {
   std::unique_ptr<ChargedModel> charged_model_;
   ChargedThinking charged_;
   sim::Stepper stepper_;
+  intent::Observer observer_;
   Witness witness_;
   decide::ReflexPlane reflex_;
   LatestSlot<TimedScene> scenes_;
@@ -116,8 +120,9 @@ class Encounter {
   manoeuvre::Plan plan_{PolicyId::no_intervention, std::nullopt};
   manoeuvre::ControllerState controller_;
   std::vector<double> reflex_times_;
-  Scene seen_;             ///< what SACA perceives at the last look
-  Scene seen_at_trigger_;  ///< likewise then
+  Scene seen_;                                ///< what SACA perceives at the last look
+  const intent::Beliefs* beliefs_ = nullptr;  ///< about those in `seen_`, of `observer_`
+  Scene seen_at_trigger_;                     ///< likewise then
   outcome::Others others_at_trigger_;
 };
 
@@ -135,10 +140,11 @@ std::optional<manoeuvre::Plan> Encounter::forced_plan(const Setup& setup) {
 }
 
 decide::ThinkingTools Encounter::tools() {
-  decide::ThinkingTools tools{.forecast = {setup_.car, setup_.harm, setup_.atlas, setup_.danger},
-                              .memory = setup_.memory,
-                              .model = setup_.model,
-                              .clock = setup_.clock};
+  decide::ThinkingTools tools{
+      .forecast = {setup_.car, setup_.harm, setup_.atlas, setup_.danger, setup_.intent->motion},
+      .memory = setup_.memory,
+      .model = setup_.model,
+      .clock = setup_.clock};
   if (!real()) {
     tools.model = charged_model_.get();
     tools.clock = &simulated_clock_;
@@ -214,6 +220,10 @@ std::optional<Error> Encounter::look() {
                                                   ": a scene must hold: " + std::string(*rule)};
     }
   }
+  beliefs_ = &observer_.look(seen_);
+  if (num_looks_ % looks_per_judgement == 0) {
+    note(seen_, *beliefs_, record_.intentions);
+  }
   if (!woke_) {
     wake();
   }
@@ -242,7 +252,8 @@ std::optional<Error> Encounter::look() {
 
 void Encounter::wake() {
   const Scene& scene = seen_;
-  const auto threat = preview::previewed_threat(scene, setup_.thresholds);
+  const auto threat =
+      preview::previewed_threat(scene, *beliefs_, setup_.intent->motion, setup_.thresholds);
   if (!threat) {
     return;
   }
@@ -258,9 +269,9 @@ decide::Reflex Encounter::react() {
   const Scene& scene = seen_;
   if (woke_ && !record_.decision) {
     if (real()) {
-      scenes_.publish({scene, start_ + from_seconds(scene.time)});
+      scenes_.publish({scene, *beliefs_, start_ + from_seconds(scene.time)});
     } else {
-      charged_.think(plane_, scene);
+      charged_.think(plane_, scene, *beliefs_);
     }
   }
   const Clock::Time before = setup_.clock->now();
@@ -471,8 +482,8 @@ std::string decision_text(const decide::Decision& decision) {
 
 Result<Record> run(const Setup& setup, Listener& listener) {
   expects(setup.scenario != nullptr && setup.car != nullptr && setup.harm != nullptr &&
-              setup.clock != nullptr,
-          "scenario, car, harm and clock are given");
+              setup.intent != nullptr && setup.clock != nullptr,
+          "scenario, car, harm, intent and clock are given");
   return Encounter(setup, listener).play();
 }
 

@@ -11,9 +11,11 @@
 #include "saca/core/result.h"
 #include "saca/decide/event.h"
 #include "saca/decide/reflex_plane.h"
+#include "saca/intent/model.h"
 #include "saca/loop/charged_model.h"
 #include "saca/loop/danger_map.h"
 #include "saca/loop/hindsight.h"
+#include "saca/loop/intentions_seen.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/memory/store.h"
 #include "saca/outcome/harm.h"
@@ -35,6 +37,7 @@ struct Setup {
   const sim::Scenario* scenario = nullptr;
   const manoeuvre::Car* car = nullptr;
   const outcome::HarmModel* harm = nullptr;
+  const intent::Model* intent = nullptr;
   const manoeuvre::Atlas* atlas = nullptr;  ///< of the car; nullptr: all forecasts are rolled out
   const reach::DangerModel* danger = nullptr;  ///< of the car; nullptr: the best of few evasions
   preview::Thresholds thresholds;
@@ -81,7 +84,8 @@ struct ReflexTiming {
 struct Record {
   double grip = 0.0;  ///< true friction coefficient of the road [-]
   std::vector<Frame> frames;
-  std::vector<decide::Event> events;  ///< by time
+  std::vector<IntentionsSeen> intentions;  ///< one per road user, in the order of first sight
+  std::vector<decide::Event> events;       ///< by time
   std::vector<decide::Preview> previews;
   std::optional<decide::Decision> decision;
   std::optional<world::Scene> at_trigger;  ///< the truth

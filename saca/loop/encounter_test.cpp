@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "saca/intent/shipped_model.h"
 #include "saca/manoeuvre/atlas_for_test.h"
 #include "saca/manoeuvre/default_car.h"
 
@@ -66,6 +67,7 @@ class EncounterTest : public testing::Test {
     return run({.scenario = &scenario,
                 .car = &car_,
                 .harm = &harm_,
+                .intent = &intent_,
                 .pace = Pace::lockstep,
                 .costs = {.preview = 0.05, .prompt_token = 0.001, .reply_token = 0.01},
                 .model = model,
@@ -82,6 +84,7 @@ class EncounterTest : public testing::Test {
   SteadyClock clock_;
   Quiet quiet_;
   manoeuvre::Car car_ = manoeuvre::default_car();
+  const intent::Model& intent_ = intent::shipped_model();
   outcome::HarmModel harm_ = outcome::read_harm("data/harm.toml").value();
 };
 
@@ -133,6 +136,7 @@ TEST_F(EncounterTest, WithAnAtlasForecastsAndTheLastCheckAreReadFromIt) {
     return run({.scenario = &scenario,
                 .car = &car_,
                 .harm = &harm_,
+                .intent = &intent_,
                 .atlas = &atlas,
                 .pace = Pace::lockstep,
                 .costs = {.preview = 0.05, .prompt_token = 0.001, .reply_token = 0.01},
@@ -197,6 +201,25 @@ TEST_F(EncounterTest, WhatCannotBeDrivenBecomesBraking) {
   EXPECT_TRUE(has(record, EventKind::fault));
 }
 
+// An observer has watched since the beginning when SACA wakes.
+TEST_F(EncounterTest, IntentionsAreNotedFromTheFirstLookOnButNotOfObstacles) {
+  sim::Scenario scenario = wreck_on_wet_road();
+  scenario.actors[0].kind = world::ActorKind::obstacle;
+  scenario.actors.push_back({.id = 3,
+                             .footprint = {.length = 4.5, .width = 1.8},
+                             .mass = 1'500.0,
+                             .motion = sim::Script{.start = {.s = 60.0, .d = 3.5}, .speed = 20.0}});
+  const Record record = play(scenario).value();
+  ASSERT_EQ(record.intentions.size(), 1U);
+  const IntentionsSeen& seen = record.intentions[0];
+  EXPECT_EQ(seen.id, 3);
+  ASSERT_EQ(seen.times.size(), seen.beliefs.size());
+  for (std::size_t k = 0; k < seen.times.size(); ++k) {
+    EXPECT_NEAR(seen.times[k], 0.1 * static_cast<double>(k), 1e-9);
+  }
+  EXPECT_GT(seen.times.back(), record.decision->time);
+}
+
 TEST_F(EncounterTest, AnEmptyRoadIsLeftAlone) {
   sim::Scenario scenario = wreck_on_wet_road();
   scenario.actors.clear();
@@ -210,8 +233,12 @@ TEST_F(EncounterTest, AnEmptyRoadIsLeftAlone) {
 TEST_F(EncounterTest, TheSameRunGivesTheSameRecordByteForByte) {
   Says model(PolicyId::aes_left);
   const auto scenario = wreck_on_wet_road();
-  loop::Setup setup{
-      .scenario = &scenario, .car = &car_, .harm = &harm_, .model = &model, .clock = &clock_};
+  loop::Setup setup{.scenario = &scenario,
+                    .car = &car_,
+                    .harm = &harm_,
+                    .intent = &intent_,
+                    .model = &model,
+                    .clock = &clock_};
   Record a = play(scenario, &model).value();
   Record b = play(scenario, &model).value();
   a.reflex = {};  // measured in real time
@@ -225,9 +252,13 @@ TEST_F(EncounterTest, AtRealPaceTheWorldDoesNotWait) {
   wreck.start.s = 36.0;  // triggers after a quarter of a second
   scenario.duration = 0.6;
   const Clock::Time start = clock_.now();
-  const auto played = run(
-      {.scenario = &scenario, .car = &car_, .harm = &harm_, .pace = Pace::real, .clock = &clock_},
-      quiet_);
+  const auto played = run({.scenario = &scenario,
+                           .car = &car_,
+                           .harm = &harm_,
+                           .intent = &intent_,
+                           .pace = Pace::real,
+                           .clock = &clock_},
+                          quiet_);
   ASSERT_TRUE(played.has_value());
   EXPECT_GE(clock_.now() - start, std::chrono::milliseconds(590));
   EXPECT_TRUE(played.value().decision.has_value());

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <mutex>
 
+#include "saca/intent/shipped_model.h"
 #include "saca/loop/encounter.h"
 #include "saca/manoeuvre/default_car.h"
 
@@ -62,6 +63,7 @@ class Story final : public Listener {
 TEST(RealPace, TheModelsPlanIsReadyInTimeAndCarriedOut) {
   const auto car = manoeuvre::default_car();
   const auto harm = outcome::read_harm("data/harm.toml").value();
+  const intent::Model& intent = intent::shipped_model();
   // A wreck on a wet road, 80 m ahead of the ego's centre at 20 m/s: contact after 3.8 s, so T1 at
   // 2.5 s. Braking is not enough.
   sim::Scenario scenario{
@@ -80,6 +82,7 @@ TEST(RealPace, TheModelsPlanIsReadyInTimeAndCarriedOut) {
   const auto played = run({.scenario = &scenario,
                            .car = &car,
                            .harm = &harm,
+                           .intent = &intent,
                            .pace = Pace::real,
                            .model = &model,
                            .clock = &clock},

@@ -37,6 +37,35 @@ json frame_json(const Frame& frame) {
           {"conflict_s", number_or_null(frame.conflict)}};
 }
 
+/// Of each that this road user may have, in thousandths: one text, as a row of a danger map.
+std::string thousandths(const intent::IntentPosterior& posterior, world::ActorKind kind) {
+  constexpr double per_whole = 1'000.0;
+  std::string text;
+  for (const intent::Intention intention : intent::intentions_of(kind)) {
+    text += text.empty() ? "" : " ";
+    text += std::to_string(std::lround(per_whole * posterior[static_cast<std::size_t>(intention)]));
+  }
+  return text;
+}
+
+json intentions_json(const IntentionsSeen& seen) {
+  json of = json::array();
+  for (const intent::Intention intention : intent::intentions_of(seen.kind)) {
+    of.push_back(name(intention));
+  }
+  json now = json::array();
+  json soon = json::array();
+  for (const intent::Belief& belief : seen.beliefs) {
+    now.push_back(thousandths(belief.now(), seen.kind));
+    soon.push_back(thousandths(belief.at.back(), seen.kind));
+  }
+  return {{"actor", actor_name(world::Actor{.id = seen.id, .kind = seen.kind})},
+          {"of", of},
+          {"times_s", seen.times},
+          {"now_permille", now},
+          {"soon_permille", soon}};
+}
+
 json contact_json(const outcome::Contact& contact, std::span<const world::Actor> actors) {
   return {{"time_s", contact.time},
           {"with", contact.actor ? actor_name(actors[*contact.actor]) : "edge"},
@@ -103,7 +132,7 @@ json preview_json(const decide::Preview& preview) {
   json actors = json::array();
   for (std::size_t i = 0; i < scene.actors.size(); ++i) {
     json posterior;
-    for (const intent::Intention intention : intent::all_intentions) {
+    for (const intent::Intention intention : intent::intentions_of(scene.actors[i].kind)) {
       posterior[std::string(name(intention))] =
           situation.posteriors[i][static_cast<std::size_t>(intention)];
     }
@@ -296,6 +325,9 @@ std::string record_json(const Setup& setup, const Record& record) {
                       {"kind", name(event.kind)},
                       {"text", event.text}});
   }
+  json intentions = json::array();
+  std::transform(record.intentions.begin(), record.intentions.end(), std::back_inserter(intentions),
+                 intentions_json);
   json previews = json::array();
   std::transform(record.previews.begin(), record.previews.end(), std::back_inserter(previews),
                  preview_json);
@@ -323,6 +355,7 @@ std::string record_json(const Setup& setup, const Record& record) {
         {"track_m", setup.car->track_width}}},
       {"actors", actor_bodies_json(scenario)},
       {"frames", frames},
+      {"intentions", intentions},
       {"events", events},
       {"previews", previews},
       {"decision", decision_json(record)},

@@ -3,6 +3,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "saca/intent/shipped_model.h"
 #include "saca/loop/encounter.h"
 #include "saca/manoeuvre/default_car.h"
 
@@ -30,9 +31,11 @@ TEST(RecordJson, HoldsWhatTheFormatPromises) {
        .motion = sim::Script{.start = {.s = 40.0}, .behaviour = sim::Behaviour::hold}});
   const auto car = manoeuvre::default_car();
   const auto harm = outcome::read_harm("data/harm.toml").value();
+  const intent::Model& intent = intent::shipped_model();
   SteadyClock clock;
   Quiet quiet;
-  const loop::Setup setup{.scenario = &scenario, .car = &car, .harm = &harm, .clock = &clock};
+  const loop::Setup setup{
+      .scenario = &scenario, .car = &car, .harm = &harm, .intent = &intent, .clock = &clock};
   const Record record = run(setup, quiet).value();
   const json out = json::parse(record_json(setup, record));
 
@@ -44,7 +47,18 @@ TEST(RecordJson, HoldsWhatTheFormatPromises) {
   EXPECT_EQ(out["frames"][0]["ego"]["speed_mps"], 9.0);
   EXPECT_TRUE(out["scenario"]["driver"].is_null());
   EXPECT_EQ(out["previews"][0]["facts"].size(), 8U);
-  EXPECT_EQ(out["previews"][0]["actors"][0]["posterior"].size(), 6U);
+  EXPECT_EQ(out["previews"][0]["actors"][0]["posterior"].size(), 3U);  // of a walker
+  // One row every 0.1 s from the start on; the times are those of looks.
+  ASSERT_EQ(out["intentions"].size(), 1U);
+  const json& seen = out["intentions"][0];
+  EXPECT_EQ(seen["actor"], "pedestrian1");
+  EXPECT_EQ(seen["of"], (json{"M", "stop", "cross"}));
+  EXPECT_EQ(seen["times_s"].size(), record.intentions[0].times.size());
+  EXPECT_EQ(seen["times_s"][0], 0.0);
+  EXPECT_NEAR(seen["times_s"][7].get<double>(), 0.7, 1e-9);
+  ASSERT_EQ(seen["now_permille"].size(), seen["times_s"].size());
+  ASSERT_EQ(seen["soon_permille"].size(), seen["times_s"].size());
+  EXPECT_EQ(seen["now_permille"][0], "920 0 80");  // it stands on the road: 8 % start to cross
   EXPECT_EQ(out["decision"]["source"], "fallback");
   EXPECT_EQ(out["hindsight"].size(), 8U);
   EXPECT_FALSE(out["hindsight"][5]["refusal"].is_null());

@@ -36,7 +36,7 @@ void ThinkingThread::run() {
       continue;
     }
     try {
-      plane_.think(newest->scene, newest->at);
+      plane_.think(newest->scene, newest->beliefs, newest->at);
     } catch (const std::exception& problem) {  // a bug there must not end the plane that drives
       fault_ = problem.what();
       return;

@@ -7,13 +7,15 @@
 #include "saca/core/clock.h"
 #include "saca/core/latest_slot.h"
 #include "saca/decide/thinking_plane.h"
+#include "saca/intent/observer.h"
 #include "saca/world/scene.h"
 
 namespace saca::loop {
 
-/// A scene and when it was true.
+/// A scene, what its road users are thought to intend, and when it was true.
 struct TimedScene {
   world::Scene scene;
+  intent::Beliefs beliefs;
   Clock::Time at{0};
 };
 

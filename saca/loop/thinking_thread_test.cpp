@@ -4,6 +4,7 @@
 
 #include <atomic>
 
+#include "saca/intent/shipped_model.h"
 #include "saca/loop/wreck_for_test.h"
 #include "saca/manoeuvre/default_car.h"
 
@@ -32,7 +33,8 @@ TEST(ThinkingThread, ThinksAboutTheNewestSceneAndEndsWhenAsked) {
     const ThinkingThread thread(plane, scenes, clock);
     const Clock::Time give_up = clock.now() + std::chrono::seconds(30);
     while (!any && clock.now() < give_up) {
-      scenes.publish({scene, clock.now()});
+      scenes.publish(
+          {scene, intent::beliefs_at_sight(intent::shipped_model(), scene), clock.now()});
       any = plans.take(received);
       clock.wait_until(clock.now() + std::chrono::milliseconds(1));
     }

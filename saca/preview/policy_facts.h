@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "saca/intent/motion.h"
 #include "saca/manoeuvre/atlas.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/manoeuvre/plan.h"
@@ -20,6 +21,7 @@ struct ForecastTools {
   const outcome::HarmModel* harm = nullptr;
   const manoeuvre::Atlas* atlas = nullptr;     ///< of this car; nullptr: everything is rolled out
   const reach::DangerModel* danger = nullptr;  ///< of this car; nullptr: the best of few evasions
+  intent::MotionLaw motion;                    ///< how the others move under an intention
 };
 
 /// What each policy ends in when it begins in `scene` and the actors follow their tracks, those

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "saca/intent/observer.h"
 #include "saca/preview/policy_facts.h"
 #include "saca/preview/situation.h"
 #include "saca/preview/threat.h"
@@ -14,13 +15,17 @@ constexpr std::size_t max_situations = 3;
 /// The likely situations at the trigger that are in conflict, likeliest first, at most three, with
 /// all their facts.
 ///
-/// Every combination of likely intentions of those actors that may come into conflict is one
-/// situation (the 24 likeliest are looked at); the others do what is likeliest for them. The ego
-/// goes on as it does until T1 before the conflict. Empty when no combination is in conflict within
+/// Every hypothesis about those actors that may come into conflict is one situation (the 24
+/// likeliest are looked at); the others do what is likeliest for them. The ego
+/// goes on as it does until T1 before the conflict. Empty when no hypothesis has a conflict within
 /// T2.
+///
+/// @param beliefs  one per actor; those that are prepared for are `preview::cautious`
+/// @throws ContractViolation  if beliefs and actors differ in number
 ///
 /// Source: the paper, section IV-C, and reasoning in docs/architecture.md.
 [[nodiscard]] std::vector<Situation> situations(const world::Scene& scene,
+                                                const intent::Beliefs& beliefs,
                                                 const Thresholds& thresholds,
                                                 const ForecastTools& tools);
 

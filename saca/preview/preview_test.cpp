@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "saca/core/contract.h"
+#include "saca/intent/shipped_model.h"
 #include "saca/manoeuvre/default_car.h"
 #include "saca/manoeuvre/ego.h"
 
@@ -31,10 +33,14 @@ Actor car(std::uint8_t id, Vec2 p_W, Vec2 v_W) {
   return actor;
 }
 
-std::vector<Situation> look(const Scene& scene) {
+std::vector<Situation> look(const Scene& scene, const intent::Beliefs& beliefs) {
   static const manoeuvre::Car car = manoeuvre::default_car();
   static const outcome::HarmModel harm = outcome::read_harm("data/harm.toml").value();
-  return situations(scene, {}, {.car = &car, .harm = &harm});
+  return situations(scene, beliefs, {}, {.car = &car, .harm = &harm});
+}
+
+std::vector<Situation> look(const Scene& scene) {
+  return look(scene, intent::beliefs_at_sight(intent::shipped_model(), scene));
 }
 
 TEST(Situations, AnEmptyRoadHasNone) {
@@ -81,6 +87,41 @@ TEST(Situations, ALeadThatMayBrakeIsForecastBraking) {
   ASSERT_FALSE(found.empty());
   EXPECT_EQ(found[0].intentions[0], intent::Intention::brake);
   EXPECT_LT(norm(found[0].scene_at_trigger.actors[0].v_W), 20.0);
+}
+
+// What happens is what is believed, whatever the car does now.
+TEST(Situations, FollowTheBeliefsThatAreHandedIn) {
+  Scene scene = motorway(20.0);
+  scene.actors.push_back(car(1, {40.0, 0.0}, {20.0, 0.0}));  // no conflict if it goes on
+  intent::Beliefs beliefs;
+  beliefs.push_back({});
+  beliefs[0].at.fill({0.3, 0.0, 0.0, 0.7});
+  const auto found = look(scene, beliefs);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].intentions[0], intent::Intention::brake);
+  EXPECT_EQ(found[0].probability, 0.7);
+  beliefs[0].at.fill({1.0});
+  EXPECT_TRUE(look(scene, beliefs).empty());
+  EXPECT_THROW((void)look(scene, intent::Beliefs()), ContractViolation);
+}
+
+// sqrt of the mean of the squares along and across: 0.3 m and 0.1 m/s * t in both, the wavering
+// acceleration along only.
+TEST(Situations, PlacesAtTheTriggerAreAsUnsureAsTheForecast) {
+  Scene scene = motorway(20.0);
+  scene.actors.push_back(car(1, {70.0, 0.0}, {5.0, 0.0}));
+  scene.actors[0].position_sd = 0.3;
+  scene.actors[0].velocity_sd = 0.1;
+  const auto found = look(scene);
+  ASSERT_FALSE(found.empty());
+  const Scene& trigger = found[0].scene_at_trigger;
+  const double t = trigger.time;
+  ASSERT_GT(t, 2.0);
+  const double perceived = 0.3 * 0.3 + 0.01 * t * t;
+  const double wavered = intent::wavering_sd({}, t);
+  EXPECT_EQ(found[0].intentions[0], intent::Intention::maintain);
+  // The forecast is linear between poses 50 ms apart.
+  EXPECT_NEAR(trigger.actors[0].position_sd, std::sqrt(perceived + 0.5 * wavered * wavered), 1e-4);
 }
 
 TEST(Situations, ThosePresentButHarmlessDoNotMultiplyForecasts) {

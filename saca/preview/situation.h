@@ -27,9 +27,10 @@ struct PolicyFacts {
 /// A likely situation at the trigger: the forecast scene, with all that is computed about it.
 struct Situation {
   world::Scene scene_at_trigger;
-  double probability = 0.0;                         ///< of this combination of intentions
-  std::vector<intent::Intention> intentions;        ///< one per actor: the combination itself
-  std::vector<intent::IntentPosterior> posteriors;  ///< one per actor, when the preview was made
+  double probability = 0.0;                         ///< of this hypothesis about intentions
+  std::vector<intent::Intention> intentions;        ///< one per actor: the hypothesis itself
+  std::vector<intent::IntentPosterior> posteriors;  ///< one per actor, when the preview was made,
+                                                    ///< as `preview::cautious` has them
   std::vector<reach::ObstacleRisk> risks;           ///< one per actor, at the trigger
   std::vector<world::Track> tracks;                 ///< one per actor, from the preview on
   std::array<PolicyFacts, manoeuvre::num_policies> facts;

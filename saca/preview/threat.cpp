@@ -1,6 +1,8 @@
 #include "saca/preview/threat.h"
 
 #include "saca/intent/intention.h"
+#include "saca/intent/joint.h"
+#include "saca/preview/caution.h"
 #include "saca/world/time_to_conflict.h"
 
 namespace saca::preview {
@@ -24,7 +26,10 @@ std::optional<Threat> nearest_threat(const world::Scene& scene, double horizon, 
   return nearest;
 }
 
-std::optional<Threat> previewed_threat(const world::Scene& scene, const Thresholds& thresholds) {
+std::optional<Threat> previewed_threat(const world::Scene& scene, const intent::Beliefs& beliefs,
+                                       const intent::MotionLaw& motion,
+                                       const Thresholds& thresholds) {
+  const intent::Beliefs prepared = cautious(scene, beliefs, thresholds);
   std::optional<Threat> nearest =
       nearest_threat(scene, thresholds.preview, thresholds.preview_tolerance);
   for (std::size_t i = 0; i < scene.actors.size(); ++i) {
@@ -32,14 +37,11 @@ std::optional<Threat> previewed_threat(const world::Scene& scene, const Threshol
     if (world::is_behind(scene, actor)) {
       continue;
     }
-    const intent::IntentPosterior posterior = intent::posterior(scene, actor);
-    for (const intent::Intention intention : intent::all_intentions) {
-      if (posterior[static_cast<std::size_t>(intention)] < thresholds.least_posterior) {
-        continue;
-      }
-      const world::Track track =
-          intent::predicted_track(scene, actor, intention, thresholds.preview);
-      const auto time = world::time_to_conflict(scene, actor, track, thresholds.preview,
+    for (const intent::Choice& choice :
+         intent::choices_of(prepared[i].now(), thresholds.least_posterior)) {
+      const intent::Forecast forecast =
+          intent::motion_under(scene, actor, choice.intention, thresholds.preview, motion);
+      const auto time = world::time_to_conflict(scene, actor, forecast.track, thresholds.preview,
                                                 thresholds.preview_tolerance);
       if (time && (!nearest || *time < nearest->time)) {
         nearest = Threat{.actor = i, .time = *time};

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <optional>
 
+#include "saca/intent/motion.h"
+#include "saca/intent/observer.h"
 #include "saca/world/scene.h"
 
 namespace saca::preview {
@@ -32,7 +34,11 @@ struct Threat {
 
 /// The nearest conflict under any intention that is likely enough, crossing traffic with the wide
 /// tolerance; within thresholds.preview.
+/// @param beliefs  one per actor; those that are prepared for are `preview::cautious`
+/// @throws ContractViolation  if beliefs and actors differ in number
 [[nodiscard]] std::optional<Threat> previewed_threat(const world::Scene& scene,
+                                                     const intent::Beliefs& beliefs,
+                                                     const intent::MotionLaw& motion,
                                                      const Thresholds& thresholds);
 
 }  // namespace saca::preview

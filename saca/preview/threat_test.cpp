@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "saca/intent/shipped_model.h"
 #include "saca/world/time_to_conflict.h"
 
 namespace saca::preview {
@@ -29,6 +30,12 @@ Actor car(std::uint8_t id, Vec2 p_W, Vec2 v_W) {
   return actor;
 }
 
+/// As seen for the first time.
+std::optional<Threat> previewed(const Scene& scene, const Thresholds& thresholds) {
+  return previewed_threat(scene, intent::beliefs_at_sight(intent::shipped_model(), scene), {},
+                          thresholds);
+}
+
 TEST(NearestThreat, IsTheEarliestOfAll) {
   Scene scene = ego_at(20.0);
   scene.actors.push_back(car(1, {84.0, 0.0}, {}));  // 80 m: 4 s
@@ -44,7 +51,7 @@ TEST(NearestThreat, IsTheEarliestOfAll) {
 
 TEST(NearestThreat, EmptySceneHasNone) {
   EXPECT_FALSE(nearest_threat(ego_at(20.0), 5.5, 2.0).has_value());
-  EXPECT_FALSE(previewed_threat(ego_at(20.0), {}).has_value());
+  EXPECT_FALSE(previewed(ego_at(20.0), {}).has_value());
 }
 
 TEST(NearestThreat, AFollowerNeverTriggers) {
@@ -52,7 +59,7 @@ TEST(NearestThreat, AFollowerNeverTriggers) {
   scene.actors.push_back(car(1, {-14.0, 0.0}, {25.0, 0.0}));
   EXPECT_TRUE(world::is_behind(scene, scene.actors[0]));
   EXPECT_FALSE(nearest_threat(scene, 5.5, 0.5).has_value());
-  EXPECT_FALSE(previewed_threat(scene, {}).has_value());
+  EXPECT_FALSE(previewed(scene, {}).has_value());
 }
 
 // The paper's scene at T2: at constant speed the truck passes behind the ego. The wide tolerance
@@ -64,7 +71,7 @@ TEST(PreviewedThreat, SeesThePapersTruck) {
   truck.footprint = {.length = 8.0, .width = 2.5};
   scene.actors.push_back(truck);
   EXPECT_FALSE(nearest_threat(scene, 5.5, 0.5).has_value());
-  const auto threat = previewed_threat(scene, {});
+  const auto threat = previewed(scene, {});
   ASSERT_TRUE(threat.has_value());
   EXPECT_LT(threat->time, 5.5);
 }
@@ -76,10 +83,18 @@ TEST(PreviewedThreat, LooksAtEveryLikelyIntention) {
   scene.actors.push_back(car(1, {24.0, 0.0}, {20.0, 0.0}));
   scene.actors[0].a_W = {-1.2, 0.0};  // closes 20 m in sqrt(2 * 20 / 1.2) = 5.8 s
   EXPECT_FALSE(nearest_threat(scene, 5.5, 2.0).has_value());
-  const auto threat = previewed_threat(scene, {});
+  const auto threat = previewed(scene, {});
   ASSERT_TRUE(threat.has_value());
-  EXPECT_NEAR(threat->time, std::sqrt(2.0 * 20.0 / 6.0), exactness);  // the assumed 6 m/s^2
-  EXPECT_FALSE(previewed_threat(scene, {.least_posterior = 0.2}).has_value());
+  // From 1.2 m/s^2 the deceleration rises to b within r, then stays: after r the way lost is
+  // 1.2 r^2 / 2 + (b - 1.2) r^2 / 6, the speed lost (1.2 + b) r / 2; 20 m at t.
+  const intent::MotionLaw law;
+  const double b = law.braking;
+  const double r = law.braking_rise;
+  const double way = 20.0 - 0.6 * r * r - (b - 1.2) * r * r / 6.0;
+  const double speed = 0.5 * (1.2 + b) * r;
+  const double time = r + (std::sqrt(speed * speed + 2.0 * b * way) - speed) / b;
+  EXPECT_NEAR(threat->time, time, exactness);
+  EXPECT_FALSE(previewed(scene, {.least_posterior = 0.2}).has_value());
 }
 
 }  // namespace

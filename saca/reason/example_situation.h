@@ -32,7 +32,7 @@ inline preview::Situation example_situation() {
   situation.probability = 0.8;
   situation.intentions = {intent::Intention::maintain, intent::Intention::maintain};
   situation.posteriors = {{0.88, 0.02, 0.02, 0.04, 0.02, 0.02},
-                          {0.95, 0.01, 0.01, 0.01, 0.01, 0.01}};
+                          {0.95, 0.0, 0.0, 0.0, 0.0, 0.0, 0.02, 0.03}};
   situation.risks.resize(2);
   situation.risks[0].risk = 0.94;
   for (std::size_t i = 0; i < 2; ++i) {

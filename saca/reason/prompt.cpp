@@ -38,7 +38,8 @@ constexpr std::array<std::string_view, manoeuvre::num_policies> policy_words{
 
 constexpr std::array<std::string_view, intent::num_intentions> intention_words{
     "maintain", "lane change left",  "lane change right",
-    "brake",    "brake moving left", "brake moving right"};
+    "brake",    "brake moving left", "brake moving right",
+    "stop",     "cross the lane"};
 
 constexpr std::array<std::string_view, 4> beyond_words{"open ground", "kerb", "barrier", "trees"};
 

@@ -5,7 +5,7 @@
 
 #include "saca/core/angle.h"
 #include "saca/core/contract.h"
-#include "saca/sim/series.h"
+#include "saca/traffic/series.h"
 
 namespace saca::sim {
 
@@ -15,8 +15,8 @@ EgoPath ego_path(const std::vector<double>& speed, const std::vector<double>& ya
   expects(size > 0 && yaw_rate.size() == size, "as many yaw rates as speeds, at least one");
   expects(step > 0.0, "step > 0");
 
-  const std::vector<double> s = integral(speed, step);
-  const std::vector<double> turned = integral(yaw_rate, step);
+  const std::vector<double> s = traffic::integral(speed, step);
+  const std::vector<double> turned = traffic::integral(yaw_rate, step);
   // d = d0 + heading0 * s + drift + unknown * effect, to first order in the heading.
   std::vector<double> drift_rate(size);
   std::vector<double> effect_rate(size);
@@ -25,14 +25,14 @@ EgoPath ego_path(const std::vector<double>& speed, const std::vector<double>& ya
     drift_rate[k] = speed[k] * turned[k];
     effect_rate[k] = speed[k] * (curved ? -s[k] : -time);
   }
-  const std::vector<double> drift = integral(drift_rate, step);
-  const std::vector<double> effect = integral(effect_rate, step);
+  const std::vector<double> drift = traffic::integral(drift_rate, step);
+  const std::vector<double> effect = traffic::integral(effect_rate, step);
 
   constexpr double least_way = 20.0;  // [m]
   std::array<double, 3> x{};
   num_keeping = std::min(num_keeping, size);
   if (num_keeping > 0 && s[num_keeping - 1] >= least_way) {
-    Normal3 normal;
+    traffic::Normal3 normal;
     for (std::size_t k = 0; k < num_keeping; ++k) {
       normal.add({1.0, s[k], effect[k]}, -drift[k], 1.0);
     }

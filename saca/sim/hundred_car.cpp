@@ -10,16 +10,16 @@
 #include "saca/core/file.h"
 #include "saca/sim/ego_path.h"
 #include "saca/sim/hundred_car_words.h"
-#include "saca/sim/radar_track.h"
 #include "saca/sim/rounding.h"
-#include "saca/sim/series.h"
+#include "saca/traffic/radar_track.h"
+#include "saca/traffic/series.h"
 
 namespace saca::sim {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double dt = hundred_car_step;
+constexpr double dt = traffic::hundred_car_step;
 constexpr std::size_t half_second = 5;   // rows
 constexpr std::size_t longest_hold = 8;  // rows between two values of the slowest speed sensor
 constexpr std::size_t longest_speed_gap = 15;  // rows
@@ -35,7 +35,7 @@ struct Window {
 };
 
 /// Index of the row with a sync, clamped to the rows there are.
-std::size_t row_at(const std::vector<HundredCarRow>& rows, std::int64_t sync) {
+std::size_t row_at(const std::vector<traffic::HundredCarRow>& rows, std::int64_t sync) {
   const std::int64_t last = static_cast<std::int64_t>(rows.size()) - 1;
   return static_cast<std::size_t>(std::clamp(sync - rows.front().sync, std::int64_t{0}, last));
 }
@@ -63,7 +63,7 @@ std::size_t longest_missing(const std::vector<double>& values) {
   return longest;
 }
 
-Result<EgoMotion> ego_motion(const std::vector<HundredCarRow>& rows, const Window& window,
+Result<EgoMotion> ego_motion(const std::vector<traffic::HundredCarRow>& rows, const Window& window,
                              std::size_t conflict_row, bool curved) {
   std::vector<double> speed;
   std::vector<double> yaw_rate;
@@ -80,15 +80,16 @@ Result<EgoMotion> ego_motion(const std::vector<HundredCarRow>& rows, const Windo
   ego.num_speed_missing = static_cast<std::size_t>(
       std::count_if(speed.begin(), speed.end(), [](double v) { return std::isnan(v); }));
   const std::vector<double> updates =
-      filled(without_holds(filled(speed).values, longest_hold)).values;
-  ego.speed = line_fit(updates, dt, half_second).values;
+      traffic::filled(traffic::without_holds(traffic::filled(speed).values, longest_hold)).values;
+  ego.speed = traffic::line_fit(updates, dt, half_second).values;
   for (double& v : ego.speed) {
     v = std::max(0.0, v);
   }
   constexpr double impossible =
       0.35;  // from the median of its neighbours [rad/s]: a jolt, not a turn
-  (void)remove_outliers(yaw_rate, std::vector<double>(yaw_rate.size(), 0.0), dt, 2, impossible);
-  ego.yaw_rate = filled(yaw_rate).values;
+  (void)traffic::remove_outliers(yaw_rate, std::vector<double>(yaw_rate.size(), 0.0), dt, 2,
+                                 impossible);
+  ego.yaw_rate = traffic::filled(yaw_rate).values;
   const std::size_t keeping = conflict_row - window.first + 1;
   ego.path = ego_path(ego.speed, ego.yaw_rate, dt, keeping, curved);
   for (double& rate : ego.yaw_rate) {
@@ -98,7 +99,7 @@ Result<EgoMotion> ego_motion(const std::vector<HundredCarRow>& rows, const Windo
 }
 
 /// The ego's lane with what the videos say of the road.
-world::Road road_of(const HundredCarEvent& event, double curvature) {
+world::Road road_of(const traffic::HundredCarEvent& event, double curvature) {
   world::Road road;
   road.curvature = rounded(curvature, 1e6);
   road.lane_width = assumed_lane_width;
@@ -128,22 +129,22 @@ struct Rebuilt {
 };
 
 /// The part of a track that lies in the window.
-Window common(const RadarTrack& track, const Window& window) {
+Window common(const traffic::RadarTrack& track, const Window& window) {
   return {std::max(track.first_row, window.first), std::min(track.last_row, window.last)};
 }
 
 /// What was measured of a part of a track.
-TreatedTrack treated(const RadarTrack& track, const Window& part) {
+TreatedTrack treated(const traffic::RadarTrack& track, const Window& part) {
   TreatedTrack told;
   told.first_row = static_cast<std::int64_t>(part.first) + 1;
   told.last_row = static_cast<std::int64_t>(part.last) + 1;
   bool in_gap = false;
   for (std::size_t row = part.first; row <= part.last; ++row) {
     const std::size_t i = row - track.first_row;
-    const bool seen = track.sightings[i] == Sighting::kept;
+    const bool seen = track.sightings[i] == traffic::Sighting::kept;
     told.num_seen += seen ? 1U : 0U;
     told.num_filled += seen ? 0U : 1U;
-    told.num_outliers += track.sightings[i] == Sighting::outlier ? 1U : 0U;
+    told.num_outliers += track.sightings[i] == traffic::Sighting::outlier ? 1U : 0U;
     told.num_gaps += !seen && !in_gap ? 1U : 0U;
     in_gap = !seen;
     if (seen && (told.ids.empty() || told.ids.back() != track.ids[i])) {
@@ -151,18 +152,19 @@ TreatedTrack treated(const RadarTrack& track, const Window& part) {
     }
   }
   told.rate_disagreement =
-      rate_disagreement(track, part.first - track.first_row, part.last - track.first_row);
+      traffic::rate_disagreement(track, part.first - track.first_row, part.last - track.first_row);
   return told;
 }
 
 /// @param side    +1: the radar looks forward; -1: backward
 /// @param length  of the body that is seen [m]
-Rebuilt rebuilt(const RadarTrack& track, const Window& window, const EgoMotion& ego,
+Rebuilt rebuilt(const traffic::RadarTrack& track, const Window& window, const EgoMotion& ego,
                 const world::Road& road, double side, double length) {
   const Window part = common(track, window);
   constexpr double slope_weight = 1.0;  // [s^2]: noise of 0.3 m and 0.3 m/s
-  const Fit range = parabola_fit(track.range, track.rate, dt, half_second, slope_weight);
-  const std::vector<double> azimuth = line_fit(track.azimuth, dt, half_second).values;
+  const traffic::Fit range =
+      traffic::parabola_fit(track.range, track.rate, dt, half_second, slope_weight);
+  const std::vector<double> azimuth = traffic::line_fit(track.azimuth, dt, half_second).values;
 
   const double bumper = standard_ego.centre_x + side * 0.5 * standard_ego.length;
   std::vector<double> s;
@@ -178,8 +180,8 @@ Rebuilt rebuilt(const RadarTrack& track, const Window& window, const EgoMotion& 
     d.push_back(seen.d);
     speed.push_back(std::max(0.0, ego.speed[k] + side * range.slopes[i]));
   }
-  const std::vector<double> forward = never_falling(s);
-  const std::vector<double> steady_d = line_fit(d, dt, 2 * half_second).values;
+  const std::vector<double> forward = traffic::never_falling(s);
+  const std::vector<double> steady_d = traffic::line_fit(d, dt, 2 * half_second).values;
 
   Rebuilt body{{}, treated(track, part)};
   for (std::size_t k = 0; k < s.size(); ++k) {
@@ -201,9 +203,9 @@ ScenarioActor actor_of(const AssumedBody& body, std::uint8_t id, Recording recor
 }
 
 /// What the driver did, measured: the hardest braking, and when the brake lights came on for it.
-DriverAction driver_action(const std::vector<HundredCarRow>& rows, const Window& window,
+DriverAction driver_action(const std::vector<traffic::HundredCarRow>& rows, const Window& window,
                            const std::vector<double>& speed) {
-  const std::vector<double> slopes = line_fit(speed, dt, 2).slopes;
+  const std::vector<double> slopes = traffic::line_fit(speed, dt, 2).slopes;
   const auto hardest = std::min_element(slopes.begin(), slopes.end()) - slopes.begin();
   DriverAction action;
   const auto k = static_cast<std::size_t>(hardest);
@@ -221,20 +223,21 @@ DriverAction driver_action(const std::vector<HundredCarRow>& rows, const Window&
 
 /// The rows kept: around the conflict, from when the vehicle ahead is seen. They go on when it is
 /// not seen any more, for the vehicle behind.
-Window window_of(const std::vector<HundredCarRow>& rows, const HundredCarEvent& event,
-                 const HundredCarRequest& request, const RadarTrack& lead) {
+Window window_of(const std::vector<traffic::HundredCarRow>& rows,
+                 const traffic::HundredCarEvent& event, const HundredCarRequest& request,
+                 const traffic::RadarTrack& lead) {
   const std::size_t start = row_at(rows, event.start_sync);
   const std::size_t before = std::min(start, steps(request.before));
   const std::size_t end = row_at(rows, event.end_sync) + steps(request.after);
   return {std::max(start - before, lead.first_row), std::min(end, rows.size() - 1)};
 }
 
-std::optional<RadarTrack> conflict_lead(const std::vector<HundredCarRow>& rows,
-                                        const HundredCarEvent& event) {
+std::optional<traffic::RadarTrack> conflict_lead(const std::vector<traffic::HundredCarRow>& rows,
+                                                 const traffic::HundredCarEvent& event) {
   const std::size_t around = steps(1.0);
   const std::size_t start = row_at(rows, event.start_sync);
-  return lead_track(rows, start - std::min(start, around),
-                    std::min(row_at(rows, event.end_sync) + around, rows.size() - 1));
+  return traffic::lead_track(rows, start - std::min(start, around),
+                             std::min(row_at(rows, event.end_sync) + around, rows.size() - 1));
 }
 
 struct Follower {
@@ -243,11 +246,12 @@ struct Follower {
 };
 
 /// The vehicle behind, if the rear radar saw one for long enough.
-std::optional<Follower> follower_of(const std::vector<HundredCarRow>& rows, const Window& window,
-                                    std::size_t conflict, const EgoMotion& ego,
-                                    const HundredCarEvent& event, const Scenario& scenario) {
-  const std::optional<RadarTrack> track =
-      follower_track(rows, window.first, window.last, conflict, fewest_follower_rows);
+std::optional<Follower> follower_of(const std::vector<traffic::HundredCarRow>& rows,
+                                    const Window& window, std::size_t conflict,
+                                    const EgoMotion& ego, const traffic::HundredCarEvent& event,
+                                    const Scenario& scenario) {
+  const std::optional<traffic::RadarTrack> track =
+      traffic::follower_track(rows, window.first, window.last, conflict, fewest_follower_rows);
   if (!track) {
     return std::nullopt;
   }
@@ -266,12 +270,12 @@ Error no_lead(const HundredCarRequest& request, const std::string& why) {
 
 }  // namespace
 
-Result<HundredCarImport> rebuild_hundred_car(const std::vector<HundredCarRow>& rows,
-                                             const HundredCarEvent& event,
+Result<HundredCarImport> rebuild_hundred_car(const std::vector<traffic::HundredCarRow>& rows,
+                                             const traffic::HundredCarEvent& event,
                                              const HundredCarRequest& request) {
   expects(!rows.empty(), "there are rows");
   expects(request.before >= 1.0 && request.after >= 0.0, "before >= 1, after >= 0");
-  const std::optional<RadarTrack> lead = conflict_lead(rows, event);
+  const std::optional<traffic::RadarTrack> lead = conflict_lead(rows, event);
   if (!lead) {
     return no_lead(request, "none");
   }
@@ -325,8 +329,8 @@ Result<HundredCarImport> import_hundred_car(const fs::path& path,
   if (!table.has_value()) {
     return table.error();
   }
-  const Result<HundredCarEvent> event =
-      read_hundred_car_event(table.value(), files.table.string(), request.event);
+  const Result<traffic::HundredCarEvent> event =
+      traffic::read_hundred_car_event(table.value(), files.table.string(), request.event);
   if (!event.has_value()) {
     return event.error();
   }
@@ -336,7 +340,7 @@ Result<HundredCarImport> import_hundred_car(const fs::path& path,
     if (!text.has_value()) {
       return text.error();
     }
-    const auto rows = read_hundred_car_rows(text.value(), file.string(), request.event);
+    const auto rows = traffic::read_hundred_car_rows(text.value(), file.string(), request.event);
     if (rows.has_value()) {
       return rebuild_hundred_car(rows.value(), event.value(), request);
     }

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "saca/core/result.h"
-#include "saca/sim/hundred_car_file.h"
 #include "saca/sim/scenario.h"
+#include "saca/traffic/hundred_car_file.h"
 
 namespace saca::sim {
 
@@ -61,9 +61,9 @@ struct HundredCarImport {
 /// nobody reverses. The driver is taken to keep the middle of the lane until the conflict begins;
 /// that fixes the gyro's bias (straight road) or the curvature. Sizes, masses, lane width, the
 /// ego's lane and the grip are assumptions.
-[[nodiscard]] Result<HundredCarImport> rebuild_hundred_car(const std::vector<HundredCarRow>& rows,
-                                                           const HundredCarEvent& event,
-                                                           const HundredCarRequest& request);
+[[nodiscard]] Result<HundredCarImport> rebuild_hundred_car(
+    const std::vector<traffic::HundredCarRow>& rows, const traffic::HundredCarEvent& event,
+    const HundredCarRequest& request);
 
 /// Finds and reads the event's rows and its line in the event table, and rebuilds it.
 /// @param path  the release's folder (or one with `timeseries/` and `meta/`), or a time-series

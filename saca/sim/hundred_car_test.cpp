@@ -15,10 +15,10 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-const fs::path testdata = "saca/sim/testdata";  // tests run in the project folder
+const fs::path testdata = "saca/traffic/testdata";  // tests run in the project folder
 
-HundredCarEvent straight_event() {
-  HundredCarEvent event;
+traffic::HundredCarEvent straight_event() {
+  traffic::HundredCarEvent event;
   event.start_sync = 1100;
   event.end_sync = 1140;
   event.severity = "Near-Crash";
@@ -44,14 +44,14 @@ struct Truth {
   static double gap(double t) { return 40.0 + lead_way(t) - v * t; }
 };
 
-std::vector<HundredCarRow> rows_of_truth(unsigned seed, double noise) {
+std::vector<traffic::HundredCarRow> rows_of_truth(unsigned seed, double noise) {
   std::mt19937 rng(seed);
   std::normal_distribution<double> normal;
   const auto error = [&normal, noise](std::mt19937& draws) { return noise * normal(draws); };
-  std::vector<HundredCarRow> rows;
+  std::vector<traffic::HundredCarRow> rows;
   for (int k = 0; Truth::gap(0.1 * k) > 1.0; ++k) {
     const double t = 0.1 * k;
-    HundredCarRow row;
+    traffic::HundredCarRow row;
     row.sync = 1000 + k;
     row.speed = Truth::v;
     row.yaw_rate = 0.0174533;
@@ -69,7 +69,7 @@ std::vector<HundredCarRow> rows_of_truth(unsigned seed, double noise) {
 }
 
 TEST(RebuildHundredCar, FindsTheTruthBehindTheRadar) {
-  const std::vector<HundredCarRow> rows = rows_of_truth(1, 0.2);
+  const std::vector<traffic::HundredCarRow> rows = rows_of_truth(1, 0.2);
   const auto made = rebuild_hundred_car(rows, straight_event(), {.event = 7});
   ASSERT_TRUE(made.has_value()) << made.error().message;
   const Scenario& scenario = made.value().scenario;
@@ -96,10 +96,10 @@ TEST(RebuildHundredCar, FindsTheTruthBehindTheRadar) {
 }
 
 TEST(RebuildHundredCar, CountsWhatItTreated) {
-  std::vector<HundredCarRow> rows = rows_of_truth(2, 0.0);
+  std::vector<traffic::HundredCarRow> rows = rows_of_truth(2, 0.0);
   // Within the 1.2 m by which it may miss its place a tenth of a second later, so it is followed;
   // but farther than 1 m from what its neighbours foretell.
-  RadarTarget jumped = rows[60].front[0];
+  traffic::RadarTarget jumped = rows[60].front[0];
   jumped.range += 1.15;
   rows[60].front.clear();
   rows[60].front.push_back(jumped);
@@ -116,8 +116,8 @@ TEST(RebuildHundredCar, CountsWhatItTreated) {
 }
 
 TEST(RebuildHundredCar, SaysThatThereIsNoLead) {
-  std::vector<HundredCarRow> rows = rows_of_truth(3, 0.1);
-  for (HundredCarRow& row : rows) {
+  std::vector<traffic::HundredCarRow> rows = rows_of_truth(3, 0.1);
+  for (traffic::HundredCarRow& row : rows) {
     row.front.clear();
   }
   const auto made = rebuild_hundred_car(rows, straight_event(), {.event = 7});
@@ -126,7 +126,7 @@ TEST(RebuildHundredCar, SaysThatThereIsNoLead) {
 }
 
 TEST(RebuildHundredCar, SaysThatSpeedIsMissingForLong) {
-  std::vector<HundredCarRow> rows = rows_of_truth(3, 0.1);
+  std::vector<traffic::HundredCarRow> rows = rows_of_truth(3, 0.1);
   for (std::size_t k = 50; k < 70; ++k) {
     rows[k].speed = std::nan("");
   }

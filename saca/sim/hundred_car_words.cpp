@@ -51,7 +51,7 @@ std::string treatment(std::string_view who, std::string_view radar, const Treate
          shown(track.largest_correction, 2) + " m.\n";
 }
 
-std::string notes_of(const Scenario& scenario, const HundredCarEvent& event,
+std::string notes_of(const Scenario& scenario, const traffic::HundredCarEvent& event,
                      const HundredCarReport& report) {
   std::string notes;
   notes += "Rebuilt by `saca import 100car`. The sample at t_s is row " +
@@ -79,7 +79,7 @@ std::string notes_of(const Scenario& scenario, const HundredCarEvent& event,
   return notes;
 }
 
-std::string driver_of(const HundredCarEvent& event, const HundredCarRequest& request,
+std::string driver_of(const traffic::HundredCarEvent& event, const HundredCarRequest& request,
                       const DriverAction& action) {
   std::string text = "Before: " + event.manoeuvre_before + ". Reaction: " + event.reaction + "; " +
                      event.control_after + ". Behaviour: " + event.behaviour + ".";
@@ -130,7 +130,7 @@ double assumed_grip(std::string_view surface) {
   return surface.starts_with("Icy") ? 0.1 : 0.9;
 }
 
-LanesAround lanes_around(const HundredCarEvent& event) {
+LanesAround lanes_around(const traffic::HundredCarEvent& event) {
   const int lanes = std::max(1, leading_number(event.lanes));
   if (event.flow.starts_with("Not divided")) {
     // The study counts the lanes of both directions.
@@ -139,8 +139,9 @@ LanesAround lanes_around(const HundredCarEvent& event) {
   return {.left = lanes - 1, .divided = event.flow.starts_with("Divided"), .oncoming_left = false};
 }
 
-void describe(Scenario& scenario, const HundredCarEvent& event, const HundredCarRequest& request,
-              const HundredCarReport& report, const DriverAction& action) {
+void describe(Scenario& scenario, const traffic::HundredCarEvent& event,
+              const HundredCarRequest& request, const HundredCarReport& report,
+              const DriverAction& action) {
   const std::string id = std::to_string(request.event);
   scenario.name = "100car_" + id;
   scenario.title = event.severity + " " + id + " of the 100-Car study: " + event.precipitating;

@@ -37,7 +37,7 @@ struct LanesAround {
   bool divided = false;        ///< a median or barrier ends the road on the left
   bool oncoming_left = false;  ///< the next lane is oncoming traffic's
 };
-[[nodiscard]] LanesAround lanes_around(const HundredCarEvent& event);
+[[nodiscard]] LanesAround lanes_around(const traffic::HundredCarEvent& event);
 
 /// What was measured of the driver's braking.
 struct DriverAction {
@@ -47,8 +47,9 @@ struct DriverAction {
 };
 
 /// Fills the scenario's texts: name, title, source, licence, driver, notes, car.
-void describe(Scenario& scenario, const HundredCarEvent& event, const HundredCarRequest& request,
-              const HundredCarReport& report, const DriverAction& action);
+void describe(Scenario& scenario, const traffic::HundredCarEvent& event,
+              const HundredCarRequest& request, const HundredCarReport& report,
+              const DriverAction& action);
 
 /// Where the event's data lie.
 struct HundredCarFiles {

@@ -26,7 +26,7 @@ TEST(AssumedGrip, FallsWithTheWeather) {
 }
 
 TEST(LanesAround, CountsAsTheStudyDoes) {
-  HundredCarEvent event;
+  traffic::HundredCarEvent event;
   event.flow = "Divided (median strip or barrier)";
   event.lanes = "3";
   EXPECT_EQ(lanes_around(event).left, 2);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "saca/core/contract.h"
-#include "saca/sim/series.h"
+#include "saca/traffic/series.h"
 
 namespace saca::sim {
 namespace {
@@ -31,7 +31,7 @@ struct Columns {
 Columns columns_of(const Recording& raw, double step) {
   const double span = raw.back().time - raw.front().time;
   const std::size_t size = static_cast<std::size_t>(std::lround(span / step)) + 1;
-  const std::vector<double> none(size, missing);
+  const std::vector<double> none(size, traffic::missing);
   Columns columns{none, none, none, none, none};
   for (const Sample& sample : raw) {
     const auto k = static_cast<std::size_t>(std::lround((sample.time - raw.front().time) / step));
@@ -57,8 +57,9 @@ double mean_heading(const std::vector<double>& headings) {
 }
 
 /// Unwrapped headings of the motion, with the recorded ones telling forward from backward.
-std::vector<double> headings_of(const Fit& x, const Fit& y, const std::vector<double>& recorded) {
-  std::vector<double> headings(recorded.size(), missing);
+std::vector<double> headings_of(const traffic::Fit& x, const traffic::Fit& y,
+                                const std::vector<double>& recorded) {
+  std::vector<double> headings(recorded.size(), traffic::missing);
   double before = mean_heading(recorded);
   const double rest = before;
   bool any = false;
@@ -73,19 +74,19 @@ std::vector<double> headings_of(const Fit& x, const Fit& y, const std::vector<do
     headings[k] = before;
     any = true;
   }
-  return any ? filled(headings).values : std::vector<double>(recorded.size(), rest);
+  return any ? traffic::filled(headings).values : std::vector<double>(recorded.size(), rest);
 }
 
 /// Throws away positions that jump, in both directions at once.
 std::size_t remove_jumps(Columns& columns, double step) {
   const std::size_t half = steps_in(line_time, step);
   // Speeds at a gap do not matter: those positions are missing too.
-  (void)remove_outliers(columns.x, filled(columns.vx).values, step, half, jump);
-  (void)remove_outliers(columns.y, filled(columns.vy).values, step, half, jump);
+  (void)traffic::remove_outliers(columns.x, traffic::filled(columns.vx).values, step, half, jump);
+  (void)traffic::remove_outliers(columns.y, traffic::filled(columns.vy).values, step, half, jump);
   std::size_t num_removed = 0;
   for (std::size_t k = 0; k < columns.x.size(); ++k) {
     if ((std::isnan(columns.x[k]) || std::isnan(columns.y[k])) && !std::isnan(columns.vx[k])) {
-      columns.x[k] = columns.y[k] = missing;
+      columns.x[k] = columns.y[k] = traffic::missing;
       ++num_removed;
     }
   }
@@ -131,17 +132,19 @@ SmoothTrack smooth_track(const Recording& raw, double step) {
   }
 
   const std::size_t half = steps_in(fit_time, step);
-  const Fit x =
-      parabola_fit(filled(columns.x).values, filled(columns.vx).values, step, half, noise_weight);
-  const Fit y =
-      parabola_fit(filled(columns.y).values, filled(columns.vy).values, step, half, noise_weight);
+  const traffic::Fit x =
+      traffic::parabola_fit(traffic::filled(columns.x).values, traffic::filled(columns.vx).values,
+                            step, half, noise_weight);
+  const traffic::Fit y =
+      traffic::parabola_fit(traffic::filled(columns.y).values, traffic::filled(columns.vy).values,
+                            step, half, noise_weight);
   const std::size_t line = steps_in(line_time, step);
-  const Fit heading = line_fit(headings_of(x, y, columns.heading), step, line);
+  const traffic::Fit heading = traffic::line_fit(headings_of(x, y, columns.heading), step, line);
   std::vector<double> along;
   for (std::size_t k = 0; k < columns.x.size(); ++k) {
     along.push_back(rotated({x.slopes[k], y.slopes[k]}, -heading.values[k]).x);
   }
-  const std::vector<double> speed = line_fit(along, step, line).values;
+  const std::vector<double> speed = traffic::line_fit(along, step, line).values;
   for (std::size_t k = 0; k < columns.x.size(); ++k) {
     track.samples.push_back({raw.front().time + static_cast<double>(k) * step,
                              {{x.values[k], y.values[k]}, wrap_angle(heading.values[k])},
@@ -150,8 +153,8 @@ SmoothTrack smooth_track(const Recording& raw, double step) {
   }
   measure_shift(track, columns);
   const std::size_t short_line = steps_in(0.2, step);
-  track.hardest = largest_length(line_fit(x.slopes, step, short_line).slopes,
-                                 line_fit(y.slopes, step, short_line).slopes);
+  track.hardest = largest_length(traffic::line_fit(x.slopes, step, short_line).slopes,
+                                 traffic::line_fit(y.slopes, step, short_line).slopes);
   return track;
 }
 

@@ -26,7 +26,7 @@ constexpr double farthest_of_all = 1000.0;            // from the ego [m]: nobod
 constexpr double straight_enough = 0.01;              // of a shape against its motion [rad]
 constexpr double least_ego_time = 1.0;                // [s]
 
-Error cannot_use(const CommonRoad& file, const std::string& message) {
+Error cannot_use(const traffic::CommonRoad& file, const std::string& message) {
   return {Error::Code::out_of_range, file.benchmark + ": " + message};
 }
 
@@ -39,11 +39,11 @@ struct Origin {
 
 /// The longest part of an obstacle's states without a gap that is too wide, as it stands in the
 /// file: the motion of O.
-Recording raw_recording(const Obstacle& obstacle, const Origin& origin) {
+Recording raw_recording(const traffic::Obstacle& obstacle, const Origin& origin) {
   const double last = std::min(last_time, origin.step * most_steps);
   Recording longest;
   Recording part;
-  for (const ObstacleState& state : obstacle.states) {
+  for (const traffic::ObstacleState& state : obstacle.states) {
     const double time = static_cast<double>(state.step) * origin.step - origin.time;
     if (time > last) {
       break;
@@ -74,7 +74,7 @@ Recording from_zero(const Recording& smooth, const Pose& X_OA) {
 
 /// An obstacle on its way into the scenario.
 struct Candidate {
-  const Obstacle* obstacle = nullptr;
+  const traffic::Obstacle* obstacle = nullptr;
   ScenarioActor actor;
   SmoothTrack smooth;
   double nearness = std::numeric_limits<double>::infinity();  ///< least distance to the ego [m]
@@ -85,14 +85,15 @@ const Recording& recording_of(const Candidate& candidate) {
 }
 
 /// A body that stands there as long as anything may happen.
-Recording standing(const Obstacle& obstacle, const Origin& origin) {
-  const ObstacleState& state = obstacle.states.front();
+Recording standing(const traffic::Obstacle& obstacle, const Origin& origin) {
+  const traffic::ObstacleState& state = obstacle.states.front();
   const Pose X_WA = rounded_pose(Pose{state.X_WO.p - origin.p_W, state.X_WO.yaw} * obstacle.X_OA);
   return {{0.0, X_WA, 0.0, 0.0}, {last_time, X_WA, 0.0, 0.0}};
 }
 
 /// @return  why the obstacle cannot be in the scenario; empty when it can
-std::string make_recording(const Obstacle& obstacle, const Origin& origin, Candidate& made) {
+std::string make_recording(const traffic::Obstacle& obstacle, const Origin& origin,
+                           Candidate& made) {
   const world::Footprint& body = obstacle.footprint;
   if (body.length < 0.1 || body.length > 40.0 || body.width < 0.1 || body.width > 20.0) {
     return "of no size that a scenario may have";
@@ -168,11 +169,11 @@ std::string conflict_with(const Scenario& scenario, const Candidate& candidate) 
 }
 
 /// Everybody but the ego who can be there, the nearest first; the others are counted.
-std::vector<Candidate> candidates_of(const CommonRoad& file, const TrafficRequest& request,
+std::vector<Candidate> candidates_of(const traffic::CommonRoad& file, const TrafficRequest& request,
                                      const Origin& origin, const Scenario& scenario,
                                      TrafficReport& report) {
   std::vector<Candidate> candidates;
-  for (const Obstacle& obstacle : file.obstacles) {
+  for (const traffic::Obstacle& obstacle : file.obstacles) {
     if (request.ego == obstacle.id) {
       continue;
     }
@@ -207,7 +208,7 @@ struct Smoothing {
 };
 
 /// Lets in whom there is room for. @return  the error of an actor that touches the ego
-std::optional<Error> add_actors(const CommonRoad& file, std::vector<Candidate> candidates,
+std::optional<Error> add_actors(const traffic::CommonRoad& file, std::vector<Candidate> candidates,
                                 Smoothing smoothing, TrafficImport& made) {
   Scenario& scenario = made.scenario;
   const Pose X_WB = ego_at(scenario, 0.0).X_WB;
@@ -240,7 +241,7 @@ std::optional<Error> add_actors(const CommonRoad& file, std::vector<Candidate> c
 struct EgoOfFile {
   Origin origin;
   std::variant<EgoStart, Recording> ego;
-  LaneFit lane;
+  traffic::LaneFit lane;
   world::Road road;
   SmoothTrack smooth;  ///< empty for a planning problem
 };
@@ -249,11 +250,11 @@ Vec2 whole_metres(Vec2 p) {
   return {std::floor(p.x), std::floor(p.y)};
 }
 
-Result<EgoOfFile> planned_ego(const CommonRoad& file, const TrafficRequest& request) {
+Result<EgoOfFile> planned_ego(const traffic::CommonRoad& file, const TrafficRequest& request) {
   if (file.problems.empty()) {
     return cannot_use(file, "want a planning problem or an obstacle for the ego, got neither");
   }
-  const ObstacleState& start = file.problems.front().start;
+  const traffic::ObstacleState& start = file.problems.front().start;
   const double time = static_cast<double>(start.step) * file.time_step;
   if (request.from && std::abs(*request.from - time) > 0.5 * file.time_step) {
     return cannot_use(file, "want an obstacle for the ego when it is to begin at " +
@@ -265,7 +266,7 @@ Result<EgoOfFile> planned_ego(const CommonRoad& file, const TrafficRequest& requ
     return cannot_use(file, "want a planning problem that starts with 0 to 100 m/s, got " +
                                 std::to_string(start.speed) + " m/s");
   }
-  const Result<LaneFit> lane = fit_lane(file, start.X_WO, {});
+  const Result<traffic::LaneFit> lane = traffic::fit_lane(file, start.X_WO, {});
   if (!lane.has_value()) {
     return cannot_use(file, lane.error().message);
   }
@@ -279,10 +280,11 @@ Result<EgoOfFile> planned_ego(const CommonRoad& file, const TrafficRequest& requ
   return made;
 }
 
-Result<EgoOfFile> recorded_ego_of(const CommonRoad& file, const TrafficRequest& request) {
-  const auto found = std::find_if(
-      file.obstacles.begin(), file.obstacles.end(),
-      [&](const Obstacle& obstacle) { return obstacle.id == *request.ego && obstacle.dynamic; });
+Result<EgoOfFile> recorded_ego_of(const traffic::CommonRoad& file, const TrafficRequest& request) {
+  const auto found = std::find_if(file.obstacles.begin(), file.obstacles.end(),
+                                  [&](const traffic::Obstacle& obstacle) {
+                                    return obstacle.id == *request.ego && obstacle.dynamic;
+                                  });
   const std::string who = "obstacle " + std::to_string(*request.ego);
   if (found == file.obstacles.end()) {
     return cannot_use(
@@ -308,7 +310,8 @@ Result<EgoOfFile> recorded_ego_of(const CommonRoad& file, const TrafficRequest& 
   for (const Sample& sample : recording) {
     way_W.push_back(sample.X_WA.p + made.origin.p_W);
   }
-  const Result<LaneFit> lane = fit_lane(file, {way_W.front(), recording.front().X_WA.yaw}, way_W);
+  const Result<traffic::LaneFit> lane =
+      traffic::fit_lane(file, {way_W.front(), recording.front().X_WA.yaw}, way_W);
   if (!lane.has_value()) {
     return cannot_use(file, who + ": " + lane.error().message);
   }
@@ -333,7 +336,8 @@ double last_sample(const Scenario& scenario) {
 
 }  // namespace
 
-Result<TrafficImport> traffic_scenario(const CommonRoad& file, const TrafficRequest& request) {
+Result<TrafficImport> traffic_scenario(const traffic::CommonRoad& file,
+                                       const TrafficRequest& request) {
   const Result<EgoOfFile> found =
       request.ego ? recorded_ego_of(file, request) : planned_ego(file, request);
   if (!found.has_value()) {
@@ -376,7 +380,7 @@ Result<TrafficImport> import_commonroad(const std::filesystem::path& path,
   if (!text.has_value()) {
     return text.error();
   }
-  const Result<CommonRoad> file = read_commonroad(text.value(), path.string());
+  const Result<traffic::CommonRoad> file = traffic::read_commonroad(text.value(), path.string());
   if (!file.has_value()) {
     return file.error();
   }

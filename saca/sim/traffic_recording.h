@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "saca/core/result.h"
-#include "saca/sim/commonroad.h"
-#include "saca/sim/lane_fit.h"
 #include "saca/sim/scenario.h"
+#include "saca/traffic/commonroad.h"
+#include "saca/traffic/lane_fit.h"
 
 namespace saca::sim {
 
@@ -35,7 +35,7 @@ struct TrafficActor {
 struct TrafficReport {
   double from = 0.0;          ///< the scenario's 0 in the file's time [s]
   Vec2 origin_W;              ///< the scenario's origin in the file's coordinates [m]
-  LaneFit lane;               ///< in the file's coordinates
+  traffic::LaneFit lane;      ///< in the file's coordinates
   double widened_left = 0.0;  ///< how far the left edge was moved out to hold recorded bodies [m]
   double widened_right = 0.0;
   std::vector<TrafficActor> actors;             ///< the nearest first
@@ -72,7 +72,7 @@ constexpr double hardest_possible = 12.0;  // [m/s^2]
 /// that way. The road's edges are moved out to 0.2 m beyond every vehicle that was recorded with
 /// its centre between them. Kinds, masses, grip and what stands beyond the road's edges are
 /// assumptions.
-[[nodiscard]] Result<TrafficImport> traffic_scenario(const CommonRoad& file,
+[[nodiscard]] Result<TrafficImport> traffic_scenario(const traffic::CommonRoad& file,
                                                      const TrafficRequest& request);
 
 /// Reads a file and makes a scenario of it.

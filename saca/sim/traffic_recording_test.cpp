@@ -16,28 +16,29 @@ using testing::HasSubstr;
 
 constexpr double dt = 0.1;
 
-Lanelet straight_lanelet(std::int64_t id, double y) {
+traffic::Lanelet straight_lanelet(std::int64_t id, double y) {
   return {.id = id,
           .left_W = {{-100.0, y + 1.75}, {400.0, y + 1.75}},
           .right_W = {{-100.0, y - 1.75}, {400.0, y - 1.75}}};
 }
 
 /// Two lanes to the east, far from the map's origin, and a planning problem at x = 0, 15 m/s.
-CommonRoad two_lanes() {
-  CommonRoad file;
+traffic::CommonRoad two_lanes() {
+  traffic::CommonRoad file;
   file.benchmark = "TEST-1";
   file.source = "hand-made";
   file.lanelets = {straight_lanelet(1, 0.0), straight_lanelet(2, -3.5)};
-  file.lanelets[0].right = Neighbour{2, true};
-  file.lanelets[1].left = Neighbour{1, true};
+  file.lanelets[0].right = traffic::Neighbour{2, true};
+  file.lanelets[1].left = traffic::Neighbour{1, true};
   file.problems = {{.id = 9, .start = {.X_WO = {{0.4, 0.0}, 0.0}, .speed = 15.0}}};
   return file;
 }
 
 /// A car at constant speed along x from its first step on.
-Obstacle car(std::int64_t id, double x, double y, double speed, std::int64_t first = 0,
-             std::int64_t num_states = 60) {
-  Obstacle obstacle{.id = id, .type = "car", .footprint = {world::Shape::box, 4.5, 1.8, 0.0}};
+traffic::Obstacle car(std::int64_t id, double x, double y, double speed, std::int64_t first = 0,
+                      std::int64_t num_states = 60) {
+  traffic::Obstacle obstacle{
+      .id = id, .type = "car", .footprint = {world::Shape::box, 4.5, 1.8, 0.0}};
   for (std::int64_t k = 0; k < num_states; ++k) {
     obstacle.states.push_back(
         {first + k, {{x + speed * dt * static_cast<double>(k), y}, 0.0}, speed});
@@ -45,19 +46,19 @@ Obstacle car(std::int64_t id, double x, double y, double speed, std::int64_t fir
   return obstacle;
 }
 
-TrafficImport made_of(const CommonRoad& file, const TrafficRequest& request = {}) {
+TrafficImport made_of(const traffic::CommonRoad& file, const TrafficRequest& request = {}) {
   auto made = traffic_scenario(file, request);
   EXPECT_TRUE(made.has_value()) << made.error().message;
   return made.value();
 }
 
-std::string refusal(const CommonRoad& file, const TrafficRequest& request = {}) {
+std::string refusal(const traffic::CommonRoad& file, const TrafficRequest& request = {}) {
   const auto made = traffic_scenario(file, request);
   return made.has_value() ? "none" : made.error().message;
 }
 
 TEST(TrafficScenario, PutsTheEgoAtThePlanningProblem) {
-  CommonRoad file = two_lanes();
+  traffic::CommonRoad file = two_lanes();
   file.obstacles = {car(5, 30.0, 0.0, 12.0), car(6, 8.0, -3.5, 14.0)};
   const TrafficImport made = made_of(file);
   const Scenario& scenario = made.scenario;
@@ -78,7 +79,7 @@ TEST(TrafficScenario, PutsTheEgoAtThePlanningProblem) {
 }
 
 TEST(TrafficScenario, IsReadBackByTheScenariosReader) {
-  CommonRoad file = two_lanes();
+  traffic::CommonRoad file = two_lanes();
   file.obstacles = {car(5, 30.0, 0.0, 12.0), car(6, 8.0, -3.5, 14.0, 10)};
   for (const TrafficRequest& request : {TrafficRequest{}, TrafficRequest{.ego = 5}}) {
     const std::string text = write_scenario(made_of(file, request).scenario);
@@ -89,7 +90,7 @@ TEST(TrafficScenario, IsReadBackByTheScenariosReader) {
 }
 
 TEST(TrafficScenario, LetsTheEgoDriveAsARecordedVehicleDid) {
-  CommonRoad file = two_lanes();
+  traffic::CommonRoad file = two_lanes();
   file.obstacles = {car(5, 30.0, 0.0, 12.0), car(6, 8.0, -3.5, 14.0)};
   const TrafficImport made = made_of(file, {.ego = 6, .from = 2.0, .after = 2.5});
   const Scenario& scenario = made.scenario;
@@ -104,24 +105,24 @@ TEST(TrafficScenario, LetsTheEgoDriveAsARecordedVehicleDid) {
 }
 
 TEST(TrafficScenario, WhoAppearsLaterIsThereFromItsFirstSample) {
-  CommonRoad file = two_lanes();
+  traffic::CommonRoad file = two_lanes();
   file.obstacles = {car(5, 60.0, 0.0, 12.0, 20)};
   const TrafficImport made = made_of(file);
   EXPECT_NEAR(actor_track(made.scenario, 0, dt).start, 2.0, 1e-9);
 }
 
 TEST(TrafficScenario, CountsWhomItLeavesOut) {
-  CommonRoad file = two_lanes();
-  Obstacle wild = car(11, 60.0, 0.0, 12.0);
+  traffic::CommonRoad file = two_lanes();
+  traffic::Obstacle wild = car(11, 60.0, 0.0, 12.0);
   for (std::size_t k = 20; k < wild.states.size(); ++k) {
     wild.states[k].X_WO.p.x += 1.0 * static_cast<double>((k - 20) * (k - 20));  // 200 m/s^2
     wild.states[k].speed = 12.0 + 20.0 * static_cast<double>(k - 20);
   }
-  Obstacle huge = car(12, 60.0, -3.5, 12.0);
+  traffic::Obstacle huge = car(12, 60.0, -3.5, 12.0);
   huge.footprint.length = 60.0;
-  Obstacle turned = car(13, 90.0, -3.5, 12.0);
+  traffic::Obstacle turned = car(13, 90.0, -3.5, 12.0);
   turned.X_OA.yaw = 1.0;
-  Obstacle fast = car(14, 200.0, 0.0, 140.0);
+  traffic::Obstacle fast = car(14, 200.0, 0.0, 140.0);
   file.obstacles = {fast,
                     car(5, 30.0, 0.0, 12.0),
                     car(6, 31.0, 0.5, 12.0),
@@ -149,7 +150,7 @@ TEST(TrafficScenario, CountsWhomItLeavesOut) {
 }
 
 TEST(TrafficScenario, KeepsTheNearestOnesWhenThereAreTooMany) {
-  CommonRoad file = two_lanes();
+  traffic::CommonRoad file = two_lanes();
   for (std::int64_t k = 0; k < 40; ++k) {
     file.obstacles.push_back(car(100 + k, 10.0 * static_cast<double>(40 - k), 0.0, 15.0));
   }
@@ -169,8 +170,8 @@ TEST(TrafficScenario, FindsTheTruthBehindTheNoise) {
   };
   std::mt19937_64 rng(4);
   std::normal_distribution<double> normal;
-  CommonRoad file = two_lanes();
-  Obstacle lead = car(5, 30.0, 0.0, 15.0);
+  traffic::CommonRoad file = two_lanes();
+  traffic::Obstacle lead = car(5, 30.0, 0.0, 15.0);
   for (std::size_t k = 0; k < lead.states.size(); ++k) {
     const double t = dt * static_cast<double>(k);
     lead.states[k].X_WO.p = {30.0 + way(t) + 0.05 * normal(rng), 0.05 * normal(rng)};
@@ -191,8 +192,8 @@ TEST(TrafficScenario, FindsTheTruthBehindTheNoise) {
 }
 
 TEST(TrafficScenario, WhatStandsIsThereAllTheTime) {
-  CommonRoad file = two_lanes();
-  Obstacle box = car(20, 80.0, -3.5, 0.0, 0, 1);
+  traffic::CommonRoad file = two_lanes();
+  traffic::Obstacle box = car(20, 80.0, -3.5, 0.0, 0, 1);
   box.dynamic = false;
   box.type = "constructionZone";
   box.X_OA = {{1.0, 0.0}, 0.5};
@@ -205,7 +206,7 @@ TEST(TrafficScenario, WhatStandsIsThereAllTheTime) {
 }
 
 TEST(TrafficScenario, RefusesWhatCannotBePlayed) {
-  CommonRoad file = two_lanes();
+  traffic::CommonRoad file = two_lanes();
   file.obstacles = {car(5, 3.0, 0.5, 12.0), car(6, 40.0, -3.5, 14.0, 0, 8)};
   EXPECT_THAT(refusal(file), HasSubstr("obstacle 5 touching it"));
   EXPECT_THAT(refusal(file, {.ego = 77}), HasSubstr("got 77"));
@@ -219,7 +220,7 @@ TEST(TrafficScenario, RefusesWhatCannotBePlayed) {
 }
 
 TEST(ImportCommonRoad, ReadsTheSmallFile) {
-  const auto made = import_commonroad("saca/sim/testdata/commonroad_small.xml", {});
+  const auto made = import_commonroad("saca/traffic/testdata/commonroad_small.xml", {});
   ASSERT_TRUE(made.has_value()) << made.error().message;
   const TrafficReport& report = made.value().report;
   EXPECT_EQ(made.value().scenario.name, "saca_small_1_1_t_1");

@@ -27,7 +27,7 @@ ActorKind kind_by_size(const world::Footprint& footprint) {
   return footprint.length < 3.0 && footprint.width < 1.5 ? ActorKind::motorcycle : ActorKind::car;
 }
 
-ActorKind kind_of(const Obstacle& obstacle) {
+ActorKind kind_of(const traffic::Obstacle& obstacle) {
   const std::string_view type = obstacle.type;
   if (is_one_of(type, {"truck", "bus", "train"})) {
     return ActorKind::truck;
@@ -83,7 +83,7 @@ std::string who_is_who(const TrafficReport& report) {
 }
 
 std::string lane_notes(const TrafficReport& report) {
-  const LaneFit& lane = report.lane;
+  const traffic::LaneFit& lane = report.lane;
   std::string ids;
   for (const std::int64_t id : lane.lanelets) {
     ids += fmt::format("{}{}", ids.empty() ? "" : ", ", id);
@@ -130,7 +130,7 @@ std::string notes_of_traffic(const TrafficRequest& request, const TrafficReport&
 }
 
 /// Who must be named when this is shown to anyone.
-std::string licence_of(const CommonRoad& file) {
+std::string licence_of(const traffic::CommonRoad& file) {
   const auto says = [&file](std::string_view word) {
     return file.source.find(word) != std::string::npos;
   };
@@ -149,12 +149,12 @@ std::string licence_of(const CommonRoad& file) {
 
 }  // namespace
 
-TrafficBody assumed_traffic_body(const Obstacle& obstacle) {
+TrafficBody assumed_traffic_body(const traffic::Obstacle& obstacle) {
   const ActorKind kind = kind_of(obstacle);
   return {kind, mass_of(kind, obstacle.footprint.length)};
 }
 
-std::string traffic_name(const CommonRoad& file, const TrafficRequest& request) {
+std::string traffic_name(const traffic::CommonRoad& file, const TrafficRequest& request) {
   std::string name;
   for (const char c : file.benchmark) {
     const auto code = static_cast<unsigned char>(c);
@@ -172,7 +172,7 @@ std::string traffic_name(const CommonRoad& file, const TrafficRequest& request) 
   return name;
 }
 
-void describe(Scenario& scenario, const CommonRoad& file, const TrafficRequest& request,
+void describe(Scenario& scenario, const traffic::CommonRoad& file, const TrafficRequest& request,
               const TrafficReport& report) {
   scenario.name = traffic_name(file, request);
   scenario.title = fmt::format("Recorded traffic {}, {} vehicles around the ego", file.benchmark,

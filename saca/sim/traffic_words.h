@@ -16,13 +16,14 @@ struct TrafficBody {
 /// 7 m on, a van from 5.5 m, a motorcycle below 3 m of length and 1.5 m of width: NGSIM's own files
 /// tell the classes apart, CommonRoad's copies call all of them cars. A static obstacle that is no
 /// vehicle is an obstacle that weighs as much as a truck.
-[[nodiscard]] TrafficBody assumed_traffic_body(const Obstacle& obstacle);
+[[nodiscard]] TrafficBody assumed_traffic_body(const traffic::Obstacle& obstacle);
 
 /// Lower-case letters, digits and `_`: the benchmark's name, the ego's, and the time if not 0.
-[[nodiscard]] std::string traffic_name(const CommonRoad& file, const TrafficRequest& request);
+[[nodiscard]] std::string traffic_name(const traffic::CommonRoad& file,
+                                       const TrafficRequest& request);
 
 /// Fills the scenario's texts: name, title, source, licence, driver, notes, car.
-void describe(Scenario& scenario, const CommonRoad& file, const TrafficRequest& request,
+void describe(Scenario& scenario, const traffic::CommonRoad& file, const TrafficRequest& request,
               const TrafficReport& report);
 
 }  // namespace saca::sim

@@ -9,7 +9,7 @@ namespace {
 using testing::HasSubstr;
 using world::ActorKind;
 
-Obstacle body(const std::string& type, double length, double width, bool dynamic = true) {
+traffic::Obstacle body(const std::string& type, double length, double width, bool dynamic = true) {
   return {.id = 1,
           .dynamic = dynamic,
           .type = type,
@@ -42,7 +42,7 @@ TEST(AssumedTrafficBody, HeavierIsWhoIsLarger) {
 }
 
 TEST(TrafficName, IsAFileName) {
-  CommonRoad file;
+  traffic::CommonRoad file;
   file.benchmark = "USA_US101-5_1_T-1";
   EXPECT_EQ(traffic_name(file, {}), "usa_us101_5_1_t_1");
   EXPECT_EQ(traffic_name(file, {.ego = 507, .from = 1.5}), "usa_us101_5_1_t_1_ego507_from1500ms");
@@ -52,7 +52,7 @@ TEST(TrafficName, IsAFileName) {
 }
 
 TEST(DescribeTraffic, NamesThoseWhoMustBeNamed) {
-  CommonRoad file;
+  traffic::CommonRoad file;
   file.benchmark = "X";
   file.author = "A. Author";
   file.source = "Next Generation Simulation (NGSIM) and OpenStreetMaps (OSM)";

@@ -19,6 +19,7 @@ NAMES = ["AEB", "AES-L", "AES-R", "ES-B-L", "ES-B-R", "T-D-L", "T-D-R", "NI"]
 SIZES = {"car": (4.5, 1.8), "van": (5.4, 2.0), "truck": (11.5, 2.5), "motorcycle": (2.2, 0.8),
          "bicycle": (1.8, 0.6), "pedestrian": (0.5, 0.6), "obstacle": (2.0, 1.2)}
 INTENTIONS = ["M", "LC", "RC", "FB", "LB", "RB"]
+OF_WALKERS = ["M", "stop", "cross"]
 T2, T1 = 5.5, 1.3
 
 
@@ -286,6 +287,20 @@ def drive(encounter, policy):
         s = s + encounter.speed * FRAME if trigger is None else s
 
 
+def intentions_of(encounter, frames):
+    """Every 0.1 s: who brakes, or will within 1 s, is thought to; walkers stop or may cross."""
+    def row(mover, t):
+        brakes = 0.9 if t >= mover.brake_at and mover.at(t)[3] > 0.0 else 0.04
+        walker = mover.kind in ("pedestrian", "bicycle")
+        shares = [0.95 - brakes, brakes, 0.05] if walker else [0.9 - brakes, 0.06, 0.04, brakes, 0.0, 0.0]
+        return " ".join(str(round(1000 * p)) for p in shares)
+
+    times = [f["t_s"] for f in frames[::5]]
+    return [{"actor": m.name, "of": OF_WALKERS if m.kind in ("pedestrian", "bicycle") else INTENTIONS, "times_s": list(times),
+             "now_permille": [row(m, t) for t in times], "soon_permille": [row(m, t + 1.0) for t in times]}
+            for m in encounter.movers if m.kind != "obstacle"]
+
+
 def events_of(t2, trigger, previews, result, end, model):
     rows = [(t2, "thinking", "preview", f"time to conflict below {T2} s: three situations at the trigger are forecast"),
             (t2 + 0.01, "thinking", "risk", "car1 1.00"), (t2 + 0.02, "thinking", "intention", "car1 brakes (FB, 67 %)"),
@@ -333,7 +348,7 @@ def played(name, title, encounter, policy, model, gates, driver):
              f"{contact['relative_speed_mps']:.1f} m/s." if contact else
              f"{NAMES[policy]} avoided the contact and passed at {result['clearance_m']:.2f} m.")
     return {**head(name, title, model, encounter.grip, encounter.road, encounter.movers, driver),
-            "frames": frames, "events": events_of(t2, trigger, previews, result, frames[-1]["t_s"], model != "off"),
+            "frames": frames, "intentions": intentions_of(encounter, frames), "events": events_of(t2, trigger, previews, result, frames[-1]["t_s"], model != "off"),
             "previews": previews,
             "decision": {"policy": policy, "name": NAMES[policy],
                          "target_speed_mps": encounter.speed / 2 if policy in (3, 4) else None, "source": source,
@@ -409,7 +424,7 @@ def crowd():
 
 
 def empty():
-    return {**head("synthetic_empty", "Test data: nothing happens", "off", 0.9, Road(), [], None), "frames": [], "events": [],
+    return {**head("synthetic_empty", "Test data: nothing happens", "off", 0.9, Road(), [], None), "frames": [], "intentions": [], "events": [],
             "previews": [], "decision": None,
             "result": {"contact": None, "collision_loss": 0.0, "harm": 0.0, "clearance_m": None, "text": "Test data: nothing happened."},
             "hindsight": [], "best": None, "case": None,

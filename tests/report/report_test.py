@@ -340,6 +340,84 @@ def test_the_time_line_shows_each_event_once_in_its_lane_without_overlap(show):
         assert all(0 <= left and right <= 1280 for left, right, *_ in boxes)
 
 
+# --- intentions ----------------------------------------------------------------------------------
+
+
+def intention_rows(page):
+    return page.run("[...document.querySelectorAll('.strip-intentions')].map(s => s.querySelector('.strip-name span').textContent)")
+
+
+def test_each_road_user_has_a_row_of_intentions_and_obstacles_have_none(show):
+    assert sorted(intention_rows(show(RECORDS["contact"]))) == ["car1", "car2", "pedestrian1", "van1"]
+    crowd = intention_rows(show(RECORDS["crowd"]))
+    assert sorted(crowd) == sorted(a["id"] for a in RECORDS["crowd"]["actors"] if a["kind"] != "obstacle")
+    assert intention_rows(show(RECORDS["empty"])) == []
+
+
+def test_rows_of_many_are_folded_until_they_are_asked_for(show):
+    page = show(RECORDS["crowd"])
+    shown = "[...document.querySelectorAll('.strip-intentions')].filter(s => s.offsetHeight > 0).length"
+    assert page.run(shown) == 6
+    page.run("by_id('all-intentions').click()")
+    assert page.run(shown) == len(RECORDS["crowd"]["intentions"])
+    assert page.run("by_id('all-intentions').getAttribute('aria-expanded')") == "true"
+
+
+def test_intentions_are_as_high_as_they_are_likely(show):
+    record = RECORDS["contact"]
+    page = show(record, height=1800)  # all of it in the window
+    seen = next(one for one in record["intentions"] if one["actor"] == "car1")
+    k = seen["of"].index("FB")
+    t = next(t for t, row in zip(seen["times_s"], seen["now_permille"]) if row.split()[k] == "900" and t > record["decision"]["time_s"] - 1)
+    index = page.run("[...document.querySelectorAll('.strip-intentions .strip-name span:first-child')].findIndex(s => s.textContent === 'car1')")
+    box = page.run(f"(({{left, top}}) => ({{left, top}}))(document.querySelectorAll('.strip-intentions svg')[{index}].getBoundingClientRect())")
+    x = box["left"] + page.run(f"time_line.x({t + 0.05})")
+    brakes, goes_on = colour(page, "intends-FB"), colour(page, "intends-M")
+    page.run(f"page.seek({t - 2.0})")  # the cursor out of the way
+    top = page.run(f"document.querySelectorAll('.strip-intentions svg')[{index}].getBoundingClientRect().top")
+    # 34 px high, stacked from below: 90 % brake, then the rest; below it 1 s ahead.
+    assert like(pixel(page, x, top + 34 - 0.85 * 34), brakes)
+    assert not like(pixel(page, x, top + 34 - 0.95 * 34), brakes)
+    assert like(pixel(page, x, top + 36 + 5), brakes)
+    before = next(t for t, now, soon in zip(seen["times_s"], seen["now_permille"], seen["soon_permille"])
+                  if now.split()[k] == "40" and soon.split()[k] == "900")
+    page.run("by_id('window').hidden || time_line.whole || by_id('window').click()")
+    x = box["left"] + page.run(f"time_line.x({before + 0.05})")
+    top = page.run(f"document.querySelectorAll('.strip-intentions svg')[{index}].getBoundingClientRect().top")
+    assert like(pixel(page, x, top + 10), goes_on), "not yet"
+    assert like(pixel(page, x, top + 36 + 4), brakes), "but within a second"
+
+
+def test_the_likeliest_intention_stands_in_words_at_the_cursor(show):
+    page, record = show(RECORDS["contact"]), RECORDS["contact"]
+    seen = next(one for one in record["intentions"] if one["actor"] == "car1")
+    value = "[...document.querySelectorAll('.strip-intentions')].find(s => s.innerText.startsWith('car1')).querySelector('.strip-value').textContent"
+    for t, words in ((0.5, "goes on 86"), (2.0, "brakes 90")):
+        page.run(f"page.seek({t})")
+        assert page.run(value).replace("\u00a0", " ") == f"{words} %"
+    page.run(f"page.seek({seen['times_s'][-1] + 5.0})")
+    assert page.run("document.querySelector('.intention-word')") is not None
+    assert "Intentions of car1: goes on from" in page.run(
+        "[...document.querySelectorAll('.strip-intentions svg')].map(s => s.getAttribute('aria-label')).join()").replace("\u00a0", " ")
+
+
+def test_the_legend_spells_out_the_intentions_that_there_are(show):
+    words = show(RECORDS["contact"]).run("document.querySelector('.intention-legend').innerText")
+    for word in ("goes on", "brakes and moves left", "stops", "crosses the lane"):
+        assert word in words
+    assert "stops" not in show(RECORDS["clear"]).run("document.querySelector('.intention-legend').innerText")
+
+
+def test_intentions_that_do_not_fit_are_left_out(show):
+    record = copy.deepcopy(RECORDS["contact"])
+    one = record["intentions"][0]
+    one["now_permille"][0], one["soon_permille"][1], one["times_s"][2] = "1000", None, None
+    record["intentions"][1]["of"] = None
+    page = show(record)
+    assert page.problems == []
+    assert page.run("record.intentions.map(one => one.times.length)") == [len(one["times_s"]) - 3] + [len(one["times_s"])] * 2
+
+
 # --- the plan view -------------------------------------------------------------------------------
 
 

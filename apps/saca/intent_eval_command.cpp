@@ -1,0 +1,345 @@
+#include <fmt/core.h>
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/saca/commands.h"
+#include "apps/saca/intent_commands.h"
+#include "apps/saca/places.h"
+#include "saca/core/parallel.h"
+#include "saca/intent/intention.h"
+#include "saca/learn/evaluation.h"
+#include "saca/learn/forecast_file.h"
+#include "saca/learn/foretell.h"
+#include "saca/learn/sequence_file.h"
+
+namespace saca::app {
+namespace {
+
+namespace fs = std::filesystem;
+using learn::Figures;
+using learn::Forecasts;
+using learn::Interval;
+using learn::ModelsByLeftOut;
+using learn::Sequence;
+using nlohmann::json;
+
+struct EvalOptions {
+  std::string sequences;
+  std::string models;
+  std::string plain_models;
+  std::vector<std::string> forecasts;
+  unsigned long seed = 1;
+  bool as_json = false;
+};
+
+/// Sequences that are scored together.
+struct Scored {
+  std::vector<Sequence> sequences;
+  std::vector<std::string> splits;
+};
+
+Scored chosen(const learn::SequenceSet& set, bool simulated, const std::string& site = "") {
+  Scored found;
+  for (std::size_t i = 0; i < set.sequences.size(); ++i) {
+    const Sequence& sequence = set.sequences[i];
+    const bool is_test = simulated ? set.splits[i] == "test" : !sequence.simulated;
+    if (sequence.simulated == simulated && is_test && (site.empty() || sequence.site == site)) {
+      found.sequences.push_back(sequence);
+      found.splits.push_back(set.splits[i]);
+    }
+  }
+  return found;
+}
+
+/// One way to foretell and its figures.
+struct Row {
+  std::string method;
+  Figures figures;
+  std::optional<Interval> behind_ours;  ///< our macro F1 now less its
+};
+
+json number(const std::optional<double>& value) {
+  return value ? json(*value) : json();
+}
+
+json interval_json(const std::optional<Interval>& interval) {
+  return interval
+             ? json{{"value", interval->value}, {"low", interval->low}, {"high", interval->high}}
+             : json();
+}
+
+json warnings_json(const learn::Warnings& warnings) {
+  return {{"events", warnings.events()},
+          {"share_warned", number(warnings.share_warned())},
+          {"lower_quartile_s", number(warnings.quantile(0.25))},
+          {"median_s", number(warnings.quantile(0.5))},
+          {"upper_quartile_s", number(warnings.quantile(0.75))}};
+}
+
+json row_json(const Row& row) {
+  json heads = json::array();
+  for (std::size_t head = 0; head < learn::num_heads; ++head) {
+    const learn::Tally& tally = row.figures.tallies[head];
+    json classes = json::object();
+    for (std::size_t k = 0; k < learn::num_vehicle_classes; ++k) {
+      classes[std::string(name(static_cast<intent::Intention>(k)))] = {
+          {"frames", tally.confusion.truly(k)},
+          {"recall", number(tally.confusion.recall(k))},
+          {"precision", number(tally.confusion.precision(k))},
+          {"f1", number(tally.confusion.f1(k))}};
+    }
+    heads.push_back({{"ahead_s", intent::horizons[head]},
+                     {"macro_f1", interval_json(row.figures.macro_f1[head])},
+                     {"calibration_error", number(tally.top_calibration_error())},
+                     {"classwise_calibration_error", number(tally.classwise_calibration_error())},
+                     {"log_loss", number(tally.mean_log_loss())},
+                     {"brier", number(tally.mean_brier())},
+                     {"classes", classes},
+                     {"confusion", tally.confusion.counts}});
+  }
+  return {{"method", row.method},
+          {"heads", heads},
+          {"warning_before_line", warnings_json(row.figures.lane_changes)},
+          {"warning_before_braking", warnings_json(row.figures.brakings)},
+          {"false_alarms_per_hour", number(row.figures.alarms.per_hour())},
+          {"hours", row.figures.alarms.hours},
+          {"illegal_steps", row.figures.illegal_steps},
+          {"ours_less_this", interval_json(row.behind_ours)}};
+}
+
+std::string cell(const std::optional<double>& value, int digits = 3) {
+  return value ? fmt::format("{:.{}f}", *value, digits) : "-";
+}
+
+void tell_table(const std::string& title, const std::vector<Row>& rows) {
+  fmt::print("\n{}\n", title);
+  fmt::print("{:24} {:>22} {:>8} {:>8} {:>7} {:>12} {:>12} {:>8} {:>8}\n", "", "macro F1 now",
+             "0.5 s", "1 s", "ECE", "line [s]", "brake [s]", "alarm/h", "illegal");
+  for (const Row& row : rows) {
+    const Figures& f = row.figures;
+    const auto& now = f.macro_f1[0];
+    const auto value = [&](std::size_t head) {
+      return f.macro_f1[head] ? std::optional(f.macro_f1[head]->value) : std::nullopt;
+    };
+    fmt::print(
+        "{:24} {:>22} {:>8} {:>8} {:>7} {:>12} {:>12} {:>8} {:>8}\n", row.method,
+        now ? fmt::format("{:.3f} [{:.3f}, {:.3f}]", now->value, now->low, now->high) : "-",
+        cell(value(1)), cell(value(2)), cell(f.tallies[0].top_calibration_error()),
+        cell(f.lane_changes.quantile(0.5), 1) + " of " + std::to_string(f.lane_changes.events()),
+        cell(f.brakings.quantile(0.5), 1) + " of " + std::to_string(f.brakings.events()),
+        cell(f.alarms.per_hour(), 0), f.illegal_steps);
+  }
+}
+
+void tell_confusion(const Row& row) {
+  for (std::size_t head = 0; head < learn::num_heads; ++head) {
+    const learn::Confusion& confusion = row.figures.tallies[head].confusion;
+    fmt::print("\n{}, {:.1f} s ahead: truth in rows, foretold in columns\n{:>8}", row.method,
+               intent::horizons[head], "");
+    for (std::size_t k = 0; k < learn::num_vehicle_classes; ++k) {
+      fmt::print("{:>8}", name(static_cast<intent::Intention>(k)));
+    }
+    fmt::print("{:>8} {:>9} {:>6}\n", "recall", "precision", "F1");
+    for (std::size_t k = 0; k < learn::num_vehicle_classes; ++k) {
+      fmt::print("{:>8}", name(static_cast<intent::Intention>(k)));
+      for (const std::size_t count : confusion.counts[k]) {
+        fmt::print("{:>8}", count);
+      }
+      fmt::print("{:>8} {:>9} {:>6}\n", cell(confusion.recall(k), 2),
+                 cell(confusion.precision(k), 2), cell(confusion.f1(k), 2));
+    }
+  }
+}
+
+/// Everything that is compared on the same sequences; ours comes first.
+class Comparison {
+ public:
+  Comparison(std::string title, const Scored& scored, std::span<const std::size_t> classes,
+             std::uint64_t seed)
+      : title_(std::move(title)), scored_(scored), classes_(classes), seed_(seed) {}
+
+  void add(const std::string& method, std::vector<Forecasts> forecasts) {
+    Row row{.method = method,
+            .figures = learn::figures_of(scored_.sequences, forecasts, classes_, seed_),
+            .behind_ours = std::nullopt};
+    if (rows_.empty()) {
+      ours_ = std::move(forecasts);
+    } else {
+      row.behind_ours =
+          learn::macro_f1_difference(scored_.sequences, ours_, forecasts, 0, classes_, seed_);
+    }
+    rows_.push_back(std::move(row));
+  }
+
+  void tell() const {
+    tell_table(title_, rows_);
+    tell_confusion(rows_.front());
+    for (const Row& row : rows_) {
+      if (row.behind_ours) {
+        fmt::print("ours less {}: macro F1 now {:+.3f} [{:+.3f}, {:+.3f}]\n", row.method,
+                   row.behind_ours->value, row.behind_ours->low, row.behind_ours->high);
+      }
+    }
+  }
+  [[nodiscard]] json as_json() const {
+    json methods = json::array();
+    for (const Row& row : rows_) {
+      methods.push_back(row_json(row));
+    }
+    return {{"title", title_}, {"methods", methods}};
+  }
+
+ private:
+  std::string title_;
+  const Scored& scored_;
+  std::span<const std::size_t> classes_;
+  std::uint64_t seed_;
+  std::vector<Forecasts> ours_;
+  std::vector<Row> rows_;
+};
+
+/// Models whose chain is taken away: each frame by its emissions alone.
+ModelsByLeftOut without_chains(ModelsByLeftOut models) {
+  for (auto& [left_out, model] : models) {
+    model.chains = {};
+  }
+  return models;
+}
+
+std::optional<Error> add_unseen(Comparison& comparison, const std::string& method,
+                                const ModelsByLeftOut& models, const Scored& scored) {
+  auto forecasts = learn::foretold_unseen(models, scored.sequences, scored.splits, usual_threads());
+  if (!forecasts.has_value()) {
+    return forecasts.error();
+  }
+  comparison.add(method, std::move(forecasts).value());
+  return std::nullopt;
+}
+
+/// What was recorded, each by models that have not seen it, beside all baselines.
+std::optional<Error> compare_recorded(const EvalOptions& options, const ModelsByLeftOut& models,
+                                      const Scored& scored, Comparison& comparison) {
+  if (const auto problem = add_unseen(comparison, "LSTM-CRF", models, scored)) {
+    return problem;
+  }
+  if (!options.plain_models.empty()) {
+    const auto plain = learn::read_models(options.plain_models);
+    if (!plain.has_value()) {
+      return plain.error();
+    }
+    if (const auto problem =
+            add_unseen(comparison, "LSTM without CRF", without_chains(plain.value()), scored)) {
+      return problem;
+    }
+  }
+  for (const std::string& file : options.forecasts) {
+    const auto set = learn::read_forecasts(file);
+    if (!set.has_value()) {
+      return set.error();
+    }
+    auto forecasts = learn::forecasts_of(set.value(), scored.sequences, file);
+    if (!forecasts.has_value()) {
+      return forecasts.error();
+    }
+    comparison.add(set.value().model, std::move(forecasts).value());
+  }
+  return std::nullopt;
+}
+
+/// Sites that some model has never seen: by that model, and by those of the cross-validation.
+std::vector<Comparison> compare_transfer(const ModelsByLeftOut& models,
+                                         const learn::SequenceSet& set,
+                                         std::vector<std::unique_ptr<Scored>>& kept,
+                                         std::uint64_t seed) {
+  std::vector<Comparison> all;
+  for (const auto& [left_out, model] : models) {
+    auto scored = std::make_unique<Scored>(chosen(set, false, left_out));
+    if (scored->sequences.empty()) {
+      continue;
+    }
+    Comparison comparison("Transfer: " + left_out, *scored, learn::recorded_classes, seed);
+    if (!add_unseen(comparison, "its site seen", models, *scored)) {
+      comparison.add("its site never seen",
+                     learn::foretold(model, scored->sequences, usual_threads()));
+      all.push_back(std::move(comparison));
+      kept.push_back(std::move(scored));
+    }
+  }
+  return all;
+}
+
+int evaluate(EvalOptions options) {
+  if (options.models.empty()) {
+    const auto places = find_places();
+    if (!places.has_value()) {
+      return refused(places.error());
+    }
+    options.models = (places.value().root / "models" / "intent").string();
+  }
+  const auto set = learn::read_sequences(options.sequences);
+  if (!set.has_value()) {
+    return refused(set.error());
+  }
+  const auto models = learn::read_models(options.models);
+  if (!models.has_value()) {
+    return refused(models.error());
+  }
+  const Scored recorded = chosen(set.value(), false);
+  std::vector<Comparison> comparisons;
+  comparisons.emplace_back("Recorded vehicles, by models that have not seen them (M, LC, RC, FB)",
+                           recorded, learn::recorded_classes, options.seed);
+  if (const auto problem =
+          compare_recorded(options, models.value(), recorded, comparisons.front())) {
+    return refused(*problem);
+  }
+  const Scored simulated = chosen(set.value(), true);
+  const auto whole = models.value().find("nothing");
+  if (whole != models.value().end() && !simulated.sequences.empty()) {
+    comparisons.emplace_back("Simulated vehicles (LB, RB)", simulated, learn::simulated_classes,
+                             options.seed);
+    comparisons.back().add("LSTM-CRF",
+                           learn::foretold(whole->second, simulated.sequences, usual_threads()));
+  }
+  std::vector<std::unique_ptr<Scored>> kept;
+  for (Comparison& each : compare_transfer(models.value(), set.value(), kept, options.seed)) {
+    comparisons.push_back(std::move(each));
+  }
+  json document = {{"schema", "saca.intent_eval/1"}, {"comparisons", json::array()}};
+  for (const Comparison& each : comparisons) {
+    options.as_json ? document["comparisons"].push_back(each.as_json()) : each.tell();
+  }
+  if (options.as_json) {
+    fmt::print("{}\n", document.dump(1));
+  }
+  return success;
+}
+
+}  // namespace
+
+void add_intent_eval(CLI::App& intent, int& exit_code) {
+  CLI::App* const command = intent.add_subcommand(
+      "eval", "Score models of intentions on what they have not seen, beside baselines");
+  const auto options = std::make_shared<EvalOptions>();
+  command->add_option("sequences", options->sequences, "HDF5 file of `saca intent examples`")
+      ->required();
+  command->add_option("--models", options->models,
+                      "Folder of weights, one per part left out; default: the shipped ones");
+  command->add_option("--plain-models", options->plain_models,
+                      "Likewise, trained without the CRF, for comparison");
+  command->add_option("--forecasts", options->forecasts,
+                      "Forecasts of other models (saca.forecasts/1), for comparison");
+  command->add_option("--seed", options->seed, "Of the groups drawn for intervals")
+      ->capture_default_str();
+  command->add_flag("--json", options->as_json, "For programs");
+  command->callback([options, &exit_code] { exit_code = evaluate(*options); });
+}
+
+}  // namespace saca::app

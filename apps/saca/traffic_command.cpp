@@ -1,0 +1,161 @@
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "apps/saca/commands.h"
+#include "apps/saca/places.h"
+#include "apps/saca/progress.h"
+#include "saca/core/clock.h"
+#include "saca/traffic/pack.h"
+#include "saca/traffic/recorded_set.h"
+#include "saca/traffic/set_file.h"
+
+namespace saca::app {
+namespace {
+
+namespace fs = std::filesystem;
+using traffic::Packed;
+using traffic::PackProgress;
+using traffic::RecordedSet;
+using traffic::SetCounts;
+
+nlohmann::json counts_json(const SetCounts& counts) {
+  return {{"recordings", counts.recordings},      {"groups", counts.groups},
+          {"vehicles", counts.vehicles},          {"samples", counts.samples},
+          {"vehicle_hours", counts.hours},        {"steps_left", counts.steps_left},
+          {"steps_right", counts.steps_right},    {"samples_in_lane", counts.in_lane},
+          {"samples_with_lead", counts.with_lead}};
+}
+
+nlohmann::json set_json(const RecordedSet& set) {
+  nlohmann::json sites = nlohmann::json::object();
+  for (const auto& [site, counts] : traffic::counts_by_site(set)) {
+    sites[site] = counts_json(counts);
+  }
+  return {{"schema", "saca.traffic_info/1"},
+          {"all", counts_json(traffic::counts_of(set))},
+          {"sites", sites},
+          {"skipped", set.skipped}};
+}
+
+void tell_counts(const std::string& what, const SetCounts& counts) {
+  fmt::print("{}: {} recordings in {} groups, {} vehicles, {} samples, {:.2f} vehicle-hours\n",
+             what, counts.recordings, counts.groups, counts.vehicles, counts.samples, counts.hours);
+  fmt::print(
+      "  lanes crossed: {} to the left, {} to the right; samples in a lane: {}, with a lead: "
+      "{}\n",
+      counts.steps_left, counts.steps_right, counts.in_lane, counts.with_lead);
+}
+
+void tell_set(const RecordedSet& set) {
+  for (const auto& [site, counts] : traffic::counts_by_site(set)) {
+    tell_counts(site, counts);
+  }
+  tell_counts("all", traffic::counts_of(set));
+  for (const auto& [reason, count] : set.skipped) {
+    fmt::print("  left out: {} x {}\n", count, reason);
+  }
+}
+
+struct TrafficPackOptions {
+  std::vector<std::string> places;
+  std::string output;
+  bool as_json = false;
+};
+
+/// How a source's files are found and made a set.
+struct PackSource {
+  std::string name;
+  std::string about;
+  std::string ending;
+  std::function<Result<Packed>(const std::vector<fs::path>&, const PackProgress&)> pack;
+};
+
+int pack(const PackSource& source, const TrafficPackOptions& options) {
+  const auto files =
+      traffic::files_in({options.places.begin(), options.places.end()}, source.ending);
+  if (!files.has_value()) {
+    return refused(files.error());
+  }
+  if (files.value().empty()) {
+    complain(fmt::format("{}: want files *{}, got none", options.places.front(), source.ending));
+    return bad_input;
+  }
+  watch_for_interrupt();
+  SteadyClock clock;
+  ProgressLine line("traffic " + source.name, static_cast<int>(files.value().size()), clock);
+  const Result<Packed> packed = source.pack(files.value(), [&](std::size_t done, std::size_t) {
+    line.show(static_cast<int>(done), 0, "");
+    return !interrupted();
+  });
+  if (!packed.has_value()) {
+    return interrupted() ? static_cast<int>(was_interrupted) : refused(packed.error());
+  }
+  for (const std::string& message : packed.value().refused) {
+    complain(message);
+  }
+  if (const auto problem = traffic::write_set(options.output, packed.value().set)) {
+    return refused(*problem);
+  }
+  if (options.as_json) {
+    fmt::print("{}\n", set_json(packed.value().set).dump(1));
+  } else {
+    tell_set(packed.value().set);
+  }
+  return success;
+}
+
+void add_pack_source(CLI::App& command, const PackSource& source, int& exit_code) {
+  CLI::App* const one = command.add_subcommand(source.name, source.about);
+  const auto options = std::make_shared<TrafficPackOptions>();
+  one->add_option("places", options->places, "Files, or folders in or below which they lie")
+      ->required();
+  one->add_option("-o,--output", options->output, "The set (HDF5)")->required();
+  one->add_flag("--json", options->as_json, "For programs");
+  one->callback([source, options, &exit_code] { exit_code = pack(source, *options); });
+}
+
+int show_info(const std::string& file, bool as_json) {
+  const Result<RecordedSet> set = traffic::read_set(file);
+  if (!set.has_value()) {
+    return refused(set.error());
+  }
+  if (as_json) {
+    fmt::print("{}\n", set_json(set.value()).dump(1));
+  } else {
+    tell_set(set.value());
+  }
+  return success;
+}
+
+}  // namespace
+
+void add_traffic(CLI::App& line, int& exit_code) {
+  CLI::App* const command =
+      line.add_subcommand("traffic", "Recorded traffic as a set to learn from");
+  command->require_subcommand(1);
+  CLI::App* const packing = command->add_subcommand("pack", "Make a set of recordings");
+  packing->require_subcommand(1);
+  add_pack_source(
+      *packing,
+      {"commonroad", "CommonRoad files (XML 2020a) with recorded obstacles and lanelets", ".xml",
+       traffic::pack_commonroad},
+      exit_code);
+  add_pack_source(*packing,
+                  {"100car", "The 100-Car study's release: its events' cars", ".txt",
+                   traffic::pack_hundred_car},
+                  exit_code);
+  CLI::App* const info = command->add_subcommand("info", "What a set holds");
+  const auto file = std::make_shared<std::string>();
+  const auto as_json = std::make_shared<bool>(false);
+  info->add_option("file", *file, "The set")->required();
+  info->add_flag("--json", *as_json, "For programs");
+  info->callback([file, as_json, &exit_code] { exit_code = show_info(*file, *as_json); });
+}
+
+}  // namespace saca::app

@@ -1,0 +1,123 @@
+#include "saca/intent/model.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "saca/core/contract.h"
+#include "saca/core/file.h"
+
+namespace saca::intent {
+namespace {
+
+Error not_a_model(std::string_view source, const std::string& what) {
+  return {Error::Code::malformed, fmt::format("{}: {}", source, what)};
+}
+
+constexpr double largest_link = 20.0;  // of a start or transition that is not forbidden
+
+double limited(float score) {
+  return std::clamp(static_cast<double>(score), -largest_link, largest_link);
+}
+
+/// The chain of one horizon, masked.
+Crf chain(const std::vector<float>& start, const std::vector<float>& transition,
+          std::size_t horizon) {
+  Crf crf;
+  for (std::size_t j = 0; j < num_classes; ++j) {
+    crf.start[j] = limited(start[horizon * num_classes + j]);
+    for (std::size_t k = 0; k < num_classes; ++k) {
+      crf.transition[j][k] =
+          may_follow(j, k) ? limited(transition[(horizon * num_classes + j) * num_classes + k])
+                           : forbidden;
+    }
+  }
+  return crf;
+}
+
+}  // namespace
+
+Result<Model> model_from(const config::Tensors& tensors, std::string_view source) {
+  const auto num = config::take(tensors, "networks", {1}, source);
+  if (!num.has_value()) {
+    return num.error();
+  }
+  const float wanted = num.value()[0];
+  if (!(wanted >= 1.0F && wanted <= static_cast<float>(Model::max_networks))) {
+    return not_a_model(
+        source, fmt::format("tensor networks: want 1 to {}, got {}", Model::max_networks, wanted));
+  }
+  Model model;
+  for (int i = 0; i < static_cast<int>(wanted); ++i) {
+    auto network = Network::from(tensors, std::to_string(i) + ".", source);
+    if (!network.has_value()) {
+      return network.error();
+    }
+    model.networks.push_back(std::move(network).value());
+  }
+  const auto start = config::take(tensors, "chain.start", {num_horizons, num_classes}, source);
+  const auto transition =
+      config::take(tensors, "chain.transition", {num_horizons, num_classes, num_classes}, source);
+  const auto sharpness = config::take(tensors, "sharpness", {num_horizons}, source);
+  for (const auto* each : {&start, &transition, &sharpness}) {
+    if (!each->has_value()) {
+      return each->error();
+    }
+  }
+  for (std::size_t h = 0; h < num_horizons; ++h) {
+    model.chains[h] = chain(start.value(), transition.value(), h);
+    model.sharpness[h] = static_cast<double>(sharpness.value()[h]);
+    if (!(model.sharpness[h] > 0.0)) {
+      return not_a_model(source,
+                         fmt::format("tensor sharpness: want > 0, got {}", model.sharpness[h]));
+    }
+  }
+  return model;
+}
+
+Result<Model> read_model(const std::filesystem::path& path) {
+  const auto bytes = read_file(path);
+  if (!bytes.has_value()) {
+    return bytes.error();
+  }
+  const auto tensors = config::read_tensors(bytes.value(), path.string());
+  if (!tensors.has_value()) {
+    return tensors.error();
+  }
+  return model_from(tensors.value(), path.string());
+}
+
+Told Stream::step(const Model& model, const Observation& observation) {
+  expects(!model.networks.empty() && model.networks.size() <= Model::max_networks,
+          "1 to max_networks networks");
+  memory_.add(observation);
+  const Features features = memory_.features();
+  Emissions mean{};
+  const double share = 1.0 / static_cast<double>(model.networks.size());
+  for (std::size_t i = 0; i < model.networks.size(); ++i) {
+    const Emissions told = model.networks[i].step(features, states_[i]);
+    for (std::size_t h = 0; h < num_horizons; ++h) {
+      for (std::size_t k = 0; k < num_classes; ++k) {
+        mean[h][k] += share * told[h][k];
+      }
+    }
+  }
+  Told told;
+  for (std::size_t h = 0; h < num_horizons; ++h) {
+    const Scores& now = filters_[h].step(model.chains[h], mean[h]);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < num_classes; ++k) {
+      told[h][k] = std::pow(now[k], model.sharpness[h]);
+      sum += told[h][k];
+    }
+    for (double& each : told[h]) {
+      each /= sum;
+    }
+  }
+  return told;
+}
+
+}  // namespace saca::intent

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "saca/config/tensors.h"
+#include "saca/core/result.h"
+#include "saca/intent/crf.h"
+#include "saca/intent/motion.h"
+#include "saca/intent/network.h"
+
+namespace saca::intent {
+
+/// May a vehicle go from one class to the other within look_step? To the other side it goes by M or
+/// FB only: expert knowledge of the paper's kind (LB -> RB is forbidden, and its like).
+[[nodiscard]] constexpr bool may_follow(std::size_t from, std::size_t to) {
+  constexpr std::array<int, num_classes> side{0, 1, -1, 0, 1, -1};
+  return side[from] * side[to] >= 0;
+}
+
+/// What was learnt about vehicles: an LSTM-CRF for each horizon, with common LSTMs.
+///
+/// Several networks are asked, and their emissions averaged: they were trained from different
+/// seeds.
+struct Model {
+  static constexpr std::size_t max_networks = 4;
+
+  std::vector<Network> networks;         ///< 1 to max_networks
+  std::array<Crf, num_horizons> chains;  ///< structurally masked by may_follow
+  /// Calibration: probabilities to this power, normalised; > 0.
+  std::array<double, num_horizons> sharpness{1.0, 1.0, 1.0};
+  MotionLaw motion;  ///< how people drive under an intention
+};
+
+/// From the tensors of training: "networks" (how many), "K.input.weight" and so on for network K
+/// from 0 on (network.h), "chain.start" (num_horizons x num_classes), "chain.transition"
+/// (num_horizons x num_classes x num_classes, from x to; what is forbidden is not looked at),
+/// "sharpness" (num_horizons).
+/// @return  Error::Code::malformed, naming source, tensor, wanted and got
+[[nodiscard]] Result<Model> model_from(const config::Tensors& tensors, std::string_view source);
+
+/// @return  as read_file and model_from
+[[nodiscard]] Result<Model> read_model(const std::filesystem::path& path);
+
+/// Probabilities of the classes, one array per horizon; each sums to 1.
+using Told = std::array<Scores, num_horizons>;
+
+/// One vehicle as it is watched: what is remembered of it. Fixed in size, copyable; allocates
+/// nothing.
+class Stream {
+ public:
+  /// One look, look_step after the last one.
+  /// @return  what the vehicle does or is about to do, given all that was seen so far
+  Told step(const Model& model, const Observation& observation);
+
+ private:
+  Memory memory_;
+  std::array<Network::State, Model::max_networks> states_{};
+  std::array<CrfFilter, num_horizons> filters_{};
+};
+
+}  // namespace saca::intent

@@ -1,0 +1,140 @@
+#include "saca/intent/network.h"
+
+#include <algorithm>
+#include <utility>
+#include <xsimd/xsimd.hpp>
+
+namespace saca::intent {
+namespace {
+
+constexpr std::size_t tile = 16;        // rows: two columns of them fill half of the registers
+constexpr double largest_score = 20.0;  // of an emission: no class is ever excluded for good
+
+using Pack = xsimd::batch<float>;
+
+static_assert(Network::width % Pack::size == 0);
+
+template <class Function, std::size_t size>
+void for_each_pack(std::array<float, size>& x, Function&& function) {
+  for (std::size_t i = 0; i < size; i += Pack::size) {
+    function(Pack::load_unaligned(&x[i])).store_unaligned(&x[i]);
+  }
+}
+
+Pack sigmoid(const Pack& x) {
+  return 1.0F / (1.0F + xsimd::exp(-x));
+}
+
+}  // namespace
+
+Scores mirrored(const Scores& scores) {
+  return {scores[0], scores[2], scores[1], scores[3], scores[5], scores[4]};
+}
+
+Result<Network::Layer> Network::layer(const config::Tensors& tensors, const std::string& name,
+                                      std::size_t rows, std::size_t columns,
+                                      std::string_view source) {
+  const auto weight = config::take(tensors, name + ".weight", {rows, columns}, source);
+  if (!weight.has_value()) {
+    return weight.error();
+  }
+  auto bias = config::take(tensors, name + ".bias", {rows}, source);
+  if (!bias.has_value()) {
+    return bias.error();
+  }
+  Layer result{.num_columns = columns, .weight = {}, .bias = std::move(bias).value()};
+  const std::size_t num_tiles = (rows + tile - 1) / tile;
+  result.bias.resize(num_tiles * tile);
+  result.weight.resize(num_tiles * tile * columns);
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t column = 0; column < columns; ++column) {
+      result.weight[(row / tile * columns + column) * tile + row % tile] =
+          weight.value()[row * columns + column];
+    }
+  }
+  return result;
+}
+
+Result<Network> Network::from(const config::Tensors& tensors, const std::string& prefix,
+                              std::string_view source) {
+  auto input = layer(tensors, prefix + "input", width, num_features, source);
+  auto lstm = layer(tensors, prefix + "lstm", 4 * width, 2 * width, source);
+  auto output = layer(tensors, prefix + "output", num_emissions, 2 * width, source);
+  for (const auto* each : {&input, &lstm, &output}) {
+    if (!each->has_value()) {
+      return each->error();
+    }
+  }
+  Network network;
+  network.input_ = std::move(input).value();
+  network.lstm_ = std::move(lstm).value();
+  network.output_ = std::move(output).value();
+  return network;
+}
+
+template <std::size_t rows, std::size_t columns>
+void Network::apply(const Layer& layer, const std::array<std::array<float, columns>, 2>& in,
+                    std::array<std::array<float, rows>, 2>& out) {
+  for (std::size_t first = 0; first < rows; first += tile) {
+    std::array<std::array<float, tile>, 2> sum;
+    std::copy_n(&layer.bias[first], tile, sum[0].begin());
+    sum[1] = sum[0];
+    const float* weight = &layer.weight[first * columns];
+    for (std::size_t column = 0; column < columns; ++column, weight += tile) {
+      for (std::size_t side = 0; side < 2; ++side) {
+        for (std::size_t i = 0; i < tile; ++i) {
+          sum[side][i] += weight[i] * in[side][column];
+        }
+      }
+    }
+    for (std::size_t side = 0; side < 2; ++side) {
+      std::copy_n(sum[side].begin(), std::min(tile, rows - first), &out[side][first]);
+    }
+  }
+}
+
+Emissions Network::step(const Features& features, State& state) const {
+  const std::array<Features, 2> seen{features, intent::mirrored(features)};
+  std::array<std::array<float, width>, 2> u;
+  apply(input_, seen, u);
+  std::array<std::array<float, 2 * width>, 2> in;
+  for (std::size_t side = 0; side < 2; ++side) {
+    for_each_pack(u[side], [](const Pack& x) { return xsimd::tanh(x); });
+    std::copy(u[side].begin(), u[side].end(), in[side].begin());
+    std::copy(state.hidden[side].begin(), state.hidden[side].end(), in[side].begin() + width);
+  }
+  std::array<std::array<float, 4 * width>, 2> gates;
+  apply(lstm_, in, gates);
+  for (std::size_t side = 0; side < 2; ++side) {
+    for (std::size_t i = 0; i < width; i += Pack::size) {
+      const auto gate = [&](std::size_t which) {
+        return Pack::load_unaligned(&gates[side][which * width + i]);
+      };
+      const Pack cell = sigmoid(gate(1)) * Pack::load_unaligned(&state.cell[side][i]) +
+                        sigmoid(gate(0)) * xsimd::tanh(gate(2));
+      const Pack hidden = sigmoid(gate(3)) * xsimd::tanh(cell);
+      cell.store_unaligned(&state.cell[side][i]);
+      hidden.store_unaligned(&state.hidden[side][i]);
+    }
+    std::copy(state.hidden[side].begin(), state.hidden[side].end(), in[side].begin());
+    std::copy(u[side].begin(), u[side].end(), in[side].begin() + width);
+  }
+  std::array<std::array<float, num_emissions>, 2> out;
+  apply(output_, in, out);
+  Emissions emissions;
+  for (std::size_t h = 0; h < num_horizons; ++h) {
+    std::array<Scores, 2> told;
+    for (std::size_t side = 0; side < 2; ++side) {
+      for (std::size_t k = 0; k < num_classes; ++k) {
+        told[side][k] = static_cast<double>(out[side][h * num_classes + k]);
+      }
+    }
+    told[1] = intent::mirrored(told[1]);
+    for (std::size_t k = 0; k < num_classes; ++k) {
+      emissions[h][k] = std::clamp(0.5 * (told[0][k] + told[1][k]), -largest_score, largest_score);
+    }
+  }
+  return emissions;
+}
+
+}  // namespace saca::intent

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "saca/config/tensors.h"
+#include "saca/core/result.h"
+#include "saca/intent/crf.h"
+#include "saca/intent/features.h"
+
+namespace saca::intent {
+
+/// How far ahead intentions are told [s]: now, and later.
+constexpr std::array<double, 3> horizons{0.0, 0.5, 1.0};
+constexpr std::size_t num_horizons = horizons.size();
+
+/// Emissions of all horizons at one instant.
+using Emissions = std::array<Scores, num_horizons>;
+
+/// One LSTM from features to emissions.
+///
+///   u = tanh(W_in f + b_in)
+///   h, c = LSTM(u, h, c)
+///   e = W_out [h; u] + b_out
+///
+/// It looks at the world and at its mirror image, and the emissions are the mean of what it sees in
+/// both: exactly symmetric, so that nothing learnt on one side is missing on the other.
+/// Source of the cell: Gers, Schmidhuber, Cummins, Learning to forget, Neural Computation 12
+/// (2000).
+class Network {
+ public:
+  static constexpr std::size_t width = 48;  ///< of u, h and c
+  static constexpr std::size_t num_emissions = num_horizons * num_classes;
+
+  /// What it remembers of one road user: fixed in size.
+  struct State {
+    std::array<std::array<float, width>, 2> hidden{};  ///< of the world, and of its mirror image
+    std::array<std::array<float, width>, 2> cell{};
+  };
+
+  /// From the tensors `prefix` + "input.weight" (width x num_features), "input.bias" (width),
+  /// "lstm.weight" (4 width x 2 width, columns u, then h; gates in, forget, cell, out), "lstm.bias"
+  /// (4 width), "output.weight" (num_emissions x 2 width, columns h, then u), "output.bias".
+  /// @return  Error::Code::malformed, as config::take
+  [[nodiscard]] static Result<Network> from(const config::Tensors& tensors,
+                                            const std::string& prefix, std::string_view source);
+
+  /// One step; allocates nothing.
+  [[nodiscard]] Emissions step(const Features& features, State& state) const;
+
+ private:
+  /// Rows in tiles, so that a tile of sums stays in registers; the last tile is filled with zeros.
+  struct Layer {
+    std::size_t num_columns = 0;
+    std::vector<float> weight;  ///< [tile][column][row in tile]
+    std::vector<float> bias;
+  };
+  static Result<Layer> layer(const config::Tensors& tensors, const std::string& name,
+                             std::size_t rows, std::size_t columns, std::string_view source);
+
+  template <std::size_t rows, std::size_t columns>
+  static void apply(const Layer& layer, const std::array<std::array<float, columns>, 2>& in,
+                    std::array<std::array<float, rows>, 2>& out);
+
+  Layer input_;
+  Layer lstm_;
+  Layer output_;
+};
+
+/// The same emissions seen in a mirror: left is right.
+[[nodiscard]] Scores mirrored(const Scores& scores);
+
+}  // namespace saca::intent

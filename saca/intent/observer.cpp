@@ -1,0 +1,112 @@
+#include "saca/intent/observer.h"
+
+#include <algorithm>
+
+#include "saca/core/contract.h"
+#include "saca/intent/observed.h"
+#include "saca/intent/walkers.h"
+
+namespace saca::intent {
+namespace {
+
+constexpr double rounding = 1e-6;  // [s]: times are sums of steps
+
+Belief of_walker(const world::Scene& scene, const world::Actor& actor) {
+  Belief belief;
+  std::transform(horizons.begin(), horizons.end(), belief.at.begin(),
+                 [&](double ahead) { return walker_posterior(scene, actor, ahead); });
+  return belief;
+}
+
+Belief of_obstacle() {
+  Belief belief;
+  IntentPosterior maintains{};
+  maintains[static_cast<std::size_t>(Intention::maintain)] = 1.0;
+  belief.at.fill(maintains);
+  return belief;
+}
+
+Belief of_vehicle(const Told& told) {
+  Belief belief;
+  for (std::size_t h = 0; h < num_horizons; ++h) {
+    belief.at[h] = {};
+    std::copy(told[h].begin(), told[h].end(), belief.at[h].begin());
+  }
+  return belief;
+}
+
+}  // namespace
+
+const Beliefs& Observer::look(const world::Scene& scene) {
+  expects(!world::broken_rule(scene), "the scene keeps the rules of a scene");
+  if (scene.time < time_ - rounding) {
+    known_.clear();
+  }
+  time_ = scene.time;
+  forget_before(time_ - memory);
+  // First who is known, so that nobody who is here makes room for somebody new.
+  for (const world::Actor& actor : scene.actors) {
+    if (Known* const known = find(actor)) {
+      known->seen = time_;
+    }
+  }
+  beliefs_.clear();
+  for (std::size_t i = 0; i < scene.actors.size(); ++i) {
+    const world::Actor& actor = scene.actors[i];
+    Known* const found = find(actor);
+    Known& known = found != nullptr ? *found : begin(actor, time_);
+    if (time_ >= known.due - rounding) {
+      known.belief = is_walker(actor.kind) ? of_walker(scene, actor)
+                     : actor.kind == world::ActorKind::obstacle
+                         ? of_obstacle()
+                         : of_vehicle(known.stream.step(*model_, observed(scene, i)));
+      // On a grid, however the looks fall; steps that were missed are not made up for.
+      known.due += step;
+      if (known.due <= time_ + rounding) {
+        known.due = time_ + step;
+      }
+    }
+    beliefs_.push_back(known.belief);
+  }
+  return beliefs_;
+}
+
+Observer::Known* Observer::find(const world::Actor& actor) {
+  Known* const found = std::find_if(known_.begin(), known_.end(), [&](const Known& known) {
+    return known.kind == actor.kind && known.id == actor.id;
+  });
+  return found != known_.end() ? found : nullptr;
+}
+
+Observer::Known& Observer::begin(const world::Actor& actor, double time) {
+  const Known fresh{
+      .kind = actor.kind, .id = actor.id, .seen = time, .due = time, .stream = {}, .belief = {}};
+  if (!known_.full()) {
+    known_.push_back(fresh);
+    return known_[known_.size() - 1];
+  }
+  // A scene has no more actors than there are places: one of these is not in it.
+  Known* const longest_gone = std::min_element(
+      known_.begin(), known_.end(), [](const Known& a, const Known& b) { return a.seen < b.seen; });
+  return *longest_gone = fresh;
+}
+
+void Observer::forget_before(double time) {
+  const auto is_gone = [&](const Known& known) { return known.seen <= time + rounding; };
+  if (std::none_of(known_.begin(), known_.end(), is_gone)) {
+    return;
+  }
+  StaticVector<Known, world::max_actors> kept;
+  for (const Known& known : known_) {
+    if (!is_gone(known)) {
+      kept.push_back(known);
+    }
+  }
+  known_ = kept;
+}
+
+Beliefs beliefs_at_sight(const Model& model, const world::Scene& scene) {
+  return Observer(model).look(scene);
+}
+
+}  // namespace saca::intent

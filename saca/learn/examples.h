@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "saca/learn/labels.h"
+#include "saca/learn/sequence.h"
+#include "saca/traffic/recorded_set.h"
+
+namespace saca::learn {
+
+/// What can be seen of a recorded vehicle, sample by sample, as a tracker beside the road would
+/// know it: accelerations, turning rates and lateral speeds are differences to what was 0.5 s
+/// before. Nothing looks ahead.
+[[nodiscard]] std::vector<intent::Observation> observations_of(
+    const traffic::RecordedVehicle& vehicle, double step);
+
+/// What a recorded vehicle truly did, smoothed with all that came before and after: by its
+/// accelerometer where it has one, else from its speeds.
+[[nodiscard]] TrueMotion true_motion(const traffic::RecordedVehicle& vehicle, double step);
+
+/// Every recorded vehicle of at least `least_frames` samples as a sequence; labels by `labels_of`
+/// on its true motion. A group is a recording's group and a block of a hundred vehicle ids: no
+/// vehicle is in two of them.
+/// @throws ContractViolation  if a recording has another step than frame_step
+[[nodiscard]] std::vector<Sequence> examples_of(const traffic::RecordedSet& set,
+                                                std::size_t least_frames = 20);
+
+}  // namespace saca::learn

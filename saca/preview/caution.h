@@ -1,0 +1,26 @@
+#pragma once
+
+#include "saca/intent/observer.h"
+#include "saca/preview/threat.h"
+#include "saca/world/scene.h"
+
+namespace saca::preview {
+
+/// How likely it is at the least that somebody who moves brakes, whatever is believed.
+///
+/// Ordinary traffic, which beliefs are learned from, hardly holds anyone who gives way to a car
+/// that crosses; near a crash it is more likely. Both numbers are assumptions.
+struct Caution {
+  double crossing = 0.10;  ///< on a course across the road: it may give way [-]
+  double other = 0.03;     ///< in conflict within T2 if all go on as they do [-]
+};
+
+/// The beliefs that a preview prepares for: where braking, moving aside or not, is less likely than
+/// `Caution` has it, as much of everything else gives way to plain braking, or a walker's stop,
+/// as is missing, each in proportion.
+/// @param beliefs  one per actor
+/// @throws ContractViolation  if beliefs and actors differ in number
+[[nodiscard]] intent::Beliefs cautious(const world::Scene& scene, intent::Beliefs beliefs,
+                                       const Thresholds& thresholds, const Caution& caution = {});
+
+}  // namespace saca::preview

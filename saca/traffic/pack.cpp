@@ -1,0 +1,177 @@
+#include "saca/traffic/pack.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "saca/core/csv.h"
+#include "saca/core/file.h"
+#include "saca/traffic/commonroad.h"
+#include "saca/traffic/hundred_car_file.h"
+#include "saca/traffic/hundred_car_set.h"
+#include "saca/traffic/recording_of_map.h"
+
+namespace saca::traffic {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A file's name in one line.
+std::string shown_name(const fs::path& file) {
+  std::string name = file.filename().string();
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == '\n' || c == '\r'; }, '?');
+  return name;
+}
+
+void refuse(const Error& error, Packed& packed) {
+  ++packed.set.skipped["file: cannot be read"];
+  packed.refused.push_back(error.message);
+}
+
+void keep(Recording recording, Packed& packed) {
+  if (recording.vehicles.empty()) {
+    ++packed.set.skipped["file: no vehicle with enough samples"];
+    return;
+  }
+  packed.set.recordings.push_back(std::move(recording));
+}
+
+void pack_map(const fs::path& path, Packed& packed) {
+  const Result<std::string> text = read_file(path);
+  if (!text.has_value()) {
+    refuse(text.error(), packed);
+    return;
+  }
+  const Result<CommonRoad> file = read_commonroad(text.value(), path.string());
+  if (!file.has_value() && is_set_based(text.value())) {
+    ++packed.set.skipped["file: set-based predictions (SPOT), no recording"];
+    return;
+  }
+  if (!file.has_value()) {
+    refuse(file.error(), packed);
+    return;
+  }
+  keep(recording_of_map(file.value(), shown_name(path), packed.set.skipped), packed);
+}
+
+/// Hands each file on; what there is then.
+template <class PackFile>
+Result<Packed> pack_each(const std::vector<fs::path>& files, const PackProgress& progress,
+                         const PackFile& pack_file) {
+  Packed packed;
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    pack_file(files[k], packed);
+    if (progress && !progress(k + 1, files.size())) {
+      return Error{Error::Code::too_late, "stopped"};
+    }
+  }
+  if (packed.set.recordings.empty()) {
+    return Error{Error::Code::malformed, packed.refused.empty()
+                                             ? "want recorded vehicles, got none in " +
+                                                   std::to_string(files.size()) + " files"
+                                             : packed.refused.front()};
+  }
+  return packed;
+}
+
+constexpr std::string_view event_table = "100CarEventVideoReducedData_v1_5.txt";
+constexpr std::string_view series_prefix = "HundredCar_Public_";
+
+/// The event in a series' name; nullopt: it is none.
+std::optional<std::int64_t> event_of(const fs::path& path) {
+  const std::string stem = path.stem().string();
+  if (stem.rfind(series_prefix, 0) != 0) {
+    return std::nullopt;
+  }
+  const std::optional<double> number = finite_number(stem.substr(series_prefix.size()));
+  constexpr double most = 1e9;
+  return number && *number >= 0.0 && *number <= most && *number == std::floor(*number)
+             ? std::optional(static_cast<std::int64_t>(*number))
+             : std::nullopt;
+}
+
+void pack_event(const fs::path& path, const fs::path& table_path, std::string_view table,
+                Packed& packed) {
+  const std::int64_t event = event_of(path).value();
+  const Result<std::string> text = read_file(path);
+  if (!text.has_value()) {
+    refuse(text.error(), packed);
+    return;
+  }
+  const auto told = read_hundred_car_event(table, table_path.string(), event);
+  const auto rows = read_hundred_car_rows(text.value(), path.string(), event);
+  if (!told.has_value() || !rows.has_value()) {
+    refuse(told.has_value() ? rows.error() : told.error(), packed);
+    return;
+  }
+  keep(recording_of_event(rows.value(), told.value(), shown_name(path), packed.set.skipped),
+       packed);
+}
+
+}  // namespace
+
+Result<std::vector<fs::path>> files_in(const std::vector<fs::path>& places,
+                                       const std::string& ending) {
+  std::vector<fs::path> files;
+  for (const fs::path& place : places) {
+    std::error_code problem;
+    if (!fs::is_directory(place, problem)) {
+      if (!fs::exists(place, problem)) {
+        return Error{Error::Code::unreadable, place.string() + ": want a file or folder, got none"};
+      }
+      files.push_back(place);
+      continue;
+    }
+    fs::recursive_directory_iterator found(place, problem);
+    for (; !problem && found != fs::recursive_directory_iterator(); found.increment(problem)) {
+      if (found->is_regular_file(problem) && found->path().extension() == ending) {
+        files.push_back(found->path());
+      }
+    }
+    if (problem) {
+      return Error{Error::Code::unreadable, place.string() + ": " + problem.message()};
+    }
+  }
+  std::sort(files.begin(), files.end());
+  files.erase(std::unique(files.begin(), files.end()), files.end());
+  return files;
+}
+
+Result<Packed> pack_commonroad(const std::vector<fs::path>& files, const PackProgress& progress) {
+  Result<Packed> made = pack_each(files, progress, pack_map);
+  if (!made.has_value()) {
+    return made.error();
+  }
+  Packed packed = std::move(made).value();
+  name_groups(packed.set);
+  packed.repeats = drop_repeats(packed.set);
+  return packed;
+}
+
+Result<Packed> pack_hundred_car(const std::vector<fs::path>& files, const PackProgress& progress) {
+  const auto table = std::find_if(files.begin(), files.end(), [](const fs::path& path) {
+    return path.filename() == event_table;
+  });
+  if (table == files.end()) {
+    return Error{Error::Code::malformed, "want a table of events " + std::string(event_table) +
+                                             " among the files, got none"};
+  }
+  const Result<std::string> text = read_file(*table);
+  if (!text.has_value()) {
+    return text.error();
+  }
+  std::vector<fs::path> series;
+  std::copy_if(files.begin(), files.end(), std::back_inserter(series),
+               [](const fs::path& path) { return event_of(path).has_value(); });
+  return pack_each(series, progress, [&](const fs::path& path, Packed& packed) {
+    pack_event(path, *table, text.value(), packed);
+  });
+}
+
+}  // namespace saca::traffic

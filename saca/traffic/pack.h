@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "saca/core/result.h"
+#include "saca/traffic/recorded_set.h"
+#include "saca/traffic/repeats.h"
+
+namespace saca::traffic {
+
+/// Told after each file: how many of how many are done. False: stop.
+using PackProgress = std::function<bool(std::size_t done, std::size_t all)>;
+
+/// A set, and what could not go into it.
+struct Packed {
+  RecordedSet set;
+  std::vector<std::string> refused;  ///< messages of files that no reader takes, one line each
+  Repeats repeats;
+};
+
+/// All files with this ending (".xml") in or below the places, in the order of their names; a place
+/// may be a file itself, whatever its ending.
+/// @return  Error::Code::unreadable, naming a place that is not there
+[[nodiscard]] Result<std::vector<std::filesystem::path>> files_in(
+    const std::vector<std::filesystem::path>& places, const std::string& ending);
+
+/// CommonRoad files as a set: groups named, repeats dropped (repeats.h). Set-based predictions and
+/// files that cannot be read are counted in `skipped`; the latter are told in `refused`.
+///
+/// @return  Error::Code::malformed when no file gave a vehicle, Error::Code::too_late when stopped
+[[nodiscard]] Result<Packed> pack_commonroad(const std::vector<std::filesystem::path>& files,
+                                             const PackProgress& progress);
+
+/// Events of the 100-Car study as a set, the car of each (hundred_car_set.h).
+/// @param files  of the release: the table of events (100CarEventVideoReducedData_v1_5.txt) and the
+///               series, one file for each event (HundredCar_Public_<event>.txt); others are passed
+///               over
+/// @return       as above; Error::Code::malformed also without a table
+[[nodiscard]] Result<Packed> pack_hundred_car(const std::vector<std::filesystem::path>& files,
+                                              const PackProgress& progress);
+
+}  // namespace saca::traffic

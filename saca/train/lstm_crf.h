@@ -1,0 +1,64 @@
+#pragma once
+
+#include <torch/torch.h>
+
+#include <string>
+#include <vector>
+
+#include "saca/config/tensors.h"
+
+/// Training of networks with libtorch: optional at build time, never on the product's path.
+namespace saca::train {
+
+/// Sequences of one length, filled up at the end.   (B sequences, T frames, H horizons, K classes)
+struct Batch {
+  torch::Tensor features;  ///< (B x T x num_features)
+  torch::Tensor present;   ///< (B x T), bool: false where filled up
+  torch::Tensor labels;    ///< (B x T x H), int64; 0 where not known
+  torch::Tensor known;     ///< (B x T x H), bool: the label is not in doubt
+};
+
+/// What a batch's labels are worth under the network.
+struct Loss {
+  torch::Tensor sequence;  ///< -log p(known labels | features), per known label, over all horizons
+  torch::Tensor filtered;  ///< -log p(label | features so far), likewise: what a stream is told
+};
+
+/// The network of intent/network.h with its chains, in a form that can be trained.
+class LstmCrfImpl : public torch::nn::Module {
+ public:
+  /// @param with_chain  false: without start and transition scores, which stay 0; each frame is
+  ///                    judged by its emissions alone
+  explicit LstmCrfImpl(double dropout, bool with_chain = true);
+
+  /// Mean emissions of the world and of its mirror image.   (B x T x H x K)
+  torch::Tensor emissions(const torch::Tensor& features);
+
+  /// Exact: forward recursions over the free chain and over the one that keeps to the labels.
+  Loss loss(const torch::Tensor& emissions, const Batch& batch);
+
+  /// Weights under the names of intent/network.h.
+  void add_network(config::Tensors& tensors, const std::string& prefix) const;
+  /// Start and transition of all horizons: symmetric in the mirror.   (H x K, H x K x K)
+  [[nodiscard]] torch::Tensor start() const;
+  [[nodiscard]] torch::Tensor transition() const;
+
+ private:
+  /// log of the sum over all paths up to each frame, by their last class; where nothing is present
+  /// it stays.   (T of B x H x K)
+  std::vector<torch::Tensor> forward_scores(const torch::Tensor& emissions,
+                                            const torch::Tensor& present) const;
+
+  torch::nn::Linear input_;
+  torch::nn::LSTM lstm_;
+  torch::nn::Linear output_;
+  torch::nn::Dropout dropout_;
+  torch::Tensor start_;
+  torch::Tensor transition_;
+  torch::Tensor sign_;     ///< of each feature in the mirror
+  torch::Tensor swapped_;  ///< class in the mirror
+  torch::Tensor mask_;  ///< of forbidden transitions: very negative   (K x K)
+};
+TORCH_MODULE(LstmCrf);
+
+}  // namespace saca::train

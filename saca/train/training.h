@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "saca/core/result.h"
+#include "saca/learn/sequence.h"
+#include "saca/train/lstm_crf.h"
+
+namespace saca::train {
+
+/// How networks are trained. All randomness comes from the seed.
+struct TrainingPlan {
+  std::uint64_t seed = 1;
+  int epochs = 24;
+  int batch = 64;       ///< sequences
+  int longest = 100;    ///< frames of one piece; longer sequences are cut
+  double step = 3e-3;   ///< largest step of the optimiser (AdamW, falling as a cosine)
+  double decay = 1e-2;  ///< of weights
+  double dropout = 0.3;
+  double filtered_share = 0.5;  ///< of the loss of what a stream is told, beside the sequence's
+  bool with_chain = true;       ///< false: each frame is trained for itself
+  double lane_loss = 0.1;       ///< share of pieces whose lane is hidden: somebody off the map
+  double ahead_loss = 0.1;      ///< likewise of what is ahead
+  double pedals_loss = 0.5;     ///< likewise of what the vehicle shares
+};
+
+/// One epoch of the curve.
+struct Epoch {
+  int number = 0;
+  double loss = 0.0;               ///< per label, over the epoch
+  std::optional<double> held_out;  ///< filtered loss per label on the sequences held out
+  double seconds = 0.0;            ///< that it took
+};
+
+/// A piece of a sequence, as the network sees it.
+struct Piece {
+  torch::Tensor features;  ///< (T x num_features)
+  torch::Tensor labels;    ///< (T x H), int64
+  torch::Tensor known;     ///< (T x H), bool
+};
+
+/// Pieces of at most `longest` frames. Labels of a horizon are those so many frames later; unknown
+/// where they are in doubt or after the end.
+[[nodiscard]] std::vector<Piece> pieces_of(const std::vector<learn::Sequence>& sequences,
+                                           int longest);
+
+/// Pieces side by side, filled up to the longest.
+[[nodiscard]] Batch batch_of(const std::vector<const Piece*>& pieces);
+
+/// Trains one network, or goes on where an earlier run of the same plan on the same data was
+/// stopped.
+///
+/// @param state     file of what is needed to go on, written after each epoch; empty: none
+/// @param on_epoch  hears of each epoch, also of those that an earlier run has done; false: stop
+/// here
+/// @return          the network; Error::Code::malformed, naming the file, if the state is of
+/// another
+///                  plan or data. When it was stopped it is as it is.
+[[nodiscard]] Result<LstmCrf> trained(const std::vector<learn::Sequence>& sequences,
+                                      const std::vector<learn::Sequence>& held_out,
+                                      const TrainingPlan& plan, const std::filesystem::path& state,
+                                      const std::function<bool(const Epoch&)>& on_epoch);
+
+/// The tensors of intent/model.h: networks trained from several seeds, and the mean of their
+/// chains.
+[[nodiscard]] config::Tensors model_tensors(const std::vector<LstmCrf>& networks);
+
+}  // namespace saca::train

@@ -1,0 +1,112 @@
+#include "saca/train/training.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "saca/config/tensors.h"
+#include "saca/core/file.h"
+#include "saca/intent/model.h"
+#include "saca/learn/foretell.h"
+#include "saca/learn/score.h"
+#include "saca/learn/simulated.h"
+
+namespace saca::train {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A training of seconds.
+TrainingPlan short_plan() {
+  return {.seed = 3, .epochs = 3, .batch = 16, .longest = 60};
+}
+
+std::string bytes_of(const LstmCrf& network) {
+  return config::tensor_bytes(model_tensors({network}));
+}
+
+fs::path state_file(const char* name) {
+  const fs::path path = fs::path(testing::TempDir()) / name;
+  fs::remove(path);
+  return path;
+}
+
+const auto all_epochs = [](const Epoch&) { return true; };
+
+TEST(Training, LearnsWhatIsThere) {
+  const auto sequences = learn::simulated_sequences(60, 1, 1);
+  const auto others = learn::simulated_sequences(30, 2, 1);
+  TrainingPlan plan = short_plan();
+  plan.epochs = 8;
+  std::vector<Epoch> curve;
+  const auto network = trained(sequences, others, plan, {}, [&](const Epoch& epoch) {
+    curve.push_back(epoch);
+    return true;
+  });
+  ASSERT_TRUE(network.has_value());
+  ASSERT_EQ(curve.size(), 8U);
+  EXPECT_LT(*curve.back().held_out, 0.6 * *curve.front().held_out);
+  const auto model = intent::model_from(model_tensors({network.value()}), "model");
+  ASSERT_TRUE(model.has_value());
+  learn::Tally sum;
+  const auto forecasts = learn::foretold(model.value(), others, 1);
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    sum += learn::tally(others[i], forecasts[i], 0);
+  }
+  EXPECT_GT(*sum.confusion.recall(3), 0.5);  // braking: of six classes, one in six by guessing
+}
+
+TEST(Training, IsTheSameBytesWhetherStoppedOrNot) {
+  const auto sequences = learn::simulated_sequences(20, 1, 1);
+  const auto straight = trained(sequences, {}, short_plan(), {}, all_epochs);
+  const fs::path state = state_file("saca_training_state.pt");
+  const auto stopped = trained(sequences, {}, short_plan(), state,
+                               [](const Epoch& epoch) { return epoch.number < 2; });
+  ASSERT_TRUE(stopped.has_value());
+  int first = 0;
+  const auto resumed = trained(sequences, {}, short_plan(), state, [&](const Epoch& epoch) {
+    first = first == 0 ? epoch.number : first;
+    return true;
+  });
+  ASSERT_TRUE(resumed.has_value()) << resumed.error().message;
+  EXPECT_EQ(first, 1);  // tells the whole curve
+  EXPECT_NE(bytes_of(stopped.value()), bytes_of(straight.value()));
+  EXPECT_EQ(bytes_of(resumed.value()), bytes_of(straight.value()));
+}
+
+TEST(Training, WillNotGoOnWithAnother) {
+  const auto sequences = learn::simulated_sequences(10, 1, 1);
+  const fs::path state = state_file("saca_training_other.pt");
+  ASSERT_TRUE(trained(sequences, {}, short_plan(), state, all_epochs).has_value());
+  TrainingPlan other = short_plan();
+  other.seed = 4;
+  EXPECT_THAT(trained(sequences, {}, other, state, all_epochs).error().message,
+              testing::HasSubstr("is of another training"));
+  ASSERT_FALSE(write_file(state, "damaged").has_value());
+  EXPECT_THAT(trained(sequences, {}, short_plan(), state, all_epochs).error().message,
+              testing::HasSubstr("want the state of a training"));
+}
+
+TEST(Pieces, LabelsAreThoseOfLater) {
+  learn::Sequence sequence;
+  for (int t = 0; t < 25; ++t) {
+    sequence.observations.push_back({.speed = 10.0});
+    sequence.labels.push_back(static_cast<std::uint8_t>(t >= 15 ? 3 : 0));
+    sequence.scored.push_back(t != 14);
+  }
+  const auto pieces = pieces_of({sequence}, 20);
+  ASSERT_EQ(pieces.size(), 2U);
+  EXPECT_EQ(pieces[0].features.size(0), 20);
+  EXPECT_EQ(pieces[1].features.size(0), 5);
+  EXPECT_EQ(pieces[0].labels[15][0].item<int>(), 3);
+  EXPECT_EQ(pieces[0].labels[10][1].item<int>(), 3);  // 0.5 s ahead
+  EXPECT_EQ(pieces[0].labels[5][2].item<int>(), 3);   // 1 s ahead
+  EXPECT_FALSE(pieces[0].known[14][0].item<bool>());
+  EXPECT_FALSE(pieces[0].known[9][1].item<bool>());
+  EXPECT_TRUE(pieces[1].known[4][0].item<bool>());
+  EXPECT_FALSE(pieces[1].known[0][1].item<bool>());  // frame 25 was never seen
+}
+
+}  // namespace
+}  // namespace saca::train

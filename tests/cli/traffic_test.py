@@ -1,0 +1,110 @@
+"""`saca traffic pack` and `saca traffic info`."""
+import json
+import pathlib
+import sys
+
+import pytest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from program import BAD_INPUT, CANNOT_WRITE, ROOT, SUCCESS, WRONG_COMMAND_LINE, one_error, saca
+
+SMALL = ROOT / "saca/traffic/testdata/commonroad_small.xml"
+STATE = ("<{name}><position><point><x>{x}</x><y>{y}</y></point></position><orientation><exact>0</exact></orientation>"
+         "<time><exact>{step}</exact></time><velocity><exact>{speed}</exact></velocity></{name}>")
+
+
+def road(cars):
+    """Two lanes along x; each car: id, and its (x, y, speed) at each step."""
+    lanes = ""
+    for lane, y, beside in ((1, 0.0, '<adjacentLeft ref="2" drivingDir="same"/>'),
+                            (2, 3.5, '<adjacentRight ref="1" drivingDir="same"/>')):
+        bound = "<{0}Bound><point><x>0</x><y>{1}</y></point><point><x>400</x><y>{1}</y></point></{0}Bound>"
+        lanes += f'<lanelet id="{lane}">' + bound.format("left", y + 1.75) + bound.format("right", y - 1.75) + beside + "</lanelet>"
+    bodies = ""
+    for number, states in cars:
+        first, *rest = [STATE.format(name="initialState" if k == 0 else "state", step=k, x=x, y=y, speed=v)
+                        for k, (x, y, v) in enumerate(states)]
+        bodies += (f'<dynamicObstacle id="{number}"><type>car</type><shape><rectangle><length>4.0</length><width>1.8</width>'
+                   f'</rectangle></shape>{first}<trajectory>{"".join(rest)}</trajectory></dynamicObstacle>')
+    return ('<commonRoad commonRoadVersion="2020a" benchmarkID="USA_US101-1_1_T-1" source="recorded" timeStepSize="0.1" '
+            'author="" affiliation=""><location><gpsLatitude>999</gpsLatitude><gpsLongitude>999</gpsLongitude></location>'
+            f"{lanes}{bodies}</commonRoad>")
+
+
+def two_cars():
+    steady = [(60 + k, 0.0, 10.0) for k in range(40)]
+    changing = [(20 + k, min(0.1 * k, 3.5), 10.0 + 0.1 * k) for k in range(40)]
+    return road([(7, steady), (8, changing)])
+
+
+@pytest.fixture
+def recordings(tmp_path):
+    folder = tmp_path / "recordings"
+    (folder / "deeper").mkdir(parents=True)
+    (folder / "one.xml").write_text(two_cars())
+    (folder / "deeper/again.xml").write_text(two_cars())
+    return folder
+
+
+def test_recordings_become_a_set_that_tells_what_it_holds(recordings, tmp_path):
+    packed = saca("traffic", "pack", "commonroad", recordings, "-o", "set.h5", cwd=tmp_path)
+    assert packed.returncode == SUCCESS, packed.stderr
+    assert "2 of at most 2" in packed.stderr  # progress
+    info = saca("traffic", "info", "set.h5", cwd=tmp_path)
+    assert info.returncode == SUCCESS and info.stdout == packed.stdout
+    told = json.loads(saca("traffic", "info", "set.h5", "--json", cwd=tmp_path).stdout)
+    assert told["schema"] == "saca.traffic_info/1"
+    everything = told["all"]
+    assert (everything["recordings"], everything["groups"], everything["vehicles"], everything["samples"]) == (1, 1, 2, 80)
+    assert everything["vehicle_hours"] == pytest.approx(80 * 0.1 / 3600)
+    # One crosses the bound at y = 1.75 and is kept in its lane 0.3 m beyond it: at y = 0, 0.1, .. 2.0 it has the other ahead.
+    assert (everything["steps_left"], everything["steps_right"]) == (1, 0)
+    assert everything["samples_with_lead"] == 21
+    assert told["sites"]["us101"] == everything
+    assert told["skipped"] == {"vehicle: kept from another file": 2, "file: all its vehicles are kept from others": 1}
+
+
+def test_the_same_recordings_make_the_same_bytes(recordings, tmp_path):
+    for name in ("a.h5", "b.h5"):
+        assert saca("traffic", "pack", "commonroad", recordings, "-o", name, cwd=tmp_path).returncode == SUCCESS
+    assert (tmp_path / "a.h5").read_bytes() == (tmp_path / "b.h5").read_bytes()
+
+
+def test_files_that_cannot_be_read_are_told_and_counted(recordings, tmp_path):
+    (recordings / "cut.xml").write_text(two_cars()[:2000])
+    (recordings / "spot.xml").write_text(two_cars().replace("recorded", "NGSIM (SPOT)"))
+    packed = saca("traffic", "pack", "commonroad", recordings, "-o", "set.h5", "--json", cwd=tmp_path)
+    assert packed.returncode == SUCCESS, packed.stderr
+    assert "cut.xml" in packed.stderr and "spot.xml" not in packed.stderr
+    skipped = json.loads(packed.stdout)["skipped"]
+    assert skipped["file: cannot be read"] == 1
+    assert skipped["file: set-based predictions (SPOT), no recording"] == 1
+
+
+def test_nothing_to_pack_is_an_error(tmp_path):
+    (tmp_path / "empty").mkdir()
+    command = ("traffic", "pack", "commonroad")
+    assert "nowhere" in one_error(saca(*command, "nowhere", "-o", "x.h5", cwd=tmp_path), BAD_INPUT)
+    assert "empty" in one_error(saca(*command, "empty", "-o", "x.h5", cwd=tmp_path), BAD_INPUT)
+    (tmp_path / "empty/cut.xml").write_text("<commonRoad")
+    run = saca(*command, "empty", "-o", "x.h5", cwd=tmp_path)
+    assert run.returncode == BAD_INPUT and "cut.xml" in run.stderr
+    assert not (tmp_path / "x.h5").exists()
+
+
+def test_the_command_line_wants_an_output(recordings, tmp_path):
+    assert saca("traffic", "pack", "commonroad", recordings, cwd=tmp_path).returncode == WRONG_COMMAND_LINE
+    assert saca("traffic", "pack", cwd=tmp_path).returncode == WRONG_COMMAND_LINE
+
+
+def test_a_set_that_cannot_be_written_is_told(recordings, tmp_path):
+    run = saca("traffic", "pack", "commonroad", recordings, "-o", "no/such/folder/set.h5", cwd=tmp_path)
+    assert run.returncode == CANNOT_WRITE and "no/such/folder" in run.stderr
+
+
+def test_damage_of_a_set_is_found(recordings, tmp_path):
+    assert saca("traffic", "pack", "commonroad", recordings, "-o", "set.h5", cwd=tmp_path).returncode == SUCCESS
+    whole = (tmp_path / "set.h5").read_bytes()
+    (tmp_path / "set.h5").write_bytes(whole[:-1])
+    assert "cut off or damaged" in one_error(saca("traffic", "info", "set.h5", cwd=tmp_path), BAD_INPUT)
+    assert "something else" in one_error(saca("traffic", "info", SMALL, cwd=tmp_path), BAD_INPUT)
