@@ -9,7 +9,8 @@
 namespace saca::report {
 
 // Colours from Okabe and Ito's set for colour-blind readers, some darkened; never the only sign.
-// Policies: one hue for each kind of manoeuvre; stripes, or dashes, mean to the right.
+// Policies: one hue for each kind of manoeuvre; stripes, or dashes, mean to the right. Intentions:
+// blues to the left, browns to the right, the dark ones while braking.
 
 /// Class of an area in a policy's colour: "p0" to "p7".
 [[nodiscard]] inline std::string policy_area(manoeuvre::PolicyId policy) {
@@ -86,6 +87,9 @@ inline constexpr std::string_view svg_style = R"svg(
 .saca .stroke-blue{stroke:#0072b2}.saca .stroke-orange{stroke:#c98600}.saca .stroke-green{stroke:#00805d}.saca .stroke-purple{stroke:#b8458f}.saca .stroke-grey{stroke:#77808a}.saca .stroke-ink{stroke:#17202a}
 .saca .fill-blue{fill:#0072b2}.saca .fill-orange{fill:#e69f00}.saca .fill-green{fill:#009e73}.saca .fill-purple{fill:#b8458f}.saca .fill-grey{fill:#77808a}.saca .fill-ink{fill:#17202a}
 .saca .dot{stroke:#fff;stroke-width:1px}
+.saca .i0{fill:#d7dde4}.saca .i1{fill:#56b4e9}.saca .i2{fill:#f0b32e}.saca .i3{fill:#b8458f}.saca .i4{fill:#00508a}.saca .i5{fill:#9a4a00}
+.saca .mark-line{stroke:#c00036;stroke-width:1px;stroke-dasharray:2 3}
+.saca .on-dark{fill:#fff}
 )svg";
 
 inline constexpr std::string_view svg_patterns =

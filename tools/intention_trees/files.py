@@ -1,0 +1,53 @@
+"""Reads saca.sequences/1, writes saca.forecasts/1 (docs/formats.md)."""
+import os
+
+import h5py
+import numpy
+
+import sealed
+
+SEQUENCES, FORECASTS = "saca.sequences/1", "saca.forecasts/1"
+CLASSES = 6
+COLUMNS = ("speed_mps", "acceleration_mps2", "yaw_rate_radps", "offset_m", "lateral_speed_mps", "heading_rad",
+           "lane_width_m", "gap_m", "gap_speed_mps", "steering_rad", "throttle", "brake")
+
+
+class Sequence:
+    """One road user: columns by name, labels, and whether each frame is scored."""
+
+    def __init__(self, name, split, columns, labels, scored):
+        self.name, self.split, self.columns, self.labels, self.scored = name, split, columns, labels, scored
+
+
+def lines(data):
+    return data[()].decode("utf-8").splitlines()
+
+
+def read_sequences(path):
+    sealed.check(path, SEQUENCES)
+    with h5py.File(path, "r") as file:
+        names, splits = lines(file["sequences/names"]), lines(file["sequences/splits"])
+        ends = numpy.cumsum(file["sequences/num_frames"][:]).astype(int)
+        columns = {name: file[f"frames/{name}"][:] for name in COLUMNS}
+        labels, scored = file["frames/label"][:].astype(int), file["frames/scored"][:] == 1.0
+    if len(names) != len(ends) or len(splits) != len(ends) or ends[-1] != len(labels):
+        raise sealed.Refused(f"{path}: want names, splits and frames of as many sequences, got {len(names)}, "
+                             f"{len(splits)} and {len(ends)}")
+    found = []
+    for name, split, begin, end in zip(names, splits, numpy.concatenate([[0], ends[:-1]]), ends):
+        found.append(Sequence(name, split, {key: values[begin:end] for key, values in columns.items()},
+                              labels[begin:end], scored[begin:end]))
+    return found
+
+
+def write_forecasts(path, model, names, num_frames, probabilities):
+    """probabilities: (heads x frames x classes), the sequences' frames one after another."""
+    part = f"{path}.part"
+    with h5py.File(part, "w", userblock_size=sealed.HEAD) as file:
+        file.attrs["format"] = numpy.bytes_(FORECASTS)
+        file["model"] = numpy.bytes_(model.encode("utf-8"))
+        file["names"] = numpy.bytes_("".join(name + "\n" for name in names).encode("utf-8"))
+        file["num_frames"] = numpy.asarray(num_frames, float)
+        file["probabilities"] = numpy.asarray(probabilities, float)
+    sealed.seal(part, FORECASTS)
+    os.replace(part, path)  # in one step
