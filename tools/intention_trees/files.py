@@ -15,8 +15,9 @@ COLUMNS = ("speed_mps", "acceleration_mps2", "yaw_rate_radps", "offset_m", "late
 class Sequence:
     """One road user: columns by name, labels, and whether each frame is scored."""
 
-    def __init__(self, name, split, columns, labels, scored):
-        self.name, self.split, self.columns, self.labels, self.scored = name, split, columns, labels, scored
+    def __init__(self, name, group, split, columns, labels, scored):
+        self.name, self.group, self.split = name, group, split
+        self.columns, self.labels, self.scored = columns, labels, scored
 
 
 def lines(data):
@@ -27,15 +28,16 @@ def read_sequences(path):
     sealed.check(path, SEQUENCES)
     with h5py.File(path, "r") as file:
         names, splits = lines(file["sequences/names"]), lines(file["sequences/splits"])
+        groups = lines(file["sequences/groups"])
         ends = numpy.cumsum(file["sequences/num_frames"][:]).astype(int)
         columns = {name: file[f"frames/{name}"][:] for name in COLUMNS}
         labels, scored = file["frames/label"][:].astype(int), file["frames/scored"][:] == 1.0
-    if len(names) != len(ends) or len(splits) != len(ends) or ends[-1] != len(labels):
+    if not len(names) == len(groups) == len(splits) == len(ends) or ends[-1] != len(labels):
         raise sealed.Refused(f"{path}: want names, splits and frames of as many sequences, got {len(names)}, "
                              f"{len(splits)} and {len(ends)}")
     found = []
-    for name, split, begin, end in zip(names, splits, numpy.concatenate([[0], ends[:-1]]), ends):
-        found.append(Sequence(name, split, {key: values[begin:end] for key, values in columns.items()},
+    for name, group, split, begin, end in zip(names, groups, splits, numpy.concatenate([[0], ends[:-1]]), ends):
+        found.append(Sequence(name, group, split, {key: values[begin:end] for key, values in columns.items()},
                               labels[begin:end], scored[begin:end]))
     return found
 

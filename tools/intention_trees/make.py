@@ -14,6 +14,7 @@ import windows
 
 AHEAD = (0, 5, 10)  # frames: the heads of saca/learn/score.h
 MOST_ROUNDS, PATIENCE = 400, 25
+TUNED_WITH = 8  # one group in so many stops the training early
 # A class counts as much as its share to the power of -1/2: between "each frame alike", which forgets what is rare, and
 # "each class alike", which calls it too often.
 WEIGHT_POWER = -0.5
@@ -92,16 +93,52 @@ def foretell(arguments):
     return {"sequences": len(sequences), "frames": len(told)}
 
 
+def one_in(sequences, share):
+    """Every so many'th group, in alphabetic order, and all other sequences."""
+    chosen = set(sorted({one.group for one in sequences})[::share])
+    return ([one for one in sequences if one.group in chosen], [one for one in sequences if one.group not in chosen])
+
+
+def cross(arguments):
+    """Each split but `simulated` and `test` is foretold by trees that have not seen it: as saca-train's models do."""
+    sequences = files.read_sequences(arguments.sequences)
+    begun = time.monotonic()
+    names, told = [], {}
+    for one in sequences:
+        if one.split != "test":
+            names, told[one.name] = windows.features(one.columns)
+    recorded = [one for one in sequences if one.split not in ("simulated", "test")]
+    simulated = [one for one in sequences if one.split == "simulated"]
+    order, probabilities = [], [[] for _ in AHEAD]
+    for split in sorted({one.split for one in recorded}):
+        tune, train_with = one_in([one for one in recorded if one.split != split], TUNED_WITH)
+        unseen = of_split(sequences, split)
+        order += unseen
+        rows = numpy.concatenate([told[one.name] for one in unseen])
+        for head, ahead in enumerate(AHEAD):
+            model, figures = trained(train_with + simulated, tune, told, names, ahead, arguments.rounds)
+            probabilities[head].append(model.predict(rows, num_iteration=model.best_iteration,
+                                                     num_threads=SETTINGS["num_threads"]))
+            print(f"{split}, {ahead} frames ahead: {figures['rounds']} rounds", file=sys.stderr)
+    of_heads = [numpy.concatenate(some) for some in probabilities]
+    files.write_forecasts(arguments.forecasts, f"LightGBM {lightgbm.__version__} on windows of 2 s",
+                          [one.name for one in order], [len(one.labels) for one in order],
+                          [head / head.sum(axis=1, keepdims=True) for head in of_heads])
+    return {"sequences": len(order), "seconds": time.monotonic() - begun}
+
+
 def main():
     parser = argparse.ArgumentParser(prog="intention_trees")
     actions = parser.add_subparsers(dest="what", required=True)
-    for name, action in (("train", train), ("foretell", foretell)):
+    for name, action in (("train", train), ("foretell", foretell), ("cross", cross)):
         command = actions.add_parser(name)
         command.set_defaults(action=action)
         command.add_argument("sequences", type=pathlib.Path)
-        command.add_argument("models", type=pathlib.Path)
-        if name == "foretell":
+        if name != "cross":
+            command.add_argument("models", type=pathlib.Path)
+        if name != "train":
             command.add_argument("forecasts", type=pathlib.Path)
+        if name == "foretell":
             command.add_argument("--split", default="test")
         else:
             command.add_argument("--rounds", type=int, default=MOST_ROUNDS, help="at most")
