@@ -102,15 +102,19 @@ struct LongLine {
   std::size_t first = 0;  ///< of the lanelet's own points
 };
 
+/// Stations of a line before or after that are run on into.
+int stations_to_run(const Walker& walker) {
+  return static_cast<int>(std::min(run_on, walker.length()) / station_spacing);
+}
+
 LongLine long_line(const std::vector<RawLine>& raw, std::size_t which, const LaneMap::Line& line) {
   const RawLine& here = raw[which];
   LongLine made;
   if (const RawLine* const last =
           straightest(raw, line.predecessors, end_direction(here, false), false)) {
     const Walker walker(last->points_W);
-    for (double way = std::min(run_on, std::floor(walker.length())); way > 0.5 * station_spacing;
-         way -= station_spacing) {
-      made.points_W.push_back(walker.at(walker.length() - way));
+    for (int k = stations_to_run(walker); k > 0; --k) {
+      made.points_W.push_back(walker.at(walker.length() - k * station_spacing));
     }
   }
   made.first = made.points_W.size();
@@ -118,9 +122,8 @@ LongLine long_line(const std::vector<RawLine>& raw, std::size_t which, const Lan
   if (const RawLine* const next =
           straightest(raw, line.successors, end_direction(here, true), true)) {
     const Walker walker(next->points_W);
-    for (double way = station_spacing; way <= std::min(run_on, walker.length());
-         way += station_spacing) {
-      made.points_W.push_back(walker.at(way));
+    for (int k = 1; k <= stations_to_run(walker); ++k) {
+      made.points_W.push_back(walker.at(k * station_spacing));
     }
   }
   return made;

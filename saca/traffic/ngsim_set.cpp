@@ -140,7 +140,9 @@ struct Section {
 void set_gap(const Section& section, const NgsimRow& row, Sample& sample) {
   constexpr double nobody = std::numeric_limits<double>::infinity();
   if (row.preceding == 0) {
-    sample.gap = section.lanes.end() - row.along >= lead_reach ? nobody : not_known;
+    if (section.lanes.end() - row.along >= lead_reach) {
+      sample.gap = nobody;
+    }
     return;
   }
   double along = row.lead_along;
@@ -154,11 +156,12 @@ void set_gap(const Section& section, const NgsimRow& row, Sample& sample) {
     speed = lead->speed;
   }
   const double gap = along - length - row.along;
-  if (std::isnan(gap)) {
-    return;
+  if (gap <= lead_reach) {
+    sample.gap = gap;
+    sample.lead_speed = speed;
+  } else if (!std::isnan(gap)) {
+    sample.gap = nobody;
   }
-  sample.gap = gap <= lead_reach ? gap : nobody;
-  sample.lead_speed = gap <= lead_reach ? speed : not_known;
 }
 
 /// Frames of one vehicle on end, as samples.
