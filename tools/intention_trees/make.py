@@ -17,6 +17,8 @@ MOST_ROUNDS, PATIENCE = 400, 25
 # A class counts as much as its share to the power of -1/2: between "each frame alike", which forgets what is rare, and
 # "each class alike", which calls it too often.
 WEIGHT_POWER = -0.5
+THINNED = 3  # neighbouring windows of one who maintains are nearly the same
+MODEL = f"LightGBM {lightgbm.__version__} on windows of 2 s"
 SETTINGS = {"objective": "multiclass", "num_class": files.CLASSES, "learning_rate": 0.1, "num_leaves": 31, "max_bin": 63,
             "min_data_in_leaf": 40, "feature_fraction": 0.7, "bagging_fraction": 0.8, "bagging_freq": 1, "lambda_l2": 1.0,
             "seed": 1, "deterministic": True, "force_row_wise": True, "num_threads": 2, "verbosity": -1}
@@ -30,28 +32,33 @@ def of_split(sequences, split):
     return found
 
 
-def examples(sequences, told, ahead):
-    """Windows and the labels `ahead` frames later, where both frames are scored."""
-    rows, labels = [], []
+def examples(sequences, told, ahead, thinned=1):
+    """Windows and the labels `ahead` frames later, where both frames are scored; of those that maintain before and
+    after only each so manieth. And how many each stands for."""
+    rows, labels, stand_for = [], [], []
     for one in sequences:
         size = len(one.labels) - ahead
         if size > 0:
-            keep = one.scored[:size] & one.scored[ahead:]
-            rows.append(told[one.name][:size][keep])
-            labels.append(one.labels[ahead:][keep])
-    return numpy.concatenate(rows), numpy.concatenate(labels)
+            before, after = one.labels[:size], one.labels[ahead:]
+            usual = (before == 0) & (after == 0)
+            kept = one.scored[:size] & one.scored[ahead:] & (~usual | (numpy.arange(size) % thinned == 0))
+            rows.append(told[one.name][:size][kept])
+            labels.append(after[kept])
+            stand_for.append(numpy.where(usual, thinned, 1)[kept])
+    return numpy.concatenate(rows), numpy.concatenate(labels), numpy.concatenate(stand_for).astype(float)
 
 
-def class_weights(labels):
-    counts = numpy.bincount(labels, minlength=files.CLASSES).astype(float)
+def class_weights(labels, stand_for):
+    counts = numpy.bincount(labels, weights=stand_for, minlength=files.CLASSES)
     weights = numpy.where(counts > 0, (numpy.maximum(counts, 1.0) / counts.sum()) ** WEIGHT_POWER, 0.0)
-    return weights[labels] / weights[labels].mean()
+    each = weights[labels] * stand_for
+    return each / each.mean()
 
 
 def trained(train, tune, told, names, ahead, rounds):
-    rows, labels = examples(train, told, ahead)
-    data = lightgbm.Dataset(rows, labels, weight=class_weights(labels), feature_name=names)
-    held_rows, held_labels = examples(tune, told, ahead)
+    rows, labels, stand_for = examples(train, told, ahead, THINNED)
+    data = lightgbm.Dataset(rows, labels, weight=class_weights(labels, stand_for), feature_name=names)
+    held_rows, held_labels, _ = examples(tune, told, ahead)
     held = lightgbm.Dataset(held_rows, held_labels, reference=data, feature_name=names)
     scores = {}
     model = lightgbm.train(SETTINGS, data, rounds, valid_sets=[held], valid_names=["tune"],
@@ -61,51 +68,94 @@ def trained(train, tune, told, names, ahead, rounds):
                    "tune_log_loss": min(scores["tune"]["multi_logloss"])}
 
 
+def heads_of(train, tune, told, names, rounds):
+    return [trained(train, tune, told, names, ahead, rounds) for ahead in AHEAD]
+
+
+def windows_of(sequences):
+    told, names = {}, []
+    for one in sequences:
+        names, told[one.name] = windows.features(one.columns)
+    return told, names
+
+
+def probabilities_of(models, told):
+    found = []
+    for model in models:
+        raw = model.predict(told, num_iteration=model.best_iteration or None, num_threads=SETTINGS["num_threads"])
+        found.append(raw / raw.sum(axis=1, keepdims=True))
+    return numpy.stack(found)
+
+
+def written(arguments, sequences, probabilities):
+    files.write_forecasts(arguments.forecasts, MODEL, [one.name for one in sequences],
+                          [len(one.labels) for one in sequences], probabilities)
+    return {"sequences": len(sequences), "frames": sum(len(one.labels) for one in sequences)}
+
+
 def train(arguments):
     sequences = files.read_sequences(arguments.sequences)
     parts = of_split(sequences, "train"), of_split(sequences, "tune")
     begun = time.monotonic()
-    told, names = {}, []
-    for one in parts[0] + parts[1]:
-        names, told[one.name] = windows.features(one.columns)
+    told, names = windows_of(parts[0] + parts[1])
     arguments.models.mkdir(parents=True, exist_ok=True)
-    heads = []
-    for ahead in AHEAD:
-        model, figures = trained(*parts, told, names, ahead, arguments.rounds)
-        model.save_model(arguments.models / f"ahead{ahead}.txt", num_iteration=model.best_iteration)
-        heads.append(figures)
-    return {"heads": heads, "seconds": time.monotonic() - begun}
+    heads = heads_of(*parts, told, names, arguments.rounds)
+    for model, figures in heads:
+        model.save_model(arguments.models / f"ahead{figures['frames_ahead']}.txt", num_iteration=model.best_iteration)
+    return {"heads": [figures for _, figures in heads], "seconds": time.monotonic() - begun}
 
 
 def foretell(arguments):
     sequences = of_split(files.read_sequences(arguments.sequences), arguments.split)
-    told = numpy.concatenate([windows.features(one.columns)[1] for one in sequences])
-    probabilities = []
+    models = []
     for ahead in AHEAD:
         path = arguments.models / f"ahead{ahead}.txt"
         if not path.is_file():
             raise sealed.Refused(f"{path}: want a model, got none; train first")
-        raw = lightgbm.Booster(model_file=str(path)).predict(told, num_threads=SETTINGS["num_threads"])
-        probabilities.append(raw / raw.sum(axis=1, keepdims=True))
-    files.write_forecasts(arguments.forecasts, f"LightGBM {lightgbm.__version__} on windows of 2 s",
-                          [one.name for one in sequences], [len(one.labels) for one in sequences], probabilities)
-    return {"sequences": len(sequences), "frames": len(told)}
+        models.append(lightgbm.Booster(model_file=str(path)))
+    told, _ = windows_of(sequences)
+    return written(arguments, sequences, probabilities_of(models, numpy.concatenate(list(told.values()))))
+
+
+def cross(arguments):
+    """Each part by models that have not seen it: they learn from all others, but for the next, which stops them."""
+    sequences = files.read_sequences(arguments.sequences)
+    parts = sorted({one.split for one in sequences if one.split.startswith(arguments.parts)})
+    if len(parts) < 3:
+        raise sealed.Refused(f"want three splits or more that begin with {arguments.parts}, got {len(parts)}")
+    begun = time.monotonic()
+    told, names = windows_of(sequences)
+    always = [one for one in sequences if one.split == "train"]
+    foretold, found, figures = [], [], []
+    for i, part in enumerate(parts):
+        tuned = parts[(i + 1) % len(parts)]
+        others = [one for one in sequences if one.split in parts and one.split not in (part, tuned)]
+        heads = heads_of(always + others, of_split(sequences, tuned), told, names, arguments.rounds)
+        mine = of_split(sequences, part)
+        found.append(probabilities_of([model for model, _ in heads], numpy.concatenate([told[one.name] for one in mine])))
+        foretold += mine
+        figures.append({"part": part, "heads": [one for _, one in heads]})
+    return written(arguments, foretold, numpy.concatenate(found, axis=1)) | {
+        "parts": figures, "seconds": time.monotonic() - begun}
+
+
+def command(actions, name, action, *places):
+    parser = actions.add_parser(name)
+    parser.set_defaults(action=action)
+    for place in places:
+        parser.add_argument(place, type=pathlib.Path)
+    if action != foretell:
+        parser.add_argument("--rounds", type=int, default=MOST_ROUNDS, help="at most")
+    parser.add_argument("--json", action="store_true")
+    return parser
 
 
 def main():
     parser = argparse.ArgumentParser(prog="intention_trees")
     actions = parser.add_subparsers(dest="what", required=True)
-    for name, action in (("train", train), ("foretell", foretell)):
-        command = actions.add_parser(name)
-        command.set_defaults(action=action)
-        command.add_argument("sequences", type=pathlib.Path)
-        command.add_argument("models", type=pathlib.Path)
-        if name == "foretell":
-            command.add_argument("forecasts", type=pathlib.Path)
-            command.add_argument("--split", default="test")
-        else:
-            command.add_argument("--rounds", type=int, default=MOST_ROUNDS, help="at most")
-        command.add_argument("--json", action="store_true")
+    command(actions, "train", train, "sequences", "models")
+    command(actions, "foretell", foretell, "sequences", "models", "forecasts").add_argument("--split", default="test")
+    command(actions, "cross", cross, "sequences", "forecasts").add_argument("--parts", default="part-")
     arguments = parser.parse_args()
     try:
         figures = arguments.action(arguments)

@@ -4,15 +4,18 @@
 # usage: tools/intention_trees/run.sh setup
 #        tools/intention_trees/run.sh train SEQUENCES.h5 MODELS [--rounds N] [--json]
 #        tools/intention_trees/run.sh foretell SEQUENCES.h5 MODELS FORECASTS.h5 [--split WORD] [--json]
+#        tools/intention_trees/run.sh cross SEQUENCES.h5 FORECASTS.h5 [--parts WORD] [--rounds N] [--json]
 #   setup      makes the environment only
 #   train      on the split `train`, stopped early on `tune`; writes one model for each head into the folder MODELS
 #   foretell   writes what they say of the split `test` (or WORD), to be scored by the program that scores all models
+#   cross      writes what is said of each split whose name begins with `part-` (or WORD) by models that have not seen it:
+#              they learn from the split `train` and the other parts, but for one, which stops them early
 # SEQUENCES.h5: format saca.sequences/1; FORECASTS.h5: saca.forecasts/1 (docs/formats.md). Seeded, two threads.
 # Needs the network at its first run, and tools/setup.sh. Versions and sha256: requirements.txt.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-case ${1:-} in setup | train | foretell) ;; *)
-  echo "intention_trees: error: want setup, train or foretell, got ${1:-nothing}" >&2
+case ${1:-} in setup | train | foretell | cross) ;; *)
+  echo "intention_trees: error: want setup, train, foretell or cross, got ${1:-nothing}" >&2
   exit 2
   ;;
 esac
