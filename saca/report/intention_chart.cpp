@@ -188,10 +188,10 @@ struct Layout {
   double duration = 1.0;
 
   PlotArea next(double height, const std::string& name, const std::string& unit, Range range) {
-    const PlotArea area{{sample_left, y},
-                        {sample_width - sample_left - sample_right, height},
-                        {"time", "s", 0.0, duration},
-                        {name, unit, range.low, range.high}};
+    PlotArea area{{sample_left, y},
+                  {sample_width - sample_left - sample_right, height},
+                  {"time", "s", 0.0, duration},
+                  {name, unit, range.low, range.high}};
     y += height + sample_gap;
     return area;
   }

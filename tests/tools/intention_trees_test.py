@@ -17,7 +17,7 @@ needs_setup = pytest.mark.skipif(not PYTHON.exists(), reason="tools/intention_tr
 
 def test_other_words_are_refused():
     run = subprocess.run([TOOL / "run.sh", "quickly"], capture_output=True, text=True, timeout=60)
-    assert run.returncode == 2 and "want setup, train or foretell, got quickly" in run.stderr
+    assert run.returncode == 2 and "want setup, train, foretell or cross, got quickly" in run.stderr
 
 
 def test_each_package_is_pinned_by_version_and_hash():
@@ -140,10 +140,28 @@ def test_what_is_told_by_the_speed_is_learned(tmp_path):
     run(PYTHON, "-B", "-c", SMALL, TOOL, sequences)
     figures = json.loads(run(PYTHON, "-B", TOOL / "make.py", "train", sequences, models, "--json", "--rounds", "15"))
     assert [head["frames_ahead"] for head in figures["heads"]] == [0, 5, 10]
-    assert figures["heads"][0]["windows"] == 20 * 60 and figures["heads"][2]["windows"] == 20 * 50
+    # Of 20 vehicles four maintain, and of their windows a third is kept.
+    assert figures["heads"][0]["windows"] == 16 * 60 + 4 * 20 and figures["heads"][2]["windows"] == 16 * 50 + 4 * 17
     run(PYTHON, "-B", TOOL / "make.py", "foretell", sequences, models, forecasts)
     names, shape, off, right = json.loads(run(PYTHON, "-B", "-c", SCORE, TOOL, sequences, forecasts))
     assert names and shape == [3, 10 * 60, 6] and off < 1e-9 and right > 0.95
     done = subprocess.run([PYTHON, "-B", TOOL / "make.py", "foretell", sequences, models, forecasts, "--split", "none"],
                           capture_output=True, text=True, timeout=60)
     assert done.returncode == 1 and "want sequences of the split none, got none; there are test, train, tune" in done.stderr
+
+
+@needs_setup
+def test_each_part_is_foretold_by_models_that_have_not_seen_it(tmp_path):
+    sequences, forecasts = tmp_path / "s.h5", tmp_path / "f.h5"
+    small = SMALL.replace('("train", "train", "tune", "test")', '("part-0", "part-1", "part-2", "other")')
+    done = subprocess.run([PYTHON, "-B", "-c", small, TOOL, sequences], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+    done = subprocess.run([PYTHON, "-B", TOOL / "make.py", "cross", sequences, forecasts, "--json", "--rounds", "4"],
+                          capture_output=True, text=True, timeout=100)
+    assert done.returncode == 0, done.stderr
+    figures = json.loads(done.stdout)
+    assert [one["part"] for one in figures["parts"]] == ["part-0", "part-1", "part-2"]
+    assert figures["sequences"] == 30 and figures["parts"][0]["heads"][0]["windows"] == 8 * 60 + 2 * 20
+    done = subprocess.run([PYTHON, "-B", TOOL / "make.py", "cross", sequences, forecasts, "--parts", "none"],
+                          capture_output=True, text=True, timeout=60)
+    assert done.returncode == 1 and "want three splits or more that begin with none, got 0" in done.stderr

@@ -4,11 +4,12 @@
 # usage: tools/intention_trees/run.sh setup
 #        tools/intention_trees/run.sh train SEQUENCES.h5 MODELS [--rounds N] [--json]
 #        tools/intention_trees/run.sh foretell SEQUENCES.h5 MODELS FORECASTS.h5 [--split WORD] [--json]
-#        tools/intention_trees/run.sh cross SEQUENCES.h5 FORECASTS.h5 [--rounds N] [--json]
+#        tools/intention_trees/run.sh cross SEQUENCES.h5 FORECASTS.h5 [--parts WORD] [--rounds N] [--json]
 #   setup      makes the environment only
 #   train      on the split `train`, stopped early on `tune`; writes one model for each head into the folder MODELS
 #   foretell   writes what they say of the split `test` (or WORD), to be scored by the program that scores all models
-#   cross      both for each split of recorded sequences, by trees trained with all others and `simulated`
+#   cross      writes what is said of each split whose name begins with `part-` (or WORD) by models that have not seen it:
+#              they learn from the splits `train` and `simulated` and the other parts, but for one group in eight, which stop them
 # SEQUENCES.h5: format saca.sequences/1; FORECASTS.h5: saca.forecasts/1 (docs/formats.md). Seeded, two threads.
 # Needs the network at its first run, and tools/setup.sh. Versions and sha256: requirements.txt.
 set -euo pipefail
