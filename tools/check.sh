@@ -6,6 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 step() { printf '\n== %s (%s s)\n' "$*" "$SECONDS"; }
 
 mapfile -t sources < <(git ls-files '*.cpp' '*.h')
+tools/setup.sh train
 step "format: ${#sources[@]} files"
 clang-format-14 --dry-run --Werror "${sources[@]}"
 

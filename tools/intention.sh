@@ -6,7 +6,7 @@
 #   eval   trains the boosted trees and scores everything: build/intention/eval.txt and eval.json
 # DATA: a folder with the CommonRoad NGSIM files (*.xml) and the 100-Car study's release, unpacked (data/README.md).
 # Weights go to models/intent. What was done before is not done again; remove build/intention to begin anew.
-# Needs libtorch-dev; the trees need the network at their first run.
+# The trees need the network at their first run.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 what=${1:-}
@@ -20,10 +20,7 @@ esac
   echo "intention: error: want a folder with recordings, got ${data:-nothing}" >&2
   exit 3
 }
-[ -e /usr/include/torch/csrc/api/include/torch/torch.h ] || {
-  echo "intention: error: libtorch is missing: apt-get install libtorch-dev" >&2
-  exit 3
-}
+tools/setup.sh train
 
 work=build/intention
 saca=build/release/saca

@@ -14,7 +14,7 @@ command -v clang-tidy-14 >/dev/null || {
 
 tidy() {
   clang-tidy-14 --quiet --config-file=.clang-tidy "$@" -- -std=c++20 -I. -isystem /usr/include/eigen3 -isystem /usr/include/hdf5/serial \
-    -isystem /usr/include/cairo -DSACA_VERSION='""' 2>/dev/null
+    -isystem /usr/include/cairo -isystem /usr/include/torch/csrc/api/include -DSACA_VERSION='""' 2>/dev/null
 }
 lint_folder() {  # FOLDER
   local sources joined stamp

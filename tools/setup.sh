@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that building and testing need; silent when all are there.
+# usage: tools/setup.sh [train]    train: also what saca-train needs, libtorch (120 MB)
 set -euo pipefail
 
 packages=(
@@ -11,6 +12,7 @@ packages=(
   python3 python3-venv python3-pytest python3-jsonschema
   chromium
 )
+[ "${1:-}" != train ] || packages+=(libtorch-dev)
 
 missing=()
 for package in "${packages[@]}"; do

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,8 @@
 #include "apps/saca/places.h"
 #include "saca/core/parallel.h"
 #include "saca/intent/intention.h"
+#include "saca/learn/baselines.h"
+#include "saca/learn/displacement.h"
 #include "saca/learn/evaluation.h"
 #include "saca/learn/forecast_file.h"
 #include "saca/learn/foretell.h"
@@ -159,6 +162,44 @@ void tell_confusion(const Row& row) {
   }
 }
 
+constexpr std::array<std::string_view, learn::num_foresights> foresight_names{
+    "constant velocity", "lane keeping", "likeliest intention", "mean over intentions"};
+
+void tell_displacements(const learn::Displacements& found) {
+  for (const auto& [title, table] :
+       {std::pair("all vehicles in lanes", &found.all),
+        std::pair("those that brake or change lanes", &found.acting)}) {
+    fmt::print("\nMean displacement error [m] after 1, 2, 3 s: {} ({} frames)\n", title,
+               (*table)[0][0].num);
+    for (std::size_t f = 0; f < learn::num_foresights; ++f) {
+      fmt::print("{:24}", foresight_names[f]);
+      for (const learn::Displacement& each : (*table)[f]) {
+        fmt::print(" {:8.2f}", each.mean());
+      }
+      fmt::print("\n");
+    }
+  }
+}
+
+json displacements_json(const learn::Displacements& found) {
+  json all = json::array();
+  for (const auto& [which, table] :
+       {std::pair("all", &found.all), std::pair("acting", &found.acting)}) {
+    for (std::size_t f = 0; f < learn::num_foresights; ++f) {
+      for (std::size_t k = 0; k < learn::seconds_ahead.size(); ++k) {
+        const learn::Displacement& one = (*table)[f][k];
+        all.push_back({{"vehicles", which},
+                       {"foresight", foresight_names[f]},
+                       {"ahead_s", learn::seconds_ahead[k]},
+                       {"frames", one.num},
+                       {"mean_m", one.mean()},
+                       {"rms_m", one.rms()}});
+      }
+    }
+  }
+  return all;
+}
+
 /// Everything that is compared on the same sequences; ours comes first.
 class Comparison {
  public:
@@ -188,6 +229,14 @@ class Comparison {
                    row.behind_ours->value, row.behind_ours->low, row.behind_ours->high);
       }
     }
+  }
+  /// Where our own forecasts say that vehicles will be.
+  [[nodiscard]] learn::Displacements displacements(const intent::MotionLaw& law) const {
+    learn::Displacements sum;
+    for (std::size_t i = 0; i < ours_.size(); ++i) {
+      sum += learn::displacements(scored_.sequences[i], ours_[i], law);
+    }
+    return sum;
   }
   [[nodiscard]] json as_json() const {
     json methods = json::array();
@@ -240,6 +289,16 @@ std::optional<Error> compare_recorded(const EvalOptions& options, const ModelsBy
       return problem;
     }
   }
+  const auto by = [&](auto&& foretell) {
+    std::vector<Forecasts> all;
+    for (const Sequence& sequence : scored.sequences) {
+      all.push_back(foretell(sequence));
+    }
+    return all;
+  };
+  comparison.add("CRF by hand", by([](const Sequence& each) { return learn::crf_by_hand(each); }));
+  comparison.add("causal rule", by([](const Sequence& each) { return learn::causal_rule(each); }));
+  comparison.add("constant motion", by(learn::constant_motion));
   for (const std::string& file : options.forecasts) {
     const auto set = learn::read_forecasts(file);
     if (!set.has_value()) {
@@ -300,6 +359,7 @@ int evaluate(EvalOptions options) {
           compare_recorded(options, models.value(), recorded, comparisons.front())) {
     return refused(*problem);
   }
+  const learn::Displacements moved = comparisons.front().displacements(intent::MotionLaw());
   const Scored simulated = chosen(set.value(), true);
   const auto whole = models.value().find("nothing");
   if (whole != models.value().end() && !simulated.sequences.empty()) {
@@ -317,7 +377,10 @@ int evaluate(EvalOptions options) {
     options.as_json ? document["comparisons"].push_back(each.as_json()) : each.tell();
   }
   if (options.as_json) {
+    document["displacements"] = displacements_json(moved);
     fmt::print("{}\n", document.dump(1));
+  } else {
+    tell_displacements(moved);
   }
   return success;
 }
