@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "saca/core/contract.h"
 #include "saca/intent/line.h"

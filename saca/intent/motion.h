@@ -11,12 +11,11 @@ namespace saca::intent {
 /// How people really drive under an intention, and how far they differ in it. The numbers here are
 /// assumptions; a `Model` brings those of recordings.
 struct MotionLaw {
-  double acceleration_sd = 0.3;  ///< of those who maintain: it wavers so much about 0 [m/s^2]
-  double acceleration_time =
-      1.0;                      ///< over which it does: its correlation is exp(-t / this) [s], > 0
-  double braking = 6.0;         ///< of one who does not brake yet: median [m/s^2], > 0
-  double braking_log_sd = 0.3;  ///< standard deviation of its logarithm [-]
-  double braking_rise = 0.3;    ///< until such a braking has built up, linearly [s], >= 0
+  double acceleration_sd = 0.3;    ///< of those who maintain: it wavers so much about 0 [m/s^2]
+  double acceleration_time = 1.0;  ///< it is correlated as exp(-t / this) [s], > 0
+  double braking = 6.0;            ///< of one who does not brake yet: median [m/s^2], > 0
+  double braking_log_sd = 0.3;     ///< standard deviation of its logarithm [-]
+  double braking_rise = 0.3;       ///< until such a braking has built up, linearly [s], >= 0
   double held_log_sd = 0.15;  ///< of one who brakes: of the logarithm of what it goes on with over
                               ///< what is measured now [-]
   double lane_change = 4.0;   ///< from lane to lane: median [s], > 0
