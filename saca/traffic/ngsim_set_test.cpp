@@ -105,7 +105,7 @@ TEST(NgsimSet, LaneNumbersGrowToTheRight) {
     changing[k].lane = share > 0.5 ? 1 : 2;
   }
   add(table, changing);
-  const std::vector<Sample>& samples = vehicle_of(set_of_ngsim(table, "f"), 7).samples;
+  const std::vector<Sample> samples = vehicle_of(set_of_ngsim(table, "f"), 7).samples;
   for (std::size_t k = 0; k < samples.size(); ++k) {
     EXPECT_EQ(samples[k].lane_step, k == 106 ? 1 : 0) << k;
   }

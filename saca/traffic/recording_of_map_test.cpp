@@ -132,7 +132,7 @@ TEST(RecordingOfMap, ASlitBetweenLanesHidesNoLaneChange) {
     car.states[k].X_WO.p.y = 0.2 * static_cast<double>(k);
   }
   file.obstacles = {car};
-  const RecordedVehicle& vehicle = made_of(file).vehicles.at(0);
+  const RecordedVehicle vehicle = made_of(file).vehicles.at(0);
   int steps = 0;
   for (const Sample& sample : vehicle.samples) {
     steps += sample.lane_step;
