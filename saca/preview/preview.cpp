@@ -56,11 +56,16 @@ std::vector<intent::Hypothesis> hypotheses(const Scene& scene,
   return intent::likeliest_hypotheses(choices, num_candidates);
 }
 
-/// When the first conflict comes: with the trigger's tolerance, else with that of the preview.
-std::optional<double> conflict_time(const Scene& scene, const std::vector<Forecast>& forecasts,
-                                    const Thresholds& thresholds) {
+struct Conflict {
+  double time = 0.0;      ///< from the scene on [s]
+  std::size_t actor = 0;  ///< index into scene.actors
+};
+
+/// The first conflict: with the trigger's tolerance, else with that of the preview.
+std::optional<Conflict> first_conflict(const Scene& scene, const std::vector<Forecast>& forecasts,
+                                       const Thresholds& thresholds) {
   for (const double tolerance : {thresholds.trigger_tolerance, thresholds.preview_tolerance}) {
-    std::optional<double> first;
+    std::optional<Conflict> first;
     for (std::size_t i = 0; i < scene.actors.size(); ++i) {
       const Actor& actor = scene.actors[i];
       if (world::is_behind(scene, actor)) {
@@ -68,8 +73,8 @@ std::optional<double> conflict_time(const Scene& scene, const std::vector<Foreca
       }
       const auto time =
           world::time_to_conflict(scene, actor, forecasts[i].track, thresholds.preview, tolerance);
-      if (time && (!first || *time < *first)) {
-        first = time;
+      if (time && (!first || *time < first->time)) {
+        first = {*time, i};
       }
     }
     if (first) {
@@ -77,6 +82,16 @@ std::optional<double> conflict_time(const Scene& scene, const std::vector<Foreca
     }
   }
   return std::nullopt;
+}
+
+/// What is left of the spread along its line of the one who sets off the trigger: the trigger comes
+/// wherever that is T1 before the conflict, within its tolerance of crossing traffic. So it is what
+/// was perceived, and an instant anywhere within the tolerance.
+double along_sd_at_trigger(const Scene& scene, const Actor& actor, const Forecast& forecast,
+                           const Thresholds& thresholds) {
+  const double tolerance = world::is_crossing(scene, actor) ? thresholds.trigger_tolerance : 0.0;
+  return std::hypot(forecast.spread.front().along_sd,
+                    norm(actor.v_W) * tolerance / std::numbers::sqrt3);
 }
 
 /// The actor at a later time of its forecast.
@@ -121,13 +136,18 @@ std::vector<Situation> situations(const Scene& scene, const intent::Beliefs& bel
       forecasts.push_back(intent::motion_under(scene, scene.actors[i], hypothesis.intentions[i],
                                                thresholds.preview + after_trigger, tools.motion));
     }
-    const auto conflict = conflict_time(scene, forecasts, thresholds);
+    const auto conflict = first_conflict(scene, forecasts, thresholds);
     if (!conflict) {
       continue;
     }
+    const double along_sd = along_sd_at_trigger(scene, scene.actors[conflict->actor],
+                                                forecasts[conflict->actor], thresholds);
+    for (intent::Spread& each : forecasts[conflict->actor].spread) {
+      each.along_sd = std::min(each.along_sd, along_sd);
+    }
     Situation situation;
     situation.scene_at_trigger =
-        moved_on(scene, forecasts, std::max(0.0, *conflict - thresholds.trigger));
+        moved_on(scene, forecasts, std::max(0.0, conflict->time - thresholds.trigger));
     situation.probability = hypothesis.probability;
     situation.intentions = std::move(hypothesis.intentions);
     situation.posteriors = posteriors;

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "saca/core/contract.h"
 #include "saca/intent/shipped_model.h"
@@ -105,13 +107,16 @@ TEST(Situations, FollowTheBeliefsThatAreHandedIn) {
   EXPECT_THROW((void)look(scene, intent::Beliefs()), ContractViolation);
 }
 
-// sqrt of the mean of the squares along and across: 0.3 m and 0.1 m/s * t in both, the wavering
-// acceleration along only.
+// The root of the mean of the squares along and across. Along, who sets off the trigger is where
+// the trigger finds it: as surely as it is perceived.
 TEST(Situations, PlacesAtTheTriggerAreAsUnsureAsTheForecast) {
   Scene scene = motorway(20.0);
   scene.actors.push_back(car(1, {70.0, 0.0}, {5.0, 0.0}));
-  scene.actors[0].position_sd = 0.3;
-  scene.actors[0].velocity_sd = 0.1;
+  scene.actors.push_back(car(2, {90.0, 3.5}, {20.0, 0.0}));  // beside: in nobody's way
+  for (Actor& actor : scene.actors) {
+    actor.position_sd = 0.3;
+    actor.velocity_sd = 0.1;
+  }
   const auto found = look(scene);
   ASSERT_FALSE(found.empty());
   const Scene& trigger = found[0].scene_at_trigger;
@@ -120,8 +125,23 @@ TEST(Situations, PlacesAtTheTriggerAreAsUnsureAsTheForecast) {
   const double perceived = 0.3 * 0.3 + 0.01 * t * t;
   const double wavered = intent::wavering_sd({}, t);
   EXPECT_EQ(found[0].intentions[0], intent::Intention::maintain);
+  EXPECT_EQ(found[0].intentions[1], intent::Intention::maintain);
   // The forecast is linear between poses 50 ms apart.
-  EXPECT_NEAR(trigger.actors[0].position_sd, std::sqrt(perceived + 0.5 * wavered * wavered), 1e-4);
+  EXPECT_NEAR(trigger.actors[0].position_sd, std::sqrt(0.5 * (0.3 * 0.3 + perceived)), 1e-4);
+  EXPECT_NEAR(trigger.actors[1].position_sd, std::sqrt(perceived + 0.5 * wavered * wavered), 1e-4);
+}
+
+TEST(Situations, WhoCrossesIsUnsureByTheTriggersTolerance) {
+  Scene scene = motorway(20.0);
+  scene.actors.push_back(car(1, {80.0, -32.0}, {0.0, 8.0}));
+  scene.actors[0].X_WA.yaw = 0.5 * std::numbers::pi;
+  const auto found = look(scene);
+  ASSERT_FALSE(found.empty());
+  const intent::MotionLaw law;
+  const double t = found[0].scene_at_trigger.time;
+  const double along = 8.0 * Thresholds().trigger_tolerance / std::sqrt(3.0);
+  EXPECT_NEAR(found[0].scene_at_trigger.actors[0].position_sd,
+              std::min(along, intent::wavering_sd(law, t)) / std::sqrt(2.0), 1e-4);
 }
 
 TEST(Situations, ThosePresentButHarmlessDoNotMultiplyForecasts) {
