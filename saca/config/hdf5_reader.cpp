@@ -208,7 +208,8 @@ void Hdf5Reader::numbers(const char* name, const std::vector<std::size_t>& exten
       return;
     }
     const Real* const end = part + along.size();
-    const Real* const bad = std::find_if<const Real*>(part, end, [](Real x) { return !std::isfinite(x); });
+    const Real* const bad =
+        std::find_if<const Real*>(part, end, [](Real x) { return !std::isfinite(x); });
     if (allowed == Numbers::finite && bad != end) {
       reject(set_part(name), "finite numbers", fmt::format("{} at {}", *bad, bad - part));
       return;

@@ -21,6 +21,7 @@ constexpr double widest_gap = 1.5;                    // that is bridged [s]
 constexpr double last_time = 590.0;                   // scenarios end at 600 s
 constexpr double most_steps = 6000.0;                 // of a recording in a scenario
 constexpr double fastest_of_all = 100.0;              // in a scenario [m/s]
+constexpr double farthest_place = 1e5;                // of a scenario's coordinates [m]
 constexpr double fastest_turn = from_degrees(360.0);  // [rad/s]
 constexpr double farthest_of_all = 1000.0;            // from the ego [m]: nobody whom SACA meets
 constexpr double straight_enough = 0.01;              // of a shape against its motion [rad]
@@ -119,6 +120,9 @@ std::string make_recording(const traffic::Obstacle& obstacle, const Origin& orig
   for (const Sample& sample : made.smooth.samples) {
     if (sample.speed > fastest_of_all || std::abs(sample.yaw_rate) > fastest_turn) {
       return "moving faster than a scenario may";
+    }
+    if (std::max(std::abs(sample.X_WA.p.x), std::abs(sample.X_WA.p.y)) > farthest_place) {
+      return "farther away than a scenario's coordinates go";
     }
   }
   made.actor.motion = from_zero(made.smooth.samples, obstacle.X_OA);
