@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "saca/traffic/lane_map.h"
-#include "saca/traffic/radar_track.h"
 #include "saca/traffic/recording_of_map.h"
 
 namespace saca::traffic {
@@ -55,16 +54,6 @@ std::vector<Sample> samples_of_rows(const std::vector<HundredCarRow>& rows) {
     samples.push_back(sample);
   }
   set_lane_steps(samples);
-  if (const std::optional<RadarTrack> lead =
-          rows.empty() ? std::nullopt : lead_track(rows, 0, rows.size() - 1)) {
-    for (std::size_t k = lead->first_row; k <= lead->last_row; ++k) {
-      const std::size_t i = k - lead->first_row;
-      if (lead->sightings[i] == Sighting::kept && lead->range[i] <= lead_reach) {
-        samples[k].gap = lead->range[i];
-        samples[k].lead_speed = rows[k].speed + lead->rate[i];
-      }
-    }
-  }
   return samples;
 }
 

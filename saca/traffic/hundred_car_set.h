@@ -23,8 +23,8 @@ constexpr double widest_lane = 5.0;
 /// Speed, yaw rate, accelerometer and brake pedal (0 or 1) as recorded: the speed often stands for
 /// some tenths of a second, the gyro and the accelerometer have a bias. Where it is nobody knows.
 /// The offset is from the lane tracker; a jump by about a lane width, within half a second, from
-/// one side to the other is a lane step. The lead is the target that radar_track.h follows, in the
-/// rows in which it was seen. Rows without speed split the track.
+/// one side to the other is a lane step. No lead is told: which of the radar's targets it is, is
+/// found by the conflict that comes (radar_track.h). Rows without speed split the track.
 ///
 /// @param skipped  counts tracks shorter than fewest_packed
 /// @return         group: by the car's number, so that no driver is in two; no vehicle where
