@@ -33,7 +33,7 @@ struct Options {
   std::string sequences;
   std::string output;
   std::string leave_out;
-  int networks = 2;
+  int networks = 1;
   train::TrainingPlan plan;
 };
 

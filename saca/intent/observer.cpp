@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "saca/core/contract.h"
+#include "saca/intent/line.h"
 #include "saca/intent/observed.h"
 #include "saca/intent/walkers.h"
 
@@ -18,7 +19,8 @@ Belief of_walker(const world::Scene& scene, const world::Actor& actor) {
   return belief;
 }
 
-Belief of_obstacle() {
+/// An obstacle, or who is at rest: the next thing it can do is to drive on, which is M.
+Belief of_who_stands() {
   Belief belief;
   IntentPosterior maintains{};
   maintains[static_cast<std::size_t>(Intention::maintain)] = 1.0;
@@ -56,10 +58,7 @@ const Beliefs& Observer::look(const world::Scene& scene) {
     Known* const found = find(actor);
     Known& known = found != nullptr ? *found : begin(actor, time_);
     if (time_ >= known.due - rounding) {
-      known.belief = is_walker(actor.kind) ? of_walker(scene, actor)
-                     : actor.kind == world::ActorKind::obstacle
-                         ? of_obstacle()
-                         : of_vehicle(known.stream.step(*model_, observed(scene, i)));
+      known.belief = judged(scene, i, known.stream);
       // On a grid, however the looks fall; steps that were missed are not made up for.
       known.due += step;
       if (known.due <= time_ + rounding) {
@@ -69,6 +68,19 @@ const Beliefs& Observer::look(const world::Scene& scene) {
     beliefs_.push_back(known.belief);
   }
   return beliefs_;
+}
+
+Belief Observer::judged(const world::Scene& scene, std::size_t i, Stream& stream) const {
+  const world::Actor& actor = scene.actors[i];
+  if (is_walker(actor.kind)) {
+    return of_walker(scene, actor);
+  }
+  if (actor.kind == world::ActorKind::obstacle) {
+    return of_who_stands();
+  }
+  const Told told =
+      stream.step(*model_, observed(scene, i));  // also of who stands: it may drive on
+  return norm(actor.v_W) < rest_speed ? of_who_stands() : of_vehicle(told);
 }
 
 Observer::Known* Observer::find(const world::Actor& actor) {

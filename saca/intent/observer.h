@@ -26,7 +26,8 @@ using Beliefs = StaticVector<Belief, world::max_actors>;
 ///
 /// A road user is known by its kind and id. Whoever is seen for the first time is judged at once,
 /// then every 0.1 s of scene time; in between, its last belief stands. Who has been gone for 2 s is
-/// forgotten. Fixed in size: copyable, and allocates nothing.
+/// forgotten. Vehicles are judged by the model, walkers by `walker_posterior`; who stands, and
+/// every obstacle, maintains. Fixed in size: copyable, and allocates nothing.
 class Observer {
  public:
   static constexpr double step = look_step;  ///< between judgements [s]
@@ -56,6 +57,8 @@ class Observer {
     Belief belief;
   };
 
+  /// @param i  index into scene.actors
+  [[nodiscard]] Belief judged(const world::Scene& scene, std::size_t i, Stream& stream) const;
   [[nodiscard]] Known* find(const world::Actor& actor);
   [[nodiscard]] Known& begin(const world::Actor& actor, double time);
   void forget_before(double time);

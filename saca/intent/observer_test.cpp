@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
 #include "saca/core/contract.h"
+#include "saca/intent/observed.h"
 #include "saca/intent/shipped_model.h"
 #include "tests/support/count_allocations.h"
 
@@ -48,35 +50,79 @@ Scene with(double time, std::initializer_list<Actor> actors) {
 
 const Model& model = shipped_model();
 
+/// How likely it is thought to brake now, moving aside or not.
+double braking(const Belief& belief) {
+  const auto of = [&](Intention intention) {
+    return belief.now()[static_cast<std::size_t>(intention)];
+  };
+  return of(Intention::brake) + of(Intention::brake_left) + of(Intention::brake_right);
+}
+
+/// Of a car that is seen for the first time, not braking or with 6 m/s^2.
+double braking_at_sight(double deceleration) {
+  return braking(beliefs_at_sight(model, with(0.0, {car(1, deceleration)}))[0]);
+}
+
+TEST(Observer, HardBrakingIsBelievedWithinThreeTenths) {
+  Observer observer(model);
+  for (int look = 0; look <= 40; ++look) {
+    const double time = 0.1 * look;
+    Actor actor = car(1, time > 2.0 ? 6.0 : 0.0);
+    actor.v_W.x = 20.0 - 6.0 * std::max(0.0, time - 2.0);
+    const Beliefs& beliefs = observer.look(with(time, {actor}));
+    if (time < 2.05) {
+      EXPECT_LT(braking(beliefs[0]), 0.2) << time;
+    } else if (time > 2.35) {
+      EXPECT_GT(braking(beliefs[0]), 0.8) << time;
+    }
+  }
+}
+
 TEST(Observer, HasOneBeliefPerActorInTheScenesOrder) {
+  ASSERT_GT(braking_at_sight(6.0), braking_at_sight(0.0));
   Observer observer(model);
   const Beliefs& beliefs = observer.look(with(0.0, {car(3), car(1, 6.0), car(2)}));
   ASSERT_EQ(beliefs.size(), 3U);
-  EXPECT_EQ(likeliest(beliefs[0].now()), Intention::maintain);
-  EXPECT_EQ(likeliest(beliefs[1].now()), Intention::brake);
-  EXPECT_EQ(likeliest(beliefs[2].now()), Intention::maintain);
+  const double of_one = braking(beliefs[1]);
+  EXPECT_LT(braking(beliefs[0]), of_one);
+  EXPECT_LT(braking(beliefs[2]), of_one);
   // The same road users in another order.
   const Beliefs& turned = observer.look(with(0.01, {car(2), car(3), car(1, 6.0)}));
-  EXPECT_EQ(likeliest(turned[2].now()), Intention::brake);
+  EXPECT_EQ(braking(turned[2]), of_one);
   EXPECT_EQ(observer.num_known(), 3U);
   EXPECT_TRUE(observer.look(at(0.02)).empty());
 }
 
-TEST(Observer, JudgesAnewEveryTenthOfASecondAndRepeatsItselfBetween) {
+TEST(Observer, StepsEachVehiclesStreamEveryTenthOfASecondAndRepeatsItselfBetween) {
   Observer observer(model);
-  int changes = 0;
-  IntentPosterior last{};
+  Stream stream;
+  Told told{};
   for (int look = 0; look <= 100; ++look) {
-    // Each look brakes a little harder: every new judgement differs from the one before.
-    const Actor actor = car(1, 0.02 * look);
-    const IntentPosterior now = observer.look(with(look / looks_per_second, {actor}))[0].now();
+    const Scene scene = with(look / looks_per_second, {car(1, 0.05 * look)});
     if (look % 10 == 0) {
-      EXPECT_EQ(now, beliefs_at_sight(model, with(0.0, {actor}))[0].now()) << look;
+      told = stream.step(model, observed(scene, 0));
     }
-    changes += now != last ? 1 : 0;
-    last = now;
+    const Beliefs& beliefs = observer.look(scene);
+    for (std::size_t h = 0; h < num_horizons; ++h) {
+      for (std::size_t k = 0; k < num_classes; ++k) {
+        EXPECT_EQ(beliefs[0].at[h][k], told[h][k]) << look;
+      }
+    }
   }
-  EXPECT_EQ(changes, 11);  // at 0.0, 0.1, ... 1.0 s
+}
+
+TEST(Observer, WhoStandsMaintainsAndIsRememberedAllTheSame) {
+  Observer observer(model);
+  Actor actor = car(1);
+  actor.v_W = {};
+  const Beliefs& beliefs = observer.look(with(0.0, {actor}));
+  for (const IntentPosterior& each : beliefs[0].at) {
+    EXPECT_EQ(each[0], 1.0);
+  }
+  Stream stream;
+  stream.step(model, observed(with(0.0, {actor}), 0));
+  const Scene next = with(0.1, {car(1)});
+  EXPECT_EQ(observer.look(next)[0].now()[0], stream.step(model, observed(next, 0))[0][0]);
 }
 
 TEST(Observer, KeepsToTheGridWhereLooksFallBesideIt) {
@@ -98,8 +144,8 @@ TEST(Observer, JudgesWhoIsNewAtOnce) {
   Observer observer(model);
   (void)observer.look(with(0.0, {car(1)}));
   const Beliefs& beliefs = observer.look(with(0.03, {car(1, 6.0), car(2, 6.0)}));
-  EXPECT_EQ(likeliest(beliefs[0].now()), Intention::maintain);  // not its turn yet
-  EXPECT_EQ(likeliest(beliefs[1].now()), Intention::brake);
+  EXPECT_EQ(braking(beliefs[0]), braking_at_sight(0.0));  // not its turn yet
+  EXPECT_GT(braking(beliefs[1]), braking(beliefs[0]));
 }
 
 TEST(Observer, ForgetsWhoHasBeenGoneForTwoSeconds) {
@@ -116,15 +162,15 @@ TEST(Observer, ForgetsWhoHasBeenGoneForTwoSeconds) {
 TEST(Observer, TheSameInstantTwiceIsJudgedOnce) {
   Observer observer(model);
   (void)observer.look(with(0.0, {car(1)}));
-  EXPECT_EQ(likeliest(observer.look(with(0.0, {car(1, 6.0)}))[0].now()), Intention::maintain);
-  EXPECT_EQ(likeliest(observer.look(with(0.1, {car(1, 6.0)}))[0].now()), Intention::brake);
+  EXPECT_EQ(braking(observer.look(with(0.0, {car(1, 6.0)}))[0]), braking_at_sight(0.0));
+  EXPECT_NE(braking(observer.look(with(0.1, {car(1, 6.0)}))[0]), braking_at_sight(0.0));
 }
 
 TEST(Observer, StartsAfreshWhenTimeGoesBack) {
   Observer observer(model);
   (void)observer.look(with(5.0, {car(1), car(2)}));
   const Beliefs& beliefs = observer.look(with(4.95, {car(1, 6.0)}));
-  EXPECT_EQ(likeliest(beliefs[0].now()), Intention::brake);
+  EXPECT_EQ(braking(beliefs[0]), braking_at_sight(6.0));
   EXPECT_EQ(observer.num_known(), 1U);
 }
 
@@ -134,7 +180,7 @@ TEST(Observer, OneIdOfTwoKindsIsTwoRoadUsers) {
   Observer observer(model);
   (void)observer.look(with(0.0, {car(1)}));
   const Beliefs& beliefs = observer.look(with(0.05, {truck}));  // the car's belief is not its own
-  EXPECT_EQ(likeliest(beliefs[0].now()), Intention::brake);
+  EXPECT_EQ(braking(beliefs[0]), braking_at_sight(6.0));
   EXPECT_EQ(observer.num_known(), 2U);
 }
 
@@ -154,8 +200,9 @@ TEST(Observer, HasRoomForWhoIsThereWhoeverWasThereBefore) {
     }
     const Beliefs& beliefs = observer.look(scene);
     ASSERT_EQ(beliefs.size(), world::max_actors);
+    const Beliefs fresh = beliefs_at_sight(model, scene);
     for (std::size_t i = 4; i < world::max_actors; ++i) {
-      EXPECT_EQ(beliefs[i].now(), beliefs_at_sight(model, scene)[i].now()) << round << ' ' << i;
+      EXPECT_EQ(beliefs[i].now(), fresh[i].now()) << round << ' ' << i;
     }
     EXPECT_EQ(observer.num_known(), world::max_actors);
   }
@@ -165,8 +212,12 @@ TEST(Observer, ACopyGoesItsOwnWay) {
   Observer observer(model);
   (void)observer.look(with(0.0, {car(1)}));
   Observer copy = observer;
-  EXPECT_EQ(likeliest(copy.look(with(0.1, {car(1, 6.0)}))[0].now()), Intention::brake);
-  EXPECT_EQ(likeliest(observer.look(with(0.1, {car(1)}))[0].now()), Intention::maintain);
+  const double of_copy = braking(copy.look(with(0.1, {car(1, 6.0)}))[0]);
+  const double of_original = braking(observer.look(with(0.1, {car(1)}))[0]);
+  EXPECT_GT(of_copy, of_original);
+  Observer again(model);
+  (void)again.look(with(0.0, {car(1)}));
+  EXPECT_EQ(braking(again.look(with(0.1, {car(1)}))[0]), of_original);  // the copy left no trace
 }
 
 TEST(Observer, AllocatesNothing) {

@@ -63,6 +63,22 @@ double slope_behind(const std::vector<double>& values, std::size_t now, double s
   return n < 2.0 ? 0.0 : (n * sum_tx - sum_t * sum_x) / (n * sum_tt - sum_t * sum_t);
 }
 
+/// Speeds as a tracker would follow them. A car's own speedometer stands for up to a second; where
+/// there is an accelerometer it carries the speed on, and new values pull it back within 1 s.
+std::vector<double> tracked_speeds(const RecordedVehicle& vehicle, double step) {
+  constexpr double pull = 1.0;  // [1/s]
+  std::vector<double> speeds;
+  for (const Sample& now : vehicle.samples) {
+    if (speeds.empty() || std::isnan(now.measured_acceleration)) {
+      speeds.push_back(now.speed);
+      continue;
+    }
+    const double carried = std::max(0.0, speeds.back() + now.measured_acceleration * step);
+    speeds.push_back(now.speed == 0.0 ? 0.0 : carried + pull * step * (now.speed - carried));
+  }
+  return speeds;
+}
+
 /// Turning rate over the last 0.5 s, or less [rad/s].
 double turning(const RecordedVehicle& vehicle, std::size_t now, double step) {
   const Sample& sample = vehicle.samples[now];
@@ -122,18 +138,15 @@ std::vector<double> ways_along(const RecordedVehicle& vehicle, double step) {
 
 std::vector<Observation> observations_of(const RecordedVehicle& vehicle, double step) {
   const std::vector<double> ways = ways_aside(vehicle);
-  std::vector<double> speeds;
-  for (const Sample& sample : vehicle.samples) {
-    speeds.push_back(sample.speed);
-  }
+  const std::vector<double> speeds = tracked_speeds(vehicle, step);
   std::vector<Observation> seen;
   for (std::size_t i = 0; i < vehicle.samples.size(); ++i) {
     const Sample& now = vehicle.samples[i];
-    Observation one{.speed = std::abs(now.speed),
+    Observation one{.speed = std::abs(speeds[i]),
                     .acceleration = slope_behind(speeds, i, step),
                     .yaw_rate = turning(vehicle, i, step),
                     .gap = now.gap,
-                    .gap_speed = now.lead_speed - now.speed,
+                    .gap_speed = now.lead_speed - speeds[i],
                     .steering = now.steering,
                     .throttle = now.throttle,
                     .brake = now.brake_pedal};
@@ -164,6 +177,11 @@ TrueMotion true_motion(const RecordedVehicle& vehicle, double step) {
   traffic::AxisMotion aside = smooth_stretches(ways_aside(vehicle), step);
   motion.lateral = std::move(aside.position);
   motion.lateral_speed = std::move(aside.velocity);
+  for (const Sample& sample : vehicle.samples) {
+    if (!std::isnan(sample.lane_width)) {
+      motion.lane_width = sample.lane_width;  // it changes little along a track
+    }
+  }
   return motion;
 }
 

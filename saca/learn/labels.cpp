@@ -70,13 +70,31 @@ bool is_undone(const TrueMotion& motion, const LabelRule& rule, double side, con
   return false;
 }
 
+/// Into another lane, or fast.
+bool is_manoeuvre(const TrueMotion& motion, const LabelRule& rule, double side, const Span& move) {
+  const auto lane = [&](std::size_t i) {
+    return std::round(motion.lateral[i] / motion.lane_width);
+  };
+  if (lane(move.first) != lane(move.last - 1)) {
+    return true;
+  }
+  for (std::size_t i = move.first; i < move.last; ++i) {
+    if (side * motion.lateral_speed[i] >= rule.swerve) {
+      return true;
+    }
+  }
+  return false;
+}
+
 Judged judge_move(const TrueMotion& motion, const LabelRule& rule, double side, const Span& move) {
   const double way = side * (motion.lateral[move.last - 1] - motion.lateral[move.first]);
   const bool cut = move.first == 0 || move.last == motion.lateral.size() ||
                    std::isnan(motion.lateral_speed[move.first - 1]) ||
                    std::isnan(motion.lateral_speed[move.last]);
   if (way >= rule.least_way) {
-    return is_undone(motion, rule, side, move) ? Judged::doubtful : Judged::yes;
+    return is_manoeuvre(motion, rule, side, move) && !is_undone(motion, rule, side, move)
+               ? Judged::yes
+               : Judged::doubtful;
   }
   return way >= rule.doubtful_way || cut ? Judged::doubtful : Judged::no;
 }

@@ -19,7 +19,7 @@ constexpr std::size_t size = 120;  // frames: 12 s
 
 TrueMotion steady() {
   return {std::vector<double>(size, 0.0), std::vector<double>(size, 0.0),
-          std::vector<double>(size, 0.0)};
+          std::vector<double>(size, 0.0), 3.5};
 }
 
 /// Adds a lateral way with the speed of a half sine: at rest aside before and after.
@@ -86,6 +86,22 @@ TEST(Labels, AShortWayIsNoMoveAndAWayBackIsDoubtful) {
   EXPECT_FALSE(labels_of(motion).scored[40]);
 }
 
+TEST(Labels, WithinTheLaneOnlyASwerveCounts) {
+  TrueMotion motion = steady();
+  add_move(motion, 1.4, 3.0, 4.0);  // pi 1.4 / 8 = 0.55 m/s at most
+  EXPECT_EQ(count(labels_of(motion), Intention::maintain), size);
+  EXPECT_FALSE(labels_of(motion).scored[50]);
+
+  for (double& each : motion.lateral) {
+    each += 1.0;  // the same across the bound at 1.75 m
+  }
+  EXPECT_GT(count(labels_of(motion), Intention::lane_left), 20U);
+
+  motion = steady();
+  add_move(motion, 1.4, 3.0, 2.0);  // 1.1 m/s
+  EXPECT_GT(count(labels_of(motion), Intention::lane_left), 10U);
+}
+
 TEST(Labels, BrakingIsBeyondTwoForThreeFramesAndASpeedLost) {
   TrueMotion motion = steady();
   add_braking(motion, -1.5, 28, 30);
@@ -140,7 +156,7 @@ TEST(Labels, OffTheLanesNobodyChangesThem) {
 
 TEST(Labels, OfNothingAreNone) {
   EXPECT_TRUE(labels_of({}).classes.empty());
-  EXPECT_THROW((void)labels_of({{0.0}, {}, {}}), ContractViolation);
+  EXPECT_THROW((void)labels_of({{0.0}, {}, {}, 3.5}), ContractViolation);
 }
 
 }  // namespace

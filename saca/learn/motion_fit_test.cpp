@@ -14,7 +14,7 @@ namespace {
 
 TrueMotion still(std::size_t size) {
   return {std::vector<double>(size, 0.0), std::vector<double>(size, 0.0),
-          std::vector<double>(size, 0.0)};
+          std::vector<double>(size, 0.0), 3.5};
 }
 
 TEST(LogNormal, FindsWhatWasDrawn) {

@@ -171,6 +171,7 @@ std::vector<double> crossings(const DrivePlan& plan, const DriveMotion& motion) 
 
 void add_labels(const DrivePlan& plan, const DriveMotion& motion, Sequence& sequence) {
   TrueMotion truth;
+  truth.lane_width = plan.lane_width;
   for (std::size_t i = DriveMotion::before; i < motion.speed.size(); i += samples_per_frame) {
     truth.acceleration.push_back(motion.acceleration[i]);
     truth.lateral.push_back(motion.aside[i]);

@@ -57,7 +57,7 @@ class LstmCrfImpl : public torch::nn::Module {
   torch::Tensor transition_;
   torch::Tensor sign_;     ///< of each feature in the mirror
   torch::Tensor swapped_;  ///< class in the mirror
-  torch::Tensor mask_;  ///< of forbidden transitions: very negative   (K x K)
+  torch::Tensor mask_;     ///< of forbidden transitions: very negative   (K x K)
 };
 TORCH_MODULE(LstmCrf);
 

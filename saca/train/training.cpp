@@ -32,35 +32,27 @@ std::size_t frames_ahead(std::size_t horizon) {
   return static_cast<std::size_t>(std::lround(intent::horizons[horizon] / learn::frame_step));
 }
 
-/// Features of all frames, as a stream would remember them.
-torch::Tensor features_of(const Sequence& sequence) {
-  const auto num = static_cast<std::int64_t>(sequence.observations.size());
-  torch::Tensor features = torch::empty({num, columns});
-  auto* row = features.data_ptr<float>();
-  intent::Memory memory;
-  for (const intent::Observation& seen : sequence.observations) {
-    memory.add(seen);
-    const intent::Features now = memory.features();
-    row = std::copy(now.begin(), now.end(), row);
-  }
-  return features;
-}
-
-Piece whole_piece(const Sequence& sequence) {
-  const std::size_t num = sequence.observations.size();
-  const auto rows = static_cast<std::int64_t>(num);
-  Piece piece{.features = features_of(sequence),
+/// Frames [first, last) of a sequence, as a stream sees them that begins there.
+Piece piece_of(const Sequence& sequence, std::size_t first, std::size_t last) {
+  const auto rows = static_cast<std::int64_t>(last - first);
+  Piece piece{.features = torch::empty({rows, columns}),
               .labels = torch::zeros({rows, rows_ahead}, torch::kInt64),
               .known = torch::zeros({rows, rows_ahead}, torch::kBool)};
+  auto* features = piece.features.data_ptr<float>();
   auto labels = piece.labels.accessor<std::int64_t, 2>();
   auto known = piece.known.accessor<bool, 2>();
-  for (std::size_t h = 0; h < intent::num_horizons; ++h) {
-    for (std::size_t t = 0; t + frames_ahead(h) < num; ++t) {
+  intent::Memory memory;
+  for (std::size_t t = first; t < last; ++t) {
+    memory.add(sequence.observations[t]);
+    const intent::Features now = memory.features();
+    features = std::copy(now.begin(), now.end(), features);
+    for (std::size_t h = 0; h < intent::num_horizons; ++h) {
       const std::size_t later = t + frames_ahead(h);
-      const auto row = static_cast<std::int64_t>(t);
-      const auto column = static_cast<std::int64_t>(h);
-      labels[row][column] = sequence.labels[later];
-      known[row][column] = sequence.scored[later];
+      if (later < sequence.labels.size()) {
+        const auto row = static_cast<std::int64_t>(t - first);
+        labels[row][static_cast<std::int64_t>(h)] = sequence.labels[later];
+        known[row][static_cast<std::int64_t>(h)] = sequence.scored[later];
+      }
     }
   }
   return piece;
@@ -310,18 +302,24 @@ std::optional<Error> Training::resume() {
 
 }  // namespace
 
-std::vector<Piece> pieces_of(const std::vector<Sequence>& sequences, int longest) {
+std::vector<Piece> pieces_of(const std::vector<Sequence>& sequences, int longest, bool with_late) {
   expects(longest > 0, "longest > 0");
   std::vector<Piece> pieces;
+  const auto add = [&](const Sequence& sequence, std::size_t first, std::size_t last) {
+    Piece piece = piece_of(sequence, first, last);
+    if (piece.known.any().item<bool>()) {
+      pieces.push_back(std::move(piece));
+    }
+  };
+  std::size_t number = 0;
   for (const Sequence& sequence : sequences) {
-    const Piece whole = whole_piece(sequence);
-    const std::int64_t num = whole.features.size(0);
-    for (std::int64_t first = 0; first < num; first += longest) {
-      const std::int64_t size = std::min<std::int64_t>(longest, num - first);
-      const Piece piece{whole.features.narrow(0, first, size), whole.labels.narrow(0, first, size),
-                        whole.known.narrow(0, first, size)};
-      if (piece.known.any().item<bool>()) {
-        pieces.push_back(piece);
+    const std::size_t num = sequence.observations.size();
+    for (std::size_t first = 0; first < num; first += static_cast<std::size_t>(longest)) {
+      const std::size_t last = std::min(num, first + static_cast<std::size_t>(longest));
+      add(sequence, first, last);
+      const std::size_t late = first + (last - first) * (1 + number++ % 3) / 4;
+      if (with_late && late < last) {
+        add(sequence, late, last);
       }
     }
   }
@@ -355,8 +353,8 @@ Result<LstmCrf> trained(const std::vector<Sequence>& sequences,
                         const std::filesystem::path& state,
                         const std::function<bool(const Epoch&)>& on_epoch) {
   expects(!sequences.empty() && plan.epochs > 0 && plan.batch > 0, "something to train with");
-  return Training(pieces_of(sequences, plan.longest), pieces_of(held_out, plan.longest), plan,
-                  state)
+  return Training(pieces_of(sequences, plan.longest, true),
+                  pieces_of(held_out, plan.longest, false), plan, state)
       .run(on_epoch);
 }
 

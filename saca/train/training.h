@@ -16,7 +16,7 @@ namespace saca::train {
 /// How networks are trained. All randomness comes from the seed.
 struct TrainingPlan {
   std::uint64_t seed = 1;
-  int epochs = 24;
+  int epochs = 12;
   int batch = 64;       ///< sequences
   int longest = 100;    ///< frames of one piece; longer sequences are cut
   double step = 3e-3;   ///< largest step of the optimiser (AdamW, falling as a cosine)
@@ -44,10 +44,12 @@ struct Piece {
   torch::Tensor known;     ///< (T x H), bool
 };
 
-/// Pieces of at most `longest` frames. Labels of a horizon are those so many frames later; unknown
-/// where they are in doubt or after the end.
+/// Pieces of at most `longest` frames, each as a stream sees it that begins there. Labels of a
+/// horizon are those so many frames later; unknown where they are in doubt or after the end.
+/// @param with_late  also of each piece what comes after its first quarter, half or three quarters:
+///                   somebody may come into view in the middle of anything
 [[nodiscard]] std::vector<Piece> pieces_of(const std::vector<learn::Sequence>& sequences,
-                                           int longest);
+                                           int longest, bool with_late);
 
 /// Pieces side by side, filled up to the longest.
 [[nodiscard]] Batch batch_of(const std::vector<const Piece*>& pieces);

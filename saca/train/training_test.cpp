@@ -7,6 +7,7 @@
 
 #include "saca/config/tensors.h"
 #include "saca/core/file.h"
+#include "saca/intent/features.h"
 #include "saca/intent/model.h"
 #include "saca/learn/foretell.h"
 #include "saca/learn/score.h"
@@ -95,7 +96,7 @@ TEST(Pieces, LabelsAreThoseOfLater) {
     sequence.labels.push_back(static_cast<std::uint8_t>(t >= 15 ? 3 : 0));
     sequence.scored.push_back(t != 14);
   }
-  const auto pieces = pieces_of({sequence}, 20);
+  const auto pieces = pieces_of({sequence}, 20, false);
   ASSERT_EQ(pieces.size(), 2U);
   EXPECT_EQ(pieces[0].features.size(0), 20);
   EXPECT_EQ(pieces[1].features.size(0), 5);
@@ -106,6 +107,13 @@ TEST(Pieces, LabelsAreThoseOfLater) {
   EXPECT_FALSE(pieces[0].known[9][1].item<bool>());
   EXPECT_TRUE(pieces[1].known[4][0].item<bool>());
   EXPECT_FALSE(pieces[1].known[0][1].item<bool>());  // frame 25 was never seen
+
+  const auto with_late = pieces_of({sequence}, 20, true);
+  ASSERT_EQ(with_late.size(), 4U);
+  EXPECT_EQ(with_late[1].features.size(0), 15);
+  EXPECT_EQ(with_late[1].labels[10][0].item<int>(), 3);  // frame 15
+  const auto memory = static_cast<std::int64_t>(intent::Feature::memory);
+  EXPECT_EQ(with_late[1].features[0][memory].item<float>(), 0.0F);  // a stream that begins
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ def test_a_run_builds_the_atlas_where_there_is_none_that_is_right(tmp_path):
     program = tmp_path / "build" / "own" / "saca"
     program.parent.mkdir(parents=True)
     shutil.copy(PROGRAM, program)
-    for folder in ["data", "scenarios"]:
+    for folder in ["data", "scenarios", "models"]:
         shutil.copytree(ROOT / folder, tmp_path / folder)
     atlas = tmp_path / "atlases" / "compact_rwd_ev.atlas"
 

@@ -300,7 +300,7 @@ def test_without_a_model_it_runs_and_says_so(tmp_path):
     os.link(PROGRAM, lonely) if os.stat(PROGRAM).st_dev == os.stat(tmp_path).st_dev else \
         lonely.write_bytes(pathlib.Path(PROGRAM).read_bytes())
     lonely.chmod(0o755)
-    for folder in ("data", "scenarios"):
+    for folder in ("data", "scenarios", "models"):
         (tmp_path / folder).symlink_to(ROOT / folder)
     run = subprocess.run([lonely, "run", "100car_8676", "--pace", "lockstep"], cwd=tmp_path,
                          capture_output=True, text=True, timeout=120)
