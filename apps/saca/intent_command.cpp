@@ -134,6 +134,7 @@ void add_intent(CLI::App& line, int& exit_code) {
   command->require_subcommand(1);
   add_examples(*command, exit_code);
   add_intent_eval(*command, exit_code);
+  add_intent_motion(*command, exit_code);
   add_intent_show(*command, exit_code);
 }
 

@@ -185,12 +185,12 @@ TrueMotion true_motion(const RecordedVehicle& vehicle, double step) {
   return motion;
 }
 
-std::vector<Sequence> examples_of(const traffic::RecordedSet& set, std::size_t least_frames) {
+std::vector<Sequence> examples_of(const traffic::RecordedSet& set) {
   std::vector<Sequence> sequences;
   for (const traffic::Recording& recording : set.recordings) {
     expects(std::abs(recording.step - frame_step) < 1e-9, "recordings at frame_step");
     for (const RecordedVehicle& vehicle : recording.vehicles) {
-      if (vehicle.samples.size() < std::max<std::size_t>(least_frames, 3)) {
+      if (vehicle.samples.size() < fewest_frames) {
         continue;
       }
       Labels labels = labels_of(true_motion(vehicle, recording.step));

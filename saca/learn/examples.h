@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "saca/learn/labels.h"
@@ -18,11 +19,13 @@ namespace saca::learn {
 /// accelerometer where it has one, else from its speeds.
 [[nodiscard]] TrueMotion true_motion(const traffic::RecordedVehicle& vehicle, double step);
 
-/// Every recorded vehicle of at least `least_frames` samples as a sequence; labels by `labels_of`
+/// Shorter tracks tell too little.
+constexpr std::size_t fewest_frames = 20;
+
+/// Every recorded vehicle of at least `fewest_frames` samples as a sequence; labels by `labels_of`
 /// on its true motion. A group is a recording's group and a block of a hundred vehicle ids: no
 /// vehicle is in two of them.
 /// @throws ContractViolation  if a recording has another step than frame_step
-[[nodiscard]] std::vector<Sequence> examples_of(const traffic::RecordedSet& set,
-                                                std::size_t least_frames = 20);
+[[nodiscard]] std::vector<Sequence> examples_of(const traffic::RecordedSet& set);
 
 }  // namespace saca::learn

@@ -1,0 +1,101 @@
+#include <fmt/core.h>
+
+#include <array>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "apps/saca/commands.h"
+#include "apps/saca/intent_commands.h"
+#include "apps/saca/places.h"
+#include "saca/learn/examples.h"
+#include "saca/learn/motion_fit.h"
+#include "saca/traffic/set_file.h"
+
+namespace saca::app {
+namespace {
+
+using learn::LogNormal;
+using learn::MotionFit;
+
+constexpr double scaled_to = 3.5;  // [m]: the width of the lanes that lane changes are scaled to
+
+struct MotionOptions {
+  std::vector<std::string> sets;
+  bool as_json = false;
+};
+
+/// What is measured of positive quantities, in words, and its name in JSON.
+struct Measured {
+  std::string_view words;
+  const char* key;
+  LogNormal MotionFit::*fit;
+};
+constexpr std::array<Measured, 4> measured{
+    {{"deceleration of a braking [m/s2]", "braking_mps2", &MotionFit::braking},
+     {"its rise [s]", "rise_s", &MotionFit::rise},
+     {"deceleration 1 s on over that of now", "held", &MotionFit::held},
+     {"a lane's change [s]", "lane_change_s", &MotionFit::lane_change}}};
+
+nlohmann::json fit_json(const MotionFit& fit) {
+  nlohmann::json document = {{"acceleration_sd_mps2", fit.acceleration_sd},
+                             {"acceleration_time_s", fit.acceleration_time}};
+  for (const Measured& each : measured) {
+    const LogNormal& one = fit.*each.fit;
+    document[each.key] = {{"num", one.num}, {"median", one.median}, {"log_sd", one.log_sd}};
+  }
+  return document;
+}
+
+void tell_fit(const std::string& site, const MotionFit& fit) {
+  fmt::print("{}: maintaining, acceleration wavers by {:.2f} m/s2 over {:.1f} s\n", site,
+             fit.acceleration_sd, fit.acceleration_time);
+  for (const Measured& each : measured) {
+    const LogNormal& one = fit.*each.fit;
+    fmt::print("  {:38} median {:5.2f}, sd of the logarithm {:.2f} ({} measured)\n", each.words,
+               one.median, one.log_sd, one.num);
+  }
+}
+
+int fit_motion(const MotionOptions& options) {
+  std::map<std::string, std::vector<learn::TrueMotion>> motions;
+  for (const std::string& file : options.sets) {
+    const auto set = traffic::read_set(file);
+    if (!set.has_value()) {
+      return refused(set.error());
+    }
+    for (const traffic::Recording& recording : set.value().recordings) {
+      for (const traffic::RecordedVehicle& vehicle : recording.vehicles) {
+        if (vehicle.samples.size() >= learn::fewest_frames) {
+          motions[recording.site].push_back(learn::true_motion(vehicle, recording.step));
+        }
+      }
+    }
+  }
+  nlohmann::json document = {{"schema", "saca.intent_motion/1"}};
+  for (const auto& [site, some] : motions) {
+    const MotionFit fit = learn::motion_fit(some, scaled_to);
+    options.as_json ? void(document["sites"][site] = fit_json(fit)) : tell_fit(site, fit);
+  }
+  if (options.as_json) {
+    fmt::print("{}\n", document.dump(1));
+  }
+  return success;
+}
+
+}  // namespace
+
+void add_intent_motion(CLI::App& intent, int& exit_code) {
+  CLI::App* const command =
+      intent.add_subcommand("motion", "Measure how people really brake and change lanes");
+  const auto options = std::make_shared<MotionOptions>();
+  command->add_option("sets", options->sets, "HDF5 files of `saca traffic pack`")->required();
+  command->add_flag("--json", options->as_json, "For programs");
+  command->callback([options, &exit_code] { exit_code = fit_motion(*options); });
+}
+
+}  // namespace saca::app
