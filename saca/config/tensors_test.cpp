@@ -19,10 +19,14 @@ using testing::HasSubstr;
 /// A file as the format's description says, put together by hand.
 std::string file_of(const std::string& header, const std::vector<float>& numbers) {
   const std::uint64_t size = header.size();
-  std::string bytes(8 + header.size() + 4 * numbers.size(), '\0');
+  std::string bytes(8, '\0');
   std::memcpy(bytes.data(), &size, 8);
-  std::memcpy(bytes.data() + 8, header.data(), header.size());
-  std::memcpy(bytes.data() + 8 + header.size(), numbers.data(), 4 * numbers.size());
+  bytes += header;
+  for (const float number : numbers) {
+    std::string four(4, '\0');
+    std::memcpy(four.data(), &number, 4);
+    bytes += four;
+  }
   return bytes;
 }
 

@@ -8,13 +8,20 @@
 #include <string>
 #include <vector>
 
+#include "saca/intent/network.h"
 #include "saca/learn/sequence.h"
 
 namespace saca::learn {
 
 /// How many frames ahead each head of a model foretells.
-constexpr std::array<std::size_t, 3> frames_ahead{0, 5, 10};
-constexpr std::size_t num_heads = frames_ahead.size();
+constexpr std::size_t num_heads = intent::num_horizons;
+constexpr std::array<std::size_t, num_heads> frames_ahead = [] {
+  std::array<std::size_t, num_heads> frames{};
+  for (std::size_t head = 0; head < num_heads; ++head) {
+    frames[head] = static_cast<std::size_t>(intent::horizons[head] / frame_step + 0.5);
+  }
+  return frames;
+}();
 
 /// Probability of each class, in the order of `intent::Intention`; they sum to 1.
 using ClassProbabilities = std::array<double, num_vehicle_classes>;

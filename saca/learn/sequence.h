@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "saca/intent/crf.h"
+#include "saca/intent/features.h"
 #include "saca/intent/intention.h"
 #include "saca/intent/observation.h"
 
@@ -12,10 +14,10 @@
 namespace saca::learn {
 
 /// Seconds from one frame of a sequence to the next.
-constexpr double frame_step = 0.1;
+constexpr double frame_step = intent::look_step;
 
 /// The first intentions, which vehicles can have: eq. 5's six.
-constexpr std::size_t num_vehicle_classes = 6;
+constexpr std::size_t num_vehicle_classes = intent::num_classes;
 
 /// One road user seen at 10 Hz, with what it truly did.
 struct Sequence {

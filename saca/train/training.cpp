@@ -17,6 +17,7 @@
 #include "saca/core/fnv.h"
 #include "saca/intent/features.h"
 #include "saca/intent/network.h"
+#include "saca/learn/score.h"
 
 namespace saca::train {
 namespace {
@@ -27,10 +28,6 @@ using learn::Sequence;
 constexpr auto columns = static_cast<std::int64_t>(intent::num_features);
 constexpr auto rows_ahead = static_cast<std::int64_t>(intent::num_horizons);
 constexpr double gradient_limit = 1.0;  // norm: LSTMs explode now and then
-
-std::size_t frames_ahead(std::size_t horizon) {
-  return static_cast<std::size_t>(std::lround(intent::horizons[horizon] / learn::frame_step));
-}
 
 /// Frames [first, last) of a sequence, as a stream sees them that begins there.
 Piece piece_of(const Sequence& sequence, std::size_t first, std::size_t last) {
@@ -47,7 +44,7 @@ Piece piece_of(const Sequence& sequence, std::size_t first, std::size_t last) {
     const intent::Features now = memory.features();
     features = std::copy(now.begin(), now.end(), features);
     for (std::size_t h = 0; h < intent::num_horizons; ++h) {
-      const std::size_t later = t + frames_ahead(h);
+      const std::size_t later = t + learn::frames_ahead[h];
       if (later < sequence.labels.size()) {
         const auto row = static_cast<std::int64_t>(t - first);
         labels[row][static_cast<std::int64_t>(h)] = sequence.labels[later];
