@@ -18,7 +18,8 @@ constexpr std::size_t num_heads = intent::num_horizons;
 constexpr std::array<std::size_t, num_heads> frames_ahead = [] {
   std::array<std::size_t, num_heads> frames{};
   for (std::size_t head = 0; head < num_heads; ++head) {
-    frames[head] = static_cast<std::size_t>(intent::horizons[head] / frame_step + 0.5);
+    frames[head] =
+        static_cast<std::size_t>((intent::horizons[head] + 0.5 * frame_step) / frame_step);
   }
   return frames;
 }();

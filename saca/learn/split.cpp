@@ -32,6 +32,7 @@ std::vector<int> parts_of(std::span<const Sequence> sequences, int num_parts) {
                                                [](std::uint8_t label) { return label != 0; }));
   }
   std::vector<std::tuple<std::string, Weight, std::string>> order;
+  order.reserve(groups.size());
   for (const auto& [key, weight] : groups) {
     order.emplace_back(key.first, weight, key.second);
   }
