@@ -24,14 +24,14 @@ function(saca_test target)
   target_precompile_headers(${target} REUSE_FROM saca_test_headers)
 endfunction()
 
-# saca_module(<name> [SOURCES <a.cpp>...] [DEPS <module>...])
+# saca_module(<name> [NOT_INSTALLED] [SOURCES <a.cpp>...] [DEPS <module>...])
 #
 # Makes the library saca::<name> from the current folder. Every <a>_test.cpp in the folder becomes
 # the test <name>.<a>; a source without one stops the configuration. Every <a>_bench.cpp becomes a
 # benchmark, run for an instant as a test so that it cannot rot. One more test checks that the folder
 # includes only the modules in DEPS. Tests run in the project's folder.
 function(saca_module name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "NOT_INSTALLED" "" "SOURCES;DEPS")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "saca_module(${name}): what is `${arg_UNPARSED_ARGUMENTS}`?")
   endif()
@@ -52,10 +52,12 @@ function(saca_module name)
   list(TRANSFORM arg_DEPS PREPEND saca:: OUTPUT_VARIABLE libraries)
   target_link_libraries(saca_${name} PUBLIC ${libraries} PRIVATE $<BUILD_INTERFACE:saca_flags>)
   set_target_properties(saca_${name} PROPERTIES EXPORT_NAME ${name})
-  install(TARGETS saca_${name} EXPORT saca_targets)
-  file(GLOB headers *.h)
-  list(FILTER headers EXCLUDE REGEX "_(kernel|kernel_of|pack|handle)\\.h$")  # of kernels and of other libraries: not for others
-  install(FILES ${headers} DESTINATION include/saca/${name})
+  if(NOT arg_NOT_INSTALLED)
+    install(TARGETS saca_${name} EXPORT saca_targets)
+    file(GLOB headers *.h)
+    list(FILTER headers EXCLUDE REGEX "_(kernel|kernel_of|pack|handle)\\.h$")  # of kernels and of other libraries: not for others
+    install(FILES ${headers} DESTINATION include/saca/${name})
+  endif()
   if(NOT SACA_DEVELOPER)
     return()
   endif()

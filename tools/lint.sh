@@ -3,7 +3,8 @@
 # cores. A folder's sources are looked at as one, because most of the time goes into what they all
 # include; where something is found, they are looked at again one by one, to say where. What that
 # can miss is a using-declaration that only another file of the folder uses. A folder that passed
-# is not looked at again until it, a header or the rules change.
+# is not looked at again until it, a header or the rules change. saca/train is left out: clang 14 does
+# not understand libtorch's headers as C++20.
 # usage: tools/lint.sh [FILE...]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -14,7 +15,7 @@ command -v clang-tidy-14 >/dev/null || {
 
 tidy() {
   clang-tidy-14 --quiet --config-file=.clang-tidy "$@" -- -std=c++20 -I. -isystem /usr/include/eigen3 -isystem /usr/include/hdf5/serial \
-    -isystem /usr/include/cairo -isystem /usr/include/torch/csrc/api/include -DSACA_VERSION='""' 2>/dev/null
+    -isystem /usr/include/cairo -DSACA_VERSION='""' 2>/dev/null
 }
 lint_folder() {  # FOLDER
   local sources joined stamp
@@ -44,6 +45,6 @@ if [ $# -gt 0 ]; then
   tidy "$@"
 else
   mkdir -p build/lint
-  git ls-files -- 'saca/*/CMakeLists.txt' apps/saca/CMakeLists.txt | xargs -n 1 dirname |
+  git ls-files -- 'saca/*/CMakeLists.txt' apps/saca/CMakeLists.txt ':!saca/train' | xargs -n 1 dirname |
     xargs -P "$(nproc)" -I{} bash -euo pipefail -c 'lint_folder {}'
 fi
