@@ -1,7 +1,6 @@
 #include <fmt/core.h>
 
 #include <array>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -26,7 +25,6 @@
 namespace saca::app {
 namespace {
 
-namespace fs = std::filesystem;
 using learn::Figures;
 using learn::Forecasts;
 using learn::Interval;
@@ -276,7 +274,7 @@ std::optional<Error> add_unseen(Comparison& comparison, const std::string& metho
 /// What was recorded, each by models that have not seen it, beside all baselines.
 std::optional<Error> compare_recorded(const EvalOptions& options, const ModelsByLeftOut& models,
                                       const Scored& scored, Comparison& comparison) {
-  if (const auto problem = add_unseen(comparison, "LSTM-CRF", models, scored)) {
+  if (auto problem = add_unseen(comparison, "LSTM-CRF", models, scored)) {
     return problem;
   }
   if (!options.plain_models.empty()) {
@@ -284,13 +282,14 @@ std::optional<Error> compare_recorded(const EvalOptions& options, const ModelsBy
     if (!plain.has_value()) {
       return plain.error();
     }
-    if (const auto problem =
+    if (auto problem =
             add_unseen(comparison, "LSTM without CRF", without_chains(plain.value()), scored)) {
       return problem;
     }
   }
   const auto by = [&](auto&& foretell) {
     std::vector<Forecasts> all;
+    all.reserve(scored.sequences.size());
     for (const Sequence& sequence : scored.sequences) {
       all.push_back(foretell(sequence));
     }

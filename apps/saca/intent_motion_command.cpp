@@ -79,7 +79,11 @@ int fit_motion(const MotionOptions& options) {
   nlohmann::json document = {{"schema", "saca.intent_motion/1"}};
   for (const auto& [site, some] : motions) {
     const MotionFit fit = learn::motion_fit(some, scaled_to);
-    options.as_json ? void(document["sites"][site] = fit_json(fit)) : tell_fit(site, fit);
+    if (options.as_json) {
+      document["sites"][site] = fit_json(fit);
+    } else {
+      tell_fit(site, fit);
+    }
   }
   if (options.as_json) {
     fmt::print("{}\n", document.dump(1));

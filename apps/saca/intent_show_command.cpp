@@ -103,6 +103,7 @@ int show(const ShowOptions& options) {
     return bad_input;
   }
   std::vector<Sequence> sequences;
+  sequences.reserve(chosen.size());
   for (const std::size_t i : chosen) {
     sequences.push_back(set.value().sequences[i]);
   }
