@@ -35,12 +35,7 @@ void Memory::add(const Observation& observation) {
   if (num_seen_ > 0) {
     const Look& last = back(0);
     if (!std::isnan(observation.offset) && !std::isnan(last.seen.offset)) {
-      const double width = observation.lane_width;
-      double moved = observation.offset - last.seen.offset;
-      if (std::abs(moved) > 0.5 * width) {  // the nearest lane is another one now
-        moved -= std::copysign(width, moved);
-      }
-      look.lateral = last.lateral + moved;
+      look.lateral = last.lateral + moved_aside(last.seen, observation);
       look.in_lane = std::min(last.in_lane + 1, capacity - 1);
     }
     if (std::isfinite(observation.gap) && std::isfinite(last.seen.gap) &&

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 namespace saca::intent {
@@ -26,5 +27,13 @@ struct Observation {
   double throttle = not_known;  ///< pedal, 0 to 1
   double brake = not_known;     ///< likewise
 };
+
+/// Way to the left from one observation to the next [m]; NaN unless both are in a lane. An offset
+/// that jumps by more than half a lane's width is another lane, not another place.
+[[nodiscard]] inline double moved_aside(const Observation& last, const Observation& now) {
+  const double moved = now.offset - last.offset;
+  return std::abs(moved) > 0.5 * now.lane_width ? moved - std::copysign(now.lane_width, moved)
+                                                : moved;
+}
 
 }  // namespace saca::intent

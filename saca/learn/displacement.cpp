@@ -26,11 +26,7 @@ std::vector<Vec2> places(const Sequence& sequence) {
   for (const Observation& now : sequence.observations) {
     if (last != nullptr) {
       at.x += 0.5 * (last->speed + now.speed) * frame_step;
-      double moved = now.offset - last->offset;
-      if (std::abs(moved) > 0.5 * now.lane_width) {  // another lane is nearest now
-        moved -= std::copysign(now.lane_width, moved);
-      }
-      at.y = std::isnan(last->offset) ? now.offset : at.y + moved;
+      at.y = std::isnan(last->offset) ? now.offset : at.y + intent::moved_aside(*last, now);
     } else {
       at.y = now.offset;
     }
