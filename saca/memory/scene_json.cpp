@@ -41,23 +41,29 @@ json ego_json(const Scene& scene) {
 }
 
 json actor_json(const Actor& actor) {
-  return {{"id", actor.id},
-          {"kind", world::name(actor.kind)},
-          {"footprint", footprint_json(actor.footprint)},
-          {"mass_kg", actor.mass},
-          {"x_m", actor.X_WA.p.x},
-          {"y_m", actor.X_WA.p.y},
-          {"heading_rad", actor.X_WA.yaw},
-          {"vx_mps", actor.v_W.x},
-          {"vy_mps", actor.v_W.y},
-          {"ax_mps2", actor.a_W.x},
-          {"ay_mps2", actor.a_W.y},
-          {"yaw_rate_radps", actor.yaw_rate},
-          {"position_sd_m", actor.position_sd},
-          {"velocity_sd_mps", actor.velocity_sd},
-          {"existence", actor.existence},
-          {"age_s", actor.age},
-          {"occluded", actor.occluded}};
+  json node = {{"id", actor.id},
+               {"kind", world::name(actor.kind)},
+               {"footprint", footprint_json(actor.footprint)},
+               {"mass_kg", actor.mass},
+               {"x_m", actor.X_WA.p.x},
+               {"y_m", actor.X_WA.p.y},
+               {"heading_rad", actor.X_WA.yaw},
+               {"vx_mps", actor.v_W.x},
+               {"vy_mps", actor.v_W.y},
+               {"ax_mps2", actor.a_W.x},
+               {"ay_mps2", actor.a_W.y},
+               {"yaw_rate_radps", actor.yaw_rate},
+               {"position_sd_m", actor.position_sd},
+               {"velocity_sd_mps", actor.velocity_sd},
+               {"existence", actor.existence},
+               {"age_s", actor.age},
+               {"occluded", actor.occluded}};
+  if (actor.shared) {
+    node["shared"] = {{"steering_rad", actor.shared->steering},
+                      {"throttle", actor.shared->throttle},
+                      {"brake", actor.shared->brake}};
+  }
+  return node;
 }
 
 json road_json(const Road& road) {
@@ -108,6 +114,8 @@ class Reader {
     }
     return value->get<double>();
   }
+
+  [[nodiscard]] bool has(std::string_view key) const { return node_.contains(key); }
 
   bool flag(std::string_view key) {
     const json* value = find(key);
@@ -226,6 +234,14 @@ void read_ego(Reader reader, Scene& scene) {
   reader.refuse_others();
 }
 
+world::SharedControls read_shared(Reader reader) {
+  const world::SharedControls shared{.steering = reader.number("steering_rad"),
+                                     .throttle = reader.number("throttle"),
+                                     .brake = reader.number("brake")};
+  reader.refuse_others();
+  return shared;
+}
+
 Actor read_actor(Reader reader) {
   Actor actor;
   actor.id = reader.small_integer("id");
@@ -242,6 +258,9 @@ Actor read_actor(Reader reader) {
   actor.existence = reader.number("existence");
   actor.age = reader.number("age_s");
   actor.occluded = reader.flag("occluded");
+  if (reader.has("shared")) {
+    actor.shared = read_shared(reader.object("shared"));
+  }
   reader.refuse_others();
   return actor;
 }

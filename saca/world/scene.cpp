@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "saca/core/names.h"
 
@@ -55,6 +56,12 @@ bool is_valid(const Road& road) {
          std::isfinite(road.right_edge) && road.right_edge < 0.0;
 }
 
+bool is_valid(const SharedControls& shared) {
+  const auto is_pedal = [](double way) { return way >= 0.0 && way <= 1.0; };
+  return std::abs(shared.steering) <= 0.5 * std::numbers::pi && is_pedal(shared.throttle) &&
+         is_pedal(shared.brake);
+}
+
 std::optional<std::string_view> broken_rule(const Actor& actor) {
   if (!is_motion(actor.X_WA, actor.v_W, actor.a_W, actor.yaw_rate)) {
     return "an actor's motion is finite and at most 200 m/s, 1000 m/s^2, 100 rad/s";
@@ -69,6 +76,9 @@ std::optional<std::string_view> broken_rule(const Actor& actor) {
   if (!is_amount(actor.position_sd) || !is_amount(actor.velocity_sd) || !is_amount(actor.age) ||
       !(actor.existence >= 0.0 && actor.existence <= 1.0)) {
     return "an actor's uncertainties are >= 0 and its existence is in [0, 1]";
+  }
+  if (actor.shared && !is_valid(*actor.shared)) {
+    return "shared steering is within 90 deg, shared pedals are in [0, 1]";
   }
   return std::nullopt;
 }

@@ -27,6 +27,13 @@ enum class ActorKind : std::uint8_t {
 [[nodiscard]] std::string_view name(ActorKind kind);
 [[nodiscard]] std::optional<ActorKind> actor_kind_from(std::string_view name);
 
+/// What a vehicle tells of its controls by radio, now.
+struct SharedControls {
+  double steering = 0.0;  ///< mean angle of the steered road wheels, left positive [rad]
+  double throttle = 0.0;  ///< pedal, 0 to 1
+  double brake = 0.0;     ///< likewise
+};
+
 /// A road user or obstacle as perceived: nobody has true states.
 struct Actor {
   std::uint8_t id = 0;  ///< unique within its kind, from 1; with the kind it makes the name
@@ -42,6 +49,7 @@ struct Actor {
   double existence = 1.0;    ///< probability that it is there at all, in [0, 1]
   double age = 0.0;          ///< since it was last measured [s], >= 0
   bool occluded = false;     ///< not seen now; the state is a prediction
+  std::optional<SharedControls> shared;  ///< most share nothing
 };
 
 /// "car1", "pedestrian2": the only names that reach a prompt.

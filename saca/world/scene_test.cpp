@@ -51,6 +51,9 @@ TEST(Scene, EachRuleIsChecked) {
       [](Scene& s) { s.actors[1].v_W.x = 1e308; },
       [](Scene& s) { s.ego.yaw_rate = 1e6; },
       [](Scene& s) { s.actors[1].id = 1; },
+      [](Scene& s) { s.actors[1].shared = {.steering = 2.0}; },
+      [](Scene& s) { s.actors[1].shared = {.brake = 1.1}; },
+      [](Scene& s) { s.actors[1].shared = {.throttle = -0.1}; },
       [](Scene& s) {
         s.actors[1].footprint = {Shape::segment, 9.0, 0.0};
       },  // a car
