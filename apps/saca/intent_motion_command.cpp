@@ -42,8 +42,8 @@ constexpr std::array<Measured, 4> measured{
      {"a lane's change [s]", "lane_change_s", &MotionFit::lane_change}}};
 
 nlohmann::json fit_json(const MotionFit& fit) {
-  nlohmann::json document = {{"acceleration_sd_mps2", fit.acceleration_sd},
-                             {"acceleration_time_s", fit.acceleration_time}};
+  nlohmann::json document = {{"acceleration_sd_mps2", fit.wavering.sd},
+                             {"acceleration_time_s", fit.wavering.time}};
   for (const Measured& each : measured) {
     const LogNormal& one = fit.*each.fit;
     document[each.key] = {{"num", one.num}, {"median", one.median}, {"log_sd", one.log_sd}};
@@ -53,7 +53,7 @@ nlohmann::json fit_json(const MotionFit& fit) {
 
 void tell_fit(const std::string& site, const MotionFit& fit) {
   fmt::print("{}: maintaining, acceleration wavers by {:.2f} m/s2 over {:.1f} s\n", site,
-             fit.acceleration_sd, fit.acceleration_time);
+             fit.wavering.sd, fit.wavering.time);
   for (const Measured& each : measured) {
     const LogNormal& one = fit.*each.fit;
     fmt::print("  {:38} median {:5.2f}, sd of the logarithm {:.2f} ({} measured)\n", each.words,
@@ -71,7 +71,9 @@ int fit_motion(const MotionOptions& options) {
     for (const traffic::Recording& recording : set.value().recordings) {
       for (const traffic::RecordedVehicle& vehicle : recording.vehicles) {
         if (vehicle.samples.size() >= learn::fewest_frames) {
-          motions[recording.site].push_back(learn::true_motion(vehicle, recording.step));
+          learn::TrueMotion motion = learn::true_motion(vehicle, recording.step);
+          motions["all"].push_back(motion);
+          motions[recording.site].push_back(std::move(motion));
         }
       }
     }

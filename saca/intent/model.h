@@ -9,7 +9,6 @@
 #include "saca/config/tensors.h"
 #include "saca/core/result.h"
 #include "saca/intent/crf.h"
-#include "saca/intent/motion.h"
 #include "saca/intent/network.h"
 
 namespace saca::intent {
@@ -32,7 +31,6 @@ struct Model {
   std::array<Crf, num_horizons> chains;  ///< structurally masked by may_follow
   /// Calibration: probabilities to this power, normalised; > 0.
   std::array<double, num_horizons> sharpness{1.0, 1.0, 1.0};
-  MotionLaw motion;  ///< how people drive under an intention
 };
 
 /// From the tensors of training: "networks" (how many), "K.input.weight" and so on for network K

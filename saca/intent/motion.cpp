@@ -182,7 +182,8 @@ Slowing slowing(const Line& line, ActorKind kind, Intention intention, const Mot
 }
 
 void check(const MotionLaw& law) {
-  expects(law.acceleration_sd >= 0.0 && law.acceleration_time > 0.0 && law.braking > 0.0 &&
+  const auto wavers = [](const Wavering& one) { return one.sd >= 0.0 && one.time > 0.0; };
+  expects(wavers(law.driving) && wavers(law.walking) && law.braking > 0.0 &&
               law.braking_log_sd >= 0.0 && law.braking_rise >= 0.0 && law.held_log_sd >= 0.0 &&
               law.lane_change > 0.0 && law.lane_change_log_sd >= 0.0 && law.walking_speed > 0.0 &&
               law.walking_stop > 0.0 && law.cycling_stop > 0.0 && law.starting > 0.0 &&
@@ -205,13 +206,13 @@ Forecast at_rest(const Scene& scene, const Actor& actor, double horizon) {
 }  // namespace
 
 // The correlation of an Ornstein-Uhlenbeck process, integrated twice over both times.
-double wavering_sd(const MotionLaw& law, double time) {
-  const double x = time / law.acceleration_time;
+double wavering_sd(const Wavering& wavering, double time) {
+  const double x = time / wavering.time;
   constexpr double small = 0.05;  // below it the sum loses its digits; the next term is x^6 / 72
   const double variance =
       x < small ? x * x * x * x * (0.25 - x / 15.0)
                 : 2.0 / 3.0 * x * x * x - x * x + 2.0 - 2.0 * std::exp(-x) * (1.0 + x);
-  return law.acceleration_sd * law.acceleration_time * law.acceleration_time * std::sqrt(variance);
+  return wavering.sd * wavering.time * wavering.time * std::sqrt(variance);
 }
 
 Spread spread_at(const Forecast& forecast, double time) {
@@ -243,6 +244,7 @@ Forecast motion_under(const Scene& scene, const Actor& actor, Intention intentio
   const bool brakes = is_braking(intention);
   const Slowing slowed = slowing(line, actor.kind, intention, law);
   const double log_sd = line.deceleration >= braking_mark ? law.held_log_sd : law.braking_log_sd;
+  const Wavering& wavering = is_walker(actor.kind) ? law.walking : law.driving;
   const Aside moved = is_walker(actor.kind) ? Aside{} : aside(line, side_of(intention), law);
 
   Forecast forecast{.track = {.start = scene.time, .step = step, .X_WA = {actor.X_WA}},
@@ -264,7 +266,7 @@ Forecast motion_under(const Scene& scene, const Actor& actor, Intention intentio
         line.road, {.s = along, .d = d, .heading = line.crab + std::asin(moved.slope_at(driven))}));
 
     const double perceived = std::hypot(actor.position_sd, actor.velocity_sd * slowed.moving(t));
-    const double of_speed = brakes ? log_sd * slowed.way_per_log(t) : wavering_sd(law, t);
+    const double of_speed = brakes ? log_sd * slowed.way_per_log(t) : wavering_sd(wavering, t);
     const double of_change = law.lane_change_log_sd * moved.way_per_log(driven);
     const double aside_sd = is_walker(actor.kind) && !brakes ? of_speed : of_change;
     forecast.spread.push_back({std::hypot(perceived, of_speed), std::hypot(perceived, aside_sd)});

@@ -8,20 +8,29 @@
 
 namespace saca::intent {
 
-/// How people really drive under an intention, and how far they differ in it. The numbers here are
-/// assumptions; a `Model` brings those of recordings.
+/// An acceleration that wavers about 0: an Ornstein-Uhlenbeck process.
+struct Wavering {
+  double sd = 0.0;    ///< [m/s^2], >= 0
+  double time = 1.0;  ///< it is correlated as exp(-t / this) [s], > 0
+};
+
+/// How people really drive under an intention, and how far they differ in it.
+///
+/// What vehicles do was measured by `saca intent motion` in recordings of NGSIM and of the 100-Car
+/// study (docs/intention.md, docs/results.md); the numbers of pedestrians and cyclists are
+/// assumptions.
 struct MotionLaw {
-  double acceleration_sd = 0.3;    ///< of those who maintain: it wavers so much about 0 [m/s^2]
-  double acceleration_time = 1.0;  ///< it is correlated as exp(-t / this) [s], > 0
-  double braking = 6.0;            ///< of one who does not brake yet: median [m/s^2], > 0
-  double braking_log_sd = 0.3;     ///< standard deviation of its logarithm [-]
-  double braking_rise = 0.3;       ///< until such a braking has built up, linearly [s], >= 0
-  double held_log_sd = 0.15;  ///< of one who brakes: of the logarithm of what it goes on with over
+  Wavering driving{0.86, 3.8};   ///< of a vehicle that maintains
+  Wavering walking{0.3, 1.0};    ///< of pedestrians and cyclists, in each direction
+  double braking = 2.6;          ///< of one who does not brake yet: median [m/s^2], > 0
+  double braking_log_sd = 0.32;  ///< standard deviation of its logarithm [-]
+  double braking_rise = 2.0;     ///< until such a braking has built up, linearly [s], >= 0
+  double held_log_sd = 0.61;  ///< of one who brakes: of the logarithm of what it goes on with over
                               ///< what is measured now [-]
-  double lane_change = 4.0;   ///< from lane to lane: median [s], > 0
-  double lane_change_log_sd = 0.4;  ///< standard deviation of its logarithm [-]
-  double walking_speed = 1.4;       ///< of a pedestrian who starts to cross [m/s], > 0: 5 km/h, as
-                                    ///< the adult of Euro NCAP's CPNA walks
+  double lane_change = 5.9;   ///< from lane to lane: median [s], > 0
+  double lane_change_log_sd = 0.44;  ///< standard deviation of its logarithm [-]
+  double walking_speed = 1.4;        ///< of a pedestrian who starts to cross [m/s], > 0: 5 km/h, as
+                                     ///< the adult of Euro NCAP's CPNA walks
   double walking_stop = 2.0;  ///< deceleration of a pedestrian who stops: about a step [m/s^2], > 0
   double cycling_stop = 2.75;  ///< of a cyclist; firm for a bicycle [m/s^2], > 0
   double starting = 1.5;       ///< acceleration to `walking_speed` [m/s^2], > 0
@@ -47,9 +56,8 @@ struct Forecast {
 /// Between the poses of a forecast [s].
 constexpr double motion_step = 0.05;
 
-/// Standard deviation of the way made in `time`, of an acceleration that wavers so: sd t^2 / 2 at
-/// first [m].
-[[nodiscard]] double wavering_sd(const MotionLaw& law, double time);
+/// Standard deviation of the way made in `time`: sd t^2 / 2 at first [m].
+[[nodiscard]] double wavering_sd(const Wavering& wavering, double time);
 
 /// Deceleration from which on somebody counts as braking [m/s^2]: the project's own mark.
 constexpr double braking_mark = 2.0;
@@ -58,7 +66,7 @@ constexpr double braking_mark = 2.0;
 ///
 /// Vehicles and cyclists along the lane follow it, others the arc that their velocity and turning
 /// rate describe, pedestrians a straight line; obstacles, and who is at rest, stay.
-/// * Maintaining keeps the speed; the acceleration wavers as an Ornstein-Uhlenbeck process.
+/// * Maintaining keeps the speed; the acceleration wavers.
 /// * Braking, until rest: who brakes already keeps its deceleration; another's grows from what is
 ///   measured to `braking`.
 /// * A lane change leads to the next lane's centre that is still a quarter of a lane away, as a

@@ -54,12 +54,12 @@ TEST(MotionUnder, WhoBrakesAlreadyStopsAfterTheTextbookWay) {
 
 // Speed v falls by b r / 2 while the deceleration rises to b within r, on v r - b r^2 / 6.
 TEST(MotionUnder, WhoDoesNotBrakeYetNeedsTheRiseAsWell) {
-  const Track track = track_of(car({}, {20.0, 0.0}), Intention::brake, 6.0);
+  const Track track = track_of(car({}, {20.0, 0.0}), Intention::brake, 12.0);
   const double left = 20.0 - 0.5 * law.braking * law.braking_rise;
   const double way = 20.0 * law.braking_rise -
                      law.braking * law.braking_rise * law.braking_rise / 6.0 +
                      left * left / (2.0 * law.braking);
-  EXPECT_NEAR(pose_at(track, 6.0).p.x, way, rounding);
+  EXPECT_NEAR(pose_at(track, 12.0).p.x, way, rounding);
 }
 
 // In tiny steps, from the acceleration that is measured; also where it rests before the rise ends.
@@ -82,15 +82,15 @@ TEST(MotionUnder, BrakingGrowsFromWhatIsMeasured) {
 }
 
 TEST(MotionUnder, ALaneChangeEndsInTheNextLane) {
-  const Track left = track_of(car({30.0, -3.5}, {15.0, 0.5}), Intention::lane_left, 5.0);
-  EXPECT_NEAR(pose_at(left, 5.0).p.y, 0.0, 1e-6);
-  EXPECT_NEAR(pose_at(left, 5.0).yaw, 0.0, 1e-6);
+  const Track left = track_of(car({30.0, -3.5}, {15.0, 0.5}), Intention::lane_left, 8.0);
+  EXPECT_NEAR(pose_at(left, 8.0).p.y, 0.0, 1e-6);
+  EXPECT_NEAR(pose_at(left, 8.0).yaw, 0.0, 1e-6);
   // Already across the marking: the lane that it enters, not the one after.
   const Track entering = track_of(car({30.0, 1.5}, {15.0, -0.5}), Intention::lane_right, 5.0);
   EXPECT_NEAR(pose_at(entering, 5.0).p.y, 0.0, 1e-6);
   // Half a lane width is 1.75 m; 0.5 m off the centre counts as being there: one lane further.
-  const Track further = track_of(car({30.0, 0.5}, {15.0, -0.5}), Intention::lane_right, 6.0);
-  EXPECT_NEAR(pose_at(further, 6.0).p.y, -3.5, 1e-6);
+  const Track further = track_of(car({30.0, 0.5}, {15.0, -0.5}), Intention::lane_right, 8.0);
+  EXPECT_NEAR(pose_at(further, 8.0).p.y, -3.5, 1e-6);
 }
 
 // From the middle between two lanes half of the usual time is left.
@@ -261,7 +261,7 @@ TEST(Spread, IsThatOfPlaceAndSpeedWhereNothingElseIsUnknown) {
   actor.position_sd = 0.3;
   actor.velocity_sd = 0.2;
   MotionLaw known = law;
-  known.acceleration_sd = known.braking_log_sd = known.lane_change_log_sd = 0.0;
+  known.driving.sd = known.braking_log_sd = known.lane_change_log_sd = 0.0;
   const Forecast forecast = motion_under(road_scene(), actor, Intention::lane_left, 6.0, known);
   EXPECT_NEAR(spread_at(forecast, 3.0).along_sd, std::hypot(0.3, 0.6), rounding);
   EXPECT_NEAR(spread_at(forecast, 3.0).across_sd, std::hypot(0.3, 0.6), rounding);
@@ -272,7 +272,7 @@ TEST(Spread, IsThatOfPlaceAndSpeedWhereNothingElseIsUnknown) {
 // Var x(t) = sd^2 sum over s, u of (t - s) (t - u) exp(-|s - u| / tau) ds du.
 TEST(Spread, OfAWaveringAccelerationIsItsTwofoldIntegral) {
   MotionLaw slow = law;
-  slow.acceleration_time = 1.7;
+  slow.driving.time = 1.7;
   const Forecast forecast =
       motion_under(road_scene(), car({}, {15.0, 0.0}), Intention::maintain, 6.0, slow);
   for (const double t : {0.05, 0.5, 2.0, 6.0}) {
@@ -283,10 +283,10 @@ TEST(Spread, OfAWaveringAccelerationIsItsTwofoldIntegral) {
       for (int j = 0; j < n; ++j) {
         const double s = (i + 0.5) * dt;
         const double u = (j + 0.5) * dt;
-        variance += (t - s) * (t - u) * std::exp(-std::abs(s - u) / slow.acceleration_time);
+        variance += (t - s) * (t - u) * std::exp(-std::abs(s - u) / slow.driving.time);
       }
     }
-    const double want = slow.acceleration_sd * dt * std::sqrt(variance);
+    const double want = slow.driving.sd * dt * std::sqrt(variance);
     EXPECT_NEAR(spread_at(forecast, t).along_sd, want, 1e-3 * want) << t;
   }
 }

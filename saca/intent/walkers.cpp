@@ -120,7 +120,8 @@ Forecast crossing_motion(const Scene& scene, const Actor& actor, double horizon,
     speed = faster;
     forecast.track.X_WA.push_back({p_W, course});
     const double t = k * dt;
-    const double sd = std::hypot(actor.position_sd, actor.velocity_sd * t, wavering_sd(law, t));
+    const double sd =
+        std::hypot(actor.position_sd, actor.velocity_sd * t, wavering_sd(law.walking, t));
     forecast.spread.push_back({sd, sd});
   }
   return forecast;

@@ -12,8 +12,10 @@ namespace {
 
 using intent::Intention;
 
-constexpr std::size_t longest_lag = 50;    // frames of autocorrelation
-constexpr double peak_of_quintic = 1.875;  // highest speed over mean speed of a 5th-order change
+constexpr std::size_t one_second = 10;        // frames
+constexpr std::size_t wavering_end = 30;      // frames over which wavering is measured
+constexpr double longest_correlation = 50.0;  // [s]: beyond it an acceleration is constant
+constexpr double peak_of_quintic = 1.875;     // highest speed over mean speed of a 5th-order change
 
 /// What is gathered of all motions.
 struct Gathered {
@@ -21,8 +23,11 @@ struct Gathered {
   std::vector<double> rise;
   std::vector<double> held;
   std::vector<double> lane_change;
-  std::vector<double> products = std::vector<double>(longest_lag + 1, 0.0);
-  std::vector<double> counts = std::vector<double>(longest_lag + 1, 0.0);
+  /// Of those who maintain for `wavering_end`: sums of squares of the way beyond that at the speed
+  /// of the beginning [m^2].
+  double after_one_second = 0.0;
+  double after_all = 0.0;
+  std::size_t num_maintaining = 0;
 };
 
 bool brakes(std::uint8_t label) {
@@ -47,12 +52,11 @@ void gather_braking(const TrueMotion& motion, std::size_t first, std::size_t las
   if (half != begin && half != hardest) {
     gathered.rise.push_back(2.0 * static_cast<double>(hardest - half) * frame_step);
   }
-  constexpr std::size_t second = 10;  // frames
-  for (std::size_t i = first; i + second < std::min(last + second, motion.acceleration.size());
-       i += second) {
+  for (std::size_t i = first;
+       i + one_second < std::min(last + one_second, motion.acceleration.size()); i += one_second) {
     double next = 0.0;
-    for (std::size_t j = 1; j <= second; ++j) {
-      next -= motion.acceleration[i + j] / static_cast<double>(second);
+    for (std::size_t j = 1; j <= one_second; ++j) {
+      next -= motion.acceleration[i + j] / static_cast<double>(one_second);
     }
     if (next > 0.0) {
       gathered.held.push_back(next / -motion.acceleration[i]);
@@ -73,18 +77,44 @@ void gather_lane_change(const TrueMotion& motion, std::size_t first, std::size_t
 }
 
 void gather_wavering(const TrueMotion& motion, const Labels& labels, Gathered& gathered) {
-  const auto maintains = [&](std::size_t i) { return labels.classes[i] == 0 && labels.scored[i]; };
-  for (std::size_t i = 0; i < labels.classes.size(); ++i) {
-    if (!maintains(i)) {
+  std::size_t maintained = 0;  // frames until now
+  for (std::size_t end = 0; end < labels.classes.size(); ++end) {
+    maintained = labels.classes[end] == 0 && labels.scored[end] ? maintained + 1 : 0;
+    if (maintained <= wavering_end) {
       continue;
     }
-    for (std::size_t lag = 0; lag <= longest_lag && i + lag < labels.classes.size(); ++lag) {
-      if (maintains(i + lag)) {
-        gathered.products[lag] += motion.acceleration[i] * motion.acceleration[i + lag];
-        gathered.counts[lag] += 1.0;
+    double speed = 0.0;  // gained
+    double way = 0.0;
+    for (std::size_t i = 1; i <= wavering_end; ++i) {
+      const double now = motion.acceleration[end - wavering_end + i];
+      way += frame_step * (speed + 0.5 * frame_step * now);
+      speed += frame_step * now;
+      if (i == one_second) {
+        gathered.after_one_second += way * way;
       }
     }
+    gathered.after_all += way * way;
+    ++gathered.num_maintaining;
   }
+}
+
+/// The wavering that carries as far after 1 s and after all as was measured.
+intent::Wavering wavering_of(const Gathered& gathered) {
+  if (!(gathered.after_one_second > 0.0)) {
+    return {};
+  }
+  const auto unit = [](double time, std::size_t frames) {
+    return intent::wavering_sd({1.0, time}, static_cast<double>(frames) * frame_step);
+  };
+  const double wanted = std::sqrt(gathered.after_all / gathered.after_one_second);
+  double low = frame_step;
+  double high = longest_correlation;
+  for (int i = 0; i < 40; ++i) {  // the longer it is correlated, the greater is the ratio
+    const double middle = std::sqrt(low * high);
+    (unit(middle, wavering_end) < wanted * unit(middle, one_second) ? low : high) = middle;
+  }
+  const auto num = static_cast<double>(gathered.num_maintaining);
+  return {std::sqrt(gathered.after_all / num) / unit(low, wavering_end), low};
 }
 
 void gather(const TrueMotion& motion, double lane_width, Gathered& gathered) {
@@ -145,21 +175,11 @@ MotionFit motion_fit(const std::vector<TrueMotion>& motions, double lane_width) 
   for (const TrueMotion& motion : motions) {
     gather(motion, lane_width, gathered);
   }
-  MotionFit fit{.braking = log_normal(gathered.braking),
-                .rise = log_normal(gathered.rise),
-                .held = log_normal(gathered.held),
-                .lane_change = log_normal(gathered.lane_change)};
-  if (gathered.counts[0] > 0.0) {
-    const double variance = gathered.products[0] / gathered.counts[0];
-    fit.acceleration_sd = std::sqrt(variance);
-    std::size_t lag = 0;
-    while (lag < longest_lag && gathered.counts[lag] > 0.0 &&
-           gathered.products[lag] / gathered.counts[lag] > variance / std::exp(1.0)) {
-      ++lag;
-    }
-    fit.acceleration_time = static_cast<double>(lag) * frame_step;
-  }
-  return fit;
+  return {.braking = log_normal(gathered.braking),
+          .rise = log_normal(gathered.rise),
+          .held = log_normal(gathered.held),
+          .lane_change = log_normal(gathered.lane_change),
+          .wavering = wavering_of(gathered)};
 }
 
 }  // namespace saca::learn

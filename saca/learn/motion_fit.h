@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "saca/intent/motion.h"
 #include "saca/learn/labels.h"
 
 namespace saca::learn {
@@ -23,8 +24,9 @@ struct MotionFit {
   LogNormal held;  ///< of one who brakes: mean deceleration of the next second over that of now
   LogNormal lane_change;  ///< a lane's width at the highest lateral speed, as a polynomial of fifth
                           ///< order would take [s]
-  double acceleration_sd = 0.0;    ///< of those who maintain, beyond doubt [m/s^2]
-  double acceleration_time = 0.0;  ///< after which its autocorrelation is 1/e [s]
+  /// Of those who maintain, beyond doubt: by how far their way after 1 s and after 3 s differs from
+  /// that at a constant speed; sd 0: nobody was measured.
+  intent::Wavering wavering;
 };
 
 /// @param motions  smoothed or simulated, at steps of `frame_step`

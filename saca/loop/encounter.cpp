@@ -140,11 +140,10 @@ std::optional<manoeuvre::Plan> Encounter::forced_plan(const Setup& setup) {
 }
 
 decide::ThinkingTools Encounter::tools() {
-  decide::ThinkingTools tools{
-      .forecast = {setup_.car, setup_.harm, setup_.atlas, setup_.danger, setup_.intent->motion},
-      .memory = setup_.memory,
-      .model = setup_.model,
-      .clock = setup_.clock};
+  decide::ThinkingTools tools{.forecast = {setup_.car, setup_.harm, setup_.atlas, setup_.danger},
+                              .memory = setup_.memory,
+                              .model = setup_.model,
+                              .clock = setup_.clock};
   if (!real()) {
     tools.model = charged_model_.get();
     tools.clock = &simulated_clock_;
@@ -253,7 +252,7 @@ std::optional<Error> Encounter::look() {
 void Encounter::wake() {
   const Scene& scene = seen_;
   const auto threat =
-      preview::previewed_threat(scene, *beliefs_, setup_.intent->motion, setup_.thresholds);
+      preview::previewed_threat(scene, *beliefs_, preview::hard_driving(), setup_.thresholds);
   if (!threat) {
     return;
   }

@@ -35,6 +35,14 @@ double least_braking(const world::Scene& scene, const world::Actor& actor,
 
 }  // namespace
 
+intent::MotionLaw hard_driving() {
+  intent::MotionLaw law;
+  law.braking = 6.0;
+  law.braking_rise = 0.3;
+  law.lane_change = 4.0;
+  return law;
+}
+
 intent::Beliefs cautious(const world::Scene& scene, intent::Beliefs beliefs,
                          const Thresholds& thresholds, const Caution& caution) {
   expects(beliefs.size() == scene.actors.size(), "one belief per actor");

@@ -1,10 +1,18 @@
 #pragma once
 
+#include "saca/intent/motion.h"
 #include "saca/intent/observer.h"
 #include "saca/preview/threat.h"
 #include "saca/world/scene.h"
 
 namespace saca::preview {
+
+/// How others are taken to move in a preview: they differ as recordings show, but who brakes or
+/// changes lanes does it as in an emergency: braking 6 m/s^2 built up within 0.3 s, a lane change
+/// of 4 s. The three numbers are assumptions. What people usually do (intent::MotionLaw: 2.6 m/s^2
+/// within 2 s) is no threat to anybody 2 s behind: nothing would be prepared for a lead that
+/// brakes hard.
+[[nodiscard]] intent::MotionLaw hard_driving();
 
 /// How likely it is at the least that somebody who moves brakes, whatever is believed.
 ///

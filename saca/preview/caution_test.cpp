@@ -40,6 +40,20 @@ IntentPosterior prepared_for(const Scene& scene, const IntentPosterior& posterio
 
 constexpr IntentPosterior sure{1.0};
 
+// A lead 2 s ahead that brakes as people usually do can be followed at any speed; one that brakes
+// hard cannot.
+TEST(HardDriving, IsHarderThanUsualAndAsUncertain) {
+  const intent::MotionLaw usual;
+  const intent::MotionLaw hard = hard_driving();
+  const Scene scene = ego_and({40.0, 0.0}, {20.0, 0.0});
+  const auto way = [&](const intent::MotionLaw& law) {
+    return motion_under(scene, scene.actors[0], Intention::brake, 5.0, law).track.X_WA.back().p.x;
+  };
+  EXPECT_LT(way(hard), way(usual) - 20.0);
+  EXPECT_EQ(hard.braking_log_sd, usual.braking_log_sd);
+  EXPECT_EQ(hard.driving.sd, usual.driving.sd);
+}
+
 TEST(Cautious, WhoCrossesBrakesWithTenPercent) {
   const IntentPosterior p =
       prepared_for(ego_and({55.0, 43.0}, {0.0, -7.5}), {0.8, 0.1, 0.06, 0.04});

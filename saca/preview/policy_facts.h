@@ -10,6 +10,7 @@
 #include "saca/manoeuvre/plan.h"
 #include "saca/outcome/harm.h"
 #include "saca/outcome/roll_out.h"
+#include "saca/preview/caution.h"
 #include "saca/preview/situation.h"
 #include "saca/reach/danger.h"
 
@@ -21,7 +22,7 @@ struct ForecastTools {
   const outcome::HarmModel* harm = nullptr;
   const manoeuvre::Atlas* atlas = nullptr;     ///< of this car; nullptr: everything is rolled out
   const reach::DangerModel* danger = nullptr;  ///< of this car; nullptr: the best of few evasions
-  intent::MotionLaw motion;                    ///< how the others move under an intention
+  intent::MotionLaw motion = hard_driving();   ///< how the others move under an intention
 };
 
 /// What each policy ends in when it begins in `scene` and the actors follow their tracks, those
