@@ -104,7 +104,8 @@ path, count, frames = sys.argv[2], 40, 60
 labels = numpy.repeat(numpy.arange(count) // 4 % 6, frames)  # each class in each split
 with h5py.File(path, "w", userblock_size=512) as file:
     for name, text in (("names", [f"s{i}" for i in range(count)]),
-                       ("splits", [("train", "train", "tune", "test")[i % 4] for i in range(count)])):
+                       ("splits", [("train", "train", "tune", "test")[i % 4] for i in range(count)]),
+                       ("groups", [f"g{i // 5}" for i in range(count)])):
         file[f"sequences/{name}"] = numpy.bytes_("".join(line + chr(10) for line in text).encode())
     file["sequences/num_frames"] = numpy.full(count, float(frames))
     for name in files.COLUMNS:
@@ -161,7 +162,8 @@ def test_each_part_is_foretold_by_models_that_have_not_seen_it(tmp_path):
     assert done.returncode == 0, done.stderr
     figures = json.loads(done.stdout)
     assert [one["part"] for one in figures["parts"]] == ["part-0", "part-1", "part-2"]
-    assert figures["sequences"] == 30 and figures["parts"][0]["heads"][0]["windows"] == 8 * 60 + 2 * 20
+    # Of the 20 vehicles of two parts those of the first group, 1 and 2, stop the training; 25 and 26 maintain.
+    assert figures["sequences"] == 30 and figures["parts"][0]["heads"][0]["windows"] == 16 * 60 + 2 * 20
     done = subprocess.run([PYTHON, "-B", TOOL / "make.py", "cross", sequences, forecasts, "--parts", "none"],
                           capture_output=True, text=True, timeout=60)
     assert done.returncode == 1 and "want three splits or more that begin with none, got 0" in done.stderr
