@@ -54,6 +54,7 @@ Figures figures_of(std::span<const Sequence> sequences, std::span<const Forecast
         num_draws, seed);
   }
   for (std::size_t i = 0; i < sequences.size(); ++i) {
+    figures.acts += acts_found(sequences[i], forecasts[i]);
     figures.lane_changes.add(lane_change_warnings(sequences[i], forecasts[i]));
     figures.brakings.add(braking_warnings(sequences[i], forecasts[i]));
     figures.alarms += false_alarms(sequences[i], forecasts[i]);

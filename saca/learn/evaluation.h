@@ -11,6 +11,7 @@
 
 #include "saca/core/result.h"
 #include "saca/intent/model.h"
+#include "saca/learn/acts.h"
 #include "saca/learn/bootstrap.h"
 #include "saca/learn/score.h"
 #include "saca/learn/sequence_file.h"
@@ -22,6 +23,7 @@ namespace saca::learn {
 struct Figures {
   std::array<Tally, num_heads> tallies;
   std::array<std::optional<Interval>, num_heads> macro_f1;  ///< groups drawn anew
+  ActsFound acts;
   Warnings lane_changes;
   Warnings brakings;
   FalseAlarms alarms;

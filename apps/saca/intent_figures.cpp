@@ -1,0 +1,188 @@
+#include "apps/saca/intent_figures.h"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "saca/intent/intention.h"
+
+namespace saca::app {
+namespace {
+
+using learn::Figures;
+using learn::Interval;
+using nlohmann::json;
+
+json number(const std::optional<double>& value) {
+  return value ? json(*value) : json();
+}
+
+json interval_json(const std::optional<Interval>& interval) {
+  return interval
+             ? json{{"value", interval->value}, {"low", interval->low}, {"high", interval->high}}
+             : json();
+}
+
+json warnings_json(const learn::Warnings& warnings) {
+  return {{"events", warnings.events()},
+          {"share_warned", number(warnings.share_warned())},
+          {"lower_quartile_s", number(warnings.quantile(0.25))},
+          {"median_s", number(warnings.quantile(0.5))},
+          {"upper_quartile_s", number(warnings.quantile(0.75))}};
+}
+
+json acts_json(const learn::ActsFound& found) {
+  json all = json::object();
+  for (std::size_t k = 1; k < learn::num_vehicle_classes; ++k) {
+    json recalls = json::array();
+    for (std::size_t a = 0; a < learn::ActsFound::ages.size(); ++a) {
+      const learn::ActsFound::Share& frames = found.of[k].frames[a];
+      recalls.push_back({{"from_s", learn::ActsFound::ages[a]},
+                         {"frames", frames.num},
+                         {"recall", number(frames.share())}});
+    }
+    all[std::string(name(static_cast<intent::Intention>(k)))] = {{"acts", found.of[k].acts.num},
+                                                                 {"found", found.of[k].acts.found},
+                                                                 {"recall_by_age", recalls}};
+  }
+  return all;
+}
+
+std::string cell(const std::optional<double>& value, int digits = 3) {
+  return value ? fmt::format("{:.{}f}", *value, digits) : "-";
+}
+
+constexpr std::array<std::string_view, learn::num_foresights> foresight_names{
+    "constant velocity", "lane keeping", "likeliest intention", "mean over intentions"};
+
+}  // namespace
+
+json row_json(const Row& row) {
+  json heads = json::array();
+  for (std::size_t head = 0; head < learn::num_heads; ++head) {
+    const learn::Tally& tally = row.figures.tallies[head];
+    json classes = json::object();
+    for (std::size_t k = 0; k < learn::num_vehicle_classes; ++k) {
+      classes[std::string(name(static_cast<intent::Intention>(k)))] = {
+          {"frames", tally.confusion.truly(k)},
+          {"recall", number(tally.confusion.recall(k))},
+          {"precision", number(tally.confusion.precision(k))},
+          {"f1", number(tally.confusion.f1(k))}};
+    }
+    heads.push_back({{"ahead_s", intent::horizons[head]},
+                     {"macro_f1", interval_json(row.figures.macro_f1[head])},
+                     {"calibration_error", number(tally.top_calibration_error())},
+                     {"classwise_calibration_error", number(tally.classwise_calibration_error())},
+                     {"log_loss", number(tally.mean_log_loss())},
+                     {"brier", number(tally.mean_brier())},
+                     {"classes", classes},
+                     {"confusion", tally.confusion.counts}});
+  }
+  return {{"method", row.method},
+          {"heads", heads},
+          {"warning_before_line", warnings_json(row.figures.lane_changes)},
+          {"warning_before_braking", warnings_json(row.figures.brakings)},
+          {"false_alarms_per_hour", number(row.figures.alarms.per_hour())},
+          {"hours", row.figures.alarms.hours},
+          {"acts", acts_json(row.figures.acts)},
+          {"illegal_steps", row.figures.illegal_steps},
+          {"ours_less_this", interval_json(row.behind_ours)}};
+}
+
+void tell_table(const std::string& title, const std::vector<Row>& rows) {
+  fmt::print("\n{}\n", title);
+  fmt::print("{:24} {:>22} {:>8} {:>8} {:>7} {:>12} {:>12} {:>8} {:>8}\n", "", "macro F1 now",
+             "0.5 s", "1 s", "ECE", "line [s]", "brake [s]", "alarm/h", "illegal");
+  for (const Row& row : rows) {
+    const Figures& f = row.figures;
+    const auto& now = f.macro_f1[0];
+    const auto value = [&](std::size_t head) {
+      return f.macro_f1[head] ? std::optional(f.macro_f1[head]->value) : std::nullopt;
+    };
+    fmt::print(
+        "{:24} {:>22} {:>8} {:>8} {:>7} {:>12} {:>12} {:>8} {:>8}\n", row.method,
+        now ? fmt::format("{:.3f} [{:.3f}, {:.3f}]", now->value, now->low, now->high) : "-",
+        cell(value(1)), cell(value(2)), cell(f.tallies[0].top_calibration_error()),
+        cell(f.lane_changes.quantile(0.5), 1) + " of " + std::to_string(f.lane_changes.events()),
+        cell(f.brakings.quantile(0.5), 1) + " of " + std::to_string(f.brakings.events()),
+        cell(f.alarms.per_hour(), 0), f.illegal_steps);
+  }
+}
+
+void tell_confusion(const Row& row) {
+  for (std::size_t head = 0; head < learn::num_heads; ++head) {
+    const learn::Confusion& confusion = row.figures.tallies[head].confusion;
+    fmt::print("\n{}, {:.1f} s ahead: truth in rows, foretold in columns\n{:>8}", row.method,
+               intent::horizons[head], "");
+    for (std::size_t k = 0; k < learn::num_vehicle_classes; ++k) {
+      fmt::print("{:>8}", name(static_cast<intent::Intention>(k)));
+    }
+    fmt::print("{:>8} {:>9} {:>6}\n", "recall", "precision", "F1");
+    for (std::size_t k = 0; k < learn::num_vehicle_classes; ++k) {
+      fmt::print("{:>8}", name(static_cast<intent::Intention>(k)));
+      for (const std::size_t count : confusion.counts[k]) {
+        fmt::print("{:>8}", count);
+      }
+      fmt::print("{:>8} {:>9} {:>6}\n", cell(confusion.recall(k), 2),
+                 cell(confusion.precision(k), 2), cell(confusion.f1(k), 2));
+    }
+  }
+}
+
+void tell_acts(const Row& row) {
+  fmt::print("\n{}, now: acts found, and recall of their frames by the age of the act [s]\n{:8}",
+             row.method, "");
+  fmt::print("{:>16}", "acts found");
+  for (const double age : learn::ActsFound::ages) {
+    fmt::print("{:>8}", fmt::format("{:.1f}-", age));
+  }
+  fmt::print("\n");
+  for (std::size_t k = 1; k < learn::num_vehicle_classes; ++k) {
+    const auto& found = row.figures.acts.of[k];
+    fmt::print("{:>8}{:>16}", name(static_cast<intent::Intention>(k)),
+               fmt::format("{} of {}", found.acts.found, found.acts.num));
+    for (const learn::ActsFound::Share& frames : found.frames) {
+      fmt::print("{:>8}", cell(frames.share(), 2));
+    }
+    fmt::print("\n");
+  }
+}
+
+void tell_displacements(const learn::Displacements& found) {
+  for (const auto& [title, table] :
+       {std::pair("all vehicles in lanes", &found.all),
+        std::pair("those that brake or change lanes", &found.acting)}) {
+    fmt::print("\nMean displacement error [m] after 1, 2, 3 s: {} ({} frames)\n", title,
+               (*table)[0][0].num);
+    for (std::size_t f = 0; f < learn::num_foresights; ++f) {
+      fmt::print("{:24}", foresight_names[f]);
+      for (const learn::Displacement& each : (*table)[f]) {
+        fmt::print(" {:8.2f}", each.mean());
+      }
+      fmt::print("\n");
+    }
+  }
+}
+
+json displacements_json(const learn::Displacements& found) {
+  json all = json::array();
+  for (const auto& [which, table] :
+       {std::pair("all", &found.all), std::pair("acting", &found.acting)}) {
+    for (std::size_t f = 0; f < learn::num_foresights; ++f) {
+      for (std::size_t k = 0; k < learn::seconds_ahead.size(); ++k) {
+        const learn::Displacement& one = (*table)[f][k];
+        all.push_back({{"vehicles", which},
+                       {"foresight", foresight_names[f]},
+                       {"ahead_s", learn::seconds_ahead[k]},
+                       {"frames", one.num},
+                       {"mean_m", one.mean()},
+                       {"rms_m", one.rms()}});
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace saca::app

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "saca/learn/bootstrap.h"
+#include "saca/learn/displacement.h"
+#include "saca/learn/evaluation.h"
+
+/// The figures of `saca intent eval` as tables and as JSON (schema saca.intent_eval/1).
+namespace saca::app {
+
+/// One way to foretell and its figures.
+struct Row {
+  std::string method;
+  learn::Figures figures;
+  std::optional<learn::Interval> behind_ours;  ///< our macro F1 now less its
+};
+
+void tell_table(const std::string& title, const std::vector<Row>& rows);
+/// Its confusion at each horizon.
+void tell_confusion(const Row& row);
+/// What of each act it finds, and when.
+void tell_acts(const Row& row);
+void tell_displacements(const learn::Displacements& found);
+
+[[nodiscard]] nlohmann::json row_json(const Row& row);
+[[nodiscard]] nlohmann::json displacements_json(const learn::Displacements& found);
+
+}  // namespace saca::app
