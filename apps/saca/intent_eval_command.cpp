@@ -12,6 +12,7 @@
 #include "apps/saca/intent_commands.h"
 #include "apps/saca/intent_figures.h"
 #include "apps/saca/places.h"
+#include "saca/core/file.h"
 #include "saca/core/parallel.h"
 #include "saca/learn/baselines.h"
 #include "saca/learn/displacement.h"
@@ -19,6 +20,7 @@
 #include "saca/learn/forecast_file.h"
 #include "saca/learn/foretell.h"
 #include "saca/learn/sequence_file.h"
+#include "saca/report/intention_chart.h"
 
 namespace saca::app {
 namespace {
@@ -33,6 +35,7 @@ struct EvalOptions {
   std::string models;
   std::string plain_models;
   std::vector<std::string> forecasts;
+  std::string svg;
   unsigned long seed = 1;
   bool as_json = false;
 };
@@ -94,6 +97,12 @@ class Comparison {
       sum += learn::displacements(scored_.sequences[i], ours_[i], law);
     }
     return sum;
+  }
+  /// Of our own forecasts of now.
+  [[nodiscard]] std::string confusion_svg() const {
+    return report::confusion_svg({.title = "Recorded vehicles, now",
+                                  .lines = {"By models that have not seen them."},
+                                  .counts = rows_.front().figures.tallies[0].confusion.counts});
   }
   [[nodiscard]] json as_json() const {
     json methods = json::array();
@@ -217,6 +226,11 @@ int evaluate(EvalOptions options) {
           compare_recorded(options, models.value(), recorded, comparisons.front())) {
     return refused(*problem);
   }
+  if (!options.svg.empty()) {
+    if (const auto problem = write_file(options.svg, comparisons.front().confusion_svg())) {
+      return refused(*problem);
+    }
+  }
   const learn::Displacements moved = comparisons.front().displacements(intent::MotionLaw());
   const Scored simulated = chosen(set.value(), true);
   const auto whole = models.value().find("nothing");
@@ -257,6 +271,7 @@ void add_intent_eval(CLI::App& intent, int& exit_code) {
                       "Likewise, trained without the CRF, for comparison");
   command->add_option("--forecasts", options->forecasts,
                       "Forecasts of other models (saca.forecasts/1), for comparison");
+  command->add_option("--svg", options->svg, "A picture of the confusion of recorded vehicles");
   command->add_option("--seed", options->seed, "Of the groups drawn for intervals")
       ->capture_default_str();
   command->add_flag("--json", options->as_json, "For programs");

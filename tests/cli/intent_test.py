@@ -60,7 +60,11 @@ def test_the_shipped_models_are_scored(sequences, tmp_path):
     assert constant["M"]["recall"] == 1.0 and constant["FB"]["recall"] == 0.0
     ahead = {(one["vehicles"], one["foresight"], one["ahead_s"]): one for one in told["displacements"]}
     assert ahead["all", "constant velocity", 1]["frames"] > 10
-    text = saca("intent", "eval", sequences, cwd=tmp_path)
+    acts = recorded["methods"][0]["acts"]["FB"]
+    counted = sum(one["frames"] for one in acts["recall_by_age"])
+    assert counted == recorded["methods"][0]["heads"][0]["classes"]["FB"]["frames"] and acts["found"] <= acts["acts"]
+    text = saca("intent", "eval", sequences, "--svg", "confusion.svg", cwd=tmp_path)
+    assert (tmp_path / "confusion.svg").read_text().startswith("<svg")
     assert text.returncode == SUCCESS and "macro F1 now" in text.stdout and "constant velocity" in text.stdout
 
 
