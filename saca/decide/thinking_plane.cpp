@@ -30,11 +30,6 @@ std::string probabilities(const intent::IntentPosterior& posterior) {
   return text;
 }
 
-PolicyId choice(const reason::Answer& answer) {
-  const auto best = std::max_element(answer.probability.begin(), answer.probability.end());
-  return manoeuvre::all_policies[static_cast<std::size_t>(best - answer.probability.begin())];
-}
-
 }  // namespace
 
 /// What one round shares among its steps.
@@ -242,7 +237,7 @@ void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>
 
 void ThinkingPlane::take_answer(const Round& round, Preview& preview,
                                 const reason::Answer& answer) {
-  const PolicyId policy = choice(answer);
+  const PolicyId policy = reason::likeliest_policy(answer);
   const double time = round.time_of(answer.time);
   preview.reply.answers.push_back(answer);
   preview.reply.answers.back().time = from_seconds(time);

@@ -95,6 +95,11 @@ std::vector<std::string> quoted_numbers(std::string_view text) {
 
 }  // namespace
 
+manoeuvre::PolicyId likeliest_policy(const Answer& answer) {
+  const auto best = std::max_element(answer.probability.begin(), answer.probability.end());
+  return manoeuvre::all_policies.at(static_cast<std::size_t>(best - answer.probability.begin()));
+}
+
 std::optional<manoeuvre::PolicyId> stated_policy(std::string_view text) {
   const std::size_t at = text.rfind(answer_stem);
   if (at == std::string_view::npos) {

@@ -4,8 +4,12 @@
 #include <string_view>
 
 #include "saca/manoeuvre/plan.h"
+#include "saca/reason/language_model.h"
 
 namespace saca::reason {
+
+/// Of equals the first.
+[[nodiscard]] manoeuvre::PolicyId likeliest_policy(const Answer& answer);
 
 /// The policy that a text names in its last "Response to user: N".
 /// @param text  anything

@@ -16,6 +16,14 @@ constexpr const char* prompt =
     "0 AEB: hits truck1 with its front at 2.7 m/s, harm 0.0010\n"
     "7 NI: hits truck1 with its front at 15.9 m/s, harm 0.0500\n";
 
+TEST(LikeliestPolicy, OfEqualsIsTheFirst) {
+  Answer answer;
+  answer.probability = {0.1, 0.3, 0.0, 0.0, 0.2, 0.3, 0.1, 0.0};
+  EXPECT_EQ(likeliest_policy(answer), PolicyId::aes_left);
+  answer.probability = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0};
+  EXPECT_EQ(likeliest_policy(answer), PolicyId::no_intervention);
+}
+
 TEST(StatedPolicy, IsTheLastOneNamed) {
   EXPECT_EQ(stated_policy("Scenario Analysis\n1. x\nResponse to user: 6"), PolicyId::t_drift_right);
   EXPECT_EQ(stated_policy("Response to user: 6\nResponse to user:0\n"), PolicyId::aeb);

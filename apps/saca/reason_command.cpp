@@ -1,0 +1,333 @@
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "apps/saca/atlas_making.h"
+#include "apps/saca/commands.h"
+#include "apps/saca/danger_making.h"
+#include "apps/saca/inputs.h"
+#include "apps/saca/model.h"
+#include "apps/saca/story.h"
+#include "saca/decide/check.h"
+#include "saca/loop/encounter.h"
+#include "saca/reason/prompt.h"
+#include "saca/reason/reply.h"
+
+namespace saca::app {
+namespace {
+
+using decide::Preview;
+using manoeuvre::PolicyId;
+using nlohmann::json;
+using reason::Answer;
+using reason::Progress;
+using reason::Reply;
+
+struct ReasonOptions {
+  std::string scenario;
+  std::string model = "local";
+  int deadline = 4000;  ///< [ms]
+  bool stream = false;
+  bool as_json = false;
+};
+
+/// Takes the first question of an encounter and answers none.
+class QuestionTaker final : public reason::LanguageModel {
+ public:
+  [[nodiscard]] Result<std::vector<Reply>> ask(
+      const std::vector<std::string>& scenes, Clock::Time,
+      const std::function<void(const Progress&)>&) override {
+    if (first_.empty()) {
+      first_ = scenes;
+    }
+    return Error{Error::Code::too_late, "only listened to"};
+  }
+  [[nodiscard]] std::string description() const override { return "question taker"; }
+  [[nodiscard]] const std::vector<std::string>& first() const { return first_; }
+
+ private:
+  std::vector<std::string> first_;
+};
+
+/// The forecasts that a model is first asked about in an encounter, with their prompts; empty when
+/// nothing ever threatens.
+Result<std::vector<Preview>> first_question(const ScenarioInputs& inputs,
+                                            const preview::ForecastTools& tools, Clock& clock) {
+  QuestionTaker taker;
+  Silence silence;
+  const loop::Setup setup{.scenario = &inputs.scenario,
+                          .car = &inputs.car,
+                          .harm = &inputs.harm,
+                          .intent = &inputs.intent,
+                          .atlas = tools.atlas,
+                          .danger = tools.danger,
+                          .pace = loop::Pace::lockstep,
+                          .costs = {},
+                          .model = &taker,
+                          .clock = &clock};
+  auto record = loop::run(setup, silence);
+  if (!record.has_value()) {
+    return record.error();
+  }
+  loop::Record played = std::move(record).value();
+  std::vector<Preview> asked;
+  for (Preview& each : played.previews) {
+    if (asked.size() < taker.first().size()) {  // numbered as they were asked about
+      asked.push_back(std::move(each));
+    }
+  }
+  return asked;
+}
+
+double milliseconds(Clock::Time time) {
+  return 1e3 * to_seconds(time);
+}
+
+std::string_view words(Answer::Kind kind) {
+  switch (kind) {
+    case Answer::Kind::first:
+      return "first";
+    case Answer::Kind::ended:
+      return "free";
+    case Answer::Kind::forced:
+      return "forced";
+  }
+  return "";
+}
+
+/// Writes what several replies say while they grow: one as it comes, more of them line by line.
+class Stream {
+ public:
+  explicit Stream(std::size_t num_scenes) : lines_(num_scenes) {}
+
+  void take(std::size_t scene, std::string_view text) {
+    if (lines_.size() == 1) {
+      fmt::print("{}", text);
+      std::fflush(stdout);
+      return;
+    }
+    std::string& line = lines_.at(scene);
+    line += text;
+    for (std::size_t end = line.find('\n'); end != std::string::npos; end = line.find('\n')) {
+      tell(scene, line.substr(0, end));
+      line.erase(0, end + 1);
+    }
+  }
+  void end() {
+    for (std::size_t scene = 0; scene < lines_.size(); ++scene) {
+      if (lines_.size() > 1 && !lines_[scene].empty()) {
+        tell(scene, lines_[scene]);
+      }
+    }
+    fmt::print("\n");
+  }
+
+ private:
+  static void tell(std::size_t scene, std::string_view line) {
+    fmt::print("{} | {}\n", scene + 1, line);
+    std::fflush(stdout);
+  }
+
+  std::vector<std::string> lines_;
+};
+
+/// One forecast, and what was said of it.
+struct Considered {
+  const Preview* preview = nullptr;
+  Reply reply;
+  std::optional<decide::Check> check;  ///< of what was last chosen
+};
+
+json considered_json(const Considered& one) {
+  json answers = json::array();
+  for (const Answer& answer : one.reply.answers) {
+    answers.push_back({{"after_ms", milliseconds(answer.time)},
+                       {"kind", words(answer.kind)},
+                       {"policy", manoeuvre::index(likeliest_policy(answer))},
+                       {"probability", answer.probability}});
+  }
+  const auto truth = reason::faithful_share(one.reply.reasoning, one.preview->prompt);
+  return {{"probability", one.preview->situation.probability},
+          {"trigger_s", one.preview->situation.scene_at_trigger.time},
+          {"prompt", one.preview->prompt},
+          {"reasoning", one.reply.reasoning},
+          {"answers", answers},
+          {"prompt_tokens", one.reply.prompt_tokens},
+          {"reply_tokens", one.reply.reply_tokens},
+          {"quoted_numbers_in_prompt", truth ? json(*truth) : json()},
+          {"check",
+           one.check ? json{{"passed", one.check->passed}, {"text", one.check->text}} : json()}};
+}
+
+void tell_considered(std::size_t number, const Considered& one, bool with_text) {
+  fmt::print("--- Forecast {} ---\n", number);
+  if (with_text) {
+    fmt::print("{}\n", one.reply.reasoning);
+  }
+  fmt::print("{:>9} {:>7}", "after", "answer");
+  for (const PolicyId policy : manoeuvre::all_policies) {
+    fmt::print(" {:>7}", name(policy));
+  }
+  fmt::print("\n");
+  for (const Answer& answer : one.reply.answers) {
+    fmt::print("{:>6.0f} ms {:>7}", milliseconds(answer.time), words(answer.kind));
+    for (const double p : answer.probability) {
+      fmt::print(" {:>5.0f} %", 100.0 * p);
+    }
+    fmt::print("\n");
+  }
+  if (const auto truth = reason::faithful_share(one.reply.reasoning, one.preview->prompt)) {
+    fmt::print("{:.0f} % of the numbers it quotes stand in the prompt.\n", 100.0 * *truth);
+  } else {
+    fmt::print("It quotes no number.\n");
+  }
+  if (one.reply.answers.empty()) {
+    fmt::print("No answer in time.\n\n");
+    return;
+  }
+  const PolicyId chosen = likeliest_policy(one.reply.answers.back());
+  fmt::print("Choice: {} {}; rollout check {}: {}.\n{} tokens read, {} written.\n\n",
+             manoeuvre::index(chosen), name(chosen), one.check->passed ? "passed" : "failed",
+             one.check->text, one.reply.prompt_tokens, one.reply.reply_tokens);
+}
+
+void tell_question(const std::vector<Preview>& previews) {
+  for (const Preview& preview : previews) {
+    const preview::Situation& situation = preview.situation;
+    fmt::print("--- Forecast {} of {}: {:.0f} % likely, trigger at {:.2f} s ---\n{}\n",
+               preview.number + 1, previews.size(), 100.0 * situation.probability,
+               situation.scene_at_trigger.time, preview.prompt);
+  }
+}
+
+/// Asks, telling the text while it comes if that is wanted. Answers are dated from the question.
+Result<std::vector<Reply>> ask(reason::LanguageModel& model, const std::vector<Preview>& previews,
+                               const ReasonOptions& options, Clock& clock) {
+  std::vector<std::string> scenes;
+  for (const Preview& preview : previews) {
+    scenes.push_back(preview.prompt);
+  }
+  Stream stream(scenes.size());
+  const bool streams = options.stream && !options.as_json;
+  const Clock::Time begin = clock.now();
+  auto replies = model.ask(scenes, begin + std::chrono::milliseconds(options.deadline),
+                           [&](const Progress& news) {
+                             if (streams && !news.text.empty()) {
+                               stream.take(news.prompt, news.text);
+                             }
+                           });
+  if (streams) {
+    stream.end();
+  }
+  if (replies.has_value()) {
+    std::vector<Reply> dated = std::move(replies).value();
+    for (Reply& reply : dated) {
+      for (Answer& answer : reply.answers) {
+        answer.time -= begin;
+      }
+    }
+    return dated;
+  }
+  return replies;
+}
+
+int reason_about(const ReasonOptions& options) {
+  const auto inputs = read_scenario_inputs(options.scenario);
+  if (!inputs.has_value()) {
+    return refused(inputs.error());
+  }
+  SteadyClock clock;
+  const auto chosen =
+      ChosenModel::open(inputs.value().places, options.model, "", loop::Pace::real, clock);
+  if (!chosen.has_value()) {
+    return refused(chosen.error());
+  }
+  if (chosen.value().get() == nullptr) {
+    complain("without a language model nothing can be asked");
+    return bad_input;
+  }
+  const manoeuvre::Atlas atlas = usual_atlas(inputs.value());
+  const auto danger = usual_danger(inputs.value());
+  if (!danger.has_value()) {
+    return refused(danger.error());
+  }
+  const preview::ForecastTools tools{&inputs.value().car, &inputs.value().harm, &atlas,
+                                     &danger.value()};
+  const auto previews = first_question(inputs.value(), tools, clock);
+  if (!previews.has_value()) {
+    return refused(previews.error());
+  }
+  if (!options.as_json) {
+    fmt::print("{}\nLanguage model: {}.\n\n", inputs.value().scenario.title,
+               chosen.value().get()->description());
+    tell_question(previews.value());
+  }
+  std::vector<Considered> all;
+  if (!previews.value().empty()) {
+    auto replies = ask(*chosen.value().get(), previews.value(), options, clock);
+    if (!replies.has_value()) {
+      return refused(replies.error());
+    }
+    for (std::size_t i = 0; i < replies.value().size(); ++i) {
+      Considered one{&previews.value()[i], std::move(replies.value()[i]), std::nullopt};
+      if (!one.reply.answers.empty()) {
+        const std::size_t policy = manoeuvre::index(likeliest_policy(one.reply.answers.back()));
+        const preview::Situation& situation = one.preview->situation;
+        one.check = decide::check(situation.facts[policy].plan, situation, tools);
+      }
+      all.push_back(std::move(one));
+    }
+  }
+  if (options.as_json) {
+    json document = {{"schema", "saca.reason/1"},
+                     {"scenario", inputs.value().scenario.name},
+                     {"model", chosen.value().get()->description()},
+                     {"deadline_ms", options.deadline},
+                     {"system", reason::system_part()},
+                     {"forecasts", json::array()}};
+    for (const Considered& one : all) {
+      document["forecasts"].push_back(considered_json(one));
+    }
+    fmt::print("{}\n", document.dump(1));
+    return success;
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    tell_considered(i + 1, all[i], !options.stream);
+  }
+  if (all.empty()) {
+    fmt::print("Nothing threatens in this scenario: there is nothing to ask.\n");
+  }
+  return success;
+}
+
+}  // namespace
+
+void add_reason(CLI::App& line, int& exit_code) {
+  CLI::App* const command = line.add_subcommand(
+      "reason", "Ask the language model what an encounter's first previews ask, and show it think");
+  const auto options = std::make_shared<ReasonOptions>();
+  command
+      ->add_option("scenario", options->scenario, "A scenario file, or the name of a shipped one")
+      ->required();
+  command
+      ->add_option("--llm", options->model,
+                   "local: the language model of `make model`; replay:FILE: recorded replies")
+      ->capture_default_str();
+  command
+      ->add_option("--deadline-ms", options->deadline,
+                   "From the question to the last answer; in an encounter about 4 s")
+      ->check(CLI::Range(1, 3'600'000))
+      ->capture_default_str();
+  command->add_flag("--stream", options->stream, "Write the reasoning while it comes");
+  command->add_flag("--json", options->as_json, "For programs");
+  command->callback([options, &exit_code] { exit_code = reason_about(*options); });
+}
+
+}  // namespace saca::app

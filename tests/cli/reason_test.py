@@ -1,0 +1,64 @@
+"""`saca reason`: what the language model is first asked in an encounter, and what it says."""
+import json
+import pathlib
+import sys
+
+import pytest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from program import BAD_INPUT, ROOT, SUCCESS, WRONG_COMMAND_LINE, one_error, saca
+
+
+@pytest.fixture(scope="module")
+def replies(tmp_path_factory):
+    """Replies to the first question of intersection_t1, written by hand for the prompt that is asked."""
+    folder = tmp_path_factory.mktemp("reason")
+    nobody = folder / "nobody.json"
+    nobody.write_text(json.dumps({"schema": "saca.replies/1", "model": "by hand", "replies": {}}))
+    run = saca("reason", "intersection_t1", "--llm", f"replay:{nobody}", cwd=folder)
+    assert run.returncode == BAD_INPUT  # it knows no prompt; the question is told all the same
+    prompt = run.stdout.split("trigger at", 1)[1].split("---\n", 1)[1].rstrip("\n") + "\n"
+    assert prompt.startswith("AUTONOMOUS DRIVING") and "## Manoeuvres:" in prompt
+    key = 0xCBF29CE484222325
+    for byte in prompt.encode():
+        key = (key ^ byte) * 0x100000001B3 % 2**64
+    answers = [{"after_ns": 50_000_000, "kind": "first", "probability": [0.25, 0.75, 0, 0, 0, 0, 0, 0]},
+               {"after_ns": 120_000_000, "kind": "ended", "probability": [0.875, 0.125, 0, 0, 0, 0, 0, 0]}]
+    file = folder / "replies.json"
+    file.write_text(json.dumps({"schema": "saca.replies/1", "model": "by hand", "replies": {f"{key:016x}": {
+        "prompt": prompt, "reasoning": "Scenario Analysis\n1. grip 0.90, speed 14.0 m/s, and 99.5 m.\nResponse to user: 0",
+        "prompt_tokens": 400, "reply_tokens": 30, "answers": answers}}}))
+    return file
+
+
+def test_it_is_told_with_its_answers_over_time(replies, tmp_path):
+    for more in ((), ("--stream",)):
+        run = saca("reason", "intersection_t1", "--llm", f"replay:{replies}", *more, cwd=tmp_path)
+        assert run.returncode == SUCCESS, run.stderr
+        assert run.stdout.count("Scenario Analysis") == 1
+        assert "50 ms   first    25 %    75 %" in run.stdout and "120 ms    free    88 %" in run.stdout
+        assert "67 % of the numbers" in run.stdout and "Choice: 0 AEB; rollout check passed" in run.stdout
+
+
+def test_for_programs(replies, tmp_path):
+    told = json.loads(saca("reason", "intersection_t1", "--llm", f"replay:{replies}", "--json", cwd=tmp_path).stdout)
+    assert told["schema"] == "saca.reason/1" and "0 AEB" in told["system"]
+    (forecast,) = told["forecasts"]
+    assert [one["policy"] for one in forecast["answers"]] == [1, 0]
+    assert [round(one["after_ms"]) for one in forecast["answers"]] == [50, 120]
+    assert forecast["check"]["passed"] is True and 0.0 < forecast["probability"] <= 1.0
+
+
+def test_nothing_is_asked_where_nothing_threatens(replies, tmp_path):
+    run = saca("reason", "lead_drives_on_follower", "--llm", f"replay:{replies}", cwd=tmp_path)
+    assert run.returncode == SUCCESS and "nothing to ask" in run.stdout
+    told = json.loads(saca("reason", "lead_drives_on_follower", "--llm", f"replay:{replies}", "--json", cwd=tmp_path).stdout)
+    assert told["forecasts"] == []
+
+
+def test_what_cannot_be_asked_is_refused(replies, tmp_path):
+    off = saca("reason", "intersection_t1", "--llm", "off", cwd=tmp_path)
+    assert "without a language model" in one_error(off, BAD_INPUT)
+    assert saca("reason", "intersection_t1", "--deadline-ms", 0, cwd=tmp_path).returncode == WRONG_COMMAND_LINE
+    late = saca("reason", "intersection_t1", "--llm", f"replay:{replies}", "--deadline-ms", 20, cwd=tmp_path)
+    assert "replay" in one_error(late, BAD_INPUT)
