@@ -121,6 +121,16 @@ class Comparison {
   std::vector<Row> rows_;
 };
 
+/// The same without what the vehicles tell of their controls: no pedals, no steering.
+Scored nothing_shared(Scored scored) {
+  for (Sequence& sequence : scored.sequences) {
+    for (intent::Observation& seen : sequence.observations) {
+      seen.steering = seen.throttle = seen.brake = intent::not_known;
+    }
+  }
+  return scored;
+}
+
 /// Models whose chain is taken away: each frame by its emissions alone.
 ModelsByLeftOut without_chains(ModelsByLeftOut models) {
   for (auto& [left_out, model] : models) {
@@ -145,6 +155,12 @@ std::optional<Error> compare_recorded(const EvalOptions& options, const ModelsBy
   if (auto problem = add_unseen(comparison, "LSTM-CRF", models, scored)) {
     return problem;
   }
+  const Scored closed = nothing_shared(scored);
+  auto of_closed = learn::foretold_unseen(models, closed.sequences, closed.splits, usual_threads());
+  if (!of_closed.has_value()) {
+    return of_closed.error();
+  }
+  comparison.add("LSTM-CRF, nothing shared", std::move(of_closed).value());
   if (!options.plain_models.empty()) {
     const auto plain = learn::read_models(options.plain_models);
     if (!plain.has_value()) {

@@ -25,7 +25,7 @@ struct Observation {
   // Shared by the vehicle itself; most do not.
   double steering = not_known;  ///< angle of the road wheels [rad]
   double throttle = not_known;  ///< pedal, 0 to 1
-  double brake = not_known;     ///< likewise
+  double brake = not_known;     ///< likewise; brake lights: 0 or 1
 };
 
 /// Way to the left from one observation to the next [m]; NaN unless both are in a lane. An offset

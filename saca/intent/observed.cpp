@@ -71,11 +71,9 @@ Observation observed(const Scene& scene, std::size_t actor) {
   if (speed > 0.0) {
     seen.acceleration = dot(own_actor.a_W, own_actor.v_W) / speed;
   }
-  if (own_actor.shared) {
-    seen.steering = own_actor.shared->steering;
-    seen.throttle = own_actor.shared->throttle;
-    seen.brake = own_actor.shared->brake;
-  }
+  seen.steering = own_actor.shared.steering.value_or(not_known);
+  seen.throttle = own_actor.shared.throttle.value_or(not_known);
+  seen.brake = own_actor.shared.brake.value_or(not_known);
   const Road& road = scene.road;
   const AlongRoad own = along_road(road, own_actor.X_WA, own_actor.v_W, own_actor.footprint);
   if (world::is_crossing(scene, own_actor) || !is_on_road(road, own.place.d)) {

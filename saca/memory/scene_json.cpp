@@ -1,6 +1,7 @@
 #include "saca/memory/scene_json.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -40,6 +41,15 @@ json ego_json(const Scene& scene) {
           {"mass_kg", scene.ego_mass},   {"footprint", footprint_json(scene.ego_footprint)}};
 }
 
+/// What may be known of a vehicle's controls; the key is there only if it is.
+struct Control {
+  const char* key;
+  std::optional<double> world::SharedControls::*value;
+};
+constexpr std::array<Control, 3> controls{{{"steering_rad", &world::SharedControls::steering},
+                                           {"throttle", &world::SharedControls::throttle},
+                                           {"brake", &world::SharedControls::brake}}};
+
 json actor_json(const Actor& actor) {
   json node = {{"id", actor.id},
                {"kind", world::name(actor.kind)},
@@ -58,10 +68,10 @@ json actor_json(const Actor& actor) {
                {"existence", actor.existence},
                {"age_s", actor.age},
                {"occluded", actor.occluded}};
-  if (actor.shared) {
-    node["shared"] = {{"steering_rad", actor.shared->steering},
-                      {"throttle", actor.shared->throttle},
-                      {"brake", actor.shared->brake}};
+  for (const Control& control : controls) {
+    if (const auto& value = actor.shared.*control.value) {
+      node[control.key] = *value;
+    }
   }
   return node;
 }
@@ -234,14 +244,6 @@ void read_ego(Reader reader, Scene& scene) {
   reader.refuse_others();
 }
 
-world::SharedControls read_shared(Reader reader) {
-  const world::SharedControls shared{.steering = reader.number("steering_rad"),
-                                     .throttle = reader.number("throttle"),
-                                     .brake = reader.number("brake")};
-  reader.refuse_others();
-  return shared;
-}
-
 Actor read_actor(Reader reader) {
   Actor actor;
   actor.id = reader.small_integer("id");
@@ -258,8 +260,10 @@ Actor read_actor(Reader reader) {
   actor.existence = reader.number("existence");
   actor.age = reader.number("age_s");
   actor.occluded = reader.flag("occluded");
-  if (reader.has("shared")) {
-    actor.shared = read_shared(reader.object("shared"));
+  for (const Control& control : controls) {
+    if (reader.has(control.key)) {
+      actor.shared.*control.value = reader.number(control.key);
+    }
   }
   reader.refuse_others();
   return actor;

@@ -57,9 +57,11 @@ bool is_valid(const Road& road) {
 }
 
 bool is_valid(const SharedControls& shared) {
-  const auto is_pedal = [](double way) { return way >= 0.0 && way <= 1.0; };
-  return std::abs(shared.steering) <= 0.5 * std::numbers::pi && is_pedal(shared.throttle) &&
-         is_pedal(shared.brake);
+  const auto is_pedal = [](const std::optional<double>& way) {
+    return !way || (*way >= 0.0 && *way <= 1.0);
+  };
+  return (!shared.steering || std::abs(*shared.steering) <= 0.5 * std::numbers::pi) &&
+         is_pedal(shared.throttle) && is_pedal(shared.brake);
 }
 
 std::optional<std::string_view> broken_rule(const Actor& actor) {
@@ -77,7 +79,7 @@ std::optional<std::string_view> broken_rule(const Actor& actor) {
       !(actor.existence >= 0.0 && actor.existence <= 1.0)) {
     return "an actor's uncertainties are >= 0 and its existence is in [0, 1]";
   }
-  if (actor.shared && !is_valid(*actor.shared)) {
+  if (!is_valid(actor.shared)) {
     return "shared steering is within 90 deg, shared pedals are in [0, 1]";
   }
   return std::nullopt;

@@ -27,11 +27,11 @@ enum class ActorKind : std::uint8_t {
 [[nodiscard]] std::string_view name(ActorKind kind);
 [[nodiscard]] std::optional<ActorKind> actor_kind_from(std::string_view name);
 
-/// What a vehicle tells of its controls by radio, now.
+/// What is known of a vehicle's controls now: by radio, or from its brake lights.
 struct SharedControls {
-  double steering = 0.0;  ///< mean angle of the steered road wheels, left positive [rad]
-  double throttle = 0.0;  ///< pedal, 0 to 1
-  double brake = 0.0;     ///< likewise
+  std::optional<double> steering;  ///< mean angle of the steered road wheels, left positive [rad]
+  std::optional<double> throttle;  ///< pedal, 0 to 1
+  std::optional<double> brake;     ///< likewise; brake lights: 0 or 1
 };
 
 /// A road user or obstacle as perceived: nobody has true states.
@@ -49,7 +49,7 @@ struct Actor {
   double existence = 1.0;    ///< probability that it is there at all, in [0, 1]
   double age = 0.0;          ///< since it was last measured [s], >= 0
   bool occluded = false;     ///< not seen now; the state is a prediction
-  std::optional<SharedControls> shared;  ///< most share nothing
+  SharedControls shared;     ///< of most nothing is known
 };
 
 /// "car1", "pedestrian2": the only names that reach a prompt.

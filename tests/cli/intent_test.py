@@ -51,12 +51,13 @@ def test_the_shipped_models_are_scored(sequences, tmp_path):
     told = json.loads(saca("intent", "eval", sequences, "--json", cwd=tmp_path).stdout)
     assert told["schema"] == "saca.intent_eval/1"
     recorded = told["comparisons"][0]
-    assert [row["method"] for row in recorded["methods"]] == ["LSTM-CRF", "CRF by hand", "causal rule", "constant motion"]
+    assert [row["method"] for row in recorded["methods"]] == ["LSTM-CRF", "LSTM-CRF, nothing shared", "CRF by hand",
+                                                            "causal rule", "constant motion"]
     for row in recorded["methods"]:
         for head in row["heads"]:
             counted = sum(sum(line) for line in head["confusion"])
             assert counted == sum(one["frames"] for one in head["classes"].values()) > 100
-    constant = recorded["methods"][3]["heads"][0]["classes"]
+    constant = recorded["methods"][4]["heads"][0]["classes"]
     assert constant["M"]["recall"] == 1.0 and constant["FB"]["recall"] == 0.0
     ahead = {(one["vehicles"], one["foresight"], one["ahead_s"]): one for one in told["displacements"]}
     assert ahead["all", "constant velocity", 1]["frames"] > 10
