@@ -13,6 +13,8 @@ class SteppingClock final : public Clock {
  public:
   [[nodiscard]] Time now() const noexcept override { return Time(now_ += step_.load()); }
   void wait_until(Time time) noexcept override { now_ = std::max(now_.load(), time.count()); }
+  // Without a step.
+  [[nodiscard]] Time last_look() const { return Time(now_.load()); }
   void step(Time by) { step_ = by.count(); }
 
  private:
