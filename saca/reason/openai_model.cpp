@@ -186,6 +186,10 @@ class OpenAiModel::Exchange {
     return quote(text, model_.settings_.key);
   }
 
+  [[nodiscard]] std::string refused(const Call& call, long status) const {
+    return fmt::format("want HTTP 200, got {}: {}", status, quoted(server_message(call.refusal)));
+  }
+
   void prepare(Call& call);
   void begin_what_is_due();
   void wait();
@@ -316,8 +320,7 @@ void OpenAiModel::Exchange::see_end(Call& call, CURLcode code) {
     return;
   }
   if (status != 0 && status != 200) {
-    const std::string what =
-        fmt::format("want HTTP 200, got {}: {}", status, quoted(server_message(call.refusal)));
+    const std::string what = refused(call, status);
     if (is_busy(status)) {
       const auto wanted = std::clamp<curl_off_t>(retry_after, 0, longest_retry_after);
       ask_again(call, std::max<Clock::Time>(call.pause, std::chrono::seconds(wanted)), what);
@@ -385,6 +388,9 @@ void OpenAiModel::Exchange::cut_short(Call& call) {
   const std::string& text = call.stream.text();
   if (const auto policy = stated_so_far(text)) {
     answer(call, *policy, Answer::Kind::forced);
+  } else if (const long status = call.status();
+             call.state == Call::State::running && status >= 300) {
+    fail(call, Error::Code::unreadable, refused(call, status));
   } else {
     const std::string before = call.setback.empty() ? "" : "; before that: " + call.setback;
     fail(call, Error::Code::too_late,

@@ -20,6 +20,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 constexpr auto deadline = 4s;
+constexpr auto long_time = 1000s;    // real seconds of steps, for what must succeed
 constexpr Clock::Time step = 150ms;  // fewer than six of them fill the time kept for the way back
 
 // The names that test programs look up go through this function; those of hosts that hang stay here
@@ -194,13 +195,25 @@ TEST_F(OpenAiModelTest, SilenceIsLate) {
   clock_.step(step);
   const std::vector<RudeServer::Behaviour> silences{
       falls_silent_after(""), falls_silent_after("HTTP/1.1 200"), falls_silent_after(stream_head),
-      falls_silent_after(stream_head + "data: {\"cho"),
-      falls_silent_after(http(401, "").substr(0, 30))};
+      falls_silent_after(stream_head + "data: {\"cho")};
   for (const RudeServer::Behaviour& silence : silences) {
     const Clock::Time begin = clock_.now();
     EXPECT_THAT(failure(silence, Error::Code::too_late), HasSubstr("want an answer before"));
     EXPECT_LT(clock_.last_look(), begin + deadline);
   }
+}
+
+TEST_F(OpenAiModelTest, RefusalWithoutItsEndIsARefusal) {
+  RudeServer server({[&](Visit& visit) {
+    const std::string all = http(401, "who are you?");
+    (void)visit.send(all.substr(0, all.size() - 1));
+    visit.wait(20);
+    clock_.step(step);
+    visit.wait(-1);
+  }});
+  OpenAiModel model(settings(server.url()), clock_);
+  EXPECT_THAT(failure(model), HasSubstr("want HTTP 200, got 401: who are you"));
+  EXPECT_LT(clock_.last_look(), deadline);
 }
 
 TEST_F(OpenAiModelTest, EndlessCommentsAreLate) {
@@ -216,7 +229,7 @@ TEST_F(OpenAiModelTest, EndlessCommentsAreLate) {
 
 // On the machine's clock: a word each 50 ms for a second, and silence.
 TEST_F(OpenAiModelTest, ReturnsInRealTime) {
-  constexpr auto tolerance = 200ms;  // this machine may do something else
+  constexpr auto tolerance = 500ms;  // this machine may do something else
   const std::vector<RudeServer::Behaviour> behaviours{
       falls_silent_after(""), falls_silent_after(stream_head), [](Visit& visit) {
         (void)visit.send(stream_head);
@@ -233,7 +246,7 @@ TEST_F(OpenAiModelTest, ReturnsInRealTime) {
     ASSERT_FALSE(replies.has_value());
     EXPECT_EQ(replies.error().code, Error::Code::too_late);
   }
-  EXPECT_THAT(text_, HasSubstr("word word "));
+  EXPECT_THAT(text_, HasSubstr("word "));
 }
 
 TEST_F(OpenAiModelTest, LookUpOfTheHostIsNotWaitedFor) {
@@ -244,7 +257,9 @@ TEST_F(OpenAiModelTest, LookUpOfTheHostIsNotWaitedFor) {
     EXPECT_THAT(failure(model, Error::Code::too_late), HasSubstr("https://hanging.test/v1"));
     EXPECT_LT(clock_.last_look(), deadline);
   }
-  EXPECT_EQ(num_looking_up, 1);  // still there: nobody has waited for it
+  while (num_looking_up == 0) {  // its thread may begin only now: nobody has waited for it
+    std::this_thread::yield();
+  }
   look_up_hangs = false;
   while (num_looking_up > 0) {
     std::this_thread::yield();
@@ -261,62 +276,84 @@ TEST_F(OpenAiModelTest, BusyServersAreAskedAgain) {
   for (const auto& busy :
        {sends(http(429, "slow down")), sends(http(500, "")), sends(http(502, "")),
         sends(http(503, "loading")), sends(http(504, "")), gone, reset, short_body}) {
-    RudeServer server({busy, busy, sends(good_reply(4))});
+    RudeServer server({busy, sends(good_reply(4))});
     OpenAiModel model(settings(server.url()), clock_);
-    const Clock::Time begin = clock_.now();
-    const auto replies = model.ask({"a"}, begin + deadline, record_);
+    const auto replies = model.ask({"a"}, clock_.now() + long_time, record_);
     ASSERT_TRUE(replies.has_value()) << replies.error().message;
-    EXPECT_EQ(server.num_requests(), 3U);
-    EXPECT_GE(clock_.now() - begin, 150ms);  // 50 + 100 ms
+    EXPECT_EQ(server.num_requests(), 2U);
+  }
+}
+
+TEST_F(OpenAiModelTest, PausesDouble) {
+  clock_.step(20ms);
+  std::vector<Clock::Time> times;
+  const RudeServer::Behaviour busy = [&](Visit& visit) {
+    times.push_back(clock_.last_look());
+    (void)visit.send(http(429, "slow down"));
+  };
+  RudeServer server({busy, busy, busy, busy, sends(good_reply(4))});
+  OpenAiModel model(settings(server.url()), clock_);
+  const auto replies = model.ask({"a"}, long_time, record_);
+  ASSERT_TRUE(replies.has_value()) << replies.error().message;
+  times.push_back(replies.value()[0].answers.at(0).time);
+  ASSERT_EQ(times.size(), 5U);
+  for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+    EXPECT_GE(times[i + 1] - times[i], 50ms * (1 << i));
   }
 }
 
 TEST_F(OpenAiModelTest, RetryAfterIsHonoured) {
-  clock_.step(20ms);
+  clock_.step(100ms);
   RudeServer server({sends(http(429, "", "Retry-After: 2\r\n")), sends(good_reply(4))});
   OpenAiModel model(settings(server.url()), clock_);
-  const auto replies = model.ask({"a"}, deadline, record_);
+  const auto replies = model.ask({"a"}, long_time, record_);
   ASSERT_TRUE(replies.has_value()) << replies.error().message;
   EXPECT_EQ(server.num_requests(), 2U);
-  EXPECT_GE(replies.value()[0].answers[0].time, 2s);
+  EXPECT_GE(replies.value()[0].answers.at(0).time, 2s);
 }
 
+// In the next three time stands still: they do not wait.
+
 TEST_F(OpenAiModelTest, RetryAfterTheDeadlineGivesUpAtOnce) {
-  for (const char* wait : {"4", "99999999999999999"}) {  // time stands still: it does not wait
+  for (const char* wait : {"4", "99999999999999999"}) {
     EXPECT_THAT(failure(sends(http(503, "{\"error\":\"full\"}",
                                    "Retry-After: " + std::string(wait) + "\r\n"))),
                 HasSubstr("want HTTP 200, got 503: full (no time is left to ask again)"));
   }
 }
 
-TEST_F(OpenAiModelTest, ServerThatStaysBusyIsToldOf) {
-  clock_.step(20ms);
+TEST_F(OpenAiModelTest, BusyServerJustBeforeTheDeadlineIsToldOf) {
   RudeServer server({sends(http(429, R"({"error":{"message":"slow down"}})"))});
   OpenAiModel model(settings(server.url()), clock_);
-  EXPECT_THAT(failure(model), HasSubstr("got 429: slow down (no time"));
-  // Pauses of 50, 100, ... 800 ms are 1.55 s; with the next it would be 3.15 s, of 3 s.
-  EXPECT_LE(server.num_requests(), 6U);
-  EXPECT_GE(server.num_requests(), 5U);  // the looks take time, too
-}
-
-TEST_F(OpenAiModelTest, SilenceAfterASetbackTellsOfIt) {
-  clock_.step(20ms);
-  RudeServer server({sends(http(503, "loading")), falls_silent_after("")});
-  OpenAiModel model(settings(server.url()), clock_);
-  EXPECT_THAT(failure(model, Error::Code::too_late),
-              HasSubstr("got 0 bytes of text; before that: want HTTP 200, got 503: loading"));
+  const auto replies = model.ask({"a"}, 1s + 50ms, record_);  // all that is left is one pause
+  ASSERT_FALSE(replies.has_value());
+  EXPECT_EQ(replies.error().code, Error::Code::unreadable);
+  EXPECT_THAT(replies.error().message, HasSubstr("got 429: slow down (no time"));
+  EXPECT_EQ(server.num_requests(), 1U);
 }
 
 TEST_F(OpenAiModelTest, RefusedConnectionIsToldOf) {
-  clock_.step(20ms);
   std::string url;
   {
     const RudeServer server({sends("")});
     url = server.url();
   }
   OpenAiModel model(settings(url), clock_);
-  EXPECT_THAT(failure(model), AllOf(HasSubstr(url), HasSubstr("onnect")));
-  EXPECT_LT(clock_.last_look(), deadline);
+  const auto replies = model.ask({"a"}, 1s + 50ms, record_);
+  ASSERT_FALSE(replies.has_value());
+  EXPECT_EQ(replies.error().code, Error::Code::unreadable);
+  EXPECT_THAT(replies.error().message, AllOf(HasSubstr(url), HasSubstr("onnect")));
+}
+
+TEST_F(OpenAiModelTest, SilenceAfterASetbackTellsOfIt) {
+  clock_.step(10ms);
+  RudeServer server({sends(http(503, "loading")), [&](Visit& visit) {
+                       clock_.step(step);
+                       visit.wait(-1);
+                     }});
+  OpenAiModel model(settings(server.url()), clock_);
+  EXPECT_THAT(failure(model, Error::Code::too_late),
+              HasSubstr("got 0 bytes of text; before that: want HTTP 200, got 503: loading"));
 }
 
 // What is not.
@@ -422,6 +459,14 @@ TEST_F(OpenAiModelTest, EnvironmentsProxyIsNotAsked) {
   EXPECT_TRUE(model.ask({"a"}, deadline, record_).has_value());
   unsetenv("http_proxy");  // NOLINT
   EXPECT_EQ(proxy.num_requests(), 0U);
+}
+
+TEST_F(OpenAiModelTest, LocalhostIsThisMachineWhateverLookUpsSay) {
+  RudeServer server({sends(good_reply(2))});
+  std::string url = server.url();
+  url.replace(url.find("127.0.0.1"), 9, "localhost");  // which getaddrinfo below does not know
+  OpenAiModel model(settings(url, "sk-0123456789"), clock_);
+  EXPECT_TRUE(model.ask({"a"}, deadline, record_).has_value());
 }
 
 // Encrypted connections, to OpenSSL's own server with a certificate made for the test.
