@@ -9,6 +9,7 @@
 #include "saca/intent/shipped_model.h"
 #include "saca/manoeuvre/default_car.h"
 #include "saca/manoeuvre/ego.h"
+#include "saca/reason/scripted_model.h"
 
 namespace saca::decide {
 namespace {
@@ -18,43 +19,15 @@ using reason::Answer;
 using world::Actor;
 using world::Scene;
 
-/// Answers with one policy, first and at the end; or not at all.
-class FixedModel final : public reason::LanguageModel {
- public:
-  explicit FixedModel(std::optional<PolicyId> says, Clock& clock) : says_(says), clock_(clock) {}
-
-  Result<std::vector<reason::Reply>> ask(
-      const std::vector<std::string>& scenes, Clock::Time deadline,
-      const std::function<void(const reason::Progress&)>& progress) override {
-    ++num_asked;
-    last_deadline = deadline;
-    prompts = scenes;
-    if (!says_) {
-      return Error{Error::Code::too_late, "no answer"};
-    }
-    std::vector<reason::Reply> replies;
-    for (std::size_t i = 0; i < scenes.size(); ++i) {
-      Answer answer{.time = clock_.now(), .kind = Answer::Kind::first};
-      answer.probability.fill(0.02);
-      answer.probability[manoeuvre::index(*says_)] = 0.86;
-      progress({.prompt = i, .text = {}, .answer = &answer});
-      progress({.prompt = i, .text = "because."});
-      answer.kind = Answer::Kind::ended;
-      progress({.prompt = i, .text = {}, .answer = &answer});
-      replies.push_back({.reasoning = "because.", .answers = {answer}, .reply_tokens = 2});
-    }
-    return replies;
-  }
-  [[nodiscard]] std::string description() const override { return "fixed"; }
-
-  int num_asked = 0;
-  Clock::Time last_deadline{0};
-  std::vector<std::string> prompts;
-
- private:
-  std::optional<PolicyId> says_;
-  Clock& clock_;
-};
+/// About each scene one policy, first and at the end.
+reason::ScriptedReply says(PolicyId policy) {
+  return {.lines = {{.answer = Answer::Kind::first, .policy = policy, .probability = 0.86},
+                    {.text = "because.",
+                     .answer = Answer::Kind::ended,
+                     .policy = policy,
+                     .probability = 0.86}},
+          .reply_tokens = 2};
+}
 
 class Thinking : public testing::Test {
  protected:
@@ -107,17 +80,17 @@ class Thinking : public testing::Test {
 };
 
 TEST_F(Thinking, StaysSilentWhereNothingThreatens) {
-  FixedModel model(PolicyId::aeb, clock_);
+  reason::ScriptedModel model(says(PolicyId::aeb), clock_);
   ThinkingPlane thinking = plane(&model);
   Scene empty = wreck_ahead();
   empty.actors.clear();
   EXPECT_FALSE(think(thinking, empty));
-  EXPECT_EQ(model.num_asked, 0);
+  EXPECT_EQ(model.num_asked(), 0);
   EXPECT_TRUE(events_.empty());
 }
 
 TEST_F(Thinking, CachesWhatTheModelChoosesAndTheRolloutConfirms) {
-  FixedModel model(PolicyId::aes_left, clock_);
+  reason::ScriptedModel model(says(PolicyId::aes_left), clock_);
   ThinkingPlane thinking = plane(&model);
   EXPECT_TRUE(think(thinking, wreck_ahead()));
   ASSERT_EQ(thinking.previews().size(), 1U);
@@ -132,7 +105,8 @@ TEST_F(Thinking, CachesWhatTheModelChoosesAndTheRolloutConfirms) {
 }
 
 TEST_F(Thinking, NeverCachesWhatFailsTheCheck) {
-  FixedModel model(PolicyId::no_intervention, clock_);  // drives into the wreck at 20 m/s
+  reason::ScriptedModel model(says(PolicyId::no_intervention),
+                              clock_);  // drives into the wreck at 20 m/s
   ThinkingPlane thinking = plane(&model);
   think(thinking, wreck_ahead());
   EXPECT_FALSE(thinking.previews()[0].check->passed);
@@ -141,7 +115,7 @@ TEST_F(Thinking, NeverCachesWhatFailsTheCheck) {
 }
 
 TEST_F(Thinking, NeverCachesWhatCannotBeDriven) {
-  FixedModel model(PolicyId::t_drift_right, clock_);
+  reason::ScriptedModel model(says(PolicyId::t_drift_right), clock_);
   ThinkingPlane thinking = plane(&model);
   world::Scene scene = wreck_ahead();
   scene.grip = 0.15;
@@ -151,7 +125,7 @@ TEST_F(Thinking, NeverCachesWhatCannotBeDriven) {
 }
 
 TEST_F(Thinking, ASilentModelLeavesNothingBehindButARecord) {
-  FixedModel model(std::nullopt, clock_);
+  reason::ScriptedModel model(reason::ScriptedReply{}, clock_);
   ThinkingPlane thinking = plane(&model);
   EXPECT_TRUE(think(thinking, wreck_ahead()));
   EXPECT_EQ(thinking.deadline_misses(), 1);
@@ -160,25 +134,25 @@ TEST_F(Thinking, ASilentModelLeavesNothingBehindButARecord) {
 }
 
 TEST_F(Thinking, AsksAgainAfterTheModelFailed) {
-  FixedModel model(std::nullopt, clock_);
+  reason::ScriptedModel model(reason::ScriptedReply{}, clock_);
   ThinkingPlane thinking = plane(&model);
   think(thinking, wreck_ahead());
   think(thinking, wreck_ahead());
-  EXPECT_EQ(model.num_asked, 2);
+  EXPECT_EQ(model.num_asked(), 2);
   EXPECT_EQ(thinking.previews().size(), 1U);
 }
 
 TEST_F(Thinking, TheDeadlineIsTheTrigger) {
-  FixedModel model(PolicyId::aeb, clock_);
+  reason::ScriptedModel model(says(PolicyId::aeb), clock_);
   ThinkingPlane thinking = plane(&model);
   think(thinking, wreck_ahead());
-  const double deadline = std::chrono::duration<double>(model.last_deadline).count();
+  const double deadline = std::chrono::duration<double>(model.last_deadline()).count();
   // 70 m less half a wreck and the ego's front, at 20 m/s, less T1 and the margin of 50 ms.
   EXPECT_NEAR(deadline, (70.0 - 4.5) / 20.0 - 1.3 - 0.05, 0.011);
 }
 
 TEST_F(Thinking, DoesNotAskTwiceAboutTheSameSituation) {
-  FixedModel model(PolicyId::aes_left, clock_);
+  reason::ScriptedModel model(says(PolicyId::aes_left), clock_);
   ThinkingPlane thinking = plane(&model);
   Scene scene = wreck_ahead();
   for (int k = 0; k < 5; ++k) {
@@ -187,18 +161,18 @@ TEST_F(Thinking, DoesNotAskTwiceAboutTheSameSituation) {
     scene.ego.X_WB.p.x += 2.0;
     clock_.advance(std::chrono::milliseconds(100));
   }
-  EXPECT_EQ(model.num_asked, 1);
+  EXPECT_EQ(model.num_asked(), 1);
   EXPECT_EQ(thinking.previews().size(), 1U);
   EXPECT_EQ(published_.back().size(), 1U);
 }
 
 TEST_F(Thinking, IsNotAskedWhenItWouldBeTooLate) {
-  FixedModel model(PolicyId::aes_left, clock_);
+  reason::ScriptedModel model(says(PolicyId::aes_left), clock_);
   ThinkingPlane thinking = plane(&model);
   Scene scene = wreck_ahead();
   scene.actors[0].X_WA.p.x = 31.0;  // 26.5 m, 1.33 s
   think(thinking, scene);
-  EXPECT_EQ(model.num_asked, 0);
+  EXPECT_EQ(model.num_asked(), 0);
 }
 
 TEST_F(Thinking, UsesAKnownCaseWithoutAsking) {
@@ -208,11 +182,11 @@ TEST_F(Thinking, UsesAKnownCaseWithoutAsking) {
   auto opened = memory::Store::open(file);
   ASSERT_TRUE(opened.has_value());
   memory::Store store = std::move(opened).value();
-  FixedModel model(PolicyId::aeb, clock_);
+  reason::ScriptedModel model(says(PolicyId::aeb), clock_);
   {
     ThinkingPlane before = plane(&model, &store);  // to learn what the trigger looks like
     think(before, wreck_ahead());
-    ASSERT_EQ(model.num_asked, 1);
+    ASSERT_EQ(model.num_asked(), 1);
     ASSERT_TRUE(store
                     .add({.scene = before.previews()[0].situation.scene_at_trigger,
                           .plan = {PolicyId::aeb, std::nullopt},
@@ -223,7 +197,7 @@ TEST_F(Thinking, UsesAKnownCaseWithoutAsking) {
   }
   ThinkingPlane thinking = plane(&model, &store);
   think(thinking, wreck_ahead());
-  EXPECT_EQ(model.num_asked, 1);
+  EXPECT_EQ(model.num_asked(), 1);
   EXPECT_EQ(thinking.previews()[0].gate, memory::Gate::cache);
   EXPECT_EQ(thinking.previews()[0].source, Source::memory);
   EXPECT_EQ(published_.back()[0].plan.policy, PolicyId::aes_left);

@@ -3,32 +3,26 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "saca/reason/scripted_model.h"
+
 namespace saca::loop {
 namespace {
 
 using reason::Answer;
 using testing::HasSubstr;
 
-/// Replies of 100 prompt tokens and 40 reply tokens, first and final answer.
-class TwoAnswers final : public reason::LanguageModel {
- public:
-  Result<std::vector<reason::Reply>> ask(
-      const std::vector<std::string>& scenes, Clock::Time,
-      const std::function<void(const reason::Progress&)>&) override {
-    reason::Reply reply{.reasoning = "so", .prompt_tokens = 100, .reply_tokens = 40};
-    reply.answers = {{.kind = Answer::Kind::first}, {.kind = Answer::Kind::ended}};
-    return std::vector<reason::Reply>(scenes.size(), reply);
-  }
-  [[nodiscard]] std::string description() const override { return "two answers"; }
-};
+const reason::ScriptedReply two_answers{
+    .lines = {{.text = "so", .answer = Answer::Kind::first}, {.answer = Answer::Kind::ended}},
+    .prompt_tokens = 100,
+    .reply_tokens = 40};
 
 constexpr ThinkingCosts costs{.preview = 0.0, .prompt_token = 0.001, .reply_token = 0.01};
 
 TEST(ChargedModel, DatesAnswersByTheirTokens) {
-  TwoAnswers inner;
   ManualClock simulated;
   simulated.advance(std::chrono::seconds(2));
-  const SteadyClock real;
+  ManualClock real;
+  reason::ScriptedModel inner(two_answers, real);
   ChargedModel model(inner, costs, real, simulated);
   std::vector<double> dates;
   const auto replies = model.ask({"a", "b"}, std::chrono::seconds(9), [&](const auto& news) {
@@ -42,9 +36,9 @@ TEST(ChargedModel, DatesAnswersByTheirTokens) {
 }
 
 TEST(ChargedModel, AnAnswerAfterTheDeadlineDidNotCome) {
-  TwoAnswers inner;
   const ManualClock simulated;
-  const SteadyClock real;
+  ManualClock real;
+  reason::ScriptedModel inner(two_answers, real);
   ChargedModel model(inner, costs, real, simulated);
   const auto silent = [](const auto&) {};
   const auto first_only = model.ask({"a"}, std::chrono::milliseconds(200), silent);

@@ -9,6 +9,7 @@
 #include "saca/intent/shipped_model.h"
 #include "saca/manoeuvre/atlas_for_test.h"
 #include "saca/manoeuvre/default_car.h"
+#include "saca/reason/scripted_model.h"
 
 namespace saca::loop {
 namespace {
@@ -23,24 +24,12 @@ class Quiet final : public Listener {
   void on_reasoning(std::int32_t, std::string_view) override {}
 };
 
-/// Always says the same policy, by 10 prompt tokens and 5 reply tokens.
-class Says final : public reason::LanguageModel {
- public:
-  explicit Says(PolicyId policy) : policy_(policy) {}
-  Result<std::vector<reason::Reply>> ask(
-      const std::vector<std::string>& scenes, Clock::Time,
-      const std::function<void(const reason::Progress&)>&) override {
-    reason::Answer answer;
-    answer.probability[manoeuvre::index(policy_)] = 1.0;
-    reason::Reply reply{.reasoning = "because", .prompt_tokens = 10, .reply_tokens = 5};
-    reply.answers.push_back(answer);
-    return std::vector<reason::Reply>(scenes.size(), reply);
-  }
-  [[nodiscard]] std::string description() const override { return "says one thing"; }
-
- private:
-  PolicyId policy_;
-};
+/// Always the same policy, by 10 prompt tokens and 5 reply tokens.
+reason::ScriptedReply says(PolicyId policy) {
+  return {.lines = {{.text = "because", .answer = reason::Answer::Kind::first, .policy = policy}},
+          .prompt_tokens = 10,
+          .reply_tokens = 5};
+}
 
 class EncounterTest : public testing::Test {
  protected:
@@ -106,7 +95,7 @@ TEST_F(EncounterTest, WithoutModelAndMemoryItBrakesAtT1) {
 }
 
 TEST_F(EncounterTest, ACheckedAnswerIsCarriedOut) {
-  Says model(PolicyId::aes_left);
+  reason::ScriptedModel model(says(PolicyId::aes_left), clock_);
   const auto scenario = wreck_on_wet_road();
   const Record record = play(scenario, &model).value();
   EXPECT_EQ(record.decision->plan.policy, PolicyId::aes_left);
@@ -130,7 +119,7 @@ TEST_F(EncounterTest, WithAnAtlasForecastsAndTheLastCheckAreReadFromIt) {
   follower.motion = sim::Script{
       .start = {.s = -8.5}, .speed = 12.8, .behaviour = sim::Behaviour::constant_velocity};
   scenario.actors.push_back(follower);
-  Says model(PolicyId::aes_left);
+  reason::ScriptedModel model(says(PolicyId::aes_left), clock_);
   const manoeuvre::Atlas& atlas = manoeuvre::small_atlas();
   const auto play_with_atlas = [&] {
     return run({.scenario = &scenario,
@@ -160,7 +149,7 @@ TEST_F(EncounterTest, WithAnAtlasForecastsAndTheLastCheckAreReadFromIt) {
 }
 
 TEST_F(EncounterTest, ABadAnswerFailsTheCheckAndItBrakes) {
-  Says model(PolicyId::no_intervention);
+  reason::ScriptedModel model(says(PolicyId::no_intervention), clock_);
   const auto scenario = wreck_on_wet_road();
   const Record record = play(scenario, &model).value();
   EXPECT_EQ(record.decision->plan.policy, PolicyId::aeb);
@@ -184,7 +173,7 @@ TEST_F(EncounterTest, MemoryLearnsWhatWouldHaveBeenBest) {
 }
 
 TEST_F(EncounterTest, TheUserCanAskForAPolicy) {
-  Says model(PolicyId::aes_left);
+  reason::ScriptedModel model(says(PolicyId::aes_left), clock_);
   const auto scenario = wreck_on_wet_road();
   const Record record = play(scenario, &model, nullptr, PolicyId::es_b_right).value();
   EXPECT_EQ(record.decision->plan.policy, PolicyId::es_b_right);
@@ -231,7 +220,7 @@ TEST_F(EncounterTest, AnEmptyRoadIsLeftAlone) {
 }
 
 TEST_F(EncounterTest, TheSameRunGivesTheSameRecordByteForByte) {
-  Says model(PolicyId::aes_left);
+  reason::ScriptedModel model(says(PolicyId::aes_left), clock_);
   const auto scenario = wreck_on_wet_road();
   loop::Setup setup{.scenario = &scenario,
                     .car = &car_,
@@ -313,7 +302,7 @@ TEST_F(EncounterTest, SacaActsOnWhatItPerceivesAndIsJudgedByTheTruth) {
 
 // Outside the domain of lane changes there is still the fallback.
 TEST_F(EncounterTest, TooFastForASwerveItBrakes) {
-  Says model(PolicyId::aes_left);
+  reason::ScriptedModel model(says(PolicyId::aes_left), clock_);
   sim::Scenario scenario = wreck_on_wet_road();
   std::get<sim::EgoStart>(scenario.ego).speed = 35.0;
   const Record record = play(scenario, &model).value();

@@ -8,6 +8,7 @@
 #include "saca/intent/shipped_model.h"
 #include "saca/loop/encounter.h"
 #include "saca/manoeuvre/default_car.h"
+#include "saca/reason/scripted_model.h"
 
 namespace saca::loop {
 namespace {
@@ -15,32 +16,15 @@ namespace {
 using manoeuvre::PolicyId;
 
 /// Writes its reasoning for 0.2 s, then says AES-L.
-class SlowModel final : public reason::LanguageModel {
- public:
-  explicit SlowModel(Clock& clock) : clock_(clock) {}
-  Result<std::vector<reason::Reply>> ask(
-      const std::vector<std::string>& scenes, Clock::Time,
-      const std::function<void(const reason::Progress&)>& progress) override {
-    for (int word = 0; word < 4; ++word) {
-      clock_.wait_until(clock_.now() + from_seconds(0.05));
-      for (std::size_t i = 0; i < scenes.size(); ++i) {
-        progress({.prompt = i, .text = "left "});
-      }
-    }
-    reason::Answer answer{.time = clock_.now()};
-    answer.probability[manoeuvre::index(PolicyId::aes_left)] = 1.0;
-    for (std::size_t i = 0; i < scenes.size(); ++i) {
-      progress({.prompt = i, .text = {}, .answer = &answer});
-    }
-    reason::Reply reply{.reasoning = "left left left left "};
-    reply.answers.push_back(answer);
-    return std::vector<reason::Reply>(scenes.size(), reply);
+reason::ScriptedReply slowly() {
+  reason::ScriptedReply reply;
+  for (int word = 1; word <= 4; ++word) {
+    reply.lines.push_back({.after = from_seconds(0.05 * word), .text = "left "});
   }
-  [[nodiscard]] std::string description() const override { return "slow"; }
-
- private:
-  Clock& clock_;
-};
+  reply.lines.back().answer = reason::Answer::Kind::ended;
+  reply.lines.back().policy = PolicyId::aes_left;
+  return reply;
+}
 
 /// Called by both threads.
 class Story final : public Listener {
@@ -76,7 +60,7 @@ TEST(RealPace, TheModelsPlanIsReadyInTimeAndCarriedOut) {
                              .mass = 1'500.0,
                              .motion = sim::Script{.start = {.s = 80.0}}});
   SteadyClock clock;
-  SlowModel model(clock);
+  reason::ScriptedModel model(slowly(), clock);
   Story story;
   const Clock::Time start = clock.now();
   const auto played = run({.scenario = &scenario,

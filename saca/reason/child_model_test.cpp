@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 
-#include <atomic>
 #include <csignal>
 #include <fstream>
 #include <thread>
+
+#include "saca/reason/scripted_child_for_test.h"
+#include "saca/reason/stepping_clock_for_test.h"
 
 namespace saca::reason {
 namespace {
@@ -14,40 +16,13 @@ namespace {
 using namespace std::chrono_literals;
 using testing::HasSubstr;
 
-// Stands still, or goes on by a step at each look: what takes real time (a process) never decides a
-// test, a stopped clock waits for it and a stepping one runs past it.
-class SteppingClock final : public Clock {
- public:
-  [[nodiscard]] Time now() const noexcept override { return Time(now_ += step_.load()); }
-  void wait_until(Time time) noexcept override { now_ = time.count(); }
-  void step(Time by) { step_ = by.count(); }
-
- private:
-  mutable std::atomic<Time::rep> now_{0};
-  std::atomic<Time::rep> step_{0};
-};
-
 constexpr auto deadline = 4s;
 
-// A model's process played by a shell script.
-//   ready      the system part is read
-//   answer K S first answer number K for scene S
-//   done
-std::vector<std::string> program(const std::string& behaviour) {
-  return {"/bin/sh", "-c", R"(
-say() { printf '{"v":1,"event":%s}\n' "$1"; }
-ready() { say '"ready","description":"fake","system_tokens":9,"load_s":0.5'; }
-first() { say "\"answer\",\"id\":$id,\"scene\":$1,\"kind\":\"first\",\"probability\":[0,0,0,0,1,0,0,0]"; }
-ended() { say "\"answer\",\"id\":$id,\"scene\":$1,\"kind\":\"ended\",\"probability\":[1,0,0,0,0,0,0,0]"; }
-text() { say "\"text\",\"id\":$id,\"scene\":$1,\"text\":\"$2\""; }
-done_() { say "\"done\",\"id\":$id,\"reply_tokens\":[3,4],\"prompt_s\":0.25,\"reply_s\":1,\"overran\":false"; }
-ask() { read -r line && id=$(printf '%s' "$line" | sed 's/.*"id":\([0-9]*\).*/\1/'); }
-read -r start
-)" + behaviour};
-}
-
 ChildModelSettings settings(const std::string& behaviour) {
-  return {.command = program(behaviour), .system = "rules", .identity = "weights 1", .margin = 2.0};
+  return {.command = scripted_child(behaviour),
+          .system = "rules",
+          .identity = "weights 1",
+          .margin = 2.0};
 }
 
 bool alive(pid_t pid) {

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "saca/core/file.h"
+#include "saca/reason/scripted_model.h"
 
 namespace saca::reason {
 namespace {
@@ -12,40 +13,24 @@ namespace {
 using namespace std::chrono_literals;
 using testing::HasSubstr;
 
-Answer answer(Clock::Time time, Answer::Kind kind, std::size_t policy) {
-  Answer result{.time = time, .kind = kind};
-  result.probability.at(policy) = 1.0;
-  return result;
+// Takes 1 s to the first answer and 3 s to the last: 0 and 1 about "a", 1 and 2 about the others.
+ScriptedReply slowly(const std::string& scene) {
+  const int policy = scene == "a" ? 0 : 1;
+  return {.lines = {{.after = 1s,
+                     .text = "about " + scene,
+                     .answer = Answer::Kind::first,
+                     .policy = manoeuvre::policy_from(policy).value()},
+                    {.after = 3s,
+                     .answer = Answer::Kind::ended,
+                     .policy = manoeuvre::policy_from(policy + 1).value()}},
+          .prompt_tokens = 330,
+          .reply_tokens = 80};
 }
-
-// Takes 1 s to the first answer and 3 s to the last.
-class SlowModel final : public LanguageModel {
- public:
-  explicit SlowModel(Clock& clock) : clock_(clock) {}
-  Result<std::vector<Reply>> ask(const std::vector<std::string>& scenes, Clock::Time,
-                                 const std::function<void(const Progress&)>&) override {
-    const Clock::Time begin = clock_.now();
-    std::vector<Reply> replies;
-    for (std::size_t i = 0; i < scenes.size(); ++i) {
-      replies.push_back({.reasoning = "about " + scenes[i],
-                         .answers = {answer(begin + 1s, Answer::Kind::first, i),
-                                     answer(begin + 3s, Answer::Kind::ended, i + 1)},
-                         .prompt_tokens = 330,
-                         .reply_tokens = 80});
-    }
-    clock_.wait_until(begin + 3s);
-    return replies;
-  }
-  [[nodiscard]] std::string description() const override { return "slow"; }
-
- private:
-  Clock& clock_;
-};
 
 RecordedReplies recorded() {
   ManualClock clock;
   clock.advance(100s);
-  SlowModel slow(clock);
+  ScriptedModel slow(&slowly, clock);
   RecordingModel model(slow, clock);
   EXPECT_TRUE(model.ask({"a", "b"}, 200s, [](const Progress&) {}).has_value());
   return model.recorded();
@@ -109,7 +94,7 @@ TEST_F(ReplayTest, UnknownPromptHasNoAnswer) {
 
 TEST_F(ReplayTest, FileKeepsEverything) {
   ManualClock clock;
-  SlowModel slow(clock);
+  ScriptedModel slow(&slowly, clock);
   RecordingModel model(slow, clock);
   ASSERT_TRUE(model.ask({"a \"b\"\n"}, 200s, record_).has_value());
   const std::string path = testing::TempDir() + "replies.json";
@@ -117,7 +102,7 @@ TEST_F(ReplayTest, FileKeepsEverything) {
   const auto read = parse_replies(read_file(path).value(), path);
   std::remove(path.c_str());
   ASSERT_TRUE(read.has_value()) << read.error().message;
-  EXPECT_EQ(read.value().model, "slow");
+  EXPECT_EQ(read.value().model, "script");
   const RecordedReply& reply = read.value().replies.at(prompt_key("a \"b\"\n"));
   EXPECT_EQ(reply.prompt, "a \"b\"\n");
   EXPECT_EQ(reply.reply.answers[1].time, 3s);

@@ -116,6 +116,14 @@ std::optional<manoeuvre::PolicyId> stated_policy(std::string_view text) {
   return manoeuvre::policy_from(rest[0] - '0');
 }
 
+std::optional<manoeuvre::PolicyId> stated_so_far(std::string_view text) {
+  text = text.substr(0, text.find_last_not_of(' ') + 1);
+  if (text.ends_with(answer_stem)) {
+    text.remove_suffix(answer_stem.size());
+  }
+  return stated_policy(text);
+}
+
 std::optional<double> faithful_share(std::string_view text, std::string_view prompt) {
   const std::vector<std::string> quoted = quoted_numbers(text);
   if (quoted.empty()) {

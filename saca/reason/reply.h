@@ -16,6 +16,9 @@ namespace saca::reason {
 /// @return      nullopt when there is none, or N is no number from 0 to 7
 [[nodiscard]] std::optional<manoeuvre::PolicyId> stated_policy(std::string_view text);
 
+/// Likewise of a text that was cut: an answer begun at its very end does not hide an earlier one.
+[[nodiscard]] std::optional<manoeuvre::PolicyId> stated_so_far(std::string_view text);
+
 /// How many of the numbers that a text quotes stand in the prompt, in [0, 1].
 ///
 /// A number is digits with at most one decimal point, compared by value without rounding: "14" is

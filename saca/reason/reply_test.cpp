@@ -39,6 +39,16 @@ TEST(StatedPolicy, IsNoneWithoutOneDigitOfEight) {
   }
 }
 
+TEST(StatedSoFar, LooksPastAnAnswerThatIsOnlyBegun) {
+  EXPECT_EQ(stated_so_far("Response to user: 6\nResponse to user:"), PolicyId::t_drift_right);
+  EXPECT_EQ(stated_so_far("Response to user: 6\nResponse to user:  "), PolicyId::t_drift_right);
+  EXPECT_EQ(stated_so_far("Response to user: 6\nResponse to us"), PolicyId::t_drift_right);
+  EXPECT_EQ(stated_so_far("Response to user: 6\nResponse to user: 0"), PolicyId::aeb);
+  EXPECT_EQ(stated_so_far("Response to user: 6\nResponse to user: 9"), std::nullopt);
+  EXPECT_EQ(stated_so_far("Response to user: "), std::nullopt);
+  EXPECT_EQ(stated_so_far(""), std::nullopt);
+}
+
 TEST(Faithful, CountsTheNumbersThatStandInThePrompt) {
   EXPECT_EQ(faithful_share("Truck at 16.0 m ahead, moving at 7.5 m/s.", prompt), 0.5);
   EXPECT_EQ(faithful_share("TTC is 1.3 s.", prompt), 1.0);
