@@ -2,10 +2,13 @@
 
 #include <fmt/core.h>
 
+#include <cstdlib>
 #include <string_view>
 #include <utility>
 
 #include "saca/core/file.h"
+#include "saca/reason/chat_address.h"
+#include "saca/reason/openai_model.h"
 #include "saca/reason/prompt.h"
 
 namespace saca::app {
@@ -28,6 +31,22 @@ Result<std::unique_ptr<reason::LanguageModel>> open_replay(const std::string& fi
       pace == loop::Pace::real ? reason::ReplayPace::as_recorded : reason::ReplayPace::at_once;
   return std::unique_ptr<reason::LanguageModel>(
       std::make_unique<reason::ReplayModel>(std::move(replies).value(), when, clock));
+}
+
+/// "MODEL@URL"
+Result<std::unique_ptr<reason::LanguageModel>> open_server(const std::string& choice,
+                                                           std::size_t at, Clock& clock) {
+  const char* const key = std::getenv("SACA_LLM_KEY");
+  reason::OpenAiModelSettings settings{.url = choice.substr(at + 1),
+                                       .model = choice.substr(0, at),
+                                       .key = key == nullptr ? "" : key,
+                                       .system = reason::system_part()};
+  const auto address = reason::chat_address(settings.url, !settings.key.empty());
+  if (!address.has_value()) {
+    return Error{address.error().code, "--llm: " + address.error().message};
+  }
+  return std::unique_ptr<reason::LanguageModel>(
+      std::make_unique<reason::OpenAiModel>(std::move(settings), clock));
 }
 
 }  // namespace
@@ -74,9 +93,15 @@ Result<ChosenModel> ChosenModel::open(const Places& places, const std::string& c
       return replay.error();
     }
     chosen.model_ = std::move(replay).value();
+  } else if (const std::size_t at = choice.find("@http"); at != std::string::npos && at > 0) {
+    auto server = open_server(choice, at, clock);
+    if (!server.has_value()) {
+      return server.error();
+    }
+    chosen.model_ = std::move(server).value();
   } else if (choice != "off") {
     return Error{Error::Code::malformed,
-                 "--llm: want local, off or replay:FILE, got `" + choice + "`"};
+                 "--llm: want local, off, replay:FILE or MODEL@URL, got `" + choice + "`"};
   }
   if (chosen.model_ && !record.empty()) {
     chosen.recording_ = std::make_unique<reason::RecordingModel>(*chosen.model_, clock);

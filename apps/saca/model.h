@@ -23,7 +23,8 @@ namespace saca::app {
 /// A model as `--llm` names it, and whoever writes down what it says.
 class ChosenModel {
  public:
-  /// @param choice  "local", "off" or "replay:FILE"
+  /// @param choice  "local", "off", "replay:FILE" or "MODEL@URL": a server with
+  ///                /v1/chat/completions, its key in the environment as SACA_LLM_KEY
   /// @param record  file for its replies; empty: none
   /// @return        without a model when it is off, or when "local" is not there: that is said on
   ///                the error stream, and the run goes on without

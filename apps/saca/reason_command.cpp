@@ -318,7 +318,8 @@ void add_reason(CLI::App& line, int& exit_code) {
       ->required();
   command
       ->add_option("--llm", options->model,
-                   "local: the language model of `make model`; replay:FILE: recorded replies")
+                   "local: the language model of `make model`; replay:FILE: recorded replies; "
+                   "MODEL@URL: a server with /v1/chat/completions, key in SACA_LLM_KEY")
       ->capture_default_str();
   command
       ->add_option("--deadline-ms", options->deadline,

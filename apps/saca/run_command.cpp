@@ -213,7 +213,7 @@ void add_run(CLI::App& line, int& exit_code) {
   command
       ->add_option("--llm", options->model,
                    "local: the language model of `make model`; off: none; replay:FILE: recorded "
-                   "replies")
+                   "replies; MODEL@URL: a server with /v1/chat/completions, key in SACA_LLM_KEY")
       ->capture_default_str();
   command->add_option("--record-replies", options->record_replies,
                       "Write the model's replies to a file for --llm replay:FILE");

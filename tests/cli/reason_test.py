@@ -1,7 +1,10 @@
 """`saca reason`: what the language model is first asked in an encounter, and what it says."""
+import http.server
 import json
+import os
 import pathlib
 import sys
+import threading
 
 import pytest
 
@@ -62,3 +65,49 @@ def test_what_cannot_be_asked_is_refused(replies, tmp_path):
     assert saca("reason", "intersection_t1", "--deadline-ms", 0, cwd=tmp_path).returncode == WRONG_COMMAND_LINE
     late = saca("reason", "intersection_t1", "--llm", f"replay:{replies}", "--deadline-ms", 20, cwd=tmp_path)
     assert "replay" in one_error(late, BAD_INPUT)
+
+
+class Server(http.server.BaseHTTPRequestHandler):
+    """Streams a fixed text, or refuses and repeats the key that it was sent."""
+
+    def do_POST(self):
+        asked = json.loads(self.rfile.read(int(self.headers["Content-Length"])))
+        self.server.asked.append(asked)
+        self.send_response(401 if self.server.refuses else 200)
+        self.end_headers()
+        if self.server.refuses:
+            self.wfile.write(self.headers["Authorization"].encode())
+            return
+        for text in ("Scenario Analysis\n1. Grip is 0.90.\n", "Response to user: 6"):
+            self.wfile.write(b"data: " + json.dumps({"choices": [{"delta": {"content": text}}]}).encode() + b"\n\n")
+        self.wfile.write(b'data: {"choices": [{"delta": {}, "finish_reason": "stop"}]}\n\ndata: [DONE]\n\n')
+
+    def log_message(self, *_):
+        pass
+
+
+@pytest.fixture
+def server():
+    found = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Server)
+    found.asked, found.refuses = [], False
+    threading.Thread(target=found.serve_forever, daemon=True).start()
+    yield found
+    found.shutdown()
+
+
+def test_a_server_can_be_asked(server, tmp_path):
+    url = f"some-model@http://127.0.0.1:{server.server_address[1]}/v1"
+    run = saca("reason", "intersection_t1", "--llm", url, cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    assert "Choice: 6 T-D-R" in run.stdout and "100 % of the numbers" in run.stdout
+    (asked,) = server.asked
+    assert asked["model"] == "some-model" and "## Manoeuvres:" in asked["messages"][-1]["content"]
+
+
+def test_its_key_is_told_to_nobody(server, tmp_path):
+    server.refuses = True
+    url = f"some-model@http://127.0.0.1:{server.server_address[1]}/v1"
+    run = saca("reason", "intersection_t1", "--llm", url, cwd=tmp_path, env=os.environ | {"SACA_LLM_KEY": "sk-very-secret"})
+    assert "401" in one_error(run, BAD_INPUT) and "very-secret" not in run.stderr + run.stdout
+    run = saca("reason", "intersection_t1", "--llm", "m@http://example.com/v1", cwd=tmp_path, env=os.environ | {"SACA_LLM_KEY": "sk-very-secret"})
+    assert "https" in one_error(run, BAD_INPUT) and "very-secret" not in run.stderr
