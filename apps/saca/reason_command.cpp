@@ -19,6 +19,7 @@
 #include "saca/loop/encounter.h"
 #include "saca/reason/prompt.h"
 #include "saca/reason/reply.h"
+#include "saca/reason/truth.h"
 
 namespace saca::app {
 namespace {
@@ -142,6 +143,7 @@ class Stream {
 struct Considered {
   const Preview* preview = nullptr;
   Reply reply;
+  reason::Truth truth;
   std::optional<decide::Check> check;  ///< of what was last chosen
 };
 
@@ -153,7 +155,11 @@ json considered_json(const Considered& one) {
                        {"policy", manoeuvre::index(likeliest_policy(answer))},
                        {"probability", answer.probability}});
   }
-  const auto truth = reason::faithful_share(one.reply.reasoning, one.preview->prompt);
+  json wrong = json::array();
+  for (const reason::FalseStatement& each : one.truth.wrong) {
+    wrong.push_back({{"text", each.text}, {"why", each.why}, {"load_bearing", each.load_bearing}});
+  }
+  const auto score = one.truth.score();
   return {{"probability", one.preview->situation.probability},
           {"trigger_s", one.preview->situation.scene_at_trigger.time},
           {"prompt", one.preview->prompt},
@@ -161,7 +167,10 @@ json considered_json(const Considered& one) {
           {"answers", answers},
           {"prompt_tokens", one.reply.prompt_tokens},
           {"reply_tokens", one.reply.reply_tokens},
-          {"quoted_numbers_in_prompt", truth ? json(*truth) : json()},
+          {"truth",
+           {{"checked", one.truth.num_checked},
+            {"score", score ? json(*score) : json()},
+            {"false", wrong}}},
           {"check",
            one.check ? json{{"passed", one.check->passed}, {"text", one.check->text}} : json()}};
 }
@@ -183,10 +192,12 @@ void tell_considered(std::size_t number, const Considered& one, bool with_text) 
     }
     fmt::print("\n");
   }
-  if (const auto truth = reason::faithful_share(one.reply.reasoning, one.preview->prompt)) {
-    fmt::print("{:.0f} % of the numbers it quotes stand in the prompt.\n", 100.0 * *truth);
-  } else {
-    fmt::print("It quotes no number.\n");
+  const auto num_checked = static_cast<std::size_t>(one.truth.num_checked);
+  fmt::print("Truth: {} of {} statements that can be checked.\n",
+             num_checked - one.truth.wrong.size(), num_checked);
+  for (const reason::FalseStatement& each : one.truth.wrong) {
+    fmt::print("  false{}: \"{}\": {}\n", each.load_bearing ? ", and the choice rests on it" : "",
+               each.text, each.why);
   }
   if (one.reply.answers.empty()) {
     fmt::print("No answer in time.\n\n");
@@ -276,12 +287,16 @@ int reason_about(const ReasonOptions& options) {
       return refused(replies.error());
     }
     for (std::size_t i = 0; i < replies.value().size(); ++i) {
-      Considered one{&previews.value()[i], std::move(replies.value()[i]), std::nullopt};
+      Considered one{.preview = &previews.value()[i], .reply = std::move(replies.value()[i])};
+      const preview::Situation& situation = one.preview->situation;
+      std::optional<PolicyId> chosen_policy;
       if (!one.reply.answers.empty()) {
-        const std::size_t policy = manoeuvre::index(likeliest_policy(one.reply.answers.back()));
-        const preview::Situation& situation = one.preview->situation;
-        one.check = decide::check(situation.facts[policy].plan, situation, tools);
+        chosen_policy = likeliest_policy(one.reply.answers.back());
+        one.check =
+            decide::check(situation.facts[manoeuvre::index(*chosen_policy)].plan, situation, tools);
       }
+      one.truth =
+          reason::truth_of(one.reply.reasoning, one.preview->prompt, situation, chosen_policy);
       all.push_back(std::move(one));
     }
   }

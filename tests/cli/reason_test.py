@@ -29,7 +29,7 @@ def replies(tmp_path_factory):
                {"after_ns": 120_000_000, "kind": "ended", "probability": [0.875, 0.125, 0, 0, 0, 0, 0, 0]}]
     file = folder / "replies.json"
     file.write_text(json.dumps({"schema": "saca.replies/1", "model": "by hand", "replies": {f"{key:016x}": {
-        "prompt": prompt, "reasoning": "Scenario Analysis\n1. grip 0.90, speed 14.0 m/s, and 99.5 m.\nResponse to user: 0",
+        "prompt": prompt, "reasoning": "Scenario Analysis\n1. AEB is clear.\n2. Grip 0.90, speed 14.0 m/s, and 99.5 m.\nResponse to user: 0",
         "prompt_tokens": 400, "reply_tokens": 30, "answers": answers}}}))
     return file
 
@@ -40,7 +40,8 @@ def test_it_is_told_with_its_answers_over_time(replies, tmp_path):
         assert run.returncode == SUCCESS, run.stderr
         assert run.stdout.count("Scenario Analysis") == 1
         assert "50 ms   first    25 %    75 %" in run.stdout and "120 ms    free    88 %" in run.stdout
-        assert "67 % of the numbers" in run.stdout and "Choice: 0 AEB; rollout check passed" in run.stdout
+        assert "Truth: 1 of 2 statements" in run.stdout and "99.5 m stands nowhere" in run.stdout
+        assert "Choice: 0 AEB; rollout check passed" in run.stdout
 
 
 def test_for_programs(replies, tmp_path):
@@ -49,6 +50,8 @@ def test_for_programs(replies, tmp_path):
     (forecast,) = told["forecasts"]
     assert [one["policy"] for one in forecast["answers"]] == [1, 0]
     assert [round(one["after_ms"]) for one in forecast["answers"]] == [50, 120]
+    assert forecast["truth"]["score"] == 0.5 and forecast["truth"]["checked"] == 2
+    assert [one["load_bearing"] for one in forecast["truth"]["false"]] == [False]
     assert forecast["check"]["passed"] is True and 0.0 < forecast["probability"] <= 1.0
 
 
@@ -99,7 +102,7 @@ def test_a_server_can_be_asked(server, tmp_path):
     url = f"some-model@http://127.0.0.1:{server.server_address[1]}/v1"
     run = saca("reason", "intersection_t1", "--llm", url, cwd=tmp_path)
     assert run.returncode == SUCCESS, run.stderr
-    assert "Choice: 6 T-D-R" in run.stdout and "100 % of the numbers" in run.stdout
+    assert "Choice: 6 T-D-R" in run.stdout and "Truth: 1 of 1 statements" in run.stdout
     (asked,) = server.asked
     assert asked["model"] == "some-model" and "## Manoeuvres:" in asked["messages"][-1]["content"]
 

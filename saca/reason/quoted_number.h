@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace saca::reason {
+
+/// A number that a text quotes.
+struct QuotedNumber {
+  std::string text;  ///< as written: digits with at most one decimal point, no sign
+  double value = 0.0;
+  double resolution = 1.0;  ///< of the last digit: 0.1 of "14.0"
+  std::string unit;         ///< "m", "m/s", "s" or "%"; empty: none of these follows
+  bool after_equals = false;
+};
+
+/// The numbers of a text, in its order. Not among them: digits within a name ("car1"), labels at
+/// the start of a line ("1.", "2)", "0 AEB"), and what follows "policy", "action" or "Response to
+/// user:", a list of several as well: those name choices.
+/// @param text  anything
+[[nodiscard]] std::vector<QuotedNumber> quoted_numbers(std::string_view text);
+
+}  // namespace saca::reason

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "saca/manoeuvre/plan.h"
+#include "saca/preview/situation.h"
+
+namespace saca::reason {
+
+/// A statement that what was computed does not bear out.
+struct FalseStatement {
+  std::string text;           ///< as written, at most 200 characters of it
+  std::string why;            ///< what is so, in our words
+  bool load_bearing = false;  ///< the choice rests on it
+};
+
+/// How far a reasoning is true.
+struct Truth {
+  int num_checked = 0;  ///< statements that say something which can be checked
+  std::vector<FalseStatement> wrong;
+
+  /// Share of the checked statements that are true; nullopt: there is none.
+  [[nodiscard]] std::optional<double> score() const;
+  /// Whether the choice rests on something false.
+  [[nodiscard]] bool is_choice_unfounded() const;
+};
+
+/// Compares a reasoning with the situation that it is about: each sentence, in parts where it
+/// claims several things.
+///
+/// * A number must stand in the prompt, with the same unit where both have one, to the decimals
+///   that are quoted; where the sentence names one road user or policy, in a line about it.
+///   Numbers after "=" that are the quotient of the two before it are true as well.
+/// * A name of our kind ("car3") must be somebody of the scene.
+/// * "clear", "no harm", "hits", "not possible", "blocked", "least harm" of a named policy must be
+///   its forecast; of a named side ("left is blocked") that of all policies to it, "clear" of one.
+///   "Blocked" is what is not possible or forecast to hit.
+/// * The choice must not be what the text calls blocked or not possible.
+/// What is said about the policy or the side that was chosen is load-bearing. What says nothing of
+/// this kind is not judged.
+///
+/// @param reasoning  anything
+/// @param prompt     the scene part that was reasoned about
+/// @param choice     nullopt: there was no answer
+[[nodiscard]] Truth truth_of(std::string_view reasoning, std::string_view prompt,
+                             const preview::Situation& situation,
+                             const std::optional<manoeuvre::PolicyId>& choice);
+
+}  // namespace saca::reason

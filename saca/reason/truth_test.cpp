@@ -1,0 +1,124 @@
+#include "saca/reason/truth.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <string>
+
+#include "saca/reason/example_situation.h"
+#include "saca/reason/prompt.h"
+
+namespace saca::reason {
+namespace {
+
+using manoeuvre::PolicyId;
+
+// truck1: 16.0 m ahead, 6.4 m left, moving right at 7.5 m/s; pedestrian1: 6.0 m ahead, 4.0 m left.
+// AEB is clear by 0.6 m; both drifts are refused; all others hit truck1, policy k at 8 + k m/s.
+Truth judge(const std::string& reasoning, std::optional<PolicyId> choice = PolicyId::aeb) {
+  const preview::Situation situation = example_situation();
+  return truth_of(reasoning, scene_part(situation, std::nullopt, 0.0), situation, choice);
+}
+
+/// What is wrong, in one line.
+std::string wrong(const std::string& reasoning, std::optional<PolicyId> choice = PolicyId::aeb) {
+  std::string all;
+  for (const FalseStatement& each : judge(reasoning, choice).wrong) {
+    all += (each.load_bearing ? "! " : "") + each.why + ';';
+  }
+  return all;
+}
+
+TEST(Truth, OfATrueReasoningIsWhole) {
+  const Truth truth = judge(
+      "Scenario Analysis\n"
+      "1. The ego drives at 14.0 m/s; grip is 0.90.\n"
+      "2. truck1 is 16 m ahead and moves right at 7.5 m/s. pedestrian1 stands 4.0 m left.\n"
+      "3. Policies 1, 3 and 5 are blocked, T-D-R is not possible.\n"
+      "4. AES-R hits truck1 with its front at 10.0 m/s.\n"
+      "5. AEB is clear by 0.6 m with no harm: the least harm.\n"
+      "Response to user: 0");
+  for (const FalseStatement& each : truth.wrong) {
+    ADD_FAILURE() << each.text << " -> " << each.why;
+  }
+  EXPECT_GE(truth.num_checked, 6);
+  EXPECT_EQ(truth.score(), 1.0);
+  EXPECT_FALSE(truth.is_choice_unfounded());
+}
+
+TEST(Truth, OfWhatSaysNothingIsNotKnown) {
+  EXPECT_EQ(judge("Scenario Analysis\n1. Be careful.\nResponse to user: 0").score(), std::nullopt);
+  EXPECT_EQ(judge("").score(), std::nullopt);
+}
+
+TEST(Truth, NumbersStandInALineAboutTheirSubject) {
+  EXPECT_EQ(wrong("truck1 is 6.4 m left."), "");
+  EXPECT_EQ(wrong("truck1 is 4.0 m left."), "4.0 m stands nowhere;");  // that is the pedestrian
+  EXPECT_EQ(wrong("Somebody is 4.0 m left."), "");
+  EXPECT_EQ(wrong("truck1 moves at 7.5 m."), "7.5 m stands nowhere;");  // the unit is another
+  EXPECT_EQ(wrong("truck1 moves at 8 m/s."), "");                       // rounded: 7.5
+  EXPECT_EQ(wrong("truck1 moves at 7 m/s."), "");                       // as well
+  EXPECT_EQ(wrong("truck1 moves at 8.0 m/s."), "8.0 m/s stands nowhere;");
+}
+
+TEST(Truth, QuotientsAreComputed) {
+  EXPECT_EQ(wrong("Time: 16.0 m / 14.0 m/s = 1.14 s."), "");
+  EXPECT_EQ(wrong("Time: 16.0 m / 14.0 m/s = 1.23 s."), "1.23 s stands nowhere;");
+}
+
+TEST(Truth, NamesAreThoseOfTheScene) {
+  EXPECT_EQ(wrong("car3 comes."), "there is no car3;");
+  EXPECT_EQ(wrong("truck1 and pedestrian1 come."), "");
+  EXPECT_EQ(wrong("truck12 comes."), "there is no truck12;");
+}
+
+TEST(Truth, ClaimsAboutPoliciesAreTheirForecasts) {
+  EXPECT_EQ(wrong("Policy 2 is clear."), "2 AES-R: hits truck1 with its front at 10.0 m/s;");
+  EXPECT_EQ(wrong("AEB hits truck1."), "! 0 AEB: clear by 0.6 m;");
+  EXPECT_EQ(wrong("AES-L is not possible."), "1 AES-L: hits truck1 with its front at 9.0 m/s;");
+  EXPECT_EQ(wrong("T-D-L is not possible."), "");
+  EXPECT_EQ(wrong("Action 7 has the least harm."), "7 NI: hits truck1 with its front at 15.0 m/s;");
+  EXPECT_EQ(wrong("Action 0 avoids contact."), "");
+}
+
+TEST(Truth, ClaimsAboutASideAreThoseOfItsThreePolicies) {
+  EXPECT_EQ(wrong("The left is blocked."), "");
+  EXPECT_EQ(wrong("The right is clear."), "of the three policies to the right none is so;");
+  EXPECT_EQ(wrong("Left is not possible."), "of the three policies to the left one is so;");
+}
+
+TEST(Truth, NobodyChoosesWhatHeCallsBlocked) {
+  EXPECT_EQ(wrong("The left is blocked.", PolicyId::aes_left), "! and yet 1 AES-L was chosen;");
+  EXPECT_EQ(wrong("The left is blocked.", PolicyId::aes_right), "");
+  EXPECT_EQ(wrong("Policies 1 and 2 are blocked.", PolicyId::aes_right),
+            "! and yet 2 AES-R was chosen;");
+  EXPECT_TRUE(judge("Action 1 is blocked.", PolicyId::aes_left).is_choice_unfounded());
+  EXPECT_FALSE(judge("Action 2 is clear.", PolicyId::aes_left).is_choice_unfounded());
+}
+
+TEST(Truth, IsKeptInOrderAndCounted) {
+  const Truth truth = judge("car9 comes.\n\nAEB is clear. The right is clear.\n- x");
+  EXPECT_EQ(truth.num_checked, 3);
+  ASSERT_EQ(truth.wrong.size(), 2U);
+  EXPECT_EQ(truth.wrong[0].text, "car9 comes.");
+  EXPECT_DOUBLE_EQ(*truth.score(), 1.0 / 3.0);
+}
+
+TEST(Truth, AnythingCanBeJudged) {
+  std::mt19937 random(11);
+  const std::vector<std::string> words{
+      "policy", "1",  ",",    "and", "left", "blocked", "clear",    "AEB",   "car",  "7",
+      ".",      "\n", "16.0", "m/s", "=",    "\xff",    "\xc3\xa4", "T-D-R", "hits", " "};
+  std::uniform_int_distribution<std::size_t> word(0, words.size() - 1);
+  for (int i = 0; i < 2'000; ++i) {
+    std::string text;
+    for (int k = i % 40; k > 0; --k) {
+      text += words[word(random)] + (k % 3 == 0 ? "" : " ");
+    }
+    const Truth truth = judge(text, manoeuvre::all_policies[static_cast<std::size_t>(i) % 8]);
+    EXPECT_LE(truth.wrong.size(), static_cast<std::size_t>(truth.num_checked)) << text;
+  }
+}
+
+}  // namespace
+}  // namespace saca::reason
