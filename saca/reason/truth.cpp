@@ -203,7 +203,10 @@ std::string lines_about(std::string_view prompt, const Subject& subject,
 bool agree(const QuotedNumber& said, const QuotedNumber& known) {
   const bool same_unit = said.unit.empty() || known.unit.empty() || said.unit == known.unit;
   constexpr double rounding = 1e-9;
-  return same_unit && std::abs(said.value - known.value) <= 0.5 * said.resolution + rounding;
+  constexpr double coarsest = 0.1;  // of the number: 1 is not a rounded 0.9
+  const bool may_be_rounded = said.resolution <= coarsest * said.value;
+  const double off = may_be_rounded ? 0.5 * said.resolution : 0.0;
+  return same_unit && std::abs(said.value - known.value) <= off + rounding;
 }
 
 /// "16 / 14 = 1.14": to the decimals that are quoted.

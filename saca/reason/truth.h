@@ -31,9 +31,10 @@ struct Truth {
 /// Compares a reasoning with the situation that it is about: each sentence, in parts where it
 /// claims several things.
 ///
-/// * A number must stand in the prompt, with the same unit where both have one, to the decimals
-///   that are quoted; where the sentence names one road user or policy, in a line about it.
-///   Numbers after "=" that are the quotient of the two before it are true as well.
+/// * A number must stand in the prompt, with the same unit where both have one, rounded at most to
+///   a tenth of it: "16" is a rounded 16.4, "1" no rounded 0.9; where the sentence names one road
+///   user or policy, in a line about it. Numbers after "=" that are the quotient of the two before
+///   it are true as well.
 /// * A name of our kind ("car3") must be somebody of the scene.
 /// * "clear", "no harm", "hits", "not possible", "blocked", "least harm" of a named policy must be
 ///   its forecast; of a named side ("left is blocked") that of all policies to it, "clear" of one.

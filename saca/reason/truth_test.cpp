@@ -56,9 +56,10 @@ TEST(Truth, NumbersStandInALineAboutTheirSubject) {
   EXPECT_EQ(wrong("truck1 is 4.0 m left."), "4.0 m stands nowhere;");  // that is the pedestrian
   EXPECT_EQ(wrong("Somebody is 4.0 m left."), "");
   EXPECT_EQ(wrong("truck1 moves at 7.5 m."), "7.5 m stands nowhere;");  // the unit is another
-  EXPECT_EQ(wrong("truck1 moves at 8 m/s."), "");                       // rounded: 7.5
-  EXPECT_EQ(wrong("truck1 moves at 7 m/s."), "");                       // as well
+  EXPECT_EQ(wrong("truck1 moves at 8 m/s."), "8 m/s stands nowhere;");  // too coarse for 7.5
   EXPECT_EQ(wrong("truck1 moves at 8.0 m/s."), "8.0 m/s stands nowhere;");
+  EXPECT_EQ(wrong("truck1 is 16 m ahead."), "");
+  EXPECT_EQ(wrong("Risk is 1."), "1 stands nowhere;");  // of 0.94
 }
 
 TEST(Truth, QuotientsAreComputed) {
