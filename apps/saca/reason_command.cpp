@@ -222,6 +222,7 @@ void tell_question(const std::vector<Preview>& previews) {
 Result<std::vector<Reply>> ask(reason::LanguageModel& model, const std::vector<Preview>& previews,
                                const ReasonOptions& options, Clock& clock) {
   std::vector<std::string> scenes;
+  scenes.reserve(previews.size());
   for (const Preview& preview : previews) {
     scenes.push_back(preview.prompt);
   }
@@ -286,8 +287,9 @@ int reason_about(const ReasonOptions& options) {
     if (!replies.has_value()) {
       return refused(replies.error());
     }
-    for (std::size_t i = 0; i < replies.value().size(); ++i) {
-      Considered one{.preview = &previews.value()[i], .reply = std::move(replies.value()[i])};
+    std::vector<Reply> said = std::move(replies).value();
+    for (std::size_t i = 0; i < said.size(); ++i) {
+      Considered one{.preview = &previews.value()[i], .reply = std::move(said[i])};
       const preview::Situation& situation = one.preview->situation;
       std::optional<PolicyId> chosen_policy;
       if (!one.reply.answers.empty()) {
