@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "saca/core/file.h"
+#include "saca/reason/news_for_test.h"
 #include "saca/reason/scripted_model.h"
 
 namespace saca::reason {
@@ -36,16 +37,7 @@ RecordedReplies recorded() {
   return model.recorded();
 }
 
-class ReplayTest : public testing::Test {
- protected:
-  ManualClock clock_;
-  std::vector<std::string> news_;
-  std::function<void(const Progress&)> record_ = [this](const Progress& p) {
-    const auto at = std::chrono::duration_cast<std::chrono::seconds>(clock_.now()).count();
-    news_.push_back(std::to_string(at) + " s: " + std::to_string(p.prompt) +
-                    (p.answer != nullptr ? " answers" : " " + std::string(p.text)));
-  };
-};
+using ReplayTest = NewsTest;
 
 TEST_F(ReplayTest, WhatWasRecordedIsSaidAgainAtItsTimes) {
   ReplayModel model(recorded(), ReplayPace::as_recorded, clock_);

@@ -2,22 +2,15 @@
 
 #include <gmock/gmock.h>
 
+#include "saca/reason/news_for_test.h"
+
 namespace saca::reason {
 namespace {
 
 using namespace std::chrono_literals;
 using manoeuvre::PolicyId;
 
-class ScriptedModelTest : public testing::Test {
- protected:
-  ManualClock clock_;
-  std::vector<std::string> news_;
-  std::function<void(const Progress&)> record_ = [this](const Progress& p) {
-    const auto at = std::chrono::duration_cast<std::chrono::seconds>(clock_.now()).count();
-    news_.push_back(std::to_string(at) + " s: " + std::to_string(p.prompt) +
-                    (p.answer != nullptr ? " answers" : " " + std::string(p.text)));
-  };
-};
+using ScriptedModelTest = NewsTest;
 
 TEST_F(ScriptedModelTest, SaysEachLineAtItsTime) {
   ScriptedModel model(
