@@ -7,8 +7,7 @@ figures=build/figures
 mkdir -p "$figures"
 build/release/saca physics --json --drift-draws 400 >"$figures/physics.json"
 build/release/saca bench --json >"$figures/saca.json"
-weights=third_party/models/$(sed -n 's/^  "weights": "\(.*\)".*/\1/p' third_party/models/choice.json)
-build/release/saca-model-host --model "$weights" --bench "${RUNS:-20}" --json >"$figures/reason.json"
+build/release/saca model bench --runs "${RUNS:-20}" --json >"$figures/reason.json"
 tools/start_time.py build/release/saca 100car_9018 >"$figures/start.json"
 tools/merge_figures.py "$figures"/*.json >build/figures.json
 cat build/figures.json

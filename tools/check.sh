@@ -24,7 +24,7 @@ tools/trace_mcap/run.sh setup  # its test reads a file back where this has been 
 check dev ""
 # Pages, the command line and the real model are tested once, in dev; benchmarks say nothing under a
 # sanitiser.
-check asan "module_tests scenario_replay vehicle_log_replay family_replay hundred_car_replay commonroad_replay ngsim_replay" --label-exclude 'viewer|cli|bench|model_host'
+check asan "module_tests scenario_replay vehicle_log_replay family_replay hundred_car_replay commonroad_replay ngsim_replay reply_replay" --label-exclude 'viewer|cli|bench|model_host'
 check tsan "core_latest_slot_test core_parallel_test loop_thinking_thread_test loop_real_pace_test"
 
 step "lint"

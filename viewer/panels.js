@@ -44,6 +44,17 @@ function show_decision(record) {
     el("p", { text: decision.text || "The record gives no reason." }));
 }
 
+/** What the model wrote when it was over; nothing where there is none. */
+function show_review(record) {
+  const { review } = record, panel = by_id("review");
+  if (!review) {
+    panel.remove();
+    return;
+  }
+  panel.append(el("pre", { class: "reasoning", text: review.text }), truth_check(review.truth) ?? "",
+    el("details", {}, el("summary", { text: "Prompt" }), el("pre", { class: "prompt", tabindex: "0", text: review.prompt })));
+}
+
 function show_driver(record) {
   by_id("driver").append(el("p", { text: record.scenario.driver || "The record does not know: this encounter has no recorded driver." }));
 }
@@ -112,16 +123,24 @@ function preview_answers(preview, record) {
   return table("Probability of each policy over time", headings, rows);
 }
 
+/** What of the reasoning is true, and each statement that is not. */
+function truth_check(truth) {
+  if (!truth?.checked) return null;
+  const wrong = list(truth.false), rests = wrong.some((s) => s.load_bearing);
+  return el("div", {},
+    el("p", {}, tag(`${truth.checked - wrong.length} of ${truth.checked} statements that can be checked are true`, rests ? "bad" : wrong.length ? "warn" : "good")),
+    wrong.length ? el("ul", {}, ...wrong.map((s) => el("li", {}, el("q", { text: s.text }), `: ${s.why}`, s.load_bearing ? tag("the choice rests on it", "bad") : null))) : null);
+}
+
 function preview_steps(preview, record) {
   const { memory, check, plan } = preview, gate = memory?.gate;
   const step = (name, state, ...content) => el("li", { class: `step ${state}` }, el("h4", { text: name }), ...content);
   const case_words = memory?.case === null || memory?.case === undefined ? "no case" : `case ${memory.case}`;
-  const faithful = is_number(preview.faithful) ? `${percent(preview.faithful)} of the numbers quoted in the reply stand in the prompt` : null;
   return el("ol", { class: "steps" },
     step("Memory", "done", memory ? el("p", {}, bar(memory.similarity, `${percent(memory.similarity)} · ${case_words}`), el("small", { text: gate_words[gate] ?? gate ?? "" })) : el("p", { class: "soft", text: "not asked" })),
     step("Language model", list(preview.answers).length ? "done" : "skipped", preview_answers(preview, record),
       preview.reasoning ? el("pre", { class: "reasoning", text: preview.reasoning }) : null,
-      faithful ? el("p", {}, tag(faithful, preview.faithful >= 0.999 ? "good" : "warn")) : null,
+      truth_check(preview.truth),
       preview.prompt ? el("details", {}, el("summary", { text: "Prompt" }), el("pre", { class: "prompt", tabindex: "0", text: preview.prompt })) : null),
     step("Rollout check", check ? (check.passed ? "done" : "failed") : "skipped",
       check ? el("p", {}, tag(check.passed ? "✓ passed" : "✕ failed", check.passed ? "good" : "bad"), " ", check.text ?? "") : el("p", { class: "soft", text: "not needed, or not reached" })),

@@ -29,7 +29,7 @@ function read_record(text) {
   const events = list(raw.events).filter((e) => is_number(e.t_s)).sort((a, b) => a.t_s - b.t_s);
   const record = {
     ...raw, frames, events, scenario: dict(raw.scenario), road: dict(raw.road), ego: dict(raw.ego),
-    actors: list(raw.actors), previews: list(raw.previews), decision: raw.decision ?? null, result: dict(raw.result),
+    actors: list(raw.actors), previews: list(raw.previews), decision: raw.decision ?? null, review: raw.review ?? null, result: dict(raw.result),
     hindsight: list(raw.hindsight), intentions: read_intentions(raw.intentions), timing: dict(raw.timing), thresholds: dict(raw.thresholds) };
   record.start = frames.length ? frames[0].t_s : 0;
   // A contact lies between frames, a late answer may come after the last one.

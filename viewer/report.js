@@ -131,6 +131,7 @@ function start() {
   show_driver(record);
   show_futures(record);
   show_result(record);
+  show_review(record);
   show_previews(record, show_in_plan);
   show_run(record);
   show_events(record, (t, event) => page.seek(t, event));

@@ -1,9 +1,13 @@
 #include "engine.h"
 
 #include <llama.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "utf8.h"
@@ -45,6 +49,21 @@ std::string piece(const llama_vocab* vocab, llama_token token) {
   const int n = llama_token_to_piece(vocab, token, buffer.data(),
                                      static_cast<std::int32_t>(buffer.size()), 0, false);
   return n > 0 ? std::string(buffer.data(), static_cast<std::size_t>(n)) : std::string();
+}
+
+// Weights that leave no memory for anything else would take the steering process down with them.
+std::optional<Error> refuse_size(const std::string& path) {
+  std::error_code problem;
+  const auto size = std::filesystem::file_size(path, problem);
+  const auto memory = static_cast<std::uintmax_t>(sysconf(_SC_PHYS_PAGES)) *
+                      static_cast<std::uintmax_t>(sysconf(_SC_PAGESIZE));
+  if (problem || size <= memory / 2) {
+    return std::nullopt;
+  }
+  constexpr std::uintmax_t mebi = 1U << 20U;
+  return Error{Error::Code::out_of_range, path + ": want weights of at most half of the memory, " +
+                                              std::to_string(memory / 2 / mebi) + " MiB, got " +
+                                              std::to_string(size / mebi)};
 }
 
 // Owns a llama_batch and the rule that its tokens are put in one by one.
@@ -113,7 +132,8 @@ struct Engine::State {
   Batch batch;
   // Outlive an ask: the first step of the next one is planned with them.
   RecentCost step_cost;
-  RecentCost answer_cost;  // of one scene
+  RecentCost answer_cost;                                        // of one scene
+  double least_token_cost = std::numeric_limits<double>::max();  // of a prompt [s]
 
   // Read by the abort callback inside a step.
   Clock* clock = nullptr;
@@ -307,16 +327,27 @@ struct Engine::State {
     // Only its own answer is waited for: those before it have theirs.
     const int last = evaluate_run(prompt, system_tokens, sequence(thought.scene), true,
                                   deadline - from_seconds(answer_cost.get()));
-    figures.prompt_seconds += to_seconds(clock->now() - begin);
+    const double cost = to_seconds(clock->now() - begin);
+    figures.prompt_seconds += cost;
     if (last < 0) {
       return false;
     }
+    learn_token_cost(cost, prompt.size());
     figures.prompt_tokens[thought.scene] = static_cast<int>(prompt.size());
     events.prompt_read(thought.scene, static_cast<int>(prompt.size()));
     thought.position = system_tokens + static_cast<llama_pos>(prompt.size());
     thought.next = likeliest(last);
     thought.reasoning = true;
     return read_answers({&thought}, AnswerKind::first, deadline, events);
+  }
+
+  void learn_token_cost(double cost, std::size_t tokens) {
+    least_token_cost = std::min(least_token_cost, cost / static_cast<double>(tokens));
+  }
+
+  // What the first answer takes when everything goes as well as it ever did [s].
+  [[nodiscard]] double least_cost(const Tokens& prompt) const {
+    return least_token_cost * static_cast<double>(prompt.size());
   }
 
   [[nodiscard]] Result<std::vector<Tokens>> prompts(const std::vector<std::string>& scenes,
@@ -345,6 +376,9 @@ Engine::~Engine() = default;
 
 Result<std::shared_ptr<Engine>> Engine::load(const EngineSettings& settings) {
   expects(settings.threads > 0 && settings.context > 0, "threads > 0 and context > 0");
+  if (auto problem = refuse_size(settings.model_path)) {
+    return *problem;
+  }
   llama_backend_init();
   auto state = std::make_unique<State>();
   state->settings = settings;
@@ -406,9 +440,12 @@ Result<int> Engine::set_system(std::string_view text, Clock& clock) {
   llama_memory_clear(s.memory(), true);
   s.system_tokens = 0;
   s.clock = nullptr;  // nothing to be late for
+  const Clock::Time begin = clock.now();
   if (s.evaluate_run(tokens, 0, sequence(0), false, Clock::Time::max()) < 0) {
     return Error{Error::Code::malformed, "system part: cannot be evaluated"};
   }
+  // Cold, thus dear: half of it may be enough another time.
+  s.learn_token_cost(0.5 * to_seconds(clock.now() - begin), tokens.size());
   for (std::size_t scene = 1; scene < max_scenes; ++scene) {
     llama_memory_seq_cp(s.memory(), sequence(0), sequence(scene), -1, -1);
   }
@@ -435,6 +472,11 @@ Result<AskFigures> Engine::ask(const std::vector<std::string>& scenes, Clock::Ti
   const Result<std::vector<Tokens>> prompts = s.prompts(scenes, max_tokens);
   if (!prompts.has_value()) {
     return prompts.error();
+  }
+  const double left = to_seconds(deadline - clock.now());
+  if (const double least = s.least_cost(prompts.value().front()); left < least) {
+    return Error{Error::Code::too_late, "no time: to read a scene takes " + std::to_string(least) +
+                                            " s, there are " + std::to_string(left) + " s"};
   }
   s.clock = &clock;
   AskFigures figures;

@@ -16,9 +16,10 @@ namespace saca::model_host {
 
 /// How the weights are run.
 struct EngineSettings {
-  std::string model_path;  ///< a GGUF file whose chat form is <|im_start|> ... <|im_end|>
-  int threads = 2;         ///< > 0
-  int context = 1536;      ///< room for the tokens of the system part, one scene and its reply
+  std::string model_path;    ///< a GGUF file whose chat form is <|im_start|> ... <|im_end|>
+  int threads = 2;           ///< > 0
+  int context = 1536;        ///< room for the tokens of the system part, one scene and its reply
+  double temperature = 1.0;  ///< by which the logits of the answers are divided, > 0
 };
 
 using AnswerKind = reason::Answer::Kind;

@@ -4,9 +4,13 @@
 #include <csignal>
 #include <filesystem>
 
+#include "saca/core/file.h"
+#include "saca/outcome/harm.h"
 #include "saca/reason/child_model.h"
+#include "saca/reason/crowded_situation_for_test.h"
 #include "saca/reason/example_situation.h"
 #include "saca/reason/prompt.h"
+#include "saca/reason/token_bound.h"
 
 namespace saca::model_host {
 namespace {
@@ -14,6 +18,7 @@ namespace {
 using namespace std::chrono_literals;
 using reason::Answer;
 
+constexpr int chat_tokens = 8;   // that the template puts around a scene
 constexpr auto patience = 5min;  // a busy machine is slow; nothing here is about speed
 
 class HostTest : public testing::Test {
@@ -28,7 +33,7 @@ class HostTest : public testing::Test {
 
   [[nodiscard]] reason::ChildModelSettings settings(int max_tokens) const {
     return {.command = {SACA_MODEL_HOST, "--model", SACA_MODEL},
-            .system = reason::system_part(),
+            .system = reason::system_part(outcome::read_harm(SACA_HARM).value()),
             .identity = "base",
             .max_tokens = max_tokens};
   }
@@ -72,6 +77,26 @@ TEST_F(HostTest, OtherScenesDoNotChangeAFirstAnswer) {
   EXPECT_NE(alone.value()[0].answers[0].probability, beside.value()[0].answers[0].probability);
 }
 
+// What the tokeniser says, not we.
+TEST_F(HostTest, NoPromptIsLongerThanItsBound) {
+  reason::ChildModel model(settings(0), clock_);
+  std::vector<std::string> scenes{scene_};
+  for (unsigned seed = 0; seed < 11; ++seed) {
+    memory::Case nearest;
+    nearest.harm = 0.0321;
+    nearest.best_harm = 1.25;
+    scenes.push_back(reason::scene_part(reason::crowded_situation(seed), nearest, 0.5));
+  }
+  for (const std::string& scene : scenes) {
+    const auto replies = model.ask({scene}, clock_.now() + patience, nobody_);
+    ASSERT_TRUE(replies.has_value()) << replies.error().message;
+    const int tokens = replies.value()[0].prompt_tokens;
+    EXPECT_LE(tokens, reason::tokens_at_most(scene) + chat_tokens) << scene;
+    EXPECT_GE(tokens, reason::tokens_at_most(scene) * 9 / 10) << "the bound wastes much: " << scene;
+    EXPECT_LE(tokens, reason::most_prompt_tokens + chat_tokens) << scene;
+  }
+}
+
 TEST_F(HostTest, KilledInTheMiddleItAnswersTheNextQuestion) {
   reason::ChildModel model(settings(500), clock_);
   const auto cut = model.ask({scene_}, clock_.now() + patience, [&](const reason::Progress& p) {
@@ -98,13 +123,51 @@ TEST_F(HostTest, PromptThatDoesNotFitIsRefused) {
   EXPECT_EQ(model.restarts(), 0);
 }
 
-TEST_F(HostTest, MissingWeightsAreNamed) {
-  reason::ChildModelSettings missing = settings(6);
-  missing.command.back() = "/no/such/weights.gguf";
-  reason::ChildModel model(missing, clock_);
-  const auto refused = model.ask({scene_}, clock_.now() + patience, nobody_);
-  ASSERT_FALSE(refused.has_value());
-  EXPECT_NE(refused.error().message.find("/no/such/weights.gguf"), std::string::npos);
+// Whatever is wrong with a file: it is named, and nobody waits or dies but the child.
+TEST_F(HostTest, WrongWeightsAreNamed) {
+  const std::filesystem::path folder = testing::TempDir();
+  const auto refused = [&](const std::filesystem::path& weights) {
+    reason::ChildModelSettings wrong = settings(6);
+    wrong.command.back() = weights;
+    reason::ChildModel model(wrong, clock_);
+    const auto replies = model.ask({scene_}, clock_.now() + patience, nobody_);
+    std::filesystem::remove(weights);
+    return replies.has_value() ? "it answered" : replies.error().message;
+  };
+  const auto expect_named = [&](const std::filesystem::path& weights) {
+    EXPECT_NE(refused(weights).find(weights.string()), std::string::npos) << weights;
+  };
+  expect_named("/no/such/weights.gguf");
+
+  const auto text = folder / "saca_text.gguf";
+  ASSERT_FALSE(write_file(text, "this is no model").has_value());
+  expect_named(text);
+
+  const auto cut = folder / "saca_cut.gguf";
+  std::filesystem::copy_file(SACA_MODEL, cut, std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::resize_file(cut, std::filesystem::file_size(cut) / 2);
+  expect_named(cut);
+
+  // Whole, of an architecture that nobody knows, without tensors.
+  const auto foreign = folder / "saca_foreign.gguf";
+  const auto number = [](std::uint64_t value, int bytes) {
+    std::string little;
+    for (int i = 0; i < bytes; ++i, value >>= 8U) {
+      little += static_cast<char>(value & 0xFFU);
+    }
+    return little;
+  };
+  const auto word = [&](const std::string& its) { return number(its.size(), 8) + its; };
+  ASSERT_FALSE(write_file(foreign, "GGUF" + number(3, 4) + number(0, 8) + number(1, 8) +
+                                       word("general.architecture") + number(8, 4) +
+                                       word("cuneiform"))
+                   .has_value());
+  expect_named(foreign);
+
+  const auto huge = folder / "saca_huge.gguf";
+  ASSERT_FALSE(write_file(huge, "GGUF").has_value());
+  std::filesystem::resize_file(huge, std::uintmax_t{1} << 40U);  // holes: it takes no room
+  EXPECT_NE(refused(huge).find("half of the memory"), std::string::npos);
 }
 
 }  // namespace

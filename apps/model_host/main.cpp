@@ -4,8 +4,6 @@
 //   saca-model-host --model FILE [--threads N] [--context N]
 //       reads requests from standard input and writes events to standard output, one JSON object a
 //       line (docs/model-protocol.md); ends when its input ends, or with the process that began it
-//   saca-model-host --model FILE --bench N [--json]
-//       measures itself through the same child process that SACA uses
 //
 // Exit codes: 0 input ended; 1 the model cannot be loaded; 2 wrong arguments.
 #include <llama.h>
@@ -19,7 +17,6 @@
 #include <iostream>
 #include <thread>
 
-#include "bench.h"
 #include "service.h"
 
 namespace {
@@ -53,22 +50,18 @@ void spin_shortly(char** argv) {
 int run(int argc, char** argv) {
   saca::model_host::EngineSettings settings;
   settings.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 8U));
-  int bench_runs = 0;
-  bool json = false;
   CLI::App app("Runs SACA's language model in a process of its own");
   app.add_option("--model", settings.model_path, "GGUF file")->required();
   app.add_option("--threads", settings.threads)->check(CLI::Range(1, 64));
   app.add_option("--context", settings.context, "tokens of system part, scene and reply")
       ->check(CLI::Range(256, 8192));
-  app.add_option("--bench", bench_runs, "measure: how often to ask")->check(CLI::Range(1, 10000));
-  app.add_flag("--json", json, "figures as one flat object");
+  app.add_option("--temperature", settings.temperature,
+                 "by which the logits of the eight answers are divided: above 1 less sure")
+      ->check(CLI::Range(0.01, 100.0));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
-  }
-  if (bench_runs > 0) {
-    return saca::model_host::bench(settings, bench_runs, json, std::cout);
   }
   end_with_parent();
   llama_log_set([](ggml_log_level, const char*, void*) {}, nullptr);

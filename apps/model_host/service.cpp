@@ -23,12 +23,12 @@ std::uint64_t resident_bytes() {
   return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
-std::array<double, num_answers> softmax(const std::vector<double>& logits) {
+std::array<double, num_answers> softmax(const std::vector<double>& logits, double temperature) {
   const double top = *std::max_element(logits.begin(), logits.end());
   std::array<double, num_answers> result{};
   double sum = 0.0;
   for (std::size_t i = 0; i < result.size(); ++i) {
-    result[i] = std::exp(logits[i] - top);
+    result[i] = std::exp((logits[i] - top) / temperature);
     sum += result[i];
   }
   for (double& p : result) {
@@ -75,13 +75,14 @@ class Service {
           say(protocol::Text{ask.id, scene, std::string(text)});
         },
         [&](std::size_t scene, AnswerKind kind, const std::vector<double>& logits) {
-          say(protocol::Answered{ask.id, scene, kind, softmax(logits)});
+          say(protocol::Answered{ask.id, scene, kind, softmax(logits, settings_.temperature)});
         }};
     const double longest = 3600.0;  // [s]: nobody waits longer, and the sum below stays in range
     const auto budget = from_seconds(std::min(ask.budget, longest));
     const auto figures = engine_->ask(ask.scenes, arrival + budget, ask.max_tokens, clock_, events);
     if (!figures.has_value()) {
-      say(protocol::Failed{ask.id, figures.error().message});
+      say(protocol::Failed{ask.id, figures.error().message,
+                           figures.error().code == Error::Code::too_late});
       return;
     }
     say(protocol::Done{ask.id, figures.value().reply_tokens, figures.value().prompt_seconds,

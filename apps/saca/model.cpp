@@ -6,7 +6,9 @@
 #include <string_view>
 #include <utility>
 
+#include "saca/config/config.h"
 #include "saca/core/file.h"
+#include "saca/outcome/harm.h"
 #include "saca/reason/chat_address.h"
 #include "saca/reason/openai_model.h"
 #include "saca/reason/prompt.h"
@@ -33,14 +35,53 @@ Result<std::unique_ptr<reason::LanguageModel>> open_replay(const std::string& fi
       std::make_unique<reason::ReplayModel>(std::move(replies).value(), when, clock));
 }
 
+Result<std::string> system_part(const Places& places) {
+  const auto harm = outcome::read_harm(places.root / "data" / "harm.toml");
+  if (!harm.has_value()) {
+    return harm.error();
+  }
+  return reason::system_part(harm.value());
+}
+
+/// By which the answers of these weights are softened, so that a probability is how often it is so;
+/// 1 where nobody has measured it.
+Result<double> temperature_of(const Places& places, const std::string& weights) {
+  const auto file = places.root / "data" / "language_model.toml";
+  const auto text = read_file(file);
+  if (!text.has_value()) {
+    return text.error();
+  }
+  const auto document = config::Document::parse(text.value(), file.string());
+  if (!document.has_value()) {
+    return document.error();
+  }
+  double found = 1.0;
+  for (config::Table& each : document.value().root().tables("weights")) {
+    const std::string name = each.text("name");
+    const double temperature = each.number("temperature", {0.05, 20.0});
+    if (weights.starts_with(name)) {
+      found = temperature;
+    }
+  }
+  if (const auto problem = document.value().error()) {
+    return *problem;
+  }
+  return found;
+}
+
 /// "MODEL@URL"
-Result<std::unique_ptr<reason::LanguageModel>> open_server(const std::string& choice,
+Result<std::unique_ptr<reason::LanguageModel>> open_server(const Places& places,
+                                                           const std::string& choice,
                                                            std::size_t at, Clock& clock) {
+  auto system = system_part(places);
+  if (!system.has_value()) {
+    return system.error();
+  }
   const char* const key = std::getenv("SACA_LLM_KEY");
   reason::OpenAiModelSettings settings{.url = choice.substr(at + 1),
                                        .model = choice.substr(0, at),
                                        .key = key == nullptr ? "" : key,
-                                       .system = reason::system_part()};
+                                       .system = std::move(system).value()};
   const auto address = reason::chat_address(settings.url, !settings.key.empty());
   if (!address.has_value()) {
     return Error{address.error().code, "--llm: " + address.error().message};
@@ -65,11 +106,21 @@ Result<std::unique_ptr<reason::ChildModel>> open_local_model(const Places& place
                  (places.root / "third_party" / "models" / "choice.json").string() +
                      ": no language model is set up; `make model` gets it"};
   }
+  auto system = system_part(places);
+  if (!system.has_value()) {
+    return system.error();
+  }
+  const std::string name = weights->filename().string();
+  const auto temperature = temperature_of(places, name);
+  if (!temperature.has_value()) {
+    return temperature.error();
+  }
   auto model = std::make_unique<reason::ChildModel>(
       reason::ChildModelSettings{
-          .command = {places.model_host.string(), "--model", weights->string()},
-          .system = reason::system_part(),
-          .identity = weights->filename().string()},
+          .command = {places.model_host.string(), "--model", weights->string(), "--temperature",
+                      fmt::format("{}", temperature.value())},
+          .system = std::move(system).value(),
+          .identity = name},
       clock);
   if (const auto failure = model->wait_until_ready(clock.now() + loading_time)) {
     return *failure;
@@ -94,7 +145,7 @@ Result<ChosenModel> ChosenModel::open(const Places& places, const std::string& c
     }
     chosen.model_ = std::move(replay).value();
   } else if (const std::size_t at = choice.find("@http"); at != std::string::npos && at > 0) {
-    auto server = open_server(choice, at, clock);
+    auto server = open_server(places, choice, at, clock);
     if (!server.has_value()) {
       return server.error();
     }

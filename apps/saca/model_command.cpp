@@ -5,6 +5,7 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/model.h"
+#include "apps/saca/model_commands.h"
 #include "apps/saca/places.h"
 
 namespace saca::app {
@@ -13,19 +14,16 @@ namespace {
 int model_info(bool as_json) {
   const auto places = find_places();
   if (!places.has_value()) {
-    complain(places.error().message);
-    return bad_input;
+    return refused(places.error());
   }
   SteadyClock clock;
   const auto model = open_local_model(places.value(), clock);
   if (!model.has_value()) {
-    complain(model.error().message);
-    return bad_input;
+    return refused(model.error());
   }
   const auto info = model.value()->info(clock.now() + std::chrono::seconds(30));
   if (!info.has_value()) {
-    complain(info.error().message);
-    return bad_input;
+    return refused(info.error());
   }
   constexpr double mebi = 1024.0 * 1024.0;
   const nlohmann::json out{
@@ -56,6 +54,8 @@ void add_model(CLI::App& line, int& exit_code) {
   const auto as_json = std::make_shared<bool>(false);
   info->add_flag("--json", *as_json, "For programs");
   info->callback([as_json, &exit_code] { exit_code = model_info(*as_json); });
+  add_model_bench(*command, exit_code);
+  add_model_score(*command, exit_code);
 }
 
 }  // namespace saca::app

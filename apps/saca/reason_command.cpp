@@ -12,14 +12,14 @@
 #include "apps/saca/atlas_making.h"
 #include "apps/saca/commands.h"
 #include "apps/saca/danger_making.h"
+#include "apps/saca/first_question.h"
 #include "apps/saca/inputs.h"
 #include "apps/saca/model.h"
-#include "apps/saca/story.h"
 #include "saca/decide/check.h"
-#include "saca/loop/encounter.h"
 #include "saca/reason/prompt.h"
 #include "saca/reason/reply.h"
 #include "saca/reason/truth.h"
+#include "saca/reason/truth_json.h"
 
 namespace saca::app {
 namespace {
@@ -39,68 +39,8 @@ struct ReasonOptions {
   bool as_json = false;
 };
 
-/// Takes the first question of an encounter and answers none.
-class QuestionTaker final : public reason::LanguageModel {
- public:
-  [[nodiscard]] Result<std::vector<Reply>> ask(
-      const std::vector<std::string>& scenes, Clock::Time,
-      const std::function<void(const Progress&)>&) override {
-    if (first_.empty()) {
-      first_ = scenes;
-    }
-    return Error{Error::Code::too_late, "only listened to"};
-  }
-  [[nodiscard]] std::string description() const override { return "question taker"; }
-  [[nodiscard]] const std::vector<std::string>& first() const { return first_; }
-
- private:
-  std::vector<std::string> first_;
-};
-
-/// The forecasts that a model is first asked about in an encounter, with their prompts; empty when
-/// nothing ever threatens.
-Result<std::vector<Preview>> first_question(const ScenarioInputs& inputs,
-                                            const preview::ForecastTools& tools, Clock& clock) {
-  QuestionTaker taker;
-  Silence silence;
-  const loop::Setup setup{.scenario = &inputs.scenario,
-                          .car = &inputs.car,
-                          .harm = &inputs.harm,
-                          .intent = &inputs.intent,
-                          .atlas = tools.atlas,
-                          .danger = tools.danger,
-                          .pace = loop::Pace::lockstep,
-                          .costs = {},
-                          .model = &taker,
-                          .clock = &clock};
-  auto record = loop::run(setup, silence);
-  if (!record.has_value()) {
-    return record.error();
-  }
-  loop::Record played = std::move(record).value();
-  std::vector<Preview> asked;
-  for (Preview& each : played.previews) {
-    if (asked.size() < taker.first().size()) {  // numbered as they were asked about
-      asked.push_back(std::move(each));
-    }
-  }
-  return asked;
-}
-
 double milliseconds(Clock::Time time) {
   return 1e3 * to_seconds(time);
-}
-
-std::string_view words(Answer::Kind kind) {
-  switch (kind) {
-    case Answer::Kind::first:
-      return "first";
-    case Answer::Kind::ended:
-      return "free";
-    case Answer::Kind::forced:
-      return "forced";
-  }
-  return "";
 }
 
 /// Writes what several replies say while they grow: one as it comes, more of them line by line.
@@ -151,15 +91,10 @@ json considered_json(const Considered& one) {
   json answers = json::array();
   for (const Answer& answer : one.reply.answers) {
     answers.push_back({{"after_ms", milliseconds(answer.time)},
-                       {"kind", words(answer.kind)},
+                       {"kind", name(answer.kind)},
                        {"policy", manoeuvre::index(likeliest_policy(answer))},
                        {"probability", answer.probability}});
   }
-  json wrong = json::array();
-  for (const reason::FalseStatement& each : one.truth.wrong) {
-    wrong.push_back({{"text", each.text}, {"why", each.why}, {"load_bearing", each.load_bearing}});
-  }
-  const auto score = one.truth.score();
   return {{"probability", one.preview->situation.probability},
           {"trigger_s", one.preview->situation.scene_at_trigger.time},
           {"prompt", one.preview->prompt},
@@ -167,10 +102,7 @@ json considered_json(const Considered& one) {
           {"answers", answers},
           {"prompt_tokens", one.reply.prompt_tokens},
           {"reply_tokens", one.reply.reply_tokens},
-          {"truth",
-           {{"checked", one.truth.num_checked},
-            {"score", score ? json(*score) : json()},
-            {"false", wrong}}},
+          {"truth", truth_json(one.truth)},
           {"check",
            one.check ? json{{"passed", one.check->passed}, {"text", one.check->text}} : json()}};
 }
@@ -186,7 +118,7 @@ void tell_considered(std::size_t number, const Considered& one, bool with_text) 
   }
   fmt::print("\n");
   for (const Answer& answer : one.reply.answers) {
-    fmt::print("{:>6.0f} ms {:>7}", milliseconds(answer.time), words(answer.kind));
+    fmt::print("{:>6.0f} ms {:>7}", milliseconds(answer.time), name(answer.kind));
     for (const double p : answer.probability) {
       fmt::print(" {:>5.0f} %", 100.0 * p);
     }
@@ -272,24 +204,25 @@ int reason_about(const ReasonOptions& options) {
   }
   const preview::ForecastTools tools{&inputs.value().car, &inputs.value().harm, &atlas,
                                      &danger.value()};
-  const auto previews = first_question(inputs.value(), tools, clock);
-  if (!previews.has_value()) {
-    return refused(previews.error());
+  const auto asked = first_question(inputs.value(), tools, clock);
+  if (!asked.has_value()) {
+    return refused(asked.error());
   }
+  const std::vector<Preview>& previews = asked.value().previews;
   if (!options.as_json) {
     fmt::print("{}\nLanguage model: {}.\n\n", inputs.value().scenario.title,
                chosen.value().get()->description());
-    tell_question(previews.value());
+    tell_question(previews);
   }
   std::vector<Considered> all;
-  if (!previews.value().empty()) {
-    auto replies = ask(*chosen.value().get(), previews.value(), options, clock);
+  if (!previews.empty()) {
+    auto replies = ask(*chosen.value().get(), previews, options, clock);
     if (!replies.has_value()) {
       return refused(replies.error());
     }
     std::vector<Reply> said = std::move(replies).value();
     for (std::size_t i = 0; i < said.size(); ++i) {
-      Considered one{.preview = &previews.value()[i], .reply = std::move(said[i])};
+      Considered one{.preview = &previews[i], .reply = std::move(said[i])};
       const preview::Situation& situation = one.preview->situation;
       std::optional<PolicyId> chosen_policy;
       if (!one.reply.answers.empty()) {
@@ -307,7 +240,7 @@ int reason_about(const ReasonOptions& options) {
                      {"scenario", inputs.value().scenario.name},
                      {"model", chosen.value().get()->description()},
                      {"deadline_ms", options.deadline},
-                     {"system", reason::system_part()},
+                     {"system", reason::system_part(inputs.value().harm)},
                      {"forecasts", json::array()}};
     for (const Considered& one : all) {
       document["forecasts"].push_back(considered_json(one));

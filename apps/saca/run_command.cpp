@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "apps/saca/atlas_making.h"
 #include "apps/saca/commands.h"
@@ -13,6 +15,7 @@
 #include "apps/saca/story.h"
 #include "saca/core/file.h"
 #include "saca/loop/encounter.h"
+#include "saca/loop/review.h"
 #include "saca/loop/trace.h"
 #include "saca/manoeuvre/atlas_file.h"
 #include "saca/memory/store.h"
@@ -163,32 +166,42 @@ int run(const RunOptions& options) {
   if (!options.as_json) {
     story.headline(inputs.value().scenario, setup);
   }
-  const auto record =
-      loop::run(setup, options.as_json ? static_cast<loop::Listener&>(silence) : story);
-  if (!record.has_value()) {
-    return refused(record.error());
+  auto played = loop::run(setup, options.as_json ? static_cast<loop::Listener&>(silence) : story);
+  if (!played.has_value()) {
+    return refused(played.error());
   }
-  const std::string text = loop::record_json(setup, record.value());
+  if (!options.as_json) {
+    story.ending(inputs.value().scenario, played.value());
+  }
+  loop::Record record = std::move(played).value();
+  const auto review = loop::review(setup, record, [&](std::string_view said) {
+    if (!options.as_json) {
+      story.on_review(said);
+    }
+  });
+  if (review.has_value()) {
+    record.review = review.value();
+  } else {
+    complain("no review: " + review.error().message);
+  }
+  const std::string text = loop::record_json(setup, record);
   const fs::path folder = fs::path(options.output) / inputs.value().scenario.name;
   const fs::path report =
       options.report.empty() ? folder / "report.html" : fs::path(options.report);
   auto problem = write_outputs(text, folder, report);
   if (!problem && !options.trace.empty()) {
-    problem = write_trace(options.trace, setup, record.value());
+    problem = write_trace(options.trace, setup, record);
   }
   if (!problem) {
     problem = model.value().save_replies();
   }
   if (options.as_json) {
     fmt::print("{}\n", text);
-  } else {
-    story.ending(inputs.value().scenario, record.value());
-    if (!problem) {
-      fmt::print("Report: {}\n", fs::absolute(report).string());
-    }
+  } else if (!problem) {
+    fmt::print("{}Report: {}\n", record.review ? "\n\n" : "", fs::absolute(report).string());
   }
   if (!problem) {
-    problem = record.value().not_stored;
+    problem = record.not_stored;
   }
   if (problem) {
     complain(problem->message);

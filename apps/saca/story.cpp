@@ -73,4 +73,14 @@ void Story::ending(const sim::Scenario& scenario, const loop::Record& record) {
              *record.best == chosen ? ": the same" : "");
 }
 
+void Story::on_review(std::string_view text) {
+  const std::lock_guard guard(lock_);
+  if (!reviewing_) {
+    fmt::print(stream_, "\nThe language model looks back:\n");
+    reviewing_ = true;
+  }
+  fmt::print(stream_, "{}", text);
+  std::fflush(stream_);
+}
+
 }  // namespace saca::app

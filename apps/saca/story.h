@@ -18,10 +18,13 @@ class Story final : public loop::Listener {
 
   void headline(const sim::Scenario& scenario, const loop::Setup& setup);
   void ending(const sim::Scenario& scenario, const loop::Record& record);
+  /// The model looking back, piece by piece.
+  void on_review(std::string_view text);
 
  private:
   std::FILE* stream_;
   bool colour_;
+  bool reviewing_ = false;
   std::mutex lock_;
 };
 

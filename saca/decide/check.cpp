@@ -33,4 +33,15 @@ Check check(const manoeuvre::Plan& plan, const preview::Situation& situation,
   return check(facts.front(), facts.back(), scene);
 }
 
+Check check_unfounded(PolicyId chosen, const preview::Situation& situation) {
+  const world::Scene& scene = situation.scene_at_trigger;
+  const PolicyId best = preview::best_by_forecast(situation.facts);
+  const std::string line = reason::policy_line(situation.facts[manoeuvre::index(chosen)], scene);
+  if (chosen == best) {
+    return {true, line + "; the reasons are false, yet nothing is forecast better"};
+  }
+  return {false, line + "; the reasons are false, and better is forecast: " +
+                     reason::policy_line(situation.facts[manoeuvre::index(best)], scene)};
+}
+
 }  // namespace saca::decide

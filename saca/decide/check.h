@@ -20,7 +20,12 @@ struct Check {
 [[nodiscard]] Check check(const manoeuvre::Plan& plan, const preview::Situation& situation,
                           const preview::ForecastTools& tools);
 
-/// The same of what the two end in.
+/// The stricter check of a choice that rests on something false (reason::Truth): only what is best
+/// of all that was forecast passes. Rolls nothing out; beside `check`, not in its place.
+[[nodiscard]] Check check_unfounded(manoeuvre::PolicyId chosen,
+                                    const preview::Situation& situation);
+
+/// The same as `check` of what the two end in.
 [[nodiscard]] Check check(const preview::PolicyFacts& plan, const preview::PolicyFacts& aeb,
                           const world::Scene& scene);
 

@@ -63,6 +63,16 @@ TEST(Check, FailsWhatCannotBeDriven) {
   EXPECT_FALSE(compared(PolicyId::aes_left, refused).passed);
 }
 
+// Whatever braking would do: false reasons are believed of nothing but the best.
+TEST(Check, OfFalseReasonsPassesOnlyTheBestForecast) {
+  const preview::Situation made = situation(0.1);  // NI is clear and the mildest
+  EXPECT_TRUE(check_unfounded(PolicyId::no_intervention, made).passed);
+  EXPECT_TRUE(compared(PolicyId::es_b_left, made).passed);
+  const Check refused = check_unfounded(PolicyId::es_b_left, made);
+  EXPECT_FALSE(refused.passed);
+  EXPECT_THAT(refused.text, HasSubstr("better is forecast: 7 NI: clear by 1.0 m"));
+}
+
 // A wreck 29 m ahead of the bumper at 20 m/s: braking takes 24.9 m (+12 % at most) on dry road and
 // 42.7 m at grip 0.5 (docs/architecture.md); the next lane is free. What was forecast before is not
 // asked.

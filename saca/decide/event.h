@@ -12,6 +12,7 @@
 #include "saca/memory/store.h"
 #include "saca/preview/situation.h"
 #include "saca/reason/language_model.h"
+#include "saca/reason/truth.h"
 
 namespace saca::decide {
 
@@ -57,7 +58,7 @@ struct Preview {
   memory::Gate gate = memory::Gate::reason;
   std::string prompt;                   ///< the scene part; empty when the model was not asked
   reason::Reply reply;                  ///< answer times in the scene's time
-  std::optional<double> faithful;       ///< share of quoted numbers that the prompt holds
+  std::optional<reason::Truth> truth;   ///< of the reasoning; nullopt: the model wrote none
   std::optional<Check> check;           ///< of the last policy that was chosen
   std::optional<manoeuvre::Plan> plan;  ///< what was cached in the end
   Source source = Source::model;

@@ -10,6 +10,7 @@
 #include "saca/memory/similarity.h"
 #include "saca/reason/prompt.h"
 #include "saca/reason/reply.h"
+#include "saca/reason/truth.h"
 
 namespace saca::decide {
 namespace {
@@ -231,7 +232,7 @@ void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>
     preview.reply.reasoning = reply.reasoning;
     preview.reply.prompt_tokens = reply.prompt_tokens;
     preview.reply.reply_tokens = reply.reply_tokens;
-    preview.faithful = reason::faithful_share(reply.reasoning, preview.prompt);
+    judge_reasoning(round, preview);
   }
 }
 
@@ -248,6 +249,34 @@ void ThinkingPlane::take_answer(const Round& round, Preview& preview,
                    manoeuvre::index(policy), name(policy),
                    100.0 * answer.probability[manoeuvre::index(policy)])});
   settle(preview, policy, Source::model, time, true);
+}
+
+// What an ordinary check let pass is withdrawn where it rests on false reasons and is not the best.
+void ThinkingPlane::judge_reasoning(const Round& round, Preview& preview) {
+  if (preview.reply.reasoning.empty() || preview.reply.answers.empty()) {
+    return;
+  }
+  const PolicyId chosen = reason::likeliest_policy(preview.reply.answers.back());
+  preview.truth =
+      reason::truth_of(preview.reply.reasoning, preview.prompt, preview.situation, chosen);
+  if (!preview.truth->is_choice_unfounded()) {
+    return;
+  }
+  Check strict = check_unfounded(chosen, preview.situation);
+  tell(round, EventKind::check,
+       fmt::format("forecast {}: truth check failed: {}; {}", preview.number + 1,
+                   preview.truth->wrong_reason(), strict.text));
+  if (strict.passed) {
+    return;
+  }
+  if (preview.check && preview.check->passed) {
+    preview.check = std::move(strict);
+  }
+  if (preview.plan && preview.source == Source::model && preview.plan->policy == chosen) {
+    preview.plan.reset();
+    preview.ready.reset();
+    publish(round.now());
+  }
 }
 
 void ThinkingPlane::settle(Preview& preview, PolicyId policy, Source source, double ready,

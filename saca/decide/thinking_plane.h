@@ -62,6 +62,7 @@ class ThinkingPlane {
   void consult_memory(const Round& round, Preview& preview);
   void ask_model(const Round& round, const std::vector<std::size_t>& which);
   void take_answer(const Round& round, Preview& preview, const reason::Answer& answer);
+  void judge_reasoning(const Round& round, Preview& preview);
   void settle(Preview& preview, manoeuvre::PolicyId policy, Source source, double ready,
               bool needs_check);
   void publish(double ready) const;

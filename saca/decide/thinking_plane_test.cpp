@@ -20,9 +20,9 @@ using world::Actor;
 using world::Scene;
 
 /// About each scene one policy, first and at the end.
-reason::ScriptedReply says(PolicyId policy) {
+reason::ScriptedReply says(PolicyId policy, const char* reasoning = "because.") {
   return {.lines = {{.answer = Answer::Kind::first, .policy = policy, .probability = 0.86},
-                    {.text = "because.",
+                    {.text = reasoning,
                      .answer = Answer::Kind::ended,
                      .policy = policy,
                      .probability = 0.86}},
@@ -102,6 +102,45 @@ TEST_F(Thinking, CachesWhatTheModelChoosesAndTheRolloutConfirms) {
   EXPECT_EQ(published_.back()[0].plan.policy, PolicyId::aes_left);
   EXPECT_FALSE(published_.back()[0].worse_than_aeb);
   EXPECT_EQ(text_, "because.");
+}
+
+// To the right nobody is either: the best forecast is one of the two, and it is the left one that
+// ties go to.
+TEST_F(Thinking, WithdrawsWhatRestsOnAFalseReasonAndIsNotTheBest) {
+  reason::ScriptedModel model(says(PolicyId::aes_right, "1. AES-R is clear by 17.5 m."), clock_);
+  ThinkingPlane thinking = plane(&model);
+  think(thinking, wreck_ahead());
+  const Preview& preview = thinking.previews()[0];
+  ASSERT_TRUE(preview.truth.has_value());
+  EXPECT_TRUE(preview.truth->is_choice_unfounded());
+  EXPECT_FALSE(preview.plan.has_value());
+  EXPECT_FALSE(preview.check->passed);
+  EXPECT_NE(preview.check->text.find("the reasons are false"), std::string::npos);
+  ASSERT_GE(published_.size(), 2U);
+  EXPECT_EQ(published_[published_.size() - 2].size(), 1U);  // the first answer held until then
+  EXPECT_TRUE(published_.back().empty());
+}
+
+TEST_F(Thinking, KeepsWhatRestsOnAFalseReasonAndIsTheBest) {
+  const PolicyId best = [&] {
+    ThinkingPlane without_model = plane(nullptr);
+    think(without_model, wreck_ahead());
+    return preview::best_by_forecast(without_model.previews()[0].situation.facts);
+  }();
+  const std::string reasoning = "Policy " + std::to_string(manoeuvre::index(best)) + " is blocked.";
+  reason::ScriptedModel model(says(best, reasoning.c_str()), clock_);
+  ThinkingPlane thinking = plane(&model);
+  think(thinking, wreck_ahead());
+  EXPECT_TRUE(thinking.previews()[0].truth->is_choice_unfounded());
+  EXPECT_EQ(thinking.previews()[0].plan->policy, best);
+}
+
+TEST_F(Thinking, KeepsWhatIsReasonedTruly) {
+  reason::ScriptedModel model(says(PolicyId::aes_right, "1. AES-R is clear."), clock_);
+  ThinkingPlane thinking = plane(&model);
+  think(thinking, wreck_ahead());
+  EXPECT_EQ(thinking.previews()[0].truth->score(), 1.0);
+  EXPECT_EQ(thinking.previews()[0].plan->policy, PolicyId::aes_right);
 }
 
 TEST_F(Thinking, NeverCachesWhatFailsTheCheck) {

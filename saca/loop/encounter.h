@@ -21,6 +21,7 @@
 #include "saca/outcome/harm.h"
 #include "saca/preview/threat.h"
 #include "saca/reason/language_model.h"
+#include "saca/reason/review.h"
 #include "saca/sim/scenario.h"
 
 namespace saca::loop {
@@ -99,6 +100,7 @@ struct Record {
   std::vector<world::Actor> met_by_driver;  ///< the actors that driver->contact counts in
   std::optional<memory::CaseId> stored;     ///< the case that memory learnt
   std::optional<Error> not_stored;          ///< why memory could not learn it
+  std::optional<reason::Review> review;     ///< see loop/review.h
   ReflexTiming reflex;
   int deadline_misses = 0;
 };

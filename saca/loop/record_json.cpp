@@ -8,6 +8,8 @@
 #include "saca/manoeuvre/ego.h"
 #include "saca/outcome/describe.h"
 #include "saca/outcome/loss.h"
+#include "saca/reason/reply.h"
+#include "saca/reason/truth_json.h"
 
 namespace saca::loop {
 namespace {
@@ -113,9 +115,8 @@ json plan_json(const manoeuvre::Plan& plan) {
 }
 
 json answer_json(const reason::Answer& answer) {
-  constexpr std::array<std::string_view, 3> kinds{"first", "ended", "forced"};
   return {{"t_s", to_seconds(answer.time)},
-          {"kind", kinds[static_cast<std::size_t>(answer.kind)]},
+          {"kind", name(answer.kind)},
           {"probability", answer.probability}};
 }
 
@@ -162,7 +163,7 @@ json preview_json(const decide::Preview& preview) {
       {"memory", memory_json(preview)},
       {"prompt", preview.prompt},
       {"reasoning", preview.reply.reasoning},
-      {"faithful", number_or_null(preview.faithful)},
+      {"truth", preview.truth ? reason::truth_json(*preview.truth) : json(nullptr)},
       {"answers", answers},
       {"check", preview.check
                     ? json{{"passed", preview.check->passed}, {"text", preview.check->text}}
@@ -365,6 +366,10 @@ std::string record_json(const Setup& setup, const Record& record) {
       {"hindsight", hindsight_json(record)},
       {"best", record.best ? json(manoeuvre::index(*record.best)) : json(nullptr)},
       {"danger_maps", danger_maps_json(record.danger_maps)},
+      {"review", record.review ? json{{"prompt", record.review->prompt},
+                                      {"text", record.review->text},
+                                      {"truth", reason::truth_json(record.review->truth)}}
+                               : json(nullptr)},
       {"case", record.stored ? json(*record.stored) : json(nullptr)},
       {"timing",
        {{"reflex_calls", record.reflex.calls},

@@ -64,14 +64,16 @@ std::string without_spaces(std::string_view text) {
 }  // namespace
 
 std::string json_text(const ChatQuestion& question) {
-  const ChatJson body{{"model", question.model},
-                      {"messages",
-                       {{{"role", "system"}, {"content", question.system}},
-                        {{"role", "user"}, {"content", question.scene}}}},
-                      {"max_tokens", question.max_tokens},
-                      {"temperature", 0},
-                      {"stream", true},
-                      {"stream_options", {{"include_usage", true}}}};
+  ChatJson body{{"model", question.model},
+                {"messages",
+                 {{{"role", "system"}, {"content", question.system}},
+                  {{"role", "user"}, {"content", question.scene}}}},
+                {question.newer ? "max_completion_tokens" : "max_tokens", question.max_tokens},
+                {"stream", true},
+                {"stream_options", {{"include_usage", true}}}};
+  if (!question.newer) {
+    body["temperature"] = 0;
+  }
   return body.dump(-1, ' ', false, ChatJson::error_handler_t::replace);
 }
 

@@ -14,6 +14,8 @@ struct ChatQuestion {
   std::string_view system;
   std::string_view scene;
   int max_tokens = 0;
+  /// As OpenAI's newer models want it: `max_completion_tokens`, and no temperature.
+  bool newer = false;
 };
 
 /// The request's body: streamed, without chance (temperature 0), with its token counts.

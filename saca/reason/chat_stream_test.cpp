@@ -123,8 +123,12 @@ TEST(ChatQuestion, IsWhatServersRead) {
       json_text({.model = "m", .system = "rules \"1\"", .scene = "a\xFF", .max_tokens = 160});
   EXPECT_EQ(text, R"({"model":"m","messages":[{"role":"system","content":"rules \"1\""},)"
                   "{\"role\":\"user\",\"content\":\"a\xEF\xBF\xBD\"}],"
-                  R"("max_tokens":160,"temperature":0,"stream":true,)"
-                  R"("stream_options":{"include_usage":true}})");
+                  R"("max_tokens":160,"stream":true,"stream_options":{"include_usage":true},)"
+                  R"("temperature":0})");
+  EXPECT_EQ(json_text({.model = "m", .system = "", .scene = "", .max_tokens = 7, .newer = true}),
+            R"({"model":"m","messages":[{"role":"system","content":""},)"
+            R"({"role":"user","content":""}],"max_completion_tokens":7,"stream":true,)"
+            R"("stream_options":{"include_usage":true}})");
 }
 
 TEST(ServerMessage, IsFoundWhereServersPutIt) {

@@ -123,7 +123,8 @@ std::optional<Error> ChildModel::take(Exchange& exchange, const protocol::Event&
   } else if (const auto* failed = std::get_if<protocol::Failed>(&event);
              failed && failed->id.value_or(exchange.id) == exchange.id) {
     exchange.done = true;
-    return Error{Error::Code::unreadable, "model process: " + failed->message};
+    return Error{failed->late ? Error::Code::too_late : Error::Code::unreadable,
+                 "model process: " + failed->message};
   }
   return std::nullopt;
 }

@@ -187,6 +187,17 @@ TEST_F(ChildModelTest, RefusedQuestionLeavesTheProcessAlive) {
   EXPECT_EQ(model.restarts(), 0);
 }
 
+TEST_F(ChildModelTest, ModelThatHasNoTimeSaysSoAtOnce) {
+  ChildModel model(settings(R"(ready; ask
+say "\"error\",\"id\":$id,\"message\":\"no time\",\"late\":true"; ask; first 0; done_; cat)"),
+                   clock_);
+  const auto refused = model.ask({"a"}, deadline, record_);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().code, Error::Code::too_late);
+  EXPECT_TRUE(model.ask({"a"}, deadline, record_).has_value());
+  EXPECT_EQ(model.restarts(), 0);
+}
+
 TEST_F(ChildModelTest, MissingProgramIsNamed) {
   ChildModel model({.command = {"/no/such/model-host"}, .system = "", .identity = ""}, clock_);
   const auto replies = model.ask({"a"}, deadline, record_);

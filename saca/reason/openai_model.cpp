@@ -32,6 +32,11 @@ bool is_busy(long status) {
   return std::find(busy.begin(), busy.end(), status) != busy.end();
 }
 
+bool wants_newer(long status, std::string_view refusal) {
+  return status == 400 && (refusal.find("max_completion_tokens") != std::string_view::npos ||
+                           refusal.find("'temperature'") != std::string_view::npos);
+}
+
 bool is_broken_connection(CURLcode code) {
   constexpr std::array<CURLcode, 5> broken{CURLE_COULDNT_CONNECT, CURLE_GOT_NOTHING,
                                            CURLE_SEND_ERROR, CURLE_RECV_ERROR, CURLE_PARTIAL_FILE};
@@ -88,6 +93,7 @@ std::size_t keep(char* bytes, std::size_t, std::size_t size, void* arrived) noex
 struct OpenAiModel::Connections {
   CurlMulti multi;
   CurlList headers;
+  bool newer = false;  ///< the server wants questions in their newer form
 };
 
 /// One scene's request.
@@ -95,7 +101,8 @@ struct OpenAiModel::Call {
   enum class State : std::uint8_t { waiting, running, over };
 
   std::size_t scene = 0;
-  std::string body;
+  ChatQuestion question;
+  std::string body;  ///< of the question
   std::array<char, CURL_ERROR_SIZE> reason{};
   std::string arrived;  ///< not yet looked at
   std::string refusal;  ///< body of a reply that is no stream
@@ -124,10 +131,10 @@ class OpenAiModel::Exchange {
       : model_(model), progress_(progress), calls_(scenes.size()), replies_(scenes.size()) {
     for (std::size_t i = 0; i < scenes.size(); ++i) {
       calls_[i].scene = i;
-      calls_[i].body = json_text({.model = model.settings_.model,
-                                  .system = model.settings_.system,
-                                  .scene = scenes[i],
-                                  .max_tokens = model.settings_.max_tokens});
+      calls_[i].question = {.model = model.settings_.model,
+                            .system = model.settings_.system,
+                            .scene = scenes[i],
+                            .max_tokens = model.settings_.max_tokens};
     }
   }
   Exchange(const Exchange&) = delete;
@@ -211,6 +218,8 @@ class OpenAiModel::Exchange {
 };
 
 void OpenAiModel::Exchange::prepare(Call& call) {
+  call.question.newer = model_.connections_->newer;
+  call.body = json_text(call.question);
   call.easy.reset(curl_easy_init());
   CURL* easy = call.easy.get();
   const OpenAiModelSettings& settings = model_.settings_;
@@ -324,6 +333,9 @@ void OpenAiModel::Exchange::see_end(Call& call, CURLcode code) {
     if (is_busy(status)) {
       const auto wanted = std::clamp<curl_off_t>(retry_after, 0, longest_retry_after);
       ask_again(call, std::max<Clock::Time>(call.pause, std::chrono::seconds(wanted)), what);
+    } else if (!call.question.newer && wants_newer(status, call.refusal)) {
+      model_.connections_->newer = true;
+      ask_again(call, Clock::Time(0), what);
     } else {
       fail(call, Error::Code::unreadable, what);
     }

@@ -30,6 +30,9 @@ struct OpenAiModelSettings {
 /// where the text came to its end, `forced` where deadline or `max_tokens` cut it. A text that
 /// breaks off otherwise has no answer.
 ///
+/// A server that refuses `max_tokens` or a temperature, as OpenAI's newer models do, is asked
+/// without them, at once and from then on.
+///
 /// Asked again, after 50 ms, then after twice as long each time, or when the server says: busy
 /// servers (429, 500, 502 to 504) and connections that failed before any text. Neither redirects
 /// nor proxies are followed: the key goes to the named host only. No environment is read.

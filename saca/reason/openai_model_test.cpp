@@ -83,7 +83,7 @@ TEST_F(OpenAiModelTest, TheRequestIsWhatServersRead) {
                     HasSubstr("\r\nAuthorization: Bearer sk-0123456789\r\n"),
                     HasSubstr("\r\nContent-Type: application/json\r\n"),
                     HasSubstr(R"({"role":"user","content":"the scene"})"),
-                    HasSubstr(R"("temperature":0,"stream":true)")));
+                    HasSubstr(R"("max_tokens":160,"stream":true)")));
   OpenAiModel without(settings(server.url()), clock_);
   ASSERT_TRUE(without.ask({"a"}, deadline, record_).has_value());
   EXPECT_THAT(server.requests()[1], Not(HasSubstr("Authorization")));
@@ -363,6 +363,32 @@ TEST_F(OpenAiModelTest, RefusalsAreNotRepeated) {
     EXPECT_THAT(failure(sends(http(status, R"({"error":{"message":"no\nsuch model"}})"))),
                 HasSubstr("want HTTP 200, got " + std::to_string(status) + ": no such model"));
   }
+}
+
+TEST_F(OpenAiModelTest, NewerModelsAreAskedInTheirWay) {
+  RudeServer server({[&](Visit& visit) {
+    const bool newer = visit.request().find("max_completion_tokens") != std::string::npos;
+    (void)visit.send(
+        newer ? good_reply(2)
+              : http(400, R"({"error":{"message":"Unsupported parameter: 'max_tokens' is not )"
+                          R"(supported with this model. Use 'max_completion_tokens' instead."}})"));
+  }});
+  OpenAiModel model(settings(server.url()), clock_);
+  for (int i = 0; i < 2; ++i) {
+    const auto replies = model.ask({"a"}, deadline, record_);
+    ASSERT_TRUE(replies.has_value()) << replies.error().message;
+    EXPECT_EQ(replies.value()[0].answers.at(0).probability[2], 1.0);
+  }
+  ASSERT_EQ(server.requests().size(), 3U);  // it is remembered
+  EXPECT_THAT(server.requests()[1],
+              AllOf(Not(HasSubstr("\"max_tokens\"")), Not(HasSubstr("temperature"))));
+}
+
+TEST_F(OpenAiModelTest, ServerThatRefusesBothFormsIsAskedTwice) {
+  RudeServer server({sends(http(400, "use max_completion_tokens"))});
+  OpenAiModel model(settings(server.url()), clock_);
+  EXPECT_FALSE(model.ask({"a"}, deadline, record_).has_value());
+  EXPECT_EQ(server.requests().size(), 2U);
 }
 
 TEST_F(OpenAiModelTest, RedirectIsNotFollowed) {

@@ -3,14 +3,18 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "saca/core/contract.h"
 #include "saca/core/names.h"
 #include "saca/outcome/describe.h"
 #include "saca/outcome/ordering.h"
+#include "saca/reason/token_bound.h"
 #include "saca/world/time_to_conflict.h"
 
 namespace saca::reason {
@@ -21,7 +25,7 @@ using world::Actor;
 using world::ActorKind;
 using world::Scene;
 
-constexpr std::size_t most_actors = 6;     // of a prompt: each takes about 45 tokens
+constexpr std::string_view ego_name = "ego";
 constexpr double conflict_horizon = 10.0;  // [s], as the risk's
 constexpr double trigger_tolerance = 0.5;  // [s], as the trigger's
 constexpr double standing = 0.05;          // [m/s]: below it rounds to 0.0
@@ -66,12 +70,13 @@ std::string moving(Vec2 v_B) {
 
 std::string ego_section(const Scene& scene) {
   const Vec2 v_B = scene.ego.v_B;
-  return fmt::format(
-      "## Ego Vehicle:\n"
-      "ID=ego, type=car, position=(0.0, 0.0), velocity=({:.1f}, {:.1f}) m/s, road={}, "
-      "grip={:.2f}\n",
-      without_negative_zero(v_B.x, 0.1), without_negative_zero(v_B.y, 0.1),
-      name(scene.road.topology), scene.grip);
+  const std::string sliding = std::abs(v_B.y) < standing
+                                  ? ""
+                                  : fmt::format(", sliding {:.1f} m/s to the {}", std::abs(v_B.y),
+                                                v_B.y < 0.0 ? "right" : "left");
+  return fmt::format("## Ego Vehicle:\n{}, velocity {:.1f} m/s{}, road {}, grip {:.2f}\n", ego_name,
+                     without_negative_zero(v_B.x, 0.1), sliding, name(scene.road.topology),
+                     scene.grip);
 }
 
 std::string obstacle_line(const Actor& actor, Vec2 p_B, double risk) {
@@ -95,7 +100,7 @@ std::string participant_line(const preview::Situation& situation, std::size_t i,
 }
 
 // The most dangerous first, then the nearest; the order of the scene decides the rest.
-std::vector<std::size_t> told_actors(const preview::Situation& situation) {
+std::vector<std::size_t> by_danger(const preview::Situation& situation) {
   const Scene& scene = situation.scene_at_trigger;
   std::vector<std::size_t> order(scene.actors.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -107,59 +112,101 @@ std::vector<std::size_t> told_actors(const preview::Situation& situation) {
     const double risk_b = situation.risks[b].risk;
     return risk_a != risk_b ? risk_a > risk_b : distance(a) < distance(b);
   });
-  order.resize(std::min(order.size(), most_actors));
-  std::sort(order.begin(), order.end());
   return order;
 }
 
-std::string actor_sections(const preview::Situation& situation) {
-  const Scene& scene = situation.scene_at_trigger;
-  const Pose X_BW = inverse(scene.ego.X_WB);
-  std::string obstacles;
-  std::string participants;
-  const std::vector<std::size_t> told = told_actors(situation);
-  for (const std::size_t i : told) {
-    const Actor& actor = scene.actors[i];
-    const Vec2 p_B = X_BW * actor.X_WA.p;
-    if (actor.kind == ActorKind::obstacle) {
-      obstacles += obstacle_line(actor, p_B, situation.risks[i].risk);
-    } else {
-      participants += participant_line(situation, i, p_B);
+// The best forecast first; refused policies are not among them.
+std::vector<std::size_t> by_forecast(const preview::Situation& situation) {
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < situation.facts.size(); ++k) {
+    if (situation.facts[k].refusal.empty()) {
+      order.push_back(k);
     }
   }
-  if (const std::size_t others = scene.actors.size() - told.size(); others > 0) {
-    participants += fmt::format("{} more of lower risk.\n", others);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const preview::PolicyFacts& one = situation.facts[a];
+    const preview::PolicyFacts& other = situation.facts[b];
+    return outcome::better(one.outcome, one.plan.policy, other.outcome, other.plan.policy);
+  });
+  return order;
+}
+
+/// What may be left out of a prompt.
+struct Detail {
+  bool of_actor = false;  ///< its line; else how the policy comes to its harm
+  std::size_t index = 0;  ///< of the actor or policy
+};
+
+// The weightiest first: the two who are most dangerous, then two policies and an actor in turns.
+std::vector<Detail> by_weight(const preview::Situation& situation) {
+  const std::vector<std::size_t> actors = by_danger(situation);
+  const std::vector<std::size_t> policies = by_forecast(situation);
+  std::vector<Detail> order;
+  auto actor = actors.begin();
+  auto policy = policies.begin();
+  const auto add_actor = [&] {
+    if (actor != actors.end()) {
+      order.push_back({true, *actor++});
+    }
+  };
+  const auto add_policy = [&] {
+    if (policy != policies.end()) {
+      order.push_back({false, *policy++});
+    }
+  };
+  add_actor();
+  while (actor != actors.end() || policy != policies.end()) {
+    add_actor();
+    add_policy();
+    add_policy();
   }
-  return "## Obstacles:\n" + (obstacles.empty() ? "No static obstacles detected.\n" : obstacles) +
-         "## Traffic Participants:\n" +
-         (participants.empty() ? "No traffic participants detected.\n" : participants);
+  return order;
+}
+
+/// How much of a situation is told.
+struct Depth {
+  std::vector<bool> actor;                               ///< whether it has a line, one per actor
+  std::array<bool, manoeuvre::num_policies> in_whole{};  ///< or without how it comes to the harm
+};
+
+std::string actor_line(const preview::Situation& situation, std::size_t i) {
+  const Scene& scene = situation.scene_at_trigger;
+  const Actor& actor = scene.actors[i];
+  const Vec2 p_B = inverse(scene.ego.X_WB) * actor.X_WA.p;
+  return actor.kind == ActorKind::obstacle ? obstacle_line(actor, p_B, situation.risks[i].risk)
+                                           : participant_line(situation, i, p_B);
+}
+
+std::string actor_sections(const preview::Situation& situation, const Depth& depth) {
+  std::string obstacles;
+  std::string participants;
+  std::size_t others = 0;
+  for (std::size_t i = 0; i < depth.actor.size(); ++i) {
+    const bool is_obstacle = situation.scene_at_trigger.actors[i].kind == ActorKind::obstacle;
+    if (depth.actor[i]) {
+      (is_obstacle ? obstacles : participants) += actor_line(situation, i);
+    } else {
+      ++others;
+    }
+  }
+  if (others > 0) {
+    participants += fmt::format("{} more of lower risk\n", others);
+  }
+  return "## Obstacles:\n" + (obstacles.empty() ? "none\n" : obstacles) +
+         "## Traffic Participants:\n" + (participants.empty() ? "none\n" : participants);
+}
+
+std::string edge_text(double way, world::Beyond beyond, bool is_oncoming) {
+  return fmt::format("{:.1f} m, {}{}", std::max(way, 0.0), name_of(beyond, beyond_words),
+                     is_oncoming ? ", oncoming lane" : "");
 }
 
 std::string road_section(const Scene& scene) {
-  const double d = to_lane(scene.road, scene.ego.X_WB).d;
-  return fmt::format(
-      "## Road:\nleft edge {:.1f} m away, {}; right edge {:.1f} m away, {}\n",
-      std::max(scene.road.left_edge - d, 0.0), name_of(scene.road.left_beyond, beyond_words),
-      std::max(d - scene.road.right_edge, 0.0), name_of(scene.road.right_beyond, beyond_words));
-}
-
-std::string manoeuvre_section(const preview::Situation& situation) {
-  std::string text = "## Manoeuvres:\n";
-  std::string refused;
-  for (const preview::PolicyFacts& facts : situation.facts) {
-    if (facts.refusal.empty()) {
-      text += policy_line(facts, situation.scene_at_trigger) + '\n';
-    } else {
-      refused += fmt::format("{}{}", refused.empty() ? "" : ", ", name(facts.plan.policy));
-    }
-  }
-  return refused.empty() ? text : text + "Not possible: " + refused + '\n';
-}
-
-// Zeros are digits, and each digit is a token to be read.
-std::string harm_text(double harm) {
-  constexpr double smallest = 0.5e-4;
-  return harm < smallest ? "no harm" : fmt::format("harm {:.4f}", harm);
+  const world::Road& road = scene.road;
+  const double d = to_lane(road, scene.ego.X_WB).d;
+  return fmt::format("## Road:\nleft edge {}; right edge {}\n",
+                     edge_text(road.left_edge - d, road.left_beyond, road.oncoming_left),
+                     edge_text(d - road.right_edge, road.right_beyond, road.oncoming_right));
 }
 
 // Where it is not sure whether there is contact, how likely it is.
@@ -170,16 +217,46 @@ std::string chance_text(const preview::PolicyFacts& facts) {
              : fmt::format(", contact {:.0f} % likely", 100.0 * facts.probability);
 }
 
+std::string line_of(const preview::PolicyFacts& facts, const Scene& scene, bool in_whole) {
+  std::string line = policy_label(facts.plan);
+  if (!facts.refusal.empty()) {
+    return line + ": not possible: " + facts.refusal;
+  }
+  const auto& contact = facts.outcome.contact;
+  line += ": ";
+  if (in_whole || !contact) {
+    line += outcome::describe(facts.outcome, scene) + chance_text(facts);
+  } else {
+    line +=
+        contact->actor ? "hits " + actor_name(scene.actors[*contact->actor]) : "leaves the road";
+  }
+  return line + ", " + harm_text(facts.outcome.harm);
+}
+
+std::string manoeuvre_section(const preview::Situation& situation, const Depth& depth) {
+  std::string text = "## Manoeuvres:\n";
+  std::string refused;
+  for (std::size_t k = 0; k < situation.facts.size(); ++k) {
+    const preview::PolicyFacts& facts = situation.facts[k];
+    if (facts.refusal.empty()) {
+      text += line_of(facts, situation.scene_at_trigger, depth.in_whole.at(k)) + '\n';
+    } else {
+      refused += fmt::format("{}{}", refused.empty() ? "" : ", ", name(facts.plan.policy));
+    }
+  }
+  return refused.empty() ? text : text + "Not possible: " + refused + '\n';
+}
+
 // The case's own texts are not told: they come from a file.
 std::string history_section(const std::optional<memory::Case>& nearest, double similarity) {
   if (!nearest) {
-    return "## HISTORICAL SCENARIOS:\nNo historical data is available.\n";
+    return "## Historical Scenarios:\nnone\n";
   }
   const auto told = [](PolicyId policy, double harm) {
     return fmt::format("{} {}, {}", manoeuvre::index(policy), name(policy), harm_text(harm));
   };
   return fmt::format(
-      "## HISTORICAL SCENARIOS:\nA case {:.0f} % alike: carried out {}; best in hindsight {}\n",
+      "## Historical Scenarios:\nA case {:.0f} % alike: carried out {}; best in hindsight {}\n",
       100.0 * similarity, told(nearest->plan.policy, nearest->harm),
       told(nearest->best, nearest->best_harm));
 }
@@ -195,9 +272,17 @@ std::string from_mildest() {
   return text;
 }
 
+std::string rendered(const preview::Situation& situation,
+                     const std::optional<memory::Case>& nearest, double similarity,
+                     const Depth& depth) {
+  return "# Collision avoidance scenario\n" + ego_section(situation.scene_at_trigger) +
+         actor_sections(situation, depth) + road_section(situation.scene_at_trigger) +
+         manoeuvre_section(situation, depth) + history_section(nearest, similarity);
+}
+
 }  // namespace
 
-std::string system_part() {
+std::string system_part(const outcome::HarmModel& harm) {
   std::string text =
       "You choose the manoeuvre that does the least harm in the last seconds before a crash.\n"
       "Policies:\n";
@@ -206,15 +291,21 @@ std::string system_part() {
                         policy_words.at(manoeuvre::index(policy)));
   }
   text += fmt::format(
-      "Harm counts the people expected to be severely injured or killed, in and outside vehicles "
-      "alike. Choose the policy with the least harm. Where harm is equal within {:.4f}, choose the "
-      "mildest; from the mildest: {}. Where these are equal too, choose the larger clearance. Do "
-      "nothing where nothing threatens. A policy that is not possible cannot be chosen.\n"
-      "Risk is from 0 to 1. TTC is the time to the conflict.\n"
+      "Harm counts the people expected to be severely injured ({:g} each) or killed ({:g} each), "
+      "in "
+      "and outside vehicles alike. Choose the policy with the least harm. Where harm is equal "
+      "within "
+      "{:.4f}, choose the mildest; from the mildest: {}. Where these are equal too, choose the "
+      "larger clearance. Do nothing where nothing threatens. A policy that is not possible cannot "
+      "be "
+      "chosen.\n"
+      "Places are seen from the ego. Risk is from 0 to 1. TTC is the time to the conflict. An "
+      "oncoming lane belongs to oncoming traffic; policies to that side enter it.\n"
       "Reply with \"Scenario Analysis\", then a few short numbered statements that quote the "
       "facts, "
       "and as the last line \"Response to user: N\" with N from 0 to 7.",
-      outcome::harm_tie, from_mildest());
+      harm.severe_weight, harm.severe_weight + harm.killed_weight, outcome::harm_tie,
+      from_mildest());
   return text;
 }
 
@@ -225,23 +316,53 @@ std::string scene_part(const preview::Situation& situation,
               situation.risks.size() == num_actors && situation.tracks.size() == num_actors,
           "one intention, posterior, risk and track per actor");
   expects(!nearest || (similarity >= 0.0 && similarity <= 1.0), "similarity in [0, 1]");
-  return "AUTONOMOUS DRIVING COLLISION AVOIDANCE SCENARIO\n" +
-         ego_section(situation.scene_at_trigger) + actor_sections(situation) +
-         road_section(situation.scene_at_trigger) + manoeuvre_section(situation) +
-         history_section(nearest, similarity);
+  Depth told{.actor = std::vector<bool>(num_actors), .in_whole = {}};
+  bool actors_left_out = false;  // nobody is told who is less dangerous than somebody untold
+  for (const Detail& detail : by_weight(situation)) {
+    if (detail.of_actor && actors_left_out) {
+      continue;
+    }
+    Depth more = told;
+    if (detail.of_actor) {
+      more.actor[detail.index] = true;
+    } else {
+      more.in_whole.at(detail.index) = true;
+    }
+    if (tokens_at_most(rendered(situation, nearest, similarity, more)) <= most_prompt_tokens) {
+      told = std::move(more);
+    } else if (detail.of_actor) {
+      actors_left_out = true;
+    }
+  }
+  return rendered(situation, nearest, similarity, told);
 }
 
 std::string policy_line(const preview::PolicyFacts& facts, const world::Scene& scene) {
-  const PolicyId policy = facts.plan.policy;
-  const std::string label = fmt::format("{} {}: ", manoeuvre::index(policy), name(policy));
-  if (!facts.refusal.empty()) {
-    return label + "not possible: " + facts.refusal;
+  return line_of(facts, scene, true);
+}
+
+std::string policy_label(const manoeuvre::Plan& plan) {
+  std::string label = fmt::format("{} {}", manoeuvre::index(plan.policy), name(plan.policy));
+  if (plan.target_speed) {
+    label += fmt::format(" to {:.1f} m/s", *plan.target_speed);
   }
-  const bool oncoming = (side(policy) > 0 && scene.road.oncoming_left) ||
-                        (side(policy) < 0 && scene.road.oncoming_right);
-  return fmt::format("{}{}{}, {}{}", label, outcome::describe(facts.outcome, scene),
-                     chance_text(facts), harm_text(facts.outcome.harm),
-                     oncoming ? ", oncoming lane" : "");
+  return label;
+}
+
+// Zeros are digits, and each digit is a token to be read.
+std::string harm_text(double harm) {
+  constexpr double smallest = 0.5e-4;
+  return harm < smallest ? "no harm" : fmt::format("harm {:.4f}", harm);
+}
+
+bool is_line_of(std::string_view line, PolicyId policy) {
+  const std::string label = fmt::format("{} {}", manoeuvre::index(policy), name(policy));
+  return line.starts_with(label) && line.size() > label.size() &&
+         (line[label.size()] == ':' || line[label.size()] == ' ');
+}
+
+bool is_line_of_ego(std::string_view line) {
+  return line.starts_with(ego_name);
 }
 
 }  // namespace saca::reason

@@ -2,23 +2,33 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "saca/memory/case.h"
+#include "saca/outcome/harm.h"
 #include "saca/preview/situation.h"
 
 namespace saca::reason {
 
+/// Of a scene part, by `tokens_at_most`: what a small model reads within a second on two cores.
+constexpr int most_prompt_tokens = 450;
+
 /// The part of the prompt that never changes: the policies, the rule by which they are chosen
-/// (from `outcome::better`, with the order of `outcome::severity`), and the form of the reply.
-[[nodiscard]] std::string system_part();
+/// (from `outcome::better`, with the order of `outcome::severity` and the weights of
+/// data/harm.toml), and the form of the reply.
+[[nodiscard]] std::string system_part(const outcome::HarmModel& harm);
 
 /// One forecast as the model reads it, in the sections of the paper's Fig. 8 and 10 and with what
-/// was computed about each manoeuvre. The model weighs these facts; it does not compute.
+/// was computed about each manoeuvre; docs/formats.md gives every line. The model weighs these
+/// facts; it does not compute.
 ///
 /// Every word is from a fixed list and every name ours ("car1"): nothing that came from outside
 /// stands in it as text. Positions are of centres, seen from the ego's centre of mass, ahead and
-/// left in words; numbers have fixed decimals. At most six obstacles and participants are told,
-/// those of the highest risk, then the nearest; the number of the others is.
+/// left in words; numbers have fixed decimals.
+///
+/// However crowded the scene, the text has at most `most_prompt_tokens`. What does not fit is left
+/// out, the lightest first: lines of road users of low risk, who are counted instead, and of
+/// policies that are forecast badly, how they come to their harm.
 ///
 /// @param nearest     the stored case that is most alike, if there is one
 /// @param similarity  of that case, in [0, 1]
@@ -29,5 +39,14 @@ namespace saca::reason {
 /// What a policy is forecast to end in, in one line: "0 AEB: clear by 0.6 m, no harm". Used
 /// by prompt, terminal and report alike.
 [[nodiscard]] std::string policy_line(const preview::PolicyFacts& facts, const world::Scene& scene);
+
+/// What such a line begins with: "3 ES-B-L to 7.0 m/s".
+[[nodiscard]] std::string policy_label(const manoeuvre::Plan& plan);
+/// "harm 0.0125", or "no harm" where that would be four zeros.
+[[nodiscard]] std::string harm_text(double harm);
+
+/// Whether a line of a scene part is that policy's, or the ego's own.
+[[nodiscard]] bool is_line_of(std::string_view line, manoeuvre::PolicyId policy);
+[[nodiscard]] bool is_line_of_ego(std::string_view line);
 
 }  // namespace saca::reason

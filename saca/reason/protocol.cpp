@@ -4,12 +4,13 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "saca/reason/reply.h"
+
 namespace saca::reason::protocol {
 namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array<std::string_view, 3> kind_names{"first", "ended", "forced"};
 constexpr double probability_rounding = 1e-3;  // of a sum of eight
 
 // Thrown and caught in this file alone: reading is easier to follow without a check per key.
@@ -117,7 +118,7 @@ Json json_of(const Answered& answer) {
   return {{"event", "answer"},
           {"id", answer.id},
           {"scene", answer.scene},
-          {"kind", kind_names.at(static_cast<std::size_t>(answer.kind))},
+          {"kind", name(answer.kind)},
           {"probability", answer.probability}};
 }
 Json json_of(const Done& done) {
@@ -141,6 +142,9 @@ Json json_of(const Failed& failed) {
   if (failed.id) {
     json["id"] = *failed.id;
   }
+  if (failed.late) {
+    json["late"] = true;
+  }
   return json;
 }
 
@@ -158,14 +162,22 @@ Ask ask_from(const Json& json) {
   return ask;
 }
 
+bool flag_at(const Json& json, const std::string& key) {
+  const Json& flag = at(json, key, "true or false");
+  if (!flag.is_boolean()) {
+    refuse(key, "true or false", flag);
+  }
+  return flag.get<bool>();
+}
+
 Answered answer_from(const Json& json) {
   Answered answer{.id = count_at<int>(json, "id"), .scene = count_at<std::size_t>(json, "scene")};
   const std::string kind = text_at(json, "kind");
-  const auto found = std::find(kind_names.begin(), kind_names.end(), kind);
-  if (found == kind_names.end()) {
+  const auto found = answer_kind_from(kind);
+  if (!found) {
     refuse("kind", "first, ended or forced", json["kind"]);
   }
-  answer.kind = static_cast<Answer::Kind>(found - kind_names.begin());
+  answer.kind = *found;
   const Json& list = list_at(json, "probability");
   double sum = 0.0;
   for (std::size_t i = 0; i < list.size() && i < answer.probability.size(); ++i) {
@@ -189,11 +201,7 @@ Done done_from(const Json& json) {
   for (const Json& tokens : list_at(json, "reply_tokens")) {
     done.reply_tokens.push_back(count<int>(tokens, "reply_tokens"));
   }
-  const Json& overran = at(json, "overran", "true or false");
-  if (!overran.is_boolean()) {
-    refuse("overran", "true or false", overran);
-  }
-  done.overran = overran.get<bool>();
+  done.overran = flag_at(json, "overran");
   return done;
 }
 
@@ -226,6 +234,9 @@ Event read_event(const Json& json) {
     Failed failed{.id = std::nullopt, .message = text_at(json, "message")};
     if (json.contains("id")) {
       failed.id = count_at<int>(json, "id");
+    }
+    if (json.contains("late")) {
+      failed.late = flag_at(json, "late");
     }
     return failed;
   }

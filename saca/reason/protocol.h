@@ -74,6 +74,7 @@ struct Info {
 struct Failed {
   std::optional<int> id;
   std::string message;
+  bool late = false;  ///< for want of time
 };
 using Event = std::variant<Ready, PromptRead, Text, Answered, Done, Info, Failed>;
 

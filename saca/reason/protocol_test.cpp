@@ -52,7 +52,8 @@ TEST(Protocol, EveryEventComesBackAsItself) {
                                   Done{1, {80, 0}, 0.75, 1.5, true},
                                   Info{"model", "file.gguf", 5000000000U, 1U << 30U, 2},
                                   Failed{std::nullopt, "no"},
-                                  Failed{4, "no"}};
+                                  Failed{4, "no"},
+                                  Failed{4, "no time", true}};
   for (const Event& event : events) {
     const auto read = event_from(line(event));
     ASSERT_TRUE(read.has_value()) << read.error().message;

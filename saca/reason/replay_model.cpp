@@ -7,7 +7,7 @@
 
 #include "saca/core/file.h"
 #include "saca/core/fnv.h"
-#include "saca/core/names.h"
+#include "saca/reason/reply.h"
 
 namespace saca::reason {
 namespace {
@@ -15,13 +15,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view schema = "saca.replies/1";
-constexpr std::array<std::string_view, 3> kind_names{"first", "ended", "forced"};
 
 Json json_of(const RecordedReply& recorded) {
   Json answers = Json::array();
   for (const Answer& answer : recorded.reply.answers) {
     answers.push_back({{"after_ns", answer.time.count()},
-                       {"kind", name_of(answer.kind, kind_names)},
+                       {"kind", name(answer.kind)},
                        {"probability", answer.probability}});
   }
   return {{"prompt", recorded.prompt},
@@ -34,7 +33,7 @@ Json json_of(const RecordedReply& recorded) {
 Answer answer_from(const Json& json) {
   Answer answer;
   answer.time = Clock::Time(json.at("after_ns").get<Clock::Time::rep>());
-  answer.kind = value_from<Answer::Kind>(json.at("kind").get<std::string>(), kind_names).value();
+  answer.kind = answer_kind_from(json.at("kind").get<std::string>()).value();
   answer.probability = json.at("probability").get<decltype(answer.probability)>();
   return answer;
 }

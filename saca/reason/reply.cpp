@@ -1,15 +1,15 @@
 #include "saca/reason/reply.h"
 
 #include <algorithm>
-#include <set>
-#include <vector>
+#include <array>
 
-#include "saca/reason/quoted_number.h"
+#include "saca/core/names.h"
 
 namespace saca::reason {
 namespace {
 
 constexpr std::string_view answer_stem = "Response to user:";
+constexpr std::array<std::string_view, 3> kind_names{"first", "ended", "forced"};
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
@@ -19,6 +19,14 @@ bool is_letter(char c) {
 }
 
 }  // namespace
+
+std::string_view name(Answer::Kind kind) {
+  return name_of(kind, kind_names);
+}
+
+std::optional<Answer::Kind> answer_kind_from(std::string_view name) {
+  return value_from<Answer::Kind>(name, kind_names);
+}
 
 manoeuvre::PolicyId likeliest_policy(const Answer& answer) {
   const auto best = std::max_element(answer.probability.begin(), answer.probability.end());
@@ -47,21 +55,6 @@ std::optional<manoeuvre::PolicyId> stated_so_far(std::string_view text) {
     text.remove_suffix(answer_stem.size());
   }
   return stated_policy(text);
-}
-
-std::optional<double> faithful_share(std::string_view text, std::string_view prompt) {
-  const std::vector<QuotedNumber> quoted = quoted_numbers(text);
-  if (quoted.empty()) {
-    return std::nullopt;
-  }
-  std::set<double> known;
-  for (const QuotedNumber& number : quoted_numbers(prompt)) {
-    known.insert(number.value);
-  }
-  const auto found = std::count_if(quoted.begin(), quoted.end(), [&](const QuotedNumber& number) {
-    return known.contains(number.value);
-  });
-  return static_cast<double>(found) / static_cast<double>(quoted.size());
 }
 
 }  // namespace saca::reason

@@ -8,6 +8,10 @@
 
 namespace saca::reason {
 
+/// "first", "ended" or "forced": what files and programs call an answer's kind.
+[[nodiscard]] std::string_view name(Answer::Kind kind);
+[[nodiscard]] std::optional<Answer::Kind> answer_kind_from(std::string_view name);
+
 /// Of equals the first.
 [[nodiscard]] manoeuvre::PolicyId likeliest_policy(const Answer& answer);
 
@@ -18,17 +22,5 @@ namespace saca::reason {
 
 /// Likewise of a text that was cut: an answer begun at its very end does not hide an earlier one.
 [[nodiscard]] std::optional<manoeuvre::PolicyId> stated_so_far(std::string_view text);
-
-/// How many of the numbers that a text quotes stand in the prompt, in [0, 1].
-///
-/// A number is digits with at most one decimal point, compared by value without rounding: "14" is
-/// "14.0", "14.2" is not. Its sign is not looked at. Not counted, in text and prompt alike: digits
-/// within a name ("car1"), labels at the start of a line ("1.", "2)", "0 AEB"), and the number
-/// after "policy", "action" or "Response to user:", which names a choice. Chance agreement is not
-/// taken out.
-///
-/// @param text  anything
-/// @return      nullopt when the text quotes no number
-[[nodiscard]] std::optional<double> faithful_share(std::string_view text, std::string_view prompt);
 
 }  // namespace saca::reason

@@ -10,12 +10,6 @@ namespace {
 
 using manoeuvre::PolicyId;
 
-constexpr const char* prompt =
-    "velocity=(14.0, 0.0) m/s, grip=0.90\n"
-    "truck1: 16.0 m ahead, 6.4 m left, TTC 1.3 s, risk 0.94\n"
-    "0 AEB: hits truck1 with its front at 2.7 m/s, harm 0.0010\n"
-    "7 NI: hits truck1 with its front at 15.9 m/s, harm 0.0500\n";
-
 TEST(LikeliestPolicy, OfEqualsIsTheFirst) {
   Answer answer;
   answer.probability = {0.1, 0.3, 0.0, 0.0, 0.2, 0.3, 0.1, 0.0};
@@ -49,32 +43,12 @@ TEST(StatedSoFar, LooksPastAnAnswerThatIsOnlyBegun) {
   EXPECT_EQ(stated_so_far(""), std::nullopt);
 }
 
-TEST(Faithful, CountsTheNumbersThatStandInThePrompt) {
-  EXPECT_EQ(faithful_share("Truck at 16.0 m ahead, moving at 7.5 m/s.", prompt), 0.5);
-  EXPECT_EQ(faithful_share("TTC is 1.3 s.", prompt), 1.0);
-  EXPECT_EQ(faithful_share("TTC = 16/14 = 1.14", prompt), 2.0 / 3.0);
-}
-
-TEST(Faithful, ComparesByValueWithoutRounding) {
-  EXPECT_EQ(faithful_share("at 14 m/s", prompt), 1.0);
-  EXPECT_EQ(faithful_share("at 014.00 m/s", prompt), 1.0);
-  EXPECT_EQ(faithful_share("at 14.01 m/s", prompt), 0.0);
-  EXPECT_EQ(faithful_share("at 1.4 m/s", prompt), 0.0);
-  EXPECT_EQ(faithful_share("at 140 m/s", prompt), 0.0);
-}
-
-TEST(Faithful, NamesLabelsAndChoicesAreNoNumbers) {
-  EXPECT_EQ(faithful_share("1. truck1 comes.\n2) Policy 5 or action 6\n- 3 T-D-R\n"
-                           "Response to user: 6",
-                           prompt),
-            std::nullopt);
-  EXPECT_EQ(faithful_share("", prompt), std::nullopt);
-}
-
-// The 7 of the line "7 NI" numbers the line: it does not make every quoted 7 true.
-TEST(Faithful, LabelsOfThePromptMakeNothingTrue) {
-  EXPECT_EQ(faithful_share("It is 7 m away.", prompt), 0.0);
-  EXPECT_EQ(faithful_share("It is 1 m away.", prompt), 0.0);  // only "truck1"
+TEST(AnswerKind, NamesAreReadBack) {
+  for (const auto kind : {Answer::Kind::first, Answer::Kind::ended, Answer::Kind::forced}) {
+    EXPECT_EQ(answer_kind_from(name(kind)), kind);
+  }
+  EXPECT_EQ(name(Answer::Kind::ended), "ended");
+  EXPECT_EQ(answer_kind_from("free"), std::nullopt);
 }
 
 TEST(Reply, AnythingCanBeRead) {
@@ -87,12 +61,11 @@ TEST(Reply, AnythingCanBeRead) {
     for (int k = length(random); k > 0; --k) {
       text += alphabet[letter(random)];
     }
-    (void)stated_policy("Response to user:" + text);
-    const auto share = faithful_share(text, prompt);
-    EXPECT_TRUE(!share || (*share >= 0.0 && *share <= 1.0)) << text;
-    // What is quoted from a text is found in it.
-    const auto own = faithful_share(text, text);
-    EXPECT_TRUE(!own || *own == 1.0) << text;
+    const auto stated = stated_policy("Response to user:" + text);
+    // Whatever else stands there, only a digit of eight is an answer.
+    EXPECT_TRUE(!stated ||
+                text.find(static_cast<char>('0' + manoeuvre::index(*stated))) != std::string::npos)
+        << text;
   }
 }
 

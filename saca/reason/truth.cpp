@@ -10,6 +10,7 @@
 
 #include "saca/outcome/describe.h"
 #include "saca/outcome/ordering.h"
+#include "saca/reason/prompt.h"
 #include "saca/reason/quote.h"
 #include "saca/reason/quoted_number.h"
 
@@ -186,12 +187,10 @@ std::string lines_about(std::string_view prompt, const Subject& subject,
         std::any_of(subject.actors.begin(), subject.actors.end(), [&](std::size_t i) {
           return has_phrase(low, actor_name(situation.scene_at_trigger.actors[i]));
         });
-    const bool of_policy =
-        std::any_of(subject.policies.begin(), subject.policies.end(), [&](PolicyId policy) {
-          return line.starts_with(fmt::format("{} {}:", manoeuvre::index(policy), name(policy)));
-        });
+    const bool of_policy = std::any_of(subject.policies.begin(), subject.policies.end(),
+                                       [&](PolicyId policy) { return is_line_of(line, policy); });
     // What the ego is and does may be said beside anybody.
-    if (of_actor || of_policy || line.starts_with("ID=ego")) {
+    if (of_actor || of_policy || is_line_of_ego(line)) {
       found += line;
       found += '\n';
     }
@@ -414,8 +413,13 @@ std::optional<double> Truth::score() const {
 }
 
 bool Truth::is_choice_unfounded() const {
-  return std::any_of(wrong.begin(), wrong.end(),
-                     [](const FalseStatement& each) { return each.load_bearing; });
+  return !wrong_reason().empty();
+}
+
+std::string Truth::wrong_reason() const {
+  const auto found = std::find_if(wrong.begin(), wrong.end(),
+                                  [](const FalseStatement& each) { return each.load_bearing; });
+  return found == wrong.end() ? "" : found->why;
 }
 
 Truth truth_of(std::string_view reasoning, std::string_view prompt, const Situation& situation,

@@ -26,6 +26,8 @@ struct Truth {
   [[nodiscard]] std::optional<double> score() const;
   /// Whether the choice rests on something false.
   [[nodiscard]] bool is_choice_unfounded() const;
+  /// What is so in place of the first false statement that the choice rests on; empty: none is.
+  [[nodiscard]] std::string wrong_reason() const;
 };
 
 /// Compares a reasoning with the situation that it is about: each sentence, in parts where it

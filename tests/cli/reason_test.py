@@ -1,14 +1,13 @@
 """`saca reason`: what the language model is first asked in an encounter, and what it says."""
-import http.server
 import json
 import os
 import pathlib
 import sys
-import threading
 
 import pytest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from chat_server import server  # noqa: F401, a fixture
 from program import BAD_INPUT, ROOT, SUCCESS, WRONG_COMMAND_LINE, one_error, saca
 
 
@@ -21,7 +20,7 @@ def replies(tmp_path_factory):
     run = saca("reason", "intersection_t1", "--llm", f"replay:{nobody}", cwd=folder)
     assert run.returncode == BAD_INPUT  # it knows no prompt; the question is told all the same
     prompt = run.stdout.split("trigger at", 1)[1].split("---\n", 1)[1].rstrip("\n") + "\n"
-    assert prompt.startswith("AUTONOMOUS DRIVING") and "## Manoeuvres:" in prompt
+    assert prompt.startswith("# Collision avoidance scenario") and "## Manoeuvres:" in prompt
     key = 0xCBF29CE484222325
     for byte in prompt.encode():
         key = (key ^ byte) * 0x100000001B3 % 2**64
@@ -39,7 +38,7 @@ def test_it_is_told_with_its_answers_over_time(replies, tmp_path):
         run = saca("reason", "intersection_t1", "--llm", f"replay:{replies}", *more, cwd=tmp_path)
         assert run.returncode == SUCCESS, run.stderr
         assert run.stdout.count("Scenario Analysis") == 1
-        assert "50 ms   first    25 %    75 %" in run.stdout and "120 ms    free    88 %" in run.stdout
+        assert "50 ms   first    25 %    75 %" in run.stdout and "120 ms   ended    88 %" in run.stdout
         assert "Truth: 1 of 2 statements" in run.stdout and "99.5 m stands nowhere" in run.stdout
         assert "Choice: 0 AEB; rollout check passed" in run.stdout
 
@@ -68,34 +67,6 @@ def test_what_cannot_be_asked_is_refused(replies, tmp_path):
     assert saca("reason", "intersection_t1", "--deadline-ms", 0, cwd=tmp_path).returncode == WRONG_COMMAND_LINE
     late = saca("reason", "intersection_t1", "--llm", f"replay:{replies}", "--deadline-ms", 20, cwd=tmp_path)
     assert "replay" in one_error(late, BAD_INPUT)
-
-
-class Server(http.server.BaseHTTPRequestHandler):
-    """Streams a fixed text, or refuses and repeats the key that it was sent."""
-
-    def do_POST(self):
-        asked = json.loads(self.rfile.read(int(self.headers["Content-Length"])))
-        self.server.asked.append(asked)
-        self.send_response(401 if self.server.refuses else 200)
-        self.end_headers()
-        if self.server.refuses:
-            self.wfile.write(self.headers["Authorization"].encode())
-            return
-        for text in ("Scenario Analysis\n1. Grip is 0.90.\n", "Response to user: 6"):
-            self.wfile.write(b"data: " + json.dumps({"choices": [{"delta": {"content": text}}]}).encode() + b"\n\n")
-        self.wfile.write(b'data: {"choices": [{"delta": {}, "finish_reason": "stop"}]}\n\ndata: [DONE]\n\n')
-
-    def log_message(self, *_):
-        pass
-
-
-@pytest.fixture
-def server():
-    found = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Server)
-    found.asked, found.refuses = [], False
-    threading.Thread(target=found.serve_forever, daemon=True).start()
-    yield found
-    found.shutdown()
 
 
 def test_a_server_can_be_asked(server, tmp_path):

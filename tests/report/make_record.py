@@ -233,10 +233,10 @@ def preview(index, encounter, s, trigger, ready, policy, share, gate):
              "actors": [{"id": m.name, **pose_fields(encounter.road.to_world(a[0] + 0.8 + 1.5 * index, *a[1:3]), a[3])}
                         for m in movers for a in [m.at(trigger)]]}
     lines = "\n".join(f"{f['policy']} {f['name']}: {f['text']}" for f in facts_of(rows, encounter.speed))
-    prompt = ("AUTONOMOUS DRIVING COLLISION AVOIDANCE SCENARIO (SYNTHETIC TEST DATA)\n## Ego Vehicle:\n"
-              f"id ego, car, position (0, 0), speed {encounter.speed:.1f} m/s, road straight, grip {encounter.grip}\n"
+    prompt = ("# Collision avoidance scenario (synthetic test data)\n## Ego Vehicle:\n"
+              f"ego, velocity {encounter.speed:.1f} m/s, road straight, grip {encounter.grip}\n"
               "## Traffic Participants:\n" + "\n".join(f"{m.name}: speed {m.at(trigger)[3]:.1f} m/s" for m in movers)
-              + f"\n## Manoeuvres:\n{lines}\n## HISTORICAL SCENARIOS:\nNo historical data is available.\n")
+              + f"\n## Manoeuvres:\n{lines}\n## Historical Scenarios:\nnone\n")
     asked = gate != "cache"
     return {"probability": share, "ready_s": ready, "scene": scene, "actors": actors,
             "facts": facts_of(rows, encounter.speed),
@@ -246,7 +246,9 @@ def preview(index, encounter, s, trigger, ready, policy, share, gate):
             "reasoning": "Scenario Analysis (test data)\n1. The nearest threat is ahead in the ego's lane.\n"
                          f"2. {NAMES[policy]} is forecast: {rows[policy]['refusal'] or facts_of(rows, encounter.speed)[policy]['text']}.\n"
                          f"Response to user: {policy}" if asked else "",
-            "faithful": 1.0 if asked else None,
+            "truth": {"checked": 3, "score": 2 / 3 if index else 1.0,
+                      "false": [{"text": "2. The left is blocked.", "why": "of the three policies to the left none is so",
+                                 "load_bearing": index == 2}] if index else []} if asked else None,
             "answers": [{"t_s": ready - 0.9, "kind": "first", "probability": chances(policy, 1.6)},
                         {"t_s": ready - 0.2, "kind": "forced" if index else "ended", "probability": chances(policy, 9.0)}]
                        if asked else [],
@@ -356,6 +358,11 @@ def played(name, title, encounter, policy, model, gates, driver):
                          "text": "Test data: the first preview matched the scene at the trigger and its plan was carried out." if gates
                                  else "Test data: no preview was ready, so the rule-based fallback was carried out."},
             "result": {**result, "text": words}, "hindsight": rows, "best": best["policy"], "case": 18 if gates else None,
+            "review": {"prompt": "# Review of an encounter that is over (synthetic test data)\n",
+                       "text": f"1. {best['name']} would have been best.\n2. The left was blocked.",
+                       "truth": {"checked": 2, "score": 0.5, "false": [
+                           {"text": "2. The left was blocked.", "why": "of the three policies to the left none is so",
+                            "load_bearing": False}]}} if gates else None,
             "timing": {"reflex_calls": len(frames), "reflex_us_p50": 3.1, "reflex_us_max": 18.4, "preview_s": 0.05,
                        "first_answer_s": 0.6 if gates else None, "answer_s": 1.3 if gates else None, "deadline_misses": 0}}
 
@@ -427,7 +434,7 @@ def empty():
     return {**head("synthetic_empty", "Test data: nothing happens", "off", 0.9, Road(), [], None), "frames": [], "intentions": [], "events": [],
             "previews": [], "decision": None,
             "result": {"contact": None, "collision_loss": 0.0, "harm": 0.0, "clearance_m": None, "text": "Test data: nothing happened."},
-            "hindsight": [], "best": None, "case": None,
+            "hindsight": [], "best": None, "case": None, "review": None,
             "timing": {"reflex_calls": 0, "reflex_us_p50": None, "reflex_us_max": None, "preview_s": None,
                        "first_answer_s": None, "answer_s": None, "deadline_misses": 0}}
 

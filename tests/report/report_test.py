@@ -139,9 +139,23 @@ def test_each_preview_shows_its_memory_answers_check_prompt_and_reasoning(show):
         for words in (truth["prompt"], truth["reasoning"], truth["check"]["text"], f"{100 * truth['probability']:.0f}\u00a0%",
                       f"{100 * truth['memory']['similarity']:.0f}\u00a0%", *(a["risk_text"] for a in truth["actors"]), *(f["text"] for f in truth["facts"])):
             assert words in text
+        said = truth["truth"]
+        assert f"{said['checked'] - len(said['false'])} of {said['checked']} statements that can be checked are true" in text
+        for wrong in said["false"]:
+            assert wrong["text"] in text and wrong["why"] in text
+        assert ("the choice rests on it" in text) == any(wrong["load_bearing"] for wrong in said["false"])
         widths = page.run(f"[...document.querySelectorAll('#preview-{k} .step table tbody tr')].map(r => [...r.querySelectorAll('.bar-rail span')].map(b => parseFloat(b.style.width)))")
         for policy, row in enumerate(widths):
             assert row == pytest.approx([100 * a["probability"][policy] for a in truth["answers"]], abs=0.01)
+
+
+def test_the_model_looks_back_where_it_did(show):
+    text, review = show(RECORDS["contact"]).run("by_id('review').textContent"), RECORDS["contact"]["review"]
+    for words in (review["text"], review["prompt"], "1 of 2 statements that can be checked are true", review["truth"]["false"][0]["why"]):
+        assert words in text
+    without = copy.deepcopy(RECORDS["contact"])
+    without["review"] = None
+    assert show(without).run("document.querySelectorAll('#review').length") == 0
 
 
 def test_the_driver_panel_says_what_the_driver_did_or_that_nobody_knows(show):

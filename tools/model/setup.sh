@@ -6,9 +6,10 @@
 # Versions and sha256 stand in requirements-*.txt beside this file. Run it again: what is there and
 # whole is kept, nothing is fetched twice.
 #
-# usage: tools/model/setup.sh [llama|all]
+# usage: tools/model/setup.sh [llama|all|server]
 #   llama   only the libraries (what `make build` needs)
 #   all     also the weights and the measurement (the default)
+#   server  all, and llama-server, which tests ask as a server that others wrote
 # Debian 12 packages: g++ cmake ninja-build python3 python3-venv nlohmann-json3-dev
 set -euo pipefail
 
@@ -160,8 +161,31 @@ choose_weights() {
   rm -rf "$third_party/build"
 }
 
+build_server() {
+  local version stamp source
+  version=$(sed -n 's/^llama-cpp-python==\([^ ]*\).*/\1/p' "$here/requirements-llama.txt")
+  stamp=$third_party/llama-server/built-$version
+  [ -e "$stamp" ] && return
+  fetch "$here/requirements-llama.txt" "llama_cpp_python-$version.tar.gz" \
+    --no-binary llama-cpp-python
+  say "building llama-server"
+  source=$third_party/build/llama_cpp_python-$version/vendor/llama.cpp
+  rm -rf "$third_party/build" "$third_party/llama-server"
+  mkdir -p "$third_party/build" "$third_party/llama-server"
+  tar -xzf "$downloads/llama_cpp_python-$version.tar.gz" -C "$third_party/build" \
+    "llama_cpp_python-$version/vendor/llama.cpp"
+  quietly "$third_party/server.log" cmake -S "$source" -B "$third_party/build/server" -G Ninja \
+    "${llama_options[@]}" -DLLAMA_BUILD_COMMON=ON -DLLAMA_BUILD_TOOLS=ON -DLLAMA_BUILD_SERVER=ON \
+    -DLLAMA_BUILD_UI=OFF -DLLAMA_USE_PREBUILT_UI=OFF -DLLAMA_OPENSSL=OFF
+  quietly "$third_party/server.log" cmake --build "$third_party/build/server" --parallel "$jobs" \
+    --target llama-server
+  cp "$third_party/build/server/bin/llama-server" "$source/LICENSE" "$third_party/llama-server/"
+  rm -rf "$third_party/build"
+  touch "$stamp"
+}
+
 what=${1:-all}
-case $what in llama | all) ;; *) die "want llama or all, got $what" ;; esac
+case $what in llama | all | server) ;; *) die "want llama, all or server, got $what" ;; esac
 need
 mkdir -p "$third_party"
 exec 9>"$third_party/.lock"
@@ -170,5 +194,6 @@ build_llama
 if [ "$what" != llama ]; then
   get_weights
   choose_weights
+  if [ "$what" = server ]; then build_server; fi
   say "weights: $(sed -n 's/^  "weights": "\(.*\)".*/\1/p' "$models/choice.json") (third_party/models/choice.json)"
 fi

@@ -1,0 +1,57 @@
+#include "apps/saca/first_question.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "apps/saca/story.h"
+
+namespace saca::app {
+namespace {
+
+/// Takes the first question of an encounter and answers none.
+class QuestionTaker final : public reason::LanguageModel {
+ public:
+  [[nodiscard]] Result<std::vector<reason::Reply>> ask(
+      const std::vector<std::string>& scenes, Clock::Time,
+      const std::function<void(const reason::Progress&)>&) override {
+    if (num_first_ == 0) {
+      num_first_ = scenes.size();
+    }
+    return Error{Error::Code::too_late, "only listened to"};
+  }
+  [[nodiscard]] std::string description() const override { return "question taker"; }
+  [[nodiscard]] std::size_t num_first() const { return num_first_; }
+
+ private:
+  std::size_t num_first_ = 0;
+};
+
+}  // namespace
+
+Result<FirstQuestion> first_question(const ScenarioInputs& inputs,
+                                     const preview::ForecastTools& tools, Clock& clock) {
+  QuestionTaker taker;
+  Silence silence;
+  const loop::Setup setup{.scenario = &inputs.scenario,
+                          .car = &inputs.car,
+                          .harm = &inputs.harm,
+                          .intent = &inputs.intent,
+                          .atlas = tools.atlas,
+                          .danger = tools.danger,
+                          .pace = loop::Pace::lockstep,
+                          .costs = {},
+                          .model = &taker,
+                          .clock = &clock};
+  auto record = loop::run(setup, silence);
+  if (!record.has_value()) {
+    return record.error();
+  }
+  FirstQuestion asked{.record = std::move(record).value(), .previews = {}};
+  const auto& all = asked.record.previews;  // numbered as they were asked about
+  asked.previews.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(
+                                                       std::min(all.size(), taker.num_first())));
+  return asked;
+}
+
+}  // namespace saca::app

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+#include "saca/loop/encounter.h"
+
+namespace saca::loop {
+
+/// Asks `setup.model` to look back at an encounter that was played with it. Takes as long as the
+/// model needs, ten minutes at most.
+/// @param on_text  hears the text while it is written
+/// @return         nullopt where there is no model or nothing was triggered; the model's error
+[[nodiscard]] Result<std::optional<reason::Review>> review(
+    const Setup& setup, const Record& record, const std::function<void(std::string_view)>& on_text);
+
+}  // namespace saca::loop

@@ -1,0 +1,101 @@
+#include "saca/loop/review.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "saca/intent/shipped_model.h"
+#include "saca/manoeuvre/default_car.h"
+#include "saca/reason/scripted_model.h"
+
+namespace saca::loop {
+namespace {
+
+using testing::HasSubstr;
+
+class Quiet final : public Listener {
+ public:
+  void on_event(const decide::Event&) override {}
+  void on_reasoning(std::int32_t, std::string_view) override {}
+};
+
+/// Somebody stands in the way; asked about a scene the model chooses to brake, looking back it
+/// says what `words` are.
+class ReviewTest : public testing::Test {
+ protected:
+  ReviewTest() {
+    scenario_.ego = sim::EgoStart{.pose = {}, .speed = 9.0};
+    scenario_.actors.push_back(
+        {.id = 1,
+         .kind = world::ActorKind::pedestrian,
+         .footprint = {.shape = world::Shape::ellipse, .length = 0.5, .width = 0.5},
+         .mass = 75.0,
+         .motion = sim::Script{.start = {.s = distance}, .behaviour = sim::Behaviour::hold}});
+    setup_ = {.scenario = &scenario_,
+              .car = &car_,
+              .harm = &harm_,
+              .intent = &intent::shipped_model(),
+              .model = &model_,
+              .clock = &clock_};
+  }
+
+  static constexpr double distance = 40.0;
+  reason::ScriptedReply reply(const std::string& prompt) {
+    reason::ScriptedReply said{.lines = {{.answer = reason::Answer::Kind::first}}};
+    if (prompt.starts_with("# Review")) {
+      said = fault_ ? reason::ScriptedReply{.error = fault_}
+                    : reason::ScriptedReply{
+                          .lines = {{.text = words_, .answer = reason::Answer::Kind::ended}}};
+    }
+    return said;
+  }
+
+  sim::Scenario scenario_{
+      .name = "walker", .title = "A walker", .car = "x", .grip = 0.9, .duration = 4.0};
+  manoeuvre::Car car_ = manoeuvre::default_car();
+  outcome::HarmModel harm_ = outcome::read_harm("data/harm.toml").value();
+  ManualClock clock_;
+  std::string words_ = "1. NI hits pedestrian1.\n2. AES-L is not possible.";
+  std::optional<Error> fault_;
+  reason::ScriptedModel model_{[this](const std::string& prompt) { return reply(prompt); }, clock_};
+  loop::Setup setup_;
+  Quiet quiet_;
+};
+
+TEST_F(ReviewTest, IsHeardJudgedAndRecorded) {
+  Record record = run(setup_, quiet_).value();
+  std::string heard;
+  const auto found = review(setup_, record, [&](std::string_view text) { heard += text; });
+  ASSERT_TRUE(found.has_value()) << found.error().message;
+  ASSERT_TRUE(found.value().has_value());
+  EXPECT_EQ(heard, words_);
+  EXPECT_EQ(found.value()->text, words_);
+  // By hindsight: doing nothing meets him, a swerve can be driven.
+  EXPECT_EQ(found.value()->truth.num_checked, 2);
+  ASSERT_EQ(found.value()->truth.wrong.size(), 1U);
+  EXPECT_THAT(found.value()->truth.wrong[0].text, HasSubstr("AES-L"));
+  EXPECT_THAT(found.value()->prompt, HasSubstr("\n7 NI: hits pedestrian1 with its front at "));
+  record.review = found.value();
+  const auto out = nlohmann::json::parse(record_json(setup_, record));
+  EXPECT_EQ(out["review"]["text"], words_);
+  EXPECT_EQ(out["review"]["truth"]["checked"], 2);
+}
+
+TEST_F(ReviewTest, OfNothingIsNone) {
+  Record record = run(setup_, quiet_).value();
+  setup_.model = nullptr;
+  EXPECT_FALSE(review(setup_, record, [](std::string_view) {}).value().has_value());
+  EXPECT_TRUE(nlohmann::json::parse(record_json(setup_, record))["review"].is_null());
+  setup_.model = &model_;
+  record.decision.reset();
+  EXPECT_FALSE(review(setup_, record, [](std::string_view) {}).value().has_value());
+}
+
+TEST_F(ReviewTest, TellsWhyThereIsNone) {
+  const Record record = run(setup_, quiet_).value();
+  fault_ = Error{Error::Code::unreadable, "the model is gone"};
+  EXPECT_EQ(review(setup_, record, [](std::string_view) {}).error().message, "the model is gone");
+}
+
+}  // namespace
+}  // namespace saca::loop

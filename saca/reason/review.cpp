@@ -1,0 +1,36 @@
+#include "saca/reason/review.h"
+
+#include <fmt/core.h>
+
+#include "saca/outcome/describe.h"
+#include "saca/reason/prompt.h"
+
+namespace saca::reason {
+
+std::string review_prompt(const Aftermath& aftermath) {
+  const auto& facts = aftermath.known.facts;
+  const preview::PolicyFacts& best = facts[manoeuvre::index(aftermath.best)];
+  std::string text =
+      "# Review of an encounter that is over\n"
+      "Say in three short numbered statements what happened, which policy would have been best and "
+      "by how much, and what to remember. Quote the figures. As the last line name the policy that "
+      "would have been best.\n"
+      "## Carried Out:\n";
+  text += policy_label(aftermath.done) + ": " + outcome::describe(aftermath.result, aftermath.met) +
+          ", " + harm_text(aftermath.result.harm);
+  if (aftermath.forecast_harm) {
+    text += "; forecast was " + harm_text(*aftermath.forecast_harm);
+  }
+  text += "\n## What each policy leads to, as is known now:\n";
+  for (const preview::PolicyFacts& each : facts) {
+    text += each.refusal.empty() ? policy_line(each, aftermath.known.scene_at_trigger) + '\n'
+                                 : policy_label(each.plan) + ": not possible\n";
+  }
+  text += "## Best in Hindsight:\n" + policy_label(best.plan);
+  return text +
+         (aftermath.best == aftermath.done.policy
+              ? ": what was carried out\n"
+              : fmt::format(": harm less by {:.4f}\n", aftermath.result.harm - best.outcome.harm));
+}
+
+}  // namespace saca::reason

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "saca/manoeuvre/plan.h"
+#include "saca/outcome/outcome.h"
+#include "saca/preview/situation.h"
+#include "saca/reason/truth.h"
+
+namespace saca::reason {
+
+/// What an encounter came to.
+struct Aftermath {
+  /// The true scene at the trigger; its facts are what each policy leads to, the others' motion
+  /// known. Nothing else of it is looked at.
+  preview::Situation known;
+  manoeuvre::Plan done;
+  std::optional<double> forecast_harm;  ///< of what was done, when it was decided
+  outcome::Outcome result;
+  std::span<const world::Actor> met;  ///< those that the result's contacts count in
+  manoeuvre::PolicyId best = manoeuvre::PolicyId::aeb;  ///< in hindsight
+};
+
+/// A model's evaluation after the encounter: text beside figures, which decides nothing.
+struct Review {
+  std::string prompt;
+  std::string text;
+  Truth truth;
+};
+
+/// Asks what happened, which policy would have been best and by how much, and what to remember.
+/// All figures stand in it (computed, not to be computed). Words as in `scene_part`.
+[[nodiscard]] std::string review_prompt(const Aftermath& aftermath);
+
+}  // namespace saca::reason

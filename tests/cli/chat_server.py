@@ -1,0 +1,34 @@
+"""A server with /v1/chat/completions on this machine, as a fixture."""
+import http.server
+import json
+import threading
+
+import pytest
+
+
+class Server(http.server.BaseHTTPRequestHandler):
+    """Streams a fixed text, or refuses and repeats the key that it was sent."""
+
+    def do_POST(self):
+        asked = json.loads(self.rfile.read(int(self.headers["Content-Length"])))
+        self.server.asked.append(asked)
+        self.send_response(401 if self.server.refuses else 200)
+        self.end_headers()
+        if self.server.refuses:
+            self.wfile.write(self.headers["Authorization"].encode())
+            return
+        for text in ("Scenario Analysis\n1. Grip is 0.90.\n", "Response to user: 6"):
+            self.wfile.write(b"data: " + json.dumps({"choices": [{"delta": {"content": text}}]}).encode() + b"\n\n")
+        self.wfile.write(b'data: {"choices": [{"delta": {}, "finish_reason": "stop"}]}\n\ndata: [DONE]\n\n')
+
+    def log_message(self, *_):
+        pass
+
+
+@pytest.fixture
+def server():
+    found = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Server)
+    found.asked, found.refuses = [], False
+    threading.Thread(target=found.serve_forever, daemon=True).start()
+    yield found
+    found.shutdown()

@@ -1,0 +1,58 @@
+"""`saca model bench|score`: how fast and how well a model answers. The model here is a server that always says 6."""
+import json
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from chat_server import server  # noqa: F401, a fixture
+from program import BAD_INPUT, SUCCESS, WRONG_COMMAND_LINE, one_error, saca
+
+
+def name_of(server):
+    return f"some-model@http://127.0.0.1:{server.server_address[1]}/v1"
+
+
+def test_bench_measures_any_model(server, tmp_path):
+    run = saca("model", "bench", "--llm", name_of(server), "--runs", 2, "--json", cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    told = json.loads(run.stdout)
+    assert len(server.asked) == 2 * (1 + 3)
+    assert told["reason.first_answer_s.n"] == 2 and 0 < told["reason.first_answer_s.p50"] <= told["reason.full_answer_s.max"]
+    assert told["reason.deadline_misses"] == 0 and told["reason.forced_share"] == 0
+    assert "reason.load_s" not in told  # nobody knows it of a server
+    assert "some-model" in told["meta.model"]
+
+
+def test_score_judges_by_hindsight_and_goes_on(server, tmp_path):
+    def score(count):
+        run = saca("model", "score", "--llm", name_of(server), "--count", count, "--json", cwd=tmp_path)
+        assert run.returncode == SUCCESS, run.stderr
+        return json.loads(run.stdout)
+
+    told, asked = score(2), len(server.asked)
+    assert told["schema"] == "saca.model_score/1" and told["encounters"] == 2 and asked == 4
+    assert "## Manoeuvres:" in server.asked[0]["messages"][-1]["content"]
+    assert "## Manoeuvres:" not in server.asked[1]["messages"][-1]["content"]
+    choices = told["choices"]
+    assert choices["best_in_hindsight"]["regret"]["mean"] == 0 and choices["best_in_hindsight"]["right"]["share"] == 1
+    for row in choices.values():
+        assert row["regret"]["mean"] >= 0 and row["quiet"] == choices["always_aeb"]["quiet"]
+    # What always drifts, unchecked, is never better than the best.
+    assert choices["facts_at_once"] == choices["facts_reasoned"] == choices["no_facts_reasoned"]
+    assert told["with_facts"]["ended_share"] == 1.0
+
+    assert score(2) == told and len(server.asked) == asked  # remembered
+    assert score(3)["encounters"] == 3 and len(server.asked) == asked + 2
+    lines = (tmp_path / "runs/model-score-balanced-calibration.journal").read_text().splitlines()
+    assert sum('"finding"' in line for line in lines) == 3
+
+    spoilt = tmp_path / "spoilt.journal"
+    spoilt.write_text("\n".join([lines[0], "nonsense"]) + "\n")
+    run = saca("model", "score", "--llm", name_of(server), "--count", 2, "--journal", spoilt, cwd=tmp_path)
+    assert "spoilt.journal: want a line of" in one_error(run, BAD_INPUT)
+
+
+def test_what_cannot_be_scored_is_refused(tmp_path):
+    assert saca("model", "score", "--count", 1, cwd=tmp_path).returncode == WRONG_COMMAND_LINE
+    assert "without a language model" in one_error(saca("model", "score", "--llm", "off", "--count", 2, cwd=tmp_path), BAD_INPUT)
+    assert "without a language model" in one_error(saca("model", "bench", "--llm", "off", cwd=tmp_path), BAD_INPUT)
