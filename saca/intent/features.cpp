@@ -118,9 +118,12 @@ Features Memory::features() const {
     set(Feature::lead_slope_10, slope(lead(now), lead, 10, now.with_lead) / 3.0);
   }
 
-  if (!std::isnan(seen.brake) && !std::isnan(seen.throttle)) {
-    set(Feature::pedals_known, 1.0);
+  if (!std::isnan(seen.throttle)) {
+    set(Feature::throttle_known, 1.0);
     set(Feature::throttle, seen.throttle);
+  }
+  if (!std::isnan(seen.brake)) {
+    set(Feature::brake_known, 1.0);
     set(Feature::brake, seen.brake);
   }
   if (!std::isnan(seen.steering)) {

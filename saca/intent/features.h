@@ -33,8 +33,9 @@ enum class Feature : std::size_t {
   needed_deceleration,  ///< closing speed squared over twice the gap [3 m/s^2], at most 3
   lead_slope_05,        ///< of the speed of the one ahead over the last 0.5 s [3 m/s^2]
   lead_slope_10,
-  pedals_known,  ///< mask
+  throttle_known,  ///< mask
   throttle,
+  brake_known,  ///< mask
   brake,
   steering_known,  ///< mask
   memory,          ///< how much of 2 s is remembered, 0 to 1

@@ -132,11 +132,23 @@ TEST(Features, WhatIsNotKnownIsMasked) {
   Memory memory;
   memory.add({.speed = 10.0});
   const Features found = memory.features();
-  for (const Feature mask : {Feature::lane_known, Feature::ahead_known, Feature::somebody_ahead,
-                             Feature::pedals_known, Feature::steering_known}) {
+  for (const Feature mask :
+       {Feature::lane_known, Feature::ahead_known, Feature::somebody_ahead, Feature::throttle_known,
+        Feature::brake_known, Feature::steering_known}) {
     EXPECT_EQ(of(found, mask), 0.0F);
   }
   EXPECT_EQ(of(found, Feature::to_line), 0.0F);
+}
+
+// Brake lights are seen where no pedal is shared.
+TEST(Features, EachControlHasAMaskOfItsOwn) {
+  Memory memory;
+  memory.add({.speed = 10.0, .brake = 1.0});
+  const Features found = memory.features();
+  EXPECT_EQ(of(found, Feature::brake_known), 1.0F);
+  EXPECT_EQ(of(found, Feature::brake), 1.0F);
+  EXPECT_EQ(of(found, Feature::throttle_known), 0.0F);
+  EXPECT_EQ(of(found, Feature::steering_known), 0.0F);
 }
 
 TEST(Memory, RefusesToSpeakOfNothing) {

@@ -116,19 +116,28 @@ std::vector<torch::Tensor> LstmCrfImpl::forward_scores(const torch::Tensor& emis
   return scores;
 }
 
-Loss LstmCrfImpl::loss(const torch::Tensor& emissions, const Batch& batch) {
+Loss LstmCrfImpl::loss(const torch::Tensor& emissions, const Batch& batch,
+                       const ClassWeights& weights) {
   const torch::Tensor one_hot = torch::one_hot(batch.labels, classes).to(torch::kFloat32);
   const torch::Tensor outside =
       excluded * (1.0 - one_hot) * batch.known.unsqueeze(-1).to(torch::kFloat32);
-  const std::vector<torch::Tensor> free = forward_scores(emissions, batch.present);
-  const std::vector<torch::Tensor> kept = forward_scores(emissions + outside, batch.present);
+  // The free chain and the one that keeps to the labels side by side: half as many steps.
+  const std::int64_t num = emissions.size(0);
+  const torch::Tensor scores =
+      torch::stack(forward_scores(torch::cat({emissions, emissions + outside}),
+                                  torch::cat({batch.present, batch.present})),
+                   1);
+  const torch::Tensor free = scores.narrow(0, 0, num);
+  const torch::Tensor last = torch::logsumexp(scores.select(1, scores.size(1) - 1), -1);
   const torch::Tensor num_known = batch.known.sum().clamp_min(1).to(torch::kFloat32);
-  const torch::Tensor log_likelihood =
-      torch::logsumexp(kept.back(), -1) - torch::logsumexp(free.back(), -1);
-  const torch::Tensor filtered = torch::log_softmax(torch::stack(free, 1), -1);
-  const torch::Tensor of_label =
-      filtered.gather(-1, batch.labels.unsqueeze(-1)).squeeze(-1) * batch.known.to(torch::kFloat32);
-  return {-log_likelihood.sum() / num_known, -of_label.sum() / num_known};
+  const torch::Tensor log_likelihood = last.narrow(0, num, num) - last.narrow(0, 0, num);
+  const torch::Tensor filtered = torch::log_softmax(free, -1);
+  const torch::Tensor of_label = filtered.gather(-1, batch.labels.unsqueeze(-1)).squeeze(-1);
+  const torch::Tensor counts =
+      torch::tensor(at::ArrayRef<double>(weights), torch::kFloat32).index({batch.labels}) *
+      batch.known.to(torch::kFloat32);
+  return {-log_likelihood.sum() / num_known,
+          -(counts * of_label).sum() / counts.sum().clamp_min(1e-6)};
 }
 
 void LstmCrfImpl::add_network(config::Tensors& tensors, const std::string& prefix) const {

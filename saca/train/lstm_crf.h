@@ -2,10 +2,12 @@
 
 #include <torch/torch.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
 #include "saca/config/tensors.h"
+#include "saca/intent/crf.h"
 
 /// Training of networks with libtorch: optional at build time, never on the product's path.
 namespace saca::train {
@@ -18,10 +20,15 @@ struct Batch {
   torch::Tensor known;     ///< (B x T x H), bool: the label is not in doubt
 };
 
+/// How much a label of each class counts.
+using ClassWeights = std::array<double, intent::num_classes>;
+constexpr ClassWeights all_alike{1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+
 /// What a batch's labels are worth under the network.
 struct Loss {
   torch::Tensor sequence;  ///< -log p(known labels | features), per known label, over all horizons
-  torch::Tensor filtered;  ///< -log p(label | features so far), likewise: what a stream is told
+  torch::Tensor filtered;  ///< -log p(label | features so far), weighted mean over known labels:
+                           ///< what a stream is told
 };
 
 /// The network of intent/network.h with its chains, in a form that can be trained.
@@ -35,7 +42,9 @@ class LstmCrfImpl : public torch::nn::Module {
   torch::Tensor emissions(const torch::Tensor& features);
 
   /// Exact: forward recursions over the free chain and over the one that keeps to the labels.
-  Loss loss(const torch::Tensor& emissions, const Batch& batch);
+  /// @param weights  of labels in the filtered loss
+  Loss loss(const torch::Tensor& emissions, const Batch& batch,
+            const ClassWeights& weights = all_alike);
 
   /// Weights under the names of intent/network.h.
   void add_network(config::Tensors& tensors, const std::string& prefix) const;

@@ -52,9 +52,13 @@ TEST(LstmCrf, LossIsTheLikelihoodOfTheExactChain) {
   LstmCrf network(0.0);
   const Batch batch = random_batch();
   const torch::Tensor emissions = 3.0 * torch::randn({2, frames, 3, 6});
+  const ClassWeights weights{1.0, 5.0, 0.5, 3.0, 7.0, 2.0};
   const Loss loss = network->loss(emissions, batch);
+  const Loss weighted = network->loss(emissions, batch, weights);
   double log_likelihood = 0.0;
   double filtered = 0.0;
+  double weighted_sum = 0.0;
+  double weight = 0.0;
   for (std::int64_t i = 0; i < 2; ++i) {
     const std::int64_t length = batch.present[i].sum().item<std::int64_t>();
     for (std::int64_t h = 0; h < 3; ++h) {
@@ -72,6 +76,8 @@ TEST(LstmCrf, LossIsTheLikelihoodOfTheExactChain) {
           const auto label = static_cast<std::size_t>(batch.labels[i][t][h].item<std::int64_t>());
           allowed[row] = intent::only(label);
           filtered += std::log(now[label]);
+          weighted_sum += weights[label] * std::log(now[label]);
+          weight += weights[label];
         }
       }
       log_likelihood += intent::likelihood(crf, scores, allowed).value;
@@ -80,6 +86,8 @@ TEST(LstmCrf, LossIsTheLikelihoodOfTheExactChain) {
   const double num_known = batch.known.sum().item<double>();
   EXPECT_NEAR(loss.sequence.item<double>(), -log_likelihood / num_known, 1e-4);  // float
   EXPECT_NEAR(loss.filtered.item<double>(), -filtered / num_known, 1e-4);
+  EXPECT_NEAR(weighted.filtered.item<double>(), -weighted_sum / weight, 1e-4);
+  EXPECT_EQ(weighted.sequence.item<float>(), loss.sequence.item<float>());
 }
 
 TEST(LstmCrf, EmissionsAreThoseOfTheNetworkThatIsWritten) {

@@ -1,6 +1,7 @@
 #include "saca/train/training.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -80,8 +81,8 @@ void hide_some(Batch& batch, const TrainingPlan& plan, std::mt19937_64& random) 
     }
     if (share(random) < plan.pedals_loss) {
       hide(batch.features, i,
-           {Feature::pedals_known, Feature::throttle, Feature::brake, Feature::steering_known,
-            Feature::steering});
+           {Feature::throttle_known, Feature::throttle, Feature::brake_known, Feature::brake,
+            Feature::steering_known, Feature::steering});
     }
   }
 }
@@ -90,19 +91,29 @@ torch::Tensor total(const Loss& loss, const TrainingPlan& plan) {
   return (1.0 - plan.filtered_share) * loss.sequence + plan.filtered_share * loss.filtered;
 }
 
-/// Filtered loss per label.
-double held_out_loss(LstmCrf& network, const std::vector<Piece>& pieces, int batch) {
+std::vector<std::size_t> natural_order(const std::vector<Piece>& pieces) {
+  std::vector<std::size_t> order(pieces.size());
+  std::iota(order.begin(), order.end(), 0U);
+  return order;
+}
+
+Batch batch_of(const std::vector<Piece>& pieces, const std::vector<std::size_t>& which) {
+  std::vector<const Piece*> some;
+  some.reserve(which.size());
+  for (const std::size_t i : which) {
+    some.push_back(&pieces[i]);
+  }
+  return train::batch_of(some);
+}
+
+/// Filtered loss per label, all alike.
+double held_out_loss(LstmCrf& network, const std::vector<Piece>& pieces, int frames) {
   const torch::NoGradGuard no_gradients;
   network->eval();
   double sum = 0.0;
   double num = 0.0;
-  for (std::size_t first = 0; first < pieces.size(); first += static_cast<std::size_t>(batch)) {
-    std::vector<const Piece*> some;
-    for (std::size_t i = first;
-         i < std::min(pieces.size(), first + static_cast<std::size_t>(batch)); ++i) {
-      some.push_back(&pieces[i]);
-    }
-    const Batch those = batch_of(some);
+  for (const auto& which : batches_of(pieces, natural_order(pieces), frames)) {
+    const Batch those = batch_of(pieces, which);
     const double known = those.known.sum().item<double>();
     sum += known * network->loss(network->emissions(those.features), those).filtered.item<double>();
     num += known;
@@ -120,10 +131,10 @@ std::string fingerprint(const std::vector<Piece>& pieces, const TrainingPlan& pl
       hash.add(std::string_view(static_cast<const char*>(flat.data_ptr()), flat.nbytes()));
     }
   }
-  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {:x}", plan.seed, plan.epochs, plan.batch,
-                     plan.longest, plan.step, plan.decay, plan.dropout, plan.filtered_share,
-                     plan.with_chain, plan.lane_loss, plan.ahead_loss, plan.pedals_loss,
-                     hash.value());
+  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {:x}", plan.seed, plan.epochs,
+                     plan.batch, plan.longest, plan.step, plan.decay, plan.dropout,
+                     plan.filtered_share, fmt::join(plan.label_weights, ","), plan.with_chain,
+                     plan.lane_loss, plan.ahead_loss, plan.pedals_loss, hash.value());
 }
 
 /// One training under way.
@@ -197,31 +208,26 @@ Epoch Training::epoch(int number) {
   const std::uint64_t seed = plan_.seed * 1'000'003U + static_cast<std::uint64_t>(number);
   torch::manual_seed(seed);
   std::mt19937_64 random(seed);
-  std::vector<std::size_t> order(pieces_.size());
-  std::iota(order.begin(), order.end(), 0U);
+  std::vector<std::size_t> order = natural_order(pieces_);
   std::shuffle(order.begin(), order.end(), random);
+  auto batches = batches_of(pieces_, std::move(order), plan_.batch);
+  std::shuffle(batches.begin(), batches.end(), random);
   network_->train();
   double sum = 0.0;
-  std::size_t num_batches = 0;
-  const auto size = static_cast<std::size_t>(plan_.batch);
-  for (std::size_t first = 0; first < order.size(); first += size, ++num_batches) {
-    set_step(number, static_cast<double>(first) / static_cast<double>(order.size()));
-    std::vector<const Piece*> some;
-    for (std::size_t i = first; i < std::min(order.size(), first + size); ++i) {
-      some.push_back(&pieces_[order[i]]);
-    }
-    Batch batch = batch_of(some);
+  for (std::size_t i = 0; i < batches.size(); ++i) {
+    set_step(number, static_cast<double>(i) / static_cast<double>(batches.size()));
+    Batch batch = batch_of(pieces_, batches[i]);
     hide_some(batch, plan_, random);
     optimiser_.zero_grad();
-    const torch::Tensor loss =
-        total(network_->loss(network_->emissions(batch.features), batch), plan_);
+    const torch::Tensor loss = total(
+        network_->loss(network_->emissions(batch.features), batch, plan_.label_weights), plan_);
     loss.backward();
     torch::nn::utils::clip_grad_norm_(network_->parameters(), gradient_limit);
     optimiser_.step();
     sum += loss.item<double>();
   }
   Epoch done{.number = number + 1,
-             .loss = sum / static_cast<double>(std::max<std::size_t>(num_batches, 1)),
+             .loss = sum / static_cast<double>(std::max<std::size_t>(batches.size(), 1)),
              .held_out = std::nullopt,
              .seconds = 0.0};
   if (!held_out_.empty()) {
@@ -321,6 +327,32 @@ std::vector<Piece> pieces_of(const std::vector<Sequence>& sequences, int longest
     }
   }
   return pieces;
+}
+
+std::vector<std::vector<std::size_t>> batches_of(const std::vector<Piece>& pieces,
+                                                 std::vector<std::size_t> order, int frames) {
+  const auto length = [&](std::size_t i) { return pieces[i].features.size(0); };
+  constexpr std::size_t neighbours = 1'024;
+  for (std::size_t first = 0; first < order.size(); first += neighbours) {
+    const auto begin = order.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto end = first + neighbours < order.size()
+                         ? begin + static_cast<std::ptrdiff_t>(neighbours)
+                         : order.end();
+    std::stable_sort(begin, end,
+                     [&](std::size_t a, std::size_t b) { return length(a) > length(b); });
+  }
+  std::vector<std::vector<std::size_t>> batches;
+  for (const std::size_t i : order) {
+    const bool fits =
+        !batches.empty() && length(i) <= length(batches.back().front()) &&
+        length(batches.back().front()) * static_cast<std::int64_t>(batches.back().size() + 1) <=
+            frames;
+    if (!fits) {
+      batches.emplace_back();
+    }
+    batches.back().push_back(i);
+  }
+  return batches;
 }
 
 Batch batch_of(const std::vector<const Piece*>& pieces) {

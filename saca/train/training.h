@@ -16,17 +16,19 @@ namespace saca::train {
 /// How networks are trained. All randomness comes from the seed.
 struct TrainingPlan {
   std::uint64_t seed = 1;
-  int epochs = 12;
-  int batch = 64;       ///< sequences
+  int epochs = 15;
+  int batch = 3'600;    ///< frames, with those that are filled up
   int longest = 100;    ///< frames of one piece; longer sequences are cut
   double step = 3e-3;   ///< largest step of the optimiser (AdamW, falling as a cosine)
   double decay = 1e-2;  ///< of weights
   double dropout = 0.3;
   double filtered_share = 0.5;  ///< of the loss of what a stream is told, beside the sequence's
-  bool with_chain = true;       ///< false: each frame is trained for itself
-  double lane_loss = 0.1;       ///< share of pieces whose lane is hidden: somebody off the map
-  double ahead_loss = 0.1;      ///< likewise of what is ahead
-  double pedals_loss = 0.5;     ///< likewise of what the vehicle shares
+  /// Of labels in that loss: nine frames of ten are M, and what is rare is what matters.
+  ClassWeights label_weights{1.0, 2.5, 2.5, 2.0, 2.5, 2.5};
+  bool with_chain = true;    ///< false: each frame is trained for itself
+  double lane_loss = 0.1;    ///< share of pieces whose lane is hidden: somebody off the map
+  double ahead_loss = 0.1;   ///< likewise of what is ahead
+  double pedals_loss = 0.5;  ///< likewise of what the vehicle shares
 };
 
 /// One epoch of the curve.
@@ -50,6 +52,13 @@ struct Piece {
 ///                   somebody may come into view in the middle of anything
 [[nodiscard]] std::vector<Piece> pieces_of(const std::vector<learn::Sequence>& sequences,
                                            int longest, bool with_late);
+
+/// Pieces in batches of at most `frames` frames, or of one piece. Neighbours of like length come
+/// together, so that little is filled up; the order is otherwise kept.
+/// @param order  indices into `pieces`
+[[nodiscard]] std::vector<std::vector<std::size_t>> batches_of(const std::vector<Piece>& pieces,
+                                                               std::vector<std::size_t> order,
+                                                               int frames);
 
 /// Pieces side by side, filled up to the longest.
 [[nodiscard]] Batch batch_of(const std::vector<const Piece*>& pieces);
