@@ -144,10 +144,10 @@ void put_child_figures(ChildModel& child, double load, const std::vector<Asked>&
   figures.put("prompt_tokens_per_s", rate(one, &Reply::prompt_tokens, &Parts::prompt_time));
   figures.put("reply_tokens_per_s", rate(one, &Reply::reply_tokens, &Parts::reply_time));
   figures.put("three_reply_tokens_per_s", rate(three, &Reply::reply_tokens, &Parts::reply_time));
-  std::vector<double> rest;
-  for (const Asked& asked : one) {
-    rest.push_back(asked.whole - asked.figures.prompt_time - asked.figures.reply_time);
-  }
+  std::vector<double> rest(one.size());
+  std::transform(one.begin(), one.end(), rest.begin(), [](const Asked& asked) {
+    return asked.whole - asked.figures.prompt_time - asked.figures.reply_time;
+  });
   figures.put("answers_and_process_s", percentile(rest, 0.5));
   if (const auto info = child.info(clock.now() + from_seconds(1.0)); info.has_value()) {
     figures.put("child_resident_mib", static_cast<double>(info.value().resident_bytes) / (1 << 20));

@@ -271,18 +271,15 @@ constexpr std::array<Row, 8> rows{
       [](const Score& s) { return s.finding.best; }}}};
 
 std::vector<Finding> findings_of(const std::vector<Score>& scores) {
-  std::vector<Finding> all;
-  for (const Score& one : scores) {
-    all.push_back(one.finding);
-  }
+  std::vector<Finding> all(scores.size());
+  std::transform(scores.begin(), scores.end(), all.begin(),
+                 [](const Score& one) { return one.finding; });
   return all;
 }
 
 eval::ChoiceFigures figures_of(const Row& row, const std::vector<Score>& scores) {
-  std::vector<PolicyId> choices;
-  for (const Score& one : scores) {
-    choices.push_back(row.choice(one));
-  }
+  std::vector<PolicyId> choices(scores.size());
+  std::transform(scores.begin(), scores.end(), choices.begin(), row.choice);
   return eval::figures_of(findings_of(scores), choices);
 }
 
@@ -331,10 +328,9 @@ json document_of(const std::vector<Score>& scores, const ScoreOptions& options,
   }
   document["with_facts"] = talk_of(scores, &Score::with_facts);
   document["without_facts"] = talk_of(scores, &Score::without_facts);
-  std::vector<Probabilities> said;
-  for (const Score& one : scores) {
-    said.push_back(one.with_facts.last);
-  }
+  std::vector<Probabilities> said(scores.size());
+  std::transform(scores.begin(), scores.end(), said.begin(),
+                 [](const Score& one) { return one.with_facts.last; });
   const std::vector<Finding> findings = findings_of(scores);
   const double temperature = eval::best_temperature(findings, said);
   document["temperature"] = {{"best", temperature},

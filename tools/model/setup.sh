@@ -176,7 +176,8 @@ build_server() {
     "llama_cpp_python-$version/vendor/llama.cpp"
   quietly "$third_party/server.log" cmake -S "$source" -B "$third_party/build/server" -G Ninja \
     "${llama_options[@]}" -DLLAMA_BUILD_COMMON=ON -DLLAMA_BUILD_TOOLS=ON -DLLAMA_BUILD_SERVER=ON \
-    -DLLAMA_BUILD_UI=OFF -DLLAMA_USE_PREBUILT_UI=OFF -DLLAMA_OPENSSL=OFF
+    -DLLAMA_BUILD_UI=OFF -DLLAMA_USE_PREBUILT_UI=OFF -DLLAMA_OPENSSL=OFF \
+    -DLLAMA_USE_SYSTEM_GGML=ON -DCMAKE_PREFIX_PATH="$third_party/llama"
   quietly "$third_party/server.log" cmake --build "$third_party/build/server" --parallel "$jobs" \
     --target llama-server
   cp "$third_party/build/server/bin/llama-server" "$source/LICENSE" "$third_party/llama-server/"
