@@ -147,8 +147,7 @@ Meeting edge_meeting(const AtlasEgo& ego, Side side, double of_interest) noexcep
     const double score = edge_score(sway, time, gap);
     if (score < best) {
       best = score;
-      found.nearest = time;
-      found.gap = gap;
+      found.touch = time;
     }
   };
   std::size_t i = 0;

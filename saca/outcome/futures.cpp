@@ -50,7 +50,7 @@ double harm_of(const Blow& blow, const Scene& scene, const HarmModel& harm) noex
 }
 
 // What happens if the ego meets this one. Where they miss each other at the mean, the other is
-// brought up to it.
+// where those are who do not.
 std::optional<Blow> blow_of(const Chance& chance, const AtlasEgo& ego, const Scene& scene,
                             std::span<const Track> tracks, const HarmModel& harm) noexcept {
   const Instant mine = ego.at(chance.time);
@@ -63,8 +63,7 @@ std::optional<Blow> blow_of(const Chance& chance, const AtlasEgo& ego, const Sce
   }
   Instant other = instant_at(tracks[*chance.actor], time);
   if (!chance.meeting.contact) {
-    constexpr double near = 1e-5;  // [m]
-    other.X_WB.p = other.X_WB.p - (chance.meeting.gap - near) * chance.meeting.n_W;
+    other.X_WB.p = other.X_WB.p + chance.meeting.brought_W;
   }
   if (!is_finite(other.X_WB) || !is_finite(other.v_W)) {
     return std::nullopt;
@@ -75,7 +74,7 @@ std::optional<Blow> blow_of(const Chance& chance, const AtlasEgo& ego, const Sce
 void add(Chances& chances, const Chance& chance) noexcept {
   if (chance.probability > negligible || chance.meeting.contact) {
     chances.push_back(chance);
-    chances[chances.size() - 1].time = chance.meeting.contact.value_or(chance.meeting.nearest);
+    chances[chances.size() - 1].time = chance.meeting.contact.value_or(chance.meeting.touch);
   }
 }
 

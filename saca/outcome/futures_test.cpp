@@ -112,6 +112,54 @@ TEST(Futures, HarmOfOneBlowIsThatOfRollOut) {
   EXPECT_NEAR(doubtful.probability, 0.25, 1e-12);
 }
 
+// Where the mean passes, what the other's place is not known by decides: against draws of that
+// place, each a future of its own.
+TEST(Futures, HarmOfWhoIsMissedAtTheMeanIsThatOfDraws) {
+  std::mt19937_64 rng(3);
+  constexpr double sd = 0.5;
+  constexpr int num_draws = 400;
+  std::normal_distribution<double> error(0.0, sd);
+  double told_harm = 0.0;
+  double drawn_harm = 0.0;
+  int counted = 0;
+  int far_off = 0;
+  for (int i = 0; i < 40; ++i) {
+    Staged stage = random_stage(rng);
+    const world::Actor car = stage.scene.actors[0];  // it alone
+    stage.scene.actors = {};
+    stage.scene.actors.push_back(car);
+    stage.tracks.resize(1);
+    stage.scene.road.left_edge = 30.0;
+    stage.scene.road.right_edge = -30.0;
+    for (const PolicyId policy : all_policies) {
+      const auto plan = atlas_plan(policy, stage.scene.ego.v_B.x);
+      stage.scene.actors[0].position_sd = sd;
+      const Future told = future(small_atlas(), plan, stage.scene, stage.tracks, harm());
+      if (told.contact || told.probability < 0.05) {
+        continue;
+      }
+      double sum = 0.0;
+      for (int k = 0; k < num_draws; ++k) {
+        Staged drawn = stage;
+        drawn.scene.actors[0].position_sd = 0.0;
+        const Vec2 off{error(rng), error(rng)};
+        drawn.scene.actors[0].X_WA.p = drawn.scene.actors[0].X_WA.p + off;
+        for (Pose& pose : drawn.tracks[0].X_WA) {
+          pose.p = pose.p + off;
+        }
+        sum += future(small_atlas(), plan, drawn.scene, drawn.tracks, harm()).harm;
+      }
+      ++counted;
+      told_harm += told.harm;
+      drawn_harm += sum / num_draws;
+      far_off += told.harm < 0.4 * sum / num_draws || told.harm > 2.5 * sum / num_draws ? 1 : 0;
+    }
+  }
+  EXPECT_GT(counted, 20);
+  EXPECT_LE(far_off, counted / 5);
+  EXPECT_NEAR(told_harm, drawn_harm, 0.25 * drawn_harm);
+}
+
 // Turned by a right angle and moved, all is the same.
 TEST(Futures, DoNotDependOnTheWorldsFrame) {
   std::mt19937_64 rng(8);

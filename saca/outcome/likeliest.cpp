@@ -226,6 +226,45 @@ void look_into(const Window& window, End low, End high, Valley valley, const Kee
   }
 }
 
+// The first touch of the other when it is nearer by what is typical of those who touch.
+// @param passing  the likeliest instant
+// @param score    standard deviations of the gap then, > 0
+void find_touch(const CloserLook& pair, const CloserLook::Look& passing, double score, double from,
+                Meeting& found) noexcept {
+  constexpr double near = 1e-5;  // [m]: bodies that touch
+  const double sd = passing.gap.size / score;
+  Vec2 nearer;
+  const auto gap_at = [&](double time) {
+    CloserLook::Look now = pair.look(time);
+    now.other.centre = now.other.centre + nearer;
+    return gap_between(now.mine, now.other);
+  };
+  // Apart along one direction they may be along another too: each has to be overcome.
+  Gap gap = passing.gap;
+  for (int i = 0; i < 3 && gap.size > 0.0; ++i, gap = gap_at(passing.time)) {
+    const double sds = gap.size / sd;
+    const double density = std::exp(-0.5 * sds * sds) * 0.3989422804;
+    nearer = nearer - sd * density / normal_below(-sds) * gap.n;
+  }
+  constexpr double step = 0.05;  // [s]
+  double touching = passing.time;
+  double apart = std::max(from, touching - step);
+  while (apart > from && gap_at(apart).size <= 0.0) {
+    touching = apart;
+    apart = std::max(from, touching - step);
+  }
+  if (gap_at(apart).size <= 0.0) {
+    touching = apart;
+  }
+  for (int i = 0; i < 5 && apart < touching; ++i) {
+    const double middle = 0.5 * (apart + touching);
+    (gap_at(middle).size > 0.0 ? apart : touching) = middle;
+  }
+  const Gap left = gap_at(touching);
+  found.touch = touching;
+  found.brought_W = nearer - (left.size - near) * left.n;
+}
+
 }  // namespace
 
 void find_likeliest(const CloserLook& pair, const Window& window, const NearLooks& near,
@@ -243,18 +282,17 @@ void find_likeliest(const CloserLook& pair, const Window& window, const NearLook
   const auto at_look = static_cast<double>(rows.most[likeliest]);
   if (at_look < -sure_sd - 1.0) {
     found.probability = normal_below(-at_look);
-    found.nearest = look_time(likeliest);
+    found.touch = look_time(likeliest);
     return;
   }
   double best = std::numeric_limits<double>::infinity();
+  CloserLook::Look passing;
   const auto keep = [&](double time) {
     const CloserLook::Look now = pair.look(time);
     const CloserLook::Scores scores = pair.scores(now);
     if (scores.most < best) {
       best = scores.most;
-      found.nearest = now.time;
-      found.gap = now.gap.size;
-      found.n_W = now.gap.n;
+      passing = now;
     }
     return scores;
   };
@@ -282,6 +320,13 @@ void find_likeliest(const CloserLook& pair, const Window& window, const NearLook
     keep(*found.contact);
   }
   found.probability = normal_below(-best);
+  if (found.contact) {
+    return;
+  }
+  found.touch = passing.time;
+  if (found.probability > negligible && best > 0.0 && passing.gap.size > 0.0) {
+    find_touch(pair, passing, best, window.from, found);
+  }
 }
 
 }  // namespace saca::outcome

@@ -11,9 +11,8 @@ struct Meeting {
   std::optional<double> contact;  ///< at the mean [s since the scene's time]
   double clearance = 0.0;         ///< smallest distance at the mean; 0 with contact [m]
   double probability = 0.0;       ///< that they touch, its existence apart
-  double nearest = 0.0;           ///< when contact is likeliest [s]
-  double gap = 0.0;               ///< between them then, negative when they overlap [m]
-  Vec2 n_W;                       ///< then, from the ego to the other
+  double touch = 0.0;             ///< when they typically touch, if they do but not at the mean [s]
+  Vec2 brought_W;                 ///< what brings the other to it then [m]; of an edge 0
 };
 /// Less than this is no probability.
 constexpr double negligible = 1e-4;
