@@ -487,6 +487,7 @@ Result<AskFigures> Engine::ask(const std::vector<std::string>& scenes, Clock::Ti
     thoughts[i].scene = i;
     in_time = s.begin_scene(thoughts[i], prompts.value()[i], deadline, figures, events);
   }
+  figures.overran = !in_time;
   const auto reasons = [](const Thought& thought) { return thought.reasoning; };
   while (in_time && std::any_of(thoughts.begin(), thoughts.end(), reasons)) {
     in_time = s.reason_on(thoughts, max_tokens, deadline, figures, events);

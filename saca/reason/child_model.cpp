@@ -120,6 +120,9 @@ std::optional<Error> ChildModel::take(Exchange& exchange, const protocol::Event&
     figures_.prompt_time = done->prompt_time;
     figures_.reply_time = done->reply_time;
     exchange.done = true;
+    if (done->overran) {
+      return Error{Error::Code::too_late, "model process: want answers in time, got none"};
+    }
   } else if (const auto* failed = std::get_if<protocol::Failed>(&event);
              failed && failed->id.value_or(exchange.id) == exchange.id) {
     exchange.done = true;

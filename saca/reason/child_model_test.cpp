@@ -198,6 +198,16 @@ say "\"error\",\"id\":$id,\"message\":\"no time\",\"late\":true"; ask; first 0; 
   EXPECT_EQ(model.restarts(), 0);
 }
 
+TEST_F(ChildModelTest, ModelThatWasNotReadyInTimeIsLate) {
+  ChildModel model(settings(R"(ready; ask
+say "\"done\",\"id\":$id,\"reply_tokens\":[0],\"prompt_s\":1,\"reply_s\":0,\"overran\":true"; cat)"),
+                   clock_);
+  const auto late = model.ask({"a"}, deadline, record_);
+  ASSERT_FALSE(late.has_value());
+  EXPECT_EQ(late.error().code, Error::Code::too_late);
+  EXPECT_EQ(model.restarts(), 0);
+}
+
 TEST_F(ChildModelTest, MissingProgramIsNamed) {
   ChildModel model({.command = {"/no/such/model-host"}, .system = "", .identity = ""}, clock_);
   const auto replies = model.ask({"a"}, deadline, record_);
