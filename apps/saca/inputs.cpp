@@ -8,6 +8,22 @@ namespace saca::app {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+Error no_scenario(const Places& places, const std::string& wanted) {
+  std::string names;
+  for (const fs::path& file : shipped_scenarios(places)) {
+    if (const std::string name = file.stem().string(); name.starts_with(wanted)) {
+      names += (names.empty() ? "" : ", ") + name;
+    }
+  }
+  return Error{Error::Code::unreadable,
+               wanted + ": want a scenario's file or the name of a shipped one, " +
+                   (names.empty() ? "as `saca scenarios` lists them" : "e.g. " + names)};
+}
+
+}  // namespace
+
 Result<Inputs> read_inputs(const std::string& car) {
   auto places = find_places();
   if (!places.has_value()) {
@@ -39,6 +55,10 @@ Result<ScenarioInputs> read_scenario_inputs(const std::string& scenario) {
     return places.error();
   }
   const fs::path file = find_scenario(places.value(), scenario);
+  std::error_code problem;
+  if (!fs::exists(file, problem)) {
+    return no_scenario(places.value(), scenario);
+  }
   const auto first = sim::load_scenario(file);
   if (!first.has_value()) {
     return first.error();

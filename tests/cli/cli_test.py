@@ -187,6 +187,7 @@ def test_a_spoilt_scenario_is_one_clear_error(old, new, words, scenario, tmp_pat
 
 def test_a_missing_scenario_is_named(tmp_path):
     assert "nowhere.toml" in one_error(quick("nowhere.toml", cwd=tmp_path), BAD_INPUT)
+    assert "intersection_t1, " in one_error(quick("intersection", cwd=tmp_path), BAD_INPUT)  # is told what there is
 
 
 @pytest.fixture
