@@ -177,25 +177,6 @@ std::string actor_line(const preview::Situation& situation, std::size_t i) {
                                            : participant_line(situation, i, p_B);
 }
 
-std::string actor_sections(const preview::Situation& situation, const Depth& depth) {
-  std::string obstacles;
-  std::string participants;
-  std::size_t others = 0;
-  for (std::size_t i = 0; i < depth.actor.size(); ++i) {
-    const bool is_obstacle = situation.scene_at_trigger.actors[i].kind == ActorKind::obstacle;
-    if (depth.actor[i]) {
-      (is_obstacle ? obstacles : participants) += actor_line(situation, i);
-    } else {
-      ++others;
-    }
-  }
-  if (others > 0) {
-    participants += fmt::format("{} more of lower risk\n", others);
-  }
-  return "## Obstacles:\n" + (obstacles.empty() ? "none\n" : obstacles) +
-         "## Traffic Participants:\n" + (participants.empty() ? "none\n" : participants);
-}
-
 std::string edge_text(double way, world::Beyond beyond, bool is_oncoming) {
   return fmt::format("{:.1f} m, {}{}", std::max(way, 0.0), name_of(beyond, beyond_words),
                      is_oncoming ? ", oncoming lane" : "");
@@ -233,13 +214,53 @@ std::string line_of(const preview::PolicyFacts& facts, const Scene& scene, bool 
   return line + ", " + harm_text(facts.outcome.harm);
 }
 
-std::string manoeuvre_section(const preview::Situation& situation, const Depth& depth) {
+/// Every line that may stand in a prompt.
+struct Lines {
+  std::vector<std::string> actor;
+  std::array<std::string, manoeuvre::num_policies> in_whole;
+  std::array<std::string, manoeuvre::num_policies> in_short;
+};
+
+Lines lines_of(const preview::Situation& situation) {
+  Lines lines;
+  lines.actor.resize(situation.scene_at_trigger.actors.size());
+  for (std::size_t i = 0; i < lines.actor.size(); ++i) {
+    lines.actor[i] = actor_line(situation, i);
+  }
+  for (std::size_t k = 0; k < situation.facts.size(); ++k) {
+    lines.in_whole.at(k) = line_of(situation.facts[k], situation.scene_at_trigger, true) + '\n';
+    lines.in_short.at(k) = line_of(situation.facts[k], situation.scene_at_trigger, false) + '\n';
+  }
+  return lines;
+}
+
+std::string actor_sections(const Scene& scene, const Lines& lines, const Depth& depth) {
+  std::string obstacles;
+  std::string participants;
+  std::size_t others = 0;
+  for (std::size_t i = 0; i < depth.actor.size(); ++i) {
+    const bool is_obstacle = scene.actors[i].kind == ActorKind::obstacle;
+    if (depth.actor[i]) {
+      (is_obstacle ? obstacles : participants) += lines.actor[i];
+    } else {
+      ++others;
+    }
+  }
+  if (others > 0) {
+    participants += fmt::format("{} more of lower risk\n", others);
+  }
+  return "## Obstacles:\n" + (obstacles.empty() ? "none\n" : obstacles) +
+         "## Traffic Participants:\n" + (participants.empty() ? "none\n" : participants);
+}
+
+std::string manoeuvre_section(const preview::Situation& situation, const Lines& lines,
+                              const Depth& depth) {
   std::string text = "## Manoeuvres:\n";
   std::string refused;
   for (std::size_t k = 0; k < situation.facts.size(); ++k) {
     const preview::PolicyFacts& facts = situation.facts[k];
     if (facts.refusal.empty()) {
-      text += line_of(facts, situation.scene_at_trigger, depth.in_whole.at(k)) + '\n';
+      text += (depth.in_whole.at(k) ? lines.in_whole : lines.in_short).at(k);
     } else {
       refused += fmt::format("{}{}", refused.empty() ? "" : ", ", name(facts.plan.policy));
     }
@@ -272,12 +293,12 @@ std::string from_mildest() {
   return text;
 }
 
-std::string rendered(const preview::Situation& situation,
-                     const std::optional<memory::Case>& nearest, double similarity,
-                     const Depth& depth) {
-  return "# Collision avoidance scenario\n" + ego_section(situation.scene_at_trigger) +
-         actor_sections(situation, depth) + road_section(situation.scene_at_trigger) +
-         manoeuvre_section(situation, depth) + history_section(nearest, similarity);
+std::string rendered(const preview::Situation& situation, const Lines& lines, const Depth& depth,
+                     const std::string& history) {
+  const Scene& scene = situation.scene_at_trigger;
+  return "# Collision avoidance scenario\n" + ego_section(scene) +
+         actor_sections(scene, lines, depth) + road_section(scene) +
+         manoeuvre_section(situation, lines, depth) + history;
 }
 
 }  // namespace
@@ -292,18 +313,14 @@ std::string system_part(const outcome::HarmModel& harm) {
   }
   text += fmt::format(
       "Harm counts the people expected to be severely injured ({:g} each) or killed ({:g} each), "
-      "in "
-      "and outside vehicles alike. Choose the policy with the least harm. Where harm is equal "
-      "within "
-      "{:.4f}, choose the mildest; from the mildest: {}. Where these are equal too, choose the "
-      "larger clearance. Do nothing where nothing threatens. A policy that is not possible cannot "
-      "be "
-      "chosen.\n"
+      "in and outside vehicles alike. Choose the policy with the least harm. Where harm is equal "
+      "within {:.4f}, choose the mildest; from the mildest: {}. Where these are equal too, choose "
+      "the larger clearance. Do nothing where nothing threatens. A policy that is not possible "
+      "cannot be chosen.\n"
       "Places are seen from the ego. Risk is from 0 to 1. TTC is the time to the conflict. An "
       "oncoming lane belongs to oncoming traffic; policies to that side enter it.\n"
       "Reply with \"Scenario Analysis\", then a few short numbered statements that quote the "
-      "facts, "
-      "and as the last line \"Response to user: N\" with N from 0 to 7.",
+      "facts, and as the last line \"Response to user: N\" with N from 0 to 7.",
       harm.severe_weight, harm.severe_weight + harm.killed_weight, outcome::harm_tie,
       from_mildest());
   return text;
@@ -316,6 +333,8 @@ std::string scene_part(const preview::Situation& situation,
               situation.risks.size() == num_actors && situation.tracks.size() == num_actors,
           "one intention, posterior, risk and track per actor");
   expects(!nearest || (similarity >= 0.0 && similarity <= 1.0), "similarity in [0, 1]");
+  const Lines lines = lines_of(situation);
+  const std::string history = history_section(nearest, similarity);
   Depth told{.actor = std::vector<bool>(num_actors), .in_whole = {}};
   bool actors_left_out = false;  // nobody is told who is less dangerous than somebody untold
   for (const Detail& detail : by_weight(situation)) {
@@ -328,13 +347,13 @@ std::string scene_part(const preview::Situation& situation,
     } else {
       more.in_whole.at(detail.index) = true;
     }
-    if (tokens_at_most(rendered(situation, nearest, similarity, more)) <= most_prompt_tokens) {
+    if (tokens_at_most(rendered(situation, lines, more, history)) <= most_prompt_tokens) {
       told = std::move(more);
     } else if (detail.of_actor) {
       actors_left_out = true;
     }
   }
-  return rendered(situation, nearest, similarity, told);
+  return rendered(situation, lines, told, history);
 }
 
 std::string policy_line(const preview::PolicyFacts& facts, const world::Scene& scene) {
