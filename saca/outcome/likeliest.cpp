@@ -249,12 +249,12 @@ void find_touch(const CloserLook& pair, const CloserLook::Look& passing, double 
   constexpr double step = 0.05;  // [s]
   double touching = passing.time;
   double apart = std::max(from, touching - step);
-  while (apart > from && gap_at(apart).size <= 0.0) {
+  while (gap_at(apart).size <= 0.0) {
     touching = apart;
+    if (apart <= from) {
+      break;  // they touch from the start on
+    }
     apart = std::max(from, touching - step);
-  }
-  if (gap_at(apart).size <= 0.0) {
-    touching = apart;
   }
   for (int i = 0; i < 5 && apart < touching; ++i) {
     const double middle = 0.5 * (apart + touching);
