@@ -4,8 +4,6 @@
 #include <string>
 #include <utility>
 
-#include "apps/saca/story.h"
-
 namespace saca::app {
 namespace {
 
@@ -32,7 +30,7 @@ class QuestionTaker final : public reason::LanguageModel {
 Result<FirstQuestion> first_question(const ScenarioInputs& inputs,
                                      const preview::ForecastTools& tools, Clock& clock) {
   QuestionTaker taker;
-  Silence silence;
+  loop::Silence silence;
   const loop::Setup setup{.scenario = &inputs.scenario,
                           .car = &inputs.car,
                           .harm = &inputs.harm,

@@ -162,7 +162,7 @@ int run(const RunOptions& options) {
       .seed = options.seed,
       .clock = &clock};
   Story story(stdout, isatty(STDOUT_FILENO) != 0);
-  Silence silence;
+  loop::Silence silence;
   if (!options.as_json) {
     story.headline(inputs.value().scenario, setup);
   }

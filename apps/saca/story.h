@@ -28,11 +28,4 @@ class Story final : public loop::Listener {
   std::mutex lock_;
 };
 
-/// For programs that read: says nothing.
-class Silence final : public loop::Listener {
- public:
-  void on_event(const decide::Event&) override {}
-  void on_reasoning(std::int32_t, std::string_view) override {}
-};
-
 }  // namespace saca::app

@@ -175,12 +175,6 @@ TEST(DangerMaps, AreSpreadOverAllOfALongRun) {
   EXPECT_NEAR(maps.interval, 18.0 / 16.0, 1e-9);
 }
 
-class Quiet final : public Listener {
- public:
-  void on_event(const decide::Event&) override {}
-  void on_reasoning(std::int32_t, std::string_view) override {}
-};
-
 /// A run towards a disc, whose V is taken to be how deep two discs overlap.
 class DangerMapsTest : public testing::Test {
  protected:
@@ -208,7 +202,7 @@ class DangerMapsTest : public testing::Test {
   sim::Scenario scenario_{
       .name = "disc", .title = "A disc", .car = "x", .grip = 0.9, .duration = 4.0};
   SteadyClock clock_;
-  Quiet quiet_;
+  Silence quiet_;
   reach::DangerModel model_ = told(manoeuvre::footprint(car_), 60.0, [](const reach::State& at) {
     return 2.0 - std::hypot(at[0], at[1]);
   });

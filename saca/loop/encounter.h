@@ -62,6 +62,13 @@ class Listener {
   virtual void on_reasoning(std::int32_t preview, std::string_view text) = 0;
 };
 
+/// Hears nothing.
+class Silence final : public Listener {
+ public:
+  void on_event(const decide::Event&) override {}
+  void on_reasoning(std::int32_t, std::string_view) override {}
+};
+
 enum class Phase : std::uint8_t { recorded, driving, manoeuvre };
 [[nodiscard]] std::string_view name(Phase phase);
 

@@ -18,12 +18,6 @@ using decide::EventKind;
 using decide::Source;
 using manoeuvre::PolicyId;
 
-class Quiet final : public Listener {
- public:
-  void on_event(const decide::Event&) override {}
-  void on_reasoning(std::int32_t, std::string_view) override {}
-};
-
 /// Always the same policy, by 10 prompt tokens and 5 reply tokens.
 reason::ScriptedReply says(PolicyId policy) {
   return {.lines = {{.text = "because", .answer = reason::Answer::Kind::first, .policy = policy}},
@@ -71,7 +65,7 @@ class EncounterTest : public testing::Test {
   }
 
   SteadyClock clock_;
-  Quiet quiet_;
+  Silence quiet_;
   manoeuvre::Car car_ = manoeuvre::default_car();
   const intent::Model& intent_ = intent::shipped_model();
   outcome::HarmModel harm_ = outcome::read_harm("data/harm.toml").value();

@@ -12,12 +12,6 @@ namespace {
 
 using nlohmann::json;
 
-class Quiet final : public Listener {
- public:
-  void on_event(const decide::Event&) override {}
-  void on_reasoning(std::int32_t, std::string_view) override {}
-};
-
 // The record of a real run has everything that docs/formats.md promises.
 TEST(RecordJson, HoldsWhatTheFormatPromises) {
   sim::Scenario scenario{
@@ -33,7 +27,7 @@ TEST(RecordJson, HoldsWhatTheFormatPromises) {
   const auto harm = outcome::read_harm("data/harm.toml").value();
   const intent::Model& intent = intent::shipped_model();
   SteadyClock clock;
-  Quiet quiet;
+  Silence quiet;
   const loop::Setup setup{
       .scenario = &scenario, .car = &car, .harm = &harm, .intent = &intent, .clock = &clock};
   const Record record = run(setup, quiet).value();

@@ -13,12 +13,6 @@ namespace {
 
 using testing::HasSubstr;
 
-class Quiet final : public Listener {
- public:
-  void on_event(const decide::Event&) override {}
-  void on_reasoning(std::int32_t, std::string_view) override {}
-};
-
 /// Somebody stands in the way; asked about a scene the model chooses to brake, looking back it
 /// says what `words` are.
 class ReviewTest : public testing::Test {
@@ -59,7 +53,7 @@ class ReviewTest : public testing::Test {
   std::optional<Error> fault_;
   reason::ScriptedModel model_{[this](const std::string& prompt) { return reply(prompt); }, clock_};
   loop::Setup setup_;
-  Quiet quiet_;
+  Silence quiet_;
 };
 
 TEST_F(ReviewTest, IsHeardJudgedAndRecorded) {
