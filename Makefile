@@ -32,8 +32,8 @@ test: setup
 bench: build model
 	@tools/bench.sh
 
-# Long runs: kills in the middle of memory's writes; deadlines and deaths of the language model; first contacts against brute force; the batch
-# against the scalar model; evasions against the values that they follow; air3D on fine grids.
+# Long runs: kills in the middle of memory's writes; deadlines and deaths of the language model;
+# first contacts against brute force; the batch against the scalar model; evasions against the values that they follow; air3D on fine grids.
 soak: setup model
 	@cmake --preset dev > /dev/null && cmake --build --preset dev --target memory_store_test outcome_exactness_test eval_rollout_agreement_test reach_follow_agreement_test reach_air3d_reference_test model_host_soak_test -- --quiet
 	SACA_SOAK_KILLS=$${SACA_SOAK_KILLS:-500} build/dev/modules/memory/memory_store_test --gtest_filter='*Killed*'

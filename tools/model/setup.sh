@@ -79,24 +79,34 @@ fetch() {
     die "$downloads/$name: want sha256 $want, got something else"
 }
 
-build_llama() {
-  local version source build stamp
-  version=$(sed -n 's/^llama-cpp-python==\([^ ]*\).*/\1/p' "$here/requirements-llama.txt")
-  # The libraries are built for this very processor: another one builds its own.
+version=$(sed -n 's/^llama-cpp-python==\([^ ]*\).*/\1/p' "$here/requirements-llama.txt")
+
+# What is built for this very processor: another one builds its own.
+stamp_in() {  # FOLDER
   local flags
   flags=$({ sed -n 's/^flags[^:]*: //p;T;q' /proc/cpuinfo; echo "${llama_options[*]}"; } |
     sha256sum | cut -c1-16)
-  stamp=$third_party/llama/built-$version-$flags
-  [ -e "$stamp" ] && return
+  echo "$1/built-$version-$flags"
+}
+
+unpack_llama() {  # leaves llama.cpp's sources in $source
   fetch "$here/requirements-llama.txt" "llama_cpp_python-$version.tar.gz" \
     --no-binary llama-cpp-python
-  say "building llama.cpp from llama-cpp-python $version (about two minutes on two cores)"
   source=$third_party/build/llama_cpp_python-$version/vendor/llama.cpp
-  build=$third_party/build/llama
-  rm -rf "$third_party/build" "$third_party/llama"
+  rm -rf "$third_party/build"
   mkdir -p "$third_party/build"
   tar -xzf "$downloads/llama_cpp_python-$version.tar.gz" -C "$third_party/build" \
     "llama_cpp_python-$version/vendor/llama.cpp"
+}
+
+build_llama() {
+  local source build stamp
+  stamp=$(stamp_in "$third_party/llama")
+  [ -e "$stamp" ] && return
+  unpack_llama
+  say "building llama.cpp from llama-cpp-python $version (about two minutes on two cores)"
+  build=$third_party/build/llama
+  rm -rf "$third_party/llama"
   quietly "$third_party/llama.log" cmake -S "$source" -B "$build" -G Ninja "${llama_options[@]}" \
     -DCMAKE_INSTALL_PREFIX="$third_party/llama"
   quietly "$third_party/llama.log" cmake --build "$build" --parallel "$jobs" --target install
@@ -162,18 +172,13 @@ choose_weights() {
 }
 
 build_server() {
-  local version stamp source
-  version=$(sed -n 's/^llama-cpp-python==\([^ ]*\).*/\1/p' "$here/requirements-llama.txt")
-  stamp=$third_party/llama-server/built-$version
+  local source stamp
+  stamp=$(stamp_in "$third_party/llama-server")
   [ -e "$stamp" ] && return
-  fetch "$here/requirements-llama.txt" "llama_cpp_python-$version.tar.gz" \
-    --no-binary llama-cpp-python
-  say "building llama-server"
-  source=$third_party/build/llama_cpp_python-$version/vendor/llama.cpp
-  rm -rf "$third_party/build" "$third_party/llama-server"
-  mkdir -p "$third_party/build" "$third_party/llama-server"
-  tar -xzf "$downloads/llama_cpp_python-$version.tar.gz" -C "$third_party/build" \
-    "llama_cpp_python-$version/vendor/llama.cpp"
+  unpack_llama
+  say "building llama-server (about four minutes on two cores)"
+  rm -rf "$third_party/llama-server"
+  mkdir -p "$third_party/llama-server"
   quietly "$third_party/server.log" cmake -S "$source" -B "$third_party/build/server" -G Ninja \
     "${llama_options[@]}" -DLLAMA_BUILD_COMMON=ON -DLLAMA_BUILD_TOOLS=ON -DLLAMA_BUILD_SERVER=ON \
     -DLLAMA_BUILD_UI=OFF -DLLAMA_USE_PREBUILT_UI=OFF -DLLAMA_OPENSSL=OFF \
