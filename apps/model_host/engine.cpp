@@ -1,5 +1,6 @@
 #include "engine.h"
 
+#include <ggml-cpu.h>
 #include <llama.h>
 #include <unistd.h>
 
@@ -398,7 +399,9 @@ Result<std::shared_ptr<Engine>> Engine::load(const EngineSettings& settings) {
   params.n_threads = settings.threads;
   params.n_threads_batch = settings.threads;
   params.kv_unified = false;
-  params.flash_attn_type = LLAMA_FLASH_ATTN_TYPE_DISABLED;  // slower per reply token on AVX2
+  // With AVX-512 it reads prompts a fifth faster; with AVX2 each token of the reply takes longer.
+  params.flash_attn_type =
+      ggml_cpu_has_avx512() != 0 ? LLAMA_FLASH_ATTN_TYPE_ENABLED : LLAMA_FLASH_ATTN_TYPE_DISABLED;
   params.abort_callback = State::is_late;
   params.abort_callback_data = state.get();
   state->context = llama_init_from_model(state->model, params);
