@@ -15,7 +15,7 @@ struct ChildModelSettings {
   std::vector<std::string> command;  ///< the model's program and its arguments
   std::string system;                ///< system part of the prompt
   std::string identity;              ///< of the weights, for records: file name, hash
-  int max_tokens = 160;              ///< of reasoning per scene
+  int max_tokens = 112;              ///< of reasoning per scene: the form needs about 80
   /// Of each deadline, kept for the way between the processes [s], > 0. Processes that share two
   /// cores wait for each other this long.
   double margin = 0.06;
