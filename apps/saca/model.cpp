@@ -128,37 +128,61 @@ Result<std::unique_ptr<reason::ChildModel>> open_local_model(const Places& place
   return model;
 }
 
-Result<ChosenModel> ChosenModel::open(const Places& places, const std::string& choice,
-                                      const std::string& record, loop::Pace pace, Clock& clock) {
-  ChosenModel chosen;
+namespace {
+
+/// nullptr: off.
+Result<std::unique_ptr<reason::LanguageModel>> open_model(const Places& places,
+                                                          const std::string& choice,
+                                                          loop::Pace pace, Clock& clock) {
   if (choice == "local") {
     auto local = open_local_model(places, clock);
-    if (local.has_value()) {
-      chosen.model_ = std::move(local).value();
-    } else {
-      fmt::print(stderr, "saca: {}\nsaca: going on as with --llm off\n", local.error().message);
+    if (!local.has_value()) {
+      return local.error();
     }
-  } else if (choice.starts_with(replay_prefix)) {
-    auto replay = open_replay(choice.substr(replay_prefix.size()), pace, clock);
-    if (!replay.has_value()) {
-      return replay.error();
-    }
-    chosen.model_ = std::move(replay).value();
-  } else if (const std::size_t at = choice.find("@http"); at != std::string::npos && at > 0) {
-    auto server = open_server(places, choice, at, clock);
-    if (!server.has_value()) {
-      return server.error();
-    }
-    chosen.model_ = std::move(server).value();
-  } else if (choice != "off") {
-    return Error{Error::Code::malformed,
-                 "--llm: want local, off, replay:FILE or MODEL@URL, got `" + choice + "`"};
+    return std::unique_ptr<reason::LanguageModel>(std::move(local).value());
+  }
+  if (choice.starts_with(replay_prefix)) {
+    return open_replay(choice.substr(replay_prefix.size()), pace, clock);
+  }
+  if (const std::size_t at = choice.find("@http"); at != std::string::npos && at > 0) {
+    return open_server(places, choice, at, clock);
+  }
+  if (choice == "off") {
+    return std::unique_ptr<reason::LanguageModel>();
+  }
+  return Error{Error::Code::malformed,
+               "--llm: want local, off, replay:FILE or MODEL@URL, got `" + choice + "`"};
+}
+
+}  // namespace
+
+Result<ChosenModel> ChosenModel::open(const Places& places, const std::string& choice,
+                                      const std::string& record, loop::Pace pace, Clock& clock) {
+  auto model = open_model(places, choice, pace, clock);
+  ChosenModel chosen;
+  if (model.has_value()) {
+    chosen.model_ = std::move(model).value();
+  } else if (choice == "local") {
+    fmt::print(stderr, "saca: {}\nsaca: going on as with --llm off\n", model.error().message);
+  } else {
+    return model.error();
   }
   if (chosen.model_ && !record.empty()) {
     chosen.recording_ = std::make_unique<reason::RecordingModel>(*chosen.model_, clock);
     chosen.record_ = record;
   }
   return chosen;
+}
+
+Result<std::unique_ptr<reason::LanguageModel>> open_needed_model(const Places& places,
+                                                                 const std::string& choice,
+                                                                 loop::Pace pace, Clock& clock) {
+  auto model = open_model(places, choice, pace, clock);
+  if (model.has_value() && model.value() == nullptr) {
+    return Error{Error::Code::malformed,
+                 "--llm: want a language model to ask, got `" + choice + "`"};
+  }
+  return model;
 }
 
 reason::LanguageModel* ChosenModel::get() const {

@@ -20,6 +20,11 @@ namespace saca::app {
 [[nodiscard]] Result<std::unique_ptr<reason::ChildModel>> open_local_model(const Places& places,
                                                                            Clock& clock);
 
+/// A model as `--llm` names it, for commands that are nothing without one.
+/// @return  never nullptr; an error where it is off or not there
+[[nodiscard]] Result<std::unique_ptr<reason::LanguageModel>> open_needed_model(
+    const Places& places, const std::string& choice, loop::Pace pace, Clock& clock);
+
 /// A model as `--llm` names it, and whoever writes down what it says.
 class ChosenModel {
  public:

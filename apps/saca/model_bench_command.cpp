@@ -166,15 +166,11 @@ int model_bench(const ModelBenchOptions& options) {
     return refused(places.error());
   }
   SteadyClock clock;
-  const auto opened = ChosenModel::open(places.value(), options.model, "", loop::Pace::real, clock);
+  const auto opened = open_needed_model(places.value(), options.model, loop::Pace::real, clock);
   if (!opened.has_value()) {
     return refused(opened.error());
   }
-  if (opened.value().get() == nullptr) {
-    complain("without a language model nothing can be measured");
-    return bad_input;
-  }
-  LanguageModel& model = *opened.value().get();
+  LanguageModel& model = *opened.value();
   auto* const child = dynamic_cast<ChildModel*>(&model);
   const double load = child == nullptr ? 0.0 : child->figures().load_time;
   const std::vector<std::string> scenes = example_scenes();

@@ -188,14 +188,10 @@ int reason_about(const ReasonOptions& options) {
     return refused(inputs.error());
   }
   SteadyClock clock;
-  const auto chosen =
-      ChosenModel::open(inputs.value().places, options.model, "", loop::Pace::real, clock);
-  if (!chosen.has_value()) {
-    return refused(chosen.error());
-  }
-  if (chosen.value().get() == nullptr) {
-    complain("without a language model nothing can be asked");
-    return bad_input;
+  const auto model =
+      open_needed_model(inputs.value().places, options.model, loop::Pace::real, clock);
+  if (!model.has_value()) {
+    return refused(model.error());
   }
   const manoeuvre::Atlas atlas = usual_atlas(inputs.value());
   const auto danger = usual_danger(inputs.value());
@@ -211,12 +207,12 @@ int reason_about(const ReasonOptions& options) {
   const std::vector<Preview>& previews = asked.value().previews;
   if (!options.as_json) {
     fmt::print("{}\nLanguage model: {}.\n\n", inputs.value().scenario.title,
-               chosen.value().get()->description());
+               model.value()->description());
     tell_question(previews);
   }
   std::vector<Considered> all;
   if (!previews.empty()) {
-    auto replies = ask(*chosen.value().get(), previews, options, clock);
+    auto replies = ask(*model.value(), previews, options, clock);
     if (!replies.has_value()) {
       return refused(replies.error());
     }
@@ -238,7 +234,7 @@ int reason_about(const ReasonOptions& options) {
   if (options.as_json) {
     json document = {{"schema", "saca.reason/1"},
                      {"scenario", inputs.value().scenario.name},
-                     {"model", chosen.value().get()->description()},
+                     {"model", model.value()->description()},
                      {"deadline_ms", options.deadline},
                      {"system", reason::system_part(inputs.value().harm)},
                      {"forecasts", json::array()}};

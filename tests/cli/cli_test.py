@@ -308,6 +308,9 @@ def test_without_a_model_it_runs_and_says_so(tmp_path):
     assert run.returncode == SUCCESS, run.stderr
     assert "make model" in run.stderr and "--llm off" in run.stderr
     assert "language model: off" in run.stdout
+    for command in (["reason", "100car_8676"], ["model", "bench"]):  # which are nothing without one
+        error = one_error(subprocess.run([lonely, *command], cwd=tmp_path, capture_output=True, text=True, timeout=120), BAD_INPUT)
+        assert "make model" in error and "going on" not in error
 
 
 @pytest.mark.parametrize("text, words", [

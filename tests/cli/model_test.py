@@ -54,5 +54,5 @@ def test_score_judges_by_hindsight_and_goes_on(server, tmp_path):
 
 def test_what_cannot_be_scored_is_refused(tmp_path):
     assert saca("model", "score", "--count", 1, cwd=tmp_path).returncode == WRONG_COMMAND_LINE
-    assert "without a language model" in one_error(saca("model", "score", "--llm", "off", "--count", 2, cwd=tmp_path), BAD_INPUT)
-    assert "without a language model" in one_error(saca("model", "bench", "--llm", "off", cwd=tmp_path), BAD_INPUT)
+    assert "want a language model to ask, got `off`" in one_error(saca("model", "score", "--llm", "off", "--count", 2, cwd=tmp_path), BAD_INPUT)
+    assert "want a language model to ask, got `off`" in one_error(saca("model", "bench", "--llm", "off", cwd=tmp_path), BAD_INPUT)

@@ -63,7 +63,7 @@ def test_nothing_is_asked_where_nothing_threatens(replies, tmp_path):
 
 def test_what_cannot_be_asked_is_refused(replies, tmp_path):
     off = saca("reason", "intersection_t1", "--llm", "off", cwd=tmp_path)
-    assert "without a language model" in one_error(off, BAD_INPUT)
+    assert "want a language model to ask, got `off`" in one_error(off, BAD_INPUT)
     assert saca("reason", "intersection_t1", "--deadline-ms", 0, cwd=tmp_path).returncode == WRONG_COMMAND_LINE
     late = saca("reason", "intersection_t1", "--llm", f"replay:{replies}", "--deadline-ms", 20, cwd=tmp_path)
     assert "replay" in one_error(late, BAD_INPUT)
