@@ -139,6 +139,7 @@ struct Engine::State {
   // Read by the abort callback inside a step.
   Clock* clock = nullptr;
   Clock::Time stop_at{0};
+  std::function<bool()> is_cancelled;
 
   State() = default;
   State(const State&) = delete;
@@ -150,9 +151,10 @@ struct Engine::State {
 
   [[nodiscard]] llama_memory_t memory() const { return llama_get_memory(context); }
 
-  static bool is_late(void* self) {
+  static bool must_stop(void* self) {
     const auto* state = static_cast<const State*>(self);
-    return state->clock != nullptr && state->clock->now() >= state->stop_at;
+    return state->clock != nullptr && (state->clock->now() >= state->stop_at ||
+                                       (state->is_cancelled && state->is_cancelled()));
   }
 
   // Evaluates the batch, or stops at `until`. False when stopped or failed.
@@ -402,7 +404,7 @@ Result<std::shared_ptr<Engine>> Engine::load(const EngineSettings& settings) {
   // With AVX-512 it reads prompts a fifth faster; with AVX2 each token of the reply takes longer.
   params.flash_attn_type =
       ggml_cpu_has_avx512() != 0 ? LLAMA_FLASH_ATTN_TYPE_ENABLED : LLAMA_FLASH_ATTN_TYPE_DISABLED;
-  params.abort_callback = State::is_late;
+  params.abort_callback = State::must_stop;
   params.abort_callback_data = state.get();
   state->context = llama_init_from_model(state->model, params);
   if (state->context == nullptr) {
@@ -482,6 +484,7 @@ Result<AskFigures> Engine::ask(const std::vector<std::string>& scenes, Clock::Ti
                                             " s, there are " + std::to_string(left) + " s"};
   }
   s.clock = &clock;
+  s.is_cancelled = events.is_cancelled;
   AskFigures figures;
   figures.prompt_tokens.resize(scenes.size());
   std::vector<Thought> thoughts(scenes.size());
@@ -503,6 +506,7 @@ Result<AskFigures> Engine::ask(const std::vector<std::string>& scenes, Clock::Ti
     s.forget_from(thought.scene, s.system_tokens);
   }
   s.clock = nullptr;
+  s.is_cancelled = nullptr;
   return figures;
 }
 

@@ -30,6 +30,9 @@ struct EngineEvents {
   std::function<void(std::size_t scene, std::string_view text)> text;  ///< whole UTF-8 characters
   std::function<void(std::size_t scene, AnswerKind kind, const std::vector<double>& log_weight)>
       answer;  ///< one logit for each digit 0 to 7
+  /// Looked at many times in each step; true ends the ask as if its deadline had come. May be
+  /// empty.
+  std::function<bool()> is_cancelled = {};
 };
 
 /// Figures of one `ask`.

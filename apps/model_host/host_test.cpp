@@ -44,6 +44,39 @@ class HostTest : public testing::Test {
   std::function<void(const reason::Progress&)> nobody_ = [](const reason::Progress&) {};
 };
 
+TEST_F(HostTest, WithdrawnQuestionLeavesTheModelReady) {
+  reason::ChildModelSettings patient = settings(100);
+  patient.margin = 10.0;  // a busy machine may be slow to stop
+  reason::ChildModel model(patient, clock_);
+  const auto alone = model.ask({scene_}, clock_.now() + patience, nobody_);
+  for (const bool while_it_reads : {true, false}) {
+    std::stop_source stop;
+    if (while_it_reads) {
+      stop.request_stop();
+    }
+    const auto at_first_word = [&](const reason::Progress& p) {
+      if (!p.text.empty()) {
+        stop.request_stop();
+      }
+    };
+    const auto replies =
+        model.ask({scene_, scene_}, clock_.now() + patience, at_first_word, stop.get_token());
+    if (while_it_reads) {
+      ASSERT_FALSE(replies.has_value());
+      EXPECT_EQ(replies.error().code, Error::Code::too_late);
+    } else {
+      ASSERT_TRUE(replies.has_value()) << replies.error().message;
+      EXPECT_FALSE(replies.value()[0].answers.empty());
+      EXPECT_LT(replies.value()[0].reply_tokens, 100);
+    }
+  }
+  const auto again = model.ask({scene_}, clock_.now() + patience, nobody_);
+  ASSERT_TRUE(alone.has_value() && again.has_value());
+  EXPECT_EQ(alone.value()[0].reply_tokens, 100);
+  EXPECT_EQ(alone.value()[0].reasoning, again.value()[0].reasoning);
+  EXPECT_EQ(model.restarts(), 0);
+}
+
 TEST_F(HostTest, SameQuestionSameReply) {
   reason::ChildModel model(settings(6), clock_);
   const auto once = model.ask({scene_, scene_}, clock_.now() + patience, nobody_);

@@ -65,7 +65,7 @@ int run(int argc, char** argv) {
   }
   end_with_parent();
   llama_log_set([](ggml_log_level, const char*, void*) {}, nullptr);
-  return saca::model_host::serve(settings, std::cin, std::cout);
+  return saca::model_host::serve(settings, STDIN_FILENO, std::cout);
 }
 
 }  // namespace

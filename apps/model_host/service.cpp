@@ -5,15 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <istream>
 #include <ostream>
 
+#include "inbox.h"
 #include "saca/reason/protocol.h"
 
 namespace saca::model_host {
 namespace {
 
 namespace protocol = reason::protocol;
+
+constexpr Clock::Time look_pause = std::chrono::milliseconds(2);  // between looks for a cancel
 
 std::uint64_t resident_bytes() {
   std::ifstream file("/proc/self/statm");
@@ -39,8 +41,8 @@ std::array<double, num_answers> softmax(const std::vector<double>& logits, doubl
 
 class Service {
  public:
-  Service(const EngineSettings& settings, std::ostream& out)
-      : settings_(settings), out_(out), begin_(clock_.now()) {}
+  Service(const EngineSettings& settings, Inbox& inbox, std::ostream& out)
+      : settings_(settings), inbox_(inbox), out_(out), begin_(clock_.now()) {}
 
   bool load() {
     const auto loaded = Engine::load(settings_);
@@ -76,6 +78,13 @@ class Service {
         },
         [&](std::size_t scene, AnswerKind kind, const std::vector<double>& logits) {
           say(protocol::Answered{ask.id, scene, kind, softmax(logits, settings_.temperature)});
+        },
+        [&, next_look = arrival, cancelled = false]() mutable {
+          if (const Clock::Time now = clock_.now(); !cancelled && now >= next_look) {
+            next_look = now + look_pause;
+            cancelled = is_cancelled(ask.id);
+          }
+          return cancelled;
         }};
     const double longest = 3600.0;  // [s]: nobody waits longer, and the sum below stays in range
     const auto budget = from_seconds(std::min(ask.budget, longest));
@@ -89,6 +98,8 @@ class Service {
                        figures.value().reply_seconds, figures.value().overran});
   }
 
+  void handle(const protocol::Cancel&) {}  // its ask is over
+
   void handle(const protocol::InfoRequest&) {
     say(protocol::Info{engine_->description(), settings_.model_path, engine_->weight_bytes(),
                        resident_bytes(), settings_.threads});
@@ -97,7 +108,17 @@ class Service {
   void say(const protocol::Event& event) { out_ << protocol::line(event) << '\n' << std::flush; }
 
  private:
+  [[nodiscard]] bool is_cancelled(int id) {
+    return inbox_.holds([id](const std::string& line) {
+      const auto request = protocol::request_from(line);
+      const auto* const cancel =
+          request.has_value() ? std::get_if<protocol::Cancel>(&request.value()) : nullptr;
+      return cancel != nullptr && cancel->id == id;
+    });
+  }
+
   EngineSettings settings_;
+  Inbox& inbox_;
   std::ostream& out_;
   SteadyClock clock_;
   Clock::Time begin_;
@@ -106,13 +127,14 @@ class Service {
 
 }  // namespace
 
-int serve(const EngineSettings& settings, std::istream& in, std::ostream& out) {
-  Service service(settings, out);
+int serve(const EngineSettings& settings, int in, std::ostream& out) {
+  Inbox inbox(in);
+  Service service(settings, inbox, out);
   if (!service.load()) {
     return 1;
   }
-  for (std::string line; std::getline(in, line);) {
-    const auto request = protocol::request_from(line);
+  while (const auto line = inbox.take()) {
+    const auto request = protocol::request_from(*line);
     if (!request.has_value()) {
       service.say(protocol::Failed{std::nullopt, request.error().message});
       continue;

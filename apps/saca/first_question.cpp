@@ -10,18 +10,19 @@ namespace {
 /// Takes the first question of an encounter and answers none.
 class QuestionTaker final : public reason::LanguageModel {
  public:
-  [[nodiscard]] Result<std::vector<reason::Reply>> ask(
+  [[nodiscard]] std::string description() const override { return "question taker"; }
+  [[nodiscard]] std::size_t num_first() const { return num_first_; }
+
+ private:
+  [[nodiscard]] Result<std::vector<reason::Reply>> reply_to(
       const std::vector<std::string>& scenes, Clock::Time,
-      const std::function<void(const reason::Progress&)>&) override {
+      const std::function<void(const reason::Progress&)>&, const std::stop_token&) override {
     if (num_first_ == 0) {
       num_first_ = scenes.size();
     }
     return Error{Error::Code::too_late, "only listened to"};
   }
-  [[nodiscard]] std::string description() const override { return "question taker"; }
-  [[nodiscard]] std::size_t num_first() const { return num_first_; }
 
- private:
   std::size_t num_first_ = 0;
 };
 

@@ -18,4 +18,15 @@ void ManualClock::wait_until(Time time) noexcept {
   now_ = std::max(now_, time);
 }
 
+void wait_until(Clock& clock, Clock::Time time, const std::stop_token& stop) noexcept {
+  constexpr Clock::Time longest_look = std::chrono::milliseconds(10);  // between looks at `stop`
+  if (!stop.stop_possible()) {
+    clock.wait_until(time);
+    return;
+  }
+  for (Clock::Time now = clock.now(); now < time && !stop.stop_requested(); now = clock.now()) {
+    clock.wait_until(std::min(time, now + longest_look));
+  }
+}
+
 }  // namespace saca

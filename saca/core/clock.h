@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <stop_token>
 
 namespace saca {
 
@@ -27,6 +28,9 @@ class Clock {
 [[nodiscard]] inline Clock::Time from_seconds(double seconds) {
   return std::chrono::duration_cast<Clock::Time>(std::chrono::duration<double>(seconds));
 }
+
+/// As clock.wait_until(time), but no longer than until soon after a stop was asked for.
+void wait_until(Clock& clock, Clock::Time time, const std::stop_token& stop) noexcept;
 
 /// The machine's monotonic clock.
 class SteadyClock final : public Clock {

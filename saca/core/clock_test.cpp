@@ -30,5 +30,17 @@ TEST(SteadyClock, NeverRunsBackAndWaitsLongEnough) {
   EXPECT_GE(clock.now() - start, milliseconds(1));
 }
 
+TEST(WaitUntil, GoesOnUntilTheTimeUnlessAStopIsAskedFor) {
+  ManualClock clock;
+  wait_until(clock, milliseconds(25), {});
+  EXPECT_EQ(clock.now(), milliseconds(25));
+  std::stop_source stop;
+  wait_until(clock, milliseconds(95), stop.get_token());
+  EXPECT_EQ(clock.now(), milliseconds(95));
+  stop.request_stop();
+  wait_until(clock, milliseconds(200), stop.get_token());
+  EXPECT_EQ(clock.now(), milliseconds(95));
+}
+
 }  // namespace
 }  // namespace saca

@@ -39,6 +39,7 @@ struct ThinkingPlane::Round {
   const intent::Beliefs& beliefs;
   Clock::Time scene_at;
   const Clock& clock;
+  const std::stop_token& stop;
 
   [[nodiscard]] double time_of(Clock::Time at) const {
     return scene.time + to_seconds(at - scene_at);
@@ -78,7 +79,7 @@ void ThinkingPlane::describe_scene(const Round& round, const preview::Threat& th
 }
 
 bool ThinkingPlane::think(const world::Scene& scene, const intent::Beliefs& beliefs,
-                          Clock::Time scene_at) {
+                          Clock::Time scene_at, const std::stop_token& stop) {
   if (world::broken_rule(scene)) {
     return false;
   }
@@ -87,7 +88,7 @@ bool ThinkingPlane::think(const world::Scene& scene, const intent::Beliefs& beli
   if (!threat) {
     return false;
   }
-  const Round round{scene, beliefs, scene_at, *tools_.clock};
+  const Round round{scene, beliefs, scene_at, *tools_.clock, stop};
   if (previews_.empty()) {
     describe_scene(round, *threat);
   }
@@ -216,7 +217,10 @@ void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>
     }
   };
   const auto replies =
-      tools_.model->ask(scenes, round.clock_at(trigger - handover_margin), progress);
+      tools_.model->ask(scenes, round.clock_at(trigger - handover_margin), progress, round.stop);
+  if (!replies.has_value() && round.stop.stop_requested()) {
+    return;  // nobody waits for it any more
+  }
   if (!replies.has_value()) {
     ++deadline_misses_;
     for (const std::size_t i : which) {

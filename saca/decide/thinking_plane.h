@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <stop_token>
 #include <vector>
 
 #include "saca/core/clock.h"
@@ -44,8 +45,10 @@ class ThinkingPlane {
   /// @param scene     the newest one
   /// @param beliefs   about its actors' intentions, one for each
   /// @param scene_at  when, on the clock, scene.time was
+  /// @param stop      a question to the model under way is withdrawn when a stop is asked for
   /// @return          false when nothing threatens within T2: nothing was done
-  bool think(const world::Scene& scene, const intent::Beliefs& beliefs, Clock::Time scene_at);
+  bool think(const world::Scene& scene, const intent::Beliefs& beliefs, Clock::Time scene_at,
+             const std::stop_token& stop = {});
 
   /// All that was thought so far, in order.
   [[nodiscard]] const std::vector<Preview>& previews() const { return previews_; }

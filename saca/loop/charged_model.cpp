@@ -27,10 +27,11 @@ Result<ThinkingCosts> read_thinking_costs(std::string_view text, std::string_vie
   return costs;
 }
 
-Result<std::vector<reason::Reply>> ChargedModel::ask(
+Result<std::vector<reason::Reply>> ChargedModel::reply_to(
     const std::vector<std::string>& scenes, Clock::Time deadline,
-    const std::function<void(const reason::Progress&)>& progress) {
-  auto replies = model_.ask(scenes, real_.now() + patience, [](const reason::Progress&) {});
+    const std::function<void(const reason::Progress&)>& progress, const std::stop_token& stop) {
+  auto replies = model_.ask(
+      scenes, real_.now() + patience, [](const reason::Progress&) {}, stop);
   if (!replies.has_value()) {
     return replies;
   }

@@ -22,7 +22,8 @@ struct ThinkingCosts {
                                                         std::string_view source);
 
 /// A language model whose thinking is charged by its tokens instead of by the time it takes: each
-/// answer is dated by the tokens before it. The same model gives the same dates on any machine.
+/// answer is dated by the tokens before it. The same model gives the same dates on any machine. An
+/// answer that would have come after the deadline is dropped, as if it had not come.
 class ChargedModel final : public reason::LanguageModel {
  public:
   /// @param model  the one that thinks, with deadlines on `real`
@@ -31,13 +32,14 @@ class ChargedModel final : public reason::LanguageModel {
                const Clock& clock)
       : model_(model), costs_(costs), real_(real), clock_(clock) {}
 
-  /// An answer that would have come after the deadline is dropped, as if it had not come.
-  [[nodiscard]] Result<std::vector<reason::Reply>> ask(
-      const std::vector<std::string>& scenes, Clock::Time deadline,
-      const std::function<void(const reason::Progress&)>& progress) override;
   [[nodiscard]] std::string description() const override { return model_.description(); }
 
  private:
+  [[nodiscard]] Result<std::vector<reason::Reply>> reply_to(
+      const std::vector<std::string>& scenes, Clock::Time deadline,
+      const std::function<void(const reason::Progress&)>& progress,
+      const std::stop_token& stop) override;
+
   reason::LanguageModel& model_;
   ThinkingCosts costs_;
   const Clock& real_;

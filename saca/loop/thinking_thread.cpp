@@ -21,7 +21,7 @@ ThinkingThread::~ThinkingThread() {
 }
 
 std::string ThinkingThread::finish() {
-  stop_ = true;
+  stop_.request_stop();
   if (thread_.joinable()) {
     thread_.join();
   }
@@ -30,18 +30,19 @@ std::string ThinkingThread::finish() {
 
 void ThinkingThread::run() {
   const auto newest = std::make_unique<TimedScene>();
-  while (!stop_) {
+  const std::stop_token stop = stop_.get_token();
+  while (!stop.stop_requested()) {
     if (!scenes_.take(*newest)) {
-      clock_.wait_until(clock_.now() + pause);
+      wait_until(clock_, clock_.now() + pause, stop);
       continue;
     }
     try {
-      plane_.think(newest->scene, newest->beliefs, newest->at);
+      plane_.think(newest->scene, newest->beliefs, newest->at, stop);
     } catch (const std::exception& problem) {  // a bug there must not end the plane that drives
       fault_ = problem.what();
       return;
     }
-    clock_.wait_until(clock_.now() + breath);
+    wait_until(clock_, clock_.now() + breath, stop);
   }
 }
 

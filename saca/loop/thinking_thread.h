@@ -1,6 +1,6 @@
 #pragma once
 
-#include <atomic>
+#include <stop_token>
 #include <string>
 #include <thread>
 
@@ -30,8 +30,8 @@ class ThinkingThread {
   /// As finish().
   ~ThinkingThread();
 
-  /// Ends the thread; waits for the round under way, at most until its deadline, which is the
-  /// trigger.
+  /// Ends the thread: withdraws what is asked of the language model, and waits for the rest of the
+  /// round under way.
   /// @return  what was thrown there and ended thinking early; empty when nothing was
   std::string finish();
 
@@ -41,7 +41,7 @@ class ThinkingThread {
   decide::ThinkingPlane& plane_;
   LatestSlot<TimedScene>& scenes_;
   Clock& clock_;
-  std::atomic<bool> stop_{false};
+  std::stop_source stop_;
   std::string fault_;  ///< of the thread until it has ended
   std::thread thread_;
 };

@@ -7,6 +7,7 @@
 #include "saca/intent/shipped_model.h"
 #include "saca/loop/wreck_for_test.h"
 #include "saca/manoeuvre/default_car.h"
+#include "saca/reason/scripted_model.h"
 
 namespace saca::loop {
 namespace {
@@ -43,6 +44,37 @@ TEST(ThinkingThread, ThinksAboutTheNewestSceneAndEndsWhenAsked) {
   EXPECT_TRUE(received.empty());  // without memory and model there is no plan, but a hand-over
   EXPECT_GT(num_events, 0);
   EXPECT_EQ(plane.previews().size(), 1U);
+}
+
+// Without an answer the question would last until the trigger, some seconds.
+TEST(ThinkingThread, DoesNotWaitForAModelWhenItEnds) {
+  const auto car = manoeuvre::default_car();
+  const auto harm = outcome::read_harm("data/harm.toml").value();
+  SteadyClock clock;
+  LatestSlot<TimedScene> scenes;
+  std::atomic<bool> asked{false};
+  reason::ScriptedModel model(
+      [&](const std::string&) {
+        asked = true;
+        return reason::ScriptedReply{};  // never a word
+      },
+      clock);
+  decide::ThinkingPlane plane(
+      {.forecast = {.car = &car, .harm = &harm}, .model = &model, .clock = &clock}, {},
+      {.publish = [](const decide::PlanCache&, double) {},
+       .event = [](const decide::Event&) {},
+       .reasoning = [](std::int32_t, std::string_view) {}});
+  ThinkingThread thread(plane, scenes, clock);
+  const world::Scene scene = wreck_ahead(car, 80.0);
+  scenes.publish({scene, intent::beliefs_at_sight(intent::shipped_model(), scene), clock.now()});
+  const Clock::Time give_up = clock.now() + std::chrono::seconds(30);
+  while (!asked && clock.now() < give_up) {
+    clock.wait_until(clock.now() + std::chrono::milliseconds(1));
+  }
+  ASSERT_TRUE(asked);
+  EXPECT_EQ(thread.finish(), "");
+  EXPECT_LT(clock.now(), model.last_deadline());
+  EXPECT_EQ(plane.deadline_misses(), 0);
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 namespace saca::reason {
 namespace {
 
-constexpr std::size_t max_scenes = 3;
 constexpr std::size_t longest_reasoning = 1U << 16U;  // bytes; a reply has a few hundred
 constexpr double longest_load = 60.0;                 // [s]; a minute on a very slow disk
 
@@ -51,22 +50,23 @@ void ChildModel::give_up() {
   }
 }
 
-Result<protocol::Event> ChildModel::next_event(Clock::Time deadline) {
-  const Result<std::string> line = process_.receive(deadline);
+Result<protocol::Event> ChildModel::next_event(Clock::Time deadline, const std::stop_token& stop) {
+  const Result<std::string> line = process_.receive(deadline, stop);
   if (!line.has_value()) {
     return line.error();
   }
   return protocol::event_from(line.value());
 }
 
-std::optional<Error> ChildModel::wait_until_ready(Clock::Time deadline) {
+std::optional<Error> ChildModel::wait_until_ready(Clock::Time deadline,
+                                                  const std::stop_token& stop) {
   if (!process_.running()) {
     if (auto error = begin()) {
       return error;
     }
   }
   while (!ready_) {
-    const Result<protocol::Event> event = next_event(deadline);
+    const Result<protocol::Event> event = next_event(deadline, stop);
     if (!event.has_value()) {
       const bool still_loading = event.error().code == Error::Code::too_late &&
                                  clock_.now() - begun_at_ < from_seconds(longest_load);
@@ -132,9 +132,10 @@ std::optional<Error> ChildModel::take(Exchange& exchange, const protocol::Event&
   return std::nullopt;
 }
 
-std::optional<Error> ChildModel::collect(Exchange& exchange, Clock::Time deadline) {
+std::optional<Error> ChildModel::collect(Exchange& exchange, Clock::Time deadline,
+                                         const std::stop_token& stop) {
   while (!exchange.done) {
-    const Result<protocol::Event> event = next_event(deadline);
+    const Result<protocol::Event> event = next_event(deadline, stop);
     if (!event.has_value()) {
       return event.error();
     }
@@ -145,15 +146,26 @@ std::optional<Error> ChildModel::collect(Exchange& exchange, Clock::Time deadlin
   return std::nullopt;
 }
 
-Result<std::vector<Reply>> ChildModel::ask(const std::vector<std::string>& scenes,
-                                           Clock::Time deadline,
-                                           const std::function<void(const Progress&)>& progress) {
-  expects(!scenes.empty() && scenes.size() <= max_scenes, "1 to 3 scenes");
+// The process says that it is done soon after: until then it may say what it had ready.
+std::optional<Error> ChildModel::withdraw(Exchange& exchange, Clock::Time deadline) {
+  const Clock::Time until = std::min(deadline, clock_.now() + from_seconds(settings_.margin));
+  auto error =
+      process_.send(protocol::line(protocol::Request(protocol::Cancel{exchange.id})), until);
+  if (!error) {
+    error = collect(exchange, until);
+  }
+  return exchange.done ? Error{Error::Code::too_late, "model process: the question is withdrawn"}
+                       : error;
+}
+
+Result<std::vector<Reply>> ChildModel::reply_to(
+    const std::vector<std::string>& scenes, Clock::Time deadline,
+    const std::function<void(const Progress&)>& progress, const std::stop_token& stop) {
   // The process is told to be done a margin before the deadline, and is heard for most of the
   // margin beyond that.
   const Clock::Time margin = from_seconds(settings_.margin);
   const Clock::Time listen_until = deadline - margin / 4;
-  if (auto error = wait_until_ready(listen_until)) {
+  if (auto error = wait_until_ready(listen_until, stop)) {
     return *error;
   }
   const double budget = to_seconds(deadline - margin - clock_.now());
@@ -166,7 +178,10 @@ Result<std::vector<Reply>> ChildModel::ask(const std::vector<std::string>& scene
       protocol::Ask{exchange.id, scenes, budget, settings_.max_tokens};
   auto error = process_.send(protocol::line(request), listen_until);
   if (!error) {
-    error = collect(exchange, listen_until);
+    error = collect(exchange, listen_until, stop);
+  }
+  if (error && !exchange.done && stop.stop_requested()) {
+    error = withdraw(exchange, listen_until);
   }
   if (error && !exchange.done) {
     give_up();  // it is late, gone or mad; another one begins at once

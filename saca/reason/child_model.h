@@ -32,7 +32,9 @@ struct ChildModelFigures {
 /// The model in a process of its own, speaking the protocol of `protocol.h`.
 ///
 /// `ask` returns before its deadline whatever that process does: dies, stops, is silent, late, or
-/// talks nonsense. Then the process is killed, and begun again if it had worked before.
+/// talks nonsense. Then the process is killed, and begun again if it had worked before. A question
+/// that is withdrawn ends within the step under way; the process that does not end it within
+/// `margin` is killed, too.
 class ChildModel final : public LanguageModel {
  public:
   /// Begins the process, which loads the weights while the caller goes on.
@@ -40,11 +42,8 @@ class ChildModel final : public LanguageModel {
 
   /// Waits until the process is ready for questions.
   /// @return  nullopt, or why it is not (too_late, unreadable, malformed)
-  [[nodiscard]] std::optional<Error> wait_until_ready(Clock::Time deadline);
-
-  [[nodiscard]] Result<std::vector<Reply>> ask(
-      const std::vector<std::string>& scenes, Clock::Time deadline,
-      const std::function<void(const Progress&)>& progress) override;
+  [[nodiscard]] std::optional<Error> wait_until_ready(Clock::Time deadline,
+                                                      const std::stop_token& stop = {});
 
   [[nodiscard]] std::string description() const override;
 
@@ -61,11 +60,18 @@ class ChildModel final : public LanguageModel {
   [[nodiscard]] int restarts() const { return restarts_; }
 
  private:
+  [[nodiscard]] Result<std::vector<Reply>> reply_to(
+      const std::vector<std::string>& scenes, Clock::Time deadline,
+      const std::function<void(const Progress&)>& progress, const std::stop_token& stop) override;
+
   struct Exchange;
 
   [[nodiscard]] std::optional<Error> begin();
-  [[nodiscard]] Result<protocol::Event> next_event(Clock::Time deadline);
-  [[nodiscard]] std::optional<Error> collect(Exchange& exchange, Clock::Time deadline);
+  [[nodiscard]] Result<protocol::Event> next_event(Clock::Time deadline,
+                                                   const std::stop_token& stop = {});
+  [[nodiscard]] std::optional<Error> collect(Exchange& exchange, Clock::Time deadline,
+                                             const std::stop_token& stop = {});
+  [[nodiscard]] std::optional<Error> withdraw(Exchange& exchange, Clock::Time deadline);
   [[nodiscard]] std::optional<Error> take(Exchange& exchange, const protocol::Event& event);
   void give_up();
 

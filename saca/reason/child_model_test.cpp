@@ -120,6 +120,19 @@ TEST_F(ChildModelTest, SilentProcessIsKilledInTime) {
   wait_until_gone(first);
 }
 
+TEST_F(ChildModelTest, WithdrawnQuestionKeepsItsAnswersAndItsProcess) {
+  ChildModel model(settings(R"(ready; ask; first 0; read -r cancel; case $cancel in
+*'"cmd":"cancel","id":'$id,*) done_;; esac; ask; first 0; done_; cat)"),
+                   clock_);
+  std::stop_source stop;
+  const auto replies = model.ask(
+      {"a"}, deadline, [&](const Progress&) { stop.request_stop(); }, stop.get_token());
+  ASSERT_TRUE(replies.has_value()) << replies.error().message;
+  EXPECT_EQ(replies.value()[0].answers.size(), 1U);
+  EXPECT_TRUE(model.ask({"a"}, deadline, record_).has_value());
+  EXPECT_EQ(model.restarts(), 0);
+}
+
 TEST_F(ChildModelTest, SilenceAfterTheFirstAnswerLeavesThatAnswer) {
   ChildModel model(settings("ready; ask; first 0; sleep 1000"), clock_);
   const auto replies = model.ask({"a"}, deadline, [&](const Progress&) { clock_.step(step_); });

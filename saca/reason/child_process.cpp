@@ -115,10 +115,10 @@ std::optional<Error> ChildProcess::start() {
   return std::nullopt;
 }
 
-bool ChildProcess::wait_for(short events, Clock::Time deadline) const {
+bool ChildProcess::wait_for(short events, Clock::Time deadline, const std::stop_token& stop) const {
   while (true) {
     const auto left = deadline - clock_.now();
-    if (left <= 0ns) {
+    if (left <= 0ns || stop.stop_requested()) {
       return false;
     }
     const auto wait = std::min<Clock::Time>(left, longest_wait);
@@ -153,7 +153,7 @@ std::optional<Error> ChildProcess::send(std::string_view line, Clock::Time deadl
   return std::nullopt;
 }
 
-Result<std::string> ChildProcess::receive(Clock::Time deadline) {
+Result<std::string> ChildProcess::receive(Clock::Time deadline, const std::stop_token& stop) {
   std::size_t searched = 0;
   while (true) {
     const std::size_t end = unread_.find('\n', searched);
@@ -170,7 +170,7 @@ Result<std::string> ChildProcess::receive(Clock::Time deadline) {
       return gone();
     }
     // Looked at before each read, too: a program that never stops talking is late as well.
-    if (!wait_for(POLLIN, deadline)) {
+    if (!wait_for(POLLIN, deadline, stop)) {
       return Error{Error::Code::too_late, "model process: nothing in time"};
     }
     std::array<char, 4096> buffer{};

@@ -4,6 +4,7 @@
 
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,10 +31,11 @@ class ChildProcess {
   /// @return  nullopt when the line is with the program; too_late, or unreadable when it is gone
   [[nodiscard]] std::optional<Error> send(std::string_view line, Clock::Time deadline);
 
-  /// The program's next line, without its end.
-  /// @return  too_late; unreadable when the program is gone; malformed when the line has no end in
+  /// The program's next line, without its end. Nobody waits on when a stop is asked for.
+  /// @return  too_late, also when stopped; unreadable when the program is gone; malformed when the
+  /// line has no end in
   ///          sight
-  [[nodiscard]] Result<std::string> receive(Clock::Time deadline);
+  [[nodiscard]] Result<std::string> receive(Clock::Time deadline, const std::stop_token& stop = {});
 
   /// Ends the program and whatever it began, at once. May be called from any thread, also while
   /// another waits in send or receive: that one then sees that the program is gone.
@@ -44,7 +46,8 @@ class ChildProcess {
   [[nodiscard]] std::optional<pid_t> pid() const;
 
  private:
-  [[nodiscard]] bool wait_for(short events, Clock::Time deadline) const;
+  [[nodiscard]] bool wait_for(short events, Clock::Time deadline,
+                              const std::stop_token& stop = {}) const;
   void drop_connection() noexcept;
   void reap() noexcept;
 

@@ -3,11 +3,13 @@
 #include <array>
 #include <chrono>
 #include <functional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "saca/core/clock.h"
+#include "saca/core/contract.h"
 #include "saca/core/result.h"
 #include "saca/manoeuvre/plan.h"
 
@@ -51,16 +53,30 @@ class LanguageModel {
   /// Asks about several scenes at once, all done by `deadline`. Each answer is told by `progress`
   /// as soon as it is there.
   ///
-  /// @param scenes    scene parts of the prompt, at most three; the system part is fixed
+  /// @param scenes    scene parts of the prompt, one to three; the system part is fixed
   /// @param deadline  on the model's clock; the call returns before it, whatever the model does
+  /// @param stop      the question is withdrawn when a stop is asked for: the call returns soon, as
+  ///                  if its deadline had come, and the model can be asked again
   /// @return          one reply per scene, with the answers that were there in time; an error when
   ///                  there was none (too_late, unreadable when the model died)
-  [[nodiscard]] virtual Result<std::vector<Reply>> ask(
-      const std::vector<std::string>& scenes, Clock::Time deadline,
-      const std::function<void(const Progress&)>& progress) = 0;
+  [[nodiscard]] Result<std::vector<Reply>> ask(const std::vector<std::string>& scenes,
+                                               Clock::Time deadline,
+                                               const std::function<void(const Progress&)>& progress,
+                                               const std::stop_token& stop = {}) {
+    expects(!scenes.empty() && scenes.size() <= most_scenes, "1 to 3 scenes");
+    return reply_to(scenes, deadline, progress, stop);
+  }
 
   /// What it is, for records: name, file hash.
   [[nodiscard]] virtual std::string description() const = 0;
+
+ private:
+  static constexpr std::size_t most_scenes = 3;
+
+  /// As ask().
+  [[nodiscard]] virtual Result<std::vector<Reply>> reply_to(
+      const std::vector<std::string>& scenes, Clock::Time deadline,
+      const std::function<void(const Progress&)>& progress, const std::stop_token& stop) = 0;
 };
 
 }  // namespace saca::reason

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -41,14 +42,16 @@ class ModelSuite : public testing::TestWithParam<StandCase> {
   static constexpr Clock::Time time_to_answer = std::chrono::seconds(4);
   static constexpr Clock::Time step = std::chrono::milliseconds(100);
 
-  Result<std::vector<Reply>> ask(const std::vector<std::string>& scenes, Clock::Time deadline) {
-    return stand_->model().ask(scenes, deadline, [this](const Progress& p) {
+  Result<std::vector<Reply>> ask(const std::vector<std::string>& scenes, Clock::Time deadline,
+                                 const std::stop_token& stop = {}) {
+    const auto note = [this](const Progress& p) {
       elsewhere_ = elsewhere_ || std::this_thread::get_id() != here_;
       text_ += p.text;
       if (p.answer != nullptr) {
         told_.push_back(p.prompt);
       }
-    });
+    };
+    return stand_->model().ask(scenes, deadline, note, stop);
   }
   void expect_answers(const std::vector<std::string>& scenes) {
     told_.clear();
@@ -138,6 +141,29 @@ TEST_P(ModelSuite, FailureIsOneLineAndTheNextQuestionWorks) {
     EXPECT_EQ(replies.error().message.find('\n'), std::string::npos);
     expect_answers({"scene 4", "scene 6"});
   }
+}
+
+// Whoever does not hear the stop waits for an hour of looks, 10 ms each: longer than a test may.
+TEST_P(ModelSuite, WithdrawnQuestionEndsAndTheNextOneWorks) {
+  expect_answers({"scene 1"});
+  stand_->clock.step(step);
+  std::stop_source stop;
+  std::thread stopper([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    stop.request_stop();
+  });
+  const auto replies =
+      ask({"silence"}, stand_->clock.now() + std::chrono::hours(1), stop.get_token());
+  stopper.join();
+  stand_->clock.step(Clock::Time(0));
+  ASSERT_FALSE(replies.has_value());
+  EXPECT_EQ(replies.error().code, Error::Code::too_late);
+  expect_answers({"scene 4", "scene 6"});
+
+  told_.clear();
+  const auto never = ask({"scene 1"}, stand_->clock.now() + time_to_answer, stop.get_token());
+  EXPECT_TRUE(never.has_value() || never.error().code == Error::Code::too_late);
+  expect_answers({"scene 4"});
 }
 
 TEST_P(ModelSuite, HasADescription) {

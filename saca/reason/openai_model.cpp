@@ -145,11 +145,11 @@ class OpenAiModel::Exchange {
     }
   }
 
-  /// Until everything is said, or the time has come.
-  void run(Clock::Time end) {
+  /// Until everything is said, the time has come, or a stop is asked for.
+  void run(Clock::Time end, const std::stop_token& stop) {
     end_ = end;
     int farewells = farewell_looks;
-    while (model_.clock_.now() < end_) {
+    while (model_.clock_.now() < end_ && !stop.stop_requested()) {
       begin_what_is_due();
       int running = 0;
       curl_multi_perform(multi(), &running);
@@ -444,10 +444,9 @@ OpenAiModel::OpenAiModel(OpenAiModelSettings settings, Clock& clock)
 
 OpenAiModel::~OpenAiModel() = default;
 
-Result<std::vector<Reply>> OpenAiModel::ask(const std::vector<std::string>& scenes,
-                                            Clock::Time deadline,
-                                            const std::function<void(const Progress&)>& progress) {
-  expects(!scenes.empty() && scenes.size() <= 3, "1 to 3 scenes");
+Result<std::vector<Reply>> OpenAiModel::reply_to(
+    const std::vector<std::string>& scenes, Clock::Time deadline,
+    const std::function<void(const Progress&)>& progress, const std::stop_token& stop) {
   if (refusal_) {
     return *refusal_;
   }
@@ -456,7 +455,7 @@ Result<std::vector<Reply>> OpenAiModel::ask(const std::vector<std::string>& scen
     return Error{Error::Code::too_late, shown_ + ": no time is left to ask"};
   }
   Exchange exchange(*this, scenes, progress);
-  exchange.run(end);
+  exchange.run(end, stop);
   return std::move(exchange).result();
 }
 

@@ -36,21 +36,22 @@ struct OpenAiModelSettings {
 /// Asked again, after 50 ms, then after twice as long each time, or when the server says: busy
 /// servers (429, 500, 502 to 504) and connections that failed before any text. Neither redirects
 /// nor proxies are followed: the key goes to the named host only. No environment is read.
+///
+/// Settings that cannot be used make every question fail (malformed). Messages are one line and
+/// hold neither key nor password.
 class OpenAiModel final : public LanguageModel {
  public:
   OpenAiModel(OpenAiModelSettings settings, Clock& clock);
   ~OpenAiModel() override;
 
-  /// @return  as the port says; malformed when the settings cannot be used. Messages are one line
-  ///          and hold neither key nor password.
-  [[nodiscard]] Result<std::vector<Reply>> ask(
-      const std::vector<std::string>& scenes, Clock::Time deadline,
-      const std::function<void(const Progress&)>& progress) override;
-
   /// "MODEL at URL"
   [[nodiscard]] std::string description() const override;
 
  private:
+  [[nodiscard]] Result<std::vector<Reply>> reply_to(
+      const std::vector<std::string>& scenes, Clock::Time deadline,
+      const std::function<void(const Progress&)>& progress, const std::stop_token& stop) override;
+
   struct Connections;
   struct Call;
   class Exchange;

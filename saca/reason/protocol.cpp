@@ -99,6 +99,9 @@ Json json_of(const Ask& ask) {
           {"budget_s", ask.budget},
           {"max_tokens", ask.max_tokens}};
 }
+Json json_of(const Cancel& cancel) {
+  return {{"cmd", "cancel"}, {"id", cancel.id}};
+}
 Json json_of(const InfoRequest&) {
   return {{"cmd", "info"}};
 }
@@ -251,10 +254,13 @@ Request read_request(const Json& json) {
   if (command == "ask") {
     return ask_from(json);
   }
+  if (command == "cancel") {
+    return Cancel{count_at<int>(json, "id")};
+  }
   if (command == "info") {
     return InfoRequest{};
   }
-  refuse("cmd", "start, ask or info", json["cmd"]);
+  refuse("cmd", "start, ask, cancel or info", json["cmd"]);
 }
 
 }  // namespace

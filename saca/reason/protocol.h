@@ -29,9 +29,13 @@ struct Ask {
   double budget = 0.0;  ///< from its arrival to the last answer [s], > 0
   int max_tokens = 0;   ///< of reasoning per scene, >= 0
 };
+/// To the model: stop thinking about them. Nothing where that ask is over.
+struct Cancel {
+  int id = 0;
+};
 /// To the model: say what you are.
 struct InfoRequest {};
-using Request = std::variant<Start, Ask, InfoRequest>;
+using Request = std::variant<Start, Ask, Cancel, InfoRequest>;
 
 /// From the model: the system part is evaluated, questions can come.
 struct Ready {

@@ -23,6 +23,14 @@ TEST(Protocol, AskKeepsEverything) {
   EXPECT_EQ(back->max_tokens, 160);
 }
 
+TEST(Protocol, CancelNamesItsAsk) {
+  const auto read = request_from(line(Request(Cancel{7})));
+  ASSERT_TRUE(read.has_value()) << read.error().message;
+  ASSERT_TRUE(std::holds_alternative<Cancel>(read.value()));
+  EXPECT_EQ(std::get<Cancel>(read.value()).id, 7);
+  EXPECT_FALSE(request_from(R"({"v":1,"cmd":"cancel"})").has_value());
+}
+
 TEST(Protocol, LinesHoldNoLineEnd) {
   EXPECT_EQ(line(Request(Start{"a\nb"})).find('\n'), std::string::npos);
   EXPECT_EQ(line(Event(Text{1, 0, "a\nb"})).find('\n'), std::string::npos);

@@ -120,11 +120,11 @@ Result<RecordedReplies> parse_replies(std::string_view text, std::string_view so
   }
 }
 
-Result<std::vector<Reply>> RecordingModel::ask(
+Result<std::vector<Reply>> RecordingModel::reply_to(
     const std::vector<std::string>& scenes, Clock::Time deadline,
-    const std::function<void(const Progress&)>& progress) {
+    const std::function<void(const Progress&)>& progress, const std::stop_token& stop) {
   const Clock::Time begin = clock_.now();
-  auto replies = model_.ask(scenes, deadline, progress);
+  auto replies = model_.ask(scenes, deadline, progress, stop);
   for (std::size_t i = 0; replies.has_value() && i < scenes.size(); ++i) {
     RecordedReply recorded{.prompt = scenes[i], .reply = replies.value()[i]};
     for (Answer& answer : recorded.reply.answers) {
@@ -145,9 +145,9 @@ std::optional<Error> RecordingModel::write(const std::filesystem::path& path) co
   return write_file(path, json_text(recorded()));
 }
 
-Result<std::vector<Reply>> ReplayModel::ask(const std::vector<std::string>& scenes,
-                                            Clock::Time deadline,
-                                            const std::function<void(const Progress&)>& progress) {
+Result<std::vector<Reply>> ReplayModel::reply_to(
+    const std::vector<std::string>& scenes, Clock::Time deadline,
+    const std::function<void(const Progress&)>& progress, const std::stop_token& stop) {
   struct Moment {
     std::size_t scene = 0;
     Answer answer;
@@ -173,18 +173,23 @@ Result<std::vector<Reply>> ReplayModel::ask(const std::vector<std::string>& scen
   }
   std::stable_sort(moments.begin(), moments.end(),
                    [](const Moment& a, const Moment& b) { return a.answer.time < b.answer.time; });
+  bool any_answer = false;
   for (const Moment& moment : moments) {
     if (pace_ == ReplayPace::as_recorded) {
-      clock_.wait_until(moment.answer.time);
+      wait_until(clock_, moment.answer.time, stop);
+    }
+    if (stop.stop_requested()) {
+      break;
     }
     Reply& reply = replies[moment.scene];
     if (moment.answer.kind != Answer::Kind::first && !reply.reasoning.empty()) {
       progress({.prompt = moment.scene, .text = reply.reasoning, .answer = nullptr});
     }
     reply.answers.push_back(moment.answer);
+    any_answer = true;
     progress({.prompt = moment.scene, .text = {}, .answer = &reply.answers.back()});
   }
-  if (!moments.empty()) {
+  if (any_answer) {
     return replies;
   }
   return any_known ? Error{Error::Code::too_late, "replay: the recorded answers come too late"}

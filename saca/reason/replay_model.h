@@ -38,9 +38,6 @@ class RecordingModel final : public LanguageModel {
   /// @param model  outlives this
   RecordingModel(LanguageModel& model, Clock& clock) : model_(model), clock_(clock) {}
 
-  [[nodiscard]] Result<std::vector<Reply>> ask(
-      const std::vector<std::string>& scenes, Clock::Time deadline,
-      const std::function<void(const Progress&)>& progress) override;
   [[nodiscard]] std::string description() const override { return model_.description(); }
 
   [[nodiscard]] RecordedReplies recorded() const;
@@ -48,6 +45,10 @@ class RecordingModel final : public LanguageModel {
   [[nodiscard]] std::optional<Error> write(const std::filesystem::path& path) const;
 
  private:
+  [[nodiscard]] Result<std::vector<Reply>> reply_to(
+      const std::vector<std::string>& scenes, Clock::Time deadline,
+      const std::function<void(const Progress&)>& progress, const std::stop_token& stop) override;
+
   LanguageModel& model_;
   Clock& clock_;
   std::map<std::string, RecordedReply> replies_;
@@ -58,20 +59,20 @@ enum class ReplayPace : std::uint8_t {
   at_once,      ///< everything is there immediately, dated as recorded
 };
 
-/// Says what was said before. A prompt that it does not know has no answer.
+/// Says what was said before. A prompt that it does not know has no answer: too_late when the first
+/// recorded answer comes after the deadline, unreadable when no prompt is known.
 class ReplayModel final : public LanguageModel {
  public:
   ReplayModel(RecordedReplies replies, ReplayPace pace, Clock& clock)
       : replies_(std::move(replies)), pace_(pace), clock_(clock) {}
 
-  /// @return  too_late when the first recorded answer comes after the deadline; unreadable when no
-  ///          prompt is known
-  [[nodiscard]] Result<std::vector<Reply>> ask(
-      const std::vector<std::string>& scenes, Clock::Time deadline,
-      const std::function<void(const Progress&)>& progress) override;
   [[nodiscard]] std::string description() const override { return "replay of " + replies_.model; }
 
  private:
+  [[nodiscard]] Result<std::vector<Reply>> reply_to(
+      const std::vector<std::string>& scenes, Clock::Time deadline,
+      const std::function<void(const Progress&)>& progress, const std::stop_token& stop) override;
+
   RecordedReplies replies_;
   ReplayPace pace_;
   Clock& clock_;

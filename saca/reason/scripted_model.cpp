@@ -18,9 +18,9 @@ Answer answer_of(const ScriptedLine& line, Clock::Time time) {
 
 }  // namespace
 
-Result<std::vector<Reply>> ScriptedModel::ask(
+Result<std::vector<Reply>> ScriptedModel::reply_to(
     const std::vector<std::string>& scenes, Clock::Time deadline,
-    const std::function<void(const Progress&)>& progress) {
+    const std::function<void(const Progress&)>& progress, const std::stop_token& stop) {
   ++num_asked_;
   last_scenes_ = scenes;
   last_deadline_ = deadline;
@@ -47,7 +47,10 @@ Result<std::vector<Reply>> ScriptedModel::ask(
                    [](const auto& a, const auto& b) { return a.second.after < b.second.after; });
   bool any = false;
   for (const auto& [scene, line] : lines) {
-    clock_.wait_until(begin + line.after);
+    wait_until(clock_, begin + line.after, stop);
+    if (stop.stop_requested()) {
+      break;
+    }
     Reply& reply = replies[scene];
     if (!line.text.empty()) {
       reply.reasoning += line.text;
@@ -60,7 +63,7 @@ Result<std::vector<Reply>> ScriptedModel::ask(
     }
   }
   if (cut) {
-    clock_.wait_until(deadline - way_back);
+    wait_until(clock_, deadline - way_back, stop);
   }
   if (!any) {
     return Error{Error::Code::too_late, "script: no answer in time"};

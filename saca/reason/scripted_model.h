@@ -26,7 +26,8 @@ struct ScriptedReply {
   std::optional<Error> error;  ///< the question fails with it at once
 };
 
-/// Says what the code that made it tells it to, on its clock: for tests of what asks a model.
+/// Says what the code that made it tells it to, on its clock: for tests of what asks a model. Waits
+/// for each line; where the last answer is missing, until 1 ms before the deadline.
 class ScriptedModel final : public LanguageModel {
  public:
   using Script = std::function<ScriptedReply(const std::string& scene)>;
@@ -40,10 +41,6 @@ class ScriptedModel final : public LanguageModel {
       : ScriptedModel(ScriptedReply{.lines = {{.answer = Answer::Kind::first, .policy = policy}}},
                       clock) {}
 
-  /// Waits for each line; where the last answer is missing, until 1 ms before the deadline.
-  [[nodiscard]] Result<std::vector<Reply>> ask(
-      const std::vector<std::string>& scenes, Clock::Time deadline,
-      const std::function<void(const Progress&)>& progress) override;
   [[nodiscard]] std::string description() const override { return "script"; }
 
   /// How often it was asked, and what the last time.
@@ -52,6 +49,10 @@ class ScriptedModel final : public LanguageModel {
   [[nodiscard]] Clock::Time last_deadline() const { return last_deadline_; }
 
  private:
+  [[nodiscard]] Result<std::vector<Reply>> reply_to(
+      const std::vector<std::string>& scenes, Clock::Time deadline,
+      const std::function<void(const Progress&)>& progress, const std::stop_token& stop) override;
+
   Script script_;
   Clock& clock_;
   int num_asked_ = 0;
