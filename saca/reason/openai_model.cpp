@@ -194,7 +194,10 @@ class OpenAiModel::Exchange {
   }
 
   [[nodiscard]] std::string refused(const Call& call, long status) const {
-    return fmt::format("want HTTP 200, got {}: {}", status, quoted(server_message(call.refusal)));
+    const bool lacks_key = model_.settings_.key.empty() && (status == 401 || status == 403);
+    return fmt::format(
+        "want HTTP 200, got {}: {}{}", status, quoted(server_message(call.refusal)),
+        lacks_key ? " (no key was given; SACA's programs take it from SACA_LLM_KEY)" : "");
   }
 
   void prepare(Call& call);

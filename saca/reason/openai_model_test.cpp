@@ -360,8 +360,12 @@ TEST_F(OpenAiModelTest, SilenceAfterASetbackTellsOfIt) {
 
 TEST_F(OpenAiModelTest, RefusalsAreNotRepeated) {
   for (const int status : {400, 401, 403, 404, 418, 301, 201}) {
-    EXPECT_THAT(failure(sends(http(status, R"({"error":{"message":"no\nsuch model"}})"))),
+    const std::string message =
+        failure(sends(http(status, R"({"error":{"message":"no\nsuch model"}})")));
+    EXPECT_THAT(message,
                 HasSubstr("want HTTP 200, got " + std::to_string(status) + ": no such model"));
+    const bool lacks_key = status == 401 || status == 403;
+    EXPECT_EQ(message.find("no key was given") != std::string::npos, lacks_key) << message;
   }
 }
 
