@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "saca/core/contract.h"
+#include "saca/core/file.h"
 #include "saca/reason/crowded_situation_for_test.h"
 #include "saca/reason/example_situation.h"
 #include "saca/reason/token_bound.h"
@@ -45,6 +46,16 @@ TEST(Prompt, PapersIntersectionIsTold) {
   EXPECT_THAT(text, HasSubstr("pedestrian1: 6.0 m ahead, 4.0 m left, standing, maintain 0.95, TTC "
                               "none, risk 0.00\n"));
   EXPECT_THAT(text, HasSubstr("left edge 5.2 m, kerb; right edge 1.8 m, open ground\n"));
+}
+
+// docs/formats.md shows both parts word by word.
+TEST(Prompt, DocumentedExampleIsWhatIsWritten) {
+  const auto documented = read_file("docs/formats.md");
+  const auto harm = outcome::read_harm("data/harm.toml");
+  ASSERT_TRUE(documented.has_value()) << documented.error().message;
+  ASSERT_TRUE(harm.has_value()) << harm.error().message;
+  EXPECT_THAT(documented.value(), HasSubstr("```\n" + system_part(harm.value()) + "\n```\n"));
+  EXPECT_THAT(documented.value(), HasSubstr("```\n" + prompt(example_situation()) + "```\n"));
 }
 
 TEST(Prompt, ForecastOfEachPolicyIsTold) {
