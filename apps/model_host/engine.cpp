@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "thread_choice.h"
 #include "utf8.h"
 
 namespace saca::model_host {
@@ -30,6 +31,9 @@ constexpr int batch_capacity = 512;
 // What a step or an answer is taken to cost is this many times the dearest of the last ones: on a
 // busy machine steps vary by about two.
 constexpr double reserve_factor = 2.0;
+
+constexpr int rehearsed_tokens = 2;
+constexpr std::size_t telling_tokens = 64;  // a shorter prompt says nothing of a token's cost
 
 // Asked after what was generated so far. The tokeniser splits ": 6" into ":", " " and "6", so that
 // the space is forced and the digits compare at equal footing.
@@ -133,7 +137,8 @@ struct Engine::State {
   Batch batch;
   // Outlive an ask: the first step of the next one is planned with them.
   RecentCost step_cost;
-  RecentCost answer_cost;                                        // of one scene
+  RecentCost answer_cost;  // of one scene
+  ThreadChoice threads;
   double least_token_cost = std::numeric_limits<double>::max();  // of a prompt [s]
 
   // Read by the abort callback inside a step.
@@ -141,7 +146,8 @@ struct Engine::State {
   Clock::Time stop_at{0};
   std::function<bool()> is_cancelled;
 
-  State() = default;
+  explicit State(EngineSettings given)
+      : settings(std::move(given)), threads(settings.threads, settings.gives_way) {}
   State(const State&) = delete;
   State& operator=(const State&) = delete;
   ~State() {
@@ -160,6 +166,7 @@ struct Engine::State {
   // Evaluates the batch, or stops at `until`. False when stopped or failed.
   bool evaluate(Clock::Time until) {
     stop_at = until;
+    llama_set_n_threads(context, threads.threads(), threads.threads());
     return llama_decode(context, batch.get()) == 0;
   }
 
@@ -299,6 +306,10 @@ struct Engine::State {
     const double cost = to_seconds(clock->now() - begin);
     step_cost.add(cost);
     figures.reply_seconds += cost;
+    if (threads.note_step(running.size(), cost)) {
+      step_cost = {};
+      step_cost.add(threads.step_alone(running.size()));
+    }
     for (const auto& [thought, at] : running) {
       ++thought->position;
       thought->next = likeliest(at);
@@ -336,6 +347,9 @@ struct Engine::State {
       return false;
     }
     learn_token_cost(cost, prompt.size());
+    if (prompt.size() >= telling_tokens) {
+      threads.note_prompt(cost / static_cast<double>(prompt.size()));
+    }
     figures.prompt_tokens[thought.scene] = static_cast<int>(prompt.size());
     events.prompt_read(thought.scene, static_cast<int>(prompt.size()));
     thought.position = system_tokens + static_cast<llama_pos>(prompt.size());
@@ -372,6 +386,36 @@ struct Engine::State {
     }
     return result;
   }
+
+  // All of an ask: prompts and first answers, reasoning, last answers.
+  AskFigures think(const std::vector<Tokens>& scenes, Clock::Time deadline, int max_tokens,
+                   Clock& its_clock, const EngineEvents& events) {
+    clock = &its_clock;
+    is_cancelled = events.is_cancelled;
+    AskFigures figures;
+    figures.prompt_tokens.resize(scenes.size());
+    std::vector<Thought> thoughts(scenes.size());
+    bool in_time = true;
+    for (std::size_t i = 0; in_time && i < scenes.size(); ++i) {
+      thoughts[i].scene = i;
+      in_time = begin_scene(thoughts[i], scenes[i], deadline, figures, events);
+    }
+    figures.overran = !in_time;
+    const auto reasons = [](const Thought& thought) { return thought.reasoning; };
+    while (in_time && std::any_of(thoughts.begin(), thoughts.end(), reasons)) {
+      in_time = reason_on(thoughts, max_tokens, deadline, figures, events);
+      // Who has ended says so at once: the others may still take long.
+      figures.overran |= !conclude(thoughts, AnswerKind::ended, deadline, events);
+    }
+    figures.overran |= !conclude(thoughts, AnswerKind::forced, deadline, events);
+    for (const Thought& thought : thoughts) {
+      figures.reply_tokens.push_back(thought.tokens);
+      forget_from(thought.scene, system_tokens);
+    }
+    clock = nullptr;
+    is_cancelled = nullptr;
+    return figures;
+  }
 };
 
 Engine::Engine(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -383,8 +427,7 @@ Result<std::shared_ptr<Engine>> Engine::load(const EngineSettings& settings) {
     return *problem;
   }
   llama_backend_init();
-  auto state = std::make_unique<State>();
-  state->settings = settings;
+  auto state = std::make_unique<State>(settings);
   llama_model_params model_params = llama_model_default_params();
   model_params.n_gpu_layers = 0;
   state->model = llama_model_load_from_file(settings.model_path.c_str(), model_params);
@@ -450,7 +493,9 @@ Result<int> Engine::set_system(std::string_view text, Clock& clock) {
     return Error{Error::Code::malformed, "system part: cannot be evaluated"};
   }
   // Cold, thus dear: half of it may be enough another time.
-  s.learn_token_cost(0.5 * to_seconds(clock.now() - begin), tokens.size());
+  const double cost = to_seconds(clock.now() - begin);
+  s.learn_token_cost(0.5 * cost, tokens.size());
+  s.threads.note_prompt(cost / static_cast<double>(tokens.size()));
   for (std::size_t scene = 1; scene < max_scenes; ++scene) {
     llama_memory_seq_cp(s.memory(), sequence(0), sequence(scene), -1, -1);
   }
@@ -458,11 +503,18 @@ Result<int> Engine::set_system(std::string_view text, Clock& clock) {
   // Warms the caches up, and tells what a step and an answer cost before time matters.
   const EngineEvents nobody{[](std::size_t, int) {}, [](std::size_t, std::string_view) {},
                             [](std::size_t, AnswerKind, const std::vector<double>&) {}};
-  const Result<AskFigures> rehearsal =
-      ask({max_scenes, "Ready?"}, Clock::Time::max(), 2, clock, nobody);
-  if (!rehearsal.has_value()) {
-    return rehearsal.error();
+  const auto prompts = s.prompts({max_scenes, "Ready?"}, rehearsed_tokens);
+  if (!prompts.has_value()) {
+    return prompts.error();
   }
+  for (std::size_t scenes = 1; s.threads.gives_way() && scenes <= max_scenes; ++scenes) {
+    s.threads.take_one();
+    s.think(
+        {prompts.value().begin(), prompts.value().begin() + static_cast<std::ptrdiff_t>(scenes)},
+        Clock::Time::max(), rehearsed_tokens, clock, nobody);
+  }
+  s.threads.take_all();
+  s.think(prompts.value(), Clock::Time::max(), rehearsed_tokens, clock, nobody);
   return static_cast<int>(tokens.size());
 }
 
@@ -483,31 +535,8 @@ Result<AskFigures> Engine::ask(const std::vector<std::string>& scenes, Clock::Ti
     return Error{Error::Code::too_late, "no time: to read a scene takes " + std::to_string(least) +
                                             " s, there are " + std::to_string(left) + " s"};
   }
-  s.clock = &clock;
-  s.is_cancelled = events.is_cancelled;
-  AskFigures figures;
-  figures.prompt_tokens.resize(scenes.size());
-  std::vector<Thought> thoughts(scenes.size());
-  bool in_time = true;
-  for (std::size_t i = 0; in_time && i < scenes.size(); ++i) {
-    thoughts[i].scene = i;
-    in_time = s.begin_scene(thoughts[i], prompts.value()[i], deadline, figures, events);
-  }
-  figures.overran = !in_time;
-  const auto reasons = [](const Thought& thought) { return thought.reasoning; };
-  while (in_time && std::any_of(thoughts.begin(), thoughts.end(), reasons)) {
-    in_time = s.reason_on(thoughts, max_tokens, deadline, figures, events);
-    // Who has ended says so at once: the others may still take long.
-    figures.overran |= !s.conclude(thoughts, AnswerKind::ended, deadline, events);
-  }
-  figures.overran |= !s.conclude(thoughts, AnswerKind::forced, deadline, events);
-  for (const Thought& thought : thoughts) {
-    figures.reply_tokens.push_back(thought.tokens);
-    s.forget_from(thought.scene, s.system_tokens);
-  }
-  s.clock = nullptr;
-  s.is_cancelled = nullptr;
-  return figures;
+  s.threads.take_all();
+  return s.think(prompts.value(), deadline, max_tokens, clock, events);
 }
 
 std::string Engine::description() const {

@@ -20,6 +20,7 @@ struct EngineSettings {
   int threads = 2;           ///< > 0
   int context = 1536;        ///< room for the tokens of the system part, one scene and its reply
   double temperature = 1.0;  ///< by which the logits of the answers are divided, > 0
+  bool gives_way = false;    ///< one thread where others want the cores: see thread_choice.h
 };
 
 using AnswerKind = reason::Answer::Kind;
@@ -48,7 +49,8 @@ constexpr std::size_t max_scenes = 3;
 constexpr std::size_t num_answers = manoeuvre::num_policies;
 
 /// A language model in this process, through llama.cpp. Greedy: the same weights, system part,
-/// scenes and order of calls give the same text; the deadline decides only where it is cut.
+/// scenes and order of calls give the same text; the deadline decides only where it is cut. Where
+/// it gives way, the last bits of a probability may differ.
 class Engine {
  public:
   /// @return  Error::Code::unreadable or malformed, naming the file

@@ -1,7 +1,7 @@
 // saca-model-host: the process in which the language model runs, so that nothing it does (hang, run
 // out of memory, be killed) can touch the process that steers.
 //
-//   saca-model-host --model FILE [--threads N] [--context N]
+//   saca-model-host --model FILE [--threads N] [--context N] [--temperature T] [--give-way]
 //       reads requests from standard input and writes events to standard output, one JSON object a
 //       line (docs/model-protocol.md); ends when its input ends, or with the process that began it
 //
@@ -58,6 +58,9 @@ int run(int argc, char** argv) {
   app.add_option("--temperature", settings.temperature,
                  "by which the logits of the eight answers are divided: above 1 less sure")
       ->check(CLI::Range(0.01, 100.0));
+  app.add_flag("--give-way", settings.gives_way,
+               "compute with one thread where others want the cores; the last bits of an answer "
+               "depend on it");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -77,10 +77,11 @@ class SoakTest : public testing::Test {
   SteadyClock clock_;
   std::mt19937 random_{11};
   std::vector<std::string> scenes_;
-  reason::ChildModel model_{{.command = {SACA_MODEL_HOST, "--model", SACA_MODEL, "--threads", "2"},
-                             .system = reason::system_part(outcome::read_harm(SACA_HARM).value()),
-                             .identity = "base"},
-                            clock_};
+  reason::ChildModel model_{
+      {.command = {SACA_MODEL_HOST, "--model", SACA_MODEL, "--threads", "2", "--give-way"},
+       .system = reason::system_part(outcome::read_harm(SACA_HARM).value()),
+       .identity = "base"},
+      clock_};
 };
 
 TEST_F(SoakTest, DeadlinesAreKeptWhileTheOtherCoreIsBusy) {

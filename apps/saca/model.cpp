@@ -92,7 +92,8 @@ Result<std::unique_ptr<reason::LanguageModel>> open_server(const Places& places,
 
 }  // namespace
 
-Result<std::unique_ptr<reason::ChildModel>> open_local_model(const Places& places, Clock& clock) {
+Result<std::unique_ptr<reason::ChildModel>> open_local_model(const Places& places, loop::Pace pace,
+                                                             Clock& clock) {
   std::error_code problem;
   if (!std::filesystem::exists(places.model_host, problem)) {
     return Error{Error::Code::unreadable,
@@ -115,12 +116,14 @@ Result<std::unique_ptr<reason::ChildModel>> open_local_model(const Places& place
   if (!temperature.has_value()) {
     return temperature.error();
   }
+  std::vector<std::string> command{places.model_host.string(), "--model", weights->string(),
+                                   "--temperature", fmt::format("{}", temperature.value())};
+  if (pace == loop::Pace::real) {
+    command.emplace_back("--give-way");
+  }
   auto model = std::make_unique<reason::ChildModel>(
       reason::ChildModelSettings{
-          .command = {places.model_host.string(), "--model", weights->string(), "--temperature",
-                      fmt::format("{}", temperature.value())},
-          .system = std::move(system).value(),
-          .identity = name},
+          .command = std::move(command), .system = std::move(system).value(), .identity = name},
       clock);
   if (const auto failure = model->wait_until_ready(clock.now() + loading_time)) {
     return *failure;
@@ -135,7 +138,7 @@ Result<std::unique_ptr<reason::LanguageModel>> open_model(const Places& places,
                                                           const std::string& choice,
                                                           loop::Pace pace, Clock& clock) {
   if (choice == "local") {
-    auto local = open_local_model(places, clock);
+    auto local = open_local_model(places, pace, clock);
     if (!local.has_value()) {
       return local.error();
     }

@@ -15,9 +15,11 @@
 
 namespace saca::app {
 
-/// The model of `make model` in its own process, ready for questions.
+/// The model of `make model` in its own process, ready for questions. At real pace it gives way to
+/// whoever else wants the cores; in lockstep a reply does not depend on what else the machine does.
 /// @return  an error that says what is missing and how to get it
 [[nodiscard]] Result<std::unique_ptr<reason::ChildModel>> open_local_model(const Places& places,
+                                                                           loop::Pace pace,
                                                                            Clock& clock);
 
 /// A model as `--llm` names it, for commands that are nothing without one.

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+
+namespace saca::model_host {
+
+/// How many threads to compute with. All are fastest where nobody else wants the cores; else they
+/// wait for each other hundreds of times in each step, and one alone is several times as fast.
+/// Which holds is seen from what prompts and steps take.
+class ThreadChoice {
+ public:
+  static constexpr std::size_t most_scenes = 3;
+
+  /// @param all        > 0
+  /// @param gives_way  whether one thread may be chosen; the last bits of an answer differ with it
+  ThreadChoice(int all, bool gives_way) : all_(all), gives_way_(gives_way && all > 1) {}
+
+  [[nodiscard]] int threads() const { return alone_ ? 1 : all_; }
+  [[nodiscard]] bool gives_way() const { return gives_way_; }
+
+  /// For the next prompts and steps.
+  void take_all() { alone_ = false; }
+  void take_one() { alone_ = gives_way_; }
+
+  /// A prompt was read, at so much time for each of its tokens [s].
+  void note_prompt(double token_cost) {
+    if (alone_) {
+      return;
+    }
+    alone_ = gives_way_ && token_cost > dear_prompt * prompt_token_;
+    prompt_token_ = std::min(prompt_token_, token_cost);
+  }
+
+  /// A step made one token for each of `scenes` [s].
+  /// @return  whether one thread alone goes on from here
+  bool note_step(std::size_t scenes, double cost) {
+    double& alone = step_alone_.at(scenes - 1);
+    if (alone_) {
+      alone = std::min(alone, cost);
+      return false;
+    }
+    alone_ = gives_way_ && cost > dear_step * alone;
+    return alone_;
+  }
+
+  /// What a step takes one thread, at best; infinity while none was measured [s].
+  [[nodiscard]] double step_alone(std::size_t scenes) const { return step_alone_.at(scenes - 1); }
+
+ private:
+  // Measured, two threads and cores: with one other process a token of a prompt takes twice as long
+  // as with none, a step over four times as long as one thread takes. The short steps vary more.
+  static constexpr double dear_prompt = 1.5;
+  static constexpr double dear_step = 2.5;
+  static constexpr double never = std::numeric_limits<double>::infinity();
+
+  int all_;
+  bool gives_way_;
+  bool alone_ = false;
+  double prompt_token_ = never;  ///< at best, with all threads [s]
+  std::array<double, most_scenes> step_alone_{never, never, never};
+};
+
+}  // namespace saca::model_host
