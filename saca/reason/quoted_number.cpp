@@ -50,9 +50,10 @@ bool names_a_choice(std::string_view before) {
                      [&](std::string_view word) { return ends_with_word(before, word); });
 }
 
-// "1, 3 and 5": what stands between two of a list.
+// "1, 3 and 5", "1 to 4": what stands between two of a list.
 bool joins(std::string_view between) {
-  constexpr std::array<std::string_view, 5> words{", ", ",", " and ", " or ", ", and "};
+  constexpr std::array<std::string_view, 7> words{", ",     ",", " and ", " or ",
+                                                  ", and ", "-", " to "};
   return std::find(words.begin(), words.end(), between) != words.end();
 }
 

@@ -49,6 +49,22 @@ std::optional<manoeuvre::PolicyId> stated_policy(std::string_view text) {
   return manoeuvre::policy_from(rest[0] - '0');
 }
 
+std::string_view finished_part(const Reply& reply) {
+  const std::string_view text = reply.reasoning;
+  if (!reply.answers.empty() && reply.answers.back().kind == Answer::Kind::ended) {
+    return text;
+  }
+  // A dot after a digit may be one within a number, or the end of a label ("1. ").
+  for (std::size_t end = text.size(); end > 0; --end) {
+    const bool of_sentence = text[end - 1] == '.' && end > 1 && !is_digit(text[end - 2]) &&
+                             (end == text.size() || text[end] == ' ');
+    if (text[end - 1] == '\n' || text[end - 1] == ';' || of_sentence) {
+      return text.substr(0, end);
+    }
+  }
+  return {};
+}
+
 std::optional<manoeuvre::PolicyId> stated_so_far(std::string_view text) {
   text = text.substr(0, text.find_last_not_of(' ') + 1);
   if (text.ends_with(answer_stem)) {

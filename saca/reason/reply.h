@@ -20,7 +20,12 @@ namespace saca::reason {
 /// @return      nullopt when there is none, or N is no number from 0 to 7
 [[nodiscard]] std::optional<manoeuvre::PolicyId> stated_policy(std::string_view text);
 
-/// Likewise of a text that was cut: an answer begun at its very end does not hide an earlier one.
+/// The text, where it came to its end; else its whole sentences: what the cut left of the last one
+/// says nothing yet.
+[[nodiscard]] std::string_view finished_part(const Reply& reply);
+
+/// As stated_policy, of a text that was cut: an answer begun at its very end does not hide an
+/// earlier one.
 [[nodiscard]] std::optional<manoeuvre::PolicyId> stated_so_far(std::string_view text);
 
 }  // namespace saca::reason

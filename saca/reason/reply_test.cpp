@@ -51,6 +51,22 @@ TEST(AnswerKind, NamesAreReadBack) {
   EXPECT_EQ(answer_kind_from("free"), std::nullopt);
 }
 
+std::string finished(const std::string& text, Answer::Kind kind) {
+  return std::string(finished_part({.reasoning = text, .answers = {{}, {.kind = kind}}}));
+}
+
+TEST(FinishedPart, IsTheWholeSentencesOfWhatWasCut) {
+  const std::string text = "1. truck1 is 16.0 m ahead. AEB is clear by 0.";
+  EXPECT_EQ(finished(text, Answer::Kind::ended), text);
+  EXPECT_EQ(finished(text, Answer::Kind::forced), "1. truck1 is 16.0 m ahead.");
+  EXPECT_EQ(finished(text, Answer::Kind::first), "1. truck1 is 16.0 m ahead.");
+  EXPECT_EQ(finished("So.\n2. AEB", Answer::Kind::forced), "So.\n");
+  EXPECT_EQ(finished("harm 0.0125. AEB", Answer::Kind::forced), "");
+  EXPECT_EQ(finished("It is so.", Answer::Kind::forced), "It is so.");
+  EXPECT_EQ(finished("", Answer::Kind::forced), "");
+  EXPECT_EQ(finished_part({.reasoning = "It is", .answers = {}}), "");
+}
+
 TEST(Reply, AnythingCanBeRead) {
   std::mt19937 random(7);
   const std::string alphabet = "0123456789.. :-\n\rRespontus ABN\xff\xc3policy";

@@ -13,6 +13,7 @@
 #include "saca/reason/prompt.h"
 #include "saca/reason/quote.h"
 #include "saca/reason/quoted_number.h"
+#include "saca/reason/reply.h"
 
 namespace saca::reason {
 namespace {
@@ -127,7 +128,7 @@ void find_actors(std::string_view low, const Situation& situation, Subject& subj
   }
 }
 
-/// "policy 6", "actions 1, 3 and 5", "6 T-D-R" and "T-D-R".
+/// "policy 6", "actions 1, 3 and 5", "policies 1 to 4", "6 T-D-R" and "T-D-R".
 void find_policies(std::string_view low, Subject& subject) {
   const auto add = [&](PolicyId policy) {
     if (std::find(subject.policies.begin(), subject.policies.end(), policy) ==
@@ -143,17 +144,25 @@ void find_policies(std::string_view low, Subject& subject) {
   for (const std::string_view word : {"policy ", "policies ", "action ", "actions "}) {
     for (auto at = low.find(word); at != std::string_view::npos; at = low.find(word, at + 1)) {
       // A list ends with the first thing that is neither a digit by itself nor joins two.
+      int last = 0;
+      bool begins_range = false;
       for (std::size_t i = at + word.size(); i < low.size();) {
         const bool alone =
             low[i] >= '0' && low[i] <= '7' && (i + 1 == low.size() || !is_word_char(low[i + 1]));
         if (!alone) {
           break;
         }
-        add(*manoeuvre::policy_from(low[i] - '0'));
+        const int number = low[i] - '0';
+        for (int each = begins_range ? last : number; each <= number; ++each) {
+          add(*manoeuvre::policy_from(each));
+        }
+        last = number;
         ++i;
-        for (const std::string_view joint : {", and ", ", ", ",", " and ", " or "}) {
+        begins_range = false;
+        for (const std::string_view joint : {", and ", ", ", ",", " and ", " or ", "-", " to "}) {
           if (low.substr(i).starts_with(joint)) {
             i += joint.size();
+            begins_range = joint == "-" || joint == " to ";
             break;
           }
         }
@@ -225,8 +234,31 @@ bool is_blocked(const PolicyFacts& facts) {
 /// What a sentence says of a manoeuvre.
 enum class Claim : std::uint8_t { not_possible, blocked, hits, no_harm, least_harm, clear };
 
+/// Whether something is denied or excepted in another way than claim_of() knows.
+bool is_denied(std::string_view low) {
+  using Phrases = std::array<std::string_view, 9>;
+  if (low.find("n't") != std::string_view::npos ||
+      has_any(low, Phrases{"nothing", "nobody", "no one", "no longer", "never", "except", "unlike",
+                           "but", "other than"})) {
+    return true;
+  }
+  for (auto at = find_phrase(low, "not"); at; at = find_phrase(low, "not", *at + 1)) {
+    const std::string_view rest = low.substr(*at + 3);
+    constexpr std::array<std::string_view, 6> known{" possible", " viable",  " clear",
+                                                    " hit",      " collide", " strike"};
+    if (std::none_of(known.begin(), known.end(),
+                     [&](std::string_view word) { return rest.starts_with(word); })) {
+      return true;
+    }
+  }
+  return false;
+}
+
 std::optional<Claim> claim_of(std::string_view low) {
   using Phrases = std::array<std::string_view, 4>;
+  if (is_denied(low)) {
+    return std::nullopt;
+  }
   if (has_any(low, Phrases{"not possible", "impossible", "cannot be driven", "infeasible"})) {
     return Claim::not_possible;
   }
@@ -261,11 +293,12 @@ std::vector<std::string_view> clauses(std::string_view sentence) {
   std::size_t begin = 0;
   for (std::size_t i = 0; i < sentence.size(); ++i) {
     const std::string_view rest = sentence.substr(i);
-    const bool joins_here = rest.starts_with(", ") || rest.starts_with(" but ") ||
-                            rest.starts_with(" while ") || rest.starts_with(" and ");
-    if (joins_here && claim_of(lowered(sentence.substr(begin, i - begin)))) {
-      all.push_back(sentence.substr(begin, i - begin));
-      begin = i + 1;
+    for (const std::string_view joint : {", but ", ", ", " but ", " while ", " and "}) {
+      if (rest.starts_with(joint) && claim_of(lowered(sentence.substr(begin, i - begin)))) {
+        all.push_back(sentence.substr(begin, i - begin));
+        begin = i + joint.size();
+        break;
+      }
     }
   }
   all.push_back(sentence.substr(begin));
@@ -328,7 +361,11 @@ void judge_numbers(std::string_view sentence, std::string_view prompt, const Sub
     return;
   }
   verdict.says_something = true;
-  const std::vector<QuotedNumber> known = quoted_numbers(lines_about(prompt, subject, situation));
+  const std::string lines = lines_about(prompt, subject, situation);
+  std::vector<QuotedNumber> known = quoted_numbers(lines);
+  if (has_phrase(lines, "no harm")) {
+    known.push_back({.text = "0", .unit = "of harm"});  // nothing but a number without a unit
+  }
   for (std::size_t i = 0; i < said.size(); ++i) {
     const bool stands = std::any_of(known.begin(), known.end(),
                                     [&](const QuotedNumber& each) { return agree(said[i], each); });
@@ -437,6 +474,12 @@ Truth truth_of(std::string_view reasoning, std::string_view prompt, const Situat
     }
   }
   return truth;
+}
+
+Truth truth_of(const Reply& reply, std::string_view prompt, const Situation& situation) {
+  return truth_of(
+      finished_part(reply), prompt, situation,
+      reply.answers.empty() ? std::nullopt : std::optional(likeliest_policy(reply.answers.back())));
 }
 
 }  // namespace saca::reason

@@ -7,6 +7,7 @@
 
 #include "saca/manoeuvre/plan.h"
 #include "saca/preview/situation.h"
+#include "saca/reason/language_model.h"
 
 namespace saca::reason {
 
@@ -43,7 +44,7 @@ struct Truth {
 ///   "Blocked" is what is not possible or forecast to hit.
 /// * The choice must not be what the text calls blocked or not possible.
 /// What is said about the policy or the side that was chosen is load-bearing. What says nothing of
-/// this kind is not judged.
+/// this kind, or denies or excepts in another way ("not blocked", "all but AEB"), is not judged.
 ///
 /// @param reasoning  anything
 /// @param prompt     the scene part that was reasoned about
@@ -51,5 +52,9 @@ struct Truth {
 [[nodiscard]] Truth truth_of(std::string_view reasoning, std::string_view prompt,
                              const preview::Situation& situation,
                              const std::optional<manoeuvre::PolicyId>& choice);
+
+/// Of a reply and its last answer; where that was cut, of its whole sentences.
+[[nodiscard]] Truth truth_of(const Reply& reply, std::string_view prompt,
+                             const preview::Situation& situation);
 
 }  // namespace saca::reason

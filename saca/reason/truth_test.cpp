@@ -46,6 +46,30 @@ TEST(Truth, OfATrueReasoningIsWhole) {
   EXPECT_FALSE(truth.is_choice_unfounded());
 }
 
+// A reply may be cut anywhere.
+TEST(Truth, OfATrueReplyStaysTrueHoweverItIsCut) {
+  const std::string text =
+      "Scenario Analysis\n"
+      "1. The ego drives at 14.0 m/s; grip is 0.90.\n"
+      "2. truck1 is 16.0 m ahead and moves right at 7.5 m/s. pedestrian1 stands 4.0 m left.\n"
+      "3. AES-R hits truck1 with its front at 10.0 m/s, harm 0.0125. AEB is clear by 0.6 m.\n";
+  const preview::Situation situation = example_situation();
+  const std::string prompt = scene_part(situation, std::nullopt, 0.0);
+  Reply reply{.answers = {{.probability = {1.0}, .kind = Answer::Kind::forced}}};
+  for (const char letter : text) {
+    reply.reasoning += letter;
+    const Truth truth = truth_of(reply, prompt, situation);
+    for (const FalseStatement& each : truth.wrong) {
+      ADD_FAILURE() << reply.reasoning << " -> " << each.why;
+    }
+  }
+  EXPECT_GE(truth_of(reply, prompt, situation).num_checked, 5);
+  reply.reasoning = "AEB hits truck1.\n";
+  EXPECT_TRUE(truth_of(reply, prompt, situation).is_choice_unfounded());
+  reply.answers.clear();
+  EXPECT_FALSE(truth_of(reply, prompt, situation).is_choice_unfounded());
+}
+
 TEST(Truth, OfWhatSaysNothingIsNotKnown) {
   EXPECT_EQ(judge("Scenario Analysis\n1. Be careful.\nResponse to user: 0").score(), std::nullopt);
   EXPECT_EQ(judge("").score(), std::nullopt);
@@ -80,6 +104,27 @@ TEST(Truth, ClaimsAboutPoliciesAreTheirForecasts) {
   EXPECT_EQ(wrong("T-D-L is not possible."), "");
   EXPECT_EQ(wrong("Action 7 has the least harm."), "7 NI: hits truck1 with its front at 15.0 m/s;");
   EXPECT_EQ(wrong("Action 0 avoids contact."), "");
+  EXPECT_EQ(wrong("AEB does not hit truck1."), "");
+  EXPECT_EQ(wrong("AEB: harm 0.0000."), "");
+  EXPECT_EQ(wrong("AES-L: harm 0."), "0 stands nowhere;");
+}
+
+// What denies or excepts is not understood well enough to accuse anybody.
+TEST(Truth, DenialsAndExceptionsAreNotJudged) {
+  for (const char* text :
+       {"AEB is not blocked.", "Policy 0 hits nothing.", "All policies but AEB hit truck1.",
+        "Unlike AEB, policy 1 hits truck1.", "AEB never hits truck1.", "AEB isn't blocked.",
+        "Nobody but truck1 is hit by policy 0.", "All except AEB are blocked."}) {
+    EXPECT_EQ(wrong(text), "") << text;
+  }
+}
+
+TEST(Truth, RangesOfPoliciesAreLists) {
+  EXPECT_EQ(wrong("Policies 1-4 are blocked."), "");
+  EXPECT_EQ(wrong("Policies 1 to 4 hit truck1."), "");
+  EXPECT_EQ(wrong("Policies 0 to 4 hit truck1."), "! 0 AEB: clear by 0.6 m;");
+  EXPECT_EQ(wrong("Policies 1-4 are blocked.", PolicyId::es_b_left),
+            "! and yet 3 ES-B-L was chosen;");
 }
 
 TEST(Truth, ClaimsAboutASideAreThoseOfItsThreePolicies) {
