@@ -59,8 +59,8 @@ TEST_F(HostTest, WithdrawnQuestionLeavesTheModelReady) {
         stop.request_stop();
       }
     };
-    const auto replies =
-        model.ask({scene_, scene_}, clock_.now() + patience, at_first_word, stop.get_token());
+    const auto replies = model.ask({scene_, scene_}, clock_.now() + patience, at_first_word,
+                                   {.stop = stop.get_token()});
     if (while_it_reads) {
       ASSERT_FALSE(replies.has_value());
       EXPECT_EQ(replies.error().code, Error::Code::too_late);

@@ -16,7 +16,7 @@ class QuestionTaker final : public reason::LanguageModel {
  private:
   [[nodiscard]] Result<std::vector<reason::Reply>> reply_to(
       const std::vector<std::string>& scenes, Clock::Time,
-      const std::function<void(const reason::Progress&)>&, const std::stop_token&) override {
+      const std::function<void(const reason::Progress&)>&, const reason::AskLimits&) override {
     if (num_first_ == 0) {
       num_first_ = scenes.size();
     }

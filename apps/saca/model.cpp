@@ -2,12 +2,16 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <bit>
 #include <cstdlib>
+#include <fstream>
 #include <string_view>
 #include <utility>
 
 #include "saca/config/config.h"
 #include "saca/core/file.h"
+#include "saca/core/fnv.h"
 #include "saca/outcome/harm.h"
 #include "saca/reason/chat_address.h"
 #include "saca/reason/openai_model.h"
@@ -15,6 +19,8 @@
 
 namespace saca::app {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr Clock::Time loading_time = std::chrono::seconds(60);  // a cold disk included
 constexpr std::string_view replay_prefix = "replay:";
@@ -69,6 +75,27 @@ Result<double> temperature_of(const Places& places, const std::string& weights) 
   return found;
 }
 
+/// Tells apart what may answer otherwise: by other weights, another prompt or temperature. Of the
+/// weights their size and their ends count, since to read them all takes a second.
+std::string fingerprint(const fs::path& weights, std::string_view system, double temperature) {
+  constexpr std::streamoff looked_at = 1 << 16;
+  std::ifstream file(weights, std::ios::binary | std::ios::ate);
+  const std::streamoff size = file.tellg();
+  std::string bytes(looked_at, '\0');
+  Fnv hash;
+  hash.add(static_cast<std::uint64_t>(size));
+  for (const std::streamoff from : {std::streamoff{0}, std::max(size - looked_at, looked_at)}) {
+    file.clear();
+    file.seekg(from);
+    file.read(bytes.data(), looked_at);
+    hash.add(std::string_view(bytes).substr(0, static_cast<std::size_t>(file.gcount())));
+  }
+  hash.add(system);
+  hash.add(std::bit_cast<std::uint64_t>(temperature));
+  hash.add(static_cast<std::uint64_t>(reason::ChildModelSettings{}.max_tokens));
+  return fmt::format("{:08x}", hash.value() >> 32U);
+}
+
 /// "MODEL@URL"
 Result<std::unique_ptr<reason::LanguageModel>> open_server(const Places& places,
                                                            const std::string& choice,
@@ -116,14 +143,16 @@ Result<std::unique_ptr<reason::ChildModel>> open_local_model(const Places& place
   if (!temperature.has_value()) {
     return temperature.error();
   }
+  const std::string print = fingerprint(*weights, system.value(), temperature.value());
   std::vector<std::string> command{places.model_host.string(), "--model", weights->string(),
                                    "--temperature", fmt::format("{}", temperature.value())};
   if (pace == loop::Pace::real) {
     command.emplace_back("--give-way");
   }
   auto model = std::make_unique<reason::ChildModel>(
-      reason::ChildModelSettings{
-          .command = std::move(command), .system = std::move(system).value(), .identity = name},
+      reason::ChildModelSettings{.command = std::move(command),
+                                 .system = std::move(system).value(),
+                                 .identity = name + " " + print},
       clock);
   if (const auto failure = model->wait_until_ready(clock.now() + loading_time)) {
     return *failure;

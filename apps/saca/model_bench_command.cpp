@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,6 +47,7 @@ struct Asked {
   int missing = 0;     ///< scenes without any answer
   int forced = 0;      ///< scenes whose reply the deadline or the length cut
   std::vector<Reply> replies;
+  std::optional<Error> error;         ///< of the whole question
   reason::ChildModelFigures figures;  ///< where the model is a child process
 };
 
@@ -69,6 +71,8 @@ Asked ask(LanguageModel& model, const std::vector<std::string>& scenes, double b
       asked.missing -= reply.answers.empty() ? 0 : 1;
       asked.forced += !reply.answers.empty() && reply.answers.back().kind == Answer::Kind::forced;
     }
+  } else {
+    asked.error = replies.error();
   }
   return asked;
 }
@@ -112,10 +116,14 @@ class BenchFigures {
   std::vector<std::pair<std::string, std::string>> texts_;
 };
 
+// Of the questions that had all their answers.
 std::vector<double> of(const std::vector<Asked>& all, double Asked::*what) {
-  std::vector<double> values(all.size());
-  std::transform(all.begin(), all.end(), values.begin(),
-                 [&](const Asked& asked) { return asked.*what; });
+  std::vector<double> values;
+  for (const Asked& asked : all) {
+    if (asked.missing == 0) {
+      values.push_back(asked.*what);
+    }
+  }
   return values;
 }
 
@@ -128,7 +136,7 @@ double rate(const std::vector<Asked>& all, int Reply::*tokens,
     for (const Reply& reply : asked.replies) {
       sum_tokens += reply.*tokens;
     }
-    sum_time += asked.figures.*time;
+    sum_time += asked.error ? 0.0 : asked.figures.*time;
   }
   return sum_time > 0.0 ? sum_tokens / sum_time : 0.0;
 }
@@ -185,12 +193,20 @@ int model_bench(const ModelBenchOptions& options) {
   };
   for (int run = 0; run < options.runs; ++run) {
     one.push_back(ask_about({scenes[0]}, without_haste));
+    if (one.back().error) {
+      return refused(*one.back().error);
+    }
     three.push_back(ask_about(scenes, preview_time));
+  }
+  if (of(three, &Asked::whole).empty()) {
+    return refused(three.back().error.value_or(
+        Error{Error::Code::too_late, fmt::format("three questions at a time never had all their "
+                                                 "answers within {} s",
+                                                 preview_time)}));
   }
   BenchFigures figures;
   figures.put_text("model", model.description());
-  figures.put("prompt_tokens",
-              one.front().replies.empty() ? 0 : one.front().replies[0].prompt_tokens);
+  figures.put("prompt_tokens", one.front().replies[0].prompt_tokens);
   figures.put_times("first_answer_s", of(one, &Asked::first));
   figures.put_times("full_answer_s", of(one, &Asked::whole));
   figures.put_times("three_first_answers_s", of(three, &Asked::first));

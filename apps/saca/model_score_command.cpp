@@ -57,19 +57,22 @@ eval::ChoiceFigures figures_of(const Row& row, const std::vector<Score>& scores)
 
 /// What was said, beside what was chosen.
 json talk_of(const std::vector<Score>& scores, const Said Score::*which) {
+  int valid = 0;
   int ended = 0;
   int checked = 0;
   int wrong = 0;
   int unfounded = 0;
   for (const Score& one : scores) {
     const Said& said = one.*which;
+    valid += said.valid ? 1 : 0;
     ended += said.ended ? 1 : 0;
     checked += said.checked;
     wrong += said.wrong;
     unfounded += said.unfounded ? 1 : 0;
   }
   const auto num = static_cast<double>(scores.size());
-  return {{"ended_share", ended / num},
+  return {{"valid_share", valid / num},
+          {"ended_share", ended / num},
           {"statements_checked", checked},
           {"statements_true_share",
            checked > 0 ? json(1.0 - static_cast<double>(wrong) / checked) : json()},
@@ -128,11 +131,13 @@ void print(const json& document) {
   for (const char* key : {"with_facts", "without_facts"}) {
     const json& talk = document[key];
     fmt::print(
-        "\n{}: {:.0f} % of the replies end by themselves; of {} statements that can be checked {} "
+        "\n{}: {:.0f} % of the replies hold an answer, {:.0f} % end by themselves; of {} "
+        "statements that can be checked {} "
         "are "
         "true; {:.0f} % of the choices rest on something false",
         std::string_view(key) == "with_facts" ? "With facts" : "Without",
-        100.0 * talk["ended_share"].get<double>(), talk["statements_checked"].get<int>(),
+        100.0 * talk["valid_share"].get<double>(), 100.0 * talk["ended_share"].get<double>(),
+        talk["statements_checked"].get<int>(),
         talk["statements_true_share"].is_null()
             ? "none"
             : fmt::format("{:.0f} %", 100.0 * talk["statements_true_share"].get<double>()),

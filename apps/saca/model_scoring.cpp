@@ -19,7 +19,7 @@
 
 namespace saca::app {
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Said, first, last, ended, checked, wrong, unfounded)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Said, first, last, ended, checked, wrong, unfounded, valid)
 
 namespace {
 
@@ -36,29 +36,35 @@ std::string without_manoeuvres(const std::string& prompt) {
 Said said_in(const reason::Reply& reply, const std::string& prompt,
              const preview::Situation& situation) {
   Said said;
+  if (reply.answers.empty()) {
+    said.valid = false;
+    said.first.fill(1.0 / manoeuvre::num_policies);
+    said.last = said.first;
+    return said;
+  }
   said.first = reply.answers.front().probability;
   said.last = reply.answers.back().probability;
   said.ended = reply.answers.back().kind == reason::Answer::Kind::ended;
-  const reason::Truth truth =
-      reason::truth_of(reply.reasoning, prompt, situation, likeliest_policy(reply.answers.back()));
+  const reason::Truth truth = reason::truth_of(reply, prompt, situation);
   said.checked = truth.num_checked;
   said.wrong = static_cast<int>(truth.wrong.size());
   said.unfounded = truth.is_choice_unfounded();
   return said;
 }
 
-/// What SACA would have cached of it: the last answer that passes, else emergency braking.
+/// What SACA would have cached of it (decide::ThinkingPlane): the last answer that passes, unless
+/// what it rests on is false and it is not the best; else emergency braking.
 PolicyId checked_choice(const Said& said, const preview::Situation& situation,
                         const preview::ForecastTools& tools) {
-  for (const PolicyId policy : {likeliest(said.last), likeliest(said.first)}) {
-    const bool strict_passes = !said.unfounded || policy != likeliest(said.last) ||
-                               decide::check_unfounded(policy, situation).passed;
-    if (strict_passes &&
-        decide::check(situation.facts[manoeuvre::index(policy)].plan, situation, tools).passed) {
-      return policy;
+  PolicyId plan = PolicyId::aeb;
+  for (const PolicyId policy : {likeliest(said.first), likeliest(said.last)}) {
+    if (decide::check(situation.facts[manoeuvre::index(policy)].plan, situation, tools).passed) {
+      plan = policy;
     }
   }
-  return PolicyId::aeb;
+  const bool is_withdrawn = said.unfounded && plan == likeliest(said.last) &&
+                            !decide::check_unfounded(plan, situation).passed;
+  return is_withdrawn ? PolicyId::aeb : plan;
 }
 
 /// Of the forecasts that were asked about the one that came nearest to what happened.
@@ -75,7 +81,8 @@ const decide::Preview& nearest(const FirstQuestion& asked) {
 
 /// nullopt: nothing threatened, or it never came to the trigger.
 Result<std::optional<Score>> score(const SuiteSource& source, std::uint64_t number,
-                                   reason::LanguageModel& model, Clock& clock) {
+                                   reason::LanguageModel& model, Clock& clock,
+                                   const std::stop_token& stop) {
   const auto sample = source.sample(number);
   if (!sample.has_value()) {
     return sample.error();
@@ -98,21 +105,18 @@ Result<std::optional<Score>> score(const SuiteSource& source, std::uint64_t numb
   const decide::Preview& preview = nearest(asked.value());
   const std::vector<std::string> prompts{preview.prompt, without_manoeuvres(preview.prompt)};
   constexpr auto patience = std::chrono::minutes(10);
-  const auto replies = model.ask(prompts, clock.now() + patience, [](const reason::Progress&) {});
-  if (!replies.has_value()) {
+  const auto replies =
+      model.ask(prompts, clock.now() + patience, [](const reason::Progress&) {}, {.stop = stop});
+  if (!replies.has_value() && replies.error().code != Error::Code::malformed) {
     return replies.error();
   }
-  for (const reason::Reply& reply : replies.value()) {
-    if (reply.answers.empty()) {
-      return Error{Error::Code::malformed, model.description() +
-                                               ": want an answer, got none to \"" +
-                                               reply.reasoning.substr(0, 80) + "\""};
-    }
-  }
+  // Malformed: whatever was said, there is no answer in it.
+  const std::vector<reason::Reply> said =
+      replies.has_value() ? replies.value() : std::vector<reason::Reply>(prompts.size());
   Score one{.finding = eval::finding_of(record.at_trigger->time, *record.hindsight),
             .by_forecast = preview::best_by_forecast(preview.situation.facts),
-            .with_facts = said_in(replies.value()[0], prompts[0], preview.situation),
-            .without_facts = said_in(replies.value()[1], prompts[1], preview.situation)};
+            .with_facts = said_in(said[0], prompts[0], preview.situation),
+            .without_facts = said_in(said[1], prompts[1], preview.situation)};
   one.finding.number = number;
   one.finding.family = source.family_of(number);
   one.as_saca = checked_choice(one.with_facts, preview.situation, tools);
@@ -194,6 +198,7 @@ Result<std::optional<std::vector<Score>>> score_all(const SuiteSource& source,
     }
   }
   watch_for_interrupt();
+  const InterruptStop interrupt;
   SteadyClock clock;
   ProgressLine progress("asking " + model.description(), options.survey.count, clock);
   const int before = static_cast<int>(scores.size());
@@ -201,8 +206,11 @@ Result<std::optional<std::vector<Score>>> score_all(const SuiteSource& source,
     if (interrupted()) {
       return std::optional<std::vector<Score>>();
     }
-    const auto one = score(source, number, model, clock);
+    const auto one = score(source, number, model, clock, interrupt.token());
     if (!one.has_value()) {
+      if (interrupted()) {
+        return std::optional<std::vector<Score>>();
+      }
       return one.error();
     }
     if (!journal.value().add(line_of(number, one.value()))) {

@@ -26,6 +26,7 @@ struct Said {
   int checked = 0;              ///< statements
   int wrong = 0;
   bool unfounded = false;  ///< the choice rests on something false
+  bool valid = true;       ///< there was an answer; else braking stands for it, eight alike
 };
 
 /// One encounter in which a model was asked.

@@ -22,6 +22,16 @@ bool interrupted() {
   return asked_to_stop != 0;
 }
 
+InterruptStop::InterruptStop()
+    : thread_([this](const std::stop_token& end) {
+        while (!end.stop_requested() && !interrupted()) {
+          std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+        if (interrupted()) {
+          stop_.request_stop();
+        }
+      }) {}
+
 ProgressLine::ProgressLine(std::string what, int all, Clock& clock)
     : what_(std::move(what)),
       all_(all),

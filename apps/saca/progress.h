@@ -1,6 +1,8 @@
 #pragma once
 
+#include <stop_token>
 #include <string>
+#include <thread>
 
 #include "saca/core/clock.h"
 
@@ -9,6 +11,20 @@ namespace saca::app {
 /// From here on SIGINT and SIGTERM do not end the program but are remembered.
 void watch_for_interrupt();
 [[nodiscard]] bool interrupted();
+
+/// Asks for a stop soon after an interrupt that is watched for, as long as this lives.
+class InterruptStop {
+ public:
+  InterruptStop();
+  InterruptStop(const InterruptStop&) = delete;
+  InterruptStop& operator=(const InterruptStop&) = delete;
+  ~InterruptStop() = default;
+  [[nodiscard]] std::stop_token token() const { return stop_.get_token(); }
+
+ private:
+  std::stop_source stop_;
+  std::jthread thread_;  ///< a signal's handler may not ask for a stop itself
+};
 
 /// What is worked on, how far it is and how long the rest will take, on the error stream: in place
 /// on a terminal, else a line now and then.

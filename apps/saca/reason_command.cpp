@@ -220,14 +220,11 @@ int reason_about(const ReasonOptions& options) {
     for (std::size_t i = 0; i < said.size(); ++i) {
       Considered one{.preview = &previews[i], .reply = std::move(said[i])};
       const preview::Situation& situation = one.preview->situation;
-      std::optional<PolicyId> chosen_policy;
       if (!one.reply.answers.empty()) {
-        chosen_policy = likeliest_policy(one.reply.answers.back());
-        one.check =
-            decide::check(situation.facts[manoeuvre::index(*chosen_policy)].plan, situation, tools);
+        const PolicyId chosen = likeliest_policy(one.reply.answers.back());
+        one.check = decide::check(situation.facts[manoeuvre::index(chosen)].plan, situation, tools);
       }
-      one.truth =
-          reason::truth_of(one.reply.reasoning, one.preview->prompt, situation, chosen_policy);
+      one.truth = reason::truth_of(one.reply, one.preview->prompt, situation);
       all.push_back(std::move(one));
     }
   }

@@ -12,6 +12,7 @@
 #include "apps/saca/danger_making.h"
 #include "apps/saca/inputs.h"
 #include "apps/saca/model.h"
+#include "apps/saca/progress.h"
 #include "apps/saca/story.h"
 #include "saca/core/file.h"
 #include "saca/loop/encounter.h"
@@ -174,11 +175,15 @@ int run(const RunOptions& options) {
     story.ending(inputs.value().scenario, played.value());
   }
   loop::Record record = std::move(played).value();
-  const auto review = loop::review(setup, record, [&](std::string_view said) {
+  // What was played is written down even if nobody wants to wait for the review.
+  watch_for_interrupt();
+  const InterruptStop interrupt;
+  const auto hear = [&](std::string_view said) {
     if (!options.as_json) {
       story.on_review(said);
     }
-  });
+  };
+  const auto review = loop::review(setup, record, hear, interrupt.token());
   if (review.has_value()) {
     record.review = review.value();
   } else {

@@ -105,7 +105,8 @@ bool ThinkingPlane::think(const world::Scene& scene, const intent::Beliefs& beli
       known->worse_than_aeb =
           known->plan && !check(*known->plan, situation, tools_.forecast).passed;
       now.push_back(static_cast<std::size_t>(known - previews_.data()));
-      if (known->unheard) {
+      if (known->unheard &&
+          std::find(unanswered.begin(), unanswered.end(), now.back()) == unanswered.end()) {
         unanswered.push_back(now.back());
       }
       continue;
@@ -216,8 +217,8 @@ void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>
       take_answer(round, preview, *news.answer);
     }
   };
-  const auto replies =
-      tools_.model->ask(scenes, round.clock_at(trigger - handover_margin), progress, round.stop);
+  const auto replies = tools_.model->ask(scenes, round.clock_at(trigger - handover_margin),
+                                         progress, {.stop = round.stop});
   if (!replies.has_value() && round.stop.stop_requested()) {
     return;  // nobody waits for it any more
   }
@@ -261,8 +262,7 @@ void ThinkingPlane::judge_reasoning(const Round& round, Preview& preview) {
     return;
   }
   const PolicyId chosen = reason::likeliest_policy(preview.reply.answers.back());
-  preview.truth =
-      reason::truth_of(preview.reply.reasoning, preview.prompt, preview.situation, chosen);
+  preview.truth = reason::truth_of(preview.reply, preview.prompt, preview.situation);
   if (!preview.truth->is_choice_unfounded()) {
     return;
   }

@@ -29,9 +29,9 @@ Result<ThinkingCosts> read_thinking_costs(std::string_view text, std::string_vie
 
 Result<std::vector<reason::Reply>> ChargedModel::reply_to(
     const std::vector<std::string>& scenes, Clock::Time deadline,
-    const std::function<void(const reason::Progress&)>& progress, const std::stop_token& stop) {
+    const std::function<void(const reason::Progress&)>& progress, const reason::AskLimits& limits) {
   auto replies = model_.ask(
-      scenes, real_.now() + patience, [](const reason::Progress&) {}, stop);
+      scenes, real_.now() + patience, [](const reason::Progress&) {}, limits);
   if (!replies.has_value()) {
     return replies;
   }
@@ -44,14 +44,19 @@ Result<std::vector<reason::Reply>> ChargedModel::reply_to(
   std::vector<reason::Reply> in_time;
   for (std::size_t i = 0; i < replies.value().size(); ++i) {
     reason::Reply reply = replies.value()[i];
-    progress({.prompt = i, .text = reply.reasoning});
     const auto late = [&](reason::Answer& answer) {
       const bool first = answer.kind == reason::Answer::Kind::first;
       answer.time =
           read + (first ? Clock::Time(0) : from_seconds(costs_.reply_token * reply.reply_tokens));
       return answer.time > deadline;
     };
-    std::erase_if(reply.answers, late);
+    if (std::erase_if(reply.answers, late) > 0) {
+      reply.reasoning.clear();  // the last answer comes after it
+      reply.reply_tokens = 0;
+    }
+    if (!reply.reasoning.empty()) {
+      progress({.prompt = i, .text = reply.reasoning});
+    }
     for (const reason::Answer& answer : reply.answers) {
       answers.emplace_back(i, answer);
     }

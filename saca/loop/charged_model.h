@@ -23,7 +23,8 @@ struct ThinkingCosts {
 
 /// A language model whose thinking is charged by its tokens instead of by the time it takes: each
 /// answer is dated by the tokens before it. The same model gives the same dates on any machine. An
-/// answer that would have come after the deadline is dropped, as if it had not come.
+/// answer that would have come after the deadline is dropped, and the text before it, as if they
+/// had not come.
 class ChargedModel final : public reason::LanguageModel {
  public:
   /// @param model  the one that thinks, with deadlines on `real`
@@ -38,7 +39,7 @@ class ChargedModel final : public reason::LanguageModel {
   [[nodiscard]] Result<std::vector<reason::Reply>> reply_to(
       const std::vector<std::string>& scenes, Clock::Time deadline,
       const std::function<void(const reason::Progress&)>& progress,
-      const std::stop_token& stop) override;
+      const reason::AskLimits& limits) override;
 
   reason::LanguageModel& model_;
   ThinkingCosts costs_;

@@ -44,6 +44,8 @@ TEST(ChargedModel, AnAnswerAfterTheDeadlineDidNotCome) {
   const auto first_only = model.ask({"a"}, std::chrono::milliseconds(200), silent);
   ASSERT_TRUE(first_only.has_value());
   EXPECT_EQ(first_only.value()[0].answers.size(), 1U);
+  EXPECT_EQ(first_only.value()[0].reasoning, "");
+  EXPECT_EQ(first_only.value()[0].reply_tokens, 0);
   const auto none = model.ask({"a"}, std::chrono::milliseconds(50), silent);
   ASSERT_FALSE(none.has_value());
   EXPECT_EQ(none.error().code, Error::Code::too_late);

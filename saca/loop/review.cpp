@@ -3,10 +3,19 @@
 #include <chrono>
 #include <utility>
 
+#include "saca/reason/reply.h"
+
 namespace saca::loop {
+namespace {
+
+constexpr auto review_patience = std::chrono::minutes(2);
+constexpr int review_tokens = 256;  // three statements with their figures are about 130
+
+}  // namespace
 
 Result<std::optional<reason::Review>> review(const Setup& setup, const Record& record,
-                                             const std::function<void(std::string_view)>& on_text) {
+                                             const std::function<void(std::string_view)>& on_text,
+                                             const std::stop_token& stop) {
   if (setup.model == nullptr || !record.decision || !record.hindsight || !record.best) {
     return std::optional<reason::Review>();
   }
@@ -22,18 +31,19 @@ Result<std::optional<reason::Review>> review(const Setup& setup, const Record& r
     aftermath.forecast_harm = record.decision->forecast->plan;
   }
   reason::Review review{.prompt = reason::review_prompt(aftermath)};
-  constexpr auto patience = std::chrono::minutes(10);
-  const auto replies = setup.model->ask({review.prompt}, setup.clock->now() + patience,
-                                        [&](const reason::Progress& news) {
-                                          if (!news.text.empty()) {
-                                            on_text(news.text);
-                                          }
-                                        });
+  const auto hear = [&](const reason::Progress& news) {
+    if (!news.text.empty()) {
+      on_text(news.text);
+    }
+  };
+  const auto replies = setup.model->ask({review.prompt}, setup.clock->now() + review_patience, hear,
+                                        {.stop = stop, .max_tokens = review_tokens});
   if (!replies.has_value()) {
     return replies.error();
   }
   review.text = replies.value().front().reasoning;
-  review.truth = reason::truth_of(review.text, review.prompt, aftermath.known, std::nullopt);
+  review.truth = reason::truth_of(reason::finished_part(replies.value().front()), review.prompt,
+                                  aftermath.known, std::nullopt);
   return std::optional(std::move(review));
 }
 

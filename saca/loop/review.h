@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <stop_token>
 #include <string_view>
 
 #include "saca/loop/encounter.h"
@@ -8,10 +9,12 @@
 namespace saca::loop {
 
 /// Asks `setup.model` to look back at an encounter that was played with it. Takes as long as the
-/// model needs, ten minutes at most.
+/// model needs, two minutes at most.
 /// @param on_text  hears the text while it is written
+/// @param stop     no review where a stop is asked for
 /// @return         nullopt where there is no model or nothing was triggered; the model's error
 [[nodiscard]] Result<std::optional<reason::Review>> review(
-    const Setup& setup, const Record& record, const std::function<void(std::string_view)>& on_text);
+    const Setup& setup, const Record& record, const std::function<void(std::string_view)>& on_text,
+    const std::stop_token& stop = {});
 
 }  // namespace saca::loop

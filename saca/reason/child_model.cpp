@@ -160,12 +160,12 @@ std::optional<Error> ChildModel::withdraw(Exchange& exchange, Clock::Time deadli
 
 Result<std::vector<Reply>> ChildModel::reply_to(
     const std::vector<std::string>& scenes, Clock::Time deadline,
-    const std::function<void(const Progress&)>& progress, const std::stop_token& stop) {
+    const std::function<void(const Progress&)>& progress, const AskLimits& limits) {
   // The process is told to be done a margin before the deadline, and is heard for most of the
   // margin beyond that.
   const Clock::Time margin = from_seconds(settings_.margin);
   const Clock::Time listen_until = deadline - margin / 4;
-  if (auto error = wait_until_ready(listen_until, stop)) {
+  if (auto error = wait_until_ready(listen_until, limits.stop)) {
     return *error;
   }
   const double budget = to_seconds(deadline - margin - clock_.now());
@@ -175,12 +175,12 @@ Result<std::vector<Reply>> ChildModel::reply_to(
   Exchange exchange{.id = ++last_id_, .progress = progress, .replies = {}};
   exchange.replies.resize(scenes.size());
   const protocol::Request request =
-      protocol::Ask{exchange.id, scenes, budget, settings_.max_tokens};
+      protocol::Ask{exchange.id, scenes, budget, limits.max_tokens.value_or(settings_.max_tokens)};
   auto error = process_.send(protocol::line(request), listen_until);
   if (!error) {
-    error = collect(exchange, listen_until, stop);
+    error = collect(exchange, listen_until, limits.stop);
   }
-  if (error && !exchange.done && stop.stop_requested()) {
+  if (error && !exchange.done && limits.stop.stop_requested()) {
     error = withdraw(exchange, listen_until);
   }
   if (error && !exchange.done) {

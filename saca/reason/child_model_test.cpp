@@ -125,8 +125,8 @@ TEST_F(ChildModelTest, WithdrawnQuestionKeepsItsAnswersAndItsProcess) {
 *'"cmd":"cancel","id":'$id,*) done_;; esac; ask; first 0; done_; cat)"),
                    clock_);
   std::stop_source stop;
-  const auto replies = model.ask(
-      {"a"}, deadline, [&](const Progress&) { stop.request_stop(); }, stop.get_token());
+  const auto replies = model.ask({"a"}, deadline, [&](const Progress&) { stop.request_stop(); },
+                                 {.stop = stop.get_token()});
   ASSERT_TRUE(replies.has_value()) << replies.error().message;
   EXPECT_EQ(replies.value()[0].answers.size(), 1U);
   EXPECT_TRUE(model.ask({"a"}, deadline, record_).has_value());

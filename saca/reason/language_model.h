@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -42,6 +43,14 @@ struct Progress {
   const Answer* answer = nullptr;  ///< a new answer, or none
 };
 
+/// What may end a question before its deadline.
+struct AskLimits {
+  /// When a stop is asked for the question is withdrawn: the call returns soon, as if its deadline
+  /// had come, and the model can be asked again.
+  std::stop_token stop;
+  std::optional<int> max_tokens;  ///< of text per scene, > 0; nullopt: as the model is set up
+};
+
 /// Something that reads prompts and chooses among the policies. May be slow, may fail.
 class LanguageModel {
  public:
@@ -55,16 +64,16 @@ class LanguageModel {
   ///
   /// @param scenes    scene parts of the prompt, one to three; the system part is fixed
   /// @param deadline  on the model's clock; the call returns before it, whatever the model does
-  /// @param stop      the question is withdrawn when a stop is asked for: the call returns soon, as
-  ///                  if its deadline had come, and the model can be asked again
   /// @return          one reply per scene, with the answers that were there in time; an error when
-  ///                  there was none (too_late, unreadable when the model died)
+  ///                  there was none (too_late; unreadable when the model cannot be reached;
+  ///                  malformed when what it says holds no answer)
   [[nodiscard]] Result<std::vector<Reply>> ask(const std::vector<std::string>& scenes,
                                                Clock::Time deadline,
                                                const std::function<void(const Progress&)>& progress,
-                                               const std::stop_token& stop = {}) {
+                                               const AskLimits& limits = {}) {
     expects(!scenes.empty() && scenes.size() <= most_scenes, "1 to 3 scenes");
-    return reply_to(scenes, deadline, progress, stop);
+    expects(!limits.max_tokens || *limits.max_tokens > 0, "max_tokens > 0");
+    return reply_to(scenes, deadline, progress, limits);
   }
 
   /// What it is, for records: name, file hash.
@@ -76,7 +85,7 @@ class LanguageModel {
   /// As ask().
   [[nodiscard]] virtual Result<std::vector<Reply>> reply_to(
       const std::vector<std::string>& scenes, Clock::Time deadline,
-      const std::function<void(const Progress&)>& progress, const std::stop_token& stop) = 0;
+      const std::function<void(const Progress&)>& progress, const AskLimits& limits) = 0;
 };
 
 }  // namespace saca::reason

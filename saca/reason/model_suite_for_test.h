@@ -51,7 +51,7 @@ class ModelSuite : public testing::TestWithParam<StandCase> {
         told_.push_back(p.prompt);
       }
     };
-    return stand_->model().ask(scenes, deadline, note, stop);
+    return stand_->model().ask(scenes, deadline, note, {.stop = stop});
   }
   void expect_answers(const std::vector<std::string>& scenes) {
     told_.clear();

@@ -126,7 +126,7 @@ struct OpenAiModel::Call {
 /// One question: up to three calls and what has come back.
 class OpenAiModel::Exchange {
  public:
-  Exchange(OpenAiModel& model, const std::vector<std::string>& scenes,
+  Exchange(OpenAiModel& model, const std::vector<std::string>& scenes, int max_tokens,
            const std::function<void(const Progress&)>& progress)
       : model_(model), progress_(progress), calls_(scenes.size()), replies_(scenes.size()) {
     for (std::size_t i = 0; i < scenes.size(); ++i) {
@@ -134,7 +134,7 @@ class OpenAiModel::Exchange {
       calls_[i].question = {.model = model.settings_.model,
                             .system = model.settings_.system,
                             .scene = scenes[i],
-                            .max_tokens = model.settings_.max_tokens};
+                            .max_tokens = max_tokens};
     }
   }
   Exchange(const Exchange&) = delete;
@@ -395,7 +395,7 @@ void OpenAiModel::Exchange::conclude(Call& call) {
   constexpr std::size_t shown = 200;  // bytes of the end, where an answer should stand
   const std::string_view end =
       std::string_view(text).substr(text.size() - std::min(shown, text.size()));
-  fail(call, Error::Code::unreadable,
+  fail(call, Error::Code::malformed,
        "want `Response to user: N` at the end of the text, got " + quoted(end));
 }
 
@@ -449,7 +449,7 @@ OpenAiModel::~OpenAiModel() = default;
 
 Result<std::vector<Reply>> OpenAiModel::reply_to(
     const std::vector<std::string>& scenes, Clock::Time deadline,
-    const std::function<void(const Progress&)>& progress, const std::stop_token& stop) {
+    const std::function<void(const Progress&)>& progress, const AskLimits& limits) {
   if (refusal_) {
     return *refusal_;
   }
@@ -457,8 +457,8 @@ Result<std::vector<Reply>> OpenAiModel::reply_to(
   if (clock_.now() >= end) {
     return Error{Error::Code::too_late, shown_ + ": no time is left to ask"};
   }
-  Exchange exchange(*this, scenes, progress);
-  exchange.run(end, stop);
+  Exchange exchange(*this, scenes, limits.max_tokens.value_or(settings_.max_tokens), progress);
+  exchange.run(end, limits.stop);
   return std::move(exchange).result();
 }
 

@@ -423,8 +423,9 @@ TEST_F(OpenAiModelTest, WhatIsNoStreamIsQuoted) {
 }
 
 TEST_F(OpenAiModelTest, TextWithoutResponseIsQuoted) {
-  EXPECT_THAT(failure(sends(stream_head + said("I cannot say.") + stream_end)),
-              HasSubstr("want `Response to user: N` at the end of the text, got I cannot say."));
+  EXPECT_THAT(
+      failure(sends(stream_head + said("I cannot say.") + stream_end), Error::Code::malformed),
+      HasSubstr("want `Response to user: N` at the end of the text, got I cannot say."));
 }
 
 TEST_F(OpenAiModelTest, TooMuchIsCutOff) {
@@ -458,10 +459,15 @@ TEST_F(OpenAiModelTest, KeyIsNeverShown) {
   const RudeServer::Behaviour text = [&](Visit& visit) {
     (void)visit.send(stream_head + said(key) + stream_end);
   };
-  for (const auto& behaviour : {echo, cut, stream, text}) {
+  const std::vector<std::pair<RudeServer::Behaviour, Error::Code>> all{
+      {echo, Error::Code::unreadable},
+      {cut, Error::Code::unreadable},
+      {stream, Error::Code::unreadable},
+      {text, Error::Code::malformed}};
+  for (const auto& [behaviour, code] : all) {
     RudeServer server({behaviour});
     OpenAiModel model(settings(server.url(), key), clock_);
-    EXPECT_THAT(failure(model), AllOf(HasSubstr("***"), Not(HasSubstr("sk-0123"))));
+    EXPECT_THAT(failure(model, code), AllOf(HasSubstr("***"), Not(HasSubstr("sk-0123"))));
     EXPECT_THAT(model.description(), Not(HasSubstr(key)));
   }
 }

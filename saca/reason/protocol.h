@@ -65,7 +65,7 @@ struct Done {
   std::vector<int> reply_tokens;  ///< one per scene
   double prompt_time = 0.0;       ///< spent in prompts [s]
   double reply_time = 0.0;        ///< spent in reasoning [s]
-  bool overran = false;           ///< an answer was missing when the budget was spent
+  bool overran = false;  ///< an answer was missing when the budget was spent or the ask cancelled
 };
 struct Info {
   std::string description;

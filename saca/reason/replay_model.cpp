@@ -15,6 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view schema = "saca.replies/1";
+constexpr Clock::Time longest_reply = std::chrono::hours(24);
 
 Json json_of(const RecordedReply& recorded) {
   Json answers = Json::array();
@@ -67,8 +68,8 @@ const char* broken_rule(const std::string& key, const RecordedReply& recorded) {
     if (!(std::abs(sum - 1.0) < 1e-3)) {  // rounding of eight numbers
       return "probabilities that sum to 1";
     }
-    if (answer.time < last) {
-      return "answers in the order of time, from 0 on";
+    if (answer.time < last || answer.time > longest_reply) {
+      return "answers in the order of time, from 0 on, within a day";
     }
     last = answer.time;
   }
@@ -122,9 +123,9 @@ Result<RecordedReplies> parse_replies(std::string_view text, std::string_view so
 
 Result<std::vector<Reply>> RecordingModel::reply_to(
     const std::vector<std::string>& scenes, Clock::Time deadline,
-    const std::function<void(const Progress&)>& progress, const std::stop_token& stop) {
+    const std::function<void(const Progress&)>& progress, const AskLimits& limits) {
   const Clock::Time begin = clock_.now();
-  auto replies = model_.ask(scenes, deadline, progress, stop);
+  auto replies = model_.ask(scenes, deadline, progress, limits);
   for (std::size_t i = 0; replies.has_value() && i < scenes.size(); ++i) {
     RecordedReply recorded{.prompt = scenes[i], .reply = replies.value()[i]};
     for (Answer& answer : recorded.reply.answers) {
@@ -147,7 +148,7 @@ std::optional<Error> RecordingModel::write(const std::filesystem::path& path) co
 
 Result<std::vector<Reply>> ReplayModel::reply_to(
     const std::vector<std::string>& scenes, Clock::Time deadline,
-    const std::function<void(const Progress&)>& progress, const std::stop_token& stop) {
+    const std::function<void(const Progress&)>& progress, const AskLimits& limits) {
   struct Moment {
     std::size_t scene = 0;
     Answer answer;
@@ -162,8 +163,7 @@ Result<std::vector<Reply>> ReplayModel::reply_to(
       continue;
     }
     any_known = true;
-    replies[i] = found->second.reply;
-    replies[i].answers.clear();
+    replies[i].prompt_tokens = found->second.reply.prompt_tokens;
     for (Answer answer : found->second.reply.answers) {
       answer.time += begin;
       if (answer.time < deadline) {
@@ -176,14 +176,19 @@ Result<std::vector<Reply>> ReplayModel::reply_to(
   bool any_answer = false;
   for (const Moment& moment : moments) {
     if (pace_ == ReplayPace::as_recorded) {
-      wait_until(clock_, moment.answer.time, stop);
+      wait_until(clock_, moment.answer.time, limits.stop);
     }
-    if (stop.stop_requested()) {
+    if (limits.stop.stop_requested()) {
       break;
     }
     Reply& reply = replies[moment.scene];
-    if (moment.answer.kind != Answer::Kind::first && !reply.reasoning.empty()) {
-      progress({.prompt = moment.scene, .text = reply.reasoning, .answer = nullptr});
+    if (moment.answer.kind != Answer::Kind::first && reply.reasoning.empty()) {
+      const Reply& recorded = replies_.replies.at(prompt_key(scenes[moment.scene])).reply;
+      reply.reasoning = recorded.reasoning;
+      reply.reply_tokens = recorded.reply_tokens;
+      if (!reply.reasoning.empty()) {
+        progress({.prompt = moment.scene, .text = reply.reasoning, .answer = nullptr});
+      }
     }
     reply.answers.push_back(moment.answer);
     any_answer = true;

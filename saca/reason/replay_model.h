@@ -47,7 +47,7 @@ class RecordingModel final : public LanguageModel {
  private:
   [[nodiscard]] Result<std::vector<Reply>> reply_to(
       const std::vector<std::string>& scenes, Clock::Time deadline,
-      const std::function<void(const Progress&)>& progress, const std::stop_token& stop) override;
+      const std::function<void(const Progress&)>& progress, const AskLimits& limits) override;
 
   LanguageModel& model_;
   Clock& clock_;
@@ -71,7 +71,7 @@ class ReplayModel final : public LanguageModel {
  private:
   [[nodiscard]] Result<std::vector<Reply>> reply_to(
       const std::vector<std::string>& scenes, Clock::Time deadline,
-      const std::function<void(const Progress&)>& progress, const std::stop_token& stop) override;
+      const std::function<void(const Progress&)>& progress, const AskLimits& limits) override;
 
   RecordedReplies replies_;
   ReplayPace pace_;

@@ -67,6 +67,8 @@ TEST_F(ReplayTest, AnswersAfterTheDeadlineAreNotThere) {
   const auto replies = model.ask({"a"}, 2s, record_);
   ASSERT_TRUE(replies.has_value());
   EXPECT_EQ(replies.value()[0].answers.size(), 1U);
+  EXPECT_EQ(replies.value()[0].reasoning, "");  // it would have come before the second
+  EXPECT_EQ(replies.value()[0].reply_tokens, 0);
   EXPECT_LT(clock_.now(), 2s);
   const auto late = model.ask({"a"}, clock_.now() + 500ms, record_);
   ASSERT_FALSE(late.has_value());
@@ -122,6 +124,7 @@ TEST(ParseReplies, RefusalNamesFileAndPlace) {
   EXPECT_THAT(refused(good, "1.0", "-1.0"), HasSubstr(">= 0"));
   EXPECT_THAT(refused(good, "\"first\"", "\"song\""), HasSubstr(prompt_key("a")));
   EXPECT_THAT(refused(good, "1000000000", "9000000000"), HasSubstr("order of time"));
+  EXPECT_THAT(refused(good, "3000000000", "9223372036854775807"), HasSubstr("within a day"));
   EXPECT_THAT(refused(good, "{", ""), HasSubstr("r.json"));
   EXPECT_THAT(refused(good, "\"replies\"", "\"reply\""), HasSubstr("r.json"));
 }

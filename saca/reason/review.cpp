@@ -14,7 +14,7 @@ std::string review_prompt(const Aftermath& aftermath) {
       "# Review of an encounter that is over\n"
       "Say in three short numbered statements what happened, which policy would have been best and "
       "by how much, and what to remember. Quote the figures. As the last line name the policy that "
-      "would have been best.\n"
+      "would have been best: \"Response to user: N\".\n"
       "## Carried Out:\n";
   text += policy_label(aftermath.done) + ": " + outcome::describe(aftermath.result, aftermath.met) +
           ", " + harm_text(aftermath.result.harm);

@@ -20,7 +20,7 @@ Answer answer_of(const ScriptedLine& line, Clock::Time time) {
 
 Result<std::vector<Reply>> ScriptedModel::reply_to(
     const std::vector<std::string>& scenes, Clock::Time deadline,
-    const std::function<void(const Progress&)>& progress, const std::stop_token& stop) {
+    const std::function<void(const Progress&)>& progress, const AskLimits& limits) {
   ++num_asked_;
   last_scenes_ = scenes;
   last_deadline_ = deadline;
@@ -47,8 +47,8 @@ Result<std::vector<Reply>> ScriptedModel::reply_to(
                    [](const auto& a, const auto& b) { return a.second.after < b.second.after; });
   bool any = false;
   for (const auto& [scene, line] : lines) {
-    wait_until(clock_, begin + line.after, stop);
-    if (stop.stop_requested()) {
+    wait_until(clock_, begin + line.after, limits.stop);
+    if (limits.stop.stop_requested()) {
       break;
     }
     Reply& reply = replies[scene];
@@ -63,7 +63,7 @@ Result<std::vector<Reply>> ScriptedModel::reply_to(
     }
   }
   if (cut) {
-    wait_until(clock_, deadline - way_back, stop);
+    wait_until(clock_, deadline - way_back, limits.stop);
   }
   if (!any) {
     return Error{Error::Code::too_late, "script: no answer in time"};

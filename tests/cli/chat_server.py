@@ -7,17 +7,20 @@ import pytest
 
 
 class Server(http.server.BaseHTTPRequestHandler):
-    """Streams a fixed text, or refuses and repeats the key that it was sent."""
+    """Streams a text, or refuses and repeats the key that it was sent, or says nothing until it is let go."""
 
     def do_POST(self):
         asked = json.loads(self.rfile.read(int(self.headers["Content-Length"])))
         self.server.asked.append(asked)
+        if self.server.silent:
+            self.server.let_go.wait()
+            return
         self.send_response(401 if self.server.refuses else 200)
         self.end_headers()
         if self.server.refuses:
             self.wfile.write(self.headers["Authorization"].encode())
             return
-        for text in ("Scenario Analysis\n1. Grip is 0.90.\n", "Response to user: 6"):
+        for text in ("Scenario Analysis\n1. Grip is 0.90.\n", self.server.conclusion):
             self.wfile.write(b"data: " + json.dumps({"choices": [{"delta": {"content": text}}]}).encode() + b"\n\n")
         self.wfile.write(b'data: {"choices": [{"delta": {}, "finish_reason": "stop"}]}\n\ndata: [DONE]\n\n')
 
@@ -28,7 +31,9 @@ class Server(http.server.BaseHTTPRequestHandler):
 @pytest.fixture
 def server():
     found = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Server)
-    found.asked, found.refuses = [], False
+    found.asked, found.refuses, found.conclusion = [], False, "Response to user: 6"
+    found.silent, found.let_go = False, threading.Event()
     threading.Thread(target=found.serve_forever, daemon=True).start()
     yield found
+    found.let_go.set()
     found.shutdown()

@@ -1,11 +1,14 @@
 """`saca model bench|score`: how fast and how well a model answers. The model here is a server that always says 6."""
 import json
 import pathlib
+import signal
+import subprocess
 import sys
+import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from chat_server import server  # noqa: F401, a fixture
-from program import BAD_INPUT, SUCCESS, WRONG_COMMAND_LINE, one_error, saca
+from program import BAD_INPUT, INTERRUPTED, PROGRAM, SUCCESS, WRONG_COMMAND_LINE, one_error, saca
 
 
 def name_of(server):
@@ -50,6 +53,36 @@ def test_score_judges_by_hindsight_and_goes_on(server, tmp_path):
     spoilt.write_text("\n".join([lines[0], "nonsense"]) + "\n")
     run = saca("model", "score", "--llm", name_of(server), "--count", 2, "--journal", spoilt, cwd=tmp_path)
     assert "spoilt.journal: want a line of" in one_error(run, BAD_INPUT)
+
+
+def test_bench_of_a_model_that_does_not_answer_is_no_bench(server, tmp_path):
+    server.conclusion = "I cannot say."
+    run = saca("model", "bench", "--llm", name_of(server), "--runs", 2, cwd=tmp_path)
+    assert "got Scenario Analysis" in one_error(run, BAD_INPUT)
+
+
+def test_replies_without_an_answer_are_counted_as_invalid(server, tmp_path):
+    server.conclusion = "I cannot say."
+    run = saca("model", "score", "--llm", name_of(server), "--count", 2, "--json", cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    told = json.loads(run.stdout)
+    assert told["with_facts"]["valid_share"] == 0 and told["without_facts"]["valid_share"] == 0
+    assert told["choices"]["facts_reasoned"] == told["choices"]["facts_checked"] == told["choices"]["always_aeb"]
+    server.conclusion = "Response to user: 6"
+    run = saca("model", "score", "--llm", name_of(server), "--count", 4, "--json", cwd=tmp_path)
+    assert json.loads(run.stdout)["with_facts"]["valid_share"] == 0.5
+
+
+def test_scoring_is_interrupted_while_the_model_is_silent(server, tmp_path):
+    server.silent = True
+    run = subprocess.Popen([PROGRAM, "model", "score", "--llm", name_of(server), "--count", "2"], cwd=tmp_path,
+                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    while not server.asked:
+        assert run.poll() is None, run.stderr.read()
+        time.sleep(0.05)
+    run.send_signal(signal.SIGINT)
+    _, told = run.communicate(timeout=60)  # the model has ten minutes
+    assert run.returncode == INTERRUPTED and "goes on where this one stopped" in told
 
 
 def test_what_cannot_be_scored_is_refused(tmp_path):
