@@ -22,7 +22,10 @@ class ThreadChoice {
   [[nodiscard]] bool gives_way() const { return gives_way_; }
 
   /// For the next prompts and steps.
-  void take_all() { alone_ = false; }
+  void take_all() {
+    alone_ = false;
+    lost_ = 0.0;
+  }
   void take_one() { alone_ = gives_way_; }
 
   /// A prompt was read, at so much time for each of its tokens [s].
@@ -42,7 +45,8 @@ class ThreadChoice {
       alone = std::min(alone, cost);
       return false;
     }
-    alone_ = gives_way_ && cost > dear_step * alone;
+    lost_ = std::max(0.0, lost_ + cost - alone);
+    alone_ = gives_way_ && lost_ > most_lost * alone;
     return alone_;
   }
 
@@ -50,15 +54,17 @@ class ThreadChoice {
   [[nodiscard]] double step_alone(std::size_t scenes) const { return step_alone_.at(scenes - 1); }
 
  private:
-  // Measured, two threads and cores: with one other process a token of a prompt takes twice as long
-  // as with none, a step over four times as long as one thread takes. The short steps vary more.
-  static constexpr double dear_prompt = 1.5;
-  static constexpr double dear_step = 2.5;
+  // Measured, two threads and cores: with one other process a token of a prompt takes at least
+  // twice as long as with none; a step takes three times as long as one thread takes, or more. On
+  // an idle machine a prompt may take 1.6 times as long, a single step three times.
+  static constexpr double dear_prompt = 1.8;
+  static constexpr double most_lost = 6.0;  // against one thread, in steps of that
   static constexpr double never = std::numeric_limits<double>::infinity();
 
   int all_;
   bool gives_way_;
   bool alone_ = false;
+  double lost_ = 0.0;            ///< by steps of all threads, since they last gained [s]
   double prompt_token_ = never;  ///< at best, with all threads [s]
   std::array<double, most_scenes> step_alone_{never, never, never};
 };

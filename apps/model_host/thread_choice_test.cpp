@@ -16,6 +16,7 @@ TEST(ThreadChoice, StepsOfBothThreadsOnABusyMachineAreLeftToOne) {
   choice.take_all();
   EXPECT_FALSE(choice.note_step(1, 0.009));
   EXPECT_EQ(choice.threads(), 2);
+  EXPECT_FALSE(choice.note_step(1, 0.060));  // once is nothing
   EXPECT_TRUE(choice.note_step(1, 0.060));
   EXPECT_EQ(choice.threads(), 1);
   EXPECT_EQ(choice.step_alone(1), 0.013);
@@ -23,11 +24,24 @@ TEST(ThreadChoice, StepsOfBothThreadsOnABusyMachineAreLeftToOne) {
   EXPECT_EQ(choice.threads(), 2);
 }
 
+TEST(ThreadChoice, SlowStepsNowAndThenAreMadeUpFor) {
+  ThreadChoice choice(2, true);
+  choice.take_one();
+  choice.note_step(1, 0.013);
+  choice.take_all();
+  for (int i = 0; i < 1000; ++i) {
+    ASSERT_FALSE(choice.note_step(1, i % 10 == 0 ? 0.040 : 0.009)) << i;
+  }
+  EXPECT_TRUE(choice.note_step(1, 0.200));  // at once where it is very slow
+}
+
 TEST(ThreadChoice, PromptTellsIt) {
   ThreadChoice choice(2, true);
   choice.note_prompt(0.0011);  // cold
   EXPECT_EQ(choice.threads(), 2);
   choice.note_prompt(0.0008);
+  EXPECT_EQ(choice.threads(), 2);
+  choice.note_prompt(0.0012);
   EXPECT_EQ(choice.threads(), 2);
   choice.note_prompt(0.0018);
   EXPECT_EQ(choice.threads(), 1);
@@ -43,9 +57,10 @@ TEST(ThreadChoice, NumberOfScenesIsKeptApart) {
   choice.note_step(3, 0.027);
   choice.note_step(1, 0.013);
   choice.take_all();
-  EXPECT_FALSE(choice.note_step(3, 0.040));
-  EXPECT_FALSE(choice.note_step(2, 10.0));  // nothing to compare with
-  EXPECT_TRUE(choice.note_step(1, 0.040));
+  EXPECT_FALSE(choice.note_step(2, 10.0));   // nothing to compare with
+  EXPECT_FALSE(choice.note_step(3, 0.120));  // four steps lost of three scenes
+  choice.take_all();
+  EXPECT_TRUE(choice.note_step(1, 0.120));
 }
 
 TEST(ThreadChoice, WhoDoesNotGiveWayOrHasOneThreadNeverChanges) {
