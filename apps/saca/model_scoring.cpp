@@ -107,6 +107,9 @@ Result<std::optional<Score>> score(const SuiteSource& source, std::uint64_t numb
   constexpr auto patience = std::chrono::minutes(10);
   const auto replies =
       model.ask(prompts, clock.now() + patience, [](const reason::Progress&) {}, {.stop = stop});
+  if (stop.stop_requested()) {  // what was said may be cut
+    return Error{Error::Code::too_late, "the question was withdrawn"};
+  }
   if (!replies.has_value() && replies.error().code != Error::Code::malformed) {
     return replies.error();
   }

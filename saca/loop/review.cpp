@@ -41,6 +41,9 @@ Result<std::optional<reason::Review>> review(const Setup& setup, const Record& r
   if (!replies.has_value()) {
     return replies.error();
   }
+  if (stop.stop_requested()) {
+    return Error{Error::Code::too_late, "it was withdrawn"};
+  }
   review.text = replies.value().front().reasoning;
   review.truth = reason::truth_of(reason::finished_part(replies.value().front()), review.prompt,
                                   aftermath.known, std::nullopt);

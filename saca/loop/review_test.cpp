@@ -91,5 +91,14 @@ TEST_F(ReviewTest, TellsWhyThereIsNone) {
   EXPECT_EQ(review(setup_, record, [](std::string_view) {}).error().message, "the model is gone");
 }
 
+TEST_F(ReviewTest, WithdrawnIsNone) {
+  const Record record = run(setup_, quiet_).value();
+  std::stop_source stop;
+  const auto found = review(
+      setup_, record, [&](std::string_view) { stop.request_stop(); }, stop.get_token());
+  ASSERT_FALSE(found.has_value());
+  EXPECT_EQ(found.error().code, Error::Code::too_late);
+}
+
 }  // namespace
 }  // namespace saca::loop
