@@ -45,7 +45,7 @@ struct AskFigures {
   bool overran = false;            ///< the deadline passed before the last answer was there
 };
 
-constexpr std::size_t max_scenes = 3;
+constexpr std::size_t max_scenes = reason::most_scenes;
 constexpr std::size_t num_answers = manoeuvre::num_policies;
 
 /// A language model in this process, through llama.cpp. Greedy: the same weights, system part,

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "saca/reason/language_model.h"
+
 namespace saca::model_host {
 
 /// How many threads to compute with. All are fastest where nobody else wants the cores; else they
@@ -12,8 +14,6 @@ namespace saca::model_host {
 /// Which holds is seen from what prompts and steps take.
 class ThreadChoice {
  public:
-  static constexpr std::size_t most_scenes = 3;
-
   /// @param all        > 0
   /// @param gives_way  whether one thread may be chosen; the last bits of an answer differ with it
   ThreadChoice(int all, bool gives_way) : all_(all), gives_way_(gives_way && all > 1) {}
@@ -66,7 +66,7 @@ class ThreadChoice {
   bool alone_ = false;
   double lost_ = 0.0;            ///< by steps of all threads, since they last gained [s]
   double prompt_token_ = never;  ///< at best, with all threads [s]
-  std::array<double, most_scenes> step_alone_{never, never, never};
+  std::array<double, reason::most_scenes> step_alone_{never, never, never};
 };
 
 }  // namespace saca::model_host

@@ -136,7 +136,7 @@ double rate(const std::vector<Asked>& all, int Reply::*tokens,
     for (const Reply& reply : asked.replies) {
       sum_tokens += reply.*tokens;
     }
-    sum_time += asked.error ? 0.0 : asked.figures.*time;
+    sum_time += asked.figures.*time;
   }
   return sum_time > 0.0 ? sum_tokens / sum_time : 0.0;
 }
@@ -186,7 +186,7 @@ int model_bench(const ModelBenchOptions& options) {
   std::vector<Asked> three;
   const auto ask_about = [&](const std::vector<std::string>& some, double budget) {
     Asked asked = ask(model, some, budget, clock);
-    if (child != nullptr) {
+    if (child != nullptr && !asked.error) {
       asked.figures = child->figures();
     }
     return asked;

@@ -14,23 +14,21 @@ constexpr Clock::Time breath =
 
 ThinkingThread::ThinkingThread(decide::ThinkingPlane& plane, LatestSlot<TimedScene>& scenes,
                                Clock& clock)
-    : plane_(plane), scenes_(scenes), clock_(clock), thread_([this] { run(); }) {}
-
-ThinkingThread::~ThinkingThread() {
-  finish();
-}
+    : plane_(plane),
+      scenes_(scenes),
+      clock_(clock),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 std::string ThinkingThread::finish() {
-  stop_.request_stop();
+  thread_.request_stop();
   if (thread_.joinable()) {
     thread_.join();
   }
   return fault_;
 }
 
-void ThinkingThread::run() {
+void ThinkingThread::run(const std::stop_token& stop) {
   const auto newest = std::make_unique<TimedScene>();
-  const std::stop_token stop = stop_.get_token();
   while (!stop.stop_requested()) {
     if (!scenes_.take(*newest)) {
       wait_until(clock_, clock_.now() + pause, stop);

@@ -28,7 +28,7 @@ class ThinkingThread {
   ThinkingThread(const ThinkingThread&) = delete;
   ThinkingThread& operator=(const ThinkingThread&) = delete;
   /// As finish().
-  ~ThinkingThread();
+  ~ThinkingThread() = default;
 
   /// Ends the thread: withdraws what is asked of the language model, and waits for the rest of the
   /// round under way.
@@ -36,14 +36,13 @@ class ThinkingThread {
   std::string finish();
 
  private:
-  void run();
+  void run(const std::stop_token& stop);
 
   decide::ThinkingPlane& plane_;
   LatestSlot<TimedScene>& scenes_;
   Clock& clock_;
-  std::stop_source stop_;
   std::string fault_;  ///< of the thread until it has ended
-  std::thread thread_;
+  std::jthread thread_;
 };
 
 }  // namespace saca::loop

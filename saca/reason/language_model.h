@@ -51,6 +51,8 @@ struct AskLimits {
   std::optional<int> max_tokens;  ///< of text per scene, > 0; nullopt: as the model is set up
 };
 
+constexpr std::size_t most_scenes = 3;  ///< of one question
+
 /// Something that reads prompts and chooses among the policies. May be slow, may fail.
 class LanguageModel {
  public:
@@ -80,8 +82,6 @@ class LanguageModel {
   [[nodiscard]] virtual std::string description() const = 0;
 
  private:
-  static constexpr std::size_t most_scenes = 3;
-
   /// As ask().
   [[nodiscard]] virtual Result<std::vector<Reply>> reply_to(
       const std::vector<std::string>& scenes, Clock::Time deadline,

@@ -50,13 +50,6 @@ bool names_a_choice(std::string_view before) {
                      [&](std::string_view word) { return ends_with_word(before, word); });
 }
 
-// "1, 3 and 5", "1 to 4": what stands between two of a list.
-bool joins(std::string_view between) {
-  constexpr std::array<std::string_view, 7> words{", ",     ",", " and ", " or ",
-                                                  ", and ", "-", " to "};
-  return std::find(words.begin(), words.end(), between) != words.end();
-}
-
 std::string unit_at(std::string_view rest) {
   if (rest.starts_with(' ')) {
     rest.remove_prefix(1);
@@ -82,6 +75,15 @@ std::size_t end_of_digits(std::string_view text, std::size_t at) {
 
 }  // namespace
 
+std::string_view joint_at(std::string_view text) {
+  for (const std::string_view joint : {", and ", ", ", ",", " and ", " or ", "-", " to "}) {
+    if (text.starts_with(joint)) {
+      return joint;
+    }
+  }
+  return {};
+}
+
 std::vector<QuotedNumber> quoted_numbers(std::string_view text) {
   std::vector<QuotedNumber> numbers;
   std::size_t choice_end = std::string_view::npos;  // of the last number that named a choice
@@ -98,7 +100,7 @@ std::vector<QuotedNumber> quoted_numbers(std::string_view text) {
     }
     const bool in_a_name = begin > 0 && is_name_char(text[begin - 1]);
     const bool in_a_list = choice_end != std::string_view::npos && i == begin + 1 &&
-                           joins(text.substr(choice_end, begin - choice_end));
+                           choice_end + joint_at(text.substr(choice_end)).size() == begin;
     if (in_a_name || is_label(text, begin, i)) {
       continue;
     }

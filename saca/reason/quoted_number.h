@@ -21,4 +21,9 @@ struct QuotedNumber {
 /// @param text  anything
 [[nodiscard]] std::vector<QuotedNumber> quoted_numbers(std::string_view text);
 
+/// What joins two numbers of a list of choices, as in "1, 3 and 5" or "1 to 4".
+/// @param text  from behind the first of the two on
+/// @return      the joint with which it begins; empty: the list ends there
+[[nodiscard]] std::string_view joint_at(std::string_view text);
+
 }  // namespace saca::reason

@@ -158,14 +158,9 @@ void find_policies(std::string_view low, Subject& subject) {
         }
         last = number;
         ++i;
-        begins_range = false;
-        for (const std::string_view joint : {", and ", ", ", ",", " and ", " or ", "-", " to "}) {
-          if (low.substr(i).starts_with(joint)) {
-            i += joint.size();
-            begins_range = joint == "-" || joint == " to ";
-            break;
-          }
-        }
+        const std::string_view joint = joint_at(low.substr(i));
+        begins_range = joint == "-" || joint == " to ";
+        i += joint.size();
       }
     }
   }
