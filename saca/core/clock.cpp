@@ -5,6 +5,17 @@
 
 namespace saca {
 
+void Clock::wait_until_or_stop(Time time, const std::stop_token& stop) noexcept {
+  constexpr Time longest_look = std::chrono::milliseconds(10);  // between looks at `stop`
+  if (!stop.stop_possible()) {
+    wait_until(time);
+    return;
+  }
+  for (Time at = now(); at < time && !stop.stop_requested(); at = now()) {
+    wait_until(std::min(time, at + longest_look));
+  }
+}
+
 Clock::Time SteadyClock::now() const noexcept {
   return std::chrono::steady_clock::now().time_since_epoch();
 }
@@ -16,17 +27,6 @@ void SteadyClock::wait_until(Time time) noexcept {
 
 void ManualClock::wait_until(Time time) noexcept {
   now_ = std::max(now_, time);
-}
-
-void wait_until(Clock& clock, Clock::Time time, const std::stop_token& stop) noexcept {
-  constexpr Clock::Time longest_look = std::chrono::milliseconds(10);  // between looks at `stop`
-  if (!stop.stop_possible()) {
-    clock.wait_until(time);
-    return;
-  }
-  for (Clock::Time now = clock.now(); now < time && !stop.stop_requested(); now = clock.now()) {
-    clock.wait_until(std::min(time, now + longest_look));
-  }
 }
 
 }  // namespace saca

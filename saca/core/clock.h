@@ -19,6 +19,8 @@ class Clock {
   [[nodiscard]] virtual Time now() const noexcept = 0;
   /// Returns at `time` or later; at once if it has passed.
   virtual void wait_until(Time time) noexcept = 0;
+  /// The same, but no longer than until soon after a stop was asked for.
+  virtual void wait_until_or_stop(Time time, const std::stop_token& stop) noexcept;
 };
 
 [[nodiscard]] inline double to_seconds(Clock::Time time) {
@@ -28,9 +30,6 @@ class Clock {
 [[nodiscard]] inline Clock::Time from_seconds(double seconds) {
   return std::chrono::duration_cast<Clock::Time>(std::chrono::duration<double>(seconds));
 }
-
-/// As clock.wait_until(time), but no longer than until soon after a stop was asked for.
-void wait_until(Clock& clock, Clock::Time time, const std::stop_token& stop) noexcept;
 
 /// The machine's monotonic clock.
 class SteadyClock final : public Clock {

@@ -10,8 +10,9 @@
 #include "saca/manoeuvre/atlas_for_test.h"
 #include "saca/manoeuvre/default_car.h"
 #include "saca/reason/scripted_model.h"
+#include "tests/support/meeting_clock.h"
 
-namespace saca::loop {
+namespace saca::loop::encounter_test {
 namespace {
 
 using decide::EventKind;
@@ -229,22 +230,55 @@ TEST_F(EncounterTest, TheSameRunGivesTheSameRecordByteForByte) {
   EXPECT_EQ(record_json(setup, a), record_json(setup, b));
 }
 
+/// Notes how late each event is told.
+class Punctuality final : public Listener {
+ public:
+  explicit Punctuality(const Clock& clock) : clock_(clock) {}
+  void on_event(const decide::Event& event) override {
+    if (event.plane != decide::Plane::thinking) {
+      const double late = to_seconds(clock_.now()) - event.time;
+      latest_ = std::max(latest_, late);
+      earliest_ = std::min(earliest_, late);
+      ++num_;
+    }
+  }
+  void on_reasoning(std::int32_t, std::string_view) override {}
+
+  double latest_ = -1e9;   // [s]
+  double earliest_ = 1e9;  // [s]
+  int num_ = 0;
+
+ private:
+  const Clock& clock_;
+};
+
+// A model that would take ten seconds is asked about a wreck that is there in one and a half.
 TEST_F(EncounterTest, AtRealPaceTheWorldDoesNotWait) {
   sim::Scenario scenario = wreck_on_wet_road();
   auto& wreck = std::get<sim::Script>(scenario.actors[0].motion);
   wreck.start.s = 36.0;  // triggers after a quarter of a second
   scenario.duration = 0.6;
-  const Clock::Time start = clock_.now();
+  MeetingClock clock(2);  // this thread and the thinking one
+  reason::ScriptedReply slow = says(PolicyId::aes_left);
+  slow.lines[0].after = std::chrono::seconds(10);
+  reason::ScriptedModel model(slow, clock);
+  Punctuality listener(clock);
   const auto played = run({.scenario = &scenario,
                            .car = &car_,
                            .harm = &harm_,
                            .intent = &intent_,
                            .pace = Pace::real,
-                           .clock = &clock_},
-                          quiet_);
+                           .model = &model,
+                           .clock = &clock},
+                          listener);
   ASSERT_TRUE(played.has_value());
-  EXPECT_GE(clock_.now() - start, std::chrono::milliseconds(590));
-  EXPECT_TRUE(played.value().decision.has_value());
+  ASSERT_TRUE(played.value().decision.has_value());
+  EXPECT_EQ(played.value().decision->source, Source::fallback);
+  EXPECT_GE(listener.num_, 2);  // T2 and T1
+  // The world's time is the clock's, to the look of 10 ms in which an event is told.
+  EXPECT_GE(listener.earliest_, -0.0101);
+  EXPECT_LE(listener.latest_, 0.0101);
+  EXPECT_NEAR(played.value().frames.back().scene.time, 0.6, 0.021);
 }
 
 /// A car that follows the ego with so much room between bumpers.
@@ -306,4 +340,4 @@ TEST_F(EncounterTest, TooFastForASwerveItBrakes) {
 }
 
 }  // namespace
-}  // namespace saca::loop
+}  // namespace saca::loop::encounter_test

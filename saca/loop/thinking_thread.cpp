@@ -31,7 +31,7 @@ void ThinkingThread::run(const std::stop_token& stop) {
   const auto newest = std::make_unique<TimedScene>();
   while (!stop.stop_requested()) {
     if (!scenes_.take(*newest)) {
-      wait_until(clock_, clock_.now() + pause, stop);
+      clock_.wait_until_or_stop(clock_.now() + pause, stop);
       continue;
     }
     try {
@@ -40,7 +40,7 @@ void ThinkingThread::run(const std::stop_token& stop) {
       fault_ = problem.what();
       return;
     }
-    wait_until(clock_, clock_.now() + breath, stop);
+    clock_.wait_until_or_stop(clock_.now() + breath, stop);
   }
 }
 

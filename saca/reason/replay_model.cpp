@@ -176,7 +176,7 @@ Result<std::vector<Reply>> ReplayModel::reply_to(
   bool any_answer = false;
   for (const Moment& moment : moments) {
     if (pace_ == ReplayPace::as_recorded) {
-      wait_until(clock_, moment.answer.time, limits.stop);
+      clock_.wait_until_or_stop(moment.answer.time, limits.stop);
     }
     if (limits.stop.stop_requested()) {
       break;

@@ -47,7 +47,7 @@ Result<std::vector<Reply>> ScriptedModel::reply_to(
                    [](const auto& a, const auto& b) { return a.second.after < b.second.after; });
   bool any = false;
   for (const auto& [scene, line] : lines) {
-    wait_until(clock_, begin + line.after, limits.stop);
+    clock_.wait_until_or_stop(begin + line.after, limits.stop);
     if (limits.stop.stop_requested()) {
       break;
     }
@@ -63,7 +63,7 @@ Result<std::vector<Reply>> ScriptedModel::reply_to(
     }
   }
   if (cut) {
-    wait_until(clock_, deadline - way_back, limits.stop);
+    clock_.wait_until_or_stop(deadline - way_back, limits.stop);
   }
   if (!any) {
     return Error{Error::Code::too_late, "script: no answer in time"};
