@@ -19,7 +19,7 @@ constexpr double good_fit = 0.3;                                                
 constexpr double poor_fit = 1.0;                                                           // [m]
 constexpr double beside = 0.5;                 // outside a lanelet, but still on it [m]
 constexpr double astray = from_degrees(60.0);  // from a lanelet's direction
-constexpr std::size_t most_lanelets = 100;     // of a route: maps may run in circles
+constexpr std::size_t most_lanelets = 100;     // of a route, to each side
 constexpr double tightest = 0.2;               // curvature [1/m]
 constexpr double spacing = 1.0;                // of the fitted points [m]
 
@@ -149,13 +149,18 @@ struct Route {
   double start = 0.0;  ///< from the first lanelet's beginning [m]
 };
 
+/// Each lanelet is taken once: maps may run in circles.
 Route route_from(const CommonRoad& file, const Lanelet& first, Vec2 start_W,
                  std::span<const Vec2> way_W) {
   Route route{{&first}, place_on(first, start_W).along};
+  const auto is_end = [&route](const Lanelet* lanelet) {
+    return lanelet == nullptr ||
+           std::find(route.lanelets.begin(), route.lanelets.end(), lanelet) != route.lanelets.end();
+  };
   double ahead = length_of(first) - route.start;
   while (ahead < reaches.front() && route.lanelets.size() < most_lanelets) {
     const Lanelet* const next = next_lanelet(file, *route.lanelets.back(), way_W, true);
-    if (next == nullptr) {
+    if (is_end(next)) {
       break;
     }
     route.lanelets.push_back(next);
@@ -163,7 +168,7 @@ Route route_from(const CommonRoad& file, const Lanelet& first, Vec2 start_W,
   }
   while (route.start < far_behind && route.lanelets.size() < 2 * most_lanelets) {
     const Lanelet* const before = next_lanelet(file, *route.lanelets.front(), {}, false);
-    if (before == nullptr) {
+    if (is_end(before)) {
       break;
     }
     route.lanelets.insert(route.lanelets.begin(), before);

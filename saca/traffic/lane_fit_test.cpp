@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace saca::traffic {
+namespace saca::traffic::lane_fit_test {
 namespace {
 
 using testing::ElementsAre;
@@ -150,15 +150,35 @@ TEST(FitLane, RefusesWhatIsNoLane) {
   EXPECT_THAT(message(point, {}), HasSubstr("15 m of mapped lane"));
 }
 
-// A map whose lanelets follow themselves ends the search all the same.
+// Maps that lead back to where they began, along the road or across it: each piece of lane counts
+// once, so the search ends, and what it finds is told as it would be of the same lane laid out
+// once.
 TEST(FitLane, IsNotCaughtInACircle) {
   const world::Road arc = arc_of(0.0);
-  CommonRoad file;
-  file.lanelets = {arc_lanelet(1, arc, 0.0, 0.5, 0.0, 3.5)};
-  file.lanelets[0].successors = file.lanelets[0].predecessors = {1};
-  file.lanelets[0].left = file.lanelets[0].right = Neighbour{1, true};
-  (void)fit_lane(file, from_lane(arc, {0.2, 0.0, 0.0}), {});
+  const Pose start_W = from_lane(arc, {0.2, 0.0, 0.0});
+  CommonRoad short_circle;
+  short_circle.lanelets = {arc_lanelet(1, arc, 0.0, 0.5, 0.0, 3.5)};
+  short_circle.lanelets[0].successors = short_circle.lanelets[0].predecessors = {1};
+  short_circle.lanelets[0].left = short_circle.lanelets[0].right = Neighbour{1, true};
+  const auto refused = fit_lane(short_circle, start_W, {});
+  ASSERT_FALSE(refused.has_value()) << "half a metre of lane";
+  EXPECT_EQ(refused.error().code, Error::Code::out_of_range);
+  EXPECT_THAT(refused.error().message, HasSubstr("15 m of mapped lane"));
+
+  CommonRoad long_circle;
+  long_circle.lanelets = {arc_lanelet(1, arc, -5.0, 40.0, 0.0, 3.5)};
+  const auto laid_out_once = fit_lane(long_circle, start_W, {});
+  long_circle.lanelets[0].successors = long_circle.lanelets[0].predecessors = {1};
+  long_circle.lanelets[0].left = long_circle.lanelets[0].right = Neighbour{1, true};
+  const auto fit = fit_lane(long_circle, start_W, {});
+  ASSERT_TRUE(laid_out_once.has_value()) << laid_out_once.error().message;
+  ASSERT_TRUE(fit.has_value()) << fit.error().message;
+  EXPECT_THAT(fit.value().lanelets, ElementsAre(1));
+  EXPECT_EQ(fit.value().ahead, laid_out_once.value().ahead);
+  EXPECT_NEAR(fit.value().road.curvature, 0.0, 1e-6);
+  EXPECT_NEAR(fit.value().road.left_edge, 1.75, 0.01);
+  EXPECT_NEAR(fit.value().road.right_edge, -1.75, 0.01);
 }
 
 }  // namespace
-}  // namespace saca::traffic
+}  // namespace saca::traffic::lane_fit_test
