@@ -11,31 +11,14 @@
 #include "saca/manoeuvre/controller.h"
 #include "saca/manoeuvre/drive.h"
 #include "saca/manoeuvre/ego.h"
+#include "saca/vehicle/prototype.h"
 
 namespace saca::manoeuvre {
 namespace {
 
 using vehicle::VehicleState;
 
-// The independent prototype: double track, combined slip, Runge-Kutta at 1 ms, inputs optimised
-// offline. Distance of the centre of mass, and time.
-struct StopReference {
-  double speed, grip, distance, time;
-};
-constexpr std::array<StopReference, 10> stop_references{{{8, 0.9, 4.55, 1.04},
-                                                         {10, 0.9, 6.81, 1.27},
-                                                         {12, 0.9, 9.53, 1.50},
-                                                         {14, 0.9, 12.70, 1.73},
-                                                         {16, 0.9, 16.32, 1.95},
-                                                         {20, 0.9, 24.88, 2.41},
-                                                         {25, 0.9, 38.08, 2.97},
-                                                         {10, 0.5, 11.34, 2.16},
-                                                         {14, 0.5, 21.52, 2.97},
-                                                         {20, 0.5, 42.74, 4.19}}};
-struct GripReference {
-  double grip, deceleration;
-};
-constexpr std::array<GripReference, 3> peak_references{{{0.9, 8.7}, {0.5, 4.9}, {0.3, 3.0}}};
+// Lane changes of the independent prototype (saca/vehicle/prototype.h).
 struct SpeedReference {
   double speed, time;
 };
@@ -43,11 +26,12 @@ constexpr std::array<SpeedReference, 3> settled_references{{{10, 1.47}, {14, 1.3
 // Given as 0.91 to 0.87 s over 10 to 15 m/s; the ends are taken as they stand.
 constexpr std::array<SpeedReference, 2> side_references{{{10, 0.91}, {15, 0.87}}};
 
-struct DriftReference {
-  double speed, time, forward;
-};
-constexpr std::array<DriftReference, 4> drift_references{
-    {{10, 1.58, 7.6}, {12, 1.74, 10.2}, {14, 1.93, 13.5}, {16, 2.21, 17.7}}};
+// What a drift's travel may differ from the prototype's: its inputs were optimised offline for each
+// speed, ours are one law. Less travel to the side is less of what a drift is for, more is less
+// room.
+constexpr double forward_band = 1.0;  // [m]
+constexpr double least_sideways = 0.75 * vehicle::prototype_drift_sideways;
+constexpr double most_sideways = 2.2;  // [m]
 
 std::string with_condition(const char* quantity, double speed, double grip) {
   std::array<char, 120> text{};
@@ -76,7 +60,7 @@ VehicleState one_millisecond(const Car& car, VehicleState state, const world::Sc
 }
 
 void add_stops(const Car& car, std::vector<Figure>& figures) {
-  for (const auto& [speed, grip, distance, time] : stop_references) {
+  for (const auto& [speed, grip, distance, time] : vehicle::prototype_stops) {
     const Stop ideal = stop_straight(car, Abs::ideal, speed, grip);
     const Stop deployed = stop_straight(car, Abs::deployed, speed, grip);
     figures.push_back({with_condition("aeb_ideal.stop_distance_m", speed, grip), ideal.distance,
@@ -88,22 +72,29 @@ void add_stops(const Car& car, std::vector<Figure>& figures) {
     figures.push_back({with_condition("aeb.stop_time_s", speed, grip), deployed.time, time,
                        0.97 * time, 1.12 * time});
   }
-  for (const auto& [grip, peak] : peak_references) {
+  for (const auto& [grip, peak] : vehicle::prototype_peaks) {
     figures.push_back({with_condition("aeb_ideal.peak_deceleration_mps2", 14.0, grip),
                        stop_straight(car, Abs::ideal, 14.0, grip).peak_deceleration, peak,
                        0.95 * peak, 1.05 * peak});
   }
 }
 
+/// Friction lets nobody be so far to the side sooner: all of it, all the way [s].
+double least_time_to_the_side(double distance, double grip) {
+  return std::sqrt(2.0 * distance / (grip * vehicle::gravity));
+}
+
 void add_lane_changes(const Car& car, std::vector<Figure>& figures) {
   constexpr double grip = 0.9;
   for (const auto& [speed, time] : settled_references) {
     figures.push_back({with_condition("lane_change.settled_s", speed, grip),
-                       change_lane(car, speed, grip).settled, time, 0.0, 1.25 * time});
+                       change_lane(car, speed, grip).settled, time,
+                       least_time_to_the_side(3.3, grip), 1.25 * time});
   }
   for (const auto& [speed, time] : side_references) {
     figures.push_back({with_condition("lane_change.to_2.1m_s", speed, grip),
-                       change_lane(car, speed, grip).to_2_1_m, time, 0.0, 1.20 * time});
+                       change_lane(car, speed, grip).to_2_1_m, time,
+                       least_time_to_the_side(2.1, grip), 1.20 * time});
   }
 }
 
@@ -114,14 +105,14 @@ void add_swerve_against_braking(const Car& car, std::vector<Figure>& figures) {
 
 void add_drifts(const Car& car, std::vector<Figure>& figures) {
   constexpr double grip = 0.9;
-  for (const auto& [speed, time, forward] : drift_references) {
+  for (const auto& [speed, time, forward] : vehicle::prototype_drifts) {
     const DriftStop stop = drift_to_rest(car, speed, grip);
-    figures.push_back(
-        {with_condition("t_drift.stop_time_s", speed, grip), stop.time, time, 0.0, 1.15 * time});
-    figures.push_back({with_condition("t_drift.forward_m", speed, grip), stop.forward, forward, 0.0,
-                       forward + 1.0});
-    figures.push_back(
-        {with_condition("t_drift.sideways_m", speed, grip), stop.sideways, 1.65, 0.0, 2.2});
+    figures.push_back({with_condition("t_drift.stop_time_s", speed, grip), stop.time, time,
+                       0.85 * time, 1.15 * time});
+    figures.push_back({with_condition("t_drift.forward_m", speed, grip), stop.forward, forward,
+                       forward - forward_band, forward + forward_band});
+    figures.push_back({with_condition("t_drift.sideways_m", speed, grip), stop.sideways,
+                       vehicle::prototype_drift_sideways, least_sideways, most_sideways});
     figures.push_back({with_condition("t_drift.heading_deg", speed, grip), to_degrees(stop.heading),
                        90.0, 85.0, 95.0});
   }

@@ -7,8 +7,9 @@
 #include <functional>
 
 #include "saca/vehicle/default_car.h"
+#include "saca/vehicle/prototype.h"
 
-namespace saca::vehicle {
+namespace saca::vehicle::abs_test {
 namespace {
 
 constexpr double dt = 1e-3;
@@ -51,24 +52,9 @@ Stop deployed_stop(const Vehicle& car, double speed, double grip, double estimat
   });
 }
 
-// An independent prototype: double track, combined slip, inputs optimised offline.
-struct Reference {
-  double speed, grip, distance, time;
-};
-constexpr std::array<Reference, 10> references{{{8, 0.9, 4.55, 1.04},
-                                                {10, 0.9, 6.81, 1.27},
-                                                {12, 0.9, 9.53, 1.50},
-                                                {14, 0.9, 12.70, 1.73},
-                                                {16, 0.9, 16.32, 1.95},
-                                                {20, 0.9, 24.88, 2.41},
-                                                {25, 0.9, 38.08, 2.97},
-                                                {10, 0.5, 11.34, 2.16},
-                                                {14, 0.5, 21.52, 2.97},
-                                                {20, 0.5, 42.74, 4.19}}};
-
 TEST(IdealBrakes, StopWithinFivePercentOfTheReference) {
   const Vehicle car = default_car();
-  for (const auto& [speed, grip, distance, time] : references) {
+  for (const auto& [speed, grip, distance, time] : prototype_stops) {
     const Stop result = ideal_stop(car, speed, grip);
     EXPECT_NEAR(result.distance, distance, 0.05 * distance) << speed << " " << grip;
     EXPECT_NEAR(result.time, time, 0.05 * time) << speed << " " << grip;
@@ -89,14 +75,14 @@ TEST(IdealBrakes, CannotBeatFriction) {
 
 TEST(IdealBrakes, PeakDecelerationIsThatOfTheReference) {
   const Vehicle car = default_car();
-  EXPECT_NEAR(ideal_stop(car, 14.0, 0.9).peak, 8.7, 0.05 * 8.7);
-  EXPECT_NEAR(ideal_stop(car, 14.0, 0.5).peak, 4.9, 0.05 * 4.9);
-  EXPECT_NEAR(ideal_stop(car, 14.0, 0.3).peak, 3.0, 0.05 * 3.0);
+  for (const auto& [grip, deceleration] : prototype_peaks) {
+    EXPECT_NEAR(ideal_stop(car, 14.0, grip).peak, deceleration, 0.05 * deceleration) << grip;
+  }
 }
 
 TEST(DeployedBrakes, StopWithinTheBandOfTheReference) {
   const Vehicle car = default_car();
-  for (const auto& [speed, grip, distance, time] : references) {
+  for (const auto& [speed, grip, distance, time] : prototype_stops) {
     const Stop result = deployed_stop(car, speed, grip, grip);
     EXPECT_GT(result.distance, 0.97 * distance) << speed << " " << grip;
     EXPECT_LT(result.distance, 1.12 * distance) << speed << " " << grip;
@@ -144,4 +130,4 @@ TEST(DeployedBrakes, GiveThePartThatIsWanted) {
 }
 
 }  // namespace
-}  // namespace saca::vehicle
+}  // namespace saca::vehicle::abs_test
