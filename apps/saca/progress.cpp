@@ -43,19 +43,24 @@ ProgressLine::ProgressLine(std::string what, int all, Clock& clock)
 ProgressLine::~ProgressLine() {
   if (terminal_) {
     fmt::print(stderr, "\n");
+  } else if (shown_) {
+    fmt::print(stderr, "{}: {} of at most {}{}, {:.0f} s\n", what_, done_, all_, more_,
+               to_seconds(clock_.now() - start_));
   }
 }
 
 void ProgressLine::show(int done, int remembered, const std::string& more) {
+  done_ = done;
+  more_ = more;
+  shown_ = true;
   const Clock::Time now = clock_.now();
-  if (done != all_ && to_seconds(now - last_) < (terminal_ ? 0.2 : 10.0)) {
+  if (!terminal_ || (done != all_ && to_seconds(now - last_) < 0.2)) {
     return;
   }
   last_ = now;
   const int worked = done - remembered;
   const double left = worked == 0 ? 0.0 : to_seconds(now - start_) / worked * (all_ - done);
-  fmt::print(stderr, "{}{}: {} of at most {}{}, {:.0f} s left{}", terminal_ ? "\r" : "", what_,
-             done, all_, more, left, terminal_ ? "   " : "\n");
+  fmt::print(stderr, "\r{}: {} of at most {}{}, {:.0f} s left   ", what_, done, all_, more, left);
 }
 
 }  // namespace saca::app

@@ -26,8 +26,8 @@ class InterruptStop {
   std::jthread thread_;  ///< a signal's handler may not ask for a stop itself
 };
 
-/// What is worked on, how far it is and how long the rest will take, on the error stream: in place
-/// on a terminal, else a line now and then.
+/// What is worked on, on the error stream. On a terminal, in place: how far it is and how long the
+/// rest will take. Anywhere else one line, when this ends: how far it came and how long it took.
 class ProgressLine {
  public:
   /// @param all  how many steps there are at most, > 0
@@ -48,6 +48,9 @@ class ProgressLine {
   Clock::Time start_;
   Clock::Time last_;
   bool terminal_;
+  bool shown_ = false;  ///< has anything been said of how far it is?
+  int done_ = 0;
+  std::string more_;
 };
 
 }  // namespace saca::app
