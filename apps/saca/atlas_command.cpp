@@ -37,14 +37,18 @@ struct AtlasOptions {
   bool as_json = false;
 };
 
+/// The file that was named, else the one that `saca run` looks for.
+fs::path file_of(const AtlasOptions& options, const Inputs& inputs) {
+  return options.file.empty() ? atlas_place(inputs.places, inputs.car_name)
+                              : fs::path(options.file);
+}
+
 int build(const AtlasOptions& options) {
   const auto inputs = read_inputs(options.car);
   if (!inputs.has_value()) {
     return refused(inputs.error());
   }
-  const fs::path output = options.file.empty()
-                              ? atlas_place(inputs.value().places, inputs.value().car_name)
-                              : fs::path(options.file);
+  const fs::path output = file_of(options, inputs.value());
   if (manoeuvre::read_atlas(output, inputs.value().car).has_value()) {
     fmt::print("{} is there and right for this car\n", output.string());
     return success;
@@ -96,17 +100,18 @@ int tell(const AtlasOptions& options) {
   if (!inputs.has_value()) {
     return refused(inputs.error());
   }
-  const auto info = manoeuvre::read_atlas_info(options.file);
+  const fs::path file = file_of(options, inputs.value());
+  const auto info = manoeuvre::read_atlas_info(file);
   if (!info.has_value()) {
     return refused(info.error());
   }
-  const auto atlas = manoeuvre::read_atlas(options.file, inputs.value().car);
+  const auto atlas = manoeuvre::read_atlas(file, inputs.value().car);
   const auto problem = atlas.has_value() ? std::nullopt : std::optional(atlas.error().message);
   const json about = told(info.value(), problem);
   if (options.as_json) {
     fmt::print("{}\n", about.dump(1, ' ', false, json::error_handler_t::replace));
   } else {
-    fmt::print("{}: whole, version {}, {} points, {:.1f} MB, car {}\n", options.file,
+    fmt::print("{}: whole, version {}, {} points, {:.1f} MB, car {}\n", file.string(),
                manoeuvre::atlas_version, num_nodes(info.value().grid),
                1e-6 * static_cast<double>(info.value().bytes),
                about["car_hash"].get<std::string>());
@@ -196,7 +201,7 @@ int check(const AtlasOptions& options) {
   if (!inputs.has_value()) {
     return refused(inputs.error());
   }
-  const auto atlas = manoeuvre::read_atlas(options.file, inputs.value().car);
+  const auto atlas = manoeuvre::read_atlas(file_of(options, inputs.value()), inputs.value().car);
   if (!atlas.has_value()) {
     return refused(atlas.error());
   }
@@ -243,6 +248,8 @@ int check(const AtlasOptions& options) {
   return success;
 }
 
+constexpr const char* usual_file = "Default: where saca run looks for it";
+
 void add_common(CLI::App& command, AtlasOptions& options) {
   command.add_option("--car", options.car, "A car's file, or the name of a shipped one")
       ->capture_default_str();
@@ -259,7 +266,7 @@ void add_atlas(CLI::App& line, int& exit_code) {
   CLI::App* const make = command->add_subcommand(
       "build", "Drive them with full physics and keep them in a file; can be interrupted");
   add_common(*make, *options);
-  make->add_option("--output", options->file, "Default: where saca run looks for it");
+  make->add_option("--output", options->file, usual_file);
   make->add_option("--threads", options->threads, "They do not change the result")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
@@ -267,14 +274,14 @@ void add_atlas(CLI::App& line, int& exit_code) {
 
   CLI::App* const info =
       command->add_subcommand("info", "What a file holds, and whether it can be used");
-  info->add_option("FILE", options->file)->required();
+  info->add_option("FILE", options->file, usual_file);
   add_common(*info, *options);
   info->add_flag("--json", options->as_json, "For programs");
   info->callback([options, &exit_code] { exit_code = tell(*options); });
 
   CLI::App* const compare =
       command->add_subcommand("check", "Beside full physics, over encounters of the families");
-  compare->add_option("FILE", options->file)->required();
+  compare->add_option("FILE", options->file, usual_file);
   add_common(*compare, *options);
   compare->add_option("--scenes", options->scenes, "Encounters")
       ->check(CLI::Range(1, 10'000'000))

@@ -1,7 +1,6 @@
 #include "apps/saca/places.h"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -87,7 +86,7 @@ namespace {
 /// Where what takes long to make is kept.
 fs::path kept_place(const Places& places, const fs::path& file) {
   std::error_code problem;
-  if (fs::exists(places.root / file, problem) || ::access(places.root.c_str(), W_OK) == 0) {
+  if (fs::exists(places.root / file, problem)) {
     return places.root / file;
   }
   if (const char* const cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != 0) {

@@ -44,8 +44,8 @@ struct Places {
 /// The shipped ones' files, by name.
 [[nodiscard]] std::vector<std::filesystem::path> shipped_scenarios(const Places& places);
 
-/// Where the atlas of a car is looked for, and built: with the program's own files, or, where these
-/// may not be written and hold none, in the user's cache ($XDG_CACHE_HOME/saca or ~/.cache/saca).
+/// Where the atlas of a car is looked for, and built: in the user's cache ($XDG_CACHE_HOME/saca or
+/// ~/.cache/saca), unless one was installed with the program's own files.
 /// @param car  its name
 [[nodiscard]] std::filesystem::path atlas_place(const Places& places, const std::string& car);
 

@@ -1,5 +1,6 @@
 """`saca atlas`, and the atlas of `saca run`."""
 import json
+import os
 import pathlib
 import shutil
 import signal
@@ -22,7 +23,7 @@ def test_an_interrupted_build_goes_on_where_it_was(tmp_path):
         while run.poll() is None and not (journal.exists() and journal.stat().st_size > size):
             time.sleep(0.001)
         run.send_signal(signal.SIGINT)
-        _, told = run.communicate(timeout=60)
+        _, told = run.communicate(timeout=1500)
         assert run.returncode == INTERRUPTED, told
         assert "the same command goes on" in told.lower()
         return journal.read_bytes()
@@ -75,11 +76,16 @@ def test_a_run_builds_the_atlas_where_there_is_none_that_is_right(tmp_path):
     shutil.copy(PROGRAM, program)
     for folder in ["data", "scenarios", "models"]:
         shutil.copytree(ROOT / folder, tmp_path / folder)
-    atlas = tmp_path / "atlases" / "compact_rwd_ev.atlas"
+    atlas = tmp_path / "cache" / "saca" / "atlases" / "compact_rwd_ev.atlas"
+    tables = tmp_path / "cache" / "saca" / "reach" / "compact_rwd_ev"
+    tables.mkdir(parents=True)
+    for table in json.loads(saca("reach", "tables", "one_way", "--json", cwd=tmp_path).stdout):
+        shutil.copy(table["file"], tables)
 
     def own_run():
         done = subprocess.run([program, "run", "one_way", "--llm", "off", "--pace", "lockstep", "--no-memory", "--json"],
-                              cwd=tmp_path, capture_output=True, text=True, check=True)
+                              cwd=tmp_path, capture_output=True, text=True, check=True,
+                              env=os.environ | {"XDG_CACHE_HOME": str(tmp_path / "cache")})
         assert forecasts(done) == (True, {False})
         return done.stderr
 
