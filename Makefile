@@ -4,9 +4,10 @@
 #   make test    set up, then everything that CI checks
 #   make build   leaves build/release/saca
 #   make model   the local language model: libraries, weights, the choice for this processor
+#   make lint    clang-tidy over everything; `make test` looks at what has changed
 #   make bench   every figure of docs/results.md
 #   make soak    long runs: kills, deadlines, first contacts, futures, evasions
-.PHONY: run test build model bench setup soak
+.PHONY: run test build model bench lint setup soak
 
 SCENARIO ?= 100car_9018
 
@@ -20,25 +21,33 @@ setup:
 build: setup
 	@tools/model/setup.sh llama
 	@cmake --preset release > /dev/null
-	@cmake --build --preset release
+	@cmake --build --preset release --target programs
 
 model: setup
 	@tools/model/setup.sh all
 
-test: setup
-	@tools/model/setup.sh server
+test: setup model
 	@tools/check.sh
+
+lint: setup
+	@tools/lint.sh
 
 bench: build model
 	@tools/bench.sh
 
-# Long runs: kills in the middle of memory's writes; deadlines and deaths of the language model;
-# first contacts against brute force; the batch against the scalar model; evasions against the values that they follow; air3D on fine grids.
-soak: setup model
-	@cmake --preset dev > /dev/null && cmake --build --preset dev --target memory_store_test outcome_exactness_test eval_rollout_agreement_test reach_follow_agreement_test reach_air3d_reference_test model_host_soak_test -- --quiet
-	SACA_SOAK_KILLS=$${SACA_SOAK_KILLS:-500} build/dev/modules/memory/memory_store_test --gtest_filter='*Killed*'
-	SACA_SOAK_ASKS=$${SACA_SOAK_ASKS:-1000} SACA_SOAK_CHILD_KILLS=$${SACA_SOAK_CHILD_KILLS:-200} build/dev/apps/model_host/model_host_soak_test
-	SACA_SOAK_PAIRS=$${SACA_SOAK_PAIRS:-100000} build/dev/modules/outcome/outcome_exactness_test
-	SACA_AGREEMENT_ENCOUNTERS=$${SACA_AGREEMENT_ENCOUNTERS:-4000} build/dev/modules/eval/eval_rollout_agreement_test
-	SACA_SOAK_REACH=1 build/dev/modules/reach/reach_follow_agreement_test
-	SACA_SOAK_AIR3D=1 build/dev/modules/reach/reach_air3d_reference_test
+# Long runs, on a machine of its own: kills in the middle of memory's writes; deadlines and deaths of the
+# language model beside one busy core; deadlines of a connection in real time; a server that others
+# wrote; first contacts against brute force; the batch against the scalar model; evasions against the
+# values that they follow; air3D on fine grids. `make test` has a short form of each, without the clock.
+release := build/release
+soak: setup
+	@tools/model/setup.sh server
+	@cmake --preset release > /dev/null && cmake --build --preset release -- --quiet
+	SACA_SOAK_KILLS=$${SACA_SOAK_KILLS:-500} $(release)/modules/memory/memory_test --gtest_filter='*Killed*'
+	SACA_SOAK_ASKS=$${SACA_SOAK_ASKS:-1000} SACA_SOAK_CHILD_KILLS=$${SACA_SOAK_CHILD_KILLS:-200} $(release)/apps/model_host/model_host_test --gtest_filter='SoakTest.*'
+	SACA_SOAK_CLOCK=1 $(release)/modules/reason/reason_test --gtest_filter='*RealTime*'
+	SACA_PROGRAM=$(release)/saca python3 -m pytest -q -p no:cacheprovider tests/cli/real_server_test.py
+	SACA_SOAK_PAIRS=$${SACA_SOAK_PAIRS:-100000} $(release)/modules/outcome/outcome_test --gtest_filter='Exactness.*'
+	SACA_AGREEMENT_ENCOUNTERS=$${SACA_AGREEMENT_ENCOUNTERS:-4000} $(release)/modules/eval/eval_test --gtest_filter='RolloutAgreement.*'
+	SACA_SOAK_REACH=1 $(release)/modules/reach/reach_test --gtest_filter='FollowAgreement.*'
+	SACA_SOAK_AIR3D=1 $(release)/modules/reach/reach_test --gtest_filter='Air3dReference.*'

@@ -1,36 +1,44 @@
 #!/usr/bin/env bash
-# Everything that CI checks: format, the dev, asan and tsan builds with their tests, lint, package.
+# Everything that CI checks: format, the release build with all tests, the same code under sanitisers, lint of
+# what has changed, the installed package. Says at the end what each step took.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-step() { printf '\n== %s (%s s)\n' "$*" "$SECONDS"; }
-
-mapfile -t sources < <(git ls-files '*.cpp' '*.h')
-tools/setup.sh train
-step "format: ${#sources[@]} files"
-clang-format-14 --dry-run --Werror "${sources[@]}"
-
-check() {  # PRESET TARGETS CTEST_OPTION...
-  local preset=$1 targets=$2
-  shift 2
-  step "build and test: $preset"
-  cmake --preset "$preset" >/dev/null
-  # shellcheck disable=SC2086  # targets are words
-  cmake --build --preset "$preset" ${targets:+--target $targets} -- --quiet
-  ctest --preset "$preset" --parallel 2 "$@"
+steps=()
+step() {  # NAME COMMAND...
+  local name=$1 begin=$SECONDS
+  shift
+  printf '\n== %s\n' "$name"
+  "$@"
+  steps+=("$(printf '%5d s  %s' $((SECONDS - begin)) "$name")")
 }
 
-tools/trace_mcap/run.sh setup  # its test reads a file back where this has been run
-check dev ""
-# Pages, the command line and the real model are tested once, in dev; benchmarks say nothing under a
-# sanitiser.
-check asan "module_tests scenario_replay vehicle_log_replay family_replay hundred_car_replay commonroad_replay ngsim_replay reply_replay" --label-exclude 'viewer|cli|bench|model_host'
-check tsan "core_latest_slot_test core_parallel_test loop_thinking_thread_test loop_real_pace_test"
+format() {
+  local sources
+  mapfile -t sources < <(git ls-files '*.cpp' '*.h')
+  printf '%s\0' "${sources[@]}" | xargs -0 -n 50 -P "$(nproc)" clang-format-14 --dry-run --Werror
+}
+build() {  # PRESET [TARGET...]
+  local preset=$1
+  shift
+  cmake --preset "$preset" >/dev/null
+  cmake --build --preset "$preset" ${1:+--target "$@"} -- --quiet
+}
 
-step "lint"
-tools/lint.sh
+step "packages" tools/setup.sh train
+step "format" format
+step "build: release" build release
+step "tests" ctest --preset release --parallel "$(nproc)"
+# Programs that take to themselves what people, networks and other processes send, and all modules' tests.
+step "build: address and undefined-behaviour sanitiser" build asan-quick
+step "tests: address and undefined-behaviour sanitiser" ctest --preset asan-quick --parallel "$(nproc)"
+step "build: thread sanitiser" build tsan core_test loop_test
+step "tests: thread sanitiser" ctest --preset tsan --parallel "$(nproc)"
+step "lint: what has changed" tools/lint.sh --changed
+step "package: installed, found and used by another project" tools/check_package.sh
 
-step "package: installed, found and used by another project"
-tools/check_package.sh
-
-step "all is well"
+# Of what is skipped each test says why.
+grep -hA 1 ': Skipped$' build/*/Testing/Temporary/LastTest.log | grep -v '^--$' | sed 's|^.*/\([^/]*: Skipped\)|\1|' | paste - - | sort -u || true
+grep -h '^SKIPPED ' build/*/Testing/Temporary/LastTest.log | sort -u || true
+printf '\n== all is well (%d s)\n' "$SECONDS"
+printf '%s\n' "${steps[@]}"

@@ -12,7 +12,7 @@
 #include "saca/reason/prompt.h"
 #include "saca/reason/token_bound.h"
 
-namespace saca::model_host {
+namespace saca::model_host::host_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -204,4 +204,4 @@ TEST_F(HostTest, WrongWeightsAreNamed) {
 }
 
 }  // namespace
-}  // namespace saca::model_host
+}  // namespace saca::model_host::host_test

@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-namespace saca::model_host {
+namespace saca::model_host::inbox_test {
 namespace {
 
 class InboxTest : public testing::Test {
@@ -67,4 +67,4 @@ TEST_F(InboxTest, LinesOfAnyLengthAreWhole) {
 }
 
 }  // namespace
-}  // namespace saca::model_host
+}  // namespace saca::model_host::inbox_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace saca::model_host {
+namespace saca::model_host::thread_choice_test {
 namespace {
 
 // Measured on two cores with the BF16 weights: a token of a prompt takes 0.8 ms, of a reply 9 ms;
@@ -77,4 +77,4 @@ TEST(ThreadChoice, WhoDoesNotGiveWayOrHasOneThreadNeverChanges) {
 }
 
 }  // namespace
-}  // namespace saca::model_host
+}  // namespace saca::model_host::thread_choice_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace saca::model_host {
+namespace saca::model_host::utf8_test {
 namespace {
 
 // U+20AC is the three bytes E2 82 AC, U+1F600 the four F0 9F 98 80.
@@ -30,4 +30,4 @@ TEST(Utf8Splitter, NeverHoldsMoreThanThreeBytes) {
 }
 
 }  // namespace
-}  // namespace saca::model_host
+}  // namespace saca::model_host::utf8_test

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-namespace saca::config {
+namespace saca::config::config_test {
 namespace {
 
 using testing::ElementsAre;
@@ -133,4 +133,4 @@ TEST(Config, SaysWhereItIsNotToml) {
 }
 
 }  // namespace
-}  // namespace saca::config
+}  // namespace saca::config::config_test

@@ -13,7 +13,7 @@
 #include "saca/core/contract.h"
 #include "saca/core/file.h"
 
-namespace saca::config {
+namespace saca::config::hdf5_reader_test {
 namespace {
 
 using Extents = std::vector<std::size_t>;
@@ -216,4 +216,4 @@ TEST_F(Hdf5ReaderTest, RefusesPartsThatDoNotMakeTheWhole) {
 }
 
 }  // namespace
-}  // namespace saca::config
+}  // namespace saca::config::hdf5_reader_test

@@ -10,7 +10,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::config {
+namespace saca::config::hdf5_rows_test {
 namespace {
 
 using testing::ElementsAre;
@@ -87,4 +87,4 @@ TEST(Hdf5Rows, AreNotEmptyAndLinesAreOne) {
 }
 
 }  // namespace
-}  // namespace saca::config
+}  // namespace saca::config::hdf5_rows_test

@@ -10,7 +10,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::config {
+namespace saca::config::hdf5_writer_test {
 namespace {
 
 using Extents = std::vector<std::size_t>;
@@ -136,4 +136,4 @@ TEST(Hdf5Writer, RefusesPartsThatDoNotMakeTheWhole) {
 }
 
 }  // namespace
-}  // namespace saca::config
+}  // namespace saca::config::hdf5_writer_test

@@ -9,7 +9,7 @@
 #include "saca/core/contract.h"
 #include "saca/core/file.h"
 
-namespace saca::config {
+namespace saca::config::sealed_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -93,4 +93,4 @@ TEST_F(SealedFile, RefusesAFormatWithoutAVersion) {
 }
 
 }  // namespace
-}  // namespace saca::config
+}  // namespace saca::config::sealed_file_test

@@ -8,7 +8,7 @@
 
 #include "saca/core/file.h"
 
-namespace saca::config {
+namespace saca::config::sealed_hdf5_test {
 namespace {
 
 using testing::HasSubstr;
@@ -79,4 +79,4 @@ TEST(SealedHdf5, NothingIsThrown) {
 }
 
 }  // namespace
-}  // namespace saca::config
+}  // namespace saca::config::sealed_hdf5_test

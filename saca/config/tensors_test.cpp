@@ -10,7 +10,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::config {
+namespace saca::config::tensors_test {
 namespace {
 
 using testing::ElementsAre;
@@ -115,4 +115,4 @@ TEST(Tensors, WillNotWriteWhatItCouldNotRead) {
 }
 
 }  // namespace
-}  // namespace saca::config
+}  // namespace saca::config::tensors_test

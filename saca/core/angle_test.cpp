@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace saca {
+namespace saca::angle_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -27,4 +27,4 @@ TEST(WrapAngle, KeepsTheDirection) {
 }
 
 }  // namespace
-}  // namespace saca
+}  // namespace saca::angle_test

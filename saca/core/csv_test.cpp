@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace saca {
+namespace saca::csv_test {
 namespace {
 
 using testing::AllOf;
@@ -69,4 +69,4 @@ TEST(Fields, AreOneMoreThanTheMarks) {
 }
 
 }  // namespace
-}  // namespace saca
+}  // namespace saca::csv_test

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <string_view>
 
-namespace saca {
+namespace saca::file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -83,4 +83,4 @@ TEST_F(File, IsHandedOnInParts) {
 }
 
 }  // namespace
-}  // namespace saca
+}  // namespace saca::file_test

@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace saca {
+namespace saca::fnv_test {
 namespace {
 
 std::uint64_t hash(std::string_view text) {
@@ -21,4 +21,4 @@ TEST(Fnv, IsThePublishedFunctionOfBytes) {
 }
 
 }  // namespace
-}  // namespace saca
+}  // namespace saca::fnv_test

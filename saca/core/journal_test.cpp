@@ -6,7 +6,7 @@
 
 #include "saca/core/file.h"
 
-namespace saca {
+namespace saca::journal_test {
 namespace {
 
 using testing::AllOf;
@@ -69,4 +69,4 @@ TEST_F(Journals, RefuseAPlaceThatCannotBeWritten) {
 }
 
 }  // namespace
-}  // namespace saca
+}  // namespace saca::journal_test

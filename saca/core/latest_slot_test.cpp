@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <thread>
 
-namespace saca {
+namespace saca::latest_slot_test {
 namespace {
 
 TEST(LatestSlot, HasNothingAtFirst) {
@@ -73,4 +73,4 @@ TEST(LatestSlot, CarriesWholeValuesEverNewerBetweenThreads) {
 }
 
 }  // namespace
-}  // namespace saca
+}  // namespace saca::latest_slot_test

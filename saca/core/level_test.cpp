@@ -5,7 +5,7 @@
 #include <fstream>
 #include <string>
 
-namespace saca {
+namespace saca::level_test {
 namespace {
 
 // The kernel's own list of the processor's abilities is the other opinion.
@@ -29,4 +29,4 @@ TEST(Level, IsWhatTheProcessorSays) {
 }
 
 }  // namespace
-}  // namespace saca
+}  // namespace saca::level_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace saca {
+namespace saca::names_test {
 namespace {
 
 enum class Colour { red, green };
@@ -16,4 +16,4 @@ TEST(Names, GoThereAndBack) {
 }
 
 }  // namespace
-}  // namespace saca
+}  // namespace saca::names_test

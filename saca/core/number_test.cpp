@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace saca {
+namespace saca::number_test {
 namespace {
 
 TEST(Number, MasksOfOneNumberAreBools) {
@@ -40,4 +40,4 @@ TEST(Number, FunctionsAreTheirNamesakes) {
 }
 
 }  // namespace
-}  // namespace saca
+}  // namespace saca::number_test

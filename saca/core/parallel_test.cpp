@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace saca {
+namespace saca::parallel_test {
 namespace {
 
 TEST(InParallel, DoesEachOnceWhateverTheThreads) {
@@ -36,4 +36,4 @@ TEST(Parallel, WhatIsThrownIsThrownAgain) {
 }
 
 }  // namespace
-}  // namespace saca
+}  // namespace saca::parallel_test

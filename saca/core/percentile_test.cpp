@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace saca {
+namespace saca::percentile_test {
 namespace {
 
 // The textbook's example of nearest rank: 15, 20, 35, 40, 50.
@@ -22,4 +22,4 @@ TEST(Percentile, OfNothingIsRefused) {
 }
 
 }  // namespace
-}  // namespace saca
+}  // namespace saca::percentile_test

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-namespace saca {
+namespace saca::pose_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -39,4 +39,4 @@ TEST(Pose, InterpolatesYawAcrossTheSeam) {
 }
 
 }  // namespace
-}  // namespace saca
+}  // namespace saca::pose_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace saca {
+namespace saca::proportion_test {
 namespace {
 
 // R. G. Newcombe, Two-sided confidence intervals for the single proportion, Statistics in Medicine
@@ -28,4 +28,4 @@ TEST(Proportion, OfNothingIsRefused) {
 }
 
 }  // namespace
-}  // namespace saca
+}  // namespace saca::proportion_test

@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-namespace saca {
+namespace saca::static_vector_test {
 namespace {
 
 TEST(StaticVector, HoldsWhatWasPushed) {
@@ -28,4 +28,4 @@ TEST(StaticVector, IsTriviallyCopyable) {
 }
 
 }  // namespace
-}  // namespace saca
+}  // namespace saca::static_vector_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace saca {
+namespace saca::units_test {
 namespace {
 
 TEST(Units, AgreeWithTheirDefinitions) {
@@ -22,4 +22,4 @@ TEST(Units, GoThereAndBack) {
 }
 
 }  // namespace
-}  // namespace saca
+}  // namespace saca::units_test

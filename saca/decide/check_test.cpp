@@ -6,7 +6,7 @@
 #include "saca/manoeuvre/default_car.h"
 #include "saca/manoeuvre/ego.h"
 
-namespace saca::decide {
+namespace saca::decide::check_test {
 namespace {
 
 using manoeuvre::PolicyId;
@@ -99,4 +99,4 @@ TEST(Check, DrivesBothAnew) {
 }
 
 }  // namespace
-}  // namespace saca::decide
+}  // namespace saca::decide::check_test

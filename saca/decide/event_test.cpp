@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace saca::decide {
+namespace saca::decide::event_test {
 namespace {
 
 // docs/formats.md promises these words.
@@ -15,4 +15,4 @@ TEST(Event, HasTheNamesOfTheFormat) {
 }
 
 }  // namespace
-}  // namespace saca::decide
+}  // namespace saca::decide::event_test

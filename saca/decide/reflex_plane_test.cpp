@@ -7,28 +7,20 @@
 
 #include "saca/manoeuvre/atlas_for_test.h"
 #include "tests/support/count_allocations.h"
+#include "tests/support/scenes.h"
 
-namespace saca::decide {
+namespace saca::decide::reflex_plane_test {
 namespace {
 
 using manoeuvre::PolicyId;
+using test::car;
 using world::Actor;
 using world::Scene;
 
 Scene motorway(double speed) {
-  Scene scene;
-  scene.ego.v_B = {speed, 0.0};
-  scene.ego_footprint = {.length = 4.7, .width = 1.9, .centre_x = -0.1};
-  scene.ego_mass = 1'700.0;
+  Scene scene = test::ego_at(speed, {.length = 4.7, .width = 1.9, .centre_x = -0.1});
   scene.road.left_edge = 8.75;
   return scene;
-}
-
-Actor car(std::uint8_t id, Vec2 p_W, Vec2 v_W = {}) {
-  Actor actor{.id = id, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1'500.0};
-  actor.X_WA.p = p_W;
-  actor.v_W = v_W;
-  return actor;
 }
 
 /// A wreck that the ego reaches after `time` at 20 m/s: half a wreck and the ego's front lie
@@ -195,4 +187,4 @@ TEST(ReflexPlane, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace saca::decide
+}  // namespace saca::decide::reflex_plane_test

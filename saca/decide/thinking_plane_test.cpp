@@ -11,7 +11,7 @@
 #include "saca/manoeuvre/ego.h"
 #include "saca/reason/scripted_model.h"
 
-namespace saca::decide {
+namespace saca::decide::thinking_plane_test {
 namespace {
 
 using manoeuvre::PolicyId;
@@ -251,4 +251,4 @@ TEST_F(Thinking, RefusesABrokenScene) {
 }
 
 }  // namespace
-}  // namespace saca::decide
+}  // namespace saca::decide::thinking_plane_test

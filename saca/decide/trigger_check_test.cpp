@@ -6,13 +6,15 @@
 
 #include "saca/manoeuvre/atlas_for_test.h"
 #include "saca/outcome/roll_out.h"
+#include "tests/support/scenes.h"
 
-namespace saca::decide {
+namespace saca::decide::trigger_check_test {
 namespace {
 
 using manoeuvre::PolicyId;
 using manoeuvre::small_atlas;
 using manoeuvre::small_atlas_car;
+using test::car;
 
 const outcome::HarmModel& harm() {
   static const outcome::HarmModel model = outcome::read_harm("data/harm.toml").value();
@@ -26,13 +28,6 @@ world::Scene road() {
   return scene;
 }
 
-world::Actor car(Vec2 p_W, double speed) {
-  world::Actor actor{.id = 1, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1'500.0};
-  actor.X_WA.p = p_W;
-  actor.v_W = {speed, 0.0};
-  return actor;
-}
-
 manoeuvre::Plan plan(PolicyId policy) {
   return manoeuvre::atlas_plan(policy, 12.5);
 }
@@ -41,7 +36,7 @@ manoeuvre::Plan plan(PolicyId policy) {
 TEST(TriggerCheck, SaysWhatFullDynamicsSay) {
   TriggerCheck check(small_atlas(), harm());
   world::Scene scene = road();
-  scene.actors.push_back(car({10.0, 0.0}, 0.0));
+  scene.actors.push_back(car(1, {10.0, 0.0}, {0.0, 0.0}));
   const std::vector<world::Track> stands{{.X_WA = {scene.actors[0].X_WA}}};
   const auto told = check.compare(plan(PolicyId::aes_left), scene);
   ASSERT_TRUE(told.has_value());
@@ -59,14 +54,14 @@ TEST(TriggerCheck, SaysWhatFullDynamicsSay) {
 TEST(TriggerCheck, FollowersReactInBoth) {
   TriggerCheck check(small_atlas(), harm());
   world::Scene near = road();
-  near.actors.push_back(car({-8.0, 0.0}, 12.5));
+  near.actors.push_back(car(1, {-8.0, 0.0}, {12.5, 0.0}));
   const auto pressed = check.compare(plan(PolicyId::aes_left), near);
   ASSERT_TRUE(pressed.has_value());
   EXPECT_GT(pressed->aeb, 0.0);
   EXPECT_EQ(pressed->plan, 0.0);
   // 60 m behind there is time for the usual 1.25 s and a firm stop.
   world::Scene far = road();
-  far.actors.push_back(car({-60.0, 0.0}, 12.5));
+  far.actors.push_back(car(1, {-60.0, 0.0}, {12.5, 0.0}));
   EXPECT_EQ(check.compare(plan(PolicyId::aes_left), far)->aeb, 0.0);
 }
 
@@ -75,7 +70,7 @@ TEST(TriggerCheck, FollowersReactInBoth) {
 TEST(TriggerCheck, FollowersReactToAPlanThatStaysInItsLane) {
   TriggerCheck check(small_atlas(), harm());
   world::Scene scene = road();
-  scene.actors.push_back(car({-15.0, 0.0}, 15.5));
+  scene.actors.push_back(car(1, {-15.0, 0.0}, {15.5, 0.0}));
   const auto told = check.compare(plan(PolicyId::no_intervention), scene);
   ASSERT_TRUE(told.has_value());
   EXPECT_EQ(told->plan, 0.0);
@@ -88,7 +83,7 @@ TEST(TriggerCheck, KnowsHowFastWhoBrakesIs) {
   TriggerCheck check(small_atlas(), harm());
   world::Scene scene = road();
   const double front = support(scene.ego_footprint, {}, {1.0, 0.0}).x;
-  scene.actors.push_back(car({front + 8.0 + 2.25, 0.0}, 12.5));
+  scene.actors.push_back(car(1, {front + 8.0 + 2.25, 0.0}, {12.5, 0.0}));
   scene.actors[0].a_W = {-6.0, 0.0};
   world::Track brakes{.step = 0.001, .X_WA = {}};  // as fine as can be: the reference
   for (int k = 0; k <= 10'000; ++k) {
@@ -120,4 +115,4 @@ TEST(Comparison, CountsInClasses) {
 }
 
 }  // namespace
-}  // namespace saca::decide
+}  // namespace saca::decide::trigger_check_test

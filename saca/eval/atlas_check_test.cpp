@@ -5,7 +5,7 @@
 #include "saca/eval/scenes_for_test.h"
 #include "saca/manoeuvre/atlas_for_test.h"
 
-namespace saca::eval {
+namespace saca::eval::atlas_check_test {
 namespace {
 
 using manoeuvre::PolicyId;
@@ -105,4 +105,4 @@ TEST(AtlasCheck, RegretIsToldApartFromThatOfSecondContacts) {
 }
 
 }  // namespace
-}  // namespace saca::eval
+}  // namespace saca::eval::atlas_check_test

@@ -8,7 +8,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::eval {
+namespace saca::eval::choices_test {
 namespace {
 
 using manoeuvre::PolicyId;
@@ -101,4 +101,4 @@ TEST(Temperature, HasEnds) {
 }
 
 }  // namespace
-}  // namespace saca::eval
+}  // namespace saca::eval::choices_test

@@ -6,7 +6,7 @@
 
 #include "saca/eval/scenes_for_test.h"
 
-namespace saca::eval {
+namespace saca::eval::moment_test {
 namespace {
 
 using manoeuvre::default_car;
@@ -87,4 +87,4 @@ TEST(Moment, ThoseThatAreThereAreTriedInTheirPlaces) {
 }
 
 }  // namespace
-}  // namespace saca::eval
+}  // namespace saca::eval::moment_test

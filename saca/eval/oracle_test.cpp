@@ -7,7 +7,7 @@
 
 #include "saca/eval/scenes_for_test.h"
 
-namespace saca::eval {
+namespace saca::eval::oracle_test {
 namespace {
 
 using manoeuvre::default_car;
@@ -73,4 +73,4 @@ TEST(Oracle, ThreadsAndRepetitionChangeNothing) {
 }
 
 }  // namespace
-}  // namespace saca::eval
+}  // namespace saca::eval::oracle_test

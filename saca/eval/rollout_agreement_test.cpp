@@ -21,7 +21,7 @@
 #include "saca/sim/family.h"
 #include "saca/sim/splits.h"
 
-namespace saca::eval {
+namespace saca::eval::rollout_agreement_test {
 namespace {
 
 using manoeuvre::default_car;
@@ -130,4 +130,4 @@ TEST(RolloutAgreement, TheBatchEndsAsTheScalarModelDoes) {
 }
 
 }  // namespace
-}  // namespace saca::eval
+}  // namespace saca::eval::rollout_agreement_test

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace saca::eval {
+namespace saca::eval::showcase_test {
 namespace {
 
 using manoeuvre::PolicyId;
@@ -96,4 +96,4 @@ TEST(Showcase, TheReasonQuotesBothAndBraking) {
 }
 
 }  // namespace
-}  // namespace saca::eval
+}  // namespace saca::eval::showcase_test

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace saca::eval {
+namespace saca::eval::survey_test {
 namespace {
 
 using manoeuvre::PolicyId;
@@ -88,4 +88,4 @@ TEST(Survey, BalanceCountsEveryFindingOnce) {
 }
 
 }  // namespace
-}  // namespace saca::eval
+}  // namespace saca::eval::survey_test

@@ -4,7 +4,7 @@
 
 #include "saca/eval/scenes_for_test.h"
 
-namespace saca::eval {
+namespace saca::eval::whatif_test {
 namespace {
 
 using manoeuvre::default_car;
@@ -130,4 +130,4 @@ TEST_F(Whatif, WhereBodiesWouldOverlapThereIsNoAnswer) {
 }
 
 }  // namespace
-}  // namespace saca::eval
+}  // namespace saca::eval::whatif_test

@@ -9,7 +9,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::intent {
+namespace saca::intent::crf_test {
 namespace {
 
 using testing::Each;
@@ -215,4 +215,4 @@ TEST(CrfFilter, AtEachInstantIsTheMarginalOfTheChainSoFar) {
 }
 
 }  // namespace
-}  // namespace saca::intent
+}  // namespace saca::intent::crf_test

@@ -10,7 +10,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::intent {
+namespace saca::intent::driver_test {
 namespace {
 
 using world::Footprint;
@@ -346,4 +346,4 @@ TEST(Driver, WhoRunsIntoSomethingDoesNotDriveThroughIt) {
 }
 
 }  // namespace
-}  // namespace saca::intent
+}  // namespace saca::intent::driver_test

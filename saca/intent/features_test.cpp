@@ -8,7 +8,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::intent {
+namespace saca::intent::features_test {
 namespace {
 
 float of(const Features& features, Feature which) {
@@ -160,4 +160,4 @@ TEST(Memory, RefusesToSpeakOfNothing) {
 }
 
 }  // namespace
-}  // namespace saca::intent
+}  // namespace saca::intent::features_test

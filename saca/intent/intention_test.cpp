@@ -6,7 +6,7 @@
 #include <set>
 #include <string_view>
 
-namespace saca::intent {
+namespace saca::intent::intention_test {
 namespace {
 
 using testing::ElementsAre;
@@ -45,4 +45,4 @@ TEST(Intention, OfEqualOnesTheFirstIsLikeliest) {
 }
 
 }  // namespace
-}  // namespace saca::intent
+}  // namespace saca::intent::intention_test

@@ -9,7 +9,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::intent {
+namespace saca::intent::joint_test {
 namespace {
 
 using testing::ElementsAre;
@@ -161,4 +161,4 @@ TEST(Choices, AreThoseThatAreLikelyEnough) {
 }
 
 }  // namespace
-}  // namespace saca::intent
+}  // namespace saca::intent::joint_test

@@ -6,24 +6,19 @@
 #include <numbers>
 
 #include "saca/core/contract.h"
+#include "tests/support/scenes.h"
 
-namespace saca::intent {
+namespace saca::intent::line_test {
 namespace {
 
+using test::car;
 using world::Actor;
 using world::Scene;
 
 constexpr double pi = std::numbers::pi;
 
-Actor moving(Vec2 p_W, Vec2 v_W) {
-  Actor actor{.id = 1, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1'500.0};
-  actor.X_WA = {p_W, std::atan2(v_W.y, v_W.x)};
-  actor.v_W = v_W;
-  return actor;
-}
-
 TEST(Line, IsThatOfTheLaneTheActorDrivesAlong) {
-  const Line line = line_of(Scene(), moving({30.0, 4.0}, {15.0, 0.6}));
+  const Line line = line_of(Scene(), car(1, {30.0, 4.0}, {15.0, 0.6}));
   EXPECT_TRUE(line.along_lane);
   EXPECT_NEAR(line.lateral, 0.6, 1e-12);
   EXPECT_NEAR(line.offset, 0.5, 1e-12);  // the next lane's centre lies at 3.5 m
@@ -32,7 +27,7 @@ TEST(Line, IsThatOfTheLaneTheActorDrivesAlong) {
 }
 
 TEST(Line, OfOncomingTrafficRunsItsWay) {
-  const Line line = line_of(Scene(), moving({60.0, 4.0}, {-15.0, 0.6}));
+  const Line line = line_of(Scene(), car(1, {60.0, 4.0}, {-15.0, 0.6}));
   EXPECT_TRUE(line.along_lane);
   EXPECT_NEAR(line.lateral, -0.6, 1e-12);  // to its right
   EXPECT_NEAR(line.offset, -0.5, 1e-12);
@@ -40,7 +35,7 @@ TEST(Line, OfOncomingTrafficRunsItsWay) {
 }
 
 TEST(Line, OfWhoCrossesIsItsOwnArc) {
-  Actor actor = moving({16.0, 6.4}, {0.0, -7.5});
+  Actor actor = car(1, {16.0, 6.4}, {0.0, -7.5});
   actor.yaw_rate = 0.15;
   actor.X_WA.yaw += 0.1;
   actor.a_W = {0.3, 3.0};
@@ -53,8 +48,8 @@ TEST(Line, OfWhoCrossesIsItsOwnArc) {
 }
 
 TEST(Line, RefusesWhoIsAtRest) {
-  EXPECT_THROW((void)line_of(Scene(), moving({}, {0.05, 0.0})), ContractViolation);
+  EXPECT_THROW((void)line_of(Scene(), car(1, {}, {0.05, 0.0})), ContractViolation);
 }
 
 }  // namespace
-}  // namespace saca::intent
+}  // namespace saca::intent::line_test

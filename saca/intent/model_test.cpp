@@ -11,7 +11,7 @@
 #include "saca/core/file.h"
 #include "saca/intent/network_for_test.h"
 
-namespace saca::intent {
+namespace saca::intent::model_test {
 namespace {
 
 using testing::HasSubstr;
@@ -176,4 +176,4 @@ TEST(Model, RefusesFilesThatAreNone) {
 }
 
 }  // namespace
-}  // namespace saca::intent
+}  // namespace saca::intent::model_test

@@ -7,10 +7,13 @@
 #include <random>
 
 #include "saca/core/contract.h"
+#include "tests/support/scenes.h"
 
-namespace saca::intent {
+namespace saca::intent::motion_test {
 namespace {
 
+using test::car;
+using test::ego_at;
 using world::Actor;
 using world::ActorKind;
 using world::Scene;
@@ -20,41 +23,25 @@ constexpr double pi = std::numbers::pi;
 constexpr double rounding = 1e-9;
 const MotionLaw law;
 
-Scene road_scene() {
-  Scene scene;
-  scene.ego.v_B = {20.0, 0.0};
-  scene.ego_footprint = {.length = 4.7, .width = 1.9};
-  scene.ego_mass = 1'700.0;
-  return scene;
-}
-
-Actor car(Vec2 p_W, Vec2 v_W, Vec2 a_W = {}) {
-  Actor actor{.id = 1, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1'500.0};
-  actor.X_WA = {p_W, norm(v_W) > 0.0 ? std::atan2(v_W.y, v_W.x) : 0.0};
-  actor.v_W = v_W;
-  actor.a_W = a_W;
-  return actor;
-}
-
 Track track_of(const Actor& actor, Intention intention, double horizon) {
-  return motion_under(road_scene(), actor, intention, horizon, law).track;
+  return motion_under(ego_at(20.0), actor, intention, horizon, law).track;
 }
 
 TEST(MotionUnder, MaintainKeepsSpeedAndLane) {
-  const Track track = track_of(car({30.0, 0.5}, {20.0, 0.0}), Intention::maintain, 4.0);
+  const Track track = track_of(car(1, {30.0, 0.5}, {20.0, 0.0}), Intention::maintain, 4.0);
   const Pose end = pose_at(track, 4.0);
   EXPECT_NEAR(end.p.x, 110.0, rounding);
   EXPECT_NEAR(end.p.y, 0.5, rounding);
 }
 
 TEST(MotionUnder, WhoBrakesAlreadyStopsAfterTheTextbookWay) {
-  const Track track = track_of(car({}, {20.0, 0.0}, {-5.0, 0.0}), Intention::brake, 6.0);
+  const Track track = track_of(car(1, {}, {20.0, 0.0}, {-5.0, 0.0}), Intention::brake, 6.0);
   EXPECT_NEAR(pose_at(track, 6.0).p.x, 400.0 / 10.0, rounding);
 }
 
 // Speed v falls by b r / 2 while the deceleration rises to b within r, on v r - b r^2 / 6.
 TEST(MotionUnder, WhoDoesNotBrakeYetNeedsTheRiseAsWell) {
-  const Track track = track_of(car({}, {20.0, 0.0}), Intention::brake, 12.0);
+  const Track track = track_of(car(1, {}, {20.0, 0.0}), Intention::brake, 12.0);
   const double left = 20.0 - 0.5 * law.braking * law.braking_rise;
   const double way = 20.0 * law.braking_rise -
                      law.braking * law.braking_rise * law.braking_rise / 6.0 +
@@ -65,7 +52,7 @@ TEST(MotionUnder, WhoDoesNotBrakeYetNeedsTheRiseAsWell) {
 // In tiny steps, from the acceleration that is measured; also where it rests before the rise ends.
 TEST(MotionUnder, BrakingGrowsFromWhatIsMeasured) {
   for (const double speed : {20.0, 3.0, 0.6}) {
-    const Track track = track_of(car({}, {speed, 0.0}, {-1.2, 0.0}), Intention::brake, 5.0);
+    const Track track = track_of(car(1, {}, {speed, 0.0}, {-1.2, 0.0}), Intention::brake, 5.0);
     double v = speed;
     double x = 0.0;
     constexpr double dt = 1e-5;
@@ -82,20 +69,20 @@ TEST(MotionUnder, BrakingGrowsFromWhatIsMeasured) {
 }
 
 TEST(MotionUnder, ALaneChangeEndsInTheNextLane) {
-  const Track left = track_of(car({30.0, -3.5}, {15.0, 0.5}), Intention::lane_left, 8.0);
+  const Track left = track_of(car(1, {30.0, -3.5}, {15.0, 0.5}), Intention::lane_left, 8.0);
   EXPECT_NEAR(pose_at(left, 8.0).p.y, 0.0, 1e-6);
   EXPECT_NEAR(pose_at(left, 8.0).yaw, 0.0, 1e-6);
   // Already across the marking: the lane that it enters, not the one after.
-  const Track entering = track_of(car({30.0, 1.5}, {15.0, -0.5}), Intention::lane_right, 5.0);
+  const Track entering = track_of(car(1, {30.0, 1.5}, {15.0, -0.5}), Intention::lane_right, 5.0);
   EXPECT_NEAR(pose_at(entering, 5.0).p.y, 0.0, 1e-6);
   // Half a lane width is 1.75 m; 0.5 m off the centre counts as being there: one lane further.
-  const Track further = track_of(car({30.0, 0.5}, {15.0, -0.5}), Intention::lane_right, 8.0);
+  const Track further = track_of(car(1, {30.0, 0.5}, {15.0, -0.5}), Intention::lane_right, 8.0);
   EXPECT_NEAR(pose_at(further, 8.0).p.y, -3.5, 1e-6);
 }
 
 // From the middle between two lanes half of the usual time is left.
 TEST(MotionUnder, ALaneChangeUnderWayIsFinished) {
-  const Track track = track_of(car({0.0, 1.76}, {20.0, -1.0}), Intention::lane_right, 4.0);
+  const Track track = track_of(car(1, {0.0, 1.76}, {20.0, -1.0}), Intention::lane_right, 4.0);
   EXPECT_GT(pose_at(track, 0.45 * law.lane_change).p.y, 0.001);
   EXPECT_NEAR(pose_at(track, 0.55 * law.lane_change).p.y, 0.0, 1e-6);
 }
@@ -103,7 +90,7 @@ TEST(MotionUnder, ALaneChangeUnderWayIsFinished) {
 TEST(MotionUnder, LateralSpeedDoesNotJump) {
   for (const double lateral : {-0.4, 0.0, 0.7, 1.5}) {
     for (const Intention intention : {Intention::lane_left, Intention::brake_left}) {
-      const Track track = track_of(car({0.0, -2.9}, {18.0, lateral}), intention, 6.0);
+      const Track track = track_of(car(1, {0.0, -2.9}, {18.0, lateral}), intention, 6.0);
       const double dt = track.step;
       // Without lateral acceleration at first, the way w aside departs from a line by O(dt^3):
       // 10 w (dt / T)^3, less than 0.3 mm, and a little for the speed that fades.
@@ -115,7 +102,7 @@ TEST(MotionUnder, LateralSpeedDoesNotJump) {
 
 TEST(MotionUnder, ALaneChangeDoesNotOvershoot) {
   for (const double lateral : {0.3, 1.0, 2.0, 3.0}) {
-    const Track track = track_of(car({0.0, 2.0}, {18.0, lateral}), Intention::lane_left, 6.0);
+    const Track track = track_of(car(1, {0.0, 2.0}, {18.0, lateral}), Intention::lane_left, 6.0);
     for (const Pose& X : track.X_WA) {
       EXPECT_LE(X.p.y, 3.5 + 1e-9) << lateral;
     }
@@ -123,18 +110,18 @@ TEST(MotionUnder, ALaneChangeDoesNotOvershoot) {
 }
 
 TEST(MotionUnder, WhoHasCrossedTheMarkingEndsItsLaneChangeEvenWhenItMaintains) {
-  const Track track = track_of(car({0.0, 2.2}, {18.0, 0.8}), Intention::maintain, 4.0);
+  const Track track = track_of(car(1, {0.0, 2.2}, {18.0, 0.8}), Intention::maintain, 4.0);
   EXPECT_NEAR(pose_at(track, 4.0).p.y, 3.5, 1e-6);
   EXPECT_NEAR(track.X_WA[1].p.y, 2.2 + 0.8 * track.step, 4e-4);
-  const Track leaving = track_of(car({0.0, 1.3}, {18.0, 0.8}), Intention::maintain, 4.0);
+  const Track leaving = track_of(car(1, {0.0, 1.3}, {18.0, 0.8}), Intention::maintain, 4.0);
   EXPECT_NEAR(pose_at(leaving, 4.0).p.y, 1.3, 1e-9);  // away from its lane's centre
 }
 
 TEST(MotionUnder, OncomingTrafficKeepsItsDirection) {
-  Scene scene = road_scene();
+  Scene scene = ego_at(20.0);
   scene.road.curvature = 0.01;
   const Pose X_WA = world::from_lane(scene.road, {.s = 60.0, .d = 3.5, .heading = pi});
-  const Actor actor = car(X_WA.p, rotated({10.0, 0.0}, X_WA.yaw));
+  const Actor actor = car(1, X_WA.p, rotated({10.0, 0.0}, X_WA.yaw));
   const Track track = motion_under(scene, actor, Intention::maintain, 2.0, law).track;
   const world::LanePose end = world::to_lane(scene.road, pose_at(track, 2.0));
   EXPECT_NEAR(end.d, 3.5, 1e-6);
@@ -142,7 +129,7 @@ TEST(MotionUnder, OncomingTrafficKeepsItsDirection) {
 }
 
 TEST(MotionUnder, CrossingTrafficGoesStraightAndBrakesStraight) {
-  const Actor truck = car({16.0, 6.4}, {0.0, -7.5});
+  const Actor truck = car(1, {16.0, 6.4}, {0.0, -7.5});
   const Pose end = pose_at(track_of(truck, Intention::maintain, 2.0), 2.0);
   EXPECT_NEAR(end.p.x, 16.0, rounding);
   EXPECT_NEAR(end.p.y, -8.6, rounding);
@@ -153,12 +140,13 @@ TEST(MotionUnder, CrossingTrafficGoesStraightAndBrakesStraight) {
 
 TEST(MotionUnder, NoSegmentIsFasterThanTheActorIs) {
   for (const double curvature : {0.0, 0.01, -0.02}) {
-    Scene scene = road_scene();
+    Scene scene = ego_at(20.0);
     scene.road.curvature = curvature;
     for (const double speed : {0.3, 4.0, 18.0}) {
       for (const Intention intention : vehicle_intentions) {
         const Track track =
-            motion_under(scene, car({3.0, 0.0}, {speed, 0.02 * speed}), intention, 6.0, law).track;
+            motion_under(scene, car(1, {3.0, 0.0}, {speed, 0.02 * speed}), intention, 6.0, law)
+                .track;
         for (int k = 0; k < 120; ++k) {
           EXPECT_LE(norm(velocity_at(track, 0.05 * k)), speed * std::hypot(1.0, 0.02) + 1e-6)
               << name(intention) << ' ' << speed << ' ' << k;
@@ -170,7 +158,7 @@ TEST(MotionUnder, NoSegmentIsFasterThanTheActorIs) {
 
 TEST(MotionUnder, NoLaneChangeEndsBroadside) {
   for (const double speed : {0.3, 2.0, 15.0}) {
-    const Track track = track_of(car({30.0, 0.0}, {speed, 0.0}), Intention::brake_left, 6.0);
+    const Track track = track_of(car(1, {30.0, 0.0}, {speed, 0.0}), Intention::brake_left, 6.0);
     for (const Pose& X : track.X_WA) {
       EXPECT_LT(std::abs(X.yaw), pi / 6.0 + 1e-6);
     }
@@ -178,17 +166,17 @@ TEST(MotionUnder, NoLaneChangeEndsBroadside) {
 }
 
 TEST(MotionUnder, WhoIsAtRestStays) {
-  Actor wreck = car({30.0, 0.0}, {});
+  Actor wreck = car(1, {30.0, 0.0}, {});
   wreck.kind = ActorKind::obstacle;
   wreck.position_sd = 0.2;
   wreck.velocity_sd = 0.5;
-  const Forecast forecast = motion_under(road_scene(), wreck, Intention::maintain, 4.0, law);
+  const Forecast forecast = motion_under(ego_at(20.0), wreck, Intention::maintain, 4.0, law);
   EXPECT_EQ(pose_at(forecast.track, 4.0).p.x, 30.0);
   EXPECT_EQ(spread_at(forecast, 4.0).along_sd, 0.2);
   // A car that stands is perceived to: it may be rolling.
   wreck.kind = ActorKind::car;
   EXPECT_NEAR(
-      spread_at(motion_under(road_scene(), wreck, Intention::brake, 4.0, law), 4.0).across_sd,
+      spread_at(motion_under(ego_at(20.0), wreck, Intention::brake, 4.0, law), 4.0).across_sd,
       std::hypot(0.2, 2.0), rounding);
 }
 
@@ -196,10 +184,10 @@ TEST(MotionUnder, TurnsWithTheWorld) {
   std::mt19937 rng(2);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   for (int round = 0; round < 60; ++round) {
-    Scene scene = road_scene();
+    Scene scene = ego_at(20.0);
     scene.road.curvature = 0.01 * u(rng);
-    Actor actor =
-        car({30.0 * u(rng), 6.0 * u(rng)}, {20.0 * u(rng), 4.0 * u(rng)}, {4.0 * u(rng), u(rng)});
+    Actor actor = car(1, {30.0 * u(rng), 6.0 * u(rng)}, {20.0 * u(rng), 4.0 * u(rng)},
+                      {4.0 * u(rng), u(rng)});
     actor.yaw_rate = 0.2 * u(rng);
     const Pose X{{100.0 * u(rng), 100.0 * u(rng)}, 3.0 * u(rng)};
     Scene turned = scene;
@@ -228,10 +216,10 @@ TEST(MotionUnder, IsMirroredInAMirror) {
     return other[static_cast<std::size_t>(intention)];
   };
   for (const Intention intention : vehicle_intentions) {
-    const Actor actor = car({10.0, -0.6}, {15.0, 0.4}, {-1.0, 0.0});
-    const Actor other = car({10.0, 0.6}, {15.0, -0.4}, {-1.0, 0.0});
-    const Forecast a = motion_under(road_scene(), actor, intention, 5.0, law);
-    const Forecast b = motion_under(road_scene(), other, mirrored(intention), 5.0, law);
+    const Actor actor = car(1, {10.0, -0.6}, {15.0, 0.4}, {-1.0, 0.0});
+    const Actor other = car(1, {10.0, 0.6}, {15.0, -0.4}, {-1.0, 0.0});
+    const Forecast a = motion_under(ego_at(20.0), actor, intention, 5.0, law);
+    const Forecast b = motion_under(ego_at(20.0), other, mirrored(intention), 5.0, law);
     for (std::size_t k = 0; k < a.track.X_WA.size(); ++k) {
       EXPECT_NEAR(a.track.X_WA[k].p.x, b.track.X_WA[k].p.x, rounding);
       EXPECT_NEAR(a.track.X_WA[k].p.y, -b.track.X_WA[k].p.y, rounding);
@@ -241,11 +229,11 @@ TEST(MotionUnder, IsMirroredInAMirror) {
 }
 
 TEST(Spread, BeginsAsPerceivedAndNeverShrinks) {
-  Actor actor = car({10.0, -0.6}, {15.0, 0.4}, {-1.0, 0.0});
+  Actor actor = car(1, {10.0, -0.6}, {15.0, 0.4}, {-1.0, 0.0});
   actor.position_sd = 0.3;
   actor.velocity_sd = 0.2;
   for (const Intention intention : vehicle_intentions) {
-    const Forecast forecast = motion_under(road_scene(), actor, intention, 6.0, law);
+    const Forecast forecast = motion_under(ego_at(20.0), actor, intention, 6.0, law);
     ASSERT_EQ(forecast.spread.size(), forecast.track.X_WA.size());
     EXPECT_EQ(forecast.spread[0].along_sd, 0.3);
     EXPECT_EQ(forecast.spread[0].across_sd, 0.3);
@@ -257,12 +245,12 @@ TEST(Spread, BeginsAsPerceivedAndNeverShrinks) {
 }
 
 TEST(Spread, IsThatOfPlaceAndSpeedWhereNothingElseIsUnknown) {
-  Actor actor = car({10.0, 0.0}, {15.0, 0.0});
+  Actor actor = car(1, {10.0, 0.0}, {15.0, 0.0});
   actor.position_sd = 0.3;
   actor.velocity_sd = 0.2;
   MotionLaw known = law;
   known.driving.sd = known.braking_log_sd = known.lane_change_log_sd = 0.0;
-  const Forecast forecast = motion_under(road_scene(), actor, Intention::lane_left, 6.0, known);
+  const Forecast forecast = motion_under(ego_at(20.0), actor, Intention::lane_left, 6.0, known);
   EXPECT_NEAR(spread_at(forecast, 3.0).along_sd, std::hypot(0.3, 0.6), rounding);
   EXPECT_NEAR(spread_at(forecast, 3.0).across_sd, std::hypot(0.3, 0.6), rounding);
   EXPECT_NEAR(spread_at(forecast, -1.0).along_sd, 0.3, rounding);
@@ -274,7 +262,7 @@ TEST(Spread, OfAWaveringAccelerationIsItsTwofoldIntegral) {
   MotionLaw slow = law;
   slow.driving.time = 1.7;
   const Forecast forecast =
-      motion_under(road_scene(), car({}, {15.0, 0.0}), Intention::maintain, 6.0, slow);
+      motion_under(ego_at(20.0), car(1, {}, {15.0, 0.0}), Intention::maintain, 6.0, slow);
   for (const double t : {0.05, 0.5, 2.0, 6.0}) {
     constexpr int n = 400;
     const double dt = t / n;
@@ -293,12 +281,12 @@ TEST(Spread, OfAWaveringAccelerationIsItsTwofoldIntegral) {
 
 // To first order: how far the way moves when the deceleration is a little harder.
 TEST(Spread, OfBrakingIsThatOfTheDeceleration) {
-  const Actor actor = car({}, {12.0, 0.0}, {-0.8, 0.0});
-  const Forecast forecast = motion_under(road_scene(), actor, Intention::brake, 4.0, law);
+  const Actor actor = car(1, {}, {12.0, 0.0}, {-0.8, 0.0});
+  const Forecast forecast = motion_under(ego_at(20.0), actor, Intention::brake, 4.0, law);
   constexpr double little = 1e-5;
   MotionLaw harder = law;
   harder.braking *= 1.0 + little;
-  const Forecast other = motion_under(road_scene(), actor, Intention::brake, 4.0, harder);
+  const Forecast other = motion_under(ego_at(20.0), actor, Intention::brake, 4.0, harder);
   for (std::size_t k = 1; k < forecast.spread.size(); ++k) {  // it rests after 2.1 s
     const double slope = (forecast.track.X_WA[k].p.x - other.track.X_WA[k].p.x) / little;
     EXPECT_NEAR(forecast.spread[k].along_sd, law.braking_log_sd * slope, 1e-3) << k;
@@ -306,12 +294,12 @@ TEST(Spread, OfBrakingIsThatOfTheDeceleration) {
 }
 
 TEST(Spread, OfALaneChangeIsThatOfItsDuration) {
-  const Actor actor = car({}, {15.0, 0.0});
-  const Forecast forecast = motion_under(road_scene(), actor, Intention::lane_left, 6.0, law);
+  const Actor actor = car(1, {}, {15.0, 0.0});
+  const Forecast forecast = motion_under(ego_at(20.0), actor, Intention::lane_left, 6.0, law);
   constexpr double little = 1e-5;
   MotionLaw slower = law;
   slower.lane_change *= 1.0 + little;
-  const Forecast other = motion_under(road_scene(), actor, Intention::lane_left, 6.0, slower);
+  const Forecast other = motion_under(ego_at(20.0), actor, Intention::lane_left, 6.0, slower);
   const auto largest = static_cast<std::size_t>(0.6 * law.lane_change / forecast.track.step);
   for (std::size_t k = 1; k <= largest; ++k) {
     const double slope = (forecast.track.X_WA[k].p.y - other.track.X_WA[k].p.y) / little;
@@ -321,14 +309,14 @@ TEST(Spread, OfALaneChangeIsThatOfItsDuration) {
 }
 
 TEST(MotionUnder, RefusesAnEmptyHorizonAndALawOutOfRange) {
-  const Actor actor = car({}, {1.0, 0.0});
+  const Actor actor = car(1, {}, {1.0, 0.0});
   EXPECT_THROW((void)track_of(actor, Intention::maintain, 0.0), ContractViolation);
   MotionLaw broken = law;
   broken.braking = std::nan("");
-  EXPECT_THROW((void)motion_under(road_scene(), actor, Intention::brake, 1.0, broken),
+  EXPECT_THROW((void)motion_under(ego_at(20.0), actor, Intention::brake, 1.0, broken),
                ContractViolation);
   EXPECT_THROW((void)spread_at({}, 0.0), ContractViolation);
 }
 
 }  // namespace
-}  // namespace saca::intent
+}  // namespace saca::intent::motion_test

@@ -8,7 +8,7 @@
 
 #include "saca/intent/network_for_test.h"
 
-namespace saca::intent {
+namespace saca::intent::network_test {
 namespace {
 
 constexpr std::size_t w = Network::width;
@@ -114,4 +114,4 @@ TEST(Network, RefusesTensorsOfOtherShapes) {
 }
 
 }  // namespace
-}  // namespace saca::intent
+}  // namespace saca::intent::network_test

@@ -8,7 +8,7 @@
 #include "saca/core/contract.h"
 #include "saca/core/units.h"
 
-namespace saca::intent {
+namespace saca::intent::observed_test {
 namespace {
 
 using world::Actor;
@@ -145,4 +145,4 @@ TEST(Observed, WhoStandsHasNoAcceleration) {
 }
 
 }  // namespace
-}  // namespace saca::intent
+}  // namespace saca::intent::observed_test

@@ -10,8 +10,9 @@
 #include "saca/intent/observed.h"
 #include "saca/intent/shipped_model.h"
 #include "tests/support/count_allocations.h"
+#include "tests/support/scenes.h"
 
-namespace saca::intent {
+namespace saca::intent::observer_test {
 namespace {
 
 using world::Actor;
@@ -23,21 +24,14 @@ static_assert(std::is_trivially_copyable_v<Beliefs>);
 constexpr double looks_per_second = 100.0;
 
 Scene at(double time) {
-  Scene scene;
+  Scene scene = test::ego_at(20.0);
   scene.time = time;
-  scene.ego.v_B = {20.0, 0.0};
-  scene.ego_footprint = {.length = 4.7, .width = 1.9};
-  scene.ego_mass = 1'700.0;
   return scene;
 }
 
 /// Drives at 20 m/s in a lane of its own, ahead of the ego.
 Actor car(std::uint8_t id, double deceleration = 0.0) {
-  Actor actor{.id = id, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1'500.0};
-  actor.X_WA.p = {30.0 + 8.0 * id, 0.0};
-  actor.v_W = {20.0, 0.0};
-  actor.a_W = {-deceleration, 0.0};
-  return actor;
+  return test::car(id, {30.0 + 8.0 * id, 0.0}, {20.0, 0.0}, {-deceleration, 0.0});
 }
 
 Scene with(double time, std::initializer_list<Actor> actors) {
@@ -246,4 +240,4 @@ TEST(Observer, RefusesABrokenScene) {
 }
 
 }  // namespace
-}  // namespace saca::intent
+}  // namespace saca::intent::observer_test

@@ -8,8 +8,9 @@
 #include <random>
 
 #include "saca/core/contract.h"
+#include "tests/support/scenes.h"
 
-namespace saca::intent {
+namespace saca::intent::walkers_test {
 namespace {
 
 using world::Actor;
@@ -20,21 +21,14 @@ const MotionLaw law;
 
 /// One lane, kerbs at 1.75 m to either side.
 Scene street() {
-  Scene scene;
-  scene.ego.v_B = {14.0, 0.0};
-  scene.ego_footprint = {.length = 4.7, .width = 1.9};
-  scene.ego_mass = 1'700.0;
-  return scene;
+  return test::ego_at(14.0);
 }
 
 Actor walker(Vec2 p_W, Vec2 v_W, Vec2 a_W = {}) {
-  Actor actor{.id = 1,
-              .kind = ActorKind::pedestrian,
-              .footprint = {.shape = world::Shape::ellipse, .length = 0.5, .width = 0.5},
-              .mass = 75.0};
-  actor.X_WA = {p_W, norm(v_W) > 0.0 ? std::atan2(v_W.y, v_W.x) : 0.0};
-  actor.v_W = v_W;
-  actor.a_W = a_W;
+  Actor actor =
+      test::car(1, p_W, v_W, a_W, {.shape = world::Shape::ellipse, .length = 0.5, .width = 0.5});
+  actor.kind = ActorKind::pedestrian;
+  actor.mass = 75.0;
   return actor;
 }
 
@@ -218,4 +212,4 @@ TEST(WalkerMotion, RefusesWhatIsNotForThem) {
 }
 
 }  // namespace
-}  // namespace saca::intent
+}  // namespace saca::intent::walkers_test

@@ -5,7 +5,7 @@
 #include "saca/core/contract.h"
 #include "saca/learn/sequences_for_test.h"
 
-namespace saca::learn {
+namespace saca::learn::acts_test {
 namespace {
 
 TEST(ActsFound, CountByHand) {
@@ -55,4 +55,4 @@ TEST(ActsFound, RefuseWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace saca::learn
+}  // namespace saca::learn::acts_test

@@ -11,7 +11,7 @@
 #include "saca/learn/sequences_for_test.h"
 #include "saca/learn/simulated.h"
 
-namespace saca::learn {
+namespace saca::learn::baselines_test {
 namespace {
 
 using testing::ElementsAreArray;
@@ -188,4 +188,4 @@ TEST(Baselines, RankAsTheyMustOnSimulatedVehicles) {
 }
 
 }  // namespace
-}  // namespace saca::learn
+}  // namespace saca::learn::baselines_test

@@ -10,7 +10,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::learn {
+namespace saca::learn::bootstrap_test {
 namespace {
 
 GroupFigure mean_of(const std::vector<double>& values) {
@@ -109,4 +109,4 @@ TEST(Bootstrap, RefusesNoGroupsAndNoDraws) {
 }
 
 }  // namespace
-}  // namespace saca::learn
+}  // namespace saca::learn::bootstrap_test

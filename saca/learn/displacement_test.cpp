@@ -7,7 +7,7 @@
 #include "saca/intent/intention.h"
 #include "saca/learn/sequences_for_test.h"
 
-namespace saca::learn {
+namespace saca::learn::displacement_test {
 namespace {
 
 constexpr std::size_t size = 61;
@@ -93,4 +93,4 @@ TEST(Displacement, HasMeanAndRootMeanSquare) {
 }
 
 }  // namespace
-}  // namespace saca::learn
+}  // namespace saca::learn::displacement_test

@@ -9,7 +9,7 @@
 #include "saca/intent/network_for_test.h"
 #include "saca/learn/foretell.h"
 
-namespace saca::learn {
+namespace saca::learn::evaluation_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -139,4 +139,4 @@ TEST_F(Models, RefusesWhatCannotBeToldApart) {
 }
 
 }  // namespace
-}  // namespace saca::learn
+}  // namespace saca::learn::evaluation_test

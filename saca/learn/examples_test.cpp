@@ -8,7 +8,7 @@
 #include "saca/core/contract.h"
 #include "saca/intent/intention.h"
 
-namespace saca::learn {
+namespace saca::learn::examples_test {
 namespace {
 
 using intent::Intention;
@@ -138,4 +138,4 @@ TEST(Examples, AreOnlyOfVehiclesSeenLongEnoughAtOurStep) {
 }
 
 }  // namespace
-}  // namespace saca::learn
+}  // namespace saca::learn::examples_test

@@ -8,7 +8,7 @@
 #include "saca/core/contract.h"
 #include "saca/learn/sequences_for_test.h"
 
-namespace saca::learn {
+namespace saca::learn::forecast_file_test {
 namespace {
 
 using testing::ElementsAre;
@@ -108,4 +108,4 @@ TEST(ForecastsOf, AreFoundByName) {
 }
 
 }  // namespace
-}  // namespace saca::learn
+}  // namespace saca::learn::forecast_file_test

@@ -7,7 +7,7 @@
 
 #include "saca/intent/network_for_test.h"
 
-namespace saca::learn {
+namespace saca::learn::foretell_test {
 namespace {
 
 /// One sequence whose labels are drawn from `true_probability` of the first class, and forecasts
@@ -78,4 +78,4 @@ TEST(Foretold, IsWhatAStreamTellsFrameByFrame) {
 }
 
 }  // namespace
-}  // namespace saca::learn
+}  // namespace saca::learn::foretell_test

@@ -10,7 +10,7 @@
 #include "saca/intent/intention.h"
 #include "saca/learn/sequence.h"
 
-namespace saca::learn {
+namespace saca::learn::labels_test {
 namespace {
 
 using intent::Intention;
@@ -160,4 +160,4 @@ TEST(Labels, OfNothingAreNone) {
 }
 
 }  // namespace
-}  // namespace saca::learn
+}  // namespace saca::learn::labels_test

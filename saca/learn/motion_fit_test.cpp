@@ -9,7 +9,7 @@
 #include "saca/core/contract.h"
 #include "saca/learn/sequence.h"
 
-namespace saca::learn {
+namespace saca::learn::motion_fit_test {
 namespace {
 
 TrueMotion still(std::size_t size) {
@@ -88,4 +88,4 @@ TEST(MotionFit, OfNothingIsNothing) {
 }
 
 }  // namespace
-}  // namespace saca::learn
+}  // namespace saca::learn::motion_fit_test

@@ -10,7 +10,7 @@
 #include "saca/core/contract.h"
 #include "saca/learn/sequences_for_test.h"
 
-namespace saca::learn {
+namespace saca::learn::score_test {
 namespace {
 
 using testing::DoubleNear;
@@ -180,4 +180,4 @@ TEST(LikeliestClass, OfEqualsIsTheFirst) {
 }
 
 }  // namespace
-}  // namespace saca::learn
+}  // namespace saca::learn::score_test

@@ -15,7 +15,7 @@
 #include "saca/learn/sequences_for_test.h"
 #include "saca/learn/simulated.h"
 
-namespace saca::learn {
+namespace saca::learn::sequence_file_test {
 namespace {
 
 using testing::ElementsAre;
@@ -200,4 +200,4 @@ TEST(SequenceSet, KnowsItsRules) {
 }
 
 }  // namespace
-}  // namespace saca::learn
+}  // namespace saca::learn::sequence_file_test

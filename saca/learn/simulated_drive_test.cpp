@@ -11,7 +11,7 @@
 #include "saca/core/contract.h"
 #include "saca/sim/chance.h"
 
-namespace saca::learn {
+namespace saca::learn::simulated_drive_test {
 namespace {
 
 constexpr double dt = DriveMotion::step;
@@ -183,4 +183,4 @@ TEST(SimulatedDrive, RefusesWhatCannotBeDriven) {
 }
 
 }  // namespace
-}  // namespace saca::learn
+}  // namespace saca::learn::simulated_drive_test

@@ -11,7 +11,7 @@
 #include "saca/learn/score.h"
 #include "saca/learn/sequences_for_test.h"
 
-namespace saca::learn {
+namespace saca::learn::simulated_test {
 namespace {
 
 /// Seen without errors and at once.
@@ -241,4 +241,4 @@ TEST(SimulatedSequence, MirrorsItsLabels) {
 }
 
 }  // namespace
-}  // namespace saca::learn
+}  // namespace saca::learn::simulated_test

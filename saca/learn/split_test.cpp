@@ -8,7 +8,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::learn {
+namespace saca::learn::split_test {
 namespace {
 
 Sequence sequence_of(const std::string& site, const std::string& group, std::size_t num_rare) {
@@ -83,4 +83,4 @@ TEST(Parts, SplitLosesNothing) {
 }
 
 }  // namespace
-}  // namespace saca::learn
+}  // namespace saca::learn::split_test

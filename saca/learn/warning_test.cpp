@@ -6,7 +6,7 @@
 #include "saca/core/contract.h"
 #include "saca/learn/sequences_for_test.h"
 
-namespace saca::learn {
+namespace saca::learn::warning_test {
 namespace {
 
 using testing::DoubleNear;
@@ -146,4 +146,4 @@ TEST(IllegalSteps, AreCountedFromTo) {
 }
 
 }  // namespace
-}  // namespace saca::learn
+}  // namespace saca::learn::warning_test

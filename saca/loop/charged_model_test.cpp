@@ -5,7 +5,7 @@
 
 #include "saca/reason/scripted_model.h"
 
-namespace saca::loop {
+namespace saca::loop::charged_model_test {
 namespace {
 
 using reason::Answer;
@@ -63,4 +63,4 @@ TEST(ThinkingCosts, AreReadStrictly) {
 }
 
 }  // namespace
-}  // namespace saca::loop
+}  // namespace saca::loop::charged_model_test

@@ -6,7 +6,7 @@
 #include "saca/loop/wreck_for_test.h"
 #include "saca/manoeuvre/default_car.h"
 
-namespace saca::loop {
+namespace saca::loop::charged_thinking_test {
 namespace {
 
 decide::PlanCache plans(std::size_t count) {
@@ -56,4 +56,4 @@ TEST(ChargedThinking, StartsNoRoundBeforeTheLastOneIsPaidFor) {
 }
 
 }  // namespace
-}  // namespace saca::loop
+}  // namespace saca::loop::charged_thinking_test

@@ -15,7 +15,7 @@
 #include "saca/manoeuvre/ego.h"
 #include "saca/reach/risk.h"
 
-namespace saca::loop {
+namespace saca::loop::danger_map_test {
 namespace {
 
 using nlohmann::json;
@@ -291,4 +291,4 @@ TEST_F(DangerMapsTest, AreWrittenInTenthsRoundedDown) {
 }
 
 }  // namespace
-}  // namespace saca::loop
+}  // namespace saca::loop::danger_map_test

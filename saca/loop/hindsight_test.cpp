@@ -5,7 +5,7 @@
 #include "saca/loop/wreck_for_test.h"
 #include "saca/manoeuvre/default_car.h"
 
-namespace saca::loop {
+namespace saca::loop::hindsight_test {
 namespace {
 
 using manoeuvre::PolicyId;
@@ -59,4 +59,4 @@ TEST(Hindsight, KnowsWhatEachPolicyWouldHaveDone) {
 }
 
 }  // namespace
-}  // namespace saca::loop
+}  // namespace saca::loop::hindsight_test

@@ -4,7 +4,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::loop {
+namespace saca::loop::intentions_seen_test {
 namespace {
 
 using world::ActorKind;
@@ -54,4 +54,4 @@ TEST(IntentionsSeen, RefuseBeliefsAboutOthers) {
 }
 
 }  // namespace
-}  // namespace saca::loop
+}  // namespace saca::loop::intentions_seen_test

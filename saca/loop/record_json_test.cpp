@@ -7,7 +7,7 @@
 #include "saca/loop/encounter.h"
 #include "saca/manoeuvre/default_car.h"
 
-namespace saca::loop {
+namespace saca::loop::record_json_test {
 namespace {
 
 using nlohmann::json;
@@ -73,4 +73,4 @@ TEST(RecordJson, HoldsWhatTheFormatPromises) {
 }
 
 }  // namespace
-}  // namespace saca::loop
+}  // namespace saca::loop::record_json_test

@@ -8,7 +8,7 @@
 #include "saca/manoeuvre/default_car.h"
 #include "saca/reason/scripted_model.h"
 
-namespace saca::loop {
+namespace saca::loop::review_test {
 namespace {
 
 using testing::HasSubstr;
@@ -101,4 +101,4 @@ TEST_F(ReviewTest, WithdrawnIsNone) {
 }
 
 }  // namespace
-}  // namespace saca::loop
+}  // namespace saca::loop::review_test

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-namespace saca::loop {
+namespace saca::loop::state_json_test {
 namespace {
 
 using nlohmann::json;
@@ -55,4 +55,4 @@ TEST(StateJson, NamesTheActorsAndTheirOutlines) {
 }
 
 }  // namespace
-}  // namespace saca::loop
+}  // namespace saca::loop::state_json_test

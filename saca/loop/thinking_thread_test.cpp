@@ -9,7 +9,7 @@
 #include "saca/manoeuvre/default_car.h"
 #include "saca/reason/scripted_model.h"
 
-namespace saca::loop {
+namespace saca::loop::thinking_thread_test {
 namespace {
 
 // Two threads meet in two slots: run under the thread sanitiser.
@@ -78,4 +78,4 @@ TEST(ThinkingThread, DoesNotWaitForAModelWhenItEnds) {
 }
 
 }  // namespace
-}  // namespace saca::loop
+}  // namespace saca::loop::thinking_thread_test

@@ -11,7 +11,7 @@
 #include "saca/loop/wreck_for_test.h"
 #include "saca/manoeuvre/default_car.h"
 
-namespace saca::loop {
+namespace saca::loop::trace_test {
 namespace {
 
 using nlohmann::json;
@@ -159,4 +159,4 @@ TEST(Trace, CsvTellsThatNobodyIsPerceived) {
 }
 
 }  // namespace
-}  // namespace saca::loop
+}  // namespace saca::loop::trace_test

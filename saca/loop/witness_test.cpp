@@ -4,7 +4,7 @@
 
 #include "saca/manoeuvre/default_car.h"
 
-namespace saca::loop {
+namespace saca::loop::witness_test {
 namespace {
 
 /// Ego at 20 m/s towards a standing car whose centre is 50 m ahead of it.
@@ -119,4 +119,4 @@ TEST(Witness, BeingHitFromBehindCounts) {
 }
 
 }  // namespace
-}  // namespace saca::loop
+}  // namespace saca::loop::witness_test

@@ -11,7 +11,7 @@
 #include "saca/manoeuvre/atlas_for_test.h"
 #include "saca/manoeuvre/drive.h"
 
-namespace saca::manoeuvre {
+namespace saca::manoeuvre::atlas_build_test {
 namespace {
 
 // Few and short.
@@ -160,4 +160,4 @@ TEST_F(AtlasBuild, BehaviourShowsAControllerThatDrivesOtherwise) {
 }
 
 }  // namespace
-}  // namespace saca::manoeuvre
+}  // namespace saca::manoeuvre::atlas_build_test

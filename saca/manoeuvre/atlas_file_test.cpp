@@ -10,7 +10,7 @@
 #include "saca/core/fnv.h"
 #include "saca/manoeuvre/atlas_for_test.h"
 
-namespace saca::manoeuvre {
+namespace saca::manoeuvre::atlas_file_test {
 namespace {
 
 class AtlasFile : public testing::Test {
@@ -140,4 +140,4 @@ TEST_F(AtlasFile, TellsOfItselfWhosever) {
 }
 
 }  // namespace
-}  // namespace saca::manoeuvre
+}  // namespace saca::manoeuvre::atlas_file_test

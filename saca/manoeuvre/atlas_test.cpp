@@ -12,7 +12,7 @@
 #include "saca/world/road.h"
 #include "tests/support/count_allocations.h"
 
-namespace saca::manoeuvre {
+namespace saca::manoeuvre::atlas_test {
 namespace {
 
 double length_of(const EgoMotion& motion) {
@@ -278,4 +278,4 @@ TEST(Atlas, RefusesAGridThatDoesNotRiseAndNodesThatAreMissing) {
 }
 
 }  // namespace
-}  // namespace saca::manoeuvre
+}  // namespace saca::manoeuvre::atlas_test

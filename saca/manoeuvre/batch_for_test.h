@@ -4,13 +4,14 @@
 
 #include "saca/manoeuvre/batch.h"
 #include "saca/manoeuvre/default_car.h"
+#include "tests/support/levels.h"
 
 namespace saca::manoeuvre {
 
 /// A stop on one level, against the scalar model; skipped where the processor lacks the level.
 inline void expect_stop_as_scalar(Level level) {
   if (!available(level)) {
-    GTEST_SKIP() << "not this processor's";
+    GTEST_SKIP() << "this processor has no " << test::name_of(level);
   }
   const Car car = default_car();
   Drive one{.car = &car, .plan = {PolicyId::aeb, {}}};

@@ -1,6 +1,6 @@
 #include "saca/manoeuvre/batch_for_test.h"
 
-namespace saca::manoeuvre {
+namespace saca::manoeuvre::batch_kernel_avx2_test {
 namespace {
 
 TEST(BatchKernel, StopsAsTheScalarModelOnAvx2) {
@@ -8,4 +8,4 @@ TEST(BatchKernel, StopsAsTheScalarModelOnAvx2) {
 }
 
 }  // namespace
-}  // namespace saca::manoeuvre
+}  // namespace saca::manoeuvre::batch_kernel_avx2_test

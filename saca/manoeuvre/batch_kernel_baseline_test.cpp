@@ -1,6 +1,6 @@
 #include "saca/manoeuvre/batch_for_test.h"
 
-namespace saca::manoeuvre {
+namespace saca::manoeuvre::batch_kernel_baseline_test {
 namespace {
 
 TEST(BatchKernel, StopsAsTheScalarModelOnBaseline) {
@@ -8,4 +8,4 @@ TEST(BatchKernel, StopsAsTheScalarModelOnBaseline) {
 }
 
 }  // namespace
-}  // namespace saca::manoeuvre
+}  // namespace saca::manoeuvre::batch_kernel_baseline_test

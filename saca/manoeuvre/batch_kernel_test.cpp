@@ -10,7 +10,7 @@
 #include "saca/vehicle/tyre.h"
 
 // The kernels' own formulas for `double`, against those of the scalar model.
-namespace saca::manoeuvre::lanes {
+namespace saca::manoeuvre::lanes::batch_kernel_test {
 namespace {
 
 using vehicle::VehicleState;
@@ -125,4 +125,4 @@ TEST(BatchKernel, FrontLoadIsThatOfTheScalarModel) {
 }
 
 }  // namespace
-}  // namespace saca::manoeuvre::lanes
+}  // namespace saca::manoeuvre::lanes::batch_kernel_test

@@ -5,7 +5,7 @@
 #include "saca/manoeuvre/batch_start.h"
 
 // What the lanes do otherwise than the scalar model, for `double`: at its own step they must agree.
-namespace saca::manoeuvre::lanes {
+namespace saca::manoeuvre::lanes::batch_lane_test {
 namespace {
 
 TEST(BatchLane, ShiftIsThatOfTheScalarModel) {
@@ -83,4 +83,4 @@ TEST(BatchLane, SmoothsAsFarAsTheScalarModelInAsLong) {
 }
 
 }  // namespace
-}  // namespace saca::manoeuvre::lanes
+}  // namespace saca::manoeuvre::lanes::batch_lane_test

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace saca::manoeuvre::lanes {
+namespace saca::manoeuvre::lanes::batch_pack_test {
 namespace {
 
 using Arch = xsimd::default_arch;
@@ -174,4 +174,4 @@ TEST(BatchPack, NoLaneChangesItsNeighbours) {
 }
 
 }  // namespace
-}  // namespace saca::manoeuvre::lanes
+}  // namespace saca::manoeuvre::lanes::batch_pack_test

@@ -13,8 +13,9 @@
 #include "saca/core/contract.h"
 #include "saca/core/units.h"
 #include "saca/manoeuvre/default_car.h"
+#include "tests/support/levels.h"
 
-namespace saca::manoeuvre {
+namespace saca::manoeuvre::batch_test {
 namespace {
 
 constexpr double long_enough = 14.0;  // [s]
@@ -112,13 +113,7 @@ bool same_bits(const EgoMotion& a, const EgoMotion& b) {
 }
 
 std::vector<Level> levels() {
-  std::vector<Level> all;
-  for (const Level level : {Level::baseline, Level::avx2, Level::avx512}) {
-    if (available(level)) {
-      all.push_back(level);
-    }
-  }
-  return all;
+  return test::those_here({Level::baseline, Level::avx2, Level::avx512});
 }
 
 TEST(Batch, EndsWhereTheScalarModelDoes) {
@@ -284,4 +279,4 @@ TEST(Batch, RefusesWhatDriveRefuses) {
 }
 
 }  // namespace
-}  // namespace saca::manoeuvre
+}  // namespace saca::manoeuvre::batch_test

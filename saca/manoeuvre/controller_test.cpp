@@ -12,7 +12,7 @@
 #include "saca/manoeuvre/ego.h"
 #include "tests/support/count_allocations.h"
 
-namespace saca::manoeuvre {
+namespace saca::manoeuvre::controller_test {
 namespace {
 
 constexpr double dt = 1e-3;
@@ -121,4 +121,4 @@ TEST_F(Controller, RefusesToBeginWhatCannotBeDriven) {
 }
 
 }  // namespace
-}  // namespace saca::manoeuvre
+}  // namespace saca::manoeuvre::controller_test

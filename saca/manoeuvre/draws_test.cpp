@@ -7,24 +7,20 @@
 #include "saca/core/contract.h"
 #include "saca/core/units.h"
 #include "saca/manoeuvre/default_car.h"
+#include "tests/support/scenes.h"
 
-namespace saca::manoeuvre {
+namespace saca::manoeuvre::draws_test {
 namespace {
+
+using test::ego_alone;
 
 constexpr Plan brake{PolicyId::aeb, std::nullopt};
 constexpr Plan drift{PolicyId::t_drift_right, std::nullopt};
 
-world::Scene scene_at(double speed, double grip) {
-  world::Scene scene;
-  scene.ego.v_B = {speed, 0.0};
-  scene.grip = grip;
-  return scene;
-}
-
 TEST(Draws, SameSeedSameEndingsOnAnyThreads) {
   const Car car = default_car();
-  const auto a = draw_endings(car, brake, scene_at(12.0, 0.8), 0.8, 5.0, 12, 3, 2, 1);
-  const auto b = draw_endings(car, brake, scene_at(12.0, 0.8), 0.8, 5.0, 12, 3, 2, 3);
+  const auto a = draw_endings(car, brake, ego_alone(12.0, 0.8), 0.8, 5.0, 12, 3, 2, 1);
+  const auto b = draw_endings(car, brake, ego_alone(12.0, 0.8), 0.8, 5.0, 12, 3, 2, 3);
   ASSERT_EQ(a.size(), 12U);
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(a[i].X_WB.p.x, b[i].X_WB.p.x);
@@ -38,7 +34,7 @@ TEST(Draws, SameSeedSameEndingsOnAnyThreads) {
 
 TEST(Draws, TheHorizonMayComeFirst) {
   const Ending ending =
-      ride_to_end(Ride(default_car(), brake, scene_at(20.0, 0.9), 0.9), 1.0, true);
+      ride_to_end(Ride(default_car(), brake, ego_alone(20.0, 0.9), 0.9), 1.0, true);
   EXPECT_FALSE(ending.ended);
   EXPECT_NEAR(ending.time, 1.0, 1e-9);
   EXPECT_GT(ending.speed, 5.0);
@@ -56,9 +52,9 @@ TEST(Draws, AcrossIsWithinTenDegreesOfTheSideAndAtRest) {
 }
 
 TEST(Draws, RefusesWhatCannotBeDriven) {
-  EXPECT_THROW((void)draw_endings(default_car(), drift, scene_at(2.0, 0.9), 0.9, 5.0, 1, 1, 0, 1),
+  EXPECT_THROW((void)draw_endings(default_car(), drift, ego_alone(2.0, 0.9), 0.9, 5.0, 1, 1, 0, 1),
                ContractViolation);
 }
 
 }  // namespace
-}  // namespace saca::manoeuvre
+}  // namespace saca::manoeuvre::draws_test

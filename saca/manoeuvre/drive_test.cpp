@@ -12,8 +12,9 @@
 #include "saca/core/contract.h"
 #include "saca/core/units.h"
 #include "saca/manoeuvre/default_car.h"
+#include "tests/support/scenes.h"
 
-namespace saca::manoeuvre {
+namespace saca::manoeuvre::drive_test {
 namespace {
 
 using testing::HasSubstr;
@@ -24,10 +25,8 @@ const Car& car() {
 }
 
 world::Scene scene_at(double speed, double grip) {
-  world::Scene scene;
+  world::Scene scene = test::ego_alone(speed, grip);
   scene.time = 7.0;
-  scene.ego.v_B = {speed, 0.0};
-  scene.grip = grip;
   return scene;
 }
 
@@ -261,4 +260,4 @@ TEST(Drive, RefusesWhatCannotBeDriven) {
 }
 
 }  // namespace
-}  // namespace saca::manoeuvre
+}  // namespace saca::manoeuvre::drive_test

@@ -8,7 +8,7 @@
 #include "saca/core/contract.h"
 #include "saca/manoeuvre/default_car.h"
 
-namespace saca::manoeuvre {
+namespace saca::manoeuvre::ego_test {
 namespace {
 
 using vehicle::VehicleState;
@@ -89,4 +89,4 @@ TEST_F(Ego, RefusesWhatIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace saca::manoeuvre
+}  // namespace saca::manoeuvre::ego_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace saca::manoeuvre {
+namespace saca::manoeuvre::lane_shift_test {
 namespace {
 
 TEST(LaneShift, EndsAtRestWhereItShould) {
@@ -70,4 +70,4 @@ TEST(LaneShift, OfNoWayIsNone) {
 }
 
 }  // namespace
-}  // namespace saca::manoeuvre
+}  // namespace saca::manoeuvre::lane_shift_test

@@ -8,7 +8,7 @@
 #include "saca/core/contract.h"
 #include "saca/manoeuvre/default_car.h"
 
-namespace saca::manoeuvre {
+namespace saca::manoeuvre::physics_figures_test {
 namespace {
 
 const std::vector<Figure>& figures() {
@@ -38,4 +38,4 @@ TEST(PhysicsFigures, RefuseWhatIsNoStop) {
 }
 
 }  // namespace
-}  // namespace saca::manoeuvre
+}  // namespace saca::manoeuvre::physics_figures_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace saca::manoeuvre {
+namespace saca::manoeuvre::plan_test {
 namespace {
 
 // Table I of the paper.
@@ -41,4 +41,4 @@ TEST(Plan, OnlyBrakedLaneChangesHaveATargetSpeed) {
 }
 
 }  // namespace
-}  // namespace saca::manoeuvre
+}  // namespace saca::manoeuvre::plan_test

@@ -6,21 +6,17 @@
 #include "saca/manoeuvre/default_car.h"
 #include "saca/manoeuvre/drive.h"
 #include "tests/support/count_allocations.h"
+#include "tests/support/scenes.h"
 
-namespace saca::manoeuvre {
+namespace saca::manoeuvre::ride_test {
 namespace {
+
+using test::ego_alone;
 
 constexpr Plan brake{PolicyId::aeb, std::nullopt};
 
-world::Scene scene_at(double speed, double grip) {
-  world::Scene scene;
-  scene.ego.v_B = {speed, 0.0};
-  scene.grip = grip;
-  return scene;
-}
-
 double stop(double grip, const Unknown& unknown) {
-  Ride ride(default_car(), brake, scene_at(15.0, 0.8), grip, unknown);
+  Ride ride(default_car(), brake, ego_alone(15.0, 0.8), grip, unknown);
   while (!ride.ended()) {
     ride.step();
   }
@@ -29,7 +25,7 @@ double stop(double grip, const Unknown& unknown) {
 
 TEST(Ride, GoesTheWayOfDrive) {
   const Car car = default_car();
-  const world::Scene scene = scene_at(16.0, 0.8);
+  const world::Scene scene = ego_alone(16.0, 0.8);
   const Plan plan = default_plan(PolicyId::es_b_left, 16.0);
   const EgoMotion motion = drive(car, plan, scene, 0.7, 1.0);
   Ride ride(car, plan, scene, 0.7);
@@ -50,17 +46,17 @@ TEST(Ride, TheRoadDecidesNotWhatIsKnownOfIt) {
 
 TEST(Ride, NoDrawMakesTheRoadBetterThanTheModelKnows) {
   for (const double grip : {1.12, 1.17, 1.2}) {
-    Ride ride(default_car(), brake, scene_at(15.0, 0.9), grip, {.grip = 1.18});
+    Ride ride(default_car(), brake, ego_alone(15.0, 0.9), grip, {.grip = 1.18});
     ride.step();
     EXPECT_GT(ride.state().X_WB.p.x, 0.0);
   }
 }
 
 TEST(Ride, RefusesWhatCannotBeDriven) {
-  EXPECT_THROW(Ride(default_car(), brake, scene_at(15.0, 0.8), 1.3), ContractViolation);
-  EXPECT_THROW(Ride(default_car(), {PolicyId::es_b_left, std::nullopt}, scene_at(15.0, 0.8), 0.8),
+  EXPECT_THROW(Ride(default_car(), brake, ego_alone(15.0, 0.8), 1.3), ContractViolation);
+  EXPECT_THROW(Ride(default_car(), {PolicyId::es_b_left, std::nullopt}, ego_alone(15.0, 0.8), 0.8),
                ContractViolation);
 }
 
 }  // namespace
-}  // namespace saca::manoeuvre
+}  // namespace saca::manoeuvre::ride_test

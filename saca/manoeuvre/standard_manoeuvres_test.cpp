@@ -12,7 +12,7 @@
 #include "saca/vehicle/default_car.h"
 #include "saca/world/footprint.h"
 
-namespace saca::manoeuvre {
+namespace saca::manoeuvre::standard_manoeuvres_test {
 namespace {
 
 using vehicle::Vehicle;
@@ -213,4 +213,4 @@ TEST(SplitGrip, EmergencyBrakingKeepsTheLane) {
 }
 
 }  // namespace
-}  // namespace saca::manoeuvre
+}  // namespace saca::manoeuvre::standard_manoeuvres_test

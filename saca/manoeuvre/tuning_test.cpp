@@ -9,7 +9,7 @@
 #include "saca/core/file.h"
 #include "saca/manoeuvre/default_car.h"
 
-namespace saca::manoeuvre {
+namespace saca::manoeuvre::tuning_test {
 namespace {
 
 using testing::HasSubstr;
@@ -89,4 +89,4 @@ TEST(DriftDomain, IsEmptyBesideAGripWhereNothingWorks) {
 }
 
 }  // namespace
-}  // namespace saca::manoeuvre
+}  // namespace saca::manoeuvre::tuning_test

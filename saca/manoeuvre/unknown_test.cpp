@@ -6,7 +6,7 @@
 
 #include "saca/manoeuvre/default_car.h"
 
-namespace saca::manoeuvre {
+namespace saca::manoeuvre::unknown_test {
 namespace {
 
 TEST(Unknown, HasTheSpreadsThatItNames) {
@@ -55,4 +55,4 @@ TEST(Unknown, ChangesTheCarAndNothingUnknownLeavesIt) {
 }
 
 }  // namespace
-}  // namespace saca::manoeuvre
+}  // namespace saca::manoeuvre::unknown_test

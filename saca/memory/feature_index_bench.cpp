@@ -4,7 +4,7 @@
 
 #include "saca/memory/example_scenes.h"
 
-namespace saca::memory {
+namespace saca::memory::feature_index_bench {
 namespace {
 
 void nearest_of(benchmark::State& state) {
@@ -25,4 +25,4 @@ void nearest_of(benchmark::State& state) {
 BENCHMARK(nearest_of)->Arg(1'000)->Arg(100'000)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
-}  // namespace saca::memory
+}  // namespace saca::memory::feature_index_bench

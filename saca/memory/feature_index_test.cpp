@@ -5,7 +5,7 @@
 #include "saca/core/contract.h"
 #include "saca/memory/example_scenes.h"
 
-namespace saca::memory {
+namespace saca::memory::feature_index_test {
 namespace {
 
 TEST(FeatureIndex, IsEmptyAtFirst) {
@@ -55,4 +55,4 @@ TEST(FeatureIndex, RefusesWhatIsOutOfOrderOrNoScene) {
 }
 
 }  // namespace
-}  // namespace saca::memory
+}  // namespace saca::memory::feature_index_test

@@ -11,7 +11,7 @@
 #include "saca/core/contract.h"
 #include "saca/memory/example_scenes.h"
 
-namespace saca::memory {
+namespace saca::memory::scene_json_test {
 namespace {
 
 using nlohmann::json;
@@ -175,4 +175,4 @@ TEST(SceneJson, IsNotWrittenForASceneThatIsNone) {
 }
 
 }  // namespace
-}  // namespace saca::memory
+}  // namespace saca::memory::scene_json_test

@@ -4,7 +4,7 @@
 
 #include "saca/memory/example_scenes.h"
 
-namespace saca::memory {
+namespace saca::memory::similarity_bench {
 namespace {
 
 // The reflex plane matches the scene of the trigger with a cached forecast of itself.
@@ -42,4 +42,4 @@ void features_of_a_scene(benchmark::State& state) {
 BENCHMARK(features_of_a_scene)->Arg(1)->Arg(8)->Arg(32);
 
 }  // namespace
-}  // namespace saca::memory
+}  // namespace saca::memory::similarity_bench

@@ -12,7 +12,7 @@
 #include "saca/memory/example_scenes.h"
 #include "tests/support/count_allocations.h"
 
-namespace saca::memory {
+namespace saca::memory::similarity_test {
 namespace {
 
 using world::Scene;
@@ -335,4 +335,4 @@ TEST(Similarity, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace saca::memory
+}  // namespace saca::memory::similarity_test

@@ -5,7 +5,7 @@
 
 #include <cstdio>
 
-namespace saca::memory {
+namespace saca::memory::sqlite_test {
 namespace {
 
 using testing::HasSubstr;
@@ -59,4 +59,4 @@ TEST(SqliteProblem, OfAFileThatAnotherHoldsIsThatItIsTooLate) {
 }
 
 }  // namespace
-}  // namespace saca::memory
+}  // namespace saca::memory::sqlite_test

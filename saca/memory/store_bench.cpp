@@ -6,7 +6,7 @@
 
 #include "saca/memory/example_scenes.h"
 
-namespace saca::memory {
+namespace saca::memory::store_bench {
 namespace {
 
 namespace fs = std::filesystem;
@@ -63,4 +63,4 @@ void nearest_of(benchmark::State& state) {
 BENCHMARK(nearest_of)->Arg(100)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
-}  // namespace saca::memory
+}  // namespace saca::memory::store_bench

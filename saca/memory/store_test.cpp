@@ -23,7 +23,7 @@
 #include "saca/memory/scene_json.h"
 #include "saca/memory/similarity.h"
 
-namespace saca::memory {
+namespace saca::memory::store_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -515,4 +515,4 @@ TEST_F(Memory, KeepsEveryReportedCaseWhenItsProcessIsKilled) {
 }
 
 }  // namespace
-}  // namespace saca::memory
+}  // namespace saca::memory::store_test

@@ -10,7 +10,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::outcome {
+namespace saca::outcome::approach_test {
 namespace {
 
 using world::Footprint;
@@ -272,4 +272,4 @@ TEST(Approach, RefusesWhatIsNoMotion) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::approach_test

@@ -8,7 +8,7 @@
 
 #include "saca/manoeuvre/atlas_for_test.h"
 
-namespace saca::outcome {
+namespace saca::outcome::atlas_ego_test {
 namespace {
 
 using manoeuvre::atlas_plan;
@@ -101,4 +101,4 @@ TEST(AtlasEgo, HalvesHaveTheMomentsOfDraws) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::atlas_ego_test

@@ -7,7 +7,7 @@
 #include "saca/manoeuvre/drive.h"
 #include "tests/support/count_allocations.h"
 
-namespace saca::outcome {
+namespace saca::outcome::atlas_way_test {
 namespace {
 
 using manoeuvre::atlas_plan;
@@ -61,4 +61,4 @@ TEST(AtlasWay, IsCutWhereAskedAndAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::atlas_way_test

@@ -8,7 +8,7 @@
 #include "saca/outcome/encounters_for_test.h"
 #include "saca/outcome/impact.h"
 
-namespace saca::outcome {
+namespace saca::outcome::blow_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -109,4 +109,4 @@ TEST(PressedOn, AddsChangesOfVelocityAsVectors) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::blow_test

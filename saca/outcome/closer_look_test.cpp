@@ -7,7 +7,7 @@
 #include "saca/manoeuvre/atlas_for_test.h"
 #include "saca/outcome/encounters_for_test.h"
 
-namespace saca::outcome {
+namespace saca::outcome::closer_look_test {
 namespace {
 
 using manoeuvre::AtlasPath;
@@ -84,4 +84,4 @@ TEST(CloserLook, NarrowsToTheLeastBetweenNeighbours) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::closer_look_test

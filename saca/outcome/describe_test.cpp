@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace saca::outcome {
+namespace saca::outcome::describe_test {
 namespace {
 
 world::Scene scene_with_a_truck() {
@@ -34,4 +34,4 @@ TEST(Describe, GoesOnToWhatFollows) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::describe_test

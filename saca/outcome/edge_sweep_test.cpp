@@ -8,7 +8,7 @@
 #include "saca/outcome/atlas_ego_for_test.h"
 #include "saca/outcome/edge.h"
 
-namespace saca::outcome {
+namespace saca::outcome::edge_sweep_test {
 namespace {
 
 using manoeuvre::atlas_plan;
@@ -76,4 +76,4 @@ TEST(EdgeSweep, ProbabilityFallsWithTheRoom) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::edge_sweep_test

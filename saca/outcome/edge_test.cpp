@@ -10,7 +10,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::outcome {
+namespace saca::outcome::edge_test {
 namespace {
 
 using world::Footprint;
@@ -143,4 +143,4 @@ TEST(EdgeApproach, RefusesWhatIsNoRoad) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::edge_test

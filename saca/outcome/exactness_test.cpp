@@ -16,7 +16,7 @@
 // The promise of `approach` and `touch` against a brute force that shares nothing with them: fine
 // steps in time, then halving, on functions whose sign says whether two bodies overlap.
 
-namespace saca::outcome {
+namespace saca::outcome::exactness_test {
 namespace {
 
 using world::Footprint;
@@ -369,4 +369,4 @@ TEST(Exactness, ContactIsTrueToATenthOfAMillisecondAndAMillimetre) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::exactness_test

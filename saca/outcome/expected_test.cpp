@@ -8,7 +8,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::outcome {
+namespace saca::outcome::expected_test {
 namespace {
 
 // Points of the t distribution to four figures, as every table of it has them.
@@ -86,4 +86,4 @@ TEST(Expected, RefusesTooFewAndWhatDoesNotPair) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::expected_test

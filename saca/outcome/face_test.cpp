@@ -8,7 +8,7 @@
 #include "saca/core/contract.h"
 #include "saca/core/units.h"
 
-namespace saca::outcome {
+namespace saca::outcome::face_test {
 namespace {
 
 constexpr world::Footprint car{.length = 4.7, .width = 1.9};
@@ -59,4 +59,4 @@ TEST(FaceName, IsTheWordForIt) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::face_test

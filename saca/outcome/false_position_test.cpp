@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace saca::outcome {
+namespace saca::outcome::false_position_test {
 namespace {
 
 TEST(FalsePosition, FindsTheLastTimeBeforeAZero) {
@@ -33,4 +33,4 @@ TEST(FalsePosition, StopsWhereLittleIsLeft) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::false_position_test

@@ -15,7 +15,7 @@
 #include "saca/outcome/roll_out.h"
 #include "tests/support/count_allocations.h"
 
-namespace saca::outcome {
+namespace saca::outcome::futures_test {
 namespace {
 
 using manoeuvre::all_policies;
@@ -313,4 +313,4 @@ TEST(Futures, AllocateNothing) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::futures_test

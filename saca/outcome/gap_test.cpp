@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace saca::outcome {
+namespace saca::outcome::gap_test {
 namespace {
 
 using world::Footprint;
@@ -72,4 +72,4 @@ TEST(Gap, OfWhatIsNoNumberHasNoEnd) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::gap_test

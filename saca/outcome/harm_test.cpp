@@ -11,7 +11,7 @@
 #include "saca/core/file.h"
 #include "saca/core/units.h"
 
-namespace saca::outcome {
+namespace saca::outcome::harm_test {
 namespace {
 
 using testing::HasSubstr;
@@ -151,4 +151,4 @@ TEST(ReadHarm, NamesAFileThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::harm_test

@@ -10,7 +10,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::outcome {
+namespace saca::outcome::impact_test {
 namespace {
 
 constexpr world::Footprint car{.length = 4.7, .width = 1.9};
@@ -222,4 +222,4 @@ TEST(Impact, RefusesWhatIsNoImpact) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::impact_test

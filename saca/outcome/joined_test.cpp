@@ -4,7 +4,7 @@
 
 #include "saca/outcome/encounters_for_test.h"
 
-namespace saca::outcome {
+namespace saca::outcome::joined_test {
 namespace {
 
 // 10 m/s along x until 0.503 s, then 4 m/s along y.
@@ -38,4 +38,4 @@ TEST(Joined, ABodyThatStoodUntilItWasStruckStoodThere) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::joined_test

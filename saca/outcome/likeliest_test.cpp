@@ -10,7 +10,7 @@
 #include "saca/manoeuvre/atlas_for_test.h"
 #include "saca/outcome/encounters_for_test.h"
 
-namespace saca::outcome {
+namespace saca::outcome::likeliest_test {
 namespace {
 
 using manoeuvre::AtlasPath;
@@ -116,4 +116,4 @@ TEST(Likeliest, OfWhoIsFarIsNothing) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::likeliest_test

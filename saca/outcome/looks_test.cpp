@@ -9,8 +9,9 @@
 
 #include "saca/outcome/encounters_for_test.h"
 #include "saca/outcome/gap.h"
+#include "tests/support/levels.h"
 
-namespace saca::outcome {
+namespace saca::outcome::looks_test {
 namespace {
 
 using world::Footprint;
@@ -126,10 +127,7 @@ TEST(Looks, GapOfBoxesIsThatOfACloserLook) {
 TEST(Looks, AreTheSameOnEachInstructionSet) {
   std::mt19937_64 rng(7);
   const Footprint car{.length = 4.5, .width = 1.8, .centre_x = 0.3};
-  for (const auto level : {Level::avx2, Level::avx512}) {
-    if (!available(level)) {
-      continue;
-    }
+  for (const Level level : test::those_here({Level::avx2, Level::avx512})) {
     for (int i = 0; i < 50; ++i) {
       Looks a = looks_of(lively(rng), car, 3.0, {});
       Looks b = looks_of(lively(rng), car, 3.0, {});
@@ -166,4 +164,4 @@ TEST(Looks, DirectionsAreThoseOfAngles) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::looks_test

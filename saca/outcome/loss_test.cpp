@@ -6,7 +6,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::outcome {
+namespace saca::outcome::loss_test {
 namespace {
 
 using manoeuvre::PolicyId;
@@ -37,4 +37,4 @@ TEST(FalseTriggerLoss, IsThePapers) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::loss_test

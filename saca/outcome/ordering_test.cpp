@@ -9,7 +9,7 @@
 #include "saca/core/contract.h"
 #include "saca/outcome/outcome.h"
 
-namespace saca::outcome {
+namespace saca::outcome::ordering_test {
 namespace {
 
 using manoeuvre::PolicyId;
@@ -99,4 +99,4 @@ TEST(Better, RefusesWhatIsNoHarm) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::ordering_test

@@ -11,7 +11,7 @@
 #include "saca/core/contract.h"
 #include "saca/outcome/encounters_for_test.h"
 
-namespace saca::outcome {
+namespace saca::outcome::outcome_test {
 namespace {
 
 using world::ActorKind;
@@ -498,4 +498,4 @@ TEST(Judge, RefusesWhatDoesNotFitTogether) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::outcome_test

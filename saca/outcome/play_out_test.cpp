@@ -9,7 +9,7 @@
 #include "saca/outcome/encounters_for_test.h"
 #include "saca/vehicle/vehicle.h"
 
-namespace saca::outcome {
+namespace saca::outcome::play_out_test {
 namespace {
 
 using world::ActorKind;
@@ -533,4 +533,4 @@ TEST(PlayOut, RefusesOthersThatAreNotThere) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::play_out_test

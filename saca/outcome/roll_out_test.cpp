@@ -8,7 +8,7 @@
 #include "saca/outcome/encounters_for_test.h"
 #include "saca/outcome/roll_out.h"
 
-namespace saca::outcome {
+namespace saca::outcome::roll_out_test {
 namespace {
 
 using manoeuvre::PolicyId;
@@ -142,4 +142,4 @@ TEST(RollOutAll, RefusesWhatCannotBeDriven) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::roll_out_test

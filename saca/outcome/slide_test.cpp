@@ -10,7 +10,7 @@
 #include "saca/core/contract.h"
 #include "saca/vehicle/vehicle.h"
 
-namespace saca::outcome {
+namespace saca::outcome::slide_test {
 namespace {
 
 using manoeuvre::EgoMotion;
@@ -162,4 +162,4 @@ TEST(Slide, RefusesWhatIsNoMotion) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::slide_test

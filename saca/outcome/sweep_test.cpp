@@ -15,7 +15,7 @@
 #include "saca/outcome/atlas_ego_for_test.h"
 #include "saca/outcome/encounters_for_test.h"
 
-namespace saca::outcome {
+namespace saca::outcome::sweep_test {
 namespace {
 
 using manoeuvre::atlas_plan;
@@ -158,4 +158,4 @@ TEST(Sweep, ManyAreAsEachAlone) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::sweep_test

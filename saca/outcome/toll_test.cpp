@@ -6,7 +6,7 @@
 
 #include "saca/outcome/encounters_for_test.h"
 
-namespace saca::outcome {
+namespace saca::outcome::toll_test {
 namespace {
 
 world::Scene two_cars() {
@@ -61,4 +61,4 @@ TEST(Toll, ABlowComesOnlyIfAllBeforeItDid) {
 }
 
 }  // namespace
-}  // namespace saca::outcome
+}  // namespace saca::outcome::toll_test

@@ -6,8 +6,9 @@
 #include <numeric>
 
 #include "saca/core/contract.h"
+#include "tests/support/scenes.h"
 
-namespace saca::preview {
+namespace saca::preview::caution_test {
 namespace {
 
 using intent::Beliefs;
@@ -17,14 +18,8 @@ using world::Actor;
 using world::Scene;
 
 Scene ego_and(Vec2 p_W, Vec2 v_W) {
-  Scene scene;
-  scene.ego.v_B = {14.0, 0.0};
-  scene.ego_footprint = {.length = 4.0, .width = 2.0};
-  scene.ego_mass = 1'700.0;
-  Actor actor{.id = 1, .footprint = {.length = 4.0, .width = 2.0}, .mass = 1'500.0};
-  actor.X_WA = {p_W, std::atan2(v_W.y, v_W.x)};
-  actor.v_W = v_W;
-  scene.actors.push_back(actor);
+  Scene scene = test::ego_at(14.0, test::whole_metres);
+  scene.actors.push_back(test::block(1, p_W, v_W));
   return scene;
 }
 
@@ -99,4 +94,4 @@ TEST(Cautious, RefusesBeliefsAboutOthers) {
 }
 
 }  // namespace
-}  // namespace saca::preview
+}  // namespace saca::preview::caution_test

@@ -7,30 +7,19 @@
 
 #include "saca/core/contract.h"
 #include "saca/intent/driver.h"
+#include "tests/support/scenes.h"
 
-namespace saca::preview {
+namespace saca::preview::followers_test {
 namespace {
 
+using test::block;
+using test::ego_at;
+using test::whole_metres;
 using world::Actor;
 using world::Scene;
 using world::Track;
 
 constexpr double step = 0.01;
-
-Scene ego_at(double speed) {
-  Scene scene;
-  scene.ego.v_B = {speed, 0.0};
-  scene.ego_footprint = {.length = 4.0, .width = 2.0};
-  scene.ego_mass = 1'700.0;
-  return scene;
-}
-
-Actor car(std::uint8_t id, Vec2 p_W, double speed) {
-  Actor actor{.id = id, .footprint = {.length = 4.0, .width = 2.0}, .mass = 1'500.0};
-  actor.X_WA.p = p_W;
-  actor.v_W = {speed, 0.0};
-  return actor;
-}
 
 Track going_on(const Actor& actor) {
   Track track{.step = step, .X_WA = {}};
@@ -67,8 +56,8 @@ Track braking(double speed, double deceleration) {
 // sqrt(2 * 4 / 8) = 1 s. Braking as hard from 35 m behind, 20 m/s * 1.25 s of it are used up.
 TEST(WithReactingFollowers, AShortGapIsRunIntoALongOneIsNot) {
   for (const double gap : {4.0, 35.0}) {
-    Scene scene = ego_at(20.0);
-    scene.actors.push_back(car(1, {-4.0 - gap, 0.0}, 20.0));
+    Scene scene = ego_at(20.0, whole_metres);
+    scene.actors.push_back(block(1, {-4.0 - gap, 0.0}, {20.0, 0.0}));
     const Track X_WB = braking(20.0, 8.0);
     const auto tracks = with_reacting_followers(scene, all_going_on(scene))(along(X_WB));
     double least = gap;
@@ -86,19 +75,19 @@ TEST(WithReactingFollowers, AShortGapIsRunIntoALongOneIsNot) {
 
 // Who goes on gives nobody a reason to brake, however short the gap.
 TEST(WithReactingFollowers, AContentFollowerGoesOnBehindAnEgoThatGoesOn) {
-  Scene scene = ego_at(20.0);
-  scene.actors.push_back(car(1, {-10.0, 0.0}, 20.0));
-  const Track X_WB = going_on(car(2, {}, 20.0));
+  Scene scene = ego_at(20.0, whole_metres);
+  scene.actors.push_back(block(1, {-10.0, 0.0}, {20.0, 0.0}));
+  const Track X_WB = going_on(block(2, {}, {20.0, 0.0}));
   const auto tracks = with_reacting_followers(scene, all_going_on(scene))(along(X_WB));
   EXPECT_NEAR(pose_at(tracks[0], 8.0).p.x, -10.0 + 160.0, 0.1);
 }
 
 // A car beside the ego is no follower, nor is one ahead: they keep to their tracks.
 TEST(WithReactingFollowers, EveryoneElseKeepsToItsTrack) {
-  Scene scene = ego_at(10.0);
-  scene.actors.push_back(car(1, {-1.0, 3.5}, 10.0));
-  scene.actors.push_back(car(2, {-9.0, 3.5}, 15.0));
-  scene.actors.push_back(car(3, {30.0, 0.0}, 5.0));
+  Scene scene = ego_at(10.0, whole_metres);
+  scene.actors.push_back(block(1, {-1.0, 3.5}, {10.0, 0.0}));
+  scene.actors.push_back(block(2, {-9.0, 3.5}, {15.0, 0.0}));
+  scene.actors.push_back(block(3, {30.0, 0.0}, {5.0, 0.0}));
   const auto tracks =
       with_reacting_followers(scene, all_going_on(scene))(along(braking(10.0, 8.0)));
   for (std::size_t i = 0; i < 3; ++i) {
@@ -108,9 +97,9 @@ TEST(WithReactingFollowers, EveryoneElseKeepsToItsTrack) {
 
 // The second follower is listed first; it sees the first one brake, not the ego.
 TEST(WithReactingFollowers, FollowersReactInARow) {
-  Scene scene = ego_at(20.0);
-  scene.actors.push_back(car(1, {-80.0, 0.0}, 20.0));
-  scene.actors.push_back(car(2, {-40.0, 0.0}, 20.0));
+  Scene scene = ego_at(20.0, whole_metres);
+  scene.actors.push_back(block(1, {-80.0, 0.0}, {20.0, 0.0}));
+  scene.actors.push_back(block(2, {-40.0, 0.0}, {20.0, 0.0}));
   const auto tracks =
       with_reacting_followers(scene, all_going_on(scene))(along(braking(20.0, 6.0)));
   for (double time = 0.0; time < 8.0; time += 0.1) {
@@ -120,17 +109,17 @@ TEST(WithReactingFollowers, FollowersReactInARow) {
 }
 
 TEST(WithReactingFollowers, WantsOneTrackPerActor) {
-  Scene scene = ego_at(10.0);
-  scene.actors.push_back(car(1, {-14.0, 0.0}, 10.0));
+  Scene scene = ego_at(10.0, whole_metres);
+  scene.actors.push_back(block(1, {-14.0, 0.0}, {10.0, 0.0}));
   EXPECT_THROW((void)with_reacting_followers(scene, {}), ContractViolation);
 }
 
 // The finer forecast is the reference: steps three times as long move a follower by decimetres.
 TEST(LetReact, IsTheSameWhereNobodyElseIsInTheWay) {
-  Scene scene = ego_at(20.0);
-  scene.actors.push_back(car(1, {-75.0, 0.0}, 20.0));
-  scene.actors.push_back(car(2, {60.0, 3.5}, 5.0));
-  scene.actors.push_back(car(3, {-35.0, 0.0}, 20.0));
+  Scene scene = ego_at(20.0, whole_metres);
+  scene.actors.push_back(block(1, {-75.0, 0.0}, {20.0, 0.0}));
+  scene.actors.push_back(block(2, {60.0, 3.5}, {5.0, 0.0}));
+  scene.actors.push_back(block(3, {-35.0, 0.0}, {20.0, 0.0}));
   const Track X_WB = braking(20.0, 6.0);
   const auto reference = with_reacting_followers(scene, all_going_on(scene))(along(X_WB));
   const Followers followers = followers_of(scene);
@@ -148,4 +137,4 @@ TEST(LetReact, IsTheSameWhereNobodyElseIsInTheWay) {
 }
 
 }  // namespace
-}  // namespace saca::preview
+}  // namespace saca::preview::followers_test

@@ -10,7 +10,7 @@
 #include "saca/outcome/futures.h"
 #include "saca/outcome/ordering.h"
 
-namespace saca::preview {
+namespace saca::preview::policy_facts_test {
 namespace {
 
 using manoeuvre::PolicyId;
@@ -174,4 +174,4 @@ TEST(BestByForecast, DoesNothingWhereNothingThreatens) {
 }
 
 }  // namespace
-}  // namespace saca::preview
+}  // namespace saca::preview::policy_facts_test

@@ -10,29 +10,21 @@
 #include "saca/intent/shipped_model.h"
 #include "saca/manoeuvre/default_car.h"
 #include "saca/manoeuvre/ego.h"
+#include "tests/support/scenes.h"
 
-namespace saca::preview {
+namespace saca::preview::preview_test {
 namespace {
 
+using test::car;
 using world::Actor;
 using world::Scene;
 
 /// Two lanes to the left of the ego, one to its right.
 Scene motorway(double speed) {
-  Scene scene;
-  scene.ego.v_B = {speed, 0.0};
-  scene.ego_footprint = manoeuvre::footprint(manoeuvre::default_car());
-  scene.ego_mass = 1'700.0;
+  Scene scene = test::ego_at(speed, manoeuvre::footprint(manoeuvre::default_car()));
   scene.road.left_edge = 8.75;
   scene.road.right_edge = -5.25;
   return scene;
-}
-
-Actor car(std::uint8_t id, Vec2 p_W, Vec2 v_W) {
-  Actor actor{.id = id, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1'500.0};
-  actor.X_WA = {p_W, norm(v_W) > 0.0 ? std::atan2(v_W.y, v_W.x) : 0.0};
-  actor.v_W = v_W;
-  return actor;
 }
 
 std::vector<Situation> look(const Scene& scene, const intent::Beliefs& beliefs) {
@@ -152,4 +144,4 @@ TEST(Situations, ThosePresentButHarmlessDoNotMultiplyForecasts) {
 }
 
 }  // namespace
-}  // namespace saca::preview
+}  // namespace saca::preview::preview_test

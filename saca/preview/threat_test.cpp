@@ -6,29 +6,18 @@
 
 #include "saca/intent/shipped_model.h"
 #include "saca/world/time_to_conflict.h"
+#include "tests/support/scenes.h"
 
-namespace saca::preview {
+namespace saca::preview::threat_test {
 namespace {
 
+using test::block;
+using test::ego_at;
+using test::whole_metres;
 using world::Actor;
 using world::Scene;
 
 constexpr double exactness = 0.0101;  // conflicts are found to 10 ms
-
-Scene ego_at(double speed) {
-  Scene scene;
-  scene.ego.v_B = {speed, 0.0};
-  scene.ego_footprint = {.length = 4.0, .width = 2.0};
-  scene.ego_mass = 1'700.0;
-  return scene;
-}
-
-Actor car(std::uint8_t id, Vec2 p_W, Vec2 v_W) {
-  Actor actor{.id = id, .footprint = {.length = 4.0, .width = 2.0}, .mass = 1'500.0};
-  actor.X_WA = {p_W, norm(v_W) > 0.0 ? std::atan2(v_W.y, v_W.x) : 0.0};
-  actor.v_W = v_W;
-  return actor;
-}
 
 /// As seen for the first time.
 std::optional<Threat> previewed(const Scene& scene, const Thresholds& thresholds) {
@@ -37,12 +26,12 @@ std::optional<Threat> previewed(const Scene& scene, const Thresholds& thresholds
 }
 
 TEST(NearestThreat, IsTheEarliestOfAll) {
-  Scene scene = ego_at(20.0);
-  scene.actors.push_back(car(1, {84.0, 0.0}, {}));  // 80 m: 4 s
+  Scene scene = ego_at(20.0, whole_metres);
+  scene.actors.push_back(block(1, {84.0, 0.0}, {}));  // 80 m: 4 s
   scene.actors.push_back(
-      car(2, {64.0, 0.0}, {5.0, 0.0}));             // 60 m at 15 m/s: 4 s, a tie kept by order
-  scene.actors.push_back(car(3, {44.0, 0.0}, {}));  // 40 m: 2 s
-  scene.actors.push_back(car(4, {10.0, 3.5}, {}));  // beside the lane
+      block(2, {64.0, 0.0}, {5.0, 0.0}));             // 60 m at 15 m/s: 4 s, a tie kept by order
+  scene.actors.push_back(block(3, {44.0, 0.0}, {}));  // 40 m: 2 s
+  scene.actors.push_back(block(4, {10.0, 3.5}, {}));  // beside the lane
   const auto threat = nearest_threat(scene, 5.5, 0.5);
   ASSERT_TRUE(threat.has_value());
   EXPECT_EQ(threat->actor, 2U);
@@ -50,13 +39,13 @@ TEST(NearestThreat, IsTheEarliestOfAll) {
 }
 
 TEST(NearestThreat, EmptySceneHasNone) {
-  EXPECT_FALSE(nearest_threat(ego_at(20.0), 5.5, 2.0).has_value());
-  EXPECT_FALSE(previewed(ego_at(20.0), {}).has_value());
+  EXPECT_FALSE(nearest_threat(ego_at(20.0, whole_metres), 5.5, 2.0).has_value());
+  EXPECT_FALSE(previewed(ego_at(20.0, whole_metres), {}).has_value());
 }
 
 TEST(NearestThreat, AFollowerNeverTriggers) {
-  Scene scene = ego_at(10.0);
-  scene.actors.push_back(car(1, {-14.0, 0.0}, {25.0, 0.0}));
+  Scene scene = ego_at(10.0, whole_metres);
+  scene.actors.push_back(block(1, {-14.0, 0.0}, {25.0, 0.0}));
   EXPECT_TRUE(world::is_behind(scene, scene.actors[0]));
   EXPECT_FALSE(nearest_threat(scene, 5.5, 0.5).has_value());
   EXPECT_FALSE(previewed(scene, {}).has_value());
@@ -65,8 +54,8 @@ TEST(NearestThreat, AFollowerNeverTriggers) {
 // The paper's scene at T2: at constant speed the truck passes behind the ego. The wide tolerance
 // starts the preview, the narrow one does not trigger.
 TEST(PreviewedThreat, SeesThePapersTruck) {
-  Scene scene = ego_at(14.0);
-  Actor truck = car(1, {55.0, 43.0}, {0.0, -7.5});
+  Scene scene = ego_at(14.0, whole_metres);
+  Actor truck = block(1, {55.0, 43.0}, {0.0, -7.5});
   truck.kind = world::ActorKind::truck;
   truck.footprint = {.length = 8.0, .width = 2.5};
   scene.actors.push_back(truck);
@@ -76,14 +65,22 @@ TEST(PreviewedThreat, SeesThePapersTruck) {
   EXPECT_LT(threat->time, 5.5);
 }
 
-// It slows a little: going on like that there is no conflict within T2, but it may brake in earnest
-// (14 % by the rule of intent), and that counts.
+// It slows a little: going on like that there is no conflict within T2, but it may brake in
+// earnest, and that counts where it is likely enough.
 TEST(PreviewedThreat, LooksAtEveryLikelyIntention) {
-  Scene scene = ego_at(20.0);
-  scene.actors.push_back(car(1, {24.0, 0.0}, {20.0, 0.0}));
+  Scene scene = ego_at(20.0, whole_metres);
+  scene.actors.push_back(block(1, {24.0, 0.0}, {20.0, 0.0}));
   scene.actors[0].a_W = {-1.2, 0.0};  // closes 20 m in sqrt(2 * 20 / 1.2) = 5.8 s
   EXPECT_FALSE(nearest_threat(scene, 5.5, 2.0).has_value());
-  const auto threat = previewed(scene, {});
+  intent::Belief belief{};
+  belief.at.fill({});
+  for (intent::IntentPosterior& posterior : belief.at) {
+    posterior[static_cast<std::size_t>(intent::Intention::maintain)] = 0.86;
+    posterior[static_cast<std::size_t>(intent::Intention::brake)] = 0.14;
+  }
+  intent::Beliefs beliefs;
+  beliefs.push_back(belief);
+  const auto threat = previewed_threat(scene, beliefs, {}, {.least_posterior = 0.13});
   ASSERT_TRUE(threat.has_value());
   // From 1.2 m/s^2 the deceleration rises to b within r, then stays: after r the way lost is
   // 1.2 r^2 / 2 + (b - 1.2) r^2 / 6, the speed lost (1.2 + b) r / 2; 20 m at t.
@@ -94,8 +91,8 @@ TEST(PreviewedThreat, LooksAtEveryLikelyIntention) {
   const double speed = 0.5 * (1.2 + b) * r;
   const double time = r + (std::sqrt(speed * speed + 2.0 * b * way) - speed) / b;
   EXPECT_NEAR(threat->time, time, exactness);
-  EXPECT_FALSE(previewed(scene, {.least_posterior = 0.2}).has_value());
+  EXPECT_FALSE(previewed_threat(scene, beliefs, {}, {.least_posterior = 0.15}).has_value());
 }
 
 }  // namespace
-}  // namespace saca::preview
+}  // namespace saca::preview::threat_test

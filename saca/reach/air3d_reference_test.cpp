@@ -11,10 +11,11 @@
 #include "saca/core/file.h"
 #include "saca/reach/march_for_test.h"
 #include "saca/reach/own_systems.h"
+#include "tests/support/levels.h"
 
 /// The solver beside hj_reachability, which solved the same with the same differences, dissipation
 /// and steps (tools/hj_reachability); what is left are its edges, its weights and rounding.
-namespace saca::reach {
+namespace saca::reach::air3d_reference_test {
 namespace {
 
 using nlohmann::json;
@@ -104,11 +105,9 @@ TEST(Air3dReference, FineGridsDoublesAndEachInstructionSetGiveTheSameTube) {
     GTEST_SKIP() << "SACA_SOAK_AIR3D is not set";
   }
   for (const int x_points : {51, 101}) {
-    for (const Level level : {Level::baseline, Level::avx2}) {
-      if (available(level)) {
-        expect_as_reference<float>("float", x_points, level);
-        expect_as_reference<double>("double", x_points, level);
-      }
+    for (const Level level : test::those_here({Level::baseline, Level::avx2})) {
+      expect_as_reference<float>("float", x_points, level);
+      expect_as_reference<double>("double", x_points, level);
     }
   }
 }
@@ -220,4 +219,4 @@ TEST(Air3dSolved, WithoutTurnsItIsTheClosestApproach) {
 }
 
 }  // namespace
-}  // namespace saca::reach
+}  // namespace saca::reach::air3d_reference_test

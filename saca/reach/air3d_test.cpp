@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-namespace saca::reach {
+namespace saca::reach::air3d_test {
 namespace {
 
 using State3 = std::array<double, 3>;
@@ -171,4 +171,4 @@ TEST(TubeVolume, IsZeroOrAllOfTheRoom) {
 }
 
 }  // namespace
-}  // namespace saca::reach
+}  // namespace saca::reach::air3d_test

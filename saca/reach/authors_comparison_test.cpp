@@ -11,7 +11,7 @@
 
 #include "saca/reach/obstacle_frame.h"
 
-namespace saca::reach {
+namespace saca::reach::authors_comparison_test {
 namespace {
 
 /// A network whose value is offset + slope x (x + 50) / 50, where that is right of 0 and x > -50.
@@ -119,4 +119,4 @@ TEST(CompareWithAuthors, WhatTheTableDoesNotHoldIsLeftOutAndCounted) {
 }
 
 }  // namespace
-}  // namespace saca::reach
+}  // namespace saca::reach::authors_comparison_test

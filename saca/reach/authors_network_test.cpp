@@ -12,7 +12,7 @@
 
 #include "saca/core/units.h"
 
-namespace saca::reach {
+namespace saca::reach::authors_network_test {
 namespace {
 
 using testing::HasSubstr;
@@ -130,4 +130,4 @@ TEST(AuthorsNetwork, FileThatIsNotThereIsNamed) {
 }
 
 }  // namespace
-}  // namespace saca::reach
+}  // namespace saca::reach::authors_network_test

@@ -8,7 +8,7 @@
 
 #include "saca/reach/avoidance_for_test.h"
 
-namespace saca::reach {
+namespace saca::reach::avoidance_ahead_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -71,4 +71,4 @@ TEST(AvoidanceAhead, SpeedsBoundTheHamiltoniansSlopes) {
 }
 
 }  // namespace
-}  // namespace saca::reach
+}  // namespace saca::reach::avoidance_ahead_test

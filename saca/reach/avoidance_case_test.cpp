@@ -15,7 +15,7 @@
 #include "saca/reach/own_systems.h"
 #include "saca/reach/solve.h"
 
-namespace saca::reach {
+namespace saca::reach::avoidance_case_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -306,4 +306,4 @@ TEST(AvoidanceCase, SolvedAtAnotherGripIsTheSameValueAtScaledSpeeds) {
 }
 
 }  // namespace
-}  // namespace saca::reach
+}  // namespace saca::reach::avoidance_case_test

@@ -12,7 +12,7 @@
 #include "saca/core/contract.h"
 #include "saca/reach/avoidance_for_test.h"
 
-namespace saca::reach {
+namespace saca::reach::avoidance_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -233,4 +233,4 @@ TEST(Avoidance, RefusesWhatIsNoCar) {
 }
 
 }  // namespace
-}  // namespace saca::reach
+}  // namespace saca::reach::avoidance_test

@@ -7,7 +7,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::reach {
+namespace saca::reach::car_limits_test {
 namespace {
 
 vehicle::Vehicle rear_driven() {
@@ -50,4 +50,4 @@ TEST(AvoidanceOf, DrivesNoHarderThanTheMotor) {
 }
 
 }  // namespace
-}  // namespace saca::reach
+}  // namespace saca::reach::car_limits_test

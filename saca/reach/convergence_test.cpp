@@ -4,7 +4,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::reach {
+namespace saca::reach::convergence_test {
 namespace {
 
 TEST(Refinements, FallAsTheTheoryOfEachSays) {
@@ -33,4 +33,4 @@ TEST(Orders, AreTheSlopesOfTheLogarithms) {
 }
 
 }  // namespace
-}  // namespace saca::reach
+}  // namespace saca::reach::convergence_test

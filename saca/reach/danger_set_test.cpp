@@ -7,7 +7,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::reach {
+namespace saca::reach::danger_set_test {
 namespace {
 
 using testing::ElementsAre;
@@ -66,4 +66,4 @@ TEST(DangerCases, HoldWhatTheyWereAskedFor) {
 }
 
 }  // namespace
-}  // namespace saca::reach
+}  // namespace saca::reach::danger_set_test

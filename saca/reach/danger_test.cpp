@@ -11,7 +11,7 @@
 #include "saca/reach/own_systems.h"
 #include "saca/reach/solve.h"
 
-namespace saca::reach {
+namespace saca::reach::danger_test {
 namespace {
 
 using world::Footprint;
@@ -233,4 +233,4 @@ TEST(Danger, RefusesWhatIsNoMeeting) {
 }
 
 }  // namespace
-}  // namespace saca::reach
+}  // namespace saca::reach::danger_test

@@ -23,7 +23,7 @@
 
 // Drives that follow a solved value meet what it promises: the value is compared with a simulation
 // that knows nothing of the grid.
-namespace saca::reach {
+namespace saca::reach::follow_agreement_test {
 namespace {
 
 using world::Footprint;
@@ -248,4 +248,4 @@ TEST(FollowAgreement, OfTheTablesOfARun) {
 }
 
 }  // namespace
-}  // namespace saca::reach
+}  // namespace saca::reach::follow_agreement_test

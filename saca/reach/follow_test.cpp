@@ -8,7 +8,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::reach {
+namespace saca::reach::follow_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -120,4 +120,4 @@ TEST(Follow, RefusesWhatIsNoDrive) {
 }
 
 }  // namespace
-}  // namespace saca::reach
+}  // namespace saca::reach::follow_test

@@ -11,7 +11,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::reach {
+namespace saca::reach::grid_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -141,4 +141,4 @@ TEST(Described, GivesEachCoordinateItsName) {
 }
 
 }  // namespace
-}  // namespace saca::reach
+}  // namespace saca::reach::grid_test

@@ -11,7 +11,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::reach {
+namespace saca::reach::intrusion_test {
 namespace {
 
 using world::Footprint;
@@ -140,4 +140,4 @@ TEST(Intrusion, RefusesWhatIsNoGround) {
 }
 
 }  // namespace
-}  // namespace saca::reach
+}  // namespace saca::reach::intrusion_test

@@ -11,7 +11,7 @@
 #include "saca/reach/flow_of.h"
 #include "saca/reach/march_for_test.h"
 
-namespace saca::reach {
+namespace saca::reach::known_systems_test {
 namespace {
 
 constexpr std::array all_differences{Differences::upwind1, Differences::eno2, Differences::eno3,
@@ -131,4 +131,4 @@ TEST(FlowOf, HasTheSameClosedForms) {
 }
 
 }  // namespace
-}  // namespace saca::reach
+}  // namespace saca::reach::known_systems_test

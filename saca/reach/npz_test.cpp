@@ -13,7 +13,7 @@
 
 #include "saca/core/file.h"
 
-namespace saca::reach {
+namespace saca::reach::npz_test {
 namespace {
 
 using testing::ElementsAre;
@@ -192,4 +192,4 @@ TEST_F(Npz, CutOrChangedFilesAreRefusedOrReadWhole) {  // never a crash
 }
 
 }  // namespace
-}  // namespace saca::reach
+}  // namespace saca::reach::npz_test

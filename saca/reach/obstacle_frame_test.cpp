@@ -12,7 +12,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::reach {
+namespace saca::reach::obstacle_frame_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -159,4 +159,4 @@ TEST(InObstacleFrame, RefusesWhatHasNoObstacle) {
 }
 
 }  // namespace
-}  // namespace saca::reach
+}  // namespace saca::reach::obstacle_frame_test

@@ -3,7 +3,7 @@
 #include "saca/reach/march_for_test.h"
 #include "saca/reach/own_systems.h"
 
-namespace saca::reach {
+namespace saca::reach::own_systems_avx2_test {
 namespace {
 
 // Without inputs every point only moves along: V(x, tau) = h(x + rate x tau), by these loops too.
@@ -26,4 +26,4 @@ TEST(OwnSystemsAvx2, CarriesAStraightValueAlong) {
 }
 
 }  // namespace
-}  // namespace saca::reach
+}  // namespace saca::reach::own_systems_avx2_test

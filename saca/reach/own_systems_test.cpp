@@ -7,8 +7,9 @@
 
 #include "saca/core/contract.h"
 #include "saca/reach/march_for_test.h"
+#include "tests/support/levels.h"
 
-namespace saca::reach {
+namespace saca::reach::own_systems_test {
 namespace {
 
 /// Values after a short march, in doubles.
@@ -74,14 +75,12 @@ void expect_nan_found(Level level, Tube tube) {
 }
 
 TEST(OwnFlow, FindsWhatIsNoNumberOnEachInstructionSet) {
-  for (const Level level : {Level::baseline, Level::avx2}) {
+  for (const Level level : test::those_here({Level::baseline, Level::avx2})) {
     for (const Tube tube : {Tube::set, Tube::tube, Tube::highest}) {
-      if (available(level)) {
-        SCOPED_TRACE(testing::Message()
-                     << "level " << static_cast<int>(level) << ", tube " << static_cast<int>(tube));
-        expect_nan_found<float>(level, tube);
-        expect_nan_found<double>(level, tube);
-      }
+      SCOPED_TRACE(testing::Message()
+                   << test::name_of(level) << ", tube " << static_cast<int>(tube));
+      expect_nan_found<float>(level, tube);
+      expect_nan_found<double>(level, tube);
     }
   }
 }
@@ -91,4 +90,4 @@ TEST(OwnFlow, RefusesAGridOfOtherDimensions) {
 }
 
 }  // namespace
-}  // namespace saca::reach
+}  // namespace saca::reach::own_systems_test

@@ -7,9 +7,13 @@
 #include <numbers>
 #include <vector>
 
-namespace saca::reach {
+#include "tests/support/scenes.h"
+
+namespace saca::reach::risk_test {
 namespace {
 
+using test::ego_at;
+using test::whole_metres;
 using world::Actor;
 using world::ActorKind;
 using world::Scene;
@@ -20,15 +24,6 @@ constexpr double pi = std::numbers::pi;
 const DangerModel& model() {
   static const DangerModel few({}, {.length = 4.0, .width = 2.0}, {});
   return few;
-}
-
-Scene road(double speed) {
-  Scene scene;
-  scene.ego.v_B = {speed, 0.0};
-  scene.ego_footprint = {.length = 4.0, .width = 2.0};
-  scene.ego_mass = 1'700.0;
-  scene.grip = 0.9;
-  return scene;
 }
 
 Actor car(Vec2 p_W, Vec2 v_W, double yaw = 0.0) {
@@ -50,32 +45,35 @@ Actor wall(double x) {
 // By hand: 15^2 / (2 x 0.9 x 9.80665) = 12.74 m to stop, of 27.5 m between bumper and wall: 14.76 m
 // are left, so R = (30 - 14.76) / 30.
 TEST(ObstacleRisk, IsWhatBrakingLeavesWhereNothingElseHelps) {
-  const ObstacleRisk risk = obstacle_risk(road(15.0), wall(30.0), model());
+  const ObstacleRisk risk = obstacle_risk(ego_at(15.0, whole_metres), wall(30.0), model());
   EXPECT_NEAR(risk.value, -(27.5 - 15.0 * 15.0 / (2.0 * 0.9 * 9.80665)), 1e-3);
   EXPECT_NEAR(risk.risk, (30.0 + risk.value) / 30.0, 1e-12);
 }
 
 TEST(ObstacleRisk, IsOneWhereNothingHelps) {
-  EXPECT_EQ(obstacle_risk(road(15.0), wall(14.0), model()).risk, 1.0);
-  EXPECT_GE(obstacle_risk(road(15.0), wall(14.0), model()).value, 0.0);
-  EXPECT_EQ(obstacle_risk(road(15.0), car({3.0, 0.0}, {}), model()).risk, 1.0);  // touching
+  EXPECT_EQ(obstacle_risk(ego_at(15.0, whole_metres), wall(14.0), model()).risk, 1.0);
+  EXPECT_GE(obstacle_risk(ego_at(15.0, whole_metres), wall(14.0), model()).value, 0.0);
+  EXPECT_EQ(obstacle_risk(ego_at(15.0, whole_metres), car({3.0, 0.0}, {}), model()).risk,
+            1.0);  // touching
 }
 
 TEST(ObstacleRisk, IsZeroThirtyMetresAway) {
-  const ObstacleRisk far = obstacle_risk(road(5.0), car({0.0, 60.0}, {}, 0.5 * pi), model());
+  const ObstacleRisk far =
+      obstacle_risk(ego_at(5.0, whole_metres), car({0.0, 60.0}, {}, 0.5 * pi), model());
   EXPECT_EQ(far.risk, 0.0);
   EXPECT_NEAR(far.value, -57.0, 1e-3);  // half a width and half a length nearer than the middles
 }
 
 TEST(ObstacleRisk, AFollowerIsNotJudged) {
-  const ObstacleRisk risk = obstacle_risk(road(15.0), car({-9.0, 0.0}, {19.0, 0.0}), model());
+  const ObstacleRisk risk =
+      obstacle_risk(ego_at(15.0, whole_metres), car({-9.0, 0.0}, {19.0, 0.0}), model());
   EXPECT_EQ(risk.risk, 0.0);
   EXPECT_FALSE(risk.judged);
   EXPECT_EQ(explanation(risk), "behind the ego: not judged");
 }
 
 TEST(ObstacleRisk, AnEgoThatDriftsIsADisc) {
-  Scene scene = road(10.0);
+  Scene scene = ego_at(10.0, whole_metres);
   scene.ego.X_WB.yaw = 0.5 * pi;  // broadside
   scene.ego.v_B = {0.0, -10.0};
   const Meeting broadside = meeting_of(scene, wall(30.0));
@@ -98,7 +96,7 @@ TEST(ObstacleRisk, IsExactWhereATableHasItAndBothMoveAsItSays) {
   const world::Footprint body{.length = 4.0, .width = 2.0};
   const DangerModel table(
       {}, body, {{body, 0.0, View::obstacle, std::make_shared<ValueTable>(grid, five_metres)}});
-  Scene scene = road(10.0);
+  Scene scene = ego_at(10.0, whole_metres);
   const Actor parked = car({20.0, 0.0}, {});
   EXPECT_TRUE(obstacle_risk(scene, parked, table).exact);
   EXPECT_FALSE(obstacle_risk(scene, car({60.0, 0.0}, {}), table).exact);
@@ -109,29 +107,29 @@ TEST(ObstacleRisk, IsExactWhereATableHasItAndBothMoveAsItSays) {
 }
 
 TEST(ObstacleRisk, GrowsWithSpeedAndWithIce) {
-  EXPECT_LT(obstacle_risk(road(12.0), wall(40.0), model()).risk,
-            obstacle_risk(road(16.0), wall(40.0), model()).risk);
-  Scene icy = road(12.0);
+  EXPECT_LT(obstacle_risk(ego_at(12.0, whole_metres), wall(40.0), model()).risk,
+            obstacle_risk(ego_at(16.0, whole_metres), wall(40.0), model()).risk);
+  Scene icy = ego_at(12.0, whole_metres);
   icy.grip = 0.4;
-  EXPECT_LT(obstacle_risk(road(12.0), wall(40.0), model()).risk,
+  EXPECT_LT(obstacle_risk(ego_at(12.0, whole_metres), wall(40.0), model()).risk,
             obstacle_risk(icy, wall(40.0), model()).risk);
 }
 
 // A person is hit, for the risk, where a car would be missed by less than a metre.
 TEST(ObstacleRisk, CountsForPeopleAMetreEarlier) {
   Actor person = wall(16.0);  // 0.76 m are left
-  EXPECT_LT(obstacle_risk(road(15.0), person, model()).risk, 1.0);
+  EXPECT_LT(obstacle_risk(ego_at(15.0, whole_metres), person, model()).risk, 1.0);
   person.kind = ActorKind::pedestrian;
-  EXPECT_EQ(obstacle_risk(road(15.0), person, model()).risk, 1.0);
+  EXPECT_EQ(obstacle_risk(ego_at(15.0, whole_metres), person, model()).risk, 1.0);
 }
 
 TEST(ObstacleRisk, ALeadThatDrivesOnIsLessThanOneAtRest) {
-  EXPECT_LT(obstacle_risk(road(18.0), car({34.0, 0.0}, {12.0, 0.0}), model()).value,
-            obstacle_risk(road(18.0), car({34.0, 0.0}, {}), model()).value);
+  EXPECT_LT(obstacle_risk(ego_at(18.0, whole_metres), car({34.0, 0.0}, {12.0, 0.0}), model()).value,
+            obstacle_risk(ego_at(18.0, whole_metres), car({34.0, 0.0}, {}), model()).value);
 }
 
 TEST(ObstacleRisk, IsTheSameMirroredAndTurned) {
-  const Scene scene = road(14.0);
+  const Scene scene = ego_at(14.0, whole_metres);
   const Actor actor = car({25.0, -1.0}, {3.0, 0.2}, 0.1);
   const double value = obstacle_risk(scene, actor, model()).value;
 
@@ -151,7 +149,7 @@ TEST(ObstacleRisk, IsTheSameMirroredAndTurned) {
 
 // Reversing is driving with the body turned round.
 TEST(MeetingOf, TakesAnObstacleByTheWayItMoves) {
-  const Meeting meeting = meeting_of(road(10.0), car({20.0, 3.0}, {-5.0, 0.0}));
+  const Meeting meeting = meeting_of(ego_at(10.0, whole_metres), car({20.0, 3.0}, {-5.0, 0.0}));
   EXPECT_NEAR(meeting.obstacle_speed, 5.0, 1e-12);
   EXPECT_NEAR(meeting.state[0], 20.0, 1e-9);  // the ego drives towards it, and it towards the ego
   EXPECT_NEAR(meeting.state[1], 3.0, 1e-9);
@@ -161,16 +159,17 @@ TEST(MeetingOf, TakesAnObstacleByTheWayItMoves) {
 
 TEST(MeetingOf, AnActorThatSlidesIsADiscOnItsWay) {
   const Actor sliding = car({20.0, 0.0}, {0.0, 3.0});
-  const Meeting meeting = meeting_of(road(10.0), sliding);
+  const Meeting meeting = meeting_of(ego_at(10.0, whole_metres), sliding);
   EXPECT_NEAR(meeting.obstacle.length, 2.0 * std::hypot(2.0, 1.0), 1e-12);
   EXPECT_NEAR(meeting.state[2], -pi / 2.0, 1e-12);
   EXPECT_NEAR(meeting.state[1], 20.0, 1e-9);  // its x points to the left: the ego is to its left
-  EXPECT_FALSE(obstacle_risk(road(10.0), sliding, model()).exact);
+  EXPECT_FALSE(obstacle_risk(ego_at(10.0, whole_metres), sliding, model()).exact);
 }
 
 TEST(MeetingOf, TheNoiseOfARestIsRest) {
-  EXPECT_EQ(meeting_of(road(10.0), car({20.0, 0.0}, {0.2, 0.1})).obstacle_speed, 0.0);
-  Scene creeping = road(0.1);
+  EXPECT_EQ(meeting_of(ego_at(10.0, whole_metres), car({20.0, 0.0}, {0.2, 0.1})).obstacle_speed,
+            0.0);
+  Scene creeping = ego_at(0.1, whole_metres);
   creeping.ego.v_B = {0.0, 0.1};
   EXPECT_EQ(meeting_of(creeping, car({20.0, 0.0}, {})).state[2], 0.0);
 }
@@ -187,4 +186,4 @@ TEST(Explanation, SaysWhatTheBestEvasionLeaves) {
 }
 
 }  // namespace
-}  // namespace saca::reach
+}  // namespace saca::reach::risk_test

@@ -16,7 +16,7 @@
 
 // In a program of its own: a child begins with as little memory as can be, and its peak is that of
 // what is asked.
-namespace saca::reach {
+namespace saca::reach::solve_memory_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -134,4 +134,4 @@ TEST_F(Memory, OfSolvingIsForetold) {
 }
 
 }  // namespace
-}  // namespace saca::reach
+}  // namespace saca::reach::solve_memory_test

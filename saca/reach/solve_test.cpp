@@ -12,7 +12,7 @@
 #include "saca/reach/march_for_test.h"
 #include "saca/reach/own_systems.h"
 
-namespace saca::reach {
+namespace saca::reach::solve_test {
 namespace {
 
 /// Braking before a wall at 0, whose value is known: x + v^2 / 2 for v >= 0.
@@ -239,4 +239,4 @@ TEST(MemoryNeeded, OfAProblemCountsItsSnapshots) {
 }
 
 }  // namespace
-}  // namespace saca::reach
+}  // namespace saca::reach::solve_test

@@ -12,7 +12,7 @@
 #include "saca/reach/known_systems.h"
 #include "saca/reach/march_for_test.h"
 
-namespace saca::reach {
+namespace saca::reach::solver_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -466,4 +466,4 @@ TEST(MemoryNeeded, IsFourArraysAndLittleMore) {
 }
 
 }  // namespace
-}  // namespace saca::reach
+}  // namespace saca::reach::solver_test

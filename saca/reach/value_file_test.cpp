@@ -18,7 +18,7 @@
 #include "saca/core/file.h"
 #include "saca/core/fnv.h"
 
-namespace saca::reach {
+namespace saca::reach::value_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -328,4 +328,4 @@ TEST_F(ValueFile, WritesNothingThatItWouldNotRead) {
 }
 
 }  // namespace
-}  // namespace saca::reach
+}  // namespace saca::reach::value_file_test

@@ -12,7 +12,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::reach {
+namespace saca::reach::value_table_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -263,4 +263,4 @@ TEST(ValueTable, RefusesWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace saca::reach
+}  // namespace saca::reach::value_table_test

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace saca::reason {
+namespace saca::reason::chat_address_test {
 namespace {
 
 using testing::AllOf;
@@ -54,4 +54,4 @@ TEST(ChatAddress, NeverShowsUserAndPassword) {
 }
 
 }  // namespace
-}  // namespace saca::reason
+}  // namespace saca::reason::chat_address_test

@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace saca::reason {
+namespace saca::reason::chat_stream_test {
 namespace {
 
 using testing::HasSubstr;
@@ -142,4 +142,4 @@ TEST(ServerMessage, IsFoundWhereServersPutIt) {
 }
 
 }  // namespace
-}  // namespace saca::reason
+}  // namespace saca::reason::chat_stream_test

@@ -10,7 +10,7 @@
 #include "saca/reason/scripted_child_for_test.h"
 #include "saca/reason/stepping_clock_for_test.h"
 
-namespace saca::reason {
+namespace saca::reason::child_model_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -285,4 +285,4 @@ TEST_F(ChildModelTest, NothingIsLeftBehind) {
 }
 
 }  // namespace
-}  // namespace saca::reason
+}  // namespace saca::reason::child_model_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace saca::reason {
+namespace saca::reason::child_process_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -89,4 +89,4 @@ TEST(ChildProcess, EmptyCommandIsRefused) {
 }
 
 }  // namespace
-}  // namespace saca::reason
+}  // namespace saca::reason::child_process_test

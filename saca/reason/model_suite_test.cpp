@@ -7,7 +7,7 @@
 #include "saca/reason/scripted_child_for_test.h"
 #include "saca/reason/scripted_model.h"
 
-namespace saca::reason {
+namespace saca::reason::model_suite_test {
 namespace {
 
 struct ChildStand final : ModelStand {
@@ -100,4 +100,4 @@ INSTANTIATE_TEST_SUITE_P(Models, ModelSuite,
                          case_name);
 
 }  // namespace
-}  // namespace saca::reason
+}  // namespace saca::reason::model_suite_test

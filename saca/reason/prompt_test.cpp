@@ -12,7 +12,7 @@
 #include "saca/reason/example_situation.h"
 #include "saca/reason/token_bound.h"
 
-namespace saca::reason {
+namespace saca::reason::prompt_test {
 namespace {
 
 using testing::HasSubstr;
@@ -231,4 +231,4 @@ TEST(Prompt, RulesFollowTheOneOrdering) {
 }
 
 }  // namespace
-}  // namespace saca::reason
+}  // namespace saca::reason::prompt_test

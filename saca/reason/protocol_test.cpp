@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace saca::reason::protocol {
+namespace saca::reason::protocol::protocol_test {
 namespace {
 
 constexpr const char* answer_line = R"({"v":1,"event":"answer","id":3,"scene":1,"kind":"forced",)"
@@ -121,4 +121,4 @@ TEST(Protocol, DamagedLinesAreReadOrRefused) {
 }
 
 }  // namespace
-}  // namespace saca::reason::protocol
+}  // namespace saca::reason::protocol::protocol_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace saca::reason {
+namespace saca::reason::quote_test {
 namespace {
 
 TEST(Quote, IsOneLineOfAtMost200Characters) {
@@ -45,4 +45,4 @@ TEST(Quote, HidesPiecesOfTheSecret) {
 }
 
 }  // namespace
-}  // namespace saca::reason
+}  // namespace saca::reason::quote_test

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace saca::reason {
+namespace saca::reason::quoted_number_test {
 namespace {
 
 std::string listed(std::string_view text) {
@@ -42,4 +42,4 @@ TEST(QuotedNumbers, SayWhatIsComputed) {
 }
 
 }  // namespace
-}  // namespace saca::reason
+}  // namespace saca::reason::quoted_number_test

@@ -8,7 +8,7 @@
 #include "saca/reason/news_for_test.h"
 #include "saca/reason/scripted_model.h"
 
-namespace saca::reason {
+namespace saca::reason::replay_model_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -130,4 +130,4 @@ TEST(ParseReplies, RefusalNamesFileAndPlace) {
 }
 
 }  // namespace
-}  // namespace saca::reason
+}  // namespace saca::reason::replay_model_test

@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-namespace saca::reason {
+namespace saca::reason::reply_test {
 namespace {
 
 using manoeuvre::PolicyId;
@@ -86,4 +86,4 @@ TEST(Reply, AnythingCanBeRead) {
 }
 
 }  // namespace
-}  // namespace saca::reason
+}  // namespace saca::reason::reply_test

@@ -4,7 +4,7 @@
 
 #include "saca/reason/example_situation.h"
 
-namespace saca::reason {
+namespace saca::reason::review_test {
 namespace {
 
 using manoeuvre::PolicyId;
@@ -60,4 +60,4 @@ TEST(Review, IsJudgedByWhatIsKnown) {
 }
 
 }  // namespace
-}  // namespace saca::reason
+}  // namespace saca::reason::review_test

@@ -4,7 +4,7 @@
 
 #include "saca/reason/news_for_test.h"
 
-namespace saca::reason {
+namespace saca::reason::scripted_model_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -79,4 +79,4 @@ TEST_F(ScriptedModelTest, OnePolicyIsSaidAtOnce) {
 }
 
 }  // namespace
-}  // namespace saca::reason
+}  // namespace saca::reason::scripted_model_test

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace saca::reason {
+namespace saca::reason::token_bound_test {
 namespace {
 
 // Numbers of tokens by SmolLM2's own tokeniser, each with a line end before it.
@@ -40,4 +40,4 @@ TEST(TokenBound, IsCloseAboveTheTokeniser) {
 }
 
 }  // namespace
-}  // namespace saca::reason
+}  // namespace saca::reason::token_bound_test

@@ -8,7 +8,7 @@
 #include "saca/reason/example_situation.h"
 #include "saca/reason/prompt.h"
 
-namespace saca::reason {
+namespace saca::reason::truth_test {
 namespace {
 
 using manoeuvre::PolicyId;
@@ -167,4 +167,4 @@ TEST(Truth, AnythingCanBeJudged) {
 }
 
 }  // namespace
-}  // namespace saca::reason
+}  // namespace saca::reason::truth_test

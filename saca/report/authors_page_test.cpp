@@ -11,7 +11,7 @@
 #include "saca/core/contract.h"
 #include "saca/core/units.h"
 
-namespace saca::report {
+namespace saca::report::authors_page_test {
 namespace {
 
 using testing::HasSubstr;
@@ -95,4 +95,4 @@ TEST(AuthorsPage, ShowsEachViewTwiceAndEachSpeedOnce) {
 }
 
 }  // namespace
-}  // namespace saca::report
+}  // namespace saca::report::authors_page_test

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace saca::report {
+namespace saca::report::base64_test {
 namespace {
 
 TEST(Base64, EncodesAsTheStandardsExamples) {  // RFC 4648, section 10
@@ -22,4 +22,4 @@ TEST(Base64, TakesAnyByte) {
 }
 
 }  // namespace
-}  // namespace saca::report
+}  // namespace saca::report::base64_test

@@ -5,7 +5,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::report {
+namespace saca::report::cell_areas_test {
 namespace {
 
 using testing::ElementsAre;
@@ -53,4 +53,4 @@ TEST(CellAreas, RefusesBrokenRows) {
 }
 
 }  // namespace
-}  // namespace saca::report
+}  // namespace saca::report::cell_areas_test

@@ -5,7 +5,7 @@
 #include "saca/core/contract.h"
 #include "saca/report/xml_for_test.h"
 
-namespace saca::report {
+namespace saca::report::chart_svg_test {
 namespace {
 
 ChartSheet two_charts() {
@@ -105,4 +105,4 @@ TEST(DotsSvg, HarmlessScenesHaveAnAxisToo) {
 }
 
 }  // namespace
-}  // namespace saca::report
+}  // namespace saca::report::chart_svg_test

@@ -7,7 +7,7 @@
 #include "saca/core/contract.h"
 #include "saca/report/xml_for_test.h"
 
-namespace saca::report {
+namespace saca::report::contact_sheet_test {
 namespace {
 
 SceneView ego_alone(double way, const std::string& title) {
@@ -115,4 +115,4 @@ TEST(ContactSheet, RefusesNothingToShow) {
 }
 
 }  // namespace
-}  // namespace saca::report
+}  // namespace saca::report::contact_sheet_test

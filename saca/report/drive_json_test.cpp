@@ -9,7 +9,7 @@
 #include "saca/manoeuvre/default_car.h"
 #include "saca/report/html_report.h"
 
-namespace saca::report {
+namespace saca::report::drive_json_test {
 namespace {
 
 using manoeuvre::PolicyId;
@@ -85,4 +85,4 @@ TEST(DriveJson, IsShownByItsPage) {
 }
 
 }  // namespace
-}  // namespace saca::report
+}  // namespace saca::report::drive_json_test

@@ -2,14 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 
 #include "saca/core/file.h"
 #include "saca/core/units.h"
 #include "saca/report/xml_for_test.h"
 
-namespace saca::report {
+namespace saca::report::harm_chart_test {
 namespace {
 
 const HarmRisk& of(const std::vector<HarmRisk>& risks, const std::string& key) {
@@ -71,11 +73,66 @@ TEST(HarmChart, ThePictureShowsAllCurvesWithTheirSources) {
   EXPECT_TRUE(says(all, "Rosen, Sander 2009 (GIDAS, adults, car fronts)")) << "not cut short";
 }
 
-TEST(HarmChart, ThePictureInTheDocumentsIsThisOne) {
-  // docs/harm.svg is what `saca harm --svg` writes; it changes with data/harm.toml.
-  const auto model = outcome::read_harm("data/harm.toml").value();
-  EXPECT_EQ(read_file("docs/harm.svg").value(), harm_svg(model));
+/// The curves of a plot's title, read back from a picture: pixels to values by the frame's grid,
+/// whose outermost lines stand at the ends of the axes.
+struct PlotRead {
+  Vec2 low_px;   ///< where both axes begin
+  Vec2 high_px;  ///< the last lines of the grid
+  std::vector<std::vector<Vec2>> curves_px;
+};
+PlotRead read_plot(const std::vector<XmlElement>& all, const std::string& title) {
+  auto at = std::find_if(all.begin(), all.end(), [&](const XmlElement& each) {
+    return each.name == "text" && each.text == title;
+  });
+  if (at == all.end()) {
+    throw std::runtime_error("no plot " + title);
+  }
+  PlotRead plot{.low_px = {1e9, -1e9}, .high_px = {-1e9, 1e9}, .curves_px = {}};
+  for (++at; at != all.end(); ++at) {
+    const auto has = at->attributes.find("class");
+    const std::string looks = has == at->attributes.end() ? "" : has->second;
+    if (looks == "title") {
+      break;
+    }
+    if (looks == "grid") {
+      plot.low_px = {std::min(plot.low_px.x, xml_number(*at, "x1")),
+                     std::max(plot.low_px.y, xml_number(*at, "y2"))};
+      plot.high_px = {std::max(plot.high_px.x, xml_number(*at, "x2")),
+                      std::min(plot.high_px.y, xml_number(*at, "y1"))};
+    }
+    if (at->name == "polyline" && looks.starts_with("curve ")) {
+      plot.curves_px.push_back(xml_points(*at));
+    }
+  }
+  return plot;
+}
+
+// docs/harm.svg is what people look at (`saca harm --svg` writes it): its curves are those of the
+// sources, read back from the pixels.
+TEST(HarmChart, ThePictureInTheDocumentsShowsTheSources) {
+  const auto all = xml_elements(read_file("docs/harm.svg").value());
+  const PlotRead plot = read_plot(all, "People outside vehicles");
+  constexpr double most_kmh = 100.0;  // the axis' end, as its last number says
+  EXPECT_TRUE(says(all, "100"));
+  const auto holds = [&](const std::function<double(double)>& risk) {
+    return std::any_of(
+        plot.curves_px.begin(), plot.curves_px.end(), [&](const std::vector<Vec2>& curve) {
+          return std::all_of(curve.begin(), curve.end(), [&](Vec2 p) {
+            const double kmh = most_kmh * (p.x - plot.low_px.x) / (plot.high_px.x - plot.low_px.x);
+            const double shown = (plot.low_px.y - p.y) / (plot.low_px.y - plot.high_px.y);
+            return std::abs(shown - risk(kmh)) < 1e-3;  // a hundredth of a pixel, at the steepest
+          });
+        });
+  };
+  EXPECT_FALSE(plot.curves_px.empty());
+  EXPECT_TRUE(holds([](double kmh) { return above_rest(-6.9, 0.090 * kmh); })) << "Rosen, Sander";
+  EXPECT_FALSE(holds([](double kmh) { return above_rest(-6.9, 0.095 * kmh); })) << "it can tell";
+  const PlotRead occupants = read_plot(all, "Occupants of vehicles");
+  EXPECT_EQ(occupants.curves_px.size(), 3U);
+  EXPECT_EQ(harm_svg(outcome::read_harm("data/harm.toml").value()),
+            read_file("docs/harm.svg").value())
+      << "saca harm --svg docs/harm.svg makes it anew";
 }
 
 }  // namespace
-}  // namespace saca::report
+}  // namespace saca::report::harm_chart_test

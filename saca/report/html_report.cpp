@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -22,7 +23,10 @@ std::optional<Error> problem(std::string_view record_json, std::string_view sche
   try {
     record = nlohmann::json::parse(record_json);
   } catch (const nlohmann::json::exception& e) {
-    return Error{Error::Code::malformed, std::string("record: want JSON, got: ") + e.what()};
+    std::string why = e.what();  // it quotes what it could not read, byte for byte
+    std::replace_if(
+        why.begin(), why.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    return Error{Error::Code::malformed, "record: want JSON, got: " + why};
   }
   if (!record.is_object() || !record.contains("schema")) {
     return Error{Error::Code::malformed, "record: schema: want \"" + std::string(schema) +

@@ -7,7 +7,7 @@
 
 #include "saca/report/page.h"
 
-namespace saca::report {
+namespace saca::report::html_report_test {
 namespace {
 
 using nlohmann::json;
@@ -128,4 +128,4 @@ TEST_P(HtmlReport, RefusesWhatIsNoRecord) {
 }
 
 }  // namespace
-}  // namespace saca::report
+}  // namespace saca::report::html_report_test

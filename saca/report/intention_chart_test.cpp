@@ -10,7 +10,7 @@
 #include "saca/core/contract.h"
 #include "saca/report/xml_for_test.h"
 
-namespace saca::report {
+namespace saca::report::intention_chart_test {
 namespace {
 
 using testing::DoubleNear;
@@ -163,4 +163,4 @@ TEST(ConfusionSvg, TellsSharesOfRows) {
 }
 
 }  // namespace
-}  // namespace saca::report
+}  // namespace saca::report::intention_chart_test

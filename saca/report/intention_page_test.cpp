@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace saca::report {
+namespace saca::report::intention_page_test {
 namespace {
 
 using testing::HasSubstr;
@@ -53,4 +53,4 @@ TEST(IntentionPage, TextIsEscaped) {
 }
 
 }  // namespace
-}  // namespace saca::report
+}  // namespace saca::report::intention_page_test

@@ -8,7 +8,7 @@
 #include "saca/core/contract.h"
 #include "saca/report/xml_for_test.h"
 
-namespace saca::report {
+namespace saca::report::map_svg_test {
 namespace {
 
 using manoeuvre::PolicyId;
@@ -173,4 +173,4 @@ TEST(StripSvg, RefusesWhatDoesNotBelongTogether) {
 }
 
 }  // namespace
-}  // namespace saca::report
+}  // namespace saca::report::map_svg_test

@@ -1,10 +1,11 @@
 #include "saca/report/plot_axes.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "saca/report/xml_for_test.h"
 
-namespace saca::report {
+namespace saca::report::plot_axes_test {
 namespace {
 
 PlotArea example_area() {
@@ -35,15 +36,40 @@ TEST(PlotAxes, TicksStandAtTheirNumbers) {
   EXPECT_GE(numbers, 8);
 }
 
+// A line across the whole plot for each tick: the ticks' numbers are the independent count.
 TEST(PlotAxes, TheGridEndsWithThePlot) {
-  for (const XmlElement& line :
-       with_class(xml_elements("<g>" + plot_grid(example_area()) + "</g>"), "line", "grid")) {
-    EXPECT_GE(xml_number(line, "x1"), 50.0);
-    EXPECT_LE(xml_number(line, "x2"), 450.0);
-    EXPECT_GE(xml_number(line, "y1"), 20.0);
-    EXPECT_LE(xml_number(line, "y2"), 220.0);
+  const PlotArea area = example_area();
+  const auto ticks = [](const std::string& axis) {
+    return with_class(xml_elements("<g>" + axis + "</g>"), "text", "soft");
+  };
+  const auto grid = with_class(xml_elements("<g>" + plot_grid(area) + "</g>"), "line", "grid");
+  std::vector<double> across;  // [px]
+  std::vector<double> up;
+  for (const XmlElement& line : grid) {
+    if (xml_number(line, "x1") == xml_number(line, "x2")) {
+      EXPECT_EQ(xml_number(line, "y1"), 20.0);
+      EXPECT_EQ(xml_number(line, "y2"), 220.0);
+      up.push_back(xml_number(line, "x1"));
+    } else {
+      EXPECT_EQ(xml_number(line, "x1"), 50.0);
+      EXPECT_EQ(xml_number(line, "x2"), 450.0);
+      EXPECT_EQ(xml_number(line, "y1"), xml_number(line, "y2"));
+      across.push_back(xml_number(line, "y1"));
+    }
   }
+  std::vector<double> x_ticks;
+  for (const XmlElement& number : ticks(plot_x_axis(area))) {
+    x_ticks.push_back(area.x_px(std::stod(number.text)));
+  }
+  std::vector<double> y_ticks;
+  for (const XmlElement& number : ticks(plot_y_axis(area))) {
+    y_ticks.push_back(area.y_px(std::stod(number.text)));
+  }
+  EXPECT_GE(up.size(), 4U);
+  EXPECT_GE(across.size(), 4U);
+  EXPECT_THAT(up, testing::Pointwise(testing::DoubleNear(0.01), x_ticks));
+  EXPECT_THAT(across, testing::Pointwise(testing::DoubleNear(0.01), y_ticks));
 }
 
 }  // namespace
-}  // namespace saca::report
+}  // namespace saca::report::plot_axes_test

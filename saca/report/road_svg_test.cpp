@@ -6,7 +6,7 @@
 
 #include "saca/report/xml_for_test.h"
 
-namespace saca::report {
+namespace saca::report::road_svg_test {
 namespace {
 
 using world::Beyond;
@@ -95,4 +95,4 @@ TEST(RoadSvg, AnInnerEdgeBeyondTheBendsCentreIsDrawnInFiniteNumbers) {
 }
 
 }  // namespace
-}  // namespace saca::report
+}  // namespace saca::report::road_svg_test

@@ -9,7 +9,7 @@
 #include "saca/core/contract.h"
 #include "saca/report/xml_for_test.h"
 
-namespace saca::report {
+namespace saca::report::scene_svg_test {
 namespace {
 
 using world::Actor;
@@ -261,4 +261,4 @@ TEST(SceneSvg, RefusesWhatDoesNotBelongTogether) {
 }
 
 }  // namespace
-}  // namespace saca::report
+}  // namespace saca::report::scene_svg_test

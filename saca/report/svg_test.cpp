@@ -9,7 +9,7 @@
 #include "saca/core/contract.h"
 #include "saca/report/xml_for_test.h"
 
-namespace saca::report {
+namespace saca::report::svg_test {
 namespace {
 
 using testing::DoubleNear;
@@ -97,4 +97,4 @@ TEST(Svg, TicksAreRound) {
 }
 
 }  // namespace
-}  // namespace saca::report
+}  // namespace saca::report::svg_test

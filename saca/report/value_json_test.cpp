@@ -11,7 +11,7 @@
 #include "saca/core/contract.h"
 #include "saca/report/html_report.h"
 
-namespace saca::report {
+namespace saca::report::value_json_test {
 namespace {
 
 using nlohmann::json;
@@ -201,4 +201,4 @@ TEST(ValueJson, RefusesWhatItCannotShow) {
 }
 
 }  // namespace
-}  // namespace saca::report
+}  // namespace saca::report::value_json_test

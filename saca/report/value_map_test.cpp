@@ -9,7 +9,7 @@
 #include "saca/core/contract.h"
 #include "saca/reach/obstacle_frame.h"
 
-namespace saca::report {
+namespace saca::report::value_map_test {
 namespace {
 
 using reach::Grid;
@@ -212,4 +212,4 @@ TEST(ProblemName, IsTheCasesOwn) {
 }
 
 }  // namespace
-}  // namespace saca::report
+}  // namespace saca::report::value_map_test

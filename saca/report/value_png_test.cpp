@@ -10,7 +10,7 @@
 #include <memory>
 #include <string>
 
-namespace saca::report {
+namespace saca::report::value_png_test {
 namespace {
 
 /// A PNG, decoded by Cairo's reader.
@@ -152,4 +152,4 @@ TEST(ValuePng, TheSamePictureMakesTheSameBytes) {
 }
 
 }  // namespace
-}  // namespace saca::report
+}  // namespace saca::report::value_png_test

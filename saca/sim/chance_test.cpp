@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace saca::sim {
+namespace saca::sim::chance_test {
 namespace {
 
 using testing::AllOf;
@@ -72,4 +72,4 @@ TEST(Chance, RefusesATimeBeforeTheStart) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::sim::chance_test

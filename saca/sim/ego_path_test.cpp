@@ -6,7 +6,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::sim {
+namespace saca::sim::ego_path_test {
 namespace {
 
 constexpr double step = 0.1;
@@ -60,4 +60,4 @@ TEST(EgoPath, RefusesWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::sim::ego_path_test

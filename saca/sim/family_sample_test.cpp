@@ -8,7 +8,7 @@
 #include "saca/sim/traffic.h"
 #include "saca/world/footprint.h"
 
-namespace saca::sim {
+namespace saca::sim::family_sample_test {
 namespace {
 
 using testing::HasSubstr;
@@ -109,4 +109,4 @@ TEST(FamilySample, SaysWhenItsRangesGiveNoSensibleEncounter) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::sim::family_sample_test

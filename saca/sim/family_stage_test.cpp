@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-namespace saca::sim {
+namespace saca::sim::family_stage_test {
 namespace {
 
 using world::ActorKind;
@@ -87,4 +87,4 @@ TEST_F(Staging, BodiesOfOneKindAreNumbered) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::sim::family_stage_test

@@ -6,7 +6,7 @@
 
 #include "saca/core/file.h"
 
-namespace saca::sim {
+namespace saca::sim::family_test {
 namespace {
 
 using testing::AllOf;
@@ -93,4 +93,4 @@ TEST(Family, AFileIsCalledAsTheFamilyIs) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::sim::family_test

@@ -9,7 +9,7 @@
 #include "saca/core/contract.h"
 #include "saca/sim/motion.h"
 
-namespace saca::sim {
+namespace saca::sim::hundred_car_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -170,4 +170,4 @@ TEST(ImportHundredCar, SaysWhatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::sim::hundred_car_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace saca::sim {
+namespace saca::sim::hundred_car_words_test {
 namespace {
 
 // Every type that the study's table names for a second vehicle.
@@ -48,4 +48,4 @@ TEST(FindHundredCarFiles, SaysWhatItMisses) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::sim::hundred_car_words_test

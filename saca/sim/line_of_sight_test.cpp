@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-namespace saca::sim {
+namespace saca::sim::line_of_sight_test {
 namespace {
 
 using world::Actor;
@@ -156,4 +156,4 @@ TEST(LineOfSight, OneWhoCoversTheEyesIsSeenAndHidesTheRest) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::sim::line_of_sight_test

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace saca::sim {
+namespace saca::sim::motion_reader_test {
 namespace {
 
 using testing::AllOf;
@@ -144,4 +144,4 @@ TEST(ReadScript, WhoFollowsOrChangesLanesHeadsAlongTheLane) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::sim::motion_reader_test

@@ -8,7 +8,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::sim {
+namespace saca::sim::motion_test {
 namespace {
 
 constexpr double step = 0.01;
@@ -272,4 +272,4 @@ TEST(EgoAt, GoesOnAlongItsLane) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::sim::motion_test

@@ -9,25 +9,18 @@
 #include <vector>
 
 #include "tests/support/count_allocations.h"
+#include "tests/support/scenes.h"
 
-namespace saca::sim {
+namespace saca::sim::perception_test {
 namespace {
 
+using test::car;
 using world::Actor;
 using world::ActorKind;
 using world::Scene;
 
 constexpr double step = Perception::step;
 constexpr double difference_time = 0.5;  // [s], of accelerations in a true scene
-
-Actor car(std::uint8_t id, Vec2 p_W, Vec2 v_W) {
-  return {.id = id,
-          .kind = ActorKind::car,
-          .footprint = {world::Shape::box, 4.5, 1.8},
-          .mass = 1'500.0,
-          .X_WA = {p_W, std::atan2(v_W.y, v_W.x)},
-          .v_W = v_W};
-}
 
 /// A truth in which everybody goes on at constant velocity and turning rate from time 0.
 Scene truth_at(int look, const std::vector<Actor>& at_start) {
@@ -474,4 +467,4 @@ TEST(Perception, RefusesAModelOutOfRange) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::sim::perception_test

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-namespace saca::sim {
+namespace saca::sim::scenario_test {
 namespace {
 
 using testing::AllOf;
@@ -302,4 +302,4 @@ TEST(LoadScenario, NamesTheFileThatIsMissing) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::sim::scenario_test

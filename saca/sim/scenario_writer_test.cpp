@@ -9,7 +9,7 @@
 #include "saca/core/units.h"
 #include "saca/sim/scenario.h"
 
-namespace saca::sim {
+namespace saca::sim::scenario_writer_test {
 namespace {
 
 /// Angles as people and importers write them: decimals in degrees.
@@ -167,4 +167,4 @@ TEST(WriteScenario, KeepsShortDecimalsShort) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::sim::scenario_writer_test

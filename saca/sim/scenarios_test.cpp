@@ -9,7 +9,7 @@
 #include "saca/sim/motion.h"
 #include "saca/sim/scenario.h"
 
-namespace saca::sim {
+namespace saca::sim::scenarios_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -116,4 +116,4 @@ TEST(Scenarios, TheIntersectionIsAsPrinted) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::sim::scenarios_test

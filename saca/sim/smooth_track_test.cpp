@@ -8,7 +8,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::sim {
+namespace saca::sim::smooth_track_test {
 namespace {
 
 constexpr double dt = 0.1;
@@ -179,4 +179,4 @@ TEST(SmoothTrack, WantsFiveSamples) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::sim::smooth_track_test

@@ -8,7 +8,7 @@
 
 #include "saca/core/file.h"
 
-namespace saca::sim {
+namespace saca::sim::splits_test {
 namespace {
 
 using testing::AllOf;
@@ -118,4 +118,4 @@ TEST(Suites, RefuseWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::sim::splits_test

@@ -6,7 +6,7 @@
 #include "saca/manoeuvre/default_car.h"
 #include "saca/sim/motion.h"
 
-namespace saca::sim {
+namespace saca::sim::stepper_test {
 namespace {
 
 /// Ego at 20 m/s; a lead at 15 m/s that brakes at 5 m/s^2 from 1 s on.
@@ -232,4 +232,4 @@ TEST(Stepper, BetweenTheTrafficsStepsActorsGoOn) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::sim::stepper_test

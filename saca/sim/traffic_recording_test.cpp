@@ -9,7 +9,7 @@
 
 #include "saca/sim/motion.h"
 
-namespace saca::sim {
+namespace saca::sim::traffic_recording_test {
 namespace {
 
 using testing::HasSubstr;
@@ -235,4 +235,4 @@ TEST(ImportCommonRoad, ReadsTheSmallFile) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::sim::traffic_recording_test

@@ -6,7 +6,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::sim {
+namespace saca::sim::traffic_road_test {
 namespace {
 
 /// A lane to the east, 3.5 m wide, an ego in its middle, and one car at (x, y).
@@ -71,4 +71,4 @@ TEST(WidenedRoad, WantsRecordings) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::sim::traffic_road_test

@@ -9,7 +9,7 @@
 #include "saca/core/contract.h"
 #include "saca/sim/motion.h"
 
-namespace saca::sim {
+namespace saca::sim::traffic_test {
 namespace {
 
 constexpr world::Footprint car{.length = 4.0, .width = 1.8};
@@ -213,4 +213,4 @@ TEST(Traffic, ARecordedFollowerThatAppearsLaterReactsToo) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::sim::traffic_test

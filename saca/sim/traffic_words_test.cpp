@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace saca::sim {
+namespace saca::sim::traffic_words_test {
 namespace {
 
 using testing::HasSubstr;
@@ -77,4 +77,4 @@ TEST(DescribeTraffic, NamesThoseWhoMustBeNamed) {
 }
 
 }  // namespace
-}  // namespace saca::sim
+}  // namespace saca::sim::traffic_words_test

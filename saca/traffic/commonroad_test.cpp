@@ -7,7 +7,7 @@
 
 #include "saca/core/file.h"
 
-namespace saca::traffic {
+namespace saca::traffic::commonroad_test {
 namespace {
 
 using testing::ElementsAre;
@@ -195,4 +195,4 @@ TEST(ReadCommonRoad, RefusesEveryCut) {
 }
 
 }  // namespace
-}  // namespace saca::traffic
+}  // namespace saca::traffic::commonroad_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-namespace saca::traffic {
+namespace saca::traffic::hundred_car_file_test {
 namespace {
 
 using testing::AllOf;
@@ -128,4 +128,4 @@ TEST(ReadHundredCarEvent, NamesWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace saca::traffic
+}  // namespace saca::traffic::hundred_car_file_test

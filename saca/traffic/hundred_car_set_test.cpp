@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace saca::traffic {
+namespace saca::traffic::hundred_car_set_test {
 namespace {
 
 /// Steady at 20 m/s in a lane of 3.6 m, 0.3 m to the left of its centre.
@@ -135,4 +135,4 @@ TEST(HundredCarSet, RowsWithoutSpeedSplitTheTrack) {
 }
 
 }  // namespace
-}  // namespace saca::traffic
+}  // namespace saca::traffic::hundred_car_set_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace saca::traffic {
+namespace saca::traffic::lane_map_test {
 namespace {
 
 /// A straight lanelet along x from x = `from` to `to`, its centre at `y`.
@@ -251,4 +251,4 @@ TEST(LaneMap, PassesOverLaneletsWithoutLength) {
 }
 
 }  // namespace
-}  // namespace saca::traffic
+}  // namespace saca::traffic::lane_map_test

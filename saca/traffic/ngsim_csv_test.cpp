@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-namespace saca::traffic {
+namespace saca::traffic::ngsim_csv_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -160,4 +160,4 @@ TEST(NgsimCsv, NamesWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace saca::traffic
+}  // namespace saca::traffic::ngsim_csv_test

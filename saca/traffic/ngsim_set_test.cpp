@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace saca::traffic {
+namespace saca::traffic::ngsim_set_test {
 namespace {
 
 constexpr NgsimKey here{"us101", 5};
@@ -218,4 +218,4 @@ TEST(NgsimSet, AStandingVehicleHasTheLanesHeading) {
 }
 
 }  // namespace
-}  // namespace saca::traffic
+}  // namespace saca::traffic::ngsim_set_test

@@ -9,7 +9,7 @@
 
 #include "saca/core/file.h"
 
-namespace saca::traffic {
+namespace saca::traffic::pack_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -188,4 +188,4 @@ TEST_F(Pack, WantsATableOfEvents) {
 }
 
 }  // namespace
-}  // namespace saca::traffic
+}  // namespace saca::traffic::pack_test

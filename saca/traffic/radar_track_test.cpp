@@ -6,7 +6,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::traffic {
+namespace saca::traffic::radar_track_test {
 namespace {
 
 std::vector<HundredCarRow> empty_rows(std::size_t size) {
@@ -108,4 +108,4 @@ TEST(FollowerTrack, MustBeSeenLongEnough) {
 }
 
 }  // namespace
-}  // namespace saca::traffic
+}  // namespace saca::traffic::radar_track_test

@@ -7,7 +7,7 @@
 #include <functional>
 #include <limits>
 
-namespace saca::traffic {
+namespace saca::traffic::recorded_set_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -123,4 +123,4 @@ TEST(RecordedSet, CountsWhatItHolds) {
 }
 
 }  // namespace
-}  // namespace saca::traffic
+}  // namespace saca::traffic::recorded_set_test

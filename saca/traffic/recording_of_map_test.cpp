@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace saca::traffic {
+namespace saca::traffic::recording_of_map_test {
 namespace {
 
 /// One lane of 400 m along x, and one to its left.
@@ -162,4 +162,4 @@ TEST(RecordingOfMap, NamesASiteEvenWithoutABenchmark) {
 }
 
 }  // namespace
-}  // namespace saca::traffic
+}  // namespace saca::traffic::recording_of_map_test

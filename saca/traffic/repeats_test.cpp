@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace saca::traffic {
+namespace saca::traffic::repeats_test {
 namespace {
 
 /// A motion of its own for each vehicle: samples `first` to `first + size` of it, in a world that
@@ -148,4 +148,4 @@ TEST(Repeats, ChainsOfFilesShareOneClock) {
 }
 
 }  // namespace
-}  // namespace saca::traffic
+}  // namespace saca::traffic::repeats_test

@@ -9,7 +9,7 @@
 #include "saca/core/contract.h"
 #include "saca/traffic/series.h"
 
-namespace saca::traffic {
+namespace saca::traffic::rts_smoother_test {
 namespace {
 
 constexpr double dt = 0.1;
@@ -355,4 +355,4 @@ TEST(RtsSmoother, RefusesWhatIsNoMeasurement) {
 }
 
 }  // namespace
-}  // namespace saca::traffic
+}  // namespace saca::traffic::rts_smoother_test

@@ -10,7 +10,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::traffic {
+namespace saca::traffic::series_test {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -152,4 +152,4 @@ TEST(Normal3, SolvesAndLeavesTheUndeterminedAtZero) {
 }
 
 }  // namespace
-}  // namespace saca::traffic
+}  // namespace saca::traffic::series_test

@@ -13,7 +13,7 @@
 #include "saca/core/contract.h"
 #include "saca/core/file.h"
 
-namespace saca::traffic {
+namespace saca::traffic::set_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -255,4 +255,4 @@ TEST_F(SetFile, ChecksEachPart) {
 }
 
 }  // namespace
-}  // namespace saca::traffic
+}  // namespace saca::traffic::set_file_test

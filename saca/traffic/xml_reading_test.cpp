@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace saca::traffic {
+namespace saca::traffic::xml_reading_test {
 namespace {
 
 using testing::HasSubstr;
@@ -71,4 +71,4 @@ TEST(ShownText, CutsAndTrims) {
 }
 
 }  // namespace
-}  // namespace saca::traffic
+}  // namespace saca::traffic::xml_reading_test

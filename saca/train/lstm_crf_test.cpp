@@ -8,7 +8,7 @@
 #include "saca/intent/model.h"
 #include "saca/train/training.h"
 
-namespace saca::train {
+namespace saca::train::lstm_crf_test {
 namespace {
 
 using intent::num_classes;
@@ -131,4 +131,4 @@ TEST(LstmCrf, WhatIsFilledUpChangesNothing) {
 }
 
 }  // namespace
-}  // namespace saca::train
+}  // namespace saca::train::lstm_crf_test

@@ -13,7 +13,7 @@
 #include "saca/learn/score.h"
 #include "saca/learn/simulated.h"
 
-namespace saca::train {
+namespace saca::train::training_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -147,4 +147,4 @@ TEST(Pieces, LabelsAreThoseOfLater) {
 }
 
 }  // namespace
-}  // namespace saca::train
+}  // namespace saca::train::training_test

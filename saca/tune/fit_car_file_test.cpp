@@ -8,7 +8,7 @@
 #include "saca/vehicle/default_car.h"
 #include "saca/vehicle/parameters.h"
 
-namespace saca::tune {
+namespace saca::tune::fit_car_file_test {
 namespace {
 
 using testing::HasSubstr;
@@ -69,4 +69,4 @@ TEST_F(FittedCarFile, ALogsNameCannotBreakOutOfItsComment) {
 }
 
 }  // namespace
-}  // namespace saca::tune
+}  // namespace saca::tune::fit_car_file_test

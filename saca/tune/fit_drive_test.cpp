@@ -7,7 +7,7 @@
 #include "saca/core/contract.h"
 #include "saca/vehicle/default_car.h"
 
-namespace saca::tune {
+namespace saca::tune::fit_drive_test {
 namespace {
 
 const Series& series_named(const Log& log, Signal signal) {
@@ -68,4 +68,4 @@ TEST(TestDriveLog, RefusesWhatNobodyDrives) {
 }
 
 }  // namespace
-}  // namespace saca::tune
+}  // namespace saca::tune::fit_drive_test

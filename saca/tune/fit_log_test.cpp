@@ -10,7 +10,7 @@
 #include "saca/tune/fit_drive.h"
 #include "saca/vehicle/default_car.h"
 
-namespace saca::tune {
+namespace saca::tune::fit_log_test {
 namespace {
 
 using testing::AllOf;
@@ -209,4 +209,4 @@ TEST(ReadLog, WantsSpeedAndItsLoss) {
 }
 
 }  // namespace
-}  // namespace saca::tune
+}  // namespace saca::tune::fit_log_test

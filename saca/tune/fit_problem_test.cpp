@@ -7,7 +7,7 @@
 #include "saca/tune/fit_drive.h"
 #include "saca/vehicle/default_car.h"
 
-namespace saca::tune {
+namespace saca::tune::fit_problem_test {
 namespace {
 
 class Problem : public testing::Test {
@@ -65,4 +65,4 @@ TEST_F(Problem, WhatTheLogsDoNotAskKeepsTheSdThatItHadBefore) {
 }
 
 }  // namespace
-}  // namespace saca::tune
+}  // namespace saca::tune::fit_problem_test

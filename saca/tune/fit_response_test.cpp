@@ -7,7 +7,7 @@
 #include "saca/tune/fit_drive.h"
 #include "saca/vehicle/default_car.h"
 
-namespace saca::tune {
+namespace saca::tune::fit_response_test {
 namespace {
 
 const TestDrive gentle{.speed = 12.0, .deceleration = 5.0, .lead_in = 0.2, .noise = 0.0};
@@ -93,4 +93,4 @@ TEST(HeldSpeed, IsAMeanOfTheNeighbours) {
 }
 
 }  // namespace
-}  // namespace saca::tune
+}  // namespace saca::tune::fit_response_test

@@ -9,7 +9,7 @@
 #include "saca/tune/fit_drive.h"
 #include "saca/vehicle/default_car.h"
 
-namespace saca::tune {
+namespace saca::tune::fit_vehicle_test {
 namespace {
 
 using testing::AllOf;
@@ -211,4 +211,4 @@ TEST(VehicleFit, OfAnotherKindOfCarIsFiniteAndWarned) {
 }
 
 }  // namespace
-}  // namespace saca::tune
+}  // namespace saca::tune::fit_vehicle_test

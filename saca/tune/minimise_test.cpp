@@ -9,7 +9,7 @@
 #include "saca/core/contract.h"
 #include "saca/core/file.h"
 
-namespace saca::tune {
+namespace saca::tune::minimise_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -126,4 +126,4 @@ TEST_F(Minimise, RefusesWhatIsNoProblem) {
 }
 
 }  // namespace
-}  // namespace saca::tune
+}  // namespace saca::tune::minimise_test

@@ -6,7 +6,7 @@
 
 #include "saca/manoeuvre/default_car.h"
 
-namespace saca::tune {
+namespace saca::tune::trials_test {
 namespace {
 
 using manoeuvre::Car;
@@ -96,4 +96,4 @@ TEST(Trials, TheShippedDomainsKeepTheirPromise) {
 }
 
 }  // namespace
-}  // namespace saca::tune
+}  // namespace saca::tune::trials_test

@@ -12,7 +12,7 @@
 #include "saca/vehicle/default_car.h"
 #include "saca/vehicle/vehicle.h"
 
-namespace saca::vehicle {
+namespace saca::vehicle::extremes_test {
 namespace {
 
 constexpr double dt = 1e-3;
@@ -414,4 +414,4 @@ TEST(Integrator, IsOfFirstOrderAcrossEvents) {
 }
 
 }  // namespace
-}  // namespace saca::vehicle
+}  // namespace saca::vehicle::extremes_test

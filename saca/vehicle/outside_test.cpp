@@ -15,7 +15,7 @@
 #include "saca/core/file.h"
 #include "saca/vehicle/parameters.h"
 
-namespace saca::vehicle {
+namespace saca::vehicle::outside_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -438,4 +438,4 @@ TEST(OutsideDrive, LeavesTracesWhereAsked) {
 }
 
 }  // namespace
-}  // namespace saca::vehicle
+}  // namespace saca::vehicle::outside_test

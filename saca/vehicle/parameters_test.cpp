@@ -14,7 +14,7 @@
 #include "saca/core/units.h"
 #include "saca/vehicle/default_car.h"
 
-namespace saca::vehicle {
+namespace saca::vehicle::parameters_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -195,4 +195,4 @@ TEST_F(EveryCar, StandsTheUsualStep) {
 }
 
 }  // namespace
-}  // namespace saca::vehicle
+}  // namespace saca::vehicle::parameters_test

@@ -14,7 +14,7 @@
 #include "saca/vehicle/default_car.h"
 #include "saca/vehicle/vehicle.h"
 
-namespace saca::vehicle {
+namespace saca::vehicle::standard_manoeuvres_test {
 namespace {
 
 constexpr double dt = 1e-3;
@@ -502,4 +502,4 @@ INSTANTIATE_TEST_SUITE_P(Cars, Manoeuvre,
                          [](const auto& named) { return std::string(named.param.name); });
 
 }  // namespace
-}  // namespace saca::vehicle
+}  // namespace saca::vehicle::standard_manoeuvres_test

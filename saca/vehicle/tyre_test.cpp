@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-namespace saca::vehicle {
+namespace saca::vehicle::tyre_test {
 namespace {
 
 constexpr Tyre tyre{.stiffness = 18.0, .shape = 1.4, .load_sensitivity = 0.1, .nominal_load = 4e3};
@@ -83,4 +83,4 @@ TEST(Tyre, AnUnloadedWheelGivesNoForce) {
 }
 
 }  // namespace
-}  // namespace saca::vehicle
+}  // namespace saca::vehicle::tyre_test

@@ -12,7 +12,7 @@
 #include "saca/core/units.h"
 #include "saca/vehicle/default_car.h"
 
-namespace saca::vehicle {
+namespace saca::vehicle::vehicle_test {
 namespace {
 
 constexpr double dt = 1e-3;
@@ -335,4 +335,4 @@ TEST_F(Dynamics, RefusesWhatIsNotAStep) {
 }
 
 }  // namespace
-}  // namespace saca::vehicle
+}  // namespace saca::vehicle::vehicle_test

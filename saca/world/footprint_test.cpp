@@ -11,7 +11,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::world {
+namespace saca::world::footprint_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -336,4 +336,4 @@ TEST(Separation, RefusesWhatIsNoBodyOrNoPose) {
 }
 
 }  // namespace
-}  // namespace saca::world
+}  // namespace saca::world::footprint_test

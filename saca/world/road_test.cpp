@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-namespace saca::world {
+namespace saca::world::road_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -65,4 +65,4 @@ TEST(Road, NamesGoThereAndBack) {
 }
 
 }  // namespace
-}  // namespace saca::world
+}  // namespace saca::world::road_test

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace saca::world {
+namespace saca::world::scene_test {
 namespace {
 
 Actor car(std::uint8_t id) {
@@ -86,4 +86,4 @@ TEST(Scene, NamesGoThereAndBack) {
 }
 
 }  // namespace
-}  // namespace saca::world
+}  // namespace saca::world::scene_test

@@ -9,28 +9,17 @@
 #include <random>
 
 #include "saca/core/contract.h"
+#include "tests/support/scenes.h"
 
-namespace saca::world {
+namespace saca::world::time_to_conflict_test {
 namespace {
+
+using test::block;
+using test::ego_at;
+using test::whole_metres;
 
 constexpr double pi = std::numbers::pi;
 constexpr double exactness = 0.0101;  // 10 ms as stated, and rounding
-
-/// Ego 4 m x 2 m at the origin facing east at `speed`, on a straight road.
-Scene ego_at(double speed) {
-  Scene scene;
-  scene.ego.v_B = {speed, 0.0};
-  scene.ego_footprint = {.length = 4.0, .width = 2.0};
-  scene.ego_mass = 1'700.0;
-  return scene;
-}
-
-Actor car_at(Vec2 p_W, Vec2 v_W) {
-  Actor actor{.id = 1, .footprint = {.length = 4.0, .width = 2.0}, .mass = 1'500.0};
-  actor.X_WA = {p_W, norm(v_W) > 0.0 ? std::atan2(v_W.y, v_W.x) : 0.0};
-  actor.v_W = v_W;
-  return actor;
-}
 
 Scene turned(Scene scene, Actor& actor, double angle) {
   const Pose X_VW{{30.0, -20.0}, angle};  // another world
@@ -43,33 +32,33 @@ Scene turned(Scene scene, Actor& actor, double angle) {
 }
 
 TEST(TimeToConflict, IsGapOverClosingSpeedInLine) {
-  const Scene scene = ego_at(20.0);
-  const Actor lead = car_at({34.0, 0.0}, {5.0, 0.0});  // gap 30 m, closing at 15 m/s
+  const Scene scene = ego_at(20.0, whole_metres);
+  const Actor lead = block(1, {34.0, 0.0}, {5.0, 0.0});  // gap 30 m, closing at 15 m/s
   EXPECT_NEAR(time_to_conflict(scene, lead, 5.0, 0.0).value(), 2.0, exactness);
   EXPECT_EQ(time_to_conflict(scene, lead, 1.9, 0.0), std::nullopt);
 }
 
 TEST(TimeToConflict, KnowsABrakingLead) {
-  Scene scene = ego_at(20.0);
-  Actor lead = car_at({24.0, 0.0}, {20.0, 0.0});  // same speed, gap 20 m
+  Scene scene = ego_at(20.0, whole_metres);
+  Actor lead = block(1, {24.0, 0.0}, {20.0, 0.0});  // same speed, gap 20 m
   EXPECT_EQ(time_to_conflict(scene, lead, 5.0, 0.0), std::nullopt);
   lead.a_W = {-5.0, 0.0};  // gap closes as 2.5 t^2 while it brakes (4 s): t = sqrt(8)
   EXPECT_NEAR(time_to_conflict(scene, lead, 5.0, 0.0).value(), std::sqrt(8.0), exactness);
 }
 
 TEST(TimeToConflict, ABrakingLeadStopsAndDoesNotReverse) {
-  const Scene scene = ego_at(2.0);
-  Actor lead = car_at({24.0, 0.0}, {10.0, 0.0});
+  const Scene scene = ego_at(2.0, whole_metres);
+  Actor lead = block(1, {24.0, 0.0}, {10.0, 0.0});
   lead.a_W = {-5.0, 0.0};  // stops after 10 m: 30 m of room at 2 m/s
   EXPECT_NEAR(time_to_conflict(scene, lead, 20.0, 0.0).value(), 15.0, exactness);
 }
 
 // The paper's truck passes behind the ego; with a tolerance their paths are in conflict.
 TEST(TimeToConflict, ToleranceFindsCrossingTrafficThatWouldJustMiss) {
-  const Scene scene = ego_at(10.0);
+  const Scene scene = ego_at(10.0, whole_metres);
   // Crosses the ego's path x = 30 from the left: its front is at y = 1 (the ego's side) after 4.0
   // s, while the ego has left (x - 2 > 31) after 3.3 s.
-  const Actor crossing = car_at({30.0, 43.0}, {0.0, -10.0});
+  const Actor crossing = block(1, {30.0, 43.0}, {0.0, -10.0});
   EXPECT_EQ(time_to_conflict(scene, crossing, 8.0, 0.0), std::nullopt);
   // The ego is there from t = 2.7 (front at 29) to 3.3; the actor arrives at 4.0: |4.0 - t| <= 1.
   EXPECT_NEAR(time_to_conflict(scene, crossing, 8.0, 1.0).value(), 3.0, exactness);
@@ -77,26 +66,28 @@ TEST(TimeToConflict, ToleranceFindsCrossingTrafficThatWouldJustMiss) {
 }
 
 TEST(TimeToConflict, ACarBesideIsNone) {
-  EXPECT_EQ(time_to_conflict(ego_at(20.0), car_at({10.0, 3.5}, {15.0, 0.0}), 10.0, 0.0),
-            std::nullopt);
+  EXPECT_EQ(
+      time_to_conflict(ego_at(20.0, whole_metres), block(1, {10.0, 3.5}, {15.0, 0.0}), 10.0, 0.0),
+      std::nullopt);
 }
 
 TEST(TimeToConflict, TouchingIsNow) {
-  EXPECT_EQ(time_to_conflict(ego_at(5.0), car_at({3.0, 0.0}, {}), 5.0, 0.0), 0.0);
+  EXPECT_EQ(time_to_conflict(ego_at(5.0, whole_metres), block(1, {3.0, 0.0}, {}), 5.0, 0.0), 0.0);
 }
 
 TEST(TimeToConflict, AtRestNothingHappens) {
-  EXPECT_EQ(time_to_conflict(ego_at(0.0), car_at({30.0, 0.0}, {}), 5.0, 2.0), std::nullopt);
+  EXPECT_EQ(time_to_conflict(ego_at(0.0, whole_metres), block(1, {30.0, 0.0}, {}), 5.0, 2.0),
+            std::nullopt);
 }
 
 TEST(TimeToConflict, FollowsTheLane) {
-  Scene scene = ego_at(10.0);
+  Scene scene = ego_at(10.0, whole_metres);
   scene.road.curvature = 0.02;  // radius 50 m to the left
   // A quarter of the circle is 78.5 m; an obstacle there, 4 m of half lengths before it.
-  Actor obstacle = car_at({50.0, 50.0}, {});
+  Actor obstacle = block(1, {50.0, 50.0}, {});
   obstacle.X_WA.yaw = pi / 2.0;
   EXPECT_NEAR(time_to_conflict(scene, obstacle, 10.0, 0.0).value(), (25.0 * pi - 4.0) / 10.0, 0.02);
-  EXPECT_EQ(time_to_conflict(scene, car_at({70.0, 0.0}, {}), 10.0, 0.0), std::nullopt);
+  EXPECT_EQ(time_to_conflict(scene, block(1, {70.0, 0.0}, {}), 10.0, 0.0), std::nullopt);
 }
 
 TEST(TimeToConflict, IsTheSameInEveryWorldFrameAndMirrored) {
@@ -104,7 +95,8 @@ TEST(TimeToConflict, IsTheSameInEveryWorldFrameAndMirrored) {
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   for (int i = 0; i < 200; ++i) {
     const Scene scene = ego_at(15.0 + 5.0 * u(rng));
-    const Actor actor = car_at({40.0 + 20.0 * u(rng), 30.0 * u(rng)}, {8.0 * u(rng), 8.0 * u(rng)});
+    const Actor actor =
+        block(1, {40.0 + 20.0 * u(rng), 30.0 * u(rng)}, {8.0 * u(rng), 8.0 * u(rng)});
     const auto expected = time_to_conflict(scene, actor, 6.0, 0.5);
     Actor there = actor;
     const Scene other = turned(scene, there, pi / 2.0);
@@ -125,9 +117,9 @@ TEST(TimeToConflict, AgreesWithLookingAtEveryInstant) {
   constexpr double horizon = 3.0;
   int num_conflicts = 0;
   for (int i = 0; i < 300; ++i) {
-    Scene scene = ego_at(15.0);
+    Scene scene = ego_at(15.0, whole_metres);
     scene.road.curvature = i % 3 == 0 ? 0.0 : 0.02 * u(rng);
-    Actor actor = car_at({25.0 + 10.0 * u(rng), 12.0 * u(rng)}, {8.0 * u(rng), 8.0 * u(rng)});
+    Actor actor = block(1, {25.0 + 10.0 * u(rng), 12.0 * u(rng)}, {8.0 * u(rng), 8.0 * u(rng)});
     if (i % 2 == 1) {
       actor.yaw_rate = 0.5 * u(rng);
       actor.a_W = 3.0 * u(rng) * actor.v_W;
@@ -155,8 +147,8 @@ TEST(TimeToConflict, AgreesWithLookingAtEveryInstant) {
 }
 
 TEST(TimeToConflict, FindsAContactAtTheVeryHorizon) {
-  const Scene scene = ego_at(20.0);
-  const Actor lead = car_at({34.0, 0.0}, {5.0, 0.0});  // gap 30 m, closing at 15 m/s
+  const Scene scene = ego_at(20.0, whole_metres);
+  const Actor lead = block(1, {34.0, 0.0}, {5.0, 0.0});  // gap 30 m, closing at 15 m/s
   EXPECT_NEAR(time_to_conflict(scene, lead, 2.0005, 0.0).value(), 2.0, exactness);
   EXPECT_EQ(time_to_conflict(scene, lead, 1.985, 0.0), std::nullopt);
 }
@@ -164,16 +156,16 @@ TEST(TimeToConflict, FindsAContactAtTheVeryHorizon) {
 // Within a short horizon and a wide tolerance the actor is looked for long after the horizon, when
 // it has become much faster.
 TEST(TimeToConflict, KnowsHowFastACrossingActorWillBe) {
-  const Scene scene = ego_at(10.0);
-  Actor actor = car_at({0.0, -16.0}, {0.0, 2.0});
+  const Scene scene = ego_at(10.0, whole_metres);
+  Actor actor = block(1, {0.0, -16.0}, {0.0, 2.0});
   actor.a_W = {0.0, 6.0};  // 13 m to the ego's ground: 2 t + 3 t^2, 1.775 s
   EXPECT_EQ(time_to_conflict(scene, actor, 0.1, 1.6), std::nullopt);
   EXPECT_NEAR(time_to_conflict(scene, actor, 0.1, 1.72).value(), 0.055, exactness);
 }
 
 TEST(TimeToConflict, ATrackAndItsOwnMotionAgree) {
-  const Scene scene = ego_at(12.0);
-  const Actor actor = car_at({40.0, -16.0}, {0.0, 5.0});
+  const Scene scene = ego_at(12.0, whole_metres);
+  const Actor actor = block(1, {40.0, -16.0}, {0.0, 5.0});
   Track track{.start = scene.time, .step = 0.05, .X_WA = {}};
   for (int k = 0; k <= 120; ++k) {
     track.X_WA.push_back(actor_going_on(actor, 0.05 * k));
@@ -183,31 +175,34 @@ TEST(TimeToConflict, ATrackAndItsOwnMotionAgree) {
 }
 
 TEST(IsCrossing, LooksAtTheCourseAgainstTheLane) {
-  const Scene scene = ego_at(10.0);
-  EXPECT_TRUE(is_crossing(scene, car_at({30.0, 10.0}, {0.0, -5.0})));
-  EXPECT_FALSE(is_crossing(scene, car_at({30.0, 0.0}, {5.0, 0.0})));
-  EXPECT_FALSE(is_crossing(scene, car_at({30.0, 0.0}, {-5.0, 0.0})));
-  EXPECT_FALSE(is_crossing(scene, car_at({30.0, 0.0}, {})));
+  const Scene scene = ego_at(10.0, whole_metres);
+  EXPECT_TRUE(is_crossing(scene, block(1, {30.0, 10.0}, {0.0, -5.0})));
+  EXPECT_FALSE(is_crossing(scene, block(1, {30.0, 0.0}, {5.0, 0.0})));
+  EXPECT_FALSE(is_crossing(scene, block(1, {30.0, 0.0}, {-5.0, 0.0})));
+  EXPECT_FALSE(is_crossing(scene, block(1, {30.0, 0.0}, {})));
 }
 
 TEST(IsFollower, IsWhollyBehindAndInTheEgosPath) {
-  const Scene scene = ego_at(10.0);  // from x = -2 to 2, y = -1 to 1
-  EXPECT_TRUE(is_follower(scene, car_at({-6.0, 0.5}, {12.0, 0.0})));
-  EXPECT_FALSE(is_follower(scene, car_at({-3.0, 0.0}, {12.0, 0.0})));  // bodies overlap
-  EXPECT_FALSE(is_follower(scene, car_at({-6.0, 3.5}, {12.0, 0.0})));  // next lane
-  EXPECT_TRUE(is_behind(scene, car_at({-6.0, 3.5}, {12.0, 0.0})));
-  EXPECT_FALSE(is_behind(scene, car_at({-1.0, 3.5}, {12.0, 0.0})));  // beside
-  EXPECT_FALSE(is_behind(scene, car_at({-6.0, 9.0}, {0.0, -5.0})));  // crosses
+  const Scene scene = ego_at(10.0, whole_metres);  // from x = -2 to 2, y = -1 to 1
+  EXPECT_TRUE(is_follower(scene, block(1, {-6.0, 0.5}, {12.0, 0.0})));
+  EXPECT_FALSE(is_follower(scene, block(1, {-3.0, 0.0}, {12.0, 0.0})));  // bodies overlap
+  EXPECT_FALSE(is_follower(scene, block(1, {-6.0, 3.5}, {12.0, 0.0})));  // next lane
+  EXPECT_TRUE(is_behind(scene, block(1, {-6.0, 3.5}, {12.0, 0.0})));
+  EXPECT_FALSE(is_behind(scene, block(1, {-1.0, 3.5}, {12.0, 0.0})));  // beside
+  EXPECT_FALSE(is_behind(scene, block(1, {-6.0, 9.0}, {0.0, -5.0})));  // crosses
 }
 
 TEST(TimeToConflict, RefusesWhatHasNoMeaning) {
-  EXPECT_THROW((void)time_to_conflict(ego_at(5.0), car_at({30.0, 0.0}, {}), 0.0, 0.0),
+  EXPECT_THROW(
+      (void)time_to_conflict(ego_at(5.0, whole_metres), block(1, {30.0, 0.0}, {}), 0.0, 0.0),
+      ContractViolation);
+  EXPECT_THROW((void)time_to_conflict(ego_at(5.0, whole_metres), block(1, {30.0, 0.0}, {}), 1.0,
+                                      std::nan("")),
                ContractViolation);
-  EXPECT_THROW((void)time_to_conflict(ego_at(5.0), car_at({30.0, 0.0}, {}), 1.0, std::nan("")),
-               ContractViolation);
-  EXPECT_THROW((void)time_to_collision(ego_at(5.0), car_at({30.0, 0.0}, {}), Track{}, 1.0),
-               ContractViolation);
+  EXPECT_THROW(
+      (void)time_to_collision(ego_at(5.0, whole_metres), block(1, {30.0, 0.0}, {}), Track{}, 1.0),
+      ContractViolation);
 }
 
 }  // namespace
-}  // namespace saca::world
+}  // namespace saca::world::time_to_conflict_test

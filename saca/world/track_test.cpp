@@ -6,7 +6,7 @@
 
 #include "saca/core/contract.h"
 
-namespace saca::world {
+namespace saca::world::track_test {
 namespace {
 
 const Track track{
@@ -41,4 +41,4 @@ TEST(Track, RefusesAnEmptyTrackAndNaN) {
 }
 
 }  // namespace
-}  // namespace saca::world
+}  // namespace saca::world::track_test

@@ -156,12 +156,12 @@ def test_a_survey_counts_goes_on_and_repeats_itself(tmp_path):
 def test_an_interrupted_survey_keeps_what_it_found(tmp_path):
     with subprocess.Popen([PROGRAM, "balance", "--count", "100000"], cwd=tmp_path, stderr=subprocess.PIPE, text=True) as run:
         journal = tmp_path / "runs/survey-balanced-tuning.journal"
-        for _ in range(600):
+        for _ in range(15_000):
             if journal.exists() and journal.read_text().count("\n") > 64:
                 break
             time.sleep(0.1)
         run.send_signal(signal.SIGINT)
-        assert run.wait(60) == INTERRUPTED
+        assert run.wait(1500) == INTERRUPTED
         assert "goes on where this one stopped" in run.stderr.read()
     assert journal.read_text().count("\n") > 64
 

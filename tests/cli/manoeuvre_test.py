@@ -142,11 +142,11 @@ def test_tuning_that_was_interrupted_goes_on_and_ends_the_same(car, tmp_path):
     journal = tmp_path / "a.toml.swerve.journal"
     with subprocess.Popen([PROGRAM, *map(str, [*more, "--output", "a.toml"])], cwd=tmp_path,
                           stderr=subprocess.PIPE, text=True) as first:
-        deadline = time.monotonic() + 60
+        deadline = time.monotonic() + 1500
         while time.monotonic() < deadline and not (journal.exists() and journal.read_text().count("\n") > 3):
             time.sleep(0.01)
         first.send_signal(signal.SIGINT)
-        error = first.communicate(timeout=60)[1]
+        error = first.communicate(timeout=1500)[1]
     assert first.returncode == INTERRUPTED
     assert "The same command goes on" in error
     assert not (tmp_path / "a.toml").exists()
@@ -159,7 +159,7 @@ def test_a_journal_is_worth_nothing_once_the_car_has_changed(car, tmp_path):
     start = ["tune", "--car", car, "--swerve-evaluations", 300, "--output", "a.toml"]
     with subprocess.Popen([PROGRAM, *map(str, start)], cwd=tmp_path, stderr=subprocess.PIPE) as first:
         journal = tmp_path / "a.toml.swerve.journal"
-        deadline = time.monotonic() + 60
+        deadline = time.monotonic() + 1500
         while time.monotonic() < deadline and not (journal.exists() and journal.read_text().count("\n") > 1):
             time.sleep(0.01)
         first.send_signal(signal.SIGINT)

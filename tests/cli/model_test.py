@@ -81,7 +81,7 @@ def test_scoring_is_interrupted_while_the_model_is_silent(server, tmp_path):
         assert run.poll() is None, run.stderr.read()
         time.sleep(0.05)
     run.send_signal(signal.SIGINT)
-    _, told = run.communicate(timeout=60)  # the model has ten minutes
+    _, told = run.communicate(timeout=500)  # the model has ten minutes
     assert run.returncode == INTERRUPTED and "goes on where this one stopped" in told
 
 

@@ -10,7 +10,7 @@ SUCCESS, WRONG_COMMAND_LINE, BAD_INPUT, CANNOT_WRITE, INTERRUPTED = 0, 2, 3, 4, 
 
 def saca(*arguments, cwd, **options):
     return subprocess.run([PROGRAM, *map(str, arguments)], cwd=cwd, capture_output=True, text=True,
-                          timeout=240, **options)
+                          timeout=1500, **options)
 
 
 def one_error(run, code):

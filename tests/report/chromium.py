@@ -52,7 +52,7 @@ class Page:
         try:  # asked to end, it takes its children along, who would write into the profile
             self._session = None
             self.call("Browser.close")
-            self._process.wait(timeout=20)
+            self._process.wait(timeout=1500)
         except (AssertionError, OSError, subprocess.TimeoutExpired):
             self._process.kill()
             self._process.wait()
@@ -76,9 +76,9 @@ class Page:
 
     def _message(self):
         while b"\0" not in self._rest:
-            ready, _, _ = select.select([self._read], [], [], 60)
+            ready, _, _ = select.select([self._read], [], [], 1500)
             data = os.read(self._read, 1 << 20) if ready else b""
-            assert data, "the browser ended, or said nothing for 60 s"
+            assert data, "the browser ended, or said nothing for 1500 s"
             self._rest += data
         line, _, self._rest = self._rest.partition(b"\0")
         message = json.loads(line)
@@ -97,9 +97,9 @@ class Page:
 
     def open(self, path):
         self.call("Page.navigate", url=pathlib.Path(path).resolve().as_uri())
-        end = time.monotonic() + 30
+        end = time.monotonic() + 1500
         while self.run("document.readyState") != "complete" or self.run("location.protocol") != "file:":
-            assert time.monotonic() < end, "the page did not load within 30 s"
+            assert time.monotonic() < end, "the page did not load within 1500 s"
         self.settle()
 
     def settle(self):

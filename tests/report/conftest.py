@@ -9,7 +9,7 @@ import pytest
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from chromium import Page
 
-WRITE_REPORT = os.environ.get("SACA_WRITE_REPORT", "build/dev/tests/report/write_report")
+WRITE_REPORT = os.environ.get("SACA_WRITE_REPORT", "build/release/tests/report/write_report")
 
 
 @pytest.fixture(scope="module")

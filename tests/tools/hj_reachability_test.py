@@ -79,7 +79,7 @@ def test_a_race_without_its_figure_is_refused(double, suffix):
 
 
 def test_other_words_are_refused():
-    run = subprocess.run([TOOL / "run.sh", "quickly"], capture_output=True, text=True, timeout=60)
+    run = subprocess.run([TOOL / "run.sh", "quickly"], capture_output=True, text=True, timeout=1500)
     assert run.returncode == 2 and "want setup, reference or time, got quickly" in run.stderr
 
 
@@ -100,7 +100,7 @@ print(json.dumps([make.tube_volume(plane), make.tube_volume(noise), slow]))
 
 @pytest.mark.skipif(not PYTHON.exists(), reason="tools/hj_reachability/run.sh setup has not been run")
 def test_the_volume_is_exact_for_a_plane_and_as_by_hand_for_anything():
-    run = subprocess.run([PYTHON, "-B", "-c", VOLUME, TOOL], capture_output=True, text=True, timeout=60)
+    run = subprocess.run([PYTHON, "-B", "-c", VOLUME, TOOL], capture_output=True, text=True, timeout=1500)
     assert run.returncode == 0, run.stderr
     plane, noise, slow = json.loads(run.stdout)
     assert plane == pytest.approx(19 * 20 * 2 * math.pi)
@@ -117,7 +117,7 @@ print(json.dumps([make.solution((14, 11, 8), double) for double in (False, True)
 
 @pytest.mark.skipif(not PYTHON.exists(), reason="tools/hj_reachability/run.sh setup has not been run")
 def test_a_small_game_is_solved_in_both_precisions():
-    run = subprocess.run([PYTHON, "-B", "-c", SMALL, TOOL], capture_output=True, text=True, timeout=100)
+    run = subprocess.run([PYTHON, "-B", "-c", SMALL, TOOL], capture_output=True, text=True, timeout=1500)
     assert run.returncode == 0, run.stderr
     single, double = json.loads(run.stdout)
     assert single["tube_volume_m2_rad"] == pytest.approx(double["tube_volume_m2_rad"], rel=1e-5)

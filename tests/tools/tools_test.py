@@ -9,7 +9,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 def tool(name, *arguments):
     return subprocess.run([sys.executable, ROOT / "tools" / name, *map(str, arguments)], cwd=ROOT,
-                          capture_output=True, text=True, timeout=60)
+                          capture_output=True, text=True, timeout=1500)
 
 
 def test_figures_are_merged_with_where_they_come_from(tmp_path):

@@ -120,9 +120,9 @@ with open(sys.argv[1], "rb") as stream:
 @pytest.mark.skipif(not PYTHON.exists(), reason="tools/trace_mcap/run.sh setup has not been run")
 def test_mcaps_reader_finds_what_was_written(trace, tmp_path):
     output = tmp_path / "out.mcap"
-    run = subprocess.run([TOOL / "run.sh", trace, output], capture_output=True, text=True, timeout=60)
+    run = subprocess.run([TOOL / "run.sh", trace, output], capture_output=True, text=True, timeout=1500)
     assert run.returncode == 0, run.stderr
-    read = subprocess.run([PYTHON, "-c", READ, output], capture_output=True, text=True, timeout=60)
+    read = subprocess.run([PYTHON, "-c", READ, output], capture_output=True, text=True, timeout=1500)
     assert read.returncode == 0, read.stderr
     found = json.loads(read.stdout)
     assert found["counts"] == {"/tf": 3, "/scene": 3, "/perceived": 2, "/events": 1}

