@@ -30,9 +30,9 @@ export PYTHONDONTWRITEBYTECODE=1
 if [ "$what" != reference ]; then
   traces=$venv/traces
   mkdir -p "$traces"
-  cmake --preset dev >/dev/null
-  cmake --build --preset dev --target vehicle_outside_test -- --quiet
-  SACA_OUTSIDE_TRACES=$traces build/dev/modules/vehicle/vehicle_outside_test >"$venv/test.log" || {
+  cmake --preset release >/dev/null
+  cmake --build --preset release --target vehicle_test -- --quiet
+  SACA_OUTSIDE_TRACES=$traces build/release/modules/vehicle/vehicle_test --gtest_filter='Outside*' >"$venv/test.log" || {
     cat "$venv/test.log" >&2
     exit 1
   }
