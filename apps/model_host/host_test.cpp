@@ -31,8 +31,9 @@ class HostTest : public testing::Test {
     scene_ = reason::scene_part(situation_, std::nullopt, 0.0);
   }
 
+  /// One thread: two that meet at each step take three times as long where somebody else computes.
   [[nodiscard]] reason::ChildModelSettings settings(int max_tokens) const {
-    return {.command = {SACA_MODEL_HOST, "--model", SACA_MODEL},
+    return {.command = {SACA_MODEL_HOST, "--threads", "1", "--model", SACA_MODEL},
             .system = reason::system_part(outcome::read_harm(SACA_HARM).value()),
             .identity = "base",
             .max_tokens = max_tokens};
