@@ -44,9 +44,9 @@ soak: setup
 	@tools/model/setup.sh server
 	@cmake --preset release > /dev/null && cmake --build --preset release -- --quiet
 	SACA_SOAK_KILLS=$${SACA_SOAK_KILLS:-500} $(release)/modules/memory/memory_test --gtest_filter='*Killed*'
-	SACA_SOAK_ASKS=$${SACA_SOAK_ASKS:-1000} SACA_SOAK_CHILD_KILLS=$${SACA_SOAK_CHILD_KILLS:-200} $(release)/apps/model_host/model_host_test --gtest_filter='SoakTest.*'
+	SACA_SOAK_ASKS=$${SACA_SOAK_ASKS:-1000} SACA_SOAK_CHILD_KILLS=$${SACA_SOAK_CHILD_KILLS:-200} $(release)/apps/model_host/model_host_test --gtest_filter='SoakTest.*:HostTest.NoPrompt*'
 	SACA_SOAK_CLOCK=1 $(release)/modules/reason/reason_test --gtest_filter='*RealTime*'
-	SACA_PROGRAM=$(release)/saca python3 -m pytest -q -p no:cacheprovider tests/cli/real_server_test.py
+	SACA_SOAK_CLOCK=1 python3 -m pytest -q -p no:cacheprovider tests/cli/real_server_test.py tests/cli/cli_test.py -k 'struck or server'
 	SACA_SOAK_PAIRS=$${SACA_SOAK_PAIRS:-100000} $(release)/modules/outcome/outcome_test --gtest_filter='Exactness.*'
 	SACA_AGREEMENT_ENCOUNTERS=$${SACA_AGREEMENT_ENCOUNTERS:-4000} $(release)/modules/eval/eval_test --gtest_filter='RolloutAgreement.*'
 	SACA_SOAK_REACH=1 $(release)/modules/reach/reach_test --gtest_filter='FollowAgreement.*'

@@ -25,11 +25,15 @@ build() {  # PRESET [TARGET...]
   cmake --build --preset "$preset" ${1:+--target "$@"} -- --quiet
 }
 
-step "packages" tools/setup.sh train
+packages() {
+  tools/setup.sh train
+  tools/trace_mcap/run.sh setup  # its test reads a file back with another group's reader
+}
+step "packages" packages
 step "format" format
 step "build: release" build release
 step "tests" ctest --preset release --parallel "$(nproc)"
-# Programs that take to themselves what people, networks and other processes send, and all modules' tests.
+# What reads files, replies and scenes, shares memory or begins processes (docs/testing.md).
 step "build: address and undefined-behaviour sanitiser" build asan-quick
 step "tests: address and undefined-behaviour sanitiser" ctest --preset asan-quick --parallel "$(nproc)"
 step "build: thread sanitiser" build tsan core_test loop_test
@@ -38,7 +42,7 @@ step "lint: what has changed" tools/lint.sh --changed
 step "package: installed, found and used by another project" tools/check_package.sh
 
 # Of what is skipped each test says why.
-grep -hA 1 ': Skipped$' build/*/Testing/Temporary/LastTest.log | grep -v '^--$' | sed 's|^.*/\([^/]*: Skipped\)|\1|' | paste - - | sort -u || true
-grep -h '^SKIPPED ' build/*/Testing/Temporary/LastTest.log | sort -u || true
+grep -hA 1 ': Skipped$' build/{release,asan-quick,tsan}/Testing/Temporary/LastTest.log | grep -v '^--$' | sed 's|^.*/\([^/]*: Skipped\)|\1|' | paste - - | sort -u || true
+grep -h '^SKIPPED ' build/{release,asan-quick,tsan}/Testing/Temporary/LastTest.log | sort -u || true
 printf '\n== all is well (%d s)\n' "$SECONDS"
 printf '%s\n' "${steps[@]}"

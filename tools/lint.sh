@@ -6,8 +6,9 @@
 # another file of the folder uses. A folder that passed is not looked at again until it, a header or
 # the rules change. saca/train is left out: clang 14 does not understand libtorch's headers as C++20.
 #
-# usage: tools/lint.sh             everything, some ten minutes
-#        tools/lint.sh --changed   folders and sources that the last day's commits changed, or that are not committed
+# usage: tools/lint.sh             everything, some ten minutes; notes the commit that passed in tools/lint_passed,
+#                                  which is to be committed once a day's worth of changes
+#        tools/lint.sh --changed   sources that differ from that commit, or whose header does
 #        tools/lint.sh FILE...
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -57,26 +58,49 @@ in_parallel() {  # COMMAND: for each line of the standard input
   xargs -r -P "$(nproc)" -I{} bash -euo pipefail -c "$1 {}"
 }
 
-# The newest commit that is a day older than the head; nothing where there is none.
-day_before_head() {
-  git rev-list -1 --before="$(($(git show -s --format=%ct HEAD) - 86400))" HEAD
+# A changed source, once for its content, that of all headers and the rules.
+lint_source() {  # SOURCE
+  local stamp
+  stamp=build/lint/${1//\//_}-$({ cat "$1" .clang-tidy; echo "$headers"; declare -f tidy; } | sha256sum | cut -c1-16)
+  [ ! -e "$stamp" ] || return 0
+  tidy "$1" || {
+    echo "lint: error: $1 failed"
+    return 1
+  }
+  rm -f "build/lint/${1//\//_}"-*
+  touch "$stamp"
 }
+export -f lint_source
+
 of_library_and_programs() {
   grep -E '^(saca/[a-z_]+|apps/saca)/[a-z0-9_]+\.(cpp|h)$' | grep -vE '^saca/train/|_(test|bench)\.cpp$|_for_test\.h$' || true
 }
 
-case ${1:-} in
-  '') mapfile -t files < <(git ls-files saca apps/saca | of_library_and_programs) ;;
-  --changed)
-    base=$(day_before_head)
-    [ -n "$base" ] || base=$(git hash-object -t tree /dev/null)
-    mapfile -t files < <(git diff --name-only --diff-filter=d "$base" -- saca apps/saca | of_library_and_programs) ;;
-  *)
-    tidy "$@"
-    exit ;;
-esac
+# Sources that differ from the commit that passed last, and those of headers that do. Everything where nobody
+# knows that commit.
+changed_sources() {
+  local passed
+  passed=$(cat tools/lint_passed)
+  git cat-file -e "$passed^{commit}" 2>/dev/null || passed=$(git hash-object -t tree /dev/null)
+  git diff --name-only --diff-filter=d "$passed" -- saca apps/saca | of_library_and_programs | sed 's/\.h$/.cpp/' |
+    sort -u | while read -r source; do
+      [ ! -e "$source" ] || echo "$source"
+    done
+}
+
 mkdir -p build/lint
-echo "lint: ${#files[@]} files"
-[ ${#files[@]} -gt 0 ] || exit 0
-printf '%s\n' "${files[@]}" | xargs -n 1 dirname | sort -u | in_parallel lint_folder
-printf '%s\n' "${files[@]}" | { grep '\.cpp$' || true; } | in_parallel stands_alone
+case ${1:-} in
+  '')
+    mapfile -t files < <(git ls-files saca apps/saca | of_library_and_programs | grep '\.cpp$')
+    printf '%s\n' "${files[@]}" | xargs -n 1 dirname | sort -u | in_parallel lint_folder
+    printf '%s\n' "${files[@]}" | in_parallel stands_alone
+    git diff --quiet HEAD -- saca apps && git rev-parse HEAD >tools/lint_passed
+    echo "lint: ${#files[@]} sources passed" ;;
+  --changed)
+    mapfile -t files < <(changed_sources)
+    echo "lint: ${#files[@]} sources differ from the commit that passed last"
+    [ ${#files[@]} -gt 0 ] || exit 0
+    printf '%s\n' "${files[@]}" | in_parallel lint_source
+    printf '%s\n' "${files[@]}" | in_parallel stands_alone ;;
+  *) tidy "$@" ;;
+esac

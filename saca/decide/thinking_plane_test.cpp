@@ -10,6 +10,7 @@
 #include "saca/manoeuvre/default_car.h"
 #include "saca/manoeuvre/ego.h"
 #include "saca/reason/scripted_model.h"
+#include "tests/support/scenes.h"
 
 namespace saca::decide::thinking_plane_test {
 namespace {
@@ -34,16 +35,12 @@ class Thinking : public testing::Test {
   /// A wreck that fills the ego's lane, 70 m ahead at 20 m/s; one lane to the left, one to the
   /// right.
   static Scene wreck_ahead() {
-    Scene scene;
-    scene.ego.v_B = {20.0, 0.0};
-    scene.ego_footprint = manoeuvre::footprint(car());
+    Scene scene = test::ego_at(20.0, manoeuvre::footprint(car()));
     scene.ego_mass = car().mass;
     scene.road.left_edge = 5.25;
     scene.road.right_edge = -5.25;
     scene.grip = 0.5;  // braking alone does not stop in 26 m
-    Actor wreck{.id = 1, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1'500.0};
-    wreck.X_WA.p = {70.0, 0.0};
-    scene.actors.push_back(wreck);
+    scene.actors.push_back(test::car(1, {70.0, 0.0}));
     return scene;
   }
   static const manoeuvre::Car& car() {

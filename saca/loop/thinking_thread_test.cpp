@@ -8,15 +8,17 @@
 #include "saca/loop/wreck_for_test.h"
 #include "saca/manoeuvre/default_car.h"
 #include "saca/reason/scripted_model.h"
+#include "tests/support/meeting_clock.h"
 
 namespace saca::loop::thinking_thread_test {
 namespace {
 
-// Two threads meet in two slots: run under the thread sanitiser.
+// Two threads meet in two slots. What the thread sanitiser looks at on the machine's clock is
+// RealPace.
 TEST(ThinkingThread, ThinksAboutTheNewestSceneAndEndsWhenAsked) {
   const auto car = manoeuvre::default_car();
   const auto harm = outcome::read_harm("data/harm.toml").value();
-  SteadyClock clock;
+  MeetingClock clock(2);  // this thread and the thinking one
   LatestSlot<TimedScene> scenes;
   LatestSlot<decide::PlanCache> plans;
   std::atomic<int> num_events{0};
@@ -50,7 +52,7 @@ TEST(ThinkingThread, ThinksAboutTheNewestSceneAndEndsWhenAsked) {
 TEST(ThinkingThread, DoesNotWaitForAModelWhenItEnds) {
   const auto car = manoeuvre::default_car();
   const auto harm = outcome::read_harm("data/harm.toml").value();
-  SteadyClock clock;
+  MeetingClock clock(2);  // this thread and the thinking one
   LatestSlot<TimedScene> scenes;
   std::atomic<bool> asked{false};
   reason::ScriptedModel model(

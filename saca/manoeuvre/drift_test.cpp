@@ -53,10 +53,10 @@ TEST(TDrift, StopsAcrossTheLaneAsTheReferenceDoes) {
   for (const auto& [speed, time, forward] : vehicle::prototype_drifts) {
     const End end = drifted(left, ego_alone(speed, 0.9));
     EXPECT_NEAR(to_degrees(end.X_WB.yaw), 90.0, 5.0) << speed;
-    EXPECT_NEAR(end.time, time, 0.15 * time) << speed;
-    EXPECT_NEAR(end.X_WB.p.x, forward, 1.0) << speed;
-    EXPECT_GE(end.X_WB.p.y, 0.75 * vehicle::prototype_drift_sideways) << speed;
-    EXPECT_LE(end.X_WB.p.y, 2.2) << speed;
+    EXPECT_NEAR(end.time, time, vehicle::drift_time_band * time) << speed;
+    EXPECT_NEAR(end.X_WB.p.x, forward, vehicle::drift_forward_band) << speed;
+    EXPECT_GE(end.X_WB.p.y, vehicle::drift_least_sideways) << speed;
+    EXPECT_LE(end.X_WB.p.y, vehicle::drift_most_sideways) << speed;
   }
 }
 

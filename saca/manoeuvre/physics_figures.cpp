@@ -26,13 +26,6 @@ constexpr std::array<SpeedReference, 3> settled_references{{{10, 1.47}, {14, 1.3
 // Given as 0.91 to 0.87 s over 10 to 15 m/s; the ends are taken as they stand.
 constexpr std::array<SpeedReference, 2> side_references{{{10, 0.91}, {15, 0.87}}};
 
-// What a drift's travel may differ from the prototype's: its inputs were optimised offline for each
-// speed, ours are one law. Less travel to the side is less of what a drift is for, more is less
-// room.
-constexpr double forward_band = 1.0;  // [m]
-constexpr double least_sideways = 0.75 * vehicle::prototype_drift_sideways;
-constexpr double most_sideways = 2.2;  // [m]
-
 std::string with_condition(const char* quantity, double speed, double grip) {
   std::array<char, 120> text{};
   (void)std::snprintf(text.data(), text.size(), "physics.%s.v%g.mu%.1f", quantity, speed, grip);
@@ -108,11 +101,14 @@ void add_drifts(const Car& car, std::vector<Figure>& figures) {
   for (const auto& [speed, time, forward] : vehicle::prototype_drifts) {
     const DriftStop stop = drift_to_rest(car, speed, grip);
     figures.push_back({with_condition("t_drift.stop_time_s", speed, grip), stop.time, time,
-                       0.85 * time, 1.15 * time});
+                       (1.0 - vehicle::drift_time_band) * time,
+                       (1.0 + vehicle::drift_time_band) * time});
     figures.push_back({with_condition("t_drift.forward_m", speed, grip), stop.forward, forward,
-                       forward - forward_band, forward + forward_band});
+                       forward - vehicle::drift_forward_band,
+                       forward + vehicle::drift_forward_band});
     figures.push_back({with_condition("t_drift.sideways_m", speed, grip), stop.sideways,
-                       vehicle::prototype_drift_sideways, least_sideways, most_sideways});
+                       vehicle::prototype_drift_sideways, vehicle::drift_least_sideways,
+                       vehicle::drift_most_sideways});
     figures.push_back({with_condition("t_drift.heading_deg", speed, grip), to_degrees(stop.heading),
                        90.0, 85.0, 95.0});
   }

@@ -9,6 +9,7 @@
 #include "saca/manoeuvre/ego.h"
 #include "saca/outcome/futures.h"
 #include "saca/outcome/ordering.h"
+#include "tests/support/scenes.h"
 
 namespace saca::preview::policy_facts_test {
 namespace {
@@ -39,19 +40,15 @@ struct Road {
   std::vector<Track> tracks;
 
   Road(double speed, double gap) {
-    scene.ego.v_B = {speed, 0.0};
-    scene.ego_footprint = manoeuvre::footprint(small_atlas_car());
+    scene = test::ego_at(speed, manoeuvre::footprint(small_atlas_car()));
     scene.ego_mass = small_atlas_car().mass;
     scene.road.left_edge = 8.75;
     scene.road.right_edge = -5.25;
     add({support(scene.ego_footprint, {}, {1.0, 0.0}).x + gap + 2.25, 0.0}, 0.0);
   }
   void add(Vec2 p_W, double speed) {
-    Actor actor{.id = static_cast<std::uint8_t>(scene.actors.size() + 1),
-                .footprint = {.length = 4.5, .width = 1.8},
-                .mass = 1'500.0};
-    actor.X_WA.p = p_W;
-    actor.v_W = {speed, 0.0};
+    const auto id = static_cast<std::uint8_t>(scene.actors.size() + 1);
+    const Actor actor = test::car(id, p_W, {speed, 0.0});
     scene.actors.push_back(actor);
     Track track{.step = 0.05, .X_WA = {}};
     for (int k = 0; k <= 200; ++k) {

@@ -533,15 +533,15 @@ class OpenAiModelTlsTest : public OpenAiModelTest {
          "-keyout", key_file(), "-out", certificate()},
         real_);
     ASSERT_FALSE(maker.start().has_value());
-    while (maker.receive(real_.now() + 10s).has_value()) {
+    while (maker.receive(real_.now() + 1000s).has_value()) {
     }
     server_.emplace(std::vector<std::string>{openssl, "s_server", "-accept", "127.0.0.1:0", "-key",
                                              key_file(), "-cert", certificate(), "-crlf"},
                     real_);
     ASSERT_FALSE(server_->start().has_value());
     constexpr std::string_view accepts = "ACCEPT 127.0.0.1:";
-    for (auto line = server_->receive(real_.now() + 10s);;
-         line = server_->receive(real_.now() + 10s)) {
+    for (auto line = server_->receive(real_.now() + 1000s);;
+         line = server_->receive(real_.now() + 1000s)) {
       ASSERT_TRUE(line.has_value()) << line.error().message;
       if (line.value().starts_with(accepts)) {
         port_ = line.value().substr(accepts.size());
@@ -585,11 +585,11 @@ TEST_F(OpenAiModelTlsTest, MissingAuthoritiesAreNamed) {
 TEST_F(OpenAiModelTlsTest, KnownCertificateIsTrusted) {
   serve("IP:127.0.0.1");
   std::thread answering([this] {  // what the server is told it sends
-    auto line = server_->receive(real_.now() + 10s);
+    auto line = server_->receive(real_.now() + 1000s);
     while (line.has_value() && !line.value().starts_with("Content-Length")) {
-      line = server_->receive(real_.now() + 10s);
+      line = server_->receive(real_.now() + 1000s);
     }
-    EXPECT_FALSE(server_->send(good_reply(2), real_.now() + 10s).has_value());
+    EXPECT_FALSE(server_->send(good_reply(2), real_.now() + 1000s).has_value());
   });
   OpenAiModel model(settings_of(certificate()), clock_);
   const auto replies = model.ask({"a"}, deadline, record_);

@@ -120,7 +120,7 @@ TEST(HarmChart, ThePictureInTheDocumentsShowsTheSources) {
           return std::all_of(curve.begin(), curve.end(), [&](Vec2 p) {
             const double kmh = most_kmh * (p.x - plot.low_px.x) / (plot.high_px.x - plot.low_px.x);
             const double shown = (plot.low_px.y - p.y) / (plot.low_px.y - plot.high_px.y);
-            return std::abs(shown - risk(kmh)) < 1e-3;  // a hundredth of a pixel, at the steepest
+            return std::abs(shown - risk(kmh)) < 1e-3;  // a quarter of a pixel
           });
         });
   };

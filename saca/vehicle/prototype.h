@@ -44,4 +44,11 @@ inline constexpr std::array<PrototypeDrift, 4> prototype_drifts{
 /// Its travel to the left is given as 1.6 to 1.7 m for all speeds; the middle [m].
 inline constexpr double prototype_drift_sideways = 1.65;
 
+/// How far ours may be from that: one law for all speeds, where the prototype's inputs were
+/// optimised for each. Less travel to the side is less of what a drift is for, more is less room.
+inline constexpr double drift_time_band = 0.15;    ///< share of the time [-]
+inline constexpr double drift_forward_band = 1.0;  ///< [m]
+inline constexpr double drift_least_sideways = 0.75 * prototype_drift_sideways;  ///< [m]
+inline constexpr double drift_most_sideways = 2.2;                               ///< [m]
+
 }  // namespace saca::vehicle

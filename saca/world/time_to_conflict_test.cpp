@@ -94,7 +94,7 @@ TEST(TimeToConflict, IsTheSameInEveryWorldFrameAndMirrored) {
   std::mt19937 rng(5);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   for (int i = 0; i < 200; ++i) {
-    const Scene scene = ego_at(15.0 + 5.0 * u(rng));
+    const Scene scene = ego_at(15.0 + 5.0 * u(rng), whole_metres);
     const Actor actor =
         block(1, {40.0 + 20.0 * u(rng), 30.0 * u(rng)}, {8.0 * u(rng), 8.0 * u(rng)});
     const auto expected = time_to_conflict(scene, actor, 6.0, 0.5);

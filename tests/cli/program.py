@@ -3,8 +3,8 @@ import os
 import pathlib
 import subprocess
 
-PROGRAM = os.environ["SACA_PROGRAM"]
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAM = str(pathlib.Path(os.environ.get("SACA_PROGRAM", ROOT / "build/release/saca")).resolve())
 SUCCESS, WRONG_COMMAND_LINE, BAD_INPUT, CANNOT_WRITE, INTERRUPTED = 0, 2, 3, 4, 130
 
 

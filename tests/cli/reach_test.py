@@ -107,8 +107,8 @@ def test_threads_change_no_byte(tiny):
     assert (folder / "three.h5").read_bytes() == (folder / told["file"]).read_bytes()
 
 
-# 60,000 cells and many snapshots: takes a second, and leaves something all the time.
-LONGER = [("[0.5, 1.0]", str([round(0.1 * k, 1) for k in range(1, 31)])), ("points = 21", "points = 41"),
+# 90,000 cells and many snapshots: takes some seconds, and leaves something all the time.
+LONGER = [("[0.5, 1.0]", str([round(0.1 * k, 1) for k in range(1, 31)])), ("points = 21", "points = 61"),
           ("points = 9", "points = 13"), ("points = 12", "points = 16")]
 
 

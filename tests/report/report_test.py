@@ -302,8 +302,7 @@ def test_play_moves_on_at_the_chosen_rate_and_stops_at_the_end(show):
     for rate in ("0.25", "0.5", "1", "2"):
         t = page.run(f"by_id('rate').value = '{rate}'; page.t = 4; page.playing = true; page.step(1500, 1000); page.play(false); page.t")
         assert t == pytest.approx(4 + 0.5 * float(rate))
-    page.run("by_id('rate').value = '2'; by_id('play').click()")
-    assert page.run("by_id('play').textContent") == "Pause"
+    assert page.run("by_id('rate').value = '2'; by_id('play').click(); by_id('play').textContent") == "Pause"
     page.run("new Promise(done => { const look = () => page.playing ? requestAnimationFrame(look) : done(1); look(); })")
     assert page.run("page.t") == pytest.approx(RECORDS["contact"]["frames"][-1]["t_s"])
     assert page.run("by_id('play').textContent") == "Play"

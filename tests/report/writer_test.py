@@ -1,7 +1,6 @@
 """Pages as they are written, before any browser: the record comes back out whole whatever it says, and bad input is one line."""
 
 import json
-import os
 import pathlib
 import re
 import subprocess
@@ -13,9 +12,9 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import make_drive
 import make_record
 import value_test
+from conftest import WRITE_REPORT
 from pages import poisoned
 
-WRITE_REPORT = os.environ["SACA_WRITE_REPORT"]
 RECORDS = [("encounter", make()) for make in make_record.RECORDS.values()] + \
     [("drive", make()) for make in make_drive.RECORDS.values()] + \
     [("value", value_test.record(from_ego, lambda x, y, course: x + y - 3.0)) for from_ego in (False, True)]

@@ -14,8 +14,10 @@ namespace saca {
 /// earliest moment that is waited for when all of them wait. Whatever a busy machine takes for a
 /// piece of work, it takes no time here.
 ///
-/// A thread other than the one that made the clock belongs to it from its first wait to its end.
-/// The clock outlives these threads.
+/// Time waits for `num_threads` threads from the start: one that has not waited yet is at work. A
+/// thread other than the one that made the clock leaves it when it ends; it must have waited once,
+/// and on no other clock. Who is told to stop while it waits counts as waiting until it runs, so
+/// time may go on before it does. The clock outlives these threads.
 class MeetingClock final : public Clock {
  public:
   /// @param num_threads  that time waits for, this one included, >= 1

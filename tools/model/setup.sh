@@ -20,9 +20,7 @@ root=$(cd "$here/../.." && pwd)
 third_party=$root/third_party
 key=$({ cat "$here"/requirements-llama.txt "$here"/requirements-weights.txt; sed -n 's/^flags[^:]*: //p;T;q' /proc/cpuinfo; } |
   sha256sum | cut -c1-16)
-kept=${SACA_THIRD_PARTY:-${XDG_CACHE_HOME:-$HOME/.cache}/saca/third_party-$key}
-downloads=$third_party/downloads
-models=$third_party/models
+kept=$(realpath -m "${SACA_THIRD_PARTY:-${XDG_CACHE_HOME:-$HOME/.cache}/saca/third_party-$key}")
 shipped=SmolLM2-135M-Instruct.Q4_1.gguf
 shipped_sha256=b179c9523d0e6a0f98a330c7562b682750a6f8c8c15e5bc70ea373728110db53
 jobs=${SACA_JOBS:-$(nproc)}
@@ -181,7 +179,7 @@ build_server() {
   stamp=$(stamp_in "$third_party/llama-server")
   [ -e "$stamp" ] && return
   unpack_llama
-  say "building llama-server (about four minutes on two cores)"
+  say "building llama-server (four to eight minutes on two cores)"
   rm -rf "$third_party/llama-server"
   mkdir -p "$third_party/llama-server"
   quietly "$third_party/server.log" cmake -S "$source" -B "$third_party/build/server" -G Ninja \
@@ -198,10 +196,15 @@ build_server() {
 what=${1:-all}
 case $what in llama | all | server) ;; *) die "want llama, all or server, got $what" ;; esac
 need
-if [ ! -d "$third_party" ] || [ -L "$third_party" ]; then  # one that was made in place is used as it is
+if [ ! -d "$third_party" ] || [ -L "$third_party" ]; then
   mkdir -p "$kept"
   [ "$(readlink "$third_party" || true)" = "$kept" ] || ln -sfn "$kept" "$third_party"
+elif [ -n "${SACA_THIRD_PARTY:-}" ]; then
+  say "third_party/ is a folder of an older set-up and is used as it is; remove it to use $kept"
 fi
+third_party=$(cd "$third_party" && pwd -P)  # what is made there must outlive this clone
+downloads=$third_party/downloads
+models=$third_party/models
 exec 9>"$third_party/.lock"
 flock 9
 build_llama
