@@ -78,6 +78,7 @@ function(saca_module name)
     endif()
   endforeach()
 
+  list(TRANSFORM arg_DEPS PREPEND saca:: OUTPUT_VARIABLE libraries)
   set(taken FALSE)
   if(SACA_TAKE_FROM AND arg_COMPUTES)
     set(taken TRUE)
@@ -85,7 +86,6 @@ function(saca_module name)
   endif()
   add_library(saca_${name} STATIC ${arg_SOURCES})
   if(taken)
-    list(TRANSFORM arg_DEPS PREPEND saca:: OUTPUT_VARIABLE libraries)
     add_library(saca_${name}_taken STATIC IMPORTED GLOBAL)
     set_target_properties(saca_${name}_taken PROPERTIES
       IMPORTED_LOCATION ${SACA_TAKE_FROM}/modules/${name}/libsaca_${name}.a
@@ -98,7 +98,6 @@ function(saca_module name)
   target_compile_features(saca_${name} PUBLIC cxx_std_20)
   target_compile_options(saca_${name} PRIVATE -ffp-contract=off  # same bytes at every level
     -fno-math-errno -fno-trapping-math)  # changes no result: square roots and choices without branches
-  list(TRANSFORM arg_DEPS PREPEND saca:: OUTPUT_VARIABLE libraries)
   target_link_libraries(saca_${name} PUBLIC ${libraries} PRIVATE $<BUILD_INTERFACE:saca_flags>)
   set_target_properties(saca_${name} PROPERTIES EXPORT_NAME ${name})
   if(NOT arg_NOT_INSTALLED)

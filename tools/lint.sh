@@ -8,7 +8,7 @@
 #
 # usage: tools/lint.sh             everything, some ten minutes; notes the commit that passed in tools/lint_passed,
 #                                  which is to be committed once a day's worth of changes
-#        tools/lint.sh --changed   sources that differ from that commit, or whose header does
+#        tools/lint.sh --changed   sources that differ from that commit, or whose header does, new ones included
 #        tools/lint.sh FILE...
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -82,8 +82,9 @@ changed_sources() {
   local passed
   passed=$(cat tools/lint_passed)
   git cat-file -e "$passed^{commit}" 2>/dev/null || passed=$(git hash-object -t tree /dev/null)
-  git diff --name-only --diff-filter=d "$passed" -- saca apps/saca | of_library_and_programs | sed 's/\.h$/.cpp/' |
-    sort -u | while read -r source; do
+  { git diff --name-only --diff-filter=d "$passed" -- saca apps/saca; git ls-files --others --exclude-standard saca apps/saca; } |
+    of_library_and_programs | sed 's/\.h$/.cpp/' | sort -u |
+    while read -r source; do
       [ ! -e "$source" ] || echo "$source"
     done
 }
@@ -97,7 +98,8 @@ case ${1:-} in
     git diff --quiet HEAD -- saca apps && git rev-parse HEAD >tools/lint_passed
     echo "lint: ${#files[@]} sources passed" ;;
   --changed)
-    mapfile -t files < <(changed_sources)
+    changed=$(changed_sources)  # apart, so that a git that fails is not taken for no change
+    mapfile -t files < <(printf '%s' "${changed:+$changed$'\n'}")
     echo "lint: ${#files[@]} sources differ from the commit that passed last"
     [ ${#files[@]} -gt 0 ] || exit 0
     printf '%s\n' "${files[@]}" | in_parallel lint_source
