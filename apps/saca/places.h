@@ -16,6 +16,7 @@ enum ExitCode : int {
   wrong_command_line = 2,
   bad_input = 3,
   cannot_write = 4,
+  some_failed = 5,        ///< of many encounters, some could not be played or a method failed
   was_interrupted = 130,  ///< as shells say it: 128 + SIGINT
 };
 

@@ -41,9 +41,10 @@ std::optional<Error> add_files(const Places& places, const std::string& car, Fnv
   return std::nullopt;
 }
 
+/// A suite of that name, or a family as a suite of itself.
 Result<sim::Suite> find_suite(const Places& places, const std::string& wanted) {
-  const fs::path file = places.root / "scenarios" / "families" / "suites.toml";
-  const auto suites = sim::load_suites(file);
+  const fs::path folder = places.root / "scenarios" / "families";
+  const auto suites = sim::load_suites(folder / "suites.toml");
   if (!suites.has_value()) {
     return suites.error();
   }
@@ -54,8 +55,13 @@ Result<sim::Suite> find_suite(const Places& places, const std::string& wanted) {
     }
     names += (names.empty() ? "" : ", ") + suite.name;
   }
+  const bool is_plain = wanted.find('/') == std::string::npos && wanted != "surroundings";
+  if (is_plain && !wanted.empty() && fs::is_regular_file(folder / (wanted + ".toml"))) {
+    return sim::Suite{.name = wanted, .why = {}, .members = {{wanted, 1.0, {}}}};
+  }
   return Error{Error::Code::out_of_range,
-               fmt::format("{}: want one of {}, got \"{}\"", file.string(), names, wanted)};
+               fmt::format("{}: want one of {}, or a family, got \"{}\"",
+                           (folder / "suites.toml").string(), names, wanted)};
 }
 
 /// What a journal remembers, in order.

@@ -1,5 +1,7 @@
 #include "saca/decide/event.h"
 
+#include <fmt/core.h>
+
 #include <array>
 
 #include "saca/core/names.h"
@@ -20,6 +22,29 @@ std::string_view name(Plane plane) {
 
 std::string_view name(EventKind kind) {
   return name_of(kind, kind_names);
+}
+
+std::string decision_text(const Decision& decision) {
+  if (decision.source == Source::forced) {
+    return "asked for by the user";
+  }
+  if (!decision.similarity) {
+    return "no plan is cached: emergency braking";
+  }
+  std::string text = fmt::format("the scene is {:.0f} % like forecast {}",
+                                 100.0 * *decision.similarity, *decision.preview + 1);
+  if (decision.source != Source::fallback) {
+    return text + fmt::format(": its plan, from {}, is taken", name(decision.source));
+  }
+  if (!decision.gave_way_to_aeb) {
+    return text + ", not more than 90 %: emergency braking";
+  }
+  return text +
+         (decision.forecast
+              ? fmt::format(", whose plan would do more harm from here than emergency braking: "
+                            "{:.4f} against {:.4f}",
+                            decision.forecast->plan, decision.forecast->aeb)
+              : ", whose plan is now forecast to be no better than emergency braking");
 }
 
 }  // namespace saca::decide

@@ -8,6 +8,7 @@
 
 #include "saca/decide/check.h"
 #include "saca/decide/plan_cache.h"
+#include "saca/decide/reflex_plane.h"
 #include "saca/memory/case.h"
 #include "saca/memory/store.h"
 #include "saca/preview/situation.h"
@@ -66,5 +67,8 @@ struct Preview {
   std::optional<double> ready;  ///< when it was cached [s]
   bool unheard = false;         ///< the model failed when it was asked: it may be asked again
 };
+
+/// Why this was decided, in one line.
+[[nodiscard]] std::string decision_text(const Decision& decision);
 
 }  // namespace saca::decide

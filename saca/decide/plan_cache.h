@@ -18,6 +18,14 @@ enum class Source : std::uint8_t {
 };
 [[nodiscard]] std::string_view name(Source source);
 
+/// Whether what was cached is held against emergency braking before it is carried out.
+enum class Guard : std::uint8_t {
+  never_worse_than_braking,  ///< nothing that is known to be worse than braking is carried out
+  none,                      ///< Algorithm 1 of the paper to the letter: a plan that memory holds
+                             ///< (above 90 %) or the model chose is cached unchecked, and carried
+                             ///< out where its situation matches
+};
+
 /// A checked plan, ready for the situation that it was made for.
 struct CachedPlan {
   memory::Features at_trigger;  ///< of the scene that was forecast

@@ -35,8 +35,9 @@ Decision ReflexPlane::decide(const world::Scene& scene) noexcept {
     decision.plan = *forced_;
     decision.source = Source::forced;
   } else if (best != nullptr && *decision.similarity > match_similarity) {
-    decision.gave_way_to_aeb = best->worse_than_aeb;
-    if (check_ && !best->worse_than_aeb && best->plan.policy != manoeuvre::PolicyId::aeb) {
+    const bool guarded = guard_ == Guard::never_worse_than_braking;
+    decision.gave_way_to_aeb = guarded && best->worse_than_aeb;
+    if (guarded && check_ && !best->worse_than_aeb && best->plan.policy != manoeuvre::PolicyId::aeb) {
       decision.forecast = check_->compare(best->plan, scene);
       decision.gave_way_to_aeb = decision.forecast && decision.forecast->plan_harms_more();
     }

@@ -41,15 +41,16 @@ struct Reflex {
 ///
 /// A matching plan gives way to emergency braking where the thinking plane's last forecast has that
 /// end better, or where the atlas says, at the trigger itself, that the plan harms more. So nothing
-/// is knowingly worse than braking.
+/// is knowingly worse than braking, unless Guard::none was asked for.
 class ReflexPlane {
  public:
   /// @param check   nullopt: the last forecast alone decides
   /// @param forced  what to carry out at the trigger whatever was thought
   explicit ReflexPlane(const preview::Thresholds& thresholds,
                        std::optional<TriggerCheck> check = std::nullopt,
-                       std::optional<manoeuvre::Plan> forced = std::nullopt) noexcept
-      : thresholds_(thresholds), check_(std::move(check)), forced_(forced) {}
+                       std::optional<manoeuvre::Plan> forced = std::nullopt,
+                       Guard guard = Guard::never_worse_than_braking) noexcept
+      : thresholds_(thresholds), check_(std::move(check)), forced_(forced), guard_(guard) {}
 
   /// Takes over the newest plans.
   void receive(const PlanCache& plans) noexcept { plans_ = plans; }
@@ -65,6 +66,7 @@ class ReflexPlane {
   preview::Thresholds thresholds_;
   std::optional<TriggerCheck> check_;
   std::optional<manoeuvre::Plan> forced_;
+  Guard guard_;
   PlanCache plans_;
   std::optional<Decision> decision_;
 };

@@ -253,7 +253,7 @@ void ThinkingPlane::take_answer(const Round& round, Preview& preview,
        fmt::format("forecast {}: the model says {} {} ({:.0f} %)", preview.number + 1,
                    manoeuvre::index(policy), name(policy),
                    100.0 * answer.probability[manoeuvre::index(policy)])});
-  settle(preview, policy, Source::model, time, true);
+  settle(preview, policy, Source::model, time, tools_.guard != Guard::none);
 }
 
 // What an ordinary check let pass is withdrawn where it rests on false reasons and is not the best.
@@ -263,7 +263,7 @@ void ThinkingPlane::judge_reasoning(const Round& round, Preview& preview) {
   }
   const PolicyId chosen = reason::likeliest_policy(preview.reply.answers.back());
   preview.truth = reason::truth_of(preview.reply, preview.prompt, preview.situation);
-  if (!preview.truth->is_choice_unfounded()) {
+  if (!preview.truth->is_choice_unfounded() || tools_.guard == Guard::none) {
     return;
   }
   Check strict = check_unfounded(chosen, preview.situation);

@@ -21,6 +21,7 @@ struct ThinkingTools {
   memory::Store* memory = nullptr;         ///< nullptr: without memory
   reason::LanguageModel* model = nullptr;  ///< nullptr: without language model
   Clock* clock = nullptr;                  ///< the one that the model's deadlines are on
+  Guard guard = Guard::never_worse_than_braking;
 };
 
 /// Where what was thought goes; called on the thread that thinks.

@@ -12,10 +12,10 @@
 #include "saca/decide/event.h"
 #include "saca/decide/reflex_plane.h"
 #include "saca/intent/model.h"
-#include "saca/loop/charged_model.h"
 #include "saca/loop/danger_map.h"
 #include "saca/loop/hindsight.h"
 #include "saca/loop/intentions_seen.h"
+#include "saca/loop/planes.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/memory/store.h"
 #include "saca/outcome/harm.h"
@@ -25,13 +25,6 @@
 #include "saca/sim/scenario.h"
 
 namespace saca::loop {
-
-/// How simulated and real time go together.
-enum class Pace : std::uint8_t {
-  real,      ///< the world goes on at wall-clock speed while SACA thinks
-  lockstep,  ///< the world waits; thinking is charged to simulated time: fast and repeatable
-};
-[[nodiscard]] std::string_view name(Pace pace);
 
 /// Everything that an encounter is run with. What it points to outlives the run.
 struct Setup {
@@ -46,6 +39,7 @@ struct Setup {
   ThinkingCosts costs;                        ///< for lockstep
   reason::LanguageModel* model = nullptr;     ///< nullptr: without; deadlines on `clock`
   memory::Store* memory = nullptr;            ///< nullptr: without
+  decide::Guard guard = decide::Guard::never_worse_than_braking;
   std::optional<manoeuvre::PolicyId> forced;  ///< carried out at the trigger, whatever was thought
   std::optional<std::uint64_t> seed;          ///< of what is left to chance; nullopt: nothing is
   Clock* clock = nullptr;                     ///< real time
@@ -81,13 +75,6 @@ struct Frame {
   std::optional<double> conflict;  ///< time to conflict [s]
 };
 
-/// How long the reflex plane took.
-struct ReflexTiming {
-  std::size_t calls = 0;
-  double p50 = 0.0;  ///< [s]
-  double max = 0.0;  ///< [s]
-};
-
 /// One encounter from start to rest, with everything that led there.
 struct Record {
   double grip = 0.0;  ///< true friction coefficient of the road [-]
@@ -116,9 +103,6 @@ struct Record {
 /// T2; from there SACA drives.
 /// @return  Error::Code::out_of_range when the scenario cannot be played with this car
 [[nodiscard]] Result<Record> run(const Setup& setup, Listener& listener);
-
-/// Why this was done, in one line.
-[[nodiscard]] std::string decision_text(const decide::Decision& decision);
 
 /// The record as one JSON document, schema saca.record/1 of docs/formats.md.
 [[nodiscard]] std::string record_json(const Setup& setup, const Record& record);

@@ -21,21 +21,6 @@ using world::Track;
 
 using AllFacts = std::array<PolicyFacts, manoeuvre::num_policies>;
 
-/// Each policy with every target speed that it may have; the default comes first.
-std::vector<Plan> all_plans(double speed) {
-  std::vector<Plan> plans;
-  for (const PolicyId policy : manoeuvre::all_policies) {
-    if (!manoeuvre::brakes_to_speed(policy)) {
-      plans.push_back({policy, std::nullopt});
-      continue;
-    }
-    for (const double share : outcome::target_shares) {
-      plans.push_back({policy, share * speed});
-    }
-  }
-  return plans;
-}
-
 outcome::Outcome outcome_of(const outcome::Future& future) {
   return {.contact = future.contact,
           .collision_loss = future.collision_loss,
@@ -52,26 +37,47 @@ bool is_better(const PolicyFacts& a, const PolicyFacts& b) {
   return a.refusal.empty() && outcome::better(a.outcome, a.plan.policy, b.outcome, b.plan.policy);
 }
 
+/// The atlas' futures of some plans, while the followers react.
+class FollowedFutures {
+ public:
+  FollowedFutures(const Scene& scene, const std::vector<Track>& tracks, const ForecastTools& tools)
+      : scene_(scene), tools_(tools), followers_(followers_of(scene)), moved_(tracks) {}
+
+  [[nodiscard]] bool followed() const { return !followers_.empty(); }
+
+  outcome::Future of(const Plan& plan) {
+    outcome::Future one{.plan = plan};
+    one.outside = tools_.atlas->outside(plan, scene_);
+    if (one.outside) {
+      return one;
+    }
+    if (followed()) {
+      constexpr double step = 1.0 / 16.0;  // [s] of who reacts
+      Track X_WB;
+      outcome::atlas_way(*tools_.atlas, plan, scene_, outcome::usual_way, X_WB);
+      let_react(scene_, followers_, X_WB, world::end_time(X_WB) + watched_after, step, moved_);
+    }
+    return outcome::future(*tools_.atlas, plan, scene_, moved_, *tools_.harm);
+  }
+
+ private:
+  const Scene& scene_;
+  const ForecastTools& tools_;
+  Followers followers_;
+  std::vector<Track> moved_;
+};
+
 /// What the atlas has of each policy, and of 3 and 4 of the best of their target speeds.
 outcome::Futures read(const Scene& scene, const std::vector<Track>& tracks,
                       const ForecastTools& tools) {
-  const Followers followers = followers_of(scene);
-  if (followers.empty()) {
+  FollowedFutures futures(scene, tracks, tools);
+  if (!futures.followed()) {
     return outcome::futures(*tools.atlas, scene, tracks, *tools.harm);
   }
-  constexpr double step = 1.0 / 16.0;  // [s] of who reacts
-  std::vector<Track> moved = tracks;
   outcome::Futures best;
   std::array<bool, manoeuvre::num_policies> found{};
   for (const Plan& plan : all_plans(scene.ego.v_B.x)) {
-    outcome::Future one{.plan = plan};
-    one.outside = tools.atlas->outside(plan, scene);
-    if (!one.outside) {
-      Track X_WB;
-      outcome::atlas_way(*tools.atlas, plan, scene, outcome::usual_way, X_WB);
-      let_react(scene, followers, X_WB, world::end_time(X_WB) + watched_after, step, moved);
-      one = outcome::future(*tools.atlas, plan, scene, moved, *tools.harm);
-    }
+    const outcome::Future one = futures.of(plan);
     const std::size_t i = manoeuvre::index(plan.policy);
     if (!found[i] || outcome::better(one, best[i])) {
       best[i] = one;
@@ -81,27 +87,72 @@ outcome::Futures read(const Scene& scene, const std::vector<Track>& tracks,
   return best;
 }
 
+/// nullopt: it can be driven, and the atlas does not have it.
+std::optional<PolicyFacts> facts_of(const outcome::Future& future, const Scene& scene,
+                                    const ForecastTools& tools) {
+  PolicyFacts facts{.plan = future.plan,
+                    .refusal = refusal_of(*tools.car, future.plan, scene),
+                    .outcome = {}};
+  if (facts.refusal.empty()) {
+    if (future.outside) {
+      return std::nullopt;
+    }
+    facts.outcome = outcome_of(future);
+    facts.probability = future.probability;
+  }
+  return facts;
+}
+
 /// nullopt: the atlas does not have all that can be driven.
 std::optional<AllFacts> read_facts(const Scene& scene, const std::vector<Track>& tracks,
                                    const ForecastTools& tools) {
   const outcome::Futures futures = read(scene, tracks, tools);
   AllFacts facts;
   for (std::size_t i = 0; i < facts.size(); ++i) {
-    facts[i] = {.plan = futures[i].plan,
-                .refusal = refusal_of(*tools.car, futures[i].plan, scene),
-                .outcome = {}};
-    if (facts[i].refusal.empty()) {
-      if (futures[i].outside) {
-        return std::nullopt;
-      }
-      facts[i].outcome = outcome_of(futures[i]);
-      facts[i].probability = futures[i].probability;
+    auto one = facts_of(futures[i], scene, tools);
+    if (!one) {
+      return std::nullopt;
     }
+    facts[i] = std::move(*one);
   }
   return facts;
 }
 
 }  // namespace
+
+std::vector<Plan> all_plans(double speed) {
+  std::vector<Plan> plans;
+  for (const PolicyId policy : manoeuvre::all_policies) {
+    if (!manoeuvre::brakes_to_speed(policy)) {
+      plans.push_back({policy, std::nullopt});
+      continue;
+    }
+    for (const double share : outcome::target_shares) {
+      plans.push_back({policy, share * speed});
+    }
+  }
+  return plans;
+}
+
+std::optional<std::vector<PolicyFacts>> read_plans(const Scene& scene,
+                                                   const std::vector<Track>& tracks,
+                                                   std::span<const Plan> plans,
+                                                   const ForecastTools& tools) {
+  expects(tools.car != nullptr && tools.harm != nullptr, "car and harm are given");
+  if (tools.atlas == nullptr) {
+    return std::nullopt;
+  }
+  FollowedFutures futures(scene, tracks, tools);
+  std::vector<PolicyFacts> facts;
+  for (const Plan& plan : plans) {
+    auto one = facts_of(futures.of(plan), scene, tools);
+    if (!one) {
+      return std::nullopt;
+    }
+    facts.push_back(std::move(*one));
+  }
+  return facts;
+}
 
 std::vector<RolledOut> tried(const manoeuvre::Car& car, std::span<const outcome::Attempt> attempts,
                              const outcome::HarmModel& harm, int threads) {

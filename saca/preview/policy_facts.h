@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,10 @@ struct ForecastTools {
   intent::MotionLaw motion = hard_driving();   ///< how the others move under an intention
 };
 
+/// Every plan that can be chosen at `speed` [m/s]: each policy, 3 and 4 once for each of
+/// outcome::target_shares of it, the default (manoeuvre::default_plan) first.
+[[nodiscard]] std::vector<manoeuvre::Plan> all_plans(double speed);
+
 /// What each policy ends in when it begins in `scene` and the actors follow their tracks, those
 /// behind the ego but react to it: see with_reacting_followers. 3 and 4 brake to whichever of
 /// outcome::target_shares of the speed is best.
@@ -35,6 +40,13 @@ struct ForecastTools {
 /// first contact only, so figures of the two are not compared.
 [[nodiscard]] std::array<PolicyFacts, manoeuvre::num_policies> policy_facts(
     const world::Scene& scene, const std::vector<world::Track>& tracks, const ForecastTools& tools);
+
+/// What the atlas says that these plans end in; followers react as in policy_facts.
+/// @return  in the order of `plans`; nullopt: there is no atlas, or it does not hold a plan that can
+///          be driven
+[[nodiscard]] std::optional<std::vector<PolicyFacts>> read_plans(
+    const world::Scene& scene, const std::vector<world::Track>& tracks,
+    std::span<const manoeuvre::Plan> plans, const ForecastTools& tools);
 
 /// What one plan led to with full dynamics.
 struct RolledOut {

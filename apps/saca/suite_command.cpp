@@ -1,0 +1,235 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "apps/saca/commands.h"
+#include "apps/saca/suite_running.h"
+#include "saca/core/file.h"
+#include "saca/eval/suite_file.h"
+
+namespace saca::app {
+namespace {
+
+namespace fs = std::filesystem;
+using eval::Estimate;
+using eval::MethodFigures;
+using eval::SuiteRow;
+using nlohmann::json;
+
+struct SuiteCommand {
+  SuiteCommandOptions suite;
+  bool as_json = false;
+};
+
+constexpr const char* usual_methods =
+    "saca,saca_paper,aeb,r157,cc_driver,fsm,rss,rss_steering,random,nothing,first_forecast,"
+    "newest_forecast,going_on_atlas,beliefs_atlas,beliefs_rolled_out,oracle";
+
+std::vector<const SuiteRow*> rows_of(const SuiteRun& run, const std::string& family) {
+  std::vector<const SuiteRow*> found;
+  for (const SuiteRow& row : run.rows) {
+    if (family.empty() || row.family == family) {
+      found.push_back(&row);
+    }
+  }
+  return found;
+}
+
+std::optional<std::size_t> index_of(const std::vector<std::string>& names,
+                                    const std::string& wanted) {
+  const auto found = std::find(names.begin(), names.end(), wanted);
+  return found == names.end()
+             ? std::nullopt
+             : std::optional(static_cast<std::size_t>(found - names.begin()));
+}
+
+/// Figures over all, and of each family.
+struct SuiteResult {
+  std::vector<MethodFigures> all;
+  std::map<std::string, std::vector<MethodFigures>> families;
+  int faults = 0;         ///< encounters that could not be played
+  int method_faults = 0;  ///< of methods that threw
+};
+
+SuiteResult result_of(const SuiteRun& run, std::uint64_t seed) {
+  SuiteResult result;
+  const auto aeb = index_of(run.methods, "aeb");
+  std::set<std::string> families;
+  for (const SuiteRow& row : run.rows) {
+    result.faults += row.fault.empty() ? 0 : 1;
+    families.insert(row.family);
+  }
+  result.all = eval::suite_figures(rows_of(run, ""), run.methods, aeb, seed);
+  for (const MethodFigures& one : result.all) {
+    result.method_faults += one.faults;
+  }
+  for (const std::string& family : families) {
+    result.families[family] =
+        eval::suite_figures(rows_of(run, family), run.methods, aeb, seed);
+  }
+  return result;
+}
+
+void add(json& out, const std::string& name, const Estimate& estimate) {
+  if (estimate.n == 0) {
+    return;
+  }
+  out[name] = estimate.value;
+  out[name + ".lo"] = estimate.low;
+  out[name + ".hi"] = estimate.high;
+  out[name + ".n"] = estimate.n;
+}
+
+json json_of(const SuiteRun& run, const SuiteResult& result, const SuiteCommandOptions& options) {
+  json out = run.meta;
+  const std::string head = "suite." + fs::path(options.name).filename().string() + ".";
+  const auto add_figures = [&](const std::string& place, const MethodFigures& one) {
+    add(out, place + "harm", one.harm);
+    add(out, place + "regret", one.regret);
+    add(out, place + "harm_over_aeb", one.over_aeb);
+    add(out, place + "collision_loss", one.collision_loss);
+    add(out, place + "contact", one.contact);
+    add(out, place + "right", one.right);
+    add(out, place + "materially_worse_than_aeb", one.worse_than_aeb);
+    add(out, place + "needless", one.needless);
+    if (one.false_trigger_loss) {
+      add(out, place + "false_trigger_loss", *one.false_trigger_loss);
+      add(out, place + "false_triggers", *one.false_triggers);
+    }
+  };
+  const auto aeb = index_of(run.methods, "aeb");
+  for (std::size_t m = 0; m < result.all.size(); ++m) {
+    const MethodFigures& one = result.all[m];
+    const std::string place = head + one.method + ".";
+    add_figures(place, one);
+    if (aeb && result.all[*aeb].regret.value > 0.0) {
+      out[place + "regret_over_aeb"] = one.regret.value / result.all[*aeb].regret.value;
+    }
+    const auto hits = [&](const char* source) {
+      const auto found = one.sources.find(source);
+      return found == one.sources.end() ? 0 : found->second;
+    };
+    int decided = 0;
+    for (const auto& [source, times] : one.sources) {
+      out[place + "source." + (source.empty() ? "none" : source)] = times;
+      decided += times;
+    }
+    for (const auto& [reason, times] : one.reasons) {
+      if (!reason.empty()) {
+        out[place + "reason." + reason] = times;
+      }
+    }
+    if (one.method.starts_with("saca") && decided > 0) {
+      out[place + "cache_hit_rate"] = static_cast<double>(hits("memory") + hits("model")) / decided;
+    }
+    out[place + "faults"] = one.faults;
+    for (const auto& [family, figures] : result.families) {
+      if (!figures.empty()) {
+        add_figures(place + family + ".", figures[m]);
+      }
+    }
+  }
+  out[head + "n"] = run.rows.size();
+  out[head + "faults"] = result.faults;
+  if (run.worked > 0) {
+    const double rate = run.worked / run.seconds;
+    out[head + "encounters_per_s"] = rate;
+    out[head + "encounters_per_s_core"] = rate / options.threads;
+    out[head + "threads"] = options.threads;
+  }
+  return out;
+}
+
+std::string with_interval(const Estimate& estimate, int digits, double factor = 1.0) {
+  return estimate.n == 0
+             ? "-"
+             : fmt::format("{:.{}f} ({:.{}f} to {:.{}f})", factor * estimate.value, digits,
+                           factor * estimate.low, digits, factor * estimate.high, digits);
+}
+
+void print(const SuiteRun& run, const SuiteResult& result, const SuiteCommandOptions& options) {
+  fmt::print("{}: {} encounters, {} could not be played; means with 95 % intervals\n\n",
+             options.name, run.rows.size(), result.faults);
+  fmt::print("{:22} {:26} {:26} {:7} {:6} {:9} {:8}\n", "method", "harm", "regret", "contact",
+             "right", "worse than", "needless");
+  fmt::print("{:22} {:26} {:26} {:7} {:6} {:9} {:8}\n", "", "", "", "%", "%", "AEB, %", "%");
+  for (const MethodFigures& one : result.all) {
+    const auto share = [](const Estimate& estimate) {
+      return estimate.n == 0 ? std::string("-") : fmt::format("{:.1f}", 100.0 * estimate.value);
+    };
+    fmt::print("{:22} {:26} {:26} {:7} {:6} {:9} {:8}\n", one.method, with_interval(one.harm, 4),
+               with_interval(one.regret, 4), share(one.contact), share(one.right),
+               share(one.worse_than_aeb), share(one.needless));
+  }
+  if (run.worked > 0) {
+    fmt::print("\n{:.1f} encounters/s on {} threads\n", run.worked / run.seconds, options.threads);
+  }
+  if (result.method_faults > 0) {
+    fmt::print("{} times a method failed: the rows hold why\n", result.method_faults);
+  }
+}
+
+std::optional<Error> write(const SuiteRun& run, const json& figures, const std::string& output) {
+  if (auto problem = eval::write_suite(output, run.rows, run.methods, run.meta.dump())) {
+    return problem;
+  }
+  fs::path beside = output;
+  beside.replace_extension(".json");
+  return write_file(beside, figures.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+}
+
+int run(SuiteCommand options) {
+  SuiteCommandOptions& suite = options.suite;
+  const auto methods = methods_from(suite.methods == "all" ? "" : suite.methods);
+  if (!methods.has_value()) {
+    complain(methods.error().message);
+    return wrong_command_line;
+  }
+  if (suite.output.empty()) {
+    suite.output = fmt::format("runs/suite-{}-{}.h5", fs::path(suite.name).filename().string(), suite.split);
+  }
+  const auto ran = run_suite(suite, "suite", methods.value());
+  if (!ran.has_value()) {
+    return refused(ran.error());
+  }
+  if (!ran.value()) {
+    complain("interrupted; the same command goes on where this one stopped");
+    return was_interrupted;
+  }
+  const SuiteRun& done = *ran.value();
+  const SuiteResult result = result_of(done, suite.seed);
+  const json figures = json_of(done, result, suite);
+  if (const auto problem = write(done, figures, suite.output)) {
+    return refused(*problem);
+  }
+  if (options.as_json) {
+    fmt::print("{}\n", figures.dump(1, ' ', false, json::error_handler_t::replace));
+  } else {
+    print(done, result, suite);
+    fmt::print("rows: {}\n", suite.output);
+  }
+  return result.faults + result.method_faults > 0 ? some_failed : success;
+}
+
+}  // namespace
+
+void add_suite(CLI::App& line, int& exit_code) {
+  CLI::App* const command = line.add_subcommand(
+      "suite",
+      "Run methods in closed loop over many encounters, paired; can be interrupted");
+  const auto options = std::make_shared<SuiteCommand>();
+  options->suite.methods = usual_methods;
+  add_suite_options(*command, options->suite);
+  command
+      ->add_option("--methods", options->suite.methods, "Names, separated by commas; all: every one")
+      ->capture_default_str();
+  command->add_flag("--no-twins", options->suite.no_twins, "Leave the twins without risk out");
+  command->add_flag("--json", options->as_json, "For programs");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace saca::app

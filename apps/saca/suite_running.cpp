@@ -1,0 +1,261 @@
+#include "apps/saca/suite_running.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+
+#include "apps/saca/atlas_making.h"
+#include "apps/saca/model.h"
+#include "apps/saca/progress.h"
+#include "saca/core/file.h"
+#include "saca/core/fnv.h"
+#include "saca/core/journal.h"
+#include "saca/manoeuvre/ego.h"
+
+namespace saca::app {
+namespace {
+
+namespace fs = std::filesystem;
+using eval::SuiteEncounter;
+using eval::SuiteRow;
+
+constexpr std::size_t batch_per_thread = 16;  // encounters between two looks at the signals
+
+/// Where encounters come from: families of a suite, or files of a folder.
+struct Source {
+  Inputs inputs;
+  std::string what;  ///< names all on which the encounters depend
+  int count = 0;     ///< as many as were asked for and there are
+  std::function<Result<SuiteEncounter>(std::uint64_t number)> at;
+};
+
+Result<Source> open_folder(const SuiteCommandOptions& options) {
+  Source source;
+  auto inputs = read_inputs(options.car);
+  if (!inputs.has_value()) {
+    return inputs.error();
+  }
+  source.inputs = std::move(inputs).value();
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(options.name)) {
+    if (entry.path().extension() == ".toml") {
+      files.push_back(entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  if (files.empty()) {
+    return Error{Error::Code::out_of_range,
+                 options.name + ": want a folder with scenarios (*.toml), got none"};
+  }
+  std::vector<SuiteEncounter> all;
+  Fnv hash;
+  for (const fs::path& file : files) {
+    const auto text = read_file(file);
+    if (!text.has_value()) {
+      return text.error();
+    }
+    hash.add(text.value());
+    auto scenario = sim::load_scenario(file, manoeuvre::footprint(source.inputs.car));
+    if (!scenario.has_value()) {
+      return scenario.error();
+    }
+    all.push_back({.number = all.size(),
+                   .family = file.stem(),
+                   .scenario = std::move(scenario).value(),
+                   .twin = {}});
+  }
+  source.count = std::min(options.count, static_cast<int>(all.size()));
+  source.what = fmt::format("folder {} ({:016x})", options.name, hash.value());
+  source.at = [all](std::uint64_t number) { return Result(all[number]); };
+  return source;
+}
+
+Result<Source> open_source(const SuiteCommandOptions& options, const std::string& command) {
+  if (fs::is_directory(options.name)) {
+    return open_folder(options);
+  }
+  const auto suite = SuiteSource::open({.suite = options.name,
+                                        .car = options.car,
+                                        .count = options.count,
+                                        .split = options.split,
+                                        .test_log = options.test_log},
+                                       command);
+  if (!suite.has_value()) {
+    return suite.error();
+  }
+  Source source;
+  source.inputs = suite.value().inputs();
+  source.count = options.count;
+  source.what = fmt::format("{}, {} split ({:016x})", options.name, options.split,
+                            suite.value().digest());
+  source.at = [suite = suite.value(),
+               twins = !options.no_twins](std::uint64_t number) -> Result<SuiteEncounter> {
+    auto sample = suite.sample(number);
+    if (!sample.has_value()) {
+      return sample.error();
+    }
+    return SuiteEncounter{.number = number,
+                          .family = suite.family_of(number),
+                          .scenario = sample.value().scenario,
+                          .twin = twins ? std::optional(sample.value().twin) : std::nullopt};
+  };
+  return source;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string all;
+  for (const std::string& word : words) {
+    all += (all.empty() ? "" : ",") + word;
+  }
+  return all;
+}
+
+/// A row, whatever happens: what cannot be drawn is a fault of that encounter.
+SuiteRow row_of(const Source& source, std::uint64_t number, const eval::SuiteOptions& options,
+                const loop::PlanesSetup& planes) {
+  const auto encounter = source.at(number);
+  if (!encounter.has_value()) {
+    return {.number = number, .family = "?", .fault = encounter.error().message, .risk = {}, .twin = {}};
+  }
+  return eval::run_encounter(encounter.value(), options, planes, source.inputs.intent);
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> methods_from(const std::string& list) {
+  std::vector<std::string> names;
+  std::string known;
+  for (const eval::MethodInfo& info : eval::methods()) {
+    known += (known.empty() ? "" : ", ") + std::string(info.name);
+    if (list.empty()) {
+      names.emplace_back(info.name);
+    }
+  }
+  std::string word;
+  for (const char c : list.empty() ? std::string() : list + ",") {
+    if (c != ',') {
+      word += c;
+      continue;
+    }
+    if (eval::find_method(word) == nullptr) {
+      return Error{Error::Code::out_of_range,
+                   fmt::format("--methods: want some of {}; got \"{}\"", known, word)};
+    }
+    if (std::find(names.begin(), names.end(), word) != names.end()) {
+      return Error{Error::Code::out_of_range,
+                   fmt::format("--methods: want each method once, got \"{}\" twice", word)};
+    }
+    names.push_back(word);
+    word.clear();
+  }
+  return names;
+}
+
+Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
+                                          const std::string& command,
+                                          const std::vector<std::string>& methods) {
+  const auto source = open_source(options, command);
+  if (!source.has_value()) {
+    return source.error();
+  }
+  const auto costs = read_costs(source.value().inputs.places);
+  if (!costs.has_value()) {
+    return costs.error();
+  }
+  const std::string path = options.output + ".journal";
+  if (auto problem = make_folder_of(path)) {
+    return *problem;
+  }
+  const auto journal = Journal::open(
+      path, fmt::format("saca {} {} of {}, {}, seed {}{}: {}", SACA_VERSION, command,
+                        source.value().what, options.car, options.seed,
+                        options.exact ? ", exact" : "", joined(methods)));
+  if (!journal.has_value()) {
+    return journal.error();
+  }
+  SuiteRun done{.methods = methods, .rows = {}, .meta = {}};
+  for (const std::string& line : journal.value().lines()) {
+    auto row = eval::suite_row_from(line, methods.size());
+    if (!row.has_value() || row.value().number != done.rows.size()) {
+      return Error{Error::Code::malformed,
+                   fmt::format("{}: line {}: {}", path, done.rows.size() + 2,
+                               row.has_value() ? "another encounter's" : row.error().message)};
+    }
+    done.rows.push_back(std::move(row).value());
+  }
+  const auto count = static_cast<std::size_t>(source.value().count);
+  done.rows.resize(std::min(done.rows.size(), count));
+
+  SteadyClock clock;
+  const manoeuvre::Atlas atlas = usual_atlas(source.value().inputs);
+  const loop::PlanesSetup planes{
+      .forecast = {&source.value().inputs.car, &source.value().inputs.harm, &atlas},
+      .costs = costs.value(),
+      .clock = &clock};
+  const eval::SuiteOptions how{.methods = methods, .seed = options.seed, .exact = options.exact};
+  watch_for_interrupt();
+  const auto before = static_cast<int>(done.rows.size());
+  ProgressLine progress(command, source.value().count, clock);
+  const Clock::Time start = clock.now();
+  while (done.rows.size() < count) {
+    if (interrupted()) {
+      return std::optional<SuiteRun>();
+    }
+    const std::size_t first = done.rows.size();
+    std::vector<SuiteRow> next(std::min(
+        batch_per_thread * static_cast<std::size_t>(options.threads), count - first));
+    in_parallel(next.size(), options.threads, [&](std::size_t i) {
+      next[i] = row_of(source.value(), first + i, how, planes);
+    });
+    for (SuiteRow& row : next) {
+      if (!journal.value().add(eval::line_of(row))) {
+        return Error{Error::Code::unwritable, path + ": cannot be added to"};
+      }
+      done.rows.push_back(std::move(row));
+    }
+    progress.show(static_cast<int>(done.rows.size()), before, " encounters");
+  }
+  done.worked = static_cast<int>(count) - before;
+  done.seconds = to_seconds(clock.now() - start);
+  done.meta = {{"meta.command", fmt::format("saca {} {} --methods {} --count {} --split {} --car {} --seed {}{}{}",
+                                            command, options.name, joined(methods), options.count,
+                                            options.split, options.car, options.seed,
+                                            options.exact ? " --exact" : "",
+                                            options.no_twins ? " --no-twins" : "")},
+               {"meta.seed", std::to_string(options.seed)},
+               {"meta.n", std::to_string(count)},
+               {"meta.split", options.split},
+               {"meta.car", options.car},
+               {"meta.version", SACA_VERSION}};
+  return std::optional(std::move(done));
+}
+
+void add_suite_options(CLI::App& command, SuiteCommandOptions& options) {
+  command
+      .add_option("name", options.name,
+                  "A suite (natural, balanced), a family, or a folder of scenarios")
+      ->required();
+  command.add_option("--count", options.count, "How many encounters")
+      ->check(CLI::Range(1, 10'000'000))
+      ->capture_default_str();
+  command.add_option("--split", options.split, "Whose seed is used")
+      ->check(CLI::IsMember({"tuning", "calibration", "test"}))
+      ->capture_default_str();
+  command.add_option("--test-log", options.test_log,
+                     "Where a use of the test split is noted; needed for it");
+  command.add_option("--car", options.car, "A car's file, or the name of a shipped one")
+      ->capture_default_str();
+  command.add_option("--seed", options.seed, "Of all that is drawn: same seed, same rows")
+      ->capture_default_str();
+  command.add_flag("--exact", options.exact,
+                   "Nothing is left to chance, and perception is as the scenarios have it");
+  command.add_option("--output", options.output,
+                     "Rows as HDF5; beside them .json and .html (default: runs/...)");
+  command.add_option("--threads", options.threads, "They do not change the result")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+}
+
+}  // namespace saca::app

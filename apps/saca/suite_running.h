@@ -1,0 +1,54 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/saca/inputs.h"
+#include "apps/saca/surveying.h"
+#include "saca/core/parallel.h"
+#include "saca/eval/suite.h"
+#include "saca/manoeuvre/atlas.h"
+
+namespace saca::app {
+
+/// Which encounters are run, and with what.
+struct SuiteCommandOptions {
+  std::string name;  ///< of a suite, of a family, or a folder of scenarios
+  std::string methods;
+  int count = 1'000;
+  std::string split = "calibration";
+  std::string test_log;
+  std::string car = "compact_rwd_ev";
+  std::uint64_t seed = 1;
+  bool exact = false;
+  bool no_twins = false;
+  std::string output;  ///< empty: runs/suite-NAME-SPLIT.h5
+  int threads = usual_threads();
+};
+
+void add_suite_options(CLI::App& command, SuiteCommandOptions& options);
+
+/// What was run, and how it went.
+struct SuiteRun {
+  std::vector<std::string> methods;
+  std::vector<eval::SuiteRow> rows;  ///< in the order of their numbers
+  double seconds = 0.0;              ///< of work, all threads, in this call
+  int worked = 0;                    ///< encounters of this call
+  nlohmann::json meta;               ///< "meta.command", "meta.seed" and so on
+};
+
+/// Runs it, with progress on the error stream and a journal that the same command goes on from.
+/// @param command  as the user gave it, for records
+/// @param methods  names of eval::methods(), in the order of tables
+/// @return         nullopt: interrupted
+[[nodiscard]] Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
+                                                        const std::string& command,
+                                                        const std::vector<std::string>& methods);
+
+/// The names of a list "a,b,c"; empty: all.
+[[nodiscard]] Result<std::vector<std::string>> methods_from(const std::string& list);
+
+}  // namespace saca::app

@@ -1,0 +1,313 @@
+#include "saca/eval/methods.h"
+
+#include <algorithm>
+#include <array>
+#include <random>
+#include <utility>
+
+#include "saca/core/contract.h"
+#include "saca/eval/at_trigger.h"
+#include "saca/eval/driver_models.h"
+#include "saca/eval/rss.h"
+#include "saca/loop/saca_method.h"
+#include "saca/memory/similarity.h"
+#include "saca/preview/expected_harm.h"
+#include "saca/preview/preview.h"
+#include "saca/world/time_to_conflict.h"
+
+namespace saca::eval {
+namespace {
+
+using loop::Action;
+using loop::Method;
+using loop::View;
+using manoeuvre::Plan;
+using manoeuvre::PolicyId;
+using preview::JointMotion;
+using preview::Physics;
+
+constexpr Plan full_braking{PolicyId::aeb, std::nullopt};
+
+constexpr std::array<MethodInfo, 21> infos{{
+    {"saca", "SACA", "The shipped planes: a cached plan that matches and does not harm more than braking, else emergency braking at T1."},
+    {"saca_paper", "SACA, as in the paper", "Algorithm 1 to the letter: a cached plan above 90 %, else emergency braking at T1; nothing is held against braking."},
+    {"nothing", "No intervention", "Lane and speed are kept, whatever comes."},
+    {"aeb", "AEB at T1", "Full braking as soon as the conflict is within T1 = 1.3 s."},
+    {"r157", "Braking rule of UN R157", "Brakes with 6 m/s2, 0.35 s after the time to collision falls below what UN R157, 5.2.5.2, asks for."},
+    {"cc_driver", "Competent driver of UN R157", "The careful driver of UN R157, Annex 3: sees at 2 s to collision, brakes 0.75 s later with up to 0.774 g."},
+    {"fsm", "Fuzzy safety model", "JRC's fuzzy safety model: brakes as hard as its two fuzzy distances say, 0.75 s after they call for it."},
+    {"rss", "RSS, braking", "Brakes as long as the distances of responsibility-sensitive safety are not kept."},
+    {"rss_steering", "RSS, braking or steering", "As RSS; where braking comes too late, changes to a neighbouring lane in which the distances are kept."},
+    {"random", "Any of the eight", "One of the eight at T1, all alike likely."},
+    {"first_forecast", "Best of the first forecast", "The best plan of the forecast made when somebody first threatens, some 4 s before T1."},
+    {"newest_forecast", "Best of the newest forecast", "The best plan of that forecast, of those made last before T1, which is most like the scene at T1."},
+    {"going_on_atlas", "Best of eight, others going on", "At T1, by the atlas, as if all others went on as they do."},
+    {"beliefs_atlas", "Best of eight in expectation, atlas", "At T1, by the atlas: least expected harm over what the others are believed to intend."},
+    {"beliefs_rolled_out", "Best of eight in expectation, rolled out", "The same with full dynamics and all that follows a contact."},
+    {"beliefs_and_grip", "The same, told the grip and the car", "As beliefs_rolled_out, told the true grip and how the real car differs.", true},
+    {"beliefs_and_followers", "The same, told how followers react", "As beliefs_rolled_out, told how those behind will truly react.", true},
+    {"beliefs_and_hidden", "The same, seeing everybody", "As beliefs_rolled_out, from the true scene: without noise and latency, hidden road users included.", true},
+    {"true_atlas", "Best of eight, true motion, atlas", "At T1, by the atlas, told how the others will truly move.", true},
+    {"true_rolled_out", "Best of eight, true motion, rolled out", "At T1, with full dynamics, told how the others will truly move; not the grip, nor the real car.", true},
+    {"oracle", "Best in hindsight", "At T1, told everything.", true},
+}};
+
+/// The situations forecast at one instant, and which of them is most like the scene now.
+Action best_of_forecast(const world::Scene& then, const intent::Beliefs& beliefs, const View& now,
+                        const loop::PlanesSetup& setup) {
+  const auto situations = preview::situations(then, beliefs, setup.thresholds, setup.forecast);
+  if (situations.empty()) {
+    return {.plan = full_braking, .source = "fallback", .reason = "nothing was forecast"};
+  }
+  const auto likeness = [&](const preview::Situation& one) {
+    return memory::similarity(one.scene_at_trigger, now.scene);
+  };
+  const auto most_alike = std::max_element(
+      situations.begin(), situations.end(),
+      [&](const auto& a, const auto& b) { return likeness(a) < likeness(b); });
+  const PolicyId best = preview::best_by_forecast(most_alike->facts);
+  return {.plan = most_alike->facts[manoeuvre::index(best)].plan, .source = "forecast"};
+}
+
+/// Keeps the scene of the first or the newest round of forecasts, and asks for its forecasts when
+/// they are needed: they depend on nothing that comes later.
+class ByForecast final : public Method {
+ public:
+  enum class Which : std::uint8_t { first, newest };
+  ByForecast(const loop::PlanesSetup& setup, Which which) : setup_(setup), which_(which) {}
+
+  [[nodiscard]] std::optional<Action> step(const View& view) override {
+    constexpr double round = 0.2;  // [s], as the thinking plane's
+    if (!view.driven || decided_) {
+      return std::nullopt;
+    }
+    const bool due = !scene_ || (which_ == Which::newest && view.scene.time >= scene_->time + round);
+    if (preview::nearest_threat(view.scene, setup_.thresholds.trigger,
+                                setup_.thresholds.trigger_tolerance)) {
+      decided_ = true;
+      return scene_ ? best_of_forecast(*scene_, beliefs_, view, setup_)
+                    : Action{.plan = full_braking, .source = "fallback", .reason = "no time to forecast"};
+    }
+    if (due) {
+      scene_ = view.scene;
+      beliefs_ = view.beliefs;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  loop::PlanesSetup setup_;
+  Which which_;
+  std::optional<world::Scene> scene_;
+  intent::Beliefs beliefs_;
+  bool decided_ = false;
+};
+
+class Nothing final : public Method {
+  [[nodiscard]] std::optional<Action> step(const View&) override { return std::nullopt; }
+};
+
+std::vector<JointMotion> believed(const View& view, const loop::PlanesSetup& setup) {
+  (void)setup;
+  return preview::joint_motions(view.scene, view.beliefs, intent::MotionLaw{});
+}
+
+Action least_expected(const world::Scene& scene, std::span<const JointMotion> motions,
+                      const loop::PlanesSetup& setup, Physics physics) {
+  return {.plan = preview::least_harmful(
+              preview::expected_harms(scene, motions, setup.forecast, physics)),
+          .source = "forecast"};
+}
+
+/// How the others will truly move while the ego goes on.
+JointMotion true_motion(const loop::ClosedLoop& truth, const world::Scene& scene) {
+  manoeuvre::EgoMotion ego;
+  ego.track = {.start = scene.time, .step = 0.01, .X_WA = {}};
+  for (int k = 0; k <= 1'000; ++k) {
+    ego.track.X_WA.push_back(world::ego_going_on(scene, 0.01 * k));
+    ego.v_B.push_back(scene.ego.v_B);
+    ego.yaw_rate.push_back(scene.ego.yaw_rate);
+  }
+  return {.probability = 1.0, .tracks = truth.truth().others()(ego)};
+}
+
+/// Expected harm when what `others` says is added to what is believed of each joint motion, on the
+/// true grip and car or the believed ones.
+Action least_tried(const world::Scene& scene, std::span<const JointMotion> motions,
+                   const std::function<outcome::Others(const JointMotion&)>& others, double grip,
+                   const manoeuvre::Unknown& unknown, const loop::PlanesSetup& setup) {
+  const auto plans = preview::all_plans(scene.ego.v_B.x);
+  std::vector<preview::ExpectedHarm> all(plans.size());
+  for (const JointMotion& motion : motions) {
+    const outcome::Others moved = others(motion);
+    std::vector<outcome::Attempt> attempts;
+    for (const Plan& plan : plans) {
+      attempts.push_back({plan, &scene, &moved, grip, unknown});
+    }
+    const auto tried = preview::tried(*setup.forecast.car, attempts, *setup.forecast.harm);
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+      all[i].plan = plans[i];
+      all[i].refusal = tried[i].facts.refusal;
+      all[i].harm += motion.probability * tried[i].facts.outcome.harm;
+    }
+  }
+  return {.plan = preview::least_harmful(all), .source = "forecast"};
+}
+
+outcome::Others reacting(const world::Scene& scene, const JointMotion& motion) {
+  return preview::with_reacting_followers(scene, motion.tracks);
+}
+
+/// What is believed of all but the followers, who do what they truly will.
+outcome::Others with_true_followers(const View& view, const JointMotion& motion) {
+  const world::Scene cast = view.truth.truth().whole_scene();
+  std::vector<std::pair<std::size_t, std::size_t>> known;  // in the scene, in the cast
+  for (const std::size_t i : preview::followers_of(view.scene)) {
+    for (std::size_t k = 0; k < cast.actors.size(); ++k) {
+      if (cast.actors[k].kind == view.scene.actors[i].kind &&
+          cast.actors[k].id == view.scene.actors[i].id) {
+        known.emplace_back(i, k);
+      }
+    }
+  }
+  return [tracks = motion.tracks, known, others = view.truth.truth().others()](
+             const manoeuvre::EgoMotion& ego) {
+    std::vector<world::Track> moved = tracks;
+    const std::vector<world::Track> truly = others(ego);
+    for (const auto& [i, k] : known) {
+      moved[i] = truly[k];
+    }
+    return moved;
+  };
+}
+
+AtTrigger::Choose chooser(std::string_view name, const MethodTools& tools) {
+  const loop::PlanesSetup& setup = tools.saca;
+  if (name == "aeb") {
+    return [](const View&) { return Action{.plan = full_braking}; };
+  }
+  if (name == "random") {
+    return [rng = std::mt19937_64(tools.seed)](const View& view) mutable {
+      const auto policy = manoeuvre::all_policies[std::uniform_int_distribution<std::size_t>(
+          0, manoeuvre::num_policies - 1)(rng)];
+      return Action{.plan = manoeuvre::default_plan(policy, view.scene.ego.v_B.x)};
+    };
+  }
+  if (name == "going_on_atlas") {
+    return [setup](const View& view) {
+      const JointMotion motion = preview::all_going_on(view.scene);
+      return least_expected(view.scene, {&motion, 1}, setup, Physics::atlas);
+    };
+  }
+  if (name == "beliefs_atlas" || name == "beliefs_rolled_out") {
+    const Physics physics = name == "beliefs_atlas" ? Physics::atlas : Physics::rolled_out;
+    return [setup, physics](const View& view) {
+      return least_expected(view.scene, believed(view, setup), setup, physics);
+    };
+  }
+  if (name == "beliefs_and_grip") {
+    return [setup](const View& view) {
+      return least_tried(
+          view.scene, believed(view, setup),
+          [&](const JointMotion& motion) { return reacting(view.scene, motion); },
+          view.truth.truth().grip(), view.truth.truth().unknown_from_now(), setup);
+    };
+  }
+  if (name == "beliefs_and_followers") {
+    return [setup](const View& view) {
+      return least_tried(
+          view.scene, believed(view, setup),
+          [&](const JointMotion& motion) { return with_true_followers(view, motion); },
+          view.scene.grip, {}, setup);
+    };
+  }
+  if (name == "beliefs_and_hidden") {
+    return [setup, intent = tools.intent](const View& view) {
+      world::Scene scene = view.truth.truth().whole_scene();
+      scene.grip = view.scene.grip;
+      scene.ego_mass = view.scene.ego_mass;
+      intent::Beliefs beliefs = intent::beliefs_at_sight(*intent, scene);
+      for (std::size_t i = 0; i < scene.actors.size(); ++i) {  // what is believed of whom it knows
+        for (std::size_t k = 0; k < view.scene.actors.size(); ++k) {
+          if (view.scene.actors[k].kind == scene.actors[i].kind &&
+              view.scene.actors[k].id == scene.actors[i].id) {
+            beliefs[i] = view.beliefs[k];
+          }
+        }
+      }
+      return least_expected(scene, preview::joint_motions(scene, beliefs, intent::MotionLaw{}),
+                            setup, Physics::rolled_out);
+    };
+  }
+  if (name == "true_atlas") {
+    return [setup](const View& view) {
+      world::Scene scene = view.truth.truth().whole_scene();
+      scene.grip = view.scene.grip;
+      const JointMotion motion = true_motion(view.truth, scene);
+      return least_expected(scene, {&motion, 1}, setup, Physics::atlas);
+    };
+  }
+  if (name == "true_rolled_out") {
+    return [setup](const View& view) {
+      const auto tried =
+          try_all(view.truth, *setup.forecast.car, *setup.forecast.harm, Knowledge::motions);
+      return Action{.plan = tried[best_of(tried)].facts.plan};
+    };
+  }
+  if (name == "oracle") {
+    return [hindsight = tools.hindsight](const View& view) {
+      const auto& tried = hindsight->at(view.truth);
+      return Action{.plan = tried[best_of(tried)].facts.plan};
+    };
+  }
+  return {};
+}
+
+}  // namespace
+
+std::span<const MethodInfo> methods() {
+  return infos;
+}
+
+const MethodInfo* find_method(std::string_view name) {
+  const auto* const found = std::find_if(infos.begin(), infos.end(), [&](const MethodInfo& info) {
+    return info.name == name;
+  });
+  return found == infos.end() ? nullptr : found;
+}
+
+std::unique_ptr<Method> make_method(std::string_view name, const MethodTools& tools) {
+  expects(find_method(name) != nullptr, "a method of methods()");
+  expects(tools.hindsight != nullptr && tools.intent != nullptr, "hindsight and intent are given");
+  const loop::PlanesSetup& setup = tools.saca;
+  if (name == "saca" || name == "saca_paper") {
+    loop::PlanesSetup planes = setup;
+    planes.guard = name == "saca" ? decide::Guard::never_worse_than_braking : decide::Guard::none;
+    return std::make_unique<loop::SacaMethod>(planes, tools.num_looks);
+  }
+  if (name == "nothing") {
+    return std::make_unique<Nothing>();
+  }
+  if (name == "first_forecast" || name == "newest_forecast") {
+    return std::make_unique<ByForecast>(setup, name == "first_forecast" ? ByForecast::Which::first
+                                                                        : ByForecast::Which::newest);
+  }
+  if (name == "r157") {
+    return std::make_unique<R157Braking>();
+  }
+  if (name == "cc_driver") {
+    return std::make_unique<CompetentDriver>();
+  }
+  if (name == "fsm") {
+    return std::make_unique<FuzzySafety>();
+  }
+  if (name == "rss" || name == "rss_steering") {
+    return std::make_unique<Rss>(name == "rss" ? Rss::Response::braking
+                                               : Rss::Response::braking_or_steering);
+  }
+  AtTrigger::Choose choose = chooser(name, tools);
+  expects(choose != nullptr, "every method has a way to choose");
+  return std::make_unique<AtTrigger>(setup.thresholds, std::move(choose));
+}
+
+}  // namespace saca::eval

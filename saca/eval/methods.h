@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "saca/eval/yardstick.h"
+#include "saca/loop/method.h"
+#include "saca/loop/planes.h"
+
+namespace saca::eval {
+
+/// One row of a table: something that decides.
+struct MethodInfo {
+  std::string_view name;     ///< as commands and files have it
+  std::string_view title;    ///< for readers
+  std::string_view what;     ///< one sentence: how it decides
+  bool knows_truth = false;  ///< a yardstick: it looks at what nobody on a road can know
+};
+
+/// All that there are, in the order of tables.
+[[nodiscard]] std::span<const MethodInfo> methods();
+/// nullptr: there is none of that name.
+[[nodiscard]] const MethodInfo* find_method(std::string_view name);
+
+/// What methods are made with, for one encounter. What it points to outlives them.
+struct MethodTools {
+  loop::PlanesSetup saca;            ///< of SACA; forecasts and thresholds are everybody's
+  Hindsight* hindsight = nullptr;    ///< of this encounter
+  const intent::Model* intent = nullptr;
+  std::uint64_t seed = 0;            ///< of who chooses at random, and of this encounter
+  std::size_t num_looks = 0;         ///< at most
+};
+
+/// @param name  of `methods()`
+[[nodiscard]] std::unique_ptr<loop::Method> make_method(std::string_view name,
+                                                        const MethodTools& tools);
+
+}  // namespace saca::eval

@@ -1,0 +1,97 @@
+#include "saca/eval/methods.h"
+
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "saca/core/contract.h"
+#include "saca/eval/comparison.h"
+#include "saca/eval/scenes_for_test.h"
+#include "saca/intent/shipped_model.h"
+
+namespace saca::eval::methods_test {
+namespace {
+
+using manoeuvre::PolicyId;
+
+class MethodsTest : public testing::Test {
+ protected:
+  std::map<std::string, MethodRun, std::less<>> play(const sim::Scenario& scenario) {
+    const loop::Stage stage{&scenario, &car_, &harm_, &intent::shipped_model(), {}, {}};
+    Hindsight hindsight(car_, harm_);
+    std::vector<std::unique_ptr<loop::Method>> all;
+    for (const MethodInfo& info : methods()) {
+      all.push_back(make_method(info.name, {.saca = {.forecast = {&car_, &harm_}, .clock = &clock_},
+                                            .hindsight = &hindsight,
+                                            .intent = &intent::shipped_model(),
+                                            .seed = 7,
+                                            .num_looks = 2'000}));
+    }
+    const Comparison told = compare(stage, all, hindsight).value();
+    std::map<std::string, MethodRun, std::less<>> runs;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      runs[std::string(methods()[i].name)] = told.runs[i];
+    }
+    return runs;
+  }
+
+  SteadyClock clock_;
+  manoeuvre::Car car_ = manoeuvre::default_car();
+  outcome::HarmModel harm_ = shipped_harm();
+};
+
+TEST(Methods, NamesAreDifferentAndFound) {
+  std::set<std::string_view> names;
+  for (const MethodInfo& info : methods()) {
+    EXPECT_TRUE(names.insert(info.name).second);
+    EXPECT_EQ(find_method(info.name), &info);
+    EXPECT_FALSE(info.what.empty());
+  }
+  EXPECT_EQ(find_method("magic"), nullptr);
+  EXPECT_THROW((void)make_method("magic", {}), ContractViolation);
+}
+
+// 22 m/s on a grip of 0.5 towards a standing car, the lane to the left free: braking at T1 needs
+// 49 m and has 28.6 m, a lane change needs some 25 m.
+TEST_F(MethodsTest, WhereOnlyALaneChangeHelpsThoseThatForecastFindIt) {
+  sim::Scenario scenario = standing_car(22.0, 120.0);
+  scenario.grip = 0.5;
+  scenario.road.left_edge = 5.25;
+  scenario.road.right_edge = -1.75;
+  scenario.road.right_beyond = world::Beyond::barrier;
+  const auto runs = play(scenario);
+  for (const char* const name :
+       {"oracle", "true_atlas", "true_rolled_out", "going_on_atlas", "beliefs_atlas",
+        "beliefs_rolled_out", "beliefs_and_grip", "beliefs_and_followers", "beliefs_and_hidden",
+        "first_forecast", "newest_forecast"}) {
+    EXPECT_EQ(manoeuvre::side(runs.at(name).plan->policy), 1) << name;
+    EXPECT_LT(runs.at(name).harm, runs.at("aeb").harm) << name;
+  }
+  EXPECT_EQ(runs.at("saca").plan->policy, PolicyId::aeb);  // nothing is cached
+  EXPECT_EQ(runs.at("saca").harm, runs.at("aeb").harm);
+  EXPECT_EQ(runs.at("saca_paper").source, "fallback");
+  EXPECT_GT(runs.at("nothing").harm, runs.at("aeb").harm);
+  // Rules that brake for what stands ahead do it before T1 at this speed.
+  for (const char* const name : {"r157", "rss", "fsm"}) {
+    EXPECT_LT(*runs.at(name).acted_at, *runs.at("aeb").acted_at) << name;
+  }
+}
+
+TEST_F(MethodsTest, NobodyActsForWhoDrivesAway) {
+  sim::Scenario scenario = standing_car(15.0, 60.0);
+  scenario.actors[0].motion = sim::Script{.start = {.s = 80.0},
+                                          .speed = 20.0,
+                                          .behaviour = sim::Behaviour::constant_velocity};
+  for (const auto& [name, run] : play(scenario)) {
+    EXPECT_FALSE(run.intervened()) << name;
+    EXPECT_EQ(run.fault, "") << name;
+  }
+}
+
+TEST_F(MethodsTest, ChanceIsTheSeeds) {
+  const sim::Scenario scenario = standing_car(15.0, 60.0);
+  EXPECT_EQ(play(scenario).at("random").plan, play(scenario).at("random").plan);
+}
+
+}  // namespace
+}  // namespace saca::eval::methods_test

@@ -1,0 +1,384 @@
+#include "saca/eval/suite.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <utility>
+
+#include "saca/core/contract.h"
+#include "saca/core/percentile.h"
+#include "saca/outcome/ordering.h"
+
+namespace saca::eval {
+namespace {
+
+using manoeuvre::Plan;
+using manoeuvre::PolicyId;
+using nlohmann::json;
+
+// --- one encounter
+
+struct Played {
+  std::optional<Comparison> comparison;
+  std::string fault;
+};
+
+Played play(const sim::Scenario& scenario, std::uint64_t number, const SuiteOptions& options,
+            const loop::PlanesSetup& saca, const intent::Model& intent) {
+  const sim::Scenario world = as_played(scenario, options);
+  loop::Stage stage{.scenario = &world,
+                    .car = saca.forecast.car,
+                    .harm = saca.forecast.harm,
+                    .intent = &intent,
+                    .thresholds = saca.thresholds,
+                    .chance = {}};
+  if (!options.exact) {
+    stage.chance = sim::draw_chance(encounter_seed(options.seed, number), 0, 0.0);
+  }
+  try {
+    Hindsight hindsight(*saca.forecast.car, *saca.forecast.harm);
+    std::vector<std::unique_ptr<loop::Method>> methods;
+    for (const std::string& name : options.methods) {
+      methods.push_back(make_method(
+          name, {.saca = saca,
+                 .hindsight = &hindsight,
+                 .intent = &intent,
+                 .seed = encounter_seed(options.seed, number),
+                 .num_looks = static_cast<std::size_t>(world.duration / loop::ClosedLoop::step) + 2}));
+    }
+    auto compared = compare(stage, methods, hindsight);
+    if (!compared.has_value()) {
+      return {std::nullopt, compared.error().message};
+    }
+    return {std::move(compared).value(), ""};
+  } catch (const std::exception& fault) {
+    return {std::nullopt, fault.what()};
+  }
+}
+
+// --- lines of a journal
+
+json json_of(const Plan& plan) {
+  json out = json::array({manoeuvre::index(plan.policy)});
+  if (plan.target_speed) {
+    out.push_back(*plan.target_speed);
+  }
+  return out;
+}
+
+Plan plan_from(const json& in) {
+  Plan plan{.policy = manoeuvre::policy_from(in.at(0).get<int>()).value(), .target_speed = {}};
+  if (in.size() > 1) {
+    plan.target_speed = in.at(1).get<double>();
+  }
+  return plan;
+}
+
+template <class T>
+json json_of(const std::optional<T>& value) {
+  return value ? json(*value) : json();
+}
+
+template <class T>
+std::optional<T> optional_from(const json& in) {
+  return in.is_null() ? std::nullopt : std::optional(in.get<T>());
+}
+
+json json_of(const Comparison& one) {
+  json tried = json::array();
+  for (const TriedPlan& plan : one.tried) {
+    tried.push_back(json::array({json_of(plan.plan), json_of(plan.harm), plan.contact}));
+  }
+  json runs = json::array();
+  for (const MethodRun& run : one.runs) {
+    runs.push_back(json::array({json_of(run.acted_at), run.plan ? json_of(*run.plan) : json(),
+                                run.source, run.reason, run.switches, run.harm, run.collision_loss,
+                                json_of(run.met), run.impact_speed, run.clearance, run.fault}));
+  }
+  return {{"trigger", json_of(one.trigger)}, {"threat", json_of(one.threat)},
+          {"tried", std::move(tried)},       {"best", one.best ? json_of(*one.best) : json()},
+          {"best_harm", one.best_harm},      {"runs", std::move(runs)}};
+}
+
+Comparison comparison_from(const json& in, std::size_t num_methods) {
+  Comparison one;
+  one.trigger = optional_from<double>(in.at("trigger"));
+  one.threat = optional_from<std::string>(in.at("threat"));
+  for (const json& plan : in.at("tried")) {
+    one.tried.push_back({.plan = plan_from(plan.at(0)),
+                         .harm = optional_from<double>(plan.at(1)),
+                         .contact = plan.at(2).get<bool>()});
+  }
+  if (!in.at("best").is_null()) {
+    one.best = plan_from(in.at("best"));
+  }
+  one.best_harm = in.at("best_harm").get<double>();
+  for (const json& run : in.at("runs")) {
+    MethodRun& back = one.runs.emplace_back();
+    back.acted_at = optional_from<double>(run.at(0));
+    if (!run.at(1).is_null()) {
+      back.plan = plan_from(run.at(1));
+    }
+    back.source = run.at(2).get<std::string>();
+    back.reason = run.at(3).get<std::string>();
+    back.switches = run.at(4).get<int>();
+    back.harm = run.at(5).get<double>();
+    back.collision_loss = run.at(6).get<double>();
+    back.met = optional_from<std::string>(run.at(7));
+    back.impact_speed = run.at(8).get<double>();
+    back.clearance = run.at(9).get<double>();
+    back.fault = run.at(10).get<std::string>();
+  }
+  if (one.runs.size() != num_methods) {
+    throw std::runtime_error(
+        fmt::format("want runs of {} methods, got {}", num_methods, one.runs.size()));
+  }
+  return one;
+}
+
+// --- figures
+
+/// Which encounters each bootstrap sample holds, and how often.
+class Bootstrap {
+ public:
+  Bootstrap(std::size_t count, std::uint64_t seed) : count_(count) {
+    constexpr std::size_t num_samples = 1'000;
+    std::mt19937_64 rng = sim::generator(seed, count);
+    std::uniform_int_distribution<std::uint32_t> any(0, static_cast<std::uint32_t>(count - 1));
+    drawn_.resize(num_samples * count);
+    for (std::uint32_t& each : drawn_) {
+      each = any(rng);
+    }
+  }
+
+  /// Mean of `values` over the encounters that have one.
+  [[nodiscard]] Estimate mean(const std::vector<std::optional<double>>& values) const;
+
+ private:
+  std::size_t count_;
+  std::vector<std::uint32_t> drawn_;  ///< one row of encounters for each sample
+};
+
+Estimate Bootstrap::mean(const std::vector<std::optional<double>>& values) const {
+  expects(values.size() == count_, "one value for each encounter");
+  std::vector<double> value(count_);
+  std::vector<double> there(count_);
+  double sum = 0.0;
+  double n = 0.0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    value[i] = values[i].value_or(0.0);
+    there[i] = values[i] ? 1.0 : 0.0;
+    sum += value[i];
+    n += there[i];
+  }
+  if (n == 0.0) {
+    return {};
+  }
+  std::vector<double> means;
+  for (auto row = drawn_.begin(); row != drawn_.end();
+       row += static_cast<std::ptrdiff_t>(count_)) {
+    double sample_sum = 0.0;
+    double sample_n = 0.0;
+    for (auto i = row; i != row + static_cast<std::ptrdiff_t>(count_); ++i) {
+      sample_sum += value[*i];
+      sample_n += there[*i];
+    }
+    if (sample_n > 0.0) {
+      means.push_back(sample_sum / sample_n);
+    }
+  }
+  return {.value = sum / n,
+          .low = percentile(means, 0.025),
+          .high = percentile(means, 0.975),
+          .n = static_cast<int>(n)};
+}
+
+/// What of a row a figure is the mean of; nullopt: the row does not count for it.
+using Measure = std::optional<double> (*)(const SuiteRow& row, std::size_t method,
+                                          std::optional<std::size_t> aeb);
+
+const MethodRun& run_of(const SuiteRow& row, std::size_t method) {
+  return row.risk.runs[method];
+}
+
+std::optional<double> over_aeb(const SuiteRow& row, std::size_t method,
+                               std::optional<std::size_t> aeb) {
+  return aeb ? std::optional(run_of(row, method).harm - run_of(row, *aeb).harm) : std::nullopt;
+}
+
+/// Nobody is harmed if nothing is done.
+bool is_quiet(const Comparison& comparison) {
+  return std::any_of(comparison.tried.begin(), comparison.tried.end(), [](const TriedPlan& tried) {
+    return tried.plan.policy == PolicyId::no_intervention && tried.harm &&
+           outcome::harm_class(*tried.harm) == 0.0;
+  });
+}
+
+std::optional<double> flag(bool holds) {
+  return holds ? 1.0 : 0.0;
+}
+
+MethodFigures figures_of(std::span<const SuiteRow* const> rows, const std::string& name,
+                         std::size_t method, std::optional<std::size_t> aeb,
+                         const Bootstrap& bootstrap) {
+  const auto mean = [&](const Measure measure) {
+    std::vector<std::optional<double>> values;
+    for (const SuiteRow* const row : rows) {
+      values.push_back(measure(*row, method, aeb));
+    }
+    return bootstrap.mean(values);
+  };
+  MethodFigures figures{.method = name};
+  using Row = const SuiteRow&;
+  using Aeb = std::optional<std::size_t>;
+  figures.harm = mean(
+      [](Row row, std::size_t m, Aeb) { return std::optional(run_of(row, m).harm); });
+  figures.regret = mean([](Row row, std::size_t m, Aeb) {
+    return std::optional(run_of(row, m).harm - row.risk.best_harm);
+  });
+  figures.over_aeb = mean(over_aeb);
+  figures.collision_loss = mean(
+      [](Row row, std::size_t m, Aeb) { return std::optional(run_of(row, m).collision_loss); });
+  figures.contact =
+      mean([](Row row, std::size_t m, Aeb) { return flag(run_of(row, m).met.has_value()); });
+  figures.right = mean([](Row row, std::size_t m, Aeb) {
+    return flag(outcome::harm_class(run_of(row, m).harm) <= outcome::harm_class(row.risk.best_harm));
+  });
+  figures.worse_than_aeb = mean([](Row row, std::size_t m, Aeb reference) {
+    const auto more = over_aeb(row, m, reference);
+    return more ? flag(*more > material) : std::nullopt;
+  });
+  figures.needless = mean([](Row row, std::size_t m, Aeb) {
+    return is_quiet(row.risk) ? flag(run_of(row, m).intervened()) : std::nullopt;
+  });
+  const bool twins = std::any_of(rows.begin(), rows.end(),
+                                 [](const SuiteRow* row) { return row->twin.has_value(); });
+  if (twins) {
+    figures.false_trigger_loss = mean([](Row row, std::size_t m, Aeb) {
+      return row.twin ? std::optional(false_trigger_loss(row.twin->runs[m])) : std::nullopt;
+    });
+    figures.false_triggers = mean([](Row row, std::size_t m, Aeb) {
+      return row.twin ? flag(row.twin->runs[m].intervened()) : std::nullopt;
+    });
+  }
+  for (const SuiteRow* const row : rows) {
+    const MethodRun& run = run_of(*row, method);
+    figures.faults += run.fault.empty() ? 0 : 1;
+    if (run.plan) {
+      ++figures.sources[run.source];
+      ++figures.reasons[run.reason];
+    }
+  }
+  return figures;
+}
+
+}  // namespace
+
+sim::PerceptionModel usual_perception() {
+  sim::PerceptionModel model;
+  model.position_sd = 0.2;
+  model.velocity_sd = 0.2;
+  model.heading_sd = 0.02;
+  model.correlation_time = 0.5;
+  model.latency = 0.1;
+  model.dropout = 0.01;
+  model.range = 150.0;
+  model.occlusion = true;
+  model.confirmation = 0.1;
+  model.memory = 1.0;
+  return model;
+}
+
+std::uint64_t encounter_seed(std::uint64_t seed, std::uint64_t number) {
+  return sim::generator(seed, number)();
+}
+
+sim::Scenario as_played(sim::Scenario scenario, const SuiteOptions& options) {
+  if (!options.exact && scenario.perception == sim::PerceptionModel{}) {
+    scenario.perception = usual_perception();
+  }
+  return scenario;
+}
+
+SuiteRow run_encounter(const SuiteEncounter& encounter, const SuiteOptions& options,
+                       const loop::PlanesSetup& saca, const intent::Model& intent) {
+  expects(!options.methods.empty(), "at least one method");
+  SuiteRow row{.number = encounter.number, .family = encounter.family, .fault = {}, .risk = {},
+               .twin = {}};
+  Played risk = play(encounter.scenario, encounter.number, options, saca, intent);
+  row.fault = risk.fault;
+  if (!risk.comparison) {
+    return row;
+  }
+  row.risk = std::move(*risk.comparison);
+  if (encounter.twin) {
+    Played twin = play(*encounter.twin, encounter.number, options, saca, intent);
+    row.fault = twin.fault;
+    row.twin = std::move(twin.comparison);
+  }
+  return row;
+}
+
+std::string line_of(const SuiteRow& row) {
+  json line{{"number", row.number}, {"family", row.family}};
+  if (!row.fault.empty()) {
+    line["fault"] = row.fault;
+  } else {
+    line["risk"] = json_of(row.risk);
+    if (row.twin) {
+      line["twin"] = json_of(*row.twin);
+    }
+  }
+  return line.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+Result<SuiteRow> suite_row_from(std::string_view line, std::size_t num_methods) {
+  try {
+    const json in = json::parse(line);
+    SuiteRow row{.number = in.at("number").get<std::uint64_t>(),
+                 .family = in.at("family").get<std::string>(),
+                 .fault = in.value("fault", std::string()),
+                 .risk = {},
+                 .twin = {}};
+    if (row.fault.empty()) {
+      row.risk = comparison_from(in.at("risk"), num_methods);
+      if (in.contains("twin")) {
+        row.twin = comparison_from(in.at("twin"), num_methods);
+      }
+    }
+    return row;
+  } catch (const std::exception& problem) {
+    return Error{Error::Code::malformed,
+                 fmt::format("want one encounter of a suite, got \"{}\": {}", line.substr(0, 80),
+                             problem.what())};
+  }
+}
+
+double false_trigger_loss(const MethodRun& run) {
+  if (!run.intervened()) {
+    return 0.0;
+  }
+  return run.plan && manoeuvre::drifts(run.plan->policy) ? 1.0 : 0.5;
+}
+
+std::vector<MethodFigures> suite_figures(std::span<const SuiteRow* const> rows,
+                                         const std::vector<std::string>& methods,
+                                         std::optional<std::size_t> aeb, std::uint64_t seed) {
+  std::vector<const SuiteRow*> good;
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(good),
+               [](const SuiteRow* row) { return row->fault.empty(); });
+  std::vector<MethodFigures> all;
+  if (good.empty()) {
+    return all;
+  }
+  const Bootstrap bootstrap(good.size(), seed);
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    all.push_back(figures_of(good, methods[m], m, aeb, bootstrap));
+  }
+  return all;
+}
+
+}  // namespace saca::eval

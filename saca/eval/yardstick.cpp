@@ -1,0 +1,47 @@
+#include "saca/eval/yardstick.h"
+
+#include "saca/core/contract.h"
+#include "saca/outcome/ordering.h"
+
+namespace saca::eval {
+
+std::vector<preview::RolledOut> try_all(const loop::ClosedLoop& now, const manoeuvre::Car& car,
+                                        const outcome::HarmModel& harm, Knowledge knowledge) {
+  const sim::Stepper& truth = now.truth();
+  world::Scene scene = truth.whole_scene();
+  scene.grip = now.seen().grip;
+  const outcome::Others others = truth.others();
+  const bool all = knowledge == Knowledge::everything;
+  std::vector<outcome::Attempt> attempts;
+  for (const manoeuvre::Plan& plan : preview::all_plans(scene.ego.v_B.x)) {
+    attempts.push_back({plan, &scene, &others, all ? truth.grip() : scene.grip,
+                        all ? truth.unknown_from_now() : manoeuvre::Unknown{}});
+  }
+  return preview::tried(car, attempts, harm);
+}
+
+std::size_t best_of(const std::vector<preview::RolledOut>& tried) {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < tried.size(); ++i) {
+    const preview::PolicyFacts& one = tried[i].facts;
+    if (!one.refusal.empty()) {
+      continue;
+    }
+    if (!best || outcome::better(one.outcome, one.plan.policy, tried[*best].facts.outcome,
+                                 tried[*best].facts.plan.policy)) {
+      best = i;
+    }
+  }
+  expects(best.has_value(), "emergency braking can always be driven");
+  return *best;
+}
+
+const std::vector<preview::RolledOut>& Hindsight::at(const loop::ClosedLoop& now) {
+  if (time_ != now.time()) {
+    tried_ = try_all(now, car_, harm_, Knowledge::everything);
+    time_ = now.time();
+  }
+  return tried_;
+}
+
+}  // namespace saca::eval

@@ -1,0 +1,147 @@
+#include "saca/loop/closed_loop.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "saca/core/contract.h"
+#include "saca/manoeuvre/drive.h"
+#include "saca/preview/caution.h"
+#include "saca/world/time_to_conflict.h"
+
+namespace saca::loop {
+namespace {
+
+using manoeuvre::PolicyId;
+using world::Scene;
+
+constexpr double rest_after_end = 2.0;  // [s] that is still watched, as outcome::judge looks on
+
+/// The ego has stopped, and somebody behind it has not.
+bool is_approached(const Scene& scene) {
+  constexpr double moves = 0.1;  // [m/s]
+  return norm(scene.ego.v_B) < moves &&
+         std::any_of(scene.actors.begin(), scene.actors.end(), [&](const world::Actor& actor) {
+           return norm(actor.v_W) > moves && world::is_follower(scene, actor);
+         });
+}
+
+const Stage& complete(const Stage& stage) {
+  expects(stage.scenario != nullptr && stage.car != nullptr && stage.harm != nullptr &&
+              stage.intent != nullptr,
+          "scenario, car, harm and intent are given");
+  return stage;
+}
+
+/// Torques that decelerate the car by this much at most, shared among the wheels as they were.
+void limit(vehicle::PerWheel& torque, const vehicle::Vehicle& car, double deceleration) {
+  const double wanted = std::accumulate(torque.begin(), torque.end(), 0.0);
+  const double most = car.mass * deceleration * car.wheel_radius;
+  if (wanted > most) {
+    for (double& each : torque) {
+      each *= most / wanted;
+    }
+  }
+}
+
+}  // namespace
+
+ClosedLoop::ClosedLoop(const Stage& stage)
+    : stage_(&complete(stage)),
+      stepper_(*stage.scenario, *stage.car, stage.chance),
+      observer_(*stage.intent),
+      witness_(*stage.harm) {}
+
+std::optional<Error> ClosedLoop::look() {
+  const auto broken = [&](const Scene& scene) -> std::optional<Error> {
+    const auto rule = world::broken_rule(scene);
+    return rule ? std::optional(Error{Error::Code::out_of_range,
+                                      fmt::format("{}: at {:.2f} s: a scene must hold: {}",
+                                                  stage_->scenario->name, time(), *rule)})
+                : std::nullopt;
+  };
+  if (auto problem = broken(stepper_.scene())) {
+    return problem;
+  }
+  seen_ = stepper_.perceive();
+  if (auto problem = broken(seen_)) {
+    return problem;
+  }
+  beliefs_ = observer_.look(seen_);
+  return std::nullopt;
+}
+
+std::optional<preview::Threat> ClosedLoop::previewed_threat() const {
+  return preview::previewed_threat(seen_, beliefs_, preview::hard_driving(), stage_->thresholds);
+}
+
+void ClosedLoop::take_the_wheel() {
+  stepper_.take_the_wheel();
+  controller_ = manoeuvre::begin(*stage_->car, plan_, seen_);
+}
+
+std::optional<std::string> ClosedLoop::carry_out(const manoeuvre::Plan& plan, double deceleration) {
+  if (!driven()) {
+    take_the_wheel();
+  }
+  auto refused = manoeuvre::refusal(*stage_->car, plan, seen_);
+  plan_ = refused ? manoeuvre::Plan{PolicyId::aeb, std::nullopt} : plan;
+  controller_ = manoeuvre::begin(*stage_->car, plan_, seen_);
+  limit_braking(deceleration);
+  acts_ = true;
+  ended_.reset();
+  return refused;
+}
+
+void ClosedLoop::limit_braking(double deceleration) {
+  expects(deceleration > 0.0, "deceleration > 0");
+  deceleration_ = deceleration;
+}
+
+void ClosedLoop::keep() {
+  if (driven()) {
+    contact_ = witness_.look(stepper_);
+    kept_ = true;
+  }
+  if (acts_ && !ended_ && finished()) {
+    ended_ = time();
+  }
+}
+
+void ClosedLoop::advance() {
+  for (int k = 0; k < steps_per_look; ++k) {
+    vehicle::Command command;
+    if (driven()) {
+      command = manoeuvre::control(*stage_->car, plan_, stage_->scenario->road, seen_.grip,
+                                   stepper_.car_state(), controller_, sim::Stepper::step);
+      limit(command.brake_torque, *stage_->car, deceleration_);
+    }
+    stepper_.advance(command);
+  }
+}
+
+bool ClosedLoop::finished() const {
+  return driven() && manoeuvre::finished(plan_, stepper_.car_state(), controller_);
+}
+
+bool ClosedLoop::over() const {
+  if (contact_ || stepper_.over()) {
+    return true;
+  }
+  return ended_ && time() > *ended_ + rest_after_end &&
+         !preview::nearest_threat(seen_, stage_->thresholds.preview,
+                                  stage_->thresholds.trigger_tolerance) &&
+         !is_approached(stepper_.scene());
+}
+
+std::optional<outcome::Outcome> ClosedLoop::outcome() const {
+  return kept_ ? std::optional(witness_.outcome()) : std::nullopt;
+}
+
+double ClosedLoop::steering() const {
+  return driven() ? stepper_.car_state().steering : 0.0;
+}
+
+}  // namespace saca::loop

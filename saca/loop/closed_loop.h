@@ -1,0 +1,115 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "saca/core/result.h"
+#include "saca/intent/observer.h"
+#include "saca/loop/witness.h"
+#include "saca/manoeuvre/car.h"
+#include "saca/manoeuvre/controller.h"
+#include "saca/manoeuvre/plan.h"
+#include "saca/outcome/harm.h"
+#include "saca/preview/threat.h"
+#include "saca/sim/chance.h"
+#include "saca/sim/scenario.h"
+#include "saca/sim/stepper.h"
+#include "saca/world/scene.h"
+
+namespace saca::loop {
+
+/// An encounter, and what it is simulated with. What it points to outlives the simulation.
+struct Stage {
+  const sim::Scenario* scenario = nullptr;
+  const manoeuvre::Car* car = nullptr;  ///< what the ego takes itself for
+  const outcome::HarmModel* harm = nullptr;
+  const intent::Model* intent = nullptr;
+  preview::Thresholds thresholds;
+  sim::Chance chance;  ///< what is left to chance; as it stands, nothing
+};
+
+/// One encounter in motion, in closed loop: the true world, what the ego perceives and believes of
+/// it, the controller that carries out a plan with full vehicle dynamics, and what happens to the
+/// ego. Whoever decides (Method) is not part of it.
+///
+/// At every instant, 10 ms apart, in this order: look(); whatever is decided: take_the_wheel(),
+/// carry_out(); keep(); advance(). A copy goes on by itself: from one instant on, what follows from
+/// several decisions can be simulated without simulating again what led there.
+class ClosedLoop {
+ public:
+  static constexpr int steps_per_look = 10;  ///< of the stepper
+  static constexpr double step = steps_per_look * sim::Stepper::step;  ///< between two looks [s]
+
+  explicit ClosedLoop(const Stage& stage);
+
+  /// Perceives and judges intentions.
+  /// @return  what is wrong with the truth or with what is perceived of it: it breaks a rule of
+  ///          `world::broken_rule`
+  [[nodiscard]] std::optional<Error> look();
+
+  [[nodiscard]] double time() const { return stepper_.time(); }
+  [[nodiscard]] const sim::Stepper& truth() const { return stepper_; }
+  /// What the ego perceives, as of the last look.
+  [[nodiscard]] const world::Scene& seen() const { return seen_; }
+  /// One for each actor of `seen()`.
+  [[nodiscard]] const intent::Beliefs& beliefs() const { return beliefs_; }
+
+  /// Does anybody threaten within T2 under any likely intention? It is then that an automated
+  /// vehicle takes over from whoever drove: preview::previewed_threat.
+  [[nodiscard]] std::optional<preview::Threat> previewed_threat() const;
+
+  /// From now on the vehicle model moves the ego; lane and speed are kept until something else is
+  /// carried out.
+  void take_the_wheel();
+  [[nodiscard]] bool driven() const { return stepper_.driven(); }
+
+  /// Begins a plan, taking the wheel where nobody has. One that cannot be driven from here gives
+  /// way to emergency braking.
+  /// @param deceleration  largest that the brakes are asked for [m/s^2], > 0
+  /// @return  why it cannot be driven; nullopt: it can
+  std::optional<std::string> carry_out(
+      const manoeuvre::Plan& plan, double deceleration = std::numeric_limits<double>::infinity());
+  /// Changes how hard the plan under way may brake.
+  void limit_braking(double deceleration);
+  /// Lane and speed kept, or the last that was carried out.
+  [[nodiscard]] const manoeuvre::Plan& plan() const { return plan_; }
+
+  /// Keeps what truly happened since the last look; counts only once the wheel is taken.
+  void keep();
+  /// To the next instant.
+  void advance();
+
+  /// Did a contact end the ego's motion?
+  [[nodiscard]] bool contact() const { return contact_; }
+  /// Has what was carried out reached its safe end now: at rest, or in a recovered lane?
+  [[nodiscard]] bool finished() const;
+  /// Nothing that matters comes any more: a contact ended the motion, the scenario is over, or what
+  /// was carried out ended 2 s ago and nobody threatens or comes up from behind.
+  [[nodiscard]] bool over() const;
+
+  /// Of all that was kept, and where a contact ended the motion, of what that leads to; nullopt:
+  /// the wheel was never taken.
+  [[nodiscard]] std::optional<outcome::Outcome> outcome() const;
+  /// Among whom the outcome's contacts count.
+  [[nodiscard]] const world::Scene& met() const { return witness_.scene(); }
+
+  [[nodiscard]] double steering() const;
+
+ private:
+  const Stage* stage_;
+  sim::Stepper stepper_;
+  intent::Observer observer_;
+  Witness witness_;
+  world::Scene seen_;
+  intent::Beliefs beliefs_;
+  manoeuvre::Plan plan_{manoeuvre::PolicyId::no_intervention, std::nullopt};
+  double deceleration_ = std::numeric_limits<double>::infinity();
+  manoeuvre::ControllerState controller_;
+  bool acts_ = false;            ///< something was carried out
+  bool kept_ = false;            ///< something was kept
+  bool contact_ = false;
+  std::optional<double> ended_;  ///< when what was carried out had reached its end [s]
+};
+
+}  // namespace saca::loop

@@ -1,0 +1,124 @@
+#include "saca/loop/closed_loop.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "saca/intent/shipped_model.h"
+#include "saca/manoeuvre/default_car.h"
+#include "saca/vehicle/vehicle.h"
+
+namespace saca::loop::closed_loop_test {
+namespace {
+
+using manoeuvre::PolicyId;
+
+constexpr manoeuvre::Plan braking{PolicyId::aeb, std::nullopt};
+
+class ClosedLoopTest : public testing::Test {
+ protected:
+  ClosedLoopTest() {
+    scenario_.name = "standing_car";
+    scenario_.grip = 0.9;
+    scenario_.duration = 12.0;
+    scenario_.road.left_edge = 7.0;
+    scenario_.ego = sim::EgoStart{.pose = {}, .speed = 20.0};
+    scenario_.actors.push_back({.id = 1,
+                                .footprint = {.length = 4.5, .width = 1.8},
+                                .mass = 1'500.0,
+                                .motion = sim::Script{.start = {.s = 90.0},
+                                                      .behaviour = sim::Behaviour::hold}});
+  }
+  [[nodiscard]] Stage stage() const { return {&scenario_, &car_, &harm_, &intent_, {}, {}}; }
+
+  /// Goes on to this time, nobody deciding anything.
+  static void advance_to(ClosedLoop& loop, double time) {
+    while (loop.time() < time - 1e-9) {
+      ASSERT_FALSE(loop.look().has_value());
+      loop.keep();
+      loop.advance();
+    }
+    ASSERT_FALSE(loop.look().has_value());
+  }
+  static void to_the_end(ClosedLoop& loop) {
+    loop.keep();
+    loop.advance();
+    while (!loop.over()) {
+      ASSERT_FALSE(loop.look().has_value());
+      loop.keep();
+      loop.advance();
+    }
+  }
+
+  sim::Scenario scenario_;
+  manoeuvre::Car car_ = manoeuvre::default_car();
+  outcome::HarmModel harm_ = outcome::read_harm("data/harm.toml").value();
+  const intent::Model& intent_ = intent::shipped_model();
+};
+
+TEST_F(ClosedLoopTest, WhoNeverTakesTheWheelIsJudgedByNobody) {
+  const Stage s = stage();
+  ClosedLoop loop(s);
+  advance_to(loop, 1.0);
+  EXPECT_FALSE(loop.driven());
+  EXPECT_EQ(loop.outcome(), std::nullopt);
+}
+
+// The brakes are told to decelerate by 3 m/s^2 at most: from 20 m/s that takes 66.7 m, less what
+// drag and rolling take, more for the brakes' delay of some tenths of a second.
+TEST_F(ClosedLoopTest, BrakesNoHarderThanItIsAskedTo) {
+  scenario_.actors.clear();
+  const Stage s = stage();
+  ClosedLoop loop(s);
+  advance_to(loop, 1.0);
+  EXPECT_EQ(loop.carry_out(braking, 3.0), std::nullopt);
+  const double from = loop.truth().ego().X_WB.p.x;
+  for (int k = 0; k < 900; ++k) {
+    loop.keep();
+    loop.advance();
+    ASSERT_FALSE(loop.look().has_value());
+    EXPECT_GT(loop.truth().ego().a_B.x, -3.6);  // drag adds 0.15 m/s^2 at 20 m/s
+  }
+  EXPECT_LT(norm(loop.truth().ego().v_B), 0.1);
+  EXPECT_NEAR(loop.truth().ego().X_WB.p.x - from, 20.0 * 20.0 / (2.0 * 3.0), 7.0);
+}
+
+TEST_F(ClosedLoopTest, ACopyGoesOnByItselfAndAsTheOriginalWould) {
+  const Stage s = stage();
+  ClosedLoop loop(s);
+  advance_to(loop, 2.5);
+  loop.carry_out(braking);
+  ClosedLoop copy = loop;
+  ClosedLoop other = loop;
+  other.carry_out({PolicyId::aes_left, std::nullopt});
+  to_the_end(other);
+  to_the_end(loop);
+  to_the_end(copy);
+  ASSERT_TRUE(loop.outcome().has_value());
+  EXPECT_EQ(copy.outcome()->clearance, loop.outcome()->clearance);
+  EXPECT_EQ(copy.truth().ego().X_WB.p.x, loop.truth().ego().X_WB.p.x);
+  EXPECT_NE(other.truth().ego().X_WB.p.x, loop.truth().ego().X_WB.p.x);
+  EXPECT_FALSE(loop.contact());  // 35 m are there, 26 m are needed
+}
+
+TEST_F(ClosedLoopTest, WhatCannotBeDrivenGivesWayToBraking) {
+  std::get<sim::EgoStart>(scenario_.ego).speed = 4.0;
+  const Stage s = stage();
+  ClosedLoop loop(s);
+  advance_to(loop, 1.0);
+  const auto refused = loop.carry_out({PolicyId::t_drift_left, std::nullopt});
+  ASSERT_TRUE(refused.has_value());
+  EXPECT_EQ(loop.plan(), braking);
+}
+
+TEST_F(ClosedLoopTest, ABrokenSceneIsToldAndNotPlayed) {
+  scenario_.actors[0].mass = -1.0;
+  const Stage s = stage();
+  ClosedLoop loop(s);
+  const auto problem = loop.look();
+  ASSERT_TRUE(problem.has_value());
+  EXPECT_THAT(problem->message, testing::StartsWith("standing_car: at 0.00 s: a scene must hold:"));
+}
+
+}  // namespace
+}  // namespace saca::loop::closed_loop_test

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "saca/core/clock.h"
+#include "saca/core/latest_slot.h"
+#include "saca/decide/event.h"
+#include "saca/decide/reflex_plane.h"
+#include "saca/decide/thinking_plane.h"
+#include "saca/loop/charged_model.h"
+#include "saca/loop/charged_thinking.h"
+#include "saca/loop/thinking_thread.h"
+
+namespace saca::loop {
+
+/// How simulated and real time go together.
+enum class Pace : std::uint8_t {
+  real,      ///< the world goes on at wall-clock speed while SACA thinks
+  lockstep,  ///< the world waits; thinking is charged to simulated time: fast and repeatable
+};
+[[nodiscard]] std::string_view name(Pace pace);
+
+/// What both planes are made of. What it points to outlives them.
+struct PlanesSetup {
+  preview::ForecastTools forecast;
+  preview::Thresholds thresholds;
+  Pace pace = Pace::lockstep;
+  ThinkingCosts costs;                     ///< for lockstep
+  reason::LanguageModel* model = nullptr;  ///< nullptr: without; deadlines on `clock`
+  memory::Store* memory = nullptr;         ///< nullptr: without
+  decide::Guard guard = decide::Guard::never_worse_than_braking;
+  std::optional<manoeuvre::Plan> forced;  ///< carried out at the trigger, whatever was thought
+  Clock* clock = nullptr;                 ///< real time
+};
+
+/// How long the reflex plane took.
+struct ReflexTiming {
+  std::size_t calls = 0;
+  double p50 = 0.0;  ///< [s]
+  double max = 0.0;  ///< [s]
+};
+
+/// SACA: its reflex plane and its thinking plane, joined at either pace. One encounter.
+class Planes {
+ public:
+  struct Listener {
+    std::function<void(const decide::Event&)> event = [](const decide::Event&) {};
+    std::function<void(std::int32_t preview, std::string_view text)> reasoning =
+        [](std::int32_t, std::string_view) {};
+  };
+
+  /// @param listener  hears the thinking plane; at pace `real` on its thread
+  /// @param looks     how often `step` will be called at most
+  Planes(const PlanesSetup& setup, Listener listener, std::size_t looks);
+  Planes(const Planes&) = delete;
+  Planes& operator=(const Planes&) = delete;
+  ~Planes() = default;
+
+  /// One instant, from the moment on at which something threatens within T2.
+  /// @param beliefs  one per actor of the scene
+  /// @param at       when, on the clock, the scene was true; of no account in lockstep
+  decide::Reflex step(const world::Scene& scene, const intent::Beliefs& beliefs, Clock::Time at);
+
+  [[nodiscard]] const std::optional<decide::Decision>& decision() const {
+    return reflex_.decision();
+  }
+
+  /// Ends thinking; `step` is not called any more.
+  /// @return  what was thrown there and ended it early; empty: nothing was
+  std::string finish();
+
+  // Once finished, or in lockstep:
+  [[nodiscard]] const std::vector<decide::Event>& thinking_events() const { return events_; }
+  [[nodiscard]] const std::vector<decide::Preview>& previews() const { return plane_.previews(); }
+  [[nodiscard]] int deadline_misses() const { return plane_.deadline_misses(); }
+  [[nodiscard]] ReflexTiming timing() const;
+
+ private:
+  [[nodiscard]] bool real() const { return setup_.pace == Pace::real; }
+  [[nodiscard]] decide::ThinkingTools tools();
+  [[nodiscard]] decide::ThinkingOutput output();
+  void hand_over_plans(double now);
+
+  PlanesSetup setup_;
+  Listener listener_;
+  ManualClock simulated_clock_;
+  std::unique_ptr<ChargedModel> charged_model_;
+  ChargedThinking charged_;
+  decide::ReflexPlane reflex_;
+  LatestSlot<TimedScene> scenes_;
+  LatestSlot<decide::PlanCache> plans_;
+  std::vector<decide::Event> events_;
+  std::vector<double> reflex_times_;
+  decide::ThinkingPlane plane_;
+  std::unique_ptr<ThinkingThread> thread_;  ///< at pace `real`
+};
+
+}  // namespace saca::loop

@@ -1,0 +1,90 @@
+#include "saca/loop/planes.h"
+
+#include <gmock/gmock.h>
+
+#include "saca/intent/shipped_model.h"
+#include "saca/manoeuvre/default_car.h"
+#include "saca/reason/scripted_model.h"
+#include "tests/support/scenes.h"
+
+namespace saca::loop::planes_test {
+namespace {
+
+using manoeuvre::PolicyId;
+
+/// 20 m/s on a wet road towards a wreck: braking at T1 is not enough, changing lanes is.
+class PlanesTest : public testing::Test {
+ protected:
+  [[nodiscard]] static world::Scene at(double time) {
+    world::Scene scene = test::ego_at(20.0);
+    scene.time = time;
+    scene.grip = 0.5;
+    scene.ego.X_WB.p.x = 20.0 * time;
+    scene.road.left_edge = 5.25;
+    scene.road.right_edge = -5.25;
+    scene.actors.push_back(test::car(1, {90.0, 0.0}));
+    return scene;
+  }
+  [[nodiscard]] PlanesSetup setup(reason::LanguageModel* model, decide::Guard guard) {
+    return {.forecast = {&car_, &harm_},
+            .costs = {.preview = 0.05, .prompt_token = 0.001, .reply_token = 0.01},
+            .model = model,
+            .guard = guard,
+            .clock = &clock_};
+  }
+  /// The decision at the trigger.
+  [[nodiscard]] decide::Decision decided(reason::LanguageModel* model, decide::Guard guard) {
+    Planes planes(setup(model, guard), {}, 500);
+    for (int k = 0; k < 450; ++k) {
+      const world::Scene scene = at(0.01 * k);
+      const auto beliefs = intent::beliefs_at_sight(intent::shipped_model(), scene);
+      if (planes.step(scene, beliefs, Clock::Time{0}).triggered) {
+        break;
+      }
+    }
+    return planes.decision().value();
+  }
+  static reason::ScriptedReply says(PolicyId policy) {
+    return {.lines = {{.text = "because", .answer = reason::Answer::Kind::first, .policy = policy}},
+            .prompt_tokens = 10,
+            .reply_tokens = 5};
+  }
+
+  SteadyClock clock_;
+  manoeuvre::Car car_ = manoeuvre::default_car();
+  outcome::HarmModel harm_ = outcome::read_harm("data/harm.toml").value();
+};
+
+TEST_F(PlanesTest, WithoutModelAndMemoryBrakingIsAllThereIs) {
+  const auto decision = decided(nullptr, decide::Guard::never_worse_than_braking);
+  EXPECT_EQ(decision.plan.policy, PolicyId::aeb);
+  EXPECT_EQ(decision.source, decide::Source::fallback);
+}
+
+TEST_F(PlanesTest, AGoodAnswerIsCarriedOutUnderEitherRule) {
+  for (const auto guard : {decide::Guard::never_worse_than_braking, decide::Guard::none}) {
+    reason::ScriptedModel model(says(PolicyId::aes_left), clock_);
+    const auto decision = decided(&model, guard);
+    EXPECT_EQ(decision.plan.policy, PolicyId::aes_left);
+    EXPECT_EQ(decision.source, decide::Source::model);
+  }
+}
+
+// Doing nothing drives into the wreck at 20 m/s; the paper's algorithm caches what the model says.
+TEST_F(PlanesTest, ABadAnswerIsCarriedOutByThePapersRuleOnly) {
+  reason::ScriptedModel guarded(says(PolicyId::no_intervention), clock_);
+  EXPECT_EQ(decided(&guarded, decide::Guard::never_worse_than_braking).plan.policy, PolicyId::aeb);
+  reason::ScriptedModel paper(says(PolicyId::no_intervention), clock_);
+  const auto decision = decided(&paper, decide::Guard::none);
+  EXPECT_EQ(decision.plan.policy, PolicyId::no_intervention);
+  EXPECT_EQ(decision.source, decide::Source::model);
+}
+
+TEST_F(PlanesTest, NothingIsToldOfTimesBeforeTheFirstStep) {
+  const Planes planes(setup(nullptr, decide::Guard::never_worse_than_braking), {}, 10);
+  EXPECT_EQ(planes.timing().calls, 0U);
+  EXPECT_EQ(planes.decision(), std::nullopt);
+}
+
+}  // namespace
+}  // namespace saca::loop::planes_test

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+
+#include "saca/loop/method.h"
+#include "saca/loop/planes.h"
+
+namespace saca::loop {
+
+/// SACA as a method: the planes that ship, in lockstep.
+class SacaMethod final : public Method {
+ public:
+  /// @param looks  how often `step` will be called at most
+  SacaMethod(const PlanesSetup& setup, std::size_t looks) : planes_(setup, {}, looks) {}
+
+  [[nodiscard]] std::optional<Action> step(const View& view) override;
+
+ private:
+  Planes planes_;
+};
+
+}  // namespace saca::loop

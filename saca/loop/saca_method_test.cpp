@@ -1,0 +1,78 @@
+#include "saca/loop/saca_method.h"
+
+#include <gmock/gmock.h>
+
+#include "saca/intent/shipped_model.h"
+#include "saca/loop/encounter.h"
+#include "saca/manoeuvre/default_car.h"
+
+namespace saca::loop::saca_method_test {
+namespace {
+
+/// Plays a method to the end, alone.
+struct Played {
+  std::optional<double> acted_at;
+  Action action;
+  outcome::Outcome outcome;
+};
+
+class SacaMethodTest : public testing::Test {
+ protected:
+  Played play(const sim::Scenario& scenario) {
+    const Stage stage{&scenario, &car_, &harm_, &intent::shipped_model(), {}, {}};
+    SacaMethod saca({.forecast = {&car_, &harm_}, .clock = &clock_}, 2'000);
+    ClosedLoop loop(stage);
+    Played played;
+    while (!loop.over()) {
+      EXPECT_FALSE(loop.look().has_value());
+      if (!loop.driven() && loop.previewed_threat()) {
+        loop.take_the_wheel();
+      }
+      if (const auto action = saca.step({loop.seen(), loop.beliefs(), loop.driven(), loop})) {
+        played.acted_at = loop.time();
+        played.action = *action;
+        loop.carry_out(action->plan);
+      }
+      loop.keep();
+      loop.advance();
+    }
+    played.outcome = loop.outcome().value_or(outcome::Outcome{});
+    return played;
+  }
+
+  SteadyClock clock_;
+  manoeuvre::Car car_ = manoeuvre::default_car();
+  outcome::HarmModel harm_ = outcome::read_harm("data/harm.toml").value();
+};
+
+TEST_F(SacaMethodTest, DoesWhatAnEncounterWithTheSamePlanesDoes) {
+  sim::Scenario scenario{.name = "wreck", .car = "compact_rwd_ev", .grip = 0.5, .duration = 12.0};
+  scenario.road.left_edge = 5.25;
+  scenario.road.right_edge = -5.25;
+  scenario.ego = sim::EgoStart{.pose = {}, .speed = 20.0};
+  scenario.actors.push_back({.id = 1,
+                             .footprint = {.length = 4.5, .width = 1.8},
+                             .mass = 1'500.0,
+                             .motion = sim::Script{.start = {.s = 90.0},
+                                                   .behaviour = sim::Behaviour::hold}});
+  const Played played = play(scenario);
+  Silence silence;
+  const Record record = run({.scenario = &scenario,
+                             .car = &car_,
+                             .harm = &harm_,
+                             .intent = &intent::shipped_model(),
+                             .clock = &clock_},
+                            silence)
+                            .value();
+  ASSERT_TRUE(played.acted_at.has_value());
+  ASSERT_TRUE(record.decision.has_value());
+  EXPECT_EQ(*played.acted_at, record.decision->time);
+  EXPECT_EQ(played.action.plan, record.decision->plan);
+  EXPECT_EQ(played.action.source, "fallback");
+  EXPECT_EQ(played.action.reason, "no plan is cached");
+  EXPECT_EQ(played.outcome.harm, record.result.harm);
+  EXPECT_EQ(played.outcome.clearance, record.result.clearance);
+}
+
+}  // namespace
+}  // namespace saca::loop::saca_method_test

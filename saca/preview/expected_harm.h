@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "saca/intent/motion.h"
+#include "saca/intent/observer.h"
+#include "saca/manoeuvre/plan.h"
+#include "saca/preview/policy_facts.h"
+#include "saca/world/scene.h"
+#include "saca/world/track.h"
+
+namespace saca::preview {
+
+/// One way in which all others together may move on from a scene.
+struct JointMotion {
+  double probability = 1.0;
+  std::vector<world::Track> tracks;  ///< one per actor of the scene
+};
+
+/// The likeliest joint motions under what is believed of each road user now: everybody moves by the
+/// law under one of the intentions that it has with 5 % at least, independently of the others.
+/// @param beliefs  one per actor of the scene
+/// @param most     how many are wanted, >= 1
+/// @return         likeliest first; their probabilities sum to 1; of an empty scene, one
+/// @throws ContractViolation  if beliefs and actors differ in number
+[[nodiscard]] std::vector<JointMotion> joint_motions(const world::Scene& scene,
+                                                     const intent::Beliefs& beliefs,
+                                                     const intent::MotionLaw& law,
+                                                     std::size_t most = 8);
+
+/// Everybody goes on as it does (world::actor_going_on): the one joint motion of rules that look at
+/// the present only.
+[[nodiscard]] JointMotion all_going_on(const world::Scene& scene);
+
+/// What one plan is expected to end in.
+struct ExpectedHarm {
+  manoeuvre::Plan plan;
+  std::string refusal;   ///< empty when the plan can be driven; else the rest means nothing
+  double harm = 0.0;     ///< mean over the joint motions
+  double contact = 0.0;  ///< likewise: probability of contact
+};
+
+/// With what a plan is forecast.
+enum class Physics : std::uint8_t {
+  atlas,       ///< first contacts only, with the scene's spread; microseconds
+  rolled_out,  ///< full dynamics and everything that follows a contact; the scene's mean
+};
+
+/// Every plan that can be chosen (all_plans), held against every joint motion; followers react.
+///
+/// Where the atlas does not hold a plan, all of them are rolled out.
+/// @param motions  at least one; weighted by their probabilities, which need not sum to 1
+[[nodiscard]] std::vector<ExpectedHarm> expected_harms(const world::Scene& scene,
+                                                       std::span<const JointMotion> motions,
+                                                       const ForecastTools& tools, Physics physics);
+
+/// The plan of the least expected harm by the one ordering (outcome/ordering.h): equal classes of
+/// harm go to the milder. Emergency braking, where none can be driven.
+[[nodiscard]] manoeuvre::Plan least_harmful(std::span<const ExpectedHarm> all);
+
+}  // namespace saca::preview
