@@ -26,6 +26,14 @@ std::optional<Threat> nearest_threat(const world::Scene& scene, double horizon, 
   return nearest;
 }
 
+std::optional<Threat> triggering_threat(const Scene& scene, const Thresholds& thresholds) {
+  auto threat = nearest_threat(scene, thresholds.preview, thresholds.trigger_tolerance);
+  if (threat && threat->time > thresholds.trigger) {
+    threat.reset();
+  }
+  return threat;
+}
+
 std::optional<Threat> previewed_threat(const world::Scene& scene, const intent::Beliefs& beliefs,
                                        const intent::MotionLaw& motion,
                                        const Thresholds& thresholds) {

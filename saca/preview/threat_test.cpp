@@ -94,5 +94,18 @@ TEST(PreviewedThreat, LooksAtEveryLikelyIntention) {
   EXPECT_FALSE(previewed_threat(scene, beliefs, {}, {.least_posterior = 0.15}).has_value());
 }
 
+// 20 m/s, 28 m to the bumper: 1.4 s; T1 is 1.3 s. A tick later it is 1.2 s.
+TEST(TriggeringThreat, IsTheNearestOnceItIsWithinT1) {
+  world::Scene scene = test::ego_at(20.0);
+  const double front = support(scene.ego_footprint, {}, {1.0, 0.0}).x;
+  scene.actors.push_back(test::car(1, {front + 28.0 + 2.25, 0.0}));
+  EXPECT_FALSE(triggering_threat(scene, Thresholds{}).has_value());
+  scene.ego.X_WB.p.x += 4.0;
+  const auto threat = triggering_threat(scene, Thresholds{});
+  ASSERT_TRUE(threat.has_value());
+  EXPECT_NEAR(threat->time, 1.2, 0.011);
+  EXPECT_FALSE(triggering_threat(scene, Thresholds{.trigger = 1.1}).has_value());
+}
+
 }  // namespace
 }  // namespace saca::preview::threat_test

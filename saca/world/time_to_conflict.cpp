@@ -123,6 +123,11 @@ class TrackLine {
 /// How long two bodies surely stay apart: what closes their distance is the part of their relative
 /// velocity along the line between their nearest points, and what that may change to.
 double surely_apart(const Separation& separation, const MotionBound& a, const MotionBound& b) {
+  // Nearest points are exact to 1e-6 m: nearer than that, the line between them has no direction.
+  constexpr double nearest_told_apart = 1e-5;  // [m]
+  if (separation.distance < nearest_told_apart) {
+    return 0.0;
+  }
   const Vec2 towards = (1.0 / separation.distance) * (separation.p_b_W - separation.p_a_W);
   const double closing = dot(a.v_W - b.v_W, towards) + a.any_speed + b.any_speed;
   const double change = a.acceleration + b.acceleration;

@@ -204,5 +204,20 @@ TEST(TimeToConflict, RefusesWhatHasNoMeaning) {
       ContractViolation);
 }
 
+// Where two flat faces have come within a rounding, the line between their nearest points says
+// nothing of who closes on whom. A car that stands ahead is in conflict from wherever it is seen.
+TEST(TimeToConflict, NoStandingCarIsLostOnTheWayToIt) {
+  for (int k = 0; k < 1'000; ++k) {
+    Scene scene = test::ego_at(20.0);
+    scene.ego.X_WB.p.x = 0.013 * k;
+    scene.actors.push_back(test::car(1, {2.35 + 30.0 + 2.25, 0.0}));
+    for (const double horizon : {1.6, 5.5}) {
+      const auto time = time_to_conflict(scene, scene.actors[0], horizon, 0.5);
+      ASSERT_TRUE(time.has_value()) << k;
+      EXPECT_NEAR(*time, (30.0 - 0.013 * k) / 20.0, 0.0101) << k;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace saca::world::time_to_conflict_test
