@@ -18,8 +18,7 @@ class AtTrigger final : public loop::Method {
       : thresholds_(thresholds), choose_(std::move(choose)) {}
 
   [[nodiscard]] std::optional<loop::Action> step(const loop::View& view) override {
-    if (decided_ || !view.driven ||
-        !preview::nearest_threat(view.scene, thresholds_.trigger, thresholds_.trigger_tolerance)) {
+    if (decided_ || !view.driven || !preview::triggering_threat(view.scene, thresholds_)) {
       return std::nullopt;
     }
     decided_ = true;

@@ -159,8 +159,7 @@ void Play::note_trigger(const Branch& branch) {
   if (comparison_.trigger || !loop.driven()) {
     return;
   }
-  const auto threat = preview::nearest_threat(loop.seen(), stage_.thresholds.trigger,
-                                              stage_.thresholds.trigger_tolerance);
+  const auto threat = preview::triggering_threat(loop.seen(), stage_.thresholds);
   if (!threat) {
     return;
   }

@@ -82,8 +82,7 @@ class ByForecast final : public Method {
       return std::nullopt;
     }
     const bool due = !scene_ || (which_ == Which::newest && view.scene.time >= scene_->time + round);
-    if (preview::nearest_threat(view.scene, setup_.thresholds.trigger,
-                                setup_.thresholds.trigger_tolerance)) {
+    if (preview::triggering_threat(view.scene, setup_.thresholds)) {
       decided_ = true;
       return scene_ ? best_of_forecast(*scene_, beliefs_, view, setup_)
                     : Action{.plan = full_braking, .source = "fallback", .reason = "no time to forecast"};
