@@ -7,7 +7,7 @@
 #include <set>
 
 #include "apps/saca/commands.h"
-#include "apps/saca/suite_running.h"
+#include "apps/saca/suite_pages.h"
 #include "saca/core/file.h"
 #include "saca/eval/suite_file.h"
 
@@ -22,6 +22,7 @@ using nlohmann::json;
 
 struct SuiteCommand {
   SuiteCommandOptions suite;
+  std::optional<std::uint64_t> replay;
   bool as_json = false;
 };
 
@@ -46,14 +47,6 @@ std::optional<std::size_t> index_of(const std::vector<std::string>& names,
              ? std::nullopt
              : std::optional(static_cast<std::size_t>(found - names.begin()));
 }
-
-/// Figures over all, and of each family.
-struct SuiteResult {
-  std::vector<MethodFigures> all;
-  std::map<std::string, std::vector<MethodFigures>> families;
-  int faults = 0;         ///< encounters that could not be played
-  int method_faults = 0;  ///< of methods that threw
-};
 
 SuiteResult result_of(const SuiteRun& run, std::uint64_t seed) {
   SuiteResult result;
@@ -144,13 +137,6 @@ json json_of(const SuiteRun& run, const SuiteResult& result, const SuiteCommandO
   return out;
 }
 
-std::string with_interval(const Estimate& estimate, int digits, double factor = 1.0) {
-  return estimate.n == 0
-             ? "-"
-             : fmt::format("{:.{}f} ({:.{}f} to {:.{}f})", factor * estimate.value, digits,
-                           factor * estimate.low, digits, factor * estimate.high, digits);
-}
-
 void print(const SuiteRun& run, const SuiteResult& result, const SuiteCommandOptions& options) {
   fmt::print("{}: {} encounters, {} could not be played; means with 95 % intervals\n\n",
              options.name, run.rows.size(), result.faults);
@@ -173,17 +159,29 @@ void print(const SuiteRun& run, const SuiteResult& result, const SuiteCommandOpt
   }
 }
 
-std::optional<Error> write(const SuiteRun& run, const json& figures, const std::string& output) {
-  if (auto problem = eval::write_suite(output, run.rows, run.methods, run.meta.dump())) {
+std::optional<Error> write(const SuiteRun& run, const SuiteResult& result, const json& figures,
+                           const SuiteCommandOptions& options) {
+  if (auto problem = eval::write_suite(options.output, run.rows, run.methods, run.meta.dump())) {
     return problem;
   }
-  fs::path beside = output;
-  beside.replace_extension(".json");
-  return write_file(beside, figures.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+  fs::path beside = options.output;
+  if (auto problem = write_file(beside.replace_extension(".html"),
+                                report::suite_page(page_of(run, result, options)))) {
+    return problem;
+  }
+  return write_file(beside.replace_extension(".json"), figures.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
 int run(SuiteCommand options) {
   SuiteCommandOptions& suite = options.suite;
+  if (options.replay) {
+    const auto command = write_encounter(suite, *options.replay);
+    if (!command.has_value()) {
+      return refused(command.error());
+    }
+    fmt::print("{}\n", command.value());
+    return success;
+  }
   const auto methods = methods_from(suite.methods == "all" ? "" : suite.methods);
   if (!methods.has_value()) {
     complain(methods.error().message);
@@ -203,14 +201,15 @@ int run(SuiteCommand options) {
   const SuiteRun& done = *ran.value();
   const SuiteResult result = result_of(done, suite.seed);
   const json figures = json_of(done, result, suite);
-  if (const auto problem = write(done, figures, suite.output)) {
+  if (const auto problem = write(done, result, figures, suite)) {
     return refused(*problem);
   }
   if (options.as_json) {
     fmt::print("{}\n", figures.dump(1, ' ', false, json::error_handler_t::replace));
   } else {
     print(done, result, suite);
-    fmt::print("rows: {}\n", suite.output);
+    fmt::print("page: {}, rows: {}\n", fs::path(suite.output).replace_extension(".html").string(),
+               suite.output);
   }
   return result.faults + result.method_faults > 0 ? some_failed : success;
 }
@@ -227,6 +226,8 @@ void add_suite(CLI::App& line, int& exit_code) {
   command
       ->add_option("--methods", options->suite.methods, "Names, separated by commas; all: every one")
       ->capture_default_str();
+  command->add_option("--replay", options->replay,
+                      "Write encounter N as a scenario, and print the command that plays it");
   command->add_flag("--no-twins", options->suite.no_twins, "Leave the twins without risk out");
   command->add_flag("--json", options->as_json, "For programs");
   command->callback([options, &exit_code] { exit_code = run(*options); });

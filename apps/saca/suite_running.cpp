@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
+#include <memory>
 
 #include "apps/saca/atlas_making.h"
 #include "apps/saca/model.h"
@@ -68,7 +68,13 @@ Result<Source> open_folder(const SuiteCommandOptions& options) {
   }
   source.count = std::min(options.count, static_cast<int>(all.size()));
   source.what = fmt::format("folder {} ({:016x})", options.name, hash.value());
-  source.at = [all](std::uint64_t number) { return Result(all[number]); };
+  source.at = [all](std::uint64_t number) -> Result<SuiteEncounter> {
+    if (number >= all.size()) {
+      return Error{Error::Code::out_of_range,
+                   fmt::format("want an encounter below {}, got {}", all.size(), number)};
+    }
+    return all[number];
+  };
   return source;
 }
 
@@ -112,14 +118,44 @@ std::string joined(const std::vector<std::string>& words) {
   return all;
 }
 
+/// All that encounters are run with. It stays where it is: its parts point to one another.
+struct Bench {
+  Source source;
+  std::optional<manoeuvre::Atlas> atlas;
+  SteadyClock clock;
+  loop::PlanesSetup planes;
+  eval::SuiteOptions how;
+};
+
+Result<std::shared_ptr<Bench>> open_bench(const SuiteCommandOptions& options,
+                                          const std::string& command,
+                                          const std::vector<std::string>& methods) {
+  auto source = open_source(options, command);
+  if (!source.has_value()) {
+    return source.error();
+  }
+  const auto costs = read_costs(source.value().inputs.places);
+  if (!costs.has_value()) {
+    return costs.error();
+  }
+  auto bench = std::make_shared<Bench>();
+  bench->source = std::move(source).value();
+  const Inputs& inputs = bench->source.inputs;
+  bench->atlas = usual_atlas(inputs);
+  bench->planes = {.forecast = {&inputs.car, &inputs.harm, &*bench->atlas},
+                   .costs = costs.value(),
+                   .clock = &bench->clock};
+  bench->how = {.methods = methods, .seed = options.seed, .exact = options.exact};
+  return bench;
+}
+
 /// A row, whatever happens: what cannot be drawn is a fault of that encounter.
-SuiteRow row_of(const Source& source, std::uint64_t number, const eval::SuiteOptions& options,
-                const loop::PlanesSetup& planes) {
-  const auto encounter = source.at(number);
+SuiteRow row_of(const Bench& bench, std::uint64_t number) {
+  const auto encounter = bench.source.at(number);
   if (!encounter.has_value()) {
     return {.number = number, .family = "?", .fault = encounter.error().message, .risk = {}, .twin = {}};
   }
-  return eval::run_encounter(encounter.value(), options, planes, source.inputs.intent);
+  return eval::run_encounter(encounter.value(), bench.how, bench.planes, bench.source.inputs.intent);
 }
 
 }  // namespace
@@ -156,26 +192,27 @@ Result<std::vector<std::string>> methods_from(const std::string& list) {
 Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
                                           const std::string& command,
                                           const std::vector<std::string>& methods) {
-  const auto source = open_source(options, command);
-  if (!source.has_value()) {
-    return source.error();
+  const auto opened = open_bench(options, command, methods);
+  if (!opened.has_value()) {
+    return opened.error();
   }
-  const auto costs = read_costs(source.value().inputs.places);
-  if (!costs.has_value()) {
-    return costs.error();
-  }
+  const std::shared_ptr<Bench> bench = opened.value();
+  const Source& source = bench->source;
   const std::string path = options.output + ".journal";
   if (auto problem = make_folder_of(path)) {
     return *problem;
   }
   const auto journal = Journal::open(
       path, fmt::format("saca {} {} of {}, {}, seed {}{}: {}", SACA_VERSION, command,
-                        source.value().what, options.car, options.seed,
+                        source.what, options.car, options.seed,
                         options.exact ? ", exact" : "", joined(methods)));
   if (!journal.has_value()) {
     return journal.error();
   }
-  SuiteRun done{.methods = methods, .rows = {}, .meta = {}};
+  SuiteRun done{.methods = methods, .rows = {}, .meta = {}, .encounter_at = source.at, .tried_in = {}};
+  done.tried_in = [bench](const SuiteEncounter& encounter) {
+    return eval::tried_in(encounter, bench->how, bench->planes, bench->source.inputs.intent);
+  };
   for (const std::string& line : journal.value().lines()) {
     auto row = eval::suite_row_from(line, methods.size());
     if (!row.has_value() || row.value().number != done.rows.size()) {
@@ -185,19 +222,13 @@ Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
     }
     done.rows.push_back(std::move(row).value());
   }
-  const auto count = static_cast<std::size_t>(source.value().count);
+  const auto count = static_cast<std::size_t>(source.count);
   done.rows.resize(std::min(done.rows.size(), count));
 
-  SteadyClock clock;
-  const manoeuvre::Atlas atlas = usual_atlas(source.value().inputs);
-  const loop::PlanesSetup planes{
-      .forecast = {&source.value().inputs.car, &source.value().inputs.harm, &atlas},
-      .costs = costs.value(),
-      .clock = &clock};
-  const eval::SuiteOptions how{.methods = methods, .seed = options.seed, .exact = options.exact};
+  SteadyClock& clock = bench->clock;
   watch_for_interrupt();
   const auto before = static_cast<int>(done.rows.size());
-  ProgressLine progress(command, source.value().count, clock);
+  ProgressLine progress(command, source.count, clock);
   const Clock::Time start = clock.now();
   while (done.rows.size() < count) {
     if (interrupted()) {
@@ -207,7 +238,7 @@ Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
     std::vector<SuiteRow> next(std::min(
         batch_per_thread * static_cast<std::size_t>(options.threads), count - first));
     in_parallel(next.size(), options.threads, [&](std::size_t i) {
-      next[i] = row_of(source.value(), first + i, how, planes);
+      next[i] = row_of(*bench, first + i);
     });
     for (SuiteRow& row : next) {
       if (!journal.value().add(eval::line_of(row))) {
@@ -230,6 +261,32 @@ Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
                {"meta.car", options.car},
                {"meta.version", SACA_VERSION}};
   return std::optional(std::move(done));
+}
+
+Result<std::string> write_encounter(const SuiteCommandOptions& options, std::uint64_t number) {
+  const auto source = open_source(options, "suite");
+  if (!source.has_value()) {
+    return source.error();
+  }
+  const auto encounter = source.value().at(number);
+  if (!encounter.has_value()) {
+    return encounter.error();
+  }
+  const eval::SuiteOptions how{.methods = {}, .seed = options.seed, .exact = options.exact};
+  const fs::path file =
+      fs::path("runs") / fmt::format("{}-{}-{}.toml", fs::path(options.name).filename().string(),
+                                     options.split, number);
+  if (auto problem = make_folder_of(file)) {
+    return *problem;
+  }
+  if (auto problem = write_file(
+          file, sim::write_scenario(eval::as_played(encounter.value().scenario, how)))) {
+    return *problem;
+  }
+  return fmt::format("saca run {} --pace lockstep --llm off --no-memory{}", file.string(),
+                     options.exact ? std::string()
+                                   : fmt::format(" --seed {}",
+                                                 eval::encounter_seed(options.seed, number)));
 }
 
 void add_suite_options(CLI::App& command, SuiteCommandOptions& options) {

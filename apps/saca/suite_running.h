@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,7 +39,16 @@ struct SuiteRun {
   double seconds = 0.0;              ///< of work, all threads, in this call
   int worked = 0;                    ///< encounters of this call
   nlohmann::json meta;               ///< "meta.command", "meta.seed" and so on
+  /// Encounter `number` again.
+  std::function<Result<eval::SuiteEncounter>(std::uint64_t number)> encounter_at;
+  /// eval::tried_in with what the suite was run with.
+  std::function<std::optional<eval::TriedScene>(const eval::SuiteEncounter&)> tried_in;
 };
+
+/// Writes an encounter as a scenario file, as the suite plays it.
+/// @return  what plays it again, as a command line
+[[nodiscard]] Result<std::string> write_encounter(const SuiteCommandOptions& options,
+                                                  std::uint64_t number);
 
 /// Runs it, with progress on the error stream and a journal that the same command goes on from.
 /// @param command  as the user gave it, for records

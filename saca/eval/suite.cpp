@@ -21,6 +21,19 @@ using nlohmann::json;
 
 // --- one encounter
 
+/// @param world  as it is played; outlives the stage
+loop::Stage stage_of(const sim::Scenario& world, std::uint64_t number, const SuiteOptions& options,
+                     const loop::PlanesSetup& saca, const intent::Model& intent) {
+  return {.scenario = &world,
+          .car = saca.forecast.car,
+          .harm = saca.forecast.harm,
+          .intent = &intent,
+          .thresholds = saca.thresholds,
+          .chance = options.exact
+                        ? sim::Chance{}
+                        : sim::draw_chance(encounter_seed(options.seed, number), 0, 0.0)};
+}
+
 struct Played {
   std::optional<Comparison> comparison;
   std::string fault;
@@ -29,15 +42,7 @@ struct Played {
 Played play(const sim::Scenario& scenario, std::uint64_t number, const SuiteOptions& options,
             const loop::PlanesSetup& saca, const intent::Model& intent) {
   const sim::Scenario world = as_played(scenario, options);
-  loop::Stage stage{.scenario = &world,
-                    .car = saca.forecast.car,
-                    .harm = saca.forecast.harm,
-                    .intent = &intent,
-                    .thresholds = saca.thresholds,
-                    .chance = {}};
-  if (!options.exact) {
-    stage.chance = sim::draw_chance(encounter_seed(options.seed, number), 0, 0.0);
-  }
+  const loop::Stage stage = stage_of(world, number, options, saca, intent);
   try {
     Hindsight hindsight(*saca.forecast.car, *saca.forecast.harm);
     std::vector<std::unique_ptr<loop::Method>> methods;
@@ -320,6 +325,28 @@ SuiteRow run_encounter(const SuiteEncounter& encounter, const SuiteOptions& opti
     row.twin = std::move(twin.comparison);
   }
   return row;
+}
+
+std::optional<TriedScene> tried_in(const SuiteEncounter& encounter, const SuiteOptions& options,
+                                   const loop::PlanesSetup& saca, const intent::Model& intent) {
+  const sim::Scenario world = as_played(encounter.scenario, options);
+  const loop::Stage stage = stage_of(world, encounter.number, options, saca, intent);
+  loop::ClosedLoop loop(stage);
+  while (!loop.over()) {
+    if (loop.look()) {
+      return std::nullopt;
+    }
+    if (!loop.driven() && loop.previewed_threat()) {
+      loop.take_the_wheel();
+    }
+    if (loop.driven() && preview::triggering_threat(loop.seen(), stage.thresholds)) {
+      return TriedScene{loop.truth().whole_scene(),
+                        try_all(loop, *stage.car, *stage.harm, Knowledge::everything)};
+    }
+    loop.keep();
+    loop.advance();
+  }
+  return std::nullopt;
 }
 
 std::string line_of(const SuiteRow& row) {

@@ -56,6 +56,17 @@ struct SuiteRow {
 [[nodiscard]] SuiteRow run_encounter(const SuiteEncounter& encounter, const SuiteOptions& options,
                                      const loop::PlanesSetup& saca, const intent::Model& intent);
 
+/// What every plan leads to from T1 on, if nobody acts before: for pictures.
+struct TriedScene {
+  world::Scene scene;  ///< the truth at T1, everybody who is there then or later
+  std::vector<preview::RolledOut> tried;  ///< in the order of preview::all_plans
+};
+/// @return  nullopt: T1 never comes, or the encounter cannot be played
+[[nodiscard]] std::optional<TriedScene> tried_in(const SuiteEncounter& encounter,
+                                                 const SuiteOptions& options,
+                                                 const loop::PlanesSetup& saca,
+                                                 const intent::Model& intent);
+
 /// One line, for journals; and back. Error::Code::malformed: no such line, or of other methods.
 [[nodiscard]] std::string line_of(const SuiteRow& row);
 [[nodiscard]] Result<SuiteRow> suite_row_from(std::string_view line, std::size_t num_methods);

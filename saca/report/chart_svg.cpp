@@ -137,10 +137,11 @@ std::string chart_svg(const ChartSheet& sheet) {
 std::string dots_svg(const DotChart& chart) {
   expects(!chart.rows.empty(), "a chart has at least one row");
   constexpr SvgSize plot{420.0, 0.0};
-  constexpr double name_room = 80.0;
   constexpr double note_room = 250.0;
+  double name_room = 80.0;
   double most = 0.0;
   for (const DotRow& row : chart.rows) {
+    name_room = std::max(name_room, text_width(row.name, usual_font) + 24.0);
     most = row.value ? std::max(most, row.high) : most;
   }
   const double width = 2.0 * chart_border + name_room + plot.width + note_room;

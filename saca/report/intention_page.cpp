@@ -20,14 +20,6 @@ p { max-width: 90ch; margin: .4rem 0; }
 figure { margin: 0; border: 1px solid #d3dae1; border-radius: 4px; padding: .3rem; }
 )";
 
-/// A picture whose style stands in the page.
-std::string picture(SvgSize size, std::string_view title, std::string_view body) {
-  return fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"saca\" role=\"img\" width=\"{0}\" "
-      "height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n<title>{2}</title>\n{3}</svg>\n",
-      svg_number(size.width), svg_number(size.height), escaped(title), body);
-}
-
 }  // namespace
 
 std::string intention_page(const IntentionPage& page) {
@@ -39,11 +31,11 @@ std::string intention_page(const IntentionPage& page) {
     html += fmt::format("<p>{}</p>\n", escaped(line));
   }
   html += "<div class=\"legend\">" +
-          picture(intention_legend_size, "What the colours mean", intention_legend({0.0, 0.0})) +
+          svg_in_page(intention_legend_size, "What the colours mean", intention_legend({0.0, 0.0})) +
           "</div>\n<div class=\"samples\">\n";
   for (const IntentionSample& sample : page.samples) {
     html += "<figure>" +
-            picture(intention_sample_size(sample), sample.title, intention_sample_part(sample)) +
+            svg_in_page(intention_sample_size(sample), sample.title, intention_sample_part(sample)) +
             "</figure>\n";
   }
   return html + "</div>\n</body></html>\n";

@@ -185,6 +185,13 @@ std::string svg_document(SvgSize size, std::string_view title, std::string_view 
       body);
 }
 
+std::string svg_in_page(SvgSize size, std::string_view title, std::string_view body) {
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"saca\" role=\"img\" width=\"{0}\" "
+      "height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n<title>{2}</title>\n{3}</svg>\n",
+      svg_number(size.width), svg_number(size.height), escaped(title), body);
+}
+
 double text_width(std::string_view text, double font_size) {
   double width = 0.0;
   for (const char c : text) {

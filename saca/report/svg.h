@@ -54,6 +54,9 @@ enum class Anchor { start, middle, end };
 /// @param title  for those who cannot see the picture
 [[nodiscard]] std::string svg_document(SvgSize size, std::string_view title, std::string_view body);
 
+/// The same inside a page that holds svg_style itself.
+[[nodiscard]] std::string svg_in_page(SvgSize size, std::string_view title, std::string_view body);
+
 /// How wide a text will be, about [px]: fonts differ.
 [[nodiscard]] double text_width(std::string_view text, double font_size);
 

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "apps/saca/suite_running.h"
+#include "saca/report/suite_page.h"
+
+namespace saca::app {
+
+/// Figures over all, and of each family.
+struct SuiteResult {
+  std::vector<eval::MethodFigures> all;
+  std::map<std::string, std::vector<eval::MethodFigures>> families;
+  int faults = 0;         ///< encounters that could not be played
+  int method_faults = 0;  ///< of methods that threw
+};
+
+/// A mean with its interval, for readers; "-" where there is none.
+[[nodiscard]] std::string with_interval(const eval::Estimate& estimate, int digits,
+                                        double factor = 1.0);
+
+/// The page of a suite: what there is to see, in sentences; harm, all figures, families, where
+/// decisions came from, and the encounters in which the first method lost most.
+[[nodiscard]] report::SuitePage page_of(const SuiteRun& run, const SuiteResult& result,
+                                        const SuiteCommandOptions& options);
+
+}  // namespace saca::app

@@ -1,0 +1,77 @@
+#include "saca/report/suite_page.h"
+
+#include <gmock/gmock.h>
+
+#include "saca/core/contract.h"
+#include "tests/support/scenes.h"
+
+namespace saca::report::suite_page_test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+SceneView view() {
+  SceneView one;
+  one.title = "0 AEB";
+  one.scene = test::ego_at(10.0);
+  one.ego = {.X_WA = {{{0.0, 0.0}, 0.0}, {{5.0, 0.0}, 0.0}}};
+  return one;
+}
+
+SuitePage page() {
+  SuitePage made;
+  made.title = "Suite <natural>";
+  made.lines = {"SACA is better than braking & worse nowhere."};
+  made.chart = DotChart{.heading = "Harm",
+                        .lines = {},
+                        .axis_name = "harm",
+                        .axis_unit = "-",
+                        .rows = {{"saca", "fill-blue", "", 0.1, 0.05, 0.2}}};
+  made.tables = {{.heading = "All",
+                  .lines = {},
+                  .columns = {"harm", "regret"},
+                  .rows = {{.name = "saca",
+                            .explanation = "both planes",
+                            .cells = {"0.1", "0.05"},
+                            .shades = {std::nullopt, 0.5}}}}};
+  made.gallery_heading = "Worst";
+  made.gallery = {{.title = "encounter 7", .lines = {"why"}, .done = view(), .best = view(),
+                   .command = "saca suite natural --replay 7 \"<x>\""}};
+  made.footnotes = {"seed 1"};
+  return made;
+}
+
+TEST(SuitePage, IsOneFileInWhichNoTextBecomesMarkup) {
+  const std::string html = suite_page(page());
+  EXPECT_THAT(html, HasSubstr("<h1>Suite &lt;natural&gt;</h1>"));
+  EXPECT_THAT(html, HasSubstr("better than braking &amp; worse"));
+  EXPECT_THAT(html, Not(HasSubstr("<x>")));
+  EXPECT_THAT(html, Not(HasSubstr("src=")));
+  EXPECT_THAT(html, Not(HasSubstr("href=")));
+  EXPECT_EQ(html, suite_page(page()));
+}
+
+TEST(SuitePage, ShowsEachCellWithItsShadeAndEachCardWithTwoPictures) {
+  const std::string html = suite_page(page());
+  EXPECT_THAT(html, HasSubstr("<td style=\"background:rgba(213,94,0,0.38)\">0.05</td>"));
+  EXPECT_THAT(html, HasSubstr("<b>saca</b>: both planes"));
+  std::size_t pictures = 0;
+  for (std::size_t at = html.find("<title>0 AEB"); at != std::string::npos;
+       at = html.find("<title>0 AEB", at + 1)) {
+    ++pictures;
+  }
+  EXPECT_EQ(pictures, 2U);
+}
+
+TEST(SuitePage, RefusesATableThatDoesNotFit) {
+  SuitePage wrong = page();
+  wrong.tables[0].rows[0].cells.pop_back();
+  EXPECT_THROW((void)suite_page(wrong), ContractViolation);
+  wrong = page();
+  wrong.tables[0].rows[0].shades[1] = 1.5;
+  EXPECT_THROW((void)suite_page(wrong), ContractViolation);
+}
+
+}  // namespace
+}  // namespace saca::report::suite_page_test
