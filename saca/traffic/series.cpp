@@ -172,42 +172,48 @@ std::vector<double> integral(const std::vector<double>& rates, double step) {
   return sums;
 }
 
-void Normal3::add(const std::array<double, 3>& row, double value, double weight) {
-  for (std::size_t r = 0; r < 3; ++r) {
-    for (std::size_t c = 0; c < 3; ++c) {
+template <std::size_t num_unknowns>
+void NormalEquations<num_unknowns>::add(const std::array<double, num_unknowns>& row, double value,
+                                        double weight) {
+  for (std::size_t r = 0; r < num_unknowns; ++r) {
+    for (std::size_t c = 0; c < num_unknowns; ++c) {
       matrix_[r][c] += weight * row[r] * row[c];
     }
     right_[r] += weight * row[r] * value;
   }
 }
 
-std::array<double, 3> Normal3::solution() const {
+template <std::size_t num_unknowns>
+std::array<double, num_unknowns> NormalEquations<num_unknowns>::solution() const {
   auto a = matrix_;
   auto b = right_;
-  std::array<bool, 3> used{};
+  std::array<bool, num_unknowns> used{};
   // Gauss on a positive semi-definite matrix: no pivoting is needed, and a row that vanishes is a
   // parameter that the data do not determine.
-  for (std::size_t p = 0; p < 3; ++p) {
+  for (std::size_t p = 0; p < num_unknowns; ++p) {
     used[p] = a[p][p] > 1e-9 * matrix_[p][p];
     if (!used[p]) {
       continue;
     }
-    for (std::size_t r = 0; r < 3; ++r) {
+    for (std::size_t r = 0; r < num_unknowns; ++r) {
       if (r == p) {
         continue;
       }
       const double factor = a[r][p] / a[p][p];
-      for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t c = 0; c < num_unknowns; ++c) {
         a[r][c] -= factor * a[p][c];
       }
       b[r] -= factor * b[p];
     }
   }
-  std::array<double, 3> x{};
-  for (std::size_t p = 0; p < 3; ++p) {
+  std::array<double, num_unknowns> x{};
+  for (std::size_t p = 0; p < num_unknowns; ++p) {
     x[p] = used[p] ? b[p] / a[p][p] : 0.0;
   }
   return x;
 }
+
+template class NormalEquations<3>;
+template class NormalEquations<4>;
 
 }  // namespace saca::traffic

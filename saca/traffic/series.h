@@ -37,18 +37,26 @@ std::size_t remove_outliers(std::vector<double>& series, const std::vector<doubl
 [[nodiscard]] std::vector<double> without_holds(const std::vector<double>& series,
                                                 std::size_t longest_hold);
 
-/// Least squares in three unknowns: the normal equations.
-class Normal3 {
+/// Least squares in a few unknowns: the normal equations.
+/// @tparam num_unknowns  3 or 4
+template <std::size_t num_unknowns>
+class NormalEquations {
  public:
   /// One observation: row * x = value.
-  void add(const std::array<double, 3>& row, double value, double weight);
+  void add(const std::array<double, num_unknowns>& row, double value, double weight);
   /// @return  x; 0 for an unknown that the observations do not determine
-  [[nodiscard]] std::array<double, 3> solution() const;
+  [[nodiscard]] std::array<double, num_unknowns> solution() const;
 
  private:
-  std::array<std::array<double, 3>, 3> matrix_{};
-  std::array<double, 3> right_{};
+  std::array<std::array<double, num_unknowns>, num_unknowns> matrix_{};
+  std::array<double, num_unknowns> right_{};
 };
+
+extern template class NormalEquations<3>;
+extern template class NormalEquations<4>;
+
+using Normal3 = NormalEquations<3>;
+using Normal4 = NormalEquations<4>;
 
 /// Value and slope of a series, smoothed.
 struct Fit {

@@ -146,6 +146,13 @@ TEST(Normal3, SolvesAndLeavesTheUndeterminedAtZero) {
   EXPECT_NEAR(x[0], 1.0, 1e-12);
   EXPECT_NEAR(x[1], 3.0, 1e-12);
   EXPECT_NEAR(x[2], 3.0, 1e-12);
+  Normal4 four;  // x0 = 1, x1 = 2, x2 = 3, x3 = 4
+  four.add({1.0, 0.0, 0.0, 1.0}, 5.0, 1.0);
+  four.add({0.0, 1.0, 1.0, 0.0}, 5.0, 2.0);
+  four.add({1.0, 1.0, 0.0, 0.0}, 3.0, 3.0);
+  four.add({0.0, 0.0, 1.0, 2.0}, 11.0, 4.0);
+  EXPECT_NEAR(four.solution()[0], 1.0, 1e-12);
+  EXPECT_NEAR(four.solution()[3], 4.0, 1e-12);
   Normal3 thin;
   thin.add({1.0, 0.0, 0.0}, 5.0, 1.0);
   EXPECT_EQ(thin.solution(), (std::array<double, 3>{5.0, 0.0, 0.0}));
