@@ -29,6 +29,11 @@ constexpr std::size_t rate_offset = 28;
 constexpr std::size_t azimuth_offset = 42;
 constexpr std::size_t brake_column = 77;
 
+// The release has ghosts that close at up to 1,000 m/s. Ours: beyond what the radar sees, and any
+// two cars do.
+constexpr double farthest_seen = 500.0;  // [m]
+constexpr double fastest_seen = 100.0;   // [m/s]
+
 /// NaN for what the release writes for missing; nullopt for text.
 std::optional<double> number(std::string_view field) {
   field = trimmed(field);
@@ -59,8 +64,8 @@ StaticVector<RadarTarget, radar_columns> targets(const std::vector<double>& valu
                              .range = from_feet(values[k + range_offset]),
                              .rate = from_feet(values[k + rate_offset]),
                              .azimuth = side * values[k + azimuth_offset]};
-    if (target.id > 0 && target.range > 0.0 && std::isfinite(target.rate) &&
-        std::isfinite(target.azimuth)) {
+    if (target.id > 0 && target.range > 0.0 && target.range <= farthest_seen &&
+        std::abs(target.rate) <= fastest_seen && std::isfinite(target.azimuth)) {
       seen.push_back(target);
     }
   }
@@ -130,6 +135,26 @@ Result<std::vector<HundredCarRow>> read_hundred_car_rows(std::string_view text,
                                              std::to_string(event) + " (column 1), got none"};
   }
   return rows;
+}
+
+bool is_hundred_car_series(std::string_view file_name) {
+  return file_name.starts_with("HundredCar_");
+}
+
+std::string_view cut_hundred_car_event(std::string_view& rest) {
+  const auto first_field = [](std::string_view text) { return text.substr(0, text.find(',')); };
+  const std::string_view whole = rest;
+  const std::string_view event = first_field(whole.substr(0, whole.find('\n')));
+  while (!rest.empty() && first_field(rest.substr(0, rest.find('\n'))) == event) {
+    (void)cut_line(rest);
+  }
+  return whole.substr(0, whole.size() - rest.size());
+}
+
+std::optional<std::int64_t> hundred_car_number(std::string_view row) {
+  constexpr std::int64_t most = 1'000'000'000;
+  const auto event = whole(finite_number(trimmed(row.substr(0, row.find_first_of(",\r\n")))));
+  return event && *event >= 0 && *event <= most ? event : std::nullopt;
 }
 
 Result<HundredCarEvent> read_hundred_car_event(std::string_view text, std::string_view source,

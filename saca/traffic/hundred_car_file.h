@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,6 +52,19 @@ constexpr double hundred_car_step = 0.1;
 [[nodiscard]] Result<std::vector<HundredCarRow>> read_hundred_car_rows(std::string_view text,
                                                                        std::string_view source,
                                                                        std::int64_t event);
+
+/// The name of the release's table of events.
+constexpr std::string_view hundred_car_table = "100CarEventVideoReducedData_v1_5.txt";
+
+/// Whether a file of the release with this name holds series: HundredCar_*.
+[[nodiscard]] bool is_hundred_car_series(std::string_view file_name);
+
+/// Takes the first rows on end that have the same first field off a file's text.
+[[nodiscard]] std::string_view cut_hundred_car_event(std::string_view& rest);
+
+/// The event of which a row is, its first field; nullopt when that is no whole number from 0 to
+/// 1e9.
+[[nodiscard]] std::optional<std::int64_t> hundred_car_number(std::string_view row);
 
 /// What people saw in the videos of one event; words are the study's.
 struct HundredCarEvent {

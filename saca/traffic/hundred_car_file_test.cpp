@@ -113,6 +113,20 @@ TEST(ReadHundredCarRows, NamesWhatIsWrong) {
   EXPECT_THAT(problem(""), HasSubstr("got none"));
 }
 
+TEST(CutHundredCarEvent, TakesRowsOnEndOfOneEvent) {
+  std::string_view rest = "6,1\n6,2\n7,9\n6,3";
+  EXPECT_EQ(cut_hundred_car_event(rest), "6,1\n6,2\n");
+  EXPECT_EQ(cut_hundred_car_event(rest), "7,9\n");
+  EXPECT_EQ(cut_hundred_car_event(rest), "6,3");
+  EXPECT_TRUE(rest.empty());
+  EXPECT_EQ(hundred_car_number(" 7,9\n"), 7);
+  for (const std::string_view row : {"", "x,1", "nan,1", "1.5,1", "-1,1", "1e10,1"}) {
+    EXPECT_EQ(hundred_car_number(row), std::nullopt) << row;
+  }
+  EXPECT_TRUE(is_hundred_car_series("HundredCar_Public_8911.txt"));
+  EXPECT_FALSE(is_hundred_car_series(hundred_car_table));
+}
+
 TEST(ReadHundredCarEvent, NamesWhatIsWrong) {
   const auto message = [](std::string_view text) {
     return read_hundred_car_event(text, "t.txt", 7).error().message;

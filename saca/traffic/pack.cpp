@@ -82,20 +82,6 @@ Result<Packed> pack_each(const std::vector<fs::path>& files, const PackProgress&
   return packed;
 }
 
-constexpr std::string_view event_table = "100CarEventVideoReducedData_v1_5.txt";
-constexpr std::string_view series_prefix = "HundredCar_";
-
-/// Rows on end that have the same first field.
-std::string_view cut_event(std::string_view& rest) {
-  const auto first_field = [](std::string_view text) { return text.substr(0, text.find(',')); };
-  const std::string_view whole = rest;
-  const std::string_view event = first_field(whole.substr(0, whole.find('\n')));
-  while (!rest.empty() && first_field(rest.substr(0, rest.find('\n'))) == event) {
-    (void)cut_line(rest);
-  }
-  return whole.substr(0, whole.size() - rest.size());
-}
-
 void pack_event(const fs::path& path, std::string_view rows_text, const fs::path& table_path,
                 std::string_view table, Packed& packed) {
   const std::string_view field = trimmed(rows_text.substr(0, rows_text.find_first_of(",\r\n")));
@@ -103,20 +89,18 @@ void pack_event(const fs::path& path, std::string_view rows_text, const fs::path
     return;
   }
   const std::string source = path.string() + ", event " + std::string(field.substr(0, 20));
-  const std::optional<double> number = finite_number(field);
-  constexpr double most = 1e9;
-  if (!number || !(*number >= 0.0 && *number <= most) || *number != std::floor(*number)) {
+  const std::optional<std::int64_t> event = hundred_car_number(rows_text);
+  if (!event) {
     refuse({Error::Code::malformed, source + ": want a whole number in column 1"}, packed);
     return;
   }
-  const auto event = static_cast<std::int64_t>(*number);
-  const auto told = read_hundred_car_event(table, table_path.string(), event);
-  const auto rows = read_hundred_car_rows(rows_text, source, event);
+  const auto told = read_hundred_car_event(table, table_path.string(), *event);
+  const auto rows = read_hundred_car_rows(rows_text, source, *event);
   if (!told.has_value() || !rows.has_value()) {
     refuse(told.has_value() ? rows.error() : told.error(), packed);
     return;
   }
-  keep(recording_of_event(rows.value(), told.value(), "event " + std::to_string(event),
+  keep(recording_of_event(rows.value(), told.value(), "event " + std::to_string(*event),
                           packed.set.skipped),
        packed);
 }
@@ -163,11 +147,12 @@ Result<Packed> pack_commonroad(const std::vector<fs::path>& files, const PackPro
 
 Result<Packed> pack_hundred_car(const std::vector<fs::path>& files, const PackProgress& progress) {
   const auto table = std::find_if(files.begin(), files.end(), [](const fs::path& path) {
-    return path.filename() == event_table;
+    return path.filename() == hundred_car_table;
   });
   if (table == files.end()) {
-    return Error{Error::Code::malformed, "want a table of events " + std::string(event_table) +
-                                             " among the files, got none"};
+    return Error{
+        Error::Code::malformed,
+        "want a table of events " + std::string(hundred_car_table) + " among the files, got none"};
   }
   const Result<std::string> text = read_file(*table);
   if (!text.has_value()) {
@@ -175,7 +160,7 @@ Result<Packed> pack_hundred_car(const std::vector<fs::path>& files, const PackPr
   }
   std::vector<fs::path> series;
   std::copy_if(files.begin(), files.end(), std::back_inserter(series), [](const fs::path& path) {
-    return path.filename().string().rfind(series_prefix, 0) == 0;
+    return is_hundred_car_series(path.filename().string());
   });
   return pack_each(series, progress, [&](const fs::path& path, Packed& packed) {
     const Result<std::string> bytes = read_file(path);
@@ -184,7 +169,7 @@ Result<Packed> pack_hundred_car(const std::vector<fs::path>& files, const PackPr
       return;
     }
     for (std::string_view rest = bytes.value(); !rest.empty();) {
-      pack_event(path, cut_event(rest), *table, text.value(), packed);
+      pack_event(path, cut_hundred_car_event(rest), *table, text.value(), packed);
     }
   });
 }
