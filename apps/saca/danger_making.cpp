@@ -110,11 +110,15 @@ Result<Solved> solved_now(const reach::DangerCase& wanted) {
 
 }  // namespace
 
-std::vector<reach::DangerCase> needed_tables(const ScenarioInputs& inputs) {
+Result<std::vector<reach::DangerCase>> needed_tables(const ScenarioInputs& inputs) {
   const world::Footprint ego = manoeuvre::footprint(inputs.car);
-  return reach::danger_cases(reach::avoidance_of(inputs.car, table_grip), ego,
-                             sim::believed_grip(inputs.scenario),
-                             to_be_judged(inputs.scenario, ego));
+  auto cases =
+      reach::danger_cases(reach::avoidance_of(inputs.car, table_grip), ego,
+                          sim::believed_grip(inputs.scenario), to_be_judged(inputs.scenario, ego));
+  if (!cases.has_value()) {
+    return Error{cases.error().code, inputs.car_name + ": " + cases.error().message};
+  }
+  return cases;
 }
 
 Result<ReadyTable> ready_table(const Inputs& inputs, const reach::DangerCase& wanted) {
@@ -139,8 +143,12 @@ Result<ReadyTable> ready_table(const Inputs& inputs, const reach::DangerCase& wa
 }
 
 Result<reach::DangerModel> usual_danger(const ScenarioInputs& inputs) {
+  const auto needed = needed_tables(inputs);
+  if (!needed.has_value()) {
+    return needed.error();
+  }
   std::vector<reach::DangerTable> tables;
-  for (const reach::DangerCase& wanted : needed_tables(inputs)) {
+  for (const reach::DangerCase& wanted : needed.value()) {
     const auto ready = ready_table(inputs, wanted);
     if (!ready.has_value()) {
       return ready.error();

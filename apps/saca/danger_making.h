@@ -13,7 +13,8 @@
 namespace saca::app {
 
 /// The tables that the scenario's actors need.
-[[nodiscard]] std::vector<reach::DangerCase> needed_tables(const ScenarioInputs& inputs);
+/// @return  an error naming the car where it is beyond what a table may hold
+[[nodiscard]] Result<std::vector<reach::DangerCase>> needed_tables(const ScenarioInputs& inputs);
 
 struct ReadyTable {
   reach::Solved table;

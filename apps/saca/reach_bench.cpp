@@ -316,7 +316,11 @@ Result<std::vector<reach::DangerTable>> two_tables(const reach::Avoidance& limit
                                                    const world::Footprint& other) {
   std::vector<reach::DangerTable> tables;
   const std::array wanted{reach::ToBeJudged{other, 5.0}};
-  for (const reach::DangerCase& one : reach::danger_cases(limits, ego, dry_grip, wanted)) {
+  const auto cases = reach::danger_cases(limits, ego, dry_grip, wanted);
+  if (!cases.has_value()) {
+    return cases.error();
+  }
+  for (const reach::DangerCase& one : cases.value()) {
     note_progress("a table of danger, " + one.name);
     reach::Problem problem = avoidance_problem(one.asked);
     problem.times = {0.5};

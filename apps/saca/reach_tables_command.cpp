@@ -49,9 +49,12 @@ Result<std::map<std::string, NeededByCar>> needed_by(const std::vector<std::stri
     }
     auto& car =
         cars.try_emplace(inputs.value().car_name, NeededByCar{inputs.value(), {}}).first->second;
-    for (reach::DangerCase& table : needed_tables(inputs.value())) {
-      std::string name = table.name;
-      car.tables.try_emplace(std::move(name), std::move(table));
+    const auto needed = needed_tables(inputs.value());
+    if (!needed.has_value()) {
+      return needed.error();
+    }
+    for (const reach::DangerCase& table : needed.value()) {
+      car.tables.try_emplace(table.name, table);
     }
   }
   return cars;

@@ -158,7 +158,8 @@ Result<AvoidanceCase> parse_avoidance_case(std::string_view text, std::string_vi
   Table obstacle = root.table("obstacle");
   problem.obstacle = case_footprint(obstacle, "left_edge");
   if (problem.obstacle) {
-    problem.system.obstacle_speed = obstacle.number("speed_mps", {-60.0, 60.0});
+    problem.system.obstacle_speed =
+        obstacle.number("speed_mps", {-fastest_obstacle, fastest_obstacle});
   }
   problem.view = case_view(root, !problem.obstacle);
   problem.grid = case_grid(root.table("grid"), problem.view);

@@ -21,6 +21,9 @@ enum class View : std::uint8_t {
   edge,      ///< y, course, speed: `EdgeAvoidance`, beside a road edge alone
 };
 
+/// The fastest obstacle that a case may hold, either way [m/s].
+constexpr double fastest_obstacle = 60.0;
+
 /// One avoidance problem as it stands in a file of `data/reach/`.
 struct AvoidanceCase {
   std::string name;

@@ -70,8 +70,8 @@ std::string text_of(std::string_view title, const Avoidance& car, const Footprin
 
 }  // namespace
 
-std::vector<DangerCase> danger_cases(const Avoidance& car, const Footprint& ego, double grip,
-                                     std::span<const ToBeJudged> wanted) {
+Result<std::vector<DangerCase>> danger_cases(const Avoidance& car, const Footprint& ego,
+                                             double grip, std::span<const ToBeJudged> wanted) {
   const double speed_factor = scaled_to({.grip = std::min(grip, car.grip)}, car.grip).speed_factor;
   std::array<double, standard_bodies.size()> top_speeds;
   top_speeds.fill(-1.0);  // not wanted
@@ -85,13 +85,17 @@ std::vector<DangerCase> danger_cases(const Avoidance& car, const Footprint& ego,
   for (std::size_t body = 0; body < standard_bodies.size(); ++body) {
     const StandardBody& of = standard_bodies[body];
     constexpr double rounding = 1e-6;
-    const double top = top_speeds[body] > 0.0 ? top_speeds[body] + faster : top_speeds[body];
+    const double top = top_speeds[body] > 0.0
+                           ? std::min(top_speeds[body] + faster, fastest_obstacle)
+                           : top_speeds[body];
     const int steps = top < 0.0 ? -1 : static_cast<int>(std::ceil(top / speed_step - rounding));
     for (int i = 0; i <= steps; ++i) {
       const double speed = i * speed_step;
       std::string title = fmt::format("{}_{}mps", of.name, speed);
       auto asked = parse_avoidance_case(text_of(title, car, ego, of.footprint, speed), title);
-      expects(asked.has_value(), "car and ego are within what a case may hold");
+      if (!asked.has_value()) {
+        return Error{asked.error().code, "danger of " + asked.error().message};
+      }
       cases.push_back({std::move(title), std::move(asked).value()});
     }
   }

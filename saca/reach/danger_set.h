@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "saca/core/result.h"
 #include "saca/reach/avoidance_case.h"
 #include "saca/reach/danger.h"
 #include "saca/reach/solve.h"
@@ -25,15 +26,18 @@ struct DangerCase {
 /// The tables with which these obstacles can be judged: for each, those of the standard body
 /// nearest to it (person or cycle, car, truck, articulated truck) at rest and in steps of speed up
 /// to 1 m/s beyond its top speed, as perception or a forecast may have it. Each has 0.58 million
-/// cells and takes seconds to solve.
+/// cells and takes seconds to solve. No table is of an obstacle beyond `fastest_obstacle`, which
+/// the top speed may be on little grip: such meetings are judged by a few evasions (danger.h).
 ///
 /// The steps, and the cells: docs/decisions/0014 has what they cost in accuracy.
 /// @param car   of the ego; its grip is that of the tables
 /// @param grip  of the road on which they are to serve: on less than the tables' a speed counts for
 ///              more [-], > 0
-[[nodiscard]] std::vector<DangerCase> danger_cases(const Avoidance& car,
-                                                   const world::Footprint& ego, double grip,
-                                                   std::span<const ToBeJudged> wanted);
+/// @return      Error::Code::malformed, naming what is wanted, for a car or an ego beyond what a
+///              case may hold
+[[nodiscard]] Result<std::vector<DangerCase>> danger_cases(const Avoidance& car,
+                                                           const world::Footprint& ego, double grip,
+                                                           std::span<const ToBeJudged> wanted);
 
 /// By which they are solved for runs.
 [[nodiscard]] Scheme danger_scheme(int threads);

@@ -19,7 +19,7 @@ constexpr Footprint ego{.length = 4.7, .width = 1.9, .centre_x = -0.1};
 
 std::vector<std::string> names(double grip, std::vector<ToBeJudged> wanted) {
   std::vector<std::string> found;
-  for (const DangerCase& one : danger_cases(car, ego, grip, wanted)) {
+  for (const DangerCase& one : danger_cases(car, ego, grip, wanted).value()) {
     found.push_back(one.name);
   }
   return found;
@@ -50,9 +50,28 @@ TEST(DangerCases, OnLessGripReachFarther) {
   EXPECT_EQ(names(1.2, {{body, 9.0}}), names(0.9, {{body, 9.0}})) << "more is taken as the tables'";
 }
 
+// 30 m/s on ice count as 30 * sqrt(0.9 / 0.1) = 90: more than a case may hold.
+TEST(DangerCases, EndAtTheFastestObstacleThatACaseMayHold) {
+  const Footprint body{.length = 4.8, .width = 1.9};
+  EXPECT_THAT(names(0.1, {{body, 30.0}}),
+              testing::AllOf(testing::SizeIs(13), testing::Contains("car_60mps")));
+  EXPECT_EQ(names(0.1, {{body, 1e300}}), names(0.1, {{body, 30.0}}));
+}
+
+TEST(DangerCases, SayWhatACaseMayNotHold) {
+  const std::vector<ToBeJudged> wanted{{{.length = 4.8, .width = 1.9}, 2.0}};
+  Avoidance spinning = car;
+  spinning.tightest_curvature = 3.0;
+  EXPECT_THAT(danger_cases(spinning, ego, 0.9, wanted).error().message,
+              testing::HasSubstr("tightest_curvature_1pm"));
+  EXPECT_THAT(danger_cases(car, {.length = 50.0, .width = 1.9}, 0.9, wanted).error().message,
+              testing::HasSubstr("length_m"));
+}
+
 TEST(DangerCases, HoldWhatTheyWereAskedFor) {
   const auto cases =
-      danger_cases(car, ego, 0.9, std::vector<ToBeJudged>{{{.length = 4.8, .width = 1.9}, 2.0}});
+      danger_cases(car, ego, 0.9, std::vector<ToBeJudged>{{{.length = 4.8, .width = 1.9}, 2.0}})
+          .value();
   ASSERT_EQ(cases.size(), 2U);
   const AvoidanceCase& asked = cases[1].asked;
   EXPECT_EQ(asked.system.obstacle_speed, 5.0);

@@ -209,7 +209,8 @@ std::vector<DangerTable> tables_of_a_car(double top_speed, const Avoidance& limi
   std::vector<DangerTable> tables;
   const std::array<ToBeJudged, 1> wanted{{{.obstacle = {.length = 4.8, .width = 1.9},  //
                                            .top_speed = top_speed}}};
-  for (const DangerCase& one : danger_cases(limits, ego, limits.grip, wanted)) {
+  const auto cases = danger_cases(limits, ego, limits.grip, wanted);
+  for (const DangerCase& one : cases.value()) {
     tables.push_back({*one.asked.obstacle, one.asked.system.obstacle_speed, one.asked.view,
                       std::make_shared<ValueTable>(solved_table(one.asked, danger_scheme(2)))});
   }

@@ -208,7 +208,7 @@ TEST(Solve, BesideAnObstacleAtRestFourSecondsAreEnough) {
   const Avoidance car;
   const std::vector<ToBeJudged> parked{
       {.obstacle = {.shape = world::Shape::box, .length = 4.8, .width = 1.9}, .top_speed = 0.0}};
-  const auto cases = danger_cases(car, parked[0].obstacle, car.grip, parked);
+  const auto cases = danger_cases(car, parked[0].obstacle, car.grip, parked).value();
   ASSERT_EQ(cases.size(), 1U);
   AvoidanceCase asked = cases[0].asked;
   const double top_speed = asked.grid.axes[3].last;
