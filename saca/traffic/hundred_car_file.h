@@ -15,7 +15,8 @@ namespace saca::traffic {
 // released. Source of columns, units and signs: Researcher Dictionary for Time-Series Data, version
 // 1.2, 2010, and Researcher Dictionary for Video Reduction Data, version 1.3.
 
-/// One thing that a radar saw, in SI units and our signs.
+/// One thing that a radar saw, in SI units and our signs. What it tells of beyond 500 m or 100 m/s
+/// is left out (bounds are ours).
 struct RadarTarget {
   std::int64_t id = 0;   ///< 1 to 255, given anew in turn
   double range = 0.0;    ///< [m], > 0

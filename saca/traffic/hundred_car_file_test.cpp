@@ -94,6 +94,23 @@ TEST(ReadHundredCarRows, KnowsWhatIsMissing) {
   EXPECT_TRUE(rows.value()[0].front.empty());
 }
 
+// 1,100 ft/s = 335 m/s, as the release has it of what is nowhere.
+TEST(ReadHundredCarRows, LeavesOutWhatNoRadarSees) {
+  const auto rows = read_hundred_car_rows(row({{1, "7"},
+                                               {21, "55"},
+                                               {35, "100"},
+                                               {49, "-1100"},
+                                               {22, "56"},
+                                               {36, "3000"},
+                                               {23, "57"},
+                                               {37, "100"},
+                                               {51, "-10"}}),
+                                          "f.txt", 7);
+  ASSERT_TRUE(rows.has_value()) << rows.error().message;
+  ASSERT_EQ(rows.value()[0].front.size(), 1U);
+  EXPECT_EQ(rows.value()[0].front[0].id, 57);
+}
+
 TEST(ReadHundredCarRows, PicksTheEventFromACompiledFile) {
   const std::string text = row({{1, "6"}, {2, "9"}}) + row({{1, "7"}, {2, "1"}}) +
                            row({{1, "7"}, {2, "2"}}) + row({{1, "8"}, {2, "5"}});
