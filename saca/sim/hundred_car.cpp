@@ -8,7 +8,8 @@
 
 #include "saca/core/contract.h"
 #include "saca/core/file.h"
-#include "saca/sim/ego_path.h"
+#include "saca/sim/hundred_car_ego.h"
+#include "saca/sim/hundred_car_judge.h"
 #include "saca/sim/hundred_car_words.h"
 #include "saca/sim/rounding.h"
 #include "saca/traffic/radar_track.h"
@@ -20,19 +21,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double dt = traffic::hundred_car_step;
-constexpr std::size_t half_second = 5;   // rows
-constexpr std::size_t longest_hold = 8;  // rows between two values of the slowest speed sensor
-constexpr std::size_t longest_speed_gap = 15;  // rows
+constexpr std::size_t half_second = 5;  // rows
 constexpr std::size_t fewest_follower_rows = 20;
 constexpr std::size_t fewest_lead_rows = 20;
 constexpr double after_the_end = 8.0;  // of the recording, for what SACA does instead [s]
-
-/// Rows of the scenario, as [first, last] indices.
-struct Window {
-  std::size_t first;
-  std::size_t last;
-  [[nodiscard]] std::size_t size() const { return last - first + 1; }
-};
 
 /// Index of the row with a sync, clamped to the rows there are.
 std::size_t row_at(const std::vector<traffic::HundredCarRow>& rows, std::int64_t sync) {
@@ -44,69 +36,16 @@ std::size_t steps(double seconds) {
   return static_cast<std::size_t>(std::lround(seconds / dt));
 }
 
-/// The ego's measured motion in the window, treated.
-struct EgoMotion {
-  std::vector<double> speed;
-  std::vector<double> yaw_rate;  ///< without the bias
-  std::size_t num_speed_missing = 0;
-  EgoPath path;
-};
-
-/// Longest stretch of NaN.
-std::size_t longest_missing(const std::vector<double>& values) {
-  std::size_t longest = 0;
-  std::size_t run = 0;
-  for (const double value : values) {
-    run = std::isnan(value) ? run + 1 : 0;
-    longest = std::max(longest, run);
-  }
-  return longest;
-}
-
-Result<EgoMotion> ego_motion(const std::vector<traffic::HundredCarRow>& rows, const Window& window,
-                             std::size_t conflict_row, bool curved) {
-  std::vector<double> speed;
-  std::vector<double> yaw_rate;
-  for (std::size_t row = window.first; row <= window.last; ++row) {
-    speed.push_back(rows[row].speed);
-    yaw_rate.push_back(rows[row].yaw_rate);
-  }
-  if (longest_missing(speed) > longest_speed_gap || longest_missing(yaw_rate) > longest_speed_gap) {
-    return Error{Error::Code::malformed,
-                 "want speed and yaw rate with gaps of at most 1.5 s, got longer ones in rows " +
-                     std::to_string(window.first + 1) + " to " + std::to_string(window.last + 1)};
-  }
-  EgoMotion ego;
-  ego.num_speed_missing = static_cast<std::size_t>(
-      std::count_if(speed.begin(), speed.end(), [](double v) { return std::isnan(v); }));
-  const std::vector<double> updates =
-      traffic::filled(traffic::without_holds(traffic::filled(speed).values, longest_hold)).values;
-  ego.speed = traffic::line_fit(updates, dt, half_second).values;
-  for (double& v : ego.speed) {
-    v = std::max(0.0, v);
-  }
-  constexpr double impossible =
-      0.35;  // from the median of its neighbours [rad/s]: a jolt, not a turn
-  (void)traffic::remove_outliers(yaw_rate, std::vector<double>(yaw_rate.size(), 0.0), dt, 2,
-                                 impossible);
-  ego.yaw_rate = traffic::filled(yaw_rate).values;
-  const std::size_t keeping = conflict_row - window.first + 1;
-  ego.path = ego_path(ego.speed, ego.yaw_rate, dt, keeping, curved);
-  for (double& rate : ego.yaw_rate) {
-    rate -= ego.path.gyro_bias;
-  }
-  return ego;
-}
-
 /// The ego's lane with what the videos say of the road.
-world::Road road_of(const traffic::HundredCarEvent& event, double curvature) {
+/// @param num_right  lanes to the right of the ego's
+world::Road road_of(const traffic::HundredCarEvent& event, double curvature, int num_right) {
   world::Road road;
   road.curvature = rounded(curvature, 1e6);
   road.lane_width = assumed_lane_width;
   const LanesAround lanes = lanes_around(event);
   const double half = 0.5 * assumed_lane_width;
-  road.left_edge = half + lanes.left * assumed_lane_width;
-  road.right_edge = -half;
+  road.left_edge = half + (lanes.left - num_right) * assumed_lane_width;
+  road.right_edge = -half - num_right * assumed_lane_width;
   road.left_beyond = lanes.divided ? world::Beyond::barrier : world::Beyond::unmarked;
   road.oncoming_left = lanes.oncoming_left;
   return road;
@@ -129,12 +68,18 @@ struct Rebuilt {
 };
 
 /// The part of a track that lies in the window.
-Window common(const traffic::RadarTrack& track, const Window& window) {
+RowRange common(const traffic::RadarTrack& track, const RowRange& window) {
   return {std::max(track.first_row, window.first), std::min(track.last_row, window.last)};
 }
 
+/// Whether the track and the window share so many rows.
+bool overlap_for(const traffic::RadarTrack& track, const RowRange& window, std::size_t num_rows) {
+  const RowRange part = common(track, window);
+  return part.first <= part.last && part.size() >= num_rows;
+}
+
 /// What was measured of a part of a track.
-TreatedTrack treated(const traffic::RadarTrack& track, const Window& part) {
+TreatedTrack treated(const traffic::RadarTrack& track, const RowRange& part) {
   TreatedTrack told;
   told.first_row = static_cast<std::int64_t>(part.first) + 1;
   told.last_row = static_cast<std::int64_t>(part.last) + 1;
@@ -158,9 +103,9 @@ TreatedTrack treated(const traffic::RadarTrack& track, const Window& part) {
 
 /// @param side    +1: the radar looks forward; -1: backward
 /// @param length  of the body that is seen [m]
-Rebuilt rebuilt(const traffic::RadarTrack& track, const Window& window, const EgoMotion& ego,
+Rebuilt rebuilt(const traffic::RadarTrack& track, const RowRange& window, const EgoMotion& ego,
                 const world::Road& road, double side, double length) {
-  const Window part = common(track, window);
+  const RowRange part = common(track, window);
   constexpr double slope_weight = 1.0;  // [s^2]: noise of 0.3 m and 0.3 m/s
   const traffic::Fit range =
       traffic::parabola_fit(track.range, track.rate, dt, half_second, slope_weight);
@@ -203,7 +148,7 @@ ScenarioActor actor_of(const AssumedBody& body, std::uint8_t id, Recording recor
 }
 
 /// What the driver did, measured: the hardest braking, and when the brake lights came on for it.
-DriverAction driver_action(const std::vector<traffic::HundredCarRow>& rows, const Window& window,
+DriverAction driver_action(const std::vector<traffic::HundredCarRow>& rows, const RowRange& window,
                            const std::vector<double>& speed) {
   const std::vector<double> slopes = traffic::line_fit(speed, dt, 2).slopes;
   const auto hardest = std::min_element(slopes.begin(), slopes.end()) - slopes.begin();
@@ -223,9 +168,9 @@ DriverAction driver_action(const std::vector<traffic::HundredCarRow>& rows, cons
 
 /// The rows kept: around the conflict, from when the vehicle ahead is seen. They go on when it is
 /// not seen any more, for the vehicle behind.
-Window window_of(const std::vector<traffic::HundredCarRow>& rows,
-                 const traffic::HundredCarEvent& event, const HundredCarRequest& request,
-                 const traffic::RadarTrack& lead) {
+RowRange window_of(const std::vector<traffic::HundredCarRow>& rows,
+                   const traffic::HundredCarEvent& event, const HundredCarRequest& request,
+                   const traffic::RadarTrack& lead) {
   const std::size_t start = row_at(rows, event.start_sync);
   const std::size_t before = std::min(start, steps(request.before));
   const std::size_t end = row_at(rows, event.end_sync) + steps(request.after);
@@ -247,7 +192,7 @@ struct Follower {
 
 /// The vehicle behind, if the rear radar saw one for long enough.
 std::optional<Follower> follower_of(const std::vector<traffic::HundredCarRow>& rows,
-                                    const Window& window, std::size_t conflict,
+                                    const RowRange& window, std::size_t conflict,
                                     const EgoMotion& ego, const traffic::HundredCarEvent& event,
                                     const Scenario& scenario) {
   const std::optional<traffic::RadarTrack> track =
@@ -262,47 +207,72 @@ std::optional<Follower> follower_of(const std::vector<traffic::HundredCarRow>& r
   return Follower{actor_of(body, id, std::move(behind.recording)), behind.treated};
 }
 
-Error no_lead(const HundredCarRequest& request, const std::string& why) {
-  return {Error::Code::malformed,
-          "event " + std::to_string(request.event) +
-              ": want a lead target near the radar's axis around the conflict, got " + why};
+HundredCarRefusal no_lead(const HundredCarRequest& request, const std::string& why) {
+  return refusal(request, HundredCarReason::no_lead,
+                 "want a lead target near the radar's axis around the conflict, got " + why);
 }
 
-}  // namespace
+/// The scenario's rows, and the ego's motion along the lane that fits the time before the conflict.
+struct LaneFound {
+  RowRange window;
+  RowRange kept;
+  EgoMotion ego;
+};
 
-Result<HundredCarImport> rebuild_hundred_car(const std::vector<traffic::HundredCarRow>& rows,
-                                             const traffic::HundredCarEvent& event,
-                                             const HundredCarRequest& request) {
-  expects(!rows.empty(), "there are rows");
-  expects(request.before >= 1.0 && request.after >= 0.0, "before >= 1, after >= 0");
-  const std::optional<traffic::RadarTrack> lead = conflict_lead(rows, event);
-  if (!lead) {
-    return no_lead(request, "none");
-  }
-  const Window window = window_of(rows, event, request, *lead);
-  if (lead->last_row < window.first + fewest_lead_rows) {
-    return no_lead(request, "one seen for less than 2 s");
+/// Tries the longest time before the conflict first. Where the car's body does not stay in a lane
+/// for so long, it came from elsewhere, and the scenario begins later.
+std::variant<LaneFound, HundredCarRefusal> lane_before(
+    const std::vector<traffic::HundredCarRow>& rows, const traffic::HundredCarEvent& event,
+    const HundredCarRequest& request, const RowRange& window) {
+  const std::size_t conflict = std::min(row_at(rows, event.start_sync), window.last);
+  constexpr double least_kept = 2.0;  // [s]
+  if (conflict < steps(least_kept)) {
+    return refusal(request, HundredCarReason::no_lane_before,
+                   "want rows of at least 2 s before the conflict, got " +
+                       shown(static_cast<double>(conflict) * dt, 1) + " s");
   }
   const bool curved = event.alignment.starts_with("Curve");
-  const std::size_t conflict =
-      std::clamp(row_at(rows, event.start_sync), window.first, window.last);
-  const Result<EgoMotion> motion = ego_motion(rows, window, conflict, curved);
-  if (!motion.has_value()) {
-    return Error{motion.error().code,
-                 "event " + std::to_string(request.event) + ": " + motion.error().message};
+  constexpr double heading_room = 0.1;  // [m]: half a body of 4.7 m, turned by 2.4 deg
+  const double body_in_lane = 0.5 * (assumed_lane_width - standard_ego.width) - heading_room;
+  std::optional<double> offset;
+  for (const double kept_for : {std::max(12.0, request.before), 8.0, 5.0}) {
+    const RowRange kept{conflict - std::min(conflict, steps(kept_for)), conflict};
+    const RowRange part{std::max(window.first, kept.first), window.last};
+    std::optional<EgoMotion> ego = ego_motion(rows, kept, part, curved);
+    if (ego && ego->largest_offset <= body_in_lane) {
+      return LaneFound{part, kept, *std::move(ego)};
+    }
+    offset = ego ? ego->largest_offset : offset;
   }
-  const EgoMotion& ego = motion.value();
+  if (!offset) {
+    return refusal(request, HundredCarReason::sensor_gap,
+                   "want speed and yaw rate with gaps of at most 1.5 s, got longer ones in rows " +
+                       std::to_string(window.first + 1) + " to " + std::to_string(window.last + 1));
+  }
+  return refusal(request, HundredCarReason::no_lane_before,
+                 "want a driver who stays within " + shown(body_in_lane, 2) +
+                     " m of the middle of a lane before the conflict, got " + shown(*offset, 2) +
+                     " m from the one that fits best");
+}
 
+/// All bodies and words of the scenario.
+HundredCarImport assembled(const std::vector<traffic::HundredCarRow>& rows,
+                           const traffic::HundredCarEvent& event, const HundredCarRequest& request,
+                           const traffic::RadarTrack& lead, const LaneFound& found, int num_right) {
+  const RowRange& window = found.window;
+  const EgoMotion& ego = found.ego;
   HundredCarImport made;
   Scenario& scenario = made.scenario;
   HundredCarReport& report = made.report;
-  scenario.road = road_of(event, ego.path.curvature);
+  scenario.road = road_of(event, ego.path.curvature, num_right);
   scenario.ego = ego_recording(ego, scenario.road);
   const AssumedBody lead_body = assumed_body(event.lead_type);
-  Rebuilt ahead = rebuilt(*lead, window, ego, scenario.road, 1.0, lead_body.length);
+  Rebuilt ahead = rebuilt(lead, window, ego, scenario.road, 1.0, lead_body.length);
   scenario.actors.push_back(actor_of(lead_body, 1, std::move(ahead.recording)));
   report.lead = ahead.treated;
 
+  const std::size_t conflict =
+      std::clamp(row_at(rows, event.start_sync), window.first, window.last);
   if (std::optional<Follower> behind = follower_of(rows, window, conflict, ego, event, scenario)) {
     scenario.actors.push_back(std::move(behind->actor));
     report.follower = behind->treated;
@@ -312,11 +282,106 @@ Result<HundredCarImport> rebuild_hundred_car(const std::vector<traffic::HundredC
   report.last_row = static_cast<std::int64_t>(window.last) + 1;
   report.num_speed_missing = ego.num_speed_missing;
   report.gyro_bias = ego.path.gyro_bias;
+  report.curvature = scenario.road.curvature;
+  report.kept_for = static_cast<double>(found.kept.size() - 1) * dt;
+  report.keeping_rms = ego.path.keeping_rms;
   scenario.provenance = Provenance{request.event, report.first_row, report.last_row};
   scenario.duration = static_cast<double>(window.size() - 1) * dt + after_the_end;
   scenario.grip = assumed_grip(event.surface);
   describe(scenario, event, request, report, driver_action(rows, window, ego.speed));
   return made;
+}
+
+/// An event as the rows of a window tell it.
+struct Attempt {
+  std::variant<HundredCarImport, HundredCarRefusal> made;
+  std::optional<std::size_t> departs_at;  ///< row in which the driver leaves the road
+  bool to_the_right = false;              ///< likewise
+};
+
+/// @param num_right  lanes to the right of the ego's
+Attempt attempt(const RowRange& window, int num_right,
+                const std::vector<traffic::HundredCarRow>& rows,
+                const traffic::HundredCarEvent& event, const HundredCarRequest& request,
+                const traffic::RadarTrack& lead) {
+  const auto lane = lane_before(rows, event, request, window);
+  if (const auto* problem = std::get_if<HundredCarRefusal>(&lane)) {
+    return {*problem};
+  }
+  const auto& found = std::get<LaneFound>(lane);
+  if (!overlap_for(lead, found.window, fewest_lead_rows)) {
+    return {no_lead(request, "one seen for less than 2 s while the lane is kept and after")};
+  }
+  HundredCarImport made = assembled(rows, event, request, lead, found, num_right);
+  if (is_struck(event) && !made.report.follower) {
+    return {refusal(request, HundredCarReason::no_follower,
+                    "want a target of the rear radar for 2 s in a conflict with the vehicle "
+                    "behind, got none")};
+  }
+  if (const std::string problem = scenario_problem(made.scenario); !problem.empty()) {
+    return {refusal(request, HundredCarReason::no_scenario, problem)};
+  }
+  if (auto wrong = contradiction(made.scenario, event, request)) {
+    const auto& departure = wrong->departure;
+    return {std::move(wrong->refusal),
+            departure ? std::optional(found.window.first + steps(departure->time)) : std::nullopt,
+            departure && departure->side == outcome::Side::right};
+  }
+  return {std::move(made)};
+}
+
+}  // namespace
+
+std::variant<HundredCarImport, HundredCarRefusal> judged_hundred_car(
+    const std::vector<traffic::HundredCarRow>& rows, const traffic::HundredCarEvent& event,
+    const HundredCarRequest& request) {
+  constexpr double longest = 600.0;  // [s]
+  expects(!rows.empty(), "there are rows");
+  expects(request.before >= 1.0 && request.before <= longest && request.after >= 0.0 &&
+              request.after <= longest,
+          "before from 1 to 600, after from 0 to 600");
+  if (auto problem = excluded(event, request)) {
+    return *std::move(problem);
+  }
+  if (const std::string problem = impossible_value(rows); !problem.empty()) {
+    return refusal(request, HundredCarReason::impossible_values, problem);
+  }
+  const std::optional<traffic::RadarTrack> lead = conflict_lead(rows, event);
+  if (!lead) {
+    return no_lead(request, "none");
+  }
+  RowRange window = window_of(rows, event, request, *lead);
+  if (!overlap_for(*lead, window, fewest_lead_rows)) {
+    return no_lead(request, "one seen for less than 2 s");
+  }
+  const std::size_t end = row_at(rows, event.end_sync);
+  std::optional<HundredCarRefusal> departure;  // of the whole window, if he may only turn off
+  for (;;) {
+    Attempt made = attempt(window, 0, rows, event, request, *lead);
+    if (made.departs_at && made.to_the_right && may_steer_into_right_lane(event)) {
+      Attempt beside = attempt(window, 1, rows, event, request, *lead);
+      made = beside.departs_at ? std::move(made) : std::move(beside);
+    }
+    const auto* problem = std::get_if<HundredCarRefusal>(&made.made);
+    if (problem == nullptr) {
+      return std::move(made.made);
+    }
+    if (!made.departs_at || *made.departs_at <= end) {
+      return departure.value_or(*problem);
+    }
+    departure = departure.value_or(*problem);
+    window.last = std::min(window.last, *made.departs_at) - 1;  // when all is over he may turn off
+  }
+}
+
+Result<HundredCarImport> rebuild_hundred_car(const std::vector<traffic::HundredCarRow>& rows,
+                                             const traffic::HundredCarEvent& event,
+                                             const HundredCarRequest& request) {
+  auto judged = judged_hundred_car(rows, event, request);
+  if (const auto* problem = std::get_if<HundredCarRefusal>(&judged)) {
+    return Error{Error::Code::malformed, problem->message};
+  }
+  return std::get<HundredCarImport>(std::move(judged));
 }
 
 Result<HundredCarImport> import_hundred_car(const fs::path& path,

@@ -11,14 +11,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A number with so many decimals, for people.
-std::string shown(double value, int decimals) {
-  std::array<char, 64> text{};
-  const auto [end, problem] = std::to_chars(text.data(), text.data() + text.size(), value,
-                                            std::chars_format::fixed, decimals);
-  return {text.data(), end};
-}
-
 bool contains(std::string_view text, std::string_view part) {
   return text.find(part) != std::string_view::npos;
 }
@@ -54,14 +46,16 @@ std::string treatment(std::string_view who, std::string_view radar, const Treate
 std::string notes_of(const Scenario& scenario, const traffic::HundredCarEvent& event,
                      const HundredCarReport& report) {
   std::string notes;
+  const bool second = -scenario.road.right_edge > scenario.road.lane_width;
   notes += "Rebuilt by `saca import 100car`. The sample at t_s is row " +
            std::to_string(report.first_row) + " + 10 t_s of the event (rows counted from 1).\n";
   notes += "Ego: speed from the composite speed (" + std::to_string(report.num_speed_missing) +
            " rows without it), held values interpolated, straight-line fit over +-0.5 s; heading "
            "from the yaw rate less a bias of " +
            shown(to_degrees(report.gyro_bias), 2) +
-           " deg/s; the driver is taken to keep the middle of the lane until the conflict begins, "
-           "which fixes that bias (straight road) or the curvature (curve).\n";
+           " deg/s; the driver is taken to keep a lane for " + shown(report.kept_for, 1) +
+           " s until the conflict begins (offset from its middle " + shown(report.keeping_rms, 2) +
+           " m rms), which fixes that bias and the lane's curvature.\n";
   notes += treatment("Vehicle ahead", "front", report.lead);
   notes += report.follower ? treatment("Vehicle behind", "rear", *report.follower)
                            : "Vehicle behind: none seen by the rear radar for 2 s or more.\n";
@@ -70,9 +64,12 @@ std::string notes_of(const Scenario& scenario, const traffic::HundredCarEvent& e
       "by a line over +-1 s; ranges run from our car's bumper to the other's; heading along the "
       "lane.\n";
   notes += "Assumed: sizes and masses (typical of \"" + event.lead_type +
-           "\"), lane width 12 ft, the ego in the right-most of \"" + event.lanes + "\" lanes (" +
-           event.flow + "), open ground on the right, grip " + shown(scenario.grip, 1) +
-           " for a surface that was \"" + event.surface + "\" (Wong, Theory of Ground Vehicles).\n";
+           "\"), lane width 12 ft, the ego in the " +
+           std::string(second ? "second from the right, since the driver steered to the right, of"
+                              : "right-most of") +
+           " \"" + event.lanes + "\" lanes (" + event.flow + "), open ground on the right, grip " +
+           shown(scenario.grip, 1) + " for a surface that was \"" + event.surface +
+           "\" (Wong, Theory of Ground Vehicles).\n";
   notes += "Study: " + event.severity + "; " + event.nature + "; " + event.precipitating + "; " +
            event.locality + "; " + event.light + "; " + event.weather + "; " + event.alignment +
            ".\n";
@@ -128,6 +125,40 @@ double assumed_grip(std::string_view surface) {
     return 0.2;
   }
   return surface.starts_with("Icy") ? 0.1 : 0.9;
+}
+
+bool is_rear_end(const traffic::HundredCarEvent& event) {
+  return event.nature.starts_with("Rear-end");
+}
+
+bool is_struck(const traffic::HundredCarEvent& event) {
+  return event.nature.starts_with("Rear-end, struck");
+}
+
+bool may_steer_into_right_lane(const traffic::HundredCarEvent& event) {
+  const bool steered =
+      contains(event.reaction, "steered right") || contains(event.reaction, "Steered to right");
+  const int lanes = leading_number(event.lanes);
+  return steered && (event.flow.starts_with("Not divided") ? lanes / 2 : lanes) >= 2;
+}
+
+bool leaves_lane(const traffic::HundredCarEvent& event) {
+  constexpr std::array<std::string_view, 8> words{"Changing lanes", "Merging",  "Passing",
+                                                  "Turning",        "Entering", "Leaving",
+                                                  "Making",         "Backing"};
+  return std::any_of(words.begin(), words.end(), [&event](std::string_view word) {
+    return event.manoeuvre_before.starts_with(word);
+  });
+}
+
+std::string shown(double value, int decimals) {
+  std::array<char, 64> text{};
+  const auto [end, problem] = std::to_chars(text.data(), text.data() + text.size(), value,
+                                            std::chars_format::fixed, decimals);
+  if (problem != std::errc()) {  // too long: as short as it is exact
+    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+  }
+  return {text.data(), end};
 }
 
 LanesAround lanes_around(const traffic::HundredCarEvent& event) {

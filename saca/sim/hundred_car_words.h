@@ -39,6 +39,24 @@ struct LanesAround {
 };
 [[nodiscard]] LanesAround lanes_around(const traffic::HundredCarEvent& event);
 
+/// Whether the other was ahead or behind, says the study.
+[[nodiscard]] bool is_rear_end(const traffic::HundredCarEvent& event);
+/// Whether it was behind and ran, or nearly ran, into the ego.
+[[nodiscard]] bool is_struck(const traffic::HundredCarEvent& event);
+
+/// Whether the driver's manoeuvre before the conflict takes the car out of a lane: a change of
+/// lanes, merging, passing, turning, parking, backing. Source: Researcher Dictionary for Video
+/// Reduction Data, version 1.3, pre-event manoeuvre.
+[[nodiscard]] bool leaves_lane(const traffic::HundredCarEvent& event);
+
+/// Whether the study says that the driver steered to the right, and counts two lanes or more of his
+/// direction: all lanes, or half of them where the road is not divided. Then he may have been in
+/// the second lane from the right.
+[[nodiscard]] bool may_steer_into_right_lane(const traffic::HundredCarEvent& event);
+
+/// A number with so many decimals, for people.
+[[nodiscard]] std::string shown(double value, int decimals);
+
 /// What was measured of the driver's braking.
 struct DriverAction {
   double deceleration = 0.0;         ///< the largest, of the smoothed speed [m/s^2], >= 0

@@ -25,6 +25,32 @@ TEST(AssumedGrip, FallsWithTheWeather) {
   EXPECT_GT(assumed_grip("Icy"), 0.0);
 }
 
+// All words that the study's table has for the manoeuvre before.
+TEST(LeavesLane, KnowsTheStudysManoeuvres) {
+  const auto leaves = [](const std::string& words) {
+    traffic::HundredCarEvent event;
+    event.manoeuvre_before = words;
+    return leaves_lane(event);
+  };
+  for (const char* words :
+       {"Changing lanes", "Merging", "Turning left", "Turning right", "Entering a parked position",
+        "Leaving a parked position", "Making U-turn", "Passing or overtaking another vehicle",
+        "Backing up (other than for parking purposes)"}) {
+    EXPECT_TRUE(leaves(words)) << words;
+  }
+  for (const char* words :
+       {"Going straight, constant speed", "Decelerating in traffic lane", "Stopped in traffic lane",
+        "Negotiating a curve", "No analyzed data", ""}) {
+    EXPECT_FALSE(leaves(words)) << words;
+  }
+}
+
+TEST(Shown, IsANumberOfAnySize) {
+  EXPECT_EQ(shown(1.25, 1), "1.2");  // to even
+  EXPECT_EQ(shown(-0.5, 2), "-0.50");
+  EXPECT_EQ(shown(1e300, 2), "1e+300");
+}
+
 TEST(LanesAround, CountsAsTheStudyDoes) {
   traffic::HundredCarEvent event;
   event.flow = "Divided (median strip or barrier)";
