@@ -1,24 +1,37 @@
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/saca/commands.h"
 #include "apps/saca/places.h"
+#include "apps/saca/progress.h"
 #include "apps/saca/within.h"
+#include "saca/core/clock.h"
 #include "saca/core/file.h"
+#include "saca/core/units.h"
 #include "saca/sim/hundred_car.h"
+#include "saca/sim/hundred_car_release.h"
 #include "saca/sim/traffic_recording.h"
 
 namespace saca::app {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct ImportOptions {
   std::string path;
   sim::HundredCarRequest request;
+  bool all = false;
   std::string output;
+  bool as_json = false;
 };
 
 int import_hundred_car(const ImportOptions& options) {
@@ -40,6 +53,97 @@ int import_hundred_car(const ImportOptions& options) {
   fmt::print("{}: event {}, rows {} to {}; lead seen in {} rows, {} gaps bridged, {} outliers\n",
              options.output, options.request.event, report.first_row, report.last_row,
              report.lead.num_seen, report.lead.num_gaps, report.lead.num_outliers);
+  return success;
+}
+
+/// Reads and rebuilds all events, with progress on the error stream.
+Result<std::vector<sim::HundredCarOutcome>> all_hundred_cars(const ImportOptions& options) {
+  watch_for_interrupt();
+  SteadyClock clock;
+  constexpr int percent = 100;
+  ProgressLine line("import 100car", percent, clock);
+  return sim::import_hundred_cars(
+      options.path, options.request, [&](std::size_t done, std::size_t all) {
+        line.show(static_cast<int>(percent * done / all), 0, " percent");
+        return !interrupted();
+      });
+}
+
+/// The scenarios as files of a folder.
+std::optional<Error> write_scenarios(const std::vector<sim::HundredCarOutcome>& outcomes,
+                                     const fs::path& folder) {
+  for (const sim::HundredCarOutcome& outcome : outcomes) {
+    if (const sim::HundredCarImport* made = outcome.rebuilt()) {
+      const fs::path file = folder / (made->scenario.name + ".toml");
+      if (auto problem = make_folder_of(file)) {
+        return problem;
+      }
+      if (auto problem = write_file(file, sim::write_scenario(made->scenario))) {
+        return problem;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+nlohmann::json outcome_json(const sim::HundredCarOutcome& outcome) {
+  nlohmann::json told{{"event", outcome.event}, {"severity", outcome.severity}};
+  if (const sim::HundredCarRefusal* refusal = outcome.refusal()) {
+    told["refused"] = name(refusal->reason);
+    told["message"] = refusal->message;
+    return told;
+  }
+  const sim::HundredCarReport& report = outcome.rebuilt()->report;
+  told["scenario"] = outcome.rebuilt()->scenario.name;
+  told["first_row"] = report.first_row;
+  told["last_row"] = report.last_row;
+  told["gyro_bias_degps"] = to_degrees(report.gyro_bias);
+  told["curvature_1pm"] = report.curvature;
+  told["lane_kept_s"] = report.kept_for;
+  told["lane_rms_m"] = report.keeping_rms;
+  return told;
+}
+
+void tell_all(const std::vector<sim::HundredCarOutcome>& outcomes, std::size_t num_rebuilt,
+              bool as_json) {
+  const auto refusals = sim::refusals(outcomes);
+  if (as_json) {
+    nlohmann::json reasons = nlohmann::json::object();
+    for (const auto& [reason, count] : refusals) {
+      reasons[std::string(name(reason))] = count;
+    }
+    nlohmann::json list = nlohmann::json::array();
+    std::transform(outcomes.begin(), outcomes.end(), std::back_inserter(list), outcome_json);
+    const nlohmann::json told{{"schema", "saca.hundred_car_import/1"},
+                              {"events", outcomes.size()},
+                              {"rebuilt", num_rebuilt},
+                              {"refused", reasons},
+                              {"list", list}};
+    fmt::print("{}\n", told.dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
+    return;
+  }
+  fmt::print("{} events: {} rebuilt, {} refused\n", outcomes.size(), num_rebuilt,
+             outcomes.size() - num_rebuilt);
+  for (const auto& [reason, count] : refusals) {
+    fmt::print("  {:5} {:24} {}\n", count, name(reason), meaning(reason));
+  }
+}
+
+int import_all_hundred_cars(const ImportOptions& options) {
+  const auto outcomes = all_hundred_cars(options);
+  if (!outcomes.has_value()) {
+    return interrupted() ? static_cast<int>(was_interrupted) : refused(outcomes.error());
+  }
+  if (!options.output.empty()) {
+    if (const auto problem = write_scenarios(outcomes.value(), options.output)) {
+      complain(problem->message);
+      return cannot_write;
+    }
+  }
+  const auto num_rebuilt = static_cast<std::size_t>(
+      std::count_if(outcomes.value().begin(), outcomes.value().end(),
+                    [](const auto& outcome) { return outcome.rebuilt() != nullptr; }));
+  tell_all(outcomes.value(), num_rebuilt, options.as_json);
   return success;
 }
 
@@ -161,16 +265,27 @@ void add_import(CLI::App& line, int& exit_code) {
       ->add_option("path", options->path,
                    "Folder of the release (timeseries/ and meta/), or one time-series file")
       ->required();
-  study->add_option("--event", options->request.event, "Event id")->required();
+  CLI::Option_group* const which = study->add_option_group("which");
+  which->add_option("--event", options->request.event, "Event id");
+  CLI::Option* const all =
+      which->add_flag("--all", options->all, "Every event in or below the folder, with counts");
+  which->require_option(1);
   study->add_option("--before_s", options->request.before, "Kept before the conflict")
       ->check(within(1.0, 60.0))
       ->capture_default_str();
   study->add_option("--after_s", options->request.after, "Kept after the last evasive manoeuvre")
       ->check(within(0.0, 60.0))
       ->capture_default_str();
-  study->add_option("--narrative", options->request.narrative, "The study's own words, quoted");
-  study->add_option("--output", options->output, "The scenario file; without it, to the terminal");
-  study->callback([options, &exit_code] { exit_code = import_hundred_car(*options); });
+  study->add_option("--narrative", options->request.narrative, "The study's own words, quoted")
+      ->excludes(all);
+  study->add_option("--output", options->output,
+                    "The scenario file; without it, to the terminal. With --all a folder; without "
+                    "it, only the counts are told");
+  study->add_flag("--json", options->as_json, "The counts and every event's reason, for programs")
+      ->needs(all);
+  study->callback([options, &exit_code] {
+    exit_code = options->all ? import_all_hundred_cars(*options) : import_hundred_car(*options);
+  });
   add_commonroad(*command, exit_code);
 }
 
