@@ -48,6 +48,7 @@ int main(int argc, char** argv) {
     add_whatif(line, exit_code);
     add_family(line, exit_code);
     add_balance(line, exit_code);
+    add_ladder(line, exit_code);
     add_suite(line, exit_code);
     add_search_showcase(line, exit_code);
     add_tune(line, exit_code);

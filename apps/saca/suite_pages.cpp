@@ -18,7 +18,7 @@ using eval::SuiteRow;
 constexpr std::size_t gallery_size = 12;
 
 std::string share_of(const Estimate& estimate) {
-  return estimate.n == 0 ? "-" : with_interval(estimate, 1, 100.0);
+  return estimate.n == 0 ? "-" : fmt::format("{:.1f}", 100.0 * estimate.value);
 }
 
 std::string title_of(const std::string& method) {
@@ -59,12 +59,14 @@ std::vector<std::string> sentences(const SuiteRun& run, const SuiteResult& resul
     const double more = first.over_aeb.value;
     const bool sure = first.over_aeb.low > 0.0 || first.over_aeb.high < 0.0;
     lines.push_back(fmt::format(
-        "{} does {:.4f} harm per encounter, emergency braking at T1 {:.4f}: {} ({} per encounter{}).",
+        "{} does {:.4f} harm per encounter, emergency braking at T1 {:.4f}: {} (difference {} per "
+        "encounter, paired, 95 % interval).",
         title_of(first.method), first.harm.value, aeb.harm.value,
-        !sure      ? "the difference may be chance"
-        : more < 0 ? "it is better"
-                   : "it is worse",
-        with_interval(first.over_aeb, 4), ", paired, 95 % interval"));
+        first.over_aeb.low == first.over_aeb.high ? "the same"
+        : !sure                                   ? "the difference may be chance"
+        : more < 0                                ? "it is better"
+                                                  : "it is worse",
+        with_interval(first.over_aeb, 4)));
     lines.push_back(counted(run, 0, static_cast<std::size_t>(at - run.methods.begin())));
     std::string where_better;
     std::string where_worse;
@@ -116,10 +118,11 @@ report::DotChart chart_of(const SuiteResult& result) {
 report::PageTable all_figures(const SuiteResult& result) {
   report::PageTable table{
       .heading = "All figures",
-      .lines = {"Means with 95 % intervals (bootstrap over encounters). Shares in per cent."},
+      .lines = {"Means with 95 % intervals (bootstrap over encounters). Twins are the same "
+                "encounters without risk. In the files beside this page, shares have intervals too."},
       .columns = {"harm", "regret", "harm above AEB's", "Collision Loss", "contact, %",
                   "as good as the best, %", "materially worse than AEB, %",
-                  "needless intervention, %", "False-Trigger Loss (twins)"},
+                  "needless, %", "False-Trigger Loss (twins)"},
       .rows = {}};
   for (const MethodFigures& one : result.all) {
     const eval::MethodInfo& info = *eval::find_method(one.method);
@@ -128,9 +131,10 @@ report::PageTable all_figures(const SuiteResult& result) {
          .explanation = std::string(info.what),
          .cells = {with_interval(one.harm, 4), with_interval(one.regret, 4),
                    one.over_aeb.n == 0 ? "-" : with_interval(one.over_aeb, 4),
-                   with_interval(one.collision_loss, 3), share_of(one.contact), share_of(one.right),
+                   fmt::format("{:.2f}", one.collision_loss.value), share_of(one.contact), share_of(one.right),
                    share_of(one.worse_than_aeb), share_of(one.needless),
-                   one.false_trigger_loss ? with_interval(*one.false_trigger_loss, 3) : "-"},
+                   one.false_trigger_loss ? fmt::format("{:.3f}", one.false_trigger_loss->value)
+                                          : "-"},
          .shades = {},
          .faded = info.knows_truth});
   }

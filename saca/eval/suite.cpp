@@ -408,4 +408,15 @@ std::vector<MethodFigures> suite_figures(std::span<const SuiteRow* const> rows,
   return all;
 }
 
+Estimate harm_above(std::span<const SuiteRow> rows, std::size_t method, std::size_t other,
+                    std::uint64_t seed) {
+  std::vector<std::optional<double>> differences;
+  for (const SuiteRow& row : rows) {
+    if (row.fault.empty()) {
+      differences.emplace_back(row.risk.runs[method].harm - row.risk.runs[other].harm);
+    }
+  }
+  return differences.empty() ? Estimate{} : Bootstrap(differences.size(), seed).mean(differences);
+}
+
 }  // namespace saca::eval

@@ -116,4 +116,10 @@ constexpr double material = 0.005;
                                                        std::optional<std::size_t> aeb,
                                                        std::uint64_t seed);
 
+/// Mean of the harm of one method above that of another, over the rows that have no fault: paired,
+/// with the intervals of suite_figures.
+/// @param method, other  indices into the runs of a row
+[[nodiscard]] Estimate harm_above(std::span<const SuiteRow> rows, std::size_t method,
+                                  std::size_t other, std::uint64_t seed);
+
 }  // namespace saca::eval

@@ -115,6 +115,9 @@ TEST(SuiteFigures, PairedDifferencesLoseWhatBothSuffer) {
   const Estimate more = figures(rows, {"aeb", "other"})[1].over_aeb;
   EXPECT_NEAR(more.low, 0.25, 1e-12);
   EXPECT_NEAR(more.high, 0.25, 1e-12);
+  const Estimate less = harm_above(rows, 0, 1, 1);
+  EXPECT_NEAR(less.value, -0.25, 1e-12);
+  EXPECT_NEAR(less.low, -0.25, 1e-12);
 }
 
 TEST(SuiteFigures, RowsWithAFaultAreLeftOut) {

@@ -1,0 +1,216 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/saca/commands.h"
+#include "apps/saca/suite_pages.h"
+#include "saca/core/file.h"
+
+namespace saca::app {
+namespace {
+
+namespace fs = std::filesystem;
+using eval::Estimate;
+using nlohmann::json;
+
+/// A rung, and what is lost between it and the one above.
+struct Rung {
+  const char* method;
+  const char* above;  ///< nullptr: the top
+  const char* step;   ///< what is lost or won against `above`, in words
+};
+
+constexpr std::array<Rung, 12> rungs{{
+    {"oracle", nullptr, "Best in hindsight."},
+    {"true_rolled_out", "oracle", "not knowing the grip, nor how the car differs from its data"},
+    {"true_atlas", "true_rolled_out", "the atlas in place of full dynamics: first contacts only, and "
+                                      "nobody reacts to what is done"},
+    {"beliefs_rolled_out", "true_rolled_out", "believing in place of knowing what the others do"},
+    {"beliefs_atlas", "beliefs_rolled_out", "the atlas in place of full dynamics"},
+    {"going_on_atlas", "beliefs_atlas", "taking all others to go on as they do"},
+    {"newest_forecast", "going_on_atlas", "choosing from the newest forecast, not from the scene at T1"},
+    {"first_forecast", "newest_forecast", "choosing from the first forecast, some seconds earlier"},
+    {"aeb", "first_forecast", "always braking"},
+    {"beliefs_and_grip", "beliefs_rolled_out", "told the true grip and car"},
+    {"beliefs_and_followers", "beliefs_rolled_out", "told how followers react"},
+    {"beliefs_and_hidden", "beliefs_rolled_out", "seeing everybody without noise or latency"},
+}};
+
+struct LadderCommand {
+  SuiteCommandOptions suite;
+  bool as_json = false;
+};
+
+std::vector<std::string> rung_names() {
+  std::vector<std::string> names;
+  for (const Rung& rung : rungs) {
+    names.emplace_back(rung.method);
+  }
+  return names;
+}
+
+/// Regret of a rung and what its step costs.
+struct Climbed {
+  eval::MethodFigures figures;
+  std::optional<Estimate> step;
+};
+
+std::vector<Climbed> climb(const SuiteRun& run, std::uint64_t seed) {
+  std::vector<const eval::SuiteRow*> all;
+  for (const eval::SuiteRow& row : run.rows) {
+    all.push_back(&row);
+  }
+  const auto at = [&](const char* name) {
+    return static_cast<std::size_t>(std::find(run.methods.begin(), run.methods.end(), name) -
+                                    run.methods.begin());
+  };
+  auto figures = eval::suite_figures(all, run.methods, at("aeb"), seed);
+  std::vector<Climbed> climbed;
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    climbed.push_back({std::move(figures[i]), std::nullopt});
+    if (rungs[i].above != nullptr) {
+      climbed.back().step = eval::harm_above(run.rows, i, at(rungs[i].above), seed);
+    }
+  }
+  return climbed;
+}
+
+std::string step_text(const Climbed& one, const Rung& rung) {
+  if (!one.step) {
+    return rung.step;
+  }
+  const bool sure = one.step->low > 0.0 || one.step->high < 0.0;
+  return fmt::format("{}: {} {}{}", rung.step, one.step->value >= 0.0 ? "costs" : "saves",
+                     with_interval(*one.step, 4), sure ? "" : ", which may be chance");
+}
+
+json json_of(const SuiteRun& run, const std::vector<Climbed>& climbed, const std::string& name) {
+  json out = run.meta;
+  const std::string head = "ladder." + name + ".";
+  for (std::size_t i = 0; i < climbed.size(); ++i) {
+    const auto add = [&](const std::string& key, const Estimate& estimate) {
+      out[key] = estimate.value;
+      out[key + ".lo"] = estimate.low;
+      out[key + ".hi"] = estimate.high;
+      out[key + ".n"] = estimate.n;
+    };
+    add(head + rungs[i].method, climbed[i].figures.regret);
+    add(head + rungs[i].method + ".materially_worse_than_aeb", climbed[i].figures.worse_than_aeb);
+    if (climbed[i].step) {
+      add(head + rungs[i].method + ".step_from." + rungs[i].above, *climbed[i].step);
+    }
+  }
+  return out;
+}
+
+report::SuitePage page_of(const SuiteRun& run, const std::vector<Climbed>& climbed,
+                          const std::string& name) {
+  report::SuitePage page;
+  page.title = fmt::format("Where regret comes from: {}, {} encounters", name, run.rows.size());
+  page.lines = {"Each rung chooses one of the plans at T1 and knows less than the one it is held "
+                "against; regret is the harm above that of the best plan begun at T1."};
+  report::DotChart chart{.heading = "Regret of each rung",
+                         .lines = {"Mean and 95 % interval; what is below 0 is drawn at 0."},
+                         .axis_name = "regret",
+                         .axis_unit = "-",
+                         .rows = {}};
+  report::PageTable table{
+      .heading = "What each step costs",
+      .lines = {"Paired differences of harm in the same encounters; a step that saves is negative."},
+      .columns = {"regret", "step", "against", "materially worse than AEB, %", "in words"},
+      .rows = {}};
+  for (std::size_t i = 0; i < climbed.size(); ++i) {
+    const eval::MethodInfo& info = *eval::find_method(rungs[i].method);
+    const Estimate& regret = climbed[i].figures.regret;
+    chart.rows.push_back({.name = std::string(info.title),
+                          .looks = info.knows_truth ? "fill-grey" : "fill-blue",
+                          .note = fmt::format("{:.4f}", regret.value),
+                          .value = std::max(0.0, regret.value),
+                          .low = std::clamp(regret.low, 0.0, std::max(0.0, regret.value)),
+                          .high = std::max({0.0, regret.value, regret.high})});
+    table.rows.push_back(
+        {.name = std::string(info.title),
+         .explanation = std::string(info.what),
+         .cells = {with_interval(regret, 4),
+                   climbed[i].step ? with_interval(*climbed[i].step, 4) : "-",
+                   rungs[i].above == nullptr ? "-"
+                                             : std::string(eval::find_method(rungs[i].above)->title),
+                   fmt::format("{:.1f}", 100.0 * climbed[i].figures.worse_than_aeb.value),
+                   rungs[i].step},
+         .shades = {},
+         .faded = info.knows_truth});
+  }
+  page.chart = std::move(chart);
+  page.tables.push_back(std::move(table));
+  for (const auto& [key, value] : run.meta.items()) {
+    page.footnotes.push_back(key.substr(key.find('.') + 1) + ": " + value.get<std::string>());
+  }
+  return page;
+}
+
+int run(LadderCommand options) {
+  SuiteCommandOptions& suite = options.suite;
+  const std::string name = fs::path(suite.name).filename().string();
+  if (suite.output.empty()) {
+    suite.output = fmt::format("runs/ladder-{}-{}.json", name, suite.split);
+  }
+  suite.no_twins = true;
+  const auto ran = run_suite(suite, "ladder", rung_names());
+  if (!ran.has_value()) {
+    return refused(ran.error());
+  }
+  if (!ran.value()) {
+    complain("interrupted; the same command goes on where this one stopped");
+    return was_interrupted;
+  }
+  const auto climbed = climb(*ran.value(), suite.seed);
+  if (climbed.empty()) {
+    complain(suite.name + ": no encounter could be played; the journal holds why");
+    return some_failed;
+  }
+  const json figures = json_of(*ran.value(), climbed, name);
+  const std::string text = figures.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
+  auto problem = write_file(suite.output, text);
+  if (!problem) {
+    problem = write_file(fs::path(suite.output).replace_extension(".html"),
+                         report::suite_page(page_of(*ran.value(), climbed, name)));
+  }
+  if (problem) {
+    return refused(*problem);
+  }
+  if (options.as_json) {
+    fmt::print("{}", text);
+  } else {
+    fmt::print("{}: {} encounters; regret with 95 % intervals\n\n", suite.name,
+               climbed.front().figures.regret.n);
+    for (std::size_t i = 0; i < climbed.size(); ++i) {
+      fmt::print("{:22} {:28} {}\n", rungs[i].method, with_interval(climbed[i].figures.regret, 4),
+                 step_text(climbed[i], rungs[i]));
+    }
+    fmt::print("\npage: {}\n", fs::path(suite.output).replace_extension(".html").string());
+  }
+  const bool faults =
+      std::any_of(ran.value()->rows.begin(), ran.value()->rows.end(), [](const eval::SuiteRow& row) {
+        return !row.fault.empty() ||
+               std::any_of(row.risk.runs.begin(), row.risk.runs.end(),
+                           [](const eval::MethodRun& one) { return !one.fault.empty(); });
+      });
+  return faults ? some_failed : success;
+}
+
+}  // namespace
+
+void add_ladder(CLI::App& line, int& exit_code) {
+  CLI::App* const command = line.add_subcommand(
+      "ladder", "Where regret comes from: what each thing that is not known costs; can be interrupted");
+  const auto options = std::make_shared<LadderCommand>();
+  add_suite_options(*command, options->suite);
+  command->add_flag("--json", options->as_json, "For programs");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace saca::app
