@@ -27,12 +27,14 @@ struct Rung {
 constexpr std::array<Rung, 12> rungs{{
     {"oracle", nullptr, "Best in hindsight."},
     {"true_rolled_out", "oracle", "not knowing the grip, nor how the car differs from its data"},
-    {"true_atlas", "true_rolled_out", "the atlas in place of full dynamics: first contacts only, and "
-                                      "nobody reacts to what is done"},
+    {"true_atlas", "true_rolled_out",
+     "the atlas in place of full dynamics: first contacts only, and "
+     "nobody reacts to what is done"},
     {"beliefs_rolled_out", "true_rolled_out", "believing in place of knowing what the others do"},
     {"beliefs_atlas", "beliefs_rolled_out", "the atlas in place of full dynamics"},
     {"going_on_atlas", "beliefs_atlas", "taking all others to go on as they do"},
-    {"newest_forecast", "going_on_atlas", "choosing from the newest forecast, not from the scene at T1"},
+    {"newest_forecast", "going_on_atlas",
+     "choosing from the newest forecast, not from the scene at T1"},
     {"first_forecast", "newest_forecast", "choosing from the first forecast, some seconds earlier"},
     {"aeb", "first_forecast", "always braking"},
     {"beliefs_and_grip", "beliefs_rolled_out", "told the true grip and car"},
@@ -111,8 +113,9 @@ report::SuitePage page_of(const SuiteRun& run, const std::vector<Climbed>& climb
                           const std::string& name) {
   report::SuitePage page;
   page.title = fmt::format("Where regret comes from: {}, {} encounters", name, run.rows.size());
-  page.lines = {"Each rung chooses one of the plans at T1 and knows less than the one it is held "
-                "against; regret is the harm above that of the best plan begun at T1."};
+  page.lines = {
+      "Each rung chooses one of the plans at T1 and knows less than the one it is held "
+      "against; regret is the harm above that of the best plan begun at T1."};
   report::DotChart chart{.heading = "Regret of each rung",
                          .lines = {"Mean and 95 % interval; what is below 0 is drawn at 0."},
                          .axis_name = "regret",
@@ -120,7 +123,8 @@ report::SuitePage page_of(const SuiteRun& run, const std::vector<Climbed>& climb
                          .rows = {}};
   report::PageTable table{
       .heading = "What each step costs",
-      .lines = {"Paired differences of harm in the same encounters; a step that saves is negative."},
+      .lines =
+          {"Paired differences of harm in the same encounters; a step that saves is negative."},
       .columns = {"regret", "step", "against", "materially worse than AEB, %", "in words"},
       .rows = {}};
   for (std::size_t i = 0; i < climbed.size(); ++i) {
@@ -137,8 +141,9 @@ report::SuitePage page_of(const SuiteRun& run, const std::vector<Climbed>& climb
          .explanation = std::string(info.what),
          .cells = {with_interval(regret, 4),
                    climbed[i].step ? with_interval(*climbed[i].step, 4) : "-",
-                   rungs[i].above == nullptr ? "-"
-                                             : std::string(eval::find_method(rungs[i].above)->title),
+                   rungs[i].above == nullptr
+                       ? "-"
+                       : std::string(eval::find_method(rungs[i].above)->title),
                    fmt::format("{:.1f}", 100.0 * climbed[i].figures.worse_than_aeb.value),
                    rungs[i].step},
          .shades = {},
@@ -193,8 +198,8 @@ int run(LadderCommand options) {
     }
     fmt::print("\npage: {}\n", fs::path(suite.output).replace_extension(".html").string());
   }
-  const bool faults =
-      std::any_of(ran.value()->rows.begin(), ran.value()->rows.end(), [](const eval::SuiteRow& row) {
+  const bool faults = std::any_of(
+      ran.value()->rows.begin(), ran.value()->rows.end(), [](const eval::SuiteRow& row) {
         return !row.fault.empty() ||
                std::any_of(row.risk.runs.begin(), row.risk.runs.end(),
                            [](const eval::MethodRun& one) { return !one.fault.empty(); });
@@ -206,7 +211,8 @@ int run(LadderCommand options) {
 
 void add_ladder(CLI::App& line, int& exit_code) {
   CLI::App* const command = line.add_subcommand(
-      "ladder", "Where regret comes from: what each thing that is not known costs; can be interrupted");
+      "ladder",
+      "Where regret comes from: what each thing that is not known costs; can be interrupted");
   const auto options = std::make_shared<LadderCommand>();
   add_suite_options(*command, options->suite);
   command->add_flag("--json", options->as_json, "For programs");

@@ -43,9 +43,8 @@ std::vector<const SuiteRow*> rows_of(const SuiteRun& run, const std::string& fam
 std::optional<std::size_t> index_of(const std::vector<std::string>& names,
                                     const std::string& wanted) {
   const auto found = std::find(names.begin(), names.end(), wanted);
-  return found == names.end()
-             ? std::nullopt
-             : std::optional(static_cast<std::size_t>(found - names.begin()));
+  return found == names.end() ? std::nullopt
+                              : std::optional(static_cast<std::size_t>(found - names.begin()));
 }
 
 SuiteResult result_of(const SuiteRun& run, std::uint64_t seed) {
@@ -61,8 +60,7 @@ SuiteResult result_of(const SuiteRun& run, std::uint64_t seed) {
     result.method_faults += one.faults;
   }
   for (const std::string& family : families) {
-    result.families[family] =
-        eval::suite_figures(rows_of(run, family), run.methods, aeb, seed);
+    result.families[family] = eval::suite_figures(rows_of(run, family), run.methods, aeb, seed);
   }
   return result;
 }
@@ -126,6 +124,17 @@ json json_of(const SuiteRun& run, const SuiteResult& result, const SuiteCommandO
       }
     }
   }
+  const DriverFigures drivers = driver_figures(run);
+  if (drivers.count > 0) {
+    out[head + "driver.n"] = drivers.count;
+    out[head + "driver.harm"] = drivers.harm;
+    out[head + "driver.met"] = drivers.met;
+    out[head + "driver.braked"] = drivers.braked;
+    out[head + "driver.steered"] = drivers.steered;
+    for (std::size_t m = 0; m < run.methods.size(); ++m) {
+      out[head + run.methods[m] + ".agrees_with_driver"] = drivers.agreement[m];
+    }
+  }
   out[head + "n"] = run.rows.size();
   out[head + "faults"] = result.faults;
   if (run.worked > 0) {
@@ -138,8 +147,12 @@ json json_of(const SuiteRun& run, const SuiteResult& result, const SuiteCommandO
 }
 
 void print(const SuiteRun& run, const SuiteResult& result, const SuiteCommandOptions& options) {
-  fmt::print("{}: {} encounters, {} could not be played; means with 95 % intervals\n\n",
-             options.name, run.rows.size(), result.faults);
+  fmt::print("{}: {} encounters, {} could not be played; means with 95 % intervals\n", options.name,
+             run.rows.size(), result.faults);
+  for (const std::string& note : run.notes) {
+    fmt::print("{}\n", note);
+  }
+  fmt::print("\n");
   fmt::print("{:22} {:26} {:26} {:7} {:6} {:9} {:8}\n", "method", "harm", "regret", "contact",
              "right", "worse than", "needless");
   fmt::print("{:22} {:26} {:26} {:7} {:6} {:9} {:8}\n", "", "", "", "%", "%", "AEB, %", "%");
@@ -150,6 +163,15 @@ void print(const SuiteRun& run, const SuiteResult& result, const SuiteCommandOpt
     fmt::print("{:22} {:26} {:26} {:7} {:6} {:9} {:8}\n", one.method, with_interval(one.harm, 4),
                with_interval(one.regret, 4), share(one.contact), share(one.right),
                share(one.worse_than_aeb), share(one.needless));
+  }
+  const DriverFigures drivers = driver_figures(run);
+  if (drivers.count > 0) {
+    fmt::print("\n{} recorded drivers: harm {:.4f}, {} met somebody, {} braked, {} moved aside\n",
+               drivers.count, drivers.harm, drivers.met, drivers.braked, drivers.steered);
+    for (std::size_t m = 0; m < run.methods.size(); ++m) {
+      fmt::print("  {} does as the driver did in {:.0f} % of those who met nobody\n",
+                 run.methods[m], 100.0 * drivers.agreement[m]);
+    }
   }
   if (run.worked > 0) {
     fmt::print("\n{:.1f} encounters/s on {} threads\n", run.worked / run.seconds, options.threads);
@@ -169,7 +191,8 @@ std::optional<Error> write(const SuiteRun& run, const SuiteResult& result, const
                                 report::suite_page(page_of(run, result, options)))) {
     return problem;
   }
-  return write_file(beside.replace_extension(".json"), figures.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+  return write_file(beside.replace_extension(".json"),
+                    figures.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
 int run(SuiteCommand options) {
@@ -188,7 +211,8 @@ int run(SuiteCommand options) {
     return wrong_command_line;
   }
   if (suite.output.empty()) {
-    suite.output = fmt::format("runs/suite-{}-{}.h5", fs::path(suite.name).filename().string(), suite.split);
+    suite.output =
+        fmt::format("runs/suite-{}-{}.h5", fs::path(suite.name).filename().string(), suite.split);
   }
   const auto ran = run_suite(suite, "suite", methods.value());
   if (!ran.has_value()) {
@@ -218,13 +242,13 @@ int run(SuiteCommand options) {
 
 void add_suite(CLI::App& line, int& exit_code) {
   CLI::App* const command = line.add_subcommand(
-      "suite",
-      "Run methods in closed loop over many encounters, paired; can be interrupted");
+      "suite", "Run methods in closed loop over many encounters, paired; can be interrupted");
   const auto options = std::make_shared<SuiteCommand>();
   options->suite.methods = usual_methods;
   add_suite_options(*command, options->suite);
   command
-      ->add_option("--methods", options->suite.methods, "Names, separated by commas; all: every one")
+      ->add_option("--methods", options->suite.methods,
+                   "Names, separated by commas; all: every one")
       ->capture_default_str();
   command->add_option("--replay", options->replay,
                       "Write encounter N as a scenario, and print the command that plays it");

@@ -45,7 +45,8 @@ std::string counted(const SuiteRun& run, std::size_t method, std::size_t other) 
     }
   }
   return fmt::format(
-      "In {} of {} encounters it does materially less harm (by more than {}), in {} materially more, "
+      "In {} of {} encounters it does materially less harm (by more than {}), in {} materially "
+      "more, "
       "in the rest about the same.",
       better, all, eval::material, worse);
 }
@@ -97,12 +98,13 @@ std::vector<std::string> sentences(const SuiteRun& run, const SuiteResult& resul
 }
 
 report::DotChart chart_of(const SuiteResult& result) {
-  report::DotChart chart{.heading = "Harm per encounter",
-                         .lines = {"Expected severely injured and killed people, weighted; mean and "
-                                   "95 % interval. Grey: yardsticks that know the truth."},
-                         .axis_name = "harm",
-                         .axis_unit = "-",
-                         .rows = {}};
+  report::DotChart chart{
+      .heading = "Harm per encounter",
+      .lines = {"Expected severely injured and killed people, weighted; mean and "
+                "95 % interval. Grey: yardsticks that know the truth."},
+      .axis_name = "harm",
+      .axis_unit = "-",
+      .rows = {}};
   for (const MethodFigures& one : result.all) {
     const bool yardstick = eval::find_method(one.method)->knows_truth;
     chart.rows.push_back({.name = title_of(one.method),
@@ -118,11 +120,12 @@ report::DotChart chart_of(const SuiteResult& result) {
 report::PageTable all_figures(const SuiteResult& result) {
   report::PageTable table{
       .heading = "All figures",
-      .lines = {"Means with 95 % intervals (bootstrap over encounters). Twins are the same "
-                "encounters without risk. In the files beside this page, shares have intervals too."},
+      .lines =
+          {"Means with 95 % intervals (bootstrap over encounters). Twins are the same "
+           "encounters without risk. In the files beside this page, shares have intervals too."},
       .columns = {"harm", "regret", "harm above AEB's", "Collision Loss", "contact, %",
-                  "as good as the best, %", "materially worse than AEB, %",
-                  "needless, %", "False-Trigger Loss (twins)"},
+                  "as good as the best, %", "materially worse than AEB, %", "needless, %",
+                  "False-Trigger Loss (twins)"},
       .rows = {}};
   for (const MethodFigures& one : result.all) {
     const eval::MethodInfo& info = *eval::find_method(one.method);
@@ -131,8 +134,8 @@ report::PageTable all_figures(const SuiteResult& result) {
          .explanation = std::string(info.what),
          .cells = {with_interval(one.harm, 4), with_interval(one.regret, 4),
                    one.over_aeb.n == 0 ? "-" : with_interval(one.over_aeb, 4),
-                   fmt::format("{:.2f}", one.collision_loss.value), share_of(one.contact), share_of(one.right),
-                   share_of(one.worse_than_aeb), share_of(one.needless),
+                   fmt::format("{:.2f}", one.collision_loss.value), share_of(one.contact),
+                   share_of(one.right), share_of(one.worse_than_aeb), share_of(one.needless),
                    one.false_trigger_loss ? fmt::format("{:.3f}", one.false_trigger_loss->value)
                                           : "-"},
          .shades = {},
@@ -161,8 +164,11 @@ report::PageTable families_of(const SuiteResult& result) {
   }
   for (std::size_t m = 0; m < result.all.size(); ++m) {
     const eval::MethodInfo& info = *eval::find_method(result.all[m].method);
-    report::PageTable::Row row{
-        .name = std::string(info.title), .explanation = {}, .cells = {}, .shades = {}, .faded = info.knows_truth};
+    report::PageTable::Row row{.name = std::string(info.title),
+                               .explanation = {},
+                               .cells = {},
+                               .shades = {},
+                               .faded = info.knows_truth};
     for (const auto& [family, figures] : result.families) {
       if (figures.empty()) {
         continue;
@@ -177,10 +183,11 @@ report::PageTable families_of(const SuiteResult& result) {
 }
 
 report::PageTable sources_of(const MethodFigures& one) {
-  report::PageTable table{.heading = "Where the decisions of " + title_of(one.method) + " came from",
-                          .lines = {},
-                          .columns = {"times", "share, %"},
-                          .rows = {}};
+  report::PageTable table{
+      .heading = "Where the decisions of " + title_of(one.method) + " came from",
+      .lines = {},
+      .columns = {"times", "share, %"},
+      .rows = {}};
   int all = 0;
   for (const auto& [source, times] : one.sources) {
     all += times;
@@ -203,6 +210,50 @@ report::PageTable sources_of(const MethodFigures& one) {
   return table;
 }
 
+/// Recorded drivers beside the methods, in the encounters in which there was one.
+std::optional<report::PageTable> drivers_of(const SuiteRun& run) {
+  std::vector<const SuiteRow*> recorded;
+  for (const SuiteRow& row : run.rows) {
+    if (row.fault.empty() && row.driver) {
+      recorded.push_back(&row);
+    }
+  }
+  if (recorded.empty()) {
+    return std::nullopt;
+  }
+  const auto n = static_cast<double>(recorded.size());
+  const DriverFigures driver = driver_figures(run);
+  report::PageTable table{
+      .heading = "The recorded drivers",
+      .lines = {fmt::format(
+          "{} encounters with a recorded driver, who met somebody in {}, braked in "
+          "{} and moved aside in {}. A method agrees where it brakes, or not, and "
+          "goes to the same side, among those where the driver met nobody.",
+          recorded.size(), driver.met, driver.braked, driver.steered)},
+      .columns = {"harm", "meets somebody", "agrees with drivers who met nobody, %"},
+      .rows = {}};
+  table.rows.push_back(
+      {.name = "The driver",
+       .explanation = {},
+       .cells = {fmt::format("{:.4f}", driver.harm), std::to_string(driver.met), "-"},
+       .shades = {}});
+  for (std::size_t m = 0; m < run.methods.size(); ++m) {
+    double harm = 0.0;
+    int met = 0;
+    for (const SuiteRow* const row : recorded) {
+      harm += row->risk.runs[m].harm / n;
+      met += row->risk.runs[m].met ? 1 : 0;
+    }
+    table.rows.push_back({.name = title_of(run.methods[m]),
+                          .explanation = {},
+                          .cells = {fmt::format("{:.4f}", harm), std::to_string(met),
+                                    fmt::format("{:.1f}", 100.0 * driver.agreement[m])},
+                          .shades = {},
+                          .faded = eval::find_method(run.methods[m])->knows_truth});
+  }
+  return table;
+}
+
 std::string plan_text(const manoeuvre::Plan& plan) {
   return fmt::format("{} {}{}", manoeuvre::index(plan.policy), name(plan.policy),
                      plan.target_speed ? fmt::format(" to {:.1f} m/s", *plan.target_speed) : "");
@@ -210,8 +261,8 @@ std::string plan_text(const manoeuvre::Plan& plan) {
 
 const preview::RolledOut* tried_of(const eval::TriedScene& scene, const manoeuvre::Plan& plan) {
   for (const preview::RolledOut& one : scene.tried) {
-    if (one.facts.plan.policy == plan.policy &&
-        std::abs(one.facts.plan.target_speed.value_or(0.0) - plan.target_speed.value_or(0.0)) < 0.5) {
+    if (one.facts.plan.policy == plan.policy && std::abs(one.facts.plan.target_speed.value_or(0.0) -
+                                                         plan.target_speed.value_or(0.0)) < 0.5) {
       return &one;
     }
   }
@@ -220,8 +271,9 @@ const preview::RolledOut* tried_of(const eval::TriedScene& scene, const manoeuvr
 
 /// One line why it was lost.
 std::string why_of(const SuiteRow& row, const MethodRun& run) {
-  const std::string met = run.met ? fmt::format("meets {} at {:.1f} m/s", *run.met, run.impact_speed)
-                                  : "meets nobody at first";
+  const std::string met = run.met
+                              ? fmt::format("meets {} at {:.1f} m/s", *run.met, run.impact_speed)
+                              : "meets nobody at first";
   return fmt::format("{} {}, harm {:.3f}; {} would have done {:.3f}. {}",
                      run.plan ? plan_text(*run.plan) : "Nothing is done and it", met, run.harm,
                      row.risk.best ? plan_text(*row.risk.best) : "doing nothing",
@@ -253,7 +305,8 @@ std::optional<report::GalleryCard> card_of(const SuiteRun& run, const SuiteRow& 
       .best = view_of(scene->scene, *best),
       .command = fmt::format("saca suite {} --split {} --seed {}{}{} --replay {}", options.name,
                              options.split, options.seed, options.exact ? " --exact" : "",
-                             options.car == "compact_rwd_ev" ? "" : " --car " + options.car,
+                             (options.car == "compact_rwd_ev" ? "" : " --car " + options.car) +
+                                 (options.data.empty() ? "" : " --data " + options.data),
                              row.number)};
   card.done.badge = "done";
   card.best.badge = "best";
@@ -294,6 +347,33 @@ std::string with_interval(const Estimate& estimate, int digits, double factor) {
                            factor * estimate.low, digits, factor * estimate.high, digits);
 }
 
+DriverFigures driver_figures(const SuiteRun& run) {
+  DriverFigures figures;
+  figures.agreement.resize(run.methods.size());
+  int succeeded = 0;
+  for (const SuiteRow& row : run.rows) {
+    if (!row.fault.empty() || !row.driver) {
+      continue;
+    }
+    ++figures.count;
+    figures.harm += row.driver->harm;
+    figures.met += row.driver->met ? 1 : 0;
+    figures.braked += row.driver->brakes ? 1 : 0;
+    figures.steered += row.driver->steers != 0 ? 1 : 0;
+    if (!row.driver->met) {
+      ++succeeded;
+      for (std::size_t m = 0; m < run.methods.size(); ++m) {
+        figures.agreement[m] += eval::agrees(*row.driver, row.risk.runs[m].plan) ? 1.0 : 0.0;
+      }
+    }
+  }
+  figures.harm /= std::max(1, figures.count);
+  for (double& agreement : figures.agreement) {
+    agreement /= std::max(1, succeeded);
+  }
+  return figures;
+}
+
 report::SuitePage page_of(const SuiteRun& run, const SuiteResult& result,
                           const SuiteCommandOptions& options) {
   report::SuitePage page;
@@ -304,8 +384,12 @@ report::SuitePage page_of(const SuiteRun& run, const SuiteResult& result,
     return page;
   }
   page.lines = sentences(run, result);
+  page.lines.insert(page.lines.end(), run.notes.begin(), run.notes.end());
   page.chart = chart_of(result);
   page.tables = {all_figures(result), families_of(result), sources_of(result.all.front())};
+  if (auto drivers = drivers_of(run)) {
+    page.tables.insert(page.tables.begin(), std::move(*drivers));
+  }
   page.gallery_heading = "The encounters in which " + title_of(result.all.front().method) +
                          " lost most: what it did, and what would have been best";
   page.gallery = gallery_of(run, options);
@@ -314,7 +398,8 @@ report::SuitePage page_of(const SuiteRun& run, const SuiteResult& result,
   }
   for (const SuiteRow& row : run.rows) {
     if (!row.fault.empty() && page.footnotes.size() < 30) {
-      page.footnotes.push_back(fmt::format("encounter {} could not be played: {}", row.number, row.fault));
+      page.footnotes.push_back(
+          fmt::format("encounter {} could not be played: {}", row.number, row.fault));
     }
   }
   return page;

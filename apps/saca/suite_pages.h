@@ -17,6 +17,17 @@ struct SuiteResult {
   int method_faults = 0;  ///< of methods that threw
 };
 
+/// Recorded drivers, and how often each method does as they did.
+struct DriverFigures {
+  int count = 0;      ///< encounters with a recorded driver
+  double harm = 0.0;  ///< mean
+  int met = 0;        ///< drivers who met somebody
+  int braked = 0;
+  int steered = 0;
+  std::vector<double> agreement;  ///< of each method with the drivers who met nobody, in [0, 1]
+};
+[[nodiscard]] DriverFigures driver_figures(const SuiteRun& run);
+
 /// A mean with its interval, for readers; "-" where there is none.
 [[nodiscard]] std::string with_interval(const eval::Estimate& estimate, int digits,
                                         double factor = 1.0);

@@ -13,6 +13,7 @@
 #include "saca/core/fnv.h"
 #include "saca/core/journal.h"
 #include "saca/manoeuvre/ego.h"
+#include "saca/sim/hundred_car_release.h"
 
 namespace saca::app {
 namespace {
@@ -26,18 +27,67 @@ constexpr std::size_t batch_per_thread = 16;  // encounters between two looks at
 /// Where encounters come from: families of a suite, or files of a folder.
 struct Source {
   Inputs inputs;
-  std::string what;  ///< names all on which the encounters depend
-  int count = 0;     ///< as many as were asked for and there are
+  std::string what;                ///< names all on which the encounters depend
+  int count = 0;                   ///< as many as were asked for and there are
+  std::vector<std::string> notes;  ///< on where they come from
   std::function<Result<SuiteEncounter>(std::uint64_t number)> at;
 };
 
-Result<Source> open_folder(const SuiteCommandOptions& options) {
-  Source source;
-  auto inputs = read_inputs(options.car);
-  if (!inputs.has_value()) {
-    return inputs.error();
+/// Encounters that are all there.
+Source source_of(Inputs inputs, std::vector<SuiteEncounter> all, int count, std::string what) {
+  Source source{.inputs = std::move(inputs), .what = std::move(what), .notes = {}, .at = {}};
+  source.count = std::min(count, static_cast<int>(all.size()));
+  source.at = [all = std::move(all)](std::uint64_t number) -> Result<SuiteEncounter> {
+    if (number >= all.size()) {
+      return Error{Error::Code::out_of_range,
+                   fmt::format("want an encounter below {}, got {}", all.size(), number)};
+    }
+    return all[number];
+  };
+  return source;
+}
+
+/// Every event of the 100-Car study that can be rebuilt.
+Result<Source> open_hundred_car(const SuiteCommandOptions& options, Inputs inputs) {
+  if (options.data.empty()) {
+    return Error{Error::Code::out_of_range,
+                 "--data: want the folder of the 100-Car study's release, got none"};
   }
-  source.inputs = std::move(inputs).value();
+  watch_for_interrupt();
+  const auto outcomes = sim::import_hundred_cars(
+      options.data, {}, [](std::size_t, std::size_t) { return !interrupted(); });
+  if (!outcomes.has_value()) {
+    return outcomes.error();
+  }
+  std::vector<SuiteEncounter> all;
+  Fnv hash;
+  for (const sim::HundredCarOutcome& outcome : outcomes.value()) {
+    if (const auto* const rebuilt = outcome.rebuilt()) {
+      hash.add(sim::write_scenario(rebuilt->scenario));
+      all.push_back({.number = all.size(),
+                     .family = outcome.severity,
+                     .scenario = rebuilt->scenario,
+                     .twin = {}});
+      all.back().scenario.car = inputs.car_name;
+    }
+  }
+  if (all.empty()) {
+    return Error{Error::Code::out_of_range,
+                 options.data + ": want events that can be rebuilt, got none"};
+  }
+  std::string refused;
+  for (const auto& [reason, times] : sim::refusals(outcomes.value())) {
+    refused += fmt::format("{}{} ({})", refused.empty() ? "" : ", ", times, meaning(reason));
+  }
+  const std::size_t rebuilt = all.size();
+  Source source = source_of(std::move(inputs), std::move(all), options.count,
+                            fmt::format("100-Car study ({:016x})", hash.value()));
+  source.notes.push_back(fmt::format("{} of {} events were rebuilt; refused: {}.", rebuilt,
+                                     outcomes.value().size(), refused));
+  return source;
+}
+
+Result<Source> open_folder(const SuiteCommandOptions& options, Inputs inputs) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(options.name)) {
     if (entry.path().extension() == ".toml") {
@@ -57,7 +107,8 @@ Result<Source> open_folder(const SuiteCommandOptions& options) {
       return text.error();
     }
     hash.add(text.value());
-    auto scenario = sim::load_scenario(file, manoeuvre::footprint(source.inputs.car));
+    auto scenario =
+        sim::read_scenario(text.value(), file.string(), manoeuvre::footprint(inputs.car));
     if (!scenario.has_value()) {
       return scenario.error();
     }
@@ -66,21 +117,18 @@ Result<Source> open_folder(const SuiteCommandOptions& options) {
                    .scenario = std::move(scenario).value(),
                    .twin = {}});
   }
-  source.count = std::min(options.count, static_cast<int>(all.size()));
-  source.what = fmt::format("folder {} ({:016x})", options.name, hash.value());
-  source.at = [all](std::uint64_t number) -> Result<SuiteEncounter> {
-    if (number >= all.size()) {
-      return Error{Error::Code::out_of_range,
-                   fmt::format("want an encounter below {}, got {}", all.size(), number)};
-    }
-    return all[number];
-  };
-  return source;
+  return source_of(std::move(inputs), std::move(all), options.count,
+                   fmt::format("folder {} ({:016x})", options.name, hash.value()));
 }
 
 Result<Source> open_source(const SuiteCommandOptions& options, const std::string& command) {
-  if (fs::is_directory(options.name)) {
-    return open_folder(options);
+  if (options.name == "100car" || fs::is_directory(options.name)) {
+    auto inputs = read_inputs(options.car);
+    if (!inputs.has_value()) {
+      return inputs.error();
+    }
+    return options.name == "100car" ? open_hundred_car(options, std::move(inputs).value())
+                                    : open_folder(options, std::move(inputs).value());
   }
   const auto suite = SuiteSource::open({.suite = options.name,
                                         .car = options.car,
@@ -94,8 +142,8 @@ Result<Source> open_source(const SuiteCommandOptions& options, const std::string
   Source source;
   source.inputs = suite.value().inputs();
   source.count = options.count;
-  source.what = fmt::format("{}, {} split ({:016x})", options.name, options.split,
-                            suite.value().digest());
+  source.what =
+      fmt::format("{}, {} split ({:016x})", options.name, options.split, suite.value().digest());
   source.at = [suite = suite.value(),
                twins = !options.no_twins](std::uint64_t number) -> Result<SuiteEncounter> {
     auto sample = suite.sample(number);
@@ -145,7 +193,9 @@ Result<std::shared_ptr<Bench>> open_bench(const SuiteCommandOptions& options,
   bench->planes = {.forecast = {&inputs.car, &inputs.harm, &*bench->atlas},
                    .costs = costs.value(),
                    .clock = &bench->clock};
-  bench->how = {.methods = methods, .seed = options.seed, .exact = options.exact};
+  // A recorded driver met the world as it was recorded: so do those who are compared with it.
+  const bool exact = options.exact || options.name == "100car";
+  bench->how = {.methods = methods, .seed = options.seed, .exact = exact};
   return bench;
 }
 
@@ -153,9 +203,15 @@ Result<std::shared_ptr<Bench>> open_bench(const SuiteCommandOptions& options,
 SuiteRow row_of(const Bench& bench, std::uint64_t number) {
   const auto encounter = bench.source.at(number);
   if (!encounter.has_value()) {
-    return {.number = number, .family = "?", .fault = encounter.error().message, .risk = {}, .twin = {}};
+    return {.number = number,
+            .family = "?",
+            .fault = encounter.error().message,
+            .risk = {},
+            .twin = {},
+            .driver = {}};
   }
-  return eval::run_encounter(encounter.value(), bench.how, bench.planes, bench.source.inputs.intent);
+  return eval::run_encounter(encounter.value(), bench.how, bench.planes,
+                             bench.source.inputs.intent);
 }
 
 }  // namespace
@@ -202,14 +258,19 @@ Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
   if (auto problem = make_folder_of(path)) {
     return *problem;
   }
-  const auto journal = Journal::open(
-      path, fmt::format("saca {} {} of {}, {}, seed {}{}: {}", SACA_VERSION, command,
-                        source.what, options.car, options.seed,
-                        options.exact ? ", exact" : "", joined(methods)));
+  const auto journal =
+      Journal::open(path, fmt::format("saca {} {} of {}, {}, seed {}{}: {}", SACA_VERSION, command,
+                                      source.what, options.car, options.seed,
+                                      options.exact ? ", exact" : "", joined(methods)));
   if (!journal.has_value()) {
     return journal.error();
   }
-  SuiteRun done{.methods = methods, .rows = {}, .meta = {}, .encounter_at = source.at, .tried_in = {}};
+  SuiteRun done{.methods = methods,
+                .rows = {},
+                .meta = {},
+                .notes = source.notes,
+                .encounter_at = source.at,
+                .tried_in = {}};
   done.tried_in = [bench](const SuiteEncounter& encounter) {
     return eval::tried_in(encounter, bench->how, bench->planes, bench->source.inputs.intent);
   };
@@ -235,11 +296,10 @@ Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
       return std::optional<SuiteRun>();
     }
     const std::size_t first = done.rows.size();
-    std::vector<SuiteRow> next(std::min(
-        batch_per_thread * static_cast<std::size_t>(options.threads), count - first));
-    in_parallel(next.size(), options.threads, [&](std::size_t i) {
-      next[i] = row_of(*bench, first + i);
-    });
+    std::vector<SuiteRow> next(
+        std::min(batch_per_thread * static_cast<std::size_t>(options.threads), count - first));
+    in_parallel(next.size(), options.threads,
+                [&](std::size_t i) { next[i] = row_of(*bench, first + i); });
     for (SuiteRow& row : next) {
       if (!journal.value().add(eval::line_of(row))) {
         return Error{Error::Code::unwritable, path + ": cannot be added to"};
@@ -250,11 +310,11 @@ Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
   }
   done.worked = static_cast<int>(count) - before;
   done.seconds = to_seconds(clock.now() - start);
-  done.meta = {{"meta.command", fmt::format("saca {} {} --methods {} --count {} --split {} --car {} --seed {}{}{}",
-                                            command, options.name, joined(methods), options.count,
-                                            options.split, options.car, options.seed,
-                                            options.exact ? " --exact" : "",
-                                            options.no_twins ? " --no-twins" : "")},
+  done.meta = {{"meta.command",
+                fmt::format("saca {} {} --methods {} --count {} --split {} --car {} --seed {}{}{}",
+                            command, options.name, joined(methods), options.count, options.split,
+                            options.car, options.seed, options.exact ? " --exact" : "",
+                            options.no_twins ? " --no-twins" : "")},
                {"meta.seed", std::to_string(options.seed)},
                {"meta.n", std::to_string(count)},
                {"meta.split", options.split},
@@ -279,21 +339,22 @@ Result<std::string> write_encounter(const SuiteCommandOptions& options, std::uin
   if (auto problem = make_folder_of(file)) {
     return *problem;
   }
-  if (auto problem = write_file(
-          file, sim::write_scenario(eval::as_played(encounter.value().scenario, how)))) {
+  if (auto problem =
+          write_file(file, sim::write_scenario(eval::as_played(encounter.value().scenario, how)))) {
     return *problem;
   }
   return fmt::format("saca run {} --pace lockstep --llm off --no-memory{}", file.string(),
-                     options.exact ? std::string()
-                                   : fmt::format(" --seed {}",
-                                                 eval::encounter_seed(options.seed, number)));
+                     options.exact
+                         ? std::string()
+                         : fmt::format(" --seed {}", eval::encounter_seed(options.seed, number)));
 }
 
 void add_suite_options(CLI::App& command, SuiteCommandOptions& options) {
   command
       .add_option("name", options.name,
-                  "A suite (natural, balanced), a family, or a folder of scenarios")
+                  "A suite (natural, balanced), a family, a folder of scenarios, or 100car")
       ->required();
+  command.add_option("--data", options.data, "Of 100car: the folder of the study's release");
   command.add_option("--count", options.count, "How many encounters")
       ->check(CLI::Range(1, 10'000'000))
       ->capture_default_str();

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,7 +17,8 @@ namespace saca::app {
 
 /// Which encounters are run, and with what.
 struct SuiteCommandOptions {
-  std::string name;  ///< of a suite, of a family, or a folder of scenarios
+  std::string name;  ///< of a suite, of a family, a folder of scenarios, or "100car"
+  std::string data;  ///< of 100car: the study's folder
   std::string methods;
   int count = 1'000;
   std::string split = "calibration";
@@ -39,6 +40,7 @@ struct SuiteRun {
   double seconds = 0.0;              ///< of work, all threads, in this call
   int worked = 0;                    ///< encounters of this call
   nlohmann::json meta;               ///< "meta.command", "meta.seed" and so on
+  std::vector<std::string> notes;    ///< on where the encounters come from, in sentences
   /// Encounter `number` again.
   std::function<Result<eval::SuiteEncounter>(std::uint64_t number)> encounter_at;
   /// eval::tried_in with what the suite was run with.

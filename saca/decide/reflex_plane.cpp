@@ -37,7 +37,8 @@ Decision ReflexPlane::decide(const world::Scene& scene) noexcept {
   } else if (best != nullptr && *decision.similarity > match_similarity) {
     const bool guarded = guard_ == Guard::never_worse_than_braking;
     decision.gave_way_to_aeb = guarded && best->worse_than_aeb;
-    if (guarded && check_ && !best->worse_than_aeb && best->plan.policy != manoeuvre::PolicyId::aeb) {
+    if (guarded && check_ && !best->worse_than_aeb &&
+        best->plan.policy != manoeuvre::PolicyId::aeb) {
       decision.forecast = check_->compare(best->plan, scene);
       decision.gave_way_to_aeb = decision.forecast && decision.forecast->plan_harms_more();
     }

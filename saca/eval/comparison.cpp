@@ -105,6 +105,9 @@ bool Play::ask(Branch& branch) {
   }
   if (!loop.driven() && loop.previewed_threat()) {
     loop.take_the_wheel();
+    if (branch.untouched) {
+      comparison_.woke = loop.time();
+    }
   }
   if (branch.untouched) {
     note_trigger(branch);
@@ -126,15 +129,14 @@ std::vector<Group> Play::decide(const Branch& branch) {
     std::optional<Action> action;
     if (comparison_.runs[method].fault.empty()) {
       try {
-        action = methods_[method]->step({branch.loop.seen(), branch.loop.beliefs(),
-                                         branch.loop.driven(), branch.loop});
+        action = methods_[method]->step(
+            {branch.loop.seen(), branch.loop.beliefs(), branch.loop.driven(), branch.loop});
       } catch (const std::exception& fault) {
         give_up(method, *fault.what() == '\0' ? "an exception without text" : fault.what());
       }
     }
-    const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
-      return alike(group.action, action);
-    });
+    const auto same = std::find_if(groups.begin(), groups.end(),
+                                   [&](const Group& group) { return alike(group.action, action); });
     if (same == groups.end()) {
       groups.push_back({action, {method}});
     } else {
@@ -168,10 +170,10 @@ void Play::note_trigger(const Branch& branch) {
   const auto& tried = hindsight_.at(loop);
   for (const preview::RolledOut& one : tried) {
     const bool driven = one.facts.refusal.empty();
-    comparison_.tried.push_back({.plan = one.facts.plan,
-                                 .harm = driven ? std::optional(one.facts.outcome.harm)
-                                                : std::nullopt,
-                                 .contact = driven && one.facts.outcome.contact.has_value()});
+    comparison_.tried.push_back(
+        {.plan = one.facts.plan,
+         .harm = driven ? std::optional(one.facts.outcome.harm) : std::nullopt,
+         .contact = driven && one.facts.outcome.contact.has_value()});
   }
   const std::size_t best = best_of(tried);
   comparison_.best = tried[best].facts.plan;

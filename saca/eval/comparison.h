@@ -14,17 +14,17 @@ namespace saca::eval {
 
 /// What one method did in one encounter, and what came of it.
 struct MethodRun {
-  std::optional<double> acted_at;          ///< when it first intervened [s]; nullopt: never
-  std::optional<manoeuvre::Plan> plan;     ///< with what, as it was carried out
-  std::string source;                      ///< where that decision came from, in a word
-  std::string reason;                      ///< why, in a sentence
-  int switches = 0;                        ///< how often it began another plan later
-  double harm = 0.0;                       ///< of all contacts
-  double collision_loss = 0.0;             ///< the paper's, of the first contact
-  std::optional<std::string> met;          ///< with whom or what the first contact was
-  double impact_speed = 0.0;               ///< relative, of that contact [m/s]
-  double clearance = 0.0;                  ///< smallest distance to anybody [m]; 0 with contact
-  std::string fault;                       ///< what it threw; empty: nothing. It then did no more
+  std::optional<double> acted_at;       ///< when it first intervened [s]; nullopt: never
+  std::optional<manoeuvre::Plan> plan;  ///< with what, as it was carried out
+  std::string source;                   ///< where that decision came from, in a word
+  std::string reason;                   ///< why, in a sentence
+  int switches = 0;                     ///< how often it began another plan later
+  double harm = 0.0;                    ///< of all contacts
+  double collision_loss = 0.0;          ///< the paper's, of the first contact
+  std::optional<std::string> met;       ///< with whom or what the first contact was
+  double impact_speed = 0.0;            ///< relative, of that contact [m/s]
+  double clearance = 0.0;               ///< smallest distance to anybody [m]; 0 with contact
+  std::string fault;                    ///< what it threw; empty: nothing. It then did no more
 
   [[nodiscard]] bool intervened() const;
 };
@@ -38,13 +38,15 @@ struct TriedPlan {
 
 /// What several methods did in one encounter with the same draws.
 struct Comparison {
-  std::optional<double> trigger;  ///< T1: when the rule of the reflex plane fires if nobody acts [s]
-  std::optional<std::string> threat;      ///< who sets it off
-  std::vector<TriedPlan> tried;           ///< from T1 on, in the order of preview::all_plans; empty
-                                          ///< where T1 never comes
-  std::optional<manoeuvre::Plan> best;    ///< of these
-  double best_harm = 0.0;  ///< of the best; where T1 never comes, of doing nothing
-  std::vector<MethodRun> runs;  ///< one per method
+  std::optional<double>
+      trigger;                 ///< T1: when the rule of the reflex plane fires if nobody acts [s]
+  std::optional<double> woke;  ///< T2: when somebody first threatens within it [s]
+  std::optional<std::string> threat;    ///< who sets off T1
+  std::vector<TriedPlan> tried;         ///< from T1 on, in the order of preview::all_plans; empty
+                                        ///< where T1 never comes
+  std::optional<manoeuvre::Plan> best;  ///< of these
+  double best_harm = 0.0;               ///< of the best; where T1 never comes, of doing nothing
+  std::vector<MethodRun> runs;          ///< one per method
 };
 
 /// Runs methods in closed loop, in one encounter, with the same world, draws and perception.

@@ -99,7 +99,8 @@ TEST_F(ComparisonTest, SharedSimulationsGiveWhatEachAloneWouldMeet) {
 }
 
 TEST_F(ComparisonTest, DoingNothingMeetsTheCarAtFullSpeedAndIsNoIntervention) {
-  const Comparison told = run(list(scripted(100.0, PolicyId::aeb), scripted(2.0, PolicyId::no_intervention)));
+  const Comparison told =
+      run(list(scripted(100.0, PolicyId::aeb), scripted(2.0, PolicyId::no_intervention)));
   EXPECT_EQ(told.threat, "car1");
   for (const MethodRun& run : told.runs) {
     EXPECT_EQ(run.met, "car1");
@@ -127,7 +128,8 @@ TEST_F(ComparisonTest, TriesEveryPlanFromTheTriggerOn) {
 // integrators.
 TEST_F(ComparisonTest, TheBestInHindsightIsAsGoodWhenItIsCarriedOut) {
   Hindsight hindsight(car_, harm_);
-  Methods methods = list(method("oracle", hindsight), method("aeb", hindsight), method("nothing", hindsight));
+  Methods methods =
+      list(method("oracle", hindsight), method("aeb", hindsight), method("nothing", hindsight));
   const Comparison told = compare(stage_, methods, hindsight).value();
   EXPECT_NEAR(told.runs[0].harm, told.best_harm, 0.003);
   EXPECT_EQ(told.runs[0].acted_at, told.trigger);
@@ -147,7 +149,8 @@ TEST_F(ComparisonTest, ASecondPlanIsASwitchAndTheFirstIsKept) {
 }
 
 TEST_F(ComparisonTest, AMethodThatThrowsIsNotedAndTheOthersGoOn) {
-  Methods methods = list(std::unique_ptr<loop::Method>(std::make_unique<Throwing>()), scripted(2.0, PolicyId::aeb));
+  Methods methods = list(std::unique_ptr<loop::Method>(std::make_unique<Throwing>()),
+                         scripted(2.0, PolicyId::aeb));
   const Comparison told = run(methods);
   EXPECT_EQ(told.runs[0].fault, "no idea");
   EXPECT_FALSE(told.runs[0].intervened());

@@ -58,7 +58,7 @@ std::optional<Action> CompetentDriver::step(const loop::View& view) {
 }
 
 FuzzySurrogates fuzzy_surrogates(double gap, double speed, double ahead, double acceleration) {
-  constexpr double reaction = 0.75;   // [s]
+  constexpr double reaction = 0.75;    // [s]
   constexpr double comfortable = 4.0;  // [m/s^2] of who follows
   constexpr double hardest = 6.0;      // likewise
   constexpr double lead = 7.0;         // [m/s^2] of who is ahead
@@ -77,21 +77,22 @@ FuzzySurrogates fuzzy_surrogates(double gap, double speed, double ahead, double 
   const double held = std::max(acceleration, -comfortable);
   const double then = speed + reaction * held - ahead;  // closing speed
   if (then < 0.0) {
-    both.critical = gap < (speed - ahead) * (speed - ahead) / (2.0 * std::abs(acceleration)) ? 1.0 : 0.0;
+    both.critical =
+        gap < (speed - ahead) * (speed - ahead) / (2.0 * std::abs(acceleration)) ? 1.0 : 0.0;
     return both;
   }
   const double way = (speed + 0.5 * held * reaction - ahead) * reaction;
-  both.critical = between(gap, way + then * then / (2.0 * comfortable),
-                          way + then * then / (2.0 * hardest));
+  both.critical =
+      between(gap, way + then * then / (2.0 * comfortable), way + then * then / (2.0 * hardest));
   return both;
 }
 
 std::optional<Action> FuzzySafety::step(const loop::View& view) {
-  constexpr double reaction = 0.75;         // [s]
-  constexpr double comfortable = 4.0;       // [m/s^2]
-  constexpr double hardest = 6.0;           // [m/s^2]
-  constexpr double jerk = 12.65;            // [m/s^3]
-  constexpr double soon = 0.1;              // [s] by which who moves in must be there before the ego
+  constexpr double reaction = 0.75;    // [s]
+  constexpr double comfortable = 4.0;  // [m/s^2]
+  constexpr double hardest = 6.0;      // [m/s^2]
+  constexpr double jerk = 12.65;       // [m/s^3]
+  constexpr double soon = 0.1;         // [s] by which who moves in must be there before the ego
   FuzzySurrogates worst;
   for (const world::Actor& actor : view.scene.actors) {
     const LaneView one = lane_view(view.scene, actor);
@@ -100,15 +101,14 @@ std::optional<Action> FuzzySafety::step(const loop::View& view) {
       continue;
     }
     if (one.side_gap > 0.0) {  // it counts when it will be in the path before the ego has passed
-      const double passed =
-          one.gap + actor.footprint.length + view.scene.ego_footprint.length;
+      const double passed = one.gap + actor.footprint.length + view.scene.ego_footprint.length;
       if (one.closing_aside <= 0.0 || closing <= 0.0 ||
           one.side_gap / one.closing_aside > passed / closing + soon) {
         continue;
       }
     }
-    const FuzzySurrogates here = fuzzy_surrogates(one.gap, one.ego_speed, std::max(0.0, one.speed),
-                                                  view.scene.ego.a_B.x);
+    const FuzzySurrogates here =
+        fuzzy_surrogates(one.gap, one.ego_speed, std::max(0.0, one.speed), view.scene.ego.a_B.x);
     worst.proactive = std::max(worst.proactive, here.proactive);
     worst.critical = std::max(worst.critical, here.critical);
   }

@@ -69,8 +69,9 @@ TEST_F(DriverModels, NobodyBrakesForWhoDrivesAwayOrIsBeside) {
   R157Braking rule;
   CompetentDriver driver;
   FuzzySafety fuzzy;
-  for (loop::Method* const method : {static_cast<loop::Method*>(&rule), static_cast<loop::Method*>(&driver),
-                                     static_cast<loop::Method*>(&fuzzy)}) {
+  for (loop::Method* const method :
+       {static_cast<loop::Method*>(&rule), static_cast<loop::Method*>(&driver),
+        static_cast<loop::Method*>(&fuzzy)}) {
     world::Scene scene = test::ego_at(20.0);
     scene.actors.push_back(test::car(1, {60.0, 0.0}, {25.0, 0.0}));
     scene.actors.push_back(test::car(2, {12.0, 3.7}, {10.0, 0.0}));
@@ -92,7 +93,8 @@ TEST(FuzzySurrogatesTest, AreLinearBetweenTheirTwoDistances) {
   EXPECT_NEAR(fuzzy_surrogates(0.5 * (20.0 + 15.8333333), 20.0, 10.0, 0.0).critical, 0.5, 1e-6);
   EXPECT_EQ(fuzzy_surrogates(61.86, 20.0, 10.0, 0.0).proactive, 0.0);
   EXPECT_EQ(fuzzy_surrogates(43.1, 20.0, 10.0, 0.0).proactive, 1.0);
-  EXPECT_NEAR(fuzzy_surrogates(0.5 * (61.857143 + 43.190476), 20.0, 10.0, 0.0).proactive, 0.5, 1e-6);
+  EXPECT_NEAR(fuzzy_surrogates(0.5 * (61.857143 + 43.190476), 20.0, 10.0, 0.0).proactive, 0.5,
+              1e-6);
   EXPECT_EQ(fuzzy_surrogates(5.0, 10.0, 10.0, 0.0).critical, 0.0);  // they do not close
 }
 

@@ -20,8 +20,8 @@ Vec2 half_extent(const world::Footprint& body, double heading) {
 }  // namespace
 
 LaneView lane_view(const world::Scene& scene, const world::Actor& actor) {
-  const world::LanePose ego = world::to_lane(
-      scene.road, scene.ego.X_WB * Pose{{scene.ego_footprint.centre_x, 0.0}, 0.0});
+  const world::LanePose ego =
+      world::to_lane(scene.road, scene.ego.X_WB * Pose{{scene.ego_footprint.centre_x, 0.0}, 0.0});
   const world::LanePose other = world::to_lane(scene.road, actor.X_WA);
   const Vec2 ego_half = half_extent(scene.ego_footprint, ego.heading);
   const Vec2 half = half_extent(actor.footprint, other.heading);

@@ -29,26 +29,54 @@ using preview::Physics;
 constexpr Plan full_braking{PolicyId::aeb, std::nullopt};
 
 constexpr std::array<MethodInfo, 21> infos{{
-    {"saca", "SACA", "The shipped planes: a cached plan that matches and does not harm more than braking, else emergency braking at T1."},
-    {"saca_paper", "SACA, as in the paper", "Algorithm 1 to the letter: a cached plan above 90 %, else emergency braking at T1; nothing is held against braking."},
+    {"saca", "SACA",
+     "The shipped planes: a cached plan that matches and does not harm more than braking, else "
+     "emergency braking at T1."},
+    {"saca_paper", "SACA, as in the paper",
+     "Algorithm 1 to the letter: a cached plan above 90 %, else emergency braking at T1; nothing "
+     "is held against braking."},
     {"nothing", "No intervention", "Lane and speed are kept, whatever comes."},
     {"aeb", "AEB at T1", "Full braking as soon as the conflict is within T1 = 1.3 s."},
-    {"r157", "Braking rule of UN R157", "Brakes with 6 m/s2, 0.35 s after the time to collision falls below what UN R157, 5.2.5.2, asks for."},
-    {"cc_driver", "Competent driver of UN R157", "The careful driver of UN R157, Annex 3: sees at 2 s to collision, brakes 0.75 s later with up to 0.774 g."},
-    {"fsm", "Fuzzy safety model", "JRC's fuzzy safety model: brakes as hard as its two fuzzy distances say, 0.75 s after they call for it."},
-    {"rss", "RSS, braking", "Brakes as long as the distances of responsibility-sensitive safety are not kept."},
-    {"rss_steering", "RSS, braking or steering", "As RSS; where braking comes too late, changes to a neighbouring lane in which the distances are kept."},
+    {"r157", "Braking rule of UN R157",
+     "Brakes with 6 m/s2, 0.35 s after the time to collision falls below what UN R157, 5.2.5.2, "
+     "asks for."},
+    {"cc_driver", "Competent driver of UN R157",
+     "The careful driver of UN R157, Annex 3: sees at 2 s to collision, brakes 0.75 s later with "
+     "up to 0.774 g."},
+    {"fsm", "Fuzzy safety model",
+     "JRC's fuzzy safety model: brakes as hard as its two fuzzy distances say, 0.75 s after they "
+     "call for it."},
+    {"rss", "RSS, braking",
+     "Brakes as long as the distances of responsibility-sensitive safety are not kept."},
+    {"rss_steering", "RSS, braking or steering",
+     "As RSS; where braking comes too late, changes to a neighbouring lane in which the distances "
+     "are kept."},
     {"random", "Any of the eight", "One of the eight at T1, all alike likely."},
-    {"first_forecast", "Best of the first forecast", "The best plan of the forecast made when somebody first threatens, some 4 s before T1."},
-    {"newest_forecast", "Best of the newest forecast", "The best plan of that forecast, of those made last before T1, which is most like the scene at T1."},
-    {"going_on_atlas", "Best of eight, others going on", "At T1, by the atlas, as if all others went on as they do."},
-    {"beliefs_atlas", "Best of eight in expectation, atlas", "At T1, by the atlas: least expected harm over what the others are believed to intend."},
-    {"beliefs_rolled_out", "Best of eight in expectation, rolled out", "The same with full dynamics and all that follows a contact."},
-    {"beliefs_and_grip", "The same, told the grip and the car", "As beliefs_rolled_out, told the true grip and how the real car differs.", true},
-    {"beliefs_and_followers", "The same, told how followers react", "As beliefs_rolled_out, told how those behind will truly react.", true},
-    {"beliefs_and_hidden", "The same, seeing everybody", "As beliefs_rolled_out, from the true scene: without noise and latency, hidden road users included.", true},
-    {"true_atlas", "Best of eight, true motion, atlas", "At T1, by the atlas, told how the others will truly move.", true},
-    {"true_rolled_out", "Best of eight, true motion, rolled out", "At T1, with full dynamics, told how the others will truly move; not the grip, nor the real car.", true},
+    {"first_forecast", "Best of the first forecast",
+     "The best plan of the forecast made when somebody first threatens, some 4 s before T1."},
+    {"newest_forecast", "Best of the newest forecast",
+     "The best plan of that forecast, of those made last before T1, which is most like the scene "
+     "at T1."},
+    {"going_on_atlas", "Best of eight, others going on",
+     "At T1, by the atlas, as if all others went on as they do."},
+    {"beliefs_atlas", "Best of eight in expectation, atlas",
+     "At T1, by the atlas: least expected harm over what the others are believed to intend."},
+    {"beliefs_rolled_out", "Best of eight in expectation, rolled out",
+     "The same with full dynamics and all that follows a contact."},
+    {"beliefs_and_grip", "The same, told the grip and the car",
+     "As beliefs_rolled_out, told the true grip and how the real car differs.", true},
+    {"beliefs_and_followers", "The same, told how followers react",
+     "As beliefs_rolled_out, told how those behind will truly react.", true},
+    {"beliefs_and_hidden", "The same, seeing everybody",
+     "As beliefs_rolled_out, from the true scene: without noise and latency, hidden road users "
+     "included.",
+     true},
+    {"true_atlas", "Best of eight, true motion, atlas",
+     "At T1, by the atlas, told how the others will truly move.", true},
+    {"true_rolled_out", "Best of eight, true motion, rolled out",
+     "At T1, with full dynamics, told how the others will truly move; not the grip, nor the real "
+     "car.",
+     true},
     {"oracle", "Best in hindsight", "At T1, told everything.", true},
 }};
 
@@ -62,9 +90,9 @@ Action best_of_forecast(const world::Scene& then, const intent::Beliefs& beliefs
   const auto likeness = [&](const preview::Situation& one) {
     return memory::similarity(one.scene_at_trigger, now.scene);
   };
-  const auto most_alike = std::max_element(
-      situations.begin(), situations.end(),
-      [&](const auto& a, const auto& b) { return likeness(a) < likeness(b); });
+  const auto most_alike =
+      std::max_element(situations.begin(), situations.end(),
+                       [&](const auto& a, const auto& b) { return likeness(a) < likeness(b); });
   const PolicyId best = preview::best_by_forecast(most_alike->facts);
   return {.plan = most_alike->facts[manoeuvre::index(best)].plan, .source = "forecast"};
 }
@@ -81,11 +109,14 @@ class ByForecast final : public Method {
     if (!view.driven || decided_) {
       return std::nullopt;
     }
-    const bool due = !scene_ || (which_ == Which::newest && view.scene.time >= scene_->time + round);
+    const bool due =
+        !scene_ || (which_ == Which::newest && view.scene.time >= scene_->time + round);
     if (preview::triggering_threat(view.scene, setup_.thresholds)) {
       decided_ = true;
-      return scene_ ? best_of_forecast(*scene_, beliefs_, view, setup_)
-                    : Action{.plan = full_braking, .source = "fallback", .reason = "no time to forecast"};
+      return scene_
+                 ? best_of_forecast(*scene_, beliefs_, view, setup_)
+                 : Action{
+                       .plan = full_braking, .source = "fallback", .reason = "no time to forecast"};
     }
     if (due) {
       scene_ = view.scene;
@@ -169,8 +200,8 @@ outcome::Others with_true_followers(const View& view, const JointMotion& motion)
       }
     }
   }
-  return [tracks = motion.tracks, known, others = view.truth.truth().others()](
-             const manoeuvre::EgoMotion& ego) {
+  return [tracks = motion.tracks, known,
+          others = view.truth.truth().others()](const manoeuvre::EgoMotion& ego) {
     std::vector<world::Track> moved = tracks;
     const std::vector<world::Track> truly = others(ego);
     for (const auto& [i, k] : known) {
@@ -269,9 +300,8 @@ std::span<const MethodInfo> methods() {
 }
 
 const MethodInfo* find_method(std::string_view name) {
-  const auto* const found = std::find_if(infos.begin(), infos.end(), [&](const MethodInfo& info) {
-    return info.name == name;
-  });
+  const auto* const found = std::find_if(infos.begin(), infos.end(),
+                                         [&](const MethodInfo& info) { return info.name == name; });
   return found == infos.end() ? nullptr : found;
 }
 
@@ -288,8 +318,8 @@ std::unique_ptr<Method> make_method(std::string_view name, const MethodTools& to
     return std::make_unique<Nothing>();
   }
   if (name == "first_forecast" || name == "newest_forecast") {
-    return std::make_unique<ByForecast>(setup, name == "first_forecast" ? ByForecast::Which::first
-                                                                        : ByForecast::Which::newest);
+    return std::make_unique<ByForecast>(
+        setup, name == "first_forecast" ? ByForecast::Which::first : ByForecast::Which::newest);
   }
   if (name == "r157") {
     return std::make_unique<R157Braking>();

@@ -26,11 +26,11 @@ struct MethodInfo {
 
 /// What methods are made with, for one encounter. What it points to outlives them.
 struct MethodTools {
-  loop::PlanesSetup saca;            ///< of SACA; forecasts and thresholds are everybody's
-  Hindsight* hindsight = nullptr;    ///< of this encounter
+  loop::PlanesSetup saca;          ///< of SACA; forecasts and thresholds are everybody's
+  Hindsight* hindsight = nullptr;  ///< of this encounter
   const intent::Model* intent = nullptr;
-  std::uint64_t seed = 0;            ///< of who chooses at random, and of this encounter
-  std::size_t num_looks = 0;         ///< at most
+  std::uint64_t seed = 0;     ///< of who chooses at random, and of this encounter
+  std::size_t num_looks = 0;  ///< at most
 };
 
 /// @param name  of `methods()`

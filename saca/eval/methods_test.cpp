@@ -79,9 +79,8 @@ TEST_F(MethodsTest, WhereOnlyALaneChangeHelpsThoseThatForecastFindIt) {
 
 TEST_F(MethodsTest, NobodyActsForWhoDrivesAway) {
   sim::Scenario scenario = standing_car(15.0, 60.0);
-  scenario.actors[0].motion = sim::Script{.start = {.s = 80.0},
-                                          .speed = 20.0,
-                                          .behaviour = sim::Behaviour::constant_velocity};
+  scenario.actors[0].motion = sim::Script{
+      .start = {.s = 80.0}, .speed = 20.0, .behaviour = sim::Behaviour::constant_velocity};
   for (const auto& [name, run] : play(scenario)) {
     EXPECT_FALSE(run.intervened()) << name;
     EXPECT_EQ(run.fault, "") << name;

@@ -51,11 +51,11 @@ bool has_free_lane(const world::Scene& scene, bool left, const RssParameters& pa
     if (view.side_gap > parameters.side_margin) {
       return false;
     }
-    const double wanted =
-        view.ahead ? rss_following_distance(std::max(0.0, view.ego_speed), std::max(0.0, view.speed),
-                                            parameters)
-                   : rss_following_distance(std::max(0.0, view.speed), std::max(0.0, view.ego_speed),
-                                            parameters);
+    const double wanted = view.ahead
+                              ? rss_following_distance(std::max(0.0, view.ego_speed),
+                                                       std::max(0.0, view.speed), parameters)
+                              : rss_following_distance(std::max(0.0, view.speed),
+                                                       std::max(0.0, view.ego_speed), parameters);
     return view.gap < wanted;
   });
 }
@@ -91,9 +91,8 @@ bool rss_dangerous(const LaneView& view, const RssParameters& parameters) {
     return false;
   }
   const double ego = std::max(0.0, view.ego_speed);
-  const double wanted = view.speed < 0.0
-                            ? rss_oncoming_distance(ego, -view.speed, parameters)
-                            : rss_following_distance(ego, view.speed, parameters);
+  const double wanted = view.speed < 0.0 ? rss_oncoming_distance(ego, -view.speed, parameters)
+                                         : rss_following_distance(ego, view.speed, parameters);
   return view.gap < wanted;
 }
 

@@ -11,11 +11,11 @@ namespace saca::eval {
 /// Parameters of responsibility-sensitive safety. Those that JRC's comparison of safety models for
 /// UN R157 takes (github.com/ec-jrc/JRC-FSM, utility/vehicle.py): one set for everybody.
 struct RssParameters {
-  double response_time = 0.75;         ///< [s]
-  double acceleration = 3.0;           ///< largest while responding [m/s^2]
-  double braking = 6.0;                ///< both least of who responds and largest of the other
-  double side_acceleration = 1.0;      ///< likewise across the lane [m/s^2]
-  double side_margin = 0.3;            ///< fluctuation across the lane [m]
+  double response_time = 0.75;             ///< [s]
+  double acceleration = 3.0;               ///< largest while responding [m/s^2]
+  double braking = 6.0;                    ///< both least of who responds and largest of the other
+  double side_acceleration = 1.0;          ///< likewise across the lane [m/s^2]
+  double side_margin = 0.3;                ///< fluctuation across the lane [m]
   double response_braking = 0.774 * 9.81;  ///< what the response asks the brakes for [m/s^2]
 };
 

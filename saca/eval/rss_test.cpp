@@ -20,7 +20,9 @@ TEST(Rss, TheFollowingDistanceIsThatOfThePaper) {
 
 // Definition 2: each drives (v + v_rho) / 2 * rho + v_rho^2 / (2 b) before it stands.
 TEST(Rss, TheOncomingDistanceIsTwoWaysToRest) {
-  const auto way = [](double v) { return (v + 0.5 * 2.25) * 0.75 + (v + 2.25) * (v + 2.25) / 12.0; };
+  const auto way = [](double v) {
+    return (v + 0.5 * 2.25) * 0.75 + (v + 2.25) * (v + 2.25) / 12.0;
+  };
   EXPECT_NEAR(rss_oncoming_distance(15.0, 10.0), way(15.0) + way(10.0), 1e-12);
 }
 
@@ -73,7 +75,7 @@ TEST_F(RssMethod, BrakesWhereTheDistanceIsNotKeptAndLetsGoWhereItIs) {
 TEST_F(RssMethod, WhoIsBesideOrBehindIsNoDangerAhead) {
   Rss rss(Rss::Response::braking);
   world::Scene scene = test::ego_at(20.0);
-  scene.actors.push_back(test::car(1, {10.0, 3.5 + 0.2}, {10.0, 0.0}));   // 1.85 m aside
+  scene.actors.push_back(test::car(1, {10.0, 3.5 + 0.2}, {10.0, 0.0}));  // 1.85 m aside
   scene.actors.push_back(test::car(2, {-8.0, 0.0}, {25.0, 0.0}));
   EXPECT_EQ(step(rss, scene), std::nullopt);
 }

@@ -10,6 +10,7 @@
 
 #include "saca/core/contract.h"
 #include "saca/core/percentile.h"
+#include "saca/loop/recorded_driver.h"
 #include "saca/outcome/ordering.h"
 
 namespace saca::eval {
@@ -29,9 +30,8 @@ loop::Stage stage_of(const sim::Scenario& world, std::uint64_t number, const Sui
           .harm = saca.forecast.harm,
           .intent = &intent,
           .thresholds = saca.thresholds,
-          .chance = options.exact
-                        ? sim::Chance{}
-                        : sim::draw_chance(encounter_seed(options.seed, number), 0, 0.0)};
+          .chance = options.exact ? sim::Chance{}
+                                  : sim::draw_chance(encounter_seed(options.seed, number), 0, 0.0)};
 }
 
 struct Played {
@@ -48,11 +48,12 @@ Played play(const sim::Scenario& scenario, std::uint64_t number, const SuiteOpti
     std::vector<std::unique_ptr<loop::Method>> methods;
     for (const std::string& name : options.methods) {
       methods.push_back(make_method(
-          name, {.saca = saca,
-                 .hindsight = &hindsight,
-                 .intent = &intent,
-                 .seed = encounter_seed(options.seed, number),
-                 .num_looks = static_cast<std::size_t>(world.duration / loop::ClosedLoop::step) + 2}));
+          name,
+          {.saca = saca,
+           .hindsight = &hindsight,
+           .intent = &intent,
+           .seed = encounter_seed(options.seed, number),
+           .num_looks = static_cast<std::size_t>(world.duration / loop::ClosedLoop::step) + 2}));
     }
     auto compared = compare(stage, methods, hindsight);
     if (!compared.has_value()) {
@@ -62,6 +63,27 @@ Played play(const sim::Scenario& scenario, std::uint64_t number, const SuiteOpti
   } catch (const std::exception& fault) {
     return {std::nullopt, fault.what()};
   }
+}
+
+std::optional<DriverRow> driver_of(const sim::Scenario& scenario, const Comparison& comparison,
+                                   const loop::PlanesSetup& saca) {
+  if (!comparison.woke) {
+    return std::nullopt;
+  }
+  const auto driver =
+      loop::recorded_driver(scenario, *saca.forecast.car, *saca.forecast.harm, *comparison.woke);
+  if (!driver) {
+    return std::nullopt;
+  }
+  DriverRow row{.harm = driver->outcome.harm,
+                .met = {},
+                .brakes = loop::brakes(*driver),
+                .steers = loop::steers(*driver)};
+  if (const auto& contact = driver->outcome.contact) {
+    row.met = contact->actor ? actor_name(driver->met[*contact->actor]) : std::string("edge");
+    row.impact_speed = contact->relative_speed;
+  }
+  return row;
 }
 
 // --- lines of a journal
@@ -103,14 +125,19 @@ json json_of(const Comparison& one) {
                                 run.source, run.reason, run.switches, run.harm, run.collision_loss,
                                 json_of(run.met), run.impact_speed, run.clearance, run.fault}));
   }
-  return {{"trigger", json_of(one.trigger)}, {"threat", json_of(one.threat)},
-          {"tried", std::move(tried)},       {"best", one.best ? json_of(*one.best) : json()},
-          {"best_harm", one.best_harm},      {"runs", std::move(runs)}};
+  return {{"trigger", json_of(one.trigger)},
+          {"threat", json_of(one.threat)},
+          {"woke", json_of(one.woke)},
+          {"tried", std::move(tried)},
+          {"best", one.best ? json_of(*one.best) : json()},
+          {"best_harm", one.best_harm},
+          {"runs", std::move(runs)}};
 }
 
 Comparison comparison_from(const json& in, std::size_t num_methods) {
   Comparison one;
   one.trigger = optional_from<double>(in.at("trigger"));
+  one.woke = optional_from<double>(in.at("woke"));
   one.threat = optional_from<std::string>(in.at("threat"));
   for (const json& plan : in.at("tried")) {
     one.tried.push_back({.plan = plan_from(plan.at(0)),
@@ -142,6 +169,19 @@ Comparison comparison_from(const json& in, std::size_t num_methods) {
         fmt::format("want runs of {} methods, got {}", num_methods, one.runs.size()));
   }
   return one;
+}
+
+json json_of(const DriverRow& driver) {
+  return json::array(
+      {driver.harm, json_of(driver.met), driver.impact_speed, driver.brakes, driver.steers});
+}
+
+DriverRow driver_from(const json& in) {
+  return {.harm = in.at(0).get<double>(),
+          .met = optional_from<std::string>(in.at(1)),
+          .impact_speed = in.at(2).get<double>(),
+          .brakes = in.at(3).get<bool>(),
+          .steers = in.at(4).get<int>()};
 }
 
 // --- figures
@@ -183,8 +223,7 @@ Estimate Bootstrap::mean(const std::vector<std::optional<double>>& values) const
     return {};
   }
   std::vector<double> means;
-  for (auto row = drawn_.begin(); row != drawn_.end();
-       row += static_cast<std::ptrdiff_t>(count_)) {
+  for (auto row = drawn_.begin(); row != drawn_.end(); row += static_cast<std::ptrdiff_t>(count_)) {
     double sample_sum = 0.0;
     double sample_n = 0.0;
     for (auto i = row; i != row + static_cast<std::ptrdiff_t>(count_); ++i) {
@@ -239,8 +278,8 @@ MethodFigures figures_of(std::span<const SuiteRow* const> rows, const std::strin
   MethodFigures figures{.method = name};
   using Row = const SuiteRow&;
   using Aeb = std::optional<std::size_t>;
-  figures.harm = mean(
-      [](Row row, std::size_t m, Aeb) { return std::optional(run_of(row, m).harm); });
+  figures.harm =
+      mean([](Row row, std::size_t m, Aeb) { return std::optional(run_of(row, m).harm); });
   figures.regret = mean([](Row row, std::size_t m, Aeb) {
     return std::optional(run_of(row, m).harm - row.risk.best_harm);
   });
@@ -250,7 +289,8 @@ MethodFigures figures_of(std::span<const SuiteRow* const> rows, const std::strin
   figures.contact =
       mean([](Row row, std::size_t m, Aeb) { return flag(run_of(row, m).met.has_value()); });
   figures.right = mean([](Row row, std::size_t m, Aeb) {
-    return flag(outcome::harm_class(run_of(row, m).harm) <= outcome::harm_class(row.risk.best_harm));
+    return flag(outcome::harm_class(run_of(row, m).harm) <=
+                outcome::harm_class(row.risk.best_harm));
   });
   figures.worse_than_aeb = mean([](Row row, std::size_t m, Aeb reference) {
     const auto more = over_aeb(row, m, reference);
@@ -311,14 +351,19 @@ sim::Scenario as_played(sim::Scenario scenario, const SuiteOptions& options) {
 SuiteRow run_encounter(const SuiteEncounter& encounter, const SuiteOptions& options,
                        const loop::PlanesSetup& saca, const intent::Model& intent) {
   expects(!options.methods.empty(), "at least one method");
-  SuiteRow row{.number = encounter.number, .family = encounter.family, .fault = {}, .risk = {},
-               .twin = {}};
+  SuiteRow row{.number = encounter.number,
+               .family = encounter.family,
+               .fault = {},
+               .risk = {},
+               .twin = {},
+               .driver = {}};
   Played risk = play(encounter.scenario, encounter.number, options, saca, intent);
   row.fault = risk.fault;
   if (!risk.comparison) {
     return row;
   }
   row.risk = std::move(*risk.comparison);
+  row.driver = driver_of(encounter.scenario, row.risk, saca);
   if (encounter.twin) {
     Played twin = play(*encounter.twin, encounter.number, options, saca, intent);
     row.fault = twin.fault;
@@ -358,6 +403,9 @@ std::string line_of(const SuiteRow& row) {
     if (row.twin) {
       line["twin"] = json_of(*row.twin);
     }
+    if (row.driver) {
+      line["driver"] = json_of(*row.driver);
+    }
   }
   return line.dump(-1, ' ', false, json::error_handler_t::replace);
 }
@@ -369,11 +417,15 @@ Result<SuiteRow> suite_row_from(std::string_view line, std::size_t num_methods) 
                  .family = in.at("family").get<std::string>(),
                  .fault = in.value("fault", std::string()),
                  .risk = {},
-                 .twin = {}};
+                 .twin = {},
+                 .driver = {}};
     if (row.fault.empty()) {
       row.risk = comparison_from(in.at("risk"), num_methods);
       if (in.contains("twin")) {
         row.twin = comparison_from(in.at("twin"), num_methods);
+      }
+      if (in.contains("driver")) {
+        row.driver = driver_from(in.at("driver"));
       }
     }
     return row;
@@ -382,6 +434,13 @@ Result<SuiteRow> suite_row_from(std::string_view line, std::size_t num_methods) 
                  fmt::format("want one encounter of a suite, got \"{}\": {}", line.substr(0, 80),
                              problem.what())};
   }
+}
+
+bool agrees(const DriverRow& driver, const std::optional<manoeuvre::Plan>& plan) {
+  const PolicyId policy = plan ? plan->policy : PolicyId::no_intervention;
+  const bool plan_brakes =
+      policy == PolicyId::aeb || manoeuvre::brakes_to_speed(policy) || manoeuvre::drifts(policy);
+  return plan_brakes == driver.brakes && manoeuvre::side(policy) == driver.steers;
 }
 
 double false_trigger_loss(const MethodRun& run) {

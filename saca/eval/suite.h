@@ -36,16 +36,30 @@ struct SuiteOptions {
   bool exact = false;  ///< nothing is left to chance and perception is as the scenarios have it
 };
 
+/// What the recorded driver did in an encounter that was recorded, from T2 on.
+struct DriverRow {
+  double harm = 0.0;
+  std::optional<std::string> met;  ///< with whom or what the first contact was
+  double impact_speed = 0.0;       ///< relative, of that contact [m/s]
+  bool brakes = false;             ///< see loop/recorded_driver.h
+  int steers = 0;                  ///< likewise
+};
+
+/// Does a plan do what the driver did: brake, and to which side?
+[[nodiscard]] bool agrees(const DriverRow& driver, const std::optional<manoeuvre::Plan>& plan);
+
 /// One encounter, run with every method, and its twin.
 struct SuiteRow {
   std::uint64_t number = 0;
   std::string family;
-  std::string fault;      ///< why it could not be played; empty: it could, and the rest has meaning
+  std::string fault;  ///< why it could not be played; empty: it could, and the rest has meaning
   Comparison risk;
   std::optional<Comparison> twin;
+  std::optional<DriverRow> driver;  ///< where the ego was recorded
 };
 
-/// Seed of what is left to chance in one encounter: `saca run FILE --seed` of it plays the same world.
+/// Seed of what is left to chance in one encounter: `saca run FILE --seed` of it plays the same
+/// world.
 [[nodiscard]] std::uint64_t encounter_seed(std::uint64_t seed, std::uint64_t number);
 
 /// The scenario as the suite plays it: with the usual perception, where it says nothing of it.
@@ -58,7 +72,7 @@ struct SuiteRow {
 
 /// What every plan leads to from T1 on, if nobody acts before: for pictures.
 struct TriedScene {
-  world::Scene scene;  ///< the truth at T1, everybody who is there then or later
+  world::Scene scene;                     ///< the truth at T1, everybody who is there then or later
   std::vector<preview::RolledOut> tried;  ///< in the order of preview::all_plans
 };
 /// @return  nullopt: T1 never comes, or the encounter cannot be played
@@ -89,7 +103,8 @@ struct MethodFigures {
   Estimate contact;         ///< share
   Estimate right;           ///< share whose harm is in the class of the best's, or below
   Estimate worse_than_aeb;  ///< share whose harm is more than `material` above AEB's
-  Estimate needless;        ///< share of encounters in which doing nothing harms nobody, where it intervened
+  Estimate
+      needless;  ///< share of encounters in which doing nothing harms nobody, where it intervened
   std::optional<Estimate> false_trigger_loss;  ///< the paper's, over the twins
   std::optional<Estimate> false_triggers;      ///< share of the twins with an intervention
   std::map<std::string, int> sources;          ///< of decisions, how often

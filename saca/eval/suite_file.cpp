@@ -80,9 +80,8 @@ std::optional<Error> write_suite(const std::filesystem::path& path, std::span<co
                [](const SuiteRow& row) { return static_cast<double>(row.number); });
   config::write_lines(writer, "family", families);
   config::write_lines(writer, "fault", faults);
-  write_comparisons(writer, "risk", rows, methods, [](const SuiteRow& row) {
-    return row.fault.empty() ? &row.risk : nullptr;
-  });
+  write_comparisons(writer, "risk", rows, methods,
+                    [](const SuiteRow& row) { return row.fault.empty() ? &row.risk : nullptr; });
   write_comparisons(writer, "twin", rows, methods, [](const SuiteRow& row) {
     return row.fault.empty() && row.twin ? &*row.twin : nullptr;
   });

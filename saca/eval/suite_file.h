@@ -11,8 +11,8 @@
 
 namespace saca::eval {
 
-/// All rows of a suite as one HDF5 file, schema saca.suite/1 of docs/formats.md: one column for each
-/// number, for analyses of one's own. What is not there is NaN.
+/// All rows of a suite as one HDF5 file, schema saca.suite/1 of docs/formats.md: one column for
+/// each number, for analyses of one's own. What is not there is NaN.
 /// @param about  what was run, as `--json` says it; kept as the text `about`
 /// @return       nullopt when it is on the disk, else the reason
 [[nodiscard]] std::optional<Error> write_suite(const std::filesystem::path& path,

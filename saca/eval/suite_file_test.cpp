@@ -14,7 +14,8 @@ namespace {
 using manoeuvre::PolicyId;
 
 TEST(SuiteFile, HoldsAColumnForEachNumber) {
-  SuiteRow good{.number = 7, .family = "crossing", .fault = {}, .risk = {}, .twin = {}};
+  SuiteRow good{
+      .number = 7, .family = "crossing", .fault = {}, .risk = {}, .twin = {}, .driver = {}};
   good.risk.trigger = 3.25;
   good.risk.best = manoeuvre::Plan{PolicyId::es_b_left, 6.0};
   good.risk.best_harm = 0.125;
@@ -23,7 +24,12 @@ TEST(SuiteFile, HoldsAColumnForEachNumber) {
   run.plan = manoeuvre::Plan{PolicyId::t_drift_right, std::nullopt};
   run.met = "truck1";
   good.risk.runs = {run};
-  SuiteRow bad{.number = 8, .family = "head_on", .fault = "broken\nin two", .risk = {}, .twin = {}};
+  SuiteRow bad{.number = 8,
+               .family = "head_on",
+               .fault = "broken\nin two",
+               .risk = {},
+               .twin = {},
+               .driver = {}};
   const auto path = std::filesystem::temp_directory_path() / "saca_suite_file_test.h5";
   const std::vector<SuiteRow> rows{good, bad};
   ASSERT_EQ(write_suite(path, rows, {"aeb"}, R"({"n": 2})"), std::nullopt);
@@ -33,7 +39,8 @@ TEST(SuiteFile, HoldsAColumnForEachNumber) {
     };
     EXPECT_EQ(reader.text("about"), R"({"n": 2})");
     EXPECT_THAT(column("number"), testing::ElementsAre(7.0, 8.0));
-    EXPECT_THAT(config::read_lines(reader, "family", 2), testing::ElementsAre("crossing", "head_on"));
+    EXPECT_THAT(config::read_lines(reader, "family", 2),
+                testing::ElementsAre("crossing", "head_on"));
     EXPECT_THAT(config::read_lines(reader, "fault", 2), testing::ElementsAre("", "broken in two"));
     EXPECT_EQ(column("risk/trigger_s")[0], 3.25);
     EXPECT_TRUE(std::isnan(column("risk/trigger_s")[1]));
@@ -50,7 +57,8 @@ TEST(SuiteFile, HoldsAColumnForEachNumber) {
 }
 
 TEST(SuiteFile, WhatCannotBeWrittenIsTold) {
-  const SuiteRow row{.number = 1, .family = "f", .fault = "x", .risk = {}, .twin = {}};
+  const SuiteRow row{
+      .number = 1, .family = "f", .fault = "x", .risk = {}, .twin = {}, .driver = {}};
   const auto problem = write_suite("/nowhere/at/all.h5", {&row, 1}, {"aeb"}, "{}");
   ASSERT_TRUE(problem.has_value());
   EXPECT_THAT(problem->message, testing::HasSubstr("/nowhere/at/all.h5"));

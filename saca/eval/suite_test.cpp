@@ -42,14 +42,16 @@ TEST_F(SuiteTest, ALineComesBack) {
   EXPECT_EQ(back.value().risk.runs[1].harm, row.risk.runs[1].harm);
   EXPECT_THAT(suite_row_from(line_of(row), 3).error().message,
               testing::HasSubstr("want runs of 3 methods, got 2"));
-  for (const char* const spoilt : {"", "{", "[]", R"({"number": -1})", R"({"number": 1, "family": 7})"}) {
+  for (const char* const spoilt :
+       {"", "{", "[]", R"({"number": -1})", R"({"number": 1, "family": 7})"}) {
     EXPECT_FALSE(suite_row_from(spoilt, 2).has_value()) << spoilt;
   }
 }
 
 /// A row in which methods suffered so much, the first being AEB.
 SuiteRow made(std::uint64_t number, std::vector<double> harms, double best, bool quiet = false) {
-  SuiteRow row{.number = number, .family = "made", .fault = {}, .risk = {}, .twin = {}};
+  SuiteRow row{
+      .number = number, .family = "made", .fault = {}, .risk = {}, .twin = {}, .driver = {}};
   row.risk.best_harm = best;
   row.risk.tried = {{{PolicyId::no_intervention, std::nullopt}, quiet ? 0.0 : 1.0, !quiet}};
   for (const double harm : harms) {
@@ -126,6 +128,18 @@ TEST(SuiteFigures, RowsWithAFaultAreLeftOut) {
   EXPECT_EQ(figures(rows, {"aeb"})[0].harm.value, 0.1);
   rows[1].fault = "broken";
   EXPECT_TRUE(figures(rows, {"aeb"}).empty());
+}
+
+TEST(DriverRowTest, AgreesWhereBothBrakeOrNotAndGoToTheSameSide) {
+  using manoeuvre::Plan;
+  const DriverRow brakes{.brakes = true};
+  EXPECT_TRUE(agrees(brakes, Plan{PolicyId::aeb, std::nullopt}));
+  EXPECT_FALSE(agrees(brakes, Plan{PolicyId::es_b_left, 5.0}));
+  EXPECT_FALSE(agrees(brakes, std::nullopt));
+  const DriverRow both{.brakes = true, .steers = -1};
+  EXPECT_TRUE(agrees(both, Plan{PolicyId::es_b_right, 5.0}));
+  EXPECT_FALSE(agrees(both, Plan{PolicyId::aes_right, std::nullopt}));
+  EXPECT_TRUE(agrees(DriverRow{}, std::nullopt));
 }
 
 // Paper, section V: moderate manoeuvres cost 0.5, drifts 1.

@@ -38,7 +38,7 @@ struct Stage {
 /// several decisions can be simulated without simulating again what led there.
 class ClosedLoop {
  public:
-  static constexpr int steps_per_look = 10;  ///< of the stepper
+  static constexpr int steps_per_look = 10;                            ///< of the stepper
   static constexpr double step = steps_per_look * sim::Stepper::step;  ///< between two looks [s]
 
   explicit ClosedLoop(const Stage& stage);
@@ -106,8 +106,8 @@ class ClosedLoop {
   manoeuvre::Plan plan_{manoeuvre::PolicyId::no_intervention, std::nullopt};
   double deceleration_ = std::numeric_limits<double>::infinity();
   manoeuvre::ControllerState controller_;
-  bool acts_ = false;            ///< something was carried out
-  bool kept_ = false;            ///< something was kept
+  bool acts_ = false;  ///< something was carried out
+  bool kept_ = false;  ///< something was kept
   bool contact_ = false;
   std::optional<double> ended_;  ///< when what was carried out had reached its end [s]
 };

@@ -23,11 +23,11 @@ class ClosedLoopTest : public testing::Test {
     scenario_.duration = 12.0;
     scenario_.road.left_edge = 7.0;
     scenario_.ego = sim::EgoStart{.pose = {}, .speed = 20.0};
-    scenario_.actors.push_back({.id = 1,
-                                .footprint = {.length = 4.5, .width = 1.8},
-                                .mass = 1'500.0,
-                                .motion = sim::Script{.start = {.s = 90.0},
-                                                      .behaviour = sim::Behaviour::hold}});
+    scenario_.actors.push_back(
+        {.id = 1,
+         .footprint = {.length = 4.5, .width = 1.8},
+         .mass = 1'500.0,
+         .motion = sim::Script{.start = {.s = 90.0}, .behaviour = sim::Behaviour::hold}});
   }
   [[nodiscard]] Stage stage() const { return {&scenario_, &car_, &harm_, &intent_, {}, {}}; }
 

@@ -8,11 +8,9 @@
 
 #include "saca/core/names.h"
 #include "saca/loop/closed_loop.h"
-#include "saca/loop/saca_method.h"
-#include "saca/loop/witness.h"
+#include "saca/loop/recorded_driver.h"
 #include "saca/outcome/describe.h"
 #include "saca/preview/preview.h"
-#include "saca/sim/stepper.h"
 
 namespace saca::loop {
 namespace {
@@ -46,8 +44,9 @@ class Encounter {
         loop_(stage_),
         planes_(planes_setup(setup),
                 {.event = [&listener](const Event& event) { listener.on_event(event); },
-                 .reasoning = [&listener](std::int32_t preview,
-                                          std::string_view text) { listener.on_reasoning(preview, text); }},
+                 .reasoning = [&listener](
+                                  std::int32_t preview,
+                                  std::string_view text) { listener.on_reasoning(preview, text); }},
                 static_cast<std::size_t>(setup.scenario->duration / ClosedLoop::step) + 2) {}
 
   Result<Record> play();
@@ -251,35 +250,13 @@ void Encounter::conclude() {
 
 /// The recorded driver's own way through the same scene, from where SACA took the wheel.
 void Encounter::compare_with_driver() {
-  if (!woke_ || !std::holds_alternative<sim::Recording>(setup_.scenario->ego)) {
+  if (!woke_) {
     return;
   }
-  double recorded_until = std::get<sim::Recording>(setup_.scenario->ego).back().time;
-  for (const sim::ScenarioActor& actor : setup_.scenario->actors) {
-    const auto* const recording = std::get_if<sim::Recording>(&actor.motion);
-    if (recording != nullptr && recording->back().time > *woke_) {
-      recorded_until = std::min(recorded_until, recording->back().time);  // beyond, it is a guess
-    }
+  if (auto driver = recorded_driver(*setup_.scenario, *setup_.car, *setup_.harm, *woke_)) {
+    record_.driver = driver->outcome;
+    record_.met_by_driver = std::move(driver->met);
   }
-  constexpr double worth_a_look = 0.1;  // [s]
-  if (recorded_until < *woke_ + worth_a_look) {
-    return;
-  }
-  sim::Stepper replay(*setup_.scenario, *setup_.car);
-  Witness witness(*setup_.harm);
-  while (!replay.over() && replay.time() <= recorded_until) {
-    if (replay.time() >= *woke_) {
-      if (witness.look(replay)) {
-        const auto& cast = witness.scene().actors;
-        record_.met_by_driver.assign(cast.begin(), cast.end());
-        break;
-      }
-    }
-    for (int k = 0; k < ClosedLoop::steps_per_look; ++k) {
-      replay.advance({});
-    }
-  }
-  record_.driver = witness.outcome();
 }
 
 void Encounter::learn() {

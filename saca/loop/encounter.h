@@ -36,9 +36,9 @@ struct Setup {
   const reach::DangerModel* danger = nullptr;  ///< of the car; nullptr: the best of few evasions
   preview::Thresholds thresholds;
   Pace pace = Pace::lockstep;
-  ThinkingCosts costs;                        ///< for lockstep
-  reason::LanguageModel* model = nullptr;     ///< nullptr: without; deadlines on `clock`
-  memory::Store* memory = nullptr;            ///< nullptr: without
+  ThinkingCosts costs;                     ///< for lockstep
+  reason::LanguageModel* model = nullptr;  ///< nullptr: without; deadlines on `clock`
+  memory::Store* memory = nullptr;         ///< nullptr: without
   decide::Guard guard = decide::Guard::never_worse_than_braking;
   std::optional<manoeuvre::PolicyId> forced;  ///< carried out at the trigger, whatever was thought
   std::optional<std::uint64_t> seed;          ///< of what is left to chance; nullopt: nothing is

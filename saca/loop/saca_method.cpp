@@ -19,7 +19,8 @@ std::optional<Action> SacaMethod::step(const View& view) {
   if (!view.driven) {
     return std::nullopt;
   }
-  const decide::Reflex reflex = planes_.step(view.scene, view.beliefs, from_seconds(view.scene.time));
+  const decide::Reflex reflex =
+      planes_.step(view.scene, view.beliefs, from_seconds(view.scene.time));
   if (!reflex.triggered) {
     return std::nullopt;
   }

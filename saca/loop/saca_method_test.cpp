@@ -50,11 +50,11 @@ TEST_F(SacaMethodTest, DoesWhatAnEncounterWithTheSamePlanesDoes) {
   scenario.road.left_edge = 5.25;
   scenario.road.right_edge = -5.25;
   scenario.ego = sim::EgoStart{.pose = {}, .speed = 20.0};
-  scenario.actors.push_back({.id = 1,
-                             .footprint = {.length = 4.5, .width = 1.8},
-                             .mass = 1'500.0,
-                             .motion = sim::Script{.start = {.s = 90.0},
-                                                   .behaviour = sim::Behaviour::hold}});
+  scenario.actors.push_back(
+      {.id = 1,
+       .footprint = {.length = 4.5, .width = 1.8},
+       .mass = 1'500.0,
+       .motion = sim::Script{.start = {.s = 90.0}, .behaviour = sim::Behaviour::hold}});
   const Played played = play(scenario);
   Silence silence;
   const Record record = run({.scenario = &scenario,

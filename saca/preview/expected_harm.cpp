@@ -12,8 +12,8 @@ using manoeuvre::PolicyId;
 using world::Scene;
 using world::Track;
 
-constexpr double motion_horizon = 10.0;          // [s]: beyond it somebody stands where it is
-constexpr double told_apart = 0.05;  // of an intention that is told apart
+constexpr double motion_horizon = 10.0;  // [s]: beyond it somebody stands where it is
+constexpr double told_apart = 0.05;      // of an intention that is told apart
 
 intent::Choices likely_choices(const intent::Belief& belief) {
   intent::Choices choices = intent::choices_of(belief.now(), told_apart);
@@ -24,10 +24,9 @@ intent::Choices likely_choices(const intent::Belief& belief) {
 }
 
 /// nullopt: the atlas does not hold all that can be driven.
-std::optional<std::vector<PolicyFacts>> judged(const Scene& scene,
-                                                 const std::vector<Track>& tracks,
-                                                 std::span<const manoeuvre::Plan> plans,
-                                                 const ForecastTools& tools, Physics physics) {
+std::optional<std::vector<PolicyFacts>> judged(const Scene& scene, const std::vector<Track>& tracks,
+                                               std::span<const manoeuvre::Plan> plans,
+                                               const ForecastTools& tools, Physics physics) {
   return physics == Physics::atlas ? read_plans(scene, tracks, plans, tools)
                                    : rolled_out(scene, tracks, plans, tools);
 }
@@ -48,9 +47,9 @@ std::vector<JointMotion> joint_motions(const Scene& scene, const intent::Beliefs
     motion.probability = hypothesis.probability;
     sum += hypothesis.probability;
     for (std::size_t i = 0; i < scene.actors.size(); ++i) {
-      motion.tracks.push_back(
-          intent::motion_under(scene, scene.actors[i], hypothesis.intentions[i], motion_horizon, law)
-              .track);
+      motion.tracks.push_back(intent::motion_under(scene, scene.actors[i], hypothesis.intentions[i],
+                                                   motion_horizon, law)
+                                  .track);
     }
   }
   for (JointMotion& motion : motions) {

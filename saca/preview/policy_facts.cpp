@@ -90,9 +90,8 @@ outcome::Futures read(const Scene& scene, const std::vector<Track>& tracks,
 /// nullopt: it can be driven, and the atlas does not have it.
 std::optional<PolicyFacts> facts_of(const outcome::Future& future, const Scene& scene,
                                     const ForecastTools& tools) {
-  PolicyFacts facts{.plan = future.plan,
-                    .refusal = refusal_of(*tools.car, future.plan, scene),
-                    .outcome = {}};
+  PolicyFacts facts{
+      .plan = future.plan, .refusal = refusal_of(*tools.car, future.plan, scene), .outcome = {}};
   if (facts.refusal.empty()) {
     if (future.outside) {
       return std::nullopt;

@@ -42,7 +42,8 @@ struct ForecastTools {
     const world::Scene& scene, const std::vector<world::Track>& tracks, const ForecastTools& tools);
 
 /// What the atlas says that these plans end in; followers react as in policy_facts.
-/// @return  in the order of `plans`; nullopt: there is no atlas, or it does not hold a plan that can
+/// @return  in the order of `plans`; nullopt: there is no atlas, or it does not hold a plan that
+/// can
 ///          be driven
 [[nodiscard]] std::optional<std::vector<PolicyFacts>> read_plans(
     const world::Scene& scene, const std::vector<world::Track>& tracks,

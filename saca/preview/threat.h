@@ -32,8 +32,8 @@ struct Threat {
 [[nodiscard]] std::optional<Threat> nearest_threat(const world::Scene& scene, double horizon,
                                                    double tolerance);
 
-/// The conflict that sets off the trigger: the nearest within T2, when it is within T1. The one rule
-/// of the reflex plane and of everybody who is compared with it. Allocates nothing.
+/// The conflict that sets off the trigger: the nearest within T2, when it is within T1. The one
+/// rule of the reflex plane and of everybody who is compared with it. Allocates nothing.
 [[nodiscard]] std::optional<Threat> triggering_threat(const world::Scene& scene,
                                                       const Thresholds& thresholds);
 

@@ -62,11 +62,10 @@ std::string table_html(const PageTable& table) {
   for (const PageTable::Row& row : table.rows) {
     expects(row.cells.size() == table.columns.size(), "one cell per column");
     expects(row.shades.empty() || row.shades.size() == row.cells.size(), "one shade per cell");
-    html += fmt::format("<tr{}><td{}>{}</td>", row.faded ? " class=\"faded\"" : "",
-                        row.explanation.empty()
-                            ? ""
-                            : fmt::format(" title=\"{}\"", escaped(row.explanation)),
-                        escaped(row.name));
+    html += fmt::format(
+        "<tr{}><td{}>{}</td>", row.faded ? " class=\"faded\"" : "",
+        row.explanation.empty() ? "" : fmt::format(" title=\"{}\"", escaped(row.explanation)),
+        escaped(row.name));
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
       html += fmt::format("<td{}>{}</td>", row.shades.empty() ? "" : shade(row.shades[i]),
                           escaped(row.cells[i]));
@@ -80,9 +79,10 @@ std::string table_html(const PageTable& table) {
       notes += fmt::format("<li><b>{}</b>: {}</li>\n", escaped(row.name), escaped(row.explanation));
     }
   }
-  return notes.empty() ? html
-                       : html + "<details><summary>What each row is</summary><ul class=\"notes\">\n" +
-                             notes + "</ul></details>\n";
+  return notes.empty()
+             ? html
+             : html + "<details><summary>What each row is</summary><ul class=\"notes\">\n" + notes +
+                   "</ul></details>\n";
 }
 
 std::string picture(const SceneView& view) {
@@ -91,7 +91,8 @@ std::string picture(const SceneView& view) {
 
 std::string card_html(const GalleryCard& card) {
   return fmt::format(
-      "<section class=\"card\"><h3>{}</h3>\n{}<div class=\"pair\">{}{}</div>\n<p><code>{}</code></p>"
+      "<section class=\"card\"><h3>{}</h3>\n{}<div "
+      "class=\"pair\">{}{}</div>\n<p><code>{}</code></p>"
       "</section>\n",
       escaped(card.title), paragraphs(card.lines), picture(card.done), picture(card.best),
       escaped(card.command));
@@ -104,8 +105,9 @@ std::string suite_page(const SuitePage& page) {
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title>"
       "<style>{1}{2}</style></head>\n<body>\n<h1>{0}</h1>\n",
       escaped(page.title), suite_style, svg_style);
-  html += fmt::format("<svg width=\"0\" height=\"0\" style=\"position:absolute\"><defs>{}</defs></svg>\n",
-                      svg_patterns);
+  html += fmt::format(
+      "<svg width=\"0\" height=\"0\" style=\"position:absolute\"><defs>{}</defs></svg>\n",
+      svg_patterns);
   html += paragraphs(page.lines, "first");
   if (page.chart) {
     html += dots_svg(*page.chart);

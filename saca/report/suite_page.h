@@ -13,10 +13,11 @@ namespace saca::report {
 struct PageTable {
   struct Row {
     std::string name;
-    std::string explanation;  ///< shown when the name is pointed at, and below the table; may be empty
-    std::vector<std::string> cells;              ///< one per column
-    std::vector<std::optional<double>> shades;   ///< of the cells, 0 (none) to 1 (worst); or empty
-    bool faded = false;                          ///< a yardstick that no method on a road can be
+    std::string
+        explanation;  ///< shown when the name is pointed at, and below the table; may be empty
+    std::vector<std::string> cells;             ///< one per column
+    std::vector<std::optional<double>> shades;  ///< of the cells, 0 (none) to 1 (worst); or empty
+    bool faded = false;                         ///< a yardstick that no method on a road can be
   };
   std::string heading;
   std::vector<std::string> lines;    ///< below the heading

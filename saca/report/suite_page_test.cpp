@@ -36,7 +36,10 @@ SuitePage page() {
                             .cells = {"0.1", "0.05"},
                             .shades = {std::nullopt, 0.5}}}}};
   made.gallery_heading = "Worst";
-  made.gallery = {{.title = "encounter 7", .lines = {"why"}, .done = view(), .best = view(),
+  made.gallery = {{.title = "encounter 7",
+                   .lines = {"why"},
+                   .done = view(),
+                   .best = view(),
                    .command = "saca suite natural --replay 7 \"<x>\""}};
   made.footnotes = {"seed 1"};
   return made;
