@@ -86,8 +86,8 @@ std::string step_text(const Climbed& one, const Rung& rung) {
     return rung.step;
   }
   const bool sure = one.step->low > 0.0 || one.step->high < 0.0;
-  return fmt::format("{}: {} {}{}", rung.step, one.step->value >= 0.0 ? "costs" : "saves",
-                     with_interval(*one.step, 4), sure ? "" : ", which may be chance");
+  return fmt::format("{}: {:+.4f} ({:+.4f} to {:+.4f}){}", rung.step, one.step->value,
+                     one.step->low, one.step->high, sure ? "" : ", which may be chance");
 }
 
 json json_of(const SuiteRun& run, const std::vector<Climbed>& climbed, const std::string& name) {
@@ -190,8 +190,8 @@ int run(LadderCommand options) {
   if (options.as_json) {
     fmt::print("{}", text);
   } else {
-    fmt::print("{}: {} encounters; regret with 95 % intervals\n\n", suite.name,
-               climbed.front().figures.regret.n);
+    fmt::print("{}: {} encounters; regret, and what each step adds to it, with 95 % intervals\n\n",
+               suite.name, climbed.front().figures.regret.n);
     for (std::size_t i = 0; i < climbed.size(); ++i) {
       fmt::print("{:22} {:28} {}\n", rungs[i].method, with_interval(climbed[i].figures.regret, 4),
                  step_text(climbed[i], rungs[i]));

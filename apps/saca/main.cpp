@@ -49,6 +49,7 @@ int main(int argc, char** argv) {
     add_family(line, exit_code);
     add_balance(line, exit_code);
     add_ladder(line, exit_code);
+    add_tables(line, exit_code);
     add_suite(line, exit_code);
     add_search_showcase(line, exit_code);
     add_tune(line, exit_code);

@@ -1,0 +1,159 @@
+"""`saca suite`, `saca ladder`, `saca tables`."""
+import html.parser
+import json
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from program import BAD_INPUT, CANNOT_WRITE, INTERRUPTED, PROGRAM, ROOT, SUCCESS, WRONG_COMMAND_LINE, one_error, saca
+
+FEW = ("--methods", "aeb,nothing,oracle", "--count", 6)
+
+
+def figures(run):
+    assert run.returncode == SUCCESS, run.stderr
+    return json.loads(run.stdout)
+
+
+class Text(html.parser.HTMLParser):
+    """What a page says, and what it would load."""
+
+    def __init__(self):
+        super().__init__()
+        self.text, self.links = [], []
+
+    def handle_starttag(self, tag, attributes):
+        self.links += [value for name, value in attributes if name in ("src", "href")]
+
+    def handle_data(self, data):
+        self.text.append(data)
+
+
+def test_a_suite_gives_rows_figures_and_a_page(tmp_path):
+    told = figures(saca("suite", "balanced", *FEW, "--json", "--output", "out/s.h5", cwd=tmp_path))
+    for method in ("aeb", "nothing", "oracle"):
+        place = f"suite.balanced.{method}."
+        assert told[place + "harm.lo"] <= told[place + "harm"] <= told[place + "harm.hi"]
+        assert told[place + "harm.n"] == 6
+    assert told["suite.balanced.oracle.harm"] <= told["suite.balanced.aeb.harm"] <= told["suite.balanced.nothing.harm"]
+    assert abs(told["suite.balanced.oracle.regret"]) < 0.003
+    assert told["suite.balanced.nothing.false_trigger_loss"] == 0 and told["suite.balanced.aeb.harm_over_aeb"] == 0
+    assert (tmp_path / "out/s.h5").read_bytes()[512:].startswith(b"\x89HDF")
+    assert json.loads((tmp_path / "out/s.json").read_text()).keys() >= told.keys() - {"suite.balanced.threads"}
+    page = Text()
+    page.feed((tmp_path / "out/s.html").read_text())
+    assert page.links == []
+    text = " ".join(page.text)
+    assert "AEB at T1 does" not in text  # the first method is what is told of; here braking itself
+    assert "Regret by family" in text and "How it was made" in text and "--seed 1" in text
+
+
+def test_the_same_seed_gives_the_same_rows_whatever_the_threads(tmp_path):
+    rows = []
+    for name, threads, seed in (("a", 1, 1), ("b", 2, 1), ("c", 2, 2)):
+        assert saca("suite", "balanced", *FEW, "--threads", threads, "--seed", seed, "--output", f"{name}.h5",
+                    cwd=tmp_path).returncode == SUCCESS
+        rows.append((tmp_path / f"{name}.h5.journal").read_text().splitlines()[1:])
+    assert rows[0] == rows[1]
+    assert rows[0] != rows[2]
+
+
+def test_an_interrupted_suite_goes_on_and_ends_the_same(tmp_path):
+    many = ("--methods", "aeb,beliefs_rolled_out", "--count", "120", "--threads", "1", "--json")
+    command = [PROGRAM, "suite", "crossing", *many, "--output", "s.h5"]
+    first = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    journal = tmp_path / "s.h5.journal"
+    while not (journal.exists() and len(journal.read_text().splitlines()) > 1):
+        assert first.poll() is None, first.communicate()
+        time.sleep(0.05)
+    first.send_signal(signal.SIGTERM)
+    _, errors = first.communicate()
+    done = len(journal.read_text().splitlines()) - 1
+    if first.returncode != SUCCESS:  # a machine that was quick had ended before
+        assert first.returncode == INTERRUPTED and "goes on where this one stopped" in errors
+        assert 0 < done < 120
+    again = figures(saca("suite", "crossing", *many, "--output", "s.h5", cwd=tmp_path))
+    whole = figures(saca("suite", "crossing", *many, "--output", "t.h5", cwd=tmp_path))
+    def same(told):
+        return {k: v for k, v in told.items() if "per_s" not in k}
+    assert same(again) == same(whole)
+
+
+def test_a_journal_of_other_work_is_refused(tmp_path):
+    assert saca("suite", "balanced", *FEW, "--output", "s.h5", cwd=tmp_path).returncode == SUCCESS
+    run = saca("suite", "balanced", *FEW, "--seed", 2, "--output", "s.h5", cwd=tmp_path)
+    assert "s.h5.journal" in one_error(run, BAD_INPUT) and "seed 2" in one_error(run, BAD_INPUT)
+    journal = tmp_path / "s.h5.journal"
+    lines = journal.read_text().splitlines()
+    journal.write_text("\n".join([lines[0], lines[1].replace('"runs"', '"runz"'), *lines[2:]]) + "\n")
+    run = saca("suite", "balanced", *FEW, "--output", "s.h5", cwd=tmp_path)
+    assert "line 2" in one_error(run, BAD_INPUT)
+
+
+@pytest.mark.parametrize("arguments, code, wanted", [
+    (["suite", "balanced", "--methods", "magic"], WRONG_COMMAND_LINE, 'got "magic"'),
+    (["suite", "balanced", "--methods", "aeb,aeb"], WRONG_COMMAND_LINE, '"aeb" twice'),
+    (["suite", "no_such"], BAD_INPUT, "want one of natural, balanced"),
+    (["suite", "cyclist"], BAD_INPUT, "test"),
+    (["suite", "balanced", "--split", "test"], BAD_INPUT, "log"),
+    (["suite", "100car"], BAD_INPUT, "--data"),
+    (["suite", "100car", "--data", "nowhere"], BAD_INPUT, "nowhere"),
+    (["suite", "."], BAD_INPUT, "want a folder with scenarios"),
+    (["ladder", "no_such"], BAD_INPUT, "no_such"),
+])
+def test_what_cannot_be_run_is_refused(tmp_path, arguments, code, wanted):
+    run = saca(*arguments, cwd=tmp_path)
+    assert run.returncode == code, run.stderr
+    assert wanted in run.stderr
+
+
+def test_a_folder_of_scenarios_is_a_suite(tmp_path):
+    for name in ("showcase_1", "showcase_4"):
+        (tmp_path / "mine").mkdir(exist_ok=True)
+        (tmp_path / "mine" / f"{name}.toml").write_text((ROOT / f"scenarios/{name}.toml").read_text())
+    told = figures(saca("suite", "mine", "--methods", "aeb,oracle", "--exact", "--json", cwd=tmp_path))
+    assert told["suite.mine.n"] == 2
+    # Both show what a lane change is for: braking harms more, and by more than half a per cent.
+    assert told["suite.mine.aeb.regret"] > 0.005
+    assert told["suite.mine.oracle.regret"] == pytest.approx(0.0, abs=0.003)
+
+
+def test_a_folder_that_may_not_be_written_is_told(tmp_path):
+    run = saca("suite", "balanced", *FEW, "--output", "/proc/none/s.h5", cwd=tmp_path)
+    assert "/proc/none" in one_error(run, CANNOT_WRITE)
+
+
+def test_an_encounter_is_replayed_as_it_was(tmp_path):
+    assert saca("suite", "balanced", "--methods", "saca", "--count", 4, "--output", "s.h5", cwd=tmp_path).returncode == SUCCESS
+    row = json.loads((tmp_path / "s.h5.journal").read_text().splitlines()[4])
+    printed = saca("suite", "balanced", "--replay", 3, cwd=tmp_path)
+    assert printed.returncode == SUCCESS, printed.stderr
+    words = printed.stdout.split()
+    assert words[:2] == ["saca", "run"]
+    record = json.loads(saca(*words[1:], "--danger", "off", "--json", cwd=tmp_path).stdout)
+    acted_at, plan, *_ = row["risk"]["runs"][0]
+    assert record["decision"]["t_s"] == pytest.approx(acted_at, abs=1e-6)
+    assert record["decision"]["policy"] == plan[0]
+    assert record["result"]["harm"] == pytest.approx(row["risk"]["runs"][0][5], abs=1e-9)
+
+
+def test_the_ladder_says_what_each_step_costs(tmp_path):
+    told = figures(saca("ladder", "crossing", "--count", 8, "--json", "--output", "l.json", cwd=tmp_path))
+    assert told["ladder.crossing.oracle"] == pytest.approx(0.0, abs=0.003)
+    step = told["ladder.crossing.aeb.step_from.first_forecast"]
+    assert step == pytest.approx(told["ladder.crossing.aeb"] - told["ladder.crossing.first_forecast"], abs=1e-9)
+    assert "What each step costs" in (tmp_path / "l.html").read_text()
+
+
+def test_the_tables_stand_beside_what_was_published(tmp_path):
+    run = saca("tables", "--count", 10, cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    assert re.search(r"SACA with a fine-tuned model +0\.54 +not yet", run.stdout)
+    assert "n = 60" in run.stdout and "n = 10" in run.stdout  # ten draws at six speeds, and at one
+    assert "not yet" in run.stdout.split("Table IV")[1]

@@ -1,0 +1,171 @@
+#!/usr/bin/env python3
+"""Makes docs/suites.md from the figures that `saca suite`, `saca ladder` and `saca tables` print with --json.
+
+usage: tools/suite_results.py FILE.json...     merges the files into docs/suites.json, and writes docs/suites.md from it
+       tools/suite_results.py                  writes docs/suites.md from docs/suites.json
+Of the single families only the regret is kept.
+"""
+
+import datetime
+import json
+import pathlib
+import platform
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+KEPT = ROOT / "docs" / "suites.json"
+PAGE = ROOT / "docs" / "suites.md"
+NUMBERS = ("harm", "regret", "harm_over_aeb", "contact", "right", "materially_worse_than_aeb", "needless", "false_trigger_loss",
+           "false_triggers", "regret_over_aeb", "cache_hit_rate", "agrees_with_driver")
+
+
+ORDER = ("saca", "saca_paper", "aeb", "r157", "cc_driver", "fsm", "rss", "rss_steering", "random", "nothing", "first_forecast",
+         "newest_forecast", "going_on_atlas", "beliefs_atlas", "beliefs_rolled_out", "beliefs_and_grip", "beliefs_and_followers",
+         "beliefs_and_hidden", "true_atlas", "true_rolled_out", "oracle")  # as saca/eval/methods.cpp has them
+
+
+def processor():
+    for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
+        if line.startswith("model name"):
+            return line.split(":", 1)[1].strip()
+    return platform.machine()
+
+
+def trimmed(figures):
+    """Without what is told of single families, but for the regret."""
+    kept = {}
+    for key, value in figures.items():
+        parts = key.split(".")
+        if parts[0] == "suite" and len(parts) > 4 and parts[3] not in NUMBERS and parts[3] not in ("source", "reason"):
+            if parts[4] != "regret" or len(parts) > 5:
+                continue
+        kept[key] = value
+    return kept
+
+
+def merged(files):
+    runs = []
+    for file in files:
+        figures = json.loads(pathlib.Path(file).read_text())
+        if "meta.command" not in figures:
+            sys.exit(f'{file}: want figures with "meta.command", got none')
+        figures["meta.processor"] = processor()
+        figures["meta.date"] = datetime.date.today().isoformat()
+        figures["meta.commit"] = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, check=True, capture_output=True,
+                                                text=True).stdout.strip()
+        runs.append(trimmed(figures))
+    return runs
+
+
+def interval(figures, key, digits=4, factor=1.0):
+    if key not in figures:
+        return "-"
+    low, high = figures.get(key + ".lo"), figures.get(key + ".hi")
+    text = f"{factor * figures[key]:.{digits}f}"
+    return text if low is None else f"{text} ({factor * low:.{digits}f} to {factor * high:.{digits}f})"
+
+
+def percent(figures, key):
+    return "-" if key not in figures else f"{100.0 * figures[key]:.1f}"
+
+
+def table(head, lines):
+    return "\n".join(["| " + " | ".join(head) + " |", "|" + "---|" * len(head), *("| " + " | ".join(line) + " |" for line in lines)])
+
+
+def methods_of(figures, head):
+    found = []
+    for key in figures:
+        match = re.fullmatch(re.escape(head) + r"([a-z_0-9]+)\.harm", key)
+        if match and match.group(1) != "driver":
+            found.append(match.group(1))
+    return in_order(found)
+
+
+def in_order(names):
+    return sorted(names, key=lambda name: (ORDER.index(name) if name in ORDER else len(ORDER), name))
+
+
+def suite_section(figures, name):
+    head = f"suite.{name}."
+    methods = methods_of(figures, head)
+    lines = [[f"`{m}`", interval(figures, f"{head}{m}.harm"), interval(figures, f"{head}{m}.regret"),
+              interval(figures, f"{head}{m}.harm_over_aeb"), percent(figures, f"{head}{m}.contact"),
+              percent(figures, f"{head}{m}.right"), percent(figures, f"{head}{m}.materially_worse_than_aeb"),
+              percent(figures, f"{head}{m}.needless"), interval(figures, f"{head}{m}.false_trigger_loss", 3).split(" ")[0]]
+             for m in methods]
+    text = [f"## Suite `{name}`\n",
+            f"{figures[head + 'n']} encounters, {figures[head + 'faults']} could not be played. Means with 95 % intervals; shares in per cent.\n",
+            table(["method", "harm", "regret", "harm above AEB's", "contact", "as good as the best", "materially worse than AEB", "needless",
+                   "False-Trigger Loss"], lines)]
+    families = sorted({key[len(head):].split(".")[1] for key in figures
+                       if key.startswith(head) and len(key[len(head):].split(".")) == 3 and key.endswith(".regret")})
+    if families:
+        text += ["\nRegret by family:\n",
+                 table(["method", *families], [[f"`{m}`", *(f"{figures.get(f'{head}{m}.{f}.regret', float('nan')):.4f}" for f in families)]
+                                               for m in methods])]
+    if head + "driver.n" in figures:
+        agreement = ", ".join(f"`{m}` {percent(figures, f'{head}{m}.agrees_with_driver')} %" for m in methods)
+        text.append(f"\n{figures[head + 'driver.n']} recorded drivers: harm {figures[head + 'driver.harm']:.4f}, "
+                    f"{figures[head + 'driver.met']} met somebody, {figures[head + 'driver.braked']} braked, "
+                    f"{figures[head + 'driver.steered']} moved aside by half a metre. Of those who met nobody, methods do as the driver did in: {agreement}.")
+    if head + "encounters_per_s_core" in figures:
+        text.append(f"\n{figures[head + 'encounters_per_s_core']:.2f} encounters per second and core.")
+    return "\n".join(text)
+
+
+def ladder_section(figures, name):
+    head = f"ladder.{name}."
+    rungs = in_order([key[len(head):] for key in figures if re.fullmatch(re.escape(head) + r"[a-z_]+", key)])
+    lines = []
+    for rung in rungs:
+        step = [key for key in figures if re.fullmatch(re.escape(f"{head}{rung}.step_from.") + r"[a-z_]+", key)]
+        lines.append([f"`{rung}`", interval(figures, head + rung), interval(figures, step[0]) if step else "-",
+                      f"`{step[0].rsplit('.', 1)[1]}`" if step else "-"])
+    return "\n".join([f"## Ladder `{name}`\n", f"{figures[head + rungs[0] + '.n']} encounters. A step is what a rung loses against another, paired.\n",
+                      table(["rung", "regret", "step", "against"], lines)])
+
+
+def tables_section(figures):
+    text = ["## Tables II and III of the paper, our rows\n"]
+    for number in ("2", "2_late", "3"):
+        head = f"tables.{number}."
+        methods = in_order([key[len(head):-len(".collision_loss")] for key in figures
+                            if re.fullmatch(re.escape(head) + r"[a-z_]+\.collision_loss", key)])
+        rows = [[f"`{m}`", interval(figures, f"{head}{m}.collision_loss.ten_draws", 2), interval(figures, f"{head}{m}.collision_loss", 2),
+                 interval(figures, f"{head}{m}.false_trigger_loss.ten_draws", 2), interval(figures, f"{head}{m}.false_trigger_loss", 2)] for m in methods]
+        count = figures[f"{head}{methods[0]}.collision_loss.n"]
+        text += [f"\nTable {'I' * int(number[0])}{' with a late truck (ours)' if 'late' in number else ''}, {count} encounters:\n",
+                 table(["method", "Collision Loss, ten draws each", "all draws", "False-Trigger Loss, ten draws each", "all draws"], rows)]
+    return "\n".join(text)
+
+
+def section(figures):
+    sections = []
+    for kind, make in (("suite", suite_section), ("ladder", ladder_section)):
+        for name in sorted({key.split(".")[1] for key in figures if key.startswith(kind + ".")}):
+            sections.append(make(figures, name))
+    if any(key.startswith("tables.") for key in figures):
+        sections.append(tables_section(figures))
+    made = (f"\n`{figures['meta.command']}`; seed {figures['meta.seed']}, commit {figures['meta.commit']}, {figures['meta.date']}, "
+            f"{figures['meta.processor']}.")
+    return "\n".join([*sections, made])
+
+
+def page_of(runs):
+    head = ("# Suites, ladders and tables\n\nMade by `tools/suite_results.py` from [suites.json](suites.json), which holds what the commands "
+            "below printed: no figure here is typed by hand. What the words mean: docs/formats.md, section Suite. `regret` is the harm above that "
+            "of the best plan begun at T1 with full knowledge; materially worse means by more than 0.005.\n\n")
+    return head + "\n\n".join(section(one) for one in runs) + "\n"
+
+
+def main():
+    if len(sys.argv) > 1:
+        KEPT.write_text(json.dumps(merged(sys.argv[1:]), indent=0, sort_keys=True) + "\n")
+    PAGE.write_text(page_of(json.loads(KEPT.read_text())))
+
+
+if __name__ == "__main__":
+    main()
