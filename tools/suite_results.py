@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Makes docs/suites.md from the figures that `saca suite`, `saca ladder` and `saca tables` print with --json.
 
-usage: tools/suite_results.py FILE.json...     merges the files into docs/suites.json, and writes docs/suites.md from it
-       tools/suite_results.py                  writes docs/suites.md from docs/suites.json
+usage: tools/suite_results.py COMMIT FILE.json...  merges the files, which were made at that commit, into docs/suites.json, and
+                                                   writes docs/suites.md from it
+       tools/suite_results.py                      writes docs/suites.md from docs/suites.json
 Of the single families only the regret is kept.
 """
 
@@ -45,16 +46,16 @@ def trimmed(figures):
     return kept
 
 
-def merged(files):
+def merged(commit, files):
     runs = []
+    commit = subprocess.run(["git", "rev-parse", "--short", commit], cwd=ROOT, check=True, capture_output=True, text=True).stdout.strip()
     for file in files:
         figures = json.loads(pathlib.Path(file).read_text())
         if "meta.command" not in figures:
             sys.exit(f'{file}: want figures with "meta.command", got none')
         figures["meta.processor"] = processor()
         figures["meta.date"] = datetime.date.today().isoformat()
-        figures["meta.commit"] = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, check=True, capture_output=True,
-                                                text=True).stdout.strip()
+        figures["meta.commit"] = commit
         runs.append(trimmed(figures))
     return runs
 
@@ -163,7 +164,7 @@ def page_of(runs):
 
 def main():
     if len(sys.argv) > 1:
-        KEPT.write_text(json.dumps(merged(sys.argv[1:]), indent=0, sort_keys=True) + "\n")
+        KEPT.write_text(json.dumps(merged(sys.argv[1], sys.argv[2:]), indent=0, sort_keys=True) + "\n")
     PAGE.write_text(page_of(json.loads(KEPT.read_text())))
 
 

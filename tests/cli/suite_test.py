@@ -138,7 +138,7 @@ def test_an_encounter_is_replayed_as_it_was(tmp_path):
     assert words[:2] == ["saca", "run"]
     record = json.loads(saca(*words[1:], "--danger", "off", "--json", cwd=tmp_path).stdout)
     acted_at, plan, *_ = row["risk"]["runs"][0]
-    assert record["decision"]["t_s"] == pytest.approx(acted_at, abs=1e-6)
+    assert record["decision"]["time_s"] == pytest.approx(acted_at, abs=1e-6)
     assert record["decision"]["policy"] == plan[0]
     assert record["result"]["harm"] == pytest.approx(row["risk"]["runs"][0][5], abs=1e-9)
 
