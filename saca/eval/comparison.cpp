@@ -18,8 +18,11 @@ using manoeuvre::PolicyId;
 struct Branch {
   ClosedLoop loop;
   std::vector<std::size_t> methods;
-  bool untouched = true;  ///< nobody has acted in it
-  bool decided = false;   ///< at this instant everybody has been asked
+  bool untouched = true;           ///< nobody has acted in it
+  bool decided = false;            ///< at this instant everybody has been asked
+  double time = 0.0;               ///< of the look before [s]
+  double ego_speed = 0.0;          ///< then [m/s]
+  double peak_deceleration = 0.0;  ///< so far [m/s^2]
 };
 
 /// What some methods do now alike.
@@ -27,6 +30,14 @@ struct Group {
   std::optional<Action> action;
   std::vector<std::size_t> methods;
 };
+
+/// Of the ego, between the last look at which nobody was touched and now [m/s].
+double speed_at(const Branch& branch, double time) {
+  const double now = norm(branch.loop.truth().ego().v_B);
+  const double since = branch.loop.time() - branch.time;
+  const double share = since > 0.0 ? std::clamp((time - branch.time) / since, 0.0, 1.0) : 1.0;
+  return branch.ego_speed + share * (now - branch.ego_speed);
+}
 
 bool alike(const std::optional<Action>& a, const std::optional<Action>& b) {
   return a.has_value() == b.has_value() &&
@@ -66,6 +77,7 @@ class Play {
   [[nodiscard]] bool ask(Branch& branch);
   [[nodiscard]] std::vector<Group> decide(const Branch& branch);
   void note_trigger(const Branch& branch);
+  static void note_motion(Branch& branch);
   void begin(Branch& branch, const Group& group);
   void conclude(const Branch& branch);
   /// A method is asked no more.
@@ -89,9 +101,20 @@ void Play::play(Branch branch) {
     }
     branch.decided = false;
     loop.keep();
+    if (loop.contact()) {
+      break;  // what the ego does from now on is the outcome's
+    }
+    note_motion(branch);
     loop.advance();
   }
   conclude(branch);
+}
+
+void Play::note_motion(Branch& branch) {
+  const world::EgoState ego = branch.loop.truth().ego();
+  branch.time = branch.loop.time();
+  branch.ego_speed = norm(ego.v_B);
+  branch.peak_deceleration = std::max(branch.peak_deceleration, -ego.a_B.x);
 }
 
 bool Play::ask(Branch& branch) {
@@ -210,6 +233,7 @@ void Play::conclude(const Branch& branch) {
   for (const std::size_t method : branch.methods) {
     MethodRun& run = comparison_.runs[method];
     run.clearance = outcome::far_away;
+    run.peak_deceleration = branch.peak_deceleration;
     if (!outcome) {
       continue;
     }
@@ -221,6 +245,7 @@ void Play::conclude(const Branch& branch) {
       run.met = contact.actor ? actor_name(branch.loop.met().actors[*contact.actor])
                               : std::string("edge");
       run.impact_speed = contact.relative_speed;
+      run.ego_speed = speed_at(branch, contact.time);
     }
   }
 }

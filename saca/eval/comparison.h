@@ -23,6 +23,9 @@ struct MethodRun {
   double collision_loss = 0.0;          ///< the paper's, of the first contact
   std::optional<std::string> met;       ///< with whom or what the first contact was
   double impact_speed = 0.0;            ///< relative, of that contact [m/s]
+  double ego_speed = 0.0;               ///< of the ego at that contact [m/s]
+  double peak_deceleration = 0.0;       ///< largest of the ego along its heading before that
+                                        ///< contact [m/s^2], >= 0
   double clearance = 0.0;               ///< smallest distance to anybody [m]; 0 with contact
   std::string fault;                    ///< what it threw; empty: nothing. It then did no more
 
