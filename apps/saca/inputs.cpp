@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "saca/core/file.h"
 #include "saca/manoeuvre/ego.h"
 
 namespace saca::app {
@@ -47,6 +48,15 @@ Result<Inputs> read_inputs(const std::string& car) {
                 .car = read.value(),
                 .harm = harm.value(),
                 .intent = std::move(intent).value()};
+}
+
+Result<loop::ThinkingCosts> read_costs(const Places& places) {
+  const fs::path file = places.root / "data" / "thinking_costs.toml";
+  const auto text = read_file(file);
+  if (!text.has_value()) {
+    return text.error();
+  }
+  return loop::read_thinking_costs(text.value(), file.string());
 }
 
 Result<ScenarioInputs> read_scenario_inputs(const std::string& scenario) {

@@ -4,6 +4,7 @@
 
 #include "apps/saca/places.h"
 #include "saca/intent/model.h"
+#include "saca/loop/charged_model.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/outcome/harm.h"
 #include "saca/sim/family.h"
@@ -23,6 +24,9 @@ struct Inputs {
 
 /// @param car  its file, or the name of a shipped one
 [[nodiscard]] Result<Inputs> read_inputs(const std::string& car);
+
+/// What thinking costs in lockstep: data/thinking_costs.toml.
+[[nodiscard]] Result<loop::ThinkingCosts> read_costs(const Places& places);
 
 struct ScenarioInputs : Inputs {
   sim::Scenario scenario;

@@ -44,15 +44,6 @@ struct RunOptions {
   bool as_json = false;
 };
 
-Result<loop::ThinkingCosts> read_costs(const Places& places) {
-  const fs::path file = places.root / "data" / "thinking_costs.toml";
-  const auto text = read_file(file);
-  if (!text.has_value()) {
-    return text.error();
-  }
-  return loop::read_thinking_costs(text.value(), file.string());
-}
-
 /// nullopt: none is wanted.
 Result<std::optional<manoeuvre::Atlas>> open_atlas(const RunOptions& options,
                                                    const ScenarioInputs& inputs) {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/regulation_command.h"
 #include "apps/saca/suite_pages.h"
 #include "saca/core/file.h"
 #include "saca/eval/suite_file.h"
@@ -23,6 +24,7 @@ using nlohmann::json;
 struct SuiteCommand {
   SuiteCommandOptions suite;
   std::optional<std::uint64_t> replay;
+  std::string rows;  ///< of a regulation
   bool as_json = false;
 };
 
@@ -195,7 +197,42 @@ std::optional<Error> write(const SuiteRun& run, const SuiteResult& result, const
                     figures.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
-int run(SuiteCommand options) {
+/// The tests of a regulation: nothing is drawn in them, and what is said of drawing is refused.
+int run_as_regulation(const CLI::App& line, const SuiteCommand& options) {
+  for (const char* const name :
+       {"--count", "--split", "--test-log", "--seed", "--exact", "--no-twins", "--replay"}) {
+    if (line.count(name) > 0) {
+      complain(fmt::format("{}: {} is a regulation, of which nothing is drawn", name,
+                           options.suite.name));
+      return wrong_command_line;
+    }
+  }
+  RegulationOptions tests{.name = options.suite.name,
+                          .rows = options.rows,
+                          .output = options.suite.output,
+                          .threads = options.suite.threads,
+                          .as_json = options.as_json};
+  if (line.count("--methods") > 0) {
+    tests.methods = options.suite.methods;
+  }
+  if (line.count("--car") > 0) {
+    tests.cars = options.suite.car;
+  }
+  return run_regulation(tests);
+}
+
+int run(const CLI::App& line, SuiteCommand options) {
+  const auto places = find_places();
+  if (!places.has_value()) {
+    return refused(places.error());
+  }
+  if (fs::exists(regulation_path(places.value(), options.suite.name))) {
+    return run_as_regulation(line, options);
+  }
+  if (!options.rows.empty()) {
+    complain("--rows: want it of a regulation (fmvss127, r152), got " + options.suite.name);
+    return wrong_command_line;
+  }
   SuiteCommandOptions& suite = options.suite;
   if (options.replay) {
     const auto command = write_encounter(suite, *options.replay);
@@ -242,7 +279,9 @@ int run(SuiteCommand options) {
 
 void add_suite(CLI::App& line, int& exit_code) {
   CLI::App* const command = line.add_subcommand(
-      "suite", "Run methods in closed loop over many encounters, paired; can be interrupted");
+      "suite",
+      "Run methods in closed loop over many encounters, paired, or over what a regulation asks "
+      "(fmvss127, r152); can be interrupted");
   const auto options = std::make_shared<SuiteCommand>();
   options->suite.methods = usual_methods;
   add_suite_options(*command, options->suite);
@@ -253,8 +292,10 @@ void add_suite(CLI::App& line, int& exit_code) {
   command->add_option("--replay", options->replay,
                       "Write encounter N as a scenario, and print the command that plays it");
   command->add_flag("--no-twins", options->suite.no_twins, "Leave the twins without risk out");
+  command->add_option("--rows", options->rows,
+                      "Of a regulation, only these tests: names of its file, separated by commas");
   command->add_flag("--json", options->as_json, "For programs");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->callback([command, options, &exit_code] { exit_code = run(*command, *options); });
 }
 
 }  // namespace saca::app

@@ -352,7 +352,8 @@ Result<std::string> write_encounter(const SuiteCommandOptions& options, std::uin
 void add_suite_options(CLI::App& command, SuiteCommandOptions& options) {
   command
       .add_option("name", options.name,
-                  "A suite (natural, balanced), a family, a folder of scenarios, or 100car")
+                  "A suite (natural, balanced), a family, a folder of scenarios, 100car, or a "
+                  "regulation (fmvss127, r152)")
       ->required();
   command.add_option("--data", options.data, "Of 100car: the folder of the study's release");
   command.add_option("--count", options.count, "How many encounters")

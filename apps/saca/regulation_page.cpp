@@ -1,0 +1,224 @@
+#include "apps/saca/regulation_page.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "saca/core/units.h"
+#include "saca/eval/methods.h"
+
+namespace saca::app {
+namespace {
+
+using eval::LimitKind;
+using eval::TestVerdict;
+
+/// Why a cell was not passed.
+std::string failure_of(const eval::CellResult& judged) {
+  switch (judged.verdict) {
+    case TestVerdict::passed:
+      break;
+    case TestVerdict::contact:
+      return fmt::format("hits with {:.1f} m/s", judged.impact_speed);
+    case TestVerdict::no_braking:
+      return "steers and does not brake";
+    case TestVerdict::false_reaction:
+      return fmt::format("acts, decelerates by {:.1f} m/s2", judged.peak_deceleration);
+    case TestVerdict::fault:
+      return "could not be played";
+  }
+  return "";
+}
+
+/// What a cell came to, in words: not by colour alone.
+std::string words_for(const RegulationRun& run, std::size_t cell, const RegulationResult& result) {
+  const eval::CellResult& judged = result.judged;
+  if (!judged.passed()) {
+    return "FAILS: " + failure_of(judged);
+  }
+  if (judged.impact_speed > 0.0) {
+    return fmt::format("passes: {:.1f} m/s", judged.impact_speed);
+  }
+  return run.row_of(cell).limit == LimitKind::deceleration
+             ? fmt::format("passes: {:.2f} g", judged.peak_deceleration / from_g(1.0))
+             : "passes";
+}
+
+/// 0: passed; a failure is seen at once, and the deeper the faster the impact.
+double shade_of(const RegulationRun& run, std::size_t cell, const RegulationResult& result) {
+  constexpr double failed = 0.45;
+  if (result.judged.passed()) {
+    return 0.0;
+  }
+  const double share = result.judged.impact_speed / run.cells[cell].speed;
+  return std::clamp(failed + (1.0 - failed) * share, failed, 1.0);
+}
+
+std::string allowed(const eval::RegulationRow& row) {
+  switch (row.limit) {
+    case LimitKind::no_contact:
+      return "Nobody may be touched.";
+    case LimitKind::impact_speed:
+      return "Largest impact speed as below each speed.";
+    case LimitKind::deceleration:
+      return fmt::format("The car may decelerate by less than {:.2f} g.",
+                         row.peak_deceleration / from_g(1.0));
+    case LimitKind::no_intervention:
+      return "Nobody may act: there is no risk.";
+  }
+  return "";
+}
+
+std::string column_of(const eval::RegulationCell& cell) {
+  return cell.impact_speed ? fmt::format("{}, at most {:.0f} km/h", eval::label_of(cell),
+                                         to_kmh(*cell.impact_speed))
+                           : eval::label_of(cell);
+}
+
+report::PageTable table_of(const RegulationRun& run, std::size_t row) {
+  const eval::RegulationRow& of = run.regulation.rows[row];
+  report::PageTable table{
+      .heading = of.title,
+      .lines = {fmt::format("{}: {}. {}", run.regulation.name, of.paragraph, allowed(of))},
+      .columns = {},
+      .rows = {}};
+  std::vector<std::size_t> cells;
+  for (std::size_t i = 0; i < run.cells.size(); ++i) {
+    if (run.cells[i].row == row) {
+      cells.push_back(i);
+      table.columns.push_back(column_of(run.cells[i]));
+    }
+  }
+  for (std::size_t m = 0; m < run.methods.size(); ++m) {
+    for (std::size_t k = 0; k < run.cars.size(); ++k) {
+      report::PageTable::Row line{
+          .name = fmt::format("{}, {}", eval::find_method(run.methods[m])->title, run.cars[k]),
+          .explanation = "",
+          .cells = {},
+          .shades = {},
+          .faded = eval::find_method(run.methods[m])->knows_truth};
+      for (const std::size_t i : cells) {
+        line.cells.push_back(words_for(run, i, run.at(k, i, m)));
+        line.shades.emplace_back(shade_of(run, i, run.at(k, i, m)));
+      }
+      table.rows.push_back(std::move(line));
+    }
+  }
+  return table;
+}
+
+std::string share_of(const Passed& sum) {
+  return fmt::format("{} of {}", sum.passed, sum.all);
+}
+
+report::PageTable summary_of(const RegulationRun& run) {
+  report::PageTable table{.heading = "How many tests each passes",
+                          .lines = {"A car may be sold when it passes all."},
+                          .columns = run.cars,
+                          .rows = {}};
+  table.columns.emplace_back("all");
+  for (std::size_t m = 0; m < run.methods.size(); ++m) {
+    const eval::MethodInfo& info = *eval::find_method(run.methods[m]);
+    report::PageTable::Row line{.name = std::string(info.title),
+                                .explanation = std::string(info.what),
+                                .cells = {},
+                                .shades = {},
+                                .faded = info.knows_truth};
+    for (std::size_t k = 0; k <= run.cars.size(); ++k) {
+      const Passed sum =
+          passed_by(run, m, k < run.cars.size() ? std::optional(k) : std::nullopt, std::nullopt);
+      line.cells.push_back(share_of(sum));
+      line.shades.emplace_back(static_cast<double>(sum.all - sum.passed) / sum.all);
+    }
+    table.rows.push_back(std::move(line));
+  }
+  return table;
+}
+
+/// How one car fails a row: how often, and where worst.
+std::string failures_of(const RegulationRun& run, std::size_t row, std::size_t car,
+                        std::size_t method) {
+  const Passed sum = passed_by(run, method, car, row);
+  if (sum.passed == sum.all) {
+    return "";
+  }
+  std::optional<std::size_t> worst;
+  for (std::size_t i = 0; i < run.cells.size(); ++i) {
+    const bool failed = run.cells[i].row == row && !run.at(car, i, method).judged.passed();
+    if (failed && (!worst || run.at(car, i, method).judged.impact_speed >=
+                                 run.at(car, *worst, method).judged.impact_speed)) {
+      worst = i;
+    }
+  }
+  return fmt::format("{} fails {} of {}, worst at {}: {}", run.cars[car], sum.all - sum.passed,
+                     sum.all, eval::label_of(run.cells[*worst]),
+                     failure_of(run.at(car, *worst, method).judged));
+}
+
+}  // namespace
+
+std::vector<std::string> constant_in_words(const RegulationRun& run) {
+  const auto found = std::find(run.methods.begin(), run.methods.end(), "aeb");
+  if (found == run.methods.end()) {
+    return {};
+  }
+  const auto method = static_cast<std::size_t>(found - run.methods.begin());
+  const Passed sum = passed_by(run, method, std::nullopt, std::nullopt);
+  if (sum.passed == sum.all) {
+    return {fmt::format("Full braking at the paper's T1 = 1.3 s passes all {} tests that were run.",
+                        sum.all)};
+  }
+  std::vector<std::string> lines{fmt::format(
+      "Full braking at the paper's T1 = 1.3 s would not be allowed on the road: it fails {} of {} "
+      "tests, at worst with an impact of {:.1f} m/s.",
+      sum.all - sum.passed, sum.all, sum.worst)};
+  for (std::size_t r = 0; r < run.regulation.rows.size(); ++r) {
+    std::string cars;
+    for (std::size_t k = 0; k < run.cars.size(); ++k) {
+      const std::string failures = failures_of(run, r, k, method);
+      cars += (cars.empty() || failures.empty() ? "" : "; ") + failures;
+    }
+    if (!cars.empty()) {
+      lines.push_back(fmt::format("{} ({}): {}.", run.regulation.rows[r].title,
+                                  run.regulation.rows[r].paragraph, cars));
+    }
+  }
+  return lines;
+}
+
+report::SuitePage page_of(const RegulationRun& run) {
+  report::SuitePage page;
+  page.title = run.regulation.title;
+  page.lines = constant_in_words(run);
+  page.lines.push_back(fmt::format(
+      "{} tests with each of {} cars; perception is exact and nothing is left to chance: who fails "
+      "here fails on a proving ground too. Test surface: friction coefficient {} ({}).",
+      run.cells.size(), run.cars.size(), run.regulation.grip, run.regulation.grip_source));
+  page.lines.push_back(fmt::format(
+      "Who gets by without braking by {:.1f} m/s2 at least has not done what the text asks ({}).",
+      run.regulation.least_braking, run.regulation.least_braking_source));
+  page.tables.push_back(summary_of(run));
+  for (std::size_t r = 0; r < run.regulation.rows.size(); ++r) {
+    page.tables.push_back(table_of(run, r));
+  }
+  for (const std::string& note : run.regulation.notes) {
+    page.footnotes.push_back(note);
+  }
+  for (const auto& [key, value] : run.meta.items()) {
+    page.footnotes.push_back(key.substr(key.find('.') + 1) + ": " + value.get<std::string>());
+  }
+  for (std::size_t k = 0; k < run.cars.size(); ++k) {
+    for (std::size_t i = 0; i < run.cells.size(); ++i) {
+      for (std::size_t m = 0; m < run.methods.size(); ++m) {
+        if (const std::string& fault = run.at(k, i, m).fault; !fault.empty()) {
+          page.footnotes.push_back(fmt::format("{}, {}, {}, {}: {}", run.methods[m], run.cars[k],
+                                               run.row_of(i).name, eval::label_of(run.cells[i]),
+                                               fault));
+        }
+      }
+    }
+  }
+  return page;
+}
+
+}  // namespace saca::app

@@ -1,0 +1,200 @@
+#include "apps/saca/regulation_running.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <memory>
+#include <sstream>
+
+#include "apps/saca/atlas_making.h"
+#include "apps/saca/inputs.h"
+#include "apps/saca/progress.h"
+#include "apps/saca/suite_running.h"
+#include "saca/eval/suite.h"
+#include "saca/manoeuvre/ego.h"
+
+namespace saca::app {
+namespace {
+
+namespace fs = std::filesystem;
+using eval::Regulation;
+
+constexpr std::size_t cells_per_thread = 4;  // between two looks at the signals
+
+std::vector<std::string> words_of(const std::string& list) {
+  std::vector<std::string> words;
+  std::istringstream stream(list);
+  for (std::string word; std::getline(stream, word, ',');) {
+    words.push_back(word);
+  }
+  return words;
+}
+
+/// Only the rows that were asked for.
+std::optional<Error> choose_rows(Regulation& regulation, const std::string& list) {
+  if (list.empty()) {
+    return std::nullopt;
+  }
+  std::string known;
+  for (const eval::RegulationRow& row : regulation.rows) {
+    known += (known.empty() ? "" : ", ") + row.name;
+  }
+  std::vector<eval::RegulationRow> chosen;
+  for (const std::string& word : words_of(list)) {
+    const auto found = std::find_if(regulation.rows.begin(), regulation.rows.end(),
+                                    [&](const auto& row) { return row.name == word; });
+    if (found == regulation.rows.end()) {
+      return Error{Error::Code::out_of_range,
+                   fmt::format("--rows: want some of {}; got \"{}\"", known, word)};
+    }
+    chosen.push_back(*found);
+  }
+  regulation.rows = std::move(chosen);
+  return std::nullopt;
+}
+
+/// A car and all that it is run with. It stays where it is: its parts point to one another.
+struct TestedCar {
+  Inputs inputs;
+  std::optional<manoeuvre::Atlas> atlas;
+  SteadyClock clock;
+  loop::PlanesSetup planes;
+};
+
+Result<std::unique_ptr<TestedCar>> open_car(const std::string& name) {
+  auto inputs = read_inputs(name);
+  if (!inputs.has_value()) {
+    return inputs.error();
+  }
+  auto car = std::make_unique<TestedCar>();
+  car->inputs = std::move(inputs).value();
+  const auto costs = read_costs(car->inputs.places);
+  if (!costs.has_value()) {
+    return costs.error();
+  }
+  car->atlas = usual_atlas(car->inputs);
+  car->planes = {.forecast = {&car->inputs.car, &car->inputs.harm, &*car->atlas},
+                 .costs = costs.value(),
+                 .clock = &car->clock};
+  return car;
+}
+
+/// One per method.
+std::vector<RegulationResult> results_of(const RegulationRun& run, std::size_t index,
+                                         const TestedCar& car) {
+  const eval::RegulationCell& cell = run.cells[index];
+  const eval::SuiteEncounter encounter{
+      .number = index,
+      .family = run.row_of(index).name,
+      .scenario = eval::scenario_of(run.regulation, cell, manoeuvre::footprint(car.inputs.car)),
+      .twin = {}};
+  const eval::SuiteRow row = eval::run_encounter(
+      encounter, {.methods = run.methods, .seed = 1, .exact = true}, car.planes, car.inputs.intent);
+  std::vector<RegulationResult> results(run.methods.size());
+  for (std::size_t m = 0; m < results.size(); ++m) {
+    RegulationResult& result = results[m];
+    if (!row.fault.empty()) {
+      result.judged.verdict = eval::TestVerdict::fault;
+      result.fault = row.fault;
+      continue;
+    }
+    const eval::MethodRun& played = row.risk.runs[m];
+    result = {.judged = eval::judged(run.regulation, cell, played),
+              .plan = played.plan,
+              .acted_at = played.acted_at,
+              .fault = played.fault};
+  }
+  return results;
+}
+
+Result<RegulationRun> prepare(const RegulationOptions& options,
+                              const std::vector<std::string>& methods) {
+  const auto places = find_places();
+  if (!places.has_value()) {
+    return places.error();
+  }
+  auto regulation = eval::load_regulation(regulation_path(places.value(), options.name));
+  if (!regulation.has_value()) {
+    return regulation.error();
+  }
+  RegulationRun run{.regulation = std::move(regulation).value(),
+                    .cells = {},
+                    .cars = words_of(options.cars),
+                    .methods = methods,
+                    .results = {},
+                    .meta = {}};
+  if (auto problem = choose_rows(run.regulation, options.rows)) {
+    return *problem;
+  }
+  run.cells = eval::cells_of(run.regulation);
+  run.results.resize(run.cars.size() * run.cells.size() * run.methods.size());
+  run.meta = {{"meta.command",
+               fmt::format("saca suite {} --methods {} --car {}{}", options.name, options.methods,
+                           options.cars, options.rows.empty() ? "" : " --rows " + options.rows)},
+              {"meta.n", std::to_string(run.cars.size() * run.cells.size())},
+              {"meta.source", run.regulation.source},
+              {"meta.version", SACA_VERSION}};
+  return run;
+}
+
+}  // namespace
+
+Passed passed_by(const RegulationRun& run, std::size_t method, std::optional<std::size_t> car,
+                 std::optional<std::size_t> row) {
+  Passed sum;
+  for (std::size_t k = 0; k < run.cars.size(); ++k) {
+    for (std::size_t i = 0; i < run.cells.size(); ++i) {
+      if ((car && k != *car) || (row && run.cells[i].row != *row)) {
+        continue;
+      }
+      const RegulationResult& result = run.at(k, i, method);
+      ++sum.all;
+      sum.passed += result.judged.passed() ? 1 : 0;
+      sum.faults += result.judged.verdict == eval::TestVerdict::fault ? 1 : 0;
+      sum.worst = std::max(sum.worst, result.judged.passed() ? 0.0 : result.judged.impact_speed);
+    }
+  }
+  return sum;
+}
+
+fs::path regulation_path(const Places& places, const std::string& name) {
+  return places.root / "data" / "protocols" / (name + ".toml");
+}
+
+Result<std::optional<RegulationRun>> run_cells(const RegulationOptions& options,
+                                               const std::vector<std::string>& methods) {
+  auto prepared = prepare(options, methods);
+  if (!prepared.has_value()) {
+    return prepared.error();
+  }
+  RegulationRun run = std::move(prepared).value();
+  std::vector<std::unique_ptr<TestedCar>> cars;
+  for (const std::string& name : run.cars) {
+    auto car = open_car(name);
+    if (!car.has_value()) {
+      return car.error();
+    }
+    cars.push_back(std::move(car).value());
+  }
+  watch_for_interrupt();
+  SteadyClock clock;
+  const std::size_t count = cars.size() * run.cells.size();
+  ProgressLine progress("suite " + run.regulation.name, static_cast<int>(count), clock);
+  const std::size_t batch = cells_per_thread * static_cast<std::size_t>(options.threads);
+  for (std::size_t first = 0; first < count; first += batch) {
+    if (interrupted()) {
+      return std::optional<RegulationRun>();
+    }
+    const std::size_t now = std::min(batch, count - first);
+    in_parallel(now, options.threads, [&](std::size_t i) {
+      const std::size_t at = first + i;
+      auto results = results_of(run, at % run.cells.size(), *cars[at / run.cells.size()]);
+      std::move(results.begin(), results.end(),
+                run.results.begin() + static_cast<std::ptrdiff_t>(at * run.methods.size()));
+    });
+    progress.show(static_cast<int>(first + now), 0, " tests");
+  }
+  return std::optional(std::move(run));
+}
+
+}  // namespace saca::app

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/saca/places.h"
+#include "saca/core/parallel.h"
+#include "saca/eval/regulation.h"
+
+namespace saca::app {
+
+/// How the tests of a regulation are run.
+struct RegulationOptions {
+  std::string name;  ///< of a file of data/protocols
+  std::string methods = "saca,aeb,rss,beliefs_rolled_out";
+  std::string cars = "compact_rwd_ev,small_fwd_car,midsize_suv,delivery_van";
+  std::string rows;    ///< names of its rows, separated by commas; empty: all
+  std::string output;  ///< the page; empty: runs/suite-NAME.html
+  int threads = usual_threads();
+  bool as_json = false;
+};
+
+/// What one method did in one cell with one car.
+struct RegulationResult {
+  eval::CellResult judged;
+  std::optional<manoeuvre::Plan> plan;  ///< with what it first intervened
+  std::optional<double> acted_at;       ///< [s]
+  std::string fault;                    ///< why it failed, or the cell could not be played
+};
+
+struct RegulationRun {
+  eval::Regulation regulation;
+  std::vector<eval::RegulationCell> cells;
+  std::vector<std::string> cars;
+  std::vector<std::string> methods;
+  std::vector<RegulationResult> results;  ///< by car, cell and method, the last running fastest
+  nlohmann::json meta;                    ///< "meta.command" and so on
+
+  [[nodiscard]] const RegulationResult& at(std::size_t car, std::size_t cell,
+                                           std::size_t method) const {
+    return results[(car * cells.size() + cell) * methods.size() + method];
+  }
+  [[nodiscard]] const eval::RegulationRow& row_of(std::size_t cell) const {
+    return regulation.rows[cells[cell].row];
+  }
+};
+
+/// How many of some tests were passed.
+struct Passed {
+  int passed = 0;
+  int all = 0;
+  int faults = 0;
+  double worst = 0.0;  ///< largest impact speed of those that were failed [m/s]
+};
+/// @param car  nullopt: of all; likewise the row
+[[nodiscard]] Passed passed_by(const RegulationRun& run, std::size_t method,
+                               std::optional<std::size_t> car, std::optional<std::size_t> row);
+
+/// Where the file of a regulation would be.
+[[nodiscard]] std::filesystem::path regulation_path(const Places& places, const std::string& name);
+
+/// Runs all cells with all cars and methods, with progress on the error stream.
+/// @param methods  names of eval::methods(), in the order of tables
+/// @return         nullopt: interrupted
+[[nodiscard]] Result<std::optional<RegulationRun>> run_cells(
+    const RegulationOptions& options, const std::vector<std::string>& methods);
+
+}  // namespace saca::app
