@@ -65,15 +65,15 @@ json json_of(const RegulationRun& run) {
   json cells = json::array();
   for (std::size_t m = 0; m < run.methods.size(); ++m) {
     const std::string place = head + run.methods[m] + ".";
-    const Passed all = passed_by(run, m, std::nullopt, std::nullopt);
+    const Passed all = passed_by(run, {.method = m});
     add(out, place, all);
     out[place + "faults"] = all.faults;
     out[place + "worst_impact_mps"] = all.worst;
     for (std::size_t k = 0; k < run.cars.size(); ++k) {
-      add(out, place + run.cars[k] + ".", passed_by(run, m, k, std::nullopt));
+      add(out, place + run.cars[k] + ".", passed_by(run, {.method = m, .car = k}));
     }
     for (std::size_t r = 0; r < run.regulation.rows.size(); ++r) {
-      add(out, place + run.regulation.rows[r].name + ".", passed_by(run, m, std::nullopt, r));
+      add(out, place + run.regulation.rows[r].name + ".", passed_by(run, {.method = m, .row = r}));
     }
     for (std::size_t k = 0; k < run.cars.size(); ++k) {
       for (std::size_t i = 0; i < run.cells.size(); ++i) {
@@ -97,7 +97,7 @@ void print(const RegulationRun& run) {
                         std::optional<std::size_t> row) {
     fmt::print("{:22}", name);
     for (std::size_t m = 0; m < run.methods.size(); ++m) {
-      const Passed sum = passed_by(run, m, car, row);
+      const Passed sum = passed_by(run, {.method = m, .car = car, .row = row});
       fmt::print(" {:>20}", fmt::format("{} of {}", sum.passed, sum.all));
     }
     fmt::print("\n");
@@ -158,7 +158,7 @@ int run_regulation(RegulationOptions options) {
     fmt::print("\npage: {}\n", options.output);
   }
   for (std::size_t m = 0; m < run.methods.size(); ++m) {
-    if (passed_by(run, m, std::nullopt, std::nullopt).faults > 0) {
+    if (passed_by(run, {.method = m}).faults > 0) {
       return some_failed;
     }
   }

@@ -39,8 +39,11 @@ std::string words_for(const RegulationRun& run, std::size_t cell, const Regulati
   if (judged.impact_speed > 0.0) {
     return fmt::format("passes: {:.1f} m/s", judged.impact_speed);
   }
-  return run.row_of(cell).limit == LimitKind::deceleration
-             ? fmt::format("passes: {:.2f} g", judged.peak_deceleration / from_g(1.0))
+  if (run.row_of(cell).limit == LimitKind::deceleration) {
+    return fmt::format("passes: {:.2f} g", judged.peak_deceleration / from_g(1.0));
+  }
+  return result.plan && manoeuvre::side(result.plan->policy) != 0
+             ? fmt::format("passes: {}", manoeuvre::name(result.plan->policy))
              : "passes";
 }
 
@@ -113,7 +116,7 @@ std::string share_of(const Passed& sum) {
 
 report::PageTable summary_of(const RegulationRun& run) {
   report::PageTable table{.heading = "How many tests each passes",
-                          .lines = {"A car may be sold when it passes all."},
+                          .lines = {"The text asks for all of them."},
                           .columns = run.cars,
                           .rows = {}};
   table.columns.emplace_back("all");
@@ -125,10 +128,10 @@ report::PageTable summary_of(const RegulationRun& run) {
                                 .shades = {},
                                 .faded = info.knows_truth};
     for (std::size_t k = 0; k <= run.cars.size(); ++k) {
-      const Passed sum =
-          passed_by(run, m, k < run.cars.size() ? std::optional(k) : std::nullopt, std::nullopt);
+      const Passed sum = passed_by(
+          run, {.method = m, .car = k < run.cars.size() ? std::optional(k) : std::nullopt});
       line.cells.push_back(share_of(sum));
-      line.shades.emplace_back(static_cast<double>(sum.all - sum.passed) / sum.all);
+      line.shades.emplace_back(static_cast<double>(sum.failed()) / sum.all);
     }
     table.rows.push_back(std::move(line));
   }
@@ -138,7 +141,7 @@ report::PageTable summary_of(const RegulationRun& run) {
 /// How one car fails a row: how often, and where worst.
 std::string failures_of(const RegulationRun& run, std::size_t row, std::size_t car,
                         std::size_t method) {
-  const Passed sum = passed_by(run, method, car, row);
+  const Passed sum = passed_by(run, {.method = method, .car = car, .row = row});
   if (sum.passed == sum.all) {
     return "";
   }
@@ -150,8 +153,8 @@ std::string failures_of(const RegulationRun& run, std::size_t row, std::size_t c
       worst = i;
     }
   }
-  return fmt::format("{} fails {} of {}, worst at {}: {}", run.cars[car], sum.all - sum.passed,
-                     sum.all, eval::label_of(run.cells[*worst]),
+  return fmt::format("{} fails {} of {}, worst at {}: {}", run.cars[car], sum.failed(), sum.all,
+                     eval::label_of(run.cells[*worst]),
                      failure_of(run.at(car, *worst, method).judged));
 }
 
@@ -163,15 +166,22 @@ std::vector<std::string> constant_in_words(const RegulationRun& run) {
     return {};
   }
   const auto method = static_cast<std::size_t>(found - run.methods.begin());
-  const Passed sum = passed_by(run, method, std::nullopt, std::nullopt);
-  if (sum.passed == sum.all) {
+  const Passed alone = passed_by(run, {.method = method, .manual_braking = false});
+  const Passed helped = passed_by(run, {.method = method, .manual_braking = true});
+  if (alone.failed() + helped.failed() == 0) {
     return {fmt::format("Full braking at the paper's T1 = 1.3 s passes all {} tests that were run.",
-                        sum.all)};
+                        alone.all + helped.all)};
   }
-  std::vector<std::string> lines{fmt::format(
-      "Full braking at the paper's T1 = 1.3 s would not be allowed on the road: it fails {} of {} "
-      "tests, at worst with an impact of {:.1f} m/s.",
-      sum.all - sum.passed, sum.all, sum.worst)};
+  std::vector<std::string> lines{
+      fmt::format("Full braking at the paper's T1 = 1.3 s would not be allowed on the road: it "
+                  "fails {} of {} tests, at worst with an impact of {:.1f} m/s.",
+                  alone.failed(), alone.all, alone.worst)};
+  if (helped.all > 0) {
+    lines.front() += fmt::format(
+        " Of the {} in which the driver brakes one second after a warning, it fails {} more, at "
+        "worst with {:.1f} m/s: nobody is warned before T1, and then the driver comes too late.",
+        helped.all, helped.failed(), helped.worst);
+  }
   for (std::size_t r = 0; r < run.regulation.rows.size(); ++r) {
     std::string cars;
     for (std::size_t k = 0; k < run.cars.size(); ++k) {
@@ -191,12 +201,15 @@ report::SuitePage page_of(const RegulationRun& run) {
   page.title = run.regulation.title;
   page.lines = constant_in_words(run);
   page.lines.push_back(fmt::format(
-      "{} tests with each of {} cars; perception is exact and nothing is left to chance: who fails "
-      "here fails on a proving ground too. Test surface: friction coefficient {} ({}).",
+      "{} tests with each of {} cars. Perception is exact and nothing is left to chance, so that "
+      "this is the best that can be hoped for on a proving ground; SACA has neither language model "
+      "nor memory here. Test surface: friction coefficient {} ({}).",
       run.cells.size(), run.cars.size(), run.regulation.grip, run.regulation.grip_source));
-  page.lines.push_back(fmt::format(
-      "Who gets by without braking by {:.1f} m/s2 at least has not done what the text asks ({}).",
-      run.regulation.least_braking, run.regulation.least_braking_source));
+  page.lines.push_back(
+      fmt::format("Who gets by without braking by {:.1f} m/s2 at least has not done what the text "
+                  "asks ({}); who "
+                  "brakes and steers too has, and the cell names the policy.",
+                  run.regulation.least_braking, run.regulation.least_braking_source));
   page.tables.push_back(summary_of(run));
   for (std::size_t r = 0; r < run.regulation.rows.size(); ++r) {
     page.tables.push_back(table_of(run, r));

@@ -139,19 +139,21 @@ Result<RegulationRun> prepare(const RegulationOptions& options,
 
 }  // namespace
 
-Passed passed_by(const RegulationRun& run, std::size_t method, std::optional<std::size_t> car,
-                 std::optional<std::size_t> row) {
+Passed passed_by(const RegulationRun& run, const Chosen& chosen) {
   Passed sum;
   for (std::size_t k = 0; k < run.cars.size(); ++k) {
     for (std::size_t i = 0; i < run.cells.size(); ++i) {
-      if ((car && k != *car) || (row && run.cells[i].row != *row)) {
+      if (k != chosen.car.value_or(k) ||
+          run.cells[i].row != chosen.row.value_or(run.cells[i].row) ||
+          run.row_of(i).manual_braking !=
+              chosen.manual_braking.value_or(run.row_of(i).manual_braking)) {
         continue;
       }
-      const RegulationResult& result = run.at(k, i, method);
+      const eval::CellResult& judged = run.at(k, i, chosen.method).judged;
       ++sum.all;
-      sum.passed += result.judged.passed() ? 1 : 0;
-      sum.faults += result.judged.verdict == eval::TestVerdict::fault ? 1 : 0;
-      sum.worst = std::max(sum.worst, result.judged.passed() ? 0.0 : result.judged.impact_speed);
+      sum.passed += judged.passed() ? 1 : 0;
+      sum.faults += judged.verdict == eval::TestVerdict::fault ? 1 : 0;
+      sum.worst = std::max(sum.worst, judged.passed() ? 0.0 : judged.impact_speed);
     }
   }
   return sum;

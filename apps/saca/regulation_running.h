@@ -47,16 +47,24 @@ struct RegulationRun {
   }
 };
 
-/// How many of some tests were passed.
+/// Which tests are counted; what is not given is all.
+struct Chosen {
+  std::size_t method = 0;
+  std::optional<std::size_t> car;
+  std::optional<std::size_t> row;
+  std::optional<bool> manual_braking;  ///< the text lets the driver brake too
+};
+
+/// How many of them were passed.
 struct Passed {
   int passed = 0;
   int all = 0;
   int faults = 0;
   double worst = 0.0;  ///< largest impact speed of those that were failed [m/s]
+
+  [[nodiscard]] int failed() const { return all - passed; }
 };
-/// @param car  nullopt: of all; likewise the row
-[[nodiscard]] Passed passed_by(const RegulationRun& run, std::size_t method,
-                               std::optional<std::size_t> car, std::optional<std::size_t> row);
+[[nodiscard]] Passed passed_by(const RegulationRun& run, const Chosen& chosen);
 
 /// Where the file of a regulation would be.
 [[nodiscard]] std::filesystem::path regulation_path(const Places& places, const std::string& name);
