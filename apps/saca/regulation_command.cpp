@@ -81,6 +81,10 @@ json json_of(const RegulationRun& run) {
       }
     }
   }
+  for (const RegulationRun& other : run.elsewhere) {
+    add(out, head + "aeb." + other.regulation.surfaces[other.regulation.surface].name + ".",
+        passed_by(other, {.method = 0}));
+  }
   out[head + "n"] = run.cars.size() * run.cells.size();
   out[head + "cells"] = std::move(cells);
   return out;

@@ -62,7 +62,7 @@ std::string allowed(const eval::RegulationRow& row) {
     case LimitKind::no_contact:
       return "Nobody may be touched.";
     case LimitKind::impact_speed:
-      return "Largest impact speed as below each speed.";
+      return "In brackets the largest impact speed that is allowed, in km/h.";
     case LimitKind::deceleration:
       return fmt::format("The car may decelerate by less than {:.2f} g.",
                          row.peak_deceleration / from_g(1.0));
@@ -73,9 +73,9 @@ std::string allowed(const eval::RegulationRow& row) {
 }
 
 std::string column_of(const eval::RegulationCell& cell) {
-  return cell.impact_speed ? fmt::format("{}, at most {:.0f} km/h", eval::label_of(cell),
-                                         to_kmh(*cell.impact_speed))
-                           : eval::label_of(cell);
+  return cell.impact_speed
+             ? fmt::format("{} ({:.0f})", eval::label_of(cell), to_kmh(*cell.impact_speed))
+             : eval::label_of(cell);
 }
 
 report::PageTable table_of(const RegulationRun& run, std::size_t row) {
@@ -158,34 +158,53 @@ std::string failures_of(const RegulationRun& run, std::size_t row, std::size_t c
                      failure_of(run.at(car, *worst, method).judged));
 }
 
+std::string failed_in_words(const Passed& sum) {
+  return sum.failed() == 0
+             ? fmt::format("passes all {} tests", sum.all)
+             : fmt::format("fails {} of {} tests, at worst with an impact of {:.1f} m/s",
+                           sum.failed(), sum.all, sum.worst);
+}
+
+/// Full braking at T1 on another surface, car by car.
+std::string elsewhere_in_words(const RegulationRun& run) {
+  const eval::TestSurface& surface = run.regulation.surfaces[run.regulation.surface];
+  std::string cars;
+  for (std::size_t k = 0; k < run.cars.size(); ++k) {
+    const Passed alone = passed_by(run, {.method = 0, .car = k, .manual_braking = false});
+    cars += fmt::format("{}{} {}", k == 0 ? "" : "; ", run.cars[k], failed_in_words(alone));
+  }
+  return fmt::format(
+      "On a surface with friction coefficient {} ({}), without the driver's brake: {}.",
+      surface.grip, surface.source, cars);
+}
+
 }  // namespace
 
 std::vector<std::string> constant_in_words(const RegulationRun& run) {
-  const auto found = std::find(run.methods.begin(), run.methods.end(), "aeb");
-  if (found == run.methods.end()) {
+  const auto method = index_of(run, "aeb");
+  if (!method) {
     return {};
   }
-  const auto method = static_cast<std::size_t>(found - run.methods.begin());
-  const Passed alone = passed_by(run, {.method = method, .manual_braking = false});
-  const Passed helped = passed_by(run, {.method = method, .manual_braking = true});
+  const Passed alone = passed_by(run, {.method = *method, .manual_braking = false});
+  const Passed helped = passed_by(run, {.method = *method, .manual_braking = true});
   if (alone.failed() + helped.failed() == 0) {
     return {fmt::format("Full braking at the paper's T1 = 1.3 s passes all {} tests that were run.",
                         alone.all + helped.all)};
   }
   std::vector<std::string> lines{
-      fmt::format("Full braking at the paper's T1 = 1.3 s would not be allowed on the road: it "
-                  "fails {} of {} tests, at worst with an impact of {:.1f} m/s.",
-                  alone.failed(), alone.all, alone.worst)};
+      fmt::format("Full braking at the paper's T1 = 1.3 s would not be allowed on the road: it {}.",
+                  failed_in_words(alone))};
   if (helped.all > 0) {
     lines.front() += fmt::format(
-        " Of the {} in which the driver brakes one second after a warning, it fails {} more, at "
-        "worst with {:.1f} m/s: nobody is warned before T1, and then the driver comes too late.",
-        helped.all, helped.failed(), helped.worst);
+        " Where the driver brakes one second after a warning, it {}: nobody is warned before T1, "
+        "and "
+        "then the driver comes too late.",
+        failed_in_words(helped));
   }
   for (std::size_t r = 0; r < run.regulation.rows.size(); ++r) {
     std::string cars;
     for (std::size_t k = 0; k < run.cars.size(); ++k) {
-      const std::string failures = failures_of(run, r, k, method);
+      const std::string failures = failures_of(run, r, k, *method);
       cars += (cars.empty() || failures.empty() ? "" : "; ") + failures;
     }
     if (!cars.empty()) {
@@ -193,18 +212,22 @@ std::vector<std::string> constant_in_words(const RegulationRun& run) {
                                   run.regulation.rows[r].paragraph, cars));
     }
   }
+  for (const RegulationRun& other : run.elsewhere) {
+    lines.push_back(elsewhere_in_words(other));
+  }
   return lines;
 }
 
 report::SuitePage page_of(const RegulationRun& run) {
   report::SuitePage page;
+  const eval::TestSurface& surface = run.regulation.surfaces[run.regulation.surface];
   page.title = run.regulation.title;
   page.lines = constant_in_words(run);
   page.lines.push_back(fmt::format(
       "{} tests with each of {} cars. Perception is exact and nothing is left to chance, so that "
       "this is the best that can be hoped for on a proving ground; SACA has neither language model "
       "nor memory here. Test surface: friction coefficient {} ({}).",
-      run.cells.size(), run.cars.size(), run.regulation.grip, run.regulation.grip_source));
+      run.cells.size(), run.cars.size(), surface.grip, surface.source));
   page.lines.push_back(
       fmt::format("Who gets by without braking by {:.1f} m/s2 at least has not done what the text "
                   "asks ({}); who "

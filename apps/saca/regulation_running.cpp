@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <sstream>
 
@@ -107,6 +108,28 @@ std::vector<RegulationResult> results_of(const RegulationRun& run, std::size_t i
   return results;
 }
 
+/// Plays every cell with every car.
+/// @param go_on  told how many are done; false: no further
+/// @return       were all played?
+bool play(RegulationRun& run, const std::vector<std::unique_ptr<TestedCar>>& cars, int threads,
+          const std::function<bool(std::size_t done)>& go_on) {
+  const std::size_t count = cars.size() * run.cells.size();
+  const std::size_t batch = cells_per_thread * static_cast<std::size_t>(threads);
+  for (std::size_t first = 0; first < count; first += batch) {
+    const std::size_t now = std::min(batch, count - first);
+    in_parallel(now, threads, [&](std::size_t i) {
+      const std::size_t at = first + i;
+      auto results = results_of(run, at % run.cells.size(), *cars[at / run.cells.size()]);
+      std::move(results.begin(), results.end(),
+                run.results.begin() + static_cast<std::ptrdiff_t>(at * run.methods.size()));
+    });
+    if (!go_on(first + now)) {
+      return false;
+    }
+  }
+  return true;
+}
+
 Result<RegulationRun> prepare(const RegulationOptions& options,
                               const std::vector<std::string>& methods) {
   const auto places = find_places();
@@ -163,6 +186,13 @@ fs::path regulation_path(const Places& places, const std::string& name) {
   return places.root / "data" / "protocols" / (name + ".toml");
 }
 
+std::optional<std::size_t> index_of(const RegulationRun& run, const std::string& method) {
+  const auto found = std::find(run.methods.begin(), run.methods.end(), method);
+  return found == run.methods.end()
+             ? std::nullopt
+             : std::optional(static_cast<std::size_t>(found - run.methods.begin()));
+}
+
 Result<std::optional<RegulationRun>> run_cells(const RegulationOptions& options,
                                                const std::vector<std::string>& methods) {
   auto prepared = prepare(options, methods);
@@ -178,25 +208,31 @@ Result<std::optional<RegulationRun>> run_cells(const RegulationOptions& options,
     }
     cars.push_back(std::move(car).value());
   }
+  if (index_of(run, "aeb")) {
+    for (std::size_t k = 1; k < run.regulation.surfaces.size(); ++k) {
+      RegulationRun other = run;
+      other.regulation.surface = k;
+      other.methods = {"aeb"};
+      other.results.resize(cars.size() * run.cells.size());
+      run.elsewhere.push_back(std::move(other));
+    }
+  }
   watch_for_interrupt();
   SteadyClock clock;
   const std::size_t count = cars.size() * run.cells.size();
-  ProgressLine progress("suite " + run.regulation.name, static_cast<int>(count), clock);
-  const std::size_t batch = cells_per_thread * static_cast<std::size_t>(options.threads);
-  for (std::size_t first = 0; first < count; first += batch) {
-    if (interrupted()) {
-      return std::optional<RegulationRun>();
-    }
-    const std::size_t now = std::min(batch, count - first);
-    in_parallel(now, options.threads, [&](std::size_t i) {
-      const std::size_t at = first + i;
-      auto results = results_of(run, at % run.cells.size(), *cars[at / run.cells.size()]);
-      std::move(results.begin(), results.end(),
-                run.results.begin() + static_cast<std::ptrdiff_t>(at * run.methods.size()));
-    });
-    progress.show(static_cast<int>(first + now), 0, " tests");
+  ProgressLine progress("suite " + run.regulation.name,
+                        static_cast<int>(count * (1 + run.elsewhere.size())), clock);
+  std::size_t before = 0;
+  const auto go_on = [&](std::size_t done) {
+    progress.show(static_cast<int>(before + done), 0, " tests");
+    return !interrupted();
+  };
+  bool all = play(run, cars, options.threads, go_on);
+  for (RegulationRun& other : run.elsewhere) {
+    before += count;
+    all = all && play(other, cars, options.threads, go_on);
   }
-  return std::optional(std::move(run));
+  return all ? std::optional(std::move(run)) : std::optional<RegulationRun>();
 }
 
 }  // namespace saca::app

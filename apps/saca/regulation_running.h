@@ -37,6 +37,7 @@ struct RegulationRun {
   std::vector<std::string> methods;
   std::vector<RegulationResult> results;  ///< by car, cell and method, the last running fastest
   nlohmann::json meta;                    ///< "meta.command" and so on
+  std::vector<RegulationRun> elsewhere;   ///< "aeb" on each further surface, if it is a method
 
   [[nodiscard]] const RegulationResult& at(std::size_t car, std::size_t cell,
                                            std::size_t method) const {
@@ -68,6 +69,10 @@ struct Passed {
 
 /// Where the file of a regulation would be.
 [[nodiscard]] std::filesystem::path regulation_path(const Places& places, const std::string& name);
+
+/// Index of a method; nullopt: it was not run.
+[[nodiscard]] std::optional<std::size_t> index_of(const RegulationRun& run,
+                                                  const std::string& method);
 
 /// Runs all cells with all cars and methods, with progress on the error stream.
 /// @param methods  names of eval::methods(), in the order of tables

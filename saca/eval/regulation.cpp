@@ -197,8 +197,14 @@ Regulation read_whole(Table root) {
   regulation.name = root.plain_name("name");
   regulation.title = root.text("title");
   regulation.source = root.text("source");
-  regulation.grip = root.number("grip", {0.05, 1.2});
-  regulation.grip_source = root.text("grip_source");
+  for (Table table : root.tables("surfaces")) {
+    regulation.surfaces.push_back({.name = table.plain_name("name"),
+                                   .grip = table.number("grip", {0.05, 1.2}),
+                                   .source = table.text("source")});
+  }
+  if (regulation.surfaces.empty()) {
+    root.reject("surfaces", "want at least one, got none");
+  }
   regulation.least_braking = from_g(root.number("least_braking_g", {0.0, 1.0}));
   regulation.least_braking_source = root.text("least_braking_source");
   regulation.free_width = root.number("free_width_m", {2.0, 50.0});
@@ -413,13 +419,14 @@ std::string label_of(const RegulationCell& cell) {
 sim::Scenario scenario_of(const Regulation& regulation, const RegulationCell& cell,
                           const world::Footprint& ego) {
   expects(cell.row < regulation.rows.size(), "a cell of this regulation");
+  expects(regulation.surface < regulation.surfaces.size(), "a surface of this regulation");
   const RegulationRow& row = regulation.rows[cell.row];
   constexpr double aftermath = 8.0;  // [s]: in it whoever brakes from 100 km/h comes to rest
   sim::Scenario scenario;
   scenario.name = regulation.name + "_" + row.name;
   scenario.title = row.title + ", " + label_of(cell);
   scenario.source = regulation.source + ", " + row.paragraph;
-  scenario.grip = regulation.grip;
+  scenario.grip = regulation.surfaces[regulation.surface].grip;
   scenario.duration = row.time_to_collision + aftermath;
   scenario.road.lane_width = regulation.lane_width;
   scenario.road.left_edge = regulation.free_width;

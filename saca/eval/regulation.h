@@ -88,13 +88,20 @@ struct RegulationRow {
   double outer_radius = 0.0;  ///< of `curve`: of the road's outer edge [m]
 };
 
+/// On which tests are run.
+struct TestSurface {
+  std::string name;
+  double grip = 0.9;  ///< friction coefficient [-]
+  std::string source;
+};
+
 struct Regulation {
   std::string name;
   std::string title;
   std::string source;
-  double grip = 0.9;  ///< of the test surface [-]
-  std::string grip_source;
-  double least_braking = 0.0;  ///< deceleration from which on the ego has braked [m/s^2]
+  std::vector<TestSurface> surfaces;  ///< at least one
+  std::size_t surface = 0;            ///< index of the one on which encounters are made
+  double least_braking = 0.0;         ///< deceleration from which on the ego has braked [m/s^2]
   std::string least_braking_source;
   double free_width = 0.0;  ///< free of obstacles to either side of the path [m]
   double lane_width = 0.0;  ///< [m]

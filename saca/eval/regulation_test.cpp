@@ -235,6 +235,15 @@ TEST(RegulationGeometry, WhatTheCarPassesIsBesideItsPath) {
   EXPECT_GT(std::hypot(p.x, p.y - 23.25), 25.0);
 }
 
+// S6.2.2, read in two ways.
+TEST(RegulationGeometry, TheSurfaceIsTheOneThatIsChosen) {
+  Regulation regulation = fmvss127();
+  const RegulationCell cell = cell_at(regulation, "stopped_lead", 80);
+  EXPECT_EQ(scenario_of(regulation, cell, plain_car).grip, 0.9);
+  regulation.surface = 1;
+  EXPECT_EQ(scenario_of(regulation, cell, plain_car).grip, 1.02);
+}
+
 // --- verdicts
 
 MethodRun run_with(double ego_speed, double impact_speed, double peak) {
