@@ -210,7 +210,7 @@ Regulation read_whole(Table root) {
   regulation.free_width = root.number("free_width_m", {2.0, 50.0});
   regulation.lane_width = root.number("lane_width_m", {2.0, 8.0});
   std::vector<TestTarget> targets;
-  for (Table table : root.tables("targets")) {
+  for (const Table& table : root.tables("targets")) {
     targets.push_back(read_target(table));
   }
   const auto car = std::find_if(targets.begin(), targets.end(),
