@@ -280,6 +280,7 @@ HundredCarImport assembled(const std::vector<traffic::HundredCarRow>& rows,
 
   report.first_row = static_cast<std::int64_t>(window.first) + 1;
   report.last_row = static_cast<std::int64_t>(window.last) + 1;
+  report.conflict_row = static_cast<std::int64_t>(conflict) + 1;
   report.num_speed_missing = ego.num_speed_missing;
   report.gyro_bias = ego.path.gyro_bias;
   report.curvature = scenario.road.curvature;

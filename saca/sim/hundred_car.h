@@ -39,6 +39,7 @@ struct TreatedTrack {
 struct HundredCarReport {
   std::int64_t first_row = 0;  ///< of the scenario, within the event, from 1
   std::int64_t last_row = 0;
+  std::int64_t conflict_row = 0;  ///< in which the conflict begins, likewise
   std::size_t num_speed_missing = 0;
   double gyro_bias = 0.0;    ///< taken off the yaw rate [rad/s]
   double curvature = 0.0;    ///< of the lane, > 0 turns left [1/m]

@@ -113,6 +113,7 @@ TEST(RebuildHundredCar, CountsWhatItTreated) {
   EXPECT_EQ(report.lead.num_seen + report.lead.num_filled, rows.size());
   EXPECT_EQ(report.num_speed_missing, 1U);
   EXPECT_EQ(report.first_row, 1);
+  EXPECT_EQ(report.conflict_row, 101);  // sync 1100, the first being 1000
   EXPECT_EQ(report.last_row, static_cast<std::int64_t>(rows.size()));
   EXPECT_THAT(made.value().scenario.notes, HasSubstr("1 outliers removed"));
 }
