@@ -1,0 +1,90 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "saca/core/result.h"
+#include "saca/eval/shadow_judge.h"
+#include "saca/intent/model.h"
+#include "saca/manoeuvre/car.h"
+#include "saca/preview/threat.h"
+#include "saca/sim/scenario.h"
+#include "saca/world/scene.h"
+#include "saca/world/track.h"
+
+namespace saca::eval {
+
+// SACA in shadow: it watches a recorded drive and never takes the wheel. What it would have done to
+// people in ordinary traffic shows in how often it wakes, and how often it would have acted without
+// need.
+
+/// What watches. What it points to outlives the watching.
+struct ShadowSetup {
+  const manoeuvre::Car* car = nullptr;  ///< whose body the ego has
+  const intent::Model* intent = nullptr;
+  preview::Thresholds thresholds;
+};
+
+/// Two previews, or two triggers, that lie no farther apart are one [s].
+constexpr double rearmed_after = 2.0;
+
+/// Somebody threatens within T2 under a likely intention (preview::previewed_threat): SACA thinks.
+struct ShadowPreview {
+  double from = 0.0;  ///< [s]
+  double to = 0.0;    ///< the last look at which it holds [s]
+  std::string who;    ///< threatens at first
+};
+
+/// Somebody threatens within T1 if all go on as they do (preview::triggering_threat): SACA would
+/// have acted.
+struct ShadowTrigger {
+  double time = 0.0;  ///< [s]
+  std::string who;
+  double time_to_conflict = 0.0;  ///< then [s], >= 0
+  double speed = 0.0;             ///< of the ego [m/s]
+  ShadowJudgement judgement;
+};
+
+/// What there was to see in one drive.
+struct ShadowDrive {
+  double seconds = 0.0;  ///< watched
+  double metres = 0.0;   ///< driven meanwhile
+  std::vector<ShadowPreview> previews;
+  std::vector<ShadowTrigger> triggers;
+};
+
+/// Plays a recorded drive from its start to its end and watches, every 10 ms, as loop::ClosedLoop
+/// does: the same scenes, beliefs and thresholds, perception exact. Everybody does what was
+/// recorded.
+///
+/// An actor is there from its first sample to its last: what it does beyond is a guess, and a
+/// trigger that rests on one would be neither right nor wrong. The ego's body is the car's,
+/// whatever was recorded.
+///
+/// Triggers are judged by the rule of `judged` (shadow_judge.h).
+///
+/// @param until  how long to watch [s], > 0; nullopt: as long as the ego was recorded
+/// @return       Error::Code::out_of_range, naming the scenario, when the ego has no recording of 1
+/// s
+///               or more from 0 on, when a time or pose of anybody's recording is not finite or
+///               times do not grow, or when a scene breaks a rule of `world::broken_rule`
+/// @throws ContractViolation  if car or intent is missing, or `until` not > 0
+[[nodiscard]] Result<ShadowDrive> shadow_drive(const sim::Scenario& scenario,
+                                               const ShadowSetup& setup,
+                                               std::optional<double> until = std::nullopt);
+
+/// A trigger for people to look at.
+struct ShadowPicture {
+  world::Scene scene;  ///< at the trigger
+  world::Track ego;    ///< as recorded, 3 s from there
+  std::vector<world::Track> others;
+  world::Track supposed_ego;  ///< as the trigger supposed, until the conflict
+  std::vector<world::Track> supposed_others;
+};
+
+/// @param trigger  of shadow_drive on the same scenario
+[[nodiscard]] ShadowPicture shadow_picture(const sim::Scenario& scenario, const ShadowSetup& setup,
+                                           const ShadowTrigger& trigger);
+
+}  // namespace saca::eval

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "saca/sim/scenario.h"
+#include "saca/world/footprint.h"
+#include "saca/world/scene.h"
+
+namespace saca::eval {
+
+/// What a trigger is judged by.
+enum class ShadowReason : std::uint8_t {
+  driver_braked,   ///< danger
+  other_braked,    ///< danger
+  driver_steered,  ///< danger
+  bodies_touch,    ///< false: the recorded bodies overlap, which is an error of the recording
+  braking_needed,  ///< danger
+  nothing_needed,  ///< false
+};
+/// "driver_braked".
+[[nodiscard]] std::string_view name(ShadowReason reason);
+[[nodiscard]] std::optional<ShadowReason> shadow_reason_from(std::string_view name);
+/// In words, for people: "the driver braked with 4 m/s^2 or more".
+[[nodiscard]] std::string_view meaning(ShadowReason reason);
+[[nodiscard]] bool is_danger(ShadowReason reason);
+
+/// What was recorded around a trigger, and what it says.
+struct ShadowJudgement {
+  double driver_deceleration = 0.0;           ///< hardest, size [m/s^2], >= 0
+  double other_deceleration = 0.0;            ///< likewise, of who threatens
+  double driver_lateral_acceleration = 0.0;   ///< largest against the lane, size [m/s^2], >= 0
+  std::optional<double> needed_deceleration;  ///< size [m/s^2], >= 0; nullopt: none of up to 12 is
+                                              ///< enough
+  double least_gap = 0.0;                     ///< between the bodies [m]; 0: they touch
+  ShadowReason reason = ShadowReason::nothing_needed;
+};
+
+/// How hard braking is more than normal driving: size [m/s^2]; see judged.
+constexpr double hard_braking = 4.0;
+/// How hard steering across the lane is: size [m/s^2].
+constexpr double hard_steering = 3.0;
+/// How long a recording is looked at from a trigger on [s].
+constexpr double judged_for = 3.0;
+
+/// Which actor of the scenario is perceived.
+/// @throws ContractViolation  if there is none of that kind and id
+[[nodiscard]] std::size_t actor_index(const sim::Scenario& scenario, const world::Actor& actor);
+
+/// Judges a trigger of a recorded drive: was there danger, or would SACA have acted without need?
+///
+/// The rule looks at the recording from the trigger on for 3 s
+/// (what lies beyond its end goes on straight). The trigger is
+/// danger if
+///  1. the driver braked with 4 m/s^2 or more, over half a second that begins at most half a second
+///     before the trigger;
+///  2. or whoever threatens did;
+///  3. or the driver steered: 3 m/s^2 or more across the lane, over a second;
+///  4. or, nobody having done so, the driver needed to: on the way that he took, going on at the
+///     speed he had, only a deceleration of 4 m/s^2 or more, begun at the trigger, would have kept
+///     the bodies apart, the other moving as recorded.
+/// Else it is false. Before 4, bodies that touch in the recording are told as such and count as
+/// false: no crash was recorded in normal driving.
+///
+/// Why so. 4 m/s^2 lies above what people call normal: the deceleration needed to avoid a crash is
+/// a conflict from 3.35 m/s^2 on (Archer 2005), adaptive cruise controls may use 3.5 (ISO 15622);
+/// below 5 UN R157 sees no emergency. 3 m/s^2 is what UN R79 lets a lane-keeping car use at most; a
+/// lane change of 3.5 m in 5 s has 0.8. Neither the gap nor the time to collision decides: in a
+/// queue people roll to within a metre of each other, with less than a second to go, and need 1
+/// m/s^2; who trigger there is a nuisance. What the driver needed is measured in hindsight, with
+/// what the other then did and the way the driver was on: who was about to leave the lane needed
+/// nothing.
+///
+/// @param ego    body about its centre of mass
+/// @param actor  who threatens: index into scenario.actors; it does not react
+/// @param time   of the trigger, within the ego's recording [s]
+/// @throws ContractViolation  if the ego has no recording, or there is no such actor
+[[nodiscard]] ShadowJudgement judged(const sim::Scenario& scenario, const world::Footprint& ego,
+                                     std::size_t actor, double time);
+
+}  // namespace saca::eval
