@@ -9,6 +9,7 @@
 #include "apps/saca/commands.h"
 #include "apps/saca/regulation_command.h"
 #include "apps/saca/suite_pages.h"
+#include "apps/saca/traffic_suite.h"
 #include "saca/core/file.h"
 #include "saca/eval/suite_file.h"
 
@@ -27,6 +28,8 @@ struct SuiteCommand {
   std::string rows;  ///< of a regulation
   bool as_json = false;
 };
+
+constexpr const char* traffic_suite = "traffic";
 
 constexpr const char* usual_methods =
     "saca,saca_paper,aeb,r157,cc_driver,fsm,rss,rss_steering,random,nothing,first_forecast,"
@@ -197,6 +200,18 @@ std::optional<Error> write(const SuiteRun& run, const SuiteResult& result, const
                     figures.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
+int watch(const SuiteCommand& options) {
+  const SuiteCommandOptions& suite = options.suite;
+  return run_traffic_suite(
+      {.folders = suite.data,
+       .count = suite.count,
+       .seed = suite.seed,
+       .car = suite.car,
+       .output = suite.output.empty() ? "runs/suite-traffic.html" : suite.output,
+       .threads = suite.threads},
+      options.as_json);
+}
+
 /// The tests of a regulation: nothing is drawn in them, and what is said of drawing is refused.
 int run_as_regulation(const CLI::App& line, const SuiteCommand& options) {
   for (const char* const name :
@@ -234,6 +249,13 @@ int run(const CLI::App& line, SuiteCommand options) {
     return wrong_command_line;
   }
   SuiteCommandOptions& suite = options.suite;
+  if ((suite.name == traffic_suite || suite.name == "100car") == suite.data.empty()) {
+    complain("--data: want it with the suites 100car and traffic, and only there");
+    return wrong_command_line;
+  }
+  if (suite.name == traffic_suite) {
+    return watch(options);
+  }
   if (options.replay) {
     const auto command = write_encounter(suite, *options.replay);
     if (!command.has_value()) {

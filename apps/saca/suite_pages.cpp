@@ -306,7 +306,7 @@ std::optional<report::GalleryCard> card_of(const SuiteRun& run, const SuiteRow& 
       .command = fmt::format("saca suite {} --split {} --seed {}{}{} --replay {}", options.name,
                              options.split, options.seed, options.exact ? " --exact" : "",
                              (options.car == "compact_rwd_ev" ? "" : " --car " + options.car) +
-                                 (options.data.empty() ? "" : " --data " + options.data),
+                                 (options.data.empty() ? "" : " --data " + options.data.front()),
                              row.number)};
   card.done.badge = "done";
   card.best.badge = "best";

@@ -49,10 +49,13 @@ Source source_of(Inputs inputs, std::vector<SuiteEncounter> all, int count, std:
 
 /// Every event of the 100-Car study that can be rebuilt.
 Result<Source> open_hundred_car(const SuiteCommandOptions& options, Inputs inputs) {
-  if (options.data.empty()) {
-    return Error{Error::Code::out_of_range,
-                 "--data: want the folder of the 100-Car study's release, got none"};
+  if (options.data.size() != 1) {
+    return Error{
+        Error::Code::out_of_range,
+        fmt::format("--data: want the folder of the 100-Car study's release, got {} folders",
+                    options.data.size())};
   }
+  const std::string& folder = options.data.front();
   watch_for_interrupt();
   const auto outcomes = sim::import_hundred_cars(
       options.data, {}, [](std::size_t, std::size_t) { return !interrupted(); });
@@ -72,8 +75,7 @@ Result<Source> open_hundred_car(const SuiteCommandOptions& options, Inputs input
     }
   }
   if (all.empty()) {
-    return Error{Error::Code::out_of_range,
-                 options.data + ": want events that can be rebuilt, got none"};
+    return Error{Error::Code::out_of_range, folder + ": want events that can be rebuilt, got none"};
   }
   std::string refused;
   for (const auto& [reason, times] : sim::refusals(outcomes.value())) {
@@ -352,10 +354,12 @@ Result<std::string> write_encounter(const SuiteCommandOptions& options, std::uin
 void add_suite_options(CLI::App& command, SuiteCommandOptions& options) {
   command
       .add_option("name", options.name,
-                  "A suite (natural, balanced), a family, a folder of scenarios, 100car, or a "
-                  "regulation (fmvss127, r152)")
+                  "A suite (natural, balanced), a family, a folder of scenarios, 100car, traffic, "
+                  "or a regulation (fmvss127, r152)")
       ->required();
-  command.add_option("--data", options.data, "Of 100car: the folder of the study's release");
+  command.add_option("--data", options.data,
+                     "Of 100car the folder of the study's release; of traffic (SACA in shadow) "
+                     "folders with CommonRoad files or that release");
   command.add_option("--count", options.count, "How many encounters")
       ->check(CLI::Range(1, 10'000'000))
       ->capture_default_str();

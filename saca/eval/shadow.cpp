@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "saca/core/contract.h"
+#include "saca/core/units.h"
 #include "saca/eval/shadow_judge.h"
 #include "saca/intent/observer.h"
 #include "saca/loop/closed_loop.h"
@@ -98,6 +99,14 @@ class Arming {
   std::optional<double> last_;
 };
 
+/// The ego gets to where the lane is not known, or is about to turn off.
+bool leaves_lane(const world::Scene& scene, double lane_ahead, double look_ahead) {
+  constexpr double turning_off = from_degrees(20.0);
+  const world::LanePose pose = world::to_lane(scene.road, scene.ego.X_WB);
+  return pose.s + look_ahead * norm(scene.ego.v_B) > lane_ahead ||
+         std::abs(pose.heading) >= turning_off;
+}
+
 void advance_to_next_look(sim::Stepper& stepper) {
   for (int k = 0; k < loop::ClosedLoop::steps_per_look; ++k) {
     stepper.advance({});
@@ -121,23 +130,25 @@ world::Track track_to(double from, double to, const auto& pose) {
 }  // namespace
 
 Result<ShadowDrive> shadow_drive(const sim::Scenario& scenario, const ShadowSetup& setup,
-                                 std::optional<double> until) {
+                                 const ShadowWindow& window) {
   complete_shadow(setup);
-  expects(!until || *until > 0.0, "until > 0");
+  expects(window.from >= 0.0 && (!window.until || *window.until > window.from),
+          "0 <= from < until");
   if (auto problem = unwatchable(scenario)) {
     return *std::move(problem);
   }
   sim::Scenario world = scenario;
   world.perception = {};
   const double recorded = std::get<sim::Recording>(world.ego).back().time;
-  const double end = std::min(recorded, until.value_or(recorded));
+  const double end = std::min(recorded, window.until.value_or(recorded));
   const auto num_looks = static_cast<int>(std::floor(end / loop::ClosedLoop::step + 1e-6));
   sim::Stepper stepper(world, *setup.car);
   intent::Observer observer(*setup.intent);
   ShadowDrive drive;
   Arming preview;
   Arming trigger;
-  Vec2 last_p_W = stepper.ego().X_WB.p;
+  std::optional<Vec2> last_p_W;  // at the look before, if it counts
+  int num_steps = 0;
   for (int k = 0; k <= num_looks; ++k) {
     world::Scene seen = stepper.perceive();
     drop_who_is_gone(world, seen);
@@ -146,6 +157,13 @@ Result<ShadowDrive> shadow_drive(const sim::Scenario& scenario, const ShadowSetu
                                                           world.name, seen.time, *rule)};
     }
     const intent::Beliefs& beliefs = observer.look(seen);
+    if (seen.time < window.from - nearly_now) {
+      advance_to_next_look(stepper);
+      continue;
+    }
+    if (window.lane_ahead && leaves_lane(seen, *window.lane_ahead, setup.thresholds.trigger)) {
+      break;
+    }
     const auto near =
         preview::previewed_threat(seen, beliefs, preview::hard_driving(), setup.thresholds);
     if (preview.look(seen.time, near.has_value())) {
@@ -160,11 +178,14 @@ Result<ShadowDrive> shadow_drive(const sim::Scenario& scenario, const ShadowSetu
           {seen.time, actor_name(who), threat->time, norm(seen.ego.v_B),
            judged(world, manoeuvre::footprint(*setup.car), actor_index(world, who), seen.time)});
     }
-    drive.metres += norm(seen.ego.X_WB.p - last_p_W);
+    if (last_p_W) {
+      drive.metres += norm(seen.ego.X_WB.p - *last_p_W);
+      ++num_steps;
+    }
     last_p_W = seen.ego.X_WB.p;
     advance_to_next_look(stepper);
   }
-  drive.seconds = num_looks * loop::ClosedLoop::step;
+  drive.seconds = num_steps * loop::ClosedLoop::step;
   return drive;
 }
 

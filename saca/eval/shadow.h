@@ -26,6 +26,17 @@ struct ShadowSetup {
   preview::Thresholds thresholds;
 };
 
+/// Which part of a recorded drive counts.
+struct ShadowWindow {
+  double from = 0.0;            ///< [s]; before, SACA looks on but nothing counts
+  std::optional<double> until;  ///< [s]; nullopt: as long as the ego was recorded
+  /// How far the road of the scenario is the road that was there, along its lane [m]. From the look
+  /// on at which the ego gets within T1 of there, or drives 20 deg or more across the lane as who
+  /// turns off does, nothing counts any more: SACA's world is a lane of one curvature, and beyond
+  /// there is another. nullopt: all the way.
+  std::optional<double> lane_ahead;
+};
+
 /// Two previews, or two triggers, that lie no farther apart are one [s].
 constexpr double rearmed_after = 2.0;
 
@@ -64,15 +75,13 @@ struct ShadowDrive {
 ///
 /// Triggers are judged by the rule of `judged` (shadow_judge.h).
 ///
-/// @param until  how long to watch [s], > 0; nullopt: as long as the ego was recorded
-/// @return       Error::Code::out_of_range, naming the scenario, when the ego has no recording of 1
-/// s
-///               or more from 0 on, when a time or pose of anybody's recording is not finite or
-///               times do not grow, or when a scene breaks a rule of `world::broken_rule`
-/// @throws ContractViolation  if car or intent is missing, or `until` not > 0
+/// @return  Error::Code::out_of_range, naming the scenario, when the ego has no recording of 1 s or
+///          more from 0 on, when a time or pose of anybody's recording is not finite or times do
+///          not grow, or when a scene breaks a rule of `world::broken_rule`
+/// @throws ContractViolation  if car or intent is missing, or the window is not 0 <= from < until
 [[nodiscard]] Result<ShadowDrive> shadow_drive(const sim::Scenario& scenario,
                                                const ShadowSetup& setup,
-                                               std::optional<double> until = std::nullopt);
+                                               const ShadowWindow& window = {});
 
 /// A trigger for people to look at.
 struct ShadowPicture {

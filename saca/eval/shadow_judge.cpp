@@ -26,11 +26,13 @@ struct ReasonWords {
   bool danger;
 };
 
-constexpr std::array<ReasonWords, 6> all_reasons{{
+constexpr std::array<ReasonWords, 7> all_reasons{{
     {ShadowReason::driver_braked, "driver_braked", "the driver braked with 4 m/s^2 or more", true},
-    {ShadowReason::other_braked, "other_braked", "the other braked with 4 m/s^2 or more", true},
     {ShadowReason::driver_steered, "driver_steered", "the driver steered with 3 m/s^2 or more",
      true},
+    {ShadowReason::track_ends, "track_ends",
+     "who threatens was only just, or not much longer, recorded", false},
+    {ShadowReason::other_braked, "other_braked", "the other braked with 4 m/s^2 or more", true},
     {ShadowReason::bodies_touch, "bodies_touch",
      "the bodies overlap, which is an error of the recording", false},
     {ShadowReason::braking_needed, "braking_needed",
@@ -163,6 +165,37 @@ double least_gap(const sim::Scenario& scenario, const Judged& judged, double tim
   return least;
 }
 
+bool is_settled(const sim::ScenarioActor& actor, double time) {
+  const auto* recording = std::get_if<sim::Recording>(&actor.motion);
+  if (recording == nullptr) {
+    return true;
+  }
+  const double first = recording->front().time;
+  return (first <= 0.0 || time - first >= settled_after_start) &&
+         recording->back().time - time >= settled_before_end;
+}
+
+ShadowReason reason_of_judgement(const ShadowJudgement& told, bool settled) {
+  if (told.driver_deceleration >= hard_braking) {
+    return ShadowReason::driver_braked;
+  }
+  if (told.driver_lateral_acceleration >= hard_steering) {
+    return ShadowReason::driver_steered;
+  }
+  if (!settled) {
+    return ShadowReason::track_ends;
+  }
+  if (told.other_deceleration >= hard_braking) {
+    return ShadowReason::other_braked;
+  }
+  if (told.least_gap <= 0.0) {
+    return ShadowReason::bodies_touch;
+  }
+  return told.needed_deceleration.value_or(hardest_tried) >= hard_braking
+             ? ShadowReason::braking_needed
+             : ShadowReason::nothing_needed;
+}
+
 }  // namespace
 
 std::string_view name(ShadowReason reason) {
@@ -219,13 +252,7 @@ ShadowJudgement judged(const sim::Scenario& scenario, const world::Footprint& eg
   told.driver_lateral_acceleration = hardest_steering(scenario, drive.back().time, time);
   told.needed_deceleration = needed_deceleration(around);
   told.least_gap = least_gap(scenario, around, time);
-  told.reason = told.driver_deceleration >= hard_braking            ? ShadowReason::driver_braked
-                : told.other_deceleration >= hard_braking           ? ShadowReason::other_braked
-                : told.driver_lateral_acceleration >= hard_steering ? ShadowReason::driver_steered
-                : told.least_gap <= 0.0                             ? ShadowReason::bodies_touch
-                : told.needed_deceleration.value_or(hardest_tried) >= hard_braking
-                    ? ShadowReason::braking_needed
-                    : ShadowReason::nothing_needed;
+  told.reason = reason_of_judgement(told, is_settled(other, time));
   return told;
 }
 

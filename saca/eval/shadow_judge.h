@@ -14,8 +14,9 @@ namespace saca::eval {
 /// What a trigger is judged by.
 enum class ShadowReason : std::uint8_t {
   driver_braked,   ///< danger
-  other_braked,    ///< danger
   driver_steered,  ///< danger
+  track_ends,      ///< false: who threatens was only just, or not much longer, recorded
+  other_braked,    ///< danger
   bodies_touch,    ///< false: the recorded bodies overlap, which is an error of the recording
   braking_needed,  ///< danger
   nothing_needed,  ///< false
@@ -44,6 +45,11 @@ constexpr double hard_braking = 4.0;
 constexpr double hard_steering = 3.0;
 /// How long a recording is looked at from a trigger on [s].
 constexpr double judged_for = 3.0;
+/// So far from its last sample a smoothed track rests on samples on both sides: sim::smooth_track
+/// fits over +-0.7 s, then over +-0.5 s [s].
+constexpr double settled_before_end = 1.2;
+/// And so far from its first, accelerations being differenced over 0.5 s (sim::Traffic) [s].
+constexpr double settled_after_start = 1.7;
 
 /// Which actor of the scenario is perceived.
 /// @throws ContractViolation  if there is none of that kind and id
@@ -56,13 +62,15 @@ constexpr double judged_for = 3.0;
 /// danger if
 ///  1. the driver braked with 4 m/s^2 or more, over half a second that begins at most half a second
 ///     before the trigger;
-///  2. or whoever threatens did;
-///  3. or the driver steered: 3 m/s^2 or more across the lane, over a second;
+///  2. or steered: 3 m/s^2 or more across the lane, over a second;
+///  3. or whoever threatens braked as hard as 1;
 ///  4. or, nobody having done so, the driver needed to: on the way that he took, going on at the
 ///     speed he had, only a deceleration of 4 m/s^2 or more, begun at the trigger, would have kept
 ///     the bodies apart, the other moving as recorded.
-/// Else it is false. Before 4, bodies that touch in the recording are told as such and count as
-/// false: no crash was recorded in normal driving.
+/// Else it is false. What is only an error of the recording is told as such and counts as false, so
+/// that the rate of false triggers is none too low: after 2, who threatens was recorded for less
+/// than 1.7 s before (unless from the scenario's beginning on) or less than 1.2 s after, and is
+/// smoothed with half the samples; before 4, the bodies touch, though nobody crashed.
 ///
 /// Why so. 4 m/s^2 lies above what people call normal: the deceleration needed to avoid a crash is
 /// a conflict from 3.35 m/s^2 on (Archer 2005), adaptive cruise controls may use 3.5 (ISO 15622);

@@ -147,10 +147,25 @@ TEST(ShadowJudge, BodiesThatTouchAreAnErrorOfTheRecording) {
   EXPECT_EQ(told.least_gap, 0.0);
 }
 
+// Recorded from 1 s before the trigger on, or until 1 s after it.
+TEST(ShadowJudge, WhoWasOnlyJustRecordedIsTold) {
+  const auto reason = [](std::ptrdiff_t first, std::ptrdiff_t last, double time) {
+    const sim::Recording all = standing(300.0);
+    return judgement(braking(15.0, 2.0), {all.begin() + first, all.begin() + last + 1}, time)
+        .reason;
+  };
+  EXPECT_EQ(reason(10, 60, 2.0), ShadowReason::track_ends);
+  EXPECT_EQ(reason(10, 60, 2.8), ShadowReason::nothing_needed);
+  EXPECT_EQ(reason(0, 60, 1.0), ShadowReason::nothing_needed);
+  EXPECT_EQ(reason(0, 30, 2.0), ShadowReason::track_ends);
+  EXPECT_FALSE(is_danger(ShadowReason::track_ends));
+}
+
 TEST(ShadowJudge, EveryReasonHasItsName) {
   for (const ShadowReason reason :
-       {ShadowReason::driver_braked, ShadowReason::other_braked, ShadowReason::driver_steered,
-        ShadowReason::bodies_touch, ShadowReason::braking_needed, ShadowReason::nothing_needed}) {
+       {ShadowReason::track_ends, ShadowReason::driver_braked, ShadowReason::other_braked,
+        ShadowReason::driver_steered, ShadowReason::bodies_touch, ShadowReason::braking_needed,
+        ShadowReason::nothing_needed}) {
     EXPECT_EQ(shadow_reason_from(name(reason)), reason);
     EXPECT_FALSE(meaning(reason).empty());
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "saca/core/contract.h"
+#include "saca/core/units.h"
 #include "saca/eval/scenes_for_test.h"
 #include "saca/intent/shipped_model.h"
 
@@ -56,8 +57,8 @@ class Shadow : public testing::Test {
                                 .mass = 1500.0,
                                 .motion = way.recording(from, to)});
   }
-  ShadowDrive watched(std::optional<double> until = std::nullopt) {
-    const auto drive = shadow_drive(scenario_, setup_, until);
+  ShadowDrive watched(const ShadowWindow& window = {}) {
+    const auto drive = shadow_drive(scenario_, setup_, window);
     EXPECT_TRUE(drive.has_value()) << drive.error().message;
     return drive.value();
   }
@@ -109,10 +110,41 @@ TEST_F(Shadow, WhoStopsLateSetsOffOneTrigger) {
 TEST_F(Shadow, ExposureEndsWhereItIsToldTo) {
   drive({.speed = 15.0, .brakes_at = 3.9, .deceleration = 6.5}, 10.0);
   add(80.0, {}, 0.0, 10.0);
-  const ShadowDrive seen = watched(2.0);
+  const ShadowDrive seen = watched({.until = 2.0});
   EXPECT_TRUE(seen.triggers.empty());
   EXPECT_NEAR(seen.seconds, 2.0, 1e-9);
   EXPECT_NEAR(seen.metres, 30.0, 1e-6);
+}
+
+// A trigger that holds already counts from the first look on.
+TEST_F(Shadow, NothingCountsBeforeTheWindow) {
+  drive({.speed = 15.0, .brakes_at = 3.9, .deceleration = 6.5}, 10.0);
+  add(80.0, {}, 0.0, 10.0);
+  const ShadowDrive seen = watched({.from = 4.5, .until = 5.0});
+  ASSERT_EQ(seen.triggers.size(), 1U);
+  EXPECT_NEAR(seen.triggers[0].time, 4.5, 1e-9);
+  EXPECT_NEAR(seen.seconds, 0.5, 1e-9);
+  // From 0.6 to 1.1 s after the brakes: 15 x 0.5 - 3.25 (1.1^2 - 0.6^2).
+  EXPECT_NEAR(seen.metres, 7.5 - 3.25 * 0.85, 0.01);
+}
+
+// T1 ahead at 10 m/s is 13 m: the road ends, 50 m on, for who is beyond 37 m.
+TEST_F(Shadow, NothingCountsWhereTheLaneIsNotKnown) {
+  drive({.speed = 10.0}, 6.0);
+  const ShadowDrive seen = watched({.lane_ahead = 50.0});
+  EXPECT_NEAR(seen.seconds, 3.7, 0.011);
+  EXPECT_NEAR(watched().seconds, 6.0, 1e-9);
+}
+
+TEST_F(Shadow, NothingCountsOfWhoTurnsOff) {
+  sim::Recording turning;
+  for (int k = 0; k <= 60; ++k) {  // heads 10 deg further to the left every second from 2 s on
+    const double t = 0.1 * k;
+    turning.push_back(
+        {t, {{10.0 * t, 0.0}, from_degrees(10.0 * std::max(0.0, t - 2.0))}, 10.0, 0.0});
+  }
+  scenario_.ego = turning;
+  EXPECT_NEAR(watched({.lane_ahead = 500.0}).seconds, 4.0, 0.011);
 }
 
 // The first is within 1.3 s at 10 m/s from 0.875 s on and gone after 1.5 s; the second is so near
@@ -178,7 +210,10 @@ TEST_F(Shadow, WhatCannotBeWatchedIsRefused) {
 TEST_F(Shadow, WantsCarAndModelAndTime) {
   drive({.speed = 10.0}, 3.0);
   EXPECT_THROW((void)shadow_drive(scenario_, {}), ContractViolation);
-  EXPECT_THROW((void)shadow_drive(scenario_, setup_, 0.0), ContractViolation);
+  EXPECT_THROW((void)shadow_drive(scenario_, setup_, {.until = 0.0}), ContractViolation);
+  EXPECT_THROW((void)shadow_drive(scenario_, setup_, {.from = -1.0}), ContractViolation);
+  EXPECT_THROW((void)shadow_drive(scenario_, setup_, {.from = 2.0, .until = 1.0}),
+               ContractViolation);
 }
 
 }  // namespace

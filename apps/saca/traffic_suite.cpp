@@ -1,0 +1,340 @@
+#include "apps/saca/traffic_suite.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+
+#include "saca/core/file.h"
+#include "saca/report/suite_page.h"
+
+namespace saca::app {
+namespace {
+
+namespace fs = std::filesystem;
+using eval::Rate;
+using eval::ShadowFigures;
+using eval::ShadowReason;
+using eval::ShadowRow;
+using eval::ShadowTrigger;
+using nlohmann::json;
+
+constexpr std::size_t most_cards = 150;    // of a page: some 40 kB each
+constexpr std::size_t most_left_out = 20;  // reasons told one by one
+
+std::set<std::string> traffic_sources(const WatchedTraffic& traffic) {
+  std::set<std::string> sources;
+  for (const DriveToWatch& drive : traffic.drives) {
+    sources.insert(drive.source);
+  }
+  return sources;
+}
+
+// --- figures
+
+void add_rate(json& out, const std::string& name, const Rate& rate) {
+  out[name] = rate.value;
+  out[name + ".lo"] = rate.low;
+  out[name + ".hi"] = rate.high;
+}
+
+void add_shadow_figures(json& out, const std::string& place, const ShadowFigures& one) {
+  out[place + "drives"] = one.drives;
+  out[place + "left_out"] = one.left_out;
+  out[place + "exposure_h"] = one.hours;
+  out[place + "exposure_km"] = one.kilometres;
+  out[place + "previews"] = one.previews_per_hour.count;
+  out[place + "triggers"] = one.triggers_per_hour.count;
+  out[place + "danger"] = one.danger;
+  out[place + "false_triggers"] = one.false_per_hour.count;
+  if (one.hours > 0.0) {
+    add_rate(out, place + "previews_per_hour", one.previews_per_hour);
+    add_rate(out, place + "triggers_per_hour", one.triggers_per_hour);
+    add_rate(out, place + "false_triggers_per_hour", one.false_per_hour);
+  }
+  if (one.kilometres > 0.0) {
+    add_rate(out, place + "previews_per_1000km", one.previews_per_1000km);
+    add_rate(out, place + "triggers_per_1000km", one.triggers_per_1000km);
+    add_rate(out, place + "false_triggers_per_1000km", one.false_per_1000km);
+  }
+  for (const auto& [reason, times] : one.reasons) {
+    out[place + "reason." + std::string(name(reason))] = times;
+  }
+}
+
+json traffic_figures(const WatchedTraffic& traffic, const TrafficWatch& options) {
+  std::string folders;
+  for (const std::string& folder : options.folders) {
+    folders += " " + folder;
+  }
+  json out{{"meta.command", fmt::format("saca suite traffic --data{} --count {} --seed {} --car {}",
+                                        folders, options.count, options.seed, options.car)},
+           {"meta.seed", std::to_string(options.seed)},
+           {"meta.n", std::to_string(traffic.rows.size())},
+           {"meta.car", options.car},
+           {"meta.version", SACA_VERSION}};
+  add_shadow_figures(out, "traffic.", eval::shadow_figures(traffic.rows, ""));
+  for (const std::string& source : traffic_sources(traffic)) {
+    add_shadow_figures(out, "traffic." + source + ".", eval::shadow_figures(traffic.rows, source));
+  }
+  return out;
+}
+
+// --- for people
+
+std::string with_bounds(const Rate& rate) {
+  return fmt::format("{:.1f} ({:.1f} to {:.1f})", rate.value, rate.low, rate.high);
+}
+
+void print_line(const std::string& source, const ShadowFigures& one) {
+  fmt::print("{:12} {:6} {:8.3f} {:9.2f} {:8} {:8} {:6} {:6}  {:24} {:26}\n", source, one.drives,
+             one.hours, one.kilometres, one.previews_per_hour.count, one.triggers_per_hour.count,
+             one.danger, one.false_per_hour.count, with_bounds(one.triggers_per_hour),
+             with_bounds(one.false_per_1000km));
+}
+
+void print_traffic(const WatchedTraffic& traffic, const ShadowFigures& all) {
+  fmt::print("SACA in shadow: {} of {} recorded drives; rates with exact 95 % intervals\n\n",
+             traffic.rows.size(), traffic.found);
+  fmt::print("{:12} {:>6} {:>8} {:>9} {:>8} {:>8} {:>6} {:>6}  {:24} {:26}\n", "source", "drives",
+             "h", "km", "previews", "triggers", "danger", "false", "triggers per h",
+             "false per 1,000 km");
+  for (const std::string& source : traffic_sources(traffic)) {
+    print_line(source, eval::shadow_figures(traffic.rows, source));
+  }
+  print_line("all", all);
+  fmt::print("\n");
+  for (const auto& [reason, times] : all.reasons) {
+    fmt::print("{:6} {:6} {}\n", times, is_danger(reason) ? "danger" : "false", meaning(reason));
+  }
+  if (all.left_out > 0) {
+    fmt::print("{:6} drives could not be watched: the page tells why\n", all.left_out);
+  }
+}
+
+std::string needed_text(const std::optional<double>& deceleration) {
+  return deceleration ? fmt::format("{:.1f}", *deceleration) : "more than 12";
+}
+
+struct Triggered {
+  const ShadowTrigger* trigger = nullptr;
+  const DriveToWatch* drive = nullptr;
+};
+
+/// Those that count against SACA first.
+std::vector<Triggered> triggers_of(const WatchedTraffic& traffic) {
+  std::vector<Triggered> all;
+  for (std::size_t k = 0; k < traffic.rows.size(); ++k) {
+    for (const ShadowTrigger& trigger : traffic.rows[k].watched.triggers) {
+      all.push_back({&trigger, &traffic.drives[k]});
+    }
+  }
+  std::stable_sort(all.begin(), all.end(), [](const Triggered& a, const Triggered& b) {
+    const auto rank = [](const Triggered& one) {
+      const ShadowReason reason = one.trigger->judgement.reason;
+      return std::pair(is_danger(reason), reason == ShadowReason::bodies_touch);
+    };
+    return rank(a) < rank(b);
+  });
+  return all;
+}
+
+std::string judged_text(const ShadowTrigger& trigger) {
+  const eval::ShadowJudgement& told = trigger.judgement;
+  return fmt::format("{}: {}", is_danger(told.reason) ? "danger" : "false", meaning(told.reason));
+}
+
+report::PageTable figures_table(const WatchedTraffic& traffic) {
+  report::PageTable table{
+      .heading = "Rates",
+      .lines = {"95 % intervals, exact (Garwood) for events that come independently of each "
+                "other. A trigger that is not danger is false."},
+      .columns = {"drives", "hours", "km", "previews", "previews per h", "triggers",
+                  "triggers per h", "triggers per 1,000 km", "danger", "false", "false per h",
+                  "false per 1,000 km"},
+      .rows = {}};
+  const auto add = [&](const std::string& source, const ShadowFigures& one) {
+    table.rows.push_back(
+        {.name = source,
+         .explanation = {},
+         .cells = {std::to_string(one.drives), fmt::format("{:.3f}", one.hours),
+                   fmt::format("{:.2f}", one.kilometres),
+                   std::to_string(one.previews_per_hour.count), with_bounds(one.previews_per_hour),
+                   std::to_string(one.triggers_per_hour.count), with_bounds(one.triggers_per_hour),
+                   with_bounds(one.triggers_per_1000km), std::to_string(one.danger),
+                   std::to_string(one.false_per_hour.count), with_bounds(one.false_per_hour),
+                   with_bounds(one.false_per_1000km)},
+         .shades = {}});
+  };
+  for (const std::string& source : traffic_sources(traffic)) {
+    add(source, eval::shadow_figures(traffic.rows, source));
+  }
+  add("all", eval::shadow_figures(traffic.rows, ""));
+  return table;
+}
+
+report::PageTable triggers_table(const std::vector<Triggered>& triggers) {
+  report::PageTable table{.heading = "Every trigger",
+                          .lines = {},
+                          .columns = {"at, s", "threat", "time to conflict, s", "ego, m/s",
+                                      "judged", "driver braked, m/s^2", "other braked, m/s^2",
+                                      "driver steered, m/s^2", "needed, m/s^2", "least gap, m"},
+                          .rows = {}};
+  for (const Triggered& one : triggers) {
+    const ShadowTrigger& trigger = *one.trigger;
+    const eval::ShadowJudgement& told = trigger.judgement;
+    table.rows.push_back(
+        {.name = one.drive->source + ": " + one.drive->name,
+         .explanation = {},
+         .cells = {fmt::format("{:.2f}", trigger.time), trigger.who,
+                   fmt::format("{:.2f}", trigger.time_to_conflict),
+                   fmt::format("{:.1f}", trigger.speed), judged_text(trigger),
+                   fmt::format("{:.1f}", told.driver_deceleration),
+                   fmt::format("{:.1f}", told.other_deceleration),
+                   fmt::format("{:.1f}", told.driver_lateral_acceleration),
+                   needed_text(told.needed_deceleration), fmt::format("{:.2f}", told.least_gap)},
+         .shades = {},
+         .faded = is_danger(told.reason)});
+  }
+  return table;
+}
+
+std::optional<report::GalleryCard> card_of_trigger(const Triggered& one, const Inputs& inputs) {
+  const auto ego = one.drive->open();
+  if (!ego.has_value()) {
+    return std::nullopt;
+  }
+  const ShadowTrigger& trigger = *one.trigger;
+  const eval::ShadowJudgement& told = trigger.judgement;
+  const eval::ShadowPicture picture = eval::shadow_picture(
+      ego.value().scenario, {.car = &inputs.car, .intent = &inputs.intent, .thresholds = {}},
+      trigger);
+  report::GalleryCard card{
+      .title = fmt::format("{}: {}, at {:.2f} s: {}", one.drive->source, one.drive->name,
+                           trigger.time, judged_text(trigger)),
+      .lines = {fmt::format(
+          "{} would be met in {:.2f} s, at {:.1f} m/s. Then the driver braked with {:.1f} and "
+          "steered with {:.1f} m/s^2, {} braked with {:.1f} m/s^2; {} m/s^2 was needed; the least "
+          "gap was {:.2f} m.",
+          trigger.who, trigger.time_to_conflict, trigger.speed, told.driver_deceleration,
+          told.driver_lateral_acceleration, trigger.who, told.other_deceleration,
+          needed_text(told.needed_deceleration), told.least_gap)},
+      .done = {},
+      .best = {},
+      .command = one.drive->command};
+  card.done.title = "As recorded, 3 s on";
+  card.done.scene = picture.scene;
+  card.done.ego = picture.ego;
+  card.done.others = picture.others;
+  card.best.title = "As the trigger supposed, until the conflict";
+  card.best.scene = picture.scene;
+  card.best.ego = picture.supposed_ego;
+  card.best.others = picture.supposed_others;
+  card.done.shown_P = report::scene_extent(card.done);  // both of one ground
+  card.best.shown_P = card.done.shown_P;
+  return card;
+}
+
+std::string rate_sentence(const WatchedTraffic& traffic) {
+  const ShadowFigures all = eval::shadow_figures(traffic.rows, "");
+  return fmt::format(
+      "SACA watched {:.2f} hours and {:.1f} km of recorded driving ({} drives) without taking the "
+      "wheel. It would have acted {} times; {} times there was danger by the rule below, {} times "
+      "there was none: {} false triggers per 1,000 km, {} per hour.",
+      all.hours, all.kilometres, all.drives, all.triggers_per_hour.count, all.danger,
+      all.false_per_hour.count, with_bounds(all.false_per_1000km), with_bounds(all.false_per_hour));
+}
+
+report::SuitePage traffic_page(const WatchedTraffic& traffic, const json& figures) {
+  const std::vector<Triggered> triggers = triggers_of(traffic);
+  report::SuitePage page;
+  page.title = "Normal driving, in shadow";
+  page.lines = {
+      rate_sentence(traffic),
+      "A trigger is danger if within 3 s the driver or who threatens brakes with 4 m/s^2 or more "
+      "(over half a second), or the driver steers across the lane with 3 m/s^2 or more (over a "
+      "second), or if, on the way that the driver took, at the speed that he had, only braking "
+      "with 4 m/s^2 or more from the trigger on would have kept the bodies apart. Else it is "
+      "false; so is one in which the recorded bodies overlap."};
+  page.tables = {figures_table(traffic), triggers_table(triggers)};
+  page.gallery_heading = triggers.size() > most_cards
+                             ? fmt::format("The first {} of {} triggers, false ones first",
+                                           most_cards, triggers.size())
+                             : "The triggers, false ones first";
+  for (const Triggered& one : triggers) {
+    if (page.gallery.size() == most_cards) {
+      break;
+    }
+    if (auto card = card_of_trigger(one, *traffic.inputs)) {
+      page.gallery.push_back(std::move(*card));
+    }
+  }
+  for (const auto& [key, value] : figures.items()) {
+    if (key.starts_with("meta.")) {
+      page.footnotes.push_back(key.substr(5) + ": " + value.get<std::string>());
+    }
+  }
+  page.footnotes.push_back(
+      fmt::format("{} drives drawn of {}", traffic.rows.size(), traffic.found));
+  page.footnotes.insert(page.footnotes.end(), traffic.notes.begin(), traffic.notes.end());
+  std::map<std::string, int> reasons;
+  for (const ShadowRow& row : traffic.rows) {
+    if (!row.left_out.empty()) {
+      ++reasons[row.source + ": " + row.left_out];
+    }
+  }
+  for (const auto& [reason, times] : reasons) {
+    if (page.footnotes.size() > most_left_out + traffic.notes.size()) {
+      page.footnotes.push_back("and others");
+      break;
+    }
+    page.footnotes.push_back(fmt::format("not watched: {} x {}", times, reason));
+  }
+  return page;
+}
+
+}  // namespace
+
+int run_traffic_suite(const TrafficWatch& options, bool as_json) {
+  const auto watched = watch_traffic(options);
+  if (!watched.has_value()) {
+    return refused(watched.error());
+  }
+  if (!watched.value()) {
+    complain("interrupted; the same command goes on where this one stopped");
+    return was_interrupted;
+  }
+  const WatchedTraffic& traffic = *watched.value();
+  const ShadowFigures all = eval::shadow_figures(traffic.rows, "");
+  if (all.drives == 0) {
+    complain(fmt::format("{}: want drives that can be watched, got none of {}: {}",
+                         options.folders.front(), traffic.rows.size(),
+                         traffic.rows.front().left_out));
+    return bad_input;
+  }
+  const json figures = traffic_figures(traffic, options);
+  const std::string text = figures.dump(1, ' ', false, json::error_handler_t::replace);
+  fs::path page = options.output;
+  page.replace_extension(".html");
+  fs::path beside = options.output;
+  beside.replace_extension(".json");
+  if (auto problem = write_file(page, report::suite_page(traffic_page(traffic, figures)))) {
+    return refused(*problem);
+  }
+  if (auto problem = write_file(beside, text + "\n")) {
+    return refused(*problem);
+  }
+  if (as_json) {
+    fmt::print("{}\n", text);
+  } else {
+    print_traffic(traffic, all);
+    fmt::print("page: {}, figures: {}\n", page.string(), beside.string());
+  }
+  return success;
+}
+
+}  // namespace saca::app
