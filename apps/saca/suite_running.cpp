@@ -57,8 +57,8 @@ Result<Source> open_hundred_car(const SuiteCommandOptions& options, Inputs input
   }
   const std::string& folder = options.data.front();
   watch_for_interrupt();
-  const auto outcomes = sim::import_hundred_cars(
-      options.data, {}, [](std::size_t, std::size_t) { return !interrupted(); });
+  const auto outcomes =
+      sim::import_hundred_cars(folder, {}, [](std::size_t, std::size_t) { return !interrupted(); });
   if (!outcomes.has_value()) {
     return outcomes.error();
   }

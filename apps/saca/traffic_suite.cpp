@@ -50,6 +50,7 @@ void add_shadow_figures(json& out, const std::string& place, const ShadowFigures
   out[place + "previews"] = one.previews_per_hour.count;
   out[place + "triggers"] = one.triggers_per_hour.count;
   out[place + "danger"] = one.danger;
+  out[place + "triggers_at_rest"] = one.at_rest;
   out[place + "false_triggers"] = one.false_per_hour.count;
   if (one.hours > 0.0) {
     add_rate(out, place + "previews_per_hour", one.previews_per_hour);
@@ -136,7 +137,9 @@ std::vector<Triggered> triggers_of(const WatchedTraffic& traffic) {
   std::stable_sort(all.begin(), all.end(), [](const Triggered& a, const Triggered& b) {
     const auto rank = [](const Triggered& one) {
       const ShadowReason reason = one.trigger->judgement.reason;
-      return std::pair(is_danger(reason), reason == ShadowReason::bodies_touch);
+      const bool unsure =
+          reason == ShadowReason::bodies_touch || reason == ShadowReason::track_ends;
+      return std::pair(is_danger(reason), unsure);
     };
     return rank(a) < rank(b);
   });
@@ -146,6 +149,12 @@ std::vector<Triggered> triggers_of(const WatchedTraffic& traffic) {
 std::string judged_text(const ShadowTrigger& trigger) {
   const eval::ShadowJudgement& told = trigger.judgement;
   return fmt::format("{}: {}", is_danger(told.reason) ? "danger" : "false", meaning(told.reason));
+}
+
+std::string in_short(ShadowReason reason) {
+  std::string words(name(reason));
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return (is_danger(reason) ? "danger: " : "false: ") + words;
 }
 
 report::PageTable figures_table(const WatchedTraffic& traffic) {
@@ -192,7 +201,7 @@ report::PageTable triggers_table(const std::vector<Triggered>& triggers) {
          .explanation = {},
          .cells = {fmt::format("{:.2f}", trigger.time), trigger.who,
                    fmt::format("{:.2f}", trigger.time_to_conflict),
-                   fmt::format("{:.1f}", trigger.speed), judged_text(trigger),
+                   fmt::format("{:.1f}", trigger.speed), in_short(told.reason),
                    fmt::format("{:.1f}", told.driver_deceleration),
                    fmt::format("{:.1f}", told.other_deceleration),
                    fmt::format("{:.1f}", told.driver_lateral_acceleration),
@@ -244,9 +253,10 @@ std::string rate_sentence(const WatchedTraffic& traffic) {
   return fmt::format(
       "SACA watched {:.2f} hours and {:.1f} km of recorded driving ({} drives) without taking the "
       "wheel. It would have acted {} times; {} times there was danger by the rule below, {} times "
-      "there was none: {} false triggers per 1,000 km, {} per hour.",
+      "there was none: {} false triggers per 1,000 km, {} per hour. {} times it stood.",
       all.hours, all.kilometres, all.drives, all.triggers_per_hour.count, all.danger,
-      all.false_per_hour.count, with_bounds(all.false_per_1000km), with_bounds(all.false_per_hour));
+      all.false_per_hour.count, with_bounds(all.false_per_1000km), with_bounds(all.false_per_hour),
+      all.at_rest);
 }
 
 report::SuitePage traffic_page(const WatchedTraffic& traffic, const json& figures) {
@@ -258,8 +268,9 @@ report::SuitePage traffic_page(const WatchedTraffic& traffic, const json& figure
       "A trigger is danger if within 3 s the driver or who threatens brakes with 4 m/s^2 or more "
       "(over half a second), or the driver steers across the lane with 3 m/s^2 or more (over a "
       "second), or if, on the way that the driver took, at the speed that he had, only braking "
-      "with 4 m/s^2 or more from the trigger on would have kept the bodies apart. Else it is "
-      "false; so is one in which the recorded bodies overlap."};
+      "with 4 m/s^2 or more from the trigger on would have kept the bodies apart, or if a crash "
+      "follows. Else it is false; so is one that errors of the recording set off: bodies that "
+      "overlap, a threat whose track has only begun or is about to end."};
   page.tables = {figures_table(traffic), triggers_table(triggers)};
   page.gallery_heading = triggers.size() > most_cards
                              ? fmt::format("The first {} of {} triggers, false ones first",

@@ -102,16 +102,18 @@ std::optional<Error> find_commonroad(const std::vector<fs::path>& files, Finding
                return made.error();
              }
              sim::TrafficImport import = std::move(made).value();
+             constexpr eval::Settling settling;
              const double recorded = std::get<sim::Recording>(import.scenario.ego).back().time;
-             const double until = std::min(seconds, recorded - eval::settled_before_end);
-             if (until <= eval::settled_after_start) {
+             const double until = std::min(seconds, recorded - settling.before_end);
+             if (until <= settling.after_start) {
                return Error{Error::Code::out_of_range,
                             "recorded for too short to be smoothed with samples on both sides"};
              }
              return RecordedEgo{std::move(import.scenario),
-                                {.from = eval::settled_after_start,
+                                {.from = settling.after_start,
                                  .until = until,
-                                 .lane_ahead = import.report.lane.ahead}};
+                                 .lane_ahead = import.report.lane.ahead,
+                                 .settling = settling}};
            }});
     }
   }
@@ -131,6 +133,7 @@ constexpr double times_before[] = {30.0, 20.0, 12.0};
 /// From its first row on, until all is smoothed with rows on both sides (+-0.5 s, hundred_car.h)
 /// and accelerations are differenced over half a second [s].
 constexpr double settled_rows = 1.0;
+constexpr eval::Settling radar_settling{.after_start = settled_rows, .before_end = 0.5};
 
 double normal_seconds(const sim::HundredCarImport& made) {
   return traffic::hundred_car_step *
@@ -182,9 +185,11 @@ std::optional<Error> find_hundred_cars(const fs::path& folder, Findings& found) 
                                 "scenario.toml",
                                 folder.string(), event, one.before),
          .open = [made]() -> Result<RecordedEgo> {
-           return RecordedEgo{
-               made.scenario,
-               {.from = settled_rows, .until = normal_seconds(made), .lane_ahead = {}}};
+           return RecordedEgo{made.scenario,
+                              {.from = settled_rows,
+                               .until = normal_seconds(made),
+                               .lane_ahead = {},
+                               .settling = radar_settling}};
          }});
   }
   for (const auto& [reason, times] : refused) {

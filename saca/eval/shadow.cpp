@@ -174,9 +174,9 @@ Result<ShadowDrive> shadow_drive(const sim::Scenario& scenario, const ShadowSetu
     const auto threat = preview::triggering_threat(seen, setup.thresholds);
     if (trigger.look(seen.time, threat.has_value())) {
       const world::Actor& who = seen.actors[threat->actor];
-      drive.triggers.push_back(
-          {seen.time, actor_name(who), threat->time, norm(seen.ego.v_B),
-           judged(world, manoeuvre::footprint(*setup.car), actor_index(world, who), seen.time)});
+      drive.triggers.push_back({seen.time, actor_name(who), threat->time, norm(seen.ego.v_B),
+                                judged(world, manoeuvre::footprint(*setup.car),
+                                       actor_index(world, who), seen.time, window)});
     }
     if (last_p_W) {
       drive.metres += norm(seen.ego.X_WB.p - *last_p_W);

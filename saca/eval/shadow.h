@@ -26,17 +26,6 @@ struct ShadowSetup {
   preview::Thresholds thresholds;
 };
 
-/// Which part of a recorded drive counts.
-struct ShadowWindow {
-  double from = 0.0;            ///< [s]; before, SACA looks on but nothing counts
-  std::optional<double> until;  ///< [s]; nullopt: as long as the ego was recorded
-  /// How far the road of the scenario is the road that was there, along its lane [m]. From the look
-  /// on at which the ego gets within T1 of there, or drives 20 deg or more across the lane as who
-  /// turns off does, nothing counts any more: SACA's world is a lane of one curvature, and beyond
-  /// there is another. nullopt: all the way.
-  std::optional<double> lane_ahead;
-};
-
 /// Two previews, or two triggers, that lie no farther apart are one [s].
 constexpr double rearmed_after = 2.0;
 

@@ -26,13 +26,14 @@ struct ReasonWords {
   bool danger;
 };
 
-constexpr std::array<ReasonWords, 7> all_reasons{{
+constexpr std::array<ReasonWords, 8> all_reasons{{
     {ShadowReason::driver_braked, "driver_braked", "the driver braked with 4 m/s^2 or more", true},
     {ShadowReason::driver_steered, "driver_steered", "the driver steered with 3 m/s^2 or more",
      true},
     {ShadowReason::track_ends, "track_ends",
      "who threatens was only just, or not much longer, recorded", false},
     {ShadowReason::other_braked, "other_braked", "the other braked with 4 m/s^2 or more", true},
+    {ShadowReason::crash, "crash", "the bodies touch when normal driving is over", true},
     {ShadowReason::bodies_touch, "bodies_touch",
      "the bodies overlap, which is an error of the recording", false},
     {ShadowReason::braking_needed, "braking_needed",
@@ -155,27 +156,40 @@ std::optional<double> needed_deceleration(const Judged& judged) {
   return std::nullopt;
 }
 
-double least_gap(const sim::Scenario& scenario, const Judged& judged, double time) {
-  double least = std::numeric_limits<double>::infinity();
+/// How near the bodies come while both are recorded.
+struct Nearest {
+  double gap = std::numeric_limits<double>::infinity();  ///< [m]
+  std::optional<double> touch;                           ///< when they first do [s]
+};
+
+Nearest nearest_of(const sim::Scenario& scenario, const Judged& judged, double time, double last) {
+  Nearest nearest;
   for (std::size_t k = 0; k < judged.X_WO.size(); ++k) {
-    const Pose X_WB = sim::ego_at(scenario, time + static_cast<double>(k) * judged_step).X_WB;
-    least =
-        std::min(least, world::separation(judged.ego, X_WB, judged.other, judged.X_WO[k]).distance);
+    const double t = time + static_cast<double>(k) * judged_step;
+    if (k > 0 && t > last + rounding_of_time) {
+      break;
+    }
+    const Pose X_WB = sim::ego_at(scenario, t).X_WB;
+    const double gap = world::separation(judged.ego, X_WB, judged.other, judged.X_WO[k]).distance;
+    nearest.gap = std::min(nearest.gap, gap);
+    if (gap <= 0.0 && !nearest.touch) {
+      nearest.touch = t;
+    }
   }
-  return least;
+  return nearest;
 }
 
-bool is_settled(const sim::ScenarioActor& actor, double time) {
+bool is_settled(const sim::ScenarioActor& actor, double time, const Settling& settling) {
   const auto* recording = std::get_if<sim::Recording>(&actor.motion);
   if (recording == nullptr) {
     return true;
   }
   const double first = recording->front().time;
-  return (first <= 0.0 || time - first >= settled_after_start) &&
-         recording->back().time - time >= settled_before_end;
+  return (first <= 0.0 || time - first >= settling.after_start) &&
+         recording->back().time - time >= settling.before_end;
 }
 
-ShadowReason reason_of_judgement(const ShadowJudgement& told, bool settled) {
+ShadowReason reason_of_judgement(const ShadowJudgement& told, bool settled, bool crash) {
   if (told.driver_deceleration >= hard_braking) {
     return ShadowReason::driver_braked;
   }
@@ -189,7 +203,7 @@ ShadowReason reason_of_judgement(const ShadowJudgement& told, bool settled) {
     return ShadowReason::other_braked;
   }
   if (told.least_gap <= 0.0) {
-    return ShadowReason::bodies_touch;
+    return crash ? ShadowReason::crash : ShadowReason::bodies_touch;
   }
   return told.needed_deceleration.value_or(hardest_tried) >= hard_braking
              ? ShadowReason::braking_needed
@@ -228,7 +242,7 @@ std::size_t actor_index(const sim::Scenario& scenario, const world::Actor& actor
 }
 
 ShadowJudgement judged(const sim::Scenario& scenario, const world::Footprint& ego,
-                       std::size_t actor, double time) {
+                       std::size_t actor, double time, const ShadowWindow& window) {
   expects(actor < scenario.actors.size(), "actor < number of actors");
   const auto* recorded = std::get_if<sim::Recording>(&scenario.ego);
   expects(recorded != nullptr && recorded->size() >= 2, "the ego has a recording");
@@ -245,14 +259,19 @@ ShadowJudgement judged(const sim::Scenario& scenario, const world::Footprint& eg
     around.X_WO.push_back(sim::actor_pose(scenario, actor, time + k * judged_step, {}));
   }
   ShadowJudgement told;
+  double seen_until = end;
   told.driver_deceleration = hardest_deceleration(drive, time);
   if (const auto* recording = std::get_if<sim::Recording>(&other.motion)) {
     told.other_deceleration = hardest_deceleration(*recording, time);
+    seen_until = recording->back().time;
   }
   told.driver_lateral_acceleration = hardest_steering(scenario, drive.back().time, time);
   told.needed_deceleration = needed_deceleration(around);
-  told.least_gap = least_gap(scenario, around, time);
-  told.reason = reason_of_judgement(told, is_settled(other, time));
+  const Nearest nearest = nearest_of(scenario, around, time, std::min(end, seen_until));
+  told.least_gap = nearest.gap;
+  told.reason =
+      reason_of_judgement(told, is_settled(other, time, window.settling),
+                          nearest.touch && window.until && *nearest.touch > *window.until);
   return told;
 }
 

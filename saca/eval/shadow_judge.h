@@ -11,12 +11,34 @@
 
 namespace saca::eval {
 
+/// How far from its ends a recorded motion is known as well as in its middle, where it is smoothed
+/// with samples on both sides.
+struct Settling {
+  /// From the first sample on [s], >= 0: sim::smooth_track fits over +-0.7 s, then over +-0.5 s,
+  /// and accelerations are differenced over 0.5 s (sim::Traffic).
+  double after_start = 1.7;
+  double before_end = 1.2;  ///< until the last [s], >= 0
+};
+
+/// Which part of a recorded drive counts.
+struct ShadowWindow {
+  double from = 0.0;            ///< [s]; before, SACA looks on but nothing counts
+  std::optional<double> until;  ///< of normal driving [s]; nullopt: as long as the ego was recorded
+  /// How far the road of the scenario is the road that was there, along its lane [m]. From the look
+  /// on at which the ego gets within T1 of there, or drives 20 deg or more across the lane as who
+  /// turns off does, nothing counts any more: SACA's world is a lane of one curvature, and beyond
+  /// there is another. nullopt: all the way.
+  std::optional<double> lane_ahead;
+  Settling settling;  ///< of the others
+};
+
 /// What a trigger is judged by.
 enum class ShadowReason : std::uint8_t {
   driver_braked,   ///< danger
   driver_steered,  ///< danger
   track_ends,      ///< false: who threatens was only just, or not much longer, recorded
   other_braked,    ///< danger
+  crash,           ///< danger: after normal driving they touch
   bodies_touch,    ///< false: the recorded bodies overlap, which is an error of the recording
   braking_needed,  ///< danger
   nothing_needed,  ///< false
@@ -35,7 +57,7 @@ struct ShadowJudgement {
   double driver_lateral_acceleration = 0.0;   ///< largest against the lane, size [m/s^2], >= 0
   std::optional<double> needed_deceleration;  ///< size [m/s^2], >= 0; nullopt: none of up to 12 is
                                               ///< enough
-  double least_gap = 0.0;                     ///< between the bodies [m]; 0: they touch
+  double least_gap = 0.0;  ///< between the bodies, while both are recorded [m]; 0: they touch
   ShadowReason reason = ShadowReason::nothing_needed;
 };
 
@@ -45,11 +67,6 @@ constexpr double hard_braking = 4.0;
 constexpr double hard_steering = 3.0;
 /// How long a recording is looked at from a trigger on [s].
 constexpr double judged_for = 3.0;
-/// So far from its last sample a smoothed track rests on samples on both sides: sim::smooth_track
-/// fits over +-0.7 s, then over +-0.5 s [s].
-constexpr double settled_before_end = 1.2;
-/// And so far from its first, accelerations being differenced over 0.5 s (sim::Traffic) [s].
-constexpr double settled_after_start = 1.7;
 
 /// Which actor of the scenario is perceived.
 /// @throws ContractViolation  if there is none of that kind and id
@@ -68,9 +85,9 @@ constexpr double settled_after_start = 1.7;
 ///     speed he had, only a deceleration of 4 m/s^2 or more, begun at the trigger, would have kept
 ///     the bodies apart, the other moving as recorded.
 /// Else it is false. What is only an error of the recording is told as such and counts as false, so
-/// that the rate of false triggers is none too low: after 2, who threatens was recorded for less
-/// than 1.7 s before (unless from the scenario's beginning on) or less than 1.2 s after, and is
-/// smoothed with half the samples; before 4, the bodies touch, though nobody crashed.
+/// that the rate of false triggers is none too low: after 2, who threatens was only just recorded
+/// (unless from the scenario's beginning on), or not much longer, by `Settling`; before 4, the
+/// bodies touch though driving is normal. Where they touch after it, that is a crash, and danger.
 ///
 /// Why so. 4 m/s^2 lies above what people call normal: the deceleration needed to avoid a crash is
 /// a conflict from 3.35 m/s^2 on (Archer 2005), adaptive cruise controls may use 3.5 (ISO 15622);
@@ -84,8 +101,10 @@ constexpr double settled_after_start = 1.7;
 /// @param ego    body about its centre of mass
 /// @param actor  who threatens: index into scenario.actors; it does not react
 /// @param time   of the trigger, within the ego's recording [s]
+/// @param window  its `until` and `settling` count
 /// @throws ContractViolation  if the ego has no recording, or there is no such actor
 [[nodiscard]] ShadowJudgement judged(const sim::Scenario& scenario, const world::Footprint& ego,
-                                     std::size_t actor, double time);
+                                     std::size_t actor, double time,
+                                     const ShadowWindow& window = {});
 
 }  // namespace saca::eval

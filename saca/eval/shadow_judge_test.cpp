@@ -36,7 +36,8 @@ sim::Recording braking(double v, double a) {
       [=](double t) { return v - a * t_braked(t); });
 }
 
-ShadowJudgement judgement(sim::Recording ego, sim::Recording other, double time = 1.0) {
+ShadowJudgement judgement(sim::Recording ego, sim::Recording other, double time = 1.0,
+                          const ShadowWindow& window = {}) {
   sim::Scenario scenario;
   scenario.road.left_edge = 20.0;
   scenario.road.right_edge = -20.0;
@@ -44,7 +45,7 @@ ShadowJudgement judgement(sim::Recording ego, sim::Recording other, double time 
   scenario.ego = std::move(ego);
   scenario.actors.push_back(
       {.footprint = {.length = 4.5, .width = 1.8}, .mass = 1500.0, .motion = std::move(other)});
-  return judged(scenario, sim::standard_ego, 0, time);
+  return judged(scenario, sim::standard_ego, 0, time, window);
 }
 
 // In a queue: 3 m/s, 3.5 m to go, 1.17 s. He needs 9 / 7 = 1.29 m/s^2 and uses 1.5.
@@ -145,6 +146,27 @@ TEST(ShadowJudge, BodiesThatTouchAreAnErrorOfTheRecording) {
   EXPECT_EQ(told.reason, ShadowReason::bodies_touch);
   EXPECT_FALSE(is_danger(told.reason));
   EXPECT_EQ(told.least_gap, 0.0);
+}
+
+// His front, 2.25 m ahead, is at the other's rear, 32.75 m, after 1 s and the way 15.5 m of
+// braking.
+TEST(ShadowJudge, ATouchAfterNormalDrivingIsACrash) {
+  for (const auto& [until, reason] :
+       {std::pair{1.5, ShadowReason::crash}, std::pair{2.5, ShadowReason::bodies_touch}}) {
+    const ShadowJudgement told =
+        judgement(braking(15.0, 2.0), standing(15.0 + 20.0), 1.0, {.until = until});
+    EXPECT_EQ(told.reason, reason);
+  }
+  EXPECT_TRUE(is_danger(ShadowReason::crash));
+}
+
+// Where the other is not recorded nobody touches it; what he needed is told as if it went on.
+TEST(ShadowJudge, OnlyWhoIsRecordedIsTouched) {
+  const sim::Recording all = standing(15.0 + 20.0);
+  const ShadowJudgement told = judgement(braking(15.0, 2.0), {all.begin(), all.begin() + 16}, 1.0,
+                                         {.settling = {.after_start = 0.5, .before_end = 0.5}});
+  EXPECT_GT(told.least_gap, 7.0);
+  EXPECT_EQ(told.reason, ShadowReason::braking_needed);
 }
 
 // Recorded from 1 s before the trigger on, or until 1 s after it.

@@ -105,6 +105,8 @@ ShadowFigures shadow_figures(std::span<const ShadowRow> rows, std::string_view s
     triggers += static_cast<int>(row.watched.triggers.size());
     for (const ShadowTrigger& trigger : row.watched.triggers) {
       ++figures.reasons[trigger.judgement.reason];
+      constexpr double rest_speed = 0.5;  // [m/s]
+      figures.at_rest += trigger.speed < rest_speed ? 1 : 0;
       figures.danger += is_danger(trigger.judgement.reason) ? 1 : 0;
     }
   }

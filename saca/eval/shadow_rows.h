@@ -38,7 +38,8 @@ struct ShadowFigures {
   Rate triggers_per_1000km;
   Rate false_per_hour;
   Rate false_per_1000km;
-  int danger = 0;
+  int danger = 0;   ///< triggers
+  int at_rest = 0;  ///< likewise, of an ego slower than 0.5 m/s, which could do nothing
   std::map<ShadowReason, int> reasons;  ///< of the triggers
 };
 
