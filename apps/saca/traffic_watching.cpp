@@ -328,8 +328,12 @@ Result<std::optional<WatchedTraffic>> watch_traffic(const TrafficWatch& options)
     return *problem;
   }
   const auto journal = Journal::open(
-      path, fmt::format("saca {} suite traffic, {}, seed {}, count {}, data {:016x}", SACA_VERSION,
-                        options.car, options.seed, options.count, found.hash.value()));
+      path,
+      fmt::format("saca {} suite traffic, {}, seed {}, count {}, T1 {} s, T2 {} s, danger from {} "
+                  "and {} m/s^2 on, data {:016x}",
+                  SACA_VERSION, options.car, options.seed, options.count,
+                  preview::Thresholds{}.trigger, preview::Thresholds{}.preview, eval::hard_braking,
+                  eval::hard_steering, found.hash.value()));
   if (!journal.has_value()) {
     return journal.error();
   }

@@ -74,9 +74,8 @@ constexpr double judged_for = 3.0;
 
 /// Judges a trigger of a recorded drive: was there danger, or would SACA have acted without need?
 ///
-/// The rule looks at the recording from the trigger on for 3 s
-/// (what lies beyond its end goes on straight). The trigger is
-/// danger if
+/// The rule looks at the recording from the trigger on for 3 s (what lies beyond its end goes on
+/// straight). The trigger is danger if
 ///  1. the driver braked with 4 m/s^2 or more, over half a second that begins at most half a second
 ///     before the trigger;
 ///  2. or steered: 3 m/s^2 or more across the lane, over a second;
@@ -90,13 +89,13 @@ constexpr double judged_for = 3.0;
 /// bodies touch though driving is normal. Where they touch after it, that is a crash, and danger.
 ///
 /// Why so. 4 m/s^2 lies above what people call normal: the deceleration needed to avoid a crash is
-/// a conflict from 3.35 m/s^2 on (Archer 2005), adaptive cruise controls may use 3.5 (ISO 15622);
-/// below 5 UN R157 sees no emergency. 3 m/s^2 is what UN R79 lets a lane-keeping car use at most; a
-/// lane change of 3.5 m in 5 s has 0.8. Neither the gap nor the time to collision decides: in a
-/// queue people roll to within a metre of each other, with less than a second to go, and need 1
-/// m/s^2; who trigger there is a nuisance. What the driver needed is measured in hindsight, with
-/// what the other then did and the way the driver was on: who was about to leave the lane needed
-/// nothing.
+/// a conflict from 3.35 m/s^2 on (Archer 2005), adaptive cruise controls may use 3.5 at speed (ISO
+/// 15622); up to 5 UN R157 sees no emergency. Smoothing blunts the hardest braking over 0.7 s. 3
+/// m/s^2 is what UN R79 lets a lane-keeping car use at most; a lane change of 3.5 m in 5 s has 0.8.
+/// Neither the gap nor the time to collision decides: in a queue people roll to within a metre of
+/// each other, with less than a second to go, and need 1 m/s^2; who trigger there is a nuisance.
+/// What the driver needed is measured in hindsight, with what the other then did and the way the
+/// driver was on: who was about to leave the lane needed nothing.
 ///
 /// @param ego    body about its centre of mass
 /// @param actor  who threatens: index into scenario.actors; it does not react
