@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Makes docs/suites.md from the figures that `saca suite`, `saca ladder` and `saca tables` print with --json.
 
-usage: tools/suite_results.py COMMIT FILE.json...  merges the files, which were made at that commit, into docs/suites.json, and
-                                                   writes docs/suites.md from it
-       tools/suite_results.py                      writes docs/suites.md from docs/suites.json
+usage: tools/suite_results.py COMMIT FILE.json... [-- COMMIT FILE.json...]
+           puts together files, each made at the commit named before it, as docs/suites.json, and writes docs/suites.md from it
+       tools/suite_results.py
+           writes docs/suites.md from docs/suites.json
 Of the single families only the regret is kept.
 """
 
@@ -162,9 +163,16 @@ def page_of(runs):
     return head + "\n\n".join(section(one) for one in runs) + "\n"
 
 
+def groups_of(words):
+    groups = [[]]
+    for word in words:
+        groups.append([]) if word == "--" else groups[-1].append(word)
+    return groups
+
+
 def main():
     if len(sys.argv) > 1:
-        KEPT.write_text(json.dumps(merged(sys.argv[1], sys.argv[2:]), indent=0, sort_keys=True) + "\n")
+        KEPT.write_text(json.dumps([run for commit, *files in groups_of(sys.argv[1:]) for run in merged(commit, files)], indent=0, sort_keys=True) + "\n")
     PAGE.write_text(page_of(json.loads(KEPT.read_text())))
 
 

@@ -102,7 +102,7 @@ def test_a_journal_of_other_work_is_refused(tmp_path):
     (["suite", "no_such"], BAD_INPUT, "want one of natural, balanced"),
     (["suite", "cyclist"], BAD_INPUT, "test"),
     (["suite", "balanced", "--split", "test"], BAD_INPUT, "log"),
-    (["suite", "100car"], BAD_INPUT, "--data"),
+    (["suite", "100car"], WRONG_COMMAND_LINE, "--data"),
     (["suite", "100car", "--data", "nowhere"], BAD_INPUT, "nowhere"),
     (["suite", "."], BAD_INPUT, "want a folder with scenarios"),
     (["ladder", "no_such"], BAD_INPUT, "no_such"),
