@@ -171,6 +171,7 @@ Action least_tried(const world::Scene& scene, std::span<const JointMotion> motio
   for (const JointMotion& motion : motions) {
     const outcome::Others moved = others(motion);
     std::vector<outcome::Attempt> attempts;
+    attempts.reserve(plans.size());
     for (const Plan& plan : plans) {
       attempts.push_back({plan, &scene, &moved, grip, unknown});
     }

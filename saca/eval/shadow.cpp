@@ -11,6 +11,7 @@
 #include "saca/intent/observer.h"
 #include "saca/loop/closed_loop.h"
 #include "saca/manoeuvre/ego.h"
+#include "saca/preview/caution.h"
 #include "saca/sim/motion.h"
 #include "saca/sim/stepper.h"
 #include "saca/world/time_to_conflict.h"

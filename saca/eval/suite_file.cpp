@@ -1,5 +1,7 @@
 #include "saca/eval/suite_file.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -45,7 +47,8 @@ void write_comparisons(config::Hdf5Writer& writer, const std::string& group,
     const std::string place = group + "/" + methods[m];
     writer.group(place);
     const auto of_run = [&](const std::string& name, const auto& value) {
-      column(place + "/" + name, [&](const Comparison& one) { return value(one.runs[m]); });
+      column(fmt::format("{}/{}", place, name),
+             [&](const Comparison& one) { return value(one.runs[m]); });
     };
     of_run("harm", [](const MethodRun& run) { return run.harm; });
     of_run("collision_loss", [](const MethodRun& run) { return run.collision_loss; });

@@ -26,7 +26,7 @@ std::optional<Threat> nearest_threat(const world::Scene& scene, double horizon, 
   return nearest;
 }
 
-std::optional<Threat> triggering_threat(const Scene& scene, const Thresholds& thresholds) {
+std::optional<Threat> triggering_threat(const world::Scene& scene, const Thresholds& thresholds) {
   auto threat = nearest_threat(scene, thresholds.preview, thresholds.trigger_tolerance);
   if (threat && threat->time > thresholds.trigger) {
     threat.reset();
