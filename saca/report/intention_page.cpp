@@ -30,13 +30,15 @@ std::string intention_page(const IntentionPage& page) {
   for (const std::string& line : page.lines) {
     html += fmt::format("<p>{}</p>\n", escaped(line));
   }
-  html += "<div class=\"legend\">" +
-          svg_in_page(intention_legend_size, "What the colours mean", intention_legend({0.0, 0.0})) +
-          "</div>\n<div class=\"samples\">\n";
+  html +=
+      "<div class=\"legend\">" +
+      svg_in_page(intention_legend_size, "What the colours mean", intention_legend({0.0, 0.0})) +
+      "</div>\n<div class=\"samples\">\n";
   for (const IntentionSample& sample : page.samples) {
-    html += "<figure>" +
-            svg_in_page(intention_sample_size(sample), sample.title, intention_sample_part(sample)) +
-            "</figure>\n";
+    html +=
+        "<figure>" +
+        svg_in_page(intention_sample_size(sample), sample.title, intention_sample_part(sample)) +
+        "</figure>\n";
   }
   return html + "</div>\n</body></html>\n";
 }
