@@ -18,7 +18,6 @@ namespace {
 using decide::Event;
 using decide::EventKind;
 using decide::Plane;
-using manoeuvre::PolicyId;
 using world::Scene;
 
 constexpr std::array<std::string_view, 3> phase_names{"recorded", "driving", "manoeuvre"};
