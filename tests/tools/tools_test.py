@@ -32,7 +32,7 @@ def test_a_figure_measured_twice_is_refused(tmp_path):
 
 def test_the_start_is_the_empty_line_after_the_headline(tmp_path):
     program = tmp_path / "program"
-    program.write_text("#!/bin/sh\necho headline\nsleep 0.3\necho\nsleep 3\necho T1: now\n")
+    program.write_text("#!/bin/sh\necho headline\nsleep 0.3\necho\nsleep 3\necho T1: now\nsleep 3\n")
     program.chmod(0o755)
     run = tool("start_time.py", program, "scenario")
     assert run.returncode == 0, run.stderr
