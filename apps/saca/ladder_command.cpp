@@ -49,6 +49,7 @@ struct LadderCommand {
 
 std::vector<std::string> rung_names() {
   std::vector<std::string> names;
+  names.reserve(rungs.size());
   for (const Rung& rung : rungs) {
     names.emplace_back(rung.method);
   }

@@ -116,7 +116,7 @@ json json_of(const SuiteRun& run, const SuiteResult& result, const SuiteCommandO
     }
     for (const auto& [reason, times] : one.reasons) {
       if (!reason.empty()) {
-        out[place + "reason." + reason] = times;
+        out[fmt::format("{}reason.{}", place, reason)] = times;
       }
     }
     if (one.method.starts_with("saca") && decided > 0) {

@@ -254,7 +254,7 @@ Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
   if (!opened.has_value()) {
     return opened.error();
   }
-  const std::shared_ptr<Bench> bench = opened.value();
+  const std::shared_ptr<Bench>& bench = opened.value();
   const Source& source = bench->source;
   const std::string path = options.output + ".journal";
   if (auto problem = make_folder_of(path)) {

@@ -17,7 +17,6 @@
 namespace saca::app {
 namespace {
 
-using eval::SuiteEncounter;
 using eval::SuiteRow;
 using nlohmann::json;
 
@@ -266,8 +265,9 @@ int run(const TablesCommand& options) {
       complain("interrupted; tables are made anew each time");
       return was_interrupted;
     }
-    const auto few =
-        first_draws(played, table, static_cast<std::size_t>(few_draws * num), options.seed);
+    const auto few = first_draws(
+        played, table, static_cast<std::size_t>(few_draws) * static_cast<std::size_t>(num),
+        options.seed);
     const auto many = first_draws(played, table, played.size(), options.seed);
     if (few.empty()) {
       complain(std::string(table.title) +
