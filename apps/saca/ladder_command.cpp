@@ -67,10 +67,7 @@ std::vector<Climbed> climb(const SuiteRun& run, std::uint64_t seed) {
   for (const eval::SuiteRow& row : run.rows) {
     all.push_back(&row);
   }
-  const auto at = [&](const char* name) {
-    return static_cast<std::size_t>(std::find(run.methods.begin(), run.methods.end(), name) -
-                                    run.methods.begin());
-  };
+  const auto at = [&](const char* name) { return index_of(run.methods, name).value(); };
   auto figures = eval::suite_figures(all, run.methods, at("aeb"), seed);
   std::vector<Climbed> climbed;
   for (std::size_t i = 0; i < figures.size(); ++i) {
@@ -95,16 +92,11 @@ json json_of(const SuiteRun& run, const std::vector<Climbed>& climbed, const std
   json out = run.meta;
   const std::string head = "ladder." + name + ".";
   for (std::size_t i = 0; i < climbed.size(); ++i) {
-    const auto add = [&](const std::string& key, const Estimate& estimate) {
-      out[key] = estimate.value;
-      out[key + ".lo"] = estimate.low;
-      out[key + ".hi"] = estimate.high;
-      out[key + ".n"] = estimate.n;
-    };
-    add(head + rungs[i].method, climbed[i].figures.regret);
-    add(head + rungs[i].method + ".materially_worse_than_aeb", climbed[i].figures.worse_than_aeb);
+    add_estimate(out, head + rungs[i].method, climbed[i].figures.regret);
+    add_estimate(out, head + rungs[i].method + ".materially_worse_than_aeb",
+                 climbed[i].figures.worse_than_aeb);
     if (climbed[i].step) {
-      add(head + rungs[i].method + ".step_from." + rungs[i].above, *climbed[i].step);
+      add_estimate(out, head + rungs[i].method + ".step_from." + rungs[i].above, *climbed[i].step);
     }
   }
   return out;
@@ -152,9 +144,7 @@ report::SuitePage page_of(const SuiteRun& run, const std::vector<Climbed>& climb
   }
   page.chart = std::move(chart);
   page.tables.push_back(std::move(table));
-  for (const auto& [key, value] : run.meta.items()) {
-    page.footnotes.push_back(key.substr(key.find('.') + 1) + ": " + value.get<std::string>());
-  }
+  page.footnotes = footnotes_of(run.meta);
   return page;
 }
 

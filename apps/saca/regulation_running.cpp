@@ -7,8 +7,7 @@
 #include <memory>
 #include <sstream>
 
-#include "apps/saca/atlas_making.h"
-#include "apps/saca/inputs.h"
+#include "apps/saca/planes_making.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/suite_running.h"
 #include "saca/eval/suite.h"
@@ -54,35 +53,9 @@ std::optional<Error> choose_rows(Regulation& regulation, const std::string& list
   return std::nullopt;
 }
 
-/// A car and all that it is run with. It stays where it is: its parts point to one another.
-struct TestedCar {
-  Inputs inputs;
-  std::optional<manoeuvre::Atlas> atlas;
-  SteadyClock clock;
-  loop::PlanesSetup planes;
-};
-
-Result<std::unique_ptr<TestedCar>> open_car(const std::string& name) {
-  auto inputs = read_inputs(name);
-  if (!inputs.has_value()) {
-    return inputs.error();
-  }
-  auto car = std::make_unique<TestedCar>();
-  car->inputs = std::move(inputs).value();
-  const auto costs = read_costs(car->inputs.places);
-  if (!costs.has_value()) {
-    return costs.error();
-  }
-  car->atlas = usual_atlas(car->inputs);
-  car->planes = {.forecast = {&car->inputs.car, &car->inputs.harm, &*car->atlas},
-                 .costs = costs.value(),
-                 .clock = &car->clock};
-  return car;
-}
-
 /// One per method.
 std::vector<RegulationResult> results_of(const RegulationRun& run, std::size_t index,
-                                         const TestedCar& car) {
+                                         const PlanesOfCar& car) {
   const eval::RegulationCell& cell = run.cells[index];
   const eval::SuiteEncounter encounter{
       .number = index,
@@ -90,7 +63,7 @@ std::vector<RegulationResult> results_of(const RegulationRun& run, std::size_t i
       .scenario = eval::scenario_of(run.regulation, cell, manoeuvre::footprint(car.inputs.car)),
       .twin = {}};
   const eval::SuiteRow row = eval::run_encounter(
-      encounter, {.methods = run.methods, .seed = 1, .exact = true}, car.planes, car.inputs.intent);
+      encounter, {.methods = run.methods, .seed = 1, .exact = true}, car.setup, car.inputs.intent);
   std::vector<RegulationResult> results(run.methods.size());
   for (std::size_t m = 0; m < results.size(); ++m) {
     RegulationResult& result = results[m];
@@ -111,8 +84,8 @@ std::vector<RegulationResult> results_of(const RegulationRun& run, std::size_t i
 /// Plays every cell with every car.
 /// @param go_on  told how many are done; false: no further
 /// @return       were all played?
-bool play(RegulationRun& run, const std::vector<std::unique_ptr<TestedCar>>& cars, int threads,
-          const std::function<bool(std::size_t done)>& go_on) {
+bool play(RegulationRun& run, const std::vector<std::unique_ptr<const PlanesOfCar>>& cars,
+          int threads, const std::function<bool(std::size_t done)>& go_on) {
   const std::size_t count = cars.size() * run.cells.size();
   const std::size_t batch = cells_per_thread * static_cast<std::size_t>(threads);
   for (std::size_t first = 0; first < count; first += batch) {
@@ -187,10 +160,7 @@ fs::path regulation_path(const Places& places, const std::string& name) {
 }
 
 std::optional<std::size_t> index_of(const RegulationRun& run, const std::string& method) {
-  const auto found = std::find(run.methods.begin(), run.methods.end(), method);
-  return found == run.methods.end()
-             ? std::nullopt
-             : std::optional(static_cast<std::size_t>(found - run.methods.begin()));
+  return index_of(run.methods, method);
 }
 
 Result<std::optional<RegulationRun>> run_cells(const RegulationOptions& options,
@@ -200,9 +170,9 @@ Result<std::optional<RegulationRun>> run_cells(const RegulationOptions& options,
     return prepared.error();
   }
   RegulationRun run = std::move(prepared).value();
-  std::vector<std::unique_ptr<TestedCar>> cars;
+  std::vector<std::unique_ptr<const PlanesOfCar>> cars;
   for (const std::string& name : run.cars) {
-    auto car = open_car(name);
+    auto car = open_planes(name);
     if (!car.has_value()) {
       return car.error();
     }

@@ -45,13 +45,6 @@ std::vector<const SuiteRow*> rows_of(const SuiteRun& run, const std::string& fam
   return found;
 }
 
-std::optional<std::size_t> index_of(const std::vector<std::string>& names,
-                                    const std::string& wanted) {
-  const auto found = std::find(names.begin(), names.end(), wanted);
-  return found == names.end() ? std::nullopt
-                              : std::optional(static_cast<std::size_t>(found - names.begin()));
-}
-
 SuiteResult result_of(const SuiteRun& run, std::uint64_t seed) {
   SuiteResult result;
   const auto aeb = index_of(run.methods, "aeb");
@@ -70,31 +63,21 @@ SuiteResult result_of(const SuiteRun& run, std::uint64_t seed) {
   return result;
 }
 
-void add(json& out, const std::string& name, const Estimate& estimate) {
-  if (estimate.n == 0) {
-    return;
-  }
-  out[name] = estimate.value;
-  out[name + ".lo"] = estimate.low;
-  out[name + ".hi"] = estimate.high;
-  out[name + ".n"] = estimate.n;
-}
-
 json json_of(const SuiteRun& run, const SuiteResult& result, const SuiteCommandOptions& options) {
   json out = run.meta;
   const std::string head = "suite." + fs::path(options.name).filename().string() + ".";
   const auto add_figures = [&](const std::string& place, const MethodFigures& one) {
-    add(out, place + "harm", one.harm);
-    add(out, place + "regret", one.regret);
-    add(out, place + "harm_over_aeb", one.over_aeb);
-    add(out, place + "collision_loss", one.collision_loss);
-    add(out, place + "contact", one.contact);
-    add(out, place + "right", one.right);
-    add(out, place + "materially_worse_than_aeb", one.worse_than_aeb);
-    add(out, place + "needless", one.needless);
+    add_estimate(out, place + "harm", one.harm);
+    add_estimate(out, place + "regret", one.regret);
+    add_estimate(out, place + "harm_over_aeb", one.over_aeb);
+    add_estimate(out, place + "collision_loss", one.collision_loss);
+    add_estimate(out, place + "contact", one.contact);
+    add_estimate(out, place + "right", one.right);
+    add_estimate(out, place + "materially_worse_than_aeb", one.worse_than_aeb);
+    add_estimate(out, place + "needless", one.needless);
     if (one.false_trigger_loss) {
-      add(out, place + "false_trigger_loss", *one.false_trigger_loss);
-      add(out, place + "false_triggers", *one.false_triggers);
+      add_estimate(out, place + "false_trigger_loss", *one.false_trigger_loss);
+      add_estimate(out, place + "false_triggers", *one.false_triggers);
     }
   };
   const auto aeb = index_of(run.methods, "aeb");

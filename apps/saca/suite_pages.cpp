@@ -25,12 +25,6 @@ std::string title_of(const std::string& method) {
   return std::string(eval::find_method(method)->title);
 }
 
-const MethodFigures* figures_of(const SuiteResult& result, const std::string& method) {
-  const auto found = std::find_if(result.all.begin(), result.all.end(),
-                                  [&](const MethodFigures& one) { return one.method == method; });
-  return found == result.all.end() ? nullptr : &*found;
-}
-
 /// How often the first method does less, the same, or more harm than another.
 std::string counted(const SuiteRun& run, std::size_t method, std::size_t other) {
   int better = 0;
@@ -54,9 +48,9 @@ std::string counted(const SuiteRun& run, std::size_t method, std::size_t other) 
 std::vector<std::string> sentences(const SuiteRun& run, const SuiteResult& result) {
   const MethodFigures& first = result.all.front();
   std::vector<std::string> lines;
-  const auto at = std::find(run.methods.begin(), run.methods.end(), "aeb");
-  if (at != run.methods.end() && first.method != "aeb") {
-    const MethodFigures& aeb = *figures_of(result, "aeb");
+  const auto at = index_of(run.methods, "aeb");
+  if (at && first.method != "aeb") {
+    const MethodFigures& aeb = result.all[*at];
     const double more = first.over_aeb.value;
     const bool sure = first.over_aeb.low > 0.0 || first.over_aeb.high < 0.0;
     lines.push_back(fmt::format(
@@ -68,7 +62,7 @@ std::vector<std::string> sentences(const SuiteRun& run, const SuiteResult& resul
         : more < 0                                ? "it is better"
                                                   : "it is worse",
         with_interval(first.over_aeb, 4)));
-    lines.push_back(counted(run, 0, static_cast<std::size_t>(at - run.methods.begin())));
+    lines.push_back(counted(run, 0, *at));
     std::string where_better;
     std::string where_worse;
     for (const auto& [family, figures] : result.families) {
@@ -347,6 +341,24 @@ std::string with_interval(const Estimate& estimate, int digits, double factor) {
                            factor * estimate.low, digits, factor * estimate.high, digits);
 }
 
+void add_estimate(nlohmann::json& out, const std::string& name, const Estimate& estimate) {
+  if (estimate.n == 0) {
+    return;
+  }
+  out[name] = estimate.value;
+  out[name + ".lo"] = estimate.low;
+  out[name + ".hi"] = estimate.high;
+  out[name + ".n"] = estimate.n;
+}
+
+std::vector<std::string> footnotes_of(const nlohmann::json& meta) {
+  std::vector<std::string> lines;
+  for (const auto& [key, value] : meta.items()) {
+    lines.push_back(key.substr(key.find('.') + 1) + ": " + value.get<std::string>());
+  }
+  return lines;
+}
+
 DriverFigures driver_figures(const SuiteRun& run) {
   DriverFigures figures;
   figures.agreement.resize(run.methods.size());
@@ -393,9 +405,7 @@ report::SuitePage page_of(const SuiteRun& run, const SuiteResult& result,
   page.gallery_heading = "The encounters in which " + title_of(result.all.front().method) +
                          " lost most: what it did, and what would have been best";
   page.gallery = gallery_of(run, options);
-  for (const auto& [key, value] : run.meta.items()) {
-    page.footnotes.push_back(key.substr(key.find('.') + 1) + ": " + value.get<std::string>());
-  }
+  page.footnotes = footnotes_of(run.meta);
   for (const SuiteRow& row : run.rows) {
     if (!row.fault.empty() && page.footnotes.size() < 30) {
       page.footnotes.push_back(

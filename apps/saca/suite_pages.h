@@ -32,6 +32,12 @@ struct DriverFigures {
 [[nodiscard]] std::string with_interval(const eval::Estimate& estimate, int digits,
                                         double factor = 1.0);
 
+/// Under its name, with .lo, .hi and .n; nothing where nothing counts.
+void add_estimate(nlohmann::json& out, const std::string& name, const eval::Estimate& estimate);
+
+/// How it was made, for the foot of a page: what "meta...." holds.
+[[nodiscard]] std::vector<std::string> footnotes_of(const nlohmann::json& meta);
+
 /// The page of a suite: what there is to see, in sentences; harm, all figures, families, where
 /// decisions came from, and the encounters in which the first method lost most.
 [[nodiscard]] report::SuitePage page_of(const SuiteRun& run, const SuiteResult& result,

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "apps/saca/atlas_making.h"
-#include "apps/saca/model.h"
+#include "apps/saca/planes_making.h"
 #include "apps/saca/progress.h"
+#include "saca/core/csv.h"
 #include "saca/core/file.h"
 #include "saca/core/fnv.h"
 #include "saca/core/journal.h"
@@ -26,7 +26,7 @@ constexpr std::size_t batch_per_thread = 16;  // encounters between two looks at
 
 /// Where encounters come from: families of a suite, or files of a folder.
 struct Source {
-  Inputs inputs;
+  Inputs inputs;                   ///< until planes are made of them
   std::string what;                ///< names all on which the encounters depend
   int count = 0;                   ///< as many as were asked for and there are
   std::vector<std::string> notes;  ///< on where they come from
@@ -168,12 +168,17 @@ std::string joined(const std::vector<std::string>& words) {
   return all;
 }
 
-/// All that encounters are run with. It stays where it is: its parts point to one another.
+/// A recorded driver met the world as it was recorded: so do those who are compared with it.
+eval::SuiteOptions how_of(const SuiteCommandOptions& options,
+                          const std::vector<std::string>& methods) {
+  return {
+      .methods = methods, .seed = options.seed, .exact = options.exact || options.name == "100car"};
+}
+
+/// All that encounters are run with.
 struct Bench {
   Source source;
-  std::optional<manoeuvre::Atlas> atlas;
-  SteadyClock clock;
-  loop::PlanesSetup planes;
+  std::unique_ptr<const PlanesOfCar> planes;
   eval::SuiteOptions how;
 };
 
@@ -184,21 +189,13 @@ Result<std::shared_ptr<Bench>> open_bench(const SuiteCommandOptions& options,
   if (!source.has_value()) {
     return source.error();
   }
-  const auto costs = read_costs(source.value().inputs.places);
-  if (!costs.has_value()) {
-    return costs.error();
+  Source opened = std::move(source).value();
+  auto planes = open_planes(std::move(opened.inputs));
+  if (!planes.has_value()) {
+    return planes.error();
   }
-  auto bench = std::make_shared<Bench>();
-  bench->source = std::move(source).value();
-  const Inputs& inputs = bench->source.inputs;
-  bench->atlas = usual_atlas(inputs);
-  bench->planes = {.forecast = {&inputs.car, &inputs.harm, &*bench->atlas},
-                   .costs = costs.value(),
-                   .clock = &bench->clock};
-  // A recorded driver met the world as it was recorded: so do those who are compared with it.
-  const bool exact = options.exact || options.name == "100car";
-  bench->how = {.methods = methods, .seed = options.seed, .exact = exact};
-  return bench;
+  return std::make_shared<Bench>(
+      Bench{std::move(opened), std::move(planes).value(), how_of(options, methods)});
 }
 
 /// A row, whatever happens: what cannot be drawn is a fault of that encounter.
@@ -212,11 +209,18 @@ SuiteRow row_of(const Bench& bench, std::uint64_t number) {
             .twin = {},
             .driver = {}};
   }
-  return eval::run_encounter(encounter.value(), bench.how, bench.planes,
-                             bench.source.inputs.intent);
+  return eval::run_encounter(encounter.value(), bench.how, bench.planes->setup,
+                             bench.planes->inputs.intent);
 }
 
 }  // namespace
+
+std::optional<std::size_t> index_of(const std::vector<std::string>& methods,
+                                    std::string_view method) {
+  const auto found = std::find(methods.begin(), methods.end(), method);
+  return found == methods.end() ? std::nullopt
+                                : std::optional(static_cast<std::size_t>(found - methods.begin()));
+}
 
 Result<std::vector<std::string>> methods_from(const std::string& list) {
   std::vector<std::string> names;
@@ -227,12 +231,10 @@ Result<std::vector<std::string>> methods_from(const std::string& list) {
       names.emplace_back(info.name);
     }
   }
-  std::string word;
-  for (const char c : list.empty() ? std::string() : list + ",") {
-    if (c != ',') {
-      word += c;
-      continue;
-    }
+  if (list.empty()) {
+    return names;
+  }
+  for (const std::string_view word : fields_of(list, ',')) {
     if (eval::find_method(word) == nullptr) {
       return Error{Error::Code::out_of_range,
                    fmt::format("--methods: want some of {}; got \"{}\"", known, word)};
@@ -241,8 +243,7 @@ Result<std::vector<std::string>> methods_from(const std::string& list) {
       return Error{Error::Code::out_of_range,
                    fmt::format("--methods: want each method once, got \"{}\" twice", word)};
     }
-    names.push_back(word);
-    word.clear();
+    names.emplace_back(word);
   }
   return names;
 }
@@ -274,7 +275,8 @@ Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
                 .encounter_at = source.at,
                 .tried_in = {}};
   done.tried_in = [bench](const SuiteEncounter& encounter) {
-    return eval::tried_in(encounter, bench->how, bench->planes, bench->source.inputs.intent);
+    return eval::tried_in(encounter, bench->how, bench->planes->setup,
+                          bench->planes->inputs.intent);
   };
   for (const std::string& line : journal.value().lines()) {
     auto row = eval::suite_row_from(line, methods.size());
@@ -288,7 +290,7 @@ Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
   const auto count = static_cast<std::size_t>(source.count);
   done.rows.resize(std::min(done.rows.size(), count));
 
-  SteadyClock& clock = bench->clock;
+  SteadyClock clock;
   watch_for_interrupt();
   const auto before = static_cast<int>(done.rows.size());
   ProgressLine progress(command, source.count, clock);
@@ -361,16 +363,7 @@ void add_suite_options(CLI::App& command, SuiteCommandOptions& options) {
   command.add_option("--data", options.data,
                      "Of 100car the folder of the study's release; of traffic (SACA in shadow) "
                      "folders with CommonRoad files or that release");
-  command.add_option("--count", options.count, "How many encounters")
-      ->check(CLI::Range(1, 10'000'000))
-      ->capture_default_str();
-  command.add_option("--split", options.split, "Whose seed is used")
-      ->check(CLI::IsMember({"tuning", "calibration", "test"}))
-      ->capture_default_str();
-  command.add_option("--test-log", options.test_log,
-                     "Where a use of the test split is noted; needed for it");
-  command.add_option("--car", options.car, "A car's file, or the name of a shipped one")
-      ->capture_default_str();
+  add_draw_options(command, options.count, options.split, options.test_log, options.car);
   command.add_option("--seed", options.seed, "Of all that is drawn: same seed, same rows")
       ->capture_default_str();
   command.add_flag("--exact", options.exact,

@@ -37,7 +37,7 @@ void add_suite_options(CLI::App& command, SuiteCommandOptions& options);
 struct SuiteRun {
   std::vector<std::string> methods;
   std::vector<eval::SuiteRow> rows;  ///< in the order of their numbers
-  double seconds = 0.0;              ///< of work, all threads, in this call
+  double seconds = 0.0;              ///< that this call worked, by the clock
   int worked = 0;                    ///< encounters of this call
   nlohmann::json meta;               ///< "meta.command", "meta.seed" and so on
   std::vector<std::string> notes;    ///< on where the encounters come from, in sentences
@@ -59,6 +59,10 @@ struct SuiteRun {
 [[nodiscard]] Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
                                                         const std::string& command,
                                                         const std::vector<std::string>& methods);
+
+/// nullopt: it is not among them.
+[[nodiscard]] std::optional<std::size_t> index_of(const std::vector<std::string>& methods,
+                                                  std::string_view method);
 
 /// The names of a list "a,b,c"; empty: all.
 [[nodiscard]] Result<std::vector<std::string>> methods_from(const std::string& list);

@@ -215,18 +215,23 @@ Result<std::optional<std::vector<Finding>>> survey(const SuiteSource& source,
   return std::optional(found);
 }
 
-void add_survey_options(CLI::App& command, SurveyOptions& options) {
-  command.add_option("--suite", options.suite, "Which mixture of families")->capture_default_str();
-  command.add_option("--count", options.count, "How many encounters")
+void add_draw_options(CLI::App& command, int& count, std::string& split, std::string& test_log,
+                      std::string& car) {
+  command.add_option("--count", count, "How many encounters")
       ->check(CLI::Range(1, 10'000'000))
       ->capture_default_str();
-  command.add_option("--split", options.split, "Whose seed is used")
+  command.add_option("--split", split, "Whose seed is used")
       ->check(CLI::IsMember({"tuning", "calibration", "test"}))
       ->capture_default_str();
-  command.add_option("--test-log", options.test_log,
+  command.add_option("--test-log", test_log,
                      "Where a use of the test split is noted; needed for it");
-  command.add_option("--car", options.car, "A car's file, or the name of a shipped one")
+  command.add_option("--car", car, "A car's file, or the name of a shipped one")
       ->capture_default_str();
+}
+
+void add_survey_options(CLI::App& command, SurveyOptions& options) {
+  command.add_option("--suite", options.suite, "Which mixture of families")->capture_default_str();
+  add_draw_options(command, options.count, options.split, options.test_log, options.car);
   command.add_option("--journal", options.journal,
                      "What was found so far (default: runs/survey-SUITE-SPLIT.journal)");
   command.add_option("--threads", options.threads, "They do not change the result")

@@ -22,6 +22,10 @@ struct SurveyOptions {
   int threads = usual_threads();
 };
 
+/// --count, --split, --test-log and --car: which encounters are drawn, and for which car.
+void add_draw_options(CLI::App& command, int& count, std::string& split, std::string& test_log,
+                      std::string& car);
+
 void add_survey_options(CLI::App& command, SurveyOptions& options);
 
 /// The line that asks for the same again.

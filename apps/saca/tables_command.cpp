@@ -1,13 +1,13 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "apps/saca/atlas_making.h"
 #include "apps/saca/commands.h"
-#include "apps/saca/model.h"
+#include "apps/saca/planes_making.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/suite_pages.h"
 #include "saca/core/file.h"
@@ -20,14 +20,18 @@ namespace {
 using eval::SuiteRow;
 using nlohmann::json;
 
-/// A row as the paper prints it; a method of ours, or none yet.
-struct TableRow {
+/// A row as the paper prints it, of a method that we do not have yet.
+struct PublishedRow {
   const char* title;
-  const char* method;     ///< of eval::methods(); nullptr: not yet
-  double collision_loss;  ///< as printed; < 0: the paper has no such row
+  double collision_loss;
   double false_trigger_loss;
 };
-constexpr double not_printed = -1.0;
+
+/// A row of ours.
+struct OwnRow {
+  const char* title;
+  const char* method;  ///< of eval::methods()
+};
 
 struct TableSpec {
   const char* number;
@@ -36,41 +40,37 @@ struct TableSpec {
   const char* risk;  ///< scenario
   const char* free;  ///< the same without risk
   bool speeds;       ///< the ego at 10 to 15 m/s, else as the scenarios have it
-  std::span<const TableRow> lines;
+  std::span<const PublishedRow> published;
 };
 
-constexpr const char* without_model = "saca_paper";
-constexpr std::array<TableRow, 8> intersection_rows{
-    {{"Imitation learning", nullptr, 2.36, 0.35},
-     {"Language model without fine-tuning", nullptr, 1.85, 0.27},
-     {"SACA with a fine-tuned model", nullptr, 0.54, 0.05},
-     {"SACA without model and memory, Algorithm 1", without_model, not_printed, not_printed},
-     {"AEB at T1", "aeb", not_printed, not_printed},
-     {"RSS, braking", "rss", not_printed, not_printed},
-     {"Best of eight in expectation, rolled out", "beliefs_rolled_out", not_printed, not_printed},
-     {"Best in hindsight", "oracle", not_printed, not_printed}}};
-constexpr std::span<const TableRow> own_rows(&intersection_rows[3],
-                                             5);  // what was published is not of it
-constexpr std::array<TableRow, 9> one_way_rows{
-    {{"Imitation learning", nullptr, 0.49, 0.50},
-     {"Language model without fine-tuning", nullptr, 1.06, 0.20},
-     {"Language model without scenario awareness", nullptr, 0.65, 0.0},
-     {"SACA with a fine-tuned model", nullptr, 0.07, 0.0},
-     {"SACA without model and memory, Algorithm 1", without_model, not_printed, not_printed},
-     {"AEB at T1", "aeb", not_printed, not_printed},
-     {"RSS, braking", "rss", not_printed, not_printed},
-     {"Best of eight in expectation, rolled out", "beliefs_rolled_out", not_printed, not_printed},
-     {"Best in hindsight", "oracle", not_printed, not_printed}}};
+constexpr std::array<PublishedRow, 3> intersection_rows{
+    {{"Imitation learning", 2.36, 0.35},
+     {"Language model without fine-tuning", 1.85, 0.27},
+     {"SACA with a fine-tuned model", 0.54, 0.05}}};
+constexpr std::array<PublishedRow, 4> one_way_rows{
+    {{"Imitation learning", 0.49, 0.50},
+     {"Language model without fine-tuning", 1.06, 0.20},
+     {"Language model without scenario awareness", 0.65, 0.0},
+     {"SACA with a fine-tuned model", 0.07, 0.0}}};
+constexpr std::array<OwnRow, 5> own_rows{
+    {{"SACA without model and memory, Algorithm 1", "saca_paper"},
+     {"AEB at T1", "aeb"},
+     {"RSS, braking", "rss"},
+     {"Best of eight in expectation, rolled out", "beliefs_rolled_out"},
+     {"Best in hindsight", "oracle"}}};
 constexpr std::array<TableSpec, 3> tables{
     {{"2", "Table II: intersection",
       "ego at 10, 11, ... 15 m/s where the paper has it at 14; the truck drives on, or brakes hard "
       "(no risk)",
       "intersection_t1", "intersection_t1_truck_brakes", true, intersection_rows},
-     {"2_late", "Table II with a late truck (ours): whoever stops is struck",
+     {"2_late",
+      "Table II with a late truck (ours): whoever stops is struck",
       "the same 1.87 s later, a queue barring the way ahead: the story of Fig. 9, which the "
-      "printed "
-      "distances do not give",
-      "intersection_late_truck", "intersection_late_truck_brakes", true, own_rows},
+      "printed distances do not give",
+      "intersection_late_truck",
+      "intersection_late_truck_brakes",
+      true,
+      {}},
      {"3", "Table III: one-way road", "ego at 12 m/s; without risk the obstacle ahead is not there",
       "one_way", "one_way_free", false, one_way_rows}}};
 
@@ -134,23 +134,20 @@ Result<Conditions> conditions_of(const Inputs& inputs, const TableSpec& table) {
   return Conditions{with_risk.value(), without.value()};
 }
 
-std::vector<std::string> methods_of(const TableSpec& table) {
-  std::vector<std::string> methods;
-  for (const TableRow& row : table.lines) {
-    if (row.method != nullptr) {
-      methods.emplace_back(row.method);
-    }
-  }
+std::vector<std::string> own_methods() {
+  std::vector<std::string> methods(own_rows.size());
+  std::transform(own_rows.begin(), own_rows.end(), methods.begin(),
+                 [](const OwnRow& row) { return row.method; });
   return methods;
 }
 
 /// `draws` draws of each condition.
 std::vector<SuiteRow> run_table(const TableSpec& table, const Conditions& conditions, int draws,
-                                const TablesCommand& options, const loop::PlanesSetup& planes,
-                                const intent::Model& intent, Clock& clock) {
+                                const TablesCommand& options, const PlanesOfCar& planes) {
   const std::size_t num = conditions.risk.size();
   std::vector<SuiteRow> played(num * static_cast<std::size_t>(draws));
-  const eval::SuiteOptions how{.methods = methods_of(table), .seed = options.seed};
+  const eval::SuiteOptions how{.methods = own_methods(), .seed = options.seed};
+  SteadyClock clock;
   ProgressLine progress(table.title, static_cast<int>(played.size()), clock);
   constexpr std::size_t at_once = 32;
   for (std::size_t first = 0; first < played.size() && !interrupted(); first += at_once) {
@@ -161,7 +158,7 @@ std::vector<SuiteRow> run_table(const TableSpec& table, const Conditions& condit
                                        .family = table.number,
                                        .scenario = conditions.risk[k % num],
                                        .twin = conditions.free[k % num]},
-                                      how, planes, intent);
+                                      how, planes.setup, planes.inputs.intent);
     });
     progress.show(static_cast<int>(first + count), 0, " encounters");
   }
@@ -169,44 +166,40 @@ std::vector<SuiteRow> run_table(const TableSpec& table, const Conditions& condit
 }
 
 /// Figures of the first draws of each condition.
-std::vector<eval::MethodFigures> first_draws(const std::vector<SuiteRow>& played,
-                                             const TableSpec& table, std::size_t count,
+std::vector<eval::MethodFigures> first_draws(const std::vector<SuiteRow>& played, std::size_t count,
                                              std::uint64_t seed) {
   std::vector<const SuiteRow*> first;
   for (std::size_t i = 0; i < std::min(count, played.size()); ++i) {
     first.push_back(&played[i]);
   }
-  const auto methods = methods_of(table);
-  const auto aeb = std::find(methods.begin(), methods.end(), "aeb");
-  return eval::suite_figures(first, methods, static_cast<std::size_t>(aeb - methods.begin()), seed);
+  const auto methods = own_methods();
+  return eval::suite_figures(first, methods, index_of(methods, "aeb"), seed);
 }
 
-std::string printed(double loss) {
-  return loss < 0.0 ? "-" : fmt::format("{:.2f}", loss);
+void print_row(const char* title, const std::array<std::string, 6>& cells) {
+  fmt::print("  {:44} {:>9} {:>24} {:>24} | {:>9} {:>24} {:>24}\n", title, cells[0], cells[1],
+             cells[2], cells[3], cells[4], cells[5]);
 }
 
 void print(const TableSpec& table, const std::vector<eval::MethodFigures>& few,
            const std::vector<eval::MethodFigures>& many) {
   fmt::print("{}\n  {}\n", table.title, table.conditions);
-  fmt::print("  {:44} {:>9} {:>24} {:>24} | {:>9} {:>24} {:>24}\n", "", "published",
-             fmt::format("n = {}", few.front().collision_loss.n),
-             fmt::format("n = {}", many.front().collision_loss.n), "published", "ten draws each",
-             "all draws");
+  print_row("", {"published", fmt::format("n = {}", few.front().collision_loss.n),
+                 fmt::format("n = {}", many.front().collision_loss.n), "published",
+                 "ten draws each", "all draws"});
   fmt::print("  {:44} {:>9} {:>49} | {:>9} {:>49}\n", "", "", "Collision Loss", "",
              "False-Trigger Loss");
-  std::size_t m = 0;
-  for (const TableRow& row : table.lines) {
-    std::string cells[4] = {"not yet", "not yet", "not yet", "not yet"};
-    if (row.method != nullptr) {
-      cells[0] = with_interval(few[m].collision_loss, 2);
-      cells[1] = with_interval(many[m].collision_loss, 2);
-      cells[2] = with_interval(few[m].false_trigger_loss.value_or(eval::Estimate{}), 2);
-      cells[3] = with_interval(many[m].false_trigger_loss.value_or(eval::Estimate{}), 2);
-      ++m;
-    }
-    fmt::print("  {:44} {:>9} {:>24} {:>24} | {:>9} {:>24} {:>24}\n", row.title,
-               printed(row.collision_loss), cells[0], cells[1], printed(row.false_trigger_loss),
-               cells[2], cells[3]);
+  for (const PublishedRow& row : table.published) {
+    print_row(row.title, {fmt::format("{:.2f}", row.collision_loss), "not yet", "not yet",
+                          fmt::format("{:.2f}", row.false_trigger_loss), "not yet", "not yet"});
+  }
+  for (std::size_t m = 0; m < own_rows.size(); ++m) {
+    const auto triggers = [&](const eval::MethodFigures& one) {
+      return with_interval(one.false_trigger_loss.value_or(eval::Estimate{}), 2);
+    };
+    print_row(own_rows[m].title,
+              {"-", with_interval(few[m].collision_loss, 2),
+               with_interval(many[m].collision_loss, 2), "-", triggers(few[m]), triggers(many[m])});
   }
   fmt::print("\n");
 }
@@ -215,12 +208,8 @@ void add(json& out, const TableSpec& table, const std::vector<eval::MethodFigure
          const std::string& draws) {
   for (const eval::MethodFigures& one : figures) {
     const auto put = [&](const std::string& what, const eval::Estimate& estimate) {
-      const std::string key =
-          fmt::format("tables.{}.{}.{}{}", table.number, one.method, what, draws);
-      out[key] = estimate.value;
-      out[key + ".lo"] = estimate.low;
-      out[key + ".hi"] = estimate.high;
-      out[key + ".n"] = estimate.n;
+      add_estimate(out, fmt::format("tables.{}.{}.{}{}", table.number, one.method, what, draws),
+                   estimate);
     };
     put("collision_loss", one.collision_loss);
     put("harm", one.harm);
@@ -232,19 +221,10 @@ void add(json& out, const TableSpec& table, const std::vector<eval::MethodFigure
 }
 
 int run(const TablesCommand& options) {
-  const auto inputs = read_inputs("compact_rwd_ev");
-  if (!inputs.has_value()) {
-    return refused(inputs.error());
+  const auto planes = open_planes("compact_rwd_ev");
+  if (!planes.has_value()) {
+    return refused(planes.error());
   }
-  const auto costs = read_costs(inputs.value().places);
-  if (!costs.has_value()) {
-    return refused(costs.error());
-  }
-  SteadyClock clock;
-  const manoeuvre::Atlas atlas = usual_atlas(inputs.value());
-  const loop::PlanesSetup planes{.forecast = {&inputs.value().car, &inputs.value().harm, &atlas},
-                                 .costs = costs.value(),
-                                 .clock = &clock};
   json out{{"meta.command",
             fmt::format("saca tables --count {} --seed {}", options.count, options.seed)},
            {"meta.seed", std::to_string(options.seed)},
@@ -253,22 +233,20 @@ int run(const TablesCommand& options) {
   watch_for_interrupt();
   bool faults = false;
   for (const TableSpec& table : tables) {
-    const auto conditions = conditions_of(inputs.value(), table);
+    const auto conditions = conditions_of(planes.value()->inputs, table);
     if (!conditions.has_value()) {
       return refused(conditions.error());
     }
     const auto num = static_cast<int>(conditions.value().risk.size());
     const int draws = std::max(few_draws, (options.count + num - 1) / num);
-    const auto played =
-        run_table(table, conditions.value(), draws, options, planes, inputs.value().intent, clock);
+    const auto played = run_table(table, conditions.value(), draws, options, *planes.value());
     if (interrupted()) {
       complain("interrupted; tables are made anew each time");
       return was_interrupted;
     }
     const auto few = first_draws(
-        played, table, static_cast<std::size_t>(few_draws) * static_cast<std::size_t>(num),
-        options.seed);
-    const auto many = first_draws(played, table, played.size(), options.seed);
+        played, static_cast<std::size_t>(few_draws) * static_cast<std::size_t>(num), options.seed);
+    const auto many = first_draws(played, played.size(), options.seed);
     if (few.empty()) {
       complain(std::string(table.title) +
                ": no encounter could be played: " + played.front().fault);
@@ -287,12 +265,10 @@ int run(const TablesCommand& options) {
   } else {
     fmt::print(
         "Published: arXiv 2504.00115, Tables II and III (its text gives 1.54 for SACA's Collision "
-        "Loss "
-        "in the intersection, its table 0.54).\nThe paper counts only replies within 4.2 s; no row "
-        "of "
-        "ours asks a model yet, so the filter leaves all in.\nTable IV: tokens and response times "
-        "of "
-        "SACA's replies: not yet (`saca model bench` measures the model that ships).\n");
+        "Loss in the intersection, its table 0.54).\nThe paper counts only replies within 4.2 s; "
+        "no "
+        "row of ours asks a model yet, so the filter leaves all in.\nTable IV: tokens and response "
+        "times of SACA's replies: not yet (`saca model bench` measures the model that ships).\n");
   }
   return faults ? some_failed : success;
 }

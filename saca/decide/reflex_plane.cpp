@@ -9,10 +9,6 @@ namespace {
 
 constexpr std::array<std::string_view, 4> source_names{"fallback", "memory", "model", "forced"};
 
-bool is_within(const std::optional<preview::Threat>& threat, double horizon) {
-  return threat && threat->time <= horizon;
-}
-
 }  // namespace
 
 std::string_view name(Source source) {
@@ -61,7 +57,7 @@ Reflex ReflexPlane::step(const world::Scene& scene) noexcept {
   }
   reflex.threat =
       preview::nearest_threat(scene, thresholds_.preview, thresholds_.trigger_tolerance);
-  if (!decision_ && is_within(reflex.threat, thresholds_.trigger)) {
+  if (!decision_ && preview::triggers(reflex.threat, thresholds_)) {
     decision_ = decide(scene);
     reflex.plan = decision_->plan;
     reflex.triggered = true;

@@ -126,11 +126,8 @@ bool Play::ask(Branch& branch) {
     problem_ = branch.untouched ? std::move(problem) : std::nullopt;
     return false;
   }
-  if (!loop.driven() && loop.previewed_threat()) {
-    loop.take_the_wheel();
-    if (branch.untouched) {
-      comparison_.woke = loop.time();
-    }
+  if (loop.wake() && branch.untouched) {
+    comparison_.woke = loop.time();
   }
   if (branch.untouched) {
     note_trigger(branch);

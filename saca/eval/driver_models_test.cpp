@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include "saca/eval/scenes_for_test.h"
-#include "saca/intent/shipped_model.h"
 #include "tests/support/scenes.h"
 
 namespace saca::eval::driver_models_test {
@@ -13,11 +12,6 @@ using manoeuvre::PolicyId;
 
 class DriverModels : public testing::Test {
  protected:
-  DriverModels()
-      : scenario_(standing_car(20.0, 200.0)),
-        stage_{&scenario_, &car_, &harm_, &intent::shipped_model(), {}, {}},
-        loop_(stage_) {}
-
   /// 20 m/s towards a standing car, seen every 10 ms from a gap on: gap and deceleration of each
   /// action, while the ego goes on as if nothing were done.
   std::vector<std::pair<double, double>> actions(loop::Method& method, double from) {
@@ -27,8 +21,7 @@ class DriverModels : public testing::Test {
       scene.time = 0.01 * k;
       const double gap = from - 0.2 * k;
       scene.actors.push_back(test::car(1, {2.35 + gap + 2.25, 0.0}));
-      const intent::Beliefs beliefs = intent::beliefs_at_sight(intent::shipped_model(), scene);
-      if (const auto action = method.step({scene, beliefs, true, loop_})) {
+      if (const auto action = truth_.step(method, scene)) {
         EXPECT_EQ(action->plan.policy, PolicyId::aeb);
         all.emplace_back(gap, action->deceleration);
       }
@@ -36,11 +29,7 @@ class DriverModels : public testing::Test {
     return all;
   }
 
-  manoeuvre::Car car_ = manoeuvre::default_car();
-  outcome::HarmModel harm_ = shipped_harm();
-  sim::Scenario scenario_;
-  loop::Stage stage_;
-  loop::ClosedLoop loop_;
+  UnseenTruth truth_;
 };
 
 // 20 m/s / (2 * 6) + 0.35 s = 2.0167 s, that is 40.33 m; 0.35 s later 7 m have gone.
@@ -75,10 +64,9 @@ TEST_F(DriverModels, NobodyBrakesForWhoDrivesAwayOrIsBeside) {
     world::Scene scene = test::ego_at(20.0);
     scene.actors.push_back(test::car(1, {60.0, 0.0}, {25.0, 0.0}));
     scene.actors.push_back(test::car(2, {12.0, 3.7}, {10.0, 0.0}));
-    const intent::Beliefs beliefs = intent::beliefs_at_sight(intent::shipped_model(), scene);
     for (int k = 0; k < 200; ++k) {
       scene.time = 0.01 * k;
-      EXPECT_EQ(method->step({scene, beliefs, true, loop_}), std::nullopt);
+      EXPECT_EQ(truth_.step(*method, scene), std::nullopt);
     }
   }
 }
@@ -103,8 +91,7 @@ TEST_F(DriverModels, TheFuzzyModelLetsGoWhenBothDistancesAreKeptAgain) {
   EXPECT_FALSE(actions(fuzzy, 60.0).empty());
   world::Scene scene = test::ego_at(20.0);
   scene.time = 10.0;
-  const intent::Beliefs beliefs;
-  const auto goes = fuzzy.step({scene, beliefs, true, loop_});
+  const auto goes = truth_.step(fuzzy, scene);
   ASSERT_TRUE(goes.has_value());
   EXPECT_EQ(goes->plan.policy, PolicyId::no_intervention);
 }

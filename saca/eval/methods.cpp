@@ -102,43 +102,46 @@ Action best_of_forecast(const world::Scene& then, const intent::Beliefs& beliefs
 class ByForecast final : public Method {
  public:
   enum class Which : std::uint8_t { first, newest };
-  ByForecast(const loop::PlanesSetup& setup, Which which) : setup_(setup), which_(which) {}
+  ByForecast(const loop::PlanesSetup& setup, Which which)
+      : setup_(setup),
+        which_(which),
+        at_trigger_(setup.thresholds, [this](const View& view) { return choose(view); }) {}
 
   [[nodiscard]] std::optional<Action> step(const View& view) override {
-    constexpr double round = 0.2;  // [s], as the thinking plane's
-    if (!view.driven || decided_) {
-      return std::nullopt;
+    auto action = at_trigger_.step(view);
+    if (!action && view.driven) {
+      remember(view);
     }
-    const bool due =
-        !scene_ || (which_ == Which::newest && view.scene.time >= scene_->time + round);
-    if (preview::triggering_threat(view.scene, setup_.thresholds)) {
-      decided_ = true;
-      return scene_
-                 ? best_of_forecast(*scene_, beliefs_, view, setup_)
-                 : Action{
-                       .plan = full_braking, .source = "fallback", .reason = "no time to forecast"};
-    }
-    if (due) {
-      scene_ = view.scene;
-      beliefs_ = view.beliefs;
-    }
-    return std::nullopt;
+    return action;
   }
 
  private:
+  [[nodiscard]] Action choose(const View& view) const {
+    return scene_
+               ? best_of_forecast(*scene_, beliefs_, view, setup_)
+               : Action{
+                     .plan = full_braking, .source = "fallback", .reason = "no time to forecast"};
+  }
+  void remember(const View& view) {
+    constexpr double round = 0.2;  // [s], as the thinking plane's
+    if (!scene_ || (which_ == Which::newest && view.scene.time >= scene_->time + round)) {
+      scene_ = view.scene;
+      beliefs_ = view.beliefs;
+    }
+  }
+
   loop::PlanesSetup setup_;
   Which which_;
+  AtTrigger at_trigger_;
   std::optional<world::Scene> scene_;
   intent::Beliefs beliefs_;
-  bool decided_ = false;
 };
 
 class Nothing final : public Method {
   [[nodiscard]] std::optional<Action> step(const View&) override { return std::nullopt; }
 };
 
-std::vector<JointMotion> believed(const View& view, const loop::PlanesSetup& setup) {
-  (void)setup;
+std::vector<JointMotion> believed(const View& view) {
   return preview::joint_motions(view.scene, view.beliefs, intent::MotionLaw{});
 }
 
@@ -161,8 +164,8 @@ JointMotion true_motion(const loop::ClosedLoop& truth, const world::Scene& scene
   return {.probability = 1.0, .tracks = truth.truth().others()(ego)};
 }
 
-/// Expected harm when what `others` says is added to what is believed of each joint motion, on the
-/// true grip and car or the believed ones.
+/// As preview::expected_harms rolled out, but with how the others move and react, grip and car
+/// given.
 Action least_tried(const world::Scene& scene, std::span<const JointMotion> motions,
                    const std::function<outcome::Others(const JointMotion&)>& others, double grip,
                    const manoeuvre::Unknown& unknown, const loop::PlanesSetup& setup) {
@@ -185,8 +188,14 @@ Action least_tried(const world::Scene& scene, std::span<const JointMotion> motio
   return {.plan = preview::least_harmful(all), .source = "forecast"};
 }
 
-outcome::Others reacting(const world::Scene& scene, const JointMotion& motion) {
-  return preview::with_reacting_followers(scene, motion.tracks);
+/// Where somebody of one scene stands in another; nullopt: nowhere.
+std::optional<std::size_t> index_of(const world::Actor& actor, const world::Scene& scene) {
+  for (std::size_t i = 0; i < scene.actors.size(); ++i) {
+    if (scene.actors[i].kind == actor.kind && scene.actors[i].id == actor.id) {
+      return i;
+    }
+  }
+  return std::nullopt;
 }
 
 /// What is believed of all but the followers, who do what they truly will.
@@ -194,11 +203,8 @@ outcome::Others with_true_followers(const View& view, const JointMotion& motion)
   const world::Scene cast = view.truth.truth().whole_scene();
   std::vector<std::pair<std::size_t, std::size_t>> known;  // in the scene, in the cast
   for (const std::size_t i : preview::followers_of(view.scene)) {
-    for (std::size_t k = 0; k < cast.actors.size(); ++k) {
-      if (cast.actors[k].kind == view.scene.actors[i].kind &&
-          cast.actors[k].id == view.scene.actors[i].id) {
-        known.emplace_back(i, k);
-      }
+    if (const auto k = index_of(view.scene.actors[i], cast)) {
+      known.emplace_back(i, *k);
     }
   }
   return [tracks = motion.tracks, known,
@@ -233,21 +239,23 @@ AtTrigger::Choose chooser(std::string_view name, const MethodTools& tools) {
   if (name == "beliefs_atlas" || name == "beliefs_rolled_out") {
     const Physics physics = name == "beliefs_atlas" ? Physics::atlas : Physics::rolled_out;
     return [setup, physics](const View& view) {
-      return least_expected(view.scene, believed(view, setup), setup, physics);
+      return least_expected(view.scene, believed(view), setup, physics);
     };
   }
   if (name == "beliefs_and_grip") {
     return [setup](const View& view) {
       return least_tried(
-          view.scene, believed(view, setup),
-          [&](const JointMotion& motion) { return reacting(view.scene, motion); },
+          view.scene, believed(view),
+          [&](const JointMotion& motion) {
+            return preview::with_reacting_followers(view.scene, motion.tracks);
+          },
           view.truth.truth().grip(), view.truth.truth().unknown_from_now(), setup);
     };
   }
   if (name == "beliefs_and_followers") {
     return [setup](const View& view) {
       return least_tried(
-          view.scene, believed(view, setup),
+          view.scene, believed(view),
           [&](const JointMotion& motion) { return with_true_followers(view, motion); },
           view.scene.grip, {}, setup);
     };
@@ -259,11 +267,8 @@ AtTrigger::Choose chooser(std::string_view name, const MethodTools& tools) {
       scene.ego_mass = view.scene.ego_mass;
       intent::Beliefs beliefs = intent::beliefs_at_sight(*intent, scene);
       for (std::size_t i = 0; i < scene.actors.size(); ++i) {  // what is believed of whom it knows
-        for (std::size_t k = 0; k < view.scene.actors.size(); ++k) {
-          if (view.scene.actors[k].kind == scene.actors[i].kind &&
-              view.scene.actors[k].id == scene.actors[i].id) {
-            beliefs[i] = view.beliefs[k];
-          }
+        if (const auto k = index_of(scene.actors[i], view.scene)) {
+          beliefs[i] = view.beliefs[*k];
         }
       }
       return least_expected(scene, preview::joint_motions(scene, beliefs, intent::MotionLaw{}),

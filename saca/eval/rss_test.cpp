@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include "saca/eval/scenes_for_test.h"
-#include "saca/intent/shipped_model.h"
 #include "tests/support/scenes.h"
 
 namespace saca::eval::rss_test {
@@ -36,14 +35,8 @@ TEST(Rss, TheDistanceAsideCountsBothAndNeverLessThanTheMargin) {
 
 class RssMethod : public testing::Test {
  protected:
-  /// A closed loop to look at as "truth" only: no method on a road may.
-  RssMethod()
-      : scenario_(standing_car(20.0, 200.0)),
-        stage_{&scenario_, &car_, &harm_, &intent::shipped_model(), {}, {}},
-        loop_(stage_) {}
   std::optional<loop::Action> step(Rss& rss, const world::Scene& scene) {
-    const intent::Beliefs beliefs = intent::beliefs_at_sight(intent::shipped_model(), scene);
-    return rss.step({scene, beliefs, true, loop_});
+    return truth_.step(rss, scene);
   }
   static world::Scene with_car(double gap, double speed) {
     world::Scene scene = test::ego_at(20.0);
@@ -52,11 +45,7 @@ class RssMethod : public testing::Test {
     return scene;
   }
 
-  manoeuvre::Car car_ = manoeuvre::default_car();
-  outcome::HarmModel harm_ = shipped_harm();
-  sim::Scenario scenario_;
-  loop::Stage stage_;
-  loop::ClosedLoop loop_;
+  UnseenTruth truth_;
 };
 
 TEST_F(RssMethod, BrakesWhereTheDistanceIsNotKeptAndLetsGoWhereItIs) {

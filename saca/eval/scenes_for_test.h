@@ -4,6 +4,8 @@
 
 #include <filesystem>
 
+#include "saca/intent/shipped_model.h"
+#include "saca/loop/method.h"
 #include "saca/manoeuvre/default_car.h"
 #include "saca/outcome/harm.h"
 #include "saca/sim/scenario.h"
@@ -34,5 +36,20 @@ inline sim::Scenario standing_car(double speed, double distance) {
                                                    .behaviour = sim::Behaviour::hold}});
   return scenario;
 }
+
+/// A closed loop to be shown as the truth to methods that may not look at it.
+struct UnseenTruth {
+  manoeuvre::Car car = manoeuvre::default_car();
+  outcome::HarmModel harm = shipped_harm();
+  sim::Scenario scenario = standing_car(20.0, 200.0);
+  loop::Stage stage{&scenario, &car, &harm, &intent::shipped_model(), {}, {}};
+  loop::ClosedLoop loop{stage};
+
+  /// One step of a method in a scene, believing what is believed at sight.
+  std::optional<loop::Action> step(loop::Method& method, const world::Scene& scene) const {
+    const intent::Beliefs beliefs = intent::beliefs_at_sight(intent::shipped_model(), scene);
+    return method.step({scene, beliefs, true, loop});
+  }
+};
 
 }  // namespace saca::eval

@@ -83,10 +83,11 @@ constexpr double judged_for = 3.0;
 ///  4. or, nobody having done so, the driver needed to: on the way that he took, going on at the
 ///     speed he had, only a deceleration of 4 m/s^2 or more, begun at the trigger, would have kept
 ///     the bodies apart, the other moving as recorded.
-/// Else it is false. What is only an error of the recording is told as such and counts as false, so
-/// that the rate of false triggers is none too low: after 2, who threatens was only just recorded
-/// (unless from the scenario's beginning on), or not much longer, by `Settling`; before 4, the
-/// bodies touch though driving is normal. Where they touch after it, that is a crash, and danger.
+/// Else it is false. What is only an error of the recording is reported as such and counts as
+/// false, so that the rate of false triggers is none too low: after 2, who threatens was only just
+/// recorded (unless from the scenario's beginning on), or not much longer, by `Settling`; before 4,
+/// the bodies touch though driving is normal. Where they touch after it, that is a crash, and
+/// danger.
 ///
 /// Why so. 4 m/s^2 lies above what people call normal: the deceleration needed to avoid a crash is
 /// a conflict from 3.35 m/s^2 on (Archer 2005), adaptive cruise controls may use 3.5 at speed (ISO

@@ -381,9 +381,7 @@ std::optional<TriedScene> tried_in(const SuiteEncounter& encounter, const SuiteO
     if (loop.look()) {
       return std::nullopt;
     }
-    if (!loop.driven() && loop.previewed_threat()) {
-      loop.take_the_wheel();
-    }
+    loop.wake();
     if (loop.driven() && preview::triggering_threat(loop.seen(), stage.thresholds)) {
       return TriedScene{loop.truth().whole_scene(),
                         try_all(loop, *stage.car, *stage.harm, Knowledge::everything)};

@@ -73,8 +73,16 @@ std::optional<Error> ClosedLoop::look() {
   return std::nullopt;
 }
 
-std::optional<preview::Threat> ClosedLoop::previewed_threat() const {
-  return preview::previewed_threat(seen_, beliefs_, preview::hard_driving(), stage_->thresholds);
+std::optional<preview::Threat> ClosedLoop::wake() {
+  if (driven()) {
+    return std::nullopt;
+  }
+  const auto threat =
+      preview::previewed_threat(seen_, beliefs_, preview::hard_driving(), stage_->thresholds);
+  if (threat) {
+    take_the_wheel();
+  }
+  return threat;
 }
 
 void ClosedLoop::take_the_wheel() {

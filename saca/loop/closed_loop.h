@@ -33,7 +33,7 @@ struct Stage {
 /// it, the controller that carries out a plan with full vehicle dynamics, and what happens to the
 /// ego. Whoever decides (Method) is not part of it.
 ///
-/// At every instant, 10 ms apart, in this order: look(); whatever is decided: take_the_wheel(),
+/// At every instant, 10 ms apart, in this order: look(); wake(); whatever is decided:
 /// carry_out(); keep(); advance(). A copy goes on by itself: from one instant on, what follows from
 /// several decisions can be simulated without simulating again what led there.
 class ClosedLoop {
@@ -55,9 +55,11 @@ class ClosedLoop {
   /// One for each actor of `seen()`.
   [[nodiscard]] const intent::Beliefs& beliefs() const { return beliefs_; }
 
-  /// Does anybody threaten within T2 under any likely intention? It is then that an automated
-  /// vehicle takes over from whoever drove: preview::previewed_threat.
-  [[nodiscard]] std::optional<preview::Threat> previewed_threat() const;
+  /// Takes the wheel as soon as somebody threatens within T2 under any likely intention
+  /// (preview::previewed_threat): it is then that an automated vehicle takes over from whoever
+  /// drove.
+  /// @return  that threat, when the wheel is taken now
+  std::optional<preview::Threat> wake();
 
   /// From now on the vehicle model moves the ego; lane and speed are kept until something else is
   /// carried out.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "saca/intent/shipped_model.h"
+#include "saca/loop/wreck_for_test.h"
 #include "saca/manoeuvre/default_car.h"
 #include "saca/vehicle/vehicle.h"
 
@@ -20,14 +21,6 @@ class ClosedLoopTest : public testing::Test {
   ClosedLoopTest() {
     scenario_.name = "standing_car";
     scenario_.grip = 0.9;
-    scenario_.duration = 12.0;
-    scenario_.road.left_edge = 7.0;
-    scenario_.ego = sim::EgoStart{.pose = {}, .speed = 20.0};
-    scenario_.actors.push_back(
-        {.id = 1,
-         .footprint = {.length = 4.5, .width = 1.8},
-         .mass = 1'500.0,
-         .motion = sim::Script{.start = {.s = 90.0}, .behaviour = sim::Behaviour::hold}});
   }
   [[nodiscard]] Stage stage() const { return {&scenario_, &car_, &harm_, &intent_, {}, {}}; }
 
@@ -50,7 +43,7 @@ class ClosedLoopTest : public testing::Test {
     }
   }
 
-  sim::Scenario scenario_;
+  sim::Scenario scenario_ = wreck_on_wet_road();
   manoeuvre::Car car_ = manoeuvre::default_car();
   outcome::HarmModel harm_ = outcome::read_harm("data/harm.toml").value();
   const intent::Model& intent_ = intent::shipped_model();

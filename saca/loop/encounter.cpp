@@ -131,9 +131,7 @@ std::optional<Error> Encounter::look() {
   if (num_looks_ % looks_per_judgement == 0) {
     note(loop_.seen(), loop_.beliefs(), record_.intentions);
   }
-  if (!woke_) {
-    wake();
-  }
+  wake();
   decide::Reflex reflex;
   if (woke_) {
     reflex = planes_.step(loop_.seen(), loop_.beliefs(), start_ + from_seconds(loop_.time()));
@@ -157,13 +155,12 @@ std::optional<Error> Encounter::look() {
 }
 
 void Encounter::wake() {
-  const auto threat = loop_.previewed_threat();
+  const auto threat = loop_.wake();
   if (!threat) {
     return;
   }
   const Scene& scene = loop_.seen();
   woke_ = scene.time;
-  loop_.take_the_wheel();
   tell(Plane::world, EventKind::preview,
        fmt::format("T2: {} within {:.1f} s of a conflict; SACA drives from here, at {:.1f} m/s",
                    actor_name(scene.actors[threat->actor]), threat->time, norm(scene.ego.v_B)));

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "saca/intent/shipped_model.h"
+#include "saca/loop/wreck_for_test.h"
 #include "saca/manoeuvre/atlas_for_test.h"
 #include "saca/manoeuvre/default_car.h"
 #include "saca/reason/scripted_model.h"
@@ -28,24 +29,6 @@ reason::ScriptedReply says(PolicyId policy) {
 
 class EncounterTest : public testing::Test {
  protected:
-  /// A wreck across the ego's lane on a wet road: braking from 20 m/s at T1 is not enough.
-  static sim::Scenario wreck_on_wet_road() {
-    sim::Scenario scenario{.name = "wreck",
-                           .title = "A wreck",
-                           .car = "compact_rwd_ev",
-                           .grip = 0.5,
-                           .duration = 12.0};
-    scenario.road.left_edge = 5.25;
-    scenario.road.right_edge = -5.25;
-    scenario.ego = sim::EgoStart{.pose = {}, .speed = 20.0};
-    scenario.actors.push_back(
-        {.id = 1,
-         .footprint = {.length = 4.5, .width = 1.8},
-         .mass = 1'500.0,
-         .motion = sim::Script{.start = {.s = 90.0}, .behaviour = sim::Behaviour::hold}});
-    return scenario;
-  }
-
   Result<Record> play(const sim::Scenario& scenario, reason::LanguageModel* model = nullptr,
                       memory::Store* memory = nullptr, std::optional<PolicyId> forced = {}) {
     return run({.scenario = &scenario,

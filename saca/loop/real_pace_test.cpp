@@ -6,6 +6,7 @@
 
 #include "saca/intent/shipped_model.h"
 #include "saca/loop/encounter.h"
+#include "saca/loop/wreck_for_test.h"
 #include "saca/manoeuvre/default_car.h"
 #include "saca/reason/scripted_model.h"
 #include "tests/support/meeting_clock.h"
@@ -43,20 +44,6 @@ class Story final : public Listener {
  private:
   std::mutex lock_;
 };
-
-/// A wreck on a wet road, so far ahead of the centre of an ego at 20 m/s: braking is not enough.
-sim::Scenario wreck_on_wet_road(double distance, double duration) {
-  sim::Scenario scenario{
-      .name = "wreck", .title = "A wreck", .car = "", .grip = 0.5, .duration = duration};
-  scenario.road.left_edge = 5.25;
-  scenario.road.right_edge = -5.25;
-  scenario.ego = sim::EgoStart{.pose = {}, .speed = 20.0};
-  scenario.actors.push_back({.id = 1,
-                             .footprint = {.length = 4.5, .width = 1.8},
-                             .mass = 1'500.0,
-                             .motion = sim::Script{.start = {.s = distance}}});
-  return scenario;
-}
 
 Record played(const sim::Scenario& scenario, Clock& clock, Story& story) {
   const auto car = manoeuvre::default_car();

@@ -4,6 +4,7 @@
 
 #include "saca/intent/shipped_model.h"
 #include "saca/loop/encounter.h"
+#include "saca/loop/wreck_for_test.h"
 #include "saca/manoeuvre/default_car.h"
 
 namespace saca::loop::saca_method_test {
@@ -25,9 +26,7 @@ class SacaMethodTest : public testing::Test {
     Played played;
     while (!loop.over()) {
       EXPECT_FALSE(loop.look().has_value());
-      if (!loop.driven() && loop.previewed_threat()) {
-        loop.take_the_wheel();
-      }
+      loop.wake();
       if (const auto action = saca.step({loop.seen(), loop.beliefs(), loop.driven(), loop})) {
         played.acted_at = loop.time();
         played.action = *action;
@@ -46,15 +45,7 @@ class SacaMethodTest : public testing::Test {
 };
 
 TEST_F(SacaMethodTest, DoesWhatAnEncounterWithTheSamePlanesDoes) {
-  sim::Scenario scenario{.name = "wreck", .car = "compact_rwd_ev", .grip = 0.5, .duration = 12.0};
-  scenario.road.left_edge = 5.25;
-  scenario.road.right_edge = -5.25;
-  scenario.ego = sim::EgoStart{.pose = {}, .speed = 20.0};
-  scenario.actors.push_back(
-      {.id = 1,
-       .footprint = {.length = 4.5, .width = 1.8},
-       .mass = 1'500.0,
-       .motion = sim::Script{.start = {.s = 90.0}, .behaviour = sim::Behaviour::hold}});
+  const sim::Scenario scenario = wreck_on_wet_road();
   const Played played = play(scenario);
   Silence silence;
   const Record record = run({.scenario = &scenario,

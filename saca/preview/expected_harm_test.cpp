@@ -4,9 +4,9 @@
 
 #include "saca/core/contract.h"
 #include "saca/intent/shipped_model.h"
-#include "saca/manoeuvre/atlas_for_test.h"
 #include "saca/manoeuvre/ego.h"
 #include "saca/outcome/futures.h"
+#include "saca/preview/forecast_for_test.h"
 #include "tests/support/scenes.h"
 
 namespace saca::preview::expected_harm_test {
@@ -15,18 +15,6 @@ namespace {
 using manoeuvre::PolicyId;
 using manoeuvre::small_atlas_car;
 using world::Scene;
-
-const outcome::HarmModel& shipped_harm() {
-  static const outcome::HarmModel harm = outcome::read_harm("data/harm.toml").value();
-  return harm;
-}
-
-ForecastTools rolling() {
-  return {.car = &small_atlas_car(), .harm = &shipped_harm()};
-}
-ForecastTools reading() {
-  return {.car = &small_atlas_car(), .harm = &shipped_harm(), .atlas = &manoeuvre::small_atlas()};
-}
 
 /// 12.5 m/s on grip 0.85, a car so far ahead of the bumper, at this speed.
 Scene behind_a_car(double gap, double speed) {

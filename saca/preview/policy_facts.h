@@ -42,9 +42,7 @@ struct ForecastTools {
     const world::Scene& scene, const std::vector<world::Track>& tracks, const ForecastTools& tools);
 
 /// What the atlas says that these plans end in; followers react as in policy_facts.
-/// @return  in the order of `plans`; nullopt: there is no atlas, or it does not hold a plan that
-/// can
-///          be driven
+/// @return  in the order of `plans`; nullopt: there is no atlas, or it lacks one that can be driven
 [[nodiscard]] std::optional<std::vector<PolicyFacts>> read_plans(
     const world::Scene& scene, const std::vector<world::Track>& tracks,
     std::span<const manoeuvre::Plan> plans, const ForecastTools& tools);

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "saca/core/contract.h"
-#include "saca/manoeuvre/atlas_for_test.h"
 #include "saca/manoeuvre/ego.h"
 #include "saca/outcome/futures.h"
 #include "saca/outcome/ordering.h"
+#include "saca/preview/forecast_for_test.h"
 #include "tests/support/scenes.h"
 
 namespace saca::preview::policy_facts_test {
@@ -21,18 +21,6 @@ using world::Actor;
 using world::Scene;
 using world::Track;
 using AllFacts = std::array<PolicyFacts, manoeuvre::num_policies>;
-
-const outcome::HarmModel& shipped_harm() {
-  static const outcome::HarmModel harm = outcome::read_harm("data/harm.toml").value();
-  return harm;
-}
-
-ForecastTools rolling() {
-  return {.car = &small_atlas_car(), .harm = &shipped_harm()};
-}
-ForecastTools reading() {
-  return {.car = &small_atlas_car(), .harm = &shipped_harm(), .atlas = &small_atlas()};
-}
 
 /// A wreck so far ahead of the bumper; two lanes to the left of the ego, one to its right.
 struct Road {

@@ -27,11 +27,8 @@ std::optional<Threat> nearest_threat(const world::Scene& scene, double horizon, 
 }
 
 std::optional<Threat> triggering_threat(const world::Scene& scene, const Thresholds& thresholds) {
-  auto threat = nearest_threat(scene, thresholds.preview, thresholds.trigger_tolerance);
-  if (threat && threat->time > thresholds.trigger) {
-    threat.reset();
-  }
-  return threat;
+  const auto threat = nearest_threat(scene, thresholds.preview, thresholds.trigger_tolerance);
+  return triggers(threat, thresholds) ? threat : std::nullopt;
 }
 
 std::optional<Threat> previewed_threat(const world::Scene& scene, const intent::Beliefs& beliefs,

@@ -32,8 +32,14 @@ struct Threat {
 [[nodiscard]] std::optional<Threat> nearest_threat(const world::Scene& scene, double horizon,
                                                    double tolerance);
 
-/// The conflict that sets off the trigger: the nearest within T2, when it is within T1. The one
-/// rule of the reflex plane and of everybody who is compared with it. Allocates nothing.
+/// Does the nearest conflict within T2 set off the trigger: is it within T1? The one rule of the
+/// reflex plane and of everybody who is compared with it.
+[[nodiscard]] inline bool triggers(const std::optional<Threat>& threat,
+                                   const Thresholds& thresholds) {
+  return threat && threat->time <= thresholds.trigger;
+}
+
+/// The conflict that sets off the trigger; nullopt: none does now. Allocates nothing.
 [[nodiscard]] std::optional<Threat> triggering_threat(const world::Scene& scene,
                                                       const Thresholds& thresholds);
 

@@ -113,8 +113,7 @@ struct HundredCarRefusal {
     const HundredCarRequest& request);
 
 /// Finds and reads the event's rows and its line in the event table, and rebuilds it.
-/// @param path  the release's folder (or one with `timeseries/` and `meta/`), or a time-series
-/// file;
+/// @param path  the release's folder (or one with `timeseries/` and `meta/`), or a file of series:
 ///              then the table is sought beside it and one folder up
 [[nodiscard]] Result<HundredCarImport> import_hundred_car(const std::filesystem::path& path,
                                                           const HundredCarRequest& request);

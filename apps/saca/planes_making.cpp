@@ -1,0 +1,31 @@
+#include "apps/saca/planes_making.h"
+
+#include <utility>
+
+#include "apps/saca/atlas_making.h"
+
+namespace saca::app {
+
+Result<std::unique_ptr<const PlanesOfCar>> open_planes(Inputs inputs) {
+  const auto costs = read_costs(inputs.places);
+  if (!costs.has_value()) {
+    return costs.error();
+  }
+  manoeuvre::Atlas atlas = usual_atlas(inputs);
+  std::unique_ptr<PlanesOfCar> planes(new PlanesOfCar{
+      .inputs = std::move(inputs), .atlas = std::move(atlas), .clock = {}, .setup = {}});
+  planes->setup = {.forecast = {&planes->inputs.car, &planes->inputs.harm, &planes->atlas},
+                   .costs = costs.value(),
+                   .clock = &planes->clock};
+  return std::unique_ptr<const PlanesOfCar>(std::move(planes));
+}
+
+Result<std::unique_ptr<const PlanesOfCar>> open_planes(const std::string& car) {
+  auto inputs = read_inputs(car);
+  if (!inputs.has_value()) {
+    return inputs.error();
+  }
+  return open_planes(std::move(inputs).value());
+}
+
+}  // namespace saca::app

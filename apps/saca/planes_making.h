@@ -1,0 +1,25 @@
+#pragma once
+
+#include <memory>
+
+#include "apps/saca/inputs.h"
+#include "saca/core/clock.h"
+#include "saca/loop/planes.h"
+#include "saca/manoeuvre/atlas.h"
+
+namespace saca::app {
+
+/// A car, and all that methods are run with in it: in lockstep, without memory and model. It stays
+/// where it is: `setup` points to the rest.
+struct PlanesOfCar {
+  Inputs inputs;
+  manoeuvre::Atlas atlas;
+  SteadyClock clock;
+  loop::PlanesSetup setup;
+};
+
+[[nodiscard]] Result<std::unique_ptr<const PlanesOfCar>> open_planes(Inputs inputs);
+/// @param car  its file, or the name of a shipped one
+[[nodiscard]] Result<std::unique_ptr<const PlanesOfCar>> open_planes(const std::string& car);
+
+}  // namespace saca::app
