@@ -337,7 +337,7 @@ Result<std::string> write_encounter(const SuiteCommandOptions& options, std::uin
   if (!encounter.has_value()) {
     return encounter.error();
   }
-  const eval::SuiteOptions how{.methods = {}, .seed = options.seed, .exact = options.exact};
+  const eval::SuiteOptions how = how_of(options, {});
   const fs::path file =
       fs::path("runs") / fmt::format("{}-{}-{}.toml", fs::path(options.name).filename().string(),
                                      options.split, number);
@@ -349,7 +349,7 @@ Result<std::string> write_encounter(const SuiteCommandOptions& options, std::uin
     return *problem;
   }
   return fmt::format("saca run {} --pace lockstep --llm off --no-memory{}", file.string(),
-                     options.exact
+                     how.exact
                          ? std::string()
                          : fmt::format(" --seed {}", eval::encounter_seed(options.seed, number)));
 }

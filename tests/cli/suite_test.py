@@ -143,6 +143,19 @@ def test_an_encounter_is_replayed_as_it_was(tmp_path):
     assert record["result"]["harm"] == pytest.approx(row["risk"]["runs"][0][5], abs=1e-9)
 
 
+# Whoever is compared with a recorded driver meets the world as it was recorded: nothing is drawn there.
+def test_a_recorded_emergency_is_replayed_without_draws(tmp_path):
+    data = ROOT / "saca/traffic/testdata"
+    told = figures(saca("suite", "100car", "--data", data, "--methods", "saca,oracle", "--json", "--output", "c.h5", cwd=tmp_path))
+    assert told["suite.100car.driver.n"] >= 1 and told["suite.100car.saca.faults"] == 0
+    row = json.loads((tmp_path / "c.h5.journal").read_text().splitlines()[1])
+    printed = saca("suite", "100car", "--data", data, "--replay", 0, cwd=tmp_path).stdout
+    assert printed.startswith("saca run ") and "--seed" not in printed
+    record = json.loads(saca(*printed.split()[1:], "--danger", "off", "--json", cwd=tmp_path).stdout)
+    assert record["decision"]["time_s"] == pytest.approx(row["risk"]["runs"][0][0], abs=1e-6)
+    assert record["result"]["harm"] == pytest.approx(row["risk"]["runs"][0][5], abs=1e-9)
+
+
 def test_the_ladder_says_what_each_step_costs(tmp_path):
     told = figures(saca("ladder", "crossing", "--count", 8, "--json", "--output", "l.json", cwd=tmp_path))
     assert told["ladder.crossing.oracle"] == pytest.approx(0.0, abs=0.003)
