@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/saca/suite_running.h"
+#include "saca/eval/suite_figures.h"
 #include "saca/report/suite_page.h"
 
 namespace saca::app {

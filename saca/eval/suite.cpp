@@ -2,16 +2,12 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <exception>
 #include <nlohmann/json.hpp>
-#include <random>
 #include <utility>
 
 #include "saca/core/contract.h"
-#include "saca/core/percentile.h"
 #include "saca/loop/recorded_driver.h"
-#include "saca/outcome/ordering.h"
 
 namespace saca::eval {
 namespace {
@@ -184,142 +180,6 @@ DriverRow driver_from(const json& in) {
           .steers = in.at(4).get<int>()};
 }
 
-// --- figures
-
-/// Which encounters each bootstrap sample holds, and how often.
-class Bootstrap {
- public:
-  Bootstrap(std::size_t count, std::uint64_t seed) : count_(count) {
-    constexpr std::size_t num_samples = 1'000;
-    std::mt19937_64 rng = sim::generator(seed, count);
-    std::uniform_int_distribution<std::uint32_t> any(0, static_cast<std::uint32_t>(count - 1));
-    drawn_.resize(num_samples * count);
-    for (std::uint32_t& each : drawn_) {
-      each = any(rng);
-    }
-  }
-
-  /// Mean of `values` over the encounters that have one.
-  [[nodiscard]] Estimate mean(const std::vector<std::optional<double>>& values) const;
-
- private:
-  std::size_t count_;
-  std::vector<std::uint32_t> drawn_;  ///< one row of encounters for each sample
-};
-
-Estimate Bootstrap::mean(const std::vector<std::optional<double>>& values) const {
-  expects(values.size() == count_, "one value for each encounter");
-  std::vector<double> value(count_);
-  std::vector<double> there(count_);
-  double sum = 0.0;
-  double n = 0.0;
-  for (std::size_t i = 0; i < count_; ++i) {
-    value[i] = values[i].value_or(0.0);
-    there[i] = values[i] ? 1.0 : 0.0;
-    sum += value[i];
-    n += there[i];
-  }
-  if (n == 0.0) {
-    return {};
-  }
-  std::vector<double> means;
-  for (auto row = drawn_.begin(); row != drawn_.end(); row += static_cast<std::ptrdiff_t>(count_)) {
-    double sample_sum = 0.0;
-    double sample_n = 0.0;
-    for (auto i = row; i != row + static_cast<std::ptrdiff_t>(count_); ++i) {
-      sample_sum += value[*i];
-      sample_n += there[*i];
-    }
-    if (sample_n > 0.0) {
-      means.push_back(sample_sum / sample_n);
-    }
-  }
-  return {.value = sum / n,
-          .low = percentile(means, 0.025),
-          .high = percentile(means, 0.975),
-          .n = static_cast<int>(n)};
-}
-
-/// What of a row a figure is the mean of; nullopt: the row does not count for it.
-using Measure = std::optional<double> (*)(const SuiteRow& row, std::size_t method,
-                                          std::optional<std::size_t> aeb);
-
-const MethodRun& run_of(const SuiteRow& row, std::size_t method) {
-  return row.risk.runs[method];
-}
-
-std::optional<double> over_aeb(const SuiteRow& row, std::size_t method,
-                               std::optional<std::size_t> aeb) {
-  return aeb ? std::optional(run_of(row, method).harm - run_of(row, *aeb).harm) : std::nullopt;
-}
-
-/// Nobody is harmed if nothing is done.
-bool is_quiet(const Comparison& comparison) {
-  return std::any_of(comparison.tried.begin(), comparison.tried.end(), [](const TriedPlan& tried) {
-    return tried.plan.policy == PolicyId::no_intervention && tried.harm &&
-           outcome::harm_class(*tried.harm) == 0.0;
-  });
-}
-
-std::optional<double> flag(bool holds) {
-  return holds ? 1.0 : 0.0;
-}
-
-MethodFigures figures_of(std::span<const SuiteRow* const> rows, const std::string& name,
-                         std::size_t method, std::optional<std::size_t> aeb,
-                         const Bootstrap& bootstrap) {
-  const auto mean = [&](const Measure measure) {
-    std::vector<std::optional<double>> values;
-    for (const SuiteRow* const row : rows) {
-      values.push_back(measure(*row, method, aeb));
-    }
-    return bootstrap.mean(values);
-  };
-  MethodFigures figures{.method = name};
-  using Row = const SuiteRow&;
-  using Aeb = std::optional<std::size_t>;
-  figures.harm =
-      mean([](Row row, std::size_t m, Aeb) { return std::optional(run_of(row, m).harm); });
-  figures.regret = mean([](Row row, std::size_t m, Aeb) {
-    return std::optional(run_of(row, m).harm - row.risk.best_harm);
-  });
-  figures.over_aeb = mean(over_aeb);
-  figures.collision_loss = mean(
-      [](Row row, std::size_t m, Aeb) { return std::optional(run_of(row, m).collision_loss); });
-  figures.contact =
-      mean([](Row row, std::size_t m, Aeb) { return flag(run_of(row, m).met.has_value()); });
-  figures.right = mean([](Row row, std::size_t m, Aeb) {
-    return flag(outcome::harm_class(run_of(row, m).harm) <=
-                outcome::harm_class(row.risk.best_harm));
-  });
-  figures.worse_than_aeb = mean([](Row row, std::size_t m, Aeb reference) {
-    const auto more = over_aeb(row, m, reference);
-    return more ? flag(*more > material) : std::nullopt;
-  });
-  figures.needless = mean([](Row row, std::size_t m, Aeb) {
-    return is_quiet(row.risk) ? flag(run_of(row, m).intervened()) : std::nullopt;
-  });
-  const bool twins = std::any_of(rows.begin(), rows.end(),
-                                 [](const SuiteRow* row) { return row->twin.has_value(); });
-  if (twins) {
-    figures.false_trigger_loss = mean([](Row row, std::size_t m, Aeb) {
-      return row.twin ? std::optional(false_trigger_loss(row.twin->runs[m])) : std::nullopt;
-    });
-    figures.false_triggers = mean([](Row row, std::size_t m, Aeb) {
-      return row.twin ? flag(row.twin->runs[m].intervened()) : std::nullopt;
-    });
-  }
-  for (const SuiteRow* const row : rows) {
-    const MethodRun& run = run_of(*row, method);
-    figures.faults += run.fault.empty() ? 0 : 1;
-    if (run.plan) {
-      ++figures.sources[run.source];
-      ++figures.reasons[run.reason];
-    }
-  }
-  return figures;
-}
-
 }  // namespace
 
 sim::PerceptionModel usual_perception() {
@@ -439,41 +299,6 @@ bool agrees(const DriverRow& driver, const std::optional<manoeuvre::Plan>& plan)
   const bool plan_brakes =
       policy == PolicyId::aeb || manoeuvre::brakes_to_speed(policy) || manoeuvre::drifts(policy);
   return plan_brakes == driver.brakes && manoeuvre::side(policy) == driver.steers;
-}
-
-double false_trigger_loss(const MethodRun& run) {
-  if (!run.intervened()) {
-    return 0.0;
-  }
-  return run.plan && manoeuvre::drifts(run.plan->policy) ? 1.0 : 0.5;
-}
-
-std::vector<MethodFigures> suite_figures(std::span<const SuiteRow* const> rows,
-                                         const std::vector<std::string>& methods,
-                                         std::optional<std::size_t> aeb, std::uint64_t seed) {
-  std::vector<const SuiteRow*> good;
-  std::copy_if(rows.begin(), rows.end(), std::back_inserter(good),
-               [](const SuiteRow* row) { return row->fault.empty(); });
-  std::vector<MethodFigures> all;
-  if (good.empty()) {
-    return all;
-  }
-  const Bootstrap bootstrap(good.size(), seed);
-  for (std::size_t m = 0; m < methods.size(); ++m) {
-    all.push_back(figures_of(good, methods[m], m, aeb, bootstrap));
-  }
-  return all;
-}
-
-Estimate harm_above(std::span<const SuiteRow> rows, std::size_t method, std::size_t other,
-                    std::uint64_t seed) {
-  std::vector<std::optional<double>> differences;
-  for (const SuiteRow& row : rows) {
-    if (row.fault.empty()) {
-      differences.emplace_back(row.risk.runs[method].harm - row.risk.runs[other].harm);
-    }
-  }
-  return differences.empty() ? Estimate{} : Bootstrap(differences.size(), seed).mean(differences);
 }
 
 }  // namespace saca::eval

@@ -1,10 +1,7 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <map>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -84,57 +81,5 @@ struct TriedScene {
 /// One line, for journals; and back. Error::Code::malformed: no such line, or of other methods.
 [[nodiscard]] std::string line_of(const SuiteRow& row);
 [[nodiscard]] Result<SuiteRow> suite_row_from(std::string_view line, std::size_t num_methods);
-
-/// A mean over encounters with its 95 % interval.
-struct Estimate {
-  double value = 0.0;
-  double low = 0.0;
-  double high = 0.0;
-  int n = 0;
-};
-
-/// Figures of one method over some encounters.
-struct MethodFigures {
-  std::string method;
-  Estimate harm;
-  Estimate regret;          ///< harm above that of the best plan begun at T1
-  Estimate over_aeb;        ///< harm above that of AEB at T1 in the same encounters: paired
-  Estimate collision_loss;  ///< the paper's
-  Estimate contact;         ///< share
-  Estimate right;           ///< share whose harm is in the class of the best's, or below
-  Estimate worse_than_aeb;  ///< share whose harm is more than `material` above AEB's
-  Estimate
-      needless;  ///< share of encounters in which doing nothing harms nobody, where it intervened
-  std::optional<Estimate> false_trigger_loss;  ///< the paper's, over the twins
-  std::optional<Estimate> false_triggers;      ///< share of the twins with an intervention
-  std::map<std::string, int> sources;          ///< of decisions, how often
-  std::map<std::string, int> reasons;          ///< likewise
-  int faults = 0;
-};
-
-/// Harm above AEB's that counts as materially worse [-]: half a per cent of a severely injured
-/// person.
-constexpr double material = 0.005;
-
-/// The paper's false-trigger loss: 0.5 for policies 0 to 4, 1 for 5 and 6, 0 for none.
-[[nodiscard]] double false_trigger_loss(const MethodRun& run);
-
-/// Figures of all methods over the rows that have no fault.
-///
-/// Intervals are those of 1,000 bootstrap samples of encounters (B. Efron, Bootstrap methods:
-/// another look at the jackknife, Annals of Statistics 7, 1979), percentiles 2.5 and 97.5, the same
-/// samples for every figure: what is paired stays paired.
-/// @param rows  at least one
-/// @param aeb   index of the method that others are held against; it is AEB at T1
-[[nodiscard]] std::vector<MethodFigures> suite_figures(std::span<const SuiteRow* const> rows,
-                                                       const std::vector<std::string>& methods,
-                                                       std::optional<std::size_t> aeb,
-                                                       std::uint64_t seed);
-
-/// Mean of the harm of one method above that of another, over the rows that have no fault: paired,
-/// with the intervals of suite_figures.
-/// @param method, other  indices into the runs of a row
-[[nodiscard]] Estimate harm_above(std::span<const SuiteRow> rows, std::size_t method,
-                                  std::size_t other, std::uint64_t seed);
 
 }  // namespace saca::eval
