@@ -1,11 +1,14 @@
 #include "saca/memory/store.h"
 
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "saca/core/contract.h"
+#include "saca/core/fnv.h"
 #include "saca/memory/feature_index.h"
 #include "saca/memory/scene_json.h"
 #include "saca/memory/similarity.h"
@@ -65,6 +68,10 @@ enum Column : int {
   source_column,
   scene_column,
 };
+
+constexpr std::array all_columns{
+    id_column,        policy_column,         target_speed_column, best_policy_column, harm_column,
+    best_harm_column, collision_loss_column, review_column,       source_column,      scene_column};
 
 /// Reads the columns of the row at which a statement stands; the first thing wrong is kept.
 class Row {
@@ -177,6 +184,44 @@ struct Store::State {
     return sqlite_problem(database.get(), name, access);
   }
 
+  [[nodiscard]] std::optional<Error> connect(const std::filesystem::path& path, int flags) {
+    name = path.string();
+    // Absolute, so that no name is special to SQLite (":memory:", "file:...").
+    std::error_code no_folder;
+    const std::string file = std::filesystem::absolute(path, no_folder).string();
+    sqlite3* opened = nullptr;
+    const int code = sqlite3_open_v2(file.c_str(), &opened, flags, nullptr);
+    database.reset(opened);
+    if (opened == nullptr || path.empty()) {
+      return Error{Error::Code::unreadable, name + ": want a file"};
+    }
+    if (code != SQLITE_OK) {
+      return problem(Access::read);
+    }
+    sqlite3_busy_timeout(opened, busy_timeout_s * 1000);
+    return std::nullopt;
+  }
+
+  /// From now on a copy in memory is asked, which nobody may change.
+  [[nodiscard]] std::optional<Error> move_into_memory() {
+    sqlite3* opened = nullptr;
+    const int code =
+        sqlite3_open_v2(":memory:", &opened, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
+    Database copy(opened);
+    if (code != SQLITE_OK) {
+      return Error{Error::Code::unreadable, name + ": want memory for a copy of it, got none"};
+    }
+    sqlite3_backup* const backup = sqlite3_backup_init(opened, "main", database.get(), "main");
+    if (backup != nullptr) {
+      sqlite3_backup_step(backup, -1);  // the whole; `finish` tells what went wrong
+    }
+    if (backup == nullptr || sqlite3_backup_finish(backup) != SQLITE_OK) {
+      return sqlite_problem(opened, name, Access::read);
+    }
+    database = std::move(copy);
+    return run("PRAGMA query_only = ON", Access::read);
+  }
+
   [[nodiscard]] std::optional<Error> run(const char* sql, Access access) const {
     if (sqlite3_exec(database.get(), sql, nullptr, nullptr, nullptr) != SQLITE_OK) {
       return problem(access);
@@ -282,27 +327,41 @@ Store::~Store() = default;
 
 Result<Store> Store::open(const std::filesystem::path& path) {
   auto state = std::make_unique<State>();
-  state->name = path.string();
-  // Absolute, so that no name is special to SQLite (":memory:", "file:...").
-  std::error_code no_folder;
-  const std::string file = std::filesystem::absolute(path, no_folder).string();
-  sqlite3* database = nullptr;
-  const int code =
-      sqlite3_open_v2(file.c_str(), &database, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
-  state->database.reset(database);
-  if (database == nullptr || path.empty()) {
-    return Error{Error::Code::unreadable, state->name + ": want a file"};
+  auto error = state->connect(path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+  if (!error) {
+    error = state->run(set_up, Access::read);
   }
-  if (code != SQLITE_OK) {
-    return state->problem(Access::read);
-  }
-  sqlite3_busy_timeout(database, busy_timeout_s * 1000);
-  auto error = state->run(set_up, Access::read);
   if (!error) {
     error = state->create_if_new();
   }
   if (!error) {
     error = state->wrong_kind();
+  }
+  if (!error) {
+    error = state->catch_up();
+  }
+  if (error) {
+    return *error;
+  }
+  return Store(std::move(state));
+}
+
+Result<Store> Store::snapshot(const std::filesystem::path& path) {
+  std::error_code problem;
+  if (!std::filesystem::exists(path, problem)) {
+    return Error{Error::Code::unreadable, path.string() + ": there is no such memory bank"};
+  }
+  auto state = std::make_unique<State>();
+  // For writing where that may be: only so can what a killed process left half-done be rolled back.
+  auto error = state->connect(path, SQLITE_OPEN_READWRITE);
+  if (!error) {
+    error = state->run(set_up, Access::read);
+  }
+  if (!error) {
+    error = state->wrong_kind();
+  }
+  if (!error) {
+    error = state->move_into_memory();
   }
   if (!error) {
     error = state->catch_up();
@@ -385,6 +444,20 @@ Result<std::optional<Match>> Store::nearest(const world::Scene& scene) {
     }
     state_->index = {};  // somebody has deleted it: look again, at all
   }
+}
+
+Result<std::uint64_t> Store::digest() const {
+  Statement statement(state_->database.get(), select_after);
+  statement.bind(1, std::int64_t{0});
+  Fnv hash;
+  int code = statement.step();
+  for (; code == SQLITE_ROW; code = statement.step()) {
+    for (const Column column : all_columns) {
+      hash.add(statement.text(column));
+      hash.add(std::uint64_t{0x100});  // no character: where one column ends
+    }
+  }
+  return code == SQLITE_DONE ? Result(hash.value()) : state_->problem(Access::read);
 }
 
 std::size_t Store::size() const noexcept {

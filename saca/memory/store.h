@@ -44,6 +44,11 @@ class Store {
   ///          has another version, or a row cannot be used
   [[nodiscard]] static Result<Store> open(const std::filesystem::path& path);
 
+  /// Copies what an existing file holds now, to ask it as often as wanted: what anybody adds to the
+  /// file later is not seen, and `add` returns unwritable.
+  /// @return  unreadable when there is no such file; else as `open`
+  [[nodiscard]] static Result<Store> snapshot(const std::filesystem::path& path);
+
   Store(Store&&) noexcept;
   Store& operator=(Store&&) noexcept;
   ~Store();
@@ -66,6 +71,9 @@ class Store {
   /// empty. Linear scan over features in memory, then one row is read.
   /// @throws ContractViolation  if the scene breaks a rule of `world::broken_rule`
   [[nodiscard]] Result<std::optional<Match>> nearest(const world::Scene& scene);
+
+  /// Of all cases, to the last bit: two memories with the same digest answer alike.
+  [[nodiscard]] Result<std::uint64_t> digest() const;
 
   /// How many cases were in the file when it was last looked at.
   [[nodiscard]] std::size_t size() const noexcept;

@@ -296,6 +296,55 @@ TEST_F(Memory, RefusesATableThatLacksAColumn) {
   EXPECT_THAT(error_of_opening().message, HasSubstr("no such column: harm"));
 }
 
+// ---- A copy to ask
+
+TEST_F(Memory, ASnapshotStaysAsItWas) {
+  Store store = opened();
+  ASSERT_TRUE(store.add(example_case(3)).has_value());
+  Store snapshot = Store::snapshot(path_).value();
+  const auto before = snapshot.digest().value();
+  EXPECT_EQ(before, store.digest().value());
+  ASSERT_TRUE(store.add(example_case(4)).has_value());
+  expect_same(snapshot.nearest(example_case(4).scene).value().value().found, example_case(3));
+  EXPECT_EQ(snapshot.all().value().size(), 1U);
+  EXPECT_EQ(snapshot.digest().value(), before);
+  EXPECT_NE(store.digest().value(), before);
+  fs::remove(path_);
+  EXPECT_TRUE(snapshot.find(1).value().has_value());
+}
+
+TEST_F(Memory, ASnapshotLearnsNothing) {
+  ASSERT_TRUE(opened().add(example_case(3)).has_value());
+  Store snapshot = Store::snapshot(path_).value();
+  const auto added = snapshot.add(example_case(4));
+  ASSERT_FALSE(added.has_value());
+  EXPECT_EQ(added.error().code, Error::Code::unwritable);
+  EXPECT_EQ(opened().size(), 1U);
+}
+
+TEST_F(Memory, ASnapshotIsOfAMemoryThatIsThere) {
+  EXPECT_THAT(Store::snapshot(path_).error().message, HasSubstr("there is no such memory bank"));
+  EXPECT_FALSE(fs::exists(path_));
+  ASSERT_EQ(write_file(path_, ""), std::nullopt);
+  EXPECT_THAT(Store::snapshot(path_).error().message, HasSubstr("want a memory bank"));
+  EXPECT_EQ(fs::file_size(path_), 0U);
+  ASSERT_EQ(write_file(path_, std::string(5000, 'x')), std::nullopt);
+  EXPECT_EQ(Store::snapshot(path_).error().code, Error::Code::malformed);
+}
+
+TEST_F(Memory, TheDigestTellsEveryColumnApart) {
+  ASSERT_TRUE(opened().add(example_case(3)).has_value());
+  std::uint64_t before = opened().digest().value();
+  for (const char* const edit :
+       {"policy = 3", "target_speed_mps = 2.5", "best_policy = 2", "harm = 0.25",
+        "best_harm = 0.125", "collision_loss = 2.0", "review = 'r'", "source = 's'", "id = 7"}) {
+    shell(path_, "UPDATE cases SET " + std::string(edit));
+    const std::uint64_t after = opened().digest().value();
+    EXPECT_NE(after, before) << edit;
+    before = after;
+  }
+}
+
 // ---- Nowhere to write
 
 /// Not root for a while: root may write to everything.
