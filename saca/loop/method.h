@@ -6,6 +6,7 @@
 
 #include "saca/intent/observer.h"
 #include "saca/loop/closed_loop.h"
+#include "saca/loop/thinking_figures.h"
 #include "saca/manoeuvre/plan.h"
 #include "saca/world/scene.h"
 
@@ -42,6 +43,9 @@ class Method {
   /// @return  a plan to begin now, in place of what was carried out; the same plan with another
   ///          deceleration goes on; nullopt: goes on as it is
   [[nodiscard]] virtual std::optional<Action> step(const View& view) = 0;
+
+  /// What was thought until now; nullopt: this method does not think ahead.
+  [[nodiscard]] virtual std::optional<ThinkingFigures> thinking() const { return std::nullopt; }
 };
 
 }  // namespace saca::loop

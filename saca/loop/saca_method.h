@@ -7,13 +7,15 @@
 
 namespace saca::loop {
 
-/// SACA as a method: the planes that ship, in lockstep.
+/// SACA as a method: the planes that ship, in lockstep. It asks memory and model where the setup
+/// has them, and teaches memory nothing.
 class SacaMethod final : public Method {
  public:
   /// @param looks  how often `step` will be called at most
   SacaMethod(const PlanesSetup& setup, std::size_t looks) : planes_(setup, {}, looks) {}
 
   [[nodiscard]] std::optional<Action> step(const View& view) override;
+  [[nodiscard]] std::optional<ThinkingFigures> thinking() const override;
 
  private:
   Planes planes_;

@@ -1,0 +1,84 @@
+#include "saca/loop/thinking_figures.h"
+
+#include <algorithm>
+
+namespace saca::loop {
+namespace {
+
+using decide::Preview;
+
+bool is_answered(const Preview& preview) {
+  return !preview.reply.answers.empty();
+}
+
+/// Why nothing was in the cache at the trigger.
+std::string why_nothing_is_cached(std::span<const Preview> previews) {
+  const auto any = [&](const auto& holds) {
+    return std::any_of(previews.begin(), previews.end(), holds);
+  };
+  if (previews.empty()) {
+    return "nothing was forecast before T1";
+  }
+  if (any([](const Preview& one) { return one.plan.has_value(); })) {
+    return "the plan was not ready at T1";
+  }
+  if (any([](const Preview& one) { return one.check && !one.check->passed; })) {
+    return "what was proposed did not pass its check";
+  }
+  if (any([](const Preview& one) { return one.unheard; })) {
+    return "the model gave no answer in time";
+  }
+  if (any([](const Preview& one) { return one.nearest && one.gate == memory::Gate::reason; })) {
+    return "no case in memory is alike";
+  }
+  return "no plan is cached";
+}
+
+}  // namespace
+
+ThinkingFigures thinking_figures(std::span<const Preview> previews,
+                                 const std::optional<decide::Decision>& decision) {
+  const auto count = [&](const auto& holds) {
+    return static_cast<int>(std::count_if(previews.begin(), previews.end(), holds));
+  };
+  const auto plan_from = [](decide::Source source) {
+    return [source](const Preview& one) { return one.plan && one.source == source; };
+  };
+  ThinkingFigures figures{
+      .forecasts = static_cast<int>(previews.size()),
+      .recalled =
+          count([](const Preview& one) { return one.nearest && one.gate != memory::Gate::reason; }),
+      .from_memory = count(plan_from(decide::Source::memory)),
+      .from_model = count(plan_from(decide::Source::model)),
+      .asked = count([](const Preview& one) { return is_answered(one) || one.unheard; }),
+      .answered = count(is_answered),
+      .ended = count([](const Preview& one) {
+        return is_answered(one) && one.reply.answers.back().kind == reason::Answer::Kind::ended;
+      }),
+      .unfounded =
+          count([](const Preview& one) { return one.truth && one.truth->is_choice_unfounded(); })};
+  for (const Preview& one : previews) {
+    figures.statements += one.truth ? one.truth->num_checked : 0;
+    figures.false_statements += one.truth ? static_cast<int>(one.truth->wrong.size()) : 0;
+  }
+  if (decision && decision->preview) {
+    const Preview& most_alike = previews[static_cast<std::size_t>(*decision->preview)];
+    if (is_answered(most_alike)) {
+      figures.answer = most_alike.reply.answers.back().probability;
+    }
+  }
+  return figures;
+}
+
+std::string reason_of(const decide::Decision& decision, std::span<const Preview> previews) {
+  if (decision.source != decide::Source::fallback) {
+    return "a cached plan matches";
+  }
+  if (!decision.similarity) {
+    return why_nothing_is_cached(previews);
+  }
+  return decision.gave_way_to_aeb ? "the plan that matches harms more than braking"
+                                  : "no cached plan matches above 90 %";
+}
+
+}  // namespace saca::loop

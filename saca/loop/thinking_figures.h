@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "saca/decide/event.h"
+
+namespace saca::loop {
+
+/// What was thought about the forecasts of one encounter, counted.
+struct ThinkingFigures {
+  int forecasts = 0;         ///< for which a plan was sought
+  int recalled = 0;          ///< of these, those of which memory had a case above 70 % alike
+  int from_memory = 0;       ///< those whose plan comes from memory in the end
+  int from_model = 0;        ///< those whose plan comes from the language model
+  int asked = 0;             ///< those about which the language model was asked
+  int answered = 0;          ///< of these, with an answer before the trigger
+  int ended = 0;             ///< of these, with a reply that came to its end by itself
+  int statements = 0;        ///< of all replies, those that can be checked
+  int false_statements = 0;  ///< of these
+  int unfounded = 0;         ///< answered, with a choice that rests on something false
+  /// The model's last answer about the forecast that the scene at the trigger is most like: over
+  /// the eight policies; nullopt: it said nothing of it.
+  std::optional<std::array<double, manoeuvre::num_policies>> answer;
+
+  bool operator==(const ThinkingFigures&) const = default;
+};
+
+[[nodiscard]] ThinkingFigures thinking_figures(std::span<const decide::Preview> previews,
+                                               const std::optional<decide::Decision>& decision);
+
+/// Why this was decided, without numbers, so that equal reasons can be counted.
+/// @param previews  all that was thought until then
+[[nodiscard]] std::string reason_of(const decide::Decision& decision,
+                                    std::span<const decide::Preview> previews);
+
+}  // namespace saca::loop

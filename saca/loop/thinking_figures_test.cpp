@@ -1,0 +1,81 @@
+#include "saca/loop/thinking_figures.h"
+
+#include <gtest/gtest.h>
+
+namespace saca::loop::thinking_figures_test {
+namespace {
+
+using decide::Preview;
+using decide::Source;
+using manoeuvre::Plan;
+using manoeuvre::PolicyId;
+
+constexpr Plan left{PolicyId::aes_left, std::nullopt};
+
+Preview remembered(memory::Gate gate) {
+  Preview one;
+  one.nearest.emplace();
+  one.gate = gate;
+  return one;
+}
+
+Preview answered(reason::Answer::Kind kind) {
+  Preview one;
+  one.reply.answers = {{.probability = {1.0}}, {.probability = {0.25, 0.75}, .kind = kind}};
+  one.plan = left;
+  one.source = Source::model;
+  return one;
+}
+
+TEST(ThinkingFigures, CountWhatWasThought) {
+  std::vector<Preview> all{remembered(memory::Gate::check), remembered(memory::Gate::reason),
+                           answered(reason::Answer::Kind::ended),
+                           answered(reason::Answer::Kind::forced), Preview{}};
+  all[0].plan = left;
+  all[0].source = Source::memory;
+  all[2].truth = reason::Truth{.num_checked = 3, .wrong = {{"it is wet", "it is dry", true}}};
+  all[4].unheard = true;
+  EXPECT_EQ(thinking_figures(all, std::nullopt), (ThinkingFigures{.forecasts = 5,
+                                                                  .recalled = 1,
+                                                                  .from_memory = 1,
+                                                                  .from_model = 2,
+                                                                  .asked = 3,
+                                                                  .answered = 2,
+                                                                  .ended = 1,
+                                                                  .statements = 3,
+                                                                  .false_statements = 1,
+                                                                  .unfounded = 1,
+                                                                  .answer = std::nullopt}));
+}
+
+TEST(ThinkingFigures, KeepTheAnswerAboutTheForecastThatCame) {
+  const std::vector<Preview> all{Preview{}, answered(reason::Answer::Kind::ended)};
+  EXPECT_EQ(thinking_figures(all, decide::Decision{.preview = 1}).answer->at(1), 0.75);
+  EXPECT_EQ(thinking_figures(all, decide::Decision{.preview = 0}).answer, std::nullopt);
+  EXPECT_EQ(thinking_figures(all, decide::Decision{}).answer, std::nullopt);
+}
+
+TEST(ReasonOf, TellsWhyThereWasNoPlan) {
+  const decide::Decision none;
+  EXPECT_EQ(reason_of(none, {}), "nothing was forecast before T1");
+  std::vector<Preview> all(1);
+  EXPECT_EQ(reason_of(none, all), "no plan is cached");
+  all.push_back(remembered(memory::Gate::reason));
+  EXPECT_EQ(reason_of(none, all), "no case in memory is alike");
+  all[0].unheard = true;
+  EXPECT_EQ(reason_of(none, all), "the model gave no answer in time");
+  all[1].check = decide::Check{.passed = false};
+  EXPECT_EQ(reason_of(none, all), "what was proposed did not pass its check");
+  all[0].plan = left;
+  EXPECT_EQ(reason_of(none, all), "the plan was not ready at T1");
+}
+
+TEST(ReasonOf, TellsWhatBecameOfAPlan) {
+  EXPECT_EQ(reason_of({.source = Source::memory, .similarity = 0.95}, {}), "a cached plan matches");
+  EXPECT_EQ(reason_of({.similarity = 0.5}, {}), "no cached plan matches above 90 %");
+  EXPECT_EQ(reason_of({.similarity = 0.95, .gave_way_to_aeb = true}, {}),
+            "the plan that matches harms more than braking");
+}
+
+}  // namespace
+}  // namespace saca::loop::thinking_figures_test
