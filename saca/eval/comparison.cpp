@@ -230,6 +230,7 @@ void Play::conclude(const Branch& branch) {
   for (const std::size_t method : branch.methods) {
     MethodRun& run = comparison_.runs[method];
     run.clearance = outcome::far_away;
+    run.thinking = methods_[method]->thinking();
     run.peak_deceleration = branch.peak_deceleration;
     if (!outcome) {
       continue;

@@ -27,7 +27,9 @@ struct MethodRun {
   double peak_deceleration = 0.0;       ///< largest of the ego along its heading before that
                                         ///< contact [m/s^2], >= 0
   double clearance = 0.0;               ///< smallest distance to anybody [m]; 0 with contact
-  std::string fault;                    ///< what it threw; empty: nothing. It then did no more
+  std::optional<loop::ThinkingFigures>
+      thinking;       ///< what was thought in it; nullopt: the method does not think ahead
+  std::string fault;  ///< what it threw; empty: nothing. It then did no more
 
   [[nodiscard]] bool intervened() const;
 };

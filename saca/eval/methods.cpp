@@ -28,10 +28,14 @@ using preview::Physics;
 
 constexpr Plan full_braking{PolicyId::aeb, std::nullopt};
 
-constexpr std::array<MethodInfo, 21> infos{{
+constexpr std::array<MethodInfo, 23> infos{{
     {"saca", "SACA",
      "The shipped planes: a cached plan that matches and does not harm more than braking, else "
      "emergency braking at T1."},
+    {"saca_no_memory", "SACA without memory", "As SACA; no stored case is asked.", false,
+     Needs::memory},
+    {"saca_no_model", "SACA without model", "As SACA; the language model is not asked.", false,
+     Needs::model},
     {"saca_paper", "SACA, as in the paper",
      "Algorithm 1 to the letter: a cached plan above 90 %, else emergency braking at T1; nothing "
      "is held against braking."},
@@ -218,6 +222,15 @@ outcome::Others with_true_followers(const View& view, const JointMotion& motion)
   };
 }
 
+/// The planes of one of SACA's rows.
+loop::PlanesSetup planes_of(std::string_view name, loop::PlanesSetup planes) {
+  planes.guard =
+      name == "saca_paper" ? decide::Guard::none : decide::Guard::never_worse_than_braking;
+  planes.memory = name == "saca_no_memory" ? nullptr : planes.memory;
+  planes.model = name == "saca_no_model" ? nullptr : planes.model;
+  return planes;
+}
+
 AtTrigger::Choose chooser(std::string_view name, const MethodTools& tools) {
   const loop::PlanesSetup& setup = tools.saca;
   if (name == "aeb") {
@@ -315,10 +328,8 @@ std::unique_ptr<Method> make_method(std::string_view name, const MethodTools& to
   expects(find_method(name) != nullptr, "a method of methods()");
   expects(tools.hindsight != nullptr && tools.intent != nullptr, "hindsight and intent are given");
   const loop::PlanesSetup& setup = tools.saca;
-  if (name == "saca" || name == "saca_paper") {
-    loop::PlanesSetup planes = setup;
-    planes.guard = name == "saca" ? decide::Guard::never_worse_than_braking : decide::Guard::none;
-    return std::make_unique<loop::SacaMethod>(planes, tools.num_looks);
+  if (name.starts_with("saca")) {
+    return std::make_unique<loop::SacaMethod>(planes_of(name, setup), tools.num_looks);
   }
   if (name == "nothing") {
     return std::make_unique<Nothing>();

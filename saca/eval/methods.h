@@ -11,12 +11,16 @@
 
 namespace saca::eval {
 
+/// What a method leaves out or asks, so that without it there is no such row.
+enum class Needs : std::uint8_t { nothing, memory, model };
+
 /// One row of a table: something that decides.
 struct MethodInfo {
   std::string_view name;     ///< as commands and files have it
   std::string_view title;    ///< for readers
   std::string_view what;     ///< one sentence: how it decides
   bool knows_truth = false;  ///< a yardstick: it looks at what nobody on a road can know
+  Needs needs = Needs::nothing;
 };
 
 /// All that there are, in the order of tables.
@@ -26,7 +30,8 @@ struct MethodInfo {
 
 /// What methods are made with, for one encounter. What it points to outlives them.
 struct MethodTools {
-  loop::PlanesSetup saca;          ///< of SACA; forecasts and thresholds are everybody's
+  loop::PlanesSetup saca;  ///< of SACA, with its memory and model, which are only asked; forecasts
+                           ///< and thresholds are everybody's
   Hindsight* hindsight = nullptr;  ///< of this encounter
   const intent::Model* intent = nullptr;
   std::uint64_t seed = 0;     ///< of who chooses at random, and of this encounter

@@ -110,6 +110,27 @@ std::optional<T> optional_from(const json& in) {
   return in.is_null() ? std::nullopt : std::optional(in.get<T>());
 }
 
+json json_of(const loop::ThinkingFigures& one) {
+  return json::array({one.forecasts, one.recalled, one.from_memory, one.from_model, one.asked,
+                      one.answered, one.ended, one.statements, one.false_statements, one.unfounded,
+                      json_of(one.answer)});
+}
+
+loop::ThinkingFigures thinking_from(const json& in) {
+  const auto number = [&](std::size_t i) { return in.at(i).get<int>(); };
+  return {.forecasts = number(0),
+          .recalled = number(1),
+          .from_memory = number(2),
+          .from_model = number(3),
+          .asked = number(4),
+          .answered = number(5),
+          .ended = number(6),
+          .statements = number(7),
+          .false_statements = number(8),
+          .unfounded = number(9),
+          .answer = optional_from<std::array<double, manoeuvre::num_policies>>(in.at(10))};
+}
+
 json json_of(const Comparison& one) {
   json tried = json::array();
   for (const TriedPlan& plan : one.tried) {
@@ -119,7 +140,8 @@ json json_of(const Comparison& one) {
   for (const MethodRun& run : one.runs) {
     runs.push_back(json::array({json_of(run.acted_at), run.plan ? json_of(*run.plan) : json(),
                                 run.source, run.reason, run.switches, run.harm, run.collision_loss,
-                                json_of(run.met), run.impact_speed, run.clearance, run.fault}));
+                                json_of(run.met), run.impact_speed, run.clearance, run.fault,
+                                run.thinking ? json_of(*run.thinking) : json()}));
   }
   return {{"trigger", json_of(one.trigger)},
           {"threat", json_of(one.threat)},
@@ -159,6 +181,9 @@ Comparison comparison_from(const json& in, std::size_t num_methods) {
     back.impact_speed = run.at(8).get<double>();
     back.clearance = run.at(9).get<double>();
     back.fault = run.at(10).get<std::string>();
+    if (!run.at(11).is_null()) {
+      back.thinking = thinking_from(run.at(11));
+    }
   }
   if (one.runs.size() != num_methods) {
     throw std::runtime_error(

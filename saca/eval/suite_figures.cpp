@@ -93,6 +93,18 @@ std::optional<double> flag(bool holds) {
   return holds ? 1.0 : 0.0;
 }
 
+void add(std::optional<loop::ThinkingFigures>& sum, const loop::ThinkingFigures& one) {
+  loop::ThinkingFigures& all = sum ? *sum : sum.emplace();
+  for (const auto part :
+       {&loop::ThinkingFigures::forecasts, &loop::ThinkingFigures::recalled,
+        &loop::ThinkingFigures::from_memory, &loop::ThinkingFigures::from_model,
+        &loop::ThinkingFigures::asked, &loop::ThinkingFigures::answered,
+        &loop::ThinkingFigures::ended, &loop::ThinkingFigures::statements,
+        &loop::ThinkingFigures::false_statements, &loop::ThinkingFigures::unfounded}) {
+    all.*part += one.*part;
+  }
+}
+
 MethodFigures figures_of(std::span<const SuiteRow* const> rows, const std::string& name,
                          std::size_t method, std::optional<std::size_t> aeb,
                          const Bootstrap& bootstrap) {
@@ -143,6 +155,9 @@ MethodFigures figures_of(std::span<const SuiteRow* const> rows, const std::strin
     if (run.plan) {
       ++figures.sources[run.source];
       ++figures.reasons[run.reason];
+    }
+    if (run.thinking) {
+      add(figures.thinking, *run.thinking);
     }
   }
   return figures;

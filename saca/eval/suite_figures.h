@@ -32,10 +32,12 @@ struct MethodFigures {
   Estimate worse_than_aeb;  ///< share whose harm is more than `material` above AEB's
   Estimate
       needless;  ///< share of encounters in which doing nothing harms nobody, where it intervened
-  std::optional<Estimate> false_trigger_loss;  ///< the paper's, over the twins
-  std::optional<Estimate> false_triggers;      ///< share of the twins with an intervention
-  std::map<std::string, int> sources;          ///< of decisions, how often
-  std::map<std::string, int> reasons;          ///< likewise
+  std::optional<Estimate> false_trigger_loss;     ///< the paper's, over the twins
+  std::optional<Estimate> false_triggers;         ///< share of the twins with an intervention
+  std::map<std::string, int> sources;             ///< of decisions, how often
+  std::map<std::string, int> reasons;             ///< likewise
+  std::optional<loop::ThinkingFigures> thinking;  ///< summed, without answers; nullopt: the method
+                                                  ///< does not think ahead
   int faults = 0;
 };
 

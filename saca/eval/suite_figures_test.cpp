@@ -52,6 +52,16 @@ TEST(SuiteFigures, AreMeansOverTheEncounters) {
   EXPECT_GE(told[0].harm.high, told[0].harm.value);
 }
 
+TEST(SuiteFigures, SumWhatWasThought) {
+  std::vector<SuiteRow> rows{made(0, {0.0, 0.0}, 0.0), made(1, {0.0, 0.0}, 0.0)};
+  rows[0].risk.runs[1].thinking = loop::ThinkingFigures{.forecasts = 3, .recalled = 2};
+  rows[1].risk.runs[1].thinking = loop::ThinkingFigures{.forecasts = 1, .answered = 1};
+  const auto told = figures(rows, {"aeb", "saca"});
+  EXPECT_EQ(told[0].thinking, std::nullopt);
+  EXPECT_EQ(told[1].thinking,
+            (loop::ThinkingFigures{.forecasts = 4, .recalled = 2, .answered = 1}));
+}
+
 // 400 encounters of variance 1/12: the standard error is 0.0144, 1.96 of it 0.0283; the bootstrap's
 // 1,000 samples know their ends to some 6 %.
 TEST(SuiteFigures, IntervalsAreAsWideAsTheoryHasThem) {

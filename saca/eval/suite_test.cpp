@@ -2,8 +2,15 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
+
+#include "saca/core/lending_pool.h"
+#include "saca/core/parallel.h"
+#include "saca/eval/moment.h"
 #include "saca/eval/scenes_for_test.h"
 #include "saca/intent/shipped_model.h"
+#include "saca/reason/scripted_model.h"
+#include "saca/reason/shared_model.h"
 
 namespace saca::eval::suite_test {
 namespace {
@@ -46,6 +53,106 @@ TEST_F(SuiteTest, ALineComesBack) {
        {"", "{", "[]", R"({"number": -1})", R"({"number": 1, "family": 7})"}) {
     EXPECT_FALSE(suite_row_from(spoilt, 2).has_value()) << spoilt;
   }
+}
+
+/// 22 m/s on a grip of 0.5 towards a standing car: braking at T1 needs 49 m and has 28.6 m; the
+/// lane to the left is free.
+sim::Scenario only_left_helps() {
+  sim::Scenario scenario = standing_car(22.0, 120.0);
+  scenario.grip = 0.5;
+  scenario.road.left_edge = 5.25;
+  scenario.road.right_edge = -1.75;
+  scenario.road.right_beyond = world::Beyond::barrier;
+  return scenario;
+}
+
+/// SACA with a memory that holds the scene at T1, where the best is to the left, or with a model
+/// that says so.
+class ThinkingTest : public SuiteTest {
+ protected:
+  ThinkingTest() {
+    const sim::Scenario scenario = only_left_helps();
+    std::filesystem::remove(path_);
+    memory::Store memory = memory::Store::open(path_).value();
+    EXPECT_TRUE(memory
+                    .add({.scene = scene_at(scenario, car_, trigger_time(scenario, car_).value()),
+                          .best = PolicyId::aes_left})
+                    .has_value());
+  }
+  ~ThinkingTest() override { std::filesystem::remove(path_); }
+
+  SuiteRow run(const std::vector<std::string>& methods, memory::Store* memory,
+               reason::LanguageModel* model, std::uint64_t number = 4) {
+    return run_encounter(
+        {.number = number, .family = "made", .scenario = only_left_helps(), .twin = {}},
+        {.methods = methods, .exact = true},
+        {.forecast = {&car_, &harm_}, .model = model, .memory = memory, .clock = &clock_},
+        intent::shipped_model());
+  }
+  [[nodiscard]] memory::Store snapshot() const { return memory::Store::snapshot(path_).value(); }
+
+  std::filesystem::path path_ = std::filesystem::path(testing::TempDir()) / "saca_suite_test.db";
+  reason::ScriptedModel model_{
+      reason::ScriptedReply{.lines = {{.text = "because",
+                                       .answer = reason::Answer::Kind::ended,
+                                       .policy = PolicyId::aes_left,
+                                       .probability = 0.9}}},
+      clock_};
+};
+
+TEST_F(ThinkingTest, ARowIsSacaWithWhatItWasGiven) {
+  memory::Store memory = snapshot();
+  const SuiteRow row = run({"saca", "saca_no_memory", "saca_no_model", "aeb"}, &memory, &model_);
+  const auto& runs = row.risk.runs;
+  EXPECT_EQ(runs[0].source, "memory");
+  EXPECT_EQ(runs[1].source, "model");
+  EXPECT_EQ(runs[2].source, "memory");
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(runs[i].plan->policy, PolicyId::aes_left) << i;
+    EXPECT_LT(runs[i].harm, runs[3].harm) << i;
+  }
+  EXPECT_GT(runs[0].thinking->from_memory, 0);
+  EXPECT_EQ(runs[0].thinking->asked, 0);
+  EXPECT_EQ(runs[1].thinking->recalled, 0);
+  EXPECT_NEAR(runs[1].thinking->answer.value()[1], 0.9, 1e-12);
+  EXPECT_EQ(runs[3].thinking, std::nullopt);
+  EXPECT_EQ(snapshot().size(), 1U);  // nothing was learnt
+
+  const SuiteRow back = suite_row_from(line_of(row), 4).value();
+  EXPECT_EQ(line_of(back), line_of(row));
+  EXPECT_EQ(back.risk.runs[1].thinking, runs[1].thinking);
+}
+
+TEST_F(ThinkingTest, WithoutEitherAllThatIsLeftIsBraking) {
+  const SuiteRow row = run({"saca", "saca_no_memory"}, nullptr, nullptr);
+  EXPECT_EQ(row.risk.runs[0].source, "fallback");
+  EXPECT_EQ(row.risk.runs[0].reason, "no plan is cached");
+}
+
+TEST_F(ThinkingTest, AModelThatIsSilentIsToldAsTheReason) {
+  reason::ScriptedModel nonsense(
+      reason::ScriptedReply{.error = Error{Error::Code::malformed, "no answer in it"}}, clock_);
+  const MethodRun saca = run({"saca"}, nullptr, &nonsense).risk.runs[0];
+  EXPECT_EQ(saca.reason, "the model gave no answer in time");
+  EXPECT_GT(saca.thinking->asked, 0);
+  EXPECT_EQ(saca.thinking->answered, 0);
+}
+
+TEST_F(ThinkingTest, ThreadsDoNotChangeRows) {
+  std::vector<memory::Store> stores;
+  stores.push_back(snapshot());
+  stores.push_back(snapshot());
+  LendingPool memories(std::move(stores));
+  const auto rows = [&](int threads) {
+    reason::SharedModel model(model_, clock_);
+    std::vector<std::string> lines(2);
+    in_parallel(lines.size(), threads, [&](std::size_t i) {
+      const auto memory = memories.lend();
+      lines[i] = line_of(run({"saca", "saca_no_memory"}, memory.get(), &model, i));
+    });
+    return lines;
+  };
+  EXPECT_EQ(rows(1), rows(2));
 }
 
 TEST(DriverRowTest, AgreesWhereBothBrakeOrNotAndGoToTheSameSide) {
