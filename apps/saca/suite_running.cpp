@@ -8,12 +8,11 @@
 
 #include "apps/saca/planes_making.h"
 #include "apps/saca/progress.h"
+#include "apps/saca/suite_sources.h"
+#include "apps/saca/surveying.h"
 #include "saca/core/csv.h"
 #include "saca/core/file.h"
-#include "saca/core/fnv.h"
 #include "saca/core/journal.h"
-#include "saca/manoeuvre/ego.h"
-#include "saca/sim/hundred_car_release.h"
 
 namespace saca::app {
 namespace {
@@ -23,142 +22,6 @@ using eval::SuiteEncounter;
 using eval::SuiteRow;
 
 constexpr std::size_t batch_per_thread = 16;  // encounters between two looks at the signals
-
-/// Where encounters come from: families of a suite, or files of a folder.
-struct Source {
-  Inputs inputs;                   ///< until planes are made of them
-  std::string what;                ///< names all on which the encounters depend
-  int count = 0;                   ///< as many as were asked for and there are
-  std::vector<std::string> notes;  ///< on where they come from
-  std::function<Result<SuiteEncounter>(std::uint64_t number)> at;
-};
-
-/// Encounters that are all there.
-Source source_of(Inputs inputs, std::vector<SuiteEncounter> all, int count, std::string what) {
-  Source source{.inputs = std::move(inputs), .what = std::move(what), .notes = {}, .at = {}};
-  source.count = std::min(count, static_cast<int>(all.size()));
-  source.at = [all = std::move(all)](std::uint64_t number) -> Result<SuiteEncounter> {
-    if (number >= all.size()) {
-      return Error{Error::Code::out_of_range,
-                   fmt::format("want an encounter below {}, got {}", all.size(), number)};
-    }
-    return all[number];
-  };
-  return source;
-}
-
-/// Every event of the 100-Car study that can be rebuilt.
-Result<Source> open_hundred_car(const SuiteCommandOptions& options, Inputs inputs) {
-  if (options.data.size() != 1) {
-    return Error{
-        Error::Code::out_of_range,
-        fmt::format("--data: want the folder of the 100-Car study's release, got {} folders",
-                    options.data.size())};
-  }
-  const std::string& folder = options.data.front();
-  watch_for_interrupt();
-  const auto outcomes =
-      sim::import_hundred_cars(folder, {}, [](std::size_t, std::size_t) { return !interrupted(); });
-  if (!outcomes.has_value()) {
-    return outcomes.error();
-  }
-  std::vector<SuiteEncounter> all;
-  Fnv hash;
-  for (const sim::HundredCarOutcome& outcome : outcomes.value()) {
-    if (const auto* const rebuilt = outcome.rebuilt()) {
-      hash.add(sim::write_scenario(rebuilt->scenario));
-      all.push_back({.number = all.size(),
-                     .family = outcome.severity,
-                     .scenario = rebuilt->scenario,
-                     .twin = {}});
-      all.back().scenario.car = inputs.car_name;
-    }
-  }
-  if (all.empty()) {
-    return Error{Error::Code::out_of_range, folder + ": want events that can be rebuilt, got none"};
-  }
-  std::string refused;
-  for (const auto& [reason, times] : sim::refusals(outcomes.value())) {
-    refused += fmt::format("{}{} ({})", refused.empty() ? "" : ", ", times, meaning(reason));
-  }
-  const std::size_t rebuilt = all.size();
-  Source source = source_of(std::move(inputs), std::move(all), options.count,
-                            fmt::format("100-Car study ({:016x})", hash.value()));
-  source.notes.push_back(fmt::format("{} of {} events were rebuilt; refused: {}.", rebuilt,
-                                     outcomes.value().size(), refused));
-  return source;
-}
-
-Result<Source> open_folder(const SuiteCommandOptions& options, Inputs inputs) {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(options.name)) {
-    if (entry.path().extension() == ".toml") {
-      files.push_back(entry.path());
-    }
-  }
-  std::sort(files.begin(), files.end());
-  if (files.empty()) {
-    return Error{Error::Code::out_of_range,
-                 options.name + ": want a folder with scenarios (*.toml), got none"};
-  }
-  std::vector<SuiteEncounter> all;
-  Fnv hash;
-  for (const fs::path& file : files) {
-    const auto text = read_file(file);
-    if (!text.has_value()) {
-      return text.error();
-    }
-    hash.add(text.value());
-    auto scenario =
-        sim::read_scenario(text.value(), file.string(), manoeuvre::footprint(inputs.car));
-    if (!scenario.has_value()) {
-      return scenario.error();
-    }
-    all.push_back({.number = all.size(),
-                   .family = file.stem(),
-                   .scenario = std::move(scenario).value(),
-                   .twin = {}});
-  }
-  return source_of(std::move(inputs), std::move(all), options.count,
-                   fmt::format("folder {} ({:016x})", options.name, hash.value()));
-}
-
-Result<Source> open_source(const SuiteCommandOptions& options, const std::string& command) {
-  if (options.name == "100car" || fs::is_directory(options.name)) {
-    auto inputs = read_inputs(options.car);
-    if (!inputs.has_value()) {
-      return inputs.error();
-    }
-    return options.name == "100car" ? open_hundred_car(options, std::move(inputs).value())
-                                    : open_folder(options, std::move(inputs).value());
-  }
-  const auto suite = SuiteSource::open({.suite = options.name,
-                                        .car = options.car,
-                                        .count = options.count,
-                                        .split = options.split,
-                                        .test_log = options.test_log},
-                                       command);
-  if (!suite.has_value()) {
-    return suite.error();
-  }
-  Source source;
-  source.inputs = suite.value().inputs();
-  source.count = options.count;
-  source.what =
-      fmt::format("{}, {} split ({:016x})", options.name, options.split, suite.value().digest());
-  source.at = [suite = suite.value(),
-               twins = !options.no_twins](std::uint64_t number) -> Result<SuiteEncounter> {
-    auto sample = suite.sample(number);
-    if (!sample.has_value()) {
-      return sample.error();
-    }
-    return SuiteEncounter{.number = number,
-                          .family = suite.family_of(number),
-                          .scenario = sample.value().scenario,
-                          .twin = twins ? std::optional(sample.value().twin) : std::nullopt};
-  };
-  return source;
-}
 
 std::string joined(const std::vector<std::string>& words) {
   std::string all;
@@ -177,7 +40,7 @@ eval::SuiteOptions how_of(const SuiteCommandOptions& options,
 
 /// All that encounters are run with.
 struct Bench {
-  Source source;
+  SuiteEncounters source;
   std::unique_ptr<const PlanesOfCar> planes;
   eval::SuiteOptions how;
 };
@@ -185,11 +48,11 @@ struct Bench {
 Result<std::shared_ptr<Bench>> open_bench(const SuiteCommandOptions& options,
                                           const std::string& command,
                                           const std::vector<std::string>& methods) {
-  auto source = open_source(options, command);
+  auto source = open_encounters(options, command);
   if (!source.has_value()) {
     return source.error();
   }
-  Source opened = std::move(source).value();
+  SuiteEncounters opened = std::move(source).value();
   auto planes = open_planes(std::move(opened.inputs));
   if (!planes.has_value()) {
     return planes.error();
@@ -256,7 +119,7 @@ Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
     return opened.error();
   }
   const std::shared_ptr<Bench>& bench = opened.value();
-  const Source& source = bench->source;
+  const SuiteEncounters& source = bench->source;
   const std::string path = options.output + ".journal";
   if (auto problem = make_folder_of(path)) {
     return *problem;
@@ -329,7 +192,7 @@ Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
 }
 
 Result<std::string> write_encounter(const SuiteCommandOptions& options, std::uint64_t number) {
-  const auto source = open_source(options, "suite");
+  const auto source = open_encounters(options, "suite");
   if (!source.has_value()) {
     return source.error();
   }

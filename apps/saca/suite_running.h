@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "apps/saca/inputs.h"
-#include "apps/saca/surveying.h"
 #include "saca/core/parallel.h"
 #include "saca/eval/suite.h"
 #include "saca/manoeuvre/atlas.h"
