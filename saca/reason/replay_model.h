@@ -64,9 +64,13 @@ enum class ReplayPace : std::uint8_t {
 class ReplayModel final : public LanguageModel {
  public:
   ReplayModel(RecordedReplies replies, ReplayPace pace, Clock& clock)
-      : replies_(std::move(replies)), pace_(pace), clock_(clock) {}
+      : replies_(std::move(replies)),
+        pace_(pace),
+        clock_(clock),
+        description_("replay of " + replies_.model + " (" + prompt_key(json_text(replies_)) + ")") {
+  }
 
-  [[nodiscard]] std::string description() const override { return "replay of " + replies_.model; }
+  [[nodiscard]] std::string description() const override { return description_; }
 
  private:
   [[nodiscard]] Result<std::vector<Reply>> reply_to(
@@ -76,6 +80,7 @@ class ReplayModel final : public LanguageModel {
   RecordedReplies replies_;
   ReplayPace pace_;
   Clock& clock_;
+  std::string description_;  ///< with a digest of the replies
 };
 
 }  // namespace saca::reason

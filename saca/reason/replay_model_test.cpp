@@ -86,6 +86,17 @@ TEST_F(ReplayTest, UnknownPromptHasNoAnswer) {
   EXPECT_EQ(partly.value()[1].answers.size(), 2U);
 }
 
+TEST_F(ReplayTest, OtherRepliesAreAnotherModel) {
+  const auto description = [this](const RecordedReplies& replies) {
+    return ReplayModel(replies, ReplayPace::at_once, clock_).description();
+  };
+  RecordedReplies other = recorded();
+  other.replies.begin()->second.reply.reply_tokens += 1;
+  EXPECT_THAT(description(recorded()), HasSubstr("replay of script ("));
+  EXPECT_EQ(description(recorded()), description(recorded()));
+  EXPECT_NE(description(recorded()), description(other));
+}
+
 TEST_F(ReplayTest, FileKeepsEverything) {
   ManualClock clock;
   ScriptedModel slow(&slowly, clock);

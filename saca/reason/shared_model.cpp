@@ -83,7 +83,7 @@ Result<std::vector<Reply>> SharedModel::known_or_asked(const Question& question,
   Clock::Time begin = now;
   auto replies = ask();
   const bool again = replies.has_value() ? !is_whole(replies) : !said(replies);
-  if (again && !stop.stop_requested()) {
+  if (again && !stop.stop_requested() && clock_.now() < begin + patience) {
     begin = clock_.now();
     replies = ask();
   }

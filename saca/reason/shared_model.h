@@ -18,9 +18,9 @@ namespace saca::reason {
 ///
 /// What the machine does meanwhile must not look like something that the model said. So the time
 /// that a question waits for its turn does not count; a question on which the model dies, or whose
-/// reply is cut before its last answer, is put once more; and where that fails as well, `failure()`
-/// tells it and no question is put any more: whoever asked throws away what came of it. That an
-/// answer is malformed is something that the model said.
+/// reply is cut before its last answer, is put once more while there is time; and where that fails
+/// as well, `failure()` tells it and no question is put any more: whoever asked throws away what
+/// came of it. That an answer is malformed is something that the model said.
 ///
 /// `ask` may be called by several threads at once. Progress is told when the whole reply is there.
 class SharedModel final : public LanguageModel {
