@@ -256,7 +256,7 @@ void Encounter::compare_with_driver() {
 }
 
 void Encounter::learn() {
-  if (setup_.memory == nullptr || !record_.decision) {
+  if (setup_.memory == nullptr || !setup_.learns || !record_.decision) {
     return;
   }
   const preview::PolicyFacts& best = (*record_.hindsight)[manoeuvre::index(*record_.best)].facts;

@@ -39,6 +39,7 @@ struct Setup {
   ThinkingCosts costs;                     ///< for lockstep
   reason::LanguageModel* model = nullptr;  ///< nullptr: without; deadlines on `clock`
   memory::Store* memory = nullptr;         ///< nullptr: without
+  bool learns = true;                      ///< what happened is added to memory in the end
   decide::Guard guard = decide::Guard::never_worse_than_braking;
   std::optional<manoeuvre::PolicyId> forced;  ///< carried out at the trigger, whatever was thought
   std::optional<std::uint64_t> seed;          ///< of what is left to chance; nullopt: nothing is
