@@ -20,10 +20,10 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 KEPT = ROOT / "docs" / "suites.json"
 PAGE = ROOT / "docs" / "suites.md"
 NUMBERS = ("harm", "regret", "harm_over_aeb", "contact", "right", "materially_worse_than_aeb", "needless", "false_trigger_loss",
-           "false_triggers", "regret_over_aeb", "cache_hit_rate", "agrees_with_driver")
+           "false_triggers", "regret_over_aeb", "cache_hit_rate", "memory_hit_rate", "agrees_with_driver")
 
 
-ORDER = ("saca", "saca_paper", "aeb", "r157", "cc_driver", "fsm", "rss", "rss_steering", "random", "nothing", "first_forecast",
+ORDER = ("saca", "saca_no_memory", "saca_no_model", "saca_paper", "aeb", "r157", "cc_driver", "fsm", "rss", "rss_steering", "random", "nothing", "first_forecast",
          "newest_forecast", "going_on_atlas", "beliefs_atlas", "beliefs_rolled_out", "beliefs_and_grip", "beliefs_and_followers",
          "beliefs_and_hidden", "true_atlas", "true_rolled_out", "oracle")  # as saca/eval/methods.cpp has them
 
@@ -90,6 +90,18 @@ def in_order(names):
     return sorted(names, key=lambda name: (ORDER.index(name) if name in ORDER else len(ORDER), name))
 
 
+def decisions(figures, place, method):
+    """One sentence on where the decisions of a method that thinks ahead came from; nothing where it had neither memory nor model."""
+    forecasts = figures.get(place + "forecasts", 0)
+    if not forecasts or not (figures.get("meta.memory") or figures.get("meta.model")):
+        return []
+    counted = {kind: ", ".join(f"{words} {figures[key]}" for key in sorted(figures) if key.startswith(place + kind + ".")
+                               for words in [key[len(place + kind) + 1:]]) for kind in ("source", "reason")}
+    return [f"\nDecisions of `{method}` by source: {counted['source']}; by reason: {counted['reason']}. Of {forecasts} forecasts memory knew "
+            f"{figures[place + 'memory_hits']} ({percent(figures, place + 'memory_hit_rate')} %); the model answered {figures[place + 'model_answered']} of the "
+            f"{figures[place + 'model_asked']} that it was asked about."]
+
+
 def suite_section(figures, name):
     head = f"suite.{name}."
     methods = methods_of(figures, head)
@@ -108,6 +120,8 @@ def suite_section(figures, name):
         text += ["\nRegret by family:\n",
                  table(["method", *families], [[f"`{m}`", *(f"{figures.get(f'{head}{m}.{f}.regret', float('nan')):.4f}" for f in families)]
                                                for m in methods])]
+    for m in methods:
+        text += decisions(figures, f"{head}{m}.", m)
     if head + "driver.n" in figures:
         agreement = ", ".join(f"`{m}` {percent(figures, f'{head}{m}.agrees_with_driver')} %" for m in methods)
         text.append(f"\n{figures[head + 'driver.n']} recorded drivers: harm {figures[head + 'driver.harm']:.4f}, "
@@ -152,7 +166,7 @@ def section(figures):
     if any(key.startswith("tables.") for key in figures):
         sections.append(tables_section(figures))
     made = (f"\n`{figures['meta.command']}`; seed {figures['meta.seed']}, commit {figures['meta.commit']}, {figures['meta.date']}, "
-            f"{figures['meta.processor']}.")
+            f"{figures['meta.processor']}" + "".join(f", {part}: {figures['meta.' + part]}" for part in ("memory", "model") if "meta." + part in figures) + ".")
     return "\n".join([*sections, made])
 
 

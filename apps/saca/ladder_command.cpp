@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/suite_decisions.h"
 #include "apps/saca/suite_pages.h"
 #include "saca/core/file.h"
 
@@ -24,7 +25,7 @@ struct Rung {
   const char* step;   ///< what is lost or won against `above`, in words
 };
 
-constexpr std::array<Rung, 12> rungs{{
+constexpr std::array<Rung, 12> usual_rungs{{
     {"oracle", nullptr, "Best in hindsight."},
     {"true_rolled_out", "oracle", "not knowing the grip, nor how the car differs from its data"},
     {"true_atlas", "true_rolled_out",
@@ -42,12 +43,23 @@ constexpr std::array<Rung, 12> rungs{{
     {"beliefs_and_hidden", "beliefs_rolled_out", "seeing everybody without noise or latency"},
 }};
 
+/// Where there is a memory or a model; without either SACA always brakes.
+constexpr Rung saca_rung{"saca", "aeb", "what memory and model hold, in place of always braking"};
+
+std::vector<Rung> rungs_with(const ThinkingOptions& thinking) {
+  std::vector<Rung> rungs(usual_rungs.begin(), usual_rungs.end());
+  if (!thinking.memory.empty() || thinking.model != "off") {
+    rungs.push_back(saca_rung);
+  }
+  return rungs;
+}
+
 struct LadderCommand {
   SuiteCommandOptions suite;
   bool as_json = false;
 };
 
-std::vector<std::string> rung_names() {
+std::vector<std::string> names_of(const std::vector<Rung>& rungs) {
   std::vector<std::string> names;
   names.reserve(rungs.size());
   for (const Rung& rung : rungs) {
@@ -58,11 +70,13 @@ std::vector<std::string> rung_names() {
 
 /// Regret of a rung and what its step costs.
 struct Climbed {
+  Rung rung;
   eval::MethodFigures figures;
   std::optional<Estimate> step;
 };
 
-std::vector<Climbed> climb(const SuiteRun& run, std::uint64_t seed) {
+std::vector<Climbed> climb(const SuiteRun& run, const std::vector<Rung>& rungs,
+                           std::uint64_t seed) {
   std::vector<const eval::SuiteRow*> all;
   for (const eval::SuiteRow& row : run.rows) {
     all.push_back(&row);
@@ -71,7 +85,7 @@ std::vector<Climbed> climb(const SuiteRun& run, std::uint64_t seed) {
   auto figures = eval::suite_figures(all, run.methods, at("aeb"), seed);
   std::vector<Climbed> climbed;
   for (std::size_t i = 0; i < figures.size(); ++i) {
-    climbed.push_back({std::move(figures[i]), std::nullopt});
+    climbed.push_back({rungs[i], std::move(figures[i]), std::nullopt});
     if (rungs[i].above != nullptr) {
       climbed.back().step = eval::harm_above(run.rows, i, at(rungs[i].above), seed);
     }
@@ -79,24 +93,27 @@ std::vector<Climbed> climb(const SuiteRun& run, std::uint64_t seed) {
   return climbed;
 }
 
-std::string step_text(const Climbed& one, const Rung& rung) {
+std::string step_text(const Climbed& one) {
   if (!one.step) {
-    return rung.step;
+    return one.rung.step;
   }
   const bool sure = one.step->low > 0.0 || one.step->high < 0.0;
-  return fmt::format("{}: {:+.4f} ({:+.4f} to {:+.4f}){}", rung.step, one.step->value,
+  return fmt::format("{}: {:+.4f} ({:+.4f} to {:+.4f}){}", one.rung.step, one.step->value,
                      one.step->low, one.step->high, sure ? "" : ", which may be chance");
 }
 
 json json_of(const SuiteRun& run, const std::vector<Climbed>& climbed, const std::string& name) {
   json out = run.meta;
   const std::string head = "ladder." + name + ".";
-  for (std::size_t i = 0; i < climbed.size(); ++i) {
-    add_estimate(out, head + rungs[i].method, climbed[i].figures.regret);
-    add_estimate(out, head + rungs[i].method + ".materially_worse_than_aeb",
-                 climbed[i].figures.worse_than_aeb);
-    if (climbed[i].step) {
-      add_estimate(out, head + rungs[i].method + ".step_from." + rungs[i].above, *climbed[i].step);
+  for (const Climbed& one : climbed) {
+    const std::string place = head + one.rung.method;
+    add_estimate(out, place, one.figures.regret);
+    add_estimate(out, place + ".materially_worse_than_aeb", one.figures.worse_than_aeb);
+    if (one.step) {
+      add_estimate(out, place + ".step_from." + one.rung.above, *one.step);
+    }
+    if (one.figures.thinking) {
+      add_decisions(out, place + ".", one.figures);
     }
   }
   return out;
@@ -120,9 +137,9 @@ report::SuitePage page_of(const SuiteRun& run, const std::vector<Climbed>& climb
           {"Paired differences of harm in the same encounters; a step that saves is negative."},
       .columns = {"regret", "step", "against", "materially worse than AEB, %", "in words"},
       .rows = {}};
-  for (std::size_t i = 0; i < climbed.size(); ++i) {
-    const eval::MethodInfo& info = *eval::find_method(rungs[i].method);
-    const Estimate& regret = climbed[i].figures.regret;
+  for (const Climbed& one : climbed) {
+    const eval::MethodInfo& info = *eval::find_method(one.rung.method);
+    const Estimate& regret = one.figures.regret;
     chart.rows.push_back({.name = std::string(info.title),
                           .looks = info.knows_truth ? "fill-grey" : "fill-blue",
                           .note = fmt::format("{:.4f}", regret.value),
@@ -132,18 +149,21 @@ report::SuitePage page_of(const SuiteRun& run, const std::vector<Climbed>& climb
     table.rows.push_back(
         {.name = std::string(info.title),
          .explanation = std::string(info.what),
-         .cells = {with_interval(regret, 4),
-                   climbed[i].step ? with_interval(*climbed[i].step, 4) : "-",
-                   rungs[i].above == nullptr
+         .cells = {with_interval(regret, 4), one.step ? with_interval(*one.step, 4) : "-",
+                   one.rung.above == nullptr
                        ? "-"
-                       : std::string(eval::find_method(rungs[i].above)->title),
-                   fmt::format("{:.1f}", 100.0 * climbed[i].figures.worse_than_aeb.value),
-                   rungs[i].step},
+                       : std::string(eval::find_method(one.rung.above)->title),
+                   fmt::format("{:.1f}", 100.0 * one.figures.worse_than_aeb.value), one.rung.step},
          .shades = {},
          .faded = info.knows_truth});
   }
   page.chart = std::move(chart);
   page.tables.push_back(std::move(table));
+  for (const Climbed& one : climbed) {
+    if (one.figures.thinking) {
+      page.tables.push_back(decisions_table(one.figures));
+    }
+  }
   page.footnotes = footnotes_of(run.meta);
   return page;
 }
@@ -155,7 +175,8 @@ int run(LadderCommand options) {
     suite.output = fmt::format("runs/ladder-{}-{}.json", name, suite.split);
   }
   suite.no_twins = true;
-  const auto ran = run_suite(suite, "ladder", rung_names());
+  const std::vector<Rung> rungs = rungs_with(suite.thinking);
+  const auto ran = run_suite(suite, "ladder", names_of(rungs));
   if (!ran.has_value()) {
     return refused(ran.error());
   }
@@ -163,7 +184,7 @@ int run(LadderCommand options) {
     complain("interrupted; the same command goes on where this one stopped");
     return was_interrupted;
   }
-  const auto climbed = climb(*ran.value(), suite.seed);
+  const auto climbed = climb(*ran.value(), rungs, suite.seed);
   if (climbed.empty()) {
     complain(suite.name + ": no encounter could be played; the journal holds why");
     return some_failed;
@@ -183,9 +204,9 @@ int run(LadderCommand options) {
   } else {
     fmt::print("{}: {} encounters; regret, and what each step adds to it, with 95 % intervals\n\n",
                suite.name, climbed.front().figures.regret.n);
-    for (std::size_t i = 0; i < climbed.size(); ++i) {
-      fmt::print("{:22} {:28} {}\n", rungs[i].method, with_interval(climbed[i].figures.regret, 4),
-                 step_text(climbed[i], rungs[i]));
+    for (const Climbed& one : climbed) {
+      fmt::print("{:22} {:28} {}\n", one.rung.method, with_interval(one.figures.regret, 4),
+                 step_text(one));
     }
     fmt::print("\npage: {}\n", fs::path(suite.output).replace_extension(".html").string());
   }

@@ -14,6 +14,7 @@
 #include "apps/saca/model.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/story.h"
+#include "apps/saca/thinking_options.h"
 #include "saca/core/file.h"
 #include "saca/loop/encounter.h"
 #include "saca/loop/review.h"
@@ -30,14 +31,14 @@ namespace fs = std::filesystem;
 struct RunOptions {
   std::string scenario;
   std::string pace = "real";
-  std::string model = "local";
+  ThinkingOptions thinking{.memory = "runs/memory.sqlite", .model = "local"};
   std::string record_replies;
   std::optional<int> policy;
   std::optional<std::uint64_t> seed;
   std::string atlas;
   std::string danger;
-  std::string memory = "runs/memory.sqlite";
   bool no_memory = false;
+  bool no_learning = false;
   std::string output = "runs";
   std::string report;
   std::string trace;
@@ -66,6 +67,24 @@ Result<std::optional<reach::DangerModel>> open_danger(const RunOptions& options,
   }
   auto model = usual_danger(inputs);
   return model.has_value() ? Result(std::optional(std::move(model).value())) : model.error();
+}
+
+/// nullptr: none is wanted.
+Result<std::shared_ptr<memory::Store>> open_memory(const RunOptions& options) {
+  if (options.no_memory) {
+    return std::shared_ptr<memory::Store>();
+  }
+  const std::string& file = options.thinking.memory;
+  if (const auto problem = make_folder_of(file)) {
+    return *problem;
+  }
+  auto opened = options.no_learning ? memory::Store::snapshot(file) : memory::Store::open(file);
+  if (!opened.has_value()) {
+    return Error{opened.error().code, opened.error().message + " (" +
+                                          (options.no_learning ? "" : "move the file away, or ") +
+                                          "run with --no-memory)"};
+  }
+  return std::make_shared<memory::Store>(std::move(opened).value());
 }
 
 std::optional<Error> write_outputs(const std::string& record, const fs::path& folder,
@@ -119,22 +138,14 @@ int run(const RunOptions& options) {
   if (!danger.has_value()) {
     return refused(danger.error());
   }
-  std::unique_ptr<memory::Store> memory;
-  if (!options.no_memory) {
-    if (const auto problem = make_folder_of(options.memory)) {
-      return refused(*problem);
-    }
-    auto opened = memory::Store::open(options.memory);
-    if (!opened.has_value()) {
-      complain(opened.error().message + " (move the file away, or run with --no-memory)");
-      return bad_input;
-    }
-    memory = std::make_unique<memory::Store>(std::move(opened).value());
+  const auto memory = open_memory(options);
+  if (!memory.has_value()) {
+    return refused(memory.error());
   }
   SteadyClock clock;
   const loop::Pace pace = options.pace == "real" ? loop::Pace::real : loop::Pace::lockstep;
-  const auto model =
-      ChosenModel::open(inputs.value().places, options.model, options.record_replies, pace, clock);
+  const auto model = ChosenModel::open(inputs.value().places, options.thinking.model,
+                                       options.record_replies, pace, clock);
   if (!model.has_value()) {
     return refused(model.error());
   }
@@ -149,7 +160,8 @@ int run(const RunOptions& options) {
       .pace = pace,
       .costs = costs.value(),
       .model = model.value().get(),
-      .memory = memory.get(),
+      .memory = memory.value().get(),
+      .learns = !options.no_learning,
       .forced = options.policy ? manoeuvre::policy_from(*options.policy) : std::nullopt,
       .seed = options.seed,
       .clock = &clock};
@@ -219,11 +231,7 @@ void add_run(CLI::App& line, int& exit_code) {
                    "real: the world goes on while SACA thinks; lockstep: fast and repeatable")
       ->check(CLI::IsMember({"real", "lockstep"}))
       ->capture_default_str();
-  command
-      ->add_option("--llm", options->model,
-                   "local: the language model of `make model`; off: none; replay:FILE: recorded "
-                   "replies; MODEL@URL: a server with /v1/chat/completions, key in SACA_LLM_KEY")
-      ->capture_default_str();
+  add_thinking_options(*command, options->thinking);
   command->add_option("--record-replies", options->record_replies,
                       "Write the model's replies to a file for --llm replay:FILE");
   command
@@ -239,8 +247,9 @@ void add_run(CLI::App& line, int& exit_code) {
       ->add_option("--danger", options->danger,
                    "off: risks by a few evasions (default: solved tables, made when needed)")
       ->check(CLI::IsMember({"off"}));
-  command->add_option("--memory", options->memory, "The memory bank")->capture_default_str();
   command->add_flag("--no-memory", options->no_memory, "Neither ask nor fill a memory");
+  command->add_flag("--no-learning", options->no_learning,
+                    "Ask the memory, but do not add to it what happens");
   command->add_option("--output", options->output, "Folder for records and reports")
       ->capture_default_str();
   command->add_option("--report", options->report, "Where the HTML report goes");

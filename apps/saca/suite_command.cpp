@@ -8,6 +8,7 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/regulation_command.h"
+#include "apps/saca/suite_decisions.h"
 #include "apps/saca/suite_pages.h"
 #include "apps/saca/traffic_suite.h"
 #include "saca/core/file.h"
@@ -88,23 +89,7 @@ json json_of(const SuiteRun& run, const SuiteResult& result, const SuiteCommandO
     if (aeb && result.all[*aeb].regret.value > 0.0) {
       out[place + "regret_over_aeb"] = one.regret.value / result.all[*aeb].regret.value;
     }
-    const auto hits = [&](const char* source) {
-      const auto found = one.sources.find(source);
-      return found == one.sources.end() ? 0 : found->second;
-    };
-    int decided = 0;
-    for (const auto& [source, times] : one.sources) {
-      out[place + "source." + (source.empty() ? "none" : source)] = times;
-      decided += times;
-    }
-    for (const auto& [reason, times] : one.reasons) {
-      if (!reason.empty()) {
-        out[fmt::format("{}reason.{}", place, reason)] = times;
-      }
-    }
-    if (one.method.starts_with("saca") && decided > 0) {
-      out[place + "cache_hit_rate"] = static_cast<double>(hits("memory") + hits("model")) / decided;
-    }
+    add_decisions(out, place, one);
     out[place + "faults"] = one.faults;
     for (const auto& [family, figures] : result.families) {
       if (!figures.empty()) {
@@ -152,6 +137,11 @@ void print(const SuiteRun& run, const SuiteResult& result, const SuiteCommandOpt
                with_interval(one.regret, 4), share(one.contact), share(one.right),
                share(one.worse_than_aeb), share(one.needless));
   }
+  for (const MethodFigures& one : result.all) {
+    if (one.thinking) {
+      fmt::print("\n{}\n", decisions_text(one));
+    }
+  }
   const DriverFigures drivers = driver_figures(run);
   if (drivers.count > 0) {
     fmt::print("\n{} recorded drivers: harm {:.4f}, {} met somebody, {} braked, {} moved aside\n",
@@ -195,6 +185,18 @@ int watch(const SuiteCommand& options) {
       options.as_json);
 }
 
+bool thinks(const CLI::App& line) {
+  return line.count("--memory") > 0 || line.count("--llm") > 0;
+}
+
+/// The usual methods, and SACA without what it was given.
+std::string usual_with(const ThinkingOptions& thinking) {
+  std::string methods = "saca";
+  methods += thinking.memory.empty() ? "" : ",saca_no_memory";
+  methods += thinking.model == "off" ? "" : ",saca_no_model";
+  return methods + std::string(usual_methods).substr(std::string_view("saca").size());
+}
+
 /// The tests of a regulation: nothing is drawn in them, and what is said of drawing is refused.
 int run_as_regulation(const CLI::App& line, const SuiteCommand& options) {
   for (const char* const name :
@@ -204,6 +206,11 @@ int run_as_regulation(const CLI::App& line, const SuiteCommand& options) {
                            options.suite.name));
       return wrong_command_line;
     }
+  }
+  if (thinks(line)) {
+    complain(fmt::format("--memory, --llm: {} tests SACA as it ships, without either",
+                         options.suite.name));
+    return wrong_command_line;
   }
   RegulationOptions tests{.name = options.suite.name,
                           .rows = options.rows,
@@ -236,6 +243,10 @@ int run(const CLI::App& line, SuiteCommand options) {
     complain("--data: want it with the suites 100car and traffic, and only there");
     return wrong_command_line;
   }
+  if (suite.name == traffic_suite && thinks(line)) {
+    complain("--memory, --llm: SACA watches the suite traffic, and decides nothing in it");
+    return wrong_command_line;
+  }
   if (suite.name == traffic_suite) {
     return watch(options);
   }
@@ -247,7 +258,10 @@ int run(const CLI::App& line, SuiteCommand options) {
     fmt::print("{}\n", command.value());
     return success;
   }
-  const auto methods = methods_from(suite.methods == "all" ? "" : suite.methods);
+  if (line.count("--methods") == 0) {
+    suite.methods = usual_with(suite.thinking);
+  }
+  const auto methods = methods_from(suite.methods == "all" ? "" : suite.methods, suite.thinking);
   if (!methods.has_value()) {
     complain(methods.error().message);
     return wrong_command_line;
@@ -292,7 +306,8 @@ void add_suite(CLI::App& line, int& exit_code) {
   add_suite_options(*command, options->suite);
   command
       ->add_option("--methods", options->suite.methods,
-                   "Names, separated by commas; all: every one")
+                   "Names, separated by commas; all: every one. With --memory or --llm the "
+                   "default has SACA without it as well")
       ->capture_default_str();
   command->add_option("--replay", options->replay,
                       "Write encounter N as a scenario, and print the command that plays it");

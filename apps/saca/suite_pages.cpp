@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "apps/saca/pictures.h"
+#include "apps/saca/suite_decisions.h"
 
 namespace saca::app {
 namespace {
@@ -176,34 +177,6 @@ report::PageTable families_of(const SuiteResult& result) {
   return table;
 }
 
-report::PageTable sources_of(const MethodFigures& one) {
-  report::PageTable table{
-      .heading = "Where the decisions of " + title_of(one.method) + " came from",
-      .lines = {},
-      .columns = {"times", "share, %"},
-      .rows = {}};
-  int all = 0;
-  for (const auto& [source, times] : one.sources) {
-    all += times;
-  }
-  const auto add = [&](const std::string& name, int times) {
-    table.rows.push_back(
-        {.name = name,
-         .explanation = {},
-         .cells = {std::to_string(times), fmt::format("{:.1f}", 100.0 * times / std::max(1, all))},
-         .shades = {}});
-  };
-  for (const auto& [source, times] : one.sources) {
-    add("source: " + (source.empty() ? std::string("its rule") : source), times);
-  }
-  for (const auto& [reason, times] : one.reasons) {
-    if (!reason.empty()) {
-      add("reason: " + reason, times);
-    }
-  }
-  return table;
-}
-
 /// Recorded drivers beside the methods, in the encounters in which there was one.
 std::optional<report::PageTable> drivers_of(const SuiteRun& run) {
   std::vector<const SuiteRow*> recorded;
@@ -299,7 +272,8 @@ std::optional<report::GalleryCard> card_of(const SuiteRun& run, const SuiteRow& 
       .best = view_of(scene->scene, *best),
       .command = fmt::format("saca suite {} --split {} --seed {}{}{} --replay {}", options.name,
                              options.split, options.seed, options.exact ? " --exact" : "",
-                             (options.car == "compact_rwd_ev" ? "" : " --car " + options.car) +
+                             thinking_text(options.thinking) +
+                                 (options.car == "compact_rwd_ev" ? "" : " --car " + options.car) +
                                  (options.data.empty() ? "" : " --data " + options.data.front()),
                              row.number)};
   card.done.badge = "done";
@@ -398,7 +372,12 @@ report::SuitePage page_of(const SuiteRun& run, const SuiteResult& result,
   page.lines = sentences(run, result);
   page.lines.insert(page.lines.end(), run.notes.begin(), run.notes.end());
   page.chart = chart_of(result);
-  page.tables = {all_figures(result), families_of(result), sources_of(result.all.front())};
+  page.tables = {all_figures(result), families_of(result)};
+  for (const MethodFigures& one : result.all) {
+    if (one.thinking || &one == &result.all.front()) {
+      page.tables.push_back(decisions_table(one));
+    }
+  }
   if (auto drivers = drivers_of(run)) {
     page.tables.insert(page.tables.begin(), std::move(*drivers));
   }

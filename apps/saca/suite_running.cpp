@@ -9,6 +9,7 @@
 #include "apps/saca/planes_making.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/suite_sources.h"
+#include "apps/saca/suite_thinking.h"
 #include "apps/saca/surveying.h"
 #include "saca/core/csv.h"
 #include "saca/core/file.h"
@@ -21,7 +22,8 @@ namespace fs = std::filesystem;
 using eval::SuiteEncounter;
 using eval::SuiteRow;
 
-constexpr std::size_t batch_per_thread = 16;  // encounters between two looks at the signals
+// Encounters between two looks at the signals; with a model, which takes seconds for each, one.
+constexpr std::size_t batch_per_thread = 16;
 
 std::string joined(const std::vector<std::string>& words) {
   std::string all;
@@ -42,6 +44,7 @@ eval::SuiteOptions how_of(const SuiteCommandOptions& options,
 struct Bench {
   SuiteEncounters source;
   std::unique_ptr<const PlanesOfCar> planes;
+  std::unique_ptr<SuiteThinking> thinking;
   eval::SuiteOptions how;
 };
 
@@ -57,12 +60,17 @@ Result<std::shared_ptr<Bench>> open_bench(const SuiteCommandOptions& options,
   if (!planes.has_value()) {
     return planes.error();
   }
-  return std::make_shared<Bench>(
-      Bench{std::move(opened), std::move(planes).value(), how_of(options, methods)});
+  auto thinking = SuiteThinking::open(options.thinking, planes.value()->inputs.places,
+                                      options.threads, *planes.value()->setup.clock);
+  if (!thinking.has_value()) {
+    return thinking.error();
+  }
+  return std::make_shared<Bench>(Bench{std::move(opened), std::move(planes).value(),
+                                       std::move(thinking).value(), how_of(options, methods)});
 }
 
 /// A row, whatever happens: what cannot be drawn is a fault of that encounter.
-SuiteRow row_of(const Bench& bench, std::uint64_t number) {
+SuiteRow row_of(Bench& bench, std::uint64_t number) {
   const auto encounter = bench.source.at(number);
   if (!encounter.has_value()) {
     return {.number = number,
@@ -72,8 +80,31 @@ SuiteRow row_of(const Bench& bench, std::uint64_t number) {
             .twin = {},
             .driver = {}};
   }
-  return eval::run_encounter(encounter.value(), bench.how, bench.planes->setup,
-                             bench.planes->inputs.intent);
+  const SuiteThinking::Loan loan = bench.thinking->lend(bench.planes->setup);
+  return eval::run_encounter(encounter.value(), bench.how, loan.setup, bench.planes->inputs.intent);
+}
+
+/// What the rows depend on besides the encounters.
+std::string work_of(const Bench& bench, const SuiteCommandOptions& options) {
+  const auto part = [](const char* name, const std::optional<std::string>& text) {
+    return text ? fmt::format(", {}: {}", name, *text) : std::string();
+  };
+  return fmt::format("{}, {}, seed {}{}{}{}: {}", bench.source.what, options.car, options.seed,
+                     options.exact ? ", exact" : "", part("memory", bench.thinking->memory_text()),
+                     part("model", bench.thinking->model_text()), joined(bench.how.methods));
+}
+
+/// Why there is no such row with this memory and model; nullptr: there is.
+const char* missing_for(const eval::MethodInfo& info, const ThinkingOptions& thinking) {
+  switch (info.needs) {
+    case eval::Needs::memory:
+      return thinking.memory.empty() ? "--memory FILE" : nullptr;
+    case eval::Needs::model:
+      return thinking.model == "off" ? "--llm MODEL" : nullptr;
+    case eval::Needs::nothing:
+      return nullptr;
+  }
+  return nullptr;
 }
 
 }  // namespace
@@ -85,12 +116,13 @@ std::optional<std::size_t> index_of(const std::vector<std::string>& methods,
                                 : std::optional(static_cast<std::size_t>(found - methods.begin()));
 }
 
-Result<std::vector<std::string>> methods_from(const std::string& list) {
+Result<std::vector<std::string>> methods_from(const std::string& list,
+                                              const ThinkingOptions& thinking) {
   std::vector<std::string> names;
   std::string known;
   for (const eval::MethodInfo& info : eval::methods()) {
     known += (known.empty() ? "" : ", ") + std::string(info.name);
-    if (list.empty()) {
+    if (list.empty() && missing_for(info, thinking) == nullptr) {
       names.emplace_back(info.name);
     }
   }
@@ -98,9 +130,15 @@ Result<std::vector<std::string>> methods_from(const std::string& list) {
     return names;
   }
   for (const std::string_view word : fields_of(list, ',')) {
-    if (eval::find_method(word) == nullptr) {
+    const eval::MethodInfo* const info = eval::find_method(word);
+    if (info == nullptr) {
       return Error{Error::Code::out_of_range,
                    fmt::format("--methods: want some of {}; got \"{}\"", known, word)};
+    }
+    if (const char* const missing = missing_for(*info, thinking)) {
+      return Error{Error::Code::out_of_range,
+                   fmt::format("--methods: want {} with \"{}\", which is SACA with all but that",
+                               missing, word)};
     }
     if (std::find(names.begin(), names.end(), word) != names.end()) {
       return Error{Error::Code::out_of_range,
@@ -124,10 +162,8 @@ Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
   if (auto problem = make_folder_of(path)) {
     return *problem;
   }
-  const auto journal =
-      Journal::open(path, fmt::format("saca {} {} of {}, {}, seed {}{}: {}", SACA_VERSION, command,
-                                      source.what, options.car, options.seed,
-                                      options.exact ? ", exact" : "", joined(methods)));
+  const auto journal = Journal::open(
+      path, fmt::format("saca {} {} of {}", SACA_VERSION, command, work_of(*bench, options)));
   if (!journal.has_value()) {
     return journal.error();
   }
@@ -158,15 +194,25 @@ Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
   const auto before = static_cast<int>(done.rows.size());
   ProgressLine progress(command, source.count, clock);
   const Clock::Time start = clock.now();
+  SuiteThinking& thinking = *bench->thinking;
+  const std::size_t at_once =
+      static_cast<std::size_t>(options.threads) * (thinking.has_model() ? 1 : batch_per_thread);
   while (done.rows.size() < count) {
     if (interrupted()) {
       return std::optional<SuiteRun>();
     }
     const std::size_t first = done.rows.size();
-    std::vector<SuiteRow> next(
-        std::min(batch_per_thread * static_cast<std::size_t>(options.threads), count - first));
+    std::vector<SuiteRow> next(std::min(at_once, count - first));
     in_parallel(next.size(), options.threads,
                 [&](std::size_t i) { next[i] = row_of(*bench, first + i); });
+    if (thinking.has_model() && interrupted()) {  // questions may have been withdrawn
+      return std::optional<SuiteRun>();
+    }
+    if (const auto failure = thinking.failure()) {
+      return Error{failure->code,
+                   fmt::format("--llm: {} (in encounters {} to {}; the same command goes on there)",
+                               failure->message, first, first + next.size() - 1)};
+    }
     for (SuiteRow& row : next) {
       if (!journal.value().add(eval::line_of(row))) {
         return Error{Error::Code::unwritable, path + ": cannot be added to"};
@@ -181,13 +227,20 @@ Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
                 fmt::format("saca {} {} --methods {} --count {} --split {} --car {} --seed {}{}{}",
                             command, options.name, joined(methods), options.count, options.split,
                             options.car, options.seed, options.exact ? " --exact" : "",
-                            (options.no_twins ? std::string(" --no-twins") : std::string()) +
+                            thinking_text(options.thinking) +
+                                (options.no_twins ? std::string(" --no-twins") : std::string()) +
                                 (options.data.empty() ? "" : " --data FOLDER"))},
                {"meta.seed", std::to_string(options.seed)},
                {"meta.n", std::to_string(count)},
                {"meta.split", options.split},
                {"meta.car", options.car},
                {"meta.version", SACA_VERSION}};
+  if (const auto& memory = thinking.memory_text()) {
+    done.meta["meta.memory"] = *memory;
+  }
+  if (const auto model = thinking.model_text()) {
+    done.meta["meta.model"] = *model;
+  }
   return std::optional(std::move(done));
 }
 
@@ -211,10 +264,13 @@ Result<std::string> write_encounter(const SuiteCommandOptions& options, std::uin
           write_file(file, sim::write_scenario(eval::as_played(encounter.value().scenario, how)))) {
     return *problem;
   }
-  return fmt::format("saca run {} --pace lockstep --llm off --no-memory{}", file.string(),
-                     how.exact
-                         ? std::string()
-                         : fmt::format(" --seed {}", eval::encounter_seed(options.seed, number)));
+  const ThinkingOptions& thinking = options.thinking;
+  return fmt::format(
+      "saca run {} --pace lockstep --llm {}{}{}", file.string(), thinking.model,
+      (thinking.model == "off" ? "" : " --danger off") +
+          (thinking.memory.empty() ? " --no-memory" : " --no-learning --memory " + thinking.memory),
+      how.exact ? std::string()
+                : fmt::format(" --seed {}", eval::encounter_seed(options.seed, number)));
 }
 
 void add_suite_options(CLI::App& command, SuiteCommandOptions& options) {
@@ -227,6 +283,7 @@ void add_suite_options(CLI::App& command, SuiteCommandOptions& options) {
                      "Of 100car the folder of the study's release; of traffic (SACA in shadow) "
                      "folders with CommonRoad files or that release");
   add_draw_options(command, options.count, options.split, options.test_log, options.car);
+  add_thinking_options(command, options.thinking);
   command.add_option("--seed", options.seed, "Of all that is drawn: same seed, same rows")
       ->capture_default_str();
   command.add_flag("--exact", options.exact,

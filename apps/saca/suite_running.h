@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/saca/inputs.h"
+#include "apps/saca/thinking_options.h"
 #include "saca/core/parallel.h"
 #include "saca/eval/suite.h"
 #include "saca/manoeuvre/atlas.h"
@@ -23,6 +24,7 @@ struct SuiteCommandOptions {
   std::string split = "calibration";
   std::string test_log;
   std::string car = "compact_rwd_ev";
+  ThinkingOptions thinking;
   std::uint64_t seed = 1;
   bool exact = false;
   bool no_twins = false;
@@ -63,7 +65,9 @@ struct SuiteRun {
 [[nodiscard]] std::optional<std::size_t> index_of(const std::vector<std::string>& methods,
                                                   std::string_view method);
 
-/// The names of a list "a,b,c"; empty: all.
-[[nodiscard]] Result<std::vector<std::string>> methods_from(const std::string& list);
+/// The names of a list "a,b,c"; empty: all that there are with this memory and model.
+/// @return  an error where a name is none, comes twice, or leaves out what was not given
+[[nodiscard]] Result<std::vector<std::string>> methods_from(const std::string& list,
+                                                            const ThinkingOptions& thinking);
 
 }  // namespace saca::app

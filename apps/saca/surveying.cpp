@@ -21,9 +21,9 @@ constexpr int batch = 64;  // encounters between two looks at the clock and the 
 
 /// Of everything that changes what is found: the files, and the program itself.
 std::optional<Error> add_files(const Places& places, const std::string& car, Fnv& hash) {
-  std::vector<fs::path> files{find_car(places, car), "/proc/self/exe",
-                              places.root / "data" / "harm.toml",
-                              places.root / "scenarios" / "splits.toml"};
+  std::vector<fs::path> files{
+      find_car(places, car), "/proc/self/exe", places.root / "data" / "harm.toml",
+      places.root / "data" / "thinking_costs.toml", places.root / "scenarios" / "splits.toml"};
   files.push_back(manoeuvre::tuning_path(files.front()));
   for (const auto& entry : fs::directory_iterator(places.root / "scenarios" / "families")) {
     if (entry.path().extension() == ".toml") {

@@ -15,10 +15,11 @@ class Server(http.server.BaseHTTPRequestHandler):
         if self.server.silent:
             self.server.let_go.wait()
             return
-        self.send_response(401 if self.server.refuses else 200)
+        refuses = self.server.refuses or (self.server.refuses_after is not None and len(self.server.asked) > self.server.refuses_after)
+        self.send_response(401 if refuses else 200)
         self.end_headers()
-        if self.server.refuses:
-            self.wfile.write(self.headers["Authorization"].encode())
+        if refuses:
+            self.wfile.write((self.headers["Authorization"] or "no key").encode())
             return
         for text in ("Scenario Analysis\n1. Grip is 0.90.\n", self.server.conclusion):
             self.wfile.write(b"data: " + json.dumps({"choices": [{"delta": {"content": text}}]}).encode() + b"\n\n")
@@ -32,6 +33,7 @@ class Server(http.server.BaseHTTPRequestHandler):
 def server():
     found = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Server)
     found.asked, found.refuses, found.conclusion = [], False, "Response to user: 6"
+    found.refuses_after = None  # so many questions
     found.silent, found.let_go = False, threading.Event()
     threading.Thread(target=found.serve_forever, daemon=True).start()
     yield found

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "saca/eval/suite_figures.h"
+#include "saca/report/suite_page.h"
+
+namespace saca::app {
+
+/// Where the decisions of a method came from, as a page shows it: sources, reasons, and of what
+/// thinks ahead what became of its forecasts.
+[[nodiscard]] report::PageTable decisions_table(const eval::MethodFigures& figures);
+
+/// The same as figures, their names after `place`.
+void add_decisions(nlohmann::json& out, const std::string& place,
+                   const eval::MethodFigures& figures);
+
+/// The same in a line, for the terminal.
+[[nodiscard]] std::string decisions_text(const eval::MethodFigures& figures);
+
+}  // namespace saca::app

@@ -1,0 +1,89 @@
+#include "apps/saca/suite_thinking.h"
+
+#include <fmt/core.h>
+
+#include <utility>
+#include <vector>
+
+#include "apps/saca/model.h"
+
+namespace saca::app {
+namespace {
+
+Result<std::vector<memory::Store>> copies_of(const std::string& file, int count) {
+  std::vector<memory::Store> copies;
+  for (int i = 0; i < count; ++i) {
+    auto copy = memory::Store::snapshot(file);
+    if (!copy.has_value()) {
+      return Error{copy.error().code, "--memory: " + copy.error().message};
+    }
+    copies.push_back(std::move(copy).value());
+  }
+  return copies;
+}
+
+/// Differs between copies that somebody wrote between.
+Result<std::string> text_of(const std::vector<memory::Store>& copies, const std::string& file) {
+  std::vector<std::uint64_t> digests;
+  for (const memory::Store& copy : copies) {
+    const auto digest = copy.digest();
+    if (!digest.has_value()) {
+      return digest.error();
+    }
+    if (!digests.empty() && digest.value() != digests.front()) {
+      return Error{Error::Code::unreadable, "--memory: " + file + ": another program writes to it"};
+    }
+    digests.push_back(digest.value());
+  }
+  return fmt::format("{} cases ({:016x})", copies.front().size(), digests.front());
+}
+
+}  // namespace
+
+Result<std::unique_ptr<SuiteThinking>> SuiteThinking::open(const ThinkingOptions& options,
+                                                           const Places& places, int threads,
+                                                           Clock& clock) {
+  std::unique_ptr<SuiteThinking> thinking(new SuiteThinking());
+  if (!options.memory.empty()) {
+    auto copies = copies_of(options.memory, threads);
+    if (!copies.has_value()) {
+      return copies.error();
+    }
+    auto text = text_of(copies.value(), options.memory);
+    if (!text.has_value()) {
+      return text.error();
+    }
+    thinking->memory_text_ = std::move(text).value();
+    thinking->memories_ = std::make_unique<LendingPool<memory::Store>>(std::move(copies).value());
+  }
+  if (options.model != "off") {
+    auto model = open_needed_model(places, options.model, loop::Pace::lockstep, clock);
+    if (!model.has_value()) {
+      return model.error();
+    }
+    watch_for_interrupt();
+    thinking->interrupt_ = std::make_unique<InterruptStop>();
+    thinking->model_ = std::move(model).value();
+    thinking->shared_ = std::make_unique<reason::SharedModel>(*thinking->model_, clock,
+                                                              thinking->interrupt_->token());
+  }
+  return thinking;
+}
+
+SuiteThinking::Loan SuiteThinking::lend(loop::PlanesSetup setup) {
+  Loan loan{.memory = memories_ ? memories_->lend() : LendingPool<memory::Store>::Loan(),
+            .setup = setup};
+  loan.setup.memory = loan.memory.get();
+  loan.setup.model = shared_.get();
+  return loan;
+}
+
+std::optional<Error> SuiteThinking::failure() const {
+  return shared_ ? shared_->failure() : std::nullopt;
+}
+
+std::optional<std::string> SuiteThinking::model_text() const {
+  return shared_ ? std::optional(shared_->description()) : std::nullopt;
+}
+
+}  // namespace saca::app

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "apps/saca/places.h"
+#include "apps/saca/progress.h"
+#include "apps/saca/thinking_options.h"
+#include "saca/core/lending_pool.h"
+#include "saca/loop/planes.h"
+#include "saca/memory/store.h"
+#include "saca/reason/shared_model.h"
+
+namespace saca::app {
+
+/// What SACA thinks with while many encounters are run on several threads: one language model for
+/// all, and for each thread a copy of the memory bank as it was at the start. So a row depends
+/// neither on the rows before it nor on the threads: nothing is learnt, and no two questions are
+/// put at once.
+class SuiteThinking {
+ public:
+  /// Signals are watched for from here on: an interrupt withdraws questions to the model.
+  /// @param clock    outlives this
+  /// @param threads  that think at once at most, >= 1
+  /// @return         an error where memory or model is not there: a row without it would be another
+  [[nodiscard]] static Result<std::unique_ptr<SuiteThinking>> open(const ThinkingOptions& options,
+                                                                   const Places& places,
+                                                                   int threads, Clock& clock);
+
+  /// What one encounter is run with, until it is let go: `setup` with memory and model.
+  struct Loan {
+    LendingPool<memory::Store>::Loan memory;
+    loop::PlanesSetup setup;
+  };
+  [[nodiscard]] Loan lend(loop::PlanesSetup setup);
+
+  [[nodiscard]] bool has_model() const { return shared_ != nullptr; }
+  /// Why the model cannot be asked any more: rows that were being run are then worth nothing.
+  [[nodiscard]] std::optional<Error> failure() const;
+
+  /// Number of cases and a digest of them; nullopt: without memory.
+  [[nodiscard]] const std::optional<std::string>& memory_text() const { return memory_text_; }
+  /// What the model says that it is; nullopt: without.
+  [[nodiscard]] std::optional<std::string> model_text() const;
+
+ private:
+  SuiteThinking() = default;
+
+  std::unique_ptr<LendingPool<memory::Store>> memories_;
+  std::optional<std::string> memory_text_;
+  std::unique_ptr<InterruptStop> interrupt_;
+  std::unique_ptr<reason::LanguageModel> model_;
+  std::unique_ptr<reason::SharedModel> shared_;
+};
+
+}  // namespace saca::app

@@ -1,0 +1,19 @@
+#include "apps/saca/thinking_options.h"
+
+namespace saca::app {
+
+void add_thinking_options(CLI::App& command, ThinkingOptions& options) {
+  command
+      .add_option("--llm", options.model,
+                  "local: the language model of `make model`; off: none; replay:FILE: recorded "
+                  "replies; MODEL@URL: a server with /v1/chat/completions, key in SACA_LLM_KEY")
+      ->capture_default_str();
+  command.add_option("--memory", options.memory, "The memory bank")->capture_default_str();
+}
+
+std::string thinking_text(const ThinkingOptions& thinking) {
+  return (thinking.memory.empty() ? "" : " --memory " + thinking.memory) +
+         (thinking.model == "off" ? "" : " --llm " + thinking.model);
+}
+
+}  // namespace saca::app
