@@ -195,6 +195,9 @@ void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>
     }
     preview.prompt = reason::scene_part(preview.situation, nearest,
                                         preview.nearest ? preview.nearest->similarity : 0.0);
+    if (!tools_.asking.facts) {
+      preview.prompt = reason::without_facts(preview.prompt);
+    }
     scenes.push_back(preview.prompt);
   }
   const double left = trigger - handover_margin - round.now();
@@ -210,6 +213,9 @@ void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>
       return;
     }
     Preview& preview = previews_[which[news.prompt]];
+    if (!tools_.asking.reasoning && !preview.reply.answers.empty()) {
+      return;  // the first answer stands
+    }
     if (!news.text.empty()) {
       output_.reasoning(preview.number, news.text);
     }
@@ -234,8 +240,11 @@ void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>
     Preview& preview = previews_[which[k]];
     preview.unheard = false;
     const reason::Reply& reply = replies.value()[k];
-    preview.reply.reasoning = reply.reasoning;
     preview.reply.prompt_tokens = reply.prompt_tokens;
+    if (!tools_.asking.reasoning) {
+      continue;
+    }
+    preview.reply.reasoning = reply.reasoning;
     preview.reply.reply_tokens = reply.reply_tokens;
     judge_reasoning(round, preview);
   }

@@ -15,6 +15,14 @@
 
 namespace saca::decide {
 
+/// What the language model is shown, and what of its reply counts: with less than all, it is found
+/// out what each is worth.
+struct Asking {
+  bool facts = true;      ///< what was computed about each manoeuvre stands in the prompt
+  bool reasoning = true;  ///< what it writes counts, and what it answers after that; else only its
+                          ///< first answer does
+};
+
 /// What the thinking plane works with. Whatever it points to outlives the plane.
 struct ThinkingTools {
   preview::ForecastTools forecast;
@@ -22,6 +30,7 @@ struct ThinkingTools {
   reason::LanguageModel* model = nullptr;  ///< nullptr: without language model
   Clock* clock = nullptr;                  ///< the one that the model's deadlines are on
   Guard guard = Guard::never_worse_than_braking;
+  Asking asking;
 };
 
 /// Where what was thought goes; called on the thread that thinks.

@@ -48,11 +48,13 @@ class Thinking : public testing::Test {
     return it;
   }
 
-  ThinkingPlane plane(reason::LanguageModel* model, memory::Store* memory = nullptr) {
+  ThinkingPlane plane(reason::LanguageModel* model, memory::Store* memory = nullptr,
+                      Asking asking = {}) {
     return {{.forecast = {.car = &car(), .harm = &harm_},
              .memory = memory,
              .model = model,
-             .clock = &clock_},
+             .clock = &clock_,
+             .asking = asking},
             {},
             {.publish = [this](const PlanCache& plans, double) { published_.push_back(plans); },
              .event = [this](const Event& event) { events_.push_back(event); },
@@ -99,6 +101,35 @@ TEST_F(Thinking, CachesWhatTheModelChoosesAndTheRolloutConfirms) {
   EXPECT_EQ(published_.back()[0].plan.policy, PolicyId::aes_left);
   EXPECT_FALSE(published_.back()[0].worse_than_aeb);
   EXPECT_EQ(text_, "because.");
+}
+
+// With its reasons it would be withdrawn (below); there are none.
+TEST_F(Thinking, WithoutReasoningTheFirstAnswerStands) {
+  const reason::ScriptedReply reply{
+      .lines = {{.answer = Answer::Kind::first, .policy = PolicyId::aes_left},
+                {.text = "1. AES-R is clear by 17.5 m.",
+                 .answer = Answer::Kind::ended,
+                 .policy = PolicyId::aes_right}},
+      .reply_tokens = 9};
+  reason::ScriptedModel model(reply, clock_);
+  ThinkingPlane thinking = plane(&model, nullptr, {.reasoning = false});
+  think(thinking, wreck_ahead());
+  const Preview& preview = thinking.previews()[0];
+  EXPECT_EQ(preview.plan->policy, PolicyId::aes_left);
+  EXPECT_EQ(preview.reply.answers.size(), 1U);
+  EXPECT_EQ(preview.reply.reasoning, "");
+  EXPECT_EQ(preview.truth, std::nullopt);
+  EXPECT_FALSE(preview.unheard);
+}
+
+TEST_F(Thinking, WithoutFactsTheManoeuvresAreNotInThePrompt) {
+  for (const bool facts : {true, false}) {
+    reason::ScriptedModel model(says(PolicyId::aes_left), clock_);
+    ThinkingPlane thinking = plane(&model, nullptr, {.facts = facts});
+    think(thinking, wreck_ahead());
+    EXPECT_EQ(thinking.previews()[0].prompt.find("## Manoeuvres") != std::string::npos, facts);
+    EXPECT_EQ(model.last_scenes(), std::vector{thinking.previews()[0].prompt});
+  }
 }
 
 // To the right nobody is either: the best forecast is one of the two, and it is the left one that

@@ -45,7 +45,8 @@ decide::ThinkingTools Planes::tools() {
                               .memory = setup_.memory,
                               .model = setup_.model,
                               .clock = setup_.clock,
-                              .guard = setup_.guard};
+                              .guard = setup_.guard,
+                              .asking = setup_.asking};
   if (!real()) {
     tools.model = charged_model_.get();
     tools.clock = &simulated_clock_;

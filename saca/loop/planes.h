@@ -36,6 +36,7 @@ struct PlanesSetup {
   reason::LanguageModel* model = nullptr;  ///< nullptr: without; deadlines on `clock`
   memory::Store* memory = nullptr;         ///< nullptr: without
   decide::Guard guard = decide::Guard::never_worse_than_braking;
+  decide::Asking asking;
   std::optional<manoeuvre::Plan> forced;  ///< carried out at the trigger, whatever was thought
   Clock* clock = nullptr;                 ///< real time
 };

@@ -26,6 +26,8 @@ using world::ActorKind;
 using world::Scene;
 
 constexpr std::string_view ego_name = "ego";
+constexpr std::string_view manoeuvres = "## Manoeuvres:\n";
+constexpr std::string_view historical = "## Historical Scenarios:\n";
 constexpr double conflict_horizon = 10.0;  // [s], as the risk's
 constexpr double trigger_tolerance = 0.5;  // [s], as the trigger's
 constexpr double standing = 0.05;          // [m/s]: below it rounds to 0.0
@@ -255,7 +257,7 @@ std::string actor_sections(const Scene& scene, const Lines& lines, const Depth& 
 
 std::string manoeuvre_section(const preview::Situation& situation, const Lines& lines,
                               const Depth& depth) {
-  std::string text = "## Manoeuvres:\n";
+  std::string text(manoeuvres);
   std::string refused;
   for (std::size_t k = 0; k < situation.facts.size(); ++k) {
     const preview::PolicyFacts& facts = situation.facts[k];
@@ -271,15 +273,14 @@ std::string manoeuvre_section(const preview::Situation& situation, const Lines& 
 // The case's own texts are not told: they come from a file.
 std::string history_section(const std::optional<memory::Case>& nearest, double similarity) {
   if (!nearest) {
-    return "## Historical Scenarios:\nnone\n";
+    return std::string(historical) + "none\n";
   }
   const auto told = [](PolicyId policy, double harm) {
     return fmt::format("{} {}, {}", manoeuvre::index(policy), name(policy), harm_text(harm));
   };
-  return fmt::format(
-      "## Historical Scenarios:\nA case {:.0f} % alike: carried out {}; best in hindsight {}\n",
-      100.0 * similarity, told(nearest->plan.policy, nearest->harm),
-      told(nearest->best, nearest->best_harm));
+  return fmt::format("{}A case {:.0f} % alike: carried out {}; best in hindsight {}\n", historical,
+                     100.0 * similarity, told(nearest->plan.policy, nearest->harm),
+                     told(nearest->best, nearest->best_harm));
 }
 
 std::string from_mildest() {
@@ -354,6 +355,13 @@ std::string scene_part(const preview::Situation& situation,
     }
   }
   return rendered(situation, lines, told, history);
+}
+
+std::string without_facts(const std::string& scene_part) {
+  const std::size_t begin = scene_part.find(manoeuvres);
+  const std::size_t end = scene_part.find(historical);
+  expects(begin < end && end != std::string::npos, "a scene part");
+  return scene_part.substr(0, begin) + scene_part.substr(end);
 }
 
 std::string policy_line(const preview::PolicyFacts& facts, const world::Scene& scene) {

@@ -36,6 +36,10 @@ constexpr int most_prompt_tokens = 450;
 [[nodiscard]] std::string scene_part(const preview::Situation& situation,
                                      const std::optional<memory::Case>& nearest, double similarity);
 
+/// A scene part without what was computed about each manoeuvre, as the paper's prompts are: to find
+/// out what that is worth.
+[[nodiscard]] std::string without_facts(const std::string& scene_part);
+
 /// What a policy is forecast to end in, in one line: "0 AEB: clear by 0.6 m, no harm". Used
 /// by prompt, terminal and report alike.
 [[nodiscard]] std::string policy_line(const preview::PolicyFacts& facts, const world::Scene& scene);

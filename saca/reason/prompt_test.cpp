@@ -210,6 +210,15 @@ TEST(Prompt, LinesAreKnownByTheirPolicy) {
   EXPECT_EQ(of_ego, 1);
 }
 
+TEST(Prompt, WithoutFactsTheRestIsAsItWas) {
+  const std::string whole = prompt(example_situation());
+  const std::string rest = without_facts(whole);
+  const std::size_t begin = whole.find("## Manoeuvres:");
+  EXPECT_EQ(rest.substr(0, begin), whole.substr(0, begin));
+  EXPECT_EQ(rest.substr(begin), whole.substr(whole.find("## Historical Scenarios:")));
+  EXPECT_THROW((void)without_facts("something else"), ContractViolation);
+}
+
 TEST(Prompt, ListsOfDifferentLengthAreRefused) {
   preview::Situation situation = example_situation();
   situation.risks.pop_back();
