@@ -1,194 +1,172 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "apps/saca/model.h"
 #include "apps/saca/model_commands.h"
-#include "apps/saca/model_scoring.h"
+#include "apps/saca/suite_pages.h"
+#include "apps/saca/surveying.h"
+#include "saca/eval/model_score.h"
 
 namespace saca::app {
 namespace {
 
-using eval::Finding;
-using eval::Probabilities;
-using manoeuvre::PolicyId;
+using eval::Estimate;
+using eval::MethodFigures;
+using eval::ModelScore;
 using nlohmann::json;
 
-/// One way to choose, over all encounters.
-struct Row {
-  std::string_view key;
-  std::string_view words;
-  PolicyId (*choice)(const Score& score);
+struct ScoreOptions {
+  SurveyOptions survey;
+  std::string model = "local";
+  bool as_json = false;
 };
 
-constexpr std::array<Row, 8> rows{
-    {{"facts_at_once", "the model, at once",
-      [](const Score& s) { return likeliest(s.with_facts.first); }},
-     {"facts_reasoned", "the model, after reasoning",
-      [](const Score& s) { return likeliest(s.with_facts.last); }},
-     {"facts_checked", "the same, checked as SACA does", [](const Score& s) { return s.as_saca; }},
-     {"no_facts_at_once", "without our facts, at once",
-      [](const Score& s) { return likeliest(s.without_facts.first); }},
-     {"no_facts_reasoned", "without our facts, after reasoning",
-      [](const Score& s) { return likeliest(s.without_facts.last); }},
-     {"best_by_forecast", "the best forecast", [](const Score& s) { return s.by_forecast; }},
-     {"always_aeb", "always AEB", [](const Score&) { return PolicyId::aeb; }},
-     {"best_in_hindsight", "the best in hindsight",
-      [](const Score& s) { return s.finding.best; }}}};
-
-std::vector<Finding> findings_of(const std::vector<Score>& scores) {
-  std::vector<Finding> all(scores.size());
-  std::transform(scores.begin(), scores.end(), all.begin(),
-                 [](const Score& one) { return one.finding; });
-  return all;
+json interval_of(const Estimate& estimate) {
+  return {
+      {"mean", estimate.value}, {"low", estimate.low}, {"high", estimate.high}, {"n", estimate.n}};
 }
 
-eval::ChoiceFigures figures_of(const Row& row, const std::vector<Score>& scores) {
-  std::vector<PolicyId> choices(scores.size());
-  std::transform(scores.begin(), scores.end(), choices.begin(), row.choice);
-  return eval::figures_of(findings_of(scores), choices);
-}
-
-/// What was said, beside what was chosen.
-json talk_of(const std::vector<Score>& scores, const Said Score::*which) {
-  int valid = 0;
-  int ended = 0;
-  int checked = 0;
-  int wrong = 0;
-  int unfounded = 0;
-  for (const Score& one : scores) {
-    const Said& said = one.*which;
-    valid += said.valid ? 1 : 0;
-    ended += said.ended ? 1 : 0;
-    checked += said.checked;
-    wrong += said.wrong;
-    unfounded += said.unfounded ? 1 : 0;
-  }
-  const auto num = static_cast<double>(scores.size());
-  return {{"valid_share", valid / num},
-          {"ended_share", ended / num},
-          {"statements_checked", checked},
-          {"statements_true_share",
-           checked > 0 ? json(1.0 - static_cast<double>(wrong) / checked) : json()},
-          {"unfounded_share", unfounded / num}};
-}
-
-json document_of(const std::vector<Score>& scores, const ScoreOptions& options,
-                 const std::string& description) {
-  json document = {{"schema", "saca.model_score/1"},
-                   {"command", command_line(options.survey, "model score")},
-                   {"model", description},
-                   {"encounters", scores.size()},
-                   {"choices", json::object()}};
-  const auto interval = [](const outcome::Mean& mean) {
-    return json{{"mean", mean.value}, {"low", mean.low}, {"high", mean.high}};
+/// What was said, beside what was carried out.
+json talk_of(const loop::ThinkingFigures& said) {
+  const auto share = [](int part, int of) {
+    return of > 0 ? json(static_cast<double>(part) / of) : json();
   };
-  const auto share = [](const Proportion& of) {
-    return json{{"share", of.share}, {"low", of.low}, {"high", of.high}};
-  };
-  for (const Row& row : rows) {
-    const eval::ChoiceFigures figures = figures_of(row, scores);
-    document["choices"][std::string(row.key)] = {{"right", share(figures.right)},
-                                                 {"harm", interval(figures.harm)},
-                                                 {"regret", interval(figures.regret)},
-                                                 {"contact", share(figures.contact)},
-                                                 {"quiet", figures.quiet},
-                                                 {"needless", figures.needless}};
+  return {
+      {"asked", said.asked},
+      {"answered_share", share(said.answered, said.asked)},
+      {"ended_share", share(said.ended, said.answered)},
+      {"statements_checked", said.statements},
+      {"statements_true_share", share(said.statements - said.false_statements, said.statements)},
+      {"unfounded_share", share(said.unfounded, said.answered)}};
+}
+
+json document_of(const ModelScore& score, const ScoreOptions& options, const SuiteRun& run) {
+  json document = {
+      {"schema", "saca.model_score/2"},
+      {"command",
+       fmt::format("{} --llm {}", command_line(options.survey, "model score"), options.model)},
+      {"model", run.meta.at("meta.model")},
+      {"encounters", score.choices.front().harm.n},
+      {"choices", json::object()}};
+  for (std::size_t i = 0; i < score.choices.size(); ++i) {
+    const MethodFigures& figures = score.choices[i];
+    const std::string_view key = eval::scored_choices()[i].key;
+    document["choices"][std::string(key)] = {{"method", figures.method},
+                                             {"right", interval_of(figures.right)},
+                                             {"harm", interval_of(figures.harm)},
+                                             {"regret", interval_of(figures.regret)},
+                                             {"contact", interval_of(figures.contact)},
+                                             {"needless", interval_of(figures.needless)},
+                                             {"sources", figures.sources}};
+    if (key == "facts_reasoned" || key == "no_facts_reasoned") {
+      document[key == "facts_reasoned" ? "with_facts" : "without_facts"] =
+          talk_of(figures.thinking.value_or(loop::ThinkingFigures{}));
+    }
   }
-  document["with_facts"] = talk_of(scores, &Score::with_facts);
-  document["without_facts"] = talk_of(scores, &Score::without_facts);
-  std::vector<Probabilities> said(scores.size());
-  std::transform(scores.begin(), scores.end(), said.begin(),
-                 [](const Score& one) { return one.with_facts.last; });
-  const std::vector<Finding> findings = findings_of(scores);
-  const double temperature = eval::best_temperature(findings, said);
-  document["temperature"] = {{"best", temperature},
-                             {"log_loss", eval::log_loss(findings, said, temperature)},
-                             {"log_loss_as_it_is", eval::log_loss(findings, said, 1.0)}};
+  if (const auto& calibration = score.calibration) {
+    document["temperature"] = {{"best", calibration->temperature},
+                               {"log_loss", calibration->log_loss},
+                               {"log_loss_as_it_is", calibration->log_loss_now},
+                               {"n", calibration->count}};
+  }
   return document;
 }
 
-void print(const json& document) {
-  fmt::print("{} encounters, {}\n\n{:36} {:>22} {:>26} {:>9} {:>14}\n",
-             document["encounters"].get<int>(), document["model"].get<std::string>(), "choice",
-             "best in hindsight", "regret", "contact", "needless");
-  for (const Row& row : rows) {
-    const json& one = document["choices"][std::string(row.key)];
-    const auto percent = [](const json& of) { return 100.0 * of.get<double>(); };
-    fmt::print(
-        "{:36} {:5.1f} % ({:4.1f} to {:4.1f}) {:8.4f} ({:.4f} to {:.4f}) {:7.1f} % {:6} of {:3}\n",
-        row.words, percent(one["right"]["share"]), percent(one["right"]["low"]),
-        percent(one["right"]["high"]), one["regret"]["mean"].get<double>(),
-        one["regret"]["low"].get<double>(), one["regret"]["high"].get<double>(),
-        percent(one["contact"]["share"]), one["needless"].get<int>(), one["quiet"].get<int>());
+std::string percent(const json& share) {
+  return share.is_null() ? "none" : fmt::format("{:.0f} %", 100.0 * share.get<double>());
+}
+
+void print(const ModelScore& score, const json& document) {
+  fmt::print("{} encounters, {}; means with 95 % intervals of what was carried out\n\n",
+             document["encounters"].get<int>(), document["model"].get<std::string>());
+  fmt::print("{:36} {:>22} {:>26} {:>9} {:>11} {:>9}\n", "choice", "as good as the best, %",
+             "regret", "contact,%", "needless,%", "by model");
+  for (std::size_t i = 0; i < score.choices.size(); ++i) {
+    const MethodFigures& one = score.choices[i];
+    const auto by_model = one.sources.find("model");
+    fmt::print("{:36} {:>22} {:>26} {:9.1f} {:>11} {:9}\n", eval::scored_choices()[i].title,
+               with_interval(one.right, 1, 100.0), with_interval(one.regret, 4),
+               100.0 * one.contact.value,
+               one.needless.n == 0 ? "-" : fmt::format("{:.1f}", 100.0 * one.needless.value),
+               by_model == one.sources.end() ? 0 : by_model->second);
   }
   for (const char* key : {"with_facts", "without_facts"}) {
     const json& talk = document[key];
     fmt::print(
-        "\n{}: {:.0f} % of the replies hold an answer, {:.0f} % end by themselves; of {} "
-        "statements that can be checked {} "
-        "are "
-        "true; {:.0f} % of the choices rest on something false",
-        std::string_view(key) == "with_facts" ? "With facts" : "Without",
-        100.0 * talk["valid_share"].get<double>(), 100.0 * talk["ended_share"].get<double>(),
-        talk["statements_checked"].get<int>(),
-        talk["statements_true_share"].is_null()
-            ? "none"
-            : fmt::format("{:.0f} %", 100.0 * talk["statements_true_share"].get<double>()),
-        100.0 * talk["unfounded_share"].get<double>());
+        "\n{}: of {} forecasts asked about {} got an answer in time, {} of these replies end by "
+        "themselves; of {} statements that can be checked {} are true; {} of the choices rest on "
+        "something false",
+        std::string_view(key) == "with_facts" ? "With facts" : "Without", talk["asked"].get<int>(),
+        percent(talk["answered_share"]), percent(talk["ended_share"]),
+        talk["statements_checked"].get<int>(), percent(talk["statements_true_share"]),
+        percent(talk["unfounded_share"]));
   }
-  fmt::print("\nTemperature: {:.2f} (log loss {:.3f}, as it is {:.3f})\n",
-             document["temperature"]["best"].get<double>(),
-             document["temperature"]["log_loss"].get<double>(),
-             document["temperature"]["log_loss_as_it_is"].get<double>());
+  fmt::print("\n");
+  if (const auto& calibration = score.calibration) {
+    fmt::print("Temperature: {:.2f} (log loss {:.3f}, as it is {:.3f}; {} encounters)\n",
+               calibration->temperature, calibration->log_loss, calibration->log_loss_now,
+               calibration->count);
+  }
 }
 
 int model_score(const ScoreOptions& options) {
-  const auto source = SuiteSource::open(options.survey, "model score");
-  if (!source.has_value()) {
-    return refused(source.error());
+  if (options.model == "off") {
+    return refused({Error::Code::malformed, "--llm: want a language model to ask, got `off`"});
   }
-  SteadyClock clock;
-  const auto model =
-      open_needed_model(source.value().inputs().places, options.model, loop::Pace::lockstep, clock);
-  if (!model.has_value()) {
-    return refused(model.error());
+  const SurveyOptions& survey = options.survey;
+  const SuiteCommandOptions suite{
+      .name = survey.suite,
+      .count = survey.count,
+      .split = survey.split,
+      .test_log = survey.test_log,
+      .car = survey.car,
+      .thinking = {.memory = "", .model = options.model},
+      .no_twins = true,
+      .journal = survey.journal.empty()
+                     ? fmt::format("runs/model-score-{}-{}.journal", survey.suite, survey.split)
+                     : survey.journal,
+      .threads = survey.threads};
+  const auto ran = run_suite(suite, "model score", eval::scored_methods());
+  if (!ran.has_value()) {
+    return refused(ran.error());
   }
-  const auto scores = score_all(source.value(), *model.value(), options);
-  if (!scores.has_value()) {
-    return refused(scores.error());
-  }
-  if (!scores.value()) {
+  if (!ran.value()) {
     complain("interrupted; the same command goes on where this one stopped");
     return was_interrupted;
   }
-  const json document = document_of(*scores.value(), options, model.value()->description());
+  const std::vector<eval::SuiteRow>& rows = ran.value()->rows;
+  const auto num_faults = std::count_if(
+      rows.begin(), rows.end(), [](const eval::SuiteRow& row) { return !row.fault.empty(); });
+  if (static_cast<std::size_t>(num_faults) == rows.size()) {
+    complain(survey.suite + ": no encounter could be played; the journal holds why");
+    return some_failed;
+  }
+  const ModelScore score = eval::model_score(rows, suite.seed);
+  const json document = document_of(score, options, *ran.value());
   if (options.as_json) {
     fmt::print("{}\n", document.dump(1, ' ', false, json::error_handler_t::replace));
   } else {
-    print(document);
+    print(score, document);
   }
-  return success;
+  return num_faults > 0 ? some_failed : success;
 }
 
 }  // namespace
 
 void add_model_score(CLI::App& model, int& exit_code) {
   CLI::App* const command = model.add_subcommand("score",
-                                                 "How well it chooses in a suite of encounters, "
+                                                 "How well it chooses in closed loop over a suite, "
                                                  "with and without our facts; can be interrupted");
   const auto options = std::make_shared<ScoreOptions>();
   options->survey.count = 300;
   options->survey.split = "calibration";
   add_survey_options(*command, options->survey);
   command->get_option("--count")->check(CLI::Range(2, 10'000'000));
-  command->remove_option(command->get_option("--threads"));  // one question at a time
   command->add_option("--llm", options->model, "As of `saca reason`")->capture_default_str();
   command->add_flag("--json", options->as_json, "For programs");
   command->callback([options, &exit_code] { exit_code = model_score(*options); });

@@ -158,7 +158,7 @@ Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
   }
   const std::shared_ptr<Bench>& bench = opened.value();
   const SuiteEncounters& source = bench->source;
-  const std::string path = options.output + ".journal";
+  const std::string path = options.journal.empty() ? options.output + ".journal" : options.journal;
   if (auto problem = make_folder_of(path)) {
     return *problem;
   }

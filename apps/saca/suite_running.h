@@ -28,7 +28,8 @@ struct SuiteCommandOptions {
   std::uint64_t seed = 1;
   bool exact = false;
   bool no_twins = false;
-  std::string output;  ///< empty: runs/suite-NAME-SPLIT.h5
+  std::string output;   ///< empty: runs/suite-NAME-SPLIT.h5
+  std::string journal;  ///< empty: beside the output
   int threads = usual_threads();
 };
 

@@ -1,69 +1,33 @@
-#include "saca/eval/choices.h"
+#include "saca/eval/calibration.h"
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "saca/core/contract.h"
+#include "saca/outcome/ordering.h"
 
 namespace saca::eval {
 namespace {
 
-using manoeuvre::PolicyId;
-
 constexpr double least_probability = 1e-12;
+constexpr double most_temperature = 20.0;  // the least is 1 / 20
 
 double log_of(double probability) {
   return std::log(std::max(probability, least_probability));
 }
 
-PolicyId carried_out(const Finding& finding, PolicyId choice) {
-  return finding.harm[manoeuvre::index(choice)] ? choice : PolicyId::aeb;
-}
-
-/// d log_loss / d(1 / temperature), which rises: mean log under the tempered less log of the
-/// best's.
-double slope(std::span<const Finding> findings, std::span<const Probabilities> said,
-             double temperature) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < said.size(); ++i) {
-    const Probabilities soft = tempered(said[i], temperature);
-    for (std::size_t k = 0; k < soft.size(); ++k) {
-      sum += soft[k] * log_of(said[i][k]);
-    }
-    sum -= log_of(said[i][manoeuvre::index(findings[i].best)]);
-  }
-  return sum;
-}
-
 }  // namespace
 
-ChoiceFigures figures_of(std::span<const Finding> findings, std::span<const PolicyId> choices) {
-  expects(findings.size() == choices.size() && findings.size() >= 2, "two choices at least");
-  ChoiceFigures figures{.count = static_cast<int>(findings.size())};
-  std::vector<double> harms;
-  std::vector<double> regrets;
-  int right = 0;
-  int contacts = 0;
-  for (std::size_t i = 0; i < findings.size(); ++i) {
-    const Finding& finding = findings[i];
-    expects(finding.time.has_value(), "it triggered");
-    const PolicyId done = carried_out(finding, choices[i]);
-    const double harm = finding.harm[manoeuvre::index(done)].value();
-    harms.push_back(harm);
-    regrets.push_back(harm - finding.harm[manoeuvre::index(finding.best)].value());
-    right += done == finding.best ? 1 : 0;
-    contacts += finding.contact[manoeuvre::index(done)] ? 1 : 0;
-    if (finding.best == PolicyId::no_intervention) {
-      ++figures.quiet;
-      figures.needless += done == finding.best ? 0 : 1;
+RightPolicies right_policies(const Comparison& comparison) {
+  expects(!comparison.tried.empty(), "T1 comes");
+  const double best = outcome::harm_class(comparison.best_harm);
+  RightPolicies right{};
+  for (const TriedPlan& tried : comparison.tried) {
+    if (tried.harm && outcome::harm_class(*tried.harm) <= best) {
+      right[manoeuvre::index(tried.plan.policy)] = true;
     }
   }
-  figures.right = proportion(right, figures.count);
-  figures.contact = proportion(contacts, figures.count);
-  figures.harm = outcome::mean(harms);
-  figures.regret = outcome::mean(regrets);
-  return figures;
+  return right;
 }
 
 Probabilities tempered(const Probabilities& probabilities, double temperature) {
@@ -81,25 +45,47 @@ Probabilities tempered(const Probabilities& probabilities, double temperature) {
   return soft;
 }
 
-double log_loss(std::span<const Finding> findings, std::span<const Probabilities> said,
-                double temperature) {
-  expects(findings.size() == said.size() && !said.empty(), "answers of each encounter");
+double log_loss(std::span<const JudgedAnswer> judged, double temperature) {
+  expects(!judged.empty(), "at least one encounter");
   double sum = 0.0;
-  for (std::size_t i = 0; i < said.size(); ++i) {
-    sum -= log_of(tempered(said[i], temperature)[manoeuvre::index(findings[i].best)]);
+  for (const JudgedAnswer& one : judged) {
+    const Probabilities soft = tempered(one.said, temperature);
+    double given = 0.0;
+    for (std::size_t k = 0; k < soft.size(); ++k) {
+      given += one.right[k] ? soft[k] : 0.0;
+    }
+    sum -= log_of(given);
   }
-  return sum / static_cast<double>(said.size());
+  return sum / static_cast<double>(judged.size());
 }
 
-double best_temperature(std::span<const Finding> findings, std::span<const Probabilities> said) {
-  expects(findings.size() == said.size() && !said.empty(), "answers of each encounter");
-  double softest = 1.0 / 20.0;  // of 1 / temperature
-  double sharpest = 20.0;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = std::sqrt(softest * sharpest);
-    (slope(findings, said, 1.0 / middle) > 0.0 ? sharpest : softest) = middle;
+// With several right policies the loss may have several valleys: a scan finds the deepest.
+double best_temperature(std::span<const JudgedAnswer> judged) {
+  constexpr int num_steps = 60;
+  const double step = 2.0 * std::log(most_temperature) / num_steps;
+  const auto loss = [&](double log_temperature) {
+    return log_loss(judged, std::exp(log_temperature));
+  };
+  double best = -std::log(most_temperature);
+  double least = loss(best);
+  for (int k = 1; k <= num_steps; ++k) {
+    const double at = -std::log(most_temperature) + k * step;
+    if (const double here = loss(at); here < least) {
+      least = here;
+      best = at;
+    }
   }
-  return 1.0 / std::sqrt(softest * sharpest);
+  double low = std::max(best - step, -std::log(most_temperature));
+  double high = std::min(best + step, std::log(most_temperature));
+  while (high - low > 1e-3) {  // of the logarithm: 0.1 %
+    const double third = (high - low) / 3.0;
+    if (loss(low + third) < loss(high - third)) {
+      high -= third;
+    } else {
+      low += third;
+    }
+  }
+  return std::exp(0.5 * (low + high));
 }
 
 }  // namespace saca::eval

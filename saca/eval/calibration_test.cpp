@@ -1,50 +1,31 @@
-#include "saca/eval/choices.h"
+#include "saca/eval/calibration.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
-#include <vector>
 
 #include "saca/core/contract.h"
 
-namespace saca::eval::choices_test {
+namespace saca::eval::calibration_test {
 namespace {
 
+using manoeuvre::Plan;
 using manoeuvre::PolicyId;
 
-/// Braking harms at 0.2, swerving to the left at 0.1, doing nothing at 0.5; nothing else can be
-/// driven.
-Finding finding() {
-  Finding made{.family = "f", .time = 1.0, .best = PolicyId::aes_left};
-  made.harm[0] = 0.2;
-  made.harm[1] = 0.1;
-  made.harm[7] = 0.5;
-  made.contact[0] = made.contact[1] = made.contact[7] = true;
-  return made;
-}
-
-/// Doing nothing harms nobody.
-Finding quiet() {
-  Finding made{.family = "f", .time = 1.0, .best = PolicyId::no_intervention};
-  made.harm[0] = 0.0;
-  made.harm[7] = 0.0;
-  return made;
-}
-
-TEST(Choices, AreJudgedByWhatTheyLeadTo) {
-  const std::vector<Finding> found{finding(), finding(), quiet(), quiet()};
-  const ChoiceFigures figures =
-      figures_of(found, std::vector{PolicyId::aes_left, PolicyId::t_drift_left,
-                                    PolicyId::no_intervention, PolicyId::aeb});
-  EXPECT_EQ(figures.count, 4);
-  EXPECT_DOUBLE_EQ(figures.right.share, 0.5);
-  EXPECT_NEAR(figures.harm.value, (0.1 + 0.2) / 4.0, 1e-12);  // the drift is refused: braking
-  EXPECT_NEAR(figures.regret.value, (0.0 + 0.1) / 4.0, 1e-12);
-  EXPECT_DOUBLE_EQ(figures.contact.share, 0.5);
-  EXPECT_EQ(figures.quiet, 2);
-  EXPECT_EQ(figures.needless, 1);
-  EXPECT_THROW((void)figures_of(found, std::vector{PolicyId::aeb}), ContractViolation);
+TEST(RightPolicies, AreAllThatTieWithTheBestPlan) {
+  Comparison made;
+  made.tried = {{Plan{PolicyId::aeb, std::nullopt}, 0.2, true},
+                {Plan{PolicyId::aes_left, std::nullopt}, 0.0, false},
+                {Plan{PolicyId::es_b_left, 5.0}, 0.4, true},
+                {Plan{PolicyId::es_b_left, 10.0}, 0.0, false},  // another speed of the same
+                {Plan{PolicyId::t_drift_left, std::nullopt}, std::nullopt, false}};
+  made.best_harm = 0.0;
+  RightPolicies wanted{};
+  wanted[manoeuvre::index(PolicyId::aes_left)] = true;
+  wanted[manoeuvre::index(PolicyId::es_b_left)] = true;
+  EXPECT_EQ(right_policies(made), wanted);
+  EXPECT_THROW((void)right_policies(Comparison{}), ContractViolation);
 }
 
 TEST(Temperature, LeavesTheOrderAndOneAsItIs) {
@@ -61,11 +42,15 @@ TEST(Temperature, LeavesTheOrderAndOneAsItIs) {
   EXPECT_GT(tempered(p, 0.2)[0], 0.75);
 }
 
+TEST(LogLoss, CountsWhatAllThatAreRightWereGiven) {
+  const std::vector<JudgedAnswer> judged{{{0.5, 0.25, 0.25}, {true, true}}, {{0.5, 0.5}, {true}}};
+  EXPECT_NEAR(log_loss(judged, 1.0), -(std::log(0.75) + std::log(0.5)) / 2.0, 1e-9);
+}
+
 // Choices drawn from softened probabilities: the sharp ones are softened as much.
 TEST(Temperature, IsFoundAgain) {
   std::mt19937 random(3);
-  std::vector<Finding> found;
-  std::vector<Probabilities> said;
+  std::vector<JudgedAnswer> judged;
   for (int i = 0; i < 20'000; ++i) {
     Probabilities p{};
     double sum = 0.0;
@@ -77,28 +62,25 @@ TEST(Temperature, IsFoundAgain) {
       each /= sum;
     }
     const Probabilities truth = tempered(p, 2.5);
-    Finding one;
-    one.time = 1.0;
-    one.best = manoeuvre::all_policies.at(
-        std::discrete_distribution<std::size_t>(truth.begin(), truth.end())(random));
-    found.push_back(one);
-    said.push_back(p);
+    JudgedAnswer one{.said = p, .right = {}};
+    one.right.at(std::discrete_distribution<std::size_t>(truth.begin(), truth.end())(random)) =
+        true;
+    judged.push_back(one);
   }
-  const double best = best_temperature(found, said);
+  const double best = best_temperature(judged);
   EXPECT_NEAR(best, 2.5, 0.15);  // 20,000 draws
-  EXPECT_LT(log_loss(found, said, best), log_loss(found, said, 0.9 * best));
-  EXPECT_LT(log_loss(found, said, best), log_loss(found, said, 1.1 * best));
+  EXPECT_LT(log_loss(judged, best), log_loss(judged, 0.9 * best));
+  EXPECT_LT(log_loss(judged, best), log_loss(judged, 1.1 * best));
 }
 
 // Always sure and always wrong: as soft as it goes, not beyond.
 TEST(Temperature, HasEnds) {
-  const std::vector<Finding> found{finding(), finding()};
-  const std::vector<Probabilities> wrong(2, Probabilities{1.0});
-  EXPECT_NEAR(best_temperature(found, wrong), 20.0, 1e-6);
-  std::vector<Probabilities> right(2);
-  right[0][1] = right[1][1] = 1.0;
-  EXPECT_NEAR(best_temperature(found, right), 0.05, 1e-6);
+  JudgedAnswer one{.said = {1.0}, .right = {false, true}};
+  EXPECT_NEAR(best_temperature({&one, 1}), 20.0, 0.02);
+  one.right = {true};
+  one.said = {0.6, 0.4};
+  EXPECT_NEAR(best_temperature({&one, 1}), 0.05, 5e-5);
 }
 
 }  // namespace
-}  // namespace saca::eval::choices_test
+}  // namespace saca::eval::calibration_test

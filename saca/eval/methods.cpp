@@ -28,7 +28,7 @@ using preview::Physics;
 
 constexpr Plan full_braking{PolicyId::aeb, std::nullopt};
 
-constexpr std::array<MethodInfo, 23> infos{{
+constexpr std::array<MethodInfo, 26> infos{{
     {"saca", "SACA",
      "The shipped planes: a cached plan that matches and does not harm more than braking, else "
      "emergency braking at T1."},
@@ -39,6 +39,14 @@ constexpr std::array<MethodInfo, 23> infos{{
     {"saca_paper", "SACA, as in the paper",
      "Algorithm 1 to the letter: a cached plan above 90 %, else emergency braking at T1; nothing "
      "is held against braking."},
+    {"saca_paper_at_once", "The same, first answers only",
+     "As saca_paper; the language model's answer right after the prompt, before it writes a word.",
+     false, Needs::model},
+    {"saca_paper_no_facts", "The same, without our facts",
+     "As saca_paper; nothing that was computed about the manoeuvres stands in the prompt.", false,
+     Needs::model},
+    {"saca_paper_no_facts_at_once", "The same, first answers only",
+     "As saca_paper_no_facts; the answer right after the prompt.", false, Needs::model},
     {"nothing", "No intervention", "Lane and speed are kept, whatever comes."},
     {"aeb", "AEB at T1", "Full braking as soon as the conflict is within T1 = 1.3 s."},
     {"r157", "Braking rule of UN R157",
@@ -224,8 +232,10 @@ outcome::Others with_true_followers(const View& view, const JointMotion& motion)
 
 /// The planes of one of SACA's rows.
 loop::PlanesSetup planes_of(std::string_view name, loop::PlanesSetup planes) {
-  planes.guard =
-      name == "saca_paper" ? decide::Guard::none : decide::Guard::never_worse_than_braking;
+  planes.guard = name.starts_with("saca_paper") ? decide::Guard::none
+                                                : decide::Guard::never_worse_than_braking;
+  planes.asking = {.facts = name.find("_no_facts") == std::string_view::npos,
+                   .reasoning = !name.ends_with("_at_once")};
   planes.memory = name == "saca_no_memory" ? nullptr : planes.memory;
   planes.model = name == "saca_no_model" ? nullptr : planes.model;
   return planes;

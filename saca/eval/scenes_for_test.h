@@ -37,6 +37,17 @@ inline sim::Scenario standing_car(double speed, double distance) {
   return scenario;
 }
 
+/// 22 m/s on a grip of 0.5 towards a standing car: braking at T1 needs 49 m and has 28.6 m, a
+/// lane change to the left, which is free, some 25 m.
+inline sim::Scenario only_left_helps() {
+  sim::Scenario scenario = standing_car(22.0, 120.0);
+  scenario.grip = 0.5;
+  scenario.road.left_edge = 5.25;
+  scenario.road.right_edge = -1.75;
+  scenario.road.right_beyond = world::Beyond::barrier;
+  return scenario;
+}
+
 /// A closed loop to be shown as the truth to methods that may not look at it.
 struct UnseenTruth {
   manoeuvre::Car car = manoeuvre::default_car();

@@ -55,17 +55,6 @@ TEST_F(SuiteTest, ALineComesBack) {
   }
 }
 
-/// 22 m/s on a grip of 0.5 towards a standing car: braking at T1 needs 49 m and has 28.6 m; the
-/// lane to the left is free.
-sim::Scenario only_left_helps() {
-  sim::Scenario scenario = standing_car(22.0, 120.0);
-  scenario.grip = 0.5;
-  scenario.road.left_edge = 5.25;
-  scenario.road.right_edge = -1.75;
-  scenario.road.right_beyond = world::Beyond::barrier;
-  return scenario;
-}
-
 /// SACA with a memory that holds the scene at T1, where the best is to the left, or with a model
 /// that says so.
 class ThinkingTest : public SuiteTest {

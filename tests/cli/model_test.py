@@ -26,34 +26,35 @@ def test_bench_measures_any_model(server, tmp_path):
     assert "some-model" in told["meta.model"]
 
 
-def test_score_judges_by_hindsight_and_goes_on(server, tmp_path):
-    def score(count):
-        run = saca("model", "score", "--llm", name_of(server), "--count", count, "--json", cwd=tmp_path)
+def test_score_is_of_what_was_carried_out_and_goes_on(server, tmp_path):
+    def score(count, *more):
+        run = saca("model", "score", "--llm", name_of(server), "--count", count, "--json", *more, cwd=tmp_path)
         assert run.returncode == SUCCESS, run.stderr
         return json.loads(run.stdout)
 
     told, asked = score(2), len(server.asked)
-    assert told["schema"] == "saca.model_score/1" and told["encounters"] == 2 and asked == 4
-    # Each encounter is asked about with and without facts; which encounter comes first is left to the threads.
-    with_facts = ["## Manoeuvres:" in question["messages"][-1]["content"] for question in server.asked]
-    assert sorted(with_facts) == [False, False, True, True]
+    assert told["schema"] == "saca.model_score/2" and told["encounters"] == 2 and "some-model" in told["model"]
+    with_facts = {"## Manoeuvres:" in question["messages"][-1]["content"] for question in server.asked}
+    assert with_facts == {False, True}
     choices = told["choices"]
-    assert choices["best_in_hindsight"]["regret"]["mean"] == 0 and choices["best_in_hindsight"]["right"]["share"] == 1
-    for row in choices.values():
-        assert row["regret"]["mean"] >= 0 and row["quiet"] == choices["always_aeb"]["quiet"]
-    # What always drifts, unchecked, is never better than the best.
-    assert choices["facts_at_once"] == choices["facts_reasoned"] == choices["no_facts_reasoned"]
-    assert told["with_facts"]["ended_share"] == 1.0
+    assert abs(choices["best_in_hindsight"]["regret"]["mean"]) < 0.003
+    # A server has no answer before its text; what is not checked is carried out as it was said.
+    assert choices["facts_at_once"]["harm"] == choices["facts_reasoned"]["harm"]
+    assert choices["facts_checked"]["harm"]["mean"] <= choices["facts_reasoned"]["harm"]["mean"]
+    assert told["with_facts"]["asked"] > 0 and told["with_facts"]["ended_share"] == 1.0
+    assert told["with_facts"]["statements_checked"] > 0
 
     assert score(2) == told and len(server.asked) == asked  # remembered
-    assert score(3)["encounters"] == 3 and len(server.asked) == asked + 2
+    assert score(3)["encounters"] == 3 and len(server.asked) > asked
     lines = (tmp_path / "runs/model-score-balanced-calibration.journal").read_text().splitlines()
-    assert sum('"finding"' in line for line in lines) == 3
+    assert len(lines) == 1 + 3
+    score(3, "--threads", 1, "--journal", "one.journal")
+    assert (tmp_path / "one.journal").read_text().splitlines() == lines
 
     spoilt = tmp_path / "spoilt.journal"
     spoilt.write_text("\n".join([lines[0], "nonsense"]) + "\n")
     run = saca("model", "score", "--llm", name_of(server), "--count", 2, "--journal", spoilt, cwd=tmp_path)
-    assert "spoilt.journal: want a line of" in one_error(run, BAD_INPUT)
+    assert "spoilt.journal: line 2" in one_error(run, BAD_INPUT)
 
 
 def test_bench_of_a_model_that_does_not_answer_is_no_bench(server, tmp_path):
@@ -62,16 +63,13 @@ def test_bench_of_a_model_that_does_not_answer_is_no_bench(server, tmp_path):
     assert "got Scenario Analysis" in one_error(run, BAD_INPUT)
 
 
-def test_replies_without_an_answer_are_counted_as_invalid(server, tmp_path):
+def test_replies_without_an_answer_leave_braking(server, tmp_path):
     server.conclusion = "I cannot say."
     run = saca("model", "score", "--llm", name_of(server), "--count", 2, "--json", cwd=tmp_path)
     assert run.returncode == SUCCESS, run.stderr
     told = json.loads(run.stdout)
-    assert told["with_facts"]["valid_share"] == 0 and told["without_facts"]["valid_share"] == 0
-    assert told["choices"]["facts_reasoned"] == told["choices"]["facts_checked"] == told["choices"]["always_aeb"]
-    server.conclusion = "Response to user: 6"
-    run = saca("model", "score", "--llm", name_of(server), "--count", 4, "--json", cwd=tmp_path)
-    assert json.loads(run.stdout)["with_facts"]["valid_share"] == 0.5
+    assert told["with_facts"]["answered_share"] == 0 and "temperature" not in told
+    assert told["choices"]["facts_reasoned"]["harm"] == told["choices"]["facts_checked"]["harm"] == told["choices"]["always_aeb"]["harm"]
 
 
 def test_scoring_is_interrupted_while_the_model_is_silent(server, tmp_path):
@@ -82,7 +80,7 @@ def test_scoring_is_interrupted_while_the_model_is_silent(server, tmp_path):
         assert run.poll() is None, run.stderr.read()
         time.sleep(0.05)
     run.send_signal(signal.SIGINT)
-    _, told = run.communicate(timeout=500)  # the model has ten minutes
+    _, told = run.communicate(timeout=100)  # the model has two minutes
     assert run.returncode == INTERRUPTED and "goes on where this one stopped" in told
 
 
