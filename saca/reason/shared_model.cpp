@@ -1,11 +1,13 @@
 #include "saca/reason/shared_model.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 namespace saca::reason {
 namespace {
 
-constexpr std::size_t most_known = 256;  // questions; methods that part ask the same within seconds
+constexpr std::size_t most_known = 256;  // scenes; methods that part ask the same within seconds
 
 /// It began to answer and never came to its last word.
 bool is_cut(const Reply& reply) {
@@ -14,19 +16,25 @@ bool is_cut(const Reply& reply) {
                      [](const Answer& answer) { return answer.kind == Answer::Kind::first; });
 }
 
-bool is_whole(const Result<std::vector<Reply>>& replies) {
-  return replies.has_value() &&
-         std::none_of(replies.value().begin(), replies.value().end(), is_cut);
+/// Something that the model said, and not what became of it.
+bool is_said(const Result<Reply>& reply) {
+  return reply.has_value() || reply.error().code == Error::Code::malformed;
 }
 
-void tell(const std::vector<Reply>& replies, const std::function<void(const Progress&)>& progress) {
-  for (std::size_t i = 0; i < replies.size(); ++i) {
-    if (!replies[i].reasoning.empty()) {
-      progress({.prompt = i, .text = replies[i].reasoning});
-    }
-    for (const Answer& answer : replies[i].answers) {
-      progress({.prompt = i, .text = {}, .answer = &answer});
-    }
+Reply later_by(Reply reply, Clock::Time time) {
+  for (Answer& answer : reply.answers) {
+    answer.time += time;
+  }
+  return reply;
+}
+
+void tell(std::size_t prompt, const Reply& reply,
+          const std::function<void(const Progress&)>& progress) {
+  if (!reply.reasoning.empty()) {
+    progress({.prompt = prompt, .text = reply.reasoning});
+  }
+  for (const Answer& answer : reply.answers) {
+    progress({.prompt = prompt, .text = {}, .answer = &answer});
   }
 }
 
@@ -44,19 +52,30 @@ Result<std::vector<Reply>> SharedModel::reply_to(
   std::stop_source either;
   const std::stop_callback by_all(stop_, [&either] { either.request_stop(); });
   const std::stop_callback by_this(limits.stop, [&either] { either.request_stop(); });
-  Result<std::vector<Reply>> replies = [&] {
-    const std::lock_guard lock(mutex_);
-    return known_or_asked({scenes, limits.max_tokens}, patience, either.get_token());
-  }();
-  if (replies.has_value()) {
-    tell(replies.value(), progress);
+  std::vector<Reply> replies(scenes.size());
+  std::optional<Error> unanswered;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const auto reply = [&] {
+      const std::lock_guard lock(mutex_);
+      return known_or_asked({scenes[i], limits.max_tokens}, patience, either.get_token());
+    }();
+    if (!is_said(reply)) {
+      return reply.error();
+    }
+    if (reply.has_value()) {
+      replies[i] = reply.value();
+      tell(i, replies[i], progress);
+    } else {
+      unanswered = reply.error();
+    }
   }
-  return replies;
+  const bool any = std::any_of(replies.begin(), replies.end(),
+                               [](const Reply& reply) { return !reply.answers.empty(); });
+  return any || !unanswered ? Result(std::move(replies)) : *unanswered;
 }
 
-Result<std::vector<Reply>> SharedModel::known_or_asked(const Question& question,
-                                                       Clock::Time patience,
-                                                       const std::stop_token& stop) {
+Result<Reply> SharedModel::known_or_asked(const Question& question, Clock::Time patience,
+                                          const std::stop_token& stop) {
   if (stop.stop_requested()) {
     return Error{Error::Code::too_late, "the question is withdrawn"};
   }
@@ -64,55 +83,51 @@ Result<std::vector<Reply>> SharedModel::known_or_asked(const Question& question,
     return *failure_;
   }
   const Clock::Time now = clock_.now();
-  if (const auto found = known_.find(question); found != known_.end()) {
-    std::vector<Reply> replies = found->second;
-    for (Reply& reply : replies) {
-      for (Answer& answer : reply.answers) {
-        answer.time += now;
-      }
+  auto found = known_.find(question);
+  if (found == known_.end()) {
+    Result<Reply> reply = asked(question, patience, stop);
+    if (!is_said(reply)) {
+      return reply;
     }
-    return replies;
+    if (order_.size() == most_known) {
+      known_.erase(order_.front());
+      order_.pop_front();
+    }
+    found = known_.emplace(question, std::move(reply)).first;
+    order_.push_back(question);
   }
-  const auto ask = [&] {
-    return model_.ask(question.scenes, clock_.now() + patience, [](const Progress&) {},
-                      {.stop = stop, .max_tokens = question.max_tokens});
-  };
-  const auto said = [](const Result<std::vector<Reply>>& replies) {
-    return replies.has_value() || replies.error().code == Error::Code::malformed;
-  };
-  Clock::Time begin = now;
-  auto replies = ask();
-  const bool again = replies.has_value() ? !is_whole(replies) : !said(replies);
-  if (again && !stop.stop_requested() && clock_.now() < begin + patience) {
+  return found->second.has_value() ? Result(later_by(found->second.value(), now)) : found->second;
+}
+
+Result<Reply> SharedModel::asked(const Question& question, Clock::Time patience,
+                                 const std::stop_token& stop) {
+  Clock::Time begin{0};
+  const auto ask = [&]() -> Result<Reply> {
     begin = clock_.now();
-    replies = ask();
+    auto replies = model_.ask({question.scene}, begin + patience, [](const Progress&) {},
+                              {.stop = stop, .max_tokens = question.max_tokens});
+    return replies.has_value() ? Result(later_by(replies.value().front(), -begin))
+                               : replies.error();
+  };
+  // A model that knows its deadline ends a little before it.
+  const auto is_out_of_time = [&] { return clock_.now() - begin > patience / 10 * 9; };
+  Result<Reply> reply = ask();
+  const bool again = reply.has_value() ? is_cut(reply.value()) : !is_said(reply);
+  if (again && !stop.stop_requested() && !is_out_of_time()) {
+    reply = ask();
   }
   if (stop.stop_requested()) {  // what was said may be cut
     return Error{Error::Code::too_late, "the question is withdrawn"};
   }
-  if (!said(replies)) {
-    failure_ = replies.error();
-    return *failure_;
+  if (is_said(reply) && is_out_of_time()) {
+    reply = Error{Error::Code::too_late,
+                  fmt::format("{}: want a reply within {:.0f} s, got none or a part",
+                              model_.description(), to_seconds(patience))};
   }
-  if (replies.has_value()) {
-    std::vector<Reply> dated = replies.value();
-    for (Reply& reply : dated) {
-      for (Answer& answer : reply.answers) {
-        answer.time -= begin;
-      }
-    }
-    remember(question, dated);
+  if (!is_said(reply)) {
+    failure_ = reply.error();
   }
-  return replies;
-}
-
-void SharedModel::remember(const Question& question, const std::vector<Reply>& replies) {
-  if (order_.size() == most_known) {
-    known_.erase(order_.front());
-    order_.pop_front();
-  }
-  known_.emplace(question, replies);
-  order_.push_back(question);
+  return reply;
 }
 
 }  // namespace saca::reason

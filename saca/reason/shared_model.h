@@ -13,14 +13,15 @@
 
 namespace saca::reason {
 
-/// One model for several threads that compare what depends on its answers: questions are put one
-/// after the other, and what was lately answered is not asked again.
+/// One model for several threads that compare what depends on its answers: scenes are put to it one
+/// by one, so that no reply depends on what else is asked, and what was lately answered is not
+/// asked again. Where a question has several scenes this takes longer than to put them at once.
 ///
 /// What the machine does meanwhile must not look like something that the model said. So the time
 /// that a question waits for its turn does not count; a question on which the model dies, or whose
-/// reply is cut before its last answer, is put once more while there is time; and where that fails
-/// as well, `failure()` tells it and no question is put any more: whoever asked throws away what
-/// came of it. That an answer is malformed is something that the model said.
+/// reply is cut before its last answer, is put once more. Where that fails as well, or the deadline
+/// cuts the reply, `failure()` tells it and no question is put any more: whoever asked throws away
+/// what came of it. That an answer is malformed is something that the model said.
 ///
 /// `ask` may be called by several threads at once. Progress is told when the whole reply is there.
 class SharedModel final : public LanguageModel {
@@ -38,7 +39,7 @@ class SharedModel final : public LanguageModel {
 
  private:
   struct Question {
-    std::vector<std::string> scenes;
+    std::string scene;
     std::optional<int> max_tokens;
 
     auto operator<=>(const Question&) const = default;
@@ -47,18 +48,18 @@ class SharedModel final : public LanguageModel {
   [[nodiscard]] Result<std::vector<Reply>> reply_to(
       const std::vector<std::string>& scenes, Clock::Time deadline,
       const std::function<void(const Progress&)>& progress, const AskLimits& limits) override;
-  [[nodiscard]] Result<std::vector<Reply>> known_or_asked(const Question& question,
-                                                          Clock::Time patience,
-                                                          const std::stop_token& stop);
-  void remember(const Question& question, const std::vector<Reply>& replies);
+  [[nodiscard]] Result<Reply> known_or_asked(const Question& question, Clock::Time patience,
+                                             const std::stop_token& stop);
+  [[nodiscard]] Result<Reply> asked(const Question& question, Clock::Time patience,
+                                    const std::stop_token& stop);
 
   LanguageModel& model_;
   const Clock& clock_;
   std::stop_token stop_;
   mutable std::mutex mutex_;  ///< of the model and of all below
   std::optional<Error> failure_;
-  std::map<Question, std::vector<Reply>> known_;  ///< answer times count from the question
-  std::deque<Question> order_;                    ///< of `known_`, oldest first
+  std::map<Question, Result<Reply>> known_;  ///< answer times count from the question
+  std::deque<Question> order_;               ///< of `known_`, oldest first
 };
 
 }  // namespace saca::reason

@@ -60,7 +60,8 @@ TEST(SharedModel, DoesNotPutTheSameQuestionTwice) {
   });
   EXPECT_EQ(inner.num_asked(), 1U);
   EXPECT_EQ(again.value()[0].answers[1].probability, first[0].answers[1].probability);
-  EXPECT_THAT(told, testing::ElementsAre(6s, 6s));  // 1 s after this question
+  // The reply took no time of the clock and dates its answers 1 s after the question.
+  EXPECT_THAT(told, testing::ElementsAre(6s, 6s));
   EXPECT_TRUE(model.ask({"a"}, 14s, unheard, {.max_tokens = 2}).has_value());
   EXPECT_EQ(inner.num_asked(), 2U);  // that is another one
 }
@@ -87,13 +88,28 @@ TEST(SharedModel, OneThatStaysDeadIsAskedNoMore) {
   EXPECT_EQ(inner.num_asked(), 3U);
 }
 
+// How far it comes by then depends on the machine.
+TEST(SharedModel, AReplyThatTheDeadlineCutIsAFailure) {
+  ManualClock clock;
+  ScriptedModel inner(ScriptedReply{.lines = {{.text = "so", .answer = Answer::Kind::first},
+                                              {.after = 20s, .answer = Answer::Kind::ended}}},
+                      clock);
+  SharedModel model(inner, clock);
+  EXPECT_TRUE(model.ask({"a"}, 30s, unheard).has_value());
+  const auto cut = model.ask({"b"}, clock.now() + 10s, unheard);
+  ASSERT_FALSE(cut.has_value());
+  EXPECT_EQ(cut.error().code, Error::Code::too_late);
+  EXPECT_EQ(model.failure(), cut.error());
+}
+
 TEST(SharedModel, AnAnswerThatIsNoneIsSomethingSaid) {
   const ManualClock clock;
   const Error nonsense{Error::Code::malformed, "no answer in it"};
-  Queue inner({nonsense, nonsense});
+  Queue inner({nonsense, reply(Answer::Kind::ended)});
   SharedModel model(inner, clock);
   EXPECT_EQ(model.ask({"a"}, 9s, unheard).error(), nonsense);
   EXPECT_EQ(model.ask({"a"}, 9s, unheard).error(), nonsense);
+  EXPECT_EQ(inner.num_asked(), 1U);
   EXPECT_EQ(model.failure(), std::nullopt);
 }
 
@@ -110,6 +126,24 @@ TEST(SharedModel, AStopWithdrawsWithoutAFailure) {
   EXPECT_EQ(model.ask({"a"}, 9s, unheard).error().code, Error::Code::too_late);
   EXPECT_EQ(model.failure(), std::nullopt);
   EXPECT_EQ(inner.num_asked(), 0);
+}
+
+TEST(SharedModel, PutsScenesOneByOne) {
+  ManualClock clock;
+  const Error nonsense{Error::Code::malformed, "no answer in it"};
+  Queue inner({reply(Answer::Kind::ended), nonsense, reply(Answer::Kind::ended)});
+  SharedModel model(inner, clock);
+  std::vector<std::size_t> told;
+  const auto replies = model.ask({"a", "b"}, 9s, [&](const Progress& news) {
+    if (news.answer != nullptr) {
+      told.push_back(news.prompt);
+    }
+  });
+  EXPECT_EQ(replies.value()[0].answers.size(), 2U);
+  EXPECT_TRUE(replies.value()[1].answers.empty());  // the other's answers count all the same
+  EXPECT_THAT(told, testing::ElementsAre(0U, 0U));
+  EXPECT_EQ(model.ask({"b", "c", "a"}, 9s, unheard).value()[2].answers.size(), 2U);
+  EXPECT_EQ(inner.num_asked(), 3U);
 }
 
 /// Counts how many threads ask it at once.
