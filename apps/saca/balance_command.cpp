@@ -76,7 +76,7 @@ json figures_of(const eval::Balance& balance, const std::string& suite) {
 }
 
 int run(const BalanceCommand& options) {
-  const auto source = SuiteSource::open(options.survey, "balance");
+  const auto source = open_suite(options.survey, "balance");
   if (!source.has_value()) {
     return refused(source.error());
   }

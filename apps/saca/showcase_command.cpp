@@ -59,7 +59,7 @@ void give_name(Shown& one, PolicyId policy, std::size_t index) {
 
 /// Of the first candidates those that convince, and of these the ones in which the right policy
 /// meets somebody least often; fewer than wanted where too few do. nullopt: interrupted.
-Result<std::optional<std::vector<Shown>>> shown(const SuiteSource& source,
+Result<std::optional<std::vector<Shown>>> shown(const DrawnSuite& suite,
                                                 const std::vector<eval::Finding>& findings,
                                                 PolicyId policy, const ShowcaseCommand& options) {
   constexpr double hardly_ever = 0.02;
@@ -74,12 +74,12 @@ Result<std::optional<std::vector<Shown>>> shown(const SuiteSource& source,
     if (interrupted()) {
       return std::optional<std::vector<Shown>>();
     }
-    const auto sample = source.sample(all[i].number);
+    const auto sample = suite.source.sample(all[i].number);
     if (!sample.has_value()) {
       return sample.error();
     }
     const sim::Scenario& scenario = sample.value().scenario;
-    Shown one{scenario, eval::oracle(scenario, source.inputs().car, source.inputs().harm,
+    Shown one{scenario, eval::oracle(scenario, suite.inputs.car, suite.inputs.harm,
                                      {*all[i].time, options.rule.draws, options.seed,
                                       options.survey.threads})};
     if (convinces(one.oracle, policy, options.rule)) {
@@ -112,7 +112,7 @@ std::optional<Error> write(const Shown& one, const std::string& output) {
 }
 
 int run(const ShowcaseCommand& options) {
-  const auto source = SuiteSource::open(options.survey, "search-showcase");
+  const auto source = open_suite(options.survey, "search-showcase");
   if (!source.has_value()) {
     return refused(source.error());
   }

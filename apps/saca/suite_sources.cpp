@@ -123,28 +123,28 @@ Result<SuiteEncounters> open_encounters(const SuiteCommandOptions& options,
     return options.name == "100car" ? open_hundred_car(options, std::move(inputs).value())
                                     : open_folder(options, std::move(inputs).value());
   }
-  const auto suite = SuiteSource::open({.suite = options.name,
-                                        .car = options.car,
-                                        .count = options.count,
-                                        .split = options.split,
-                                        .test_log = options.test_log},
-                                       command);
+  const auto suite = open_suite({.suite = options.name,
+                                 .car = options.car,
+                                 .count = options.count,
+                                 .split = options.split,
+                                 .test_log = options.test_log},
+                                command);
   if (!suite.has_value()) {
     return suite.error();
   }
   SuiteEncounters source;
-  source.inputs = suite.value().inputs();
+  source.inputs = suite.value().inputs;
   source.count = options.count;
   source.what =
-      fmt::format("{}, {} split ({:016x})", options.name, options.split, suite.value().digest());
+      fmt::format("{}, {} split ({:016x})", options.name, options.split, suite.value().digest);
   source.at = [suite = suite.value(),
                twins = !options.no_twins](std::uint64_t number) -> Result<SuiteEncounter> {
-    auto sample = suite.sample(number);
+    auto sample = suite.source.sample(number);
     if (!sample.has_value()) {
       return sample.error();
     }
     return SuiteEncounter{.number = number,
-                          .family = suite.family_of(number),
+                          .family = suite.source.family_of(number),
                           .scenario = sample.value().scenario,
                           .twin = twins ? std::optional(sample.value().twin) : std::nullopt};
   };

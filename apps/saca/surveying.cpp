@@ -8,7 +8,6 @@
 #include "apps/saca/progress.h"
 #include "saca/core/file.h"
 #include "saca/core/fnv.h"
-#include "saca/core/journal.h"
 #include "saca/manoeuvre/ego.h"
 
 namespace saca::app {
@@ -16,8 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using eval::Finding;
-
-constexpr int batch = 64;  // encounters between two looks at the clock and the signals
 
 /// Of everything that changes what is found: the files, and the program itself.
 std::optional<Error> add_files(const Places& places, const std::string& car, Fnv& hash) {
@@ -41,73 +38,6 @@ std::optional<Error> add_files(const Places& places, const std::string& car, Fnv
   return std::nullopt;
 }
 
-/// A suite of that name, or a family as a suite of itself.
-Result<sim::Suite> find_suite(const Places& places, const std::string& wanted) {
-  const fs::path folder = places.root / "scenarios" / "families";
-  const auto suites = sim::load_suites(folder / "suites.toml");
-  if (!suites.has_value()) {
-    return suites.error();
-  }
-  std::string names;
-  for (const sim::Suite& suite : suites.value()) {
-    if (suite.name == wanted) {
-      return suite;
-    }
-    names += (names.empty() ? "" : ", ") + suite.name;
-  }
-  const bool is_plain = wanted.find('/') == std::string::npos && wanted != "surroundings";
-  if (is_plain && !wanted.empty() && fs::is_regular_file(folder / (wanted + ".toml"))) {
-    return sim::Suite{.name = wanted, .why = {}, .members = {{wanted, 1.0, {}}}};
-  }
-  return Error{Error::Code::out_of_range,
-               fmt::format("{}: want one of {}, or a family, got \"{}\"",
-                           (folder / "suites.toml").string(), names, wanted)};
-}
-
-/// What a journal remembers, in order.
-Result<std::vector<Finding>> remembered(const Journal& journal, const std::string& path,
-                                        int count) {
-  std::vector<Finding> found;
-  for (const std::string& line : journal.lines()) {
-    const auto finding = eval::finding_from(line);
-    if (!finding || finding->number != found.size()) {
-      return Error{Error::Code::malformed,
-                   fmt::format("{}: line {}: want the finding of encounter {}, got \"{}\"", path,
-                               found.size() + 2, found.size(), line)};
-    }
-    found.push_back(*finding);
-  }
-  found.resize(std::min(found.size(), static_cast<std::size_t>(count)));
-  return found;
-}
-
-/// The next few. The number of threads changes nothing.
-Result<std::vector<Finding>> look_on(const SuiteSource& source, std::size_t from, std::size_t to,
-                                     int threads) {
-  std::vector<sim::Scenario> scenarios(to - from);
-  std::vector<std::optional<Error>> problems(to - from);
-  in_parallel(scenarios.size(), threads, [&](std::size_t i) {
-    const auto sample = source.sample(from + i);
-    if (sample.has_value()) {
-      scenarios[i] = sample.value().scenario;
-    } else {
-      problems[i] = sample.error();
-    }
-  });
-  for (const auto& problem : problems) {
-    if (problem) {
-      return *problem;
-    }
-  }
-  std::vector<Finding> next =
-      eval::look_into(scenarios, source.inputs().car, source.inputs().harm, threads);
-  for (std::size_t i = 0; i < next.size(); ++i) {
-    next[i].number = from + i;
-    next[i].family = source.family_of(from + i);
-  }
-  return next;
-}
-
 }  // namespace
 
 std::string command_line(const SurveyOptions& options, const std::string& command) {
@@ -116,61 +46,35 @@ std::string command_line(const SurveyOptions& options, const std::string& comman
                      options.count, options.split, options.car, log);
 }
 
-Result<SuiteSource> SuiteSource::open(const SurveyOptions& options, const std::string& command) {
-  SuiteSource source;
+Result<DrawnSuite> open_suite(const SurveyOptions& options, const std::string& command) {
   auto inputs = read_inputs(options.car);
   if (!inputs.has_value()) {
     return inputs.error();
   }
-  source.inputs_ = inputs.value();
-  const Places& places = source.inputs_.places;
-  const auto suite = find_suite(places, options.suite);
-  if (!suite.has_value()) {
-    return suite.error();
-  }
-  source.suite_ = suite.value();
-  const auto splits = read_splits(places);
-  if (!splits.has_value()) {
-    return splits.error();
+  const Places& places = inputs.value().places;
+  Fnv hash;
+  if (auto problem = add_files(places, options.car, hash)) {
+    return *problem;
   }
   std::optional<sim::TestLog> log;
   if (!options.test_log.empty()) {
     log = sim::TestLog{options.test_log, command_line(options, command)};
   }
-  for (const sim::Suite::Member& member : source.suite_.members) {
-    const auto family = read_family(places, member.family);
-    if (!family.has_value()) {
-      return family.error();
-    }
-    source.families_.push_back(family.value());
+  auto source = eval::SuiteSource::open({.scenarios = places.root / "scenarios",
+                                         .suite = options.suite,
+                                         .split = *sim::split_from(options.split),
+                                         .test_log = std::move(log),
+                                         .car = inputs.value().car_name,
+                                         .footprint = manoeuvre::footprint(inputs.value().car)});
+  if (!source.has_value()) {
+    return source.error();
   }
-  Fnv hash;
-  if (auto problem = add_files(places, options.car, hash)) {
-    return *problem;
-  }
-  source.digest_ = hash.value();
-  for (const sim::Family& family : source.families_) {  // last: a use of the test split is noted
-    const auto seed =
-        sim::seed_for(splits.value(), *sim::split_from(options.split), family.name, log);
-    if (!seed.has_value()) {
-      return seed.error();
-    }
-    source.seeds_.push_back(seed.value());
-  }
-  return source;
+  return DrawnSuite{.inputs = std::move(inputs).value(),
+                    .source = std::move(source).value(),
+                    .digest = hash.value()};
 }
 
-Result<sim::FamilySample> SuiteSource::sample(std::uint64_t number) const {
-  const std::size_t member = sim::member_of(suite_, number);
-  return sim::sample(families_[member], seeds_[member], number, inputs_.car_name,
-                     manoeuvre::footprint(inputs_.car));
-}
-
-const std::string& SuiteSource::family_of(std::uint64_t number) const {
-  return suite_.members[sim::member_of(suite_, number)].family;
-}
-
-Result<std::optional<std::vector<Finding>>> survey(const SuiteSource& source,
+Result<std::optional<std::vector<Finding>>> survey(const DrawnSuite& suite,
                                                    const SurveyOptions& options) {
   const std::string path = options.journal.empty() ? fmt::format("runs/survey-{}-{}.journal",
                                                                  options.suite, options.split)
@@ -178,41 +82,20 @@ Result<std::optional<std::vector<Finding>>> survey(const SuiteSource& source,
   if (auto problem = make_folder_of(path)) {
     return *problem;
   }
-  const auto opened =
-      Journal::open(path, fmt::format("saca {} survey of {}, {} split, {} ({:016x})", SACA_VERSION,
-                                      options.suite, options.split, options.car, source.digest()));
-  if (!opened.has_value()) {
-    return opened.error();
-  }
-  const Journal& journal = opened.value();
-  auto known = remembered(journal, path, options.count);
-  if (!known.has_value()) {
-    return known.error();
-  }
-  std::vector<Finding> found = std::move(known).value();
   watch_for_interrupt();
   SteadyClock clock;
   ProgressLine progress("survey of " + options.suite, options.count, clock);
-  const int before = static_cast<int>(found.size());
-  const auto count = static_cast<std::size_t>(options.count);
-  while (found.size() < count) {
-    if (interrupted()) {
-      return std::optional<std::vector<Finding>>();
-    }
-    const auto next =
-        look_on(source, found.size(), std::min(count, found.size() + batch), options.threads);
-    if (!next.has_value()) {
-      return next.error();
-    }
-    for (const Finding& finding : next.value()) {
-      if (!journal.add(eval::line_of(finding))) {
-        return Error{Error::Code::unwritable, path + ": cannot be added to"};
-      }
-      found.push_back(finding);
-    }
-    progress.show(static_cast<int>(found.size()), before, " encounters");
-  }
-  return std::optional(found);
+  return eval::survey(
+      {.source = &suite.source,
+       .car = &suite.inputs.car,
+       .harm = &suite.inputs.harm,
+       .count = options.count,
+       .threads = options.threads,
+       .journal = path,
+       .title = fmt::format("saca {} survey of {}, {} split, {} ({:016x})", SACA_VERSION,
+                            options.suite, options.split, options.car, suite.digest)},
+      {.is_interrupted = interrupted,
+       .progress = [&](int done, int before) { progress.show(done, before, " encounters"); }});
 }
 
 void add_draw_options(CLI::App& command, int& count, std::string& split, std::string& test_log,

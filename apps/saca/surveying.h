@@ -31,32 +31,20 @@ void add_survey_options(CLI::App& command, SurveyOptions& options);
 /// The line that asks for the same again.
 [[nodiscard]] std::string command_line(const SurveyOptions& options, const std::string& command);
 
-/// The families of a suite, ready to be drawn from.
-class SuiteSource {
- public:
-  /// @param command  that asks, for the log of the test split
-  [[nodiscard]] static Result<SuiteSource> open(const SurveyOptions& options,
-                                                const std::string& command);
-
-  [[nodiscard]] const Inputs& inputs() const { return inputs_; }
-  /// Encounter `number` of the suite.
-  [[nodiscard]] Result<sim::FamilySample> sample(std::uint64_t number) const;
-  [[nodiscard]] const std::string& family_of(std::uint64_t number) const;
-  /// Of everything on which the encounters depend.
-  [[nodiscard]] std::uint64_t digest() const { return digest_; }
-
- private:
-  Inputs inputs_;
-  sim::Suite suite_;
-  std::vector<sim::Family> families_;  ///< by member of the suite
-  std::vector<std::uint64_t> seeds_;   ///< likewise
-  std::uint64_t digest_ = 0;
+/// A suite that is drawn from, and what its encounters are played with.
+struct DrawnSuite {
+  Inputs inputs;
+  eval::SuiteSource source;
+  std::uint64_t digest = 0;  ///< of everything on which encounters and findings depend
 };
 
-/// Looks into all of them, with progress on the error stream and a journal that an interrupted
-/// survey goes on from.
-/// @return  in the order of their numbers; nullopt: interrupted
+/// @param command  that asks, for the log of the test split
+[[nodiscard]] Result<DrawnSuite> open_suite(const SurveyOptions& options,
+                                            const std::string& command);
+
+/// eval::survey with progress on the error stream, interrupts, and a journal in runs/ unless the
+/// options name one.
 [[nodiscard]] Result<std::optional<std::vector<eval::Finding>>> survey(
-    const SuiteSource& source, const SurveyOptions& options);
+    const DrawnSuite& suite, const SurveyOptions& options);
 
 }  // namespace saca::app

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <charconv>
 
+#include "saca/core/contract.h"
 #include "saca/core/csv.h"
+#include "saca/core/journal.h"
 #include "saca/core/parallel.h"
 #include "saca/core/percentile.h"
 #include "saca/preview/preview.h"
@@ -17,6 +19,7 @@ using manoeuvre::num_policies;
 using manoeuvre::PolicyId;
 
 constexpr std::string_view no_number = "-";
+constexpr std::size_t batch = 64;  // encounters between two looks at who watches
 
 std::string word_of(const std::optional<double>& number) {
   return number ? fmt::format("{:.17g}", *number) : std::string(no_number);
@@ -26,6 +29,48 @@ std::string word_of(const std::optional<double>& number) {
 bool read_word(std::string_view word, std::optional<double>& number) {
   number = finite_number(word);
   return number.has_value() || word == no_number;
+}
+
+/// What a journal remembers, in order.
+Result<std::vector<Finding>> remembered(const Journal& journal, const std::string& path,
+                                        int count) {
+  std::vector<Finding> found;
+  for (const std::string& line : journal.lines()) {
+    const auto finding = finding_from(line);
+    if (!finding || finding->number != found.size()) {
+      return Error{Error::Code::malformed,
+                   fmt::format("{}: line {}: want the finding of encounter {}, got \"{}\"", path,
+                               found.size() + 2, found.size(), line)};
+    }
+    found.push_back(*finding);
+  }
+  found.resize(std::min(found.size(), static_cast<std::size_t>(count)));
+  return found;
+}
+
+/// The next few. The number of threads changes nothing.
+Result<std::vector<Finding>> look_on(const SurveyWork& work, std::size_t from, std::size_t to) {
+  std::vector<sim::Scenario> scenarios(to - from);
+  std::vector<std::optional<Error>> problems(to - from);
+  in_parallel(scenarios.size(), work.threads, [&](std::size_t i) {
+    const auto sample = work.source->sample(from + i);
+    if (sample.has_value()) {
+      scenarios[i] = sample.value().scenario;
+    } else {
+      problems[i] = sample.error();
+    }
+  });
+  for (const auto& problem : problems) {
+    if (problem) {
+      return *problem;
+    }
+  }
+  std::vector<Finding> next = look_into(scenarios, *work.car, *work.harm, work.threads);
+  for (std::size_t i = 0; i < next.size(); ++i) {
+    next[i].number = from + i;
+    next[i].family = work.source->family_of(from + i);
+  }
+  return next;
 }
 
 }  // namespace
@@ -96,6 +141,41 @@ std::optional<Finding> finding_from(std::string_view line) {
   const bool tried = finding.harm[manoeuvre::index(PolicyId::aeb)] &&
                      finding.harm[manoeuvre::index(PolicyId::no_intervention)];
   return finding.time.has_value() == tried ? std::optional(finding) : std::nullopt;
+}
+
+Result<std::optional<std::vector<Finding>>> survey(const SurveyWork& work,
+                                                   const SurveyWatch& watch) {
+  expects(work.source != nullptr && work.car != nullptr && work.harm != nullptr,
+          "source, car and harm are given");
+  expects(work.count >= 0, "count >= 0");
+  const auto journal = Journal::open(work.journal, work.title);
+  if (!journal.has_value()) {
+    return journal.error();
+  }
+  auto known = remembered(journal.value(), work.journal.string(), work.count);
+  if (!known.has_value()) {
+    return known.error();
+  }
+  std::vector<Finding> found = std::move(known).value();
+  const int before = static_cast<int>(found.size());
+  const auto count = static_cast<std::size_t>(work.count);
+  while (found.size() < count) {
+    if (watch.is_interrupted()) {
+      return std::optional<std::vector<Finding>>();
+    }
+    const auto next = look_on(work, found.size(), std::min(count, found.size() + batch));
+    if (!next.has_value()) {
+      return next.error();
+    }
+    for (const Finding& finding : next.value()) {
+      if (!journal.value().add(line_of(finding))) {
+        return Error{Error::Code::unwritable, work.journal.string() + ": cannot be added to"};
+      }
+      found.push_back(finding);
+    }
+    watch.progress(static_cast<int>(found.size()), before);
+  }
+  return std::optional(std::move(found));
 }
 
 Taught lesson_of(const Finding& finding) {

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,6 +11,7 @@
 #include <vector>
 
 #include "saca/eval/moment.h"
+#include "saca/eval/suite_source.h"
 
 namespace saca::eval {
 
@@ -37,6 +40,30 @@ struct Finding {
 /// One line, for journals; and back, to the last bit. nullopt: no such line.
 [[nodiscard]] std::string line_of(const Finding& finding);
 [[nodiscard]] std::optional<Finding> finding_from(std::string_view line);
+
+/// A survey: all eight policies tried in the first encounters of a suite.
+struct SurveyWork {
+  const SuiteSource* source = nullptr;
+  const manoeuvre::Car* car = nullptr;
+  const outcome::HarmModel* harm = nullptr;
+  int count = 0;                  ///< encounters, >= 0
+  int threads = 1;                ///< >= 1; they do not change the result
+  std::filesystem::path journal;  ///< an interrupted survey goes on from it; its folder is there
+  std::string title;              ///< of the journal: names everything on which the findings depend
+};
+
+/// Who watches a survey.
+struct SurveyWatch {
+  std::function<bool()> is_interrupted = [] { return false; };  ///< asked between encounters
+  /// So many are done, of which so many were remembered.
+  std::function<void(int done, int remembered)> progress = [](int, int) {};
+};
+
+/// Looks into all of them.
+/// @return  in the order of their numbers; nullopt: interrupted. An error where the journal is of
+///          other work or an encounter cannot be drawn
+[[nodiscard]] Result<std::optional<std::vector<Finding>>> survey(const SurveyWork& work,
+                                                                 const SurveyWatch& watch = {});
 
 /// What an encounter teaches.
 enum class Lesson : std::uint8_t {

@@ -2,6 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include "saca/eval/scenes_for_test.h"
+#include "saca/manoeuvre/default_car.h"
+#include "saca/manoeuvre/ego.h"
+
 namespace saca::eval::survey_test {
 namespace {
 
@@ -20,6 +24,42 @@ Finding with(PolicyId policy, double harm) {
   finding.harm[manoeuvre::index(policy)] = harm;
   finding.best = policy;
   return finding;
+}
+
+// An interruption after the first look; whatever was found is not looked for again.
+TEST(Survey, GoesOnWhereItWasInterrupted) {
+  const manoeuvre::Car car = manoeuvre::default_car();
+  const outcome::HarmModel harm = shipped_harm();
+  const SuiteSource source = SuiteSource::open({.scenarios = "scenarios",
+                                                .suite = "crossing",
+                                                .test_log = std::nullopt,
+                                                .car = "compact_rwd_ev",
+                                                .footprint = manoeuvre::footprint(car)})
+                                 .value();
+  const auto path = std::filesystem::path(testing::TempDir()) / "saca_survey_test.journal";
+  std::filesystem::remove(path);
+  SurveyWork work{.source = &source,
+                  .car = &car,
+                  .harm = &harm,
+                  .count = 2,
+                  .journal = path,
+                  .title = "a test"};
+  EXPECT_EQ(survey(work, {.is_interrupted = [] { return true; }}).value(), std::nullopt);
+  const auto first = survey(work).value().value();
+  ASSERT_EQ(first.size(), 2U);
+  EXPECT_EQ(first[1].number, 1U);
+  EXPECT_EQ(first[1].family, "crossing");
+  work.count = 3;
+  std::vector<std::pair<int, int>> told;
+  const auto all =
+      survey(work, {.progress = [&](int done, int before) { told.emplace_back(done, before); }})
+          .value()
+          .value();
+  EXPECT_THAT(told, testing::ElementsAre(std::pair(3, 2)));
+  EXPECT_EQ(std::vector(all.begin(), all.begin() + 2), first);
+  work.title = "another";
+  EXPECT_EQ(survey(work).error().code, Error::Code::malformed);
+  std::filesystem::remove(path);
 }
 
 TEST(Survey, ALineBringsTheFindingBackBitByBit) {

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "saca/core/result.h"
+#include "saca/sim/family.h"
+#include "saca/sim/splits.h"
+
+namespace saca::eval {
+
+/// Which encounters are drawn, and for which car.
+struct SuiteDraw {
+  std::filesystem::path scenarios;  ///< folder with families/, families/suites.toml and splits.toml
+  std::string suite;                ///< its name, or that of a family
+  sim::Split split = sim::Split::tuning;
+  std::optional<sim::TestLog> test_log;  ///< needed for the test split
+  std::string car;                       ///< its name
+  world::Footprint footprint;            ///< of the car
+};
+
+/// The families of a suite, ready to be drawn from.
+class SuiteSource {
+ public:
+  /// @return  out_of_range where there is no such suite or family, naming all suites; else what
+  ///          cannot be read, or why the split may not be used
+  [[nodiscard]] static Result<SuiteSource> open(const SuiteDraw& draw);
+
+  /// Encounter `number` of the suite.
+  [[nodiscard]] Result<sim::FamilySample> sample(std::uint64_t number) const;
+  [[nodiscard]] const std::string& family_of(std::uint64_t number) const;
+
+ private:
+  std::string car_;
+  world::Footprint footprint_;
+  sim::Suite suite_;
+  std::vector<sim::Family> families_;  ///< by member of the suite
+  std::vector<std::uint64_t> seeds_;   ///< likewise
+};
+
+}  // namespace saca::eval
