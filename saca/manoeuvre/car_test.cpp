@@ -14,6 +14,7 @@
 #include "saca/manoeuvre/ego.h"
 #include "saca/manoeuvre/ride.h"
 #include "saca/vehicle/default_car.h"
+#include "tests/support/scenes.h"
 
 namespace saca::manoeuvre::car_test {
 namespace {
@@ -52,11 +53,9 @@ TEST(Car, ChangesLanesWhicheverItIs) {
          {PolicyId::aes_left, PolicyId::aes_right, PolicyId::es_b_left, PolicyId::es_b_right}) {
       for (const double speed : {5.0, 12.0, 25.0}) {
         for (const double grip : {0.2, 0.5, 1.0}) {
-          world::Scene scene;
-          scene.ego.v_B = {speed, 0.0};
+          world::Scene scene = test::ego_alone(speed, grip);
           scene.ego.X_WB.yaw = from_degrees(1.5);
           scene.ego.yaw_rate = 0.05;
-          scene.grip = grip;
           const Plan plan = default_plan(policy, speed);
           const EgoMotion motion = drive(car, plan, scene, grip, 20.0);
           EXPECT_TRUE(motion.ended)
@@ -100,9 +99,7 @@ TEST(Car, ChangesLanesWhateverItDoesNotKnow) {
   for (const char* name : shipped_cars) {
     const Car car = shipped_car(name);
     for (const PolicyId policy : {PolicyId::aes_left, PolicyId::es_b_right}) {
-      world::Scene scene;
-      scene.ego.v_B = {20.0, 0.0};
-      scene.grip = 0.5;
+      const world::Scene scene = test::ego_alone(20.0, 0.5);
       const Plan plan = default_plan(policy, 20.0);
       const double lane = side(policy) * scene.road.lane_width;
       const double room = 0.5 * (scene.road.lane_width - footprint(car).width);  // within its lines

@@ -11,6 +11,7 @@
 #include "saca/manoeuvre/drive.h"
 #include "saca/manoeuvre/ego.h"
 #include "tests/support/count_allocations.h"
+#include "tests/support/scenes.h"
 
 namespace saca::manoeuvre::controller_test {
 namespace {
@@ -19,18 +20,11 @@ constexpr double dt = 1e-3;
 
 class Controller : public testing::Test {
  protected:
-  static world::Scene scene_at(double speed, double grip) {
-    world::Scene scene;
-    scene.ego.v_B = {speed, 0.0};
-    scene.grip = grip;
-    return scene;
-  }
-
   const Car car_ = default_car();
 };
 
 TEST_F(Controller, AllocatesNothingAndNeitherDoesTheCar) {
-  const world::Scene scene = scene_at(14.0, 0.9);
+  const world::Scene scene = test::ego_alone(14.0, 0.9);
   for (const PolicyId policy : {PolicyId::aeb, PolicyId::es_b_left, PolicyId::no_intervention}) {
     const Plan plan = default_plan(policy, 14.0);
     ControllerState memory = begin(car_, plan, scene);
@@ -51,7 +45,7 @@ TEST_F(Controller, AllocatesNothingAndNeitherDoesTheCar) {
 
 // One physics, one controller: the simulator's loop and `drive` give the same motion.
 TEST_F(Controller, StepByStepIsDrive) {
-  const world::Scene scene = scene_at(17.0, 0.6);
+  const world::Scene scene = test::ego_alone(17.0, 0.6);
   const Plan plan = default_plan(PolicyId::es_b_right, 17.0);
   const EgoMotion motion = drive(car_, plan, scene, 0.6, 1.0);
   ControllerState memory = begin(car_, plan, scene);
@@ -65,7 +59,7 @@ TEST_F(Controller, StepByStepIsDrive) {
 }
 
 TEST_F(Controller, KeepsTheNewLaneAfterItsEnd) {
-  const world::Scene scene = scene_at(14.0, 0.9);
+  const world::Scene scene = test::ego_alone(14.0, 0.9);
   const Plan plan{PolicyId::aes_left, {}};
   ControllerState memory = begin(car_, plan, scene);
   vehicle::VehicleState state = rolling_state(car_, scene.ego, 0.9);
@@ -82,7 +76,7 @@ TEST_F(Controller, KeepsTheNewLaneAfterItsEnd) {
 // The wheels' forces, all together, stay inside the circle that the road gives; steering has its
 // part first, so the lane is changed as planned while the brakes take the rest.
 TEST_F(Controller, UsesTheCircleWithoutLeavingIt) {
-  const world::Scene scene = scene_at(20.0, 0.8);
+  const world::Scene scene = test::ego_alone(20.0, 0.8);
   const Plan plan = default_plan(PolicyId::es_b_left, 20.0);
   ControllerState memory = begin(car_, plan, scene);
   vehicle::VehicleState state = rolling_state(car_, scene.ego, 0.8);
@@ -104,7 +98,7 @@ TEST_F(Controller, UsesTheCircleWithoutLeavingIt) {
 }
 
 TEST_F(Controller, BrakesHardAndStraightWhenItsSensorsFail) {
-  const world::Scene scene = scene_at(14.0, 0.9);
+  const world::Scene scene = test::ego_alone(14.0, 0.9);
   const Plan plan{PolicyId::aes_left, {}};
   ControllerState memory = begin(car_, plan, scene);
   vehicle::VehicleState state = rolling_state(car_, scene.ego, 0.9);
@@ -116,7 +110,7 @@ TEST_F(Controller, BrakesHardAndStraightWhenItsSensorsFail) {
 }
 
 TEST_F(Controller, RefusesToBeginWhatCannotBeDriven) {
-  EXPECT_THROW((void)begin(car_, {PolicyId::t_drift_left, {}}, scene_at(9.0, 0.9)),
+  EXPECT_THROW((void)begin(car_, {PolicyId::t_drift_left, {}}, test::ego_alone(9.0, 0.9)),
                ContractViolation);
 }
 

@@ -11,6 +11,7 @@
 #include "saca/manoeuvre/ego.h"
 #include "saca/vehicle/default_car.h"
 #include "saca/world/footprint.h"
+#include "tests/support/scenes.h"
 
 namespace saca::manoeuvre::standard_manoeuvres_test {
 namespace {
@@ -172,9 +173,7 @@ struct Stop {
 
 // Full braking by policy 0, which knows one grip only.
 Stop emergency_stop(const Car& car, double speed, const vehicle::PerWheel& grip, double estimate) {
-  world::Scene scene;
-  scene.ego.v_B = {speed, 0.0};
-  scene.grip = estimate;
+  const world::Scene scene = test::ego_alone(speed, estimate);
   const Plan plan{PolicyId::aeb, {}};
   ControllerState memory = begin(car, plan, scene);
   VehicleState state = rolling_state(car, scene.ego, estimate);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "saca/outcome/outcome.h"
+#include "tests/support/scenes.h"
 
 namespace saca::outcome {
 
@@ -16,9 +17,7 @@ inline HarmModel shipped_harm() {
 
 /// A wide road, so that edges do not matter unless a test narrows it.
 inline world::Scene empty_scene() {
-  world::Scene scene;
-  scene.ego_footprint = {.length = 4.7, .width = 1.9};
-  scene.ego_mass = 1700.0;
+  world::Scene scene = test::ego_at(0.0);
   scene.road.left_edge = 200.0;
   scene.road.right_edge = -200.0;
   return scene;
@@ -53,17 +52,15 @@ struct Encounter {
 
   void add(world::ActorKind kind, world::Footprint footprint, double mass, Pose X_WA, Vec2 v_W,
            double yaw_rate = 0.0, double duration = 5.0) {
-    world::Actor actor;
+    world::Actor actor = test::car(0, X_WA.p, v_W, {}, footprint);
     actor.kind = kind;
-    actor.footprint = footprint;
     actor.mass = mass;
     actor.X_WA = X_WA;
-    actor.v_W = v_W;
     scene.actors.push_back(actor);
     tracks.push_back(steady(X_WA, v_W, yaw_rate, duration));
   }
   void add_car(Pose X_WA, Vec2 v_W, double yaw_rate = 0.0) {
-    add(world::ActorKind::car, {.length = 4.7, .width = 1.9}, 1700.0, X_WA, v_W, yaw_rate);
+    add(world::ActorKind::car, test::ego_body, 1700.0, X_WA, v_W, yaw_rate);
   }
   /// The others on their tracks, whatever the ego does.
   [[nodiscard]] Course played_out(const HarmModel& harm) const {

@@ -26,12 +26,11 @@ const DangerModel& model() {
   return few;
 }
 
+/// It points along x_W, wherever it goes, or as is said.
 Actor car(Vec2 p_W, Vec2 v_W, double yaw = 0.0) {
-  return {.id = 1,
-          .footprint = {.length = 4.0, .width = 2.0},
-          .mass = 1'500.0,
-          .X_WA = {p_W, yaw},
-          .v_W = v_W};
+  Actor actor = test::block(1, p_W, v_W);
+  actor.X_WA.yaw = yaw;
+  return actor;
 }
 
 /// A wall from far left to far right, before which only braking helps.

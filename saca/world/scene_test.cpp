@@ -7,19 +7,15 @@
 #include <type_traits>
 #include <vector>
 
+#include "tests/support/scenes.h"
+
 namespace saca::world::scene_test {
 namespace {
 
-Actor car(std::uint8_t id) {
-  return {.id = id, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1'500.0};
-}
-
 Scene good_scene() {
-  Scene scene;
-  scene.ego_footprint = {.length = 4.7, .width = 1.9};
-  scene.ego_mass = 1'700.0;
-  scene.actors.push_back(car(1));
-  scene.actors.push_back(car(2));
+  Scene scene = test::ego_at(0.0);
+  scene.actors.push_back(test::car(1, {}));
+  scene.actors.push_back(test::car(2, {}));
   return scene;
 }
 
@@ -82,7 +78,7 @@ TEST(Scene, AWallIsAnObstacleWithoutWidth) {
 TEST(Scene, NamesGoThereAndBack) {
   EXPECT_EQ(actor_kind_from(name(ActorKind::truck)), ActorKind::truck);
   EXPECT_EQ(actor_kind_from("tank"), std::nullopt);
-  EXPECT_EQ(actor_name(car(3)), "car3");
+  EXPECT_EQ(actor_name(test::car(3, {})), "car3");
 }
 
 }  // namespace
