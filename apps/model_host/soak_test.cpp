@@ -37,6 +37,12 @@ Number from_environment(const char* name, int otherwise) {
   return {text == nullptr ? otherwise : std::atoi(text), text != nullptr};
 }
 
+/// A whole reply takes ten seconds of a busy core, and says no more of deaths than its beginning.
+bool soaking() {
+  return from_environment("SACA_SOAK_ASKS", 0).soaking ||
+         from_environment("SACA_SOAK_CHILD_KILLS", 0).soaking;
+}
+
 /// Keeps one core busy for as long as it lives.
 class BusyCore {
  public:
@@ -89,7 +95,8 @@ class SoakTest : public testing::Test {
   reason::ChildModel model_{
       {.command = {SACA_MODEL_HOST, "--model", SACA_MODEL, "--threads", "2", "--give-way"},
        .system = reason::system_part(outcome::read_harm(SACA_HARM).value()),
-       .identity = "base"},
+       .identity = "base",
+       .max_tokens = soaking() ? reason::ChildModelSettings{}.max_tokens : 24},
       clock_};
 };
 

@@ -53,8 +53,12 @@ DangerTable solved(double obstacle_speed) {
                                        values.value().error)};
 }
 
+const DangerTable& at_rest() {
+  static const DangerTable table = solved(0.0);
+  return table;
+}
 const DangerModel& with_tables() {
-  static const DangerModel model(car, ego, {solved(3.0), solved(0.0)});
+  static const DangerModel model(car, ego, {solved(3.0), at_rest()});
   return model;
 }
 const DangerModel& without() {
@@ -73,7 +77,7 @@ Meeting ahead(double distance, double speed) {
 /// By how much more than V may be told [m]: the solved value is off by about its error, which is
 /// added to it; about: within a quarter of the grid's finest metre.
 double told_too_much(const Meeting& meeting) {
-  static const DangerTable table = solved(0.0);
+  const DangerTable& table = at_rest();
   return 2.0 * table.values->at(grid_state(table.view, meeting.state)).error + 0.25;
 }
 
@@ -176,7 +180,7 @@ TEST(Danger, GrowsByWhatABodyWithAnotherMiddleReachesBeyond) {
   meeting.ego.centre_x = 0.5;
   EXPECT_GE(with_tables().danger(meeting).value, usual + 0.5);
   const Footprint ellipse{.shape = Shape::ellipse, .length = 4.0, .width = 2.0};
-  const DangerModel wide(car, ellipse, {{disc, 0.0, View::obstacle, solved(0.0).values}});
+  const DangerModel wide(car, ellipse, {{disc, 0.0, View::obstacle, at_rest().values}});
   meeting.ego.centre_x = 1.0;  // at 45 deg from its middle it is 0.13 m outside of the ellipse
   EXPECT_GE(wide.danger(meeting).value, usual + 0.13);
 }
