@@ -107,10 +107,17 @@ def test_a_run_builds_the_atlas_where_there_is_none_that_is_right(tmp_path):
     assert "built again next time" in own_run()
 
 
-def test_a_run_takes_the_atlas_that_it_is_told_and_no_other_cars(tmp_path):
-    for car in ["compact_rwd_ev", "midsize_suv"]:
-        assert saca("atlas", "build", "--car", car, "--output", f"{car}.atlas", cwd=tmp_path).returncode == 0
-    assert forecasts(run("--atlas", "compact_rwd_ev.atlas", cwd=tmp_path)) == (True, {False})
+@pytest.fixture(scope="module")
+def own_atlas(tmp_path_factory):
+    """An atlas of the car that scenarios have."""
+    folder = tmp_path_factory.mktemp("atlas")
+    assert saca("atlas", "build", "--car", "compact_rwd_ev", "--output", "own.atlas", cwd=folder).returncode == 0
+    return folder / "own.atlas"
+
+
+def test_a_run_takes_the_atlas_that_it_is_told_and_no_other_cars(own_atlas, tmp_path):
+    assert saca("atlas", "build", "--car", "midsize_suv", "--output", "midsize_suv.atlas", cwd=tmp_path).returncode == 0
+    assert forecasts(run("--atlas", own_atlas, cwd=tmp_path)) == (True, {False})
     refused = one_error(run("--atlas", "midsize_suv.atlas", cwd=tmp_path), BAD_INPUT)
     assert "midsize_suv.atlas" in refused and "--atlas off" in refused
     # It is not built twice.
@@ -119,9 +126,8 @@ def test_a_run_takes_the_atlas_that_it_is_told_and_no_other_cars(tmp_path):
     assert "is there" in again.stdout and (tmp_path / "midsize_suv.atlas").stat().st_mtime_ns == before
 
 
-def test_an_altered_atlas_is_refused(tmp_path):
-    assert saca("atlas", "build", "--output", "own.atlas", cwd=tmp_path).returncode == 0
-    whole = (tmp_path / "own.atlas").read_bytes()
+def test_an_altered_atlas_is_refused(own_atlas, tmp_path):
+    whole = own_atlas.read_bytes()
     for name, altered in {"cut.atlas": whole[:-1000], "flipped.atlas": whole[:500_000] + bytes([whole[500_000] ^ 1]) + whole[500_001:]}.items():
         (tmp_path / name).write_bytes(altered)
         assert name in one_error(run("--atlas", name, cwd=tmp_path), BAD_INPUT)

@@ -14,6 +14,7 @@ import sys
 import pytest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from chat_server import server  # noqa: F401, a fixture
 from program import BAD_INPUT, CANNOT_WRITE, PROGRAM, ROOT, SUCCESS, WRONG_COMMAND_LINE, one_error, saca
 
 HOST = pathlib.Path(PROGRAM).parent / "saca-model-host"
@@ -297,9 +298,7 @@ def test_a_full_standard_output_is_not_success(tmp_path):
 def test_without_a_model_it_runs_and_says_so(tmp_path):
     lonely = tmp_path / "bin/build/saca"
     lonely.parent.mkdir(parents=True)
-    os.link(PROGRAM, lonely) if os.stat(PROGRAM).st_dev == os.stat(tmp_path).st_dev else \
-        lonely.write_bytes(pathlib.Path(PROGRAM).read_bytes())
-    lonely.chmod(0o755)
+    shutil.copy(PROGRAM, lonely)
     for folder in ("data", "scenarios", "models"):
         (tmp_path / folder).symlink_to(ROOT / folder)
     run = subprocess.run([lonely, "run", "100car_8676", "--pace", "lockstep"], cwd=tmp_path,
@@ -401,18 +400,27 @@ def test_a_missing_log_or_car_is_named(own_car):
 needs_model = pytest.mark.skipif(not HAS_MODEL, reason="`make model` has not been run")
 
 
-@needs_model
-def test_recorded_replies_can_be_replayed(tmp_path):
-    replies = tmp_path / "replies.json"
-    first = saca("run", "100car_8676", "--pace", "lockstep", "--no-memory", "--record-replies", replies,
-                 "--json", cwd=tmp_path)
-    again = saca("run", "100car_8676", "--pace", "lockstep", "--no-memory", "--llm",
-                 f"replay:{replies}", "--json", cwd=tmp_path)
+def replayed(scenario, *more, cwd):
+    """A run whose replies are recorded, and one that is given them. Both have the same answers, and some."""
+    replies = cwd / "replies.json"
+    first = saca("run", scenario, "--pace", "lockstep", "--no-memory", "--record-replies", replies, "--json", *more, cwd=cwd)
+    again = saca("run", scenario, "--pace", "lockstep", "--no-memory", "--llm",
+                 f"replay:{replies}", "--json", cwd=cwd)
     assert first.returncode == again.returncode == SUCCESS, first.stderr + again.stderr
     answers = [[preview["reasoning"] for preview in json.loads(run.stdout)["previews"]]
                for run in (first, again)]
     assert answers[0] == answers[1]
     assert any(answers[0])
+
+
+# The model is asked once here, and for its review: it takes its time for each.
+@needs_model
+def test_recorded_replies_can_be_replayed(tmp_path):
+    replayed("one_way", cwd=tmp_path)
+
+
+def test_recorded_replies_of_several_forecasts_can_be_replayed(server, tmp_path):
+    replayed("100car_8676", "--llm", f"some-model@http://127.0.0.1:{server.server_port}/v1", cwd=tmp_path)
 
 
 def descendants(pid):
@@ -427,7 +435,8 @@ def descendants(pid):
 @needs_model
 @pytest.mark.parametrize("blow", [signal.SIGKILL, signal.SIGSTOP])
 def test_a_model_that_is_struck_in_the_middle_changes_nothing_on_the_reflex_plane(blow, tmp_path):
-    run = subprocess.Popen([PROGRAM, "run", "100car_9018", "--no-memory"], cwd=tmp_path, text=True,
+    # What the model would say here is refused, so that it brakes whatever it hears; it is over after seconds.
+    run = subprocess.Popen([PROGRAM, "run", "one_way", "--no-memory"], cwd=tmp_path, text=True,
                            stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     story, struck = [], []
     for line in run.stdout:
@@ -441,7 +450,7 @@ def test_a_model_that_is_struck_in_the_middle_changes_nothing_on_the_reflex_plan
                 os.kill(child, signal.SIGKILL)
     assert run.wait(timeout=1500) == SUCCESS, run.stderr.read()
     assert any("policy 0 AEB" in line for line in story)
-    assert (tmp_path / "runs/100car_9018/report.html").exists()
+    assert (tmp_path / "runs/one_way/report.html").exists()
     if not struck:
         pytest.skip("this machine was too busy to ask the model before the trigger")
     assert any("thinking" in line and "model: " in line for line in story), story

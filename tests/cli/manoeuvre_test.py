@@ -124,23 +124,31 @@ def test_physics_stands_beside_its_reference(tmp_path):
     assert 0 <= figures["t_drift.within_10_deg.share.compact_rwd_ev.v14.mu0.9"] <= 1
 
 
-TUNE = ["--swerve-evaluations", 6, "--drift-evaluations", 6, "--draws", 2]
+TUNE = ["tune", "--car", "own.toml", "--swerve-evaluations", 12, "--drift-evaluations", 6, "--draws", 2]
 
 
-def test_tuning_gives_a_file_with_its_command_that_a_car_can_be_driven_with(car, tmp_path):
-    run = saca("tune", "--car", car, *TUNE, "--json", cwd=tmp_path)
+@pytest.fixture(scope="module")
+def tuned(tmp_path_factory):
+    """A folder with a car that was tuned, by one thread, and what was told of it."""
+    folder = tmp_path_factory.mktemp("tuned")
+    for kind in ("", ".tuning"):
+        shutil.copy(ROOT / f"data/vehicles/compact_rwd_ev{kind}.toml", folder / f"own{kind}.toml")
+    return folder, saca(*TUNE, "--threads", 1, "--json", cwd=folder)
+
+
+def test_tuning_gives_a_file_with_its_command_that_a_car_can_be_driven_with(tuned):
+    folder, run = tuned
     assert run.returncode == SUCCESS, run.stderr
-    text = car.with_suffix(".tuning.toml").read_text()
+    text = (folder / "own.tuning.toml").read_text()
     assert text.startswith("# Made by: saca tune --car")
     assert json.loads(run.stdout)["drift_cost"] > 0
-    assert saca("drive", "--policy", 1, "--car", car, cwd=tmp_path).returncode == SUCCESS
-    assert not list(tmp_path.glob("*.journal"))
+    assert saca("drive", "--policy", 1, "--car", "own.toml", cwd=folder).returncode == SUCCESS
+    assert not list(folder.glob("*.journal"))
 
 
-def test_tuning_that_was_interrupted_goes_on_and_ends_the_same(car, tmp_path):
-    more = ["tune", "--car", car, "--swerve-evaluations", 12, "--drift-evaluations", 6, "--draws", 2]
+def test_tuning_that_was_interrupted_goes_on_and_ends_the_same(tuned, car, tmp_path):
     journal = tmp_path / "a.toml.swerve.journal"
-    with subprocess.Popen([PROGRAM, *map(str, [*more, "--output", "a.toml"])], cwd=tmp_path,
+    with subprocess.Popen([PROGRAM, *map(str, [*TUNE, "--output", "a.toml"])], cwd=tmp_path,
                           stderr=subprocess.PIPE, text=True) as first:
         deadline = time.monotonic() + 1500
         while time.monotonic() < deadline and not (journal.exists() and journal.read_text().count("\n") > 3):
@@ -150,24 +158,22 @@ def test_tuning_that_was_interrupted_goes_on_and_ends_the_same(car, tmp_path):
     assert first.returncode == INTERRUPTED
     assert "The same command goes on" in error
     assert not (tmp_path / "a.toml").exists()
-    assert saca(*more, "--output", "a.toml", cwd=tmp_path).returncode == SUCCESS
-    assert saca(*more, "--output", "b.toml", "--threads", 1, cwd=tmp_path).returncode == SUCCESS
-    assert (tmp_path / "a.toml").read_text() == (tmp_path / "b.toml").read_text()
+    assert saca(*TUNE, "--output", "a.toml", cwd=tmp_path).returncode == SUCCESS
+    assert (tmp_path / "a.toml").read_text() == (tuned[0] / "own.tuning.toml").read_text()
 
 
 def test_a_journal_is_worth_nothing_once_the_car_has_changed(car, tmp_path):
-    start = ["tune", "--car", car, "--swerve-evaluations", 300, "--output", "a.toml"]
-    with subprocess.Popen([PROGRAM, *map(str, start)], cwd=tmp_path, stderr=subprocess.PIPE) as first:
+    with subprocess.Popen([PROGRAM, *map(str, [*TUNE, "--output", "a.toml"])], cwd=tmp_path, stderr=subprocess.PIPE) as first:
         journal = tmp_path / "a.toml.swerve.journal"
         deadline = time.monotonic() + 1500
         while time.monotonic() < deadline and not (journal.exists() and journal.read_text().count("\n") > 1):
             time.sleep(0.01)
         first.send_signal(signal.SIGINT)
     car.write_text(car.read_text().replace("mass_kg = 1700.0", "mass_kg = 1750.0"))
-    assert "remove it" in one_error(saca(*start, cwd=tmp_path), BAD_INPUT)
+    assert "remove it" in one_error(saca(*TUNE, "--output", "a.toml", cwd=tmp_path), BAD_INPUT)
 
 
 def test_a_journal_of_another_tuning_is_refused(car, tmp_path):
     (tmp_path / "a.toml.swerve.journal").write_text("something else\n")
-    error = one_error(saca("tune", "--car", car, *TUNE, "--output", "a.toml", cwd=tmp_path), BAD_INPUT)
+    error = one_error(saca(*TUNE, "--output", "a.toml", cwd=tmp_path), BAD_INPUT)
     assert "something else" in error and "remove it" in error

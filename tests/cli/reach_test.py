@@ -377,8 +377,8 @@ def test_what_cannot_be_compared_is_said(tiny, tmp_path):
 def test_a_stopped_or_foreign_solution_is_not_compared(tiny, tmp_path):
     folder, _ = tiny
     good = network(tmp_path / "good.npz", 0.0)
-    run = subprocess.Popen([PROGRAM, "reach", "solve", "paper_ellipse", "--output", "half.h5"], cwd=tmp_path,
-                           stderr=subprocess.PIPE, text=True)
+    run = subprocess.Popen([PROGRAM, "reach", "solve", case(tmp_path, "long.toml", *LONGER), "--output", "half.h5", "--threads", "1"],
+                           cwd=tmp_path, stderr=subprocess.PIPE, text=True)
     while run.poll() is None and not (tmp_path / "half.h5.part").exists():  # until it is under way
         time.sleep(0.001)
     run.send_signal(signal.SIGINT)
