@@ -45,7 +45,7 @@ function(saca_test target)
     add_executable(${target} ${arg_UNPARSED_ARGUMENTS})
     target_precompile_headers(${target} REUSE_FROM saca_test_support)
   endif()
-  target_link_libraries(${target} PRIVATE ${arg_LIBRARIES} saca_test_support saca_test_flags GTest::gmock_main)
+  target_link_libraries(${target} PRIVATE ${arg_LIBRARIES} saca_test_support saca_test_flags)
   add_dependencies(tests ${target})
 endfunction()
 
