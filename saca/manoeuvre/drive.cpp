@@ -25,78 +25,101 @@ bool always_possible(PolicyId policy) {
   return policy == PolicyId::aeb || policy == PolicyId::no_intervention;
 }
 
-std::optional<std::string> wrong_target(const Plan& plan) {
-  if (brakes_to_speed(plan.policy) != plan.target_speed.has_value()) {
-    return std::string(name(plan.policy)) +
-           (plan.target_speed ? " takes no target speed" : " needs a target speed");
-  }
-  if (plan.target_speed && !(*plan.target_speed >= 0.0 && *plan.target_speed <= fastest)) {
-    return with_number("target speed must be 0 to 25 m/s, is %.2f", *plan.target_speed);
-  }
-  return std::nullopt;
+bool takes_target(const Plan& plan) {
+  return !plan.target_speed || (*plan.target_speed >= 0.0 && *plan.target_speed <= fastest);
 }
 
-std::optional<std::string> wrong_motion(const Car& car, const Plan& plan,
-                                        const world::Scene& scene) {
-  const world::EgoState& ego = scene.ego;
-  if (!is_finite(ego.X_WB) || !is_finite(ego.v_B) || !std::isfinite(ego.yaw_rate) ||
-      !is_finite(ego.a_B)) {
-    return "the ego's state is not finite";
-  }
-  if (always_possible(plan.policy)) {
-    return std::nullopt;
-  }
-  const SpeedRange range = drifts(plan.policy) ? drift_speeds(car.tuning.domain, scene.grip)
-                                               : SpeedRange{slowest_lane_change, fastest};
-  if (range.slowest > range.fastest) {
-    return std::string(name(plan.policy)) +
-           with_number(" is not possible at a grip of %.2f with this car", scene.grip);
-  }
-  if (!(ego.v_B.x >= range.slowest && ego.v_B.x <= range.fastest)) {
-    return std::string(name(plan.policy)) + with_number(" needs a speed of %.4g", range.slowest) +
-           with_number(" to %.4g m/s ahead", range.fastest) + with_number(", is %.2f", ego.v_B.x);
-  }
-  return std::nullopt;
+SpeedRange speeds_of(const Car& car, const Plan& plan, double grip) {
+  return drifts(plan.policy) ? drift_speeds(car.tuning.domain, grip)
+                             : SpeedRange{slowest_lane_change, fastest};
 }
 
-std::optional<std::string> wrong_road(const Plan& plan, const world::Scene& scene) {
-  const world::Road& road = scene.road;
-  if (!is_finite(road.X_WL) || !std::isfinite(road.curvature) ||
-      (!always_possible(plan.policy) && !(road.lane_width >= 2.0 && road.lane_width <= 6.0))) {
-    return with_number("the road must be finite, its lane 2 to 6 m wide, is %.2f", road.lane_width);
+/// A swerve out of a bend adds to what the bend itself takes: shares of the grip.
+double most_share_of_bend(const Plan& plan) {
+  return drifts(plan.policy) ? 0.3 : 0.5;
+}
+double share_of_bend(const world::Scene& scene) {
+  return std::abs(scene.road.curvature) * scene.ego.v_B.x * scene.ego.v_B.x /
+         (scene.grip * vehicle::gravity);
+}
+
+std::string in_words(Refusal why, const Car& car, const Plan& plan, const world::Scene& scene) {
+  const std::string policy(index(plan.policy) < num_policies ? name(plan.policy) : "");
+  switch (why) {
+    case Refusal::unknown_policy:
+      return "no such policy";
+    case Refusal::target_speed:
+      return brakes_to_speed(plan.policy) == plan.target_speed.has_value()
+                 ? with_number("target speed must be 0 to 25 m/s, is %.2f",
+                               plan.target_speed.value_or(0.0))
+                 : policy +
+                       (plan.target_speed ? " takes no target speed" : " needs a target speed");
+    case Refusal::grip:
+      return scene.grip > 0.0
+                 ? policy + with_number(" needs a grip of 0.2 to 1.0, is %.3f", scene.grip)
+                 : with_number("grip must be > 0, is %.3f", scene.grip);
+    case Refusal::ego_state:
+      return "the ego's state is not finite";
+    case Refusal::slippery:
+      return policy + with_number(" is not possible at a grip of %.2f with this car", scene.grip);
+    case Refusal::speed: {
+      const SpeedRange range = speeds_of(car, plan, scene.grip);
+      return policy + with_number(" needs a speed of %.4g", range.slowest) +
+             with_number(" to %.4g m/s ahead", range.fastest) +
+             with_number(", is %.2f", scene.ego.v_B.x);
+    }
+    case Refusal::road:
+      return with_number("the road must be finite, its lane 2 to 6 m wide, is %.2f",
+                         scene.road.lane_width);
+    case Refusal::bend:
+      break;
   }
-  // A swerve out of a bend adds to what the bend itself takes.
-  const double most_share = drifts(plan.policy) ? 0.3 : 0.5;
-  const double share = std::abs(road.curvature) * scene.ego.v_B.x * scene.ego.v_B.x /
-                       (scene.grip * vehicle::gravity);
-  if (!always_possible(plan.policy) && !(share <= most_share + 1e-9)) {
-    return std::string(name(plan.policy)) +
-           with_number(" allows a bend %.0f %% of the grip", 100.0 * most_share) +
-           with_number(", this one takes %.0f %%", 100.0 * share);
-  }
-  return std::nullopt;
+  return policy +
+         with_number(" allows a bend %.0f %% of the grip", 100.0 * most_share_of_bend(plan)) +
+         with_number(", this one takes %.0f %%", 100.0 * share_of_bend(scene));
 }
 
 }  // namespace
 
-std::optional<std::string> refusal(const Car& car, const Plan& plan, const world::Scene& scene) {
+std::optional<Refusal> why_refused(const Car& car, const Plan& plan,
+                                   const world::Scene& scene) noexcept {
   if (index(plan.policy) >= num_policies) {
-    return "no such policy";
+    return Refusal::unknown_policy;
   }
-  if (auto problem = wrong_target(plan)) {
-    return problem;
+  if (brakes_to_speed(plan.policy) != plan.target_speed.has_value() || !takes_target(plan)) {
+    return Refusal::target_speed;
   }
-  if (!(scene.grip > 0.0)) {
-    return with_number("grip must be > 0, is %.3f", scene.grip);
+  const bool always = always_possible(plan.policy);
+  if (!(scene.grip > 0.0) || (!always && !(scene.grip >= 0.2 && scene.grip <= 1.0))) {
+    return Refusal::grip;
   }
-  if (!always_possible(plan.policy) && !(scene.grip >= 0.2 && scene.grip <= 1.0)) {
-    return std::string(name(plan.policy)) +
-           with_number(" needs a grip of 0.2 to 1.0, is %.3f", scene.grip);
+  const world::EgoState& ego = scene.ego;
+  if (!is_finite(ego.X_WB) || !is_finite(ego.v_B) || !std::isfinite(ego.yaw_rate) ||
+      !is_finite(ego.a_B)) {
+    return Refusal::ego_state;
   }
-  if (auto problem = wrong_motion(car, plan, scene)) {
-    return problem;
+  const world::Road& road = scene.road;
+  const bool finite_road = is_finite(road.X_WL) && std::isfinite(road.curvature);
+  if (always) {
+    return finite_road ? std::nullopt : std::optional(Refusal::road);
   }
-  return wrong_road(plan, scene);
+  const SpeedRange range = speeds_of(car, plan, scene.grip);
+  if (range.slowest > range.fastest) {
+    return Refusal::slippery;
+  }
+  if (!(ego.v_B.x >= range.slowest && ego.v_B.x <= range.fastest)) {
+    return Refusal::speed;
+  }
+  if (!finite_road || !(road.lane_width >= 2.0 && road.lane_width <= 6.0)) {
+    return Refusal::road;
+  }
+  return share_of_bend(scene) <= most_share_of_bend(plan) + 1e-9 ? std::nullopt
+                                                                 : std::optional(Refusal::bend);
+}
+
+std::optional<std::string> refusal(const Car& car, const Plan& plan, const world::Scene& scene) {
+  const auto why = why_refused(car, plan, scene);
+  return why ? std::optional(in_words(*why, car, plan, scene)) : std::nullopt;
 }
 
 EgoMotion drive(const Car& car, const Plan& plan, const world::Scene& scene, double grip,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,13 +14,30 @@
 
 namespace saca::manoeuvre {
 
-/// Why a plan cannot be driven from here; nullopt when it can.
+/// Why a plan cannot be driven.
+enum class Refusal : std::uint8_t {
+  unknown_policy,
+  target_speed,  ///< missing, out of range, or of a policy that has none
+  grip,          ///< believed
+  ego_state,     ///< not finite
+  slippery,      ///< no speed at which this car drifts on that grip
+  speed,
+  road,  ///< not finite, or a lane too narrow or too wide
+  bend,
+};
+
+/// Why a plan cannot be driven from here; nullopt when it can. For the reflex plane: allocates
+/// nothing.
 ///
 /// Domain: lane changes at 5 to 25 m/s, drifts at the speeds of the car's DriftDomain,
 /// grip 0.2 to 1.0, lanes 2 to 6 m wide, in bends that take at most half of the grip (of a drift:
 /// 0.3). Braking and
 /// no intervention are possible from any finite state: they are what is left when all else is
 /// refused. Outside the domain their figures are not claimed.
+[[nodiscard]] std::optional<Refusal> why_refused(const Car& car, const Plan& plan,
+                                                 const world::Scene& scene) noexcept;
+
+/// The same in words, with the numbers.
 [[nodiscard]] std::optional<std::string> refusal(const Car& car, const Plan& plan,
                                                  const world::Scene& scene);
 

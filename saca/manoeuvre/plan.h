@@ -64,6 +64,10 @@ struct Plan {
   bool operator==(const Plan&) const = default;
 };
 
+/// The two that are always possible.
+constexpr Plan full_braking{PolicyId::aeb, std::nullopt};
+constexpr Plan doing_nothing{PolicyId::no_intervention, std::nullopt};
+
 /// The plan of a policy begun at `speed` [m/s]: 3 and 4 brake to half of it.
 [[nodiscard]] Plan default_plan(PolicyId policy, double speed);
 
