@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "saca/core/contract.h"
 
@@ -42,6 +43,19 @@ Vec2 nearest_to(Vec2 centre_W, const Footprint& footprint, const Pose& X_WB) {
   return gap.distance > 0.0 ? gap.p_a_W : centre_W;
 }
 
+/// What is left to an edge at each pose at least, however the body is turned: quickly found, and
+/// enough where the edge is far.
+std::vector<double> least_rooms(const Road& road, Side side, const Footprint& footprint,
+                                const world::Track& track) {
+  const double reach = norm(half_axes(footprint) + Vec2{std::abs(footprint.centre_x), 0.0});
+  std::vector<double> rooms(track.X_WA.size());
+  std::transform(track.X_WA.begin(), track.X_WA.end(), rooms.begin(), [&](const Pose& X_WB) {
+    const double d = to_lane(road, X_WB).d;
+    return (side == Side::left ? road.left_edge - d : d - road.right_edge) - reach;
+  });
+  return rooms;
+}
+
 }  // namespace
 
 Vec2 outermost(const Road& road, Side side, const Footprint& footprint, const Pose& X_WB) {
@@ -71,12 +85,22 @@ EdgeApproach edge_approach(const Road& road, Side side, const Footprint& footpri
   const int parts = std::max(1, static_cast<int>(std::ceil(track.step / 0.0101)));
   const int steps = parts * static_cast<int>(track.X_WA.size() - 1);
   const double step = track.step / parts;
+  const std::vector<double> least = least_rooms(road, side, footprint, track);
+  constexpr double bend = 0.01;  // [m] by which it can be less between two poses
+  const auto is_far = [&](int i, double room) {
+    const auto pose = static_cast<std::size_t>(i / parts);
+    return std::min(least[pose], least[std::min(pose + 1, least.size() - 1)]) - bend > room;
+  };
   EdgeApproach found{std::nullopt, of_interest};
   const double begin = std::max(from, track.start);
   double inside = begin;
   const int first = static_cast<int>(std::min((begin - track.start) / step, double(steps)));
   for (int i = first; i <= steps; ++i) {
     const double time = i == first ? begin : track.start + i * step;
+    if (i > first && is_far(i, found.room)) {
+      inside = time;
+      continue;
+    }
     const double now = room_at(time);
     found.room = std::min(found.room, now);
     if (now > 0.0) {

@@ -210,7 +210,7 @@ std::optional<Event> Story::next_at(Side side) {
     return std::nullopt;
   }
   const Track& track = now().track;
-  const double interest = was_struck() ? 0.0 : clearance_;
+  const double interest = was_struck() || what == Beyond::unmarked ? 0.0 : clearance_;
   const auto first_touch = [&](double time) {
     return edge_approach(scene_.road, side, scene_.ego_footprint, track, interest, time).crossing;
   };
