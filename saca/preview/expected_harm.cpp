@@ -1,19 +1,25 @@
 #include "saca/preview/expected_harm.h"
 
+#include <algorithm>
+#include <optional>
+#include <utility>
+
 #include "saca/core/contract.h"
 #include "saca/intent/joint.h"
+#include "saca/manoeuvre/batch.h"
 #include "saca/outcome/ordering.h"
+#include "saca/preview/followers.h"
 #include "saca/world/time_to_conflict.h"
 
 namespace saca::preview {
 namespace {
 
+using manoeuvre::EgoMotion;
 using manoeuvre::PolicyId;
 using world::Scene;
 using world::Track;
 
-constexpr double motion_horizon = 10.0;  // [s]: beyond it somebody stands where it is
-constexpr double told_apart = 0.05;      // of an intention that is told apart
+constexpr double told_apart = 0.05;  // of an intention that is told apart
 
 intent::Choices likely_choices(const intent::Belief& belief) {
   intent::Choices choices = intent::choices_of(belief.now(), told_apart);
@@ -23,12 +29,126 @@ intent::Choices likely_choices(const intent::Belief& belief) {
   return choices;
 }
 
+double weight_of(std::span<const JointMotion> motions) {
+  expects(!motions.empty(), "at least one joint motion");
+  double sum = 0.0;
+  for (const JointMotion& motion : motions) {
+    sum += motion.probability;
+  }
+  return sum;
+}
+
+/// Every few poses of a motion: what lies between is straight, to millimetres.
+EgoMotion thinned(const EgoMotion& motion) {
+  constexpr std::size_t every = 5;
+  EgoMotion thin{.track = {.start = motion.track.start,
+                           .step = static_cast<double>(every) * motion.track.step,
+                           .X_WA = {}},
+                 .ended = motion.ended};
+  for (std::size_t k = 0; k < motion.track.X_WA.size(); k += every) {
+    thin.track.X_WA.push_back(motion.track.X_WA[k]);
+    thin.v_B.push_back(motion.v_B[k]);
+    thin.yaw_rate.push_back(motion.yaw_rate[k]);
+  }
+  return thin;
+}
+
+bool same(const Pose& a, const Pose& b) {
+  return a.p.x == b.p.x && a.p.y == b.p.y && a.yaw == b.yaw;
+}
+
+/// One way of the ego, held against one joint motion after the other. Who follows reacts to the ego
+/// alone, so it does the same in all of them until the ego is struck.
+class HeldWay {
+ public:
+  HeldWay(const Scene& scene, const EgoMotion& way, const ForecastTools& tools)
+      : scene_(scene), way_(thinned(way)), tools_(tools), followers_(followers_of(scene)) {}
+
+  [[nodiscard]] outcome::Outcome against(const JointMotion& motion) {
+    const auto others = [&](const EgoMotion& ego) { return moved(motion.tracks, ego.track); };
+    return outcome::judge(way_, scene_, others, *tools_.harm);
+  }
+
+ private:
+  [[nodiscard]] std::vector<Track> moved(const std::vector<Track>& planned, const Track& X_WB) {
+    std::vector<Track> tracks = planned;
+    if (followers_.empty()) {
+      return tracks;
+    }
+    if (!is_answered(X_WB)) {
+      answered_ = X_WB;
+      answers_.assign(planned.size(), {});
+      constexpr double step = 1.0 / 16.0;  // [s] of who reacts
+      let_react(scene_, followers_, X_WB, scene_.time + motion_horizon, step, answers_);
+    }
+    for (const std::size_t i : followers_) {
+      const Vec2 off = planned[i].X_WA.front().p - scene_.actors[i].X_WA.p;  // as it is drawn
+      tracks[i] = answers_[i];
+      for (Pose& pose : tracks[i].X_WA) {
+        pose.p = pose.p + off;
+      }
+    }
+    return tracks;
+  }
+
+  [[nodiscard]] bool is_answered(const Track& X_WB) const {
+    return answered_ && std::equal(answered_->X_WA.begin(), answered_->X_WA.end(),
+                                   X_WB.X_WA.begin(), X_WB.X_WA.end(), same);
+  }
+
+  const Scene& scene_;
+  EgoMotion way_;
+  const ForecastTools& tools_;
+  Followers followers_;
+  std::optional<Track> answered_;  ///< what the followers last reacted to
+  std::vector<Track> answers_;     ///< what they did, one per actor; of the others nothing
+};
+
+/// Ways of the ego that can be driven, no longer than the others' motions; in the order of `plans`.
+std::vector<std::optional<EgoMotion>> driven(const Scene& scene, const Plans& plans,
+                                             const ForecastTools& tools) {
+  std::vector<manoeuvre::Drive> drives;
+  for (const manoeuvre::Plan& plan : plans) {
+    if (!manoeuvre::why_refused(*tools.car, plan, scene)) {
+      drives.push_back({.car = tools.car,
+                        .plan = plan,
+                        .start = scene.time,
+                        .ego = scene.ego,
+                        .road = scene.road,
+                        .known_grip = scene.grip,
+                        .grip = scene.grip,
+                        .unknown = {},
+                        .longest = motion_horizon});
+    }
+  }
+  const std::vector<EgoMotion> motions = manoeuvre::drive_all(drives, motion_horizon);
+  std::vector<std::optional<EgoMotion>> ways;
+  auto next = motions.begin();
+  for (const manoeuvre::Plan& plan : plans) {
+    const bool drives_it = !manoeuvre::why_refused(*tools.car, plan, scene);
+    ways.push_back(drives_it ? std::optional(*next++) : std::nullopt);
+  }
+  return ways;
+}
+
 /// nullopt: the atlas does not hold all that can be driven.
-std::optional<std::vector<PolicyFacts>> judged(const Scene& scene, const std::vector<Track>& tracks,
-                                               std::span<const manoeuvre::Plan> plans,
-                                               const ForecastTools& tools, Physics physics) {
-  return physics == Physics::atlas ? read_plans(scene, tracks, plans, tools)
-                                   : rolled_out(scene, tracks, plans, tools);
+std::optional<std::vector<ExpectedHarm>> read(const Scene& scene,
+                                              std::span<const JointMotion> motions,
+                                              const Plans& plans, double sum,
+                                              const ForecastTools& tools) {
+  std::vector<ExpectedHarm> all(plans.size());
+  for (const JointMotion& motion : motions) {
+    const auto facts = read_plans(scene, motion.tracks, {plans.begin(), plans.size()}, tools);
+    if (!facts) {
+      return std::nullopt;
+    }
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+      all[i].refusal = (*facts)[i].refusal;
+      all[i].harm += motion.probability / sum * (*facts)[i].outcome.harm;
+      all[i].contact += motion.probability / sum * (*facts)[i].probability;
+    }
+  }
+  return all;
 }
 
 }  // namespace
@@ -73,28 +193,39 @@ JointMotion all_going_on(const Scene& scene) {
 
 std::vector<ExpectedHarm> expected_harms(const Scene& scene, std::span<const JointMotion> motions,
                                          const ForecastTools& tools, Physics physics) {
-  expects(!motions.empty(), "at least one joint motion");
-  const std::vector<manoeuvre::Plan> plans = all_plans(scene.ego.v_B.x);
-  std::vector<ExpectedHarm> all(plans.size());
-  double sum = 0.0;
-  for (const JointMotion& motion : motions) {
-    const auto facts = judged(scene, motion.tracks, plans, tools, physics);
-    if (!facts) {
-      return expected_harms(scene, motions, tools, Physics::rolled_out);
+  expects(tools.car != nullptr && tools.harm != nullptr, "car and harm are given");
+  const Plans plans = all_plans(scene.ego.v_B.x);
+  std::optional<std::vector<ExpectedHarm>> all;
+  if (physics == Physics::atlas) {
+    all = read(scene, motions, plans, weight_of(motions), tools);
+  }
+  if (!all) {
+    all.emplace();
+    for (const auto& way : driven(scene, plans, tools)) {
+      const manoeuvre::Plan& plan = plans[all->size()];
+      all->push_back(way ? expected_harm(*way, scene, motions, tools)
+                         : ExpectedHarm{.plan = plan,
+                                        .refusal = *manoeuvre::refusal(*tools.car, plan, scene)});
     }
-    for (std::size_t i = 0; i < plans.size(); ++i) {
-      all[i].refusal = (*facts)[i].refusal;
-      all[i].harm += motion.probability * (*facts)[i].outcome.harm;
-      all[i].contact += motion.probability * (*facts)[i].probability;
-    }
-    sum += motion.probability;
   }
   for (std::size_t i = 0; i < plans.size(); ++i) {
-    all[i].plan = plans[i];
-    all[i].harm /= sum;
-    all[i].contact /= sum;
+    (*all)[i].plan = plans[i];
   }
-  return all;
+  return *all;
+}
+
+ExpectedHarm expected_harm(const EgoMotion& way, const Scene& scene,
+                           std::span<const JointMotion> motions, const ForecastTools& tools) {
+  expects(tools.harm != nullptr, "harm is given");
+  HeldWay held(scene, way, tools);
+  ExpectedHarm expected;
+  const double sum = weight_of(motions);
+  for (const JointMotion& motion : motions) {
+    const outcome::Outcome outcome = held.against(motion);
+    expected.harm += motion.probability / sum * outcome.harm;
+    expected.contact += outcome.contact ? motion.probability / sum : 0.0;
+  }
+  return expected;
 }
 
 manoeuvre::Plan least_harmful(std::span<const ExpectedHarm> all) {

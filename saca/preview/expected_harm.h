@@ -7,12 +7,16 @@
 
 #include "saca/intent/motion.h"
 #include "saca/intent/observer.h"
+#include "saca/manoeuvre/drive.h"
 #include "saca/manoeuvre/plan.h"
 #include "saca/preview/policy_facts.h"
 #include "saca/world/scene.h"
 #include "saca/world/track.h"
 
 namespace saca::preview {
+
+/// How far joint motions reach [s]: beyond it everybody stands where it is.
+constexpr double motion_horizon = 10.0;
 
 /// One way in which all others together may move on from a scene.
 struct JointMotion {
@@ -56,6 +60,13 @@ enum class Physics : std::uint8_t {
 [[nodiscard]] std::vector<ExpectedHarm> expected_harms(const world::Scene& scene,
                                                        std::span<const JointMotion> motions,
                                                        const ForecastTools& tools, Physics physics);
+
+/// The same of one way of the ego, whatever it came from: full dynamics of what follows a contact.
+/// @param way  from scene.time on
+/// @return     `plan` is left as it is
+[[nodiscard]] ExpectedHarm expected_harm(const manoeuvre::EgoMotion& way, const world::Scene& scene,
+                                         std::span<const JointMotion> motions,
+                                         const ForecastTools& tools);
 
 /// The plan of the least expected harm by the one ordering (outcome/ordering.h): equal classes of
 /// harm go to the milder. Emergency braking, where none can be driven.

@@ -119,8 +119,8 @@ std::optional<AllFacts> read_facts(const Scene& scene, const std::vector<Track>&
 
 }  // namespace
 
-std::vector<Plan> all_plans(double speed) {
-  std::vector<Plan> plans;
+Plans all_plans(double speed) {
+  Plans plans;
   for (const PolicyId policy : manoeuvre::all_policies) {
     if (!manoeuvre::brakes_to_speed(policy)) {
       plans.push_back({policy, std::nullopt});

@@ -5,10 +5,12 @@
 #include <span>
 #include <vector>
 
+#include "saca/core/static_vector.h"
 #include "saca/intent/motion.h"
 #include "saca/manoeuvre/atlas.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/manoeuvre/plan.h"
+#include "saca/outcome/futures.h"
 #include "saca/outcome/harm.h"
 #include "saca/outcome/roll_out.h"
 #include "saca/preview/caution.h"
@@ -28,7 +30,10 @@ struct ForecastTools {
 
 /// Every plan that can be chosen at `speed` [m/s]: each policy, 3 and 4 once for each of
 /// outcome::target_shares of it, the default (manoeuvre::default_plan) first.
-[[nodiscard]] std::vector<manoeuvre::Plan> all_plans(double speed);
+/// Allocates nothing.
+using Plans =
+    StaticVector<manoeuvre::Plan, manoeuvre::num_policies + 2 * outcome::target_shares.size()>;
+[[nodiscard]] Plans all_plans(double speed);
 
 /// What each policy ends in when it begins in `scene` and the actors follow their tracks, those
 /// behind the ego but react to it: see with_reacting_followers. 3 and 4 brake to whichever of

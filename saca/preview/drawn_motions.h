@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "saca/intent/motion.h"
+#include "saca/intent/observer.h"
+#include "saca/preview/expected_harm.h"
+#include "saca/world/scene.h"
+
+namespace saca::preview {
+
+/// Draws from all that is not known of how the others move on from a scene, all alike likely.
+///
+/// In each draw everybody moves under an intention drawn from its belief, as the law has it, and is
+/// off by an error along its line and one across, each of the spread that the law tells
+/// (intent::Spread) and kept from now on: perception and manner are told apart by nobody. A vehicle
+/// that moves sideways in its lane has in up to half of the draws no intention of that kind: its
+/// sideways speed as measured goes on and ends within `longest_drift`, sooner or later alike
+/// likely. Nobody's errors and intentions depend on another's.
+///
+/// Each road user's draws are a Latin hypercube that depends on its name and `count` only:
+/// forecasts of one instant and the next differ by what has changed, not by chance, and plans that
+/// are held against the same draws are compared in pairs.
+///
+/// @param beliefs  one per actor of the scene
+/// @param count    >= 1
+/// @throws ContractViolation  if beliefs and actors differ in number, or count is 0
+///
+/// Source: M. D. McKay, R. J. Beckman, W. J. Conover, A comparison of three methods for selecting
+/// values of input variables, Technometrics 21, 1979 (the hypercube).
+[[nodiscard]] std::vector<JointMotion> drawn_motions(const world::Scene& scene,
+                                                     const intent::Beliefs& beliefs,
+                                                     const intent::MotionLaw& law,
+                                                     std::size_t count);
+
+/// After which a drift within the lanes has ended [s]: an assumption.
+constexpr double longest_drift = 3.0;
+
+}  // namespace saca::preview

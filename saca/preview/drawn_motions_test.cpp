@@ -1,0 +1,200 @@
+#include "saca/preview/drawn_motions.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "saca/core/contract.h"
+#include "tests/support/scenes.h"
+
+namespace saca::preview::drawn_motions_test {
+namespace {
+
+using intent::Intention;
+using world::Scene;
+
+constexpr std::size_t count = 64;
+
+intent::Belief belief_in(Intention intention, double probability = 1.0) {
+  intent::Belief belief;
+  for (intent::IntentPosterior& posterior : belief.at) {
+    posterior.fill(0.0);
+    posterior[static_cast<std::size_t>(Intention::maintain)] = 1.0 - probability;
+    posterior[static_cast<std::size_t>(intention)] += probability;
+  }
+  return belief;
+}
+
+/// The ego, and a car 40 m ahead in its lane at 10 m/s.
+Scene with_a_car(double sideways = 0.0) {
+  Scene scene = test::ego_at(20.0);
+  scene.road.left_edge = 8.75;
+  scene.road.right_edge = -8.75;
+  scene.actors.push_back(test::car(1, {40.0, 0.0}, {10.0, sideways}));
+  return scene;
+}
+
+/// Where the first actor is then, in each draw.
+std::vector<Vec2> places(const std::vector<JointMotion>& motions, double time) {
+  std::vector<Vec2> all;
+  for (const JointMotion& motion : motions) {
+    all.push_back(world::pose_at(motion.tracks.at(0), time).p);
+  }
+  return all;
+}
+
+intent::Beliefs believing(const intent::Belief& belief) {
+  intent::Beliefs beliefs;
+  beliefs.push_back(belief);
+  return beliefs;
+}
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) {
+    sum += value;
+  }
+  return sum / static_cast<double>(values.size());
+}
+double sd_of(const std::vector<double>& values) {
+  const double mean = mean_of(values);
+  double sum = 0.0;
+  for (const double value : values) {
+    sum += (value - mean) * (value - mean);
+  }
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+std::vector<double> along(const std::vector<Vec2>& places) {
+  std::vector<double> all;
+  for (const Vec2 p : places) {
+    all.push_back(p.x);
+  }
+  return all;
+}
+std::vector<double> across(const std::vector<Vec2>& places) {
+  std::vector<double> all;
+  for (const Vec2 p : places) {
+    all.push_back(p.y);
+  }
+  return all;
+}
+
+TEST(DrawnMotions, OfNobodyAreAlikeAndWeighOneTogether) {
+  const auto motions = drawn_motions(test::ego_at(20.0), {}, intent::MotionLaw{}, 3);
+  ASSERT_EQ(motions.size(), 3);
+  for (const JointMotion& motion : motions) {
+    EXPECT_TRUE(motion.tracks.empty());
+    EXPECT_DOUBLE_EQ(motion.probability, 1.0 / 3.0);
+  }
+}
+
+TEST(DrawnMotions, OfWhoIsSeenExactlyBeginWhereItIs) {
+  const auto motions =
+      drawn_motions(with_a_car(), believing(belief_in(Intention::brake, 0.5)), {}, count);
+  for (const Vec2 p : places(motions, 0.0)) {
+    EXPECT_EQ(norm(p - Vec2{40.0, 0.0}), 0.0);
+  }
+}
+
+// A straight road along x: along is x, across is y, and one is not taken for the other.
+TEST(DrawnMotions, HaveTheSpreadThatTheLawTellsAlongAndAcross) {
+  Scene scene = with_a_car();
+  scene.actors[0].position_sd = 0.3;
+  scene.actors[0].velocity_sd = 0.2;
+  const auto motions = drawn_motions(scene, believing(belief_in(Intention::maintain)), {}, count);
+  const intent::Forecast law =
+      intent::motion_under(scene, scene.actors[0], Intention::maintain, 5.0, {});
+  for (const double time : {0.0, 1.0, 4.0}) {
+    const intent::Spread told = intent::spread_at(law, time);
+    const auto seen = places(motions, time);
+    // The middles of 64 equal parts of a normal law have 0.98 of its spread.
+    EXPECT_NEAR(sd_of(along(seen)), told.along_sd, 0.03 * told.along_sd) << time;
+    EXPECT_NEAR(sd_of(across(seen)), told.across_sd, 0.03 * told.across_sd) << time;
+    EXPECT_NEAR(mean_of(along(seen)), 40.0 + 10.0 * time, 1e-6) << time;
+    EXPECT_NEAR(mean_of(across(seen)), 0.0, 1e-6) << time;
+  }
+  ASSERT_GT(intent::spread_at(law, 4.0).along_sd, 3.0 * intent::spread_at(law, 4.0).across_sd)
+      << "else the two could be confused and nobody would see";
+}
+
+TEST(DrawnMotions, HoldEachIntentionAsOftenAsItIsBelieved) {
+  const auto motions =
+      drawn_motions(with_a_car(), believing(belief_in(Intention::lane_left, 0.25)), {}, count);
+  const auto far = across(places(motions, 9.0));
+  // Seen exactly, who stays in its lane stays on its line: three of four.
+  EXPECT_EQ(std::count_if(far.begin(), far.end(), [](double y) { return std::abs(y) < 1e-9; }), 48);
+}
+
+TEST(DrawnMotions, OfWhoDriftsEndAnywhereWithinThreeSeconds) {
+  const auto motions =
+      drawn_motions(with_a_car(1.0), believing(belief_in(Intention::lane_left)), {}, count);
+  auto far = across(places(motions, 9.0));
+  std::sort(far.begin(), far.end());
+  // One half changes lanes, the other ends its 1 m/s between now and in 3 s, alike likely: of 64,
+  // a third of the half is between 0 and 1 m, and a lane change ends beyond 3 m but for its spread.
+  const auto within = [&](double low, double high) {
+    return std::count_if(far.begin(), far.end(), [&](double y) { return low <= y && y < high; });
+  };
+  EXPECT_NEAR(static_cast<double>(within(-0.5, 1.0)), 32.0 / 3.0, 5.0);
+  EXPECT_NEAR(static_cast<double>(within(-0.5, 2.0)), 64.0 / 3.0, 6.0);
+}
+
+TEST(DrawnMotions, OfWhoDriftsAreMirroredInTheMirror) {
+  const auto left =
+      drawn_motions(with_a_car(0.8), believing(belief_in(Intention::maintain)), {}, count);
+  const auto right =
+      drawn_motions(with_a_car(-0.8), believing(belief_in(Intention::maintain)), {}, count);
+  auto y_left = across(places(left, 5.0));
+  auto y_right = across(places(right, 5.0));
+  EXPECT_NEAR(mean_of(y_left), -mean_of(y_right), 0.02);
+  EXPECT_NEAR(sd_of(y_left), sd_of(y_right), 0.05);
+}
+
+TEST(DrawnMotions, DependOnNamesNotOnOrder) {
+  Scene scene = with_a_car();
+  scene.actors[0].position_sd = 0.3;
+  scene.actors.push_back(test::car(2, {60.0, 3.5}, {15.0, 0.0}));
+  scene.actors[1].position_sd = 0.3;
+  intent::Beliefs beliefs = believing(belief_in(Intention::brake, 0.5));
+  beliefs.push_back(belief_in(Intention::lane_right, 0.5));
+  const auto motions = drawn_motions(scene, beliefs, {}, 8);
+  std::swap(scene.actors[0], scene.actors[1]);
+  std::swap(beliefs[0], beliefs[1]);
+  const auto swapped = drawn_motions(scene, beliefs, {}, 8);
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(norm(world::pose_at(motions[k].tracks[i], 2.0).p -
+                     world::pose_at(swapped[k].tracks[1 - i], 2.0).p),
+                0.0);
+    }
+  }
+}
+
+TEST(DrawnMotions, WhoStandsAndObstaclesHaveDrawsToo) {
+  Scene scene = test::ego_at(20.0);
+  scene.actors.push_back(test::car(1, {40.0, 0.0}));
+  scene.actors.push_back(test::car(2, {60.0, 0.0}));
+  scene.actors[1].kind = world::ActorKind::obstacle;
+  scene.actors.push_back(test::car(3, {50.0, 5.0}));
+  scene.actors[2].kind = world::ActorKind::pedestrian;
+  intent::Beliefs beliefs;
+  for (int i = 0; i < 3; ++i) {
+    beliefs.push_back(belief_in(Intention::maintain));
+  }
+  for (const JointMotion& motion : drawn_motions(scene, beliefs, {}, 5)) {
+    ASSERT_EQ(motion.tracks.size(), 3);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(norm(motion.tracks[i].X_WA.back().p - scene.actors[i].X_WA.p), 0.0);
+    }
+  }
+}
+
+TEST(DrawnMotions, RefuseBeliefsOfOthersAndNoDraw) {
+  EXPECT_THROW((void)drawn_motions(with_a_car(), {}, {}, 4), ContractViolation);
+  EXPECT_THROW((void)drawn_motions(with_a_car(), believing(belief_in(Intention::maintain)), {}, 0),
+               ContractViolation);
+}
+
+}  // namespace
+}  // namespace saca::preview::drawn_motions_test
