@@ -19,8 +19,8 @@
 #include "apps/saca/reach_bench.h"
 #include "saca/core/clock.h"
 #include "saca/core/percentile.h"
+#include "saca/decide/atlas_judge.h"
 #include "saca/decide/reflex_plane.h"
-#include "saca/decide/trigger_check.h"
 #include "saca/manoeuvre/atlas.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/manoeuvre/controller.h"
@@ -113,13 +113,15 @@ void bench_reflex(const Inputs& inputs, const manoeuvre::Atlas& atlas, Clock& cl
     std::vector<double> looked_ahead;  // times of those calls that asked the atlas
     int num_triggered = 0;
     for (int call = 0; call < num_calls; ++call) {
-      decide::ReflexPlane plane(preview::Thresholds{}, decide::TriggerCheck(atlas, inputs.harm));
+      decide::ReflexPlane plane({.thresholds = {},
+                                 .car = &inputs.car,
+                                 .atlas = decide::AtlasJudge(inputs.car, atlas, inputs.harm)});
       const world::Scene& scene = scenes[static_cast<std::size_t>(call) % scenes.size()];
       const Clock::Time start = clock.now();
       plane.receive(plans);
       num_triggered += plane.step(scene).triggered ? 1 : 0;
       times.push_back(1e6 * to_seconds(clock.now() - start));
-      if (plane.decision() && plane.decision()->forecast) {
+      if (plane.decision() && plane.decision()->by_atlas) {
         looked_ahead.push_back(times.back());
       }
     }
@@ -142,10 +144,10 @@ void bench_reflex(const Inputs& inputs, const manoeuvre::Atlas& atlas, Clock& cl
   }
 }
 
-/// Percentiles of the check at the trigger alone, without and with somebody behind.
-void bench_trigger_check(const Inputs& inputs, const manoeuvre::Atlas& atlas, Clock& clock,
-                         int num_calls, json& figures) {
-  decide::TriggerCheck check(atlas, inputs.harm);
+/// Percentiles of the reflex plane's own verdict alone, without and with somebody behind.
+void bench_atlas_judge(const Inputs& inputs, const manoeuvre::Atlas& atlas, Clock& clock,
+                       int num_calls, json& figures) {
+  decide::AtlasJudge judge(inputs.car, atlas, inputs.harm);
   for (const int num_actors : {1, 8, 32}) {
     for (const bool followed : {false, true}) {
       std::mt19937 rng(1);
@@ -163,15 +165,14 @@ void bench_trigger_check(const Inputs& inputs, const manoeuvre::Atlas& atlas, Cl
       for (int call = 0; call < num_calls; ++call) {
         const world::Scene& scene = scenes[static_cast<std::size_t>(call) % scenes.size()];
         const Clock::Time start = clock.now();
-        told += check.compare(aes_left, scene) ? 1 : 0;
+        told += judge.judge(scene) ? 1 : 0;
         times.push_back(1e6 * to_seconds(clock.now() - start));
       }
       const std::string suffix =
           fmt::format(".actors{}{}", num_actors, followed ? ".followed" : "");
-      figures["decide.trigger_check_us.p50" + suffix] = percentile(times, 0.5);
-      figures["decide.trigger_check_us.p99" + suffix] = percentile(times, 0.99);
-      figures["decide.trigger_check_us.told_share" + suffix] =
-          static_cast<double>(told) / num_calls;
+      figures["decide.atlas_judge_us.p50" + suffix] = percentile(times, 0.5);
+      figures["decide.atlas_judge_us.p99" + suffix] = percentile(times, 0.99);
+      figures["decide.atlas_judge_us.told_share" + suffix] = static_cast<double>(told) / num_calls;
     }
   }
 }
@@ -258,7 +259,7 @@ int bench(const BenchOptions& options) {
     const manoeuvre::Atlas atlas = usual_atlas(inputs);
     if (asked("decide")) {
       bench_reflex(inputs, atlas, clock, options.calls, figures);
-      bench_trigger_check(inputs, atlas, clock, fewer_calls, figures);
+      bench_atlas_judge(inputs, atlas, clock, fewer_calls, figures);
     }
     if (asked("atlas")) {
       bench_atlas(inputs.car, atlas, inputs.harm, clock, fewer_calls, figures);

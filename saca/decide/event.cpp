@@ -10,9 +10,26 @@ namespace saca::decide {
 namespace {
 
 constexpr std::array<std::string_view, 3> plane_names{"world", "reflex", "thinking"};
-constexpr std::array<std::string_view, 16> kind_names{
-    "preview", "risk",   "intention", "forecast", "memory",  "ask",     "first_answer", "answer",
-    "check",   "cached", "trigger",   "match",    "execute", "contact", "rest",         "fault"};
+constexpr std::array<std::string_view, 17> kind_names{
+    "preview",      "risk",   "intention", "forecast", "memory",  "ask",
+    "first_answer", "answer", "check",     "cached",   "trigger", "match",
+    "execute",      "switch", "contact",   "rest",     "fault"};
+
+std::string in_words(const manoeuvre::Plan& plan) {
+  return fmt::format("{} {}", manoeuvre::index(plan.policy), name(plan.policy));
+}
+
+/// What the verdict says of a plan, beside braking.
+std::string told(const Verdict& verdict, const manoeuvre::Plan& plan) {
+  std::string text;
+  for (const manoeuvre::Plan& one : {plan, manoeuvre::full_braking}) {
+    const JudgedPlan* const judged = find_plan(verdict, one);
+    if (judged != nullptr && (text.empty() || one.policy != plan.policy)) {
+      text += fmt::format("{}{} {:.4f}", text.empty() ? "" : ", ", in_words(one), judged->harm);
+    }
+  }
+  return text;
+}
 
 }  // namespace
 
@@ -28,23 +45,42 @@ std::string decision_text(const Decision& decision) {
   if (decision.source == Source::forced) {
     return "asked for by the user";
   }
-  if (!decision.similarity) {
-    return "no plan is cached: emergency braking";
-  }
-  std::string text = fmt::format("the scene is {:.0f} % like forecast {}",
-                                 100.0 * *decision.similarity, *decision.preview + 1);
-  if (decision.source != Source::fallback) {
+  std::string text = decision.similarity
+                         ? fmt::format("the scene is {:.0f} % like forecast {}",
+                                       100.0 * *decision.similarity, *decision.preview + 1)
+                         : "no plan is cached";
+  if (decision.source == Source::memory || decision.source == Source::model) {
     return text + fmt::format(": its plan, from {}, is taken", name(decision.source));
   }
-  if (!decision.gave_way_to_aeb) {
-    return text + ", not more than 90 %: emergency braking";
+  if (decision.not_admissible) {
+    text += ", whose plan would do too much harm from here";
+  } else if (decision.similarity) {
+    text += ", not more than 90 %";
   }
-  return text +
-         (decision.forecast
-              ? fmt::format(", whose plan would do more harm from here than emergency braking: "
-                            "{:.4f} against {:.4f}",
-                            decision.forecast->plan, decision.forecast->aeb)
-              : ", whose plan is now forecast to be no better than emergency braking");
+  if (decision.refused) {
+    return text + "; what was decided on cannot be driven from here: emergency braking";
+  }
+  if (!decision.verdict) {
+    return text + "; nothing can be judged: emergency braking";
+  }
+  return text + fmt::format("; expected harm{}: {}; {} of {} plans are admissible",
+                            decision.by_atlas ? " by the atlas" : "",
+                            told(*decision.verdict, decision.plan),
+                            num_admissible(*decision.verdict), decision.verdict->plans.size());
+}
+
+std::string switch_text(const Switch& change) {
+  switch (change.reason) {
+    case SwitchReason::needed_after_all:
+      return fmt::format("doing nothing is expected to harm {:.4f} now: {}, {:.4f}",
+                         change.harm_before, in_words(change.plan), change.harm);
+    case SwitchReason::no_longer_needed:
+      return "nobody is in the way any more: lane and speed are kept";
+    case SwitchReason::better_by_far:
+      break;
+  }
+  return fmt::format("going on is expected to harm {:.4f}, {} from here {:.4f}", change.harm_before,
+                     in_words(change.plan), change.harm);
 }
 
 }  // namespace saca::decide

@@ -35,6 +35,7 @@ enum class EventKind : std::uint8_t {
   trigger,
   match,
   execute,
+  switched,
   contact,
   rest,
   fault,
@@ -70,5 +71,6 @@ struct Preview {
 
 /// Why this was decided, in one line.
 [[nodiscard]] std::string decision_text(const Decision& decision);
+[[nodiscard]] std::string switch_text(const Switch& change);
 
 }  // namespace saca::decide

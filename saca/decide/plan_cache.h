@@ -11,16 +11,18 @@ namespace saca::decide {
 
 /// Where an executed plan came from.
 enum class Source : std::uint8_t {
-  fallback,  ///< no cached plan matched: emergency braking
+  fallback,  ///< nothing could be judged: emergency braking
   memory,    ///< the policy of a stored case
   model,     ///< chosen by the language model, checked by rollout
   forced,    ///< the user asked for it
+  arbiter,   ///< what the verdict speaks for (plan_of)
 };
 [[nodiscard]] std::string_view name(Source source);
 
-/// Whether what was cached is held against emergency braking before it is carried out.
+/// Whether what was cached is held against the verdict before it is carried out.
 enum class Guard : std::uint8_t {
-  never_worse_than_braking,  ///< nothing that is known to be worse than braking is carried out
+  never_worse_than_braking,  ///< what is not admissible is not carried out, and what is carried out
+                             ///< is supervised: nothing is known to be worse than braking
   none,                      ///< Algorithm 1 of the paper to the letter: a plan that memory holds
                              ///< (above 90 %) or the model chose is cached unchecked, and carried
                              ///< out where its situation matches

@@ -3,11 +3,20 @@
 #include <array>
 
 #include "saca/core/names.h"
+#include "saca/manoeuvre/drive.h"
 
 namespace saca::decide {
 namespace {
 
-constexpr std::array<std::string_view, 4> source_names{"fallback", "memory", "model", "forced"};
+using manoeuvre::Plan;
+using world::Scene;
+
+constexpr std::array<std::string_view, 5> source_names{"fallback", "memory", "model", "forced",
+                                                       "arbiter"};
+
+bool is_fresh(const std::optional<Verdict>& verdict, const Scene& scene) {
+  return verdict && verdict->time <= scene.time && scene.time - verdict->time <= verdict_expiry;
+}
 
 }  // namespace
 
@@ -15,8 +24,13 @@ std::string_view name(Source source) {
   return name_of(source, source_names);
 }
 
-Decision ReflexPlane::decide(const world::Scene& scene) noexcept {
-  Decision decision{.plan = {manoeuvre::PolicyId::aeb, std::nullopt}, .time = scene.time};
+Decision ReflexPlane::decide(const Scene& scene) noexcept {
+  Decision decision{.plan = manoeuvre::full_braking, .time = scene.time};
+  if (tools_.forced) {
+    decision.plan = *tools_.forced;
+    decision.source = Source::forced;
+    return decision;
+  }
   const CachedPlan* best = nullptr;
   const memory::Features here = memory::features(scene);
   for (const CachedPlan& cached : plans_) {
@@ -27,40 +41,83 @@ Decision ReflexPlane::decide(const world::Scene& scene) noexcept {
       best = &cached;
     }
   }
-  if (forced_) {
-    decision.plan = *forced_;
-    decision.source = Source::forced;
-  } else if (best != nullptr && *decision.similarity > match_similarity) {
-    const bool guarded = guard_ == Guard::never_worse_than_braking;
-    decision.gave_way_to_aeb = guarded && best->worse_than_aeb;
-    if (guarded && check_ && !best->worse_than_aeb &&
-        best->plan.policy != manoeuvre::PolicyId::aeb) {
-      decision.forecast = check_->compare(best->plan, scene);
-      decision.gave_way_to_aeb = decision.forecast && decision.forecast->plan_harms_more();
-    }
-    if (!decision.gave_way_to_aeb) {
+  const bool guarded = tools_.guard != Guard::none;
+  if (guarded && is_fresh(verdict_, scene)) {
+    decision.verdict = verdict_;
+  } else if (guarded && tools_.atlas) {
+    decision.verdict = tools_.atlas->judge(scene);
+    decision.by_atlas = decision.verdict.has_value();
+  }
+  const bool matches = best != nullptr && *decision.similarity > match_similarity;
+  if (matches) {
+    const bool admissible = !guarded           ? true
+                            : decision.verdict ? admits(*decision.verdict, best->plan)
+                                               : !best->worse_than_aeb;
+    decision.not_admissible = !admissible;
+    if (admissible) {
       decision.plan = best->plan;
       decision.source = best->source;
     }
   }
+  if (decision.source == Source::fallback && decision.verdict) {
+    decision.plan = plan_of(*decision.verdict);
+    decision.source = Source::arbiter;
+  }
+  if (tools_.car != nullptr) {
+    decision.refused = manoeuvre::why_refused(*tools_.car, decision.plan, scene);
+  }
+  if (decision.refused) {
+    decision.plan = manoeuvre::full_braking;
+    decision.source = Source::fallback;
+  }
   return decision;
 }
 
-Reflex ReflexPlane::step(const world::Scene& scene) noexcept {
+void ReflexPlane::begin(const Plan& plan, const Scene& scene) noexcept {
+  under_way_ = UnderWay{
+      .plan = plan, .begun = scene.time, .ego = scene.ego, .road = scene.road, .grip = scene.grip};
+}
+
+bool ReflexPlane::needs_verdict(const Scene& scene, bool finished) const noexcept {
+  if (!supervises() || world::broken_rule(scene)) {
+    return false;
+  }
+  const bool triggers = preview::triggering_threat(scene, tools_.thresholds).has_value();
+  return under_way_ ? supervisor_.is_due(scene, *under_way_, triggers, finished) : triggers;
+}
+
+Reflex ReflexPlane::step(const Scene& scene, bool finished) noexcept {
   Reflex reflex;
-  if (decision_) {
-    reflex.plan = decision_->plan;
+  if (under_way_) {
+    reflex.plan = under_way_->plan;
   }
   if (world::broken_rule(scene)) {
     reflex.refused_scene = true;
     return reflex;
   }
-  reflex.threat =
-      preview::nearest_threat(scene, thresholds_.preview, thresholds_.trigger_tolerance);
-  if (!decision_ && preview::triggers(reflex.threat, thresholds_)) {
+  reflex.threat = preview::nearest_threat(scene, tools_.thresholds.preview,
+                                          tools_.thresholds.trigger_tolerance);
+  if (!decision_ && preview::triggers(reflex.threat, tools_.thresholds)) {
     decision_ = decide(scene);
+    begin(decision_->plan, scene);
+    supervisor_.begin(scene);
     reflex.plan = decision_->plan;
     reflex.triggered = true;
+    return reflex;
+  }
+  if (under_way_ && supervises() && is_fresh(verdict_, scene) &&
+      verdict_->time > under_way_->begun) {
+    const SupervisedScene now{.scene = scene,
+                              .verdict = *verdict_,
+                              .under_way = *under_way_,
+                              .threatened = reflex.threat.has_value(),
+                              .triggers = preview::triggers(reflex.threat, tools_.thresholds),
+                              .finished = finished};
+    reflex.switched = supervisor_.look(now, tools_.car);
+    if (reflex.switched) {
+      begin(reflex.switched->plan, scene);
+      reflex.plan = reflex.switched->plan;
+    }
   }
   return reflex;
 }

@@ -4,8 +4,12 @@
 #include <optional>
 #include <utility>
 
+#include "saca/decide/atlas_judge.h"
+#include "saca/decide/forecaster.h"
 #include "saca/decide/plan_cache.h"
-#include "saca/decide/trigger_check.h"
+#include "saca/decide/supervisor.h"
+#include "saca/decide/verdict.h"
+#include "saca/manoeuvre/car.h"
 #include "saca/manoeuvre/plan.h"
 #include "saca/preview/threat.h"
 #include "saca/world/scene.h"
@@ -21,10 +25,12 @@ struct Decision {
   Source source = Source::fallback;
   std::optional<double> similarity;  ///< to the best cached situation; nullopt when there was none
   std::optional<std::int32_t> preview;  ///< whose plan it is, or would have been
-  bool gave_way_to_aeb = false;         ///< a plan matched, but a forecast was worse than AEB's
-  std::optional<Comparison> forecast;   ///< at the trigger, by the atlas; nullopt: not asked, or
-                                        ///< it could not tell
-  double time = 0.0;                    ///< of the trigger [s], in the scene's time
+  bool not_admissible = false;  ///< a plan matched, but it is forecast to harm too much from here
+  std::optional<Verdict> verdict;  ///< by which it was decided; nullopt: by none
+  bool by_atlas = false;           ///< that is the reflex plane's own: the forecaster's was too old
+  std::optional<manoeuvre::Refusal> refused;  ///< why what was decided on cannot be driven:
+                                              ///< emergency braking took its place
+  double time = 0.0;                          ///< of the trigger [s], in the scene's time
 };
 
 /// What the reflex plane says to one scene.
@@ -33,42 +39,62 @@ struct Reflex {
                        std::nullopt};     ///< valid at every instant
   std::optional<preview::Threat> threat;  ///< nearest conflict within T2, all going on as they do
   bool triggered = false;                 ///< in this very call
-  bool refused_scene = false;             ///< the scene broke a rule and was left aside
+  std::optional<Switch> switched;  ///< in this very call: `plan` begins now, in place of another
+  bool refused_scene = false;      ///< the scene broke a rule and was left aside
+};
+
+/// What the reflex plane decides with. What it points to outlives the plane.
+struct ReflexTools {
+  preview::Thresholds thresholds;
+  const manoeuvre::Car* car = nullptr;    ///< nullptr: what cannot be driven is not found out
+  std::optional<AtlasJudge> atlas;        ///< nullopt: without a verdict, cached plans are taken
+                                          ///< unless their last forecast was worse than braking's
+  std::optional<manoeuvre::Plan> forced;  ///< what to carry out at the trigger whatever was thought
+  Guard guard = Guard::never_worse_than_braking;
 };
 
 /// The plane that is always in time: a scene in, a plan out. One thread; no lock, no allocation, no
-/// system call. Once triggered it keeps its plan.
+/// system call.
 ///
-/// A matching plan gives way to emergency braking where the thinking plane's last forecast has that
-/// end better, or where the atlas says, at the trigger itself, that the plan harms more. So nothing
-/// is knowingly worse than braking, unless Guard::none was asked for.
+/// At the trigger, in this order: the cached plan whose situation this is, where the verdict finds
+/// it admissible; else what the verdict speaks for (plan_of). Where the newest verdict is older
+/// than verdict_expiry, the atlas gives one; where it cannot, emergency braking. What cannot be
+/// driven from here gives way to emergency braking. From then on the verdicts are watched
+/// (Supervisor). Guard::none: Algorithm 1 of the paper, and its plan is kept.
 class ReflexPlane {
  public:
-  /// @param check   nullopt: the last forecast alone decides
-  /// @param forced  what to carry out at the trigger whatever was thought
-  explicit ReflexPlane(const preview::Thresholds& thresholds,
-                       std::optional<TriggerCheck> check = std::nullopt,
-                       std::optional<manoeuvre::Plan> forced = std::nullopt,
-                       Guard guard = Guard::never_worse_than_braking) noexcept
-      : thresholds_(thresholds), check_(std::move(check)), forced_(forced), guard_(guard) {}
+  explicit ReflexPlane(ReflexTools tools) noexcept : tools_(std::move(tools)) {}
 
   /// Takes over the newest plans.
   void receive(const PlanCache& plans) noexcept { plans_ = plans; }
+  /// Takes over the newest verdict.
+  void receive(const Verdict& verdict) noexcept { verdict_ = verdict; }
 
-  [[nodiscard]] Reflex step(const world::Scene& scene) noexcept;
+  /// @param finished  what is carried out has reached its safe end: from now on the plane watches
+  ///                  for another trigger
+  [[nodiscard]] Reflex step(const world::Scene& scene, bool finished = false) noexcept;
 
-  /// nullopt before the trigger.
+  /// Will `step` look at verdicts in this scene? Where not, none need be made.
+  [[nodiscard]] bool needs_verdict(const world::Scene& scene, bool finished) const noexcept;
+
+  /// The first; nullopt before the trigger.
   [[nodiscard]] const std::optional<Decision>& decision() const noexcept { return decision_; }
+  /// What is being carried out; nullopt: nothing.
+  [[nodiscard]] const std::optional<UnderWay>& under_way() const noexcept { return under_way_; }
 
  private:
+  [[nodiscard]] bool supervises() const noexcept {
+    return tools_.guard != Guard::none && !tools_.forced;
+  }
   [[nodiscard]] Decision decide(const world::Scene& scene) noexcept;
+  void begin(const manoeuvre::Plan& plan, const world::Scene& scene) noexcept;
 
-  preview::Thresholds thresholds_;
-  std::optional<TriggerCheck> check_;
-  std::optional<manoeuvre::Plan> forced_;
-  Guard guard_;
+  ReflexTools tools_;
   PlanCache plans_;
+  std::optional<Verdict> verdict_;
   std::optional<Decision> decision_;
+  std::optional<UnderWay> under_way_;
+  Supervisor supervisor_;
 };
 
 }  // namespace saca::decide

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "saca/decide/verdict_for_test.h"
 #include "saca/manoeuvre/atlas_for_test.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/scenes.h"
@@ -42,7 +43,7 @@ PlanCache one_plan(const Scene& scene_at_trigger, PolicyId policy, bool worse = 
 }
 
 TEST(ReflexPlane, DoesNothingBeforeTheTrigger) {
-  ReflexPlane plane({});
+  ReflexPlane plane{ReflexTools{}};
   const Reflex reflex = plane.step(wreck_in(1.4));
   EXPECT_FALSE(reflex.triggered);
   EXPECT_EQ(reflex.plan.policy, PolicyId::no_intervention);
@@ -51,7 +52,7 @@ TEST(ReflexPlane, DoesNothingBeforeTheTrigger) {
 }
 
 TEST(ReflexPlane, BrakesWhenNothingWasThought) {
-  ReflexPlane plane({});
+  ReflexPlane plane{ReflexTools{}};
   const Reflex reflex = plane.step(wreck_in(1.28));
   EXPECT_TRUE(reflex.triggered);
   EXPECT_EQ(reflex.plan.policy, PolicyId::aeb);
@@ -60,7 +61,7 @@ TEST(ReflexPlane, BrakesWhenNothingWasThought) {
 }
 
 TEST(ReflexPlane, CarriesOutThePlanOfTheSituationThatCame) {
-  ReflexPlane plane({});
+  ReflexPlane plane{ReflexTools{}};
   plane.receive(one_plan(wreck_in(1.3), PolicyId::aes_left));
   const Reflex reflex = plane.step(wreck_in(1.29));
   EXPECT_EQ(reflex.plan.policy, PolicyId::aes_left);
@@ -70,7 +71,7 @@ TEST(ReflexPlane, CarriesOutThePlanOfTheSituationThatCame) {
 }
 
 TEST(ReflexPlane, BrakesWhenAnotherSituationCame) {
-  ReflexPlane plane({});
+  ReflexPlane plane{ReflexTools{}};
   Scene other = wreck_in(1.3);
   other.actors[0].kind = world::ActorKind::truck;
   other.actors[0].v_W = {0.0, -9.0};
@@ -82,10 +83,10 @@ TEST(ReflexPlane, BrakesWhenAnotherSituationCame) {
 }
 
 TEST(ReflexPlane, IsNeverKnowinglyWorseThanBraking) {
-  ReflexPlane plane({});
+  ReflexPlane plane{ReflexTools{}};
   plane.receive(one_plan(wreck_in(1.3), PolicyId::aes_left, true));
   EXPECT_EQ(plane.step(wreck_in(1.29)).plan.policy, PolicyId::aeb);
-  EXPECT_TRUE(plane.decision()->gave_way_to_aeb);
+  EXPECT_TRUE(plane.decision()->not_admissible);
 }
 
 /// As wreck_in, slow enough for the small atlas, with a plan for it.
@@ -94,36 +95,124 @@ Scene slow_wreck_in(double time) {
   scene.actors.push_back(car(1, {12.5 * time + 4.5, 0.0}));
   return scene;
 }
-Decision decision_with_atlas(const Scene& scene, PolicyId policy) {
+const manoeuvre::Car& small_car() {
+  return manoeuvre::small_atlas_car();
+}
+ReflexTools with_atlas() {
   static const auto harm = outcome::read_harm("data/harm.toml").value();
-  ReflexPlane plane({}, TriggerCheck(manoeuvre::small_atlas(), harm));
+  return {.car = &small_car(), .atlas = AtlasJudge(small_car(), manoeuvre::small_atlas(), harm)};
+}
+Decision decision_with_atlas(const Scene& scene, PolicyId policy) {
+  ReflexPlane plane(with_atlas());
   plane.receive(one_plan(scene, policy));
   (void)plane.step(scene);
   return plane.decision().value();
 }
+double harm_of(const Decision& decision, PolicyId policy) {
+  return find_plan(decision.verdict.value(), {policy, std::nullopt})->harm;
+}
 
 // Where somebody stands in the next lane, a swerve into it hits at full speed; braking from
 // 12.5 m/s needs 10.2 m (docs/architecture.md: 12.70 m from 14), and there are 16.
-TEST(ReflexPlane, GivesWayWhereTheAtlasSaysThatBrakingHarmsLess) {
+TEST(ReflexPlane, WithoutAVerdictAsksTheAtlas) {
   Scene blocked = slow_wreck_in(1.28);
   blocked.actors.push_back(car(2, {blocked.actors[0].X_WA.p.x + 2.0, 3.5}));
   const Decision decision = decision_with_atlas(blocked, PolicyId::aes_left);
   EXPECT_EQ(decision.plan.policy, PolicyId::aeb);
-  EXPECT_TRUE(decision.gave_way_to_aeb);
-  ASSERT_TRUE(decision.forecast.has_value());
-  EXPECT_GT(decision.forecast->plan, decision.forecast->aeb);
-  EXPECT_EQ(decision.forecast->aeb, 0.0);
+  EXPECT_EQ(decision.source, Source::arbiter);
+  EXPECT_TRUE(decision.not_admissible);
+  EXPECT_TRUE(decision.by_atlas);
+  EXPECT_GT(harm_of(decision, PolicyId::aes_left), harm_of(decision, PolicyId::aeb));
+  EXPECT_EQ(harm_of(decision, PolicyId::aeb), 0.0);
 }
 
 TEST(ReflexPlane, KeepsThePlanWhereTheAtlasHasNothingAgainstIt) {
   const Decision free = decision_with_atlas(slow_wreck_in(1.28), PolicyId::aes_left);
   EXPECT_EQ(free.plan.policy, PolicyId::aes_left);
-  ASSERT_TRUE(free.forecast.has_value());
-  EXPECT_EQ(free.forecast->plan, 0.0);
+  EXPECT_EQ(free.source, Source::model);
+  EXPECT_EQ(harm_of(free, PolicyId::aes_left), 0.0);
   // The small atlas does not know 20 m/s: the thinking plane's forecast stands.
   const Decision fast = decision_with_atlas(wreck_in(1.28), PolicyId::aes_left);
   EXPECT_EQ(fast.plan.policy, PolicyId::aes_left);
-  EXPECT_FALSE(fast.forecast.has_value());
+  EXPECT_FALSE(fast.verdict.has_value());
+}
+
+TEST(ReflexPlane, DoesWhatAFreshVerdictSpeaksFor) {
+  ReflexPlane plane{ReflexTools{}};
+  Scene scene = wreck_in(1.28);
+  scene.time = 5.0;
+  plane.receive(verdict_of(4.95, {{PolicyId::aeb, 0.2}, {PolicyId::aes_left, 0.0}}));
+  EXPECT_EQ(plane.step(scene).plan.policy, PolicyId::aes_left);
+  EXPECT_EQ(plane.decision()->source, Source::arbiter);
+  EXPECT_FALSE(plane.decision()->by_atlas);
+}
+
+TEST(ReflexPlane, HasNoUseForAVerdictThatIsOldOrOfAnotherTime) {
+  for (const double time : {4.89, 5.01}) {
+    ReflexPlane plane{ReflexTools{}};
+    Scene scene = wreck_in(1.28);
+    scene.time = 5.0;
+    plane.receive(verdict_of(time, {{PolicyId::aeb, 0.2}, {PolicyId::aes_left, 0.0}}));
+    EXPECT_EQ(plane.step(scene).plan.policy, PolicyId::aeb) << time;
+    EXPECT_EQ(plane.decision()->source, Source::fallback);
+  }
+}
+
+TEST(ReflexPlane, PrefersTheCachedPlanWhereItIsAdmissible) {
+  const auto decided = [](double harm_of_cached) {
+    ReflexPlane plane{ReflexTools{}};
+    Scene scene = wreck_in(1.28);
+    scene.time = 5.0;
+    plane.receive(one_plan(scene, PolicyId::aes_right));
+    plane.receive(verdict_of(
+        5.0,
+        {{PolicyId::aeb, 0.2}, {PolicyId::aes_left, 0.0}, {PolicyId::aes_right, harm_of_cached}}));
+    (void)plane.step(scene);
+    return plane.decision().value();
+  };
+  EXPECT_EQ(decided(0.005).plan.policy, PolicyId::aes_right);  // within 3 % of 0.2
+  EXPECT_EQ(decided(0.005).source, Source::model);
+  EXPECT_EQ(decided(0.007).plan.policy, PolicyId::aes_left);
+  EXPECT_TRUE(decided(0.007).not_admissible);
+}
+
+// Previewed at 24.9 m/s, triggered at 25.2: a lane change is made for at most 25.
+TEST(ReflexPlane, NeverBeginsWhatCannotBeDrivenFromHere) {
+  ReflexPlane plane({.car = &small_car()});
+  Scene scene = motorway(25.2);
+  scene.actors.push_back(car(1, {25.2 * 1.28 + 4.5, 0.0}));
+  plane.receive(one_plan(scene, PolicyId::aes_left));
+  EXPECT_EQ(plane.step(scene).plan.policy, PolicyId::aeb);
+  EXPECT_EQ(plane.decision()->source, Source::fallback);
+  EXPECT_EQ(plane.decision()->refused, manoeuvre::Refusal::speed);
+}
+
+TEST(ReflexPlane, ByThePapersRuleNoVerdictCounts) {
+  ReflexPlane plane({.guard = Guard::none});
+  plane.receive(one_plan(wreck_in(1.28), PolicyId::aes_right));
+  plane.receive(verdict_of(0.0, {{PolicyId::aeb, 0.0}, {PolicyId::aes_right, 0.5}}));
+  EXPECT_EQ(plane.step(wreck_in(1.28)).plan.policy, PolicyId::aes_right);
+  EXPECT_FALSE(plane.needs_verdict(wreck_in(1.0), false));
+}
+
+TEST(ReflexPlane, IsSupervisedFromThenOn) {
+  ReflexPlane plane{ReflexTools{}};
+  Scene scene = wreck_in(1.28);
+  (void)plane.step(scene);
+  ASSERT_EQ(plane.under_way()->plan.policy, PolicyId::aeb);
+  Reflex reflex;
+  for (int k = 1; k <= 2; ++k) {
+    scene = wreck_in(1.28 - 0.1 * k);
+    scene.time = 0.1 * k;
+    EXPECT_TRUE(plane.needs_verdict(scene, false));
+    plane.receive(verdict_of(scene.time, {{PolicyId::aeb, 0.2}, {PolicyId::aes_left, 0.0}}));
+    reflex = plane.step(scene);
+  }
+  ASSERT_TRUE(reflex.switched.has_value());
+  EXPECT_EQ(reflex.plan.policy, PolicyId::aes_left);
+  EXPECT_EQ(plane.under_way()->plan.policy, PolicyId::aes_left);
+  EXPECT_EQ(plane.under_way()->begun, 0.2);
+  EXPECT_EQ(plane.decision()->plan.policy, PolicyId::aeb) << "the first stands in the record";
 }
 
 TEST(ReflexPlane, TakesTheMostSimilarOfSeveral) {
@@ -131,13 +220,13 @@ TEST(ReflexPlane, TakesTheMostSimilarOfSeveral) {
   other.actors[0].X_WA.p.y = 0.4;
   PlanCache cache = one_plan(other, PolicyId::aes_right);
   cache.push_back(one_plan(wreck_in(1.29), PolicyId::aes_left)[0]);
-  ReflexPlane plane({});
+  ReflexPlane plane{ReflexTools{}};
   plane.receive(cache);
   EXPECT_EQ(plane.step(wreck_in(1.29)).plan.policy, PolicyId::aes_left);
 }
 
 TEST(ReflexPlane, KeepsItsPlan) {
-  ReflexPlane plane({});
+  ReflexPlane plane{ReflexTools{}};
   (void)plane.step(wreck_in(1.2));
   plane.receive(one_plan(wreck_in(1.0), PolicyId::aes_left));
   const Reflex later = plane.step(wreck_in(1.0));
@@ -146,14 +235,14 @@ TEST(ReflexPlane, KeepsItsPlan) {
 }
 
 TEST(ReflexPlane, DoesWhatTheUserAsksFor) {
-  ReflexPlane plane({}, std::nullopt, manoeuvre::Plan{PolicyId::no_intervention, std::nullopt});
+  ReflexPlane plane({.forced = manoeuvre::doing_nothing});
   plane.receive(one_plan(wreck_in(1.3), PolicyId::aes_left));
   EXPECT_EQ(plane.step(wreck_in(1.2)).plan.policy, PolicyId::no_intervention);
   EXPECT_EQ(plane.decision()->source, Source::forced);
 }
 
 TEST(ReflexPlane, LeavesABrokenSceneAside) {
-  ReflexPlane plane({});
+  ReflexPlane plane{ReflexTools{}};
   Scene broken = wreck_in(0.5);
   broken.actors[0].v_W.x = std::numeric_limits<double>::quiet_NaN();
   const Reflex reflex = plane.step(broken);
@@ -175,15 +264,19 @@ TEST(ReflexPlane, AllocatesNothing) {
   while (!cache.full()) {
     cache.push_back(one_plan(now, PolicyId::aes_left)[0]);
   }
-  static const auto harm = outcome::read_harm("data/harm.toml").value();
-  ReflexPlane plane({}, TriggerCheck(manoeuvre::small_atlas(), harm));
+  ReflexPlane plane(with_atlas());
   const std::size_t before = num_allocations;
   plane.receive(cache);
   (void)plane.step(crowded);
   const Reflex reflex = plane.step(now);
+  Scene later = now;
+  later.time = 0.2;
+  Verdict verdict = verdict_of(0.2, {{PolicyId::aeb, 0.2}, {PolicyId::aes_left, 0.0}});
+  plane.receive(verdict);
+  (void)plane.step(later);
   EXPECT_EQ(num_allocations, before);
   EXPECT_TRUE(reflex.triggered);
-  EXPECT_TRUE(plane.decision()->forecast.has_value());
+  EXPECT_TRUE(plane.decision()->by_atlas);
 }
 
 }  // namespace

@@ -149,8 +149,9 @@ std::vector<Group> Play::decide(const Branch& branch) {
     std::optional<Action> action;
     if (comparison_.runs[method].fault.empty()) {
       try {
-        action = methods_[method]->step(
-            {branch.loop.seen(), branch.loop.beliefs(), branch.loop.driven(), branch.loop});
+        action =
+            methods_[method]->step({branch.loop.seen(), branch.loop.beliefs(), branch.loop.driven(),
+                                    branch.loop.finished(), branch.loop});
       } catch (const std::exception& fault) {
         give_up(method, *fault.what() == '\0' ? "an exception without text" : fault.what());
       }

@@ -6,11 +6,13 @@
 #include <utility>
 
 #include "saca/core/contract.h"
+#include "saca/decide/forecaster.h"
 #include "saca/eval/at_trigger.h"
 #include "saca/eval/driver_models.h"
 #include "saca/eval/rss.h"
 #include "saca/loop/saca_method.h"
 #include "saca/memory/similarity.h"
+#include "saca/preview/drawn_motions.h"
 #include "saca/preview/expected_harm.h"
 #include "saca/preview/preview.h"
 #include "saca/world/time_to_conflict.h"
@@ -21,17 +23,17 @@ namespace {
 using loop::Action;
 using loop::Method;
 using loop::View;
+using manoeuvre::full_braking;
 using manoeuvre::Plan;
 using manoeuvre::PolicyId;
 using preview::JointMotion;
 using preview::Physics;
 
-constexpr Plan full_braking{PolicyId::aeb, std::nullopt};
-
-constexpr std::array<MethodInfo, 26> infos{{
+constexpr std::array<MethodInfo, 27> infos{{
     {"saca", "SACA",
-     "The shipped planes: a cached plan that matches and does not harm more than braking, else "
-     "emergency braking at T1."},
+     "The shipped planes: a cached plan that matches and is admissible, else what the verdict "
+     "speaks "
+     "for; supervised to the end."},
     {"saca_no_memory", "SACA without memory", "As SACA; no stored case is asked.", false,
      Needs::memory},
     {"saca_no_model", "SACA without model", "As SACA; the language model is not asked.", false,
@@ -75,6 +77,9 @@ constexpr std::array<MethodInfo, 26> infos{{
      "At T1, by the atlas: least expected harm over what the others are believed to intend."},
     {"beliefs_rolled_out", "Best of eight in expectation, rolled out",
      "The same with full dynamics and all that follows a contact."},
+    {"beliefs_drawn", "Best of eight in expectation over draws",
+     "The same over draws of what the others intend, how far they drift and how well they are "
+     "seen."},
     {"beliefs_and_grip", "The same, told the grip and the car",
      "As beliefs_rolled_out, told the true grip and how the real car differs.", true},
     {"beliefs_and_followers", "The same, told how followers react",
@@ -263,6 +268,14 @@ AtTrigger::Choose chooser(std::string_view name, const MethodTools& tools) {
     const Physics physics = name == "beliefs_atlas" ? Physics::atlas : Physics::rolled_out;
     return [setup, physics](const View& view) {
       return least_expected(view.scene, believed(view), setup, physics);
+    };
+  }
+  if (name == "beliefs_drawn") {
+    return [setup](const View& view) {
+      return least_expected(view.scene,
+                            preview::drawn_motions(view.scene, view.beliefs, intent::MotionLaw{},
+                                                   decide::usual_draws),
+                            setup, Physics::rolled_out);
     };
   }
   if (name == "beliefs_and_grip") {

@@ -60,14 +60,15 @@ TEST_F(MethodsTest, WhereOnlyALaneChangeHelpsThoseThatForecastFindIt) {
   const auto runs = play(only_left_helps());
   for (const char* const name :
        {"oracle", "true_atlas", "true_rolled_out", "going_on_atlas", "beliefs_atlas",
-        "beliefs_rolled_out", "beliefs_and_grip", "beliefs_and_followers", "beliefs_and_hidden",
-        "first_forecast", "newest_forecast"}) {
+        "beliefs_rolled_out", "beliefs_drawn", "saca", "beliefs_and_grip", "beliefs_and_followers",
+        "beliefs_and_hidden", "first_forecast", "newest_forecast"}) {
     EXPECT_EQ(manoeuvre::side(runs.at(name).plan->policy), 1) << name;
     EXPECT_LT(runs.at(name).harm, runs.at("aeb").harm) << name;
   }
-  EXPECT_EQ(runs.at("saca").plan->policy, PolicyId::aeb);  // nothing is cached
-  EXPECT_EQ(runs.at("saca").harm, runs.at("aeb").harm);
+  EXPECT_EQ(runs.at("saca").source, "arbiter");  // nothing is cached
   EXPECT_EQ(runs.at("saca_paper").source, "fallback");
+  EXPECT_EQ(runs.at("saca_paper").plan->policy, PolicyId::aeb);
+  EXPECT_EQ(runs.at("saca_paper").harm, runs.at("aeb").harm);
   EXPECT_GT(runs.at("nothing").harm, runs.at("aeb").harm);
   // Rules that brake for what stands ahead do it before T1 at this speed.
   for (const char* const name : {"r157", "rss", "fsm"}) {

@@ -59,7 +59,7 @@ struct UnseenTruth {
   /// One step of a method in a scene, believing what is believed at sight.
   std::optional<loop::Action> step(loop::Method& method, const world::Scene& scene) const {
     const intent::Beliefs beliefs = intent::beliefs_at_sight(intent::shipped_model(), scene);
-    return method.step({scene, beliefs, true, loop});
+    return method.step({scene, beliefs, true, false, loop});
   }
 };
 

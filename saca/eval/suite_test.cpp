@@ -112,9 +112,9 @@ TEST_F(ThinkingTest, ARowIsSacaWithWhatItWasGiven) {
   EXPECT_EQ(back.risk.runs[1].thinking, runs[1].thinking);
 }
 
-TEST_F(ThinkingTest, WithoutEitherAllThatIsLeftIsBraking) {
+TEST_F(ThinkingTest, WithoutEitherTheVerdictDecides) {
   const SuiteRow row = run({"saca", "saca_no_memory"}, nullptr, nullptr);
-  EXPECT_EQ(row.risk.runs[0].source, "fallback");
+  EXPECT_EQ(row.risk.runs[0].source, "arbiter");
   EXPECT_EQ(row.risk.runs[0].reason, "no plan is cached");
 }
 

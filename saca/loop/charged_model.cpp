@@ -19,6 +19,7 @@ Result<ThinkingCosts> read_thinking_costs(std::string_view text, std::string_vie
   }
   config::Table root = document.value().root();
   const ThinkingCosts costs{.preview = root.number("preview_s", {0.0, 10.0}),
+                            .verdict = root.number("verdict_s", {0.0, 10.0}),
                             .prompt_token = root.number("prompt_token_s", {0.0, 1.0}),
                             .reply_token = root.number("reply_token_s", {0.0, 1.0})};
   if (const auto error = document.value().error()) {

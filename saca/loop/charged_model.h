@@ -13,6 +13,7 @@ namespace saca::loop {
 /// data/thinking_costs.toml, measured.
 struct ThinkingCosts {
   double preview = 0.0;       ///< forecasts and their rollouts, once per round [s], >= 0
+  double verdict = 0.0;       ///< of one verdict [s], >= 0
   double prompt_token = 0.0;  ///< [s], >= 0
   double reply_token = 0.0;   ///< of one reply, all replies growing together [s], >= 0
 };

@@ -53,11 +53,11 @@ TEST(ChargedModel, AnAnswerAfterTheDeadlineDidNotCome) {
 
 TEST(ThinkingCosts, AreReadStrictly) {
   const auto good = read_thinking_costs(
-      "preview_s = 0.1\nprompt_token_s = 0.001\nreply_token_s = 0.01", "c.toml");
+      "preview_s = 0.1\nverdict_s = 0.03\nprompt_token_s = 0.001\nreply_token_s = 0.01", "c.toml");
   ASSERT_TRUE(good.has_value());
   EXPECT_EQ(good.value().prompt_token, 0.001);
-  const auto bad =
-      read_thinking_costs("preview_s = -1\nprompt_token_s = 0.001\nreply_token_s = 0.01", "c.toml");
+  const auto bad = read_thinking_costs(
+      "preview_s = -1\nverdict_s = 0.03\nprompt_token_s = 0.001\nreply_token_s = 0.01", "c.toml");
   ASSERT_FALSE(bad.has_value());
   EXPECT_THAT(bad.error().message, HasSubstr("c.toml:1: preview_s"));
 }

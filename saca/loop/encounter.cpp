@@ -59,6 +59,7 @@ class Encounter {
   [[nodiscard]] std::optional<Error> look();
   void wake();
   void execute(const preview::Threat& threat);
+  void change(const decide::Switch& change);
   void film(const decide::Reflex& reflex);
   void conclude();
   void compare_with_driver();
@@ -134,10 +135,13 @@ std::optional<Error> Encounter::look() {
   wake();
   decide::Reflex reflex;
   if (woke_) {
-    reflex = planes_.step(loop_.seen(), loop_.beliefs(), start_ + from_seconds(loop_.time()));
+    reflex = planes_.step(loop_.seen(), loop_.beliefs(), start_ + from_seconds(loop_.time()),
+                          loop_.finished());
   }
   if (reflex.triggered) {
     execute(*reflex.threat);
+  } else if (reflex.switched) {
+    change(*reflex.switched);
   }
   loop_.keep();
   if (num_looks_ % looks_per_frame == 0 || loop_.contact() || reflex.triggered) {
@@ -193,6 +197,14 @@ void Encounter::execute(const preview::Threat& threat) {
   }
   tell(Plane::reflex, EventKind::execute,
        fmt::format("policy {} ({})", policy_text(decision.plan), name(decision.source)));
+}
+
+void Encounter::change(const decide::Switch& change) {
+  loop_.carry_out(change.plan);
+  ended_ = false;
+  record_.switches.push_back({loop_.time(), change});
+  tell(Plane::reflex, EventKind::switched,
+       fmt::format("{}: {}", name(change.reason), switch_text(change)));
 }
 
 void Encounter::film(const decide::Reflex& reflex) {

@@ -76,6 +76,12 @@ struct Frame {
   std::optional<double> conflict;  ///< time to conflict [s]
 };
 
+/// What was begun after the trigger in place of another plan.
+struct TimedSwitch {
+  double time = 0.0;  ///< [s]
+  decide::Switch change;
+};
+
 /// One encounter from start to rest, with everything that led there.
 struct Record {
   double grip = 0.0;  ///< true friction coefficient of the road [-]
@@ -84,6 +90,7 @@ struct Record {
   std::vector<decide::Event> events;       ///< by time
   std::vector<decide::Preview> previews;
   std::optional<decide::Decision> decision;
+  std::vector<TimedSwitch> switches;       ///< after it
   std::optional<world::Scene> at_trigger;  ///< the truth
   std::optional<std::string> threat;       ///< the actor that set off the trigger
   outcome::Outcome result;

@@ -17,6 +17,7 @@ struct View {
   const world::Scene& scene;       ///< as perceived
   const intent::Beliefs& beliefs;  ///< one per actor of it
   bool driven = false;             ///< somebody threatens within T2, or did: the wheel is taken
+  bool finished = false;           ///< what is carried out has reached its safe end
   const ClosedLoop& truth;         ///< for yardsticks that know what nobody can; no method on a
                                    ///< road may look
 };

@@ -11,11 +11,19 @@ namespace {
 
 constexpr std::array<std::string_view, 2> pace_names{"real", "lockstep"};
 
-std::optional<decide::TriggerCheck> trigger_check(const PlanesSetup& setup) {
-  return setup.forecast.atlas == nullptr
-             ? std::nullopt
-             : std::optional<decide::TriggerCheck>(std::in_place, *setup.forecast.atlas,
-                                                   *setup.forecast.harm);
+constexpr Clock::Time breath = std::chrono::milliseconds(200);  // plans change slowly
+
+decide::ReflexTools reflex_tools(const PlanesSetup& setup) {
+  const preview::ForecastTools& forecast = setup.forecast;
+  decide::ReflexTools tools{.thresholds = setup.thresholds,
+                            .car = forecast.car,
+                            .atlas = {},
+                            .forced = setup.forced,
+                            .guard = setup.guard};
+  if (forecast.atlas != nullptr) {
+    tools.atlas.emplace(*forecast.car, *forecast.atlas, *forecast.harm);
+  }
+  return tools;
 }
 
 }  // namespace
@@ -32,11 +40,24 @@ Planes::Planes(const PlanesSetup& setup, Listener listener, std::size_t looks)
                          : std::make_unique<ChargedModel>(*setup.model, setup.costs, *setup.clock,
                                                           simulated_clock_)),
       charged_(setup.costs.preview, simulated_clock_),
-      reflex_(setup.thresholds, trigger_check(setup), setup.forced, setup.guard),
+      forecaster_(setup.forecast),
+      charged_forecasts_(forecaster_, setup.costs.verdict),
+      reflex_(reflex_tools(setup)),
       plane_(tools(), setup.thresholds, output()) {
   reflex_times_.reserve(looks);
   if (real()) {
-    thread_ = std::make_unique<ThinkingThread>(plane_, scenes_, *setup_.clock);
+    thinking_ =
+        std::make_unique<WorkThread>(scenes_, *setup_.clock, breath,
+                                     [this](const TimedScene& newest, const std::stop_token& stop) {
+                                       plane_.think(newest.scene, newest.beliefs, newest.at, stop);
+                                     });
+    forecasting_ = std::make_unique<WorkThread>(
+        scenes_to_judge_, *setup_.clock, from_seconds(0.5 * verdict_period),
+        [this](const TimedScene& newest, const std::stop_token&) {
+          if (!world::broken_rule(newest.scene)) {
+            verdicts_.publish(forecaster_.judge(newest.scene, newest.beliefs, newest.under_way));
+          }
+        });
   }
 }
 
@@ -69,25 +90,40 @@ decide::ThinkingOutput Planes::output() {
 }
 
 decide::Reflex Planes::step(const world::Scene& scene, const intent::Beliefs& beliefs,
-                            Clock::Time at) {
-  if (!decision()) {
-    if (real()) {
-      scenes_.publish({scene, beliefs, at});
-    } else {
+                            Clock::Time at, bool finished) {
+  const bool judges = setup_.guard != decide::Guard::none && !setup_.forced;
+  if (real()) {
+    const TimedScene newest{scene, beliefs, at, reflex_.under_way()};
+    if (judges) {
+      scenes_to_judge_.publish(newest);
+    }
+    if (!decision()) {
+      scenes_.publish(newest);
+    }
+  } else {
+    if (judges && !world::broken_rule(scene)) {
+      charged_forecasts_.offer(scene, beliefs, reflex_.under_way());
+    }
+    if (!decision()) {
       charged_.think(plane_, scene, beliefs);
     }
   }
   const Clock::Time before = setup_.clock->now();
-  hand_over_plans(scene.time);
-  const decide::Reflex reflex = reflex_.step(scene);
+  hand_over(scene, finished);
+  const decide::Reflex reflex = reflex_.step(scene, finished);
   reflex_times_.push_back(to_seconds(setup_.clock->now() - before));
   return reflex;
 }
 
-void Planes::hand_over_plans(double now) {
+void Planes::hand_over(const world::Scene& scene, bool finished) {
   if (!real()) {
-    if (const auto plans = charged_.take(now)) {
+    if (const auto plans = charged_.take(scene.time)) {
       reflex_.receive(*plans);
+    }
+    if (reflex_.needs_verdict(scene, finished)) {
+      if (const auto verdict = charged_forecasts_.take(scene.time)) {
+        reflex_.receive(*verdict);
+      }
     }
     return;
   }
@@ -95,10 +131,19 @@ void Planes::hand_over_plans(double now) {
   if (plans_.take(plans)) {
     reflex_.receive(plans);
   }
+  decide::Verdict verdict;
+  if (verdicts_.take(verdict)) {
+    reflex_.receive(verdict);
+  }
 }
 
 std::string Planes::finish() {
-  return thread_ ? thread_->finish() : "";
+  std::string fault;
+  for (WorkThread* const thread : {thinking_.get(), forecasting_.get()}) {
+    const std::string thrown = thread == nullptr ? "" : thread->finish();
+    fault += thrown.empty() ? "" : (fault.empty() ? "" : "; ") + thrown;
+  }
+  return fault;
 }
 
 ReflexTiming Planes::timing() const {

@@ -12,11 +12,13 @@
 #include "saca/core/clock.h"
 #include "saca/core/latest_slot.h"
 #include "saca/decide/event.h"
+#include "saca/decide/forecaster.h"
 #include "saca/decide/reflex_plane.h"
 #include "saca/decide/thinking_plane.h"
+#include "saca/loop/charged_forecasts.h"
 #include "saca/loop/charged_model.h"
 #include "saca/loop/charged_thinking.h"
-#include "saca/loop/thinking_thread.h"
+#include "saca/loop/work_thread.h"
 
 namespace saca::loop {
 
@@ -48,7 +50,8 @@ struct ReflexTiming {
   double max = 0.0;  ///< [s]
 };
 
-/// SACA: its reflex plane and its thinking plane, joined at either pace. One encounter.
+/// SACA: its reflex plane, its forecaster and its thinking plane, joined at either pace. One
+/// encounter.
 class Planes {
  public:
   struct Listener {
@@ -67,7 +70,9 @@ class Planes {
   /// One instant, from the moment on at which something threatens within T2.
   /// @param beliefs  one per actor of the scene
   /// @param at       when, on the clock, the scene was true; of no account in lockstep
-  decide::Reflex step(const world::Scene& scene, const intent::Beliefs& beliefs, Clock::Time at);
+  /// @param finished  what is carried out has reached its safe end
+  decide::Reflex step(const world::Scene& scene, const intent::Beliefs& beliefs, Clock::Time at,
+                      bool finished);
 
   [[nodiscard]] const std::optional<decide::Decision>& decision() const {
     return reflex_.decision();
@@ -87,20 +92,25 @@ class Planes {
   [[nodiscard]] bool real() const { return setup_.pace == Pace::real; }
   [[nodiscard]] decide::ThinkingTools tools();
   [[nodiscard]] decide::ThinkingOutput output();
-  void hand_over_plans(double now);
+  void hand_over(const world::Scene& scene, bool finished);
 
   PlanesSetup setup_;
   Listener listener_;
   ManualClock simulated_clock_;
   std::unique_ptr<ChargedModel> charged_model_;
   ChargedThinking charged_;
+  decide::Forecaster forecaster_;
+  ChargedForecasts charged_forecasts_;
   decide::ReflexPlane reflex_;
   LatestSlot<TimedScene> scenes_;
+  LatestSlot<TimedScene> scenes_to_judge_;
+  LatestSlot<decide::Verdict> verdicts_;
   LatestSlot<decide::PlanCache> plans_;
   std::vector<decide::Event> events_;
   std::vector<double> reflex_times_;
   decide::ThinkingPlane plane_;
-  std::unique_ptr<ThinkingThread> thread_;  ///< at pace `real`
+  std::unique_ptr<WorkThread> thinking_;     ///< at pace `real`
+  std::unique_ptr<WorkThread> forecasting_;  ///< likewise
 };
 
 }  // namespace saca::loop

@@ -75,10 +75,10 @@ void expect_a_true_story(const Story& story, const Record& record) {
   }
 }
 
-// On a clock that the two threads share, so that a busy machine changes nothing.
+// On a clock that the threads share, so that a busy machine changes nothing.
 TEST(RealPace, TheModelsPlanIsReadyInTimeAndCarriedOut) {
   const sim::Scenario scenario = wreck_on_wet_road(80.0, 7.0);  // contact after 3.8 s, T1 at 2.5 s
-  MeetingClock clock(2);
+  MeetingClock clock(3);  // this thread, the thinking one and the forecaster's
   Story story;
   const Record record = played(scenario, clock, story);
   ASSERT_TRUE(record.decision.has_value());

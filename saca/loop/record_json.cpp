@@ -171,6 +171,33 @@ json preview_json(const decide::Preview& preview) {
       {"plan", preview.plan ? plan_json(*preview.plan) : json(nullptr)}};
 }
 
+json verdict_json(const decide::Verdict& verdict) {
+  json plans = json::array();
+  for (const decide::JudgedPlan& one : verdict.plans) {
+    json entry = plan_json(one.plan);
+    entry["harm"] = one.drivable ? json(one.harm) : json(nullptr);
+    entry["contact"] = one.drivable ? json(one.contact) : json(nullptr);
+    plans.push_back(entry);
+  }
+  return {{"t_s", verdict.time},
+          {"plans", plans},
+          {"admissible_harm", number_or_null(decide::admissible_harm(verdict))}};
+}
+
+json switches_json(const Record& record) {
+  json all = json::array();
+  for (const TimedSwitch& one : record.switches) {
+    json entry = plan_json(one.change.plan);
+    entry["t_s"] = one.time;
+    entry["reason"] = name(one.change.reason);
+    entry["harm"] = one.change.harm;
+    entry["harm_before"] = one.change.harm_before;
+    entry["text"] = switch_text(one.change);
+    all.push_back(entry);
+  }
+  return all;
+}
+
 json decision_json(const Record& record) {
   if (!record.decision) {
     return nullptr;
@@ -181,10 +208,9 @@ json decision_json(const Record& record) {
   out["similarity"] = number_or_null(decision.similarity);
   out["preview"] = decision.preview ? json(*decision.preview) : json(nullptr);
   out["time_s"] = decision.time;
-  out["gave_way_to_aeb"] = decision.gave_way_to_aeb;
-  out["forecast"] = decision.forecast ? json{{"harm", decision.forecast->plan},
-                                             {"aeb_harm", decision.forecast->aeb}}
-                                      : json(nullptr);
+  out["not_admissible"] = decision.not_admissible;
+  out["verdict"] = decision.verdict ? verdict_json(*decision.verdict) : json(nullptr);
+  out["by_atlas"] = decision.by_atlas;
   out["text"] = decision_text(decision);
   return out;
 }
@@ -360,6 +386,7 @@ std::string record_json(const Setup& setup, const Record& record) {
       {"events", events},
       {"previews", previews},
       {"decision", decision_json(record)},
+      {"switches", switches_json(record)},
       {"result", result_json(record)},
       {"driver",
        record.driver ? outcome_json(*record.driver, record.met_by_driver) : json(nullptr)},

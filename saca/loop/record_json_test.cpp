@@ -53,7 +53,7 @@ TEST(RecordJson, HoldsWhatTheFormatPromises) {
   ASSERT_EQ(seen["now_permille"].size(), seen["times_s"].size());
   ASSERT_EQ(seen["soon_permille"].size(), seen["times_s"].size());
   EXPECT_EQ(seen["now_permille"][0], "920 0 80");  // it stands on the road: 8 % start to cross
-  EXPECT_EQ(out["decision"]["source"], "fallback");
+  EXPECT_EQ(out["decision"]["source"], "arbiter");
   EXPECT_EQ(out["hindsight"].size(), 8U);
   EXPECT_FALSE(out["hindsight"][5]["refusal"].is_null());
   EXPECT_GT(out["hindsight"][0]["path"].size(), 10U);

@@ -27,8 +27,9 @@ Result<std::optional<reason::Review>> review(const Setup& setup, const Record& r
   for (std::size_t k = 0; k < manoeuvre::num_policies; ++k) {
     aftermath.known.facts[k] = (*record.hindsight)[k].facts;
   }
-  if (record.decision->forecast) {
-    aftermath.forecast_harm = record.decision->forecast->plan;
+  if (record.decision->verdict) {
+    const auto* const judged = find_plan(*record.decision->verdict, record.decision->plan);
+    aftermath.forecast_harm = judged == nullptr ? std::nullopt : std::optional(judged->harm);
   }
   reason::Review review{.prompt = reason::review_prompt(aftermath)};
   const auto hear = [&](const reason::Progress& news) {

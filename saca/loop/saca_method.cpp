@@ -7,7 +7,12 @@ std::optional<Action> SacaMethod::step(const View& view) {
     return std::nullopt;
   }
   const decide::Reflex reflex =
-      planes_.step(view.scene, view.beliefs, from_seconds(view.scene.time));
+      planes_.step(view.scene, view.beliefs, from_seconds(view.scene.time), view.finished);
+  if (reflex.switched) {
+    return Action{.plan = reflex.switched->plan,
+                  .source = "supervisor",
+                  .reason = std::string(name(reflex.switched->reason))};
+  }
   if (!reflex.triggered) {
     return std::nullopt;
   }

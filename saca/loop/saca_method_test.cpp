@@ -27,7 +27,8 @@ class SacaMethodTest : public testing::Test {
     while (!loop.over()) {
       EXPECT_FALSE(loop.look().has_value());
       loop.wake();
-      if (const auto action = saca.step({loop.seen(), loop.beliefs(), loop.driven(), loop})) {
+      if (const auto action =
+              saca.step({loop.seen(), loop.beliefs(), loop.driven(), loop.finished(), loop})) {
         played.acted_at = loop.time();
         played.action = *action;
         loop.carry_out(action->plan);
@@ -59,7 +60,7 @@ TEST_F(SacaMethodTest, DoesWhatAnEncounterWithTheSamePlanesDoes) {
   ASSERT_TRUE(record.decision.has_value());
   EXPECT_EQ(*played.acted_at, record.decision->time);
   EXPECT_EQ(played.action.plan, record.decision->plan);
-  EXPECT_EQ(played.action.source, "fallback");
+  EXPECT_EQ(played.action.source, "arbiter");
   EXPECT_EQ(played.action.reason, "no plan is cached");
   EXPECT_EQ(played.outcome.harm, record.result.harm);
   EXPECT_EQ(played.outcome.clearance, record.result.clearance);

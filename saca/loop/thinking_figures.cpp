@@ -71,14 +71,17 @@ ThinkingFigures thinking_figures(std::span<const Preview> previews,
 }
 
 std::string reason_of(const decide::Decision& decision, std::span<const Preview> previews) {
-  if (decision.source != decide::Source::fallback) {
+  if (decision.source == decide::Source::memory || decision.source == decide::Source::model) {
     return "a cached plan matches";
+  }
+  if (decision.refused) {
+    return "what was decided on cannot be driven";
   }
   if (!decision.similarity) {
     return why_nothing_is_cached(previews);
   }
-  return decision.gave_way_to_aeb ? "the plan that matches harms more than braking"
-                                  : "no cached plan matches above 90 %";
+  return decision.not_admissible ? "the plan that matches is not admissible"
+                                 : "no cached plan matches above 90 %";
 }
 
 }  // namespace saca::loop

@@ -73,8 +73,8 @@ TEST(ReasonOf, TellsWhyThereWasNoPlan) {
 TEST(ReasonOf, TellsWhatBecameOfAPlan) {
   EXPECT_EQ(reason_of({.source = Source::memory, .similarity = 0.95}, {}), "a cached plan matches");
   EXPECT_EQ(reason_of({.similarity = 0.5}, {}), "no cached plan matches above 90 %");
-  EXPECT_EQ(reason_of({.similarity = 0.95, .gave_way_to_aeb = true}, {}),
-            "the plan that matches harms more than braking");
+  EXPECT_EQ(reason_of({.similarity = 0.95, .not_admissible = true}, {}),
+            "the plan that matches is not admissible");
 }
 
 }  // namespace

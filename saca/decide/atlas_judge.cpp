@@ -1,11 +1,12 @@
-#include "saca/decide/trigger_check.h"
+#include "saca/decide/atlas_judge.h"
 
 #include <cmath>
 #include <span>
 
+#include "saca/manoeuvre/drive.h"
 #include "saca/outcome/atlas_way.h"
 #include "saca/outcome/futures.h"
-#include "saca/outcome/ordering.h"
+#include "saca/preview/policy_facts.h"
 #include "saca/world/time_to_conflict.h"
 
 namespace saca::decide {
@@ -34,44 +35,48 @@ void write_going_on(const world::Actor& actor, double start, Track& track) {
 
 }  // namespace
 
-bool Comparison::plan_harms_more() const {
-  return outcome::harm_class(plan) > outcome::harm_class(aeb);
-}
-
-TriggerCheck::TriggerCheck(const manoeuvre::Atlas& atlas, const outcome::HarmModel& harm)
-    : atlas_(atlas), harm_(&harm), tracks_(world::max_actors) {
+AtlasJudge::AtlasJudge(const manoeuvre::Car& car, const manoeuvre::Atlas& atlas,
+                       const outcome::HarmModel& harm)
+    : car_(&car), atlas_(atlas), harm_(&harm), tracks_(world::max_actors) {
   X_WB_.X_WA.reserve(room);
   for (Track& track : tracks_) {
     track.X_WA.reserve(room);
   }
 }
 
-std::optional<double> TriggerCheck::harm_of(const Plan& plan, const Scene& scene,
-                                            const preview::Followers& followers) noexcept {
+std::optional<JudgedPlan> AtlasJudge::judged(const Plan& plan, const Scene& scene,
+                                             const preview::Followers& followers) noexcept {
+  JudgedPlan one{.plan = plan, .drivable = !manoeuvre::why_refused(*car_, plan, scene)};
+  if (!one.drivable) {
+    return one;
+  }
+  if (atlas_.outside(plan, scene)) {
+    return std::nullopt;
+  }
   const std::span tracks(tracks_.data(), scene.actors.size());
   if (!followers.empty()) {
     outcome::atlas_way(atlas_, plan, scene, {.step = reacting_step, .longest = looks_ahead}, X_WB_);
     preview::let_react(scene, followers, X_WB_, scene.time + looks_ahead, reacting_step, tracks);
   }
   const outcome::Future future = outcome::future(atlas_, plan, scene, tracks, *harm_);
-  return future.outside ? std::nullopt : std::optional(future.harm);
+  one.harm = future.harm;
+  one.contact = future.probability;
+  return future.outside ? std::nullopt : std::optional(one);
 }
 
-std::optional<Comparison> TriggerCheck::compare(const Plan& plan, const Scene& scene) noexcept {
-  constexpr Plan braking{manoeuvre::PolicyId::aeb, std::nullopt};
-  if (atlas_.outside(plan, scene) || atlas_.outside(braking, scene)) {
-    return std::nullopt;
-  }
+std::optional<Verdict> AtlasJudge::judge(const Scene& scene) noexcept {
   for (std::size_t i = 0; i < scene.actors.size(); ++i) {
     write_going_on(scene.actors[i], scene.time, tracks_[i]);
   }
   const preview::Followers followers = preview::followers_of(scene);
-  const auto of_plan = harm_of(plan, scene, followers);
-  const auto of_aeb = harm_of(braking, scene, followers);
-  if (!of_plan || !of_aeb) {
-    return std::nullopt;
+  Verdict verdict{.time = scene.time};
+  for (const Plan& plan : preview::all_plans(scene.ego.v_B.x)) {
+    if (const auto one = judged(plan, scene, followers)) {
+      verdict.plans.push_back(*one);
+    }
   }
-  return Comparison{*of_plan, *of_aeb};
+  return find_plan(verdict, manoeuvre::full_braking) == nullptr ? std::nullopt
+                                                                : std::optional(verdict);
 }
 
 }  // namespace saca::decide

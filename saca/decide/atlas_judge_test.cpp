@@ -1,4 +1,4 @@
-#include "saca/decide/trigger_check.h"
+#include "saca/decide/atlas_judge.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "saca/outcome/roll_out.h"
 #include "tests/support/scenes.h"
 
-namespace saca::decide::trigger_check_test {
+namespace saca::decide::atlas_judge_test {
 namespace {
 
 using manoeuvre::PolicyId;
@@ -32,55 +32,58 @@ manoeuvre::Plan plan(PolicyId policy) {
   return manoeuvre::atlas_plan(policy, 12.5);
 }
 
+/// What the verdict says that a policy harms.
+double told(AtlasJudge& judge, PolicyId policy, const world::Scene& scene) {
+  const auto verdict = judge.judge(scene);
+  const JudgedPlan* const judged = verdict ? find_plan(*verdict, plan(policy)) : nullptr;
+  EXPECT_TRUE(judged != nullptr && judged->drivable);
+  return judged == nullptr ? -1.0 : judged->harm;
+}
+
 // Full dynamics against the same tracks are the reference: a wreck too near to stop.
-TEST(TriggerCheck, SaysWhatFullDynamicsSay) {
-  TriggerCheck check(small_atlas(), harm());
+TEST(AtlasJudge, SaysWhatFullDynamicsSay) {
+  AtlasJudge judge(small_atlas_car(), small_atlas(), harm());
   world::Scene scene = road();
   scene.actors.push_back(car(1, {10.0, 0.0}, {0.0, 0.0}));
   const std::vector<world::Track> stands{{.X_WA = {scene.actors[0].X_WA}}};
-  const auto told = check.compare(plan(PolicyId::aes_left), scene);
-  ASSERT_TRUE(told.has_value());
   const auto rolled = [&](PolicyId policy) {
     return roll_out(small_atlas_car(), plan(policy), scene, stands, scene.grip, harm()).harm;
   };
   EXPECT_GT(rolled(PolicyId::aeb), 0.0);
-  EXPECT_NEAR(told->aeb, rolled(PolicyId::aeb), 0.1 * rolled(PolicyId::aeb));
+  const double aeb = told(judge, PolicyId::aeb, scene);
+  EXPECT_NEAR(aeb, rolled(PolicyId::aeb), 0.1 * rolled(PolicyId::aeb));
   EXPECT_GT(rolled(PolicyId::aes_left), rolled(PolicyId::aeb));  // too near for a swerve, too
-  EXPECT_TRUE(told->plan_harms_more());
+  EXPECT_GT(told(judge, PolicyId::aes_left, scene), aeb);
 }
 
 // Braking lets a near follower run into the ego; who does not react at all would do so as well when
 // the ego just goes on more slowly, but a swerve leaves its way.
-TEST(TriggerCheck, FollowersReactInBoth) {
-  TriggerCheck check(small_atlas(), harm());
+TEST(AtlasJudge, FollowersReactInBoth) {
+  AtlasJudge judge(small_atlas_car(), small_atlas(), harm());
   world::Scene near = road();
   near.actors.push_back(car(1, {-8.0, 0.0}, {12.5, 0.0}));
-  const auto pressed = check.compare(plan(PolicyId::aes_left), near);
-  ASSERT_TRUE(pressed.has_value());
-  EXPECT_GT(pressed->aeb, 0.0);
-  EXPECT_EQ(pressed->plan, 0.0);
+  EXPECT_GT(told(judge, PolicyId::aeb, near), 0.0);
+  EXPECT_EQ(told(judge, PolicyId::aes_left, near), 0.0);
   // 60 m behind there is time for the usual 1.25 s and a firm stop.
   world::Scene far = road();
   far.actors.push_back(car(1, {-60.0, 0.0}, {12.5, 0.0}));
-  EXPECT_EQ(check.compare(plan(PolicyId::aes_left), far)->aeb, 0.0);
+  EXPECT_EQ(told(judge, PolicyId::aeb, far), 0.0);
 }
 
 // Who comes up from behind, 3 m/s faster and 10 m behind, has to brake also for who goes on: it
 // does, so going on harms nobody.
-TEST(TriggerCheck, FollowersReactToAPlanThatStaysInItsLane) {
-  TriggerCheck check(small_atlas(), harm());
+TEST(AtlasJudge, FollowersReactToAPlanThatStaysInItsLane) {
+  AtlasJudge judge(small_atlas_car(), small_atlas(), harm());
   world::Scene scene = road();
   scene.actors.push_back(car(1, {-15.0, 0.0}, {15.5, 0.0}));
-  const auto told = check.compare(plan(PolicyId::no_intervention), scene);
-  ASSERT_TRUE(told.has_value());
-  EXPECT_EQ(told->plan, 0.0);
-  EXPECT_GT(told->aeb, 0.0);
+  EXPECT_EQ(told(judge, PolicyId::no_intervention, scene), 0.0);
+  EXPECT_GT(told(judge, PolicyId::aeb, scene), 0.0);
 }
 
 // A lead that brakes with 6 m/s^2: going on hits it at 12.5 m/s less what it has left,
 // 6 m/s^2 t with 12.5 t - (12.5 t - 3 t^2) = 8 m, so t = 1.63 s and 9.8 m/s.
-TEST(TriggerCheck, KnowsHowFastWhoBrakesIs) {
-  TriggerCheck check(small_atlas(), harm());
+TEST(AtlasJudge, KnowsHowFastWhoBrakesIs) {
+  AtlasJudge judge(small_atlas_car(), small_atlas(), harm());
   world::Scene scene = road();
   const double front = support(scene.ego_footprint, {}, {1.0, 0.0}).x;
   scene.actors.push_back(car(1, {front + 8.0 + 2.25, 0.0}, {12.5, 0.0}));
@@ -95,24 +98,26 @@ TEST(TriggerCheck, KnowsHowFastWhoBrakesIs) {
   const auto reference = roll_out(small_atlas_car(), on, scene, tracks, scene.grip, harm());
   ASSERT_TRUE(reference.contact.has_value());
   EXPECT_NEAR(reference.contact->relative_speed, 9.8, 0.3);
-  EXPECT_NEAR(check.compare(on, scene)->plan, reference.harm, 0.03 * reference.harm);
+  EXPECT_NEAR(told(judge, on.policy, scene), reference.harm, 0.03 * reference.harm);
 }
 
-TEST(TriggerCheck, DoesNotTellWhatTheAtlasDoesNotHave) {
-  TriggerCheck check(small_atlas(), harm());
+TEST(AtlasJudge, DoesNotTellWhatTheAtlasDoesNotHave) {
+  AtlasJudge judge(small_atlas_car(), small_atlas(), harm());
   world::Scene fast = road();
   fast.ego.v_B.x = 14.0;
-  EXPECT_FALSE(check.compare(plan(PolicyId::aes_left), fast).has_value());
-  EXPECT_TRUE(check.compare(plan(PolicyId::aes_left), road()).has_value());
+  EXPECT_FALSE(judge.judge(fast).has_value());
+  EXPECT_TRUE(judge.judge(road()).has_value());
 }
 
-// A class is a ten-thousandth of harm: less is no difference.
-TEST(Comparison, CountsInClasses) {
-  EXPECT_FALSE((Comparison{0.10001, 0.10002}.plan_harms_more()));
-  EXPECT_FALSE((Comparison{0.10002, 0.10001}.plan_harms_more()));
-  EXPECT_TRUE((Comparison{0.1003, 0.1}.plan_harms_more()));
-  EXPECT_FALSE((Comparison{0.1, 0.1003}.plan_harms_more()));
+TEST(AtlasJudge, TellsWhatCannotBeDriven) {
+  AtlasJudge judge(small_atlas_car(), small_atlas(), harm());
+  world::Scene scene = road();
+  scene.road.lane_width = 7.0;  // wider than any lane change is made for
+  const auto verdict = judge.judge(scene);
+  ASSERT_TRUE(verdict.has_value());
+  EXPECT_FALSE(find_plan(*verdict, plan(PolicyId::aes_left))->drivable);
+  EXPECT_TRUE(find_plan(*verdict, plan(PolicyId::aeb))->drivable);
 }
 
 }  // namespace
-}  // namespace saca::decide::trigger_check_test
+}  // namespace saca::decide::atlas_judge_test

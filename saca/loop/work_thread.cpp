@@ -1,25 +1,24 @@
-#include "saca/loop/thinking_thread.h"
+#include "saca/loop/work_thread.h"
 
 #include <exception>
 #include <memory>
+#include <utility>
 
 namespace saca::loop {
 namespace {
 
 constexpr Clock::Time pause = std::chrono::milliseconds(2);  // between looks at an empty slot
-constexpr Clock::Time breath =
-    std::chrono::milliseconds(200);  // between rounds: plans change slowly
 
 }  // namespace
 
-ThinkingThread::ThinkingThread(decide::ThinkingPlane& plane, LatestSlot<TimedScene>& scenes,
-                               Clock& clock)
-    : plane_(plane),
-      scenes_(scenes),
+WorkThread::WorkThread(LatestSlot<TimedScene>& scenes, Clock& clock, Clock::Time breath, Work work)
+    : scenes_(scenes),
       clock_(clock),
+      breath_(breath),
+      work_(std::move(work)),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
-std::string ThinkingThread::finish() {
+std::string WorkThread::finish() {
   thread_.request_stop();
   if (thread_.joinable()) {
     thread_.join();
@@ -27,7 +26,7 @@ std::string ThinkingThread::finish() {
   return fault_;
 }
 
-void ThinkingThread::run(const std::stop_token& stop) {
+void WorkThread::run(const std::stop_token& stop) {
   const auto newest = std::make_unique<TimedScene>();
   while (!stop.stop_requested()) {
     if (!scenes_.take(*newest)) {
@@ -35,12 +34,13 @@ void ThinkingThread::run(const std::stop_token& stop) {
       continue;
     }
     try {
-      plane_.think(newest->scene, newest->beliefs, newest->at, stop);
+      work_(*newest, stop);
     } catch (const std::exception& problem) {  // a bug there must not end the plane that drives
-      fault_ = problem.what();
-      return;
+      if (fault_.empty()) {
+        fault_ = problem.what();
+      }
     }
-    clock_.wait_until_or_stop(clock_.now() + breath, stop);
+    clock_.wait_until_or_stop(clock_.now() + breath_, stop);
   }
 }
 

@@ -1,21 +1,31 @@
-#include "saca/loop/thinking_thread.h"
+#include "saca/loop/work_thread.h"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <stdexcept>
 
+#include "saca/decide/thinking_plane.h"
 #include "saca/intent/shipped_model.h"
 #include "saca/loop/wreck_for_test.h"
 #include "saca/manoeuvre/default_car.h"
 #include "saca/reason/scripted_model.h"
 #include "tests/support/meeting_clock.h"
 
-namespace saca::loop::thinking_thread_test {
+namespace saca::loop::work_thread_test {
 namespace {
+
+constexpr Clock::Time breath = std::chrono::milliseconds(200);
+
+WorkThread::Work thinking(decide::ThinkingPlane& plane) {
+  return [&plane](const TimedScene& newest, const std::stop_token& stop) {
+    plane.think(newest.scene, newest.beliefs, newest.at, stop);
+  };
+}
 
 // Two threads meet in two slots. What the thread sanitiser looks at on the machine's clock is
 // RealPace.
-TEST(ThinkingThread, ThinksAboutTheNewestSceneAndEndsWhenAsked) {
+TEST(WorkThread, ThinksAboutTheNewestSceneAndEndsWhenAsked) {
   const auto car = manoeuvre::default_car();
   const auto harm = outcome::read_harm("data/harm.toml").value();
   MeetingClock clock(2);  // this thread and the thinking one
@@ -33,11 +43,11 @@ TEST(ThinkingThread, ThinksAboutTheNewestSceneAndEndsWhenAsked) {
   decide::PlanCache received;
   bool any = false;
   {
-    const ThinkingThread thread(plane, scenes, clock);
+    const WorkThread thread(scenes, clock, breath, thinking(plane));
     const Clock::Time give_up = clock.now() + std::chrono::seconds(30);
     while (!any && clock.now() < give_up) {
       scenes.publish(
-          {scene, intent::beliefs_at_sight(intent::shipped_model(), scene), clock.now()});
+          {scene, intent::beliefs_at_sight(intent::shipped_model(), scene), clock.now(), {}});
       any = plans.take(received);
       clock.wait_until(clock.now() + std::chrono::milliseconds(1));
     }
@@ -49,7 +59,7 @@ TEST(ThinkingThread, ThinksAboutTheNewestSceneAndEndsWhenAsked) {
 }
 
 // Without an answer the question would last until the trigger, some seconds.
-TEST(ThinkingThread, DoesNotWaitForAModelWhenItEnds) {
+TEST(WorkThread, DoesNotWaitForAModelWhenItEnds) {
   const auto car = manoeuvre::default_car();
   const auto harm = outcome::read_harm("data/harm.toml").value();
   MeetingClock clock(2);  // this thread and the thinking one
@@ -66,9 +76,10 @@ TEST(ThinkingThread, DoesNotWaitForAModelWhenItEnds) {
       {.publish = [](const decide::PlanCache&, double) {},
        .event = [](const decide::Event&) {},
        .reasoning = [](std::int32_t, std::string_view) {}});
-  ThinkingThread thread(plane, scenes, clock);
+  WorkThread thread(scenes, clock, breath, thinking(plane));
   const world::Scene scene = wreck_ahead(car, 80.0);
-  scenes.publish({scene, intent::beliefs_at_sight(intent::shipped_model(), scene), clock.now()});
+  scenes.publish(
+      {scene, intent::beliefs_at_sight(intent::shipped_model(), scene), clock.now(), {}});
   const Clock::Time give_up = clock.now() + std::chrono::seconds(30);
   while (!asked && clock.now() < give_up) {
     clock.wait_until(clock.now() + std::chrono::milliseconds(1));
@@ -79,5 +90,27 @@ TEST(ThinkingThread, DoesNotWaitForAModelWhenItEnds) {
   EXPECT_EQ(plane.deadline_misses(), 0);
 }
 
+// Whatever is thrown in one round: it is told, and the next round is worked.
+TEST(WorkThread, BeginsAnewAfterAFault) {
+  MeetingClock clock(2);  // this thread and the working one
+  LatestSlot<TimedScene> scenes;
+  std::atomic<int> num_rounds{0};
+  WorkThread thread(scenes, clock, breath, [&](const TimedScene& newest, const std::stop_token&) {
+    ++num_rounds;
+    if (newest.scene.time < 1.0) {
+      throw std::runtime_error("a number was missing");
+    }
+  });
+  const Clock::Time give_up = clock.now() + std::chrono::seconds(30);
+  for (double time = 0.5; num_rounds < 3 && clock.now() < give_up; time += 1.0) {
+    TimedScene scene;
+    scene.scene.time = time;
+    scenes.publish(scene);
+    clock.wait_until(clock.now() + 2 * breath);
+  }
+  EXPECT_GE(num_rounds, 3);
+  EXPECT_EQ(thread.finish(), "a number was missing");
+}
+
 }  // namespace
-}  // namespace saca::loop::thinking_thread_test
+}  // namespace saca::loop::work_thread_test

@@ -1,0 +1,88 @@
+#include "saca/decide/forecaster.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "saca/core/contract.h"
+#include "saca/manoeuvre/batch.h"
+#include "saca/preview/drawn_motions.h"
+#include "saca/preview/expected_harm.h"
+
+namespace saca::decide {
+namespace {
+
+using manoeuvre::EgoMotion;
+using world::LanePose;
+using world::Scene;
+
+constexpr double settling_time = 0.5;  // [s], assumption: after which 1/e of what the controller
+                                       // was off its way is left
+constexpr double longest_rest = 20.0;  // [s] of a way
+
+/// What is left of the way that was meant, from where the ego is: what it is ahead along the lane
+/// it stays ahead, and across and in direction it comes back onto the way.
+EgoMotion rest_of(const UnderWay& under_way, const Scene& scene, const manoeuvre::Car& car) {
+  const double since = scene.time - under_way.begun;
+  const double longest = since + longest_rest;
+  const manoeuvre::Drive drive{.car = &car,
+                               .plan = under_way.plan,
+                               .start = under_way.begun,
+                               .ego = under_way.ego,
+                               .road = under_way.road,
+                               .known_grip = under_way.grip,
+                               .grip = under_way.grip,
+                               .unknown = {},
+                               .longest = longest};
+  const EgoMotion meant = manoeuvre::drive_all({&drive, 1}, longest).front();
+  const auto first = std::min(static_cast<std::size_t>(std::lround(since / meant.track.step)),
+                              meant.track.X_WA.size() - 1);
+  const LanePose here = to_lane(under_way.road, scene.ego.X_WB);
+  const LanePose wanted = to_lane(under_way.road, meant.track.X_WA[first]);
+  EgoMotion rest{.track = {.start = scene.time, .step = meant.track.step, .X_WA = {}},
+                 .ended = meant.ended};
+  for (std::size_t k = first; k < meant.track.X_WA.size(); ++k) {
+    const double left =
+        std::exp(-static_cast<double>(k - first) * meant.track.step / settling_time);
+    LanePose at = to_lane(under_way.road, meant.track.X_WA[k]);
+    at.s += here.s - wanted.s;
+    at.d += left * (here.d - wanted.d);
+    at.heading += left * wrap_angle(here.heading - wanted.heading);
+    rest.track.X_WA.push_back(from_lane(under_way.road, at));
+  }
+  const auto kept = static_cast<std::ptrdiff_t>(first);
+  rest.v_B.assign(meant.v_B.begin() + kept, meant.v_B.end());
+  rest.yaw_rate.assign(meant.yaw_rate.begin() + kept, meant.yaw_rate.end());
+  return rest;
+}
+
+JudgedPlan judged(const preview::ExpectedHarm& one) {
+  return {
+      .plan = one.plan, .drivable = one.refusal.empty(), .harm = one.harm, .contact = one.contact};
+}
+
+}  // namespace
+
+Forecaster::Forecaster(const preview::ForecastTools& tools, std::size_t num_draws)
+    : tools_(tools), num_draws_(num_draws) {
+  expects(tools.car != nullptr && tools.harm != nullptr, "car and harm are given");
+  expects(num_draws >= 1, "at least one draw");
+}
+
+Verdict Forecaster::judge(const Scene& scene, const intent::Beliefs& beliefs,
+                          const std::optional<UnderWay>& under_way) const {
+  const auto motions = preview::drawn_motions(scene, beliefs, intent::MotionLaw{}, num_draws_);
+  Verdict verdict{.time = scene.time};
+  for (const preview::ExpectedHarm& one :
+       preview::expected_harms(scene, motions, tools_, preview::Physics::rolled_out)) {
+    verdict.plans.push_back(judged(one));
+  }
+  if (under_way) {
+    preview::ExpectedHarm rest =
+        preview::expected_harm(rest_of(*under_way, scene, *tools_.car), scene, motions, tools_);
+    rest.plan = under_way->plan;
+    verdict.under_way = judged(rest);
+  }
+  return verdict;
+}
+
+}  // namespace saca::decide

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "saca/decide/verdict.h"
+#include "saca/intent/observer.h"
+#include "saca/manoeuvre/plan.h"
+#include "saca/preview/policy_facts.h"
+#include "saca/world/road.h"
+#include "saca/world/scene.h"
+
+namespace saca::decide {
+
+/// A plan that is being carried out. Trivially copyable.
+struct UnderWay {
+  manoeuvre::Plan plan;
+  double begun = 0.0;   ///< [s], in the scene's time
+  world::EgoState ego;  ///< then
+  world::Road road;     ///< likewise
+  double grip = 0.9;    ///< as it was believed then [-]
+};
+
+/// Draws of a verdict: with 16 the regret in closed loop is that with 64 (docs/results.md).
+constexpr std::size_t usual_draws = 16;
+
+/// The plane between reflex and thinking: one scene in, one verdict out, many times a second. Its
+/// work is bounded: it asks neither disk nor language model.
+///
+/// Every plan is driven with full dynamics and held against draws of what the others may do
+/// (preview::drawn_motions), with everything that follows a contact; those behind react to it.
+class Forecaster {
+ public:
+  /// @param num_draws  >= 1
+  explicit Forecaster(const preview::ForecastTools& tools, std::size_t num_draws = usual_draws);
+
+  /// @param scene      breaks no rule of world::broken_rule
+  /// @param beliefs    one per actor
+  /// @param under_way  judged from where it is: the rest of the way that was meant when it began,
+  ///                   from the present place and direction back onto it
+  /// @throws ContractViolation  if beliefs and actors differ in number
+  [[nodiscard]] Verdict judge(const world::Scene& scene, const intent::Beliefs& beliefs,
+                              const std::optional<UnderWay>& under_way = std::nullopt) const;
+
+ private:
+  preview::ForecastTools tools_;
+  std::size_t num_draws_;
+};
+
+}  // namespace saca::decide

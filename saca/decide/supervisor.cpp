@@ -1,0 +1,139 @@
+#include "saca/decide/supervisor.h"
+
+#include <algorithm>
+#include <array>
+
+#include "saca/core/names.h"
+#include "saca/manoeuvre/drive.h"
+#include "saca/world/time_to_conflict.h"
+
+namespace saca::decide {
+namespace {
+
+using manoeuvre::Plan;
+using manoeuvre::PolicyId;
+using world::Scene;
+
+constexpr std::array<std::string_view, 3> reason_names{"needed after all", "no longer needed",
+                                                       "better by far"};
+constexpr double rest_speed = 0.5;  // [m/s]
+
+const JudgedPlan* least_harmful(const Verdict& verdict) {
+  const JudgedPlan* least = nullptr;
+  for (const JudgedPlan& one : verdict.plans) {
+    if (one.drivable && (least == nullptr || one.harm < least->harm)) {
+      least = &one;
+    }
+  }
+  return least;
+}
+
+/// Of going on with what is under way. Braking and doing nothing have no past: what is left of them
+/// is what begins now.
+double harm_of_going_on(const SupervisedScene& now) {
+  const PolicyId policy = now.under_way.plan.policy;
+  const JudgedPlan* const anew = find_plan(now.verdict, now.under_way.plan);
+  if ((policy == PolicyId::aeb || policy == PolicyId::no_intervention) && anew != nullptr) {
+    return anew->harm;
+  }
+  return now.verdict.under_way ? now.verdict.under_way->harm : 0.0;
+}
+
+}  // namespace
+
+std::string_view name(SwitchReason reason) {
+  return name_of(reason, reason_names);
+}
+
+bool Supervisor::is_due(const Scene& scene, const UnderWay& under_way, bool triggers,
+                        bool finished) const noexcept {
+  constexpr double rounding = 1e-9;  // [s]
+  if (norm(scene.ego.v_B) < rest_speed || scene.time < looked_at_ + period - rounding) {
+    return false;
+  }
+  const bool idle = under_way.plan.policy == PolicyId::no_intervention || finished;
+  return !idle || triggers;
+}
+
+void Supervisor::begin(const Scene& scene) noexcept {
+  *this = {};
+  note(scene);
+}
+
+void Supervisor::note(const Scene& scene) noexcept {
+  known_.clear();
+  for (const world::Actor& actor : scene.actors) {
+    known_.push_back({actor.kind, actor.id});
+  }
+}
+
+bool Supervisor::somebody_came(const Scene& scene) const noexcept {
+  return std::any_of(scene.actors.begin(), scene.actors.end(), [&](const world::Actor& actor) {
+    return std::none_of(known_.begin(), known_.end(), [&](const Name& name) {
+      return name.kind == actor.kind && name.id == actor.id;
+    });
+  });
+}
+
+std::optional<Switch> Supervisor::better(const SupervisedScene& now) noexcept {
+  const JudgedPlan* const least = least_harmful(now.verdict);
+  const double before = harm_of_going_on(now);
+  const bool is_better = least != nullptr && least->harm + material_harm <= before &&
+                         !manoeuvre::drifts(now.under_way.plan.policy);
+  const auto wanted = is_better ? std::optional(plan_of(now.verdict)) : std::nullopt;
+  const bool twice = wanted && better_before_ == wanted->policy;
+  better_before_ = wanted ? std::optional(wanted->policy) : std::nullopt;
+  if (!twice || wanted->policy == now.under_way.plan.policy ||
+      (switched_ && !somebody_came(now.scene))) {
+    return std::nullopt;
+  }
+  return Switch{.plan = *wanted,
+                .reason = SwitchReason::better_by_far,
+                .harm = least->harm,
+                .harm_before = before};
+}
+
+std::optional<Switch> Supervisor::look(const SupervisedScene& now,
+                                       const manoeuvre::Car* car) noexcept {
+  if (!is_due(now.scene, now.under_way, now.triggers, now.finished) ||
+      now.verdict.time <= verdict_at_) {
+    return std::nullopt;
+  }
+  looked_at_ = now.scene.time;
+  verdict_at_ = now.verdict.time;
+  const PolicyId policy = now.under_way.plan.policy;
+  const Plan wanted = plan_of(now.verdict);
+  const bool is_clear = wanted.policy == PolicyId::no_intervention;
+  std::optional<Switch> change;
+  if (!is_clear) {
+    clear_since_.reset();
+  }
+  if (policy == PolicyId::no_intervention || now.finished) {
+    if (!is_clear && now.triggers) {
+      const JudgedPlan* const judged = find_plan(now.verdict, wanted);
+      change = Switch{.plan = wanted,
+                      .reason = SwitchReason::needed_after_all,
+                      .harm = judged == nullptr ? 0.0 : judged->harm,
+                      .harm_before = harm_of_going_on(now)};
+    }
+  } else if (is_clear && policy == PolicyId::aeb) {
+    clear_since_ = clear_since_.value_or(now.verdict.time);
+    if (now.verdict.time >= *clear_since_ + clear_time && !now.threatened) {
+      change = Switch{.plan = manoeuvre::doing_nothing, .reason = SwitchReason::no_longer_needed};
+    }
+  } else {
+    change = better(now);
+  }
+  if (change && car != nullptr && manoeuvre::why_refused(*car, change->plan, now.scene)) {
+    return std::nullopt;
+  }
+  if (change) {
+    switched_ = switched_ || change->reason == SwitchReason::better_by_far;
+    clear_since_.reset();
+    better_before_.reset();
+    note(now.scene);
+  }
+  return change;
+}
+
+}  // namespace saca::decide

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "saca/core/static_vector.h"
+#include "saca/manoeuvre/plan.h"
+#include "saca/preview/policy_facts.h"
+
+namespace saca::decide {
+
+/// What one plan is expected to end in when it begins in the scene of a verdict.
+struct JudgedPlan {
+  manoeuvre::Plan plan;
+  bool drivable = false;  ///< from that scene; else the rest means nothing
+  double harm = 0.0;      ///< expected over everything that is not known of the others
+  double contact = 0.0;   ///< probability, in [0, 1]
+};
+
+/// What every plan is expected to end in, from one scene on. Trivially copyable: it crosses from
+/// the forecaster to the reflex plane by value.
+struct Verdict {
+  double time = 0.0;  ///< of the scene that was judged [s]
+  StaticVector<JudgedPlan, preview::Plans::capacity()> plans;
+  std::optional<JudgedPlan> under_way;  ///< the rest of what is carried out, if anything is
+};
+
+/// How old a verdict may be to be decided by [s].
+constexpr double verdict_expiry = 0.1;
+
+/// The expected harms that count as that of the best: what the forecasts cannot tell apart. They
+/// are the larger of 0.002 and 3 % of what emergency braking has above the best.
+/// @return  the admissible harm at most; nullopt where nothing can be driven
+[[nodiscard]] std::optional<double> admissible_harm(const Verdict& verdict) noexcept;
+
+/// How many plans are admissible: can be driven, with at most that harm.
+[[nodiscard]] std::size_t num_admissible(const Verdict& verdict) noexcept;
+
+/// The judged plan that is the same as this, begun a little earlier or later: of the same policy,
+/// with the nearest target speed. nullptr: none.
+[[nodiscard]] const JudgedPlan* find_plan(const Verdict& verdict,
+                                          const manoeuvre::Plan& plan) noexcept;
+
+/// The plan that a verdict speaks for. In this order: doing nothing, where no hypothesis has
+/// contact then; emergency braking, where it is admissible; the mildest that is admissible, of
+/// equally mild ones the least harmful; emergency braking, where nothing can be driven.
+///
+/// Braking is admissible or worse than all that is: so nothing is knowingly worse than braking.
+[[nodiscard]] manoeuvre::Plan plan_of(const Verdict& verdict) noexcept;
+
+/// Is this plan admissible here? One that can stand aside for doing nothing without contact is not.
+[[nodiscard]] bool admits(const Verdict& verdict, const manoeuvre::Plan& plan) noexcept;
+
+}  // namespace saca::decide

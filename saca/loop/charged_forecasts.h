@@ -1,0 +1,49 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "saca/decide/forecaster.h"
+#include "saca/decide/verdict.h"
+#include "saca/intent/observer.h"
+#include "saca/world/scene.h"
+
+namespace saca::loop {
+
+/// How often a verdict is made at most [s].
+constexpr double verdict_period = 0.05;
+
+/// The forecaster in pace `lockstep`: a round begins every `verdict_period`, and its verdict is
+/// held back until the simulated time at which it would have been ready. A round whose verdict
+/// nobody takes is not worked out.
+class ChargedForecasts {
+ public:
+  /// @param cost  of one verdict [s], >= 0
+  ChargedForecasts(const decide::Forecaster& forecaster, double cost)
+      : forecaster_(forecaster), cost_(cost) {}
+
+  /// Begins a round unless the last one was begun less than a period ago, or is still worked on.
+  void offer(const world::Scene& scene, const intent::Beliefs& beliefs,
+             const std::optional<decide::UnderWay>& under_way);
+
+  /// The newest verdict that is ready at `now` [s] and has not been taken.
+  [[nodiscard]] std::optional<decide::Verdict> take(double now);
+
+ private:
+  struct Round {
+    world::Scene scene;
+    intent::Beliefs beliefs;
+    std::optional<decide::UnderWay> under_way;
+  };
+
+  [[nodiscard]] bool is_ready(const Round& round, double now) const {
+    return round.scene.time + cost_ <= now;
+  }
+
+  decide::Forecaster forecaster_;
+  double cost_;
+  std::deque<Round> rounds_;  ///< by time; what nobody can take any more is dropped
+  double free_at_ = 0.0;      ///< [s]
+};
+
+}  // namespace saca::loop

@@ -1,0 +1,51 @@
+#include "saca/loop/charged_forecasts.h"
+
+#include <gtest/gtest.h>
+
+#include "saca/manoeuvre/default_car.h"
+#include "tests/support/scenes.h"
+
+namespace saca::loop::charged_forecasts_test {
+namespace {
+
+class ChargedForecastsTest : public ::testing::Test {
+ protected:
+  /// Offers a scene every 10 ms from 0 to `until`.
+  void offer_until(ChargedForecasts& forecasts, double until) {
+    for (int k = 0; 0.01 * k <= until + 1e-9; ++k) {
+      world::Scene scene = test::ego_at(15.0);
+      scene.time = 0.01 * k;
+      forecasts.offer(scene, {}, std::nullopt);
+    }
+  }
+
+  manoeuvre::Car car_ = manoeuvre::default_car();
+  outcome::HarmModel harm_ = outcome::read_harm("data/harm.toml").value();
+  decide::Forecaster forecaster_{{.car = &car_, .harm = &harm_}, 1};
+};
+
+TEST_F(ChargedForecastsTest, AVerdictIsHeldBackUntilItWouldBeReady) {
+  ChargedForecasts forecasts(forecaster_, 0.03);
+  offer_until(forecasts, 0.0);
+  EXPECT_FALSE(forecasts.take(0.02).has_value());
+  const auto verdict = forecasts.take(0.03);
+  ASSERT_TRUE(verdict.has_value());
+  EXPECT_EQ(verdict->time, 0.0);
+  EXPECT_FALSE(forecasts.take(0.04).has_value()) << "it has been taken";
+}
+
+TEST_F(ChargedForecastsTest, TheNewestThatIsReadyIsTaken) {
+  ChargedForecasts forecasts(forecaster_, 0.03);
+  offer_until(forecasts, 1.0);  // rounds at 0, 0.05, ... 1.0
+  EXPECT_NEAR(forecasts.take(1.0)->time, 0.95, 1e-9);
+  EXPECT_NEAR(forecasts.take(1.04)->time, 1.0, 1e-9);
+}
+
+TEST_F(ChargedForecastsTest, ASlowForecasterBeginsFewerRounds) {
+  ChargedForecasts forecasts(forecaster_, 0.3);
+  offer_until(forecasts, 1.0);  // rounds at 0, 0.3, 0.6, 0.9
+  EXPECT_NEAR(forecasts.take(1.0)->time, 0.6, 1e-9);
+}
+
+}  // namespace
+}  // namespace saca::loop::charged_forecasts_test

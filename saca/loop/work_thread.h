@@ -1,0 +1,55 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+
+#include "saca/core/clock.h"
+#include "saca/core/latest_slot.h"
+#include "saca/decide/forecaster.h"
+#include "saca/intent/observer.h"
+#include "saca/world/scene.h"
+
+namespace saca::loop {
+
+/// A scene, what its road users are thought to intend, when it was true, and what was under way.
+struct TimedScene {
+  world::Scene scene;
+  intent::Beliefs beliefs;
+  Clock::Time at{0};
+  std::optional<decide::UnderWay> under_way;
+};
+
+/// Works beside the reflex plane: takes the newest scene, works on it, rests, takes the next.
+/// Nobody ever waits for it but its destructor. What is thrown there is kept and told, and the next
+/// scene begins anew.
+class WorkThread {
+ public:
+  using Work = std::function<void(const TimedScene&, const std::stop_token&)>;
+
+  /// @param scenes  outlives the thread, as does `clock`
+  /// @param breath  from the end of one round to the next
+  WorkThread(LatestSlot<TimedScene>& scenes, Clock& clock, Clock::Time breath, Work work);
+  WorkThread(const WorkThread&) = delete;
+  WorkThread& operator=(const WorkThread&) = delete;
+  /// As finish().
+  ~WorkThread() = default;
+
+  /// Ends the thread: withdraws what it waits for, and waits for the rest of the round under way.
+  /// @return  what was thrown there first; empty when nothing was
+  std::string finish();
+
+ private:
+  void run(const std::stop_token& stop);
+
+  LatestSlot<TimedScene>& scenes_;
+  Clock& clock_;
+  Clock::Time breath_;
+  Work work_;
+  std::string fault_;  ///< of the thread until it has ended
+  std::jthread thread_;
+};
+
+}  // namespace saca::loop
