@@ -38,7 +38,7 @@ Result<FirstQuestion> first_question(const ScenarioInputs& inputs,
                           .intent = &inputs.intent,
                           .atlas = tools.atlas,
                           .danger = tools.danger,
-                          .pace = loop::Pace::lockstep,
+                          .pace = runtime::Pace::lockstep,
                           .costs = {},
                           .model = &taker,
                           .clock = &clock};

@@ -50,13 +50,13 @@ Result<Inputs> read_inputs(const std::string& car) {
                 .intent = std::move(intent).value()};
 }
 
-Result<loop::ThinkingCosts> read_costs(const Places& places) {
+Result<runtime::ThinkingCosts> read_costs(const Places& places) {
   const fs::path file = places.root / "data" / "thinking_costs.toml";
   const auto text = read_file(file);
   if (!text.has_value()) {
     return text.error();
   }
-  return loop::read_thinking_costs(text.value(), file.string());
+  return runtime::read_thinking_costs(text.value(), file.string());
 }
 
 Result<ScenarioInputs> read_scenario_inputs(const std::string& scenario) {

@@ -4,9 +4,9 @@
 
 #include "apps/saca/places.h"
 #include "saca/intent/model.h"
-#include "saca/loop/charged_model.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/outcome/harm.h"
+#include "saca/runtime/charged_model.h"
 #include "saca/sim/family.h"
 #include "saca/sim/scenario.h"
 #include "saca/sim/splits.h"
@@ -26,7 +26,7 @@ struct Inputs {
 [[nodiscard]] Result<Inputs> read_inputs(const std::string& car);
 
 /// What thinking costs in lockstep: data/thinking_costs.toml.
-[[nodiscard]] Result<loop::ThinkingCosts> read_costs(const Places& places);
+[[nodiscard]] Result<runtime::ThinkingCosts> read_costs(const Places& places);
 
 struct ScenarioInputs : Inputs {
   sim::Scenario scenario;

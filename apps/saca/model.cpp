@@ -25,8 +25,8 @@ namespace fs = std::filesystem;
 constexpr Clock::Time loading_time = std::chrono::seconds(60);  // a cold disk included
 constexpr std::string_view replay_prefix = "replay:";
 
-Result<std::unique_ptr<reason::LanguageModel>> open_replay(const std::string& file, loop::Pace pace,
-                                                           Clock& clock) {
+Result<std::unique_ptr<reason::LanguageModel>> open_replay(const std::string& file,
+                                                           runtime::Pace pace, Clock& clock) {
   const auto text = read_file(file);
   if (!text.has_value()) {
     return text.error();
@@ -36,7 +36,7 @@ Result<std::unique_ptr<reason::LanguageModel>> open_replay(const std::string& fi
     return replies.error();
   }
   const auto when =
-      pace == loop::Pace::real ? reason::ReplayPace::as_recorded : reason::ReplayPace::at_once;
+      pace == runtime::Pace::real ? reason::ReplayPace::as_recorded : reason::ReplayPace::at_once;
   return std::unique_ptr<reason::LanguageModel>(
       std::make_unique<reason::ReplayModel>(std::move(replies).value(), when, clock));
 }
@@ -119,8 +119,8 @@ Result<std::unique_ptr<reason::LanguageModel>> open_server(const Places& places,
 
 }  // namespace
 
-Result<std::unique_ptr<reason::ChildModel>> open_local_model(const Places& places, loop::Pace pace,
-                                                             Clock& clock) {
+Result<std::unique_ptr<reason::ChildModel>> open_local_model(const Places& places,
+                                                             runtime::Pace pace, Clock& clock) {
   std::error_code problem;
   if (!std::filesystem::exists(places.model_host, problem)) {
     return Error{Error::Code::unreadable,
@@ -146,7 +146,7 @@ Result<std::unique_ptr<reason::ChildModel>> open_local_model(const Places& place
   const std::string print = fingerprint(*weights, system.value(), temperature.value());
   std::vector<std::string> command{places.model_host.string(), "--model", weights->string(),
                                    "--temperature", fmt::format("{}", temperature.value())};
-  if (pace == loop::Pace::real) {
+  if (pace == runtime::Pace::real) {
     command.emplace_back("--give-way");
   }
   auto model = std::make_unique<reason::ChildModel>(
@@ -165,7 +165,7 @@ namespace {
 /// nullptr: off.
 Result<std::unique_ptr<reason::LanguageModel>> open_model(const Places& places,
                                                           const std::string& choice,
-                                                          loop::Pace pace, Clock& clock) {
+                                                          runtime::Pace pace, Clock& clock) {
   if (choice == "local") {
     auto local = open_local_model(places, pace, clock);
     if (!local.has_value()) {
@@ -189,7 +189,7 @@ Result<std::unique_ptr<reason::LanguageModel>> open_model(const Places& places,
 }  // namespace
 
 Result<ChosenModel> ChosenModel::open(const Places& places, const std::string& choice,
-                                      const std::string& record, loop::Pace pace, Clock& clock) {
+                                      const std::string& record, runtime::Pace pace, Clock& clock) {
   auto model = open_model(places, choice, pace, clock);
   ChosenModel chosen;
   if (model.has_value()) {
@@ -208,7 +208,7 @@ Result<ChosenModel> ChosenModel::open(const Places& places, const std::string& c
 
 Result<std::unique_ptr<reason::LanguageModel>> open_needed_model(const Places& places,
                                                                  const std::string& choice,
-                                                                 loop::Pace pace, Clock& clock) {
+                                                                 runtime::Pace pace, Clock& clock) {
   auto model = open_model(places, choice, pace, clock);
   if (model.has_value() && model.value() == nullptr) {
     return Error{Error::Code::malformed,

@@ -19,13 +19,13 @@ namespace saca::app {
 /// whoever else wants the cores; in lockstep a reply does not depend on what else the machine does.
 /// @return  an error that says what is missing and how to get it
 [[nodiscard]] Result<std::unique_ptr<reason::ChildModel>> open_local_model(const Places& places,
-                                                                           loop::Pace pace,
+                                                                           runtime::Pace pace,
                                                                            Clock& clock);
 
 /// A model as `--llm` names it, for commands that are nothing without one.
 /// @return  never nullptr; an error where it is off or not there
 [[nodiscard]] Result<std::unique_ptr<reason::LanguageModel>> open_needed_model(
-    const Places& places, const std::string& choice, loop::Pace pace, Clock& clock);
+    const Places& places, const std::string& choice, runtime::Pace pace, Clock& clock);
 
 /// A model as `--llm` names it, and whoever writes down what it says.
 class ChosenModel {
@@ -36,7 +36,7 @@ class ChosenModel {
   /// @return        without a model when it is off, or when "local" is not there: that is said on
   ///                the error stream, and the run goes on without
   [[nodiscard]] static Result<ChosenModel> open(const Places& places, const std::string& choice,
-                                                const std::string& record, loop::Pace pace,
+                                                const std::string& record, runtime::Pace pace,
                                                 Clock& clock);
 
   /// nullptr: off.

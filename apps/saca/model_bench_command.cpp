@@ -174,7 +174,7 @@ int model_bench(const ModelBenchOptions& options) {
     return refused(places.error());
   }
   SteadyClock clock;
-  const auto opened = open_needed_model(places.value(), options.model, loop::Pace::real, clock);
+  const auto opened = open_needed_model(places.value(), options.model, runtime::Pace::real, clock);
   if (!opened.has_value()) {
     return refused(opened.error());
   }

@@ -17,7 +17,7 @@ int model_info(bool as_json) {
     return refused(places.error());
   }
   SteadyClock clock;
-  const auto model = open_local_model(places.value(), loop::Pace::real, clock);
+  const auto model = open_local_model(places.value(), runtime::Pace::real, clock);
   if (!model.has_value()) {
     return refused(model.error());
   }

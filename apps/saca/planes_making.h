@@ -4,8 +4,8 @@
 
 #include "apps/saca/inputs.h"
 #include "saca/core/clock.h"
-#include "saca/loop/planes.h"
 #include "saca/manoeuvre/atlas.h"
+#include "saca/runtime/planes.h"
 
 namespace saca::app {
 
@@ -15,7 +15,7 @@ struct PlanesOfCar {
   Inputs inputs;
   manoeuvre::Atlas atlas;
   SteadyClock clock;
-  loop::PlanesSetup setup;
+  runtime::PlanesSetup setup;
 };
 
 [[nodiscard]] Result<std::unique_ptr<const PlanesOfCar>> open_planes(Inputs inputs);

@@ -189,7 +189,7 @@ int reason_about(const ReasonOptions& options) {
   }
   SteadyClock clock;
   const auto model =
-      open_needed_model(inputs.value().places, options.model, loop::Pace::real, clock);
+      open_needed_model(inputs.value().places, options.model, runtime::Pace::real, clock);
   if (!model.has_value()) {
     return refused(model.error());
   }

@@ -143,7 +143,7 @@ int run(const RunOptions& options) {
     return refused(memory.error());
   }
   SteadyClock clock;
-  const loop::Pace pace = options.pace == "real" ? loop::Pace::real : loop::Pace::lockstep;
+  const runtime::Pace pace = options.pace == "real" ? runtime::Pace::real : runtime::Pace::lockstep;
   const auto model = ChosenModel::open(inputs.value().places, options.thinking.model,
                                        options.record_replies, pace, clock);
   if (!model.has_value()) {

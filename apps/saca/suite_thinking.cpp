@@ -57,7 +57,7 @@ Result<std::unique_ptr<SuiteThinking>> SuiteThinking::open(const ThinkingOptions
     thinking->memories_ = std::make_unique<LendingPool<memory::Store>>(std::move(copies).value());
   }
   if (options.model != "off") {
-    auto model = open_needed_model(places, options.model, loop::Pace::lockstep, clock);
+    auto model = open_needed_model(places, options.model, runtime::Pace::lockstep, clock);
     if (!model.has_value()) {
       return model.error();
     }
@@ -70,7 +70,7 @@ Result<std::unique_ptr<SuiteThinking>> SuiteThinking::open(const ThinkingOptions
   return thinking;
 }
 
-SuiteThinking::Loan SuiteThinking::lend(loop::PlanesSetup setup) {
+SuiteThinking::Loan SuiteThinking::lend(runtime::PlanesSetup setup) {
   Loan loan{.memory = memories_ ? memories_->lend() : LendingPool<memory::Store>::Loan(),
             .setup = setup};
   loan.setup.memory = loan.memory.get();

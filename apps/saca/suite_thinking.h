@@ -8,9 +8,9 @@
 #include "apps/saca/progress.h"
 #include "apps/saca/thinking_options.h"
 #include "saca/core/lending_pool.h"
-#include "saca/loop/planes.h"
 #include "saca/memory/store.h"
 #include "saca/reason/shared_model.h"
+#include "saca/runtime/planes.h"
 
 namespace saca::app {
 
@@ -31,9 +31,9 @@ class SuiteThinking {
   /// What one encounter is run with, until it is let go: `setup` with memory and model.
   struct Loan {
     LendingPool<memory::Store>::Loan memory;
-    loop::PlanesSetup setup;
+    runtime::PlanesSetup setup;
   };
-  [[nodiscard]] Loan lend(loop::PlanesSetup setup);
+  [[nodiscard]] Loan lend(runtime::PlanesSetup setup);
 
   [[nodiscard]] bool has_model() const { return shared_ != nullptr; }
   /// Why the model cannot be asked any more: rows that were being run are then worth nothing.

@@ -74,6 +74,14 @@ class ReflexPlane {
   ///                  for another trigger
   [[nodiscard]] Reflex step(const world::Scene& scene, bool finished = false) noexcept;
 
+  /// The encounter is over: the next trigger is another's, and what was cached is not for it.
+  void begin_anew() noexcept {
+    plans_.clear();
+    verdict_.reset();
+    decision_.reset();
+    under_way_.reset();
+  }
+
   /// Will `step` look at verdicts in this scene? Where not, none need be made.
   [[nodiscard]] bool needs_verdict(const world::Scene& scene, bool finished) const noexcept;
 

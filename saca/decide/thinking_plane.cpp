@@ -149,6 +149,11 @@ bool ThinkingPlane::think(const world::Scene& scene, const intent::Beliefs& beli
   return true;
 }
 
+void ThinkingPlane::forget() {
+  previews_.clear();
+  current_.clear();
+}
+
 Preview* ThinkingPlane::provided_for(const preview::Situation& situation) {
   for (Preview& preview : previews_) {
     if (memory::similarity(situation.scene_at_trigger, preview.situation.scene_at_trigger) >

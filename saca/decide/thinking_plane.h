@@ -60,7 +60,10 @@ class ThinkingPlane {
   bool think(const world::Scene& scene, const intent::Beliefs& beliefs, Clock::Time scene_at,
              const std::stop_token& stop = {});
 
-  /// All that was thought so far, in order.
+  /// The encounter is over: forgets what was thought, so that a drive of hours stays small.
+  void forget();
+
+  /// All that was thought so far, in order, since the last `forget`.
   [[nodiscard]] const std::vector<Preview>& previews() const { return previews_; }
 
   /// How often the model, when asked, gave no answer in time, for whatever reason.

@@ -99,7 +99,7 @@ constexpr std::array<MethodInfo, 27> infos{{
 
 /// The situations forecast at one instant, and which of them is most like the scene now.
 Action best_of_forecast(const world::Scene& then, const intent::Beliefs& beliefs, const View& now,
-                        const loop::PlanesSetup& setup) {
+                        const runtime::PlanesSetup& setup) {
   const auto situations = preview::situations(then, beliefs, setup.thresholds, setup.forecast);
   if (situations.empty()) {
     return {.plan = full_braking, .source = "fallback", .reason = "nothing was forecast"};
@@ -119,7 +119,7 @@ Action best_of_forecast(const world::Scene& then, const intent::Beliefs& beliefs
 class ByForecast final : public Method {
  public:
   enum class Which : std::uint8_t { first, newest };
-  ByForecast(const loop::PlanesSetup& setup, Which which)
+  ByForecast(const runtime::PlanesSetup& setup, Which which)
       : setup_(setup),
         which_(which),
         at_trigger_(setup.thresholds, [this](const View& view) { return choose(view); }) {}
@@ -147,7 +147,7 @@ class ByForecast final : public Method {
     }
   }
 
-  loop::PlanesSetup setup_;
+  runtime::PlanesSetup setup_;
   Which which_;
   AtTrigger at_trigger_;
   std::optional<world::Scene> scene_;
@@ -163,7 +163,7 @@ std::vector<JointMotion> believed(const View& view) {
 }
 
 Action least_expected(const world::Scene& scene, std::span<const JointMotion> motions,
-                      const loop::PlanesSetup& setup, Physics physics) {
+                      const runtime::PlanesSetup& setup, Physics physics) {
   return {.plan = preview::least_harmful(
               preview::expected_harms(scene, motions, setup.forecast, physics)),
           .source = "forecast"};
@@ -185,7 +185,7 @@ JointMotion true_motion(const loop::ClosedLoop& truth, const world::Scene& scene
 /// given.
 Action least_tried(const world::Scene& scene, std::span<const JointMotion> motions,
                    const std::function<outcome::Others(const JointMotion&)>& others, double grip,
-                   const manoeuvre::Unknown& unknown, const loop::PlanesSetup& setup) {
+                   const manoeuvre::Unknown& unknown, const runtime::PlanesSetup& setup) {
   const auto plans = preview::all_plans(scene.ego.v_B.x);
   std::vector<preview::ExpectedHarm> all(plans.size());
   for (const JointMotion& motion : motions) {
@@ -236,7 +236,7 @@ outcome::Others with_true_followers(const View& view, const JointMotion& motion)
 }
 
 /// The planes of one of SACA's rows.
-loop::PlanesSetup planes_of(std::string_view name, loop::PlanesSetup planes) {
+runtime::PlanesSetup planes_of(std::string_view name, runtime::PlanesSetup planes) {
   planes.guard = name.starts_with("saca_paper") ? decide::Guard::none
                                                 : decide::Guard::never_worse_than_braking;
   planes.asking = {.facts = name.find("_no_facts") == std::string_view::npos,
@@ -247,7 +247,7 @@ loop::PlanesSetup planes_of(std::string_view name, loop::PlanesSetup planes) {
 }
 
 AtTrigger::Choose chooser(std::string_view name, const MethodTools& tools) {
-  const loop::PlanesSetup& setup = tools.saca;
+  const runtime::PlanesSetup& setup = tools.saca;
   if (name == "aeb") {
     return [](const View&) { return Action{.plan = full_braking}; };
   }
@@ -350,7 +350,7 @@ const MethodInfo* find_method(std::string_view name) {
 std::unique_ptr<Method> make_method(std::string_view name, const MethodTools& tools) {
   expects(find_method(name) != nullptr, "a method of methods()");
   expects(tools.hindsight != nullptr && tools.intent != nullptr, "hindsight and intent are given");
-  const loop::PlanesSetup& setup = tools.saca;
+  const runtime::PlanesSetup& setup = tools.saca;
   if (name.starts_with("saca")) {
     return std::make_unique<loop::SacaMethod>(planes_of(name, setup), tools.num_looks);
   }

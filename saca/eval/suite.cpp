@@ -20,7 +20,7 @@ using nlohmann::json;
 
 /// @param world  as it is played; outlives the stage
 loop::Stage stage_of(const sim::Scenario& world, std::uint64_t number, const SuiteOptions& options,
-                     const loop::PlanesSetup& saca, const intent::Model& intent) {
+                     const runtime::PlanesSetup& saca, const intent::Model& intent) {
   return {.scenario = &world,
           .car = saca.forecast.car,
           .harm = saca.forecast.harm,
@@ -36,7 +36,7 @@ struct Played {
 };
 
 Played play(const sim::Scenario& scenario, std::uint64_t number, const SuiteOptions& options,
-            const loop::PlanesSetup& saca, const intent::Model& intent) {
+            const runtime::PlanesSetup& saca, const intent::Model& intent) {
   const sim::Scenario world = as_played(scenario, options);
   const loop::Stage stage = stage_of(world, number, options, saca, intent);
   try {
@@ -62,7 +62,7 @@ Played play(const sim::Scenario& scenario, std::uint64_t number, const SuiteOpti
 }
 
 std::optional<DriverRow> driver_of(const sim::Scenario& scenario, const Comparison& comparison,
-                                   const loop::PlanesSetup& saca) {
+                                   const runtime::PlanesSetup& saca) {
   if (!comparison.woke) {
     return std::nullopt;
   }
@@ -234,7 +234,7 @@ sim::Scenario as_played(sim::Scenario scenario, const SuiteOptions& options) {
 }
 
 SuiteRow run_encounter(const SuiteEncounter& encounter, const SuiteOptions& options,
-                       const loop::PlanesSetup& saca, const intent::Model& intent) {
+                       const runtime::PlanesSetup& saca, const intent::Model& intent) {
   expects(!options.methods.empty(), "at least one method");
   SuiteRow row{.number = encounter.number,
                .family = encounter.family,
@@ -258,7 +258,7 @@ SuiteRow run_encounter(const SuiteEncounter& encounter, const SuiteOptions& opti
 }
 
 std::optional<TriedScene> tried_in(const SuiteEncounter& encounter, const SuiteOptions& options,
-                                   const loop::PlanesSetup& saca, const intent::Model& intent) {
+                                   const runtime::PlanesSetup& saca, const intent::Model& intent) {
   const sim::Scenario world = as_played(encounter.scenario, options);
   const loop::Stage stage = stage_of(world, encounter.number, options, saca, intent);
   loop::ClosedLoop loop(stage);

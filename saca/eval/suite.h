@@ -65,7 +65,7 @@ struct SuiteRow {
 /// Runs one encounter. One does not depend on the others.
 /// @param saca  of SACA and everybody's forecasts
 [[nodiscard]] SuiteRow run_encounter(const SuiteEncounter& encounter, const SuiteOptions& options,
-                                     const loop::PlanesSetup& saca, const intent::Model& intent);
+                                     const runtime::PlanesSetup& saca, const intent::Model& intent);
 
 /// What every plan leads to from T1 on, if nobody acts before: for pictures.
 struct TriedScene {
@@ -75,7 +75,7 @@ struct TriedScene {
 /// @return  nullopt: T1 never comes, or the encounter cannot be played
 [[nodiscard]] std::optional<TriedScene> tried_in(const SuiteEncounter& encounter,
                                                  const SuiteOptions& options,
-                                                 const loop::PlanesSetup& saca,
+                                                 const runtime::PlanesSetup& saca,
                                                  const intent::Model& intent);
 
 /// One line, for journals; and back. Error::Code::malformed: no such line, or of other methods.

@@ -51,9 +51,9 @@ class Encounter {
   Result<Record> play();
 
  private:
-  [[nodiscard]] bool real() const { return setup_.pace == Pace::real; }
+  [[nodiscard]] bool real() const { return setup_.pace == runtime::Pace::real; }
   static Stage stage_of(const Setup& setup);
-  static PlanesSetup planes_setup(const Setup& setup);
+  static runtime::PlanesSetup planes_setup(const Setup& setup);
 
   void tell(Plane plane, EventKind kind, std::string text);
   [[nodiscard]] std::optional<Error> look();
@@ -69,7 +69,7 @@ class Encounter {
   Listener& listener_;
   Stage stage_;
   ClosedLoop loop_;
-  Planes planes_;
+  runtime::Planes planes_;
   Record record_;
   Clock::Time start_{0};
   int num_looks_ = 0;
@@ -88,7 +88,7 @@ Stage Encounter::stage_of(const Setup& setup) {
           .chance = setup.seed ? sim::draw_chance(*setup.seed, 0, 0.0) : sim::Chance{}};
 }
 
-PlanesSetup Encounter::planes_setup(const Setup& setup) {
+runtime::PlanesSetup Encounter::planes_setup(const Setup& setup) {
   return {.forecast = {setup.car, setup.harm, setup.atlas, setup.danger},
           .thresholds = setup.thresholds,
           .pace = setup.pace,

@@ -15,13 +15,13 @@
 #include "saca/loop/danger_map.h"
 #include "saca/loop/hindsight.h"
 #include "saca/loop/intentions_seen.h"
-#include "saca/loop/planes.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/memory/store.h"
 #include "saca/outcome/harm.h"
 #include "saca/preview/threat.h"
 #include "saca/reason/language_model.h"
 #include "saca/reason/review.h"
+#include "saca/runtime/planes.h"
 #include "saca/sim/scenario.h"
 
 namespace saca::loop {
@@ -35,8 +35,8 @@ struct Setup {
   const manoeuvre::Atlas* atlas = nullptr;  ///< of the car; nullptr: all forecasts are rolled out
   const reach::DangerModel* danger = nullptr;  ///< of the car; nullptr: the best of few evasions
   preview::Thresholds thresholds;
-  Pace pace = Pace::lockstep;
-  ThinkingCosts costs;                     ///< for lockstep
+  runtime::Pace pace = runtime::Pace::lockstep;
+  runtime::ThinkingCosts costs;            ///< for lockstep
   reason::LanguageModel* model = nullptr;  ///< nullptr: without; deadlines on `clock`
   memory::Store* memory = nullptr;         ///< nullptr: without
   bool learns = true;                      ///< what happened is added to memory in the end
@@ -103,7 +103,7 @@ struct Record {
   std::optional<memory::CaseId> stored;     ///< the case that memory learnt
   std::optional<Error> not_stored;          ///< why memory could not learn it
   std::optional<reason::Review> review;     ///< see loop/review.h
-  ReflexTiming reflex;
+  runtime::ReflexTiming reflex;
   int deadline_misses = 0;
 };
 

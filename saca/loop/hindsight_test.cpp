@@ -4,6 +4,7 @@
 
 #include "saca/loop/wreck_for_test.h"
 #include "saca/manoeuvre/default_car.h"
+#include "saca/runtime/wreck_for_test.h"
 
 namespace saca::loop::hindsight_test {
 namespace {
@@ -15,7 +16,7 @@ using manoeuvre::PolicyId;
 TEST(Hindsight, KnowsWhatEachPolicyWouldHaveDone) {
   const auto car = manoeuvre::default_car();
   const auto harm = outcome::read_harm("data/harm.toml").value();
-  world::Scene scene = wreck_ahead(car, 32.5);
+  world::Scene scene = runtime::wreck_ahead(car, 32.5);
   scene.road.left_edge = 5.25;
   scene.road.right_edge = -5.25;
   scene.grip = 0.5;

@@ -53,7 +53,7 @@ Record played(const sim::Scenario& scenario, Clock& clock, Story& story) {
               .car = &car,
               .harm = &harm,
               .intent = &intent::shipped_model(),
-              .pace = Pace::real,
+              .pace = runtime::Pace::real,
               .model = &model,
               .clock = &clock},
              story)

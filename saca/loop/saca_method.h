@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "saca/loop/method.h"
-#include "saca/loop/planes.h"
+#include "saca/runtime/planes.h"
 
 namespace saca::loop {
 
@@ -12,13 +12,13 @@ namespace saca::loop {
 class SacaMethod final : public Method {
  public:
   /// @param looks  how often `step` will be called at most
-  SacaMethod(const PlanesSetup& setup, std::size_t looks) : planes_(setup, {}, looks) {}
+  SacaMethod(const runtime::PlanesSetup& setup, std::size_t looks) : planes_(setup, {}, looks) {}
 
   [[nodiscard]] std::optional<Action> step(const View& view) override;
   [[nodiscard]] std::optional<ThinkingFigures> thinking() const override;
 
  private:
-  Planes planes_;
+  runtime::Planes planes_;
 };
 
 }  // namespace saca::loop

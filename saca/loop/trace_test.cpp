@@ -10,6 +10,7 @@
 #include "saca/core/csv.h"
 #include "saca/loop/wreck_for_test.h"
 #include "saca/manoeuvre/default_car.h"
+#include "saca/runtime/wreck_for_test.h"
 
 namespace saca::loop::trace_test {
 namespace {
@@ -27,7 +28,7 @@ struct Film {
     scenario.actors.push_back({.id = 1, .footprint = {.length = 4.5, .width = 1.8}});
     for (int k = 0; k < 3; ++k) {
       Frame frame{.phase = k < 2 ? Phase::driving : Phase::manoeuvre,
-                  .scene = wreck_ahead(car, 30.0)};
+                  .scene = runtime::wreck_ahead(car, 30.0)};
       frame.scene.time = 0.02 * k;
       frame.scene.ego.X_WB = {{0.4 * k, 1.0}, 0.5 * std::numbers::pi};
       frame.scene.actors[0].v_W = {3.0, 4.0};

@@ -1,12 +1,12 @@
-#include "saca/loop/charged_thinking.h"
+#include "saca/runtime/charged_thinking.h"
 
 #include <gtest/gtest.h>
 
 #include "saca/intent/shipped_model.h"
-#include "saca/loop/wreck_for_test.h"
 #include "saca/manoeuvre/default_car.h"
+#include "saca/runtime/wreck_for_test.h"
 
-namespace saca::loop::charged_thinking_test {
+namespace saca::runtime::charged_thinking_test {
 namespace {
 
 decide::PlanCache plans(std::size_t count) {
@@ -56,4 +56,4 @@ TEST(ChargedThinking, StartsNoRoundBeforeTheLastOneIsPaidFor) {
 }
 
 }  // namespace
-}  // namespace saca::loop::charged_thinking_test
+}  // namespace saca::runtime::charged_thinking_test

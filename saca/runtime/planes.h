@@ -15,12 +15,12 @@
 #include "saca/decide/forecaster.h"
 #include "saca/decide/reflex_plane.h"
 #include "saca/decide/thinking_plane.h"
-#include "saca/loop/charged_forecasts.h"
-#include "saca/loop/charged_model.h"
-#include "saca/loop/charged_thinking.h"
-#include "saca/loop/work_thread.h"
+#include "saca/runtime/charged_forecasts.h"
+#include "saca/runtime/charged_model.h"
+#include "saca/runtime/charged_thinking.h"
+#include "saca/runtime/work_thread.h"
 
-namespace saca::loop {
+namespace saca::runtime {
 
 /// How simulated and real time go together.
 enum class Pace : std::uint8_t {
@@ -78,6 +78,10 @@ class Planes {
     return reflex_.decision();
   }
 
+  /// The encounter is over: decision, plans and previews are forgotten, those of the thinking plane
+  /// at its next scene. Waits for nobody.
+  void begin_anew();
+
   /// Ends thinking; `step` is not called any more.
   /// @return  what was thrown there and ended it early; empty: nothing was
   std::string finish();
@@ -93,6 +97,7 @@ class Planes {
   [[nodiscard]] decide::ThinkingTools tools();
   [[nodiscard]] decide::ThinkingOutput output();
   void hand_over(const world::Scene& scene, bool finished);
+  void think_of(std::uint32_t encounter);
 
   PlanesSetup setup_;
   Listener listener_;
@@ -107,10 +112,13 @@ class Planes {
   LatestSlot<decide::Verdict> verdicts_;
   LatestSlot<decide::PlanCache> plans_;
   std::vector<decide::Event> events_;
-  std::vector<double> reflex_times_;
+  std::vector<double> reflex_times_;  ///< of the first `looks` steps
+  std::uint32_t encounter_ = 0;
+  std::uint32_t thought_of_ = 0;  ///< the encounter that the thinking plane was last asked about;
+                                  ///< of the thread that thinks
   decide::ThinkingPlane plane_;
   std::unique_ptr<WorkThread> thinking_;     ///< at pace `real`
   std::unique_ptr<WorkThread> forecasting_;  ///< likewise
 };
 
-}  // namespace saca::loop
+}  // namespace saca::runtime

@@ -1,8 +1,8 @@
-#include "saca/loop/charged_forecasts.h"
+#include "saca/runtime/charged_forecasts.h"
 
 #include <algorithm>
 
-namespace saca::loop {
+namespace saca::runtime {
 
 void ChargedForecasts::offer(const world::Scene& scene, const intent::Beliefs& beliefs,
                              const std::optional<decide::UnderWay>& under_way) {
@@ -28,4 +28,4 @@ std::optional<decide::Verdict> ChargedForecasts::take(double now) {
              : std::nullopt;
 }
 
-}  // namespace saca::loop
+}  // namespace saca::runtime

@@ -1,4 +1,4 @@
-#include "saca/loop/planes.h"
+#include "saca/runtime/planes.h"
 
 #include <gmock/gmock.h>
 
@@ -7,7 +7,7 @@
 #include "saca/reason/scripted_model.h"
 #include "tests/support/scenes.h"
 
-namespace saca::loop::planes_test {
+namespace saca::runtime::planes_test {
 namespace {
 
 using manoeuvre::PolicyId;
@@ -98,4 +98,4 @@ TEST_F(PlanesTest, NothingIsToldOfTimesBeforeTheFirstStep) {
 }
 
 }  // namespace
-}  // namespace saca::loop::planes_test
+}  // namespace saca::runtime::planes_test

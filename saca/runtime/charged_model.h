@@ -7,7 +7,7 @@
 #include "saca/core/result.h"
 #include "saca/reason/language_model.h"
 
-namespace saca::loop {
+namespace saca::runtime {
 
 /// What thinking costs in simulated time when the world waits for it (pace `lockstep`). From
 /// data/thinking_costs.toml, measured.
@@ -48,4 +48,4 @@ class ChargedModel final : public reason::LanguageModel {
   const Clock& clock_;
 };
 
-}  // namespace saca::loop
+}  // namespace saca::runtime

@@ -1,11 +1,11 @@
-#include "saca/loop/charged_model.h"
+#include "saca/runtime/charged_model.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "saca/config/config.h"
 
-namespace saca::loop {
+namespace saca::runtime {
 namespace {
 
 constexpr Clock::Time patience = std::chrono::minutes(2);  // the world waits, but not for ever
@@ -74,4 +74,4 @@ Result<std::vector<reason::Reply>> ChargedModel::reply_to(
   return in_time;
 }
 
-}  // namespace saca::loop
+}  // namespace saca::runtime

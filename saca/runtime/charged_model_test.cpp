@@ -1,11 +1,11 @@
-#include "saca/loop/charged_model.h"
+#include "saca/runtime/charged_model.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "saca/reason/scripted_model.h"
 
-namespace saca::loop::charged_model_test {
+namespace saca::runtime::charged_model_test {
 namespace {
 
 using reason::Answer;
@@ -63,4 +63,4 @@ TEST(ThinkingCosts, AreReadStrictly) {
 }
 
 }  // namespace
-}  // namespace saca::loop::charged_model_test
+}  // namespace saca::runtime::charged_model_test

@@ -8,7 +8,7 @@
 #include "saca/intent/observer.h"
 #include "saca/world/scene.h"
 
-namespace saca::loop {
+namespace saca::runtime {
 
 /// How often a verdict is made at most [s].
 constexpr double verdict_period = 0.05;
@@ -46,4 +46,4 @@ class ChargedForecasts {
   double free_at_ = 0.0;      ///< [s]
 };
 
-}  // namespace saca::loop
+}  // namespace saca::runtime

@@ -1,10 +1,10 @@
-#include "saca/loop/work_thread.h"
+#include "saca/runtime/work_thread.h"
 
 #include <exception>
 #include <memory>
 #include <utility>
 
-namespace saca::loop {
+namespace saca::runtime {
 namespace {
 
 constexpr Clock::Time pause = std::chrono::milliseconds(2);  // between looks at an empty slot
@@ -44,4 +44,4 @@ void WorkThread::run(const std::stop_token& stop) {
   }
 }
 
-}  // namespace saca::loop
+}  // namespace saca::runtime

@@ -9,7 +9,7 @@
 #include "saca/decide/thinking_plane.h"
 #include "saca/intent/observer.h"
 
-namespace saca::loop {
+namespace saca::runtime {
 
 /// Thinking in pace `lockstep`: on the same thread, its plans held back until the simulated time at
 /// which they would have been ready.
@@ -36,4 +36,4 @@ class ChargedThinking {
   double free_at_ = 0.0;
 };
 
-}  // namespace saca::loop
+}  // namespace saca::runtime

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <stop_token>
@@ -12,7 +13,7 @@
 #include "saca/intent/observer.h"
 #include "saca/world/scene.h"
 
-namespace saca::loop {
+namespace saca::runtime {
 
 /// A scene, what its road users are thought to intend, when it was true, and what was under way.
 struct TimedScene {
@@ -20,6 +21,7 @@ struct TimedScene {
   intent::Beliefs beliefs;
   Clock::Time at{0};
   std::optional<decide::UnderWay> under_way;
+  std::uint32_t encounter = 0;  ///< counted from the first on
 };
 
 /// Works beside the reflex plane: takes the newest scene, works on it, rests, takes the next.
@@ -52,4 +54,4 @@ class WorkThread {
   std::jthread thread_;
 };
 
-}  // namespace saca::loop
+}  // namespace saca::runtime

@@ -1,11 +1,11 @@
-#include "saca/loop/charged_forecasts.h"
+#include "saca/runtime/charged_forecasts.h"
 
 #include <gtest/gtest.h>
 
 #include "saca/manoeuvre/default_car.h"
 #include "tests/support/scenes.h"
 
-namespace saca::loop::charged_forecasts_test {
+namespace saca::runtime::charged_forecasts_test {
 namespace {
 
 class ChargedForecastsTest : public ::testing::Test {
@@ -48,4 +48,4 @@ TEST_F(ChargedForecastsTest, ASlowForecasterBeginsFewerRounds) {
 }
 
 }  // namespace
-}  // namespace saca::loop::charged_forecasts_test
+}  // namespace saca::runtime::charged_forecasts_test

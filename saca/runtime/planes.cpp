@@ -1,4 +1,4 @@
-#include "saca/loop/planes.h"
+#include "saca/runtime/planes.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 
 #include "saca/core/names.h"
 
-namespace saca::loop {
+namespace saca::runtime {
 namespace {
 
 constexpr std::array<std::string_view, 2> pace_names{"real", "lockstep"};
@@ -49,12 +49,16 @@ Planes::Planes(const PlanesSetup& setup, Listener listener, std::size_t looks)
     thinking_ =
         std::make_unique<WorkThread>(scenes_, *setup_.clock, breath,
                                      [this](const TimedScene& newest, const std::stop_token& stop) {
+                                       think_of(newest.encounter);
                                        plane_.think(newest.scene, newest.beliefs, newest.at, stop);
                                      });
     forecasting_ = std::make_unique<WorkThread>(
         scenes_to_judge_, *setup_.clock, from_seconds(0.5 * verdict_period),
         [this](const TimedScene& newest, const std::stop_token&) {
-          if (!world::broken_rule(newest.scene)) {
+          const bool wanted = newest.under_way ||
+                              preview::previewed_threat(newest.scene, newest.beliefs,
+                                                        setup_.forecast.motion, setup_.thresholds);
+          if (!world::broken_rule(newest.scene) && wanted) {
             verdicts_.publish(forecaster_.judge(newest.scene, newest.beliefs, newest.under_way));
           }
         });
@@ -93,7 +97,7 @@ decide::Reflex Planes::step(const world::Scene& scene, const intent::Beliefs& be
                             Clock::Time at, bool finished) {
   const bool judges = setup_.guard != decide::Guard::none && !setup_.forced;
   if (real()) {
-    const TimedScene newest{scene, beliefs, at, reflex_.under_way()};
+    const TimedScene newest{scene, beliefs, at, reflex_.under_way(), encounter_};
     if (judges) {
       scenes_to_judge_.publish(newest);
     }
@@ -105,13 +109,16 @@ decide::Reflex Planes::step(const world::Scene& scene, const intent::Beliefs& be
       charged_forecasts_.offer(scene, beliefs, reflex_.under_way());
     }
     if (!decision()) {
+      think_of(encounter_);
       charged_.think(plane_, scene, beliefs);
     }
   }
   const Clock::Time before = setup_.clock->now();
   hand_over(scene, finished);
   const decide::Reflex reflex = reflex_.step(scene, finished);
-  reflex_times_.push_back(to_seconds(setup_.clock->now() - before));
+  if (reflex_times_.size() < reflex_times_.capacity()) {
+    reflex_times_.push_back(to_seconds(setup_.clock->now() - before));
+  }
   return reflex;
 }
 
@@ -137,6 +144,19 @@ void Planes::hand_over(const world::Scene& scene, bool finished) {
   }
 }
 
+void Planes::begin_anew() {
+  ++encounter_;
+  reflex_.begin_anew();
+}
+
+void Planes::think_of(std::uint32_t encounter) {
+  if (thought_of_ != encounter) {
+    thought_of_ = encounter;
+    plane_.forget();
+    events_.clear();
+  }
+}
+
 std::string Planes::finish() {
   std::string fault;
   for (WorkThread* const thread : {thinking_.get(), forecasting_.get()}) {
@@ -155,4 +175,4 @@ ReflexTiming Planes::timing() const {
   return {sorted.size(), sorted[sorted.size() / 2], sorted.back()};
 }
 
-}  // namespace saca::loop
+}  // namespace saca::runtime

@@ -1,8 +1,8 @@
-#include "saca/loop/charged_thinking.h"
+#include "saca/runtime/charged_thinking.h"
 
 #include <algorithm>
 
-namespace saca::loop {
+namespace saca::runtime {
 
 void ChargedThinking::think(decide::ThinkingPlane& plane, const world::Scene& scene,
                             const intent::Beliefs& beliefs) {
@@ -30,4 +30,4 @@ std::optional<decide::PlanCache> ChargedThinking::take(double now) {
   return newest;
 }
 
-}  // namespace saca::loop
+}  // namespace saca::runtime

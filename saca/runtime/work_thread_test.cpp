@@ -1,4 +1,4 @@
-#include "saca/loop/work_thread.h"
+#include "saca/runtime/work_thread.h"
 
 #include <gtest/gtest.h>
 
@@ -7,12 +7,12 @@
 
 #include "saca/decide/thinking_plane.h"
 #include "saca/intent/shipped_model.h"
-#include "saca/loop/wreck_for_test.h"
 #include "saca/manoeuvre/default_car.h"
 #include "saca/reason/scripted_model.h"
+#include "saca/runtime/wreck_for_test.h"
 #include "tests/support/meeting_clock.h"
 
-namespace saca::loop::work_thread_test {
+namespace saca::runtime::work_thread_test {
 namespace {
 
 constexpr Clock::Time breath = std::chrono::milliseconds(200);
@@ -113,4 +113,4 @@ TEST(WorkThread, BeginsAnewAfterAFault) {
 }
 
 }  // namespace
-}  // namespace saca::loop::work_thread_test
+}  // namespace saca::runtime::work_thread_test
