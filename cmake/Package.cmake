@@ -3,8 +3,9 @@
 include(CMakePackageConfigHelpers)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/saca)
 install(EXPORT saca_targets NAMESPACE saca:: DESTINATION ${package})
+set(SACA_DATA_FOLDER ${CMAKE_INSTALL_DATADIR}/saca)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/sacaConfig.cmake.in
-  ${PROJECT_BINARY_DIR}/sacaConfig.cmake INSTALL_DESTINATION ${package})
+  ${PROJECT_BINARY_DIR}/sacaConfig.cmake INSTALL_DESTINATION ${package} PATH_VARS SACA_DATA_FOLDER)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/sacaConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/sacaConfig.cmake ${PROJECT_BINARY_DIR}/sacaConfigVersion.cmake

@@ -1,30 +1,46 @@
-// The least that a driving stack needs of SACA: scenes go in, a plan comes out, always and at once.
-// Built against an installed package: find_package(saca).
+// SACA in a driving stack: scenes go in at 100 Hz, steering and brakes come out; forecaster and
+// thinking plane work beside, on threads of their own. Built against an installed package.
 #include <cstdio>
 
-#include "saca/decide/reflex_plane.h"
+#include "saca/manoeuvre/ego.h"
+#include "saca/runtime/avoider.h"
 
 int main() {
-  saca::world::Scene scene;
+  using namespace saca;
+  const std::filesystem::path data = SACA_DATA;
+  const auto car = manoeuvre::read_car(data / "data/vehicles/compact_rwd_ev.toml").value();
+  const auto harm = outcome::read_harm(data / "data/harm.toml").value();
+  const auto intent = intent::read_model(data / "models/intent/model.safetensors").value();
+  SteadyClock clock;
+  Avoider avoider(
+      {.planes = {.forecast = {&car, &harm}, .pace = runtime::Pace::real, .clock = &clock},
+       .intent = &intent});  // .memory and .model as well, where there are any
+
+  world::Scene scene;  // 14 m/s on a dry road, a wreck ahead
   scene.ego.v_B = {14.0, 0.0};
-  scene.ego_footprint = {.length = 4.7, .width = 1.9, .centre_x = -0.1};
-  scene.ego_mass = 1'700.0;
-  saca::world::Actor wreck{.id = 1, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1'500.0};
-  wreck.X_WA.p = {40.0, 0.0};
+  scene.ego_footprint = manoeuvre::footprint(car);
+  scene.ego_mass = car.mass;
+  world::Actor wreck{.id = 1, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1'500.0};
+  wreck.X_WA.p = {60.0, 0.0};
   scene.actors.push_back(wreck);
 
-  saca::decide::ReflexPlane reflex(saca::preview::Thresholds{});
-  for (int k = 0; k < 300; ++k) {
-    const saca::decide::Reflex out = reflex.step(scene);
-    if (out.triggered) {
-      const auto name = saca::manoeuvre::name(out.plan.policy);
-      std::printf("after %.2f s, %.1f s before the contact: %.*s\n", scene.time, out.threat->time,
+  vehicle::VehicleState state = manoeuvre::rolling_state(car, scene.ego, scene.grip);
+  const Clock::Time start = clock.now();
+  while (scene.time < 7.0) {
+    const Answer answer = avoider.step(scene, clock.now());
+    if (answer.begins && answer.plan) {
+      const auto name = manoeuvre::name(answer.plan->policy);
+      std::printf("%.2f s, %.1f s before the contact: %.*s\n", scene.time, answer.threat->time,
                   static_cast<int>(name.size()), name.data());
-      return 0;
     }
-    scene.time += 0.01;  // the stack's next scene: the ego goes on
-    scene.ego.X_WB.p.x += 0.01 * scene.ego.v_B.x;
+    for (int k = 0; k < 10; ++k) {  // the car: here its model
+      state = vehicle::step(car, state, avoider.control(state, 0.001), scene.grip, 0.001);
+    }
+    scene.ego = manoeuvre::ego_state(state);
+    scene.time += 0.01;
+    clock.wait_until(start + from_seconds(scene.time));
   }
-  std::puts("the wreck was not seen");
-  return 1;
+  const double gap = wreck.X_WA.p.x - 2.25 - scene.ego.X_WB.p.x - 2.3;
+  std::printf("at %.1f m/s, %.1f m before the wreck\n", scene.ego.v_B.x, gap);
+  return scene.ego.v_B.x < 0.1 && gap > 0.0 ? 0 : 1;
 }

@@ -64,6 +64,20 @@ bool is_valid(const SharedControls& shared) {
          is_pedal(shared.throttle) && is_pedal(shared.brake);
 }
 
+}  // namespace
+
+std::string_view name(ActorKind kind) {
+  return name_of(kind, kind_names);
+}
+
+std::optional<ActorKind> actor_kind_from(std::string_view name) {
+  return value_from<ActorKind>(name, kind_names);
+}
+
+std::string actor_name(const Actor& actor) {
+  return std::string(name(actor.kind)) + std::to_string(actor.id);
+}
+
 std::optional<std::string_view> broken_rule(const Actor& actor) {
   if (!is_motion(actor.X_WA, actor.v_W, actor.a_W, actor.yaw_rate)) {
     return "an actor's motion is finite and at most 200 m/s, 1000 m/s^2, 100 rad/s";
@@ -83,20 +97,6 @@ std::optional<std::string_view> broken_rule(const Actor& actor) {
     return "shared steering is within 90 deg, shared pedals are in [0, 1]";
   }
   return std::nullopt;
-}
-
-}  // namespace
-
-std::string_view name(ActorKind kind) {
-  return name_of(kind, kind_names);
-}
-
-std::optional<ActorKind> actor_kind_from(std::string_view name) {
-  return value_from<ActorKind>(name, kind_names);
-}
-
-std::string actor_name(const Actor& actor) {
-  return std::string(name(actor.kind)) + std::to_string(actor.id);
 }
 
 std::optional<std::string_view> broken_rule(const Scene& scene) {

@@ -55,6 +55,10 @@ struct Actor {
 /// "car1", "pedestrian2": the only names that reach a prompt.
 [[nodiscard]] std::string actor_name(const Actor& actor);
 
+/// @return  the first rule that is broken, in words: finite numbers of what there is on roads;
+///          nullopt when the actor can be used
+[[nodiscard]] std::optional<std::string_view> broken_rule(const Actor& actor);
+
 /// The ego's own motion, from its sensors.
 struct EgoState {
   Pose X_WB;              ///< B at the centre of mass

@@ -1,0 +1,98 @@
+#include "saca/runtime/avoider.h"
+
+#include "saca/core/contract.h"
+#include "saca/manoeuvre/drive.h"
+
+namespace saca {
+namespace {
+
+constexpr double quiet_time = 2.0;  // [s] without threat or plan, after which an encounter is over
+
+const AvoiderSetup& complete(const AvoiderSetup& setup) {
+  expects(setup.intent != nullptr && setup.planes.forecast.car != nullptr &&
+              setup.planes.forecast.harm != nullptr && setup.planes.clock != nullptr,
+          "car, harm, intent and clock are given");
+  return setup;
+}
+
+}  // namespace
+
+Avoider::Avoider(const AvoiderSetup& setup)
+    : setup_(complete(setup)), observer_(*setup.intent), planes_(setup.planes, {}, 0) {}
+
+Answer Avoider::step(const world::Scene& scene, Clock::Time at) {
+  return answer(intake_.take(scene), at);
+}
+
+Answer Avoider::step(double now, Clock::Time at) {
+  return answer(intake_.carry_on(now), at);
+}
+
+Answer Avoider::answer(const runtime::Taken& taken, Clock::Time at) {
+  Answer answer{.plan = plan_, .degraded = taken.degraded};
+  if (!taken.usable) {
+    return answer;  // what is under way goes on
+  }
+  const world::Scene& scene = intake_.scene();
+  if (taken.new_drive) {
+    observer_ = intent::Observer(*setup_.intent);
+  }
+  const intent::Beliefs& beliefs = observer_.look(scene);
+  grip_ = scene.grip;
+  const decide::Reflex reflex = planes_.step(scene, beliefs, at, finished_);
+  answer.threat = reflex.threat;
+  answer.begins = reflex.triggered || reflex.switched.has_value();
+  if (answer.begins) {
+    begin(reflex.plan, scene);
+  }
+  look_for_the_end(scene, answer);
+  answer.plan = plan_;
+  return answer;
+}
+
+void Avoider::begin(const manoeuvre::Plan& plan, const world::Scene& scene) {
+  finished_ = false;
+  if (plan.policy == manoeuvre::PolicyId::no_intervention) {
+    plan_.reset();  // the stack drives
+    return;
+  }
+  // A plan that cannot be driven is not decided on; one that is forced may be.
+  const bool can_be_driven = !manoeuvre::why_refused(*setup_.planes.forecast.car, plan, scene);
+  plan_ = can_be_driven ? plan : manoeuvre::full_braking;
+  road_ = scene.road;
+  controller_ = manoeuvre::begin(*setup_.planes.forecast.car, *plan_, scene);
+}
+
+void Avoider::look_for_the_end(const world::Scene& scene, const Answer& answer) {
+  constexpr double rest = 0.1;  // [m/s]
+  if (finished_ && plan_ && norm(scene.ego.v_B) >= rest) {
+    plan_.reset();  // a lane has been recovered; who has come to rest is held
+  }
+  meets_somebody_ = meets_somebody_ || answer.threat || plan_;
+  if (!meets_somebody_ || answer.threat || (plan_ && !finished_)) {
+    quiet_.reset();
+    return;
+  }
+  quiet_ = quiet_.value_or(scene.time);
+  if (scene.time >= *quiet_ + quiet_time) {
+    planes_.begin_anew();
+    plan_.reset();
+    quiet_.reset();
+    meets_somebody_ = false;
+    finished_ = false;
+    ++num_encounters_;
+  }
+}
+
+vehicle::Command Avoider::control(const vehicle::VehicleState& state, double dt) noexcept {
+  if (!plan_) {
+    return {};
+  }
+  const manoeuvre::Car& car = *setup_.planes.forecast.car;
+  const vehicle::Command command =
+      manoeuvre::control(car, *plan_, road_, grip_, state, controller_, dt);
+  finished_ = finished_ || manoeuvre::finished(*plan_, state, controller_);
+  return command;
+}
+
+}  // namespace saca

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "saca/core/clock.h"
+#include "saca/decide/reflex_plane.h"
+#include "saca/intent/model.h"
+#include "saca/intent/observer.h"
+#include "saca/manoeuvre/controller.h"
+#include "saca/preview/threat.h"
+#include "saca/runtime/intake.h"
+#include "saca/runtime/planes.h"
+#include "saca/vehicle/vehicle.h"
+#include "saca/world/scene.h"
+
+namespace saca {
+
+/// What an avoider is made of. What it points to outlives it.
+struct AvoiderSetup {
+  runtime::PlanesSetup planes;  ///< the car, its harm and atlas, memory, model, pace, clock
+  const intent::Model* intent = nullptr;  ///< not null
+};
+
+/// What an avoider says to one instant.
+struct Answer {
+  std::optional<manoeuvre::Plan> plan;    ///< to be carried out now: `Avoider::control` does it;
+                                          ///< nullopt: the stack drives
+  bool begins = false;                    ///< it begins in this very answer
+  std::optional<preview::Threat> threat;  ///< nearest conflict within T2, all going on as they do
+  bool degraded = false;                  ///< somebody or everything is carried on instead of seen
+};
+
+/// SACA as a driving stack embeds it: scenes in, at 10 to 100 Hz, a plan out at each; while there
+/// is one, commands to the car, up to 1,000 times a second.
+///
+/// Watches all day: intentions from the first scene on; within T2 the forecaster and the thinking
+/// plane work; at T1 the decision, and supervision until the plan has reached its end or nobody is
+/// in the way. Then the stack drives again, and the next encounter finds nothing of this one.
+/// Whatever comes in, the answer is valid (runtime::Intake).
+///
+/// `step` and `control` belong to one thread; they wait for nothing and allocate nothing (in
+/// lockstep, where thinking is done in `step`, they do). At pace `real` two more threads
+/// work; they end with the object.
+class Avoider {
+ public:
+  explicit Avoider(const AvoiderSetup& setup);
+  Avoider(const Avoider&) = delete;
+  Avoider& operator=(const Avoider&) = delete;
+  ~Avoider() = default;
+
+  /// A scene came.
+  /// @param at  when, on the clock, it was true; of no account in lockstep
+  Answer step(const world::Scene& scene, Clock::Time at = Clock::Time{0});
+  /// None came until `now` [s], in the scenes' time.
+  Answer step(double now, Clock::Time at = Clock::Time{0});
+
+  /// What to tell the car: carries the plan of the last answer out.
+  /// @param state  as measured now
+  /// @param dt     since the last call [s], > 0
+  /// @return       nothing to steer or brake, where there is no plan
+  [[nodiscard]] vehicle::Command control(const vehicle::VehicleState& state, double dt) noexcept;
+
+  /// The last decision at a trigger, of this encounter; nullopt: none yet.
+  [[nodiscard]] const std::optional<decide::Decision>& decision() const {
+    return planes_.decision();
+  }
+  /// How many encounters have ended.
+  [[nodiscard]] std::size_t num_encounters() const { return num_encounters_; }
+
+  /// Ends thinking; `step` is not called any more.
+  /// @return  what was thrown there; empty: nothing was
+  std::string finish() { return planes_.finish(); }
+
+ private:
+  [[nodiscard]] Answer answer(const runtime::Taken& taken, Clock::Time at);
+  void begin(const manoeuvre::Plan& plan, const world::Scene& scene);
+  void look_for_the_end(const world::Scene& scene, const Answer& answer);
+
+  AvoiderSetup setup_;
+  runtime::Intake intake_;
+  intent::Observer observer_;
+  runtime::Planes planes_;
+  std::optional<manoeuvre::Plan> plan_;
+  manoeuvre::ControllerState controller_;
+  world::Road road_;             ///< where the plan began
+  double grip_ = 0.9;            ///< as believed at the last look [-]
+  bool finished_ = false;        ///< the plan has reached its safe end
+  bool meets_somebody_ = false;  ///< somebody has threatened since the last encounter
+  std::optional<double> quiet_;  ///< since when nobody has threatened and nothing is under way [s]
+  std::size_t num_encounters_ = 0;
+};
+
+}  // namespace saca

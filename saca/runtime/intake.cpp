@@ -1,0 +1,103 @@
+#include "saca/runtime/intake.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "saca/world/time_to_conflict.h"
+
+namespace saca::runtime {
+namespace {
+
+using world::Actor;
+using world::EgoState;
+using world::Scene;
+
+constexpr double unknown_acceleration = 3.0;  // [m/s^2], assumption: of who is not seen
+
+bool is_same(const Actor& a, const Actor& b) {
+  return a.kind == b.kind && a.id == b.id;
+}
+
+const Actor* find(const Scene& scene, const Actor& actor) {
+  const auto* const found = std::find_if(scene.actors.begin(), scene.actors.end(),
+                                         [&](const Actor& other) { return is_same(other, actor); });
+  return found == scene.actors.end() ? nullptr : found;
+}
+
+/// As it moves now, `dt` seconds later.
+Actor moved_on(Actor actor, double dt) {
+  const double speed = norm(actor.v_W);
+  const Pose X = world::actor_going_on(actor, dt);
+  const Pose soon = world::actor_going_on(actor, dt + 0.01);
+  actor.v_W = speed > 0.0 ? 100.0 * (soon.p - X.p) : actor.v_W;
+  actor.X_WA = X;
+  actor.position_sd =
+      std::hypot(actor.position_sd, actor.velocity_sd * dt, 0.5 * unknown_acceleration * dt * dt);
+  actor.velocity_sd = std::hypot(actor.velocity_sd, unknown_acceleration * dt);
+  actor.age += dt;
+  return actor;
+}
+
+/// As it moves now: on the arc of its turning rate, with its acceleration, until rest.
+EgoState moved_on(EgoState ego, double dt) {
+  const double speed = std::max(0.0, ego.v_B.x + ego.a_B.x * dt);
+  const double rest = ego.a_B.x < 0.0 ? std::min(dt, ego.v_B.x / -ego.a_B.x) : dt;
+  const double driven = std::max(0.0, ego.v_B.x * rest + 0.5 * ego.a_B.x * rest * rest);
+  const double turned = ego.yaw_rate * rest;
+  ego.X_WB.p = ego.X_WB.p + rotated({driven, ego.v_B.y * rest}, ego.X_WB.yaw + 0.5 * turned);
+  ego.X_WB.yaw = wrap_angle(ego.X_WB.yaw + turned);
+  ego.v_B = speed > 0.0 ? Vec2{speed, ego.v_B.y} : Vec2{};
+  ego.yaw_rate = speed > 0.0 ? ego.yaw_rate : 0.0;
+  return ego;
+}
+
+}  // namespace
+
+Taken Intake::take(const Scene& scene) noexcept {
+  Scene frame = scene;
+  frame.actors.clear();
+  if (!std::isfinite(scene.time) || world::broken_rule(frame)) {
+    return std::isfinite(scene.time) ? carry_on(scene.time) : carry_on(delivered_);
+  }
+  Taken taken{.usable = true};
+  taken.new_drive = !seen_at_ || scene.time < delivered_ || scene.time > delivered_ + longest_gap;
+  const Scene before = scene_;
+  for (const Actor& actor : scene.actors) {
+    const bool can_be_used = !world::broken_rule(actor) && find(frame, actor) == nullptr;
+    if (can_be_used) {
+      frame.actors.push_back(actor);
+    }
+    taken.degraded = taken.degraded || !can_be_used;
+  }
+  if (!taken.new_drive) {
+    for (const Actor& known : before.actors) {  // of those who came and could not be used
+      const double dt = scene.time - before.time;
+      if (find(frame, known) == nullptr && find(scene, known) != nullptr &&
+          known.age + dt <= longest_carried && !frame.actors.full()) {
+        frame.actors.push_back(moved_on(known, dt));
+      }
+    }
+  }
+  scene_ = frame;
+  seen_at_ = scene.time;
+  delivered_ = scene.time;
+  return taken;
+}
+
+Taken Intake::carry_on(double now) noexcept {
+  if (!seen_at_ || !std::isfinite(now) || now < scene_.time || now > *seen_at_ + longest_carried) {
+    return {.usable = false, .degraded = true};
+  }
+  const double dt = now - scene_.time;
+  if (dt > 0.0) {
+    scene_.ego = moved_on(scene_.ego, dt);
+    for (Actor& actor : scene_.actors) {
+      actor = moved_on(actor, dt);
+    }
+    scene_.time = now;
+  }
+  delivered_ = std::max(delivered_, now);
+  return {.usable = true, .degraded = true};
+}
+
+}  // namespace saca::runtime
