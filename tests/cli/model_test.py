@@ -40,7 +40,7 @@ def test_score_is_of_what_was_carried_out_and_goes_on(server, tmp_path):
     assert abs(choices["best_in_hindsight"]["regret"]["mean"]) < 0.003
     # A server has no answer before its text; what is not checked is carried out as it was said.
     assert choices["facts_at_once"]["harm"] == choices["facts_reasoned"]["harm"]
-    assert choices["facts_checked"]["harm"]["mean"] <= choices["facts_reasoned"]["harm"]["mean"]
+    assert choices["facts_checked"]["harm"]["mean"] >= choices["best_in_hindsight"]["harm"]["mean"] - 0.003
     assert told["with_facts"]["asked"] > 0 and told["with_facts"]["ended_share"] == 1.0
     assert told["with_facts"]["statements_checked"] > 0
 
