@@ -30,8 +30,8 @@ struct MethodInfo {
 
 /// What methods are made with, for one encounter. What it points to outlives them.
 struct MethodTools {
-  runtime::PlanesSetup saca;  ///< of SACA, with its memory and model, which are only asked;
-                              ///< forecasts and thresholds are everybody's
+  runtime::PlanesSetup saca;       ///< of SACA, with its memory and model, which are only asked;
+                                   ///< forecasts and thresholds are everybody's
   Hindsight* hindsight = nullptr;  ///< of this encounter
   const intent::Model* intent = nullptr;
   std::uint64_t seed = 0;     ///< of who chooses at random, and of this encounter
