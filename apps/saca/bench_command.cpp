@@ -14,13 +14,12 @@
 
 #include "apps/saca/atlas_making.h"
 #include "apps/saca/commands.h"
+#include "apps/saca/decide_bench.h"
 #include "apps/saca/inputs.h"
 #include "apps/saca/places.h"
 #include "apps/saca/reach_bench.h"
 #include "saca/core/clock.h"
 #include "saca/core/percentile.h"
-#include "saca/decide/atlas_judge.h"
-#include "saca/decide/reflex_plane.h"
 #include "saca/manoeuvre/atlas.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/manoeuvre/controller.h"
@@ -51,130 +50,6 @@ void bench_vehicle(const manoeuvre::Car& car, Clock& clock, json& figures) {
     }
   }
   figures["vehicle.steps_per_s"] = num_stops * num_steps / to_seconds(clock.now() - start);
-}
-
-constexpr manoeuvre::Plan aes_left{manoeuvre::PolicyId::aes_left, std::nullopt};
-
-/// A scene with `num_actors` others on three lanes; `rng` moves them a little.
-world::Scene crowd(const manoeuvre::Car& car, int num_actors, std::mt19937& rng) {
-  std::uniform_real_distribution<double> u(-1.0, 1.0);
-  world::Scene scene;
-  scene.ego.v_B = {20.0 + u(rng), 0.0};
-  scene.ego_footprint = manoeuvre::footprint(car);
-  scene.ego_mass = car.mass;
-  for (int i = 0; i < num_actors; ++i) {
-    world::Actor actor{.id = static_cast<std::uint8_t>(i + 1),
-                       .footprint = {.length = 4.5, .width = 1.8},
-                       .mass = 1'500.0};
-    const int lane = (i + 1) % 3 - 1;  // the first is in the ego's own
-    const int row = i / 3;
-    actor.X_WA.p = {16.0 + 9.0 * row + 5.0 * u(rng), 3.5 * lane + 0.5 * u(rng)};
-    actor.v_W = {11.0 + 4.0 * u(rng), 0.3 * u(rng)};
-    scene.actors.push_back(actor);
-  }
-  return scene;
-}
-
-/// Times of a loop that does nothing for `wanted` [us]: what is above that is the machine's doing,
-/// not the program's.
-std::vector<double> machine_times(Clock& clock, double wanted, int num_calls) {
-  std::vector<double> times;
-  times.reserve(static_cast<std::size_t>(num_calls));
-  for (int call = 0; call < num_calls; ++call) {
-    const Clock::Time start = clock.now();
-    double time = 0.0;
-    while (time < wanted) {
-      time = 1e6 * to_seconds(clock.now() - start);
-    }
-    times.push_back(time);
-  }
-  return times;
-}
-
-/// Percentiles of one reflex step: six plans received, threats looked for, and where the scene
-/// triggers, matched, looked ahead by the atlas and decided. How many of them trigger is printed
-/// too.
-void bench_reflex(const Inputs& inputs, const manoeuvre::Atlas& atlas, Clock& clock, int num_calls,
-                  json& figures) {
-  for (const int num_actors : {1, 8, 32}) {
-    std::mt19937 rng(1);
-    constexpr int num_scenes = 64;
-    std::vector<world::Scene> scenes;
-    scenes.reserve(num_scenes);
-    for (int i = 0; i < num_scenes; ++i) {
-      scenes.push_back(crowd(inputs.car, num_actors, rng));
-    }
-    decide::PlanCache plans;
-    for (std::size_t i = 0; i < decide::PlanCache::capacity(); ++i) {
-      plans.push_back({.at_trigger = memory::features(scenes[i]), .plan = aes_left});
-    }
-    std::vector<double> times;
-    times.reserve(static_cast<std::size_t>(num_calls));
-    std::vector<double> looked_ahead;  // times of those calls that asked the atlas
-    int num_triggered = 0;
-    for (int call = 0; call < num_calls; ++call) {
-      decide::ReflexPlane plane({.thresholds = {},
-                                 .car = &inputs.car,
-                                 .atlas = decide::AtlasJudge(inputs.car, atlas, inputs.harm)});
-      const world::Scene& scene = scenes[static_cast<std::size_t>(call) % scenes.size()];
-      const Clock::Time start = clock.now();
-      plane.receive(plans);
-      num_triggered += plane.step(scene).triggered ? 1 : 0;
-      times.push_back(1e6 * to_seconds(clock.now() - start));
-      if (plane.decision() && plane.decision()->by_atlas) {
-        looked_ahead.push_back(times.back());
-      }
-    }
-    const std::vector<double> idle = machine_times(clock, percentile(times, 0.5), num_calls);
-    const std::string suffix = fmt::format(".actors{}", num_actors);
-    for (const auto& [name, share] :
-         {std::pair{"p50", 0.5}, {"p99", 0.99}, {"p99.9", 0.999}, {"max", 1.0}}) {
-      figures[fmt::format("decide.reflex_us.{}{}", name, suffix)] = percentile(times, share);
-      figures[fmt::format("decide.machine_us.{}{}", name, suffix)] = percentile(idle, share);
-    }
-    if (!looked_ahead.empty()) {
-      figures["decide.reflex_us.looks_ahead.p50" + suffix] = percentile(looked_ahead, 0.5);
-      figures["decide.reflex_us.looks_ahead.p99" + suffix] = percentile(looked_ahead, 0.99);
-    }
-    figures["decide.reflex_us.looks_ahead.share" + suffix] =
-        static_cast<double>(looked_ahead.size()) / num_calls;
-    figures["decide.reflex_us.n" + suffix] = num_calls;
-    figures["decide.reflex_us.triggered_share" + suffix] =
-        static_cast<double>(num_triggered) / num_calls;
-  }
-}
-
-/// Percentiles of the reflex plane's own verdict alone, without and with somebody behind.
-void bench_atlas_judge(const Inputs& inputs, const manoeuvre::Atlas& atlas, Clock& clock,
-                       int num_calls, json& figures) {
-  decide::AtlasJudge judge(inputs.car, atlas, inputs.harm);
-  for (const int num_actors : {1, 8, 32}) {
-    for (const bool followed : {false, true}) {
-      std::mt19937 rng(1);
-      std::vector<world::Scene> scenes;
-      for (int i = 0; i < 64; ++i) {
-        scenes.push_back(crowd(inputs.car, num_actors, rng));
-        if (followed) {
-          world::Actor& last = scenes.back().actors[scenes.back().actors.size() - 1];
-          last.X_WA.p = {-20.0, 0.0};
-          last.v_W = scenes.back().ego.v_B;
-        }
-      }
-      std::vector<double> times;
-      int told = 0;
-      for (int call = 0; call < num_calls; ++call) {
-        const world::Scene& scene = scenes[static_cast<std::size_t>(call) % scenes.size()];
-        const Clock::Time start = clock.now();
-        told += judge.judge(scene) ? 1 : 0;
-        times.push_back(1e6 * to_seconds(clock.now() - start));
-      }
-      const std::string suffix =
-          fmt::format(".actors{}{}", num_actors, followed ? ".followed" : "");
-      figures["decide.atlas_judge_us.p50" + suffix] = percentile(times, 0.5);
-      figures["decide.atlas_judge_us.p99" + suffix] = percentile(times, 0.99);
-      figures["decide.atlas_judge_us.told_share" + suffix] = static_cast<double>(told) / num_calls;
-    }
-  }
 }
 
 /// All eight read from the atlas and judged: percentiles, with one target speed and with four, the
@@ -258,8 +133,7 @@ int bench(const BenchOptions& options) {
   if (asked("decide") || asked("atlas")) {
     const manoeuvre::Atlas atlas = usual_atlas(inputs);
     if (asked("decide")) {
-      bench_reflex(inputs, atlas, clock, options.calls, figures);
-      bench_atlas_judge(inputs, atlas, clock, fewer_calls, figures);
+      bench_decide(inputs, atlas, clock, options.calls, figures);
     }
     if (asked("atlas")) {
       bench_atlas(inputs.car, atlas, inputs.harm, clock, fewer_calls, figures);
@@ -278,9 +152,9 @@ int bench(const BenchOptions& options) {
 }  // namespace
 
 void add_bench(CLI::App& line, int& exit_code) {
-  CLI::App* const command = line.add_subcommand(
-      "bench",
-      "Measure: vehicle steps, the reflex plane with its check, the atlas, the solver of reach");
+  CLI::App* const command = line.add_subcommand("bench",
+                                                "Measure: vehicle steps, the reflex plane and the "
+                                                "forecaster, the atlas, the solver of reach");
   const auto options = std::make_shared<BenchOptions>();
   command
       ->add_option("what", options->what,
