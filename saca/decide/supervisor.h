@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -71,6 +72,7 @@ class Supervisor {
                                            const manoeuvre::Car* car) noexcept;
 
  private:
+  static constexpr double never = std::numeric_limits<double>::infinity();
   struct Name {
     world::ActorKind kind = world::ActorKind::car;
     std::uint8_t id = 0;
@@ -81,8 +83,8 @@ class Supervisor {
   [[nodiscard]] std::optional<Switch> better(const SupervisedScene& now) noexcept;
 
   StaticVector<Name, world::max_actors> known_;       ///< when the last plan began
-  double looked_at_ = 0.0;                            ///< when a verdict was last looked at [s]
-  double verdict_at_ = 0.0;                           ///< of which scene it was [s]
+  double looked_at_ = -never;                         ///< when a verdict was last looked at [s]
+  double verdict_at_ = -never;                        ///< of which scene it was [s]
   std::optional<double> clear_since_;                 ///< [s]
   std::optional<manoeuvre::PolicyId> better_before_;  ///< what the last verdict would have begun
   bool switched_ = false;

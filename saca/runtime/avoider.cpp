@@ -36,6 +36,7 @@ Answer Avoider::answer(const runtime::Taken& taken, Clock::Time at) {
   const world::Scene& scene = intake_.scene();
   if (taken.new_drive) {
     observer_ = intent::Observer(*setup_.intent);
+    begin_anew();
   }
   const intent::Beliefs& beliefs = observer_.look(scene);
   grip_ = scene.grip;
@@ -75,13 +76,17 @@ void Avoider::look_for_the_end(const world::Scene& scene, const Answer& answer) 
   }
   quiet_ = quiet_.value_or(scene.time);
   if (scene.time >= *quiet_ + quiet_time) {
-    planes_.begin_anew();
-    plan_.reset();
-    quiet_.reset();
-    meets_somebody_ = false;
-    finished_ = false;
+    begin_anew();
     ++num_encounters_;
   }
+}
+
+void Avoider::begin_anew() {
+  planes_.begin_anew();
+  plan_.reset();
+  quiet_.reset();
+  meets_somebody_ = false;
+  finished_ = false;
 }
 
 vehicle::Command Avoider::control(const vehicle::VehicleState& state, double dt) noexcept {

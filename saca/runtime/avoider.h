@@ -76,6 +76,7 @@ class Avoider {
  private:
   [[nodiscard]] Answer answer(const runtime::Taken& taken, Clock::Time at);
   void begin(const manoeuvre::Plan& plan, const world::Scene& scene);
+  void begin_anew();
   void look_for_the_end(const world::Scene& scene, const Answer& answer);
 
   AvoiderSetup setup_;

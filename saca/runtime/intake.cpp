@@ -60,7 +60,10 @@ Taken Intake::take(const Scene& scene) noexcept {
     return std::isfinite(scene.time) ? carry_on(scene.time) : carry_on(delivered_);
   }
   Taken taken{.usable = true};
-  taken.new_drive = !seen_at_ || scene.time < delivered_ || scene.time > delivered_ + longest_gap;
+  taken.new_drive = !seen_at_ || std::abs(scene.time - delivered_) > longest_gap;
+  if (!taken.new_drive && scene.time < delivered_) {
+    return {.usable = false, .degraded = true};
+  }
   const Scene before = scene_;
   for (const Actor& actor : scene.actors) {
     const bool can_be_used = !world::broken_rule(actor) && find(frame, actor) == nullptr;

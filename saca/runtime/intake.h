@@ -10,7 +10,7 @@ namespace saca::runtime {
 struct Taken {
   bool usable = false;     ///< `Intake::scene()` can be decided by
   bool degraded = false;   ///< somebody or everything in it is carried on instead of seen
-  bool new_drive = false;  ///< time went back or jumped: what was known before says nothing
+  bool new_drive = false;  ///< the first scene, or time jumped: what was known says nothing
 };
 
 /// Makes of what perception delivers scenes that break no rule of world::broken_rule, whatever
@@ -21,7 +21,8 @@ struct Taken {
 /// * Where the ego, the road or the grip break a rule, or no scene came at all, everything is
 /// carried
 ///   on for as long, the ego as it moves now: braking and turning.
-/// * Time that goes back, or jumps by more than `longest_gap`, begins a new drive.
+/// * A scene that comes late, older than the newest by at most `longest_gap`, is left aside. Time
+///   that jumps by more, ahead or back, begins a new drive.
 /// Allocates nothing, never throws.
 class Intake {
  public:

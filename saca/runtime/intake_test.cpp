@@ -136,13 +136,23 @@ TEST(Intake, AnEgoThatBreaksARuleIsCarriedOn) {
   EXPECT_NEAR(intake.scene().ego.X_WB.p.x, 2.0, 1e-9);
 }
 
-TEST(Intake, TimeThatGoesBackOrJumpsBeginsANewDrive) {
+TEST(Intake, TimeThatJumpsBeginsANewDrive) {
   Intake intake;
   (void)intake.take(road_at(10.0));
-  EXPECT_TRUE(intake.take(road_at(9.0)).new_drive);
-  EXPECT_FALSE(intake.take(road_at(9.9)).new_drive);
-  EXPECT_TRUE(intake.take(road_at(11.0)).new_drive);
-  EXPECT_FALSE(intake.take(road_at(11.0)).new_drive) << "the same instant again";
+  EXPECT_TRUE(intake.take(road_at(8.5)).new_drive);
+  EXPECT_FALSE(intake.take(road_at(9.4)).new_drive);
+  EXPECT_TRUE(intake.take(road_at(10.5)).new_drive);
+  EXPECT_FALSE(intake.take(road_at(10.5)).new_drive) << "the same instant again";
+}
+
+TEST(Intake, ASceneThatComesLateIsLeftAside) {
+  Intake intake;
+  (void)intake.take(road_at(10.0));
+  const Taken late = intake.take(road_at(9.9));
+  EXPECT_FALSE(late.usable);
+  EXPECT_FALSE(late.new_drive);
+  EXPECT_EQ(intake.scene().time, 10.0);
+  EXPECT_TRUE(intake.take(road_at(10.01)).usable);
 }
 
 TEST(Intake, NothingThatIsUsableBreaksARule) {

@@ -34,7 +34,10 @@ class PlanesTest : public testing::Test {
   }
   /// The decision at the trigger.
   [[nodiscard]] decide::Decision decided(reason::LanguageModel* model, decide::Guard guard) {
-    Planes planes(setup(model, guard), {}, 500);
+    return decided(setup(model, guard));
+  }
+  [[nodiscard]] static decide::Decision decided(const PlanesSetup& setup) {
+    Planes planes(setup, {}, 500);
     for (int k = 0; k < 450; ++k) {
       const world::Scene scene = at(0.01 * k);
       const auto beliefs = intent::beliefs_at_sight(intent::shipped_model(), scene);
@@ -89,6 +92,33 @@ TEST_F(PlanesTest, ABadAnswerIsCarriedOutByThePapersRuleOnly) {
   const auto decision = decided(&paper, decide::Guard::none);
   EXPECT_EQ(decision.plan.policy, PolicyId::no_intervention);
   EXPECT_EQ(decision.source, decide::Source::model);
+}
+
+// A verdict that takes a second is of a scene that is gone: nobody waits for it.
+TEST_F(PlanesTest, ASlowForecasterIsNotWaitedFor) {
+  PlanesSetup slow = setup(nullptr, decide::Guard::never_worse_than_braking);
+  slow.costs.verdict = 1.0;
+  const auto decision = decided(slow);
+  EXPECT_EQ(decision.plan.policy, PolicyId::aeb);
+  EXPECT_EQ(decision.source, decide::Source::fallback);
+  EXPECT_EQ(decision.time, decided(nullptr, decide::Guard::never_worse_than_braking).time);
+}
+
+TEST_F(PlanesTest, WhatHasBegunAnewDecidesAgain) {
+  Planes planes(setup(nullptr, decide::Guard::never_worse_than_braking), {}, 1'000);
+  int decisions = 0;
+  for (int encounter = 0; encounter < 2; ++encounter) {
+    for (int k = 0; k < 330; ++k) {
+      world::Scene scene = at(0.01 * k);
+      scene.time += 10.0 * encounter;
+      const auto beliefs = intent::beliefs_at_sight(intent::shipped_model(), scene);
+      decisions += planes.step(scene, beliefs, Clock::Time{0}, false).triggered ? 1 : 0;
+    }
+    EXPECT_FALSE(planes.previews().empty());
+    planes.begin_anew();
+    EXPECT_EQ(planes.decision(), std::nullopt);
+  }
+  EXPECT_EQ(decisions, 2);
 }
 
 TEST_F(PlanesTest, NothingIsToldOfTimesBeforeTheFirstStep) {
