@@ -36,7 +36,7 @@ step "tests" tools/ctest_again.py release --parallel "$(nproc)"
 # What reads files, replies and scenes, shares memory or begins processes (docs/testing.md).
 step "build: address and undefined-behaviour sanitiser" build asan-quick
 step "tests: address and undefined-behaviour sanitiser" tools/ctest_again.py asan-quick --parallel "$(nproc)"
-step "build: thread sanitiser" build tsan core_test loop_test
+step "build: thread sanitiser" build tsan core_test loop_test reason_test runtime_test
 step "tests: thread sanitiser" tools/ctest_again.py tsan --parallel "$(nproc)"
 step "lint: what has changed" tools/lint.sh --changed
 step "package: installed, found and used by another project" tools/check_package.sh
