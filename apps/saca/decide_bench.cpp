@@ -55,7 +55,7 @@ void add_percentiles(const std::string& name, const std::string& suffix,
                      const std::vector<double>& times, json& figures) {
   for (const auto& [percent, share] :
        {std::pair{".p50", 0.5}, {".p99", 0.99}, {".p99.9", 0.999}, {".max", 1.0}}) {
-    figures[name + percent + suffix] = percentile(times, share);
+    figures[fmt::format("{}{}{}", name, percent, suffix)] = percentile(times, share);
   }
 }
 
