@@ -28,10 +28,9 @@ class AtlasJudge {
   AtlasJudge& operator=(const AtlasJudge&) = delete;
   ~AtlasJudge() = default;
 
+  /// Allocates nothing.
   /// @param scene  breaks no rule
-  /// @return       the plans that the atlas holds; nullopt when emergency braking is not among
-  /// them.
-  ///               Allocates nothing
+  /// @return       the plans that the atlas holds; nullopt: emergency braking is not among them
   [[nodiscard]] std::optional<Verdict> judge(const world::Scene& scene) noexcept;
 
  private:

@@ -18,22 +18,9 @@ constexpr std::array<std::string_view, 3> reason_names{"needed after all", "no l
                                                        "better by far"};
 constexpr double rest_speed = 0.5;  // [m/s]
 
-const JudgedPlan* least_harmful(const Verdict& verdict) {
-  const JudgedPlan* least = nullptr;
-  for (const JudgedPlan& one : verdict.plans) {
-    if (one.drivable && (least == nullptr || one.harm < least->harm)) {
-      least = &one;
-    }
-  }
-  return least;
-}
-
-/// Of going on with what is under way. Braking and doing nothing have no past: what is left of them
-/// is what begins now.
 double harm_of_going_on(const SupervisedScene& now) {
-  const PolicyId policy = now.under_way.plan.policy;
   const JudgedPlan* const anew = find_plan(now.verdict, now.under_way.plan);
-  if ((policy == PolicyId::aeb || policy == PolicyId::no_intervention) && anew != nullptr) {
+  if (!has_past(now.under_way.plan) && anew != nullptr) {
     return anew->harm;
   }
   return now.verdict.under_way ? now.verdict.under_way->harm : 0.0;

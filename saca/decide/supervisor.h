@@ -17,8 +17,7 @@ namespace saca::decide {
 /// Why another plan begins in place of the one under way.
 enum class SwitchReason : std::uint8_t {
   needed_after_all,  ///< nothing was done, and now something has to be
-  no_longer_needed,  ///< nobody is in the way under any hypothesis any more: the wheel is given
-                     ///< back
+  no_longer_needed,  ///< nobody is in the way under any hypothesis: the wheel is given back
   better_by_far,     ///< from the present state, the other is materially better
 };
 [[nodiscard]] std::string_view name(SwitchReason reason);
@@ -42,12 +41,10 @@ struct SupervisedScene {
 };
 
 /// Watches a plan from the trigger on, verdict by verdict. It may
-/// * begin what a verdict speaks for where nothing was done, or a swerve has come to its end, at
-/// any
-///   time at which the trigger's rule fires;
+/// * begin what a verdict speaks for where nothing was done, or a swerve has come to its end,
+///   whenever the trigger's rule fires;
 /// * give the wheel back where braking is under way and, for `clear_time`, doing nothing harms
-/// nobody
-///   under any hypothesis;
+///   nobody under any hypothesis;
 /// * begin another plan where that is expected to harm less by `material_harm`, in two verdicts one
 ///   after the other: once, and once more for each road user who has come since. Not out of a
 ///   drift, which cannot be left.

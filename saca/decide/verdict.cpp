@@ -21,28 +21,37 @@ bool harms_nobody(const JudgedPlan* plan) {
   return plan != nullptr && plan->drivable && plan->contact == 0.0 && plan->harm == 0.0;
 }
 
+bool is_admissible(const JudgedPlan& plan, std::optional<double> admissible) {
+  return admissible && plan.drivable && plan.harm <= *admissible;
+}
+
 }  // namespace
 
-std::optional<double> admissible_harm(const Verdict& verdict) noexcept {
-  std::optional<double> least;
+const JudgedPlan* least_harmful(const Verdict& verdict) noexcept {
+  const JudgedPlan* least = nullptr;
   for (const JudgedPlan& one : verdict.plans) {
-    if (one.drivable && (!least || one.harm < *least)) {
-      least = one.harm;
+    if (one.drivable && (least == nullptr || one.harm < least->harm)) {
+      least = &one;
     }
   }
-  if (!least) {
+  return least;
+}
+
+std::optional<double> admissible_harm(const Verdict& verdict) noexcept {
+  const JudgedPlan* const least = least_harmful(verdict);
+  if (least == nullptr) {
     return std::nullopt;
   }
   const JudgedPlan* const aeb = find_plan(verdict, full_braking);
-  const double above = aeb == nullptr || !aeb->drivable ? 0.0 : aeb->harm - *least;
-  return *least + std::max(least_tolerance, tolerance_share * above);
+  const double above = aeb == nullptr || !aeb->drivable ? 0.0 : aeb->harm - least->harm;
+  return least->harm + std::max(least_tolerance, tolerance_share * above);
 }
 
 std::size_t num_admissible(const Verdict& verdict) noexcept {
   const auto most = admissible_harm(verdict);
-  return static_cast<std::size_t>(std::count_if(
-      verdict.plans.begin(), verdict.plans.end(),
-      [&](const JudgedPlan& one) { return most && one.drivable && one.harm <= *most; }));
+  return static_cast<std::size_t>(
+      std::count_if(verdict.plans.begin(), verdict.plans.end(),
+                    [&](const JudgedPlan& one) { return is_admissible(one, most); }));
 }
 
 const JudgedPlan* find_plan(const Verdict& verdict, const Plan& plan) noexcept {
@@ -71,7 +80,7 @@ Plan plan_of(const Verdict& verdict) noexcept {
   };
   const JudgedPlan* mildest = nullptr;
   for (const JudgedPlan& one : verdict.plans) {
-    if (most && one.drivable && one.harm <= *most && one.plan.policy != PolicyId::no_intervention &&
+    if (is_admissible(one, most) && one.plan.policy != PolicyId::no_intervention &&
         (mildest == nullptr || key(one) < key(*mildest))) {
       mildest = &one;
     }
@@ -81,8 +90,7 @@ Plan plan_of(const Verdict& verdict) noexcept {
 
 bool admits(const Verdict& verdict, const Plan& plan) noexcept {
   const JudgedPlan* const judged = find_plan(verdict, plan);
-  const auto most = admissible_harm(verdict);
-  return judged != nullptr && most && judged->drivable && judged->harm <= *most;
+  return judged != nullptr && is_admissible(*judged, admissible_harm(verdict));
 }
 
 }  // namespace saca::decide

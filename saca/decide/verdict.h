@@ -22,11 +22,14 @@ struct JudgedPlan {
 struct Verdict {
   double time = 0.0;  ///< of the scene that was judged [s]
   StaticVector<JudgedPlan, preview::Plans::capacity()> plans;
-  std::optional<JudgedPlan> under_way;  ///< the rest of what is carried out, if anything is
+  std::optional<JudgedPlan> under_way;  ///< the rest of a plan under way that has a past (has_past)
 };
 
 /// How old a verdict may be to be decided by [s].
 constexpr double verdict_expiry = 0.1;
+
+/// The plan of the least expected harm among those that can be driven. nullptr: none can.
+[[nodiscard]] const JudgedPlan* least_harmful(const Verdict& verdict) noexcept;
 
 /// The expected harms that count as that of the best: what the forecasts cannot tell apart. They
 /// are the larger of 0.002 and 3 % of what emergency braking has above the best.
@@ -48,7 +51,7 @@ constexpr double verdict_expiry = 0.1;
 /// Braking is admissible or worse than all that is: so nothing is knowingly worse than braking.
 [[nodiscard]] manoeuvre::Plan plan_of(const Verdict& verdict) noexcept;
 
-/// Is this plan admissible here? One that can stand aside for doing nothing without contact is not.
+/// Whether the judged plan nearest to this one (find_plan) is admissible.
 [[nodiscard]] bool admits(const Verdict& verdict, const manoeuvre::Plan& plan) noexcept;
 
 }  // namespace saca::decide

@@ -19,8 +19,7 @@ struct Taken {
 /// * An actor that breaks a rule, or a second one of its name, is left out. Who was there before
 ///   and cannot be used now is carried on as it moved, with growing spread, for `longest_carried`.
 /// * Where the ego, the road or the grip break a rule, or no scene came at all, everything is
-/// carried
-///   on for as long, the ego as it moves now: braking and turning.
+///   carried on for as long, the ego as it moves now: braking and turning.
 /// * A scene that comes late, older than the newest by at most `longest_gap`, is left aside. Time
 ///   that jumps by more, ahead or back, begins a new drive.
 /// Allocates nothing, never throws.
