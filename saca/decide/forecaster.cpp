@@ -24,15 +24,12 @@ constexpr double longest_rest = 20.0;  // [s] of a way
 EgoMotion rest_of(const UnderWay& under_way, const Scene& scene, const manoeuvre::Car& car) {
   const double since = scene.time - under_way.begun;
   const double longest = since + longest_rest;
-  const manoeuvre::Drive drive{.car = &car,
-                               .plan = under_way.plan,
-                               .start = under_way.begun,
-                               .ego = under_way.ego,
-                               .road = under_way.road,
-                               .known_grip = under_way.grip,
-                               .grip = under_way.grip,
-                               .unknown = {},
-                               .longest = longest};
+  Scene then;
+  then.time = under_way.begun;
+  then.ego = under_way.ego;
+  then.road = under_way.road;
+  then.grip = under_way.grip;
+  const manoeuvre::Drive drive = manoeuvre::drive_from(car, under_way.plan, then, longest);
   const EgoMotion meant = manoeuvre::drive_all({&drive, 1}, longest).front();
   const auto first = std::min(static_cast<std::size_t>(std::lround(since / meant.track.step)),
                               meant.track.X_WA.size() - 1);
@@ -76,7 +73,7 @@ Verdict Forecaster::judge(const Scene& scene, const intent::Beliefs& beliefs,
        preview::expected_harms(scene, motions, tools_, preview::Physics::rolled_out)) {
     verdict.plans.push_back(judged(one));
   }
-  if (under_way) {
+  if (under_way && has_past(under_way->plan)) {
     preview::ExpectedHarm rest =
         preview::expected_harm(rest_of(*under_way, scene, *tools_.car), scene, motions, tools_);
     rest.plan = under_way->plan;

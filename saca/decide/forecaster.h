@@ -12,6 +12,13 @@
 
 namespace saca::decide {
 
+/// Does it matter for the rest of a plan when and where it began? Of braking and of doing nothing,
+/// what is left is what begins now.
+[[nodiscard]] constexpr bool has_past(const manoeuvre::Plan& plan) {
+  return plan.policy != manoeuvre::PolicyId::aeb &&
+         plan.policy != manoeuvre::PolicyId::no_intervention;
+}
+
 /// A plan that is being carried out. Trivially copyable.
 struct UnderWay {
   manoeuvre::Plan plan;

@@ -239,6 +239,18 @@ QueueKey queue_key(const Drive& drive) {
 
 }  // namespace
 
+Drive drive_from(const Car& car, const Plan& plan, const world::Scene& scene, double longest) {
+  return {.car = &car,
+          .plan = plan,
+          .start = scene.time,
+          .ego = scene.ego,
+          .road = scene.road,
+          .known_grip = scene.grip,
+          .grip = scene.grip,
+          .unknown = {},
+          .longest = longest};
+}
+
 world::Scene scene_of(const Drive& drive) {
   world::Scene scene;
   scene.time = drive.start;

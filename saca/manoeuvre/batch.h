@@ -27,6 +27,10 @@ struct Drive {
   double longest = 3600.0;  ///< how long it is driven at most, whatever the batch's horizon [s]
 };
 
+/// A drive from a scene, on the grip that the scene tells.
+[[nodiscard]] Drive drive_from(const Car& car, const Plan& plan, const world::Scene& scene,
+                               double longest);
+
 /// The scene that `drive(...)` takes of it; nobody else is there.
 [[nodiscard]] world::Scene scene_of(const Drive& drive);
 

@@ -27,15 +27,11 @@ double true_grip(const Attempt& attempt) {
 }
 
 manoeuvre::Drive drive_of(const manoeuvre::Car& car, const Attempt& attempt) {
-  return {.car = &car,
-          .plan = attempt.plan,
-          .start = attempt.scene->time,
-          .ego = attempt.scene->ego,
-          .road = attempt.scene->road,
-          .known_grip = attempt.scene->grip,
-          .grip = attempt.grip,
-          .unknown = attempt.unknown,
-          .longest = longest(*attempt.scene, true_grip(attempt))};
+  manoeuvre::Drive drive =
+      drive_from(car, attempt.plan, *attempt.scene, longest(*attempt.scene, true_grip(attempt)));
+  drive.grip = attempt.grip;
+  drive.unknown = attempt.unknown;
+  return drive;
 }
 
 }  // namespace

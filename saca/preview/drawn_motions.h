@@ -14,10 +14,10 @@ namespace saca::preview {
 ///
 /// In each draw everybody moves under an intention drawn from its belief, as the law has it, and is
 /// off by an error along its line and one across, each of the spread that the law tells
-/// (intent::Spread) and kept from now on: perception and manner are told apart by nobody. A vehicle
-/// that moves sideways in its lane has in up to half of the draws no intention of that kind: its
-/// sideways speed as measured goes on and ends within `longest_drift`, sooner or later alike
-/// likely. Nobody's errors and intentions depend on another's.
+/// (intent::Spread) and kept from now on: errors of perception and manners of driving are not
+/// separated. A vehicle that moves sideways in its lane has in up to half of the draws no intention
+/// of that kind: its sideways speed as measured goes on and ends within `longest_drift`, sooner or
+/// later alike likely. Nobody's errors and intentions depend on another's.
 ///
 /// Each road user's draws are a Latin hypercube that depends on its name and `count` only:
 /// forecasts of one instant and the next differ by what has changed, not by chance, and plans that

@@ -19,10 +19,10 @@ using manoeuvre::PolicyId;
 using world::Scene;
 using world::Track;
 
-constexpr double told_apart = 0.05;  // of an intention that is told apart
+constexpr double least_probability = 0.05;  // of an intention that has a motion of its own
 
 intent::Choices likely_choices(const intent::Belief& belief) {
-  intent::Choices choices = intent::choices_of(belief.now(), told_apart);
+  intent::Choices choices = intent::choices_of(belief.now(), least_probability);
   if (choices.empty()) {
     choices.push_back({intent::likeliest(belief.now()), 1.0});
   }
@@ -105,28 +105,20 @@ class HeldWay {
 };
 
 /// Ways of the ego that can be driven, no longer than the others' motions; in the order of `plans`.
-std::vector<std::optional<EgoMotion>> driven(const Scene& scene, const Plans& plans,
-                                             const ForecastTools& tools) {
+std::vector<std::optional<EgoMotion>> ways_of(const Scene& scene, const Plans& plans,
+                                              const ForecastTools& tools) {
   std::vector<manoeuvre::Drive> drives;
-  for (const manoeuvre::Plan& plan : plans) {
-    if (!manoeuvre::why_refused(*tools.car, plan, scene)) {
-      drives.push_back({.car = tools.car,
-                        .plan = plan,
-                        .start = scene.time,
-                        .ego = scene.ego,
-                        .road = scene.road,
-                        .known_grip = scene.grip,
-                        .grip = scene.grip,
-                        .unknown = {},
-                        .longest = motion_horizon});
+  std::vector<std::size_t> driven;  // whose drives they are
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    if (!manoeuvre::why_refused(*tools.car, plans[i], scene)) {
+      drives.push_back(manoeuvre::drive_from(*tools.car, plans[i], scene, motion_horizon));
+      driven.push_back(i);
     }
   }
-  const std::vector<EgoMotion> motions = manoeuvre::drive_all(drives, motion_horizon);
-  std::vector<std::optional<EgoMotion>> ways;
-  auto next = motions.begin();
-  for (const manoeuvre::Plan& plan : plans) {
-    const bool drives_it = !manoeuvre::why_refused(*tools.car, plan, scene);
-    ways.push_back(drives_it ? std::optional(*next++) : std::nullopt);
+  std::vector<EgoMotion> motions = manoeuvre::drive_all(drives, motion_horizon);
+  std::vector<std::optional<EgoMotion>> ways(plans.size());
+  for (std::size_t k = 0; k < driven.size(); ++k) {
+    ways[driven[k]] = std::move(motions[k]);
   }
   return ways;
 }
@@ -201,7 +193,7 @@ std::vector<ExpectedHarm> expected_harms(const Scene& scene, std::span<const Joi
   }
   if (!all) {
     all.emplace();
-    for (const auto& way : driven(scene, plans, tools)) {
+    for (const auto& way : ways_of(scene, plans, tools)) {
       const manoeuvre::Plan& plan = plans[all->size()];
       all->push_back(way ? expected_harm(*way, scene, motions, tools)
                          : ExpectedHarm{.plan = plan,
