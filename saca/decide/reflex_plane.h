@@ -82,6 +82,10 @@ class ReflexPlane {
     under_way_.reset();
   }
 
+  /// Does it decide and watch by verdicts? Not as Algorithm 1, nor where the plan is given.
+  [[nodiscard]] bool supervises() const noexcept {
+    return tools_.guard != Guard::none && !tools_.forced;
+  }
   /// Will `step` look at verdicts in this scene? Where not, none need be made.
   [[nodiscard]] bool needs_verdict(const world::Scene& scene, bool finished) const noexcept;
 
@@ -91,9 +95,6 @@ class ReflexPlane {
   [[nodiscard]] const std::optional<UnderWay>& under_way() const noexcept { return under_way_; }
 
  private:
-  [[nodiscard]] bool supervises() const noexcept {
-    return tools_.guard != Guard::none && !tools_.forced;
-  }
   [[nodiscard]] Decision decide(const world::Scene& scene) noexcept;
   void begin(const manoeuvre::Plan& plan, const world::Scene& scene) noexcept;
 

@@ -52,16 +52,11 @@ Planes::Planes(const PlanesSetup& setup, Listener listener, std::size_t looks)
                                        think_of(newest.encounter);
                                        plane_.think(newest.scene, newest.beliefs, newest.at, stop);
                                      });
+  }
+  if (real() && reflex_.supervises()) {
     forecasting_ = std::make_unique<WorkThread>(
         scenes_to_judge_, *setup_.clock, from_seconds(0.5 * verdict_period),
-        [this](const TimedScene& newest, const std::stop_token&) {
-          const bool wanted = newest.under_way ||
-                              preview::previewed_threat(newest.scene, newest.beliefs,
-                                                        setup_.forecast.motion, setup_.thresholds);
-          if (!world::broken_rule(newest.scene) && wanted) {
-            verdicts_.publish(forecaster_.judge(newest.scene, newest.beliefs, newest.under_way));
-          }
-        });
+        [this](const TimedScene& newest, const std::stop_token&) { judge(newest); });
   }
 }
 
@@ -95,7 +90,7 @@ decide::ThinkingOutput Planes::output() {
 
 decide::Reflex Planes::step(const world::Scene& scene, const intent::Beliefs& beliefs,
                             Clock::Time at, bool finished) {
-  const bool judges = setup_.guard != decide::Guard::none && !setup_.forced;
+  const bool judges = reflex_.supervises();
   if (real()) {
     const TimedScene newest{scene, beliefs, at, reflex_.under_way(), encounter_};
     if (judges) {
@@ -147,6 +142,16 @@ void Planes::hand_over(const world::Scene& scene, bool finished) {
 void Planes::begin_anew() {
   ++encounter_;
   reflex_.begin_anew();
+}
+
+void Planes::judge(const TimedScene& newest) {
+  if (world::broken_rule(newest.scene)) {
+    return;
+  }
+  if (newest.under_way || preview::previewed_threat(newest.scene, newest.beliefs,
+                                                    setup_.forecast.motion, setup_.thresholds)) {
+    verdicts_.publish(forecaster_.judge(newest.scene, newest.beliefs, newest.under_way));
+  }
 }
 
 void Planes::think_of(std::uint32_t encounter) {

@@ -98,6 +98,7 @@ class Planes {
   [[nodiscard]] decide::ThinkingOutput output();
   void hand_over(const world::Scene& scene, bool finished);
   void think_of(std::uint32_t encounter);
+  void judge(const TimedScene& newest);
 
   PlanesSetup setup_;
   Listener listener_;

@@ -25,8 +25,8 @@ struct TimedScene {
 };
 
 /// Works beside the reflex plane: takes the newest scene, works on it, rests, takes the next.
-/// Nobody ever waits for it but its destructor. What is thrown there is kept and told, and the next
-/// scene begins anew.
+/// Only finish() and the destructor wait for it. An exception ends the round, not the thread: the
+/// first is kept for finish(), and the next scene is worked on as usual.
 class WorkThread {
  public:
   using Work = std::function<void(const TimedScene&, const std::stop_token&)>;
