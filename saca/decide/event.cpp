@@ -15,17 +15,13 @@ constexpr std::array<std::string_view, 17> kind_names{
     "first_answer", "answer", "check",     "cached",   "trigger", "match",
     "execute",      "switch", "contact",   "rest",     "fault"};
 
-std::string in_words(const manoeuvre::Plan& plan) {
-  return fmt::format("{} {}", manoeuvre::index(plan.policy), name(plan.policy));
-}
-
 /// What the verdict says of a plan, beside braking.
 std::string told(const Verdict& verdict, const manoeuvre::Plan& plan) {
   std::string text;
   for (const manoeuvre::Plan& one : {plan, manoeuvre::full_braking}) {
     const JudgedPlan* const judged = find_plan(verdict, one);
     if (judged != nullptr && (text.empty() || one.policy != plan.policy)) {
-      text += fmt::format("{}{} {:.4f}", text.empty() ? "" : ", ", in_words(one), judged->harm);
+      text += fmt::format("{}{} {:.4f}", text.empty() ? "" : ", ", plan_text(one), judged->harm);
     }
   }
   return text;
@@ -39,6 +35,14 @@ std::string_view name(Plane plane) {
 
 std::string_view name(EventKind kind) {
   return name_of(kind, kind_names);
+}
+
+std::string plan_text(const manoeuvre::Plan& plan) {
+  std::string text = fmt::format("{} {}", manoeuvre::index(plan.policy), name(plan.policy));
+  if (plan.target_speed) {
+    text += fmt::format(" to {:.1f} m/s", *plan.target_speed);
+  }
+  return text;
 }
 
 std::string decision_text(const Decision& decision) {
@@ -73,14 +77,14 @@ std::string switch_text(const Switch& change) {
   switch (change.reason) {
     case SwitchReason::needed_after_all:
       return fmt::format("doing nothing is expected to harm {:.4f} now: {}, {:.4f}",
-                         change.harm_before, in_words(change.plan), change.harm);
+                         change.harm_before, plan_text(change.plan), change.harm);
     case SwitchReason::no_longer_needed:
       return "nobody is in the way any more: lane and speed are kept";
     case SwitchReason::better_by_far:
       break;
   }
   return fmt::format("going on is expected to harm {:.4f}, {} from here {:.4f}", change.harm_before,
-                     in_words(change.plan), change.harm);
+                     plan_text(change.plan), change.harm);
 }
 
 }  // namespace saca::decide

@@ -69,6 +69,9 @@ struct Preview {
   bool unheard = false;         ///< the model failed when it was asked: it may be asked again
 };
 
+/// The policy's number and name, and the speed that it brakes to.
+[[nodiscard]] std::string plan_text(const manoeuvre::Plan& plan);
+
 /// Why this was decided, in one line.
 [[nodiscard]] std::string decision_text(const Decision& decision);
 [[nodiscard]] std::string switch_text(const Switch& change);

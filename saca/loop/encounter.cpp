@@ -25,14 +25,6 @@ constexpr std::array<std::string_view, 3> phase_names{"recorded", "driving", "ma
 constexpr int looks_per_frame = 2;       // 50 Hz
 constexpr int looks_per_judgement = 10;  // 10 Hz, as intent::Observer judges
 
-std::string policy_text(const manoeuvre::Plan& plan) {
-  std::string text = fmt::format("{} {}", manoeuvre::index(plan.policy), name(plan.policy));
-  if (plan.target_speed) {
-    text += fmt::format(" to {:.1f} m/s", *plan.target_speed);
-  }
-  return text;
-}
-
 /// One encounter under way.
 class Encounter {
  public:
@@ -193,10 +185,11 @@ void Encounter::execute(const preview::Threat& threat) {
                    actor_name(scene.actors[threat.actor])));
   tell(Plane::reflex, EventKind::match, decision_text(*planes_.decision()));
   if (refused) {
-    tell(Plane::reflex, EventKind::fault, policy_text(wanted) + " cannot be driven: " + *refused);
+    tell(Plane::reflex, EventKind::fault,
+         decide::plan_text(wanted) + " cannot be driven: " + *refused);
   }
   tell(Plane::reflex, EventKind::execute,
-       fmt::format("policy {} ({})", policy_text(decision.plan), name(decision.source)));
+       fmt::format("policy {} ({})", decide::plan_text(decision.plan), name(decision.source)));
 }
 
 void Encounter::change(const decide::Switch& change) {
