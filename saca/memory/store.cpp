@@ -314,6 +314,27 @@ struct Store::State {
     return code == SQLITE_DONE ? std::nullopt : std::optional(problem(Access::read));
   }
 
+  /// A file is opened, and then one step after the other until one fails.
+  using Step = std::optional<Error> (*)(State&);
+  [[nodiscard]] static Result<std::unique_ptr<State>> opened(const std::filesystem::path& path,
+                                                             int flags,
+                                                             std::initializer_list<Step> steps) {
+    auto state = std::make_unique<State>();
+    auto error = state->connect(path, flags);
+    if (!error) {
+      error = state->run(set_up, Access::read);
+    }
+    for (const Step step : steps) {
+      if (!error) {
+        error = step(*state);
+      }
+    }
+    if (error) {
+      return *error;
+    }
+    return state;
+  }
+
   /// Learns the features of cases that it does not know yet.
   [[nodiscard]] std::optional<Error> catch_up() {
     return each_after(index.last_id(), [this](const Case& one) { index.add(one.id, one.scene); });
@@ -326,24 +347,14 @@ Store& Store::operator=(Store&&) noexcept = default;
 Store::~Store() = default;
 
 Result<Store> Store::open(const std::filesystem::path& path) {
-  auto state = std::make_unique<State>();
-  auto error = state->connect(path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
-  if (!error) {
-    error = state->run(set_up, Access::read);
+  auto state = State::opened(
+      path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE,
+      {[](State& s) { return s.create_if_new(); }, [](State& s) { return s.wrong_kind(); },
+       [](State& s) { return s.catch_up(); }});
+  if (!state.has_value()) {
+    return state.error();
   }
-  if (!error) {
-    error = state->create_if_new();
-  }
-  if (!error) {
-    error = state->wrong_kind();
-  }
-  if (!error) {
-    error = state->catch_up();
-  }
-  if (error) {
-    return *error;
-  }
-  return Store(std::move(state));
+  return Store(std::move(state).value());
 }
 
 Result<Store> Store::snapshot(const std::filesystem::path& path) {
@@ -351,25 +362,15 @@ Result<Store> Store::snapshot(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path, problem)) {
     return Error{Error::Code::unreadable, path.string() + ": there is no such memory bank"};
   }
-  auto state = std::make_unique<State>();
   // For writing where that may be: only so can what a killed process left half-done be rolled back.
-  auto error = state->connect(path, SQLITE_OPEN_READWRITE);
-  if (!error) {
-    error = state->run(set_up, Access::read);
+  auto state = State::opened(
+      path, SQLITE_OPEN_READWRITE,
+      {[](State& s) { return s.wrong_kind(); }, [](State& s) { return s.move_into_memory(); },
+       [](State& s) { return s.catch_up(); }});
+  if (!state.has_value()) {
+    return state.error();
   }
-  if (!error) {
-    error = state->wrong_kind();
-  }
-  if (!error) {
-    error = state->move_into_memory();
-  }
-  if (!error) {
-    error = state->catch_up();
-  }
-  if (error) {
-    return *error;
-  }
-  return Store(std::move(state));
+  return Store(std::move(state).value());
 }
 
 Result<CaseId> Store::add(const Case& one) {

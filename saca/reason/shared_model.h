@@ -23,7 +23,7 @@ namespace saca::reason {
 /// cuts the reply, `failure()` tells it and no question is put any more: whoever asked throws away
 /// what came of it. That an answer is malformed is something that the model said.
 ///
-/// `ask` may be called by several threads at once. Progress is told when the whole reply is there.
+/// `ask` may be called by several threads at once. Progress is reported once, with the whole reply.
 class SharedModel final : public LanguageModel {
  public:
   /// @param model  outlives this; asked by one thread at a time
