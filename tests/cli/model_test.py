@@ -1,14 +1,11 @@
 """`saca model bench|score`: how fast and how well a model answers. The model here is a server that always says 6."""
 import json
 import pathlib
-import signal
-import subprocess
 import sys
-import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from chat_server import server  # noqa: F401, a fixture
-from program import BAD_INPUT, INTERRUPTED, PROGRAM, SUCCESS, WRONG_COMMAND_LINE, one_error, saca
+from program import BAD_INPUT, SUCCESS, WRONG_COMMAND_LINE, interrupted_while_silent, one_error, saca
 
 
 def name_of(server):
@@ -73,15 +70,8 @@ def test_replies_without_an_answer_leave_braking(server, tmp_path):
 
 
 def test_scoring_is_interrupted_while_the_model_is_silent(server, tmp_path):
-    server.silent = True
-    run = subprocess.Popen([PROGRAM, "model", "score", "--llm", name_of(server), "--count", "2"], cwd=tmp_path,
-                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    while not server.asked:
-        assert run.poll() is None, run.stderr.read()
-        time.sleep(0.05)
-    run.send_signal(signal.SIGINT)
-    _, told = run.communicate(timeout=100)  # the model has two minutes
-    assert run.returncode == INTERRUPTED and "goes on where this one stopped" in told
+    told = interrupted_while_silent(server, "model", "score", "--llm", name_of(server), "--count", 2, cwd=tmp_path)
+    assert "goes on where this one stopped" in told
 
 
 def test_what_cannot_be_scored_is_refused(tmp_path):

@@ -12,7 +12,7 @@ import pytest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from chat_server import server  # noqa: F401, a fixture
-from program import BAD_INPUT, CANNOT_WRITE, INTERRUPTED, PROGRAM, ROOT, SUCCESS, WRONG_COMMAND_LINE, one_error, saca
+from program import BAD_INPUT, CANNOT_WRITE, INTERRUPTED, PROGRAM, ROOT, SUCCESS, WRONG_COMMAND_LINE, interrupted_while_silent, one_error, saca
 
 FEW = ("--methods", "aeb,nothing,oracle", "--count", 6)
 
@@ -268,15 +268,8 @@ def test_a_suite_whose_model_dies_stops_and_goes_on_when_it_is_back(server, tmp_
 
 
 def test_a_suite_is_interrupted_while_its_model_is_silent(server, tmp_path):
-    server.silent = True
-    run = subprocess.Popen([PROGRAM, *map(str, asked(server, "--output", "s.h5"))], cwd=tmp_path, stdout=subprocess.PIPE,
-                           stderr=subprocess.PIPE, text=True)
-    while not server.asked:
-        assert run.poll() is None, run.stderr.read()
-        time.sleep(0.05)
-    run.send_signal(signal.SIGINT)
-    _, told = run.communicate(timeout=100)  # the model has two minutes
-    assert run.returncode == INTERRUPTED and "goes on where this one stopped" in told
+    told = interrupted_while_silent(server, *asked(server, "--output", "s.h5"), cwd=tmp_path)
+    assert "goes on where this one stopped" in told
     assert len((tmp_path / "s.h5.journal").read_text().splitlines()) == 1
 
 
