@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <limits>
 
 #include "saca/core/contract.h"
+#include "saca/outcome/gap.h"
 
 namespace saca::outcome {
 namespace {
@@ -43,18 +44,57 @@ Vec2 nearest_to(Vec2 centre_W, const Footprint& footprint, const Pose& X_WB) {
   return gap.distance > 0.0 ? gap.p_a_W : centre_W;
 }
 
-/// What is left to an edge at each pose at least, however the body is turned: quickly found, and
-/// enough where the edge is far.
-std::vector<double> least_rooms(const Road& road, Side side, const Footprint& footprint,
-                                const world::Track& track) {
-  const double reach = norm(half_axes(footprint) + Vec2{std::abs(footprint.centre_x), 0.0});
-  std::vector<double> rooms(track.X_WA.size());
-  std::transform(track.X_WA.begin(), track.X_WA.end(), rooms.begin(), [&](const Pose& X_WB) {
-    const double d = to_lane(road, X_WB).d;
-    return (side == Side::left ? road.left_edge - d : d - road.right_edge) - reach;
-  });
-  return rooms;
-}
+/// Bounds from below of what is left to an edge: quickly found, and enough where the edge is far.
+class LeastRoom {
+ public:
+  LeastRoom(const Road& road, Side side, const Footprint& footprint)
+      : curvature_(road.curvature),
+        origin_(road.X_WL.p),
+        along_(rotated({1.0, 0.0}, road.X_WL.yaw)),
+        outwards_(side == Side::left ? 1.0 : -1.0),
+        edge_(side == Side::left ? road.left_edge : road.right_edge),
+        half_(half_axes(footprint)),
+        centre_x_(footprint.centre_x),
+        reach_(norm(half_ + Vec2{std::abs(centre_x_), 0.0})) {}
+
+  [[nodiscard]] double at(const Pose& X_WB) const {
+    const Vec2 from_origin = X_WB.p - origin_;
+    const Vec2 p{dot(along_, from_origin), dot(left_of(along_), from_origin)};
+    // The lane's direction beside the body, as in world::to_lane.
+    const Vec2 to_centre{1.0 - curvature_ * p.y, curvature_ * p.x};
+    const double r = std::sqrt(dot(to_centre, to_centre));
+    const double d = (2.0 * p.y - curvature_ * dot(p, p)) / (1.0 + r);
+    if (std::abs(curvature_) * (std::abs(d) + reach_) > 0.5) {
+      return -std::numeric_limits<double>::infinity();
+    }
+    const Vec2 heading = rotated({1.0, 0.0}, X_WB.yaw);
+    const Vec2 in_road{dot(along_, heading), dot(left_of(along_), heading)};
+    const double cosine = dot(in_road, to_centre) / r;
+    const double sine = dot(left_of(to_centre), in_road) / r;
+    // A point that lies a ahead of the body is less than curvature a^2 nearer to an edge for that.
+    const double sideways = outwards_ * centre_x_ * sine + std::abs(half_.x * sine) +
+                            std::abs(half_.y * cosine) + std::abs(curvature_) * reach_ * reach_;
+    return outwards_ * (edge_ - d) - sideways;
+  }
+
+  /// By how much it may be less on the way from one pose to the next.
+  [[nodiscard]] double between(const Pose& a, const Pose& b) const {
+    const double way = std::sqrt(dot(b.p - a.p, b.p - a.p));
+    const double bend = 2.0 * std::abs(curvature_) * way;  // of the lane, at most
+    const double turn = std::abs(wrap_angle(b.yaw - a.yaw)) + bend;
+    return 0.125 * (reach_ * turn * turn + bend * way) + 1e-6;
+  }
+
+ private:
+  double curvature_;
+  Vec2 origin_;
+  Vec2 along_;
+  double outwards_;
+  double edge_;
+  Vec2 half_;
+  double centre_x_;
+  double reach_;
+};
 
 }  // namespace
 
@@ -85,11 +125,22 @@ EdgeApproach edge_approach(const Road& road, Side side, const Footprint& footpri
   const int parts = std::max(1, static_cast<int>(std::ceil(track.step / 0.0101)));
   const int steps = parts * static_cast<int>(track.X_WA.size() - 1);
   const double step = track.step / parts;
-  const std::vector<double> least = least_rooms(road, side, footprint, track);
-  constexpr double bend = 0.01;  // [m] by which it can be less between two poses
+  const LeastRoom least(road, side, footprint);
+  std::size_t bounded = 0;  // the pose that `before` bounds
+  double before = 0.0;
+  std::optional<double> bound;  // from that pose to the next
   const auto is_far = [&](int i, double room) {
-    const auto pose = static_cast<std::size_t>(i / parts);
-    return std::min(least[pose], least[std::min(pose + 1, least.size() - 1)]) - bend > room;
+    const std::size_t pose = std::min(static_cast<std::size_t>(i / parts), track.X_WA.size() - 1);
+    if (!bound || pose != bounded) {
+      const bool goes_on = bound && pose == bounded + 1;
+      const Pose& here = track.X_WA[pose];
+      const Pose& next = track.X_WA[std::min(pose + 1, track.X_WA.size() - 1)];
+      const double now = goes_on ? before : least.at(here);
+      before = least.at(next);
+      bounded = pose;
+      bound = std::min(now, before) - least.between(here, next);
+    }
+    return *bound > room;
   };
   EdgeApproach found{std::nullopt, of_interest};
   const double begin = std::max(from, track.start);
