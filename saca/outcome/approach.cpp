@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "saca/core/contract.h"
+#include "saca/outcome/gap.h"
 
 namespace saca::outcome {
 namespace {
@@ -168,6 +169,32 @@ Footprint shrunk(Footprint body, double share) {
   return body;
 }
 
+/// The largest size at which two boxes are apart, shrunk about their centres: that along the axis
+/// on which they part first.
+double apart_boxes(const Footprint& a, const Pose& X_WA, const Footprint& b, const Pose& X_WB) {
+  const Body body_a = body_at(a, X_WA);
+  const Body body_b = body_at(b, X_WB);
+  double share = 0.0;
+  for (const Gap& gap : gaps_along_axes(body_a, body_b)) {
+    const double centres = dot(body_b.centre - body_a.centre, gap.n);
+    share = std::max(share, (centres - 1.001 * least_gap) / (centres - gap.size));
+  }
+  return std::min(share, 1.0);
+}
+
+/// Likewise of any two, found by halving.
+double apart_bodies(const Footprint& a, const Pose& X_WA, const Footprint& b, const Pose& X_WB) {
+  double apart = 0.0;  // concentric bodies never part
+  double overlapping = 1.0;
+  for (int i = 0; i < 30; ++i) {
+    const double share = 0.5 * (apart + overlapping);
+    const bool part =
+        separation(shrunk(a, share), X_WA, shrunk(b, share), X_WB).distance > least_gap;
+    (part ? apart : overlapping) = share;
+  }
+  return apart;
+}
+
 }  // namespace
 
 Mover::Mover(const Footprint& footprint, const Track& X_WA)
@@ -234,17 +261,10 @@ Touch touch(const Footprint& a, const Pose& X_WA, const Footprint& b, const Pose
   expects(depth > 0.0, "depth > 0");
   const Pose here{{}, X_WA.yaw};
   const Pose there{X_WB.p - X_WA.p, X_WB.yaw};
-  const auto gap = [&](double share) {
-    return separation(shrunk(a, share), here, shrunk(b, share), there).distance;
-  };
   double apart = 1.0;
-  if (gap(1.0) <= least_gap) {
-    apart = 0.0;  // concentric bodies never part
-    double overlapping = 1.0;
-    for (int i = 0; i < 30; ++i) {
-      const double share = 0.5 * (apart + overlapping);
-      (gap(share) > least_gap ? apart : overlapping) = share;
-    }
+  if (separation(a, here, b, there).distance <= least_gap) {
+    const bool boxes = a.shape == Shape::box && b.shape == Shape::box;
+    apart = boxes ? apart_boxes(a, here, b, there) : apart_bodies(a, here, b, there);
   }
   if (apart < 1e-6) {
     const Vec2 p_W = X_WA * Vec2{a.centre_x, 0.0};
