@@ -117,4 +117,11 @@ struct Course {
                             std::span<const world::Track> tracks, const HarmModel& harm,
                             double grip);
 
+/// As `judge`, for forecasts: the clearance is not looked for and 0, and struck bodies slide in
+/// coarser steps (coarse_slide). Together they take most of the time.
+[[nodiscard]] Outcome judge_contacts(const manoeuvre::EgoMotion& motion, const world::Scene& scene,
+                                     const Others& others, const HarmModel& harm);
+[[nodiscard]] Outcome judge_contacts(const manoeuvre::EgoMotion& motion, const world::Scene& scene,
+                                     std::span<const world::Track> tracks, const HarmModel& harm);
+
 }  // namespace saca::outcome

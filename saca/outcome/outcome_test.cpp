@@ -393,6 +393,36 @@ TEST(Judge, DoesNotDependOnTheWorldsFrame) {
   EXPECT_GT(contacts, 20);
 }
 
+// The first contact is found in the same way; only what slides on afterwards is less exact.
+TEST(JudgeContacts, DiffersFromJudgeOnlyInWhatFollowsTheFirst) {
+  std::mt19937 rng(3);
+  int contacts = 0;
+  double harm_sum = 0.0;
+  double difference = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    const Encounter encounter = random_encounter(rng);
+    const Outcome fine = encounter.judged(harm());
+    const Outcome coarse =
+        judge_contacts(encounter.motion, encounter.scene, encounter.tracks, harm());
+    const Outcome reacting = judge_contacts(
+        encounter.motion, encounter.scene,
+        [&](const manoeuvre::EgoMotion&) { return encounter.tracks; }, harm());
+    EXPECT_EQ(reacting.harm, coarse.harm) << i;
+    EXPECT_EQ(coarse.clearance, 0.0);
+    ASSERT_EQ(fine.contact.has_value(), coarse.contact.has_value()) << i;
+    if (fine.contact) {
+      ++contacts;
+      EXPECT_EQ(fine.contact->actor, coarse.contact->actor) << i;
+      EXPECT_NEAR(fine.contact->time, coarse.contact->time, 1e-4) << i;
+      EXPECT_NEAR(fine.collision_loss, coarse.collision_loss, 1e-3) << i;
+    }
+    harm_sum += fine.harm;
+    difference += std::abs(fine.harm - coarse.harm);
+  }
+  EXPECT_GT(contacts, 50);
+  EXPECT_LT(difference, 0.01 * harm_sum);
+}
+
 Face mirrored(Face face) {
   return face == Face::left ? Face::right : face == Face::right ? Face::left : face;
 }

@@ -103,9 +103,17 @@ std::optional<Event> meet_again(double from, double until, FirstTouch&& first_to
   return std::nullopt;
 }
 
+struct Detail {
+  double clearance = far_away;  // at most [m]
+  SlideSteps slides;
+};
+constexpr Detail only_contacts{.clearance = 0.0, .slides = coarse_slide};
+
 class Story {
  public:
-  Story(const EgoMotion& motion, const Scene& scene, const HarmModel& harm, double grip)
+  /// @param detail  what else than contacts is told, and how finely
+  Story(const EgoMotion& motion, const Scene& scene, const HarmModel& harm, double grip,
+        const Detail& detail = {})
       : scene_(scene),
         harm_(harm),
         grip_(grip),
@@ -113,6 +121,8 @@ class Story {
         goes_on_(motion.ended && moves_at_end(motion)),
         carried_on_(goes_on_ ? carried_on(motion, scene.road) : EgoMotion{}),
         since_(motion.track.start),
+        clearance_(detail.clearance),
+        steps_(detail.slides),
         dealings_(scene.actors.size()),
         slides_(scene.actors.size()) {}
 
@@ -183,7 +193,8 @@ class Story {
   EgoMotion carried_on_;
   std::span<const Track> tracks_;
   double since_;  ///< when the last event happened [s]
-  double clearance_ = far_away;
+  double clearance_;
+  SlideSteps steps_;
   std::vector<Dealings> dealings_;  ///< with each actor
   std::array<Dealings, 2> edges_;   ///< by Side
   std::vector<EgoMotion> ego_slides_;
@@ -287,7 +298,7 @@ EgoMotion Story::slide_of(const world::Footprint& footprint, double mass, const 
   ImpactBody body = free_body(mass, footprint);
   body.v_W = after.v_W;
   body.yaw_rate = after.yaw_rate;
-  return slide(footprint, body, after.X_WB, time, grip_);
+  return slide(footprint, body, after.X_WB, time, grip_, steps_);
 }
 
 void Story::note(const Blow& blow, const Event& event) {
@@ -347,6 +358,34 @@ Outcome Story::outcome() const {
   return outcome;
 }
 
+/// Tells a story to its end.
+/// @return  the others' tracks, as long as they were not struck: the story refers to them
+std::vector<Track> tell(Story& story, const Others& others) {
+  std::vector<Track> tracks = others(story.ego());
+  story.expect(tracks);
+  for (std::size_t i = 0; i < most_blows; ++i) {
+    const std::optional<Event> event = story.next();
+    if (!event) {
+      break;
+    }
+    if (story.happen(*event)) {
+      tracks = others(story.ego());
+      story.expect(tracks);
+    }
+  }
+  return tracks;
+}
+void tell(Story& story, std::span<const Track> tracks) {
+  story.expect(tracks);
+  for (std::size_t i = 0; i < most_blows; ++i) {
+    const std::optional<Event> event = story.next();
+    if (!event) {
+      break;
+    }
+    story.happen(*event);
+  }
+}
+
 void check(const EgoMotion& motion) {
   expects(!motion.track.X_WA.empty(), "the motion has at least one pose");
   expects(motion.v_B.size() == motion.track.X_WA.size() &&
@@ -360,18 +399,7 @@ Course play_out(const EgoMotion& motion, const Scene& scene, const Others& other
                 const HarmModel& harm, double grip) {
   check(motion);
   Story story(motion, scene, harm, grip);
-  std::vector<Track> tracks = others(story.ego());
-  story.expect(tracks);
-  for (std::size_t i = 0; i < most_blows; ++i) {
-    const std::optional<Event> event = story.next();
-    if (!event) {
-      break;
-    }
-    if (story.happen(*event)) {
-      tracks = others(story.ego());
-      story.expect(tracks);
-    }
-  }
+  const std::vector<Track> tracks = tell(story, others);
   return {story.outcome(), story.ego(), story.others()};
 }
 
@@ -379,14 +407,23 @@ Outcome judge(const EgoMotion& motion, const Scene& scene, std::span<const Track
               const HarmModel& harm, double grip) {
   check(motion);
   Story story(motion, scene, harm, grip);
-  story.expect(tracks);
-  for (std::size_t i = 0; i < most_blows; ++i) {
-    const std::optional<Event> event = story.next();
-    if (!event) {
-      break;
-    }
-    story.happen(*event);
-  }
+  tell(story, tracks);
+  return story.outcome();
+}
+
+Outcome judge_contacts(const EgoMotion& motion, const Scene& scene, const Others& others,
+                       const HarmModel& harm) {
+  check(motion);
+  Story story(motion, scene, harm, scene.grip, only_contacts);
+  const std::vector<Track> tracks = tell(story, others);
+  return story.outcome();
+}
+
+Outcome judge_contacts(const EgoMotion& motion, const Scene& scene, std::span<const Track> tracks,
+                       const HarmModel& harm) {
+  check(motion);
+  Story story(motion, scene, harm, scene.grip, only_contacts);
+  tell(story, tracks);
   return story.outcome();
 }
 

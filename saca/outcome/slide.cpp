@@ -10,114 +10,148 @@
 namespace saca::outcome {
 namespace {
 
-constexpr double pose_step = 0.01;    // [s]
 constexpr double resting = 0.05;      // of all wheels [m/s]
+constexpr double full_grip = 10.0;    // [m/s^2]: what a step takes of the speed at most
 constexpr double longest_slide = 60;  // [s]: 25 m/s at a grip of 0.05 rest after 51
 
-struct Wheel {
-  Vec2 p_B;
-  double deceleration = 0.0;  ///< of the whole body by this wheel [m/s^2]
+/// Side by side, so that all four are worked out at once.
+struct Wheels {
+  std::array<double, 4> x;             ///< in B [m]
+  std::array<double, 4> y;             ///< [m]
+  std::array<double, 4> deceleration;  ///< of the whole body by this wheel [m/s^2]
 };
-using Wheels = std::array<Wheel, 4>;
 
 // The loads balance about the body's origin, which is its centre of mass.
 Wheels wheels(const world::Footprint& footprint, double grip) {
   const Vec2 half = half_axes(footprint);
   const Vec2 reach{0.6 * half.x, 0.8 * half.y};
   const double front_share = std::clamp(0.5 * (reach.x - footprint.centre_x) / reach.x, 0.0, 1.0);
-  Wheels all;
-  for (std::size_t i = 0; i < all.size(); ++i) {
+  Wheels all{};
+  for (std::size_t i = 0; i < 4; ++i) {
     const bool front = i < 2;
-    all[i].p_B = {footprint.centre_x + (front ? reach.x : -reach.x),
-                  i % 2 == 0 ? reach.y : -reach.y};
-    all[i].deceleration = 0.5 * (front ? front_share : 1.0 - front_share) * grip * vehicle::gravity;
+    all.x[i] = footprint.centre_x + (front ? reach.x : -reach.x);
+    all.y[i] = i % 2 == 0 ? reach.y : -reach.y;
+    all.deceleration[i] = 0.5 * (front ? front_share : 1.0 - front_share) * grip * vehicle::gravity;
   }
   return all;
 }
 
-// Of the body's origin; also their rates of change.
+// Of the body's origin, the velocity in the turning frame B; also their rates of change.
 struct Motion {
   Vec2 p_W;
   double yaw = 0.0;
-  Vec2 v_W;
+  Vec2 v_B;
   double yaw_rate = 0.0;
 };
 
 Motion advanced(const Motion& from, const Motion& rate, double dt) {
-  return {from.p_W + dt * rate.p_W, from.yaw + dt * rate.yaw, from.v_W + dt * rate.v_W,
+  return {from.p_W + dt * rate.p_W, from.yaw + dt * rate.yaw, from.v_B + dt * rate.v_B,
           from.yaw_rate + dt * rate.yaw_rate};
+}
+
+double speed_of(Vec2 v) {
+  return std::sqrt(dot(v, v));
+}
+
+// (cos, sin) of an angle a little farther; of what a step turns, 0.1 rad at most, exact to 1e-11.
+Vec2 turned(Vec2 direction, double angle) {
+  const double square = angle * angle;
+  const double c = 1.0 + square * (-1.0 / 2.0 + square * (1.0 / 24.0 - square / 720.0));
+  const double s = angle * (1.0 + square * (-1.0 / 6.0 + square * (1.0 / 120.0 - square / 5040.0)));
+  return {c * direction.x - s * direction.y, s * direction.x + c * direction.y};
 }
 
 class Sliding {
  public:
-  Sliding(const Wheels& wheels, double mass_over_inertia)
-      : wheels_(wheels), mass_over_inertia_(mass_over_inertia) {}
+  Sliding(const Wheels& wheels, double mass_over_inertia, double dt)
+      : wheels_(wheels),
+        mass_over_inertia_(mass_over_inertia),
+        dt_(dt),
+        resting_(std::max(resting, full_grip * dt)),
+        reach_(std::hypot(wheels.x[0] - wheels.x[3], wheels.y[0] - wheels.y[3])) {}
 
-  [[nodiscard]] Motion rate(const Motion& now) const {
-    Motion rate{now.v_W, now.yaw_rate, {}, 0.0};
-    const double c = std::cos(now.yaw);
-    const double s = std::sin(now.yaw);
-    for (const Wheel& wheel : wheels_) {
-      const Vec2 arm_W{c * wheel.p_B.x - s * wheel.p_B.y, s * wheel.p_B.x + c * wheel.p_B.y};
-      const Vec2 v_W = now.v_W + now.yaw_rate * Vec2{-arm_W.y, arm_W.x};
-      const double speed = std::sqrt(dot(v_W, v_W));
-      const Vec2 a_W = (-wheel.deceleration / std::max(speed, resting)) * v_W;
-      rate.v_W = rate.v_W + a_W;
-      rate.yaw_rate += mass_over_inertia_ * (arm_W.x * a_W.y - arm_W.y * a_W.x);
-    }
-    return rate;
-  }
-
-  [[nodiscard]] Motion step(const Motion& now, double dt) const {
-    const Motion k1 = rate(now);
-    const Motion k2 = rate(advanced(now, k1, 0.5 * dt));
-    const Motion k3 = rate(advanced(now, k2, 0.5 * dt));
-    const Motion k4 = rate(advanced(now, k3, dt));
-    Motion next = advanced(now, k1, dt / 6.0);
-    next = advanced(next, k2, dt / 3.0);
-    next = advanced(next, k3, dt / 3.0);
-    return advanced(next, k4, dt / 6.0);
+  [[nodiscard]] Motion step(const Motion& now) const {
+    const Vec2 heading{std::cos(now.yaw), std::sin(now.yaw)};
+    const auto rate_after = [&](const Motion& rate, double time) {
+      const Motion then = advanced(now, rate, time);
+      return rate_of(then, turned(heading, then.yaw - now.yaw));
+    };
+    const Motion k1 = rate_of(now, heading);
+    const Motion k2 = rate_after(k1, 0.5 * dt_);
+    const Motion k3 = rate_after(k2, 0.5 * dt_);
+    const Motion k4 = rate_after(k3, dt_);
+    Motion next = advanced(now, k1, dt_ / 6.0);
+    next = advanced(next, k2, dt_ / 3.0);
+    next = advanced(next, k3, dt_ / 3.0);
+    return advanced(next, k4, dt_ / 6.0);
   }
 
   [[nodiscard]] bool rests(const Motion& now) const {
-    const double reach = norm(wheels_[0].p_B - wheels_[3].p_B);
-    return norm(now.v_W) + std::abs(now.yaw_rate) * 0.5 * reach < resting;
+    return speed_of(now.v_B) + std::abs(now.yaw_rate) * 0.5 * reach_ < resting_;
   }
 
  private:
+  [[nodiscard]] Motion rate_of(const Motion& now, Vec2 heading) const {
+    std::array<double, 4> pull_x;
+    std::array<double, 4> pull_y;
+    std::array<double, 4> turning;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double v_x = now.v_B.x - now.yaw_rate * wheels_.y[i];
+      const double v_y = now.v_B.y + now.yaw_rate * wheels_.x[i];
+      const double speed = std::sqrt(v_x * v_x + v_y * v_y);
+      const double share = -wheels_.deceleration[i] / (speed > resting_ ? speed : resting_);
+      pull_x[i] = share * v_x;
+      pull_y[i] = share * v_y;
+      turning[i] = wheels_.x[i] * pull_y[i] - wheels_.y[i] * pull_x[i];
+    }
+    const auto sum = [](const std::array<double, 4>& all) {
+      return (all[0] + all[1]) + (all[2] + all[3]);
+    };
+    const Vec2 a_B{sum(pull_x), sum(pull_y)};
+    return {.p_W = {heading.x * now.v_B.x - heading.y * now.v_B.y,
+                    heading.y * now.v_B.x + heading.x * now.v_B.y},
+            .yaw = now.yaw_rate,
+            .v_B = a_B + now.yaw_rate * Vec2{now.v_B.y, -now.v_B.x},
+            .yaw_rate = mass_over_inertia_ * sum(turning)};
+  }
+
   Wheels wheels_;
   double mass_over_inertia_;
+  double dt_;       ///< [s]
+  double resting_;  ///< [m/s]
+  double reach_;    ///< from corner to corner [m]
 };
 
 }  // namespace
 
 manoeuvre::EgoMotion slide(const world::Footprint& footprint, const ImpactBody& body,
-                           const Pose& X_WB, double start, double grip, int steps_per_pose) {
+                           const Pose& X_WB, double start, double grip, const SlideSteps& steps) {
   expects(is_finite(X_WB) && is_finite(body.v_W) && std::isfinite(body.yaw_rate) &&
               std::isfinite(start),
           "the body's motion is finite");
   expects(grip > 0.0 && std::isfinite(grip), "grip > 0");
   expects(footprint.length > 0.0 && std::isfinite(footprint.centre_x), "length > 0");
-  expects(steps_per_pose >= 1, "steps_per_pose >= 1");
+  expects(steps.pose > 0.0 && steps.pose <= 0.02 && steps.per_pose >= 1,
+          "steps.pose in (0, 0.02], steps.per_pose >= 1");
   manoeuvre::EgoMotion motion;
   motion.track.start = start;
-  motion.track.step = pose_step;
+  motion.track.step = steps.pose;
   motion.ended = true;
   const auto note = [&](const Motion& now, bool rests) {
     motion.track.X_WA.push_back({now.p_W, wrap_angle(now.yaw)});
-    motion.v_B.push_back(rests ? Vec2{} : rotated(now.v_W, -now.yaw));
+    motion.v_B.push_back(rests ? Vec2{} : now.v_B);
     motion.yaw_rate.push_back(rests ? 0.0 : now.yaw_rate);
   };
-  Motion now{X_WB.p, X_WB.yaw, body.v_W, body.yaw_rate};
+  Motion now{X_WB.p, X_WB.yaw, rotated(body.v_W, -X_WB.yaw), body.yaw_rate};
   const bool moves = body.inverse_mass > 0.0 && body.inverse_yaw_inertia > 0.0;
   const Sliding sliding(wheels(footprint, grip),
-                        moves ? body.inverse_yaw_inertia / body.inverse_mass : 0.0);
+                        moves ? body.inverse_yaw_inertia / body.inverse_mass : 0.0,
+                        steps.pose / steps.per_pose);
   bool rests = !moves || sliding.rests(now);
   note(now, rests);
-  const double dt = pose_step / steps_per_pose;
-  for (int pose = 1; !rests && pose * pose_step < longest_slide; ++pose) {
-    for (int i = 0; i < steps_per_pose && !rests; ++i) {
-      now = sliding.step(now, dt);
+  for (int pose = 1; !rests && pose * steps.pose < longest_slide; ++pose) {
+    for (int i = 0; i < steps.per_pose && !rests; ++i) {
+      now = sliding.step(now);
       rests = sliding.rests(now);
     }
     note(now, rests);

@@ -83,8 +83,8 @@ Thrown thrown(std::mt19937& rng) {
           0.6 + 0.4 * uniform(rng)};
 }
 
-EgoMotion slid(const Thrown& t, int steps_per_pose = 2) {
-  return slide(sedan, sliding_body(t.v_W, t.yaw_rate), t.X_WB, 0.0, t.grip, steps_per_pose);
+EgoMotion slid(const Thrown& t, const SlideSteps& steps = {}) {
+  return slide(sedan, sliding_body(t.v_W, t.yaw_rate), t.X_WB, 0.0, t.grip, steps);
 }
 
 TEST(Slide, OnlyLosesEnergyAndSpinMakesItLonger) {
@@ -127,12 +127,15 @@ TEST(Slide, ShorterStepsChangeLittle) {
   std::mt19937 rng(3);
   for (int i = 0; i < 30; ++i) {
     const Thrown t = thrown(rng);
-    const Pose fine = slid(t, 100).track.X_WA.back();
+    const Pose fine = slid(t, {.per_pose = 100}).track.X_WA.back();
     const Pose usual = slid(t).track.X_WA.back();
-    const Pose twice = slid(t, 4).track.X_WA.back();
+    const Pose twice = slid(t, {.per_pose = 4}).track.X_WA.back();
     EXPECT_LT(norm(usual.p - fine.p), 2e-3) << i;
     EXPECT_LT(std::abs(wrap_angle(usual.yaw - fine.yaw)), 2e-3) << i;
     EXPECT_LT(norm(twice.p - fine.p), 1e-3) << i;
+    const Pose coarse = slid(t, coarse_slide).track.X_WA.back();
+    EXPECT_LT(norm(coarse.p - fine.p), 0.03) << i;
+    EXPECT_LT(std::abs(wrap_angle(coarse.yaw - fine.yaw)), 0.03) << i;
   }
 }
 
@@ -156,7 +159,10 @@ TEST(Slide, RefusesWhatIsNoMotion) {
   EXPECT_THROW((void)slide(sedan, sliding_body({}, nan), {}, 0.0, 0.9), ContractViolation);
   EXPECT_THROW((void)slide(sedan, sliding_body({}, 1.0), {}, nan, 0.9), ContractViolation);
   EXPECT_THROW((void)slide(sedan, sliding_body({}, 1.0), {}, 0.0, 0.0), ContractViolation);
-  EXPECT_THROW((void)slide(sedan, sliding_body({}, 1.0), {}, 0.0, 0.9, 0), ContractViolation);
+  EXPECT_THROW((void)slide(sedan, sliding_body({}, 1.0), {}, 0.0, 0.9, {.per_pose = 0}),
+               ContractViolation);
+  EXPECT_THROW((void)slide(sedan, sliding_body({}, 1.0), {}, 0.0, 0.9, {.pose = 0.05}),
+               ContractViolation);
   EXPECT_THROW((void)slide({.length = 0.0, .width = 1.0}, sliding_body({}, 1.0), {}, 0.0, 0.9),
                ContractViolation);
 }

@@ -65,16 +65,16 @@ class HeldWay {
       : scene_(scene), way_(thinned(way)), tools_(tools), followers_(followers_of(scene)) {}
 
   [[nodiscard]] outcome::Outcome against(const JointMotion& motion) {
+    if (followers_.empty()) {
+      return outcome::judge_contacts(way_, scene_, motion.tracks, *tools_.harm);
+    }
     const auto others = [&](const EgoMotion& ego) { return moved(motion.tracks, ego.track); };
-    return outcome::judge(way_, scene_, others, *tools_.harm);
+    return outcome::judge_contacts(way_, scene_, others, *tools_.harm);
   }
 
  private:
   [[nodiscard]] std::vector<Track> moved(const std::vector<Track>& planned, const Track& X_WB) {
     std::vector<Track> tracks = planned;
-    if (followers_.empty()) {
-      return tracks;
-    }
     if (!is_answered(X_WB)) {
       answered_ = X_WB;
       answers_.assign(planned.size(), {});
