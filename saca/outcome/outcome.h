@@ -117,8 +117,8 @@ struct Course {
                             std::span<const world::Track> tracks, const HarmModel& harm,
                             double grip);
 
-/// As `judge`, for forecasts: the clearance is not looked for and 0, and struck bodies slide in
-/// coarser steps (coarse_slide). Together they take most of the time.
+/// As `judge`, for forecasts: the clearance is not looked for and 0, struck bodies slide in coarser
+/// steps (coarse_slide), and bodies that stay together are looked at every 50 ms instead of 10.
 [[nodiscard]] Outcome judge_contacts(const manoeuvre::EgoMotion& motion, const world::Scene& scene,
                                      const Others& others, const HarmModel& harm);
 [[nodiscard]] Outcome judge_contacts(const manoeuvre::EgoMotion& motion, const world::Scene& scene,

@@ -33,9 +33,6 @@ constexpr double blow_lasts = 0.1;
 // anew [m/s].
 constexpr double least_closing = 0.1;
 
-// Between two looks at bodies that stay together [s].
-constexpr double look_again = 0.01;
-
 // A bound on the work: after so many blows the story breaks off.
 constexpr std::size_t most_blows = 32;
 
@@ -82,11 +79,12 @@ std::optional<Event> at(std::optional<double> time) {
 }
 
 // The first time that two who have met meet again, or press on.
+// @param look_again   between two looks at bodies that stay together [s]
 // @param first_touch  when they first touch at or after a time, if they do
 // @param closing      how fast they approach where they touch, at a time
 template <class FirstTouch, class Closing>
-std::optional<Event> meet_again(double from, double until, FirstTouch&& first_touch,
-                                Closing&& closing) {
+std::optional<Event> meet_again(double from, double until, double look_again,
+                                FirstTouch&& first_touch, Closing&& closing) {
   bool together = true;
   double time = from;
   while (time <= until) {
@@ -106,8 +104,9 @@ std::optional<Event> meet_again(double from, double until, FirstTouch&& first_to
 struct Detail {
   double clearance = far_away;  // at most [m]
   SlideSteps slides;
+  double look_again = 0.01;  // between two looks at bodies that stay together [s]
 };
-constexpr Detail only_contacts{.clearance = 0.0, .slides = coarse_slide};
+constexpr Detail only_contacts{.clearance = 0.0, .slides = coarse_slide, .look_again = 0.05};
 
 class Story {
  public:
@@ -123,6 +122,7 @@ class Story {
         since_(motion.track.start),
         clearance_(detail.clearance),
         steps_(detail.slides),
+        look_again_(detail.look_again),
         dealings_(scene.actors.size()),
         slides_(scene.actors.size()) {}
 
@@ -195,6 +195,7 @@ class Story {
   double since_;  ///< when the last event happened [s]
   double clearance_;
   SlideSteps steps_;
+  double look_again_;
   std::vector<Dealings> dealings_;  ///< with each actor
   std::array<Dealings, 2> edges_;   ///< by Side
   std::vector<EgoMotion> ego_slides_;
@@ -227,7 +228,7 @@ std::optional<Event> Story::next_at(Side side) {
   };
   if (before.last_blow) {
     return meet_again(
-        std::max(since_, *before.last_blow + blow_lasts), end_time(track), first_touch,
+        std::max(since_, *before.last_blow + blow_lasts), end_time(track), look_again_, first_touch,
         [&](double time) { return closing_speed(scene_, side, instant_at(now(), time), harm_); });
   }
   const EdgeApproach edge =
@@ -251,7 +252,7 @@ std::optional<Event> Story::next_with(std::size_t i, double until, bool first) {
   if (before.last_blow) {
     const double rest = std::max(end_time(now().track), end_time(track(i)));
     return meet_again(
-        std::max(since_, *before.last_blow + blow_lasts), std::min(known, rest),
+        std::max(since_, *before.last_blow + blow_lasts), std::min(known, rest), look_again_,
         [&](double time) { return approach(ego, other, time, known, 0.0).contact; },
         [&](double time) {
           return closing_speed(scene_, i, instant_at(now(), time), other_at(i, time), harm_);
