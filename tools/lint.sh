@@ -25,7 +25,8 @@ lint_folder() {  # FOLDER
   local sources joined stamp
   mapfile -t sources < <(git ls-files "$1/*.cpp" | grep -vE '_(test|bench)\.cpp$')
   joined=build/lint/${1//\//_}.cpp
-  cat "${sources[@]}" >"$joined"
+  # What several sources of a folder call by the same short name is named once where they are one.
+  awk '!(/^namespace [a-z]+ = / && named[$0]++)' "${sources[@]}" >"$joined"
   stamp=$joined-$({ cat "$joined" .clang-tidy; echo "$headers"; declare -f tidy; } | sha256sum | cut -c1-16)
   if [ -e "$stamp" ]; then
     return
@@ -33,7 +34,7 @@ lint_folder() {  # FOLDER
   if tidy "$joined" >/dev/null; then
     rm -f "$joined"-*
     touch "$stamp"
-  elif tidy "${sources[@]}"; then
+  elif printf '%s\n' "${sources[@]}" | in_parallel tidy; then
     echo "lint: error: found only in the sources together, $joined:"
     tidy "$joined"
   else
@@ -41,9 +42,12 @@ lint_folder() {  # FOLDER
     return 1
   fi
 }
+in_parallel() {  # COMMAND: for each line of the standard input
+  xargs -r -P "$(nproc)" -I{} bash -euo pipefail -c "$1 {}"
+}
 headers=$(git ls-files -- '*.h' | xargs sha256sum | sha256sum)
 export headers
-export -f tidy lint_folder
+export -f tidy lint_folder in_parallel
 
 # Each source by itself, as who builds without presets compiles it.
 stands_alone() {  # SOURCE
@@ -54,9 +58,6 @@ stands_alone() {  # SOURCE
   }
 }
 export -f stands_alone
-in_parallel() {  # COMMAND: for each line of the standard input
-  xargs -r -P "$(nproc)" -I{} bash -euo pipefail -c "$1 {}"
-}
 
 # A changed source, once for its content, that of all headers and the rules.
 lint_source() {  # SOURCE
