@@ -69,10 +69,22 @@ Verdict Forecaster::judge(const Scene& scene, const intent::Beliefs& beliefs,
                           const std::optional<UnderWay>& under_way) const {
   const auto motions = preview::drawn_motions(scene, beliefs, intent::MotionLaw{}, num_draws_);
   Verdict verdict{.time = scene.time};
-  for (const preview::ExpectedHarm& one :
-       preview::expected_harms(scene, motions, tools_, preview::Physics::rolled_out)) {
-    verdict.plans.push_back(judged(one));
+  const auto judge_plans = [&](std::span<const manoeuvre::Plan> plans) {
+    for (const preview::ExpectedHarm& one :
+         preview::expected_harms(scene, motions, tools_, preview::Physics::rolled_out, plans)) {
+      verdict.plans.push_back(judged(one));
+    }
+  };
+  if (under_way && under_way->plan.policy == manoeuvre::PolicyId::aeb) {
+    judge_plans({&manoeuvre::full_braking, 1});
+    if (verdict.plans[0].harm < material_harm) {
+      judge_plans({&manoeuvre::doing_nothing, 1});
+      return verdict;
+    }
+    verdict.plans.clear();
   }
+  const preview::Plans plans = preview::all_plans(scene.ego.v_B.x);
+  judge_plans({plans.begin(), plans.size()});
   if (under_way && has_past(under_way->plan)) {
     preview::ExpectedHarm rest =
         preview::expected_harm(rest_of(*under_way, scene, *tools_.car), scene, motions, tools_);

@@ -44,7 +44,9 @@ class Forecaster {
   /// @param scene      breaks no rule of world::broken_rule
   /// @param beliefs    one per actor
   /// @param under_way  judged from where it is: the rest of the way that was meant when it began,
-  ///                   from the present place and direction back onto it
+  ///                   from the present place and direction back onto it. While it is emergency
+  ///                   braking that harms less than `material_harm`, nothing is better by so much:
+  ///                   then the verdict has only that and doing nothing
   /// @throws ContractViolation  if beliefs and actors differ in number
   [[nodiscard]] Verdict judge(const world::Scene& scene, const intent::Beliefs& beliefs,
                               const std::optional<UnderWay>& under_way = std::nullopt) const;

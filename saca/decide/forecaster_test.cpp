@@ -104,6 +104,32 @@ TEST_F(ForecasterTest, JudgesTheRestOfWhatIsUnderWay) {
   EXPECT_EQ(judge(left_behind, under_way).under_way->contact, 0.0);
 }
 
+// Braking that harms little is left for nothing but giving the wheel back: no more is judged, and
+// what is judged is the same.
+TEST_F(ForecasterTest, WhileBrakingDoesLittleHarmOnlyDoingNothingIsJudgedBesideIt) {
+  Scene far = road();
+  far.actors.push_back(test::car(1, {60.0, 0.0}));
+  const auto braking = [](const Scene& scene) {
+    return UnderWay{.plan = manoeuvre::full_braking,
+                    .begun = scene.time - 0.2,
+                    .ego = scene.ego,
+                    .road = scene.road,
+                    .grip = scene.grip};
+  };
+  const Verdict some = judge(far, braking(far));
+  const Verdict all = judge(far);
+  ASSERT_EQ(some.plans.size(), 2U);
+  for (const PolicyId policy : {PolicyId::aeb, PolicyId::no_intervention}) {
+    EXPECT_EQ(of(some, policy).harm, of(all, policy).harm);
+    EXPECT_EQ(of(some, policy).contact, of(all, policy).contact);
+  }
+  EXPECT_EQ(plan_of(some).policy, plan_of(all).policy);
+  // Braking into the wreck does harm: everything is judged.
+  const Scene near = wreck_ahead();
+  ASSERT_GE(of(judge(near), PolicyId::aeb).harm, material_harm);
+  EXPECT_EQ(judge(near, braking(near)).plans.size(), 14U);
+}
+
 TEST_F(ForecasterTest, SameSceneSameVerdict) {
   const Scene scene = wreck_ahead();
   const Verdict a = judge(scene);

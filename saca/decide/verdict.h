@@ -25,6 +25,10 @@ struct Verdict {
   std::optional<JudgedPlan> under_way;  ///< the rest of a plan under way that has a past (has_past)
 };
 
+/// An expected harm that is this much larger is materially larger: for less, no plan under way is
+/// left.
+constexpr double material_harm = 0.01;
+
 /// How old a verdict may be to be decided by [s].
 constexpr double verdict_expiry = 0.1;
 

@@ -105,7 +105,8 @@ class HeldWay {
 };
 
 /// Ways of the ego that can be driven, no longer than the others' motions; in the order of `plans`.
-std::vector<std::optional<EgoMotion>> ways_of(const Scene& scene, const Plans& plans,
+std::vector<std::optional<EgoMotion>> ways_of(const Scene& scene,
+                                              std::span<const manoeuvre::Plan> plans,
                                               const ForecastTools& tools) {
   std::vector<manoeuvre::Drive> drives;
   std::vector<std::size_t> driven;  // whose drives they are
@@ -126,11 +127,11 @@ std::vector<std::optional<EgoMotion>> ways_of(const Scene& scene, const Plans& p
 /// nullopt: the atlas does not hold all that can be driven.
 std::optional<std::vector<ExpectedHarm>> read(const Scene& scene,
                                               std::span<const JointMotion> motions,
-                                              const Plans& plans, double sum,
+                                              std::span<const manoeuvre::Plan> plans, double sum,
                                               const ForecastTools& tools) {
   std::vector<ExpectedHarm> all(plans.size());
   for (const JointMotion& motion : motions) {
-    const auto facts = read_plans(scene, motion.tracks, {plans.begin(), plans.size()}, tools);
+    const auto facts = read_plans(scene, motion.tracks, plans, tools);
     if (!facts) {
       return std::nullopt;
     }
@@ -185,8 +186,14 @@ JointMotion all_going_on(const Scene& scene) {
 
 std::vector<ExpectedHarm> expected_harms(const Scene& scene, std::span<const JointMotion> motions,
                                          const ForecastTools& tools, Physics physics) {
-  expects(tools.car != nullptr && tools.harm != nullptr, "car and harm are given");
   const Plans plans = all_plans(scene.ego.v_B.x);
+  return expected_harms(scene, motions, tools, physics, {plans.begin(), plans.size()});
+}
+
+std::vector<ExpectedHarm> expected_harms(const Scene& scene, std::span<const JointMotion> motions,
+                                         const ForecastTools& tools, Physics physics,
+                                         std::span<const manoeuvre::Plan> plans) {
+  expects(tools.car != nullptr && tools.harm != nullptr, "car and harm are given");
   std::optional<std::vector<ExpectedHarm>> all;
   if (physics == Physics::atlas) {
     all = read(scene, motions, plans, weight_of(motions), tools);

@@ -60,6 +60,11 @@ enum class Physics : std::uint8_t {
 [[nodiscard]] std::vector<ExpectedHarm> expected_harms(const world::Scene& scene,
                                                        std::span<const JointMotion> motions,
                                                        const ForecastTools& tools, Physics physics);
+/// The same of some plans, in their order.
+[[nodiscard]] std::vector<ExpectedHarm> expected_harms(const world::Scene& scene,
+                                                       std::span<const JointMotion> motions,
+                                                       const ForecastTools& tools, Physics physics,
+                                                       std::span<const manoeuvre::Plan> plans);
 
 /// The same of one way of the ego, whatever it came from: full dynamics of what follows a contact.
 /// @param way  from scene.time on
