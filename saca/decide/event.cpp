@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 
 #include "saca/core/names.h"
@@ -35,6 +36,13 @@ std::string_view name(Plane plane) {
 
 std::string_view name(EventKind kind) {
   return name_of(kind, kind_names);
+}
+
+const Preview* find_preview(std::span<const Preview> previews, std::int32_t number) noexcept {
+  const auto found =
+      std::lower_bound(previews.begin(), previews.end(), number,
+                       [](const Preview& one, std::int32_t wanted) { return one.number < wanted; });
+  return found == previews.end() || found->number != number ? nullptr : &*found;
 }
 
 std::string plan_text(const manoeuvre::Plan& plan) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -68,6 +69,11 @@ struct Preview {
   std::optional<double> ready;  ///< when it was cached [s]
   bool unheard = false;         ///< the model failed when it was asked: it may be asked again
 };
+
+/// The one of this number; nullptr: it is forgotten.
+/// @param previews  numbers ascend
+[[nodiscard]] const Preview* find_preview(std::span<const Preview> previews,
+                                          std::int32_t number) noexcept;
 
 /// The policy's number and name, and the speed that it brakes to.
 [[nodiscard]] std::string plan_text(const manoeuvre::Plan& plan);

@@ -89,12 +89,13 @@ bool ThinkingPlane::think(const world::Scene& scene, const intent::Beliefs& beli
     return false;
   }
   const Round round{scene, beliefs, scene_at, *tools_.clock, stop};
-  if (previews_.empty()) {
+  forget_what_has_passed(scene.time);
+  if (num_previews_ == 0) {
     describe_scene(round, *threat);
   }
   std::vector<std::size_t> fresh;
   std::vector<std::size_t> unanswered;
-  std::vector<std::size_t> now;
+  std::vector<std::int32_t> now;
   for (preview::Situation& situation :
        preview::situations(scene, beliefs, thresholds_, tools_.forecast)) {
     if (situation.scene_at_trigger.time < round.now()) {
@@ -104,17 +105,18 @@ bool ThinkingPlane::think(const world::Scene& scene, const intent::Beliefs& beli
       known->newest_scene = situation.scene_at_trigger;
       known->worse_than_aeb =
           known->plan && !check(*known->plan, situation, tools_.forecast).passed;
-      now.push_back(static_cast<std::size_t>(known - previews_.data()));
+      now.push_back(known->number);
+      const auto index = static_cast<std::size_t>(known - previews_.data());
       if (known->unheard &&
-          std::find(unanswered.begin(), unanswered.end(), now.back()) == unanswered.end()) {
-        unanswered.push_back(now.back());
+          std::find(unanswered.begin(), unanswered.end(), index) == unanswered.end()) {
+        unanswered.push_back(index);
       }
       continue;
     }
     fresh.push_back(previews_.size());
-    now.push_back(previews_.size());
+    now.push_back(num_previews_);
     Preview preview;
-    preview.number = static_cast<std::int32_t>(previews_.size());
+    preview.number = num_previews_++;
     preview.newest_scene = situation.scene_at_trigger;
     preview.situation = std::move(situation);
     previews_.push_back(std::move(preview));
@@ -151,7 +153,15 @@ bool ThinkingPlane::think(const world::Scene& scene, const intent::Beliefs& beli
 
 void ThinkingPlane::forget() {
   previews_.clear();
+  num_previews_ = 0;
   current_.clear();
+}
+
+void ThinkingPlane::forget_what_has_passed(double now) {
+  std::erase_if(previews_,
+                [&](const Preview& one) { return one.newest_scene.time + remembered < now; });
+  std::erase_if(current_,
+                [&](std::int32_t number) { return find_preview(previews_, number) == nullptr; });
 }
 
 Preview* ThinkingPlane::provided_for(const preview::Situation& situation) {
@@ -323,8 +333,8 @@ void ThinkingPlane::settle(Preview& preview, PolicyId policy, Source source, dou
 
 void ThinkingPlane::publish(double ready) const {
   PlanCache cache;
-  for (const std::size_t i : current_) {
-    const Preview& preview = previews_[i];
+  for (const std::int32_t number : current_) {
+    const Preview& preview = *find_preview(previews_, number);
     if (!preview.plan || cache.full()) {
       continue;
     }

@@ -60,10 +60,14 @@ class ThinkingPlane {
   bool think(const world::Scene& scene, const intent::Beliefs& beliefs, Clock::Time scene_at,
              const std::stop_token& stop = {});
 
-  /// The encounter is over: forgets what was thought, so that a drive of hours stays small.
+  /// How long a forecast is kept after its trigger has passed [s]: an encounter that lasts for
+  /// hours, as in dense traffic, stays small.
+  static constexpr double remembered = 30.0;
+
+  /// The encounter is over: forgets what was thought.
   void forget();
 
-  /// All that was thought so far, in order, since the last `forget`.
+  /// What was thought since the last `forget` and is remembered; numbers ascend.
   [[nodiscard]] const std::vector<Preview>& previews() const { return previews_; }
 
   /// How often the model, when asked, gave no answer in time, for whatever reason.
@@ -72,6 +76,7 @@ class ThinkingPlane {
  private:
   struct Round;
 
+  void forget_what_has_passed(double now);
   void tell(const Round& round, EventKind kind, std::string text) const;
   void describe_scene(const Round& round, const preview::Threat& threat) const;
   [[nodiscard]] Preview* provided_for(const preview::Situation& situation);
@@ -87,7 +92,8 @@ class ThinkingPlane {
   preview::Thresholds thresholds_;
   ThinkingOutput output_;
   std::vector<Preview> previews_;
-  std::vector<std::size_t> current_;  ///< indices into previews_, newest forecast first
+  std::int32_t num_previews_ = 0;      ///< forgotten ones included
+  std::vector<std::int32_t> current_;  ///< numbers of previews, newest forecast first
   int deadline_misses_ = 0;
 };
 

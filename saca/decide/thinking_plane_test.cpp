@@ -103,6 +103,31 @@ TEST_F(Thinking, CachesWhatTheModelChoosesAndTheRolloutConfirms) {
   EXPECT_EQ(text_, "because.");
 }
 
+// An hour of following somebody closely: what has passed is forgotten, what is at hand is not, and
+// a number never stands for two forecasts.
+TEST_F(Thinking, ForgetsWhatHasLongPassed) {
+  reason::ScriptedModel model(says(PolicyId::aes_left), clock_);
+  ThinkingPlane thinking = plane(&model);
+  std::int32_t last = -1;
+  for (int minute = 0; minute < 60; ++minute) {
+    clock_.wait_until(from_seconds(60.0 * minute));
+    Scene scene = wreck_ahead();
+    scene.time = 60.0 * minute;
+    ASSERT_TRUE(think(thinking, scene));
+    ASSERT_EQ(thinking.previews().size(), 1U) << minute;
+    EXPECT_GT(thinking.previews()[0].number, last);
+    last = thinking.previews()[0].number;
+    ASSERT_EQ(published_.back().size(), 1U) << minute;
+    EXPECT_EQ(published_.back()[0].preview, last);
+    EXPECT_EQ(find_preview(thinking.previews(), last), &thinking.previews()[0]);
+    EXPECT_EQ(find_preview(thinking.previews(), last - 1), nullptr);
+    // Half a minute later the same forecast is still known.
+    scene.time += 0.5 * ThinkingPlane::remembered;
+    ASSERT_TRUE(think(thinking, scene));
+    EXPECT_EQ(thinking.previews().back().number, last);
+  }
+}
+
 // With its reasons it would be withdrawn (below); there are none.
 TEST_F(Thinking, WithoutReasoningTheFirstAnswerStands) {
   const reason::ScriptedReply reply{

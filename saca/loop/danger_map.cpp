@@ -35,9 +35,11 @@ const decide::Preview* preview_that_counts(const Record& record) {
   if (record.previews.empty()) {
     return nullptr;
   }
-  return record.decision && record.decision->preview
-             ? &record.previews[static_cast<std::size_t>(*record.decision->preview)]
-             : &record.previews.back();
+  const decide::Preview* const matched =
+      record.decision && record.decision->preview
+          ? decide::find_preview(record.previews, *record.decision->preview)
+          : nullptr;
+  return matched == nullptr ? &record.previews.back() : matched;
 }
 
 /// By risk; where that is the same, by value. nullopt: nobody is judged.

@@ -62,9 +62,9 @@ ThinkingFigures thinking_figures(std::span<const Preview> previews,
     figures.false_statements += one.truth ? static_cast<int>(one.truth->wrong.size()) : 0;
   }
   if (decision && decision->preview) {
-    const Preview& most_alike = previews[static_cast<std::size_t>(*decision->preview)];
-    if (is_answered(most_alike)) {
-      figures.answer = most_alike.reply.answers.back().probability;
+    const Preview* const most_alike = decide::find_preview(previews, *decision->preview);
+    if (most_alike != nullptr && is_answered(*most_alike)) {
+      figures.answer = most_alike->reply.answers.back().probability;
     }
   }
   return figures;
