@@ -13,8 +13,7 @@ Error sqlite_problem(sqlite3* database, const std::string& name, Access access) 
       return {Error::Code::malformed, name + ": is damaged: " + why};
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-      return {Error::Code::too_late, name + ": " + what + ": another process has held it for " +
-                                         std::to_string(busy_timeout_s) + " s"};
+      return {Error::Code::too_late, name + ": " + what + ": another process holds it"};
     case SQLITE_READONLY:
     case SQLITE_FULL:
       return {Error::Code::unwritable, name + ": cannot be written: " + why};

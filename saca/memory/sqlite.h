@@ -12,8 +12,10 @@ namespace saca::memory {
 
 // A thin skin over SQLite, for this module only.
 
-/// Seconds another process may hold a file before an operation on it gives up.
-constexpr int busy_timeout_s = 5;
+/// How long another process may hold a file before an operation on it gives up [ms].
+constexpr int usual_patience = 5'000;
+/// Likewise where a decision waits for the answer: longer than another's commit takes.
+constexpr int short_patience = 200;
 
 struct Close {
   void operator()(sqlite3* database) const { sqlite3_close_v2(database); }

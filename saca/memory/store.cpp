@@ -198,7 +198,7 @@ struct Store::State {
     if (code != SQLITE_OK) {
       return problem(Access::read);
     }
-    sqlite3_busy_timeout(opened, busy_timeout_s * 1000);
+    sqlite3_busy_timeout(opened, usual_patience);
     return std::nullopt;
   }
 
@@ -425,9 +425,28 @@ Result<std::optional<Case>> Store::find(CaseId id) {
   }
 }
 
+namespace {
+
+/// While it lives, the connection waits for another process no longer than a decision can.
+class ShortPatience {
+ public:
+  explicit ShortPatience(sqlite3* database) : database_(database) {
+    sqlite3_busy_timeout(database_, short_patience);
+  }
+  ShortPatience(const ShortPatience&) = delete;
+  ShortPatience& operator=(const ShortPatience&) = delete;
+  ~ShortPatience() { sqlite3_busy_timeout(database_, usual_patience); }
+
+ private:
+  sqlite3* database_;
+};
+
+}  // namespace
+
 Result<std::optional<Match>> Store::nearest(const world::Scene& scene) {
   const Features wanted = features(scene);
   expects(wanted.ego.usable, "the scene breaks no rule");
+  const ShortPatience while_asking(state_->database.get());
   while (true) {
     if (auto error = state_->catch_up()) {
       return *error;

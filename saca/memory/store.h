@@ -29,7 +29,8 @@ struct Match {
 
 /// The memory bank: one SQLite file, which several processes may have open.
 ///
-/// One thread at a time. It waits for the disk, and up to 5 s for another process (then: too_late),
+/// One thread at a time. It waits for the disk, and for another process (then: too_late) up to 5 s,
+/// `nearest` some tenths of a second,
 /// so it belongs to the thinking plane. What other processes add is seen by the next call. Movable,
 /// not copyable. Table and versions: docs/formats.md.
 ///

@@ -509,6 +509,35 @@ TEST_F(Memory, ForgetsWhatAnotherProcessDeletes) {
   EXPECT_FALSE(store.nearest(example_case(1).scene).value().has_value());
 }
 
+// Who holds the file is told, and when it is free again the store answers as before.
+TEST_F(Memory, AnswersAgainWhenAnotherProcessLetsTheFileGo) {
+  Store store = opened();
+  ASSERT_TRUE(store.add(example_case(1)).has_value());
+  sqlite3* other = nullptr;
+  ASSERT_EQ(sqlite3_open(path_.c_str(), &other), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(other, "BEGIN EXCLUSIVE", nullptr, nullptr, nullptr), SQLITE_OK);
+  const auto held = store.nearest(example_case(1).scene);
+  ASSERT_FALSE(held.has_value());
+  EXPECT_EQ(held.error().code, Error::Code::too_late);
+  EXPECT_THAT(held.error().message, HasSubstr("bank.db"));
+  EXPECT_THAT(held.error().message, HasSubstr("another process"));
+  sqlite3_close(other);
+  EXPECT_EQ(store.nearest(example_case(1).scene).value().value().similarity, 1.0);
+  EXPECT_TRUE(store.add(example_case(2)).has_value());
+}
+
+// What was read is still known; what would be written to a file that nobody finds again is refused.
+TEST_F(Memory, TellsThatItsFileHasVanished) {
+  Store store = opened();
+  ASSERT_TRUE(store.add(example_case(1)).has_value());
+  fs::remove(path_);
+  EXPECT_EQ(store.nearest(example_case(1).scene).value().value().found.id, 1);
+  const auto added = store.add(example_case(2));
+  ASSERT_FALSE(added.has_value());
+  EXPECT_EQ(added.error().code, Error::Code::unwritable);
+  EXPECT_THAT(added.error().message, HasSubstr("bank.db"));
+}
+
 TEST_F(Memory, TakesCasesFromTwoProcessesAtOnce) {
   constexpr int num_cases = 20;
   {
