@@ -21,6 +21,9 @@ constexpr double least_size = 1e-3;        // [m]
 constexpr double most_size = 1e3;          // [m]
 constexpr double least_mass = 1e-3;        // [kg]
 constexpr double most_mass = 1e7;          // [kg]
+constexpr double most_time = 1e7;          // [s], of which motions still have their nanoseconds
+constexpr double most_amount = 1e7;        // of a standard deviation or an age, whatever its unit
+constexpr double most_curvature = 1.0;     // [1/m]
 
 /// False for NaN.
 bool within(Vec2 a, double most) {
@@ -47,13 +50,14 @@ bool is_mass(double mass) {
 
 /// A standard deviation or an age.
 bool is_amount(double amount) {
-  return std::isfinite(amount) && amount >= 0.0;
+  return amount >= 0.0 && amount <= most_amount;
 }
 
 bool is_valid(const Road& road) {
-  return is_finite(road.X_WL) && std::isfinite(road.curvature) && std::isfinite(road.lane_width) &&
-         road.lane_width > 0.0 && std::isfinite(road.left_edge) && road.left_edge > 0.0 &&
-         std::isfinite(road.right_edge) && road.right_edge < 0.0;
+  return within(road.X_WL.p, most_position) && std::isfinite(road.X_WL.yaw) &&
+         std::abs(road.curvature) <= most_curvature && road.lane_width >= least_size &&
+         road.lane_width <= most_size && road.left_edge > 0.0 && road.left_edge <= most_position &&
+         road.right_edge < 0.0 && road.right_edge >= -most_position;
 }
 
 bool is_valid(const SharedControls& shared) {
@@ -91,7 +95,7 @@ std::optional<std::string_view> broken_rule(const Actor& actor) {
   }
   if (!is_amount(actor.position_sd) || !is_amount(actor.velocity_sd) || !is_amount(actor.age) ||
       !(actor.existence >= 0.0 && actor.existence <= 1.0)) {
-    return "an actor's uncertainties are >= 0 and its existence is in [0, 1]";
+    return "an actor's uncertainties and age are in [0, 1e7] and its existence is in [0, 1]";
   }
   if (!is_valid(actor.shared)) {
     return "shared steering is within 90 deg, shared pedals are in [0, 1]";
@@ -101,7 +105,10 @@ std::optional<std::string_view> broken_rule(const Actor& actor) {
 
 std::optional<std::string_view> broken_rule(const Scene& scene) {
   const EgoState& ego = scene.ego;
-  if (!std::isfinite(scene.time) || !is_motion(ego.X_WB, ego.v_B, ego.a_B, ego.yaw_rate)) {
+  if (!(std::abs(scene.time) <= most_time)) {
+    return "the time is within 1e7 s of 0";
+  }
+  if (!is_motion(ego.X_WB, ego.v_B, ego.a_B, ego.yaw_rate)) {
     return "the ego's motion is finite and at most 200 m/s, 1000 m/s^2, 100 rad/s";
   }
   if (!is_sized(scene.ego_footprint) || scene.ego_footprint.shape == Shape::segment ||
@@ -109,10 +116,12 @@ std::optional<std::string_view> broken_rule(const Scene& scene) {
     return "the ego's length and width are 1 mm to 1 km, its mass 1 g to 10,000 t";
   }
   if (!is_valid(scene.road)) {
-    return "the road is finite, its lane has a width and its edges lie left and right of it";
+    return "the road lies within 10,000 km, bends with at least 1 m, its lane is 1 mm to 1 km wide "
+           "and "
+           "its edges lie left and right of it";
   }
   if (!(scene.grip > 0.0 && scene.grip <= 1.2) || !is_amount(scene.grip_sd)) {
-    return "grip is in (0, 1.2]";
+    return "grip is in (0, 1.2], its uncertainty in [0, 1e7]";
   }
   for (const Actor& actor : scene.actors) {
     if (const auto rule = broken_rule(actor)) {

@@ -72,7 +72,7 @@ constexpr std::size_t max_actors = 32;
 /// Everything SACA knows of one instant. Trivially copyable, fixed in size: it crosses between the
 /// planes by value.
 struct Scene {
-  double time = 0.0;  ///< simulated or recorded [s]
+  double time = 0.0;  ///< simulated or recorded, within 1e7 s of its start [s]
   EgoState ego;
   Footprint ego_footprint;
   double ego_mass = 0.0;  ///< [kg]
@@ -82,8 +82,9 @@ struct Scene {
   double grip_sd = 0.0;  ///< its standard deviation [-], >= 0
 };
 
-/// @return  the first rule of a scene that is broken, in words: finite numbers, sizes > 0, grip in
-///          range, names unique; nullopt when the scene can be used
+/// @return  the first rule of a scene that is broken, in words: numbers of what there is on roads,
+///          a time that is still exact enough, grip in range, names unique; nullopt when the scene
+///          can be used
 [[nodiscard]] std::optional<std::string_view> broken_rule(const Scene& scene);
 
 }  // namespace saca::world
