@@ -1,14 +1,18 @@
 #include "saca/decide/reflex_plane.h"
 
 #include <gtest/gtest.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "saca/decide/verdict_for_test.h"
 #include "saca/manoeuvre/atlas_for_test.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/scenes.h"
+#include "tests/support/system_calls.h"
 
 namespace saca::decide::reflex_plane_test {
 namespace {
@@ -252,11 +256,67 @@ TEST(ReflexPlane, LeavesABrokenSceneAside) {
   EXPECT_EQ(plane.step(broken).plan.policy, PolicyId::aeb);
 }
 
-TEST(ReflexPlane, AllocatesNothing) {
+/// As many as there may be, a wreck ahead.
+Scene crowd() {
   Scene crowded = slow_wreck_in(2.0);
   for (std::uint8_t id = 2; id <= world::max_actors; ++id) {
     crowded.actors.push_back(car(id, {30.0 + 6.0 * id, id % 2 == 0 ? 3.5 : -4.0}, {10.0, 0.3}));
   }
+  return crowded;
+}
+
+// The kernel itself says so: any other system call than to end the process would end it at once.
+TEST(ReflexPlane, MakesNoSystemCall) {
+  const std::string why = why_system_calls_cannot_be_forbidden();
+  if (!why.empty()) {
+    GTEST_SKIP() << why;
+  }
+  ReflexPlane asks_the_atlas(with_atlas());
+  ReflexPlane has_a_verdict(with_atlas());
+  const Scene crowded = crowd();
+  Scene now = crowded;
+  now.actors[0].X_WA.p.x -= 15.0;
+  Scene later = now;
+  later.time = 0.2;
+  const PlanCache plans = one_plan(now, PolicyId::aes_left);
+  const Verdict old = verdict_of(-1.0, {{PolicyId::aeb, 0.2}, {PolicyId::aes_left, 0.0}});
+  const Verdict fresh = verdict_of(0.0, {{PolicyId::aeb, 0.2}, {PolicyId::aes_left, 0.0}});
+  const Verdict newer = verdict_of(0.2, {{PolicyId::aeb, 0.0}, {PolicyId::aes_left, 0.2}});
+  const auto decides = [&](ReflexPlane& plane, const Verdict& verdict, bool by_atlas) {
+    plane.receive(plans);
+    plane.receive(verdict);
+    const bool waits = !plane.step(crowded).triggered;
+    const bool triggers = plane.step(now).triggered && plane.decision()->by_atlas == by_atlas;
+    plane.receive(newer);
+    (void)plane.step(later);  // supervised
+    return waits && triggers;
+  };
+  EXPECT_EXIT(
+      {
+        forbid_system_calls();
+        const bool is_right =
+            decides(asks_the_atlas, old, true) && decides(has_a_verdict, fresh, false);
+        ::_exit(is_right ? 0 : 3);
+      },
+      testing::ExitedWithCode(0), "");
+}
+
+TEST(SystemCalls, AreNoticedWhereTheyAreForbidden) {
+  const std::string why = why_system_calls_cannot_be_forbidden();
+  if (!why.empty()) {
+    GTEST_SKIP() << why;
+  }
+  EXPECT_EXIT(
+      {
+        forbid_system_calls();
+        (void)::getppid();
+        ::_exit(0);
+      },
+      testing::ExitedWithCode(1), "system call " + std::to_string(SYS_getppid));
+}
+
+TEST(ReflexPlane, AllocatesNothing) {
+  const Scene crowded = crowd();
   Scene now = crowded;
   now.actors[0].X_WA.p.x -= 15.0;
   now.actors[1] = car(2, {-12.0, 0.0}, {12.5, 0.0});  // follows
