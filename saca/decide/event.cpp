@@ -53,6 +53,10 @@ std::string plan_text(const manoeuvre::Plan& plan) {
   return text;
 }
 
+std::string trigger_text(const world::Actor& actor, double time) {
+  return fmt::format("T1: {:.2f} s to the conflict with {}", time, actor_name(actor));
+}
+
 std::string decision_text(const Decision& decision) {
   if (decision.source == Source::forced) {
     return "asked for by the user";
@@ -81,6 +85,10 @@ std::string decision_text(const Decision& decision) {
                             num_admissible(*decision.verdict), decision.verdict->plans.size());
 }
 
+std::string execution_text(const manoeuvre::Plan& plan, Source source) {
+  return fmt::format("policy {} ({})", plan_text(plan), name(source));
+}
+
 std::string switch_text(const Switch& change) {
   switch (change.reason) {
     case SwitchReason::needed_after_all:
@@ -93,6 +101,13 @@ std::string switch_text(const Switch& change) {
   }
   return fmt::format("going on is expected to harm {:.4f}, {} from here {:.4f}", change.harm_before,
                      plan_text(change.plan), change.harm);
+}
+
+Event events_not_told(double time, Plane plane, std::size_t count) {
+  return {
+      time, plane, EventKind::fault,
+      fmt::format("{} events or pieces of reasoning were not told: whoever listens was too slow",
+                  count)};
 }
 
 }  // namespace saca::decide

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -78,8 +79,17 @@ struct Preview {
 /// The policy's number and name, and the speed that it brakes to.
 [[nodiscard]] std::string plan_text(const manoeuvre::Plan& plan);
 
+/// Who set off the trigger.
+/// @param time  to the conflict [s]
+[[nodiscard]] std::string trigger_text(const world::Actor& actor, double time);
 /// Why this was decided, in one line.
 [[nodiscard]] std::string decision_text(const Decision& decision);
+/// What is carried out.
+[[nodiscard]] std::string execution_text(const manoeuvre::Plan& plan, Source source);
 [[nodiscard]] std::string switch_text(const Switch& change);
+
+/// Whoever listens was too slow: so many events, or pieces of what the model wrote, did not fit
+/// into the queue to it.
+[[nodiscard]] Event events_not_told(double time, Plane plane, std::size_t count);
 
 }  // namespace saca::decide

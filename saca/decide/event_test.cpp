@@ -14,5 +14,12 @@ TEST(Event, HasTheNamesOfTheFormat) {
   EXPECT_EQ(name(EventKind::fault), "fault");
 }
 
+TEST(Event, SaysHowManyWereNotTold) {
+  const Event event = events_not_told(2.5, Plane::thinking, 3);
+  EXPECT_EQ(event.kind, EventKind::fault);
+  EXPECT_EQ(event.time, 2.5);
+  EXPECT_EQ(event.text.substr(0, 8), "3 events");
+}
+
 }  // namespace
 }  // namespace saca::decide::event_test

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <utility>
 
 #include "saca/core/names.h"
 #include "saca/loop/closed_loop.h"
+#include "saca/loop/dispatcher.h"
 #include "saca/loop/recorded_driver.h"
 #include "saca/outcome/describe.h"
 #include "saca/preview/preview.h"
@@ -33,11 +35,8 @@ class Encounter {
         listener_(listener),
         stage_(stage_of(setup)),
         loop_(stage_),
-        planes_(planes_setup(setup),
-                {.event = [&listener](const Event& event) { listener.on_event(event); },
-                 .reasoning = [&listener](
-                                  std::int32_t preview,
-                                  std::string_view text) { listener.on_reasoning(preview, text); }},
+        dispatcher_(real() ? std::make_unique<Dispatcher>(listener) : nullptr),
+        planes_(planes_setup(setup), thinking_listener(),
                 static_cast<std::size_t>(setup.scenario->duration / ClosedLoop::step) + 2) {}
 
   Result<Record> play();
@@ -47,6 +46,7 @@ class Encounter {
   static Stage stage_of(const Setup& setup);
   static runtime::PlanesSetup planes_setup(const Setup& setup);
 
+  [[nodiscard]] runtime::Planes::Listener thinking_listener();
   void tell(Plane plane, EventKind kind, std::string text);
   [[nodiscard]] std::optional<Error> look();
   void wake();
@@ -61,6 +61,7 @@ class Encounter {
   Listener& listener_;
   Stage stage_;
   ClosedLoop loop_;
+  std::unique_ptr<Dispatcher> dispatcher_;  ///< at pace `real`; lives longer than who hands over
   runtime::Planes planes_;
   Record record_;
   Clock::Time start_{0};
@@ -93,9 +94,28 @@ runtime::PlanesSetup Encounter::planes_setup(const Setup& setup) {
           .clock = setup.clock};
 }
 
+runtime::Planes::Listener Encounter::thinking_listener() {
+  if (!real()) {
+    return {.event = [this](const Event& event) { listener_.on_event(event); },
+            .reasoning = [this](std::int32_t preview,
+                                std::string_view text) { listener_.on_reasoning(preview, text); }};
+  }
+  return {
+      .event =
+          [this](const Event& event) { dispatcher_->event(Dispatcher::Producer::thinking, event); },
+      .reasoning =
+          [this](std::int32_t preview, std::string_view text) {
+            dispatcher_->reasoning(preview, std::string(text));
+          }};
+}
+
 void Encounter::tell(Plane plane, EventKind kind, std::string text) {
   record_.events.push_back({loop_.time(), plane, kind, std::move(text)});
-  listener_.on_event(record_.events.back());
+  if (real()) {
+    dispatcher_->event(Dispatcher::Producer::driving, record_.events.back());
+  } else {
+    listener_.on_event(record_.events.back());
+  }
 }
 
 Result<Record> Encounter::play() {
@@ -111,9 +131,12 @@ Result<Record> Encounter::play() {
   }
   const std::string fault = planes_.finish();
   if (!fault.empty()) {
-    tell(Plane::thinking, EventKind::fault, "thinking ended: " + fault);
+    tell(Plane::thinking, EventKind::fault, "an exception ended a round of the " + fault);
   }
   conclude();
+  if (real()) {
+    dispatcher_->finish();
+  }
   return std::move(record_);
 }
 
@@ -181,15 +204,13 @@ void Encounter::execute(const preview::Threat& threat) {
   others_at_trigger_ = loop_.truth().others();
   // The plan stands; now it can be talked about.
   tell(Plane::reflex, EventKind::trigger,
-       fmt::format("T1: {:.2f} s to the conflict with {}", threat.time,
-                   actor_name(scene.actors[threat.actor])));
+       decide::trigger_text(scene.actors[threat.actor], threat.time));
   tell(Plane::reflex, EventKind::match, decision_text(*planes_.decision()));
   if (refused) {
     tell(Plane::reflex, EventKind::fault,
          decide::plan_text(wanted) + " cannot be driven: " + *refused);
   }
-  tell(Plane::reflex, EventKind::execute,
-       fmt::format("policy {} ({})", decide::plan_text(decision.plan), name(decision.source)));
+  tell(Plane::reflex, EventKind::execute, decide::execution_text(decision.plan, decision.source));
 }
 
 void Encounter::change(const decide::Switch& change) {

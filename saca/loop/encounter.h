@@ -15,6 +15,7 @@
 #include "saca/loop/danger_map.h"
 #include "saca/loop/hindsight.h"
 #include "saca/loop/intentions_seen.h"
+#include "saca/loop/listener.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/memory/store.h"
 #include "saca/outcome/harm.h"
@@ -44,24 +45,6 @@ struct Setup {
   std::optional<manoeuvre::PolicyId> forced;  ///< carried out at the trigger, whatever was thought
   std::optional<std::uint64_t> seed;          ///< of what is left to chance; nullopt: nothing is
   Clock* clock = nullptr;                     ///< real time
-};
-
-/// Hears the story while it happens. In pace `real` two threads call it.
-class Listener {
- public:
-  Listener() = default;
-  Listener(const Listener&) = delete;
-  Listener& operator=(const Listener&) = delete;
-  virtual ~Listener() = default;
-  virtual void on_event(const decide::Event& event) = 0;
-  virtual void on_reasoning(std::int32_t preview, std::string_view text) = 0;
-};
-
-/// Hears nothing.
-class Silence final : public Listener {
- public:
-  void on_event(const decide::Event&) override {}
-  void on_reasoning(std::int32_t, std::string_view) override {}
 };
 
 enum class Phase : std::uint8_t { recorded, driving, manoeuvre };
@@ -109,6 +92,10 @@ struct Record {
 
 /// Plays the encounter. The ego follows what the scenario gives until something threatens within
 /// T2; from there SACA drives.
+///
+/// At pace `real` nothing waits for the listener while the encounter lasts; in the end this returns
+/// when the listener has heard everything, so a listener that must not hold that up comes back by
+/// itself. What the listener throws is thrown again.
 /// @return  Error::Code::out_of_range when the scenario cannot be played with this car
 [[nodiscard]] Result<Record> run(const Setup& setup, Listener& listener);
 

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "saca/intent/shipped_model.h"
 #include "saca/loop/encounter.h"
@@ -27,22 +29,28 @@ reason::ScriptedReply slowly() {
   return reply;
 }
 
-/// Called by both threads.
-class Story final : public Listener {
+class Story : public Listener {
  public:
-  void on_event(const decide::Event& event) override {
-    const std::lock_guard guard(lock_);
-    events_.push_back(event);
-  }
-  void on_reasoning(std::int32_t, std::string_view text) override {
-    const std::lock_guard guard(lock_);
-    reasoning_ += text;
-  }
+  void on_event(const decide::Event& event) override { events_.push_back(event); }
+  void on_reasoning(std::int32_t, std::string_view text) override { reasoning_ += text; }
   std::vector<decide::Event> events_;
   std::string reasoning_;
+};
+
+/// Does not come back from its first event before the clock says so.
+class BlockedStory final : public Story {
+ public:
+  BlockedStory(const Clock& clock, double until) : clock_(clock), until_(until) {}
+  void on_event(const decide::Event& event) override {
+    while (clock_.now() < from_seconds(until_)) {
+      std::this_thread::yield();
+    }
+    Story::on_event(event);
+  }
 
  private:
-  std::mutex lock_;
+  const Clock& clock_;
+  double until_;  // [s]
 };
 
 Record played(const sim::Scenario& scenario, Clock& clock, Story& story) {
@@ -88,6 +96,24 @@ TEST(RealPace, TheModelsPlanIsReadyInTimeAndCarriedOut) {
   EXPECT_EQ(record.deadline_misses, 0);
   EXPECT_EQ(story.reasoning_.substr(0, 5), "left ");
   expect_a_true_story(story, record);
+}
+
+// From the first event on, which is T2, to half a second after the trigger, nobody hears anything.
+// Were it waited for, the world's time would stand still, and so would this test.
+TEST(RealPace, AListenerThatBlocksIsNotWaitedFor) {
+  const sim::Scenario scenario = wreck_on_wet_road(80.0, 7.0);
+  MeetingClock clock(3);  // this thread, the thinking one and the forecaster's
+  Story attentive;
+  const Record usual = played(scenario, clock, attentive);
+  MeetingClock anew(3);
+  BlockedStory blocked(anew, usual.decision.value().time + 0.5);
+  const Record record = played(scenario, anew, blocked);
+  EXPECT_EQ(record.decision->time, usual.decision->time);
+  EXPECT_EQ(record.decision->plan, usual.decision->plan);
+  EXPECT_EQ(record.result.harm, 0.0);
+  EXPECT_EQ(record.events.size(), usual.events.size());
+  expect_a_true_story(blocked, record);
+  EXPECT_EQ(blocked.reasoning_, attentive.reasoning_);
 }
 
 // On the machine's clock: what the planes share is theirs alone, which the thread sanitiser sees.
