@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 
 #include "saca/decide/verdict.h"
@@ -27,6 +28,10 @@ struct UnderWay {
   world::Road road;     ///< likewise
   double grip = 0.9;    ///< as it was believed then [-]
 };
+
+/// What makes verdicts: as Forecaster::judge. May throw.
+using Judge = std::function<Verdict(const world::Scene&, const intent::Beliefs&,
+                                    const std::optional<UnderWay>&)>;
 
 /// Draws of a verdict: with 16 the regret in closed loop is that with 64 (docs/results.md).
 constexpr std::size_t usual_draws = 16;

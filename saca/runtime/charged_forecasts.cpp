@@ -23,9 +23,8 @@ std::optional<decide::Verdict> ChargedForecasts::take(double now) {
     newest = rounds_.front();
     rounds_.pop_front();
   }
-  return newest
-             ? std::optional(forecaster_.judge(newest->scene, newest->beliefs, newest->under_way))
-             : std::nullopt;
+  return newest ? std::optional(judge_(newest->scene, newest->beliefs, newest->under_way))
+                : std::nullopt;
 }
 
 }  // namespace saca::runtime

@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <optional>
+#include <utility>
 
 #include "saca/decide/forecaster.h"
 #include "saca/decide/verdict.h"
@@ -19,8 +20,7 @@ constexpr double verdict_period = 0.05;
 class ChargedForecasts {
  public:
   /// @param cost  of one verdict [s], >= 0
-  ChargedForecasts(const decide::Forecaster& forecaster, double cost)
-      : forecaster_(forecaster), cost_(cost) {}
+  ChargedForecasts(decide::Judge judge, double cost) : judge_(std::move(judge)), cost_(cost) {}
 
   /// Begins a round unless the last one was begun less than a period ago, or is still worked on.
   void offer(const world::Scene& scene, const intent::Beliefs& beliefs,
@@ -40,7 +40,7 @@ class ChargedForecasts {
     return round.scene.time + cost_ <= now;
   }
 
-  decide::Forecaster forecaster_;
+  decide::Judge judge_;
   double cost_;
   std::deque<Round> rounds_;  ///< by time; what nobody can take any more is dropped
   double free_at_ = 0.0;      ///< [s]

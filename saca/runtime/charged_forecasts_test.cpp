@@ -21,11 +21,12 @@ class ChargedForecastsTest : public ::testing::Test {
 
   manoeuvre::Car car_ = manoeuvre::default_car();
   outcome::HarmModel harm_ = outcome::read_harm("data/harm.toml").value();
-  decide::Forecaster forecaster_{{.car = &car_, .harm = &harm_}, 1};
+  decide::Judge judge_ = [one = decide::Forecaster({.car = &car_, .harm = &harm_}, 1)](
+                             const auto&... seen) { return one.judge(seen...); };
 };
 
 TEST_F(ChargedForecastsTest, AVerdictIsHeldBackUntilItWouldBeReady) {
-  ChargedForecasts forecasts(forecaster_, 0.03);
+  ChargedForecasts forecasts(judge_, 0.03);
   offer_until(forecasts, 0.0);
   EXPECT_FALSE(forecasts.take(0.02).has_value());
   const auto verdict = forecasts.take(0.03);
@@ -35,14 +36,14 @@ TEST_F(ChargedForecastsTest, AVerdictIsHeldBackUntilItWouldBeReady) {
 }
 
 TEST_F(ChargedForecastsTest, TheNewestThatIsReadyIsTaken) {
-  ChargedForecasts forecasts(forecaster_, 0.03);
+  ChargedForecasts forecasts(judge_, 0.03);
   offer_until(forecasts, 1.0);  // rounds at 0, 0.05, ... 1.0
   EXPECT_NEAR(forecasts.take(1.0)->time, 0.95, 1e-9);
   EXPECT_NEAR(forecasts.take(1.04)->time, 1.0, 1e-9);
 }
 
 TEST_F(ChargedForecastsTest, ASlowForecasterBeginsFewerRounds) {
-  ChargedForecasts forecasts(forecaster_, 0.3);
+  ChargedForecasts forecasts(judge_, 0.3);
   offer_until(forecasts, 1.0);  // rounds at 0, 0.3, 0.6, 0.9
   EXPECT_NEAR(forecasts.take(1.0)->time, 0.6, 1e-9);
 }

@@ -26,6 +26,15 @@ decide::ReflexTools reflex_tools(const PlanesSetup& setup) {
   return tools;
 }
 
+PlanesSetup with_judge(PlanesSetup setup) {
+  if (!setup.judge) {
+    setup.judge = [forecaster = decide::Forecaster(setup.forecast)](const auto&... seen) {
+      return forecaster.judge(seen...);
+    };
+  }
+  return setup;
+}
+
 }  // namespace
 
 std::string_view name(Pace pace) {
@@ -33,15 +42,14 @@ std::string_view name(Pace pace) {
 }
 
 Planes::Planes(const PlanesSetup& setup, Listener listener, std::size_t looks)
-    : setup_(setup),
+    : setup_(with_judge(setup)),
       listener_(std::move(listener)),
       charged_model_(setup.model == nullptr
                          ? nullptr
                          : std::make_unique<ChargedModel>(*setup.model, setup.costs, *setup.clock,
                                                           simulated_clock_)),
       charged_(setup.costs.preview, simulated_clock_),
-      forecaster_(setup.forecast),
-      charged_forecasts_(forecaster_, setup.costs.verdict),
+      charged_forecasts_(setup_.judge, setup.costs.verdict),
       reflex_(reflex_tools(setup)),
       plane_(tools(), setup.thresholds, output()) {
   reflex_times_.reserve(looks);
@@ -150,7 +158,7 @@ void Planes::judge(const TimedScene& newest) {
   }
   if (newest.under_way || preview::previewed_threat(newest.scene, newest.beliefs,
                                                     setup_.forecast.motion, setup_.thresholds)) {
-    verdicts_.publish(forecaster_.judge(newest.scene, newest.beliefs, newest.under_way));
+    verdicts_.publish(setup_.judge(newest.scene, newest.beliefs, newest.under_way));
   }
 }
 
@@ -164,9 +172,10 @@ void Planes::think_of(std::uint32_t encounter) {
 
 std::string Planes::finish() {
   std::string fault;
-  for (WorkThread* const thread : {thinking_.get(), forecasting_.get()}) {
+  for (const auto& [thread, plane] : {std::pair(thinking_.get(), "thinking plane: "),
+                                      std::pair(forecasting_.get(), "forecaster: ")}) {
     const std::string thrown = thread == nullptr ? "" : thread->finish();
-    fault += thrown.empty() ? "" : (fault.empty() ? "" : "; ") + thrown;
+    fault += thrown.empty() ? "" : (fault.empty() ? "" : "; ") + (plane + thrown);
   }
   return fault;
 }

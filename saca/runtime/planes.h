@@ -39,6 +39,8 @@ struct PlanesSetup {
   memory::Store* memory = nullptr;         ///< nullptr: without
   decide::Guard guard = decide::Guard::never_worse_than_braking;
   decide::Asking asking;
+  decide::Judge judge;  ///< makes the verdicts, on a thread of its own at pace `real`; empty: a
+                        ///< decide::Forecaster
   std::optional<manoeuvre::Plan> forced;  ///< carried out at the trigger, whatever was thought
   Clock* clock = nullptr;                 ///< real time
 };
@@ -60,7 +62,7 @@ class Planes {
         [](std::int32_t, std::string_view) {};
   };
 
-  /// @param listener  hears the thinking plane; at pace `real` on its thread
+  /// @param listener  hears the thinking plane; at pace `real` on its thread, which waits for it
   /// @param looks     how often `step` will be called at most
   Planes(const PlanesSetup& setup, Listener listener, std::size_t looks);
   Planes(const Planes&) = delete;
@@ -82,8 +84,8 @@ class Planes {
   /// at its next scene. Waits for nobody.
   void begin_anew();
 
-  /// Ends thinking; `step` is not called any more.
-  /// @return  what was thrown there and ended it early; empty: nothing was
+  /// Ends thinking and forecasting; `step` is not called any more.
+  /// @return  what was thrown there first; it ended that round early. Empty: nothing was
   std::string finish();
 
   // Once finished, or in lockstep:
@@ -105,7 +107,6 @@ class Planes {
   ManualClock simulated_clock_;
   std::unique_ptr<ChargedModel> charged_model_;
   ChargedThinking charged_;
-  decide::Forecaster forecaster_;
   ChargedForecasts charged_forecasts_;
   decide::ReflexPlane reflex_;
   LatestSlot<TimedScene> scenes_;

@@ -2,9 +2,17 @@
 
 #include <gmock/gmock.h>
 
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+#include <vector>
+
 #include "saca/intent/shipped_model.h"
+#include "saca/manoeuvre/atlas_for_test.h"
 #include "saca/manoeuvre/default_car.h"
 #include "saca/reason/scripted_model.h"
+#include "tests/support/meeting_clock.h"
 #include "tests/support/scenes.h"
 
 namespace saca::runtime::planes_test {
@@ -38,14 +46,27 @@ class PlanesTest : public testing::Test {
   }
   [[nodiscard]] static decide::Decision decided(const PlanesSetup& setup) {
     Planes planes(setup, {}, 500);
+    return met(planes);
+  }
+  /// Drives up to the trigger, the scenes' time beginning at `start` [s].
+  static decide::Decision met(Planes& planes, double start = 0.0) {
     for (int k = 0; k < 450; ++k) {
-      const world::Scene scene = at(0.01 * k);
+      world::Scene scene = at(0.01 * k);
+      scene.time += start;
       const auto beliefs = intent::beliefs_at_sight(intent::shipped_model(), scene);
       if (planes.step(scene, beliefs, Clock::Time{0}, false).triggered) {
         break;
       }
     }
     return planes.decision().value();
+  }
+  /// The texts of all events of the thinking plane.
+  static std::string thoughts(const Planes& planes) {
+    std::string texts;
+    for (const decide::Event& event : planes.thinking_events()) {
+      texts += event.text + "\n";
+    }
+    return texts;
   }
   static reason::ScriptedReply says(PolicyId policy) {
     return {.lines = {{.text = "because", .answer = reason::Answer::Kind::first, .policy = policy}},
@@ -119,6 +140,149 @@ TEST_F(PlanesTest, WhatHasBegunAnewDecidesAgain) {
     EXPECT_EQ(planes.decision(), std::nullopt);
   }
   EXPECT_EQ(decisions, 2);
+}
+
+struct ModelFault {
+  const char* name;
+  reason::ScriptedReply reply;
+  const char* told;
+};
+
+// Whatever the model does, the verdict decides as without it, what happened is told, and in the
+// next encounter, in which the model answers, it is heard.
+TEST_F(PlanesTest, AModelThatFailsIsToldAndHeardTheNextTime) {
+  const auto without = decided(nullptr, decide::Guard::never_worse_than_braking);
+  const ModelFault faults[] = {
+      {"hangs", {}, "model: script: no answer in time"},
+      {"dies",
+       {.error = Error{Error::Code::unreadable, "the model's process has ended"}},
+       "model: the model's process has ended"},
+      {"answers 9",
+       {.error = Error{Error::Code::malformed, "want a policy from 0 to 7, got 9"}},
+       "model: want a policy from 0 to 7, got 9"},
+      {"lies",
+       {.lines = {{.text = "1. AES-R is clear by 17.5 m.",
+                   .answer = reason::Answer::Kind::ended,
+                   .policy = PolicyId::aes_right}},
+        .reply_tokens = 9},
+       "truth check failed"},
+      {"drives into the wreck", says(PolicyId::no_intervention), "rollout check failed"},
+  };
+  ManualClock real;  // of the model that hangs: the world waits
+  for (const ModelFault& fault : faults) {
+    SCOPED_TRACE(fault.name);
+    bool well = false;
+    reason::ScriptedModel model(
+        [&](const std::string&) { return well ? says(PolicyId::aes_left) : fault.reply; }, real);
+    PlanesSetup faulty = setup(&model, decide::Guard::never_worse_than_braking);
+    faulty.clock = &real;
+    Planes planes(faulty, {}, 1'000);
+    const decide::Decision decision = met(planes);
+    EXPECT_EQ(decision.plan, without.plan);
+    EXPECT_EQ(decision.source, decide::Source::arbiter);
+    EXPECT_EQ(decision.time, without.time);
+    EXPECT_THAT(thoughts(planes), testing::HasSubstr(fault.told));
+    well = true;
+    planes.begin_anew();
+    EXPECT_EQ(met(planes, 10.0).source, decide::Source::model);
+  }
+}
+
+// A token of the prompt takes 1 ms: the last answer that counts is there at the deadline, and one
+// that is there within the next millisecond is not heard.
+TEST_F(PlanesTest, AnAnswerThatIsOneMillisecondLateIsNotHeard) {
+  const auto answered_after = [&](int prompt_tokens) {
+    reason::ScriptedReply reply = says(PolicyId::aes_left);
+    reply.prompt_tokens = prompt_tokens;
+    reason::ScriptedModel model(reply, clock_);
+    Planes planes(setup(&model, decide::Guard::never_worse_than_braking), {}, 500);
+    const decide::Decision decision = met(planes);
+    return std::pair(decision, planes.previews().at(0).situation.scene_at_trigger.time);
+  };
+  constexpr double asked_at = 0.05;  // after the forecasts of the first round [s]
+  constexpr double margin = 0.05;    // before the forecast trigger [s]
+  const double trigger = answered_after(10).second;
+  const int most = static_cast<int>(std::floor((trigger - margin - asked_at) / 0.001));
+  EXPECT_EQ(answered_after(most).first.source, decide::Source::model);
+  EXPECT_EQ(answered_after(most + 1).first.source, decide::Source::arbiter);
+}
+
+/// 12.5 m/s on a dry road towards a wreck, which the small atlas knows, at pace `real`, on time
+/// that this thread, the thinking one and the forecaster's share.
+class ForecasterFaults : public PlanesTest {
+ protected:
+  /// Drives up to the trigger.
+  decide::Decision met(Planes& planes) {
+    const Clock::Time start = meeting_.now();
+    for (int k = 0; k < 250; ++k) {
+      const double time = 0.01 * k;
+      world::Scene scene = test::ego_at(12.5, manoeuvre::footprint(car_));
+      scene.time = to_seconds(start) + time;
+      scene.grip = 0.85;
+      scene.ego_mass = car_.mass;
+      scene.ego.X_WB.p.x = 12.5 * time;
+      scene.actors.push_back(test::car(1, {40.0, 0.0}));
+      const auto beliefs = intent::beliefs_at_sight(intent::shipped_model(), scene);
+      if (planes.step(scene, beliefs, meeting_.now(), false).triggered) {
+        break;
+      }
+      meeting_.wait_until(start + from_seconds(time + 0.01));
+    }
+    return planes.decision().value();
+  }
+  /// Two encounters: in the first the forecaster does this with every scene before it makes a
+  /// verdict, in the second it is well.
+  /// @return  what Planes::finish says
+  std::string expect_that_the_atlas_stands_in(const std::function<void()>& fault) {
+    const decide::Forecaster forecaster({.car = &car_, .harm = &harm_});
+    PlanesSetup faulty{
+        .forecast = {.car = &car_, .harm = &harm_, .atlas = &manoeuvre::small_atlas()},
+        .pace = Pace::real,
+        .judge =
+            [&](const auto&... seen) {
+              if (!well_) {
+                fault();
+              }
+              return forecaster.judge(seen...);
+            },
+        .clock = &meeting_};
+    Planes planes(faulty, {}, 1'000);
+    const decide::Decision decision = met(planes);
+    EXPECT_TRUE(decision.by_atlas);
+    EXPECT_EQ(decision.plan.policy, PolicyId::aeb);
+    EXPECT_THAT(decide::decision_text(decision), testing::HasSubstr("by the atlas"));
+    well_ = true;
+    meeting_.wait_until(meeting_.now() + from_seconds(1.0));  // what was begun comes to its end
+    planes.begin_anew();
+    const decide::Decision next = met(planes);
+    EXPECT_FALSE(next.by_atlas);
+    EXPECT_TRUE(next.verdict.has_value());
+    EXPECT_EQ(next.plan.policy, PolicyId::aeb);
+    return planes.finish();
+  }
+
+  MeetingClock meeting_{3};
+  std::atomic<bool> well_ = false;
+};
+
+TEST_F(ForecasterFaults, OneThatStandsStillIsNotWaitedFor) {
+  const auto stands_still = [&] {
+    while (!well_) {
+      meeting_.wait_until(meeting_.now() + from_seconds(0.1));
+    }
+  };
+  EXPECT_EQ(expect_that_the_atlas_stands_in(stands_still), "");
+}
+
+// A verdict takes 30 ms (data/thinking_costs.toml); ten times that is too old to be decided by.
+TEST_F(ForecasterFaults, OneThatIsTenTimesTooSlowIsNotWaitedFor) {
+  const auto is_slow = [&] { meeting_.wait_until(meeting_.now() + from_seconds(0.3)); };
+  EXPECT_EQ(expect_that_the_atlas_stands_in(is_slow), "");
+}
+
+TEST_F(ForecasterFaults, WhatOneThrowsIsToldInTheEnd) {
+  const auto throws = [] { throw std::runtime_error("a matrix is singular"); };
+  EXPECT_EQ(expect_that_the_atlas_stands_in(throws), "forecaster: a matrix is singular");
 }
 
 TEST_F(PlanesTest, NothingIsToldOfTimesBeforeTheFirstStep) {

@@ -36,11 +36,17 @@ void WorkThread::run(const std::stop_token& stop) {
     try {
       work_(*newest, stop);
     } catch (const std::exception& problem) {  // a bug there must not end the plane that drives
-      if (fault_.empty()) {
-        fault_ = problem.what();
-      }
+      note(problem.what());
+    } catch (...) {
+      note("something that says nothing of itself");
     }
     clock_.wait_until_or_stop(clock_.now() + breath_, stop);
+  }
+}
+
+void WorkThread::note(const std::string& fault) {
+  if (fault_.empty()) {
+    fault_ = fault;
   }
 }
 

@@ -45,6 +45,7 @@ class WorkThread {
 
  private:
   void run(const std::stop_token& stop);
+  void note(const std::string& fault);
 
   LatestSlot<TimedScene>& scenes_;
   Clock& clock_;

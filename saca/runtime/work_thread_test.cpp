@@ -91,6 +91,23 @@ TEST(WorkThread, DoesNotWaitForAModelWhenItEnds) {
 }
 
 // Whatever is thrown in one round: it is told, and the next round is worked.
+TEST(WorkThread, BeginsAnewAfterWhatIsNoException) {
+  MeetingClock clock(2);  // this thread and the working one
+  LatestSlot<TimedScene> scenes;
+  std::atomic<int> num_rounds{0};
+  WorkThread thread(scenes, clock, breath, [&](const TimedScene&, const std::stop_token&) {
+    ++num_rounds;
+    throw 7;  // NOLINT(hicpp-exception-baseclass): as others' code may
+  });
+  const Clock::Time give_up = clock.now() + std::chrono::seconds(30);
+  while (num_rounds < 2 && clock.now() < give_up) {
+    scenes.publish({});
+    clock.wait_until(clock.now() + 2 * breath);
+  }
+  EXPECT_GE(num_rounds, 2);
+  EXPECT_NE(thread.finish(), "");
+}
+
 TEST(WorkThread, BeginsAnewAfterAFault) {
   MeetingClock clock(2);  // this thread and the working one
   LatestSlot<TimedScene> scenes;
