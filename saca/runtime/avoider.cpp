@@ -18,7 +18,11 @@ const AvoiderSetup& complete(const AvoiderSetup& setup) {
 }  // namespace
 
 Avoider::Avoider(const AvoiderSetup& setup)
-    : setup_(complete(setup)), observer_(*setup.intent), planes_(setup.planes, {}, 0) {}
+    : setup_(complete(setup)),
+      observer_(*setup.intent),
+      events_(most_events),
+      planes_(setup.planes,
+              {.event = [this](const decide::Event& event) { events_.thought(event); }}, 0) {}
 
 Answer Avoider::step(const world::Scene& scene, Clock::Time at) {
   return answer(intake_.take(scene), at);
@@ -30,6 +34,7 @@ Answer Avoider::step(double now, Clock::Time at) {
 
 Answer Avoider::answer(const runtime::Taken& taken, Clock::Time at) {
   Answer answer{.plan = plan_, .degraded = taken.degraded};
+  remark_on(taken);
   if (!taken.usable) {
     return answer;  // what is under way goes on
   }
@@ -46,9 +51,31 @@ Answer Avoider::answer(const runtime::Taken& taken, Clock::Time at) {
   if (answer.begins) {
     begin(reflex.plan, scene);
   }
+  if (reflex.triggered) {
+    events_.triggered(*planes_.decision(), scene.actors[reflex.threat->actor], reflex.threat->time,
+                      plan_.value_or(manoeuvre::doing_nothing));
+  } else if (reflex.switched) {
+    events_.switched(scene.time, *reflex.switched);
+  }
   look_for_the_end(scene, answer);
   answer.plan = plan_;
   return answer;
+}
+
+void Avoider::remark_on(const runtime::Taken& taken) {
+  using runtime::Remark;
+  const double time = intake_.scene().time;
+  if (taken.new_drive && watches_) {
+    events_.remark(time, Remark::new_drive);
+  }
+  watches_ = watches_ || taken.usable;
+  const Remark now = !taken.usable    ? Remark::unusable
+                     : taken.degraded ? Remark::degraded
+                                      : Remark::seen_again;
+  if (now != perception_) {
+    events_.remark(time, now);
+    perception_ = now;
+  }
 }
 
 void Avoider::begin(const manoeuvre::Plan& plan, const world::Scene& scene) {
@@ -78,6 +105,7 @@ void Avoider::look_for_the_end(const world::Scene& scene, const Answer& answer) 
   if (scene.time >= *quiet_ + quiet_time) {
     begin_anew();
     ++num_encounters_;
+    events_.remark(scene.time, runtime::Remark::encounter_over);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "saca/intent/observer.h"
 #include "saca/manoeuvre/controller.h"
 #include "saca/preview/threat.h"
+#include "saca/runtime/event_log.h"
 #include "saca/runtime/intake.h"
 #include "saca/runtime/planes.h"
 #include "saca/vehicle/vehicle.h"
@@ -62,6 +63,14 @@ class Avoider {
   /// @return       nothing to steer or brake, where there is no plan
   [[nodiscard]] vehicle::Command control(const vehicle::VehicleState& state, double dt) noexcept;
 
+  /// The oldest event that has not been asked for: what was decided, begun, thought and not seen,
+  /// in words, for a log. nullopt: there is none now.
+  ///
+  /// For one thread, this one or another, which may take its time: no other waits for it. What does
+  /// not fit meanwhile (`most_events`) is counted, and told as an event.
+  [[nodiscard]] std::optional<decide::Event> next_event() { return events_.next(); }
+  static constexpr std::size_t most_events = 256;  ///< that wait, of either thread
+
   /// The last decision at a trigger, of this encounter; nullopt: none yet.
   [[nodiscard]] const std::optional<decide::Decision>& decision() const {
     return planes_.decision();
@@ -69,12 +78,13 @@ class Avoider {
   /// How many encounters have ended.
   [[nodiscard]] std::size_t num_encounters() const { return num_encounters_; }
 
-  /// Ends thinking; `step` is not called any more.
-  /// @return  what was thrown there; empty: nothing was
+  /// Ends thinking and forecasting; `step` is not called any more.
+  /// @return  as Planes::finish
   std::string finish() { return planes_.finish(); }
 
  private:
   [[nodiscard]] Answer answer(const runtime::Taken& taken, Clock::Time at);
+  void remark_on(const runtime::Taken& taken);
   void begin(const manoeuvre::Plan& plan, const world::Scene& scene);
   void begin_anew();
   void look_for_the_end(const world::Scene& scene, const Answer& answer);
@@ -82,12 +92,15 @@ class Avoider {
   AvoiderSetup setup_;
   runtime::Intake intake_;
   intent::Observer observer_;
+  runtime::EventLog events_;
   runtime::Planes planes_;
   std::optional<manoeuvre::Plan> plan_;
   manoeuvre::ControllerState controller_;
-  world::Road road_;             ///< where the plan began
-  double grip_ = 0.9;            ///< as believed at the last look [-]
-  bool finished_ = false;        ///< the plan has reached its safe end
+  world::Road road_;       ///< where the plan began
+  double grip_ = 0.9;      ///< as believed at the last look [-]
+  bool finished_ = false;  ///< the plan has reached its safe end
+  runtime::Remark perception_ = runtime::Remark::seen_again;  ///< as last told
+  bool watches_ = false;         ///< a scene has come that could be used
   bool meets_somebody_ = false;  ///< somebody has threatened since the last encounter
   std::optional<double> quiet_;  ///< since when nobody has threatened and nothing is under way [s]
   std::size_t num_encounters_ = 0;

@@ -1,8 +1,17 @@
 #include "saca/runtime/avoider.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <limits>
+#include <numbers>
+#include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "saca/core/contract.h"
@@ -11,12 +20,42 @@
 #include "saca/manoeuvre/ego.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/scenes.h"
+#include "tests/support/system_calls.h"
 
 namespace saca::avoider_test {
 namespace {
 
 using manoeuvre::PolicyId;
+using testing::HasSubstr;
+using testing::Test;
+using world::Actor;
 using world::Scene;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// One of the paper's eight policies with the parameter that belongs to it, and a threat of those
+/// that there may be.
+void expect_valid(const Answer& answer) {
+  if (answer.plan) {
+    EXPECT_LT(manoeuvre::index(answer.plan->policy), manoeuvre::num_policies);
+    EXPECT_EQ(answer.plan->target_speed.has_value(),
+              manoeuvre::brakes_to_speed(answer.plan->policy));
+    EXPECT_GE(answer.plan->target_speed.value_or(0.0), 0.0);
+  }
+  if (answer.threat) {
+    EXPECT_LT(answer.threat->actor, world::max_actors);
+    EXPECT_GE(answer.threat->time, 0.0);
+  }
+}
+
+/// The texts of all events that wait.
+std::string events(Avoider& avoider) {
+  std::string texts;
+  while (const auto event = avoider.next_event()) {
+    texts += event->text + "\n";
+  }
+  return texts;
+}
 
 /// A car with an avoider on a road of three lanes, its vehicle model driven by it.
 class Drive {
@@ -39,10 +78,17 @@ class Drive {
 
   /// One instant of 10 ms; actors go on evenly.
   Answer step() {
-    const Answer answer = avoider_.step(scene_);
+    return step([this] { return avoider_.step(scene_); });
+  }
+  /// Likewise, where perception delivers something else than the scene.
+  template <class Perceive>
+  Answer step(const Perceive& perceive) {
+    const Answer answer = perceive();
+    expect_valid(answer);
     constexpr double dt = 0.001;
     for (int k = 0; k < 10; ++k) {
       const vehicle::Command command = avoider_.control(state_, dt);
+      EXPECT_TRUE(std::isfinite(command.steering));
       state_ = vehicle::step(car_, state_, command, scene_.grip, dt);
     }
     scene_.time += 0.01;
@@ -166,6 +212,308 @@ TEST(Avoider, WhateverComesInTheAnswerIsValid) {
   EXPECT_TRUE(begun);
 }
 
+TEST(Avoider, TellsWhatItDid) {
+  Drive drive(12.0);
+  drive.scene().actors.push_back(test::car(1, {40.0, 0.0}));
+  for (int k = 0; k < 300; ++k) {
+    (void)drive.step();
+  }
+  std::vector<decide::Event> driving;
+  std::size_t num_thoughts = 0;
+  while (auto event = drive.avoider().next_event()) {
+    if (event->plane == decide::Plane::thinking) {
+      ++num_thoughts;
+    } else {
+      driving.push_back(*std::move(event));
+    }
+  }
+  EXPECT_GT(num_thoughts, 0U);
+  ASSERT_GE(driving.size(), 3U);
+  EXPECT_EQ(driving[0].kind, decide::EventKind::trigger);
+  EXPECT_THAT(driving[0].text, HasSubstr("car1"));
+  EXPECT_EQ(driving[1].text, decision_text(drive.avoider().decision().value()));
+  EXPECT_EQ(driving[2].text, "policy 0 AEB (arbiter)");
+}
+
+// Nobody ever reads: the oldest events wait, the number of the others is told, and it goes on.
+TEST(Avoider, DoesNotWaitForWhoReadsItsEvents) {
+  Drive drive(12.0);
+  Scene& scene = drive.scene();
+  scene.actors.push_back(test::car(1, {500.0, 0.0}));
+  for (int k = 0; k < 600; ++k) {  // every other scene is broken: 599 changes are remarked on
+    (void)drive.step([&] {
+      Scene seen = scene;
+      seen.actors[0].v_W.x = k % 2 == 0 ? nan : 0.0;
+      return drive.avoider().step(seen);
+    });
+  }
+  const std::string texts = events(drive.avoider());
+  EXPECT_EQ(std::count(texts.begin(), texts.end(), '\n'), 256 + 1);
+  EXPECT_THAT(texts, HasSubstr(std::to_string(600 - 256) + " events"));
+}
+
+/// Something wrong with what perception delivers for half a second.
+struct PerceptionFault {
+  const char* name;
+  std::function<Answer(Avoider&, const Scene& truth, const Scene& last)> deliver;
+  const char* told;  ///< in an event
+};
+
+const std::vector<PerceptionFault>& perception_faults() {
+  const auto with = [](auto&& spoil) {
+    return [spoil](Avoider& avoider, const Scene& truth, const Scene& last) {
+      Scene scene = truth;
+      spoil(scene, last);
+      return avoider.step(scene);
+    };
+  };
+  static const std::vector<PerceptionFault> all{
+      {"nothing comes",
+       [](Avoider& avoider, const Scene& truth, const Scene&) { return avoider.step(truth.time); },
+       "everything is carried on"},
+      {"the last scene again",
+       [](Avoider& avoider, const Scene&, const Scene& last) { return avoider.step(last); },
+       "policy 0 AEB"},
+      {"time goes back", with([](Scene& scene, const Scene&) { scene.time -= 0.3; }),
+       "no scene to decide by"},
+      {"time jumps ahead and back", with([](Scene& scene, const Scene&) {
+         scene.time += std::lround(100.0 * scene.time) % 2 == 0 ? 20.0 : 0.0;
+       }),
+       "a new drive begins"},
+      {"a road user is not a number",
+       with([](Scene& scene, const Scene&) { scene.actors[0].X_WA.p.x = nan; }),
+       "carried on instead of seen"},
+      {"the ego is not a number", with([](Scene& scene, const Scene&) { scene.ego.v_B.x = nan; }),
+       "carried on instead of seen"},
+      {"everything is not a number", with([](Scene& scene, const Scene&) {
+         scene.time = nan;
+         scene.grip = nan;
+       }),
+       "carried on instead of seen"},
+      {"the most that fit", with([](Scene& scene, const Scene&) {
+         for (std::uint8_t id = 3; !scene.actors.full(); ++id) {
+           scene.actors.push_back(test::car(id, {300.0 + 10.0 * id, 60.0}));
+         }
+       }),
+       "policy 0 AEB"},
+      {"others than before, the most that fit", with([](Scene& scene, const Scene&) {
+         scene.actors[1].mass = nan;  // cannot be used, and is carried on only where there is room
+         for (std::uint8_t id = 3; !scene.actors.full(); ++id) {
+           const auto many = static_cast<std::uint8_t>(id + std::lround(100.0 * scene.time) % 200);
+           scene.actors.push_back(test::car(many, {300.0 + 10.0 * id, 60.0}));
+         }
+       }),
+       "carried on instead of seen"},
+      {"two names are swapped", with([](Scene& scene, const Scene&) {
+         if (std::lround(100.0 * scene.time) % 2 == 0) {
+           std::swap(scene.actors[0].id, scene.actors[1].id);
+         }
+       }),
+       "policy 0 AEB"},
+  };
+  return all;
+}
+
+// At 12 m/s towards a wreck, somebody beside in the same direction. Half a second of fault begins
+// well before T1, or spans it. The car stops before the wreck either way: full braking takes 9.5 m,
+// deployed at most 12 % more (docs/architecture.md), and 0.5 s after T1 there are
+// (1.3 - 0.5) * 12 = 9.6 m and half a metre of what "conflict" has in hand; what is carried on
+// triggers in time.
+TEST(Avoider, OutlivesWhatPerceptionDoesForHalfASecond) {
+  for (const double begins : {2.4, 1.5}) {  // time to the conflict [s]
+    for (const PerceptionFault& fault : perception_faults()) {
+      SCOPED_TRACE(std::string(fault.name) + " from " + std::to_string(begins) + " s before on");
+      Drive drive(12.0);
+      Scene& scene = drive.scene();
+      scene.actors.push_back(test::car(1, {45.0, 0.0}));
+      scene.actors.push_back(test::car(2, {3.0, 3.5}, {12.0, 0.0}));
+      const double conflict = (45.0 - 2.25 - 2.35) / 12.0;  // from bumper to bumper [s]
+      const double first = conflict - begins;
+      Scene last = scene;
+      int num_begun = 0;
+      std::optional<manoeuvre::Plan> plan;
+      for (int k = 0; k < 700; ++k) {
+        const bool is_wrong = scene.time >= first && scene.time < first + 0.5;
+        const Answer answer =
+            is_wrong ? drive.step([&] { return fault.deliver(drive.avoider(), scene, last); })
+                     : drive.step();
+        if (!is_wrong) {
+          last = scene;
+        }
+        num_begun += answer.begins ? 1 : 0;
+        plan = answer.plan ? answer.plan : plan;
+      }
+      EXPECT_GE(num_begun, 1);
+      EXPECT_EQ(plan.value().policy, PolicyId::aeb);
+      EXPECT_LT(norm(scene.ego.v_B), 0.1);
+      EXPECT_LT(scene.ego.X_WB.p.x + 2.35, 45.0 - 2.25) << "they touch";
+      EXPECT_THAT(events(drive.avoider()), HasSubstr(fault.told));
+      EXPECT_FALSE(drive.step().degraded) << "it is over";
+    }
+  }
+}
+
+/// Stands still whoever waits.
+class StoppedClock final : public Clock {
+ public:
+  [[nodiscard]] Time now() const noexcept override { return Time{0}; }
+  void wait_until(Time) noexcept override { std::this_thread::yield(); }
+};
+
+// No thread beside ever comes to work on anything; the driving one decides as if there were none.
+TEST(Avoider, BrakesWhereTheClockStandsStill) {
+  const manoeuvre::Car car = manoeuvre::default_car();
+  const auto harm = outcome::read_harm("data/harm.toml").value();
+  StoppedClock clock;
+  Avoider avoider(
+      {.planes = {.forecast = {&car, &harm}, .pace = runtime::Pace::real, .clock = &clock},
+       .intent = &intent::shipped_model()});
+  Scene scene = test::ego_at(12.0, manoeuvre::footprint(car));
+  scene.ego_mass = car.mass;
+  scene.actors.push_back(test::car(1, {30.0, 0.0}));
+  Answer answer;
+  for (int k = 0; k < 300 && !answer.begins; ++k) {
+    answer = avoider.step(scene, clock.now());
+    scene.time += 0.01;
+    scene.ego.X_WB.p.x += 0.12;
+  }
+  EXPECT_EQ(answer.plan, manoeuvre::full_braking);
+  EXPECT_EQ(avoider.finish(), "");
+  EXPECT_THAT(events(avoider), HasSubstr("T1: 1.3"));
+}
+
+/// A number of a scene, and what it may be.
+struct Field {
+  const char* name;
+  double least;
+  double most;
+  std::function<double&(Scene&)> of;
+};
+
+double& given(std::optional<double>& number) {
+  return number ? *number : number.emplace(0.0);
+}
+
+/// Every number of a scene with a road user in it, with the bounds of world::broken_rule.
+std::vector<Field> fields() {
+  constexpr double any = std::numeric_limits<double>::max();
+  constexpr double tiny = std::numeric_limits<double>::denorm_min();
+  constexpr double right_angle = 0.5 * std::numbers::pi;
+  const auto actor = [](auto&& of) {
+    return [of](Scene& scene) -> double& { return of(scene.actors[0]); };
+  };
+  return {
+      {"time", -1e7, 1e7, [](Scene& s) -> double& { return s.time; }},
+      {"ego x", -1e7, 1e7, [](Scene& s) -> double& { return s.ego.X_WB.p.x; }},
+      {"ego y", -1e7, 1e7, [](Scene& s) -> double& { return s.ego.X_WB.p.y; }},
+      {"ego yaw", -any, any, [](Scene& s) -> double& { return s.ego.X_WB.yaw; }},
+      {"ego v x", -200.0, 200.0, [](Scene& s) -> double& { return s.ego.v_B.x; }},
+      {"ego v y", -200.0, 200.0, [](Scene& s) -> double& { return s.ego.v_B.y; }},
+      {"ego yaw rate", -100.0, 100.0, [](Scene& s) -> double& { return s.ego.yaw_rate; }},
+      {"ego a x", -1e3, 1e3, [](Scene& s) -> double& { return s.ego.a_B.x; }},
+      {"ego a y", -1e3, 1e3, [](Scene& s) -> double& { return s.ego.a_B.y; }},
+      {"ego length", 1e-3, 1e3, [](Scene& s) -> double& { return s.ego_footprint.length; }},
+      {"ego width", 1e-3, 1e3, [](Scene& s) -> double& { return s.ego_footprint.width; }},
+      {"ego centre", -1e3, 1e3, [](Scene& s) -> double& { return s.ego_footprint.centre_x; }},
+      {"ego mass", 1e-3, 1e7, [](Scene& s) -> double& { return s.ego_mass; }},
+      {"grip", tiny, 1.2, [](Scene& s) -> double& { return s.grip; }},
+      {"grip sd", 0.0, 1e7, [](Scene& s) -> double& { return s.grip_sd; }},
+      {"road x", -1e7, 1e7, [](Scene& s) -> double& { return s.road.X_WL.p.x; }},
+      {"road y", -1e7, 1e7, [](Scene& s) -> double& { return s.road.X_WL.p.y; }},
+      {"road yaw", -any, any, [](Scene& s) -> double& { return s.road.X_WL.yaw; }},
+      {"curvature", -1.0, 1.0, [](Scene& s) -> double& { return s.road.curvature; }},
+      {"lane width", 1e-3, 1e3, [](Scene& s) -> double& { return s.road.lane_width; }},
+      {"left edge", tiny, 1e7, [](Scene& s) -> double& { return s.road.left_edge; }},
+      {"right edge", -1e7, -tiny, [](Scene& s) -> double& { return s.road.right_edge; }},
+      {"x", -1e7, 1e7, actor([](Actor& a) -> double& { return a.X_WA.p.x; })},
+      {"y", -1e7, 1e7, actor([](Actor& a) -> double& { return a.X_WA.p.y; })},
+      {"yaw", -any, any, actor([](Actor& a) -> double& { return a.X_WA.yaw; })},
+      {"v x", -200.0, 200.0, actor([](Actor& a) -> double& { return a.v_W.x; })},
+      {"v y", -200.0, 200.0, actor([](Actor& a) -> double& { return a.v_W.y; })},
+      {"a x", -1e3, 1e3, actor([](Actor& a) -> double& { return a.a_W.x; })},
+      {"a y", -1e3, 1e3, actor([](Actor& a) -> double& { return a.a_W.y; })},
+      {"yaw rate", -100.0, 100.0, actor([](Actor& a) -> double& { return a.yaw_rate; })},
+      {"length", 1e-3, 1e3, actor([](Actor& a) -> double& { return a.footprint.length; })},
+      {"width", 1e-3, 1e3, actor([](Actor& a) -> double& { return a.footprint.width; })},
+      {"centre", -1e3, 1e3, actor([](Actor& a) -> double& { return a.footprint.centre_x; })},
+      {"mass", 1e-3, 1e7, actor([](Actor& a) -> double& { return a.mass; })},
+      {"position sd", 0.0, 1e7, actor([](Actor& a) -> double& { return a.position_sd; })},
+      {"velocity sd", 0.0, 1e7, actor([](Actor& a) -> double& { return a.velocity_sd; })},
+      {"existence", 0.0, 1.0, actor([](Actor& a) -> double& { return a.existence; })},
+      {"age", 0.0, 1e7, actor([](Actor& a) -> double& { return a.age; })},
+      {"steering", -right_angle, right_angle,
+       actor([](Actor& a) -> double& { return given(a.shared.steering); })},
+      {"throttle", 0.0, 1.0, actor([](Actor& a) -> double& { return given(a.shared.throttle); })},
+      {"brake", 0.0, 1.0, actor([](Actor& a) -> double& { return given(a.shared.brake); })},
+  };
+}
+
+using Spoil = std::function<void(Scene&)>;
+
+/// At 12 m/s good scenes towards a wreck, then, from this time to the conflict [s] on, one scene
+/// spoilt in each of these ways, with thinking and forecasts; then good ones. Whatever they were,
+/// the answers are valid, nothing is thrown, it is decided, and in the end the car stands. What
+/// breaks a rule does not even make it brake later: it stops before the wreck. (What breaks none is
+/// believed while it is seen.)
+void expect_to_outlive(const std::vector<Spoil>& spoils, double begins) {
+  Drive drive(12.0);
+  Scene& scene = drive.scene();
+  scene.actors.push_back(test::car(1, {26.0, 0.0}));
+  const double conflict = (26.0 - 2.25 - 2.35) / 12.0;  // [s]
+  auto next = spoils.begin();
+  bool all_break_a_rule = true;
+  bool begun = false;
+  Answer answer;
+  while (!(begun && next == spoils.end() && norm(scene.ego.v_B) < 0.1) && scene.time < 6.0) {
+    const bool is_spoilt = scene.time > conflict - begins && next != spoils.end();
+    answer = is_spoilt ? drive.step([&] {
+      Scene spoilt = scene;
+      (*next++)(spoilt);
+      all_break_a_rule = all_break_a_rule && world::broken_rule(spoilt).has_value();
+      return drive.avoider().step(spoilt);
+    })
+                       : drive.step();
+    begun = begun || answer.begins;
+  }
+  EXPECT_TRUE(begun);
+  EXPECT_FALSE(drive.step().degraded);
+  EXPECT_LT(norm(scene.ego.v_B), 0.1);
+  if (all_break_a_rule) {
+    EXPECT_LT(scene.ego.X_WB.p.x + 2.35, 26.0 - 2.25) << "they touch";
+  }
+}
+
+TEST(Avoider, OutlivesTheBoundsOfEveryNumber) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const Field& field : fields()) {
+    SCOPED_TRACE(field.name);
+    const auto set_to = [&](double value) {
+      return Spoil([&field, value](Scene& scene) { field.of(scene) = value; });
+    };
+    const std::vector<Spoil> within{set_to(field.least), set_to(field.most)};
+    const std::vector<Spoil> beyond{set_to(std::nextafter(field.least, -infinity)),
+                                    set_to(std::nextafter(field.most, infinity)), set_to(nan),
+                                    set_to(infinity), set_to(-infinity)};
+    ASSERT_NO_THROW(expect_to_outlive(beyond, 1.6));
+    ASSERT_NO_THROW(expect_to_outlive(within, 1.6));
+    ASSERT_NO_THROW(expect_to_outlive(within, 1.2));  // braking is under way
+  }
+}
+
+TEST(Avoider, OutlivesWhatIsNoKindShapeOrName) {
+  std::vector<Spoil> all;
+  for (const std::uint8_t odd : {std::uint8_t{0}, std::uint8_t{6}, std::uint8_t{255}}) {
+    all.insert(all.end(), {[odd](Scene& s) { s.actors[0].id = odd; },
+                           [odd](Scene& s) { s.actors[0].kind = world::ActorKind{odd}; },
+                           [odd](Scene& s) { s.actors[0].footprint.shape = world::Shape{odd}; },
+                           [odd](Scene& s) { s.ego_footprint.shape = world::Shape{odd}; },
+                           [odd](Scene& s) { s.road.topology = world::Topology{odd}; },
+                           [odd](Scene& s) { s.road.left_beyond = world::Beyond{odd}; }});
+  }
+  ASSERT_NO_THROW(expect_to_outlive(all, 1.6));
+  ASSERT_NO_THROW(expect_to_outlive(all, 1.2));
+}
+
 // At pace `real` nothing that is done on the driving thread takes memory.
 TEST(Avoider, AllocatesNothingOnTheDrivingThread) {
   const manoeuvre::Car car = manoeuvre::default_car();
@@ -189,6 +537,37 @@ TEST(Avoider, AllocatesNothingOnTheDrivingThread) {
   EXPECT_EQ(num_allocations, before);
   EXPECT_TRUE(begun);
   EXPECT_EQ(avoider.finish(), "");
+}
+
+// Nor does any of it ask the system for anything: so says the kernel, which would end the process.
+TEST(Avoider, MakesNoSystemCallOnTheDrivingThread) {
+  const std::string why = why_system_calls_cannot_be_forbidden();
+  if (!why.empty()) {
+    GTEST_SKIP() << why;
+  }
+  const manoeuvre::Car car = manoeuvre::default_car();
+  const auto harm = outcome::read_harm("data/harm.toml").value();
+  Scene scene = test::ego_at(12.0, manoeuvre::footprint(car));
+  scene.ego_mass = car.mass;
+  scene.actors.push_back(test::car(1, {40.0, 0.0}));
+  const vehicle::VehicleState state = manoeuvre::rolling_state(car, scene.ego, scene.grip);
+  EXPECT_EXIT(
+      {
+        SteadyClock clock;
+        Avoider avoider(
+            {.planes = {.forecast = {&car, &harm}, .pace = runtime::Pace::real, .clock = &clock},
+             .intent = &intent::shipped_model()});
+        forbid_system_calls();
+        bool begun = false;
+        for (int k = 0; k < 300; ++k) {
+          begun = avoider.step(scene, clock.now()).begins || begun;
+          (void)avoider.control(state, 0.001);
+          scene.time += 0.01;
+          scene.ego.X_WB.p.x += 0.12;
+        }
+        ::_exit(begun ? 0 : 3);
+      },
+      testing::ExitedWithCode(0), "");
 }
 
 TEST(Avoider, NeedsWhatItIsMadeOf) {

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <type_traits>
+#include <variant>
+
+#include "saca/core/spsc_queue.h"
+#include "saca/decide/event.h"
+#include "saca/decide/reflex_plane.h"
+#include "saca/manoeuvre/plan.h"
+#include "saca/world/scene.h"
+
+namespace saca::runtime {
+
+/// What is told of an avoider besides its decisions.
+enum class Remark : std::uint8_t {
+  encounter_over,  ///< the next one finds nothing of it
+  new_drive,       ///< the scenes' time jumped: what was known is forgotten
+  degraded,        ///< from now on somebody or everything is carried on instead of seen
+  unusable,        ///< from now on there is no scene to decide by
+  seen_again,      ///< neither holds any more
+};
+
+/// Events of an avoider, from the threads in which they happen to one that has the time to read
+/// them. The driving thread hands over numbers, of which the reading thread makes text.
+///
+/// The queues are bounded. What does not fit is counted; whoever has read what did fit is told one
+/// event that says how many it was not told.
+class EventLog {
+ public:
+  /// @param capacity  of each of the two queues, >= 1
+  explicit EventLog(std::size_t capacity);
+
+  // The driving thread. These neither wait nor allocate.
+
+  /// @param by    who set it off
+  /// @param left  to the conflict [s]
+  /// @param plan  what is carried out; another than decided where that cannot be driven
+  void triggered(const decide::Decision& decision, const world::Actor& by, double left,
+                 const manoeuvre::Plan& plan) noexcept;
+  /// @param time  [s], in the scene's time
+  void switched(double time, const decide::Switch& change) noexcept;
+  void remark(double time, Remark remark) noexcept;
+
+  // The thinking thread. It does not wait.
+  void thought(decide::Event event) noexcept;
+
+  /// The reading thread: the oldest event of the driving thread, else of the thinking one, that has
+  /// not been read; nullopt: there is none now.
+  [[nodiscard]] std::optional<decide::Event> next();
+
+ private:
+  struct Triggered {
+    decide::Decision decision;
+    world::Actor by;
+    double left = 0.0;  ///< [s]
+    manoeuvre::Plan plan;
+  };
+  struct Notice {
+    double time = 0.0;  ///< [s]
+    std::variant<Remark, Triggered, decide::Switch> what;
+  };
+  static_assert(std::is_trivially_copyable_v<Notice>);
+
+  void add_events_of(const Notice& notice);
+  [[nodiscard]] std::optional<decide::Event> rejected(decide::Plane plane, std::size_t count,
+                                                      std::size_t& told) const;
+
+  SpscQueue<Notice> notices_;
+  SpscQueue<decide::Event> thoughts_;
+  // The reading thread's own:
+  std::deque<decide::Event> read_;  ///< of the last notice
+  double time_ = 0.0;               ///< of the last event [s]
+  std::size_t notices_rejected_told_ = 0;
+  std::size_t thoughts_rejected_told_ = 0;
+};
+
+}  // namespace saca::runtime
