@@ -1,5 +1,7 @@
 #include "saca/runtime/avoider.h"
 
+#include <cmath>
+
 #include "saca/core/contract.h"
 #include "saca/manoeuvre/drive.h"
 
@@ -89,6 +91,7 @@ void Avoider::begin(const manoeuvre::Plan& plan, const world::Scene& scene) {
   plan_ = can_be_driven ? plan : manoeuvre::full_braking;
   road_ = scene.road;
   controller_ = manoeuvre::begin(*setup_.planes.forecast.car, *plan_, scene);
+  steered_ = false;
 }
 
 void Avoider::look_for_the_end(const world::Scene& scene, const Answer& answer) {
@@ -122,6 +125,11 @@ vehicle::Command Avoider::control(const vehicle::VehicleState& state, double dt)
     return {};
   }
   const manoeuvre::Car& car = *setup_.planes.forecast.car;
+  if (!steered_ && std::isfinite(state.v_B.x)) {
+    // A scene may err; brakes that believe it would take wheels that roll for locked ones.
+    controller_.abs = vehicle::begin_abs(state.v_B.x);
+    steered_ = true;
+  }
   const vehicle::Command command =
       manoeuvre::control(car, *plan_, road_, grip_, state, controller_, dt);
   finished_ = finished_ || manoeuvre::finished(*plan_, state, controller_);

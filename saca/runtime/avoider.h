@@ -96,6 +96,7 @@ class Avoider {
   runtime::Planes planes_;
   std::optional<manoeuvre::Plan> plan_;
   manoeuvre::ControllerState controller_;
+  bool steered_ = false;   ///< `control` has been called since the plan began
   world::Road road_;       ///< where the plan began
   double grip_ = 0.9;      ///< as believed at the last look [-]
   bool finished_ = false;  ///< the plan has reached its safe end

@@ -382,6 +382,33 @@ TEST(Avoider, BrakesWhereTheClockStandsStill) {
   EXPECT_THAT(events(avoider), HasSubstr("T1: 1.3"));
 }
 
+// A scene says 60 m/s in the instant in which braking begins. The brakes go by what the car
+// measures: full braking takes 9.5 m, deployed at most 12 % more (docs/architecture.md), and 0.1 s
+// to notice.
+TEST(Avoider, BrakesInFullAfterAWrongSpeed) {
+  Drive drive(12.0);
+  Scene& scene = drive.scene();
+  scene.actors.push_back(test::car(1, {40.0, 0.0}));
+  bool begun = false;
+  while (!begun && scene.time < 4.0) {
+    const double left = 40.0 - 4.6 - scene.ego.X_WB.p.x;
+    begun = drive
+                .step([&] {
+                  Scene wrong = scene;
+                  wrong.ego.v_B.x = left < 12.0 * 1.35 ? 60.0 : scene.ego.v_B.x;
+                  return drive.avoider().step(wrong);
+                })
+                .begins;
+  }
+  ASSERT_TRUE(begun);
+  const double from = scene.ego.X_WB.p.x;
+  for (int k = 0; k < 300; ++k) {
+    (void)drive.step();
+  }
+  EXPECT_LT(norm(scene.ego.v_B), 0.1);
+  EXPECT_LT(scene.ego.X_WB.p.x - from, 1.12 * 9.53);
+}
+
 /// A number of a scene, and what it may be.
 struct Field {
   const char* name;
