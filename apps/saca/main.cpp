@@ -1,3 +1,6 @@
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -22,10 +25,21 @@ void choose_waiting(int /*argc*/, char** /*argv*/, char** /*environment*/) {
 [[gnu::section(".preinit_array"),
   gnu::used]] void (*const chooses_waiting)(int, char**, char**) = choose_waiting;
 
+// Where a standard file is closed, the next file that is opened would take its place, and be
+// written to as if it were that one. What is opened here instead can be neither read nor written.
+void occupy_standard_files() {
+  for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(file, F_GETFD) < 0) {
+      (void)::open("/dev/null", file == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+    }
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   using namespace saca::app;
+  occupy_standard_files();
   if (waiting_was_chosen_here) {  // not for the language model's process
     ::unsetenv(how_to_wait);
   }

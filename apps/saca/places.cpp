@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -128,7 +129,7 @@ std::optional<Error> make_folder_of(const fs::path& file) {
 }
 
 void complain(const std::string& message) {
-  fmt::print(stderr, "saca: {}\n", message);
+  std::fputs(fmt::format("saca: {}\n", message).c_str(), stderr);  // which may be closed
 }
 
 int refused(const Error& problem) {

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -165,28 +166,21 @@ int run(const RunOptions& options) {
       .forced = options.policy ? manoeuvre::policy_from(*options.policy) : std::nullopt,
       .seed = options.seed,
       .clock = &clock};
-  Story story(stdout, isatty(STDOUT_FILENO) != 0);
-  loop::Silence silence;
-  if (!options.as_json) {
-    story.headline(inputs.value().scenario, setup);
-  }
-  auto played = loop::run(setup, options.as_json ? static_cast<loop::Listener&>(silence) : story);
+  std::signal(SIGPIPE, [](int) {});  // nobody need listen for the encounter to be played
+  Story story(options.as_json ? std::nullopt : std::optional(STDOUT_FILENO),
+              isatty(STDOUT_FILENO) != 0);
+  story.headline(inputs.value().scenario, setup);
+  auto played = loop::run(setup, story);
   if (!played.has_value()) {
     return refused(played.error());
   }
-  if (!options.as_json) {
-    story.ending(inputs.value().scenario, played.value());
-  }
+  story.ending(inputs.value().scenario, played.value());
   loop::Record record = std::move(played).value();
   // What was played is written down even if nobody wants to wait for the review.
   watch_for_interrupt();
   const InterruptStop interrupt;
-  const auto hear = [&](std::string_view said) {
-    if (!options.as_json) {
-      story.on_review(said);
-    }
-  };
-  const auto review = loop::review(setup, record, hear, interrupt.token());
+  const auto review = loop::review(
+      setup, record, [&](std::string_view said) { story.on_review(said); }, interrupt.token());
   if (review.has_value()) {
     record.review = review.value();
   } else {
@@ -206,10 +200,10 @@ int run(const RunOptions& options) {
   if (options.as_json) {
     fmt::print("{}\n", text);
   } else if (!problem) {
-    fmt::print("{}Report: {}\n", record.review ? "\n\n" : "", fs::absolute(report).string());
+    story.on_report(fs::absolute(report).string());
   }
   if (!problem) {
-    problem = record.not_stored;
+    problem = record.not_stored ? record.not_stored : story.problem();
   }
   if (problem) {
     complain(problem->message);

@@ -1,31 +1,49 @@
 #pragma once
 
-#include <cstdio>
-#include <mutex>
+#include <optional>
+#include <string>
 
+#include "saca/core/result.h"
 #include "saca/loop/encounter.h"
 
 namespace saca::app {
 
-/// Tells an encounter on a stream while it happens.
+/// Tells an encounter on a file that is open, while it happens.
+///
+/// Waits for whoever reads it, as for a full pipe or a terminal that is held, but no longer than
+/// `patience`: then, or where it cannot be written, the rest is left out, and `problem` says why.
+/// SIGPIPE is to be caught.
 class Story final : public loop::Listener {
  public:
-  /// @param colour  whether the stream understands terminal colours
-  Story(std::FILE* stream, bool colour) : stream_(stream), colour_(colour) {}
+  static constexpr int patience = 10;  ///< [s]
+
+  /// @param file    its descriptor; nullopt: nothing is told
+  /// @param colour  whether it understands terminal colours
+  Story(std::optional<int> file, bool colour) : file_(file), colour_(colour) {}
 
   void on_event(const decide::Event& event) override;
   void on_reasoning(std::int32_t preview, std::string_view text) override;
 
+  /// Does not wait: what cannot be written now stands before the first event.
   void headline(const sim::Scenario& scenario, const loop::Setup& setup);
   void ending(const sim::Scenario& scenario, const loop::Record& record);
   /// The model looking back, piece by piece.
   void on_review(std::string_view text);
+  /// Where the report lies.
+  void on_report(const std::string& file);
+
+  /// Why not everything was told.
+  [[nodiscard]] const std::optional<Error>& problem() const { return problem_; }
 
  private:
-  std::FILE* stream_;
+  void say(const std::string& text);
+  void write_waiting(int seconds);
+
+  std::optional<int> file_;
   bool colour_;
   bool reviewing_ = false;
-  std::mutex lock_;
+  std::string waiting_;  ///< said, and not written yet
+  std::optional<Error> problem_;
 };
 
 }  // namespace saca::app
