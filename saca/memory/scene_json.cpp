@@ -1,22 +1,22 @@
 #include "saca/memory/scene_json.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
+#include "saca/config/json_reader.h"
 #include "saca/core/contract.h"
 
 namespace saca::memory {
 namespace {
 
 using nlohmann::json;
+using Reader = config::JsonReader;
 using world::Actor;
 using world::EgoState;
 using world::Footprint;
@@ -91,135 +91,6 @@ json road_json(const Road& road) {
           {"oncoming_right", road.oncoming_right}};
 }
 
-/// A value that came instead of the one wanted, short enough for a message.
-std::string shown(const json& value) {
-  constexpr std::size_t longest = 40;
-  std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
-  if (text.size() > longest) {
-    text.resize(longest);
-    text += "...";
-  }
-  return text;
-}
-
-/// One object of the document. The first thing wrong is remembered for all; what is read after it
-/// means nothing.
-class Reader {
- public:
-  Reader(const json& node, std::string path, std::optional<Error>& problem)
-      : node_(node), path_(std::move(path)), problem_(problem) {
-    if (!node.is_object()) {
-      reject("", "want an object, got " + shown(node));
-    }
-  }
-
-  double number(std::string_view key) {
-    const json* value = find(key);
-    if (value == nullptr) {
-      return 0.0;
-    }
-    if (!value->is_number() || !std::isfinite(value->get<double>())) {
-      reject(key, "want a finite number, got " + shown(*value));
-      return 0.0;
-    }
-    return value->get<double>();
-  }
-
-  [[nodiscard]] bool has(std::string_view key) const { return node_.contains(key); }
-
-  bool flag(std::string_view key) {
-    const json* value = find(key);
-    if (value != nullptr && !value->is_boolean()) {
-      reject(key, "want true or false, got " + shown(*value));
-    }
-    return value != nullptr && value->is_boolean() && value->get<bool>();
-  }
-
-  std::uint8_t small_integer(std::string_view key) {
-    const json* value = find(key);
-    constexpr std::uint64_t largest = 255;
-    if (value == nullptr ||
-        (value->is_number_unsigned() && value->get<std::uint64_t>() <= largest)) {
-      return value == nullptr ? std::uint8_t{0} : value->get<std::uint8_t>();
-    }
-    reject(key, "want an integer from 0 to 255, got " + shown(*value));
-    return 0;
-  }
-
-  /// A word that `from` knows.
-  template <class Value>
-  Value word(std::string_view key, std::optional<Value> (*from)(std::string_view),
-             std::string_view known) {
-    const json* value = find(key);
-    if (value == nullptr) {
-      return Value{};
-    }
-    const auto found =
-        value->is_string() ? from(value->get_ref<const std::string&>()) : std::optional<Value>();
-    if (!found) {
-      reject(key, "want " + std::string(known) + ", got " + shown(*value));
-    }
-    return found.value_or(Value{});
-  }
-
-  Reader object(std::string_view key) {
-    static const json nothing = json::object();
-    const json* value = find(key);
-    return {value == nullptr ? nothing : *value, name_of(key), problem_};
-  }
-
-  /// The array under `key`; nullptr when there is none.
-  const json* list(std::string_view key) {
-    const json* value = find(key);
-    if (value != nullptr && !value->is_array()) {
-      reject(key, "want an array, got " + shown(*value));
-    }
-    return value != nullptr && value->is_array() ? value : nullptr;
-  }
-
-  void reject(std::string_view key, const std::string& why) {
-    if (!problem_) {
-      const std::string name = name_of(key);
-      problem_ = Error{Error::Code::malformed, (name.empty() ? "scene" : name) + ": " + why};
-    }
-  }
-
-  /// Call it last: a key that nobody asked for is refused.
-  void refuse_others() {
-    if (problem_ || node_.size() == asked_.size()) {
-      return;
-    }
-    for (const auto& [key, value] : node_.items()) {
-      if (std::find(asked_.begin(), asked_.end(), key) == asked_.end()) {
-        reject(key, "is not known");
-      }
-    }
-  }
-
- private:
-  const json* find(std::string_view key) {
-    if (problem_) {
-      return nullptr;
-    }
-    asked_.emplace_back(key);
-    const auto found = node_.find(asked_.back());
-    if (found == node_.end()) {
-      reject(key, "is missing");
-      return nullptr;
-    }
-    return &*found;
-  }
-
-  [[nodiscard]] std::string name_of(std::string_view key) const {
-    return path_.empty() || key.empty() ? path_ + std::string(key) : path_ + "." + std::string(key);
-  }
-
-  const json& node_;
-  std::string path_;
-  std::optional<Error>& problem_;
-  std::vector<std::string> asked_;
-};
-
 Pose read_pose(Reader& reader) {
   return {{reader.number("x_m"), reader.number("y_m")}, reader.number("heading_rad")};
 }
@@ -246,7 +117,8 @@ void read_ego(Reader reader, Scene& scene) {
 
 Actor read_actor(Reader reader) {
   Actor actor;
-  actor.id = reader.small_integer("id");
+  actor.id =
+      static_cast<std::uint8_t>(reader.integer("id", std::numeric_limits<std::uint8_t>::max()));
   actor.kind = reader.word("kind", world::actor_kind_from,
                            "car, van, truck, motorcycle, bicycle, pedestrian or obstacle");
   actor.footprint = read_footprint(reader.object("footprint"));
@@ -291,19 +163,10 @@ std::optional<std::string_view> schema_from(std::string_view name) {
   return name == schema ? std::optional(schema) : std::nullopt;
 }
 
-void read_actors(Reader& reader, Scene& scene, std::optional<Error>& problem) {
-  const json* actors = reader.list("actors");
-  if (actors == nullptr) {
-    return;
-  }
-  if (actors->size() > world::max_actors) {
-    reader.reject("actors", "want at most " + std::to_string(world::max_actors) + ", got " +
-                                std::to_string(actors->size()));
-    return;
-  }
-  for (std::size_t i = 0; i < actors->size(); ++i) {
-    scene.actors.push_back(
-        read_actor({(*actors)[i], "actors[" + std::to_string(i) + "]", problem}));
+void read_actors(Reader& reader, Scene& scene) {
+  const json* actors = reader.list("actors", world::max_actors);
+  for (std::size_t i = 0; actors != nullptr && i < actors->size(); ++i) {
+    scene.actors.push_back(read_actor(reader.element("actors", *actors, i)));
   }
 }
 
@@ -327,7 +190,7 @@ json to_json(const Scene& scene) {
 
 Result<Scene> scene_from_json(const json& document) {
   std::optional<Error> problem;
-  Reader reader(document, "", problem);
+  Reader reader(document, "", problem, "scene");
   Scene scene;
   (void)reader.word("schema", schema_from, schema);
   scene.time = reader.number("time_s");
@@ -335,7 +198,7 @@ Result<Scene> scene_from_json(const json& document) {
   scene.grip_sd = reader.number("grip_sd");
   read_ego(reader.object("ego"), scene);
   scene.road = read_road(reader.object("road"));
-  read_actors(reader, scene, problem);
+  read_actors(reader, scene);
   reader.refuse_others();
   if (problem) {
     return *problem;
