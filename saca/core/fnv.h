@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <string_view>
 
@@ -15,6 +17,15 @@ class Fnv {
   constexpr void add(std::string_view text) {
     for (const char c : text) {
       add(static_cast<unsigned char>(c));
+    }
+  }
+  /// The bits of a value that consists of doubles only.
+  template <class Doubles>
+  constexpr void add_doubles(const Doubles& values) {
+    static_assert(sizeof(Doubles) % sizeof(double) == 0);
+    for (const std::uint64_t bits :
+         std::bit_cast<std::array<std::uint64_t, sizeof(Doubles) / sizeof(double)>>(values)) {
+      add(bits);
     }
   }
   [[nodiscard]] constexpr std::uint64_t value() const { return hash_; }

@@ -1,6 +1,15 @@
 #include "saca/core/level.h"
 
+#include <array>
+
+#include "saca/core/names.h"
+
 namespace saca {
+
+std::string_view name(Level level) {
+  constexpr std::array<std::string_view, 3> names{"baseline", "avx2", "avx512"};
+  return name_of(level, names);
+}
 
 bool available(Level level) noexcept {
 #if defined(__x86_64__)

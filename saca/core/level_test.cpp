@@ -28,5 +28,10 @@ TEST(Level, IsWhatTheProcessorSays) {
   EXPECT_TRUE(available(best_level()));
 }
 
+TEST(Level, HasAName) {
+  EXPECT_EQ(name(Level::baseline), "baseline");
+  EXPECT_EQ(name(Level::avx512), "avx512");
+}
+
 }  // namespace
 }  // namespace saca::level_test

@@ -9,6 +9,7 @@
 
 #include "saca/core/contract.h"
 #include "saca/core/file.h"
+#include "saca/core/fnv.h"
 
 namespace saca::intent {
 namespace {
@@ -76,6 +77,16 @@ Result<Model> model_from(const config::Tensors& tensors, std::string_view source
     }
   }
   return model;
+}
+
+std::uint64_t digest(const Model& model) {
+  Fnv hash;
+  for (const Network& network : model.networks) {
+    network.add_to(hash);
+  }
+  hash.add_doubles(model.chains);
+  hash.add_doubles(model.sharpness);
+  return hash.value();
 }
 
 Result<Model> read_model(const std::filesystem::path& path) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string_view>
 #include <vector>
@@ -42,6 +43,9 @@ struct Model {
 
 /// @return  as read_file and model_from
 [[nodiscard]] Result<Model> read_model(const std::filesystem::path& path);
+
+/// Names the weights: models that differ in a bit have different digests.
+[[nodiscard]] std::uint64_t digest(const Model& model);
 
 /// Probabilities of the classes, one array per horizon; each sums to 1.
 using Told = std::array<Scores, num_horizons>;

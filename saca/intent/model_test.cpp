@@ -161,6 +161,21 @@ TEST(Model, NobodyChangesSidesAtOnce) {
   }
 }
 
+TEST(Model, WeightsThatDifferInOnePlaceHaveAnotherDigest) {
+  const config::Tensors tensors = random_tensors(3, 2);
+  const std::uint64_t whole = digest(model_from(tensors, "w").value());
+  EXPECT_EQ(digest(model_from(tensors, "w").value()), whole);
+  for (const auto& [name, tensor] : tensors.tensors) {
+    if (name == "networks") {
+      continue;
+    }
+    config::Tensors other = tensors;
+    float& last = other.tensors[name].values.back();
+    last = std::nextafter(last, 0.0F);
+    EXPECT_NE(digest(model_from(other, "w").value()), whole) << name;
+  }
+}
+
 TEST(Model, RefusesFilesThatAreNone) {
   config::Tensors tensors = random_tensors(1, 1);
   tensors.tensors["networks"].values = {5.0F};

@@ -1,6 +1,8 @@
 #include "saca/intent/network.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <utility>
 #include <xsimd/xsimd.hpp>
 
@@ -70,6 +72,16 @@ Result<Network> Network::from(const config::Tensors& tensors, const std::string&
   network.lstm_ = std::move(lstm).value();
   network.output_ = std::move(output).value();
   return network;
+}
+
+void Network::add_to(Fnv& hash) const {
+  for (const Layer* layer : {&input_, &lstm_, &output_}) {
+    for (const std::vector<float>* numbers : {&layer->weight, &layer->bias}) {
+      for (const float number : *numbers) {
+        hash.add(std::bit_cast<std::uint32_t>(number));
+      }
+    }
+  }
 }
 
 template <std::size_t rows, std::size_t columns>

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "saca/config/tensors.h"
+#include "saca/core/fnv.h"
 #include "saca/core/result.h"
 #include "saca/intent/crf.h"
 #include "saca/intent/features.h"
@@ -50,6 +51,9 @@ class Network {
 
   /// One step; allocates nothing.
   [[nodiscard]] Emissions step(const Features& features, State& state) const;
+
+  /// Its weights, to name them.
+  void add_to(Fnv& hash) const;
 
  private:
   /// Rows in tiles, so that a tile of sums stays in registers; the last tile is filled with zeros.

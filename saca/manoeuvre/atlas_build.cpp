@@ -301,30 +301,19 @@ std::string hex(std::uint64_t number) {
 // Names everything that the nodes depend on.
 std::string title_of(const Car& car, const AtlasGrid& grid) {
   Fnv drives;
-  for (const double number : behaviour(car)) {
-    drives.add(std::bit_cast<std::uint64_t>(number));
-  }
+  drives.add_doubles(behaviour(car));
   return "saca atlas " + std::to_string(atlas_version) + " of car " + hex(car_hash(car)) +
          ", grid " + hex(grid_hash(grid)) + ", behaviour " + hex(drives.value());
-}
-
-template <class T>
-void add_doubles(Fnv& hash, const T& values) {
-  static_assert(sizeof(T) % sizeof(double) == 0);
-  for (const double number :
-       std::bit_cast<std::array<double, sizeof(T) / sizeof(double)>>(values)) {
-    hash.add(std::bit_cast<std::uint64_t>(number));
-  }
 }
 
 }  // namespace
 
 std::uint64_t car_hash(const Car& car) {
   Fnv hash;
-  add_doubles(hash, static_cast<const vehicle::Vehicle&>(car));
-  add_doubles(hash, car.tuning.swerve);
-  add_doubles(hash, car.tuning.drift);
-  add_doubles(hash, car.tuning.domain);
+  hash.add_doubles(static_cast<const vehicle::Vehicle&>(car));
+  hash.add_doubles(car.tuning.swerve);
+  hash.add_doubles(car.tuning.drift);
+  hash.add_doubles(car.tuning.domain);
   return hash.value();
 }
 
