@@ -43,7 +43,7 @@ Answer Avoider::answer(const runtime::Taken& taken, Clock::Time at) {
   const world::Scene& scene = intake_.scene();
   if (taken.new_drive) {
     observer_ = intent::Observer(*setup_.intent);
-    begin_anew();
+    begin_anew(runtime::Forgotten::drive);
   }
   const intent::Beliefs& beliefs = observer_.look(scene);
   grip_ = scene.grip;
@@ -106,14 +106,14 @@ void Avoider::look_for_the_end(const world::Scene& scene, const Answer& answer) 
   }
   quiet_ = quiet_.value_or(scene.time);
   if (scene.time >= *quiet_ + quiet_time) {
-    begin_anew();
+    begin_anew(runtime::Forgotten::encounter);
     ++num_encounters_;
     events_.remark(scene.time, runtime::Remark::encounter_over);
   }
 }
 
-void Avoider::begin_anew() {
-  planes_.begin_anew();
+void Avoider::begin_anew(runtime::Forgotten forgotten) {
+  planes_.begin_anew(forgotten);
   plan_.reset();
   quiet_.reset();
   meets_somebody_ = false;

@@ -75,6 +75,10 @@ class Avoider {
   [[nodiscard]] const std::optional<decide::Decision>& decision() const {
     return planes_.decision();
   }
+  /// What was recorded, where the setup gives the tape memory (runtime::PlanesSetup::tape_size):
+  /// what of it is needed for `saca replay` is written by runtime::tape_text. Belongs to the thread
+  /// that calls `step`; its content, once copied (Tape::content), may be written by any.
+  [[nodiscard]] const runtime::Tape& tape() const { return planes_.tape(); }
   /// How many encounters have ended.
   [[nodiscard]] std::size_t num_encounters() const { return num_encounters_; }
 
@@ -86,7 +90,7 @@ class Avoider {
   [[nodiscard]] Answer answer(const runtime::Taken& taken, Clock::Time at);
   void remark_on(const runtime::Taken& taken);
   void begin(const manoeuvre::Plan& plan, const world::Scene& scene);
-  void begin_anew();
+  void begin_anew(runtime::Forgotten forgotten);
   void look_for_the_end(const world::Scene& scene, const Answer& answer);
 
   AvoiderSetup setup_;

@@ -5,9 +5,7 @@
 #include <utility>
 
 #include "saca/decide/forecaster.h"
-#include "saca/decide/verdict.h"
-#include "saca/intent/observer.h"
-#include "saca/world/scene.h"
+#include "saca/runtime/work_thread.h"
 
 namespace saca::runtime {
 
@@ -23,27 +21,20 @@ class ChargedForecasts {
   ChargedForecasts(decide::Judge judge, double cost) : judge_(std::move(judge)), cost_(cost) {}
 
   /// Begins a round unless the last one was begun less than a period ago, or is still worked on.
-  void offer(const world::Scene& scene, const intent::Beliefs& beliefs,
-             const std::optional<decide::UnderWay>& under_way);
+  void offer(const TimedScene& newest);
 
   /// The newest verdict that is ready at `now` [s] and has not been taken.
-  [[nodiscard]] std::optional<decide::Verdict> take(double now);
+  [[nodiscard]] std::optional<NumberedVerdict> take(double now);
 
  private:
-  struct Round {
-    world::Scene scene;
-    intent::Beliefs beliefs;
-    std::optional<decide::UnderWay> under_way;
-  };
-
-  [[nodiscard]] bool is_ready(const Round& round, double now) const {
+  [[nodiscard]] bool is_ready(const TimedScene& round, double now) const {
     return round.scene.time + cost_ <= now;
   }
 
   decide::Judge judge_;
   double cost_;
-  std::deque<Round> rounds_;  ///< by time; what nobody can take any more is dropped
-  double free_at_ = 0.0;      ///< [s]
+  std::deque<TimedScene> rounds_;  ///< by time; what nobody can take any more is dropped
+  double free_at_ = 0.0;           ///< [s]
 };
 
 }  // namespace saca::runtime

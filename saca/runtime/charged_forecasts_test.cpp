@@ -15,7 +15,7 @@ class ChargedForecastsTest : public ::testing::Test {
     for (int k = 0; 0.01 * k <= until + 1e-9; ++k) {
       world::Scene scene = test::ego_at(15.0);
       scene.time = 0.01 * k;
-      forecasts.offer(scene, {}, std::nullopt);
+      forecasts.offer({.scene = scene, .beliefs = {}, .number = static_cast<std::uint64_t>(k)});
     }
   }
 
@@ -31,21 +31,23 @@ TEST_F(ChargedForecastsTest, AVerdictIsHeldBackUntilItWouldBeReady) {
   EXPECT_FALSE(forecasts.take(0.02).has_value());
   const auto verdict = forecasts.take(0.03);
   ASSERT_TRUE(verdict.has_value());
-  EXPECT_EQ(verdict->time, 0.0);
+  EXPECT_EQ(verdict->verdict.time, 0.0);
   EXPECT_FALSE(forecasts.take(0.04).has_value()) << "it has been taken";
 }
 
 TEST_F(ChargedForecastsTest, TheNewestThatIsReadyIsTaken) {
   ChargedForecasts forecasts(judge_, 0.03);
   offer_until(forecasts, 1.0);  // rounds at 0, 0.05, ... 1.0
-  EXPECT_NEAR(forecasts.take(1.0)->time, 0.95, 1e-9);
-  EXPECT_NEAR(forecasts.take(1.04)->time, 1.0, 1e-9);
+  EXPECT_NEAR(forecasts.take(1.0)->verdict.time, 0.95, 1e-9);
+  const auto last = forecasts.take(1.04);
+  EXPECT_NEAR(last->verdict.time, 1.0, 1e-9);
+  EXPECT_EQ(last->scene, 100U);
 }
 
 TEST_F(ChargedForecastsTest, ASlowForecasterBeginsFewerRounds) {
   ChargedForecasts forecasts(judge_, 0.3);
   offer_until(forecasts, 1.0);  // rounds at 0, 0.3, 0.6, 0.9
-  EXPECT_NEAR(forecasts.take(1.0)->time, 0.6, 1e-9);
+  EXPECT_NEAR(forecasts.take(1.0)->verdict.time, 0.6, 1e-9);
 }
 
 }  // namespace

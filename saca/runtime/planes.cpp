@@ -13,6 +13,12 @@ constexpr std::array<std::string_view, 2> pace_names{"real", "lockstep"};
 
 constexpr Clock::Time breath = std::chrono::milliseconds(200);  // plans change slowly
 
+}  // namespace
+
+std::string_view name(Pace pace) {
+  return name_of(pace, pace_names);
+}
+
 decide::ReflexTools reflex_tools(const PlanesSetup& setup) {
   const preview::ForecastTools& forecast = setup.forecast;
   decide::ReflexTools tools{.thresholds = setup.thresholds,
@@ -37,10 +43,6 @@ PlanesSetup with_judge(PlanesSetup setup) {
 
 }  // namespace
 
-std::string_view name(Pace pace) {
-  return name_of(pace, pace_names);
-}
-
 Planes::Planes(const PlanesSetup& setup, Listener listener, std::size_t looks)
     : setup_(with_judge(setup)),
       listener_(std::move(listener)),
@@ -51,6 +53,7 @@ Planes::Planes(const PlanesSetup& setup, Listener listener, std::size_t looks)
       charged_(setup.costs.preview, simulated_clock_),
       charged_forecasts_(setup_.judge, setup.costs.verdict),
       reflex_(reflex_tools(setup)),
+      tape_(setup.tape_size),
       plane_(tools(), setup.thresholds, output()) {
   reflex_times_.reserve(looks);
   if (real()) {
@@ -96,11 +99,30 @@ decide::ThinkingOutput Planes::output() {
                               std::string_view text) { listener_.reasoning(preview, text); }};
 }
 
+void Planes::begin_entry(const world::Scene& scene, const intent::Beliefs& beliefs) {
+  entry_->number = num_scenes_++;
+  entry_->forgotten = std::exchange(forgotten_, Forgotten::nothing);
+  entry_->scene = scene;
+  entry_->beliefs = beliefs;
+  entry_->asked = false;
+  entry_->finished = false;
+  entry_->plans.reset();
+  entry_->verdict.reset();
+  entry_->reflex = {};
+  entry_->decision.reset();
+}
+
+void Planes::watch(const world::Scene& scene, const intent::Beliefs& beliefs) {
+  begin_entry(scene, beliefs);
+  tape_.add(*entry_);
+}
+
 decide::Reflex Planes::step(const world::Scene& scene, const intent::Beliefs& beliefs,
                             Clock::Time at, bool finished) {
+  begin_entry(scene, beliefs);
   const bool judges = reflex_.supervises();
+  const TimedScene newest{scene, beliefs, at, reflex_.under_way(), encounter_, entry_->number};
   if (real()) {
-    const TimedScene newest{scene, beliefs, at, reflex_.under_way(), encounter_};
     if (judges) {
       scenes_to_judge_.publish(newest);
     }
@@ -109,7 +131,7 @@ decide::Reflex Planes::step(const world::Scene& scene, const intent::Beliefs& be
     }
   } else {
     if (judges && !world::broken_rule(scene)) {
-      charged_forecasts_.offer(scene, beliefs, reflex_.under_way());
+      charged_forecasts_.offer(newest);
     }
     if (!decision()) {
       think_of(encounter_);
@@ -122,32 +144,40 @@ decide::Reflex Planes::step(const world::Scene& scene, const intent::Beliefs& be
   if (reflex_times_.size() < reflex_times_.capacity()) {
     reflex_times_.push_back(to_seconds(setup_.clock->now() - before));
   }
+  entry_->asked = true;
+  entry_->finished = finished;
+  entry_->reflex = reflex;
+  if (reflex.triggered) {
+    entry_->decision = decision();
+  }
+  tape_.add(*entry_);
   return reflex;
 }
 
 void Planes::hand_over(const world::Scene& scene, bool finished) {
   if (!real()) {
-    if (const auto plans = charged_.take(scene.time)) {
-      reflex_.receive(*plans);
-    }
+    entry_->plans = charged_.take(scene.time);
     if (reflex_.needs_verdict(scene, finished)) {
-      if (const auto verdict = charged_forecasts_.take(scene.time)) {
-        reflex_.receive(*verdict);
-      }
+      entry_->verdict = charged_forecasts_.take(scene.time);
     }
-    return;
+  } else {
+    if (!plans_.take(entry_->plans.emplace())) {
+      entry_->plans.reset();
+    }
+    if (!verdicts_.take(entry_->verdict.emplace())) {
+      entry_->verdict.reset();
+    }
   }
-  decide::PlanCache plans;
-  if (plans_.take(plans)) {
-    reflex_.receive(plans);
+  if (entry_->plans) {
+    reflex_.receive(*entry_->plans);
   }
-  decide::Verdict verdict;
-  if (verdicts_.take(verdict)) {
-    reflex_.receive(verdict);
+  if (entry_->verdict) {
+    reflex_.receive(entry_->verdict->verdict);
   }
 }
 
-void Planes::begin_anew() {
+void Planes::begin_anew(Forgotten forgotten) {
+  forgotten_ = std::max(forgotten_, forgotten);
   ++encounter_;
   reflex_.begin_anew();
 }
@@ -158,7 +188,8 @@ void Planes::judge(const TimedScene& newest) {
   }
   if (newest.under_way || preview::previewed_threat(newest.scene, newest.beliefs,
                                                     setup_.forecast.motion, setup_.thresholds)) {
-    verdicts_.publish(setup_.judge(newest.scene, newest.beliefs, newest.under_way));
+    verdicts_.publish(
+        {setup_.judge(newest.scene, newest.beliefs, newest.under_way), newest.number});
   }
 }
 

@@ -18,6 +18,7 @@
 #include "saca/runtime/charged_forecasts.h"
 #include "saca/runtime/charged_model.h"
 #include "saca/runtime/charged_thinking.h"
+#include "saca/runtime/tape.h"
 #include "saca/runtime/work_thread.h"
 
 namespace saca::runtime {
@@ -43,7 +44,11 @@ struct PlanesSetup {
                         ///< decide::Forecaster
   std::optional<manoeuvre::Plan> forced;  ///< carried out at the trigger, whatever was thought
   Clock* clock = nullptr;                 ///< real time
+  std::size_t tape_size = 0;              ///< memory of the tape [byte], see Tape; 0: no tape
 };
+
+/// What the reflex plane of this setup decides with.
+[[nodiscard]] decide::ReflexTools reflex_tools(const PlanesSetup& setup);
 
 /// How long the reflex plane took.
 struct ReflexTiming {
@@ -76,13 +81,21 @@ class Planes {
   decide::Reflex step(const world::Scene& scene, const intent::Beliefs& beliefs, Clock::Time at,
                       bool finished);
 
+  /// An instant at which nothing is to be decided yet. Only the tape takes note of it: what is
+  /// believed later follows from it.
+  void watch(const world::Scene& scene, const intent::Beliefs& beliefs);
+
   [[nodiscard]] const std::optional<decide::Decision>& decision() const {
     return reflex_.decision();
   }
 
   /// The encounter is over: decision, plans and previews are forgotten, those of the thinking plane
   /// at its next scene. Waits for nobody.
-  void begin_anew();
+  /// @param forgotten  for the tape: whether whoever observes the road users begins anew, too
+  void begin_anew(Forgotten forgotten = Forgotten::encounter);
+
+  /// Belongs to the thread that calls `step`.
+  [[nodiscard]] const Tape& tape() const { return tape_; }
 
   /// Ends thinking and forecasting; `step` is not called any more.
   /// @return  what was thrown there first; it ended that round early. Empty: nothing was
@@ -98,6 +111,7 @@ class Planes {
   [[nodiscard]] bool real() const { return setup_.pace == Pace::real; }
   [[nodiscard]] decide::ThinkingTools tools();
   [[nodiscard]] decide::ThinkingOutput output();
+  void begin_entry(const world::Scene& scene, const intent::Beliefs& beliefs);
   void hand_over(const world::Scene& scene, bool finished);
   void think_of(std::uint32_t encounter);
   void judge(const TimedScene& newest);
@@ -111,10 +125,14 @@ class Planes {
   decide::ReflexPlane reflex_;
   LatestSlot<TimedScene> scenes_;
   LatestSlot<TimedScene> scenes_to_judge_;
-  LatestSlot<decide::Verdict> verdicts_;
+  LatestSlot<NumberedVerdict> verdicts_;
   LatestSlot<decide::PlanCache> plans_;
   std::vector<decide::Event> events_;
   std::vector<double> reflex_times_;  ///< of the first `looks` steps
+  Tape tape_;
+  std::unique_ptr<TapeStep> entry_ = std::make_unique<TapeStep>();  ///< the newest
+  std::uint64_t num_scenes_ = 0;
+  Forgotten forgotten_ = Forgotten::drive;  ///< before the next step
   std::uint32_t encounter_ = 0;
   std::uint32_t thought_of_ = 0;  ///< the encounter that the thinking plane was last asked about;
                                   ///< of the thread that thinks

@@ -10,6 +10,7 @@
 #include "saca/core/clock.h"
 #include "saca/core/latest_slot.h"
 #include "saca/decide/forecaster.h"
+#include "saca/decide/verdict.h"
 #include "saca/intent/observer.h"
 #include "saca/world/scene.h"
 
@@ -22,6 +23,13 @@ struct TimedScene {
   Clock::Time at{0};
   std::optional<decide::UnderWay> under_way;
   std::uint32_t encounter = 0;  ///< counted from the first on
+  std::uint64_t number = 0;     ///< of the scene, likewise
+};
+
+/// A verdict, and which scene it is of (TimedScene::number).
+struct NumberedVerdict {
+  decide::Verdict verdict;
+  std::uint64_t scene = 0;
 };
 
 /// Works beside the reflex plane: takes the newest scene, works on it, rests, takes the next.

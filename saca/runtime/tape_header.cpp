@@ -1,0 +1,84 @@
+#include "saca/runtime/tape_header.h"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <utility>
+
+#include "saca/core/level.h"
+#include "saca/decide/forecaster.h"
+#include "saca/manoeuvre/atlas_build.h"
+
+namespace saca::runtime {
+namespace {
+
+std::string digest_of(const manoeuvre::Atlas& atlas) {
+  Fnv hash;
+  hash.add(manoeuvre::grid_hash(atlas.grid()));
+  for (const std::byte byte : std::as_bytes(atlas.nodes())) {
+    hash.add(std::to_integer<std::uint64_t>(byte));
+  }
+  return digest_text(hash);
+}
+
+}  // namespace
+
+std::string digest_text(const Fnv& hash) {
+  return fmt::format("{:016x}", hash.value());
+}
+
+TapeHeader tape_header(const PlanesSetup& setup, const intent::Model& intent) {
+  const auto hash_of = [](auto&& add) {
+    Fnv hash;
+    add(hash);
+    return digest_text(hash);
+  };
+  const preview::ForecastTools& tools = setup.forecast;
+  return {.program = {},
+          .level = std::string(name(best_level())),
+          .car = {},
+          .car_digest = hash_of([&](Fnv& hash) { hash.add(manoeuvre::car_hash(*tools.car)); }),
+          .intent_digest = hash_of([&](Fnv& hash) { hash.add(intent::digest(intent)); }),
+          .harm_digest = hash_of([&](Fnv& hash) { hash.add_doubles(*tools.harm); }),
+          .atlas = tools.atlas == nullptr ? std::nullopt : std::optional(digest_of(*tools.atlas)),
+          .danger = tools.danger != nullptr,
+          .model = setup.model == nullptr ? "off" : setup.model->description(),
+          .memory = setup.memory != nullptr,
+          .num_draws = decide::usual_draws,
+          .guarded = setup.guard != decide::Guard::none,
+          .forced = setup.forced,
+          .thresholds = setup.thresholds,
+          .pace = setup.pace,
+          .costs = setup.costs,
+          .scenario = {},
+          .seed = {}};
+}
+
+std::optional<Error> mismatch(const TapeHeader& tape, const TapeHeader& here) {
+  constexpr std::array<std::pair<const char*, std::string TapeHeader::*>, 5> same{{
+      {"program", &TapeHeader::program},
+      {"level", &TapeHeader::level},
+      {"car_digest", &TapeHeader::car_digest},
+      {"intent_digest", &TapeHeader::intent_digest},
+      {"harm_digest", &TapeHeader::harm_digest},
+  }};
+  const auto other = [](std::string_view key, std::string_view recorded, std::string_view got) {
+    return Error{Error::Code::out_of_range,
+                 fmt::format("{}: recorded with {}, here it is {}: what was worked out then cannot "
+                             "come back bit by bit",
+                             key, recorded, got)};
+  };
+  for (const auto& [key, member] : same) {
+    if (tape.*member != here.*member) {
+      return other(key, tape.*member, here.*member);
+    }
+  }
+  if (tape.atlas != here.atlas) {
+    return other("atlas_digest", tape.atlas.value_or("none"), here.atlas.value_or("none"));
+  }
+  return std::nullopt;
+}
+
+}  // namespace saca::runtime
