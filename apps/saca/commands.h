@@ -8,6 +8,7 @@ namespace saca::app {
 // when that command was the one.
 
 void add_run(CLI::App& line, int& exit_code);
+void add_replay(CLI::App& line, int& exit_code);
 void add_scenarios(CLI::App& line, int& exit_code);
 void add_import(CLI::App& line, int& exit_code);
 void add_memory(CLI::App& line, int& exit_code);

@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
     line.require_subcommand(1);
     int exit_code = success;
     add_run(line, exit_code);
+    add_replay(line, exit_code);
     add_scenarios(line, exit_code);
     add_import(line, exit_code);
     add_memory(line, exit_code);

@@ -17,6 +17,7 @@ enum ExitCode : int {
   bad_input = 3,
   cannot_write = 4,
   some_failed = 5,        ///< of many encounters, some could not be played or a method failed
+  not_the_same = 6,       ///< something came out otherwise than it was recorded
   was_interrupted = 130,  ///< as shells say it: 128 + SIGINT
 };
 

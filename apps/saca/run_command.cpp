@@ -43,6 +43,7 @@ struct RunOptions {
   std::string output = "runs";
   std::string report;
   std::string trace;
+  std::string tape;
   bool as_json = false;
 };
 
@@ -122,6 +123,15 @@ std::optional<Error> write_trace(const fs::path& file, const loop::Setup& setup,
                                                      : loop::trace_jsonl(setup, record));
 }
 
+std::optional<Error> write_tape(const fs::path& file, const runtime::TapeFile& tape) {
+  if (auto problem = make_folder_of(file)) {
+    return problem;
+  }
+  runtime::TapeFile by_this_program = tape;
+  by_this_program.header.program = SACA_VERSION;
+  return write_file(file, runtime::tape_text(by_this_program));
+}
+
 int run(const RunOptions& options) {
   const auto inputs = read_scenario_inputs(options.scenario);
   if (!inputs.has_value()) {
@@ -165,6 +175,7 @@ int run(const RunOptions& options) {
       .learns = !options.no_learning,
       .forced = options.policy ? manoeuvre::policy_from(*options.policy) : std::nullopt,
       .seed = options.seed,
+      .tapes = !options.tape.empty(),
       .clock = &clock};
   std::signal(SIGPIPE, [](int) {});  // nobody need listen for the encounter to be played
   Story story(options.as_json ? std::nullopt : std::optional(STDOUT_FILENO),
@@ -193,6 +204,9 @@ int run(const RunOptions& options) {
   auto problem = write_outputs(text, folder, report);
   if (!problem && !options.trace.empty()) {
     problem = write_trace(options.trace, setup, record);
+  }
+  if (!problem && record.tape) {
+    problem = write_tape(options.tape, *record.tape);
   }
   if (!problem) {
     problem = model.value().save_replies();
@@ -251,6 +265,8 @@ void add_run(CLI::App& line, int& exit_code) {
       ->add_option("--trace", options->trace,
                    "Where the motions go, frame by frame: FILE.jsonl or FILE.csv")
       ->check(wrong_trace_name);
+  command->add_option("--tape", options->tape,
+                      "Where everything goes that was decided by, step by step, for `saca replay`");
   command->add_flag("--json", options->as_json, "Print the record, for programs");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

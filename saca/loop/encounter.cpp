@@ -36,13 +36,16 @@ class Encounter {
         stage_(stage_of(setup)),
         loop_(stage_),
         dispatcher_(real() ? std::make_unique<Dispatcher>(listener) : nullptr),
-        planes_(planes_setup(setup), thinking_listener(),
-                static_cast<std::size_t>(setup.scenario->duration / ClosedLoop::step) + 2) {}
+        planes_(planes_setup(setup), thinking_listener(), num_looks(*setup.scenario)) {}
 
   Result<Record> play();
 
  private:
   [[nodiscard]] bool real() const { return setup_.pace == runtime::Pace::real; }
+  /// How many there are at most.
+  static std::size_t num_looks(const sim::Scenario& scenario) {
+    return static_cast<std::size_t>(scenario.duration / ClosedLoop::step) + 2;
+  }
   static Stage stage_of(const Setup& setup);
   static runtime::PlanesSetup planes_setup(const Setup& setup);
 
@@ -65,7 +68,7 @@ class Encounter {
   runtime::Planes planes_;
   Record record_;
   Clock::Time start_{0};
-  int num_looks_ = 0;
+  int looks_ = 0;
   std::optional<double> woke_;  ///< when SACA took the wheel [s]
   bool ended_ = false;          ///< the manoeuvre is finished
   Scene seen_at_trigger_;       ///< what SACA perceived then
@@ -91,7 +94,10 @@ runtime::PlanesSetup Encounter::planes_setup(const Setup& setup) {
           .guard = setup.guard,
           .forced = setup.forced ? std::optional(manoeuvre::Plan{*setup.forced, std::nullopt})
                                  : std::nullopt,  // its target speed is set at the trigger
-          .clock = setup.clock};
+          .clock = setup.clock,
+          .tape_size = setup.tapes ? num_looks(*setup.scenario) *
+                                         runtime::Tape::step_size(setup.scenario->actors.size())
+                                   : 0};
 }
 
 runtime::Planes::Listener Encounter::thinking_listener() {
@@ -144,7 +150,7 @@ std::optional<Error> Encounter::look() {
   if (auto problem = loop_.look()) {
     return problem;
   }
-  if (num_looks_ % looks_per_judgement == 0) {
+  if (looks_ % looks_per_judgement == 0) {
     note(loop_.seen(), loop_.beliefs(), record_.intentions);
   }
   wake();
@@ -152,6 +158,8 @@ std::optional<Error> Encounter::look() {
   if (woke_) {
     reflex = planes_.step(loop_.seen(), loop_.beliefs(), start_ + from_seconds(loop_.time()),
                           loop_.finished());
+  } else {
+    planes_.watch(loop_.seen(), loop_.beliefs());
   }
   if (reflex.triggered) {
     execute(*reflex.threat);
@@ -159,7 +167,7 @@ std::optional<Error> Encounter::look() {
     change(*reflex.switched);
   }
   loop_.keep();
-  if (num_looks_ % looks_per_frame == 0 || loop_.contact() || reflex.triggered) {
+  if (looks_ % looks_per_frame == 0 || loop_.contact() || reflex.triggered) {
     film(reflex);
   }
   if (record_.decision && !ended_ && loop_.finished()) {
@@ -169,7 +177,7 @@ std::optional<Error> Encounter::look() {
          speed < 0.1 ? "the ego is at rest"
                      : fmt::format("lane change recovered at {:.1f} m/s", speed));
   }
-  ++num_looks_;
+  ++looks_;
   return std::nullopt;
 }
 
@@ -267,6 +275,13 @@ void Encounter::conclude() {
     record_.danger_maps = danger_maps(record_, *setup_.danger);
   }
   record_.reflex = planes_.timing();
+  if (setup_.tapes) {
+    runtime::TapeHeader header = runtime::tape_header(planes_setup(setup_), *setup_.intent);
+    header.car = setup_.scenario->car;
+    header.scenario = setup_.scenario->name;
+    header.seed = setup_.seed;
+    record_.tape = {header, planes_.tape().content()};
+  }
   learn();
 }
 

@@ -23,6 +23,7 @@
 #include "saca/reason/language_model.h"
 #include "saca/reason/review.h"
 #include "saca/runtime/planes.h"
+#include "saca/runtime/tape_json.h"
 #include "saca/sim/scenario.h"
 
 namespace saca::loop {
@@ -44,6 +45,7 @@ struct Setup {
   decide::Guard guard = decide::Guard::never_worse_than_braking;
   std::optional<manoeuvre::PolicyId> forced;  ///< carried out at the trigger, whatever was thought
   std::optional<std::uint64_t> seed;          ///< of what is left to chance; nullopt: nothing is
+  bool tapes = false;                         ///< `Record::tape` is wanted
   Clock* clock = nullptr;                     ///< real time
 };
 
@@ -86,6 +88,7 @@ struct Record {
   std::optional<memory::CaseId> stored;     ///< the case that memory learnt
   std::optional<Error> not_stored;          ///< why memory could not learn it
   std::optional<reason::Review> review;     ///< see loop/review.h
+  std::optional<runtime::TapeFile> tape;    ///< its program is left empty
   runtime::ReflexTiming reflex;
   int deadline_misses = 0;
 };

@@ -83,6 +83,39 @@ TEST_F(EncounterTest, WithoutModelAndMemoryTheVerdictDecides) {
   EXPECT_FALSE(record.result.contact.has_value());
 }
 
+// What is decided by is replayed in runtime/replay_test.cpp.
+TEST_F(EncounterTest, TheTapeHoldsEveryLookFromTheFirstOn) {
+  const auto scenario = wreck_on_wet_road(150.0);  // nothing threatens within T2 yet
+  EXPECT_FALSE(play(scenario).value().tape.has_value());
+  const Record record = run({.scenario = &scenario,
+                             .car = &car_,
+                             .harm = &harm_,
+                             .intent = &intent_,
+                             .seed = 3,
+                             .tapes = true,
+                             .clock = &clock_},
+                            quiet_)
+                            .value();
+  ASSERT_TRUE(record.tape.has_value());
+  EXPECT_EQ(record.tape->header.scenario, "wreck");
+  EXPECT_EQ(record.tape->header.car, "compact_rwd_ev");
+  EXPECT_EQ(record.tape->header.seed, 3U);
+  EXPECT_EQ(record.tape->content.dropped + record.tape->content.lost, 0U);
+  const auto& steps = record.tape->content.steps;
+  ASSERT_FALSE(steps.empty());
+  EXPECT_EQ(steps.front().scene.time, 0.0);
+  EXPECT_FALSE(steps.front().asked);
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    EXPECT_NEAR(steps[k].scene.time, 0.01 * static_cast<double>(k), 1e-9);
+    if (steps[k].decision) {
+      EXPECT_EQ(steps[k].decision->time, record.decision->time);
+    }
+  }
+  EXPECT_EQ(std::count_if(steps.begin(), steps.end(),
+                          [](const runtime::TapeStep& step) { return step.decision.has_value(); }),
+            1);
+}
+
 TEST_F(EncounterTest, ACheckedAnswerIsCarriedOut) {
   reason::ScriptedModel model(says(PolicyId::aes_left), clock_);
   const auto scenario = wreck_on_wet_road();
