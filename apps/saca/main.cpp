@@ -51,6 +51,7 @@ int main(int argc, char** argv) {
     int exit_code = success;
     add_run(line, exit_code);
     add_replay(line, exit_code);
+    add_explain(line, exit_code);
     add_scenarios(line, exit_code);
     add_import(line, exit_code);
     add_memory(line, exit_code);

@@ -1,0 +1,409 @@
+#include "saca/report/explanation.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+namespace saca::report {
+namespace {
+
+using nlohmann::json;
+
+std::string plan_name(const json& plan) {
+  const json& speed = plan.at("target_speed_mps");
+  return plan.at("name").get<std::string>() +
+         (speed.is_null() ? "" : fmt::format(" to {:.1f} m/s", speed.get<double>()));
+}
+
+bool is_same_plan(const json& a, const json& b) {
+  return a.at("policy") == b.at("policy") && a.at("target_speed_mps") == b.at("target_speed_mps");
+}
+
+/// What a policy's short name, or an intention's letters, stand for; themselves where not known.
+std::string meaning(std::string_view name) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 16> meanings{{
+      {"AEB", "emergency braking"},
+      {"AES-L", "a lane change to the left"},
+      {"AES-R", "a lane change to the right"},
+      {"ES-B-L", "a braked lane change to the left"},
+      {"ES-B-R", "a braked lane change to the right"},
+      {"T-D-L", "a drift to a stop, facing left"},
+      {"T-D-R", "a drift to a stop, facing right"},
+      {"NI", "doing nothing"},
+      {"M", "keeping lane and speed"},
+      {"LC", "a lane change to the left"},
+      {"RC", "a lane change to the right"},
+      {"FB", "braking"},
+      {"LB", "braking while changing to the left"},
+      {"RB", "braking while changing to the right"},
+      {"stop", "stopping"},
+      {"cross", "crossing"},
+  }};
+  const auto* const found = std::find_if(meanings.begin(), meanings.end(),
+                                         [&](const auto& one) { return one.first == name; });
+  return std::string(found == meanings.end() ? name : found->second);
+}
+
+std::string percent(double probability) {
+  return fmt::format("{:.0f} %", 100.0 * probability);
+}
+
+/// What became of one plan of a verdict.
+struct Judged {
+  std::string name;
+  std::string policy;  ///< in words
+  bool drivable = false;
+  double harm = 0.0;
+  double contact = 0.0;
+  bool admissible = false;
+  bool chosen = false;
+};
+
+/// A record, and what all paragraphs look up in it.
+class Story {
+ public:
+  explicit Story(const json& record) : record_(record), decision_(record.at("decision")) {
+    if (decision_.is_null() || decision_.at("verdict").is_null()) {
+      return;
+    }
+    const json& verdict = decision_.at("verdict");
+    most_ = verdict.at("admissible_harm").is_null()
+                ? std::nullopt
+                : std::optional(verdict.at("admissible_harm").get<double>());
+    for (const json& plan : verdict.at("plans")) {
+      Judged judged{.name = plan_name(plan),
+                    .policy = meaning(plan.at("name").get<std::string>()),
+                    .chosen = is_same_plan(plan, decision_)};
+      judged.drivable = !plan.at("harm").is_null();
+      if (judged.drivable) {
+        judged.harm = plan.at("harm").get<double>();
+        judged.contact = plan.at("contact").get<double>();
+        judged.admissible = most_ && judged.harm <= *most_;
+      }
+      judged_.push_back(judged);
+    }
+  }
+
+  [[nodiscard]] std::vector<Paragraph> told() const {
+    std::vector<Paragraph> all{{"What threatened", threatened()}};
+    if (!decision_.is_null()) {
+      all.push_back({"What was believed of the others", believed()});
+      all.push_back({"What each plan was expected to end in", expected()});
+      all.push_back({"Which plans were admissible", admissible()});
+      all.push_back({"What was chosen, and by which rule", chosen()});
+      all.push_back({"Why not the others", not_chosen()});
+      all.push_back({"What was switched", switched()});
+    }
+    all.push_back({"How it ended", ended()});
+    all.push_back({"What hindsight says", hindsight()});
+    return all;
+  }
+
+ private:
+  using Sentences = std::vector<std::string>;
+
+  /// The first event of this kind and plane, as it was told then; empty: none.
+  [[nodiscard]] std::string event(std::string_view kind, std::string_view plane) const {
+    for (const json& one : record_.at("events")) {
+      if (one.at("kind") == kind && one.at("plane") == plane) {
+        return fmt::format("At {:.2f} s, {}.", one.at("t_s").get<double>(),
+                           one.at("text").get<std::string>());
+      }
+    }
+    return {};
+  }
+  [[nodiscard]] double decided_at() const { return decision_.at("time_s").get<double>(); }
+  [[nodiscard]] std::string source() const { return decision_.at("source").get<std::string>(); }
+
+  [[nodiscard]] Sentences threatened() const;
+  [[nodiscard]] Sentences believed() const;
+  [[nodiscard]] Sentences expected() const;
+  [[nodiscard]] Sentences admissible() const;
+  [[nodiscard]] Sentences chosen() const;
+  [[nodiscard]] Sentences not_chosen() const;
+  [[nodiscard]] Sentences switched() const;
+  [[nodiscard]] Sentences ended() const;
+  [[nodiscard]] Sentences hindsight() const;
+  [[nodiscard]] std::string rule() const;
+  [[nodiscard]] std::string why_not(const Judged& plan) const;
+  [[nodiscard]] bool nothing_harms_nobody() const {
+    return std::any_of(judged_.begin(), judged_.end(), [](const Judged& plan) {
+      return plan.name == "NI" && plan.drivable && plan.contact == 0.0 && plan.harm == 0.0;
+    });
+  }
+
+  const json& record_;
+  const json& decision_;
+  std::vector<Judged> judged_;  ///< of the verdict that was decided by
+  std::optional<double> most_;  ///< admissible harm
+};
+
+Story::Sentences Story::threatened() const {
+  Sentences told;
+  if (const std::string first = event("preview", "world"); !first.empty()) {
+    told.push_back(first);
+  }
+  if (decision_.is_null()) {
+    told.push_back(
+        fmt::format("No conflict came within {:.1f} s, so nothing set off the trigger "
+                    "and nothing had to be decided.",
+                    record_.at("thresholds").at("trigger_s").get<double>()));
+    return told;
+  }
+  told.push_back(event("trigger", "reflex"));
+  for (auto frame = record_.at("frames").rbegin(); frame != record_.at("frames").rend(); ++frame) {
+    if (frame->at("t_s").get<double>() <= decided_at()) {
+      told.push_back(
+          fmt::format("The trigger fires where a conflict is at most {:.1f} s away; the "
+                      "ego drove at {:.1f} m/s.",
+                      record_.at("thresholds").at("trigger_s").get<double>(),
+                      frame->at("ego").at("speed_mps").get<double>()));
+      break;
+    }
+  }
+  return told;
+}
+
+Story::Sentences Story::believed() const {
+  Sentences told;
+  for (const json& seen : record_.at("intentions")) {
+    const json& times = seen.at("times_s");
+    const auto after =
+        std::upper_bound(times.begin(), times.end(), decided_at(),
+                         [](double time, const json& one) { return time < one.get<double>(); });
+    if (after == times.begin()) {
+      continue;  // not seen yet
+    }
+    const auto last = static_cast<std::size_t>(after - times.begin()) - 1;
+    std::istringstream numbers(seen.at("now_permille").at(last).get<std::string>());
+    std::vector<std::pair<double, std::string>> all;
+    for (const json& letter : seen.at("of")) {
+      double permille = 0.0;
+      numbers >> permille;
+      all.emplace_back(permille, letter.get<std::string>());
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::string text;
+    for (const auto& [permille, letter] : all) {
+      if (permille > 0.0) {
+        text += fmt::format("{}{} with {:.1f} %", text.empty() ? "" : ", ", meaning(letter),
+                            permille / 10.0);
+      }
+    }
+    told.push_back(fmt::format("At {:.2f} s {} was thought to intend: {}.",
+                               times.at(last).get<double>(), seen.at("actor").get<std::string>(),
+                               text));
+  }
+  if (told.empty()) {
+    told.emplace_back("No road user was seen who could intend anything.");
+  }
+  return told;
+}
+
+Story::Sentences Story::expected() const {
+  if (judged_.empty()) {
+    return {"There was no verdict: nothing was expected of any plan."};
+  }
+  const double time = decision_.at("verdict").at("t_s").get<double>();
+  Sentences told{fmt::format("The scene that was judged is that of {:.2f} s; {}.", time,
+                             decision_.at("by_atlas").get<bool>()
+                                 ? "the forecaster's verdict was too old, so the reflex plane read "
+                                   "the plans from the atlas"
+                                 : "the forecaster drove every plan against draws of what the "
+                                   "others may do")};
+  for (const Judged& plan : judged_) {
+    told.push_back(
+        plan.drivable
+            ? fmt::format("{}, {}: expected harm {:.4f}, chance of contact {}.", plan.name,
+                          plan.policy, plan.harm, percent(plan.contact))
+            : fmt::format("{}, {}: cannot be driven from there.", plan.name, plan.policy));
+  }
+  return told;
+}
+
+Story::Sentences Story::admissible() const {
+  if (!most_) {
+    return {"None could be held against the others."};
+  }
+  std::string names;
+  for (const Judged& plan : judged_) {
+    names += plan.admissible ? (names.empty() ? "" : ", ") + plan.name : "";
+  }
+  return {
+      fmt::format("A plan is admissible where it can be driven and its expected harm is at most "
+                  "{:.4f}: the forecasts cannot tell that from the best.",
+                  *most_),
+      fmt::format("Admissible were {}.", names)};
+}
+
+std::string Story::rule() const {
+  const std::string by = source();
+  if (by == "forced") {
+    return "The user asked for this policy, whatever was thought.";
+  }
+  if (by == "memory") {
+    return "A case in memory had this plan ready for a situation like this one.";
+  }
+  if (by == "model") {
+    return "The language model had chosen this plan for a situation like this one, and the check "
+           "by "
+           "rollout had passed.";
+  }
+  if (by == "fallback") {
+    return "Nothing could be judged, or what was decided on could not be driven from here: "
+           "emergency braking is the fallback.";
+  }
+  if (decision_.at("name") == "NI") {
+    return "The arbiter decided: no draw has contact where nothing is done, so nothing is done.";
+  }
+  if (decision_.at("name") == "AEB") {
+    return "The arbiter decided: doing nothing may end in contact, and emergency braking, being "
+           "admissible, comes before all other plans.";
+  }
+  return "The arbiter decided: doing nothing may end in contact and emergency braking is not "
+         "admissible, so it is the mildest of the admissible plans.";
+}
+
+Story::Sentences Story::chosen() const {
+  Sentences told{fmt::format("At {:.2f} s {} was begun (source: {}).", decided_at(),
+                             plan_name(decision_), source())};
+  if (!decision_.at("similarity").is_null()) {
+    told.push_back(fmt::format(
+        "The situation most like this one for which a plan was ready was like it to {}{}.",
+        percent(decision_.at("similarity").get<double>()),
+        decision_.at("not_admissible").get<bool>()
+            ? ", but that plan is expected to harm too much from here"
+            : ""));
+  }
+  told.push_back(rule());
+  return told;
+}
+
+std::string Story::why_not(const Judged& plan) const {
+  if (!plan.drivable) {
+    return fmt::format("{}: it cannot be driven.", plan.name);
+  }
+  if (!plan.admissible) {
+    return fmt::format("{}: its expected harm of {:.4f} is more than the admissible {:.4f}.",
+                       plan.name, plan.harm, most_.value_or(0.0));
+  }
+  const std::string by = source();
+  if (by == "memory" || by == "model") {
+    return fmt::format("{}: admissible, but {} preferred another of the admissible plans.",
+                       plan.name, by == "memory" ? "memory" : "the language model");
+  }
+  if (by != "arbiter") {
+    return fmt::format("{}: admissible, but the choice was not made among the admissible plans.",
+                       plan.name);
+  }
+  if (nothing_harms_nobody()) {
+    return fmt::format("{}: admissible, but not needed.", plan.name);
+  }
+  if (plan.name == "NI") {
+    return fmt::format("NI: admissible, but it may end in contact ({}), and something can be done.",
+                       percent(plan.contact));
+  }
+  return fmt::format("{}: admissible, but {}.", plan.name,
+                     decision_.at("name") == "AEB" ? "emergency braking comes first"
+                                                   : "it is no milder than what was chosen");
+}
+
+Story::Sentences Story::not_chosen() const {
+  Sentences told;
+  for (const Judged& plan : judged_) {
+    if (!plan.chosen) {
+      told.push_back(why_not(plan));
+    }
+  }
+  if (told.empty()) {
+    told.emplace_back("There was no verdict by which others could have been chosen.");
+  }
+  return told;
+}
+
+Story::Sentences Story::switched() const {
+  Sentences told;
+  std::string before = plan_name(decision_);
+  for (const json& change : record_.at("switches")) {
+    told.push_back(fmt::format("At {:.2f} s the supervisor began {} in place of {}, {}: {}.",
+                               change.at("t_s").get<double>(), plan_name(change), before,
+                               change.at("reason").get<std::string>(),
+                               change.at("text").get<std::string>()));
+    before = plan_name(change);
+  }
+  if (told.empty()) {
+    told.push_back(fmt::format("Nothing: {} was carried out to its end.", before));
+  }
+  return told;
+}
+
+Story::Sentences Story::ended() const {
+  const json& result = record_.at("result");
+  Sentences told;
+  if (const std::string rest = event("rest", "world"); !rest.empty()) {
+    told.push_back(rest);
+  }
+  told.push_back(fmt::format("The outcome: {}; harm {:.4f}.", result.at("text").get<std::string>(),
+                             result.at("harm").get<double>()));
+  if (!record_.at("driver").is_null()) {
+    told.push_back(fmt::format("The recorded drive ended so: {}; harm {:.4f}.",
+                               record_.at("driver").at("text").get<std::string>(),
+                               record_.at("driver").at("harm").get<double>()));
+  }
+  return told;
+}
+
+Story::Sentences Story::hindsight() const {
+  if (record_.at("best").is_null()) {
+    return {"Nothing was decided, so there is nothing to compare."};
+  }
+  const json& all = record_.at("hindsight");
+  const json& best = all.at(record_.at("best").get<std::size_t>());
+  const json& own = all.at(decision_.at("policy").get<std::size_t>());
+  const auto text_of = [](const json& one) {
+    return one.at("harm").is_null()
+               ? one.at("text").get<std::string>()
+               : fmt::format("{}; harm {:.4f}", one.at("text").get<std::string>(),
+                             one.at("harm").get<double>());
+  };
+  Sentences told{
+      fmt::format("With what the others really did, {} would have been the best of the "
+                  "eight policies from the trigger on: {}.",
+                  plan_name(best), text_of(best))};
+  told.push_back(best.at("policy") == own.at("policy")
+                     ? "That is what was chosen."
+                     : fmt::format("What was chosen, {}, would have led to this when kept to the "
+                                   "end: {}.",
+                                   plan_name(own), text_of(own)));
+  return told;
+}
+
+}  // namespace
+
+Result<std::vector<Paragraph>> explanation(std::string_view record, std::string_view source) {
+  const auto refuse = [&](const std::string& what) {
+    return Error{Error::Code::malformed, fmt::format("{}: {}", source, what)};
+  };
+  const json document = json::parse(record, nullptr, false);
+  if (!document.is_object()) {
+    return refuse("want the JSON of a record (saca.record/1), got something else");
+  }
+  if (const auto schema = document.find("schema");
+      schema == document.end() || *schema != "saca.record/1") {
+    return refuse("schema: want \"saca.record/1\", got " +
+                  (schema == document.end() ? "none" : schema->dump()));
+  }
+  try {
+    return Story(document).told();
+  } catch (const json::exception& problem) {  // a key that is missing or of another type
+    return refuse(fmt::format("want a whole record (saca.record/1), got: {}", problem.what()));
+  }
+}
+
+}  // namespace saca::report
