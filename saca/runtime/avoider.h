@@ -75,9 +75,9 @@ class Avoider {
   [[nodiscard]] const std::optional<decide::Decision>& decision() const {
     return planes_.decision();
   }
-  /// What was recorded, where the setup gives the tape memory (runtime::PlanesSetup::tape_size):
-  /// what of it is needed for `saca replay` is written by runtime::tape_text. Belongs to the thread
-  /// that calls `step`; its content, once copied (Tape::content), may be written by any.
+  /// All that was decided by, where the setup gives it memory (runtime::PlanesSetup::tape_size).
+  /// Belongs to the thread that calls `step`; a copy of its content may be written by any
+  /// (runtime::tape_text), and worked out again (runtime::replay).
   [[nodiscard]] const runtime::Tape& tape() const { return planes_.tape(); }
   /// How many encounters have ended.
   [[nodiscard]] std::size_t num_encounters() const { return num_encounters_; }

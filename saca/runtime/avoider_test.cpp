@@ -18,6 +18,7 @@
 #include "saca/intent/shipped_model.h"
 #include "saca/manoeuvre/default_car.h"
 #include "saca/manoeuvre/ego.h"
+#include "saca/runtime/replay.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/scenes.h"
 #include "tests/support/system_calls.h"
@@ -63,7 +64,8 @@ class Drive {
   explicit Drive(double speed, double grip = 0.9)
       : avoider_({.planes = {.forecast = {&car_, &harm_},
                              .costs = {.preview = 0.05, .verdict = 0.03},
-                             .clock = &clock_},
+                             .clock = &clock_,
+                             .tape_size = 2'000 * runtime::Tape::step_size(1)},
                   .intent = &intent::shipped_model()}),
         scene_(test::ego_at(speed, manoeuvre::footprint(car_))) {
     scene_.ego_mass = car_.mass;
@@ -75,6 +77,11 @@ class Drive {
 
   Scene& scene() { return scene_; }
   Avoider& avoider() { return avoider_; }
+  [[nodiscard]] runtime::Replay replayed() {
+    return runtime::replay(avoider_.tape().content(),
+                           {.forecast = {&car_, &harm_}, .clock = &clock_}, intent::shipped_model(),
+                           decide::usual_draws);
+  }
 
   /// One instant of 10 ms; actors go on evenly.
   Answer step() {
@@ -172,6 +179,13 @@ TEST(Avoider, DecidesAnewInTheNextEncounter) {
     EXPECT_EQ(drive.avoider().num_encounters(), static_cast<std::size_t>(encounter) + 1);
     EXPECT_GT(drive.scene().ego.v_B.x, 2.0) << "the wheel was given back, not a full stop";
   }
+  // Both encounters stand on the tape, the end of the first between them, and come back.
+  const runtime::Replay replay = drive.replayed();
+  EXPECT_FALSE(replay.first.has_value()) << replay.first->what;
+  EXPECT_EQ(replay.decisions.recorded, 2U);
+  EXPECT_EQ(replay.decisions.same, 2U);
+  EXPECT_GE(replay.switches.same, 2U);
+  EXPECT_EQ(replay.beliefs_not_compared + replay.verdicts_not_compared, 0U);
 }
 
 // Perception drops out 0.3 s before T1 and stays away: everything is carried on, and it triggers.
@@ -546,9 +560,11 @@ TEST(Avoider, AllocatesNothingOnTheDrivingThread) {
   const manoeuvre::Car car = manoeuvre::default_car();
   const auto harm = outcome::read_harm("data/harm.toml").value();
   SteadyClock clock;
-  Avoider avoider(
-      {.planes = {.forecast = {&car, &harm}, .pace = runtime::Pace::real, .clock = &clock},
-       .intent = &intent::shipped_model()});
+  Avoider avoider({.planes = {.forecast = {&car, &harm},
+                              .pace = runtime::Pace::real,
+                              .clock = &clock,
+                              .tape_size = 20 * runtime::Tape::step_size(1)},
+                   .intent = &intent::shipped_model()});
   Scene scene = test::ego_at(12.0, manoeuvre::footprint(car));
   scene.ego_mass = car.mass;
   scene.actors.push_back(test::car(1, {40.0, 0.0}));
