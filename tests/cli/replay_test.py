@@ -67,6 +67,24 @@ def test_everything_comes_back_to_the_last_bit(options, tmp_path):
     assert result["switches"]["recorded"] == sum(step["reflex"]["switched"] is not None for step in steps)
 
 
+def test_a_plan_of_memory_comes_from_the_tape(tmp_path):
+    for _ in range(2):  # the second time memory knows the case
+        run = saca("run", "intersection_t1", "--llm", "off", "--pace", "lockstep", "--memory", "m.sqlite", "--tape", "a.tape", cwd=tmp_path)
+        assert run.returncode == SUCCESS, run.stderr
+    (tmp_path / "m.sqlite").unlink()
+    text = (tmp_path / "a.tape").read_text()
+    decision = next(step["decision"] for step in map(json.loads, text.splitlines()) if step.get("decision"))
+    assert decision["source"] == "memory" and decision["similarity"] > 0.9
+    assert replayed(text, tmp_path).returncode == SUCCESS
+
+    def forget(lines):
+        for step in lines[2:-1]:
+            step["plans"] = None
+
+    run = replayed(altered(text, forget), tmp_path)
+    assert run.returncode == NOT_THE_SAME and "decision" in run.stdout
+
+
 def test_what_it_finds_is_told_in_words(tape, tmp_path):
     told = replayed(tape, tmp_path).stdout
     assert "100car_9018" in told and "choices at a trigger                    1 of      1" in told
