@@ -13,6 +13,15 @@ constexpr std::array<std::string_view, 2> pace_names{"real", "lockstep"};
 
 constexpr Clock::Time breath = std::chrono::milliseconds(200);  // plans change slowly
 
+PlanesSetup with_judge(PlanesSetup setup) {
+  if (!setup.judge) {
+    setup.judge = [forecaster = decide::Forecaster(setup.forecast)](const auto&... seen) {
+      return forecaster.judge(seen...);
+    };
+  }
+  return setup;
+}
+
 }  // namespace
 
 std::string_view name(Pace pace) {
@@ -31,17 +40,6 @@ decide::ReflexTools reflex_tools(const PlanesSetup& setup) {
   }
   return tools;
 }
-
-PlanesSetup with_judge(PlanesSetup setup) {
-  if (!setup.judge) {
-    setup.judge = [forecaster = decide::Forecaster(setup.forecast)](const auto&... seen) {
-      return forecaster.judge(seen...);
-    };
-  }
-  return setup;
-}
-
-}  // namespace
 
 Planes::Planes(const PlanesSetup& setup, Listener listener, std::size_t looks)
     : setup_(with_judge(setup)),
