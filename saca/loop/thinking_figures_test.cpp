@@ -49,9 +49,12 @@ TEST(ThinkingFigures, CountWhatWasThought) {
 }
 
 TEST(ThinkingFigures, KeepTheAnswerAboutTheForecastThatCame) {
-  const std::vector<Preview> all{Preview{}, answered(reason::Answer::Kind::ended)};
-  EXPECT_EQ(thinking_figures(all, decide::Decision{.preview = 1}).answer->at(1), 0.75);
-  EXPECT_EQ(thinking_figures(all, decide::Decision{.preview = 0}).answer, std::nullopt);
+  std::vector<Preview> all{Preview{}, answered(reason::Answer::Kind::ended)};
+  all[0].number = 7;  // those before are forgotten
+  all[1].number = 8;
+  EXPECT_EQ(thinking_figures(all, decide::Decision{.preview = 8}).answer->at(1), 0.75);
+  EXPECT_EQ(thinking_figures(all, decide::Decision{.preview = 7}).answer, std::nullopt);
+  EXPECT_EQ(thinking_figures(all, decide::Decision{.preview = 1}).answer, std::nullopt);
   EXPECT_EQ(thinking_figures(all, decide::Decision{}).answer, std::nullopt);
 }
 
