@@ -79,6 +79,9 @@ class Avoider {
   /// Belongs to the thread that calls `step`; a copy of its content may be written by any
   /// (runtime::tape_text), and worked out again (runtime::replay).
   [[nodiscard]] const runtime::Tape& tape() const { return planes_.tape(); }
+  /// When this drive began [s], in the scenes' time: the times of decisions, events and the tape
+  /// count from it.
+  [[nodiscard]] double drive_began() const { return intake_.began(); }
   /// How many encounters have ended.
   [[nodiscard]] std::size_t num_encounters() const { return num_encounters_; }
 

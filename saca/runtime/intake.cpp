@@ -55,13 +55,20 @@ EgoState moved_on(EgoState ego, double dt) {
 
 Taken Intake::take(const Scene& scene) noexcept {
   Scene frame = scene;
+  frame.time = 0.0;
   frame.actors.clear();
-  if (!std::isfinite(scene.time) || world::broken_rule(frame)) {
-    return std::isfinite(scene.time) ? carry_on(scene.time) : carry_on(delivered_);
+  const bool has_time = std::abs(scene.time) <= latest;
+  if (!has_time || world::broken_rule(frame)) {
+    return carry_on(has_time ? scene.time : began_ + delivered_);
   }
   Taken taken{.usable = true};
-  taken.new_drive = !seen_at_ || std::abs(scene.time - delivered_) > longest_gap;
-  if (!taken.new_drive && scene.time < delivered_) {
+  frame.time = scene.time - began_;
+  taken.new_drive =
+      !seen_at_ || std::abs(frame.time - delivered_) > longest_gap || frame.time > longest_drive;
+  if (taken.new_drive) {
+    began_ = scene.time;
+    frame.time = 0.0;
+  } else if (frame.time < delivered_) {
     return {.usable = false, .degraded = true};
   }
   const Scene before = scene_;
@@ -74,7 +81,7 @@ Taken Intake::take(const Scene& scene) noexcept {
   }
   if (!taken.new_drive) {
     for (const Actor& known : before.actors) {  // of those who came and could not be used
-      const double dt = scene.time - before.time;
+      const double dt = frame.time - before.time;
       if (find(frame, known) == nullptr && find(scene, known) != nullptr &&
           known.age + dt <= longest_carried && !frame.actors.full()) {
         frame.actors.push_back(moved_on(known, dt));
@@ -82,24 +89,26 @@ Taken Intake::take(const Scene& scene) noexcept {
     }
   }
   scene_ = frame;
-  seen_at_ = scene.time;
-  delivered_ = scene.time;
+  seen_at_ = frame.time;
+  delivered_ = frame.time;
   return taken;
 }
 
 Taken Intake::carry_on(double now) noexcept {
-  if (!seen_at_ || !std::isfinite(now) || now < scene_.time || now > *seen_at_ + longest_carried) {
+  const double time = now - began_;
+  const bool follows = time >= scene_.time && seen_at_ && time <= *seen_at_ + longest_carried;
+  if (!follows) {
     return {.usable = false, .degraded = true};
   }
-  const double dt = now - scene_.time;
+  const double dt = time - scene_.time;
   if (dt > 0.0) {
     scene_.ego = moved_on(scene_.ego, dt);
     for (Actor& actor : scene_.actors) {
       actor = moved_on(actor, dt);
     }
-    scene_.time = now;
+    scene_.time = time;
   }
-  delivered_ = std::max(delivered_, now);
+  delivered_ = std::max(delivered_, time);
   return {.usable = true, .degraded = true};
 }
 

@@ -22,22 +22,29 @@ struct Taken {
 ///   carried on for as long, the ego as it moves now: braking and turning.
 /// * A scene that comes late, older than the newest by at most `longest_gap`, is left aside. Time
 ///   that jumps by more, ahead or back, begins a new drive.
-/// Allocates nothing, never throws.
+/// Its scenes count time from the beginning of the drive, whatever clock perception has: with
+/// seconds since 1970 forecasts could not tell their shortest steps apart. Allocates nothing, never
+/// throws.
 class Intake {
  public:
   static constexpr double longest_carried = 0.5;  ///< [s]
   static constexpr double longest_gap = 1.0;      ///< [s]
+  static constexpr double longest_drive = 5e6;    ///< [s]; then a new one begins
+  static constexpr double latest = 1e10;          ///< no scene has a later time, or is older [s]
 
   /// A scene came.
   Taken take(const world::Scene& scene) noexcept;
   /// None came until `now` [s], in the scenes' time.
   Taken carry_on(double now) noexcept;
 
-  /// The newest that can be used.
+  /// When this drive began [s], in perception's time.
+  [[nodiscard]] double began() const noexcept { return began_; }
+  /// The newest that can be used; its time counts from the beginning of the drive.
   [[nodiscard]] const world::Scene& scene() const noexcept { return scene_; }
 
  private:
   world::Scene scene_;
+  double began_ = 0.0;             ///< [s], in perception's time
   std::optional<double> seen_at_;  ///< when a scene last came whose frame was right [s]
   double delivered_ = 0.0;         ///< time of the last one that came [s]
 };

@@ -108,7 +108,8 @@ TEST(Intake, AStreamThatStallsIsCarriedOnAsEverybodyMoves) {
     EXPECT_TRUE(taken.usable && taken.degraded);
   }
   const Scene& scene = intake.scene();
-  EXPECT_NEAR(scene.time, 2.4, 1e-9);
+  EXPECT_EQ(intake.began(), 2.0);
+  EXPECT_NEAR(scene.time, 0.4, 1e-9);
   EXPECT_NEAR(scene.ego.X_WB.p.x, 40.0 + 7.6, 1e-6);
   EXPECT_NEAR(scene.ego.v_B.x, 18.0, 1e-9);
   EXPECT_NEAR(named(scene, 1).X_WA.p.x, 70.0 + 4.0, 1e-6);
@@ -151,8 +152,39 @@ TEST(Intake, ASceneThatComesLateIsLeftAside) {
   const Taken late = intake.take(road_at(9.9));
   EXPECT_FALSE(late.usable);
   EXPECT_FALSE(late.new_drive);
-  EXPECT_EQ(intake.scene().time, 10.0);
+  EXPECT_EQ(intake.scene().time, 0.0);
   EXPECT_TRUE(intake.take(road_at(10.01)).usable);
+}
+
+// Perception whose clock counts from 1970, to a microsecond: the same as from 0.
+TEST(Intake, WhateverTheClockCountsFrom) {
+  constexpr double day = 1.8e9;
+  Intake near;
+  Intake far;
+  for (int k = 0; k < 300; ++k) {
+    const double time = 0.01 * k;
+    Scene there = road_at(time);
+    there.time += day;
+    const bool comes = k < 100 || k > 140;
+    const Taken a = comes ? near.take(road_at(time)) : near.carry_on(time);
+    const Taken b = comes ? far.take(there) : far.carry_on(day + time);
+    ASSERT_TRUE(a.usable && b.usable) << k;
+    EXPECT_EQ(a.new_drive, b.new_drive) << k;
+    EXPECT_NEAR(near.scene().time, far.scene().time, 1e-6) << k;
+    EXPECT_NEAR(near.scene().ego.X_WB.p.x, far.scene().ego.X_WB.p.x, 1e-4) << k;
+  }
+  EXPECT_EQ(far.began(), day);
+}
+
+TEST(Intake, TimeThatNobodyCountsIsNoTime) {
+  Intake intake;
+  (void)intake.take(road_at(0.0));
+  Scene absurd = road_at(0.1);
+  absurd.time = 1e12;  // milliseconds since 1970
+  const Taken taken = intake.take(absurd);
+  EXPECT_FALSE(taken.new_drive) << "what is under way goes on";
+  EXPECT_TRUE(taken.degraded);
+  EXPECT_EQ(intake.scene().time, 0.0);
 }
 
 TEST(Intake, NothingThatIsUsableBreaksARule) {
