@@ -100,8 +100,10 @@ decide::ThinkingOutput Planes::output() {
 void Planes::begin_entry(const world::Scene& scene, const intent::Beliefs& beliefs) {
   entry_->number = num_scenes_++;
   entry_->forgotten = std::exchange(forgotten_, Forgotten::nothing);
-  entry_->scene = scene;
-  entry_->beliefs = beliefs;
+  if (tape_.records()) {
+    entry_->scene = scene;
+    entry_->beliefs = beliefs;
+  }
   entry_->asked = false;
   entry_->finished = false;
   entry_->plans.reset();
