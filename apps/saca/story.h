@@ -17,7 +17,7 @@ class Story final : public loop::Listener {
  public:
   static constexpr int patience = 10;  ///< [s]
 
-  /// @param file    its descriptor; nullopt: nothing is told
+  /// @param file    its descriptor; nullopt: nothing is printed
   /// @param colour  whether it understands terminal colours
   Story(std::optional<int> file, bool colour) : file_(file), colour_(colour) {}
 
@@ -32,7 +32,7 @@ class Story final : public loop::Listener {
   /// Where the report lies.
   void on_report(const std::string& file);
 
-  /// Why not everything was told.
+  /// Why not everything was printed.
   [[nodiscard]] const std::optional<Error>& problem() const { return problem_; }
 
  private:

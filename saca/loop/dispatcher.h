@@ -18,8 +18,8 @@ namespace saca::loop {
 /// likes, and no thread that hands something over waits for it.
 ///
 /// Two threads hand over, each to a bounded queue (SpscQueue). What does not fit because the
-/// listener has blocked for long is counted; once the listener has heard what did fit, it is told
-/// one event that says how many it was not told.
+/// listener has blocked for long is counted; once the listener has heard what did fit, one event
+/// reports how many it missed.
 class Dispatcher {
  public:
   /// The thread that hands over.
@@ -65,7 +65,7 @@ class Dispatcher {
 
   Listener& listener_;
   std::array<Lane, 2> lanes_;
-  double time_ = 0.0;  ///< of the last event told [s]; the telling thread's own, as the next
+  double time_ = 0.0;           ///< of the last event heard [s]; this thread's own, as the next
   std::exception_ptr problem_;  ///< what the listener has thrown
   std::jthread thread_;
 };

@@ -27,7 +27,7 @@ struct Drive {
   double longest = 3600.0;  ///< how long it is driven at most, whatever the batch's horizon [s]
 };
 
-/// A drive from a scene, on the grip that the scene tells.
+/// A drive from a scene, on the grip of the scene.
 [[nodiscard]] Drive drive_from(const Car& car, const Plan& plan, const world::Scene& scene,
                                double longest);
 

@@ -8,7 +8,7 @@
 
 namespace saca::report {
 
-/// What is told of one question, in whole sentences.
+/// The answer to one question, in whole sentences.
 struct Paragraph {
   std::string about;  ///< "What threatened"
   std::vector<std::string> sentences;

@@ -67,7 +67,7 @@ class Avoider {
   /// in words, for a log. nullopt: there is none now.
   ///
   /// For one thread, this one or another, which may take its time: no other waits for it. What does
-  /// not fit meanwhile (`most_events`) is counted, and told as an event.
+  /// not fit meanwhile (`most_events`) is counted, and reported as an event.
   [[nodiscard]] std::optional<decide::Event> next_event() { return events_.next(); }
   static constexpr std::size_t most_events = 256;  ///< that wait, of either thread
 
@@ -107,7 +107,7 @@ class Avoider {
   world::Road road_;       ///< where the plan began
   double grip_ = 0.9;      ///< as believed at the last look [-]
   bool finished_ = false;  ///< the plan has reached its safe end
-  runtime::Remark perception_ = runtime::Remark::seen_again;  ///< as last told
+  runtime::Remark perception_ = runtime::Remark::seen_again;  ///< as last reported
   bool watches_ = false;         ///< a scene has come that could be used
   bool meets_somebody_ = false;  ///< somebody has threatened since the last encounter
   std::optional<double> quiet_;  ///< since when nobody has threatened and nothing is under way [s]

@@ -15,7 +15,7 @@
 
 namespace saca::runtime {
 
-/// What is told of an avoider besides its decisions.
+/// What an avoider reports besides its decisions.
 enum class Remark : std::uint8_t {
   encounter_over,  ///< the next one finds nothing of it
   new_drive,       ///< the scenes' time jumped: what was known is forgotten
@@ -27,8 +27,8 @@ enum class Remark : std::uint8_t {
 /// Events of an avoider, from the threads in which they happen to one that has the time to read
 /// them. The driving thread hands over numbers, of which the reading thread makes text.
 ///
-/// The queues are bounded. What does not fit is counted; whoever has read what did fit is told one
-/// event that says how many it was not told.
+/// The queues are bounded. What does not fit is counted; after what did fit, one event reports how
+/// many are missing.
 class EventLog {
  public:
   /// @param capacity  of each of the two queues, >= 1
