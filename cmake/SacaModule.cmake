@@ -56,18 +56,19 @@ function(saca_gtest test target)
 endfunction()
 
 # saca_module(<name> [NOT_INSTALLED] [SOURCES <a.cpp>...] [DEPS <module>...] [THREADS <filter>]
-#             [ALONE <a_test.cpp>] [COMPUTES])
+#             [ALONE <a_test.cpp>] [COMPUTES] [INNER_LOOPS])
 #
 # Makes the library saca::<name> from the current folder. All <a>_test.cpp in the folder become one
 # program, <name>_test, and the test <name>, but one that asks for a process of its own (ALONE); a
 # source without one stops the configuration. All <a>_bench.cpp become the program <name>_bench, run for an instant as a test so that it cannot rot.
 # One more test checks that the folder includes only the modules in DEPS. Tests run in the project's
 # folder. Under the thread sanitiser there is only the test <name>.threads: those that match THREADS.
+# INNER_LOOPS: what all others spend their time in is optimised in a sanitiser's build, too.
 #
 # Files of tests are compiled together where builds are (CMAKE_UNITY_BUILD), so each has a namespace of
 # its own: saca::<name>::<a>_test.
 function(saca_module name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "NOT_INSTALLED;COMPUTES" "THREADS;ALONE" "SOURCES;DEPS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "NOT_INSTALLED;COMPUTES;INNER_LOOPS" "THREADS;ALONE" "SOURCES;DEPS")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "saca_module(${name}): what is `${arg_UNPARSED_ARGUMENTS}`?")
   endif()
@@ -97,7 +98,8 @@ function(saca_module name)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include>)
   target_compile_features(saca_${name} PUBLIC cxx_std_20)
   target_compile_options(saca_${name} PRIVATE -ffp-contract=off  # same bytes at every level
-    -fno-math-errno -fno-trapping-math)  # changes no result: square roots and choices without branches
+    -fno-math-errno -fno-trapping-math  # changes no result: square roots and choices without branches
+    $<$<AND:$<BOOL:${arg_INNER_LOOPS}>,$<CONFIG:Debug>>:-O2>)
   target_link_libraries(saca_${name} PUBLIC ${libraries} PRIVATE $<BUILD_INTERFACE:saca_flags>)
   set_target_properties(saca_${name} PROPERTIES EXPORT_NAME ${name})
   if(NOT arg_NOT_INSTALLED)
