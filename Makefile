@@ -47,6 +47,7 @@ soak: setup
 	SACA_SOAK_ASKS=$${SACA_SOAK_ASKS:-1000} SACA_SOAK_CHILD_KILLS=$${SACA_SOAK_CHILD_KILLS:-200} $(release)/apps/model_host/model_host_test --gtest_filter='SoakTest.*:HostTest.NoPrompt*'
 	SACA_SOAK_CLOCK=1 $(release)/modules/reason/reason_test --gtest_filter='*RealTime*'
 	PYTHONDONTWRITEBYTECODE=1 python3 -m pytest -q -p no:cacheprovider tests/cli/real_server_test.py
+	SACA_SOAK_TABLES=1 PYTHONDONTWRITEBYTECODE=1 python3 -m pytest -q -p no:cacheprovider tests/cli/suite_test.py -k table
 	SACA_SOAK_PAIRS=$${SACA_SOAK_PAIRS:-100000} $(release)/modules/outcome/outcome_test --gtest_filter='Exactness.*'
 	SACA_AGREEMENT_ENCOUNTERS=$${SACA_AGREEMENT_ENCOUNTERS:-4000} $(release)/modules/eval/eval_test --gtest_filter='RolloutAgreement.*'
 	SACA_SOAK_REACH=1 $(release)/modules/reach/reach_test --gtest_filter='FollowAgreement.*'

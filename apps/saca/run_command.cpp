@@ -40,6 +40,7 @@ struct RunOptions {
   std::string danger;
   bool no_memory = false;
   bool no_learning = false;
+  bool no_review = false;
   std::string output = "runs";
   std::string report;
   std::string trace;
@@ -190,8 +191,11 @@ int run(const RunOptions& options) {
   // What was played is written down even if nobody wants to wait for the review.
   watch_for_interrupt();
   const InterruptStop interrupt;
-  const auto review = loop::review(
-      setup, record, [&](std::string_view said) { story.on_review(said); }, interrupt.token());
+  const auto review =
+      options.no_review ? Result<std::optional<reason::Review>>(std::nullopt)
+                        : loop::review(
+                              setup, record, [&](std::string_view said) { story.on_review(said); },
+                              interrupt.token());
   if (review.has_value()) {
     record.review = review.value();
   } else {
@@ -256,6 +260,8 @@ void add_run(CLI::App& line, int& exit_code) {
                    "off: risks by a few evasions (default: solved tables, made when needed)")
       ->check(CLI::IsMember({"off"}));
   command->add_flag("--no-memory", options->no_memory, "Neither ask nor fill a memory");
+  command->add_flag("--no-review", options->no_review,
+                    "Do not have the language model look back when all is over");
   command->add_flag("--no-learning", options->no_learning,
                     "Ask the memory, but do not add to it what happens");
   command->add_option("--output", options->output, "Folder for records and reports")

@@ -1,10 +1,13 @@
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "apps/saca/commands.h"
 #include "apps/saca/planes_making.h"
@@ -52,8 +55,9 @@ constexpr std::array<PublishedRow, 4> one_way_rows{
      {"Language model without fine-tuning", 1.06, 0.20},
      {"Language model without scenario awareness", 0.65, 0.0},
      {"SACA with a fine-tuned model", 0.07, 0.0}}};
-constexpr std::array<OwnRow, 5> own_rows{
-    {{"SACA without model and memory, Algorithm 1", "saca_paper"},
+constexpr std::array<OwnRow, 6> own_rows{
+    {{"SACA without model and memory", "saca"},
+     {"SACA without model and memory, Algorithm 1", "saca_paper"},
      {"AEB at T1", "aeb"},
      {"RSS, braking", "rss"},
      {"Best of eight in expectation, rolled out", "beliefs_rolled_out"},
@@ -79,6 +83,7 @@ struct TablesCommand {
   std::uint64_t seed = 1;
   int threads = usual_threads();
   bool as_json = false;
+  std::vector<std::string> only;  ///< numbers of tables; empty: all
 };
 
 Result<sim::Scenario> shipped(const Inputs& inputs, const std::string& name) {
@@ -225,14 +230,21 @@ int run(const TablesCommand& options) {
   if (!planes.has_value()) {
     return refused(planes.error());
   }
-  json out{{"meta.command",
-            fmt::format("saca tables --count {} --seed {}", options.count, options.seed)},
-           {"meta.seed", std::to_string(options.seed)},
-           {"meta.version", SACA_VERSION}};
+  json out{
+      {"meta.command",
+       fmt::format(
+           "saca tables --count {} --seed {}{}", options.count, options.seed,
+           options.only.empty() ? "" : fmt::format(" --table {}", fmt::join(options.only, ",")))},
+      {"meta.seed", std::to_string(options.seed)},
+      {"meta.version", SACA_VERSION}};
   constexpr int few_draws = 10;  // of each condition, as in the paper
   watch_for_interrupt();
   bool faults = false;
   for (const TableSpec& table : tables) {
+    if (!options.only.empty() &&
+        std::find(options.only.begin(), options.only.end(), table.number) == options.only.end()) {
+      continue;
+    }
     const auto conditions = conditions_of(planes.value()->inputs, table);
     if (!conditions.has_value()) {
       return refused(conditions.error());
@@ -282,6 +294,13 @@ void add_tables(CLI::App& line, int& exit_code) {
   command->add_option("--count", options->count, "Encounters of each table, at least")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
+  std::vector<std::string> numbers;
+  for (const TableSpec& table : tables) {
+    numbers.emplace_back(table.number);
+  }
+  command->add_option("--table", options->only, "Only these: 2, 2_late, 3; all unless given")
+      ->delimiter(',')
+      ->check(CLI::IsMember(numbers));
   command->add_option("--seed", options->seed, "Of all that is drawn")->capture_default_str();
   command->add_option("--threads", options->threads, "They do not change the result")
       ->check(CLI::Range(1, 256))
