@@ -117,6 +117,10 @@ struct Course {
                             std::span<const world::Track> tracks, const HarmModel& harm,
                             double grip);
 
+/// Does the ego still move where its motion ends (more than 0.05 m/s)? Who does and has ended, goes
+/// on along the lane for two seconds more.
+[[nodiscard]] bool moves_at_end(const manoeuvre::EgoMotion& motion);
+
 /// As `judge`, for forecasts: the clearance is not looked for and 0, struck bodies slide in coarser
 /// steps (coarse_slide), and bodies that stay together are looked at every 50 ms instead of 10.
 [[nodiscard]] Outcome judge_contacts(const manoeuvre::EgoMotion& motion, const world::Scene& scene,

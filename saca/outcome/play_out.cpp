@@ -42,9 +42,7 @@ struct Dealings {
   bool over = false;                ///< nothing more can come of it
 };
 
-bool moves_at_end(const EgoMotion& motion) {
-  return norm(motion.v_B.back()) > at_rest;
-}
+using outcome::moves_at_end;
 bool moves_at_end(const Track& track) {
   const auto& poses = track.X_WA;
   return poses.size() > 1 &&
@@ -410,6 +408,10 @@ Outcome judge(const EgoMotion& motion, const Scene& scene, std::span<const Track
   Story story(motion, scene, harm, grip);
   tell(story, tracks);
   return story.outcome();
+}
+
+bool moves_at_end(const EgoMotion& motion) {
+  return norm(motion.v_B.back()) > at_rest;
 }
 
 Outcome judge_contacts(const EgoMotion& motion, const Scene& scene, const Others& others,

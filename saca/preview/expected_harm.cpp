@@ -38,17 +38,25 @@ double weight_of(std::span<const JointMotion> motions) {
   return sum;
 }
 
-/// Every few poses of a motion: what lies between is straight, to millimetres.
+/// Every few poses of a motion: what lies between is straight, to millimetres. Its last pose is
+/// kept where it rests there: else it would seem to move on as it did a moment before.
 EgoMotion thinned(const EgoMotion& motion) {
   constexpr std::size_t every = 5;
   EgoMotion thin{.track = {.start = motion.track.start,
                            .step = static_cast<double>(every) * motion.track.step,
                            .X_WA = {}},
                  .ended = motion.ended};
-  for (std::size_t k = 0; k < motion.track.X_WA.size(); k += every) {
+  const auto keep = [&](std::size_t k) {
     thin.track.X_WA.push_back(motion.track.X_WA[k]);
     thin.v_B.push_back(motion.v_B[k]);
     thin.yaw_rate.push_back(motion.yaw_rate[k]);
+  };
+  const std::size_t last = motion.track.X_WA.size() - 1;
+  for (std::size_t k = 0; k <= last; k += every) {
+    keep(k);
+  }
+  if (last % every != 0 && motion.ended && !outcome::moves_at_end(motion)) {
+    keep(last);
   }
   return thin;
 }

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
+
 #include "saca/core/contract.h"
 #include "saca/intent/shipped_model.h"
 #include "saca/manoeuvre/ego.h"
@@ -54,6 +56,28 @@ TEST(ExpectedHarm, IsTheMeanOverTheMotionsByTheirWeights) {
     for (std::size_t i = 0; i < mixed.size(); ++i) {
       EXPECT_NEAR(mixed[i].harm, 0.25 * hit[i].harm + 0.75 * clear[i].harm, 1e-12);
       EXPECT_NEAR(mixed[i].contact, 0.25 * hit[i].contact + 0.75 * clear[i].contact, 1e-12);
+    }
+  }
+}
+
+// Where a stop ends does not depend on how coarsely it is looked at: 5 cm less room than it takes,
+// by the exact roll-out, and it hits; 5 cm more, and it does not.
+TEST(ExpectedHarm, AStopEndsWhereItEnds) {
+  const std::array brakes{manoeuvre::full_braking};
+  for (const double speed : {12.5, 13.0, 13.7, 14.2}) {
+    const auto at = [&](double gap) {
+      Scene scene = behind_a_car(gap, 0.0);
+      scene.ego.v_B.x = speed;
+      return scene;
+    };
+    const Scene far = at(30.0);
+    const auto stop = rolled_out(far, all_going_on(far).tracks, brakes, rolling());
+    const double way = 30.0 - stop[0].outcome.clearance;
+    for (const double more : {-0.05, 0.05}) {
+      const Scene scene = at(way + more);
+      const JointMotion stands = all_going_on(scene);
+      const auto told = expected_harms(scene, {&stands, 1}, rolling(), Physics::rolled_out, brakes);
+      EXPECT_EQ(told[0].contact, more < 0.0 ? 1.0 : 0.0) << speed << " " << more;
     }
   }
 }
