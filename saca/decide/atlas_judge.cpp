@@ -69,9 +69,10 @@ std::optional<Verdict> AtlasJudge::judge(const Scene& scene) noexcept {
     write_going_on(scene.actors[i], scene.time, tracks_[i]);
   }
   const preview::Followers followers = preview::followers_of(scene);
+  const Scene known = preview::with_kept_gaps(scene, followers);
   Verdict verdict{.time = scene.time};
   for (const Plan& plan : preview::all_plans(scene.ego.v_B.x)) {
-    if (const auto one = judged(plan, scene, followers)) {
+    if (const auto one = judged(plan, known, followers)) {
       verdict.plans.push_back(*one);
     }
   }

@@ -70,6 +70,24 @@ TEST(AtlasJudge, FollowersReactInBoth) {
   EXPECT_EQ(told(judge, PolicyId::aeb, far), 0.0);
 }
 
+// Its speed may be perceived wrongly by 0.5 m/s, 5 m in the 10 s that are looked at: it sees the
+// gap and keeps it. Its place is what it is seen to be.
+TEST(AtlasJudge, WhoReactsIsAsUnsureAsItsPlaceIsPerceived) {
+  AtlasJudge judge(small_atlas_car(), small_atlas(), harm());
+  world::Scene scene = road();
+  scene.actors.push_back(car(1, {-60.0, 0.0}, {12.5, 0.0}));
+  const auto contact = [&](double place_sd, double speed_sd) {
+    scene.actors[0].position_sd = place_sd;
+    scene.actors[0].velocity_sd = speed_sd;
+    const auto verdict = judge.judge(scene);
+    return verdict ? find_plan(*verdict, manoeuvre::full_braking)->contact : -1.0;
+  };
+  EXPECT_EQ(contact(0.1, 0.0), 0.0);
+  EXPECT_EQ(contact(0.1, 0.5), 0.0);
+  EXPECT_GT(contact(3.0, 0.0), 0.0);
+  EXPECT_EQ(contact(3.0, 0.5), contact(3.0, 0.0));
+}
+
 // Who comes up from behind, 3 m/s faster and 10 m behind, has to brake also for who goes on: it
 // does, so going on harms nobody.
 TEST(AtlasJudge, FollowersReactToAPlanThatStaysInItsLane) {

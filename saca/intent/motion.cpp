@@ -193,12 +193,13 @@ void check(const MotionLaw& law) {
 
 Forecast at_rest(const Scene& scene, const Actor& actor, double horizon) {
   const double moves = actor.kind == ActorKind::obstacle ? 0.0 : actor.velocity_sd;
-  Forecast forecast{.track = {.start = scene.time, .step = step, .X_WA = {}}, .spread = {}};
+  Forecast forecast{.track = {.start = scene.time, .step = step, .X_WA = {}},
+                    .spread = {.start = scene.time, .step = step, .at = {}}};
   const int num_steps = static_cast<int>(std::ceil(horizon / step));
   for (int k = 0; k <= num_steps; ++k) {
     const double sd = std::hypot(actor.position_sd, moves * k * step);
     forecast.track.X_WA.push_back(actor.X_WA);
-    forecast.spread.push_back({sd, sd});
+    forecast.spread.at.push_back({sd, sd});
   }
   return forecast;
 }
@@ -213,18 +214,6 @@ double wavering_sd(const Wavering& wavering, double time) {
       x < small ? x * x * x * x * (0.25 - x / 15.0)
                 : 2.0 / 3.0 * x * x * x - x * x + 2.0 - 2.0 * std::exp(-x) * (1.0 + x);
   return wavering.sd * wavering.time * wavering.time * std::sqrt(variance);
-}
-
-Spread spread_at(const Forecast& forecast, double time) {
-  expects(!forecast.spread.empty(), "a spread for each pose");
-  const std::size_t last = forecast.spread.size() - 1;
-  const double steps = std::clamp((time - forecast.track.start) / forecast.track.step, 0.0,
-                                  static_cast<double>(last));
-  const auto before = static_cast<std::size_t>(steps);
-  const Spread& a = forecast.spread[before];
-  const Spread& b = forecast.spread[std::min(before + 1, last)];
-  const double share = steps - static_cast<double>(before);
-  return {std::lerp(a.along_sd, b.along_sd, share), std::lerp(a.across_sd, b.across_sd, share)};
 }
 
 Forecast motion_under(const Scene& scene, const Actor& actor, Intention intention, double horizon,
@@ -247,8 +236,10 @@ Forecast motion_under(const Scene& scene, const Actor& actor, Intention intentio
   const Wavering& wavering = is_walker(actor.kind) ? law.walking : law.driving;
   const Aside moved = is_walker(actor.kind) ? Aside{} : aside(line, side_of(intention), law);
 
-  Forecast forecast{.track = {.start = scene.time, .step = step, .X_WA = {actor.X_WA}},
-                    .spread = {{actor.position_sd, actor.position_sd}}};
+  Forecast forecast{
+      .track = {.start = scene.time, .step = step, .X_WA = {actor.X_WA}},
+      .spread = {
+          .start = scene.time, .step = step, .at = {{actor.position_sd, actor.position_sd}}}};
   double along = 0.0;
   const int num_steps = static_cast<int>(std::ceil(horizon / step));
   for (int k = 1; k <= num_steps; ++k) {
@@ -269,7 +260,8 @@ Forecast motion_under(const Scene& scene, const Actor& actor, Intention intentio
     const double of_speed = brakes ? log_sd * slowed.way_per_log(t) : wavering_sd(wavering, t);
     const double of_change = law.lane_change_log_sd * moved.way_per_log(driven);
     const double aside_sd = is_walker(actor.kind) && !brakes ? of_speed : of_change;
-    forecast.spread.push_back({std::hypot(perceived, of_speed), std::hypot(perceived, aside_sd)});
+    forecast.spread.at.push_back(
+        {std::hypot(perceived, of_speed), std::hypot(perceived, aside_sd)});
   }
   return forecast;
 }

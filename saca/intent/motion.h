@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "saca/intent/intention.h"
 #include "saca/world/scene.h"
 #include "saca/world/track.h"
@@ -37,21 +35,11 @@ struct MotionLaw {
   double turning = 2.0;        ///< of pedestrians and cyclists to the lane: sideways [m/s^2], > 0
 };
 
-/// How far a road user may be from where it is forecast: standard deviations [m], along its line
-/// and across.
-struct Spread {
-  double along_sd = 0.0;
-  double across_sd = 0.0;
-};
-
 /// A road user's motion under an intention, as far as it can be known.
 struct Forecast {
-  world::Track track;          ///< the median motion
-  std::vector<Spread> spread;  ///< one per pose; it never shrinks
+  world::Track track;            ///< the median motion
+  world::SpreadOverTime spread;  ///< along its line and across; one per pose
 };
-
-/// Linear between the poses; before the first as at the first, after the last as at the last.
-[[nodiscard]] Spread spread_at(const Forecast& forecast, double time);
 
 /// Between the poses of a forecast [s].
 constexpr double motion_step = 0.05;

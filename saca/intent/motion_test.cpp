@@ -172,12 +172,12 @@ TEST(MotionUnder, WhoIsAtRestStays) {
   wreck.velocity_sd = 0.5;
   const Forecast forecast = motion_under(ego_at(20.0), wreck, Intention::maintain, 4.0, law);
   EXPECT_EQ(pose_at(forecast.track, 4.0).p.x, 30.0);
-  EXPECT_EQ(spread_at(forecast, 4.0).along_sd, 0.2);
+  EXPECT_EQ(spread_at(forecast.spread, 4.0).along_sd, 0.2);
   // A car that stands is perceived to: it may be rolling.
   wreck.kind = ActorKind::car;
-  EXPECT_NEAR(
-      spread_at(motion_under(ego_at(20.0), wreck, Intention::brake, 4.0, law), 4.0).across_sd,
-      std::hypot(0.2, 2.0), rounding);
+  EXPECT_NEAR(spread_at(motion_under(ego_at(20.0), wreck, Intention::brake, 4.0, law).spread, 4.0)
+                  .across_sd,
+              std::hypot(0.2, 2.0), rounding);
 }
 
 TEST(MotionUnder, TurnsWithTheWorld) {
@@ -203,7 +203,7 @@ TEST(MotionUnder, TurnsWithTheWorld) {
       const Pose want = X * a.track.X_WA[k];
       EXPECT_NEAR(norm(b.track.X_WA[k].p - want.p), 0.0, 1e-6);
       EXPECT_NEAR(wrap_angle(b.track.X_WA[k].yaw - want.yaw), 0.0, 1e-6);
-      EXPECT_NEAR(a.spread[k].along_sd, b.spread[k].along_sd, 1e-6);
+      EXPECT_NEAR(a.spread.at[k].along_sd, b.spread.at[k].along_sd, 1e-6);
     }
   }
 }
@@ -223,7 +223,7 @@ TEST(MotionUnder, IsMirroredInAMirror) {
     for (std::size_t k = 0; k < a.track.X_WA.size(); ++k) {
       EXPECT_NEAR(a.track.X_WA[k].p.x, b.track.X_WA[k].p.x, rounding);
       EXPECT_NEAR(a.track.X_WA[k].p.y, -b.track.X_WA[k].p.y, rounding);
-      EXPECT_NEAR(a.spread[k].across_sd, b.spread[k].across_sd, rounding);
+      EXPECT_NEAR(a.spread.at[k].across_sd, b.spread.at[k].across_sd, rounding);
     }
   }
 }
@@ -234,12 +234,14 @@ TEST(Spread, BeginsAsPerceivedAndNeverShrinks) {
   actor.velocity_sd = 0.2;
   for (const Intention intention : vehicle_intentions) {
     const Forecast forecast = motion_under(ego_at(20.0), actor, intention, 6.0, law);
-    ASSERT_EQ(forecast.spread.size(), forecast.track.X_WA.size());
-    EXPECT_EQ(forecast.spread[0].along_sd, 0.3);
-    EXPECT_EQ(forecast.spread[0].across_sd, 0.3);
-    for (std::size_t k = 1; k < forecast.spread.size(); ++k) {
-      EXPECT_GE(forecast.spread[k].along_sd, forecast.spread[k - 1].along_sd) << name(intention);
-      EXPECT_GE(forecast.spread[k].across_sd, forecast.spread[k - 1].across_sd) << name(intention);
+    ASSERT_EQ(forecast.spread.at.size(), forecast.track.X_WA.size());
+    EXPECT_EQ(forecast.spread.at[0].along_sd, 0.3);
+    EXPECT_EQ(forecast.spread.at[0].across_sd, 0.3);
+    for (std::size_t k = 1; k < forecast.spread.at.size(); ++k) {
+      EXPECT_GE(forecast.spread.at[k].along_sd, forecast.spread.at[k - 1].along_sd)
+          << name(intention);
+      EXPECT_GE(forecast.spread.at[k].across_sd, forecast.spread.at[k - 1].across_sd)
+          << name(intention);
     }
   }
 }
@@ -251,10 +253,10 @@ TEST(Spread, IsThatOfPlaceAndSpeedWhereNothingElseIsUnknown) {
   MotionLaw known = law;
   known.driving.sd = known.braking_log_sd = known.lane_change_log_sd = 0.0;
   const Forecast forecast = motion_under(ego_at(20.0), actor, Intention::lane_left, 6.0, known);
-  EXPECT_NEAR(spread_at(forecast, 3.0).along_sd, std::hypot(0.3, 0.6), rounding);
-  EXPECT_NEAR(spread_at(forecast, 3.0).across_sd, std::hypot(0.3, 0.6), rounding);
-  EXPECT_NEAR(spread_at(forecast, -1.0).along_sd, 0.3, rounding);
-  EXPECT_NEAR(spread_at(forecast, 9.0).along_sd, std::hypot(0.3, 1.2), rounding);
+  EXPECT_NEAR(spread_at(forecast.spread, 3.0).along_sd, std::hypot(0.3, 0.6), rounding);
+  EXPECT_NEAR(spread_at(forecast.spread, 3.0).across_sd, std::hypot(0.3, 0.6), rounding);
+  EXPECT_NEAR(spread_at(forecast.spread, -1.0).along_sd, 0.3, rounding);
+  EXPECT_NEAR(spread_at(forecast.spread, 9.0).along_sd, std::hypot(0.3, 1.2), rounding);
 }
 
 // Var x(t) = sd^2 sum over s, u of (t - s) (t - u) exp(-|s - u| / tau) ds du.
@@ -275,7 +277,7 @@ TEST(Spread, OfAWaveringAccelerationIsItsTwofoldIntegral) {
       }
     }
     const double want = slow.driving.sd * dt * std::sqrt(variance);
-    EXPECT_NEAR(spread_at(forecast, t).along_sd, want, 1e-3 * want) << t;
+    EXPECT_NEAR(spread_at(forecast.spread, t).along_sd, want, 1e-3 * want) << t;
   }
 }
 
@@ -287,9 +289,9 @@ TEST(Spread, OfBrakingIsThatOfTheDeceleration) {
   MotionLaw harder = law;
   harder.braking *= 1.0 + little;
   const Forecast other = motion_under(ego_at(20.0), actor, Intention::brake, 4.0, harder);
-  for (std::size_t k = 1; k < forecast.spread.size(); ++k) {  // it rests after 2.1 s
+  for (std::size_t k = 1; k < forecast.spread.at.size(); ++k) {  // it rests after 2.1 s
     const double slope = (forecast.track.X_WA[k].p.x - other.track.X_WA[k].p.x) / little;
-    EXPECT_NEAR(forecast.spread[k].along_sd, law.braking_log_sd * slope, 1e-3) << k;
+    EXPECT_NEAR(forecast.spread.at[k].along_sd, law.braking_log_sd * slope, 1e-3) << k;
   }
 }
 
@@ -303,9 +305,9 @@ TEST(Spread, OfALaneChangeIsThatOfItsDuration) {
   const auto largest = static_cast<std::size_t>(0.6 * law.lane_change / forecast.track.step);
   for (std::size_t k = 1; k <= largest; ++k) {
     const double slope = (forecast.track.X_WA[k].p.y - other.track.X_WA[k].p.y) / little;
-    EXPECT_NEAR(forecast.spread[k].across_sd, law.lane_change_log_sd * slope, 1e-3) << k;
+    EXPECT_NEAR(forecast.spread.at[k].across_sd, law.lane_change_log_sd * slope, 1e-3) << k;
   }
-  EXPECT_EQ(forecast.spread.back().across_sd, forecast.spread[largest + 1].across_sd);
+  EXPECT_EQ(forecast.spread.at.back().across_sd, forecast.spread.at[largest + 1].across_sd);
 }
 
 TEST(MotionUnder, RefusesAnEmptyHorizonAndALawOutOfRange) {
@@ -315,7 +317,7 @@ TEST(MotionUnder, RefusesAnEmptyHorizonAndALawOutOfRange) {
   broken.braking = std::nan("");
   EXPECT_THROW((void)motion_under(ego_at(20.0), actor, Intention::brake, 1.0, broken),
                ContractViolation);
-  EXPECT_THROW((void)spread_at({}, 0.0), ContractViolation);
+  EXPECT_THROW((void)world::spread_at({}, 0.0), ContractViolation);
 }
 
 }  // namespace

@@ -106,8 +106,9 @@ Forecast crossing_motion(const Scene& scene, const Actor& actor, double horizon,
   double course = speed < rest_speed ? across : std::atan2(actor.v_W.y, actor.v_W.x);
   const double wanted = std::max(speed, law.walking_speed);
   constexpr double dt = motion_step;
-  Forecast forecast{.track = {.start = scene.time, .step = dt, .X_WA = {actor.X_WA}},
-                    .spread = {{actor.position_sd, actor.position_sd}}};
+  Forecast forecast{
+      .track = {.start = scene.time, .step = dt, .X_WA = {actor.X_WA}},
+      .spread = {.start = scene.time, .step = dt, .at = {{actor.position_sd, actor.position_sd}}}};
   Vec2 p_W = actor.X_WA.p;
   const int num_steps = static_cast<int>(std::ceil(horizon / dt));
   for (int k = 1; k <= num_steps; ++k) {
@@ -122,7 +123,7 @@ Forecast crossing_motion(const Scene& scene, const Actor& actor, double horizon,
     const double t = k * dt;
     const double sd =
         std::hypot(actor.position_sd, actor.velocity_sd * t, wavering_sd(law.walking, t));
-    forecast.spread.push_back({sd, sd});
+    forecast.spread.at.push_back({sd, sd});
   }
   return forecast;
 }

@@ -192,10 +192,10 @@ TEST(WalkerMotion, IsAsUnsureToTheSideAsAhead) {
   actor.position_sd = 0.1;
   for (const Intention intention : {Intention::maintain, Intention::cross}) {
     const Forecast forecast = motion_under(street(), actor, intention, 3.0, law);
-    EXPECT_EQ(forecast.spread[0].along_sd, 0.1);
-    EXPECT_NEAR(spread_at(forecast, 2.0).across_sd, std::hypot(0.1, wavering_sd(law.walking, 2.0)),
-                1e-9);
-    EXPECT_EQ(spread_at(forecast, 2.0).along_sd, spread_at(forecast, 2.0).across_sd);
+    EXPECT_EQ(forecast.spread.at[0].along_sd, 0.1);
+    EXPECT_NEAR(spread_at(forecast.spread, 2.0).across_sd,
+                std::hypot(0.1, wavering_sd(law.walking, 2.0)), 1e-9);
+    EXPECT_EQ(spread_at(forecast.spread, 2.0).along_sd, spread_at(forecast.spread, 2.0).across_sd);
   }
 }
 

@@ -17,7 +17,7 @@ constexpr double goes_on_for = 2.0;  // as in play_out.cpp [s]
 
 }  // namespace
 
-Spread of_halves(double less, double more) noexcept {
+Moments of_halves(double less, double more) noexcept {
   const double mean = (less + more) / std::sqrt(2.0 * std::numbers::pi);
   return {mean, std::max(0.0, 0.5 * (less * less + more * more) - mean * mean)};
 }

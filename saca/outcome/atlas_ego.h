@@ -9,13 +9,14 @@
 
 namespace saca::outcome {
 
-/// What the grip's standard deviation does to a place along one direction, as two halves of normal
-/// distributions: less grip adds `less` per standard deviation, more adds `more`.
-struct Spread {
+/// Mean and variance of a place along one direction.
+struct Moments {
   double mean = 0.0;      ///< [m]
   double variance = 0.0;  ///< [m^2]
 };
-[[nodiscard]] Spread of_halves(double less, double more) noexcept;
+/// Of what the grip's standard deviation does to it, as two halves of normal distributions: less
+/// grip adds `less` per standard deviation, more adds `more`.
+[[nodiscard]] Moments of_halves(double less, double more) noexcept;
 
 /// The ego on a way out of the atlas, in the world. All of it noexcept, without allocation.
 class AtlasEgo {

@@ -95,7 +95,7 @@ TEST(AtlasEgo, HalvesHaveTheMomentsOfDraws) {
     sum += value;
     squares += value * value;
   }
-  const Spread told = of_halves(-0.7, 0.3);
+  const Moments told = of_halves(-0.7, 0.3);
   EXPECT_NEAR(told.mean, sum / count, 0.005);
   EXPECT_NEAR(told.variance, squares / count - told.mean * told.mean, 0.005);
 }

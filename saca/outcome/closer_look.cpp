@@ -1,5 +1,6 @@
 #include "saca/outcome/closer_look.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "saca/world/footprint.h"
@@ -31,19 +32,23 @@ OnTrack on_track(const Track& track, double time) noexcept {
   return {{a.p + u * way, a.yaw + u * turn}, (1.0 / track.step) * way, turn / track.step};
 }
 
+double largest(const world::Spread& spread) noexcept {
+  return std::max(spread.along_sd, spread.across_sd);
+}
+
 }  // namespace
 
 CloserLook::CloserLook(const AtlasEgo& ego, std::size_t actor, const Track& track,
-                       const Looks& looks) noexcept
+                       const Looks& looks, const world::SpreadOverTime* spread) noexcept
     : ego_(&ego),
       actor_(&ego.scene().actors[actor]),
       track_(&track),
       looks_(&looks),
+      spread_(spread == nullptr || spread->at.empty() ? nullptr : spread),
       start_(ego.scene().time),
       reach_(ego.looks().reach + looks.reach + std::abs(ego.scene().ego_footprint.centre_x) +
              std::abs(actor_->footprint.centre_x)),
-      spreads_(ego.scene().grip_sd > 0.0 || actor_->position_sd > 0.0 ||
-               actor_->velocity_sd > 0.0) {}
+      spreads_(ego.scene().grip_sd > 0.0 || largest(actor_spread(looks_end)) > 0.0) {}
 
 bool CloserLook::either_is_round() const noexcept {
   return actor_->footprint.shape == Shape::ellipse ||
@@ -80,20 +85,48 @@ CloserLook::Look CloserLook::look(double time) const noexcept {
   return now;
 }
 
+world::Spread CloserLook::actor_spread(double time) const noexcept {
+  if (spread_ != nullptr) {
+    return world::spread_at(*spread_, start_ + time);
+  }
+  const double moved = actor_->velocity_sd * time;
+  const double sd = std::sqrt(actor_->position_sd * actor_->position_sd + moved * moved);
+  return {sd, sd};
+}
+
 double CloserLook::sd_until(double time) const noexcept {
-  return actor_->position_sd + actor_->velocity_sd * time + ego_->most_sway();
+  return largest(actor_spread(time)) + ego_->most_sway();
+}
+
+Moments CloserLook::Doubt::nearer(Vec2 n) const noexcept {
+  const double n_along = spread.along_sd * dot(n, along);
+  const double n_across = spread.across_sd * dot(n, left_of(along));
+  // The ego farther along n leaves a smaller gap.
+  const Moments ego = of_halves(dot(n, grip.less_W), dot(n, grip.more_W));
+  const double variance = n_along * n_along + n_across * n_across + ego.variance;
+  return {ego.mean, std::max(variance, least_sd * least_sd)};
+}
+
+Vec2 CloserLook::Doubt::displacement_per_metre(Vec2 n) const noexcept {
+  const double n_along = spread.along_sd * spread.along_sd * dot(n, along);
+  const double n_across = spread.across_sd * spread.across_sd * dot(n, left_of(along));
+  const Vec2 of_actor = n_along * along + n_across * left_of(along);  // its covariance times n
+  const double variance = nearer(n).variance;
+  const double of_ego = variance - dot(n, of_actor);
+  return (-1.0 / variance) * (of_actor + of_ego * n);
+}
+
+CloserLook::Doubt CloserLook::doubt(const Look& now) const noexcept {
+  return {.spread = actor_spread(now.time),
+          .along = now.other.along,
+          .grip = ego_->scene().grip_sd > 0.0 ? ego_->sways(now.time) : AtlasEgo::Sways{}};
 }
 
 CloserLook::Scores CloserLook::scores(const Look& now) const noexcept {
-  const double moved = actor_->velocity_sd * now.time;
-  const double of_actor = actor_->position_sd * actor_->position_sd + moved * moved;
-  const bool sways = ego_->scene().grip_sd > 0.0;
-  const AtlasEgo::Sways grip = sways ? ego_->sways(now.time) : AtlasEgo::Sways{};
+  const Doubt doubts = doubt(now);
   const auto score = [&](const Gap& gap) {
-    const Spread along = of_halves(dot(gap.n, grip.less_W), dot(gap.n, grip.more_W));
-    const double variance = std::max(of_actor + along.variance, least_sd * least_sd);
-    // The ego farther along n leaves a smaller gap.
-    return Score{(gap.size - along.mean) / std::sqrt(variance), gap.n};
+    const Moments nearer = doubts.nearer(gap.n);
+    return Score{(gap.size - nearer.mean) / std::sqrt(nearer.variance), gap.n};
   };
   Scores all{.most = score(now.gap).size, .of_axis = {}};
   const std::array<Gap, 4> gaps = gaps_along_axes(now.mine, now.other);

@@ -15,6 +15,9 @@ namespace saca::outcome {
 /// Beyond so many standard deviations nothing happens.
 constexpr double sure_sd = 4.0;
 
+/// Standard deviations are no smaller [m].
+constexpr double least_sd = 1e-3;
+
 /// When two bodies are looked at, and which groups of spans lie in it that matter.
 struct Window {
   double from = 0.0;      // [s]
@@ -58,9 +61,11 @@ void narrow(const Window& window, std::size_t look, int more, const Keep& keep) 
 class CloserLook {
  public:
   /// Refers to all of them.
-  /// @param looks  of the track, from where the ego is at the scene's time
-  CloserLook(const AtlasEgo& ego, std::size_t actor, const world::Track& track,
-             const Looks& looks) noexcept;
+  /// @param looks   of the track, from where the ego is at the scene's time
+  /// @param spread  about the track; nullptr, or nothing said: as perceived, the same on each side,
+  ///                and what the velocity's adds grows with time
+  CloserLook(const AtlasEgo& ego, std::size_t actor, const world::Track& track, const Looks& looks,
+             const world::SpreadOverTime* spread = nullptr) noexcept;
 
   struct Look {
     double time = 0.0;
@@ -88,6 +93,23 @@ class CloserLook {
   /// They touch when they do along every direction, so that no score makes it likelier than the
   /// largest allows.
   [[nodiscard]] Scores scores(const Look& now) const noexcept;
+  /// Of the actor's place [m].
+  /// @param time  since the scene's [s]
+  [[nodiscard]] world::Spread actor_spread(double time) const noexcept;
+  /// What is not known of both places at one time.
+  struct Doubt {
+    world::Spread spread;  ///< of the actor
+    Vec2 along;            ///< the way that it points
+    AtlasEgo::Sways grip;  ///< of the ego
+
+    /// By how much they are nearer along n, from the ego to the actor, than at the mean; no
+    /// variance is less than least_sd^2.
+    [[nodiscard]] Moments nearer(Vec2 n) const noexcept;
+    /// Where the actor is displaced to in the mean of all errors that bring both nearer by 1 m
+    /// along n, as if the ego were where its mean is: the regression of places on that distance.
+    [[nodiscard]] Vec2 displacement_per_metre(Vec2 n) const noexcept;
+  };
+  [[nodiscard]] Doubt doubt(const Look& now) const noexcept;
   /// At most so much do both places spread until then [m].
   [[nodiscard]] double sd_until(double time) const noexcept;
   [[nodiscard]] bool spreads() const noexcept { return spreads_; }
@@ -105,12 +127,10 @@ class CloserLook {
   const world::Actor* actor_;
   const world::Track* track_;
   const Looks* looks_;
+  const world::SpreadOverTime* spread_;  // nullptr: as perceived
   double start_;
   double reach_;  // of both bodies together from their origins [m]
   bool spreads_;
 };
-
-/// Variances are no smaller [m].
-constexpr double least_sd = 1e-3;
 
 }  // namespace saca::outcome

@@ -65,6 +65,34 @@ TEST(CloserLook, ScoresInStandardDeviations) {
   EXPECT_GE(both.sd_until(1.0), 2.0);
 }
 
+// Along the ego's axis a body that points elsewhere has variance a^2 cos^2 + b^2 sin^2.
+TEST(CloserLook, TurnsTheSpreadAlongAndAcrossWithTheBody) {
+  Approaching now({.length = 4.0, .width = 2.0});
+  const double turned = 0.3;
+  now.track = steady({{30.0, 0.0}, turned}, {}, 0.0, 5.0);
+  const AtlasEgo ego(now.path, now.scene);
+  const Looks looks = looks_of(now.track, now.scene.actors[0].footprint, 0.0, {});
+  const world::SpreadOverTime spread{.start = 0.0, .step = 2.0, .at = {{1.0, 0.1}, {3.0, 0.5}}};
+  const CloserLook both(ego, 0, now.track, looks, &spread);
+  EXPECT_TRUE(both.spreads());
+  for (const double time : {0.0, 1.0, 2.0}) {
+    const CloserLook::Look look = both.look(time);
+    const double along = 1.0 + time;
+    const double across = 0.1 + 0.2 * time;
+    const double sd = std::hypot(along * std::cos(turned), across * std::sin(turned));
+    const double half = 2.0 * std::cos(turned) + 1.0 * std::sin(turned);
+    const double gap = 30.0 - half - 2.25 - ego.at(time).X_WB.p.x;
+    EXPECT_NEAR(both.scores(look).of_axis[0].size, gap / sd, 1e-6 * gap / sd);
+    EXPECT_GE(both.sd_until(time), along);
+    // Of all errors that are nearer by 1 m along x, the mean: the covariance's first column over
+    // its first number.
+    const double mixed = (along * along - across * across) * std::sin(turned) * std::cos(turned);
+    const Vec2 off = both.doubt(look).displacement_per_metre({1.0, 0.0});
+    EXPECT_NEAR(off.x, -1.0, 1e-9);
+    EXPECT_NEAR(off.y, -mixed / (sd * sd), 1e-9);
+  }
+}
+
 TEST(CloserLook, NarrowsToTheLeastBetweenNeighbours) {
   const Window window{.from = 0.0, .to = 5.0};
   for (const double least : {0.85, 0.97, 1.03, 1.18}) {

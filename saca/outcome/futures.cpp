@@ -17,6 +17,7 @@ using manoeuvre::AtlasBounds;
 using manoeuvre::AtlasLimit;
 using manoeuvre::Plan;
 using world::Scene;
+using world::SpreadOverTime;
 using world::Track;
 
 // Whom or what the ego may meet, and when.
@@ -80,7 +81,7 @@ void add(Chances& chances, const Chance& chance) noexcept {
 
 // Everybody and everything, in the order in which the ego comes upon them.
 Chances chances_of(const AtlasEgo& ego, std::span<const Track> tracks, std::span<const Looks> looks,
-                   Future& future) noexcept {
+                   std::span<const SpreadOverTime> spreads, Future& future) noexcept {
   const Scene& scene = ego.scene();
   Chances chances;
   double until = std::numeric_limits<double>::infinity();  // by then somebody is struck for sure
@@ -99,7 +100,8 @@ Chances chances_of(const AtlasEgo& ego, std::span<const Track> tracks, std::span
   const bool leaves = std::any_of(chances.begin(), chances.end(), [](const Chance& chance) {
     return chance.meeting.contact.has_value();
   });
-  const Meetings met = meetings(ego, tracks, looks, leaves ? 0.0 : future.clearance, until);
+  const Meetings met =
+      meetings(ego, tracks, looks, spreads, leaves ? 0.0 : future.clearance, until);
   for (std::size_t i = 0; i < met.size(); ++i) {
     future.clearance = std::min(future.clearance, met[i].clearance);
     add(chances, {met[i], i, std::nullopt, scene.actors[i].existence * met[i].probability, 0.0});
@@ -152,9 +154,16 @@ void judge(const Chances& chances, const AtlasEgo& ego, std::span<const Track> t
 class Judge {
  public:
   Judge(const Atlas& atlas, const Scene& scene, std::span<const Track> tracks,
-        const HarmModel& harm, const AtlasBounds& bounds) noexcept
-      : atlas_(atlas), scene_(scene), tracks_(tracks), harm_(harm), bounds_(bounds) {
-    usable_ = !broken_rule(scene) && tracks_fit(scene, tracks);
+        const HarmModel& harm, const AtlasBounds& bounds,
+        std::span<const SpreadOverTime> spreads) noexcept
+      : atlas_(atlas),
+        scene_(scene),
+        tracks_(tracks),
+        harm_(harm),
+        bounds_(bounds),
+        spreads_(spreads) {
+    usable_ = !broken_rule(scene) && tracks_fit(scene, tracks) &&
+              (spreads.empty() || spreads.size() == tracks.size());
     for (std::size_t i = 0; usable_ && i < tracks.size(); ++i) {
       looks_[i] = looks_of(tracks[i], scene.actors[i].footprint, scene.time, scene.ego.X_WB.p);
     }
@@ -169,8 +178,8 @@ class Judge {
     }
     const manoeuvre::AtlasPath path = atlas_.path(plan, scene_);
     const AtlasEgo ego(path, scene_);
-    judge(chances_of(ego, tracks_, std::span(looks_).first(tracks_.size()), future), ego, tracks_,
-          harm_, future);
+    judge(chances_of(ego, tracks_, std::span(looks_).first(tracks_.size()), spreads_, future), ego,
+          tracks_, harm_, future);
     future.end_time = scene_.time + path.end;
     return future;
   }
@@ -181,6 +190,7 @@ class Judge {
   std::span<const Track> tracks_;
   const HarmModel& harm_;
   const AtlasBounds& bounds_;
+  std::span<const SpreadOverTime> spreads_;
   bool usable_ = false;
   std::array<Looks, world::max_actors> looks_;
 };
@@ -188,9 +198,9 @@ class Judge {
 }  // namespace
 
 Future future(const Atlas& atlas, const Plan& plan, const Scene& scene,
-              std::span<const Track> tracks, const HarmModel& harm,
-              const AtlasBounds& bounds) noexcept {
-  return Judge(atlas, scene, tracks, harm, bounds).future(plan);
+              std::span<const Track> tracks, const HarmModel& harm, const AtlasBounds& bounds,
+              std::span<const SpreadOverTime> spreads) noexcept {
+  return Judge(atlas, scene, tracks, harm, bounds, spreads).future(plan);
 }
 
 bool better(const Future& a, const Future& b) noexcept {
@@ -207,9 +217,9 @@ bool better(const Future& a, const Future& b) noexcept {
 }
 
 Futures futures(const Atlas& atlas, const Scene& scene, std::span<const Track> tracks,
-                const HarmModel& harm, std::span<const double> shares,
-                const AtlasBounds& bounds) noexcept {
-  const Judge judge(atlas, scene, tracks, harm, bounds);
+                const HarmModel& harm, std::span<const double> shares, const AtlasBounds& bounds,
+                std::span<const SpreadOverTime> spreads) noexcept {
+  const Judge judge(atlas, scene, tracks, harm, bounds, spreads);
   Futures all;
   for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
     Future& best = all[manoeuvre::index(policy)];

@@ -35,14 +35,16 @@ constexpr std::array target_shares{0.5, 0.0, 0.25, 0.75};
 ///                Only its first and last pose are made sure to be finite; poses between them that
 ///                are not touch nobody
 /// @param bounds  of the start state
+/// @param spreads how far each may be from its track, over time. None at all, or nothing said of an
+///                actor: as its position_sd and velocity_sd have it, the same along as across
 ///
 /// The scene's grip is believed and, but for grip_sd, true. Left out: whoever is struck second
 /// (`play_out` has it), what others do when the ego moves otherwise (give the tracks that they
 /// take), and that errors last: each instant is judged alone.
 [[nodiscard]] Future future(const manoeuvre::Atlas& atlas, const manoeuvre::Plan& plan,
                             const world::Scene& scene, std::span<const world::Track> tracks,
-                            const HarmModel& harm,
-                            const manoeuvre::AtlasBounds& bounds = {}) noexcept;
+                            const HarmModel& harm, const manoeuvre::AtlasBounds& bounds = {},
+                            std::span<const world::SpreadOverTime> spreads = {}) noexcept;
 
 /// Is `a` better than `b`? As `better`: class of harm, milder policy, clearance; what is outside
 /// comes last.
@@ -53,6 +55,7 @@ constexpr std::array target_shares{0.5, 0.0, 0.25, 0.75};
 [[nodiscard]] Futures futures(const manoeuvre::Atlas& atlas, const world::Scene& scene,
                               std::span<const world::Track> tracks, const HarmModel& harm,
                               std::span<const double> shares = target_shares,
-                              const manoeuvre::AtlasBounds& bounds = {}) noexcept;
+                              const manoeuvre::AtlasBounds& bounds = {},
+                              std::span<const world::SpreadOverTime> spreads = {}) noexcept;
 
 }  // namespace saca::outcome

@@ -112,18 +112,21 @@ TEST(Futures, HarmOfOneBlowIsThatOfRollOut) {
   EXPECT_NEAR(doubtful.probability, 0.25, 1e-12);
 }
 
-// Where the mean passes, what the other's place is not known by decides: against draws of that
-// place, each a future of its own.
-TEST(Futures, HarmOfWhoIsMissedAtTheMeanIsThatOfDraws) {
-  std::mt19937_64 rng(3);
-  constexpr double sd = 0.5;
-  constexpr int num_draws = 400;
-  std::normal_distribution<double> error(0.0, sd);
-  double told_harm = 0.0;
-  double drawn_harm = 0.0;
+struct ToldAndDrawn {
+  double told = 0.0;   // harm of all that the mean misses and may be met
+  double drawn = 0.0;  // likewise
   int counted = 0;
   int far_off = 0;
-  for (int i = 0; i < 40; ++i) {
+};
+// Where the mean passes, what the other's place is not known by decides: against draws of that
+// place, each a future of its own.
+ToldAndDrawn told_and_drawn(world::Spread sd, int num_stages) {
+  std::mt19937_64 rng(3);
+  constexpr int num_draws = 400;
+  std::normal_distribution<double> normal;
+  const std::vector<world::SpreadOverTime> spreads{{.at = {sd}}};
+  ToldAndDrawn sums;
+  for (int i = 0; i < num_stages; ++i) {
     Staged stage = random_stage(rng);
     const world::Actor car = stage.scene.actors[0];  // it alone
     stage.scene.actors = {};
@@ -133,31 +136,40 @@ TEST(Futures, HarmOfWhoIsMissedAtTheMeanIsThatOfDraws) {
     stage.scene.road.right_edge = -30.0;
     for (const PolicyId policy : all_policies) {
       const auto plan = atlas_plan(policy, stage.scene.ego.v_B.x);
-      stage.scene.actors[0].position_sd = sd;
-      const Future told = future(small_atlas(), plan, stage.scene, stage.tracks, harm());
+      const Future told =
+          future(small_atlas(), plan, stage.scene, stage.tracks, harm(), {}, spreads);
       if (told.contact || told.probability < 0.05) {
         continue;
       }
       double sum = 0.0;
       for (int k = 0; k < num_draws; ++k) {
         Staged drawn = stage;
-        drawn.scene.actors[0].position_sd = 0.0;
-        const Vec2 off{error(rng), error(rng)};
+        const double along = sd.along_sd * normal(rng);
+        const double across = sd.across_sd * normal(rng);
+        const Vec2 off = rotated({along, across}, car.X_WA.yaw);
         drawn.scene.actors[0].X_WA.p = drawn.scene.actors[0].X_WA.p + off;
         for (Pose& pose : drawn.tracks[0].X_WA) {
           pose.p = pose.p + off;
         }
         sum += future(small_atlas(), plan, drawn.scene, drawn.tracks, harm()).harm;
       }
-      ++counted;
-      told_harm += told.harm;
-      drawn_harm += sum / num_draws;
-      far_off += told.harm < 0.4 * sum / num_draws || told.harm > 2.5 * sum / num_draws ? 1 : 0;
+      const double drawn = sum / num_draws;
+      ++sums.counted;
+      sums.told += told.harm;
+      sums.drawn += drawn;
+      sums.far_off += told.harm < 0.4 * drawn || told.harm > 2.5 * drawn ? 1 : 0;
     }
   }
-  EXPECT_GT(counted, 20);
-  EXPECT_LE(far_off, counted / 5);
-  EXPECT_NEAR(told_harm, drawn_harm, 0.25 * drawn_harm);
+  return sums;
+}
+
+TEST(Futures, HarmOfWhoIsMissedAtTheMeanIsThatOfDraws) {
+  for (const world::Spread sd : {world::Spread{0.5, 0.5}, world::Spread{1.2, 0.2}}) {
+    const ToldAndDrawn sums = told_and_drawn(sd, 40);
+    EXPECT_GT(sums.counted, 20);
+    EXPECT_LE(sums.far_off, sums.counted / 5) << sd.along_sd;
+    EXPECT_NEAR(sums.told, sums.drawn, 0.25 * sums.drawn) << sd.along_sd;
+  }
 }
 
 // Turned by a right angle and moved, all is the same.

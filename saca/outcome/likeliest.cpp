@@ -24,6 +24,12 @@ struct ScoreRows {
   alignas(32) LookRow bound;  // within the span no largest score is smaller
 };
 
+// How far the actor may be from its track at the looks.
+struct ActorRows {
+  alignas(32) LookRow along;  // variances [m^2]
+  alignas(32) LookRow across;
+};
+
 // Along one axis: what is added to the gap, and to how many standard deviations it is then.
 struct SpreadRows {
   alignas(32) LookRow mean;  // [m]
@@ -35,41 +41,51 @@ struct Range {
   std::size_t end;
 };
 
+void fill_actor(const CloserLook& pair, const Range& range, ActorRows& actor) noexcept {
+  for (std::size_t k = range.begin; k < range.end; ++k) {
+    const world::Spread spread = pair.actor_spread(look_time(k));
+    actor.along[k] = static_cast<float>(spread.along_sd * spread.along_sd);
+    actor.across[k] = static_cast<float>(spread.across_sd * spread.across_sd);
+  }
+}
+
 [[gnu::always_inline]] inline void spread_along(const LookRow& n_x, const LookRow& n_y,
                                                 const LookRow& apart, const CloserLook& pair,
-                                                const Range& range, SpreadRows& spread) noexcept {
+                                                const ActorRows& actor, const Range& range,
+                                                SpreadRows& spread) noexcept {
   const AtlasEgo::SwayLooks& sway = pair.ego().sway_looks();
-  const auto place_sd = static_cast<float>(pair.actor().position_sd);
-  const auto speed_sd = static_cast<float>(pair.actor().velocity_sd);
+  const Looks& other = pair.looks();
   constexpr float mean_share = 0.3989423F;  // 1 / sqrt(2 pi), as in of_halves
   constexpr auto least_variance = static_cast<float>(least_sd * least_sd);
   for (std::size_t k = range.begin; k < range.end; ++k) {
     const float less = n_x[k] * sway.less_x[k] + n_y[k] * sway.less_y[k];
     const float more = n_x[k] * sway.more_x[k] + n_y[k] * sway.more_y[k];
     const float mean = mean_share * (less + more);
-    const float moved = speed_sd * look_times[k];
-    const float variance =
-        place_sd * place_sd + moved * moved + 0.5F * (less * less + more * more) - mean * mean;
+    const float n_along = n_x[k] * other.cosine[k] + n_y[k] * other.sine[k];
+    const float n_across = n_y[k] * other.cosine[k] - n_x[k] * other.sine[k];
+    const float of_actor =
+        actor.along[k] * n_along * n_along + actor.across[k] * n_across * n_across;
+    const float variance = of_actor + 0.5F * (less * less + more * more) - mean * mean;
     spread.mean[k] = apart[k] < 0.0F ? mean : -mean;
     spread.per_sd[k] = 1.0F / std::sqrt(std::max(variance, least_variance));
   }
 }
 
 [[gnu::always_inline]] inline void fill_axis(std::size_t axis, const CloserLook& pair,
-                                             const Range& range, const NearLooks& near,
-                                             ScoreRows& rows) noexcept {
+                                             const ActorRows& actor, const Range& range,
+                                             const NearLooks& near, ScoreRows& rows) noexcept {
   const Looks& body = axis < 2 ? pair.ego().looks() : pair.looks();
   const LookRow& apart = near.apart[axis];
   const LookRow& reach = near.reach[axis];
   LookRow left_x;  // of what looks along its length
   SpreadRows spread;
   if (axis % 2 == 0) {
-    spread_along(body.cosine, body.sine, apart, pair, range, spread);
+    spread_along(body.cosine, body.sine, apart, pair, actor, range, spread);
   } else {
     for (std::size_t k = range.begin; k < range.end; ++k) {
       left_x[k] = -body.sine[k];
     }
-    spread_along(left_x, body.cosine, apart, pair, range, spread);
+    spread_along(left_x, body.cosine, apart, pair, actor, range, spread);
   }
   for (std::size_t k = range.begin; k < range.end; ++k) {
     const float score = (std::abs(apart[k]) - reach[k] + spread.mean[k]) * spread.per_sd[k];
@@ -86,32 +102,36 @@ struct Range {
   }
 }
 
-[[gnu::always_inline]] inline void fill_axes(const CloserLook& pair, const Range& range,
-                                             const NearLooks& near, ScoreRows& rows) noexcept {
+[[gnu::always_inline]] inline void fill_axes(const CloserLook& pair, const ActorRows& actor,
+                                             const Range& range, const NearLooks& near,
+                                             ScoreRows& rows) noexcept {
   rows.most.fill(-std::numeric_limits<float>::infinity());
   rows.bound.fill(-std::numeric_limits<float>::infinity());
   for (std::size_t axis = 0; axis < num_axes; ++axis) {
-    fill_axis(axis, pair, range, near, rows);
+    fill_axis(axis, pair, actor, range, near, rows);
   }
 }
 
 #if defined(__x86_64__)
-[[gnu::target("avx2")]] void fill_axes_in_avx2(const CloserLook& pair, const Range& range,
-                                               const NearLooks& near, ScoreRows& rows) noexcept {
-  fill_axes(pair, range, near, rows);
+[[gnu::target("avx2")]] void fill_axes_in_avx2(const CloserLook& pair, const ActorRows& actor,
+                                               const Range& range, const NearLooks& near,
+                                               ScoreRows& rows) noexcept {
+  fill_axes(pair, actor, range, near, rows);
 }
 #endif
 
 // The same numbers on each instruction set: no operation is fused or put in another order.
 void fill_all(const CloserLook& pair, const Range& range, const NearLooks& near,
               ScoreRows& rows) noexcept {
+  ActorRows actor;
+  fill_actor(pair, range, actor);
 #if defined(__x86_64__)
   if (best_level() != Level::baseline) {
-    fill_axes_in_avx2(pair, range, near, rows);
+    fill_axes_in_avx2(pair, actor, range, near, rows);
     return;
   }
 #endif
-  fill_axes(pair, range, near, rows);
+  fill_axes(pair, actor, range, near, rows);
 }
 
 // What is outside of its time, or no number, is infinitely unlikely. Returns the least bound.
@@ -227,12 +247,11 @@ void look_into(const Window& window, End low, End high, Valley valley, const Kee
 }
 
 // The first touch of the other when it is nearer by what is typical of those who touch.
-// @param passing  the likeliest instant
-// @param score    standard deviations of the gap then, > 0
-void find_touch(const CloserLook& pair, const CloserLook::Look& passing, double score, double from,
+// @param passing  the likeliest instant; the gap then is > 0
+void find_touch(const CloserLook& pair, const CloserLook::Look& passing, double from,
                 Meeting& found) noexcept {
   constexpr double near = 1e-5;  // [m]: bodies that touch
-  const double sd = passing.gap.size / score;
+  const CloserLook::Doubt doubt = pair.doubt(passing);
   Vec2 nearer;
   const auto gap_at = [&](double time) {
     CloserLook::Look now = pair.look(time);
@@ -242,9 +261,12 @@ void find_touch(const CloserLook& pair, const CloserLook::Look& passing, double 
   // Apart along one direction they may be along another too: each has to be overcome.
   Gap gap = passing.gap;
   for (int i = 0; i < 3 && gap.size > 0.0; ++i, gap = gap_at(passing.time)) {
-    const double sds = gap.size / sd;
+    const Moments along = doubt.nearer(gap.n);
+    const double sd = std::sqrt(along.variance);
+    const double sds = (gap.size - along.mean) / sd;
     const double density = std::exp(-0.5 * sds * sds) * 0.3989422804;
-    nearer = nearer - sd * density / normal_below(-sds) * gap.n;
+    const double mean_of_touching = along.mean + sd * density / normal_below(-sds);
+    nearer = nearer + mean_of_touching * doubt.displacement_per_metre(gap.n);
   }
   constexpr double step = 0.05;  // [s]
   double touching = passing.time;
@@ -325,7 +347,7 @@ void find_likeliest(const CloserLook& pair, const Window& window, const NearLook
   }
   found.touch = passing.time;
   if (found.probability > negligible && best > 0.0 && passing.gap.size > 0.0) {
-    find_touch(pair, passing, best, window.from, found);
+    find_touch(pair, passing, window.from, found);
   }
 }
 

@@ -90,7 +90,7 @@ TEST(Likeliest, WhatGripDoesNotMoveAsideMissesWhoIsBeside) {
   EXPECT_LT(chance(body.length + 0.1, -body.width - 0.05), 1e-4);
   // Straight ahead it is, at rest, as likely as ways that long are.
   const AtlasEgo::Sways sways = ego.sways(path.end + 5.0);
-  const Spread longer = of_halves(sways.less_W.x, sways.more_W.x);
+  const Moments longer = of_halves(sways.less_W.x, sways.more_W.x);
   EXPECT_NEAR(chance(body.length + 0.1, 0.0),
               0.5 * std::erfc((0.1 - longer.mean) / std::sqrt(2.0 * longer.variance)), 0.01);
 }

@@ -61,7 +61,8 @@ std::size_t nearest_look(const Window& window, const NearLooks& near) noexcept {
 // The ego and one actor all along.
 class Pair {
  public:
-  Pair(const AtlasEgo& ego, std::size_t actor, const Track& track, const Looks& looks) noexcept;
+  Pair(const AtlasEgo& ego, std::size_t actor, const Track& track, const Looks& looks,
+       const world::SpreadOverTime* spread) noexcept;
 
   /// The first group of spans in which they may touch; num_groups: in none.
   [[nodiscard]] std::size_t first_group() const noexcept { return first_group_; }
@@ -95,8 +96,9 @@ class Pair {
   double least_elsewhere_ = endless;  // outside
 };
 
-Pair::Pair(const AtlasEgo& ego, std::size_t actor, const Track& track, const Looks& looks) noexcept
-    : both_(ego, actor, track, looks),
+Pair::Pair(const AtlasEgo& ego, std::size_t actor, const Track& track, const Looks& looks,
+           const world::SpreadOverTime* spread) noexcept
+    : both_(ego, actor, track, looks, spread),
       first_(std::max(0.0, looks.from)),
       last_(last_look()),
       group_gap_(group_gaps(ego.looks(), looks)) {
@@ -248,9 +250,9 @@ class Pairs {
  public:
   Pairs() noexcept {}  // NOLINT(*-member-init): that is what it is for
 
-  void add(const AtlasEgo& ego, std::size_t actor, const Track& track,
-           const Looks& looks) noexcept {
-    std::construct_at(&pairs_[actor], ego, actor, track, looks);
+  void add(const AtlasEgo& ego, std::size_t actor, const Track& track, const Looks& looks,
+           const world::SpreadOverTime* spread) noexcept {
+    std::construct_at(&pairs_[actor], ego, actor, track, looks, spread);
   }
   [[nodiscard]] Pair& operator[](std::size_t actor) noexcept { return pairs_[actor]; }
 
@@ -284,12 +286,13 @@ double least_clearance(Pairs& pairs, std::size_t count, double of_interest, doub
 }  // namespace
 
 Meetings meetings(const AtlasEgo& ego, std::span<const Track> tracks, std::span<const Looks> looks,
-                  double of_interest, double until) noexcept {
+                  std::span<const world::SpreadOverTime> spreads, double of_interest,
+                  double until) noexcept {
   Meetings all;
   Pairs pairs;
   std::array<std::size_t, world::max_actors> order;  // who may be struck first, first
   for (std::size_t i = 0; i < tracks.size(); ++i) {
-    pairs.add(ego, i, tracks[i], looks[i]);
+    pairs.add(ego, i, tracks[i], looks[i], spreads.empty() ? nullptr : &spreads[i]);
     all.push_back({});
     std::size_t place = i;
     for (; place > 0 && pairs[order[place - 1]].first_group() > pairs[i].first_group(); --place) {

@@ -18,6 +18,7 @@ using Meetings = StaticVector<Meeting, world::max_actors>;
 ///
 /// @param tracks        one for each actor of the scene
 /// @param looks         of the tracks, from where the ego is at the scene's time
+/// @param spreads       likewise, about them, or none at all: as perceived
 /// @param of_interest   larger clearances are not told apart [m]
 /// @param until         what comes later does not matter [s since the scene's time]
 /// @return              for each actor. Where the ego touches anybody, clearances are not looked
@@ -30,7 +31,8 @@ using Meetings = StaticVector<Meeting, world::max_actors>;
 /// the gap along whichever axis of either body makes contact least likely: they touch when they do
 /// along all. It is the chance of one instant, not of all of them together.
 [[nodiscard]] Meetings meetings(const AtlasEgo& ego, std::span<const world::Track> tracks,
-                                std::span<const Looks> looks, double of_interest,
+                                std::span<const Looks> looks,
+                                std::span<const world::SpreadOverTime> spreads, double of_interest,
                                 double until) noexcept;
 
 }  // namespace saca::outcome

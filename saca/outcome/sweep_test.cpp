@@ -47,7 +47,7 @@ world::Scene random_scene(std::mt19937_64& rng, world::Track& track) {
 Meeting meeting(const AtlasEgo& ego, const world::Track& track, double of_interest) {
   const world::Scene& scene = ego.scene();
   const std::array looks{looks_of(track, scene.actors[0].footprint, scene.time, scene.ego.X_WB.p)};
-  return meetings(ego, std::span(&track, 1), looks, of_interest, 1e9)[0];
+  return meetings(ego, std::span(&track, 1), looks, {}, of_interest, 1e9)[0];
 }
 
 TEST(Sweep, FindsTheContactsAndTheClearanceOfTheExactSearch) {
@@ -136,7 +136,7 @@ TEST(Sweep, ManyAreAsEachAlone) {
       }
       least = std::min(least, told.clearance);
     }
-    const Meetings all = meetings(ego, tracks, looks, far_away, 1e9);
+    const Meetings all = meetings(ego, tracks, looks, {}, far_away, 1e9);
     std::optional<double> met;
     for (const Meeting& one : all) {
       met = one.contact && (!met || *one.contact < *met) ? one.contact : met;

@@ -98,7 +98,7 @@ class Draws {
     const double end = drifts ? longest_drift * drift_ends_[draw] : 0.0;
     const double z_along = normal(along_[draw]);
     const double z_across = normal(across_[draw]);
-    const std::vector<intent::Spread>& spread = forecast(intention).spread;
+    const std::vector<world::Spread>& spread = forecast(intention).spread.at;
     const std::vector<Pose>& mean = forecast(intention).track.X_WA;
     double course = std::atan2(actor_.v_W.y, actor_.v_W.x);
     for (std::size_t k = 0; k < mean.size(); ++k) {

@@ -14,7 +14,7 @@ namespace saca::preview {
 ///
 /// In each draw everybody moves under an intention drawn from its belief, as the law has it, and is
 /// off by an error along its line and one across, each of the spread that the law tells
-/// (intent::Spread) and kept from now on: errors of perception and manners of driving are not
+/// (intent::Forecast) and kept from now on: errors of perception and manners of driving are not
 /// separated. A vehicle that moves sideways in its lane has in up to half of the draws no intention
 /// of that kind: its sideways speed as measured goes on and ends within `longest_drift`, sooner or
 /// later alike likely. Nobody's errors and intentions depend on another's.

@@ -106,7 +106,7 @@ TEST(DrawnMotions, HaveTheSpreadThatTheLawTellsAlongAndAcross) {
   const intent::Forecast law =
       intent::motion_under(scene, scene.actors[0], Intention::maintain, 5.0, {});
   for (const double time : {0.0, 1.0, 4.0}) {
-    const intent::Spread told = intent::spread_at(law, time);
+    const world::Spread told = spread_at(law.spread, time);
     const auto seen = places(motions, time);
     // The middles of 64 equal parts of a normal law have 0.98 of its spread.
     EXPECT_NEAR(sd_of(along(seen)), told.along_sd, 0.03 * told.along_sd) << time;
@@ -114,7 +114,8 @@ TEST(DrawnMotions, HaveTheSpreadThatTheLawTellsAlongAndAcross) {
     EXPECT_NEAR(mean_of(along(seen)), 40.0 + 10.0 * time, 1e-6) << time;
     EXPECT_NEAR(mean_of(across(seen)), 0.0, 1e-6) << time;
   }
-  ASSERT_GT(intent::spread_at(law, 4.0).along_sd, 3.0 * intent::spread_at(law, 4.0).across_sd)
+  const world::Spread late = spread_at(law.spread, 4.0);
+  ASSERT_GT(late.along_sd, 3.0 * late.across_sd)
       << "else the two could be confused and nobody would see";
 }
 

@@ -69,6 +69,13 @@ void let_react(const Scene& scene, const Followers& followers, const Track& X_WB
   }
 }
 
+Scene with_kept_gaps(Scene scene, const Followers& followers) {
+  for (const std::size_t follower : followers) {
+    scene.actors[follower].velocity_sd = 0.0;
+  }
+  return scene;
+}
+
 outcome::Others with_reacting_followers(const Scene& scene, std::vector<Track> tracks) {
   expects(tracks.size() == scene.actors.size(), "one track per actor");
   return [scene, followers = followers_of(scene),

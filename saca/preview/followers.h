@@ -32,6 +32,11 @@ using Followers = StaticVector<std::size_t, world::max_actors>;
 void let_react(const world::Scene& scene, const Followers& followers, const world::Track& X_WB,
                double until, double step, std::span<world::Track> tracks);
 
+/// The scene with what is not known of the followers' places: what was perceived of them, for as
+/// long as they react. Who keeps a gap sees how large it is, so that neither a speed that was
+/// perceived wrongly nor a manner of driving carries it away.
+[[nodiscard]] world::Scene with_kept_gaps(world::Scene scene, const Followers& followers);
+
 /// How the others move in a forecast that begins in `scene`: the followers react likewise, but to
 /// everybody; everyone else keeps to its track.
 ///

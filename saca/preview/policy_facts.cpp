@@ -17,6 +17,7 @@ namespace {
 using manoeuvre::Plan;
 using manoeuvre::PolicyId;
 using world::Scene;
+using world::SpreadOverTime;
 using world::Track;
 
 using AllFacts = std::array<PolicyFacts, manoeuvre::num_policies>;
@@ -40,8 +41,19 @@ bool is_better(const PolicyFacts& a, const PolicyFacts& b) {
 /// The atlas' futures of some plans, while the followers react.
 class FollowedFutures {
  public:
-  FollowedFutures(const Scene& scene, const std::vector<Track>& tracks, const ForecastTools& tools)
-      : scene_(scene), tools_(tools), followers_(followers_of(scene)), moved_(tracks) {}
+  FollowedFutures(const Scene& scene, const std::vector<Track>& tracks, const ForecastTools& tools,
+                  std::vector<SpreadOverTime> spreads)
+      : followers_(followers_of(scene)),
+        scene_(with_kept_gaps(scene, followers_)),
+        tools_(tools),
+        moved_(tracks),
+        spreads_(std::move(spreads)) {
+    for (const std::size_t follower : followers_) {
+      if (!spreads_.empty()) {
+        spreads_[follower] = {};
+      }
+    }
+  }
 
   [[nodiscard]] bool followed() const { return !followers_.empty(); }
 
@@ -57,22 +69,24 @@ class FollowedFutures {
       outcome::atlas_way(*tools_.atlas, plan, scene_, outcome::usual_way, X_WB);
       let_react(scene_, followers_, X_WB, world::end_time(X_WB) + watched_after, step, moved_);
     }
-    return outcome::future(*tools_.atlas, plan, scene_, moved_, *tools_.harm);
+    return outcome::future(*tools_.atlas, plan, scene_, moved_, *tools_.harm, {}, spreads_);
   }
 
  private:
-  const Scene& scene_;
-  const ForecastTools& tools_;
   Followers followers_;
+  Scene scene_;
+  const ForecastTools& tools_;
   std::vector<Track> moved_;
+  std::vector<SpreadOverTime> spreads_;
 };
 
 /// What the atlas has of each policy, and of 3 and 4 of the best of their target speeds.
 outcome::Futures read(const Scene& scene, const std::vector<Track>& tracks,
-                      const ForecastTools& tools) {
-  FollowedFutures futures(scene, tracks, tools);
+                      const ForecastTools& tools, const std::vector<SpreadOverTime>& spreads) {
+  FollowedFutures futures(scene, tracks, tools, spreads);
   if (!futures.followed()) {
-    return outcome::futures(*tools.atlas, scene, tracks, *tools.harm);
+    return outcome::futures(*tools.atlas, scene, tracks, *tools.harm, outcome::target_shares, {},
+                            spreads);
   }
   outcome::Futures best;
   std::array<bool, manoeuvre::num_policies> found{};
@@ -104,8 +118,9 @@ std::optional<PolicyFacts> facts_of(const outcome::Future& future, const Scene& 
 
 /// nullopt: the atlas does not have all that can be driven.
 std::optional<AllFacts> read_facts(const Scene& scene, const std::vector<Track>& tracks,
-                                   const ForecastTools& tools) {
-  const outcome::Futures futures = read(scene, tracks, tools);
+                                   const ForecastTools& tools,
+                                   const std::vector<SpreadOverTime>& spreads) {
+  const outcome::Futures futures = read(scene, tracks, tools, spreads);
   AllFacts facts;
   for (std::size_t i = 0; i < facts.size(); ++i) {
     auto one = facts_of(futures[i], scene, tools);
@@ -141,7 +156,7 @@ std::optional<std::vector<PolicyFacts>> read_plans(const Scene& scene,
   if (tools.atlas == nullptr) {
     return std::nullopt;
   }
-  FollowedFutures futures(scene, tracks, tools);
+  FollowedFutures futures(scene, tracks, tools, {});
   std::vector<PolicyFacts> facts;
   for (const Plan& plan : plans) {
     auto one = facts_of(futures.of(plan), scene, tools);
@@ -196,10 +211,11 @@ std::vector<PolicyFacts> rolled_out(const Scene& scene, const std::vector<Track>
 }
 
 AllFacts policy_facts(const Scene& scene, const std::vector<Track>& tracks,
-                      const ForecastTools& tools) {
+                      const ForecastTools& tools, const std::vector<SpreadOverTime>& spreads) {
   expects(tools.car != nullptr && tools.harm != nullptr, "car and harm are given");
+  expects(spreads.empty() || spreads.size() == scene.actors.size(), "one spread per actor");
   if (tools.atlas != nullptr) {
-    if (auto facts = read_facts(scene, tracks, tools)) {
+    if (auto facts = read_facts(scene, tracks, tools, spreads)) {
       return *facts;
     }
   }

@@ -40,11 +40,14 @@ using Plans =
 /// outcome::target_shares of the speed is best.
 ///
 /// Read from the atlas: a tenth of a millisecond, and where somebody follows some milliseconds.
-/// What spread scene and tracks have then counts in harm and probability. Where the atlas has not
-/// all that can be driven, all of it is rolled out, in tens of milliseconds: the atlas counts a
+/// What is not known of the others' places then counts in harm and probability. Where the atlas has
+/// not all that can be driven, all of it is rolled out, in tens of milliseconds: the atlas counts a
 /// first contact only, so figures of the two are not compared.
+/// @param spreads  about the tracks, one per actor, or none at all: as perceived in `scene`, which
+///                 holds for who reacts in any case
 [[nodiscard]] std::array<PolicyFacts, manoeuvre::num_policies> policy_facts(
-    const world::Scene& scene, const std::vector<world::Track>& tracks, const ForecastTools& tools);
+    const world::Scene& scene, const std::vector<world::Track>& tracks, const ForecastTools& tools,
+    const std::vector<world::SpreadOverTime>& spreads = {});
 
 /// What the atlas says that these plans end in; followers react as in policy_facts.
 /// @return  in the order of `plans`; nullopt: there is no atlas, or it lacks one that can be driven

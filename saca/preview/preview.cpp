@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "saca/intent/intention.h"
@@ -90,19 +91,36 @@ std::optional<Conflict> first_conflict(const Scene& scene, const std::vector<For
 double along_sd_at_trigger(const Scene& scene, const Actor& actor, const Forecast& forecast,
                            const Thresholds& thresholds) {
   const double tolerance = world::is_crossing(scene, actor) ? thresholds.trigger_tolerance : 0.0;
-  return std::hypot(forecast.spread.front().along_sd,
+  return std::hypot(forecast.spread.at.front().along_sd,
                     norm(actor.v_W) * tolerance / std::numbers::sqrt3);
 }
 
-/// The actor at a later time of its forecast.
+/// How far an actor may be from its track from the trigger on: at the trigger as far as forecast;
+/// then it is seen anew, so that the rest grows as that of a forecast that begins there.
+/// @param most_along  at the trigger along its line [m]
+world::SpreadOverTime spread_from_trigger(const Forecast& forecast, double trigger,
+                                          double most_along) {
+  world::Spread there = world::spread_at(forecast.spread, trigger);
+  there.along_sd = std::min(there.along_sd, most_along);
+  const world::Spread first = forecast.spread.at.front();
+  const auto grown = [](double from, double before, double later) {
+    return std::sqrt(from * from + std::max(0.0, later * later - before * before));
+  };
+  world::SpreadOverTime spread{.start = trigger, .step = forecast.spread.step, .at = {}};
+  for (const world::Spread& each : forecast.spread.at) {
+    spread.at.push_back({grown(there.along_sd, first.along_sd, each.along_sd),
+                         grown(there.across_sd, first.across_sd, each.across_sd)});
+  }
+  return spread;
+}
+
+/// The actor at a later time of its forecast, as surely perceived as now.
 Actor moved_on(Actor actor, const Forecast& forecast, double time) {
   const Track& track = forecast.track;
   actor.X_WA = world::pose_at(track, time);
   actor.v_W = world::velocity_at(track, time);
   actor.a_W = (1.0 / slope_time) * (world::velocity_at(track, time + slope_time) - actor.v_W);
   actor.yaw_rate = world::yaw_rate_at(track, time);
-  const intent::Spread spread = intent::spread_at(forecast, time);
-  actor.position_sd = std::hypot(spread.along_sd, spread.across_sd) / std::numbers::sqrt2;
   return actor;
 }
 
@@ -140,11 +158,6 @@ std::vector<Situation> situations(const Scene& scene, const intent::Beliefs& bel
     if (!conflict) {
       continue;
     }
-    const double along_sd = along_sd_at_trigger(scene, scene.actors[conflict->actor],
-                                                forecasts[conflict->actor], thresholds);
-    for (intent::Spread& each : forecasts[conflict->actor].spread) {
-      each.along_sd = std::min(each.along_sd, along_sd);
-    }
     Situation situation;
     situation.scene_at_trigger =
         moved_on(scene, forecasts, std::max(0.0, conflict->time - thresholds.trigger));
@@ -152,10 +165,16 @@ std::vector<Situation> situations(const Scene& scene, const intent::Beliefs& bel
     situation.intentions = std::move(hypothesis.intentions);
     situation.posteriors = posteriors;
     situation.risks = obstacle_risks(situation.scene_at_trigger, tools);
-    for (Forecast& forecast : forecasts) {
-      situation.tracks.push_back(std::move(forecast.track));
+    for (std::size_t i = 0; i < forecasts.size(); ++i) {
+      const double most_along = i == conflict->actor ? along_sd_at_trigger(scene, scene.actors[i],
+                                                                           forecasts[i], thresholds)
+                                                     : std::numeric_limits<double>::infinity();
+      situation.spreads.push_back(
+          spread_from_trigger(forecasts[i], situation.scene_at_trigger.time, most_along));
+      situation.tracks.push_back(std::move(forecasts[i].track));
     }
-    situation.facts = policy_facts(situation.scene_at_trigger, situation.tracks, tools);
+    situation.facts =
+        policy_facts(situation.scene_at_trigger, situation.tracks, tools, situation.spreads);
     found.push_back(std::move(situation));
     if (found.size() == max_situations) {
       break;

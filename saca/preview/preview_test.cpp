@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -10,6 +11,7 @@
 #include "saca/intent/shipped_model.h"
 #include "saca/manoeuvre/default_car.h"
 #include "saca/manoeuvre/ego.h"
+#include "saca/preview/forecast_for_test.h"
 #include "tests/support/scenes.h"
 
 namespace saca::preview::preview_test {
@@ -99,8 +101,7 @@ TEST(Situations, FollowTheBeliefsThatAreHandedIn) {
   EXPECT_THROW((void)look(scene, intent::Beliefs()), ContractViolation);
 }
 
-// The root of the mean of the squares along and across. Along, who sets off the trigger is where
-// the trigger finds it: as surely as it is perceived.
+// Along, who sets off the trigger is where the trigger finds it: as surely as it is perceived.
 TEST(Situations, PlacesAtTheTriggerAreAsUnsureAsTheForecast) {
   Scene scene = motorway(20.0);
   scene.actors.push_back(car(1, {70.0, 0.0}, {5.0, 0.0}));
@@ -118,9 +119,78 @@ TEST(Situations, PlacesAtTheTriggerAreAsUnsureAsTheForecast) {
   const double wavered = intent::wavering_sd(intent::MotionLaw().driving, t);
   EXPECT_EQ(found[0].intentions[0], intent::Intention::maintain);
   EXPECT_EQ(found[0].intentions[1], intent::Intention::maintain);
+  const world::Spread first = spread_at(found[0].spreads[0], t);
+  const world::Spread beside = spread_at(found[0].spreads[1], t);
   // The forecast is linear between poses 50 ms apart.
-  EXPECT_NEAR(trigger.actors[0].position_sd, std::sqrt(0.5 * (0.3 * 0.3 + perceived)), 1e-4);
-  EXPECT_NEAR(trigger.actors[1].position_sd, std::sqrt(perceived + 0.5 * wavered * wavered), 1e-3);
+  EXPECT_NEAR(first.along_sd, 0.3, 1e-9);
+  EXPECT_NEAR(first.across_sd, std::sqrt(perceived), 1e-3);
+  EXPECT_NEAR(beside.along_sd, std::sqrt(perceived + wavered * wavered), 3e-3);
+  EXPECT_NEAR(beside.across_sd, std::sqrt(perceived), 1e-3);
+  // A second later it has been seen again: what has come since is that of a second.
+  const double a_second = intent::wavering_sd(intent::MotionLaw().driving, 1.0);
+  EXPECT_NEAR(spread_at(found[0].spreads[0], t + 1.0).along_sd,
+              std::sqrt(0.3 * 0.3 + 0.01 + a_second * a_second), 3e-3);
+}
+
+double normal_below(double x) {
+  return 0.5 * std::erfc(-x / std::sqrt(2.0));
+}
+
+/// At 12.5 m/s, as the small atlas has it, with a wreck ahead: the trigger comes after some 3.5 s.
+/// Everybody maintains.
+Situation read_situation(const Scene& scene) {
+  intent::Beliefs beliefs;
+  for (std::size_t i = 0; i < scene.actors.size(); ++i) {
+    beliefs.push_back({});
+    beliefs[i].at.fill({1.0});
+  }
+  const auto found = situations(scene, beliefs, {}, reading());
+  EXPECT_EQ(found.size(), 1U);
+  return found.empty() ? Situation() : found[0];
+}
+Scene wreck_ahead() {
+  Scene scene = motorway(12.5);
+  scene.actors.push_back(car(1, {64.0, 0.0}, {}));
+  return scene;
+}
+const PolicyFacts& braking(const Situation& situation) {
+  return situation.facts[manoeuvre::index(manoeuvre::PolicyId::aeb)];
+}
+
+// A car abreast in the next lane, 3.5 m aside: how far ahead or behind it may be by then says
+// nothing about how far aside it is. Braking is struck by it with the mass that a normal law of its
+// place across has beyond the gap.
+TEST(Situations, WhoIsAbreastMayBeAheadOrBehindAndStaysInItsLane) {
+  Scene scene = wreck_ahead();
+  scene.actors.push_back(car(2, {0.0, 3.5}, {12.5, 0.0}));
+  const Situation surely = read_situation(scene);
+  ASSERT_GT(surely.scene_at_trigger.time, 3.0);
+  EXPECT_LT(braking(surely).probability, 1e-4);
+  scene.actors[1].position_sd = 0.3;
+  scene.actors[1].velocity_sd = 0.3;
+  const Situation found = read_situation(scene);
+  const double gap = 3.5 - 0.5 * (scene.ego_footprint.width + scene.actors[1].footprint.width);
+  const double t = found.scene_at_trigger.time;
+  const double at_trigger = std::hypot(0.3, 0.3 * t);
+  // The ego rests after 12.5 / 8 s; by then the other has surely passed.
+  const double when_passed = std::hypot(at_trigger, 0.3 * 12.5 / 8.0);
+  EXPECT_GT(braking(found).probability, 0.9 * normal_below(-gap / at_trigger));
+  EXPECT_LT(braking(found).probability, 1.1 * normal_below(-gap / when_passed));
+}
+
+// Who follows reacts: it keeps a gap that it sees, whatever it might have done by then if nobody
+// were ahead. It stops behind the ego by more than a metre (rolled out), seen to 20 cm.
+TEST(Situations, WhoReactsIsAsUnsureAsItIsPerceived) {
+  Scene scene = wreck_ahead();
+  scene.actors.push_back(car(2, {-35.0, 0.0}, {12.5, 0.0}));
+  scene.actors[1].position_sd = 0.2;
+  scene.actors[1].velocity_sd = 0.3;
+  const Situation found = read_situation(scene);
+  const std::array plans{manoeuvre::Plan{manoeuvre::PolicyId::aeb, std::nullopt}};
+  const auto rolled = rolled_out(found.scene_at_trigger, found.tracks, plans, reading());
+  ASSERT_FALSE(rolled[0].outcome.contact.has_value());
+  ASSERT_GT(rolled[0].outcome.clearance, 1.0);
+  EXPECT_LT(braking(found).probability, 1e-4);
 }
 
 TEST(Situations, WhoCrossesIsUnsureByTheTriggersTolerance) {
@@ -132,8 +202,9 @@ TEST(Situations, WhoCrossesIsUnsureByTheTriggersTolerance) {
   const intent::MotionLaw law;
   const double t = found[0].scene_at_trigger.time;
   const double along = 8.0 * Thresholds().trigger_tolerance / std::sqrt(3.0);
-  EXPECT_NEAR(found[0].scene_at_trigger.actors[0].position_sd,
-              std::min(along, intent::wavering_sd(law.driving, t)) / std::sqrt(2.0), 1e-4);
+  EXPECT_NEAR(spread_at(found[0].spreads[0], t).along_sd,
+              std::min(along, intent::wavering_sd(law.driving, t)), 1e-3);
+  EXPECT_NEAR(spread_at(found[0].spreads[0], t).across_sd, 0.0, 1e-9);
 }
 
 TEST(Situations, ThosePresentButHarmlessDoNotMultiplyForecasts) {

@@ -33,6 +33,7 @@ struct Situation {
                                                     ///< as `preview::cautious` has them
   std::vector<reach::ObstacleRisk> risks;           ///< one per actor, at the trigger
   std::vector<world::Track> tracks;                 ///< one per actor, from the preview on
+  std::vector<world::SpreadOverTime> spreads;       ///< about the tracks, from the trigger on
   std::array<PolicyFacts, manoeuvre::num_policies> facts;
 };
 

@@ -32,6 +32,18 @@ Place place(const Track& track, double time) {
 
 }  // namespace
 
+Spread spread_at(const SpreadOverTime& spread, double time) {
+  expects(!spread.at.empty(), "a spread is told");
+  const std::size_t last = spread.at.size() - 1;
+  const double steps =
+      std::clamp((time - spread.start) / spread.step, 0.0, static_cast<double>(last));
+  const auto before = static_cast<std::size_t>(steps);
+  const Spread& a = spread.at[before];
+  const Spread& b = spread.at[std::min(before + 1, last)];
+  const double share = steps - static_cast<double>(before);
+  return {std::lerp(a.along_sd, b.along_sd, share), std::lerp(a.across_sd, b.across_sd, share)};
+}
+
 double end_time(const Track& track) {
   check(track);
   return track.start + track.step * static_cast<double>(track.X_WA.size() - 1);

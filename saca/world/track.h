@@ -13,6 +13,24 @@ struct Track {
   std::vector<Pose> X_WA;  ///< at least one
 };
 
+/// How far a body may be from where it is told to be: standard deviations of its place along the
+/// way that it points, and across [m].
+struct Spread {
+  double along_sd = 0.0;  ///< >= 0
+  double across_sd = 0.0;
+};
+
+/// The spread about a track, over time: at equal steps.
+struct SpreadOverTime {
+  double start = 0.0;      ///< time of the first [s]
+  double step = 0.05;      ///< [s], > 0
+  std::vector<Spread> at;  ///< empty: nothing is said; it never shrinks
+};
+
+/// Linear in between; before the first as at the first, after the last as at the last.
+/// @throws ContractViolation  if nothing is said
+[[nodiscard]] Spread spread_at(const SpreadOverTime& spread, double time);
+
 /// Time of the last pose [s].
 [[nodiscard]] double end_time(const Track& track);
 

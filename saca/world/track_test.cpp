@@ -35,6 +35,15 @@ TEST(Track, OnePoseIsABodyAtRest) {
   EXPECT_EQ(velocity_at(rest, 0.0).x, 0.0);
 }
 
+TEST(SpreadOverTime, IsLinearBetweenAndConstantOutside) {
+  const SpreadOverTime spread{.start = 1.0, .step = 0.5, .at = {{1.0, 0.0}, {3.0, 0.2}}};
+  EXPECT_DOUBLE_EQ(spread_at(spread, 1.25).along_sd, 2.0);
+  EXPECT_DOUBLE_EQ(spread_at(spread, 1.25).across_sd, 0.1);
+  EXPECT_EQ(spread_at(spread, 0.0).along_sd, 1.0);
+  EXPECT_EQ(spread_at(spread, 9.0).across_sd, 0.2);
+  EXPECT_THROW((void)spread_at({}, 0.0), ContractViolation);
+}
+
 TEST(Track, RefusesAnEmptyTrackAndNaN) {
   EXPECT_THROW((void)pose_at({}, 0.0), ContractViolation);
   EXPECT_THROW((void)pose_at(track, std::nan("")), ContractViolation);
