@@ -17,10 +17,11 @@ namespace saca::preview {
 /// How likely it is at the least that somebody who moves brakes, whatever is believed.
 ///
 /// Ordinary traffic, which beliefs are learned from, hardly holds anyone who gives way to a car
-/// that crosses; near a crash it is more likely. Both numbers are assumptions.
+/// that crosses; near a crash it is more likely. Both numbers are assumptions; with less than
+/// Thresholds::least_posterior nobody would be forecast to do so.
 struct Caution {
   double crossing = 0.10;  ///< on a course across the road: it may give way [-]
-  double other = 0.03;     ///< in conflict within T2 if all go on as they do [-]
+  double other = 0.06;     ///< in conflict within T2 if all go on as they do [-]
 };
 
 /// The beliefs that a preview prepares for: where braking, moving aside or not, is less likely than

@@ -67,9 +67,14 @@ TEST(Cautious, BrakingWhileMovingAsideIsBraking) {
   EXPECT_NEAR(p[3] + p[4] + p[5], 0.10, 1e-12);
 }
 
-TEST(Cautious, WhoIsInConflictBrakesWithThreePercent) {
-  EXPECT_NEAR(prepared_for(ego_and({40.0, 0.0}, {6.0, 0.0}), sure)[3], 0.03,
+TEST(Cautious, WhoIsInConflictBrakesWithSixPercent) {
+  EXPECT_NEAR(prepared_for(ego_and({40.0, 0.0}, {6.0, 0.0}), sure)[3], 0.06,
               1e-12);  // 36 m at 8 m/s
+}
+
+TEST(Cautious, WhatItPreparesForCounts) {
+  EXPECT_GT(Caution().other, Thresholds().least_posterior);
+  EXPECT_GT(Caution().crossing, Thresholds().least_posterior);
 }
 
 TEST(Cautious, AWalkerStopsInsteadOfBraking) {

@@ -47,13 +47,7 @@ class FollowedFutures {
         scene_(with_kept_gaps(scene, followers_)),
         tools_(tools),
         moved_(tracks),
-        spreads_(std::move(spreads)) {
-    for (const std::size_t follower : followers_) {
-      if (!spreads_.empty()) {
-        spreads_[follower] = {};
-      }
-    }
-  }
+        spreads_(std::move(spreads)) {}
 
   [[nodiscard]] bool followed() const { return !followers_.empty(); }
 

@@ -43,8 +43,8 @@ using Plans =
 /// What is not known of the others' places then counts in harm and probability. Where the atlas has
 /// not all that can be driven, all of it is rolled out, in tens of milliseconds: the atlas counts a
 /// first contact only, so figures of the two are not compared.
-/// @param spreads  about the tracks, one per actor, or none at all: as perceived in `scene`, which
-///                 holds for who reacts in any case
+/// @param spreads  about the tracks, one per actor, those who react included; or none at all: as
+///                 perceived in `scene`, of who reacts the place alone
 [[nodiscard]] std::array<PolicyFacts, manoeuvre::num_policies> policy_facts(
     const world::Scene& scene, const std::vector<world::Track>& tracks, const ForecastTools& tools,
     const std::vector<world::SpreadOverTime>& spreads = {});

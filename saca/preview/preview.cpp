@@ -1,9 +1,12 @@
 #include "saca/preview/preview.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "saca/intent/intention.h"
 #include "saca/intent/joint.h"
@@ -22,67 +25,89 @@ using world::Scene;
 using world::Track;
 
 constexpr double after_trigger = 8.0;  // [s] of tracks beyond the trigger: any stop from 25 m/s
-constexpr double slope_time = 0.05;    // [s] over which an acceleration is read off a track
 constexpr std::size_t num_candidates = 24;  // hypotheses that are looked at for conflicts
 
-/// The intentions of an actor that are worth a forecast of their own: all likely ones if any of
-/// them leads into a conflict, else only the likeliest.
-intent::Choices worth_forecasting(const Scene& scene, const Actor& actor,
-                                  const IntentPosterior& posterior, const Thresholds& thresholds,
-                                  const intent::MotionLaw& motion) {
-  const intent::Choices likely = intent::choices_of(posterior, thresholds.least_posterior);
-  const auto conflicts = [&](const intent::Choice& choice) {
-    const Forecast forecast =
-        intent::motion_under(scene, actor, choice.intention, thresholds.preview, motion);
-    return world::time_to_conflict(scene, actor, forecast.track, thresholds.preview,
-                                   thresholds.preview_tolerance)
-        .has_value();
-  };
-  if (!world::is_behind(scene, actor) && std::any_of(likely.begin(), likely.end(), conflicts)) {
-    return likely;
+/// The scene with the ego one lane to the side, where an evasion leads it; nullopt: there is no
+/// such lane.
+std::optional<Scene> beside(const Scene& scene, double side) {
+  const world::LanePose here = world::to_lane(scene.road, scene.ego.X_WB);
+  const double d = here.d + side * scene.road.lane_width;
+  const double half_width = 0.5 * scene.ego_footprint.width;
+  if (d + half_width > scene.road.left_edge || d - half_width < scene.road.right_edge) {
+    return std::nullopt;
   }
-  intent::Choices one;  // it makes no difference what else it does
-  one.push_back({intent::likeliest(posterior), 1.0});
-  return one;
+  Scene there = scene;
+  there.ego.X_WB = world::from_lane(scene.road, {.s = here.s, .d = d, .heading = here.heading});
+  return there;
 }
+
+/// What of the actors' intentions makes a difference to the ego.
+class Differences {
+ public:
+  Differences(const Scene& scene, const Thresholds& thresholds, const intent::MotionLaw& motion)
+      : scene_(scene),
+        thresholds_(thresholds),
+        motion_(motion),
+        sides_{beside(scene, 1.0), beside(scene, -1.0)} {}
+
+  /// The intentions of an actor that are worth a forecast of their own: all likely ones if any of
+  /// them leads into a conflict, or if it depends on them whether a lane beside is free to swerve
+  /// to; else only the likeliest.
+  [[nodiscard]] intent::Choices worth_forecasting(const Actor& actor,
+                                                  const IntentPosterior& posterior) const {
+    const intent::Choices likely = intent::choices_of(posterior, thresholds_.least_posterior);
+    std::optional<Ways> first;
+    for (const intent::Choice& choice : likely) {
+      const Ways met = ways_met(actor, choice.intention);
+      if (!first) {
+        first = met;
+      }
+      if (met.ahead || met.beside != first->beside) {
+        return likely;
+      }
+    }
+    intent::Choices one;  // it makes no difference what else it does
+    one.push_back({intent::likeliest(posterior), 1.0});
+    return one;
+  }
+
+ private:
+  /// Where the ego would meet it.
+  struct Ways {
+    bool ahead = false;            ///< going on as it does
+    std::array<bool, 2> beside{};  ///< likewise, in the lane to the left and to the right
+  };
+  [[nodiscard]] Ways ways_met(const Actor& actor, intent::Intention intention) const {
+    const Forecast forecast =
+        intent::motion_under(scene_, actor, intention, thresholds_.preview, motion_);
+    const auto meets = [&](const Scene& scene) {
+      return world::time_to_conflict(scene, actor, forecast.track, thresholds_.preview,
+                                     thresholds_.preview_tolerance)
+          .has_value();
+    };
+    Ways met{.ahead = !world::is_behind(scene_, actor) && meets(scene_), .beside = {}};
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+      met.beside[i] = sides_[i] && meets(*sides_[i]);
+    }
+    return met;
+  }
+
+  const Scene& scene_;
+  const Thresholds& thresholds_;
+  const intent::MotionLaw& motion_;
+  std::array<std::optional<Scene>, 2> sides_;
+};
 
 std::vector<intent::Hypothesis> hypotheses(const Scene& scene,
                                            const std::vector<IntentPosterior>& posteriors,
                                            const Thresholds& thresholds,
                                            const intent::MotionLaw& motion) {
+  const Differences differences(scene, thresholds, motion);
   std::vector<intent::Choices> choices;
   for (std::size_t i = 0; i < scene.actors.size(); ++i) {
-    choices.push_back(worth_forecasting(scene, scene.actors[i], posteriors[i], thresholds, motion));
+    choices.push_back(differences.worth_forecasting(scene.actors[i], posteriors[i]));
   }
   return intent::likeliest_hypotheses(choices, num_candidates);
-}
-
-struct Conflict {
-  double time = 0.0;      ///< from the scene on [s]
-  std::size_t actor = 0;  ///< index into scene.actors
-};
-
-/// The first conflict: with the trigger's tolerance, else with that of the preview.
-std::optional<Conflict> first_conflict(const Scene& scene, const std::vector<Forecast>& forecasts,
-                                       const Thresholds& thresholds) {
-  for (const double tolerance : {thresholds.trigger_tolerance, thresholds.preview_tolerance}) {
-    std::optional<Conflict> first;
-    for (std::size_t i = 0; i < scene.actors.size(); ++i) {
-      const Actor& actor = scene.actors[i];
-      if (world::is_behind(scene, actor)) {
-        continue;
-      }
-      const auto time =
-          world::time_to_conflict(scene, actor, forecasts[i].track, thresholds.preview, tolerance);
-      if (time && (!first || *time < first->time)) {
-        first = {*time, i};
-      }
-    }
-    if (first) {
-      return first;
-    }
-  }
-  return std::nullopt;
 }
 
 /// What is left of the spread along its line of the one who sets off the trigger: the trigger comes
@@ -114,13 +139,26 @@ world::SpreadOverTime spread_from_trigger(const Forecast& forecast, double trigg
   return spread;
 }
 
-/// The actor at a later time of its forecast, as surely perceived as now.
+/// Of who reacts to the ego: it keeps a gap that it sees, whatever it might have done by then.
+world::SpreadOverTime as_perceived(const Actor& actor, double start) {
+  return {
+      .start = start, .step = intent::motion_step, .at = {{actor.position_sd, actor.position_sd}}};
+}
+
+/// The actor at a later time of its forecast, as surely perceived as now. Central differences: of
+/// places that lie on straight lines between poses one step apart, those over a step have no jumps.
 Actor moved_on(Actor actor, const Forecast& forecast, double time) {
   const Track& track = forecast.track;
+  const double h = track.step;
   actor.X_WA = world::pose_at(track, time);
-  actor.v_W = world::velocity_at(track, time);
-  actor.a_W = (1.0 / slope_time) * (world::velocity_at(track, time + slope_time) - actor.v_W);
-  actor.yaw_rate = world::yaw_rate_at(track, time);
+  if (time < track.start + h) {
+    return actor;  // velocity and turning are as perceived
+  }
+  const Pose before = world::pose_at(track, time - h);
+  const Pose after = world::pose_at(track, time + h);
+  actor.v_W = (0.5 / h) * (after.p - before.p);
+  actor.a_W = (1.0 / (h * h)) * ((after.p - actor.X_WA.p) - (actor.X_WA.p - before.p));
+  actor.yaw_rate = wrap_angle(after.yaw - before.yaw) / (2.0 * h);
   return actor;
 }
 
@@ -139,6 +177,50 @@ Scene moved_on(const Scene& scene, const std::vector<Forecast>& forecasts, doubl
   return later;
 }
 
+/// When the reflex plane is going to act, and because of whom.
+struct Trigger {
+  double after = 0.0;     ///< from the scene on [s]
+  std::size_t actor = 0;  ///< index into scene.actors
+};
+
+/// The first instant at which the reflex plane's own rule triggers if all move as forecast: with
+/// its own tolerance of crossing traffic, else with the preview's. Exact to a millisecond, but for
+/// conflicts that last for less than 50 ms.
+std::optional<Trigger> first_trigger(const Scene& scene, const std::vector<Forecast>& forecasts,
+                                     const Thresholds& thresholds) {
+  constexpr int looks_per_second = 20;
+  const auto last =
+      static_cast<int>(std::floor(looks_per_second * (thresholds.preview - thresholds.trigger)));
+  for (const double tolerance : {thresholds.trigger_tolerance, thresholds.preview_tolerance}) {
+    Thresholds rule = thresholds;
+    rule.trigger_tolerance = tolerance;
+    const auto threat = [&](double after) {
+      return triggering_threat(moved_on(scene, forecasts, after), rule);
+    };
+    double before = 0.0;
+    for (int look = 0; look <= last; ++look) {
+      double after = static_cast<double>(look) / looks_per_second;
+      auto found = threat(after);
+      if (!found) {
+        before = after;
+        continue;
+      }
+      constexpr int halvings = 6;
+      for (int i = 0; i < halvings && before < after; ++i) {
+        const double middle = 0.5 * (before + after);
+        if (const auto sooner = threat(middle)) {
+          after = middle;
+          found = sooner;
+        } else {
+          before = middle;
+        }
+      }
+      return Trigger{after, found->actor};
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<Situation> situations(const Scene& scene, const intent::Beliefs& beliefs,
@@ -154,23 +236,25 @@ std::vector<Situation> situations(const Scene& scene, const intent::Beliefs& bel
       forecasts.push_back(intent::motion_under(scene, scene.actors[i], hypothesis.intentions[i],
                                                thresholds.preview + after_trigger, tools.motion));
     }
-    const auto conflict = first_conflict(scene, forecasts, thresholds);
-    if (!conflict) {
+    const auto trigger = first_trigger(scene, forecasts, thresholds);
+    if (!trigger) {
       continue;
     }
     Situation situation;
-    situation.scene_at_trigger =
-        moved_on(scene, forecasts, std::max(0.0, conflict->time - thresholds.trigger));
+    situation.scene_at_trigger = moved_on(scene, forecasts, trigger->after);
     situation.probability = hypothesis.probability;
     situation.intentions = std::move(hypothesis.intentions);
     situation.posteriors = posteriors;
     situation.risks = obstacle_risks(situation.scene_at_trigger, tools);
     for (std::size_t i = 0; i < forecasts.size(); ++i) {
-      const double most_along = i == conflict->actor ? along_sd_at_trigger(scene, scene.actors[i],
-                                                                           forecasts[i], thresholds)
-                                                     : std::numeric_limits<double>::infinity();
+      const double most_along = i == trigger->actor ? along_sd_at_trigger(scene, scene.actors[i],
+                                                                          forecasts[i], thresholds)
+                                                    : std::numeric_limits<double>::infinity();
+      const bool reacts =
+          world::is_follower(situation.scene_at_trigger, situation.scene_at_trigger.actors[i]);
       situation.spreads.push_back(
-          spread_from_trigger(forecasts[i], situation.scene_at_trigger.time, most_along));
+          reacts ? as_perceived(scene.actors[i], situation.scene_at_trigger.time)
+                 : spread_from_trigger(forecasts[i], situation.scene_at_trigger.time, most_along));
       situation.tracks.push_back(std::move(forecasts[i].track));
     }
     situation.facts =

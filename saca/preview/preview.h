@@ -15,10 +15,12 @@ constexpr std::size_t max_situations = 3;
 /// The likely situations at the trigger that are in conflict, likeliest first, at most three, with
 /// all their facts.
 ///
-/// Every hypothesis about those actors that may come into conflict is one situation (the 24
-/// likeliest are looked at); the others do what is likeliest for them. The ego
-/// goes on as it does until T1 before the conflict. Empty when no hypothesis has a conflict within
-/// T2.
+/// Every hypothesis about those actors that may come into conflict, or may close a lane beside that
+/// the ego could swerve to or leave it free, is one situation (the 24 likeliest are looked at); the
+/// others do what is likeliest for them. The ego
+/// goes on as it does until the reflex plane's own rule (triggering_threat) finds that it has to
+/// act if all move so; crossing traffic that this rule lets pass is judged by the preview's
+/// tolerance. Empty when no hypothesis makes it act within T2 - T1.
 ///
 /// @param beliefs  one per actor; those that are prepared for are `preview::cautious`
 /// @throws ContractViolation  if beliefs and actors differ in number

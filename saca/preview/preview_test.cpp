@@ -12,6 +12,8 @@
 #include "saca/manoeuvre/default_car.h"
 #include "saca/manoeuvre/ego.h"
 #include "saca/preview/forecast_for_test.h"
+#include "saca/preview/threat.h"
+#include "saca/world/time_to_conflict.h"
 #include "tests/support/scenes.h"
 
 namespace saca::preview::preview_test {
@@ -205,6 +207,84 @@ TEST(Situations, WhoCrossesIsUnsureByTheTriggersTolerance) {
   EXPECT_NEAR(spread_at(found[0].spreads[0], t).along_sd,
               std::min(along, intent::wavering_sd(law.driving, t)), 1e-3);
   EXPECT_NEAR(spread_at(found[0].spreads[0], t).across_sd, 0.0, 1e-9);
+}
+
+/// The scene a while later, all on their tracks, the ego going on: velocities, accelerations and
+/// turning rates from differences of places.
+Scene later(const Scene& scene, const std::vector<world::Track>& tracks, double after) {
+  Scene then = scene;
+  then.time += after;
+  then.ego.X_WB = world::ego_going_on(scene, after);
+  constexpr double h = 0.05;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const auto at = [&](double time) { return pose_at(tracks[i], time); };
+    const Pose before = at(then.time - 0.5 * h);
+    const Pose now = at(then.time + 0.5 * h);
+    const Pose next = at(then.time + 1.5 * h);
+    Actor& actor = then.actors[i];
+    actor.X_WA = at(then.time);
+    actor.v_W = (1.0 / h) * (now.p - before.p);
+    actor.a_W = (1.0 / (h * h)) * ((next.p - now.p) - (now.p - before.p));
+    actor.yaw_rate = wrap_angle(now.yaw - before.yaw) / h;
+  }
+  return then;
+}
+
+// A slower car cuts in, a lead brakes, somebody crosses: when the trigger of a forecast has come,
+// the reflex plane's own rule triggers if all have moved like that, and 0.1 s earlier it does not.
+TEST(Situations, TheTriggerIsTheReflexPlanesOwn) {
+  intent::Belief cuts_in;
+  cuts_in.at.fill({0.0, 0.0, 1.0});
+  intent::Belief brakes;
+  brakes.at.fill({0.0, 0.0, 0.0, 1.0});
+  intent::Belief goes_on;
+  goes_on.at.fill({1.0});
+  struct Case {
+    Actor actor;
+    intent::Belief belief;
+  };
+  Actor crossing = car(1, {70.0, -28.0}, {0.0, 8.0});
+  crossing.X_WA.yaw = 0.5 * std::numbers::pi;
+  for (const Case& one :
+       {Case{car(1, {32.0, 3.5}, {13.0, 0.0}), cuts_in},
+        Case{car(1, {26.0, 3.5}, {16.0, 0.0}), cuts_in},
+        Case{car(1, {30.0, 0.0}, {20.0, 0.0}), brakes}, Case{crossing, goes_on}}) {
+    Scene scene = motorway(20.0);
+    scene.actors.push_back(one.actor);
+    intent::Beliefs beliefs;
+    beliefs.push_back(one.belief);
+    const auto found = look(scene, beliefs);
+    ASSERT_FALSE(found.empty()) << one.actor.X_WA.p.x;
+    const double after = found[0].scene_at_trigger.time;
+    EXPECT_TRUE(triggering_threat(found[0].scene_at_trigger, {}).has_value());
+    EXPECT_TRUE(triggering_threat(later(scene, found[0].tracks, after + 0.05), {}).has_value())
+        << one.actor.X_WA.p.x << " " << after;
+    ASSERT_GT(after, 0.1);
+    EXPECT_FALSE(triggering_threat(later(scene, found[0].tracks, after - 0.1), {}).has_value())
+        << one.actor.X_WA.p.x << " " << after;
+  }
+}
+
+// Two lanes to the left drives somebody who may come over into the lane beside us: that lane is
+// free to swerve to, or not.
+TEST(Situations, WhoMayCloseTheLaneBesideCounts) {
+  Scene scene = motorway(20.0);
+  scene.actors.push_back(car(1, {90.0, 0.0}, {}));
+  scene.actors.push_back(car(2, {38.0, 7.0}, {12.0, 0.0}));  // slower: the ego draws level
+  intent::Beliefs beliefs;
+  beliefs.push_back({});
+  beliefs[0].at.fill({1.0});
+  beliefs.push_back({});
+  beliefs[1].at.fill({0.7, 0.0, 0.3});
+  const auto found = look(scene, beliefs);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].intentions[1], intent::Intention::maintain);
+  EXPECT_NEAR(found[0].probability, 0.7, 1e-12);
+  EXPECT_EQ(found[1].intentions[1], intent::Intention::lane_right);
+  EXPECT_NEAR(found[1].probability, 0.3, 1e-12);
+  // Where there is no such lane it makes no difference.
+  scene.road.left_edge = 1.75;
+  EXPECT_EQ(look(scene, beliefs).size(), 1U);
 }
 
 TEST(Situations, ThosePresentButHarmlessDoNotMultiplyForecasts) {

@@ -33,7 +33,8 @@ struct Situation {
                                                     ///< as `preview::cautious` has them
   std::vector<reach::ObstacleRisk> risks;           ///< one per actor, at the trigger
   std::vector<world::Track> tracks;                 ///< one per actor, from the preview on
-  std::vector<world::SpreadOverTime> spreads;       ///< about the tracks, from the trigger on
+  std::vector<world::SpreadOverTime> spreads;       ///< about the tracks, from the trigger on; of
+                                                    ///< who reacts to the ego, as perceived
   std::array<PolicyFacts, manoeuvre::num_policies> facts;
 };
 
