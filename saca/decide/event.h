@@ -69,6 +69,7 @@ struct Preview {
   bool worse_than_aeb = false;  ///< the plan, by the last forecast
   std::optional<double> ready;  ///< when it was cached [s]
   bool unheard = false;         ///< the model failed when it was asked: it may be asked again
+  double missed = 0.0;          ///< the time that it had then and that was too short [s]
 };
 
 /// The one of this number; nullptr: it is forgotten.

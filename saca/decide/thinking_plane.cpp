@@ -3,9 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "saca/core/contract.h"
+#include "saca/decide/facts_change.h"
 #include "saca/decide/reflex_plane.h"
 #include "saca/memory/similarity.h"
 #include "saca/reason/prompt.h"
@@ -18,6 +21,7 @@ namespace {
 using manoeuvre::PolicyId;
 
 constexpr double least_thinking_time = 0.15;  // [s]: a model asked later than this cannot answer
+constexpr double shortest_share = 0.5;        // of the fastest answer so far: none will come sooner
 constexpr double handover_margin = 0.05;  // [s] before the trigger at which the model must be done
 
 std::string probabilities(const intent::IntentPosterior& posterior) {
@@ -83,43 +87,55 @@ bool ThinkingPlane::think(const world::Scene& scene, const intent::Beliefs& beli
   if (world::broken_rule(scene)) {
     return false;
   }
+  const Round round{scene, beliefs, scene_at, *tools_.clock, stop};
+  const bool withdrawn = forget_what_has_passed(scene.time);
   const auto threat =
       preview::previewed_threat(scene, beliefs, tools_.forecast.motion, thresholds_);
   if (!threat) {
+    if (withdrawn) {
+      publish(round.now());
+    }
     return false;
   }
-  const Round round{scene, beliefs, scene_at, *tools_.clock, stop};
-  forget_what_has_passed(scene.time);
   if (num_previews_ == 0) {
     describe_scene(round, *threat);
   }
-  std::vector<std::size_t> fresh;
-  std::vector<std::size_t> unanswered;
+  std::vector<std::size_t> fresh;       // not thought about as they are now
+  std::vector<std::size_t> unanswered;  // to be asked about
   std::vector<std::int32_t> now;
   for (preview::Situation& situation :
        preview::situations(scene, beliefs, thresholds_, tools_.forecast)) {
     if (situation.scene_at_trigger.time < round.now()) {
       continue;  // its trigger has passed while this was computed
     }
-    if (Preview* const known = provided_for(situation)) {
-      known->newest_scene = situation.scene_at_trigger;
-      known->worse_than_aeb =
-          known->plan && !check(*known->plan, situation, tools_.forecast).passed;
-      now.push_back(known->number);
-      const auto index = static_cast<std::size_t>(known - previews_.data());
-      if (known->unheard &&
-          std::find(unanswered.begin(), unanswered.end(), index) == unanswered.end()) {
-        unanswered.push_back(index);
-      }
+    const std::optional<std::size_t> known = provided_for(situation);
+    if (!known) {
+      fresh.push_back(previews_.size());
+      now.push_back(num_previews_);
+      Preview preview;
+      preview.number = num_previews_++;
+      preview.newest_scene = situation.scene_at_trigger;
+      preview.situation = std::move(situation);
+      previews_.push_back(std::move(preview));
       continue;
     }
-    fresh.push_back(previews_.size());
-    now.push_back(num_previews_);
-    Preview preview;
-    preview.number = num_previews_++;
+    Preview& preview = previews_[*known];
+    if (std::find(now.begin(), now.end(), preview.number) != now.end()) {
+      continue;  // so like one that is likelier that the plan for that serves it too
+    }
+    now.push_back(preview.number);
     preview.newest_scene = situation.scene_at_trigger;
-    preview.situation = std::move(situation);
-    previews_.push_back(std::move(preview));
+    if (refresh(round, preview, situation)) {
+      fresh.push_back(*known);
+      continue;
+    }
+    preview.worse_than_aeb =
+        preview.plan && !check(*preview.plan, situation, tools_.forecast).passed;
+    const bool never_asked = preview.prompt.empty() && !preview.plan;
+    if (preview.unheard || never_asked) {
+      preview.situation = std::move(situation);
+      unanswered.push_back(*known);
+    }
   }
   current_.insert(current_.begin(), now.begin(), now.end());
   for (std::size_t i = 0; i < current_.size(); ++i) {  // newest first, each once
@@ -139,14 +155,21 @@ bool ThinkingPlane::think(const world::Scene& scene, const intent::Beliefs& beli
          fmt::format("forecast {} ({:.0f} %): {}; trigger at {:.2f} s", preview.number + 1,
                      100.0 * preview.situation.probability, combination,
                      preview.situation.scene_at_trigger.time));
-    consult_memory(round, preview);
-    if (!preview.plan) {
+    if (!consult_memory(round, preview)) {
       unanswered.push_back(i);
     }
   }
   publish(round.now());
-  if (!unanswered.empty() && tools_.model != nullptr) {
-    ask_model(round, unanswered);
+  if (tools_.model == nullptr) {
+    return true;
+  }
+  const std::vector<std::size_t> asked = in_time(round, unanswered);
+  if (!asked.empty()) {
+    ask_model(round, asked);
+  } else if (!unanswered.empty() && !fresh.empty()) {
+    tell(round, EventKind::ask,
+         fmt::format("{:.2f} s to the trigger: too late to ask",
+                     time_left(round, previews_[fresh.front()])));
   }
   return true;
 }
@@ -155,37 +178,69 @@ void ThinkingPlane::forget() {
   previews_.clear();
   num_previews_ = 0;
   current_.clear();
+  fastest_answer_ = 0.0;
 }
 
-void ThinkingPlane::forget_what_has_passed(double now) {
+bool ThinkingPlane::forget_what_has_passed(double now) {
   std::erase_if(previews_,
                 [&](const Preview& one) { return one.newest_scene.time + remembered < now; });
-  std::erase_if(current_,
-                [&](std::int32_t number) { return find_preview(previews_, number) == nullptr; });
+  return std::erase_if(current_, [&](std::int32_t number) {
+           return find_preview(previews_, number) == nullptr;
+         }) > 0;
 }
 
-Preview* ThinkingPlane::provided_for(const preview::Situation& situation) {
-  for (Preview& preview : previews_) {
-    if (memory::similarity(situation.scene_at_trigger, preview.situation.scene_at_trigger) >
-        match_similarity) {
-      return &preview;
+std::optional<std::size_t> ThinkingPlane::provided_for(const preview::Situation& situation) const {
+  std::optional<std::size_t> found;
+  double most = match_similarity;
+  for (std::size_t i = 0; i < previews_.size(); ++i) {
+    const double similarity =
+        memory::similarity(situation.scene_at_trigger, previews_[i].situation.scene_at_trigger);
+    if (similarity > most) {
+      most = similarity;
+      found = i;
     }
   }
-  return nullptr;
+  return found;
 }
 
-void ThinkingPlane::consult_memory(const Round& round, Preview& preview) {
+bool ThinkingPlane::refresh(const Round& round, Preview& preview, preview::Situation& situation) {
+  const auto changed = changed_policy(preview.situation.facts, situation.facts);
+  if (!changed) {
+    return false;
+  }
+  const bool worse = regret(situation.facts, *changed) >= material_harm;
+  tell(round, EventKind::forecast,
+       fmt::format("forecast {}: its facts have changed, {} {} is {}", preview.number + 1,
+                   manoeuvre::index(*changed), name(*changed),
+                   worse ? "not as good as the best any more" : "now as good as the best"));
+  preview.situation = std::move(situation);
+  preview.reply = {};
+  preview.truth.reset();
+  preview.unheard = false;
+  if (!preview.plan) {
+    return true;
+  }
+  if (regret(preview.situation.facts, preview.plan->policy) >= material_harm) {
+    preview.plan.reset();
+    preview.ready.reset();
+  }
+  preview.worse_than_aeb =
+      preview.plan && !check(*preview.plan, preview.situation, tools_.forecast).passed;
+  return true;
+}
+
+bool ThinkingPlane::consult_memory(const Round& round, Preview& preview) {
   if (tools_.memory == nullptr) {
-    return;
+    return false;
   }
   const auto nearest = tools_.memory->nearest(preview.situation.scene_at_trigger);
   if (!nearest.has_value()) {
     tell(round, EventKind::fault, "memory: " + nearest.error().message);
-    return;
+    return false;
   }
   if (!nearest.value()) {
     tell(round, EventKind::memory, "memory is empty");
-    return;
+    return false;
   }
   preview.nearest = *nearest.value();
   preview.gate = memory::gate(preview.nearest->similarity);
@@ -193,17 +248,44 @@ void ThinkingPlane::consult_memory(const Round& round, Preview& preview) {
   tell(round, EventKind::memory,
        fmt::format("case {} is {:.0f} % alike, best was {} {}", preview.nearest->found.id,
                    100.0 * preview.nearest->similarity, manoeuvre::index(policy), name(policy)));
-  if (preview.gate != memory::Gate::reason) {
-    settle(preview, policy, Source::memory, round.now(), preview.gate == memory::Gate::check);
+  return preview.gate != memory::Gate::reason &&
+         settle(preview, policy, Source::memory, round.now(), preview.gate == memory::Gate::check);
+}
+
+double ThinkingPlane::time_left(const Round& round, const Preview& preview) {
+  return preview.newest_scene.time - handover_margin - round.now();
+}
+
+std::vector<std::size_t> ThinkingPlane::in_time(const Round& round,
+                                                std::vector<std::size_t> which) const {
+  std::stable_sort(which.begin(), which.end(), [&](std::size_t a, std::size_t b) {
+    return previews_[a].situation.probability > previews_[b].situation.probability;
+  });
+  const auto least = [&](std::size_t count) {
+    return std::max(least_thinking_time,
+                    shortest_share * fastest_answer_ * static_cast<double>(count));
+  };
+  std::vector<std::size_t> asked;
+  for (const std::size_t i : which) {
+    const double left = time_left(round, previews_[i]);
+    double left_to_all = left;
+    for (const std::size_t other : asked) {
+      left_to_all = std::min(left_to_all, time_left(round, previews_[other]));
+    }
+    const bool new_chance = !previews_[i].unheard || left > previews_[i].missed;
+    if (new_chance && left_to_all >= least(asked.size() + 1)) {
+      asked.push_back(i);
+    }
   }
+  return asked;
 }
 
 void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>& which) {
-  double trigger = previews_[which.front()].situation.scene_at_trigger.time;
+  double left = std::numeric_limits<double>::infinity();
   std::vector<std::string> scenes;
   for (const std::size_t i : which) {
     Preview& preview = previews_[i];
-    trigger = std::min(trigger, preview.situation.scene_at_trigger.time);
+    left = std::min(left, time_left(round, preview));
     std::optional<memory::Case> nearest;
     if (preview.nearest) {
       nearest = preview.nearest->found;
@@ -215,11 +297,7 @@ void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>
     }
     scenes.push_back(preview.prompt);
   }
-  const double left = trigger - handover_margin - round.now();
-  if (left < least_thinking_time) {
-    tell(round, EventKind::ask, fmt::format("{:.2f} s to the trigger: too late to ask", left));
-    return;
-  }
+  const double asked_at = round.now();
   tell(round, EventKind::ask,
        fmt::format("the model is asked about {} forecast{}, {:.1f} s left", scenes.size(),
                    scenes.size() == 1 ? "" : "s", left));
@@ -235,18 +313,23 @@ void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>
       output_.reasoning(preview.number, news.text);
     }
     if (news.answer != nullptr) {
+      const double each =
+          (round.time_of(news.answer->time) - asked_at) / static_cast<double>(which.size());
+      fastest_answer_ = fastest_answer_ > 0.0 ? std::min(fastest_answer_, each) : each;
       take_answer(round, preview, *news.answer);
     }
   };
-  const auto replies = tools_.model->ask(scenes, round.clock_at(trigger - handover_margin),
-                                         progress, {.stop = round.stop});
+  const auto replies =
+      tools_.model->ask(scenes, round.clock_at(asked_at + left), progress, {.stop = round.stop});
   if (!replies.has_value() && round.stop.stop_requested()) {
     return;  // nobody waits for it any more
   }
   if (!replies.has_value()) {
     ++deadline_misses_;
+    const bool late = replies.error().code == Error::Code::too_late;
     for (const std::size_t i : which) {
       previews_[i].unheard = !previews_[i].plan;
+      previews_[i].missed = late ? left : 0.0;
     }
     tell(round, EventKind::fault, "model: " + replies.error().message);
     return;
@@ -307,7 +390,7 @@ void ThinkingPlane::judge_reasoning(const Round& round, Preview& preview) {
   }
 }
 
-void ThinkingPlane::settle(Preview& preview, PolicyId policy, Source source, double ready,
+bool ThinkingPlane::settle(Preview& preview, PolicyId policy, Source source, double ready,
                            bool needs_check) {
   const preview::PolicyFacts& fact = preview.situation.facts[manoeuvre::index(policy)];
   preview.check = check(fact.plan, preview.situation, tools_.forecast);
@@ -317,7 +400,7 @@ void ThinkingPlane::settle(Preview& preview, PolicyId policy, Source source, dou
                                preview.check->text)});
   }
   if (!fact.refusal.empty() || (needs_check && !preview.check->passed)) {
-    return;  // what was checked before stands
+    return false;  // what was checked before stands
   }
   if (preview.plan != fact.plan) {
     output_.event({ready, Plane::thinking, EventKind::cached,
@@ -329,6 +412,7 @@ void ThinkingPlane::settle(Preview& preview, PolicyId policy, Source source, dou
   preview.source = source;
   preview.ready = ready;
   publish(ready);
+  return true;
 }
 
 void ThinkingPlane::publish(double ready) const {

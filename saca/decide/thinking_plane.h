@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -42,7 +43,10 @@ struct ThinkingOutput {
 
 /// The plane that may be slow and may fail. Each round looks at the newest scene, forecasts the
 /// likely situations at the trigger, and finds a plan for each that is not yet provided for: from
-/// memory, or by asking the language model.
+/// memory, or by asking the language model. A forecast that is more than 90 % like one that is
+/// known is that one, as it looks now; of several in one round the likeliest. Where a policy that
+/// was as good as the best is materially worse now, or the other way round, it is thought about
+/// anew. The model is asked about what it can answer before the trigger, as far as is known.
 ///
 /// Algorithm 1 of the paper, its first half. Not thread-safe: one thread thinks.
 class ThinkingPlane {
@@ -56,7 +60,8 @@ class ThinkingPlane {
   /// @param beliefs   about its actors' intentions, one for each
   /// @param scene_at  when, on the clock, scene.time was
   /// @param stop      a question to the model under way is withdrawn when a stop is asked for
-  /// @return          false when nothing threatens within T2: nothing was done
+  /// @return          false when nothing threatens within T2: nothing was done, but that plans for
+  ///                  what has long passed are withdrawn
   bool think(const world::Scene& scene, const intent::Beliefs& beliefs, Clock::Time scene_at,
              const std::stop_token& stop = {});
 
@@ -76,15 +81,28 @@ class ThinkingPlane {
  private:
   struct Round;
 
-  void forget_what_has_passed(double now);
+  /// @return  whether anything was that was current
+  bool forget_what_has_passed(double now);
   void tell(const Round& round, EventKind kind, std::string text) const;
   void describe_scene(const Round& round, const preview::Threat& threat) const;
-  [[nodiscard]] Preview* provided_for(const preview::Situation& situation);
-  void consult_memory(const Round& round, Preview& preview);
+  /// The known forecast that is most like this one, if like enough: index into previews_.
+  [[nodiscard]] std::optional<std::size_t> provided_for(const preview::Situation& situation) const;
+  /// Takes over newer facts where they ask for another choice (`situation` is moved from): what was
+  /// chosen by the old ones is withdrawn where it is materially worse than the best now.
+  /// @return  whether it has to be thought about anew
+  bool refresh(const Round& round, Preview& preview, preview::Situation& situation);
+  /// @return  whether memory provided a plan
+  bool consult_memory(const Round& round, Preview& preview);
+  /// To the instant at which the model must be done [s].
+  [[nodiscard]] static double time_left(const Round& round, const Preview& preview);
+  /// Those that can be answered in one question, the likeliest first.
+  [[nodiscard]] std::vector<std::size_t> in_time(const Round& round,
+                                                 std::vector<std::size_t> which) const;
   void ask_model(const Round& round, const std::vector<std::size_t>& which);
   void take_answer(const Round& round, Preview& preview, const reason::Answer& answer);
   void judge_reasoning(const Round& round, Preview& preview);
-  void settle(Preview& preview, manoeuvre::PolicyId policy, Source source, double ready,
+  /// @return  whether the policy is what the forecast is provided with now
+  bool settle(Preview& preview, manoeuvre::PolicyId policy, Source source, double ready,
               bool needs_check);
   void publish(double ready) const;
 
@@ -94,6 +112,8 @@ class ThinkingPlane {
   std::vector<Preview> previews_;
   std::int32_t num_previews_ = 0;      ///< forgotten ones included
   std::vector<std::int32_t> current_;  ///< numbers of previews, newest forecast first
+  double fastest_answer_ = 0.0;  ///< to a question of this encounter, per forecast that it was
+                                 ///< about [s]; 0: there was none
   int deadline_misses_ = 0;
 };
 

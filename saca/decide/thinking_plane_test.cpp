@@ -128,6 +128,21 @@ TEST_F(Thinking, ForgetsWhatHasLongPassed) {
   }
 }
 
+// A minute after its trigger nobody is ahead any more: the plan for it is not kept for whoever
+// comes.
+TEST_F(Thinking, WithdrawsPlansForWhatHasLongPassed) {
+  reason::ScriptedModel model(says(PolicyId::aes_left), clock_);
+  ThinkingPlane thinking = plane(&model);
+  think(thinking, wreck_ahead());
+  ASSERT_EQ(published_.back().size(), 1U);
+  Scene empty = wreck_ahead();
+  empty.actors.clear();
+  empty.time = 60.0;
+  EXPECT_FALSE(think(thinking, empty));
+  EXPECT_TRUE(published_.back().empty());
+  EXPECT_TRUE(thinking.previews().empty());
+}
+
 // With its reasons it would be withdrawn (below); there are none.
 TEST_F(Thinking, WithoutReasoningTheFirstAnswerStands) {
   const reason::ScriptedReply reply{
@@ -226,12 +241,101 @@ TEST_F(Thinking, ASilentModelLeavesNothingBehindButARecord) {
 }
 
 TEST_F(Thinking, AsksAgainAfterTheModelFailed) {
-  reason::ScriptedModel model(reason::ScriptedReply{}, clock_);
+  reason::ScriptedModel model(
+      reason::ScriptedReply{.error = Error{Error::Code::unreadable, "it died"}}, clock_);
   ThinkingPlane thinking = plane(&model);
   think(thinking, wreck_ahead());
   think(thinking, wreck_ahead());
   EXPECT_EQ(model.num_asked(), 2);
   EXPECT_EQ(thinking.previews().size(), 1U);
+}
+
+// What was too short once is too short again; a trigger that has moved away leaves more.
+TEST_F(Thinking, IsAskedAgainAfterADeadlineOnlyWhereThereIsMoreTime) {
+  reason::ScriptedModel model(reason::ScriptedReply{}, clock_);
+  ThinkingPlane thinking = plane(&model);
+  think(thinking, wreck_ahead());
+  think(thinking, wreck_ahead());  // as long before the trigger as the first
+  EXPECT_EQ(model.num_asked(), 1);
+  Scene farther = wreck_ahead();
+  farther.actors[0].X_WA.p.x += 10.0;  // half a second more
+  think(thinking, farther);
+  EXPECT_EQ(model.num_asked(), 2);
+}
+
+// Forecasts of one round that are alike are one, and the likeliest stands for both.
+TEST_F(Thinking, OfLikeForecastsTheLikeliestCounts) {
+  Scene scene = wreck_ahead();
+  scene.actors[0].v_W = {0.5, 0.0};  // whether it brakes hardly makes a difference
+  intent::Beliefs beliefs;
+  beliefs.push_back({});
+  beliefs[0].at.fill({0.6, 0.0, 0.0, 0.4});
+  const preview::ForecastTools tools{.car = &car(), .harm = &harm_};
+  const auto found = preview::situations(scene, beliefs, {}, tools);
+  ASSERT_EQ(found.size(), 2U);
+  const double alike = memory::similarity(found[0].scene_at_trigger, found[1].scene_at_trigger);
+  ThinkingPlane thinking = plane(nullptr);
+  ASSERT_TRUE(thinking.think(scene, beliefs, clock_.now()));
+  ASSERT_EQ(thinking.previews().size(), 1U) << alike;
+  EXPECT_EQ(thinking.previews()[0].newest_scene.time, found[0].scene_at_trigger.time);
+}
+
+// A forecast that nobody answered has had its trigger: the next one is asked about all the same.
+TEST_F(Thinking, WhatHasPassedDoesNotKeepOthersFromBeingAskedAbout) {
+  reason::ScriptedModel model(
+      reason::ScriptedReply{.error = Error{Error::Code::unreadable, "it died"}}, clock_);
+  ThinkingPlane thinking = plane(&model);
+  Scene scene = wreck_ahead();
+  think(thinking, scene);
+  ASSERT_EQ(model.num_asked(), 1);
+  // The same 10 s later, and somebody else's trigger comes sooner: both are asked about.
+  clock_.wait_until(std::chrono::seconds(10));
+  scene.time = 10.0;
+  think(thinking, scene);
+  EXPECT_EQ(model.num_asked(), 2);
+  EXPECT_NEAR(std::chrono::duration<double>(model.last_deadline()).count(),
+              10.0 + (70.0 - 4.5) / 20.0 - 1.3 - 0.05, 0.011);
+}
+
+// A second wreck stands in the lane to the left, so far ahead that the swerve is over before; then
+// nearer: the swerve that was chosen is withdrawn, and the model is asked with the facts as they
+// are.
+TEST_F(Thinking, AsksAnewAndWithdrawsThePlanWhereTheFactsHaveChanged) {
+  reason::ScriptedModel model(says(PolicyId::aes_left), clock_);
+  ThinkingPlane thinking = plane(&model);
+  Scene free = wreck_ahead();
+  free.actors.push_back(test::car(2, {130.0, 3.5}));
+  think(thinking, free);
+  ASSERT_EQ(thinking.previews()[0].plan->policy, PolicyId::aes_left);
+  const std::string first = model.last_scenes()[0];
+  Scene blocked = wreck_ahead();
+  blocked.actors.push_back(test::car(2, {110.0, 3.5}));
+  think(thinking, blocked);
+  ASSERT_EQ(thinking.previews().size(), 1U);
+  EXPECT_EQ(model.num_asked(), 2);
+  EXPECT_NE(model.last_scenes()[0], first);
+  EXPECT_EQ(thinking.previews()[0].plan, std::nullopt);  // it says the same again: it fails
+  EXPECT_TRUE(published_.back().empty());
+}
+
+// An answer to one forecast takes a second: with 0.4 s left none is asked for.
+TEST_F(Thinking, IsNotAskedWhereNoAnswerHasEverComeSoSoon) {
+  reason::ScriptedReply slow = says(PolicyId::aes_left);
+  slow.lines[0].after = slow.lines[1].after = std::chrono::seconds(1);
+  reason::ScriptedModel model(slow, clock_);
+  ThinkingPlane thinking = plane(&model);
+  think(thinking, wreck_ahead());
+  ASSERT_EQ(model.num_asked(), 1);
+  Scene other = wreck_ahead();  // of another kind, so that it is another forecast
+  other.time = to_seconds(clock_.now());
+  other.actors[0].kind = world::ActorKind::motorcycle;
+  other.actors[0].X_WA.p.x = 38.5;  // 34 m: 0.4 s before the trigger
+  think(thinking, other);
+  ASSERT_EQ(thinking.previews().size(), 2U);
+  EXPECT_EQ(model.num_asked(), 1);
+  other.actors[0].X_WA.p.x = 70.0;
+  think(thinking, other);
+  EXPECT_EQ(model.num_asked(), 2);
 }
 
 TEST_F(Thinking, TheDeadlineIsTheTrigger) {
