@@ -1,36 +1,49 @@
 #include "saca/decide/check.h"
 
+#include <fmt/core.h>
+
 #include <array>
 #include <span>
 
+#include "saca/decide/event.h"
+#include "saca/decide/forecaster.h"
 #include "saca/outcome/ordering.h"
+#include "saca/preview/drawn_motions.h"
 #include "saca/reason/prompt.h"
 
 namespace saca::decide {
+namespace {
 
 using manoeuvre::PolicyId;
 
-Check check(const preview::PolicyFacts& plan, const preview::PolicyFacts& aeb,
-            const world::Scene& scene) {
-  const std::string line = reason::policy_line(plan, scene);
+std::string expectation(const preview::ExpectedHarm& one) {
+  return fmt::format("expected harm {:.4f}, contact {:.0f} %", one.harm, 100.0 * one.contact);
+}
+
+}  // namespace
+
+Check check(const preview::ExpectedHarm& plan, const preview::ExpectedHarm& aeb) {
+  const std::string name = plan_text(plan.plan);
   if (!plan.refusal.empty()) {
-    return {false, line};
+    return {false, name + ": cannot be driven: " + plan.refusal};
   }
-  const PolicyId policy = plan.plan.policy;
-  if (policy != PolicyId::aeb &&
-      outcome::better(aeb.outcome, PolicyId::aeb, plan.outcome, policy)) {
-    return {false, line + "; braking does no more harm: " + reason::policy_line(aeb, scene)};
+  const std::string line = name + ": " + expectation(plan);
+  const bool brakes = plan.plan.policy == PolicyId::aeb;
+  if (!brakes &&
+      outcome::better({.harm = aeb.harm}, PolicyId::aeb, {.harm = plan.harm}, plan.plan.policy)) {
+    return {false, line + "; braking does no more harm: " + expectation(aeb)};
   }
   return {true, line};
 }
 
 Check check(const manoeuvre::Plan& plan, const preview::Situation& situation,
             const preview::ForecastTools& tools) {
-  const std::array plans{plan, manoeuvre::Plan{PolicyId::aeb, std::nullopt}};
+  const std::array plans{plan, manoeuvre::full_braking};
   const std::size_t needed = plan.policy == PolicyId::aeb ? 1 : 2;
-  const world::Scene& scene = situation.scene_at_trigger;
-  const auto facts = rolled_out(scene, situation.tracks, std::span(plans).first(needed), tools);
-  return check(facts.front(), facts.back(), scene);
+  const auto expected = preview::expected_harms(
+      situation.scene_at_trigger, preview::drawn_motions(situation, usual_draws), tools,
+      preview::Physics::rolled_out, std::span(plans).first(needed));
+  return check(expected.front(), expected.back());
 }
 
 Check check_unfounded(PolicyId chosen, const preview::Situation& situation) {

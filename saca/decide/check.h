@@ -3,6 +3,7 @@
 #include <string>
 
 #include "saca/manoeuvre/plan.h"
+#include "saca/preview/expected_harm.h"
 #include "saca/preview/policy_facts.h"
 #include "saca/preview/situation.h"
 
@@ -14,19 +15,20 @@ struct Check {
   std::string text;  ///< why, in one line
 };
 
-/// The rollout check: the plan and emergency braking are driven with full dynamics, whatever was
-/// forecast before. A plan passes that can be driven here, where braking does not end better by the
-/// one ordering of outcome/ordering.h: less harm, or the same by milder means.
+/// The rollout check: the plan and emergency braking are driven with full dynamics and held against
+/// the same draws of where the others may be (preview::drawn_motions of the situation), with
+/// everything that follows a contact; whatever was forecast before. As with the facts and the
+/// verdict, expected harm decides: whether one future is missed by a centimetre does not.
 [[nodiscard]] Check check(const manoeuvre::Plan& plan, const preview::Situation& situation,
                           const preview::ForecastTools& tools);
+
+/// The same of what the two are expected to end in. A plan passes that can be driven, where braking
+/// is not better by the one ordering of outcome/ordering.h: less harm, or the same by milder means.
+[[nodiscard]] Check check(const preview::ExpectedHarm& plan, const preview::ExpectedHarm& aeb);
 
 /// The stricter check of a choice that rests on something false (reason::Truth): only what is best
 /// of all that was forecast passes. Rolls nothing out; beside `check`, not in its place.
 [[nodiscard]] Check check_unfounded(manoeuvre::PolicyId chosen,
                                     const preview::Situation& situation);
-
-/// The same as `check` of what the two end in.
-[[nodiscard]] Check check(const preview::PolicyFacts& plan, const preview::PolicyFacts& aeb,
-                          const world::Scene& scene);
 
 }  // namespace saca::decide

@@ -60,6 +60,32 @@ Intention drawn(const intent::IntentPosterior& posterior, double u) {
   return last;
 }
 
+/// A track that is off by `errors` along its travel and across, in standard deviations of its
+/// spread.
+/// @param mean    poses at least
+/// @param course  of who does not move yet [rad]
+/// @param spread  world::Spread of pose k
+/// @param aside   way to the left at pose k besides [m]
+template <class SpreadAt, class Aside>
+void displace(std::vector<Pose>& mean, Vec2 errors, double course, const SpreadAt& spread,
+              const Aside& aside) {
+  for (std::size_t k = 0; k < mean.size(); ++k) {
+    // Poses before are displaced already; the way from here to the next is not.
+    if (k + 1 < mean.size()) {
+      const Vec2 way = mean[k + 1].p - mean[k].p;
+      course = norm(way) > 1e-4 ? std::atan2(way.y, way.x) : course;
+    }
+    const world::Spread now = spread(k);
+    mean[k].p =
+        mean[k].p + rotated({errors.x * now.along_sd, aside(k) + errors.y * now.across_sd}, course);
+  }
+}
+
+/// From how a road user is named: what differs between two forecasts is what was seen.
+std::mt19937_64 rng_of(const Actor& actor) {
+  return std::mt19937_64(256U * static_cast<unsigned>(actor.kind) + actor.id);
+}
+
 /// Without its change of lane.
 Intention along_lane(Intention intention) {
   return intent::is_braking(intention) ? Intention::brake : Intention::maintain;
@@ -74,7 +100,7 @@ class Draws {
         actor_(actor),
         belief_(belief),
         law_(law),
-        rng_(256U * static_cast<unsigned>(actor.kind) + actor.id),
+        rng_(rng_of(actor)),
         intention_(count, rng_),
         along_(count, rng_),
         across_(count, rng_),
@@ -96,21 +122,13 @@ class Draws {
     }
     Track track = forecast(intention).track;
     const double end = drifts ? longest_drift * drift_ends_[draw] : 0.0;
-    const double z_along = normal(along_[draw]);
-    const double z_across = normal(across_[draw]);
     const std::vector<world::Spread>& spread = forecast(intention).spread.at;
-    const std::vector<Pose>& mean = forecast(intention).track.X_WA;
-    double course = std::atan2(actor_.v_W.y, actor_.v_W.x);
-    for (std::size_t k = 0; k < mean.size(); ++k) {
-      const Vec2 way = mean[std::min(k + 1, mean.size() - 1)].p - mean[k].p;
-      if (norm(way) > 1e-4) {
-        course = std::atan2(way.y, way.x);
-      }
-      const double drift = lateral_ * std::min(end, static_cast<double>(k) * track.step);
-      track.X_WA[k].p =
-          mean[k].p +
-          rotated({z_along * spread[k].along_sd, drift + z_across * spread[k].across_sd}, course);
-    }
+    displace(
+        track.X_WA, {normal(along_[draw]), normal(across_[draw])},
+        std::atan2(actor_.v_W.y, actor_.v_W.x), [&](std::size_t k) { return spread[k]; },
+        [&](std::size_t k) {
+          return lateral_ * std::min(end, static_cast<double>(k) * track.step);
+        });
     return track;
   }
 
@@ -150,6 +168,40 @@ std::vector<JointMotion> drawn_motions(const Scene& scene, const intent::Beliefs
     Draws draws(scene, scene.actors[i], beliefs[i], law, count);
     for (std::size_t k = 0; k < count; ++k) {
       motions[k].tracks.push_back(draws.track(k));
+    }
+  }
+  return motions;
+}
+
+std::vector<JointMotion> drawn_motions(const Situation& situation, std::size_t count) {
+  const Scene& scene = situation.scene_at_trigger;
+  expects(situation.tracks.size() == scene.actors.size() &&
+              situation.spreads.size() == scene.actors.size(),
+          "one track and one spread per actor");
+  expects(count >= 1, "at least one draw");
+  std::vector<JointMotion> motions(count,
+                                   {.probability = 1.0 / static_cast<double>(count), .tracks = {}});
+  for (std::size_t i = 0; i < scene.actors.size(); ++i) {
+    const Actor& actor = scene.actors[i];
+    std::mt19937_64 rng = rng_of(actor);
+    const Strata along(count, rng);
+    const Strata across(count, rng);
+    Track mean{.start = scene.time, .step = intent::motion_step, .X_WA = {}};
+    const long last = std::lround(motion_horizon / mean.step);
+    for (long k = 0; k <= last; ++k) {
+      const double time = mean.start + static_cast<double>(k) * mean.step;
+      mean.X_WA.push_back(world::pose_at(situation.tracks[i], time));
+    }
+    const bool moves = norm(actor.v_W) > intent::rest_speed;
+    const double course = moves ? std::atan2(actor.v_W.y, actor.v_W.x) : actor.X_WA.yaw;
+    for (std::size_t draw = 0; draw < count; ++draw) {
+      Track& track = motions[draw].tracks.emplace_back(mean);
+      displace(
+          track.X_WA, {normal(along[draw]), normal(across[draw])}, course,
+          [&](std::size_t k) {
+            return spread_at(situation.spreads[i], mean.start + static_cast<double>(k) * mean.step);
+          },
+          [](std::size_t) { return 0.0; });
     }
   }
   return motions;

@@ -6,6 +6,7 @@
 #include "saca/intent/motion.h"
 #include "saca/intent/observer.h"
 #include "saca/preview/expected_harm.h"
+#include "saca/preview/situation.h"
 #include "saca/world/scene.h"
 
 namespace saca::preview {
@@ -33,6 +34,14 @@ namespace saca::preview {
                                                      const intent::Beliefs& beliefs,
                                                      const intent::MotionLaw& law,
                                                      std::size_t count);
+
+/// Draws of where the others of a situation may be from its trigger on, all alike likely: each
+/// moves along its track and is off by an error along and one across, of the situation's spread,
+/// which it keeps. Nothing else is drawn: intentions are those of the situation. The hypercube is
+/// likewise.
+/// @param count  >= 1
+/// @throws ContractViolation  if the situation lacks a track or a spread, or count is 0
+[[nodiscard]] std::vector<JointMotion> drawn_motions(const Situation& situation, std::size_t count);
 
 /// After which a drift within the lanes has ended [s]: an assumption.
 constexpr double longest_drift = 3.0;

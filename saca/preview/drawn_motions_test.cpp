@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "saca/core/contract.h"
 #include "tests/support/scenes.h"
@@ -195,6 +196,36 @@ TEST(DrawnMotions, RefuseBeliefsOfOthersAndNoDraw) {
   EXPECT_THROW((void)drawn_motions(with_a_car(), {}, {}, 4), ContractViolation);
   EXPECT_THROW((void)drawn_motions(with_a_car(), believing(belief_in(Intention::maintain)), {}, 0),
                ContractViolation);
+}
+
+// Turned by a right angle, along is y: about each track by the situation's spread, from the trigger
+// on.
+TEST(DrawnMotions, OfASituationAreAboutItsTracks) {
+  Situation situation;
+  situation.scene_at_trigger = with_a_car();
+  Scene& scene = situation.scene_at_trigger;
+  scene.time = 2.0;
+  scene.actors[0].v_W = {0.0, 10.0};
+  world::Track track{.start = 0.0, .step = 0.05, .X_WA = {}};
+  for (int k = 0; k <= 200; ++k) {
+    track.X_WA.push_back({{40.0, -20.0 + 0.5 * k}, 0.5 * std::numbers::pi});
+  }
+  scene.actors[0].X_WA = pose_at(track, 2.0);
+  situation.tracks = {track};
+  situation.spreads = {{.start = 2.0, .step = 2.0, .at = {{1.0, 0.1}, {3.0, 0.2}}}};
+  const auto motions = drawn_motions(situation, count);
+  ASSERT_EQ(motions.size(), count);
+  EXPECT_EQ(motions[0].tracks[0].start, 2.0);
+  for (const double time : {2.0, 4.0}) {
+    const auto seen = places(motions, time);
+    const world::Spread told = spread_at(situation.spreads[0], time);
+    EXPECT_NEAR(sd_of(across(seen)), told.along_sd, 0.03 * told.along_sd) << time;
+    EXPECT_NEAR(sd_of(along(seen)), told.across_sd, 0.03 * told.across_sd) << time;
+    EXPECT_NEAR(mean_of(across(seen)), -20.0 + 10.0 * time, 1e-6) << time;
+    EXPECT_NEAR(mean_of(along(seen)), 40.0, 1e-6) << time;
+  }
+  situation.spreads.clear();
+  EXPECT_THROW((void)drawn_motions(situation, count), ContractViolation);
 }
 
 }  // namespace
