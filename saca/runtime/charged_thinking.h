@@ -26,6 +26,10 @@ class ChargedThinking {
   /// For `decide::ThinkingOutput`: plans that are ready at `ready` [s].
   void publish(const decide::PlanCache& plans, double ready);
 
+  /// What was thought is of no use any more: plans that are not ready yet will not come. Whoever
+  /// thinks is as busy as before.
+  void forget() { waiting_.clear(); }
+
   /// The newest plans that are ready at `now` [s] and have not been taken.
   [[nodiscard]] std::optional<decide::PlanCache> take(double now);
 

@@ -86,11 +86,11 @@ decide::ThinkingTools Planes::tools() {
 decide::ThinkingOutput Planes::output() {
   return {.publish =
               [this](const decide::PlanCache& plans, double ready) {
-                real() ? plans_.publish(plans) : charged_.publish(plans, ready);
+                real() ? plans_.publish({plans, thought_of_}) : charged_.publish(plans, ready);
               },
           .event =
               [this](const decide::Event& event) {
-                events_.push_back(event);
+                keep(event);
                 listener_.event(event);
               },
           .reasoning = [this](std::int32_t preview,
@@ -161,8 +161,8 @@ void Planes::hand_over(const world::Scene& scene, bool finished) {
       entry_->verdict = charged_forecasts_.take(scene.time);
     }
   } else {
-    if (!plans_.take(entry_->plans.emplace())) {
-      entry_->plans.reset();
+    if (plans_.take(newest_plans_) && newest_plans_.encounter == encounter_) {
+      entry_->plans = newest_plans_.plans;
     }
     if (!verdicts_.take(entry_->verdict.emplace())) {
       entry_->verdict.reset();
@@ -197,8 +197,24 @@ void Planes::think_of(std::uint32_t encounter) {
   if (thought_of_ != encounter) {
     thought_of_ = encounter;
     plane_.forget();
+    charged_.forget();
     events_.clear();
+    events_left_out_ = 0;
   }
+}
+
+void Planes::keep(const decide::Event& event) {
+  if (events_.size() >= setup_.most_events) {
+    const std::size_t before = events_left_out_ == 0 ? 0 : 1;  // that which says so
+    const std::size_t dropped = std::max<std::size_t>(2, events_.size() / 2);
+    events_left_out_ += dropped - before;
+    events_.erase(events_.begin(), events_.begin() + static_cast<std::ptrdiff_t>(dropped) - 1);
+    events_.front() = {
+        event.time, decide::Plane::thinking, decide::EventKind::fault,
+        std::to_string(events_left_out_) + " earlier events of this plane are left out"};
+    events_.front().time = events_.size() > 1 ? events_[1].time : event.time;
+  }
+  events_.push_back(event);
 }
 
 std::string Planes::finish() {

@@ -45,6 +45,7 @@ struct PlanesSetup {
   std::optional<manoeuvre::Plan> forced;  ///< carried out at the trigger, whatever was thought
   Clock* clock = nullptr;                 ///< real time
   std::size_t tape_size = 0;              ///< memory of the tape [byte], see Tape; 0: no tape
+  std::size_t most_events = 4096;         ///< of the thinking plane, kept of one encounter, >= 2
 };
 
 /// What the reflex plane of this setup decides with.
@@ -102,6 +103,8 @@ class Planes {
   std::string finish();
 
   // Once finished, or in lockstep:
+  /// Of this encounter; where there were more than `most_events`, the newer ones, and first how
+  /// many are left out.
   [[nodiscard]] const std::vector<decide::Event>& thinking_events() const { return events_; }
   [[nodiscard]] const std::vector<decide::Preview>& previews() const { return plane_.previews(); }
   [[nodiscard]] int deadline_misses() const { return plane_.deadline_misses(); }
@@ -114,6 +117,7 @@ class Planes {
   void begin_entry(const world::Scene& scene, const intent::Beliefs& beliefs);
   void hand_over(const world::Scene& scene, bool finished);
   void think_of(std::uint32_t encounter);
+  void keep(const decide::Event& event);
   void judge(const TimedScene& newest);
 
   PlanesSetup setup_;
@@ -126,8 +130,15 @@ class Planes {
   LatestSlot<TimedScene> scenes_;
   LatestSlot<TimedScene> scenes_to_judge_;
   LatestSlot<NumberedVerdict> verdicts_;
-  LatestSlot<decide::PlanCache> plans_;
+  /// Plans, and for which encounter they were thought of.
+  struct NumberedPlans {
+    decide::PlanCache plans;
+    std::uint32_t encounter = 0;
+  };
+  LatestSlot<NumberedPlans> plans_;
+  NumberedPlans newest_plans_;
   std::vector<decide::Event> events_;
+  std::size_t events_left_out_ = 0;
   std::vector<double> reflex_times_;  ///< of the first `looks` steps
   Tape tape_;
   std::unique_ptr<TapeStep> entry_ = std::make_unique<TapeStep>();  ///< the newest

@@ -285,6 +285,73 @@ TEST_F(ForecasterFaults, WhatOneThrowsIsToldInTheEnd) {
   EXPECT_EQ(expect_that_the_atlas_stands_in(throws), "forecaster: a matrix is singular");
 }
 
+// Asked in one encounter, answered in the next, which is just like it and 0.4 s nearer to its end:
+// 20 ms before its trigger the plan is there, and it is not for it.
+TEST_F(PlanesTest, PlansOfOneEncounterAreNotHandedOverInTheNext) {
+  const auto guard = decide::Guard::none;  // whatever is cached is carried out
+  const double trigger = decided(nullptr, guard).time - 0.4;
+  int num_asked = 0;
+  reason::ScriptedModel model(
+      [&](const std::string&) {
+        reason::ScriptedReply reply = says(PolicyId::aes_left);
+        reply.prompt_tokens = static_cast<int>(std::lround(1000.0 * (trigger - 0.02 - 0.05)));
+        if (++num_asked > 1) {
+          reply.error = Error{Error::Code::unreadable, "it is mute"};
+        }
+        return reply;
+      },
+      clock_);
+  for (const bool anew : {false, true}) {
+    num_asked = 0;
+    Planes planes(setup(&model, guard), {}, 1000);
+    const auto step = [&](world::Scene scene) {
+      const auto beliefs = intent::beliefs_at_sight(intent::shipped_model(), scene);
+      planes.step(scene, beliefs, Clock::Time{0}, false);
+    };
+    step(at(0.0));
+    ASSERT_EQ(num_asked, 1);
+    if (anew) {
+      planes.begin_anew();
+    }
+    for (int k = 1; k < 400 && !planes.decision(); ++k) {
+      world::Scene scene = at(0.01 * k + 0.4);
+      scene.time = 0.01 * k;
+      step(scene);
+    }
+    ASSERT_TRUE(planes.decision().has_value());
+    EXPECT_EQ(planes.decision()->source, anew ? decide::Source::fallback : decide::Source::model);
+  }
+}
+
+// One forecast after the other is forgotten in an encounter that does not end. What is kept of its
+// story is bounded, and says how much is missing.
+TEST_F(PlanesTest, TheStoryOfAnEndlessEncounterIsBounded) {
+  std::size_t heard = 0;
+  PlanesSetup small = setup(nullptr, decide::Guard::none);
+  small.most_events = 8;
+  Planes::Listener counts;
+  counts.event = [&](const decide::Event&) { ++heard; };
+  Planes planes(small, counts, 100);
+  for (int k = 0; k < 20; ++k) {
+    world::Scene scene = at(0.0);
+    scene.time = 60.0 * k;
+    planes.step(scene, intent::beliefs_at_sight(intent::shipped_model(), scene), Clock::Time{0},
+                false);
+    const auto& kept = planes.thinking_events();
+    ASSERT_LE(kept.size(), 8U);
+    if (heard > 8) {
+      EXPECT_EQ(kept.front().text, std::to_string(heard - (kept.size() - 1)) +
+                                       " earlier events of this plane are left out");
+    }
+  }
+  EXPECT_GT(heard, 20U);
+  planes.begin_anew();
+  const world::Scene scene = at(0.0);
+  planes.step(scene, intent::beliefs_at_sight(intent::shipped_model(), scene), Clock::Time{0},
+              false);
+  EXPECT_EQ(thoughts(planes).find("left out"), std::string::npos);
+}
+
 TEST_F(PlanesTest, NothingIsToldOfTimesBeforeTheFirstStep) {
   const Planes planes(setup(nullptr, decide::Guard::never_worse_than_braking), {}, 10);
   EXPECT_EQ(planes.timing().calls, 0U);
