@@ -23,6 +23,9 @@ Result<std::optional<reason::Review>> review(const Setup& setup, const Record& r
                               .result = record.result,
                               .met = record.met,
                               .best = *record.best};
+  for (const TimedSwitch& each : record.switches) {
+    aftermath.later.push_back(each.change.plan);
+  }
   aftermath.known.scene_at_trigger = *record.at_trigger;
   for (std::size_t k = 0; k < manoeuvre::num_policies; ++k) {
     aftermath.known.facts[k] = (*record.hindsight)[k].facts;

@@ -75,6 +75,15 @@ TEST_F(ReviewTest, IsHeardJudgedAndRecorded) {
   EXPECT_EQ(out["review"]["truth"]["checked"], 2);
 }
 
+TEST_F(ReviewTest, QuotesWhatTookThePlaceOfThePlan) {
+  Record record = run(setup_, quiet_).value();
+  record.decision->plan = {manoeuvre::PolicyId::no_intervention, std::nullopt};
+  record.switches = {{.time = 3.0, .change = {.plan = manoeuvre::full_braking}}};
+  const auto found = review(setup_, record, [](std::string_view) {});
+  ASSERT_TRUE(found.has_value() && found.value());
+  EXPECT_THAT(found.value()->prompt, HasSubstr("7 NI, then 0 AEB: "));
+}
+
 TEST_F(ReviewTest, OfNothingIsNone) {
   Record record = run(setup_, quiet_).value();
   setup_.model = nullptr;

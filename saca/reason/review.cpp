@@ -16,9 +16,13 @@ std::string review_prompt(const Aftermath& aftermath) {
       "by how much, and what to remember. Quote the figures. As the last line name the policy that "
       "would have been best: \"Response to user: N\".\n"
       "## Carried Out:\n";
-  text += policy_label(aftermath.done) + ": " + outcome::describe(aftermath.result, aftermath.met) +
-          ", " + harm_text(aftermath.result.harm);
-  if (aftermath.forecast_harm) {
+  text += policy_label(aftermath.done);
+  for (const manoeuvre::Plan& plan : aftermath.later) {
+    text += ", then " + policy_label(plan);
+  }
+  text += ": " + outcome::describe(aftermath.result, aftermath.met) + ", " +
+          harm_text(aftermath.result.harm);
+  if (aftermath.forecast_harm && aftermath.later.empty()) {
     text += "; forecast was " + harm_text(*aftermath.forecast_harm);
   }
   text += "\n## What each policy leads to, as is known now:\n";
@@ -28,7 +32,7 @@ std::string review_prompt(const Aftermath& aftermath) {
   }
   text += "## Best in Hindsight:\n" + policy_label(best.plan);
   return text +
-         (aftermath.best == aftermath.done.policy
+         (aftermath.best == aftermath.done.policy && aftermath.later.empty()
               ? ": what was carried out\n"
               : fmt::format(": harm less by {:.4f}\n", aftermath.result.harm - best.outcome.harm));
 }

@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "saca/manoeuvre/plan.h"
 #include "saca/outcome/outcome.h"
@@ -16,8 +17,10 @@ struct Aftermath {
   /// The true scene at the trigger; its facts are what each policy leads to, the others' motion
   /// known. Nothing else of it is looked at.
   preview::Situation known;
-  manoeuvre::Plan done;
-  std::optional<double> forecast_harm;  ///< of what was done, when it was decided
+  manoeuvre::Plan done;                 ///< begun at the trigger
+  std::vector<manoeuvre::Plan> later;   ///< what took its place, one after the other
+  std::optional<double> forecast_harm;  ///< of `done`, when it was decided; of no account where
+                                        ///< another took its place
   outcome::Outcome result;
   std::span<const world::Actor> met;  ///< those that the result's contacts count in
   manoeuvre::PolicyId best = manoeuvre::PolicyId::aeb;  ///< in hindsight

@@ -41,6 +41,18 @@ TEST(Review, SaysWhereTheBestWasDone) {
   EXPECT_THAT(text, Not(HasSubstr("forecast was")));
 }
 
+// Doing nothing gave way to braking: neither was carried out alone, and what was forecast of the
+// one says nothing of both.
+TEST(Review, SaysWhatTookThePlaceOfWhatWasBegun) {
+  Aftermath made = aftermath();
+  made.forecast_harm = 0.0031;
+  made.later = {made.known.facts[0].plan};
+  EXPECT_THAT(review_prompt(made), HasSubstr("## Carried Out:\n7 NI, then 0 AEB: hits truck1"));
+  EXPECT_THAT(review_prompt(made), Not(HasSubstr("forecast was")));
+  made.best = PolicyId::no_intervention;
+  EXPECT_THAT(review_prompt(made), Not(HasSubstr("what was carried out")));
+}
+
 // Why a policy is refused may name a file's words; they are not told.
 TEST(Review, HasNoWordsFromOutside) {
   Aftermath made = aftermath();
