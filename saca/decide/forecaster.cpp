@@ -6,7 +6,6 @@
 #include "saca/core/contract.h"
 #include "saca/manoeuvre/batch.h"
 #include "saca/preview/drawn_motions.h"
-#include "saca/preview/expected_harm.h"
 
 namespace saca::decide {
 namespace {
@@ -59,6 +58,11 @@ JudgedPlan judged(const preview::ExpectedHarm& one) {
 
 }  // namespace
 
+std::vector<preview::JointMotion> draws_of(const Scene& scene, const intent::Beliefs& beliefs,
+                                           std::size_t num_draws) {
+  return preview::drawn_motions(scene, beliefs, intent::MotionLaw{}, num_draws);
+}
+
 Forecaster::Forecaster(const preview::ForecastTools& tools, std::size_t num_draws)
     : tools_(tools), num_draws_(num_draws) {
   expects(tools.car != nullptr && tools.harm != nullptr, "car and harm are given");
@@ -67,7 +71,7 @@ Forecaster::Forecaster(const preview::ForecastTools& tools, std::size_t num_draw
 
 Verdict Forecaster::judge(const Scene& scene, const intent::Beliefs& beliefs,
                           const std::optional<UnderWay>& under_way) const {
-  const auto motions = preview::drawn_motions(scene, beliefs, intent::MotionLaw{}, num_draws_);
+  const auto motions = draws_of(scene, beliefs, num_draws_);
   Verdict verdict{.time = scene.time};
   const auto judge_plans = [&](std::span<const manoeuvre::Plan> plans) {
     for (const preview::ExpectedHarm& one :

@@ -3,10 +3,12 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "saca/decide/verdict.h"
 #include "saca/intent/observer.h"
 #include "saca/manoeuvre/plan.h"
+#include "saca/preview/expected_harm.h"
 #include "saca/preview/policy_facts.h"
 #include "saca/world/road.h"
 #include "saca/world/scene.h"
@@ -36,11 +38,21 @@ using Judge = std::function<Verdict(const world::Scene&, const intent::Beliefs&,
 /// Draws of a verdict: with 16 the regret in closed loop is that with 64 (docs/results.md).
 constexpr std::size_t usual_draws = 16;
 
+/// What the forecaster holds every plan against: draws of what the others may do from this scene on
+/// (preview::drawn_motions). The same scene and beliefs give the same draws.
+///
+/// @param beliefs    one per actor
+/// @param num_draws  >= 1
+/// @throws ContractViolation  if beliefs and actors differ in number
+[[nodiscard]] std::vector<preview::JointMotion> draws_of(const world::Scene& scene,
+                                                         const intent::Beliefs& beliefs,
+                                                         std::size_t num_draws = usual_draws);
+
 /// The plane between reflex and thinking: one scene in, one verdict out, many times a second. Its
 /// work is bounded: it asks neither disk nor language model.
 ///
 /// Every plan is driven with full dynamics and held against draws of what the others may do
-/// (preview::drawn_motions), with everything that follows a contact; those behind react to it.
+/// (draws_of), with everything that follows a contact; those behind react to it.
 class Forecaster {
  public:
   /// @param num_draws  >= 1

@@ -19,17 +19,21 @@ constexpr std::array<std::string_view, 3> reason_names{"needed after all", "no l
 constexpr double rest_speed = 0.5;  // [m/s]
 
 double harm_of_going_on(const SupervisedScene& now) {
-  const JudgedPlan* const anew = find_plan(now.verdict, now.under_way.plan);
-  if (!has_past(now.under_way.plan) && anew != nullptr) {
-    return anew->harm;
-  }
-  return now.verdict.under_way ? now.verdict.under_way->harm : 0.0;
+  const JudgedPlan* const rest = going_on(now.verdict, now.under_way.plan);
+  return rest == nullptr ? 0.0 : rest->harm;
 }
 
 }  // namespace
 
 std::string_view name(SwitchReason reason) {
   return name_of(reason, reason_names);
+}
+
+const JudgedPlan* going_on(const Verdict& verdict, const Plan& under_way) noexcept {
+  if (!has_past(under_way)) {
+    return find_plan(verdict, under_way);
+  }
+  return verdict.under_way ? &*verdict.under_way : nullptr;
 }
 
 bool Supervisor::is_due(const Scene& scene, const UnderWay& under_way, bool triggers,

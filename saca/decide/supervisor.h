@@ -22,6 +22,11 @@ enum class SwitchReason : std::uint8_t {
 };
 [[nodiscard]] std::string_view name(SwitchReason reason);
 
+/// What going on with a plan under way is expected to end in: the rest of it, where it has a past
+/// (has_past), else the same begun anew. nullptr: the verdict does not say.
+[[nodiscard]] const JudgedPlan* going_on(const Verdict& verdict,
+                                         const manoeuvre::Plan& under_way) noexcept;
+
 /// Another plan begins.
 struct Switch {
   manoeuvre::Plan plan;

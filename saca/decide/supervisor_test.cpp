@@ -94,6 +94,18 @@ TEST(Supervisor, SwitchesOnceAndOnceMoreForWhoComes) {
   EXPECT_EQ(change->plan.policy, PolicyId::aeb);
 }
 
+// Braking begun now is braking gone on with; of a swerve the verdict has the rest, or it does not
+// say.
+TEST(Supervisor, KnowsWhatGoingOnIsExpectedToEndIn) {
+  Verdict verdict = braking_harms(0.1, 0.05);
+  EXPECT_EQ(going_on(verdict, manoeuvre::full_braking)->harm, 0.05);
+  EXPECT_EQ(going_on(verdict, manoeuvre::doing_nothing)->harm, 0.05 + 0.1);
+  const manoeuvre::Plan swerve{PolicyId::aes_left, std::nullopt};
+  EXPECT_EQ(going_on(verdict, swerve), nullptr);
+  verdict.under_way = JudgedPlan{.plan = swerve, .drivable = true, .harm = 0.02, .contact = 0.1};
+  EXPECT_EQ(going_on(verdict, swerve)->harm, 0.02);
+}
+
 TEST(Supervisor, CannotLeaveADrift) {
   Watched watched(PolicyId::t_drift_left);
   for (int k = 1; k < 20; ++k) {

@@ -90,6 +90,11 @@ class Planes {
     return reflex_.decision();
   }
 
+  /// What the forecaster had ready for the reflex plane in the newest step; nullopt: nothing.
+  [[nodiscard]] const std::optional<NumberedVerdict>& new_verdict() const {
+    return entry_->verdict;
+  }
+
   /// The encounter is over: decision, plans and previews are forgotten, those of the thinking plane
   /// at its next scene. Waits for nobody.
   /// @param forgotten  for the tape: whether whoever observes the road users begins anew, too
