@@ -53,6 +53,7 @@ class Encounter {
   void tell(Plane plane, EventKind kind, std::string text);
   [[nodiscard]] std::optional<Error> look();
   void wake();
+  void note_verdicts(const decide::Reflex& reflex);
   void execute(const preview::Threat& threat);
   void change(const decide::Switch& change);
   void film(const decide::Reflex& reflex);
@@ -158,6 +159,7 @@ std::optional<Error> Encounter::look() {
   if (woke_) {
     reflex = planes_.step(loop_.seen(), loop_.beliefs(), start_ + from_seconds(loop_.time()),
                           loop_.finished());
+    note_verdicts(reflex);
   } else {
     planes_.watch(loop_.seen(), loop_.beliefs());
   }
@@ -191,6 +193,17 @@ void Encounter::wake() {
   tell(Plane::world, EventKind::preview,
        fmt::format("T2: {} within {:.1f} s of a conflict; SACA drives from here, at {:.1f} m/s",
                    actor_name(scene.actors[threat->actor]), threat->time, norm(scene.ego.v_B)));
+}
+
+void Encounter::note_verdicts(const decide::Reflex& reflex) {
+  const auto& got = planes_.new_verdict();
+  record_.verdicts.note(loop_.seen(), loop_.beliefs(),
+                        got ? std::optional(got->verdict) : std::nullopt);
+  if (reflex.triggered) {
+    record_.verdicts.note(*planes_.decision());
+  } else if (reflex.switched) {
+    record_.verdicts.note(*reflex.switched);
+  }
 }
 
 void Encounter::execute(const preview::Threat& threat) {

@@ -16,6 +16,7 @@
 #include "saca/loop/hindsight.h"
 #include "saca/loop/intentions_seen.h"
 #include "saca/loop/listener.h"
+#include "saca/loop/verdict_log.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/memory/store.h"
 #include "saca/outcome/harm.h"
@@ -76,6 +77,7 @@ struct Record {
   std::vector<decide::Preview> previews;
   std::optional<decide::Decision> decision;
   std::vector<TimedSwitch> switches;       ///< after it
+  VerdictLog verdicts;                     ///< that the reflex plane had in hand
   std::optional<world::Scene> at_trigger;  ///< the truth
   std::optional<std::string> threat;       ///< the actor that set off the trigger
   outcome::Outcome result;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "saca/decide/forecaster.h"
 #include "saca/intent/shipped_model.h"
 #include "saca/loop/wreck_for_test.h"
 #include "saca/manoeuvre/atlas_for_test.h"
@@ -114,6 +115,72 @@ TEST_F(EncounterTest, TheTapeHoldsEveryLookFromTheFirstOn) {
   EXPECT_EQ(std::count_if(steps.begin(), steps.end(),
                           [](const runtime::TapeStep& step) { return step.decision.has_value(); }),
             1);
+}
+
+// The record has the verdicts that the tape has, and the scene by which it was decided: judged
+// again, it gives the same expected harms bit by bit.
+TEST_F(EncounterTest, TheVerdictsOfTheRecordAreThoseOfTheTape) {
+  sim::Scenario scenario = wreck_on_wet_road();
+  scenario.road.left_edge = 1.75;  // braking is all that there is
+  scenario.road.right_edge = -1.75;
+  const Record record = run({.scenario = &scenario,
+                             .car = &car_,
+                             .harm = &harm_,
+                             .intent = &intent_,
+                             .tapes = true,
+                             .clock = &clock_},
+                            quiet_)
+                            .value();
+  ASSERT_TRUE(record.decision && record.decision->verdict);
+  std::vector<decide::Verdict> taped;
+  std::vector<double> received;
+  for (const runtime::TapeStep& step : record.tape->content.steps) {
+    if (step.verdict) {
+      taped.push_back(step.verdict->verdict);
+      received.push_back(step.scene.time);
+    }
+  }
+  const auto& noted = record.verdicts.verdicts();
+  ASSERT_EQ(noted.size(), taped.size());
+  ASSERT_GT(noted.size(), 5U);
+  for (std::size_t k = 0; k < noted.size(); ++k) {
+    EXPECT_FALSE(noted[k].by_atlas);
+    EXPECT_EQ(noted[k].received, received[k]);
+    EXPECT_EQ(runtime::verdict_json(noted[k].verdict), runtime::verdict_json(taped[k]));
+    EXPECT_EQ(noted[k].under_way.has_value(), noted[k].verdict.time > record.decision->time);
+  }
+  const auto& judged = record.verdicts.judged();
+  ASSERT_EQ(judged.size(), 1U + record.switches.size());
+  EXPECT_EQ(judged[0].begun, record.decision->time);
+  const decide::Forecaster forecaster({.car = &car_, .harm = &harm_});
+  EXPECT_EQ(runtime::verdict_json(forecaster.judge(judged[0].scene, judged[0].beliefs)),
+            runtime::verdict_json(*record.decision->verdict));
+}
+
+// Without the forecaster in time, the reflex plane's own verdict stands in the record as such.
+TEST_F(EncounterTest, AVerdictByTheAtlasIsInTheRecord) {
+  sim::Scenario scenario = wreck_on_wet_road();
+  scenario.grip = 0.85;
+  scenario.ego = sim::EgoStart{.pose = {}, .speed = 12.8};
+  std::get<sim::Script>(scenario.actors[0].motion).start.s = 65.0;
+  const Record record = run({.scenario = &scenario,
+                             .car = &car_,
+                             .harm = &harm_,
+                             .intent = &intent_,
+                             .atlas = &manoeuvre::small_atlas(),
+                             .costs = {.verdict = 0.3},  // older than 0.1 s when it is ready
+                             .clock = &clock_},
+                            quiet_)
+                            .value();
+  ASSERT_TRUE(record.decision && record.decision->by_atlas);
+  const auto& noted = record.verdicts.verdicts();
+  const auto own = std::find_if(noted.begin(), noted.end(),
+                                [](const NotedVerdict& one) { return one.by_atlas; });
+  ASSERT_NE(own, noted.end());
+  EXPECT_EQ(runtime::verdict_json(own->verdict), runtime::verdict_json(*record.decision->verdict));
+  ASSERT_FALSE(record.verdicts.judged().empty());
+  EXPECT_TRUE(record.verdicts.judged()[0].by_atlas);
+  EXPECT_EQ(record.verdicts.judged()[0].scene.time, record.decision->time);
 }
 
 TEST_F(EncounterTest, ACheckedAnswerIsCarriedOut) {

@@ -5,6 +5,7 @@
 #include "saca/core/units.h"
 #include "saca/loop/encounter.h"
 #include "saca/loop/state_json.h"
+#include "saca/loop/verdict_json.h"
 #include "saca/manoeuvre/ego.h"
 #include "saca/outcome/describe.h"
 #include "saca/outcome/loss.h"
@@ -108,12 +109,6 @@ json facts_json(const preview::PolicyFacts& facts, const world::Scene& scene) {
           {"rolled_out", facts.rolled_out}};
 }
 
-json plan_json(const manoeuvre::Plan& plan) {
-  return {{"policy", manoeuvre::index(plan.policy)},
-          {"name", name(plan.policy)},
-          {"target_speed_mps", number_or_null(plan.target_speed)}};
-}
-
 json answer_json(const reason::Answer& answer) {
   return {{"t_s", to_seconds(answer.time)},
           {"kind", name(answer.kind)},
@@ -171,19 +166,6 @@ json preview_json(const decide::Preview& preview) {
       {"plan", preview.plan ? plan_json(*preview.plan) : json(nullptr)}};
 }
 
-json verdict_json(const decide::Verdict& verdict) {
-  json plans = json::array();
-  for (const decide::JudgedPlan& one : verdict.plans) {
-    json entry = plan_json(one.plan);
-    entry["harm"] = one.drivable ? json(one.harm) : json(nullptr);
-    entry["contact"] = one.drivable ? json(one.contact) : json(nullptr);
-    plans.push_back(entry);
-  }
-  return {{"t_s", verdict.time},
-          {"plans", plans},
-          {"admissible_harm", number_or_null(decide::admissible_harm(verdict))}};
-}
-
 json switches_json(const Record& record) {
   json all = json::array();
   for (const TimedSwitch& one : record.switches) {
@@ -209,7 +191,7 @@ json decision_json(const Record& record) {
   out["preview"] = decision.preview ? json(*decision.preview) : json(nullptr);
   out["time_s"] = decision.time;
   out["not_admissible"] = decision.not_admissible;
-  out["verdict"] = decision.verdict ? verdict_json(*decision.verdict) : json(nullptr);
+  out["verdict"] = decision.verdict ? verdict_json(*decision.verdict, std::nullopt) : json(nullptr);
   out["by_atlas"] = decision.by_atlas;
   out["text"] = decision_text(decision);
   return out;
@@ -371,7 +353,9 @@ std::string record_json(const Setup& setup, const Record& record) {
       {"atlas", setup.atlas != nullptr},
       {"grip", record.grip},
       {"thresholds",
-       {{"trigger_s", setup.thresholds.trigger}, {"preview_s", setup.thresholds.preview}}},
+       {{"trigger_s", setup.thresholds.trigger},
+        {"preview_s", setup.thresholds.preview},
+        {"material_harm", decide::material_harm}}},
       {"road", road_json(scenario.road)},
       {"ego",
        {{"length_m", body.length},
@@ -387,6 +371,8 @@ std::string record_json(const Setup& setup, const Record& record) {
       {"previews", previews},
       {"decision", decision_json(record)},
       {"switches", switches_json(record)},
+      {"verdicts", verdicts_json(record.verdicts)},
+      {"hypotheses", hypotheses_json(record.verdicts)},
       {"result", result_json(record)},
       {"driver",
        record.driver ? outcome_json(*record.driver, record.met_by_driver) : json(nullptr)},

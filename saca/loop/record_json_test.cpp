@@ -54,6 +54,22 @@ TEST(RecordJson, HoldsWhatTheFormatPromises) {
   ASSERT_EQ(seen["soon_permille"].size(), seen["times_s"].size());
   EXPECT_EQ(seen["now_permille"][0], "920 0 80");  // it stands on the road: 8 % start to cross
   EXPECT_EQ(out["decision"]["source"], "arbiter");
+  // Every verdict with every plan, and what those were made by by which something was begun.
+  ASSERT_EQ(out["verdicts"]["in_hand"].size(), record.verdicts.verdicts().size());
+  EXPECT_EQ(out["verdicts"]["left_out"], 0);
+  EXPECT_EQ(out["verdicts"]["in_hand"][0]["plans"], out["decision"]["verdict"]["plans"]);
+  EXPECT_TRUE(out["verdicts"]["in_hand"][0]["under_way"].is_null());
+  EXPECT_EQ(out["verdicts"]["in_hand"][1]["under_way"]["name"], out["decision"]["name"]);
+  ASSERT_EQ(out["hypotheses"].size(), 1U + out["switches"].size());
+  EXPECT_EQ(out["hypotheses"][0]["t_s"], out["decision"]["time_s"]);
+  EXPECT_EQ(out["hypotheses"][0]["scene_s"], out["decision"]["verdict"]["t_s"]);
+  EXPECT_EQ(out["hypotheses"][0]["motions"][0]["paths"][0]["id"], "pedestrian1");
+  double probability = 0.0;
+  for (const json& motion : out["hypotheses"][0]["motions"]) {
+    probability += motion["probability"].get<double>();
+  }
+  EXPECT_NEAR(probability, 1.0, 1e-12);
+  EXPECT_EQ(out["thresholds"]["material_harm"], 0.01);
   EXPECT_EQ(out["hindsight"].size(), 8U);
   EXPECT_FALSE(out["hindsight"][5]["refusal"].is_null());
   EXPECT_GT(out["hindsight"][0]["path"].size(), 10U);
