@@ -9,20 +9,12 @@
 #include <sstream>
 #include <utility>
 
+#include "saca/report/verdicts_told.h"
+
 namespace saca::report {
 namespace {
 
 using nlohmann::json;
-
-std::string plan_name(const json& plan) {
-  const json& speed = plan.at("target_speed_mps");
-  return plan.at("name").get<std::string>() +
-         (speed.is_null() ? "" : fmt::format(" to {:.1f} m/s", speed.get<double>()));
-}
-
-bool is_same_plan(const json& a, const json& b) {
-  return a.at("policy") == b.at("policy") && a.at("target_speed_mps") == b.at("target_speed_mps");
-}
 
 /// What a policy's short name, or an intention's letters, stand for; themselves where not known.
 std::string meaning(std::string_view name) {
@@ -135,6 +127,11 @@ class Story {
     return std::any_of(judged_.begin(), judged_.end(), [](const Judged& plan) {
       return plan.name == "NI" && plan.drivable && plan.contact == 0.0 && plan.harm == 0.0;
     });
+  }
+
+  [[nodiscard]] bool is_choice_admissible() const {
+    return std::any_of(judged_.begin(), judged_.end(),
+                       [](const Judged& plan) { return plan.chosen && plan.admissible; });
   }
 
   const json& record_;
@@ -262,6 +259,10 @@ std::string Story::rule() const {
   if (decision_.at("name") == "NI") {
     return "The arbiter decided: no draw has contact where nothing is done, so nothing is done.";
   }
+  if (decision_.at("name") == "AEB" && !is_choice_admissible()) {
+    return "The arbiter decided: doing nothing may end in contact and no other plan is admissible; "
+           "emergency braking was begun although it is not.";
+  }
   if (decision_.at("name") == "AEB") {
     return "The arbiter decided: doing nothing may end in contact, and emergency braking, being "
            "admissible, comes before all other plans.";
@@ -335,10 +336,14 @@ Story::Sentences Story::switched() const {
                                change.at("t_s").get<double>(), plan_name(change), before,
                                change.at("reason").get<std::string>(),
                                change.at("text").get<std::string>()));
+    const Sentences why = why_then(record_, change);
+    told.insert(told.end(), why.begin(), why.end());
     before = plan_name(change);
   }
   if (told.empty()) {
     told.push_back(fmt::format("Nothing: {} was carried out to its end.", before));
+    const Sentences why = why_not_switched(record_);
+    told.insert(told.end(), why.begin(), why.end());
   }
   return told;
 }

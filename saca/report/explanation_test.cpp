@@ -101,6 +101,19 @@ TEST(Explanation, TellsTheRuleByWhichWasChosen) {
   }
 }
 
+// Where only doing nothing is admissible and may end in contact, a verdict speaks for braking all
+// the same: then braking is not called admissible.
+TEST(Explanation, DoesNotCallBrakingAdmissibleWhereItIsNot) {
+  const std::string about = "What was chosen, and by which rule";
+  json other = record();
+  other["decision"].update(plan(0, "AEB", nullptr, nullptr));
+  other["decision"]["verdict"]["plans"][4]["harm"] = 0.004;  // of doing nothing
+  other["decision"]["verdict"]["admissible_harm"] = 0.0105;
+  EXPECT_THAT(told(other, about), HasSubstr("emergency braking was begun although it is not"));
+  other["decision"]["verdict"]["admissible_harm"] = 0.4;
+  EXPECT_THAT(told(other, about), HasSubstr("emergency braking, being admissible,"));
+}
+
 TEST(Explanation, TellsTheNewestBeliefBeforeTheTrigger) {
   EXPECT_EQ(told(record(), "What was believed of the others"),
             "At 2.40 s car7 was thought to intend: keeping lane and speed with 91.2 %, braking "

@@ -40,6 +40,10 @@ def could_be_told(record):
         numbers += [int(permille) / 10 for k in newest for permille in seen["now_permille"][k].split()]
     shares = [plan["contact"] for plan in record["decision"]["verdict"]["plans"] if plan["contact"] is not None]
     shares += [record["decision"]["similarity"] or 0.0]
+    for verdict in record["verdicts"]["in_hand"]:
+        plans = [plan for plan in verdict["plans"] + [verdict["under_way"]] if plan and plan["harm"] is not None]
+        numbers += [verdict["t_s"]] + numbers_of([[plan["harm"], plan["target_speed_mps"]] for plan in plans])
+        shares += [plan["contact"] for plan in plans]
     return numbers + [100 * share for share in shares]
 
 
