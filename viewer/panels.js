@@ -7,7 +7,7 @@ const contact_cell = (contact) => (contact
   ? el("span", { class: "hit" }, "✕ ", contact_words(contact)) : el("span", { class: "free", text: "✓ none" }));
 
 const source_words = {
-  memory: "from memory", model: "from the language model", arbiter: "best in expectation", fallback: "rule-based fallback",
+  memory: "from memory", model: "from the language model", arbiter: "by the verdict", fallback: "rule-based fallback",
   forced: "ordered by the user" };
 const gate_words = {
   cache: "similar enough: the stored policy is cached as it is", check: "similar: the stored policy must pass a rollout",
@@ -43,30 +43,29 @@ function show_decision(record) {
     el("p", { class: "lead" }, el("b", { text: `${decision.policy} ${decision.name ?? ""}` }), ` – ${plan_words(decision.policy, decision.name, decision.target_speed_mps)}`),
     el("p", {}, tag(source_words[decision.source] ?? String(decision.source), "strong"), " ", tag(match), " ", tag(`at ${num(decision.time_s, 2, "s")}`)),
     el("p", { text: decision.text || "The record gives no reason." }),
-    ...verdict_table(decision), ...switch_list(record));
+    ...verdict_table(decision.verdict, decision, `at T1${decision.by_atlas ? ", by the atlas" : ""}`), ...switch_list(record));
 }
 
-/** What was expected of every plan when it was decided, the least harmful first; nothing where no verdict was used. */
-function verdict_table({ verdict, by_atlas, policy, target_speed_mps }) {
+/** What was expected of every plan when this one was begun, the least harmful first; nothing where no verdict was used. */
+function verdict_table(verdict, { policy, target_speed_mps }, when) {
   const plans = list(verdict?.plans);
   if (!plans.length) return [];
   const driven = plans.filter((plan) => is_number(plan.harm)).sort((a, b) => a.harm - b.harm);
   const most = Math.max(...driven.map((plan) => plan.harm), 1e-9);
   const rows = [...driven, ...plans.filter((plan) => !is_number(plan.harm))].map((plan) => {
     const chosen = plan.policy === policy && plan.target_speed_mps === target_speed_mps;
-    const target = is_number(plan.target_speed_mps) ? ` to ${num(plan.target_speed_mps, 1, "m/s")}` : "";
     const marks = [plan.harm <= verdict.admissible_harm && is_number(plan.harm) ? tag("admissible", "good") : null, chosen ? tag("carried out", "strong") : null];
     return { class: chosen ? "chosen" : is_number(plan.harm) ? "" : "refused", cells: [
-      el("span", { class: "policy" }, el("b", { text: `${plan.policy} ${plan.name}${target}` }), ...marks),
+      el("span", { class: "policy" }, el("b", { text: plan_name(plan) }), ...marks),
       is_number(plan.harm) ? bar(plan.harm / most, num(plan.harm, 4)) : "cannot be driven", is_number(plan.contact) ? percent(plan.contact) : none] };
   });
-  const caption = `Expected of all plans at T1${by_atlas ? ", by the atlas" : ""}`;
+  const caption = `Expected of all plans ${when}`;
   return [el("details", {}, el("summary", { text: caption }), table(caption, ["Plan", "Expected harm", "Contact"], rows))];
 }
 
 /** What began later in its place, and why. */
 function switch_list(record) {
-  return list(record.switches).map((one) => el("p", {}, tag(`at ${num(one.t_s, 2, "s")}`), " ", el("b", { text: `${one.policy} ${one.name}` }), ` – ${one.reason}: ${one.text}`));
+  return record.switches.map((one) => el("p", {}, tag(`at ${num(one.t_s, 2, "s")}`), " ", el("b", { text: `${one.policy} ${one.name}` }), ` – ${one.reason}: ${one.text}`));
 }
 
 /** What the model wrote when it was over; nothing where there is none. */

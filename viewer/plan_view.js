@@ -13,6 +13,7 @@ class PlanView {
     this.ghost_preview = null;  // index
     this.ghost_policies = new Set();
     this.danger = new DangerLayer(record);
+    this.hypotheses = new HypothesisLayer(record);
     this.read_colours();
     this.resize();
   }
@@ -20,7 +21,7 @@ class PlanView {
   read_colours() {
     const style = getComputedStyle(document.documentElement);
     const names = ["ground", "paved", "road", "mark", "mark-soft", "kerb", "barrier", "tree", "ego", "ego-dark", "ego-line",
-      "actor", "actor-line", "threat", "threat-line", "contact", "forecast", "hindsight", "halo", "ink", "wheel", "glass"];
+      "actor", "actor-line", "threat", "threat-line", "contact", "forecast", "hindsight", "hypothesis", "halo", "ink", "wheel", "glass"];
     this.colours = {};
     for (const name of names) this.colours[name.replace("-", "_")] = style.getPropertyValue(`--${name}`).trim();
     this.danger.read_colours(style);
@@ -114,6 +115,7 @@ class PlanView {
     this.danger.draw(g, frame, t, 1 / view.scale);
     this.trails(g, t, view);
     this.paths(g, t, view);
+    this.hypotheses.draw(g, t, 1 / view.scale, this.colours.hypothesis, (...body) => this.outline(...body));
     for (const actor of list(frame.actors)) this.velocity(g, actor, view);
     this.velocity(g, { ...frame.ego, heading_deg: frame.ego.heading_deg + (frame.ego.sideslip_deg || 0) }, view, true);
     for (const actor of list(frame.actors)) this.actor(g, actor, view);

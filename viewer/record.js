@@ -7,7 +7,7 @@ const intention_words = {
 const event_words = {
   preview: "T2 preview", risk: "risk", intention: "intention", forecast: "forecast", memory: "memory", ask: "ask model",
   first_answer: "first answer", answer: "answer", check: "check", cached: "plan cached", trigger: "T1 trigger",
-  match: "match", execute: "execute", contact: "contact", rest: "rest", fault: "fault" };
+  match: "match", execute: "execute", switch: "switch", contact: "contact", rest: "rest", fault: "fault" };
 
 /** Beliefs over time with their thousandths as shares; rows that do not fit the times and names are left out. */
 function read_intentions(raw) {
@@ -29,7 +29,7 @@ function read_record(text) {
   const events = list(raw.events).filter((e) => is_number(e.t_s)).sort((a, b) => a.t_s - b.t_s);
   const record = {
     ...raw, frames, events, scenario: dict(raw.scenario), road: dict(raw.road), ego: dict(raw.ego),
-    actors: list(raw.actors), previews: list(raw.previews), decision: raw.decision ?? null, review: raw.review ?? null, result: dict(raw.result),
+    actors: list(raw.actors), previews: list(raw.previews), decision: raw.decision ?? null, switches: list(raw.switches).filter((one) => is_number(dict(one).t_s)), review: raw.review ?? null, result: dict(raw.result),
     hindsight: list(raw.hindsight), intentions: read_intentions(raw.intentions), timing: dict(raw.timing), thresholds: dict(raw.thresholds) };
   record.start = frames.length ? frames[0].t_s : 0;
   // A contact lies between frames, a late answer may come after the last one.
@@ -37,6 +37,9 @@ function read_record(text) {
     frames.length && is_number(record.result.contact?.time_s) ? record.result.contact.time_s : record.start);
   record.t2 = first_event(record, "preview")?.t_s ?? null;
   record.t1 = first_event(record, "trigger")?.t_s ?? record.decision?.time_s ?? null;
+  record.verdicts = read_verdicts(raw.verdicts);
+  record.hypotheses = read_hypotheses(raw.hypotheses);
+  record.begun = read_begun(record);
   record.shape_of = new Map(record.actors.map((a) => [a.id, a]));
   record.risk_of = new Map();
   const told = record.previews[record.decision?.preview ?? 0] ?? null;

@@ -18,12 +18,14 @@ const page = new Story({ start: record.start, end: record.end, t: record.t1 ?? r
   const frame = frame_at(record, page.t);
   plan.draw(page.t);
   time_line.show(page.t, frame);
+  verdict_chart?.show(page.t);
   show_now(frame);
   show_caption();
 } });
 
 const plan = new PlanView(by_id("plan"), record);
 const time_line = new TimeLine(by_id("strips"), record, (t, event) => page.seek(t, event));
+const verdict_chart = show_verdicts(record, (t) => page.seek(t), (k) => { show_hypotheses(k); stage_to_view(); });
 
 function show_now(frame) {
   const ego = frame?.ego;
@@ -35,7 +37,7 @@ function show_now(frame) {
     ["Sideslip", sided(ego?.sideslip_deg, 1, "°"), ""],
     ["Steering", sided(ego?.steering_deg, 1, "°"), ""]];
   by_id("now").replaceChildren(...rows.map(([k, v, kind]) => el("div", { class: kind }, el("dt", { text: k }), el("dd", { text: v }))));
-  const phases = { recorded: "As recorded", driving: "Driving on while previewing", manoeuvre: `Manoeuvre ${record.decision?.name ?? ""}` };
+  const phases = { recorded: "As recorded", driving: "Driving on while previewing", manoeuvre: `Manoeuvre ${carried_out_at(record, page.t)?.name ?? ""}` };
   by_id("phase").textContent = frame ? phases[frame.phase] ?? frame.phase : "No frames in this record";
   by_id("phase").className = `on-plan phase-${frame?.phase ?? "none"}`;
   by_id("clock").textContent = frame && is_number(record.t1) ? `T1 ${signed(page.t - record.t1)}\u00A0s` : "";
@@ -63,6 +65,7 @@ function show_overlays() {
       page.show();
     } }, options.map(([value, text]) => el("option", { value, text, selected: value === String(plan.ghost_preview) })))));
   }
+  box.append(...hypothesis_switch(record, show_hypotheses));
   const able = record.hindsight.filter((row) => list(row.path).length > 1);
   if (!able.length) return;
   box.append(el("p", { class: "field", id: "ghosts-name" }, swatch("hindsight"), "Had it done"));
@@ -82,6 +85,19 @@ function show_in_plan(k) {
   plan.ghost_preview = k;
   by_id("forecast").value = String(k);
   page.seek(record.t1 ?? record.end);
+  stage_to_view();
+}
+
+/** Shows the hypotheses of one plan begun, at that instant; null: none. */
+function show_hypotheses(k) {
+  const set = record.hypotheses[k];
+  plan.hypotheses.shown = set ? k : null;
+  by_id("hypotheses").value = set ? String(k) : "";
+  by_id("hypotheses-words").textContent = hypotheses_words(set);
+  if (set) page.seek(set.t_s); else page.show();
+}
+
+function stage_to_view() {
   by_id("stage").scrollIntoView({ block: "start", behavior: calm() ? "auto" : "smooth" });
 }
 
@@ -103,7 +119,7 @@ function show_legend() {
     edge("right", road.right_beyond, road.right_edge_m), is_number(record.grip) ? `grip ${num(record.grip, 2)}` : null].filter(Boolean).join(" · ");
   const plan_has_threat = record.actors.some((actor) => plan.is_threat(actor.id));
   by_id("legend").append(key("ego", "ego"), plan_has_threat ? key("threat", `at risk ≥ ${risk_shown}, or hit`) : "", record.actors.length ? key("actor", plan_has_threat ? "other actor" : "actor") : "",
-    record.result.contact ? key("contact", "contact") : "", danger_switch(), el("span", { text: `arrows: way in ${arrow_seconds} s` }), el("span", { class: "road-words", text: words }));
+    record.result.contact ? key("contact", "contact") : "", record.hypotheses.length ? el("span", { class: "key" }, swatch("hypothesis"), el("span", { id: "hypotheses-words", role: "status", text: hypotheses_words(null) })) : "", danger_switch(), el("span", { text: `arrows: way in ${arrow_seconds} s` }), el("span", { class: "road-words", text: words }));
 }
 
 // --- window, start --------------------------------------------------------------------------------
@@ -122,6 +138,7 @@ function show_window() {
 function on_resize() {
   plan.resize();
   time_line.layout();
+  verdict_chart?.layout();
   page.show();
 }
 

@@ -74,11 +74,11 @@ class TimeLine {
   phases() {
     const { record } = this, spans = [];
     for (const frame of record.frames) {
-      const last = spans[spans.length - 1];
-      if (last && last.phase === frame.phase) last.to = frame.t_s;
+      const last = spans[spans.length - 1], plan = frame.phase === "manoeuvre" ? carried_out_at(record, frame.t_s)?.name : undefined;
+      if (last && last.phase === frame.phase && last.plan === plan) last.to = frame.t_s;
       else {
         if (last) last.to = frame.t_s;
-        spans.push({ phase: frame.phase, from: frame.t_s, to: frame.t_s });
+        spans.push({ phase: frame.phase, plan, from: frame.t_s, to: frame.t_s });
       }
     }
     return spans;
@@ -87,7 +87,7 @@ class TimeLine {
   draw_phases() {
     this.phase_track.replaceChildren(...this.phases().filter((s) => s.to > this.from).map((span) => {
       const left = Math.max(0, this.x(span.from)), width = this.x(span.to) - left;
-      const words = { recorded: "as recorded", driving: width > 160 ? "driving on, previewing" : "previewing", manoeuvre: this.record.decision?.name ?? "manoeuvre" };
+      const words = { recorded: "as recorded", driving: width > 160 ? "driving on, previewing" : "previewing", manoeuvre: span.plan ?? "manoeuvre" };
       return el("span", { class: `phase phase-${span.phase}`, style: { left: `${left}px`, width: `${Math.max(2, width)}px` },
         title: span.phase, text: width > 80 ? words[span.phase] ?? span.phase : "" });
     }));

@@ -1,6 +1,6 @@
 """Writes SYNTHETIC records (schema saca.record/1, docs/formats.md) for the test of the report page.
 
-    make_record.py {contact,clear,empty,crowd} FILE
+    make_record.py {contact,clear,empty,crowd,switched} FILE
 
 Nobody measured or simulated these encounters: constant decelerations, lane changes as quintic
 polynomials, boxes in the plane. They are plausible enough to look at, and every text in them says
@@ -419,6 +419,88 @@ def clear():
                   "synthetic stand-in for a language model", ["check", "reason", "cache"], None)
 
 
+SHARES = [0.5, 0.25, 0.75, 0.0]  # of the ego's speed: what policies 3 and 4 brake to
+STRENGTHS = 3               # of emergency braking: plans may come to be more than fourteen
+
+
+def plans_at(speed, harm):
+    """All plans at a speed; `harm` tells the expected harm of a policy's k-th plan, or None where it cannot be driven."""
+    plans = []
+    for policy, name in enumerate(NAMES):
+        for k in range(STRENGTHS if policy == 0 else len(SHARES) if policy in (3, 4) else 1):
+            value = harm(policy, k)
+            plans.append({"policy": policy, "name": name, "target_speed_mps": SHARES[k] * speed if policy in (3, 4) else None,
+                          "harm": value, "contact": None if value is None else min(1.0, 2.5 * value)})
+    return plans
+
+
+def verdict(t, speed, harm, under_way):
+    """As SACA makes them: S reaches 0.002 above the least, or 3 % of what braking has above it."""
+    plans = plans_at(speed, harm)
+    least = min(p["harm"] for p in plans if p["harm"] is not None)
+    going_on = None if under_way is None else {**next(p for p in plans if p["policy"] == under_way), "harm": harm(under_way, 0) + (0.01 if under_way else 0.0)}
+    return {"t_s": t, "plans": plans, "under_way": going_on, "speaks_for": {k: min((p for p in plans if p["harm"] == least), key=lambda p: p["policy"])[k] for k in ("policy", "name", "target_speed_mps")},
+            "admissible_harm": least + max(0.002, 0.03 * (plans[0]["harm"] - least))}
+
+
+def hypotheses_at(encounter, t, begun, count=16):
+    """`count` ways in which car1 brakes, all alike likely, and one in which the others go on; the van behind reacts."""
+    times = [0.25 * k for k in range(17)]
+    motions = []
+    for k in range(count):
+        paths = []
+        for m in encounter.movers:
+            if m.name == "van1":
+                continue
+            at = [m.at(t + s) for s in times]
+            off = 0.12 * (k - (count - 1) / 2) if m.name == "car1" else 0.0
+            poses = [encounter.road.to_world(a[0] + off * s, a[1] + 0.3 * off * s, a[2]) for a, s in zip(at, times)]
+            paths.append({"id": m.name, **{key: " ".join(str(round(v)) for v in values) for key, values in (
+                ("x_cm", [100 * p[0] for p in poses]), ("y_cm", [100 * p[1] for p in poses]), ("heading_deg", [math.degrees(p[2]) for p in poses]))}})
+        motions.append({"probability": 1 / count, "paths": paths})
+    return {"t_s": begun, "scene_s": t, "step_s": 0.25, "horizon_s": 4.0, "reacting": ["van1"], "motions": motions}
+
+
+def with_verdicts(record, encounter):
+    """Verdicts every 50 ms from 1 s before T1 to the end; braking harms ever more, and 0.5 s after T1 a braked swerve begins in its place."""
+    t1 = record["decision"]["time_s"]
+    change = round(t1 + 0.5, 3)
+
+    def harm_at(t):
+        late = max(0.0, t - t1)
+
+        def harm(policy, k):
+            if policy in (5, 6):
+                return None
+            return {0: 0.004 + 0.3 * late + 0.01 * k, 1: 0.12, 2: 0.4, 3: 0.05 + 0.02 * k, 4: 0.3 + 0.02 * k, 7: 0.7}[policy]
+        return harm
+
+    in_hand = []
+    end = record["frames"][-1]["t_s"]
+    for k in range(int((end - t1 + 1.0) / 0.05)):
+        t = round(t1 - 1.0 + 0.05 * k, 3)
+        under_way = None if t <= t1 else 0 if t <= change else 3
+        speed = min(record["frames"], key=lambda f: abs(f["t_s"] - t))["ego"]["speed_mps"]
+        in_hand.append({**verdict(t, speed, harm_at(t), under_way), "received_s": round(t + 0.02, 3), "by_atlas": False})
+    decisive = [v for v in in_hand if v["received_s"] <= t1][-1]
+    by_switch = [v for v in in_hand if v["received_s"] <= change][-1]
+    new = next(p for p in by_switch["plans"] if p["policy"] == 3)
+    record["decision"]["verdict"] = {key: decisive[key] for key in ("t_s", "plans", "under_way", "speaks_for", "admissible_harm")}
+    record["switches"] = [{"t_s": change, **{key: new[key] for key in ("policy", "name", "target_speed_mps", "harm")}, "reason": "better by far",
+                           "harm_before": by_switch["under_way"]["harm"], "text": "test data: braking is expected to harm more"}]
+    record["events"] = sorted(record["events"] + [{"t_s": change, "plane": "reflex", "kind": "switch", "text": "better by far: test data"}], key=lambda e: e["t_s"])
+    record["verdicts"] = {"in_hand": in_hand, "left_out": 0}
+    record["hypotheses"] = [hypotheses_at(encounter, decisive["t_s"], t1), hypotheses_at(encounter, by_switch["t_s"], change, 1)]
+    return record
+
+
+def switched():
+    road = Road()
+    movers = [Mover("car1", 39.0, 0.0, 20.0, 1.0, 2.3), Mover("van1", -26.0, 0.2, 20.5, 4.5, 5.0), Mover("car2", 50.0, 3.4, 18.0)]
+    encounter = Encounter(road, movers, 20.0, 0.5)
+    return with_verdicts(played("synthetic_switched", "Test data: a swerve in place of braking", encounter, 0, "off", [], None), encounter)
+
+
 def crowd():
     road = Road(topology="intersection", left_edge_m=12.0, right_edge_m=-9.0, left_beyond="kerb", right_beyond="trees")
     kinds = ["car", "van", "truck", "motorcycle", "bicycle", "pedestrian", "obstacle"]
@@ -439,7 +521,7 @@ def empty():
                        "first_answer_s": None, "answer_s": None, "deadline_misses": 0}}
 
 
-RECORDS = {"contact": contact, "clear": clear, "crowd": crowd, "empty": empty}
+RECORDS = {"contact": contact, "clear": clear, "crowd": crowd, "empty": empty, "switched": switched}
 
 if __name__ == "__main__":
     if len(sys.argv) != 3 or sys.argv[1] not in RECORDS:

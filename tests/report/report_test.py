@@ -15,7 +15,7 @@ from pages import FORMATS, HOSTILE, colour, contrast, keys, like, luminance, pix
 
 KINDS = list(make_record.RECORDS)
 RECORDS = {kind: make() for kind, make in make_record.RECORDS.items()}
-PANELS = ["stage", "time", "decision", "driver", "futures", "result", "previews", "run"]
+PANELS = ["stage", "time", "decision", "driver", "verdicts", "futures", "result", "previews", "run"]
 
 
 @pytest.fixture
@@ -69,10 +69,10 @@ def test_loads_without_errors_and_asks_for_nothing(show, kind):
         assert page.run(f"by_id('{panel}').getBoundingClientRect().height") > 40, panel
 
 
-@pytest.mark.parametrize("key", sorted(set(RECORDS["contact"]) - {"schema"}))
+@pytest.mark.parametrize("key", sorted((set(RECORDS["contact"]) | set(RECORDS["switched"])) - {"schema"}))
 def test_a_record_may_lack_any_part(show, key):
     for value in ("missing", None):
-        record = copy.deepcopy(RECORDS["contact"])
+        record = copy.deepcopy(RECORDS["contact" if key in RECORDS["contact"] else "switched"])
         del record[key]
         if value is None:
             record[key] = None
@@ -589,6 +589,228 @@ def test_the_danger_map_says_what_it_is(show):
     assert not show(RECORDS["clear"]).run("Boolean(by_id('danger-switch'))"), "nothing to switch"
 
 
+# --- verdicts over time --------------------------------------------------------------------------
+
+
+def curve(page, selector):
+    """Points of the curves that a selector finds, as [s, expected harm], by the chart's own frame and our arithmetic: a root scale from 0."""
+    frame = page.run("(({from, to, top, above, inner, plot}) => ({from, to, top, above, inner, plot}))(verdict_chart)")
+    paths = page.run(f"[...document.querySelectorAll('#verdicts {selector}')].map((p) => p.getAttribute('d'))")
+    return [[(frame["from"] + (float(x) - 44) / frame["plot"] * (frame["to"] - frame["from"]),
+              frame["top"] * (1 - (float(y) - frame["above"]) / frame["inner"]) ** 2)
+             for x, y in re.findall(r"[ML]([-0-9.]+) ([-0-9.]+)", d)] for d in paths]
+
+
+def harm_at(points, t):
+    return min(points, key=lambda p: abs(p[0] - t))[1]
+
+
+def of_policy(verdict, policy, k=0):
+    return [plan for plan in verdict["plans"] if plan["policy"] == policy][k]
+
+
+def test_each_plan_has_a_curve_of_its_expected_harm(show):
+    page, record = show(RECORDS["switched"]), RECORDS["switched"]
+    verdicts = record["verdicts"]["in_hand"]
+    plans = len(verdicts[0]["plans"])
+    assert plans > 14, "more plans than there are today"
+    assert page.run("document.querySelectorAll('.verdict-track .verdict-line[d]').length") >= plans
+    (braking,) = curve(page, ".verdict-track .verdict-line.aeb")
+    # Half a pixel at the steepest: the scale is 230 px high.
+    for verdict in verdicts[::7]:
+        assert harm_at(braking, verdict["t_s"]) == pytest.approx(of_policy(verdict, 0)["harm"], abs=0.006)
+    (least,) = curve(page, ".verdict-track .verdict-line.least")
+    (edge,) = curve(page, ".verdict-edge")
+    for verdict in verdicts[::7]:
+        assert harm_at(least, verdict["t_s"]) == pytest.approx(min(p["harm"] for p in verdict["plans"] if p["harm"] is not None), abs=0.006)
+        assert harm_at(edge, verdict["t_s"]) == pytest.approx(verdict["admissible_harm"], abs=0.006)
+
+
+def test_what_is_carried_out_is_followed_through_the_switch(show):
+    page, record = show(RECORDS["switched"]), RECORDS["switched"]
+    t1, change = record["decision"]["time_s"], record["switches"][0]["t_s"]
+    before, after = curve(page, ".verdict-track .verdict-line.carried")
+    for verdict in record["verdicts"]["in_hand"]:
+        if t1 < verdict["t_s"] <= change:
+            assert harm_at(before, verdict["t_s"]) == pytest.approx(verdict["under_way"]["harm"], abs=0.006)
+        elif verdict["t_s"] > change:
+            assert harm_at(after, verdict["t_s"]) == pytest.approx(verdict["under_way"]["harm"], abs=0.006)
+    assert before[0][0] < t1 < after[0][0] < change + 0.01 and max(t for t, _ in after) > change + 0.4
+
+
+def test_t1_and_each_switch_are_marked_with_their_reason(show):
+    page, record = show(RECORDS["switched"]), RECORDS["switched"]
+    marks = page.run("""[...document.querySelectorAll('.verdict-mark')].map((m) => [m.querySelector('text').textContent,
+      Number(m.querySelector('line').getAttribute('x1')), verdict_chart.x(record.begun.find((b) => m.textContent.includes(b.name)).t_s)])""")
+    assert [text for text, *_ in marks] == ["T1: AEB", "ES-B-L, better by far"]
+    for _, x, wanted in marks:
+        assert x == pytest.approx(wanted, abs=0.1)
+    boxes = page.run("[...document.querySelectorAll('.verdict-mark text')].map((e) => { const b = e.getBoundingClientRect(); return [b.left, b.right, b.top, b.bottom]; })")
+    assert boxes[0][1] <= boxes[1][0] or boxes[0][3] <= boxes[1][2] + 2, "names do not cover one another"
+    words = page.run("document.querySelector('.begun').innerText").replace("\u00a0", " ")
+    assert "T1 +0.50 s" in words and "better by far" in words and f"{record['switches'][0]['harm']:.4f}" in words
+    assert "ES-B-L" in page.run(f"page.seek({record['switches'][0]['t_s'] + 0.1}); by_id('phase').textContent")
+    assert "AEB" in page.run(f"page.seek({record['decision']['time_s'] + 0.1}); by_id('phase').textContent")
+
+
+def test_a_plan_is_named_where_it_is_pointed_at(show):
+    page, record = show(RECORDS["switched"], height=2600), RECORDS["switched"]
+    verdict = record["verdicts"]["in_hand"][9]
+    plan = of_policy(verdict, 4, 2)
+    x, y = page.run(f"""(({{left, top}}) => [left + verdict_chart.x({verdict['t_s']}), top + verdict_chart.y({plan['harm']})])(document.querySelector('.verdict-track svg').getBoundingClientRect())""")
+    assert page.run("document.querySelectorAll('.verdict-line.hot').length") == 0
+    page.call("Input.dispatchMouseEvent", type="mouseMoved", x=x, y=y + 1)
+    page.settle()
+    words = page.run("document.querySelector('.verdict-spot').textContent").replace("\u00a0", " ")
+    assert words == f"4 ES-B-R to {plan['target_speed_mps']:.1f} m/s: {plan['harm']:.4f}, contact {100 * plan['contact']:.0f} %"
+    assert page.run("document.querySelectorAll('.verdict-line.hot').length") == 1
+    page.call("Input.dispatchMouseEvent", type="mouseMoved", x=5, y=5)
+    page.settle()
+    assert page.run("document.querySelectorAll('.verdict-line.hot').length") == 0
+
+
+def test_the_cursor_of_the_verdicts_is_that_of_the_page(show):
+    page, record = show(RECORDS["switched"]), RECORDS["switched"]
+    verdict = record["verdicts"]["in_hand"][25]
+    page.run(f"page.seek({verdict['t_s'] + 0.001})")
+    assert page.run("Number(document.querySelector('.verdict-cursor').getAttribute('x1'))") == pytest.approx(page.run(f"verdict_chart.x({verdict['t_s']})"), abs=1)
+    words = page.run("document.querySelector('.verdict-readout').innerText").replace("\u00a0", " ")
+    inside = [p for p in verdict["plans"] if p["harm"] is not None and p["harm"] <= verdict["admissible_harm"]]
+    assert f"AEB {of_policy(verdict, 0)['harm']:.4f}" in words and f"{verdict['under_way']['harm']:.4f}" in words
+    assert f"{len(inside)} of {len(verdict['plans'])} plans" in words and f"speaks for {verdict['speaks_for']['policy']} {verdict['speaks_for']['name']}" in words
+    page.run("document.querySelector('.verdict-track').scrollIntoView()")
+    x, y = page.run(f"""(({{left, top}}) => [left + verdict_chart.x({record['verdicts']['in_hand'][5]['t_s']}), top + 60])(document.querySelector('.verdict-track svg').getBoundingClientRect())""")
+    for kind in ("mousePressed", "mouseReleased"):
+        page.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
+    page.settle()
+    assert page.run("page.t") == pytest.approx(record["verdicts"]["in_hand"][5]["t_s"], abs=0.01)
+
+
+def test_the_verdicts_are_told_in_words_too(show):
+    page, record = show(RECORDS["switched"]), RECORDS["switched"]
+    label = page.run("document.querySelector('.verdict-track svg').getAttribute('aria-label')").replace("\u00a0", " ")
+    assert f"{len(record['verdicts']['in_hand'])} verdicts" in label and "better by far" in label
+    rows = page.run("[...document.querySelectorAll('#verdicts table')].map((t) => [...t.querySelectorAll('tbody tr')].map((r) => r.textContent))")
+    assert len(rows) == 2, "all plans at the switch, and the verdicts over time"
+    assert len(rows[0]) == len(record["verdicts"]["in_hand"][0]["plans"])
+    over_time = rows[1]
+    assert sum("begun by it" in row for row in over_time) == 2
+    assert len(over_time) >= len(record["verdicts"]["in_hand"]) * 0.05 / 0.25
+
+
+def test_a_record_without_verdicts_says_so_in_one_sentence(show):
+    for record in (RECORDS["contact"], {**RECORDS["contact"], "verdicts": {"in_hand": [], "left_out": 0}, "hypotheses": []}):
+        page = show(record)
+        assert page.problems == []
+        assert page.run("by_id('verdicts').innerText.split('\\n').slice(1).filter(Boolean)") == ["This record holds no verdicts over time."]
+        assert page.run("document.querySelectorAll('#hypotheses, .swatch.hypothesis').length") == 0
+
+
+@pytest.mark.parametrize("damage", [
+    lambda r: r.update(verdicts=None, hypotheses=None), lambda r: r.update(verdicts=[1, 2], hypotheses="x"),
+    lambda r: r["verdicts"].update(in_hand="x", left_out="x"), lambda r: r["decision"].update(verdict="x"), lambda r: r.update(switches=[None, 3, {}])])
+def test_damaged_verdicts_do_not_stop_the_page(show, damage):
+    record = copy.deepcopy(RECORDS["switched"])
+    damage(record)
+    page = show(record)
+    page.run("page.seek(record.end)")
+    assert page.problems == []
+    assert "undefined" not in page.run("document.body.innerText")
+
+
+def test_verdicts_and_hypotheses_that_do_not_fit_are_left_out_and_counted(show):
+    record = copy.deepcopy(RECORDS["switched"])
+    verdicts = record["verdicts"]["in_hand"]
+    verdicts[3]["plans"], verdicts[4]["t_s"], verdicts[5]["plans"][2] = None, "x", None
+    verdicts[6]["plans"][1]["harm"], verdicts[7]["admissible_harm"], verdicts[8]["under_way"] = "x", None, 7
+    record["hypotheses"][0]["motions"][0]["paths"][0]["x_cm"] = "1 2 x"
+    record["hypotheses"][0]["motions"][1]["probability"] = None
+    record["hypotheses"][0]["motions"][2]["paths"][1]["y_cm"] = None
+    page = show(record)
+    assert page.problems == []
+    assert page.run("record.verdicts.all.length") == len(verdicts) - 3
+    assert "3 of the record's verdicts cannot be read" in page.run("by_id('verdicts').innerText")
+    motions = record["hypotheses"][0]["motions"]
+    assert page.run("record.hypotheses[0].motions.map((m) => m.paths.length)") == [len(motions[0]["paths"]) - 1, len(motions[2]["paths"]) - 1] + [len(m["paths"]) for m in motions[3:]]
+    page.run("show_hypotheses(0)")
+    assert page.problems == []
+
+
+def test_a_record_that_leaves_verdicts_out_says_how_many(show):
+    record = copy.deepcopy(RECORDS["switched"])
+    record["verdicts"]["left_out"] = 31
+    assert "31 verdicts" in show(record).run("by_id('verdicts').innerText")
+
+
+# --- hypotheses ----------------------------------------------------------------------------------
+
+
+def hypothesis_ink(page, x, y):
+    """How far the hypotheses change the picture at a place of W: the sum over the three colours."""
+    page.settle()
+    shown = pixel(page, *on_screen(page, x, y))
+    page.run("plan.kept = plan.hypotheses.shown; plan.hypotheses.shown = null; page.show()")
+    page.settle()
+    plain = pixel(page, *on_screen(page, x, y))
+    page.run("plan.hypotheses.shown = plan.kept; page.show()")
+    return sum(abs(a - b) for a, b in zip(shown, plain))
+
+
+def test_hypotheses_are_stepped_through_and_put_the_page_to_their_instant(show):
+    page, record = show(RECORDS["switched"]), RECORDS["switched"]
+    assert page.run("plan.hypotheses.shown") is None
+    for wanted in (0, 1, 0):
+        page.run("by_id('hypotheses-forth').click()")
+        assert page.run("plan.hypotheses.shown") == wanted
+        assert page.run("page.t") == pytest.approx(record["hypotheses"][wanted]["t_s"])
+        words = page.run("by_id('hypotheses-words').textContent")
+        assert f"{len(record['hypotheses'][wanted]['motions'])} way" in words and "van1" in words
+    page.run("by_id('hypotheses-back').click()")
+    assert page.run("by_id('hypotheses').value") == "1"
+    page.run("by_id('hypotheses').value = ''; by_id('hypotheses').dispatchEvent(new Event('change'))")
+    assert page.run("plan.hypotheses.shown") is None
+    page.run("document.querySelectorAll('.begun button')[1].click()")
+    assert page.run("plan.hypotheses.shown") == 1
+    assert page.problems == []
+
+
+def test_hypotheses_are_drawn_where_they_are_and_darker_where_likelier(show):
+    page, record = show(RECORDS["switched"]), RECORDS["switched"]
+    ink = []
+    for k in (0, 1):
+        page.run(f"by_id('danger-switch')?.click(); plan.ghost_policies.clear(); plan.ghost_preview = null; show_hypotheses({k})")
+        given = record["hypotheses"][k]
+        motion = given["motions"][0]
+        path = next(p for p in motion["paths"] if p["id"] == "car1")
+        at = [(float(x) / 100, float(y) / 100) for x, y in zip(path["x_cm"].split(), path["y_cm"].split())]
+        place = at[8]  # 2 s on: on the way, away from the bodies of now
+        ink.append(hypothesis_ink(page, *place))
+        x, y = place
+        assert hypothesis_ink(page, x, y + 3.0) == 0, "nothing a lane aside"
+    assert 15 < ink[0] < ink[1], "one of sixteen is fainter than one that is sure"
+
+
+def test_opacity_grows_with_probability_and_draws_that_agree_add_up(show):
+    page = show(RECORDS["switched"])
+    shades = page.run("[1 / 64, 1 / 16, 0.25, 1].map((p) => HypothesisLayer.opacity(p))")
+    assert shades == sorted(shades) and shades[0] > 0 and shades[-1] < 1
+    assert 1 - (1 - shades[1]) ** 16 == pytest.approx(shades[-1], abs=1e-9)
+
+
+def test_hypotheses_go_on_with_the_time_and_end_with_their_horizon(show):
+    page, record = show(RECORDS["switched"]), RECORDS["switched"]
+    page.run("show_hypotheses(1)")
+    given = record["hypotheses"][1]
+    path = "record.hypotheses[1].motions[0].paths.find((p) => p.id === 'car1')"
+    for since in (0.0, 0.6, 3.9):
+        x = page.run(f"plan.hypotheses.pose(record.hypotheses[1], {path}, {since}).x_m")
+        row = [float(v) / 100 for v in next(p for p in given["motions"][0]["paths"] if p["id"] == "car1")["x_cm"].split()]
+        k = int(since / 0.25)
+        assert x == pytest.approx(row[k] + (since / 0.25 - k) * (row[k + 1] - row[k]), abs=1e-9)
+    assert page.run(f"plan.hypotheses.pose(record.hypotheses[1], {path}, 4.1)") is None
+    assert page.run(f"plan.hypotheses.pose(record.hypotheses[1], {path}, -0.1)") is None
+
+
 # --- appearance ----------------------------------------------------------------------------------
 
 
@@ -601,7 +823,7 @@ def test_dark_and_light_by_button_both_with_readable_text(show):
         for ink, paper in (("ink", "panel"), ("ink", "bg"), ("soft", "panel"), ("soft", "bg"), ("accent", "panel"), ("on-accent", "accent"),
                            ("bad", "panel"), ("good", "panel"), ("bad", "strong-bg"), ("good", "strong-bg"), ("soft", "strong-bg"),
                            ("good", "good-bg"), ("bad", "bad-bg"), ("warn", "warn-bg"), ("strong", "strong-bg"),
-                           ("reflex", "panel"), ("thinking", "panel"), ("threat-line", "panel")):
+                           ("reflex", "panel"), ("thinking", "panel"), ("threat-line", "panel"), ("hypothesis", "panel")):
             assert contrast(colour(page, ink), colour(page, paper)) >= 4.5, f"{ink} on {paper}, {'dark' if dark else 'light'}"
         page.run("by_id('theme').click()")
         page.settle()
