@@ -221,15 +221,11 @@ std::optional<report::PageTable> drivers_of(const SuiteRun& run) {
   return table;
 }
 
-std::string plan_text(const manoeuvre::Plan& plan) {
-  return fmt::format("{} {}{}", manoeuvre::index(plan.policy), name(plan.policy),
-                     plan.target_speed ? fmt::format(" to {:.1f} m/s", *plan.target_speed) : "");
-}
-
 const preview::RolledOut* tried_of(const eval::TriedScene& scene, const manoeuvre::Plan& plan) {
   for (const preview::RolledOut& one : scene.tried) {
-    if (one.facts.plan.policy == plan.policy && std::abs(one.facts.plan.target_speed.value_or(0.0) -
-                                                         plan.target_speed.value_or(0.0)) < 0.5) {
+    const manoeuvre::Plan& tried = one.facts.plan;
+    if (tried.policy == plan.policy && strength_of(tried) == strength_of(plan) &&
+        std::abs(tried.target_speed.value_or(0.0) - plan.target_speed.value_or(0.0)) < 0.5) {
       return &one;
     }
   }

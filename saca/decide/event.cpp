@@ -45,14 +45,6 @@ const Preview* find_preview(std::span<const Preview> previews, std::int32_t numb
   return found == previews.end() || found->number != number ? nullptr : &*found;
 }
 
-std::string plan_text(const manoeuvre::Plan& plan) {
-  std::string text = fmt::format("{} {}", manoeuvre::index(plan.policy), name(plan.policy));
-  if (plan.target_speed) {
-    text += fmt::format(" to {:.1f} m/s", *plan.target_speed);
-  }
-  return text;
-}
-
 std::string trigger_text(const world::Actor& actor, double time) {
   return fmt::format("T1: {:.2f} s to the conflict with {}", time, actor_name(actor));
 }

@@ -77,9 +77,6 @@ struct Preview {
 [[nodiscard]] const Preview* find_preview(std::span<const Preview> previews,
                                           std::int32_t number) noexcept;
 
-/// The policy's number and name, and the speed that it brakes to.
-[[nodiscard]] std::string plan_text(const manoeuvre::Plan& plan);
-
 /// Who set off the trigger.
 /// @param time  to the conflict [s]
 [[nodiscard]] std::string trigger_text(const world::Actor& actor, double time);

@@ -229,7 +229,7 @@ void Encounter::execute(const preview::Threat& threat) {
   tell(Plane::reflex, EventKind::match, decision_text(*planes_.decision()));
   if (refused) {
     tell(Plane::reflex, EventKind::fault,
-         decide::plan_text(wanted) + " cannot be driven: " + *refused);
+         manoeuvre::plan_text(wanted) + " cannot be driven: " + *refused);
   }
   tell(Plane::reflex, EventKind::execute, decide::execution_text(decision.plan, decision.source));
 }

@@ -230,7 +230,7 @@ struct QueueKey {
 QueueKey queue_key(const Drive& drive) {
   expects(drive.car != nullptr, "a drive has a car");
   const lanes::Kind kind = lanes::kind_of(drive.plan.policy);
-  const double length = drive.ego.v_B.x / std::max(0.01, drive.grip);
+  const double length = drive.ego.v_B.x / std::max(0.01, drive.grip * strength_of(drive.plan));
   const bool brakes = kind != lanes::Kind::keeps_speed;
   return {lanes::delay_of(*drive.car, kind).whole, kind,
           drive.plan.policy != PolicyId::no_intervention,

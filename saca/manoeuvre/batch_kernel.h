@@ -97,8 +97,8 @@ inline Told<T> path_told(const FixedLane<T>& fixed, const Seen<T>& state, const 
       turn,
       {turn.cosine * state.v_B.x - turn.sine * vy, turn.sine * state.v_B.x + turn.cosine * vy}};
   const auto slower = fixed.slower > 0.5;
-  const equations::Wants<std::remove_const_t<decltype(slower)>, kind == Kind::brakes> wants{
-      fixed.rest > 0.5, slower};
+  const equations::Wants<T, std::remove_const_t<decltype(slower)>, kind == Kind::brakes> wants{
+      fixed.rest > 0.5, slower, fixed.strength};
   Told<T> told;
   equations::follow_path<T>(fixed.known, wants, fixed.curvature, fixed.known_grip, state, point,
                             step_of(kind), memory, told);

@@ -264,6 +264,7 @@ struct FixedLane {
   T grip, known_grip;
   T curvature;
   T rest, slower;  ///< masks
+  T strength;      ///< of a stop, in (0, 1]
   T side;          ///< of a drift: 1 to the left, -1 to the right
   T delay_share;   ///< of the next older slot, where the brakes' dead time lies between two
 };

@@ -138,6 +138,7 @@ FixedLane<T> fixed_lane(const Car& car, const Ride& ride, const Plan& plan, doub
           .curvature = t(curvature),
           .rest = t(plan.policy == PolicyId::aeb ? 1.0 : 0.0),
           .slower = t(brakes_to_speed(plan.policy) ? 1.0 : 0.0),
+          .strength = t(strength_of(plan)),
           .side = t(side(plan.policy)),
           .delay_share = t(delay_of(ride.real(), kind).share)};
 }

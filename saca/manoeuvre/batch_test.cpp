@@ -231,6 +231,34 @@ TEST(Batch, CarsOfDifferentDeadTimesGoTogether) {
   }
 }
 
+// The centimetres hold for every strength; and a strength of all the grip is none at all.
+TEST(Batch, BrakesByAStrengthAsTheScalarModelDoes) {
+  for (const Level level : levels()) {
+    std::vector<Drive> drives;
+    for (const Car& car : cars()) {
+      for (const double strength : {0.2, 0.3, 0.45, 0.6, 0.8, 1.0}) {
+        for (const double speed : {6.0, 14.0, 25.0}) {
+          Drive one{.car = &car, .plan = {.policy = PolicyId::aeb, .strength = strength}};
+          one.ego.v_B = {speed, 0.0};
+          one.known_grip = one.grip = 0.7;
+          drives.push_back(one);
+        }
+      }
+    }
+    const std::vector<EgoMotion> motions = drive_all(drives, 60.0, 1, level);
+    for (std::size_t i = 0; i < drives.size(); ++i) {
+      const EgoMotion reference = scalar(drives[i], 60.0);
+      EXPECT_LT(difference(motions[i], reference).position, 0.05) << i;
+      EXPECT_TRUE(motions[i].ended && reference.ended) << i;
+      if (drives[i].plan.strength == 1.0) {
+        Drive full = drives[i];
+        full.plan = full_braking;
+        EXPECT_TRUE(same_bits(motions[i], drive_all({&full, 1}, 60.0, 1, level)[0])) << i;
+      }
+    }
+  }
+}
+
 TEST(Batch, NotesWhatDriveNotes) {
   Drive one{.car = &cars()[0], .plan = default_plan(PolicyId::no_intervention, 10.0)};
   one.ego.v_B = {10.0, 0.0};

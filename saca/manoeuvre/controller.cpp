@@ -22,10 +22,12 @@ constexpr double steering_use = 1.0;  // of the steering's rate, for the path's 
 constexpr double most_heading = 0.5;  // [rad] against the lane during a lane change
 
 using PathPoint = equations::PathPoint<double>;
-using Wants = equations::Wants<bool>;
+using Wants = equations::Wants<double, bool>;
 
 Wants wants(const Plan& plan) {
-  return {.rest = plan.policy == PolicyId::aeb, .slower = brakes_to_speed(plan.policy)};
+  return {.rest = plan.policy == PolicyId::aeb,
+          .slower = brakes_to_speed(plan.policy),
+          .strength = strength_of(plan)};
 }
 
 PathPoint path_point(const Car& car, const world::Road& road, const Pose& X_WB, Vec2 v_B,

@@ -36,7 +36,8 @@ static_assert(std::is_trivially_copyable_v<ControllerState>);
 ///
 /// Path: the force of the front wheels moves the point that rear forces cannot accelerate (the
 /// centre of percussion) along a LaneShift; an inverse tyre model turns force into a steering
-/// angle. Speed: anti-lock braking with what the path leaves of the grip, or the motor. Policies 5
+/// angle. Speed: anti-lock braking with what the path leaves of the grip,
+/// at most the plan's strength of it, or the motor. Policies 5
 /// and 6 have no path: see DriftLaw.
 /// Allocates nothing, never throws; a state that is not finite gets full braking straight ahead.
 ///

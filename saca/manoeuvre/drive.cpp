@@ -29,6 +29,11 @@ bool takes_target(const Plan& plan) {
   return !plan.target_speed || (*plan.target_speed >= 0.0 && *plan.target_speed <= fastest);
 }
 
+bool has_right_strength(const Plan& plan) {
+  return !plan.strength ||
+         (takes_strength(plan.policy) && *plan.strength >= least_strength && *plan.strength <= 1.0);
+}
+
 SpeedRange speeds_of(const Car& car, const Plan& plan, double grip) {
   return drifts(plan.policy) ? drift_speeds(car.tuning.domain, grip)
                              : SpeedRange{slowest_lane_change, fastest};
@@ -71,6 +76,10 @@ std::string in_words(Refusal why, const Car& car, const Plan& plan, const world:
     case Refusal::road:
       return with_number("the road must be finite, its lane 2 to 6 m wide, is %.2f",
                          scene.road.lane_width);
+    case Refusal::strength:
+      return takes_strength(plan.policy)
+                 ? with_number("strength must be 0.2 to 1, is %.3f", strength_of(plan))
+                 : policy + " takes no strength";
     case Refusal::bend:
       break;
   }
@@ -88,6 +97,9 @@ std::optional<Refusal> why_refused(const Car& car, const Plan& plan,
   }
   if (brakes_to_speed(plan.policy) != plan.target_speed.has_value() || !takes_target(plan)) {
     return Refusal::target_speed;
+  }
+  if (!has_right_strength(plan)) {
+    return Refusal::strength;
   }
   const bool always = always_possible(plan.policy);
   if (!(scene.grip > 0.0) || (!always && !(scene.grip >= 0.2 && scene.grip <= 1.0))) {

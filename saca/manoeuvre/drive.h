@@ -24,6 +24,7 @@ enum class Refusal : std::uint8_t {
   speed,
   road,  ///< not finite, or a lane too narrow or too wide
   bend,
+  strength,  ///< out of range, or of a policy that has none
 };
 
 /// Why a plan cannot be driven from here; nullopt when it can. For the reflex plane: allocates

@@ -56,6 +56,99 @@ TEST(Drive, StopsInItsLane) {
   EXPECT_EQ(motion.yaw_rate.size(), motion.track.X_WA.size());
 }
 
+Plan braking_at(double strength) {
+  return {.policy = PolicyId::aeb, .strength = strength};
+}
+
+double air_per_mass() {  // deceleration over v^2 [1/m]
+  return 0.5 * vehicle::air_density * car().drag_area / car().mass;
+}
+
+// A deceleration a that builds up over a lag T after a dead time D stops from v within
+// v (D + T) + ln(1 + k v^2 / a) / (2 k), where the air slows by k v^2; without it the latter is
+// v^2 / (2 a). While the load moves to the front the brakes give a little less.
+TEST(Drive, StopsByAStrengthAsAConstantDecelerationDoes) {
+  for (const double grip : {0.4, 0.9}) {
+    for (const double strength : {0.2, 0.3, 0.45, 0.6, 0.8}) {
+      for (const double speed : {8.0, 14.0, 25.0}) {
+        const world::Scene scene = scene_at(speed, grip);
+        const EgoMotion motion = drive(car(), braking_at(strength), scene, grip, 60.0);
+        const double a = strength * grip * vehicle::gravity;
+        const double k = air_per_mass();
+        const double way = speed * (car().brake_dead_time + car().brake_lag) +
+                           std::log1p(k * speed * speed / a) / (2.0 * k);
+        const double driven = motion.track.X_WA.back().p.x - motion.track.X_WA.front().p.x;
+        EXPECT_TRUE(motion.ended) << strength;
+        EXPECT_EQ(motion.v_B.back().x, 0.0);
+        EXPECT_GT(driven, 0.98 * way) << strength << " on " << grip << " from " << speed;
+        EXPECT_LT(driven, 1.03 * way) << strength << " on " << grip << " from " << speed;
+        EXPECT_NEAR(end_of(motion, scene).d, 0.0, 1e-6);
+      }
+    }
+  }
+}
+
+// Between a fifth and four fifths of the speed nothing builds up or fades any more: what is asked
+// for, and at most what the air adds at 25 m/s.
+TEST(Drive, DeceleratesByWhatTheStrengthAsks) {
+  for (const double strength : {0.2, 0.45, 0.8}) {
+    const double speed = 25.0;
+    const EgoMotion motion = drive(car(), braking_at(strength), scene_at(speed, 0.8), 0.8, 60.0);
+    const auto first_below = [&](double share) {
+      return static_cast<double>(std::find_if(motion.v_B.begin(), motion.v_B.end(),
+                                              [&](Vec2 v_B) { return v_B.x < share * speed; }) -
+                                 motion.v_B.begin()) *
+             motion.track.step;
+    };
+    const double mean = 0.6 * speed / (first_below(0.2) - first_below(0.8));
+    const double asked = strength * 0.8 * vehicle::gravity;
+    const double air = air_per_mass() * speed * speed;
+    EXPECT_GT(mean, 0.98 * asked) << strength;
+    EXPECT_LT(mean, 1.02 * asked + air) << strength;
+  }
+}
+
+TEST(Drive, HarderIsNeverLonger) {
+  for (const double grip : {0.3, 0.6, 1.0}) {
+    double last = std::numeric_limits<double>::infinity();
+    for (const double strength : {0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0}) {
+      const world::Scene scene = scene_at(15.0, grip);
+      const EgoMotion motion = drive(car(), braking_at(strength), scene, grip, 60.0);
+      const double way = motion.track.X_WA.back().p.x;
+      EXPECT_LT(way, last) << strength << " on " << grip;
+      last = way;
+    }
+  }
+}
+
+TEST(Drive, AllOfTheGripIsFullBrakingBitByBit) {
+  for (const double curvature : {0.0, 0.01}) {
+    world::Scene scene = scene_at(14.0, 0.7);
+    scene.road.curvature = curvature;
+    scene.ego.yaw_rate = curvature * 14.0;
+    const EgoMotion full = drive(car(), full_braking, scene, 0.66, 9.0);
+    const EgoMotion all = drive(car(), braking_at(1.0), scene, 0.66, 9.0);
+    ASSERT_EQ(full.v_B.size(), all.v_B.size());
+    EXPECT_EQ(std::memcmp(full.track.X_WA.data(), all.track.X_WA.data(),
+                          full.track.X_WA.size() * sizeof(Pose)),
+              0);
+  }
+}
+
+// The bend asks for three quarters of the grip: the brakes may have a share of 0.66 of it, and a
+// strength below that asks for no more than itself.
+TEST(Drive, BrakesByAStrengthInABendAndKeepsItsLane) {
+  world::Scene scene = scene_at(15.0, 0.8);
+  scene.road.curvature = 0.75 * 0.8 * vehicle::gravity / (15.0 * 15.0);
+  scene.ego.yaw_rate = scene.road.curvature * 15.0;
+  scene.ego.a_B = {0.0, scene.road.curvature * 15.0 * 15.0};
+  const EgoMotion gentle = drive(car(), braking_at(0.3), scene, 0.8, 20.0);
+  const EgoMotion hard = drive(car(), full_braking, scene, 0.8, 20.0);
+  EXPECT_TRUE(gentle.ended);
+  EXPECT_GT(gentle.v_B.size(), hard.v_B.size());
+  EXPECT_NEAR(end_of(gentle, scene).d, 0.0, 0.3);
+}
+
 // A lane change ends one lane width from the road, in its direction, and never overshoots by a
 // quarter of a metre; with braking it also ends at the speed that was asked for.
 TEST(Drive, ChangesLaneAndRecoversItsDirectionEverywhereInTheDomain) {
@@ -217,6 +310,11 @@ TEST(Refusal, NamesWhatIsWrong) {
   EXPECT_THAT(why({PolicyId::es_b_left, {}}, 14.0, 0.9), HasSubstr("needs a target speed"));
   EXPECT_THAT(why({PolicyId::es_b_left, nan}, 14.0, 0.9), HasSubstr("target speed"));
   EXPECT_THAT(why({PolicyId::aeb, 3.0}, 14.0, 0.9), HasSubstr("no target speed"));
+  for (const double strength : {0.19, 1.01, nan, -0.5}) {
+    EXPECT_THAT(why(braking_at(strength), 14.0, 0.9), HasSubstr("strength must be 0.2 to 1"));
+  }
+  EXPECT_THAT(why({PolicyId::no_intervention, {}, 0.5}, 14.0, 0.9), HasSubstr("takes no strength"));
+  EXPECT_THAT(why({PolicyId::es_b_left, 7.0, 0.5}, 14.0, 0.9), HasSubstr("takes no strength"));
   EXPECT_THAT(why({static_cast<PolicyId>(9), {}}, 14.0, 0.9), HasSubstr("no such policy"));
   EXPECT_EQ(why({PolicyId::aeb, {}}, 0.0, 0.3), "none");
 }

@@ -205,14 +205,15 @@ inline T holding_torque(const Car& car, const State& state, const T& speed, cons
 
 // What a plan wants of the speed, beside keeping it. Where `may_brake` is false, neither mask
 // holds.
-template <class Mask, bool may_brake = true>
+template <class T, class Mask, bool may_brake = true>
 struct Wants {
   Mask rest;    // at once: emergency braking
   Mask slower;  // down to the speed to keep
+  T strength;   // share of the grip that a stop asks for at most; 1 changes no bit
 };
 
-template <class Mask, bool may_brake, class Memory>
-inline Mask stops(const Wants<Mask, may_brake>& wants, const Memory& memory) {
+template <class T, class Mask, bool may_brake, class Memory>
+inline Mask stops(const Wants<T, Mask, may_brake>& wants, const Memory& memory) {
   return wants.rest || (wants.slower && memory.speed < least_kept_speed);
 }
 
@@ -228,7 +229,7 @@ inline void begin_abs_where(const Mask& mask, const T& speed, Abs& abs) {
 
 // Brakes or motor: what the plan wants of the speed, with what steering leaves.
 template <class T, class Mask, bool may_brake, class Car, class State, class Memory, class Command>
-inline void command_speed(const Car& car, const Wants<Mask, may_brake>& wants, const T& grip,
+inline void command_speed(const Car& car, const Wants<T, Mask, may_brake>& wants, const T& grip,
                           const State& state, const T& sideways, double dt, Memory& memory,
                           Command& command) {
   if constexpr (!may_brake) {
@@ -241,7 +242,9 @@ inline void command_speed(const Car& car, const Wants<Mask, may_brake>& wants, c
   const T share = select(wants.rest, T(1.0), combined_share);
   const T left_over = deceleration_left<T>(share, grip, sideways);
   const T slowing = min(left_over, (state.v_B.x - memory.speed) / approach);
-  const T wanted = select(stop, max(left_over, least_stop_share * grip * gravity),
+  const T stopping =
+      min(max(left_over, least_stop_share * grip * gravity), wants.strength * grip * gravity);
+  const T wanted = select(stop, stopping,
                           select(wants.slower && state.v_B.x > memory.speed + 0.3, slowing, 0.0));
   const Mask brakes = stop || wanted > 0.0;
   if (any(brakes)) {
@@ -258,7 +261,7 @@ inline void command_speed(const Car& car, const Wants<Mask, may_brake>& wants, c
 }
 
 template <class T, class Mask, bool may_brake, class Car, class State, class Memory>
-inline void watch_recovery(const Car& car, const Wants<Mask, may_brake>& wants,
+inline void watch_recovery(const Car& car, const Wants<T, Mask, may_brake>& wants,
                            const PathPoint<T>& point, const State& state, double dt,
                            Memory& memory) {
   constexpr double near_d = 0.2;      // [m]
@@ -273,7 +276,7 @@ inline void watch_recovery(const Car& car, const Wants<Mask, may_brake>& wants,
 
 // What to tell a car that follows a path.
 template <class T, class Mask, bool may_brake, class Car, class State, class Memory, class Command>
-inline void follow_path(const Car& car, const Wants<Mask, may_brake>& wants, const T& curvature,
+inline void follow_path(const Car& car, const Wants<T, Mask, may_brake>& wants, const T& curvature,
                         const T& grip, const State& state, const PathPoint<T>& point, double dt,
                         Memory& memory, Command& command) {
   const T demand = sideways_demand<T>(car, curvature, state, memory, point);

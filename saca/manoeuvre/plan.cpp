@@ -1,5 +1,7 @@
 #include "saca/manoeuvre/plan.h"
 
+#include <cstdio>
+
 namespace saca::manoeuvre {
 
 std::string_view name(PolicyId policy) {
@@ -13,6 +15,21 @@ std::optional<PolicyId> policy_from(int id) {
     return std::nullopt;
   }
   return static_cast<PolicyId>(id);
+}
+
+std::string plan_name(const Plan& plan) {
+  std::array<char, 64> parameter{};
+  if (plan.target_speed) {
+    (void)std::snprintf(parameter.data(), parameter.size(), " to %.1f m/s", *plan.target_speed);
+  } else if (strength_of(plan) < 1.0) {
+    (void)std::snprintf(parameter.data(), parameter.size(), " at %.0f %% of the grip",
+                        100.0 * strength_of(plan));
+  }
+  return std::string(name(plan.policy)) + parameter.data();
+}
+
+std::string plan_text(const Plan& plan) {
+  return std::to_string(index(plan.policy)) + " " + plan_name(plan);
 }
 
 Plan default_plan(PolicyId policy, double speed) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace saca::manoeuvre {
@@ -34,6 +35,11 @@ constexpr bool brakes_to_speed(PolicyId policy) {
   return policy == PolicyId::es_b_left || policy == PolicyId::es_b_right;
 }
 
+/// Policy 0: the only one with a strength.
+constexpr bool takes_strength(PolicyId policy) {
+  return policy == PolicyId::aeb;
+}
+
 /// Where the policy takes the ego: +1 to the left (1, 3, 5), -1 to the right (2, 4, 6), 0 ahead.
 constexpr int side(PolicyId policy) {
   const int id = static_cast<int>(policy);
@@ -56,19 +62,41 @@ constexpr bool drifts(PolicyId policy) {
 /// @param id  0 to 7; nullopt for any other number
 [[nodiscard]] std::optional<PolicyId> policy_from(int id);
 
-/// A complete manoeuvre: which policy, and for policies 3 and 4 down to which speed.
+/// The gentlest braking of policy 0 that can be asked for, as a share of the grip [-]: below it a
+/// stop takes minutes, and slowing is no answer to an emergency. An assumption.
+constexpr double least_strength = 0.2;
+
+/// A complete manoeuvre: which policy, for policies 3 and 4 down to which speed, and for policy 0
+/// how hard.
 struct Plan {
   PolicyId policy = PolicyId::aeb;
   std::optional<double> target_speed;  ///< [m/s], >= 0; only 3 and 4 have one
+  /// Share of the believed grip that the brakes are asked for [-], in [least_strength, 1]; only 0
+  /// may have one. nullopt: all of it, as the paper has it, and as 1 has.
+  std::optional<double> strength = std::nullopt;
 
   bool operator==(const Plan&) const = default;
 };
+
+/// How hard a plan of policy 0 brakes: 1 is full braking.
+constexpr double strength_of(const Plan& plan) {
+  return plan.strength.value_or(1.0);
+}
+
+/// Strengths below 1 that plans are chosen from, the hardest first (decisions/0019).
+inline constexpr std::array braking_strengths{0.8, 0.6, 0.45, 0.3};
 
 /// The two that are always possible.
 constexpr Plan full_braking{PolicyId::aeb, std::nullopt};
 constexpr Plan doing_nothing{PolicyId::no_intervention, std::nullopt};
 
-/// The plan of a policy begun at `speed` [m/s]: 3 and 4 brake to half of it.
+/// A plan as people are told of it: the policy's name, the speed that it brakes to, and how hard
+/// where that is not with all the grip: "ES-B-L to 7.0 m/s", "AEB at 45 % of the grip".
+[[nodiscard]] std::string plan_name(const Plan& plan);
+/// The same after the policy's number: "3 ES-B-L to 7.0 m/s".
+[[nodiscard]] std::string plan_text(const Plan& plan);
+
+/// The plan of a policy begun at `speed` [m/s]: 3 and 4 brake to half of it, 0 with all the grip.
 [[nodiscard]] Plan default_plan(PolicyId policy, double speed);
 
 }  // namespace saca::manoeuvre

@@ -40,5 +40,32 @@ TEST(Plan, OnlyBrakedLaneChangesHaveATargetSpeed) {
   }
 }
 
+TEST(Plan, OnlyPolicyZeroHasAStrengthAndByDefaultItIsAll) {
+  for (const PolicyId policy : all_policies) {
+    EXPECT_EQ(takes_strength(policy), index(policy) == 0) << name(policy);
+    EXPECT_EQ(default_plan(policy, 14.0).strength, std::nullopt);
+  }
+  EXPECT_EQ(strength_of(full_braking), 1.0);
+  EXPECT_EQ(strength_of({.policy = PolicyId::aeb, .strength = 0.3}), 0.3);
+}
+
+// They are tried one after the other: the hardest first, all of them can be asked for.
+TEST(Plan, StrengthsThatAreChosenFromFall) {
+  double last = 1.0;
+  for (const double strength : braking_strengths) {
+    EXPECT_LT(strength, last);
+    EXPECT_GE(strength, least_strength);
+    last = strength;
+  }
+}
+
+TEST(Plan, IsToldWithItsSpeedOrStrength) {
+  EXPECT_EQ(plan_text(full_braking), "0 AEB");
+  EXPECT_EQ(plan_text({.policy = PolicyId::aeb, .strength = 1.0}), "0 AEB");
+  EXPECT_EQ(plan_text({.policy = PolicyId::aeb, .strength = 0.45}), "0 AEB at 45 % of the grip");
+  EXPECT_EQ(plan_text({PolicyId::es_b_left, 7.0}), "3 ES-B-L to 7.0 m/s");
+  EXPECT_EQ(plan_text(doing_nothing), "7 NI");
+}
+
 }  // namespace
 }  // namespace saca::manoeuvre::plan_test

@@ -201,7 +201,7 @@ std::string chance_text(const preview::PolicyFacts& facts) {
 }
 
 std::string line_of(const preview::PolicyFacts& facts, const Scene& scene, bool in_whole) {
-  std::string line = policy_label(facts.plan);
+  std::string line = manoeuvre::plan_text(facts.plan);
   if (!facts.refusal.empty()) {
     return line + ": not possible: " + facts.refusal;
   }
@@ -366,14 +366,6 @@ std::string without_facts(const std::string& scene_part) {
 
 std::string policy_line(const preview::PolicyFacts& facts, const world::Scene& scene) {
   return line_of(facts, scene, true);
-}
-
-std::string policy_label(const manoeuvre::Plan& plan) {
-  std::string label = fmt::format("{} {}", manoeuvre::index(plan.policy), name(plan.policy));
-  if (plan.target_speed) {
-    label += fmt::format(" to {:.1f} m/s", *plan.target_speed);
-  }
-  return label;
 }
 
 // Zeros are digits, and each digit is a token to be read.

@@ -44,8 +44,6 @@ constexpr int most_prompt_tokens = 450;
 /// by prompt, terminal and report alike.
 [[nodiscard]] std::string policy_line(const preview::PolicyFacts& facts, const world::Scene& scene);
 
-/// What such a line begins with: "3 ES-B-L to 7.0 m/s".
-[[nodiscard]] std::string policy_label(const manoeuvre::Plan& plan);
 /// "harm 0.0125", or "no harm" where that would be four zeros.
 [[nodiscard]] std::string harm_text(double harm);
 

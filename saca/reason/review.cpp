@@ -16,9 +16,9 @@ std::string review_prompt(const Aftermath& aftermath) {
       "by how much, and what to remember. Quote the figures. As the last line name the policy that "
       "would have been best: \"Response to user: N\".\n"
       "## Carried Out:\n";
-  text += policy_label(aftermath.done);
+  text += manoeuvre::plan_text(aftermath.done);
   for (const manoeuvre::Plan& plan : aftermath.later) {
-    text += ", then " + policy_label(plan);
+    text += ", then " + manoeuvre::plan_text(plan);
   }
   text += ": " + outcome::describe(aftermath.result, aftermath.met) + ", " +
           harm_text(aftermath.result.harm);
@@ -28,9 +28,9 @@ std::string review_prompt(const Aftermath& aftermath) {
   text += "\n## What each policy leads to, as is known now:\n";
   for (const preview::PolicyFacts& each : facts) {
     text += each.refusal.empty() ? policy_line(each, aftermath.known.scene_at_trigger) + '\n'
-                                 : policy_label(each.plan) + ": not possible\n";
+                                 : manoeuvre::plan_text(each.plan) + ": not possible\n";
   }
-  text += "## Best in Hindsight:\n" + policy_label(best.plan);
+  text += "## Best in Hindsight:\n" + manoeuvre::plan_text(best.plan);
   return text +
          (aftermath.best == aftermath.done.policy && aftermath.later.empty()
               ? ": what was carried out\n"

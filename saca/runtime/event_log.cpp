@@ -83,7 +83,7 @@ void EventLog::add_events_of(const Notice& notice) {
     add(EventKind::match, decision_text(trigger.decision));
     if (trigger.plan != trigger.decision.plan) {
       add(EventKind::fault,
-          decide::plan_text(trigger.decision.plan) + " cannot be driven from here");
+          manoeuvre::plan_text(trigger.decision.plan) + " cannot be driven from here");
     }
     add(EventKind::execute, execution_text(trigger.plan, trigger.decision.source));
   }

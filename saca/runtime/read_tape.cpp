@@ -177,7 +177,7 @@ decide::Reflex read_reflex(JsonReader from) {
 }
 
 decide::Decision read_decision(JsonReader from) {
-  constexpr std::uint64_t last_refusal = static_cast<std::uint64_t>(manoeuvre::Refusal::bend);
+  constexpr std::uint64_t last_refusal = static_cast<std::uint64_t>(manoeuvre::Refusal::strength);
   decide::Decision decision;
   decision.plan = read_plan(from.object("plan"));
   decision.source = read_source(from);
