@@ -78,12 +78,13 @@ json told(const manoeuvre::AtlasInfo& info, const std::optional<std::string>& pr
   json kinds = json::array();
   for (std::size_t kind = 0; kind < manoeuvre::num_atlas_kinds; ++kind) {
     const AtlasAxes& axes = info.grid[kind];
+    const bool stops = static_cast<AtlasKind>(kind) == AtlasKind::stop;
     kinds.push_back({{"kind", name(static_cast<AtlasKind>(kind))},
                      {"points", axes.num_nodes()},
                      {"speed_mps", axis_of(axes.speeds)},
                      {"grip", axis_of(axes.grips)},
                      {"way_m", axis_of(axes.ways)},
-                     {"target_share", axis_of(axes.shares)}});
+                     {stops ? "strength" : "target_share", axis_of(axes.shares)}});
   }
   return {{"schema", "saca.atlas_info/1"},
           {"version", manoeuvre::atlas_version},

@@ -16,12 +16,11 @@
 namespace saca::eval {
 namespace {
 
-using manoeuvre::num_policies;
 using outcome::Future;
 using outcome::Outcome;
 
 AtlasRow row_of(const Future& told, const Outcome& truth) {
-  AtlasRow row{.policy = told.plan.policy, .outside = told.outside};
+  AtlasRow row{.plan = told.plan, .outside = told.outside};
   row.told_contact = told.contact.has_value();
   row.true_contact = truth.contact.has_value();
   row.told_clearance = told.clearance;
@@ -59,7 +58,7 @@ bool less(const AtlasRow& a, const AtlasRow& b, double AtlasRow::*harm,
   of_b.harm = b.*harm;
   of_a.clearance = a.*clearance;
   of_b.clearance = b.*clearance;
-  return better(of_a, a.policy, of_b, b.policy);
+  return better(of_a, a.plan.policy, of_b, b.plan.policy);
 }
 
 // What the atlas takes for best, and the best there is; none: nothing can be chosen.
@@ -89,6 +88,18 @@ Choice choice(const std::vector<AtlasRow>& rows) {
     }
   }
   return choice;
+}
+
+std::array<manoeuvre::Plan, num_checked> checked_plans(double speed) {
+  std::array<manoeuvre::Plan, num_checked> plans;
+  auto plan = plans.begin();
+  for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
+    *plan++ = manoeuvre::default_plan(policy, speed);
+  }
+  for (const double strength : manoeuvre::braking_strengths) {
+    *plan++ = {.policy = manoeuvre::PolicyId::aeb, .strength = strength};
+  }
+  return plans;
 }
 
 double percentile_or_none(const std::vector<double>& values, double share) {
@@ -156,9 +167,9 @@ LoneRegret lone_regret(std::span<const std::vector<AtlasRow>> scenes) {
 
 }  // namespace
 
-std::array<AtlasRow, num_policies> atlas_rows(const Moment& moment, const manoeuvre::Atlas& atlas,
-                                              const manoeuvre::Car& car,
-                                              const outcome::HarmModel& harm, std::uint64_t seed) {
+std::array<AtlasRow, num_checked> atlas_rows(const Moment& moment, const manoeuvre::Atlas& atlas,
+                                             const manoeuvre::Car& car,
+                                             const outcome::HarmModel& harm, std::uint64_t seed) {
   world::Scene scene = moment.scene;
   scene.grip_sd = 0.0;
   for (world::Actor& actor : scene.actors) {
@@ -171,13 +182,14 @@ std::array<AtlasRow, num_policies> atlas_rows(const Moment& moment, const manoeu
   doubtful.grip_sd = grip_sd_share * scene.grip;
   std::mt19937_64 rng(seed);
   std::normal_distribution<double> normal;
-  std::array<AtlasRow, num_policies> rows;
-  for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
-    const manoeuvre::Plan plan = manoeuvre::default_plan(policy, scene.ego.v_B.x);
-    AtlasRow& row = rows[manoeuvre::index(policy)];
+  std::array<AtlasRow, num_checked> rows;
+  const auto plans = checked_plans(scene.ego.v_B.x);
+  for (std::size_t i = 0; i < num_checked; ++i) {
+    const manoeuvre::Plan& plan = plans[i];
+    AtlasRow& row = rows[i];
     const double drawn = scene.grip * std::max(0.1, 1.0 + grip_sd_share * normal(rng));
     if (refusal(car, plan, scene)) {
-      row = {.policy = policy, .refused = true};
+      row = {.plan = plan, .refused = true};
       continue;
     }
     row = row_of(future(atlas, plan, scene, tracks, harm),

@@ -16,7 +16,7 @@ namespace saca::eval {
 
 /// One plan in one scene, as the atlas tells it and as full physics does.
 struct AtlasRow {
-  manoeuvre::PolicyId policy = manoeuvre::PolicyId::aeb;
+  manoeuvre::Plan plan;
   bool refused = false;                          ///< by full physics
   std::optional<manoeuvre::AtlasLimit> outside;  ///< of the atlas
   bool told_contact = false;
@@ -39,12 +39,18 @@ struct AtlasRow {
 /// the draws).
 constexpr double grip_sd_share = 0.06;
 
-/// All eight begun at a moment, the others on the tracks that they would take while the ego goes
+/// What is held against physics: the eight policies, 3 and 4 to half of the speed, then braking
+/// with each of manoeuvre::braking_strengths.
+constexpr std::size_t num_checked = manoeuvre::num_policies + manoeuvre::braking_strengths.size();
+
+/// All of these begun at a moment, the others on the tracks that they would take while the ego goes
 /// on, known exactly; true grip is the believed one, but for drawn_contact.
 /// @param seed  of the drawn grips
-[[nodiscard]] std::array<AtlasRow, manoeuvre::num_policies> atlas_rows(
-    const Moment& moment, const manoeuvre::Atlas& atlas, const manoeuvre::Car& car,
-    const outcome::HarmModel& harm, std::uint64_t seed = 0);
+[[nodiscard]] std::array<AtlasRow, num_checked> atlas_rows(const Moment& moment,
+                                                           const manoeuvre::Atlas& atlas,
+                                                           const manoeuvre::Car& car,
+                                                           const outcome::HarmModel& harm,
+                                                           std::uint64_t seed = 0);
 
 /// The same at the trigger of sample `number` of a family; empty where it never triggers.
 [[nodiscard]] std::vector<AtlasRow> atlas_rows(const sim::Family& family, std::uint64_t seed,
@@ -92,7 +98,7 @@ struct AtlasFigures {
   ChanceBins chances;  ///< on drawn grip
 };
 
-/// @param rows  those of each scene, eight or none
+/// @param rows  those of each scene, all or none
 [[nodiscard]] AtlasFigures atlas_figures(std::span<const std::vector<AtlasRow>> rows);
 
 }  // namespace saca::eval

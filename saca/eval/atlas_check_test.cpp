@@ -22,14 +22,14 @@ TEST(AtlasCheck, PutsAtlasAndPhysicsSideBySide) {
   EXPECT_NEAR(going_on.speed_off, 0.0, 0.05);
   EXPECT_EQ(going_on.told_chance, 1.0);
   for (const AtlasRow& row : rows) {
-    EXPECT_EQ(row.told_contact, row.true_contact) << name(row.policy);
+    EXPECT_EQ(row.told_contact, row.true_contact) << plan_text(row.plan);
     // A metre and more of room, or of overlap: no grip within four deviations changes that.
-    EXPECT_EQ(row.drawn_contact, row.true_contact) << name(row.policy);
+    EXPECT_EQ(row.drawn_contact, row.true_contact) << plan_text(row.plan);
   }
 }
 
 AtlasRow row(PolicyId policy, double told, double truth) {
-  AtlasRow row{.policy = policy};
+  AtlasRow row{.plan = {policy, std::nullopt}};
   row.told_harm = told;
   row.true_harm = truth;
   row.told_contact = told > 0.0;

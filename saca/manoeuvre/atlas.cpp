@@ -17,9 +17,9 @@ namespace {
 
 constexpr std::array<std::string_view, num_atlas_kinds> kind_names{
     "stop", "keep", "swerve", "braked swerve", "swerve to rest", "drift"};
-constexpr std::array<std::string_view, 11> limit_names{
+constexpr std::array<std::string_view, 12> limit_names{
     "no finite number", "speed",    "grip",         "lane width", "target speed", "heading",
-    "lateral speed",    "yaw rate", "acceleration", "offset",     "curvature"};
+    "lateral speed",    "yaw rate", "acceleration", "offset",     "curvature",    "strength"};
 
 // As the controller has it: slower targets are stops [m/s].
 constexpr double least_kept = 0.5;
@@ -60,10 +60,14 @@ Cell cell_of(const AtlasAxes::Axis& axis, double value, bool inverse = false) no
   return share >= 1.0 ? Cell{i + 1, i + 1, 0.0} : Cell{i, i + 1, share};
 }
 
-bool holds(const AtlasAxes::Axis& axis, double value) noexcept {
+bool spans(const AtlasAxes::Axis& axis, double value) noexcept {
   constexpr double rounding = 1e-9;
-  return axis.size() == 1 ||
-         (value >= axis[0] - rounding && value <= axis[axis.size() - 1] + rounding);
+  return value >= axis[0] - rounding && value <= axis[axis.size() - 1] + rounding;
+}
+
+// An axis of one value is none.
+bool holds(const AtlasAxes::Axis& axis, double value) noexcept {
+  return axis.size() == 1 || spans(axis, value);
 }
 
 // y, heading and what they gain change sign in the mirror; x does not.
@@ -176,6 +180,15 @@ void bend(AtlasPath& path) noexcept {
   }
 }
 
+// Where a plan stands on the axis of its kind's shares.
+double share_of(const Plan& plan, AtlasKind kind, double speed) noexcept {
+  if (kind == AtlasKind::stop) {
+    return strength_of(plan);
+  }
+  return kind == AtlasKind::braked_swerve ? plan.target_speed.value_or(0.0) / std::max(speed, 1e-3)
+                                          : 0.0;
+}
+
 double way_to_go(const Plan& plan, const world::Scene& scene) noexcept {
   const double d = to_lane(scene.road, scene.ego.X_WB).d;
   return scene.road.lane_width - side(plan.policy) * d;
@@ -236,7 +249,11 @@ std::size_t num_nodes(const AtlasGrid& grid) {
 AtlasGrid default_atlas_grid() {
   const AtlasAxes::Axis none = axis({0.0});
   const AtlasAxes::Axis grips = axis({0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0});
-  AtlasAxes stop{axis({0.0, 0.5}), axis({0.15}), none, none};
+  AtlasAxes stop{axis({0.0, 0.5}), axis({0.15}), none, {}};
+  for (std::size_t i = braking_strengths.size(); i-- > 0;) {
+    stop.shares.push_back(braking_strengths[i]);
+  }
+  stop.shares.push_back(1.0);
   add_range(stop.speeds, 1.0, 26.0, 1.0);
   add_range(stop.speeds, 28.0, 46.0, 2.0);
   for (const double grip : grips) {
@@ -356,6 +373,9 @@ std::optional<AtlasLimit> Atlas::outside(const Plan& plan, const world::Scene& s
   if (brakes_to_speed(plan.policy) != plan.target_speed.has_value()) {
     return AtlasLimit::target_speed;
   }
+  if (plan.strength && !takes_strength(plan.policy)) {
+    return AtlasLimit::strength;
+  }
   const AtlasKind kind = atlas_kind(plan);
   const AtlasAxes& axes = grid_[static_cast<std::size_t>(kind)];
   const double speed = scene.ego.v_B.x;
@@ -381,6 +401,9 @@ std::optional<AtlasLimit> Atlas::outside(const Plan& plan, const world::Scene& s
   if (kind == AtlasKind::braked_swerve && !holds(axes.shares, *plan.target_speed / speed)) {
     return AtlasLimit::target_speed;
   }
+  if (kind == AtlasKind::stop && !spans(axes.shares, strength_of(plan))) {
+    return AtlasLimit::strength;
+  }
   if (kind == AtlasKind::swerve_stop && !(*plan.target_speed >= 0.0)) {
     return AtlasLimit::target_speed;
   }
@@ -396,9 +419,8 @@ AtlasPath Atlas::path(const Plan& plan, const world::Scene& scene) const noexcep
   // Times and ways go with 1 / grip.
   const Cell by_grip = cell_of(axes.grips, scene.grip, true);
   const Cell by_way = cell_of(axes.ways, axes.ways.size() > 1 ? way_to_go(plan, scene) : 0.0);
-  const Cell by_share = cell_of(
-      axes.shares,
-      axes.shares.size() > 1 ? plan.target_speed.value_or(0.0) / std::max(speed, 1e-3) : 0.0);
+  // A stop's times and ways go with 1 / strength too.
+  const Cell by_share = cell_of(axes.shares, share_of(plan, kind, speed), kind == AtlasKind::stop);
   AtlasPath path;
   path.rests = ends_at_rest(kind);
   path.ended = true;

@@ -42,7 +42,7 @@ struct AtlasAxes {
   Axis speeds;  ///< at the start [m/s]
   Axis grips;   ///< believed, and true of the middle one of three drives [-]
   Axis ways;    ///< sideways to the middle of the other lane [m]; one value where none is taken
-  Axis shares;  ///< target speed over speed [-]; likewise
+  Axis shares;  ///< target speed over speed; of a stop its strength, in (0, 1] [-]; likewise
   [[nodiscard]] std::size_t num_nodes() const {
     return speeds.size() * grips.size() * ways.size() * shares.size();
   }
@@ -129,6 +129,7 @@ enum class AtlasLimit : std::uint8_t {
   acceleration,   ///< the start is too far from even rolling
   offset,         ///< too far from the middle of the lane
   curvature,      ///< the bend takes too much of the grip
+  strength,       ///< outside the grid, or given where there is none
 };
 [[nodiscard]] std::string_view name(AtlasLimit limit);
 

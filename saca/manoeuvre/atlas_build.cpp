@@ -58,7 +58,7 @@ Point point_of(const AtlasGrid& grid, std::size_t number) {
 Plan plan_of(const Point& point) {
   switch (point.kind) {
     case AtlasKind::stop:
-      return {PolicyId::aeb, std::nullopt};
+      return {.policy = PolicyId::aeb, .strength = point.share};
     case AtlasKind::keep:
       return {PolicyId::no_intervention, std::nullopt};
     case AtlasKind::swerve:
@@ -335,11 +335,12 @@ Behaviour behaviour(const Car& car) {
   const Car driven = unbounded(car);
   Behaviour all{};
   auto out = all.begin();
-  for (std::size_t kind = 0; kind < num_atlas_kinds; ++kind) {
+  for (std::size_t i = 0; i <= num_atlas_kinds; ++i) {
+    const auto kind = i < num_atlas_kinds ? static_cast<AtlasKind>(i) : AtlasKind::stop;
+    const bool in_full = i == static_cast<std::size_t>(AtlasKind::stop);
+    const bool turns = kind >= AtlasKind::swerve && kind != AtlasKind::drift;
     for (const double speed : {9.0, 15.0}) {
-      const bool turns = kind >= static_cast<std::size_t>(AtlasKind::swerve) &&
-                         static_cast<AtlasKind>(kind) != AtlasKind::drift;
-      const Point point{static_cast<AtlasKind>(kind), speed, 0.8, turns ? 3.4 : 0.0, 0.5};
+      const Point point{kind, speed, 0.8, turns ? 3.4 : 0.0, in_full ? 1.0 : 0.5};
       const double longest = ends_at_rest(point.kind) ? longest_stop : a_while;
       const Trace trace = trace_of(
           drive(driven, plan_of(point), scene_of(car, point), 0.9 * point.grip, longest), longest);

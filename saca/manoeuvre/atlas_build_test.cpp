@@ -18,7 +18,7 @@ namespace {
 AtlasGrid tiny_grid() {
   const AtlasAxes::Axis none = axis_of({0.0});
   const AtlasAxes::Axis one = axis_of({0.9});
-  AtlasAxes stop{axis_of({0.0, 3.0, 6.0}), one, none, none};
+  AtlasAxes stop{axis_of({0.0, 3.0, 6.0}), one, none, axis_of({1.0})};
   for (double speed = 6.25; speed < 18.0; speed += 0.25) {  // more than are driven at once
     stop.speeds.push_back(speed);
   }

@@ -19,13 +19,14 @@ inline AtlasAxes::Axis axis_of(std::initializer_list<double> values) {
   return axis;
 }
 
-/// One cell of each kind, as wide as those of the default grid: 12 to 13 m/s, grip 0.8 to 0.9.
+/// One cell of each kind, as wide as those of the default grid: 12 to 13 m/s, grip 0.8 to 0.9; of a
+/// stop all strengths.
 inline AtlasGrid small_grid() {
   const AtlasAxes::Axis none = axis_of({0.0});
   const AtlasAxes::Axis speeds = axis_of({12.0, 13.0});
   const AtlasAxes::Axis grips = axis_of({0.8, 0.9});
   const AtlasAxes::Axis ways = axis_of({2.75, 3.5});
-  return {{{speeds, grips, none, none},
+  return {{{speeds, grips, none, default_atlas_grid()[0].shares},
            {axis_of({10.0, 15.0}), axis_of({0.15, 1.2}), none, none},
            {speeds, grips, ways, none},
            {speeds, grips, ways, axis_of({0.375, 0.5})},

@@ -62,6 +62,38 @@ TEST(Atlas, BetweenNodesStaysNearTheDrive) {
   }
 }
 
+Plan braking_at(double strength) {
+  return {.policy = PolicyId::aeb, .strength = strength};
+}
+
+// Times and ways of a stop go with 1 / strength, and so does what lies between two of them; above
+// 0.8 less well, where the anti-lock brake sets in.
+TEST(Atlas, BetweenStrengthsStaysNearTheDrive) {
+  for (const double strength : {0.3, 0.37, 0.52, 0.7, 0.9, 1.0}) {
+    for (const double speed : {12.0, 12.6}) {
+      const world::Scene scene = atlas_scene(speed, 0.84);
+      const EgoMotion motion = drive(small_atlas_car(), braking_at(strength), scene, 0.84, 20.0);
+      const AtlasPath path = small_atlas().path(braking_at(strength), scene);
+      EXPECT_LT(worst_place(path, scene, motion), 0.3) << strength << " from " << speed;
+      EXPECT_NEAR(path.end, length_of(motion), 0.06) << strength << " from " << speed;
+      EXPECT_TRUE(path.rests && path.ended);
+    }
+  }
+  const world::Scene scene = atlas_scene(12.0, 0.9);
+  EXPECT_EQ(at(small_atlas().path(braking_at(1.0), scene), 1.0).x,
+            at(small_atlas().path(full_braking, scene), 1.0).x);
+}
+
+// The shipped grid has every strength that plans are chosen from, on its own nodes.
+TEST(Atlas, HoldsTheStrengthsThatAreChosenFrom) {
+  const AtlasAxes::Axis shares = default_atlas_grid()[0].shares;
+  EXPECT_EQ(shares.size(), braking_strengths.size() + 1);
+  for (const double strength : braking_strengths) {
+    EXPECT_NE(std::find(shares.begin(), shares.end(), strength), shares.end()) << strength;
+  }
+  EXPECT_EQ(shares[shares.size() - 1], 1.0);
+}
+
 TEST(Atlas, RightIsTheMirrorOfLeft) {
   world::Scene scene = atlas_scene(12.4, 0.85);
   world::Scene mirrored = scene;
@@ -205,6 +237,10 @@ TEST(Atlas, SaysWhyItCannotBeRead) {
   EXPECT_EQ(why(scene, PolicyId::aes_left), AtlasLimit::lane_width);
   EXPECT_EQ(why(good, PolicyId::es_b_left, 0.3), AtlasLimit::target_speed);
   EXPECT_EQ(small_atlas().outside({PolicyId::aeb, 3.0}, good), AtlasLimit::target_speed);
+  EXPECT_EQ(small_atlas().outside(braking_at(0.7), good), std::nullopt);
+  EXPECT_EQ(small_atlas().outside(braking_at(0.25), good), AtlasLimit::strength);
+  EXPECT_EQ(small_atlas().outside({PolicyId::no_intervention, {}, 0.7}, good),
+            AtlasLimit::strength);
   scene = good;
   scene.ego.X_WB.yaw = 0.2;
   EXPECT_EQ(why(scene, PolicyId::aeb), AtlasLimit::heading);
@@ -243,8 +279,11 @@ TEST(Atlas, IsNeverBolderThanThePhysics) {
     const double speed = -2.0 + 32.0 * share(rng);
     world::Scene scene = atlas_scene(speed, 0.1 + 1.1 * share(rng), 1.5 + 5.0 * share(rng));
     scene.road.curvature = i % 3 == 0 ? 0.05 * share(rng) : 0.0;
-    const Plan plan =
+    Plan plan =
         atlas_plan(all_policies[static_cast<std::size_t>(i) % num_policies], speed, share(rng));
+    if (i % 5 == 0) {
+      plan.strength = 1.2 * share(rng);
+    }
     if (refusal(car, plan, scene)) {
       ++refused;
       EXPECT_NE(empty.outside(plan, scene), std::nullopt) << name(plan.policy) << " at " << speed;
