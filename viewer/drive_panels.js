@@ -18,7 +18,7 @@ function road_words(road) {
 
 function show_header(record) {
   const { policy, car, road, start, end } = record;
-  const words = plan_words(policy.id, policy.name, policy.target_speed_mps);
+  const words = plan_words(policy.id, policy);
   const title = [policy.name, words].filter(Boolean).join(" – ") || "Manoeuvre";
   by_id("title").textContent = title;
   document.title = `${title} – SACA`;
@@ -110,6 +110,6 @@ function show_run(record) {
     ["Limits: steering", degrees(car.steering_limit_deg)], ["Limits: motor, brake of a wheel", `${num(car.motor_limit_Nm, 0)}, ${num(car.brake_limit_Nm, 0, "Nm")}`],
     ["Road", `${road_words(road)}, lane ${num(road.lane_width_m, 2, "m")}`], ["Grip", num(road.grip, 2)],
     ["Speed at the start", num(record.start.speed_mps, 2, "m/s")],
-    ["Target speed", num(record.policy.target_speed_mps, 2, "m/s")], ["Samples", String(record.time.length)], ["Program", record.program]]),
+    ["Target speed", num(record.policy.target_speed_mps, 2, "m/s")], ["Share of the grip for the brakes", num(record.policy.strength, 2)], ["Samples", String(record.time.length)], ["Program", record.program]]),
   el("pre", { text: record.command ?? none, "aria-label": "Command that made this record", tabindex: "0" }));
 }

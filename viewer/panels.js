@@ -40,20 +40,20 @@ function show_decision(record) {
   }
   const match = is_number(decision.preview) ? `preview ${decision.preview + 1}${is_number(decision.similarity) ? `, ${percent(decision.similarity)} alike` : ""}` : "no preview matched";
   panel.append(
-    el("p", { class: "lead" }, el("b", { text: `${decision.policy} ${decision.name ?? ""}` }), ` – ${plan_words(decision.policy, decision.name, decision.target_speed_mps)}`),
+    el("p", { class: "lead" }, el("b", { text: `${decision.policy} ${decision.name ?? ""}` }), ` – ${plan_words(decision.policy, decision)}`),
     el("p", {}, tag(source_words[decision.source] ?? String(decision.source), "strong"), " ", tag(match), " ", tag(`at ${num(decision.time_s, 2, "s")}`)),
     el("p", { text: decision.text || "The record gives no reason." }),
     ...verdict_table(decision.verdict, decision, `at T1${decision.by_atlas ? ", by the atlas" : ""}`), ...switch_list(record));
 }
 
 /** What was expected of every plan when this one was begun, the least harmful first; nothing where no verdict was used. */
-function verdict_table(verdict, { policy, target_speed_mps }, when) {
+function verdict_table(verdict, { policy, target_speed_mps, strength }, when) {
   const plans = list(verdict?.plans);
   if (!plans.length) return [];
   const driven = plans.filter((plan) => is_number(plan.harm)).sort((a, b) => a.harm - b.harm);
   const most = Math.max(...driven.map((plan) => plan.harm), 1e-9);
   const rows = [...driven, ...plans.filter((plan) => !is_number(plan.harm))].map((plan) => {
-    const chosen = plan.policy === policy && plan.target_speed_mps === target_speed_mps;
+    const chosen = plan.policy === policy && plan.target_speed_mps === target_speed_mps && plan.strength === strength;
     const marks = [plan.harm <= verdict.admissible_harm && is_number(plan.harm) ? tag("admissible", "good") : null, chosen ? tag("carried out", "strong") : null];
     return { class: chosen ? "chosen" : is_number(plan.harm) ? "" : "refused", cells: [
       el("span", { class: "policy" }, el("b", { text: plan_name(plan) }), ...marks),
@@ -65,7 +65,7 @@ function verdict_table(verdict, { policy, target_speed_mps }, when) {
 
 /** What began later in its place, and why. */
 function switch_list(record) {
-  return record.switches.map((one) => el("p", {}, tag(`at ${num(one.t_s, 2, "s")}`), " ", el("b", { text: `${one.policy} ${one.name}` }), ` – ${one.reason}: ${one.text}`));
+  return record.switches.map((one) => el("p", {}, tag(`at ${num(one.t_s, 2, "s")}`), " ", el("b", { text: plan_name(one) }), ` – ${one.reason}: ${one.text}`));
 }
 
 /** What the model wrote when it was over; nothing where there is none. */
@@ -169,7 +169,7 @@ function preview_steps(preview, record) {
     step("Rollout check", check ? (check.passed ? "done" : "failed") : "skipped",
       check ? el("p", {}, tag(check.passed ? "✓ passed" : "✕ failed", check.passed ? "good" : "bad"), " ", check.text ?? "") : el("p", { class: "soft", text: "not needed, or not reached" })),
     step("Plan", plan ? "done" : "skipped", el("p", {}, plan
-      ? el("span", {}, el("b", { text: `${plan.policy} ${list(preview.facts).find((f) => f.policy === plan.policy)?.name ?? ""}` }), ` ${plan_words(plan.policy, "", plan.target_speed_mps)}`,
+      ? el("span", {}, el("b", { text: `${plan.policy} ${list(preview.facts).find((f) => f.policy === plan.policy)?.name ?? ""}` }), ` ${plan_words(plan.policy, plan)}`,
         is_number(preview.ready_s) ? el("small", { text: ` cached at ${num(preview.ready_s, 2, "s")}` }) : null)
       : el("span", { class: "soft", text: "none was cached" }))));
 }

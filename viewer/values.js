@@ -9,11 +9,18 @@ const policy_words = [
   "lane change left while braking", "lane change right while braking", "drift to a stop, turned left",
   "drift to a stop, turned right", "no intervention"];
 
-/** A plan of a record by its number, its policy's short name and the speed that it brakes to. */
-const plan_name = (plan) => `${plan.policy} ${plan.name ?? ""}${is_number(plan.target_speed_mps) ? ` to ${num(plan.target_speed_mps, 1, "m/s")}` : ""}`;
+/** What a plan adds to its policy: the speed that it brakes to, or how hard it brakes. */
+function plan_parameter({ target_speed_mps, strength }) {
+  if (is_number(target_speed_mps)) return ` to ${num(target_speed_mps, 1, "m/s")}`;
+  return is_number(strength) && strength < 1 ? ` at ${num(100 * strength, 0)} % of the grip` : "";
+}
 
-/** A policy in words; `target_speed` [m/s] or null. */
-function plan_words(policy, name, target_speed) {
-  const words = policy_words[policy] ?? "";
-  return is_number(target_speed) ? `${words} to ${num(target_speed, 1, "m/s")}` : words;
+/** A plan of a record by its number, its policy's short name and what it adds to that. */
+const plan_name = (plan) => `${plan.policy} ${plan.name ?? ""}${plan_parameter(plan)}`;
+
+/** A policy in words; `plan` may have `target_speed_mps` or `strength`. */
+function plan_words(policy, plan) {
+  const parameter = plan_parameter(dict(plan));
+  const words = parameter && policy === 0 ? "braking in the lane" : policy_words[policy] ?? "";
+  return words + parameter;
 }

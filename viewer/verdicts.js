@@ -33,9 +33,9 @@ function least_of(plans) {
   return plans.filter((plan) => plan.harm !== null).reduce((least, plan) => (least && least.harm <= plan.harm ? least : plan), null);
 }
 
-/** The plan of a verdict that is this one: of the same policy, with the nearest target speed; null: none. */
+/** The plan of a verdict that is this one: of the same policy, with the nearest target speed or strength; null: none. */
 function same_plan(verdict, plan) {
-  const off = (one) => Math.abs((one.target_speed_mps ?? 0) - (plan.target_speed_mps ?? 0));
+  const off = (one) => Math.abs((one.target_speed_mps ?? 0) - (plan.target_speed_mps ?? 0)) + Math.abs((one.strength ?? 1) - (plan.strength ?? 1));
   return verdict.plans.filter((one) => one.policy === plan.policy).reduce((best, one) => (best && off(best) <= off(one) ? best : one), null);
 }
 

@@ -27,6 +27,7 @@ struct DriveOptions {
   double speed = 14.0;
   double grip = 0.9;
   std::optional<double> target_speed;
+  std::optional<double> strength;
   std::string car = "compact_rwd_ev";
   std::optional<double> seconds;
   int draws = 0;
@@ -42,6 +43,7 @@ manoeuvre::Plan plan_of(const DriveOptions& options) {
   if (options.target_speed) {
     plan.target_speed = options.target_speed;
   }
+  plan.strength = options.strength;
   return plan;
 }
 
@@ -55,6 +57,7 @@ std::string command_line(const DriveOptions& options) {
   std::string line = fmt::format("saca drive --policy {} --speed {:g} --grip {:g} --car {}",
                                  options.policy, options.speed, options.grip, options.car);
   line += options.target_speed ? fmt::format(" --target-speed {:g}", *options.target_speed) : "";
+  line += options.strength ? fmt::format(" --strength {:g}", *options.strength) : "";
   line += options.seconds ? fmt::format(" --seconds {:g}", *options.seconds) : "";
   line +=
       options.draws > 0 ? fmt::format(" --draws {} --seed {}", options.draws, options.seed) : "";
@@ -171,6 +174,9 @@ void add_drive(CLI::App& line, int& exit_code) {
       ->capture_default_str();
   command->add_option("--target-speed", options->target_speed,
                       "Of policies 3 and 4 [m/s] (default: half the speed)");
+  command->add_option("--strength", options->strength,
+                      "Of policy 0: share of the grip that the brakes are asked for, 0.2 to 1 "
+                      "(default: all)");
   command->add_option("--car", options->car, "A car's file, or the name of a shipped one")
       ->capture_default_str();
   command

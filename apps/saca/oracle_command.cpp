@@ -38,6 +38,7 @@ json json_of(const eval::Verdict& verdict, const world::Scene& scene) {
   json all{{"policy", manoeuvre::index(facts.plan.policy)},
            {"name", name(facts.plan.policy)},
            {"target_speed_mps", facts.plan.target_speed ? json(*facts.plan.target_speed) : json()},
+           {"strength", facts.plan.strength ? json(*facts.plan.strength) : json()},
            {"refusal", facts.refusal.empty() ? json() : json(facts.refusal)}};
   if (!facts.refusal.empty()) {
     return all;

@@ -16,6 +16,7 @@
 #include "apps/saca/progress.h"
 #include "apps/saca/story.h"
 #include "apps/saca/thinking_options.h"
+#include "apps/saca/within.h"
 #include "saca/core/file.h"
 #include "saca/loop/encounter.h"
 #include "saca/loop/review.h"
@@ -35,6 +36,7 @@ struct RunOptions {
   ThinkingOptions thinking{.memory = "runs/memory.sqlite", .model = "local"};
   std::string record_replies;
   std::optional<int> policy;
+  std::optional<double> strength;
   std::optional<std::uint64_t> seed;
   std::string atlas;
   std::string danger;
@@ -133,6 +135,18 @@ std::optional<Error> write_tape(const fs::path& file, const runtime::TapeFile& t
   return write_file(file, runtime::tape_text(by_this_program));
 }
 
+/// nullopt: what SACA decides is carried out.
+Result<std::optional<manoeuvre::Plan>> forced_plan(const RunOptions& options) {
+  if (options.strength && options.policy != manoeuvre::index(manoeuvre::PolicyId::aeb)) {
+    return Error{Error::Code::out_of_range, "--strength: only of --policy 0"};
+  }
+  if (!options.policy) {
+    return std::optional<manoeuvre::Plan>();
+  }
+  return std::optional(
+      manoeuvre::Plan{*manoeuvre::policy_from(*options.policy), std::nullopt, options.strength});
+}
+
 int run(const RunOptions& options) {
   const auto inputs = read_scenario_inputs(options.scenario);
   if (!inputs.has_value()) {
@@ -162,22 +176,25 @@ int run(const RunOptions& options) {
     return refused(model.error());
   }
 
-  const loop::Setup setup{
-      .scenario = &inputs.value().scenario,
-      .car = &inputs.value().car,
-      .harm = &inputs.value().harm,
-      .intent = &inputs.value().intent,
-      .atlas = atlas.value() ? &*atlas.value() : nullptr,
-      .danger = danger.value() ? &*danger.value() : nullptr,
-      .pace = pace,
-      .costs = costs.value(),
-      .model = model.value().get(),
-      .memory = memory.value().get(),
-      .learns = !options.no_learning,
-      .forced = options.policy ? manoeuvre::policy_from(*options.policy) : std::nullopt,
-      .seed = options.seed,
-      .tapes = !options.tape.empty(),
-      .clock = &clock};
+  const auto forced = forced_plan(options);
+  if (!forced.has_value()) {
+    return refused(forced.error());
+  }
+  const loop::Setup setup{.scenario = &inputs.value().scenario,
+                          .car = &inputs.value().car,
+                          .harm = &inputs.value().harm,
+                          .intent = &inputs.value().intent,
+                          .atlas = atlas.value() ? &*atlas.value() : nullptr,
+                          .danger = danger.value() ? &*danger.value() : nullptr,
+                          .pace = pace,
+                          .costs = costs.value(),
+                          .model = model.value().get(),
+                          .memory = memory.value().get(),
+                          .learns = !options.no_learning,
+                          .forced = forced.value(),
+                          .seed = options.seed,
+                          .tapes = !options.tape.empty(),
+                          .clock = &clock};
   std::signal(SIGPIPE, [](int) {});  // nobody need listen for the encounter to be played
   Story story(options.as_json ? std::nullopt : std::optional(STDOUT_FILENO),
               isatty(STDOUT_FILENO) != 0);
@@ -250,6 +267,10 @@ void add_run(CLI::App& line, int& exit_code) {
       ->add_option("--policy", options->policy,
                    "Carry out this policy (0-7) at the trigger, whatever was thought")
       ->check(CLI::Range(0, 7));
+  command
+      ->add_option("--strength", options->strength,
+                   "Of policy 0: share of the grip that the brakes are asked for (default: all)")
+      ->check(within(manoeuvre::least_strength, 1.0));
   command->add_option("--seed", options->seed,
                       "Draw what is left to chance (default: as the scenario is written)");
   command->add_option("--atlas", options->atlas,

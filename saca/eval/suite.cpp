@@ -84,22 +84,6 @@ std::optional<DriverRow> driver_of(const sim::Scenario& scenario, const Comparis
 
 // --- lines of a journal
 
-json json_of(const Plan& plan) {
-  json out = json::array({manoeuvre::index(plan.policy)});
-  if (plan.target_speed) {
-    out.push_back(*plan.target_speed);
-  }
-  return out;
-}
-
-Plan plan_from(const json& in) {
-  Plan plan{.policy = manoeuvre::policy_from(in.at(0).get<int>()).value(), .target_speed = {}};
-  if (in.size() > 1) {
-    plan.target_speed = in.at(1).get<double>();
-  }
-  return plan;
-}
-
 template <class T>
 json json_of(const std::optional<T>& value) {
   return value ? json(*value) : json();
@@ -108,6 +92,24 @@ json json_of(const std::optional<T>& value) {
 template <class T>
 std::optional<T> optional_from(const json& in) {
   return in.is_null() ? std::nullopt : std::optional(in.get<T>());
+}
+
+json json_of(const Plan& plan) {
+  json out = json::array({manoeuvre::index(plan.policy)});
+  if (plan.target_speed || plan.strength) {
+    out.push_back(json_of(plan.target_speed));
+    out.push_back(json_of(plan.strength));
+  }
+  return out;
+}
+
+Plan plan_from(const json& in) {
+  Plan plan{.policy = manoeuvre::policy_from(in.at(0).get<int>()).value(), .target_speed = {}};
+  if (in.size() > 1) {
+    plan.target_speed = optional_from<double>(in.at(1));
+    plan.strength = optional_from<double>(in.at(2));
+  }
+  return plan;
 }
 
 json json_of(const loop::ThinkingFigures& one) {

@@ -62,6 +62,10 @@ void write_comparisons(config::Hdf5Writer& writer, const std::string& group,
     });
     of_run("switches", [](const MethodRun& run) { return static_cast<double>(run.switches); });
   }
+    of_run("strength", [](const MethodRun& run) {
+      return run.plan && manoeuvre::takes_strength(run.plan->policy) ? strength_of(*run.plan)
+                                                                     : missing;
+    });
 }
 
 }  // namespace

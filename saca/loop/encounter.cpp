@@ -93,8 +93,7 @@ runtime::PlanesSetup Encounter::planes_setup(const Setup& setup) {
           .model = setup.model,
           .memory = setup.memory,
           .guard = setup.guard,
-          .forced = setup.forced ? std::optional(manoeuvre::Plan{*setup.forced, std::nullopt})
-                                 : std::nullopt,  // its target speed is set at the trigger
+          .forced = setup.forced,  // a target speed is set at the trigger
           .clock = setup.clock,
           .tape_size = setup.tapes ? num_looks(*setup.scenario) *
                                          runtime::Tape::step_size(setup.scenario->actors.size())
@@ -209,7 +208,8 @@ void Encounter::note_verdicts(const decide::Reflex& reflex) {
 void Encounter::execute(const preview::Threat& threat) {
   const Scene& scene = loop_.seen();
   decide::Decision decision = *planes_.decision();
-  if (decision.source == decide::Source::forced) {
+  if (decision.source == decide::Source::forced &&
+      manoeuvre::brakes_to_speed(decision.plan.policy)) {
     decision.plan = manoeuvre::default_plan(decision.plan.policy, norm(scene.ego.v_B));
   }
   const manoeuvre::Plan wanted = decision.plan;

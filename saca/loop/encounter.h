@@ -44,10 +44,11 @@ struct Setup {
   memory::Store* memory = nullptr;         ///< nullptr: without
   bool learns = true;                      ///< what happened is added to memory in the end
   decide::Guard guard = decide::Guard::never_worse_than_braking;
-  std::optional<manoeuvre::PolicyId> forced;  ///< carried out at the trigger, whatever was thought
-  std::optional<std::uint64_t> seed;          ///< of what is left to chance; nullopt: nothing is
-  bool tapes = false;                         ///< `Record::tape` is wanted
-  Clock* clock = nullptr;                     ///< real time
+  std::optional<manoeuvre::Plan> forced;  ///< carried out at the trigger, whatever was thought; 3
+                                          ///< and 4 brake to half of the speed then
+  std::optional<std::uint64_t> seed;      ///< of what is left to chance; nullopt: nothing is
+  bool tapes = false;                     ///< `Record::tape` is wanted
+  Clock* clock = nullptr;                 ///< real time
 };
 
 enum class Phase : std::uint8_t { recorded, driving, manoeuvre };

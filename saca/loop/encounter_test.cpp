@@ -32,7 +32,7 @@ reason::ScriptedReply says(PolicyId policy) {
 class EncounterTest : public testing::Test {
  protected:
   Result<Record> play(const sim::Scenario& scenario, reason::LanguageModel* model = nullptr,
-                      memory::Store* memory = nullptr, std::optional<PolicyId> forced = {}) {
+                      memory::Store* memory = nullptr, std::optional<manoeuvre::Plan> forced = {}) {
     return run({.scenario = &scenario,
                 .car = &car_,
                 .harm = &harm_,
@@ -59,7 +59,7 @@ class EncounterTest : public testing::Test {
 
 TEST_F(EncounterTest, AskedToBrakeItBrakesAtT1) {
   const auto scenario = wreck_on_wet_road();
-  const auto played = play(scenario, nullptr, nullptr, PolicyId::aeb);
+  const auto played = play(scenario, nullptr, nullptr, manoeuvre::Plan{PolicyId::aeb, {}});
   ASSERT_TRUE(played.has_value()) << played.error().message;
   const Record& record = played.value();
   ASSERT_TRUE(record.decision.has_value());
@@ -71,6 +71,16 @@ TEST_F(EncounterTest, AskedToBrakeItBrakesAtT1) {
   EXPECT_TRUE(has(record, EventKind::contact));
   // 20^2 - 2 * 4.9 * 26 m is left of v^2: about 12 m/s, more for the brakes' delay.
   EXPECT_NEAR(record.result.contact->relative_speed, 12.7, 0.8);
+}
+
+// Half of the grip of 0.5 is 2.45 m/s2: 20^2 - 2 * 2.45 * 26 m is left of v^2.
+TEST_F(EncounterTest, AskedToBrakeByAStrengthItDoes) {
+  const auto scenario = wreck_on_wet_road();
+  const manoeuvre::Plan half{PolicyId::aeb, {}, 0.5};
+  const Record record = play(scenario, nullptr, nullptr, half).value();
+  EXPECT_EQ(record.decision->plan, half);
+  ASSERT_TRUE(record.result.contact.has_value());
+  EXPECT_NEAR(record.result.contact->relative_speed, 16.7, 0.6);
 }
 
 // Braking hits the wreck, and the lanes beside are free.
@@ -296,7 +306,8 @@ TEST_F(EncounterTest, AMemoryThatVanishesOrIsHeldIsToldAndNotWaitedFor) {
 TEST_F(EncounterTest, TheUserCanAskForAPolicy) {
   reason::ScriptedModel model(says(PolicyId::aes_left), clock_);
   const auto scenario = wreck_on_wet_road();
-  const Record record = play(scenario, &model, nullptr, PolicyId::es_b_right).value();
+  const Record record =
+      play(scenario, &model, nullptr, manoeuvre::Plan{PolicyId::es_b_right, {}}).value();
   EXPECT_EQ(record.decision->plan.policy, PolicyId::es_b_right);
   EXPECT_EQ(record.decision->source, Source::forced);
   EXPECT_TRUE(record.decision->plan.target_speed.has_value());
@@ -305,7 +316,8 @@ TEST_F(EncounterTest, TheUserCanAskForAPolicy) {
 TEST_F(EncounterTest, WhatCannotBeDrivenBecomesBraking) {
   auto scenario = wreck_on_wet_road();
   scenario.grip = 0.15;
-  const Record record = play(scenario, nullptr, nullptr, PolicyId::t_drift_left).value();
+  const Record record =
+      play(scenario, nullptr, nullptr, manoeuvre::Plan{PolicyId::t_drift_left, {}}).value();
   EXPECT_EQ(record.decision->plan.policy, PolicyId::aeb);
   EXPECT_EQ(record.decision->source, Source::fallback);
   EXPECT_TRUE(has(record, EventKind::fault));
@@ -422,7 +434,8 @@ TEST_F(EncounterTest, BeingHitFromBehindCounts) {
   std::get<sim::EgoStart>(scenario.ego).speed = 18.0;
   scenario.actors.push_back(following(5.0));
   std::get<sim::Script>(scenario.actors[1].motion).speed = 18.0;
-  const Record braked = play(scenario, nullptr, nullptr, PolicyId::aeb).value();
+  const Record braked =
+      play(scenario, nullptr, nullptr, manoeuvre::Plan{PolicyId::aeb, {}}).value();
   ASSERT_TRUE(braked.result.contact.has_value());
   EXPECT_EQ(braked.result.contact->ego_face, outcome::Face::rear);
   const outcome::Outcome& foreseen =
@@ -430,7 +443,8 @@ TEST_F(EncounterTest, BeingHitFromBehindCounts) {
   EXPECT_NEAR(foreseen.contact->time, braked.result.contact->time, 0.05);
   EXPECT_NEAR(foreseen.contact->relative_speed, braked.result.contact->relative_speed, 0.2);
   EXPECT_NE(*braked.best, PolicyId::aeb);
-  const Record swerved = play(scenario, nullptr, nullptr, *braked.best).value();
+  const Record swerved =
+      play(scenario, nullptr, nullptr, manoeuvre::Plan{*braked.best, {}}).value();
   EXPECT_LT(swerved.result.harm, braked.result.harm);
 }
 
@@ -440,7 +454,8 @@ TEST_F(EncounterTest, SacaActsOnWhatItPerceivesAndIsJudgedByTheTruth) {
   scenario.actors[0].ghost = true;
   scenario.actors[0].existence = 0.8;
   scenario.perception.grip_believed = 0.7;
-  const Record record = play(scenario, nullptr, nullptr, PolicyId::aeb).value();
+  const Record record =
+      play(scenario, nullptr, nullptr, manoeuvre::Plan{PolicyId::aeb, {}}).value();
   ASSERT_TRUE(record.decision.has_value());
   EXPECT_TRUE(record.at_trigger->actors.empty());
   EXPECT_FALSE(record.result.contact.has_value());

@@ -99,6 +99,7 @@ json facts_json(const preview::PolicyFacts& facts, const world::Scene& scene) {
   return {{"policy", manoeuvre::index(facts.plan.policy)},
           {"name", name(facts.plan.policy)},
           {"target_speed_mps", number_or_null(facts.plan.target_speed)},
+          {"strength", number_or_null(facts.plan.strength)},
           {"refusal", driven ? json(nullptr) : json(facts.refusal)},
           {"text", driven ? outcome::describe(facts.outcome, scene) : facts.refusal},
           {"contact", driven ? first_contact_json(facts.outcome, actors_of(scene)) : json(nullptr)},

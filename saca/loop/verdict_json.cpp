@@ -83,7 +83,8 @@ json hypothetical_motion_json(const HypotheticalMotion& motion) {
 json plan_json(const manoeuvre::Plan& plan) {
   return {{"policy", manoeuvre::index(plan.policy)},
           {"name", name(plan.policy)},
-          {"target_speed_mps", plan.target_speed ? json(*plan.target_speed) : json(nullptr)}};
+          {"target_speed_mps", plan.target_speed ? json(*plan.target_speed) : json(nullptr)},
+          {"strength", plan.strength ? json(*plan.strength) : json(nullptr)}};
 }
 
 json verdict_json(const decide::Verdict& verdict, const std::optional<manoeuvre::Plan>& under_way) {

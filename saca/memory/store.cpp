@@ -18,7 +18,8 @@ namespace saca::memory {
 namespace {
 
 constexpr std::int64_t application_id = 0x53414341;  // "SACA"
-constexpr std::int64_t version = 1;
+constexpr std::int64_t version = 2;
+constexpr std::int64_t version_without_strengths = 1;
 
 // synchronous = EXTRA: with FULL, a power cut just after a commit may bring back the journal and
 // with it the state before. A rollback journal, not WAL: one file, readable where nothing may be
@@ -38,22 +39,30 @@ constexpr const char* create =
     " collision_loss REAL NOT NULL,"
     " review TEXT NOT NULL,"
     " source TEXT NOT NULL,"
-    " scene TEXT NOT NULL"
+    " scene TEXT NOT NULL,"
+    " strength REAL"
     ") STRICT;"
     "PRAGMA application_id = 1396785985;"
-    "PRAGMA user_version = 1;";
+    "PRAGMA user_version = 2;";
+
+constexpr const char* add_strengths =
+    "ALTER TABLE cases ADD COLUMN strength REAL; PRAGMA user_version = 2;";
+// Before the table of the same name when a statement looks for one, in this connection only.
+constexpr const char* view_with_strengths =
+    "PRAGMA temp_store = MEMORY;"
+    "CREATE TEMP VIEW cases AS SELECT *, NULL AS strength FROM main.cases;";
 
 constexpr const char* insert =
     "INSERT INTO cases (policy, target_speed_mps, best_policy, harm, best_harm, collision_loss,"
-    " review, source, scene) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9)";
+    " review, source, scene, strength) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)";
 
 // In the order of `Column`.
 constexpr const char* select_after =
     "SELECT id, policy, target_speed_mps, best_policy, harm, best_harm, collision_loss, review,"
-    " source, scene FROM cases WHERE id > ?1 ORDER BY id";
+    " source, scene, strength FROM cases WHERE id > ?1 ORDER BY id";
 constexpr const char* select_one =
     "SELECT id, policy, target_speed_mps, best_policy, harm, best_harm, collision_loss, review,"
-    " source, scene FROM cases WHERE id = ?1";
+    " source, scene, strength FROM cases WHERE id = ?1";
 
 /// Also the number of its parameter in `insert`.
 enum Column : int {
@@ -67,11 +76,13 @@ enum Column : int {
   review_column,
   source_column,
   scene_column,
+  strength_column,
 };
 
 constexpr std::array all_columns{
-    id_column,        policy_column,         target_speed_column, best_policy_column, harm_column,
-    best_harm_column, collision_loss_column, review_column,       source_column,      scene_column};
+    id_column,     policy_column,    target_speed_column,   best_policy_column,
+    harm_column,   best_harm_column, collision_loss_column, review_column,
+    source_column, scene_column,     strength_column};
 
 /// Reads the columns of the row at which a statement stands; the first thing wrong is kept.
 class Row {
@@ -141,11 +152,16 @@ class Row {
   std::optional<Error> problem_;
 };
 
+bool is_strength(const manoeuvre::Plan& plan) {
+  return manoeuvre::takes_strength(plan.policy) && *plan.strength > 0.0 && *plan.strength <= 1.0;
+}
+
 Result<Case> case_at(const Statement& statement, const std::string& file) {
   Row row(statement, file);
   Case one{.id = statement.integer(id_column),
            .scene = row.scene(scene_column),
-           .plan = {row.policy(policy_column), row.optional_amount(target_speed_column)},
+           .plan = {row.policy(policy_column), row.optional_amount(target_speed_column),
+                    row.optional_amount(strength_column)},
            .best = row.policy(best_policy_column),
            .harm = row.amount(harm_column),
            .best_harm = row.amount(best_harm_column),
@@ -154,6 +170,9 @@ Result<Case> case_at(const Statement& statement, const std::string& file) {
            .source = row.text(source_column)};
   if (one.plan.target_speed && !manoeuvre::brakes_to_speed(one.plan.policy)) {
     row.reject(target_speed_column, "only policies 3 and 4 have one");
+  }
+  if (one.plan.strength && !is_strength(one.plan)) {
+    row.reject(strength_column, "only policy 0 has one, of at most 1");
   }
   if (row.problem()) {
     return *row.problem();
@@ -177,6 +196,8 @@ Gate gate(double similarity) noexcept {
 struct Store::State {
   Database database;
   std::string name;  ///< of the file, as the caller gave it
+
+  std::optional<Error> may_not_be_upgraded;  ///< why a file of the version before stays as it is
 
   FeatureIndex index;  ///< of the cases that were in the file when it was last looked at
 
@@ -202,7 +223,7 @@ struct Store::State {
     return std::nullopt;
   }
 
-  /// From now on a copy in memory is asked, which nobody may change.
+  /// From now on a copy in memory is asked.
   [[nodiscard]] std::optional<Error> move_into_memory() {
     sqlite3* opened = nullptr;
     const int code =
@@ -219,7 +240,7 @@ struct Store::State {
       return sqlite_problem(opened, name, Access::read);
     }
     database = std::move(copy);
-    return run("PRAGMA query_only = ON", Access::read);
+    return std::nullopt;
   }
 
   [[nodiscard]] std::optional<Error> run(const char* sql, Access access) const {
@@ -284,7 +305,7 @@ struct Store::State {
       return Error{Error::Code::malformed,
                    name + ": want a memory bank, got a database of another program"};
     }
-    if (found.value() != version) {
+    if (found.value() != version && found.value() != version_without_strengths) {
       return Error{Error::Code::malformed, name + ": want version " + std::to_string(version) +
                                                ", got version " + std::to_string(found.value())};
     }
@@ -296,6 +317,38 @@ struct Store::State {
       return Error{Error::Code::malformed, name + ": is damaged: " + check.text(0)};
     }
     return std::nullopt;
+  }
+
+  /// A file of the version before gets the column that it lacks; one that may only be read is read
+  /// as if it had it.
+  [[nodiscard]] std::optional<Error> learn_strengths() {
+    const auto found = integer("PRAGMA user_version");
+    if (!found.has_value() || found.value() == version) {
+      return found.has_value() ? std::nullopt : std::optional(found.error());
+    }
+    auto error = upgrade();
+    if (error && error->code == Error::Code::unwritable) {
+      may_not_be_upgraded = std::exchange(error, run(view_with_strengths, Access::read));
+    }
+    return error;
+  }
+
+  [[nodiscard]] std::optional<Error> upgrade() const {
+    if (auto error = run("BEGIN IMMEDIATE", Access::write)) {
+      return error;
+    }
+    const auto found = integer("PRAGMA user_version");  // another process may have been faster
+    auto error = found.has_value() ? std::nullopt : std::optional(found.error());
+    if (!error && found.value() != version) {
+      error = run(add_strengths, Access::write);
+    }
+    if (!error) {
+      error = run("COMMIT", Access::write);
+    }
+    if (error) {
+      (void)run("ROLLBACK", Access::write);
+    }
+    return error;
   }
 
   /// Calls `take` with each case after `last`, in order.
@@ -350,7 +403,7 @@ Result<Store> Store::open(const std::filesystem::path& path) {
   auto state = State::opened(
       path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE,
       {[](State& s) { return s.create_if_new(); }, [](State& s) { return s.wrong_kind(); },
-       [](State& s) { return s.catch_up(); }});
+       [](State& s) { return s.learn_strengths(); }, [](State& s) { return s.catch_up(); }});
   if (!state.has_value()) {
     return state.error();
   }
@@ -366,6 +419,8 @@ Result<Store> Store::snapshot(const std::filesystem::path& path) {
   auto state = State::opened(
       path, SQLITE_OPEN_READWRITE,
       {[](State& s) { return s.wrong_kind(); }, [](State& s) { return s.move_into_memory(); },
+       [](State& s) { return s.learn_strengths(); },
+       [](State& s) { return s.run("PRAGMA query_only = ON", Access::read); },
        [](State& s) { return s.catch_up(); }});
   if (!state.has_value()) {
     return state.error();
@@ -380,6 +435,11 @@ Result<CaseId> Store::add(const Case& one) {
   expects(!one.plan.target_speed ||
               (is_amount(*one.plan.target_speed) && manoeuvre::brakes_to_speed(one.plan.policy)),
           "only policies 3 and 4 have a target_speed, finite and >= 0");
+  expects(!one.plan.strength || is_strength(one.plan),
+          "only policy 0 has a strength, of at most 1");
+  if (state_->may_not_be_upgraded) {
+    return *state_->may_not_be_upgraded;
+  }
   const std::string scene = to_json(one.scene).dump();
 
   Statement statement(state_->database.get(), insert);
@@ -393,6 +453,9 @@ Result<CaseId> Store::add(const Case& one) {
       .bind(scene_column, scene);
   if (one.plan.target_speed) {
     statement.bind(target_speed_column, *one.plan.target_speed);
+  }
+  if (one.plan.strength) {
+    statement.bind(strength_column, *one.plan.strength);
   }
   if (statement.step() != SQLITE_DONE) {
     return state_->problem(Access::write);

@@ -40,7 +40,8 @@ class Store {
   /// Opens the file, or makes it where there is none. Its features are read into memory, so a
   /// damaged row is told here.
   ///
-  /// A file that may only be read is opened for reading: `add` then returns unwritable.
+  /// A file of version 1, which knows no strengths, is brought to version 2. A file that may only
+  /// be read is opened for reading: `add` then returns unwritable.
   /// @return  unreadable when it cannot be opened; malformed when it is damaged, is no memory bank,
   ///          has another version, or a row cannot be used
   [[nodiscard]] static Result<Store> open(const std::filesystem::path& path);

@@ -141,6 +141,48 @@ TEST_F(Memory, KeepsAPlanWithoutATargetSpeed) {
   EXPECT_EQ(store.find(store.add(one).value()).value().value().plan, one.plan);
 }
 
+TEST_F(Memory, KeepsAStrength) {
+  Case one = example_case(1);
+  one.plan = {.policy = manoeuvre::PolicyId::aeb, .strength = 0.45};
+  Store store = opened();
+  const std::uint64_t before = store.digest().value();
+  const CaseId id = store.add(one).value();
+  EXPECT_EQ(store.find(id).value().value().plan, one.plan);
+  const std::uint64_t with = store.digest().value();
+  EXPECT_NE(with, before);
+  shell(path_, "UPDATE cases SET strength = NULL");
+  EXPECT_NE(store.digest().value(), with);
+}
+
+/// As the program before wrote it.
+void make_version_1(const fs::path& path) {
+  shell(path, "ALTER TABLE cases DROP COLUMN strength; PRAGMA user_version = 1");
+}
+
+TEST_F(Memory, ReadsAFileOfTheVersionBeforeAndGoesOnWithIt) {
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    ASSERT_TRUE(opened().add(example_case(i)).has_value());
+  }
+  make_version_1(path_);
+  {
+    Store copy = Store::snapshot(path_).value();
+    expect_same(copy.all().value().at(3), example_case(3));
+    EXPECT_FALSE(copy.add(example_case(1)).has_value());
+  }
+  EXPECT_EQ(shell(path_, "PRAGMA user_version"), "1") << "a copy leaves the file alone";
+  Store store = opened();
+  Case gentle = example_case(4);
+  gentle.plan = {.policy = manoeuvre::PolicyId::aeb, .strength = 0.3};
+  ASSERT_TRUE(store.add(gentle).has_value());
+  const std::vector<Case> cases = opened().all().value();
+  ASSERT_EQ(cases.size(), 5U);
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    expect_same(cases[i], example_case(i));
+  }
+  expect_same(cases[4], gentle);
+  EXPECT_EQ(integrity(), "ok");
+}
+
 TEST_F(Memory, IsReadableInTheShell) {
   ASSERT_TRUE(opened().add(example_case(3)).has_value());
   EXPECT_EQ(shell(path_, "SELECT policy FROM cases"), "4");
@@ -210,9 +252,9 @@ TEST_F(Memory, RefusesADatabaseOfAnotherProgram) {
 
 TEST_F(Memory, RefusesAnUnknownVersion) {
   ASSERT_TRUE(opened().add(example_case(1)).has_value());
-  shell(path_, "PRAGMA user_version = 2");
+  shell(path_, "PRAGMA user_version = 3");
   EXPECT_EQ(error_of_opening().code, Error::Code::malformed);
-  EXPECT_THAT(error_of_opening().message, HasSubstr("want version 1, got version 2"));
+  EXPECT_THAT(error_of_opening().message, HasSubstr("want version 2, got version 3"));
 }
 
 TEST_F(Memory, RefusesAFileThatIsDamagedOrCutShort) {
@@ -262,6 +304,8 @@ TEST_F(Memory, NamesTheRowThatSomebodyEditedWrongly) {
   const std::vector<std::pair<const char*, const char*>> edits{
       {"policy = 8", "policy: want an integer from 0 to 7, got 8"},
       {"policy = -1", "policy: want"},
+      {"strength = 0.5", "strength: only policy 0 has one, of at most 1"},
+      {"policy = 0, target_speed_mps = NULL, strength = 1.5", "strength: only policy 0 has one"},
       {"policy = 0", "target_speed_mps: only policies 3 and 4 have one"},
       {"best_policy = 99", "best_policy: want"},
       {"target_speed_mps = -1.0", "target_speed_mps: want a finite number >= 0"},
@@ -379,6 +423,23 @@ TEST_F(Memory, OpensAReadOnlyFileForReading) {
     EXPECT_EQ(added.error().code, Error::Code::unwritable);
     EXPECT_THAT(added.error().message, HasSubstr("bank.db: cannot be written"));
     EXPECT_THAT(added.error().message, HasSubstr("readonly"));
+    EXPECT_EQ(store.all().value().size(), 1U);
+  }
+  fs::permissions(folder_, fs::perms(0755));
+}
+
+TEST_F(Memory, ReadsAFileOfTheVersionBeforeThatMayNotBeWritten) {
+  ASSERT_TRUE(opened().add(example_case(5)).has_value());
+  make_version_1(path_);
+  fs::permissions(path_, fs::perms(0444));
+  fs::permissions(folder_, fs::perms(0555));
+  {
+    const AsNobody nobody;
+    Store store = opened();
+    expect_same(store.nearest(example_case(5).scene).value().value().found, example_case(5));
+    const auto added = store.add(example_case(6));
+    ASSERT_FALSE(added.has_value());
+    EXPECT_EQ(added.error().code, Error::Code::unwritable);
     EXPECT_EQ(store.all().value().size(), 1U);
   }
   fs::permissions(folder_, fs::perms(0755));

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <utility>
 
+#include "saca/manoeuvre/plan.h"
 #include "saca/report/verdicts_told.h"
 
 namespace saca::report {
@@ -53,6 +54,7 @@ struct Judged {
   double harm = 0.0;
   double contact = 0.0;
   bool admissible = false;
+  bool is_braking = false;
   bool chosen = false;
 };
 
@@ -71,6 +73,7 @@ class Story {
       Judged judged{.name = plan_name(plan),
                     .policy = meaning(plan.at("name").get<std::string>()),
                     .chosen = is_same_plan(plan, decision_)};
+      judged.is_braking = plan.at("policy") == manoeuvre::index(manoeuvre::PolicyId::aeb);
       judged.drivable = !plan.at("harm").is_null();
       if (judged.drivable) {
         judged.harm = plan.at("harm").get<double>();
@@ -264,10 +267,11 @@ std::string Story::rule() const {
            "emergency braking was begun although it is not.";
   }
   if (decision_.at("name") == "AEB") {
-    return "The arbiter decided: doing nothing may end in contact, and emergency braking, being "
-           "admissible, comes before all other plans.";
+    return "The arbiter decided: doing nothing may end in contact, and braking, being admissible, "
+           "comes before all other plans; of the ways to brake it is the one of the least expected "
+           "harm, and the hardest of those that harm as little.";
   }
-  return "The arbiter decided: doing nothing may end in contact and emergency braking is not "
+  return "The arbiter decided: doing nothing may end in contact and no way to brake is "
          "admissible, so it is the mildest of the admissible plans.";
 }
 
@@ -310,9 +314,13 @@ std::string Story::why_not(const Judged& plan) const {
     return fmt::format("NI: admissible, but it may end in contact ({}), and something can be done.",
                        percent(plan.contact));
   }
-  return fmt::format("{}: admissible, but {}.", plan.name,
-                     decision_.at("name") == "AEB" ? "emergency braking comes first"
-                                                   : "it is no milder than what was chosen");
+  if (decision_.at("name") == "AEB") {
+    return fmt::format("{}: admissible, but {}.", plan.name,
+                       plan.is_braking ? "it is expected to harm more, or to harm as much and "
+                                         "brakes less hard"
+                                       : "braking comes first");
+  }
+  return fmt::format("{}: admissible, but it is no milder than what was chosen.", plan.name);
 }
 
 Story::Sentences Story::not_chosen() const {

@@ -111,7 +111,27 @@ TEST(Explanation, DoesNotCallBrakingAdmissibleWhereItIsNot) {
   other["decision"]["verdict"]["admissible_harm"] = 0.0105;
   EXPECT_THAT(told(other, about), HasSubstr("emergency braking was begun although it is not"));
   other["decision"]["verdict"]["admissible_harm"] = 0.4;
-  EXPECT_THAT(told(other, about), HasSubstr("emergency braking, being admissible,"));
+  EXPECT_THAT(told(other, about), HasSubstr("braking, being admissible,"));
+}
+
+TEST(Explanation, TellsHowHardWasBrakedAndWhyNotHarder) {
+  json other = record();
+  json& plans = other["decision"]["verdict"]["plans"];
+  json gentle = plan(0, "AEB", 0.0101, 0.0625);
+  gentle["strength"] = 0.45;
+  json middle = plan(0, "AEB", 0.0121, 0.125);
+  middle["strength"] = 0.6;
+  plans.insert(plans.begin() + 1, {gentle, middle});
+  other["decision"].update({{"policy", 0}, {"name", "AEB"}, {"strength", 0.45}});
+  EXPECT_THAT(told(other, "What was chosen, and by which rule"),
+              HasSubstr("AEB at 45 % of the grip was begun"));
+  EXPECT_THAT(told(other, "What was chosen, and by which rule"),
+              HasSubstr("the one of the least expected harm"));
+  const std::string why_not = told(other, "Why not the others");
+  EXPECT_THAT(why_not, HasSubstr("AEB: its expected harm of 0.3500 is more than"));
+  EXPECT_THAT(why_not, HasSubstr("AEB at 60 % of the grip: admissible, but it is expected to harm "
+                                 "more, or to harm as much and brakes less hard."));
+  EXPECT_THAT(why_not, HasSubstr("AES-L: admissible, but braking comes first."));
 }
 
 TEST(Explanation, TellsTheNewestBeliefBeforeTheTrigger) {

@@ -6,11 +6,25 @@
 #include <cstddef>
 #include <optional>
 
+#include "saca/manoeuvre/plan.h"
+
 namespace saca::report {
 namespace {
 
 using nlohmann::json;
 using Sentences = std::vector<std::string>;
+
+/// Of a plan, or of what else has its keys. Records that are older than strengths have none.
+manoeuvre::Plan plan_of(const json& plan) {
+  const auto number = [&](const char* key) {
+    const auto found = plan.find(key);
+    return found == plan.end() || found->is_null() ? std::nullopt
+                                                   : std::optional(found->get<double>());
+  };
+  return {manoeuvre::policy_from(plan.at("policy").get<int>())
+              .value_or(manoeuvre::PolicyId::no_intervention),
+          number("target_speed_mps"), number("strength")};
+}
 
 /// What one verdict says of a plan, and of going on with what was under way.
 struct Beside {
@@ -191,13 +205,11 @@ Sentences why_needed(const std::vector<Beside>& all, const std::string& name) {
 }  // namespace
 
 std::string plan_name(const json& plan) {
-  const json& speed = plan.at("target_speed_mps");
-  return plan.at("name").get<std::string>() +
-         (speed.is_null() ? "" : fmt::format(" to {:.1f} m/s", speed.get<double>()));
+  return manoeuvre::plan_name(plan_of(plan));
 }
 
 bool is_same_plan(const json& a, const json& b) {
-  return a.at("policy") == b.at("policy") && a.at("target_speed_mps") == b.at("target_speed_mps");
+  return plan_of(a) == plan_of(b);
 }
 
 Sentences why_then(const json& record, const json& change) {

@@ -10,10 +10,10 @@ namespace saca::report {
 // stands in the record and is only rounded. Throws nlohmann::json::exception where a key is
 // missing.
 
-/// The name of a plan of a record, with the speed that it brakes to.
+/// The name of a plan of a record, with the speed that it brakes to, or how hard it brakes.
 [[nodiscard]] std::string plan_name(const nlohmann::json& plan);
 
-/// Is it the same plan, to the same speed?
+/// Is it the same plan, to the same speed, as hard?
 [[nodiscard]] bool is_same_plan(const nlohmann::json& a, const nlohmann::json& b);
 
 /// Why a switch came when it did: from which verdict on the other plan was expected to harm less

@@ -55,7 +55,7 @@ void read_list(JsonReader& from, std::string_view key, StaticVector<T, capacity>
 manoeuvre::Plan read_plan(JsonReader from) {
   const manoeuvre::Plan plan{
       static_cast<manoeuvre::PolicyId>(from.integer("policy", manoeuvre::num_policies - 1)),
-      read_number(from, "target_speed_mps")};
+      read_number(from, "target_speed_mps"), read_number(from, "strength")};
   from.refuse_others();
   return plan;
 }

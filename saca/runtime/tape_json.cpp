@@ -28,7 +28,8 @@ json list_json(const List& list, Json&& json_of) {
 
 json plan_json(const manoeuvre::Plan& plan) {
   return {{"policy", manoeuvre::index(plan.policy)},
-          {"target_speed_mps", or_null(plan.target_speed, itself)}};
+          {"target_speed_mps", or_null(plan.target_speed, itself)},
+          {"strength", or_null(plan.strength, itself)}};
 }
 
 json judged_json(const decide::JudgedPlan& one) {

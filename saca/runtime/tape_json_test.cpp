@@ -63,7 +63,7 @@ TEST(TapeJson, AVerdictHasTheHarmOfEachPlan) {
   EXPECT_EQ(verdict_json(verdict),
             json::parse(R"({"t_s": 1.5, "under_way": null, "plans": [{"drivable": true,
               "harm": 0.3333333333333333, "contact": 0.25,
-              "plan": {"policy": 3, "target_speed_mps": 7.5}}]})"));
+              "plan": {"policy": 3, "target_speed_mps": 7.5, "strength": null}}]})"));
 }
 
 }  // namespace

@@ -157,7 +157,7 @@ def test_a_drift_on_a_slippery_road_is_refused_and_it_brakes(scenario, tmp_path)
 
 @pytest.mark.parametrize("arguments", [
     [], ["run"], ["fly"], ["run", "x", "--pace", "warp"], ["run", "x", "--policy", "9"],
-    ["run", "x", "--policy", "left"], ["memory"], ["import", "100car"], ["import", "commonroad", "x.xml"], ["bench", "luck"],
+    ["run", "x", "--policy", "0", "--strength", "0.1"], ["run", "x", "--policy", "left"], ["memory"], ["import", "100car"], ["import", "commonroad", "x.xml"], ["bench", "luck"],
     ["run", "x", "--no-such-flag"], ["vehicle"], ["vehicle", "fit"], ["vehicle", "fit", "x.csv"],
     ["vehicle", "test-drive", "fly", "--output", "x"], ["vehicle", "test-drive", "brake"],
     ["vehicle", "fit", "x.csv", "--car", "compact_rwd_ev", "--output", "y", "--grip", "9"]])

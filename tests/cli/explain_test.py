@@ -44,6 +44,8 @@ def could_be_told(record):
         plans = [plan for plan in verdict["plans"] + [verdict["under_way"]] if plan and plan["harm"] is not None]
         numbers += [verdict["t_s"]] + numbers_of([[plan["harm"], plan["target_speed_mps"]] for plan in plans])
         shares += [plan["contact"] for plan in plans]
+    plans = [*record["decision"]["verdict"]["plans"], record["decision"], *record["switches"]]
+    shares += [plan["strength"] for plan in plans if plan["strength"] is not None]
     return numbers + [100 * share for share in shares]
 
 

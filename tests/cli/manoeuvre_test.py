@@ -52,7 +52,7 @@ def test_a_drift_is_told_in_figures_and_shown(tmp_path):
 def test_the_record_is_physical(tmp_path):
     record = json.loads(saca("drive", "--policy", 4, "--speed", 17, "--grip", 0.6, "--target-speed", 8, "--json",
                              cwd=tmp_path).stdout)
-    assert record["policy"] == {"id": 4, "name": "ES-B-R", "target_speed_mps": 8}
+    assert record["policy"] == {"id": 4, "name": "ES-B-R", "target_speed_mps": 8, "strength": None}
     weight = record["car"]["mass_kg"] * 9.80665
     for i, _ in enumerate(record["time_s"]):
         assert sum(wheel["load_N"][i] for wheel in record["wheels"]) == pytest.approx(weight, rel=1e-9)
@@ -60,6 +60,18 @@ def test_the_record_is_physical(tmp_path):
             force = (wheel["F_x_N"][i] ** 2 + wheel["F_y_N"][i] ** 2) ** 0.5
             assert force <= wheel["peak_N"][i] * (1 + 1e-9)
     assert record["end"]["speed_mps"] == pytest.approx(8, abs=1)
+
+
+def test_braking_with_half_of_the_grip_takes_twice_the_way_less_the_build_up(tmp_path):
+    def stop(*more):
+        return json.loads(saca("drive", "--policy", 0, "--speed", 14, "--grip", 0.8, *more, "--json", cwd=tmp_path).stdout)
+
+    half, full = stop("--strength", 0.5), stop()
+    assert half["policy"] == {"id": 0, "name": "AEB", "target_speed_mps": None, "strength": 0.5}
+    assert full["policy"]["strength"] is None and "--strength 0.5" in half["command"]
+    build_up = 14 * 0.15  # [m], of both; at most
+    assert 2 * (full["end"]["forward_m"] - build_up) < half["end"]["forward_m"] < 2 * full["end"]["forward_m"]
+    assert stop("--strength", 1)["end"] == full["end"]
 
 
 def test_same_seed_same_bytes_on_any_threads(tmp_path):
@@ -72,6 +84,8 @@ def test_same_seed_same_bytes_on_any_threads(tmp_path):
 
 @pytest.mark.parametrize("arguments, words", [
     (["--policy", 6, "--speed", 3], "T-D-R needs a speed of .* m/s ahead, is 3.00"),
+    (["--policy", 0, "--strength", 0.1], "strength must be 0.2 to 1, is 0.100"),
+    (["--policy", 1, "--strength", 0.5], "AES-L takes no strength"),
     (["--policy", 1, "--grip", 0.1], "AES-L needs a grip of 0.2 to 1.0, is 0.100"),
     (["--policy", 1, "--target-speed", 3], "AES-L takes no target speed"),
     (["--policy", 0, "--car", "batmobile"], "batmobile: cannot be read|batmobile.*No such file"),

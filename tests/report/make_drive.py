@@ -98,7 +98,7 @@ def drive(policy, name, motion, grip, state="at rest", samples=None, bend=0.0):
                                      steering(motion, t - 0.05), steering(motion, t), 0.9 * motor, motor]):
             rows[key].append(round(value, 6))
     return {"schema": "saca.drive/1", "program": "saca 0.0.0", "command": f"SYNTHETIC TEST DATA, policy {policy}", "car": CAR,
-            "policy": {"id": policy, "name": name, "target_speed_mps": None}, "road": {"lane_width_m": 3.5, "curvature_1pm": bend, "grip": grip},
+            "policy": {"id": policy, "name": name, "target_speed_mps": None, "strength": None}, "road": {"lane_width_m": 3.5, "curvature_1pm": bend, "grip": grip},
             "start": {"speed_mps": motion.speed},
             "end": {"state": state, "time_s": times[-1], "forward_m": rows["x_m"][-1], "sideways_m": rows["y_m"][-1], "heading_deg": rows["heading_deg"][-1],
                     "speed_mps": math.hypot(rows["v_x_mps"][-1], rows["v_y_mps"][-1])},

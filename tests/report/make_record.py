@@ -209,7 +209,7 @@ def facts_of(rows, speed):
             f"contact with {contact['with']} at {contact['relative_speed_mps']:.1f} m/s, {contact['ego_face']}" if contact
             else "nobody near" if row["clearance_m"] is None else f"clear by {row['clearance_m']:.1f} m")
         facts.append({**{k: v for k, v in row.items() if k != "path"}, "text": text,
-                      "target_speed_mps": speed / 2 if row["policy"] in (3, 4) else None})
+                      "target_speed_mps": speed / 2 if row["policy"] in (3, 4) else None, "strength": None})
     return facts
 
 
@@ -253,7 +253,7 @@ def preview(index, encounter, s, trigger, ready, policy, share, gate):
                         {"t_s": ready - 0.2, "kind": "forced" if index else "ended", "probability": chances(policy, 9.0)}]
                        if asked else [],
             "check": {"passed": True, "text": f"test data: rollout of {NAMES[policy]} is no worse than AEB"} if gate != "cache" else None,
-            "plan": {"policy": policy, "target_speed_mps": encounter.speed / 2 if policy in (3, 4) else None}}
+            "plan": {"policy": policy, "target_speed_mps": encounter.speed / 2 if policy in (3, 4) else None, "strength": None}}
 
 
 def drive(encounter, policy):
@@ -353,7 +353,7 @@ def played(name, title, encounter, policy, model, gates, driver):
             "frames": frames, "intentions": intentions_of(encounter, frames), "events": events_of(t2, trigger, previews, result, frames[-1]["t_s"], model != "off"),
             "previews": previews,
             "decision": {"policy": policy, "name": NAMES[policy],
-                         "target_speed_mps": encounter.speed / 2 if policy in (3, 4) else None, "source": source,
+                         "target_speed_mps": encounter.speed / 2 if policy in (3, 4) else None, "strength": None, "source": source,
                          "similarity": 0.96 if gates else None, "preview": 0 if gates else None, "time_s": trigger,
                          "text": "Test data: the first preview matched the scene at the trigger and its plan was carried out." if gates
                                  else "Test data: no preview was ready, so the rule-based fallback was carried out."},

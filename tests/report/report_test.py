@@ -119,19 +119,20 @@ def test_the_header_gives_decision_contact_harm_and_best(show):
 def test_the_decision_shows_what_was_expected_of_every_plan_and_what_began_later(show):
     record = copy.deepcopy(RECORDS["contact"])
     decision = record["decision"]
-    plan = {"policy": decision["policy"], "name": decision["name"], "target_speed_mps": decision["target_speed_mps"]}
+    plan = {"policy": decision["policy"], "name": decision["name"], "target_speed_mps": decision["target_speed_mps"], "strength": decision["strength"]}
     decision["verdict"] = {"t_s": 1.0, "admissible_harm": 0.013, "plans": [
         {"policy": 7, "name": "NI", "target_speed_mps": None, "harm": 0.4, "contact": 0.75},
         {**plan, "harm": 0.01, "contact": 0.125},
         {"policy": 5, "name": "T-D-L", "target_speed_mps": None, "harm": None, "contact": None}]}
-    record["switches"] = [{"t_s": 2.5, "policy": 0, "name": "AEB", "reason": "better by far", "text": "<b>going on</b> harms more"}]
+    record["switches"] = [{"t_s": 2.5, "policy": 0, "name": "AEB", "target_speed_mps": None, "strength": 0.45, "reason": "better by far",
+                           "text": "<b>going on</b> harms more"}]
     page = show(record)
     rows = page.run("[...document.querySelectorAll('#decision tbody tr')].map((row) => [row.className, row.textContent])")
     assert [kind for kind, _ in rows] == ["chosen", "", "refused"]  # the least harmful first
     assert "admissible" in rows[0][1] and "carried out" in rows[0][1] and "0.0100" in rows[0][1]
     assert "admissible" not in rows[1][1] and "75" in rows[1][1] and "cannot be driven" in rows[2][1]
     text = page.run("document.querySelector('#decision').textContent")
-    assert "0 AEB" in text and "better by far: <b>going on</b>" in text  # text, not markup
+    assert "0 AEB at 45 % of the grip" in text and "better by far: <b>going on</b>" in text  # text, not markup
 
 
 def test_hindsight_lists_all_eight_with_reasons_for_the_refused(show):
