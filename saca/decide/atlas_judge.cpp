@@ -6,7 +6,6 @@
 #include "saca/manoeuvre/drive.h"
 #include "saca/outcome/atlas_way.h"
 #include "saca/outcome/futures.h"
-#include "saca/preview/policy_facts.h"
 #include "saca/world/time_to_conflict.h"
 
 namespace saca::decide {
@@ -36,8 +35,8 @@ void write_going_on(const world::Actor& actor, double start, Track& track) {
 }  // namespace
 
 AtlasJudge::AtlasJudge(const manoeuvre::Car& car, const manoeuvre::Atlas& atlas,
-                       const outcome::HarmModel& harm)
-    : car_(&car), atlas_(atlas), harm_(&harm), tracks_(world::max_actors) {
+                       const outcome::HarmModel& harm, preview::Braking braking)
+    : car_(&car), atlas_(atlas), harm_(&harm), braking_(braking), tracks_(world::max_actors) {
   X_WB_.X_WA.reserve(room);
   for (Track& track : tracks_) {
     track.X_WA.reserve(room);
@@ -71,11 +70,12 @@ std::optional<Verdict> AtlasJudge::judge(const Scene& scene) noexcept {
   const preview::Followers followers = preview::followers_of(scene);
   const Scene known = preview::with_kept_gaps(scene, followers);
   Verdict verdict{.time = scene.time};
-  for (const Plan& plan : preview::all_plans(scene.ego.v_B.x)) {
+  for (const Plan& plan : preview::all_plans(scene.ego.v_B.x, braking_)) {
     if (const auto one = judged(plan, known, followers)) {
       verdict.plans.push_back(*one);
     }
   }
+  spread_over_strengths(verdict);
   return find_plan(verdict, manoeuvre::full_braking) == nullptr ? std::nullopt
                                                                 : std::optional(verdict);
 }

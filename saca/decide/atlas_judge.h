@@ -9,6 +9,7 @@
 #include "saca/manoeuvre/plan.h"
 #include "saca/outcome/harm.h"
 #include "saca/preview/followers.h"
+#include "saca/preview/policy_facts.h"
 #include "saca/world/scene.h"
 #include "saca/world/track.h"
 
@@ -21,7 +22,8 @@ class AtlasJudge {
  public:
   /// Refers to `car` and `harm`.
   AtlasJudge(const manoeuvre::Car& car, const manoeuvre::Atlas& atlas,
-             const outcome::HarmModel& harm);
+             const outcome::HarmModel& harm,
+             preview::Braking braking = preview::Braking::any_strength);
   AtlasJudge(AtlasJudge&&) = default;
   AtlasJudge& operator=(AtlasJudge&&) = default;
   AtlasJudge(const AtlasJudge&) = delete;  // a copy would not have the room
@@ -41,6 +43,7 @@ class AtlasJudge {
   const manoeuvre::Car* car_;
   manoeuvre::Atlas atlas_;
   const outcome::HarmModel* harm_;
+  preview::Braking braking_;
   world::Track X_WB_;
   std::vector<world::Track> tracks_;  ///< max_actors of them
 };

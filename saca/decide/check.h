@@ -18,7 +18,8 @@ struct Check {
 /// The rollout check: the plan and emergency braking are driven with full dynamics and held against
 /// the same draws of where the others may be (preview::drawn_motions of the situation), with
 /// everything that follows a contact; whatever was forecast before. As with the facts and the
-/// verdict, expected harm decides: whether one future is missed by a centimetre does not.
+/// verdict, expected harm decides: whether one future is missed by a centimetre does not. Braking
+/// itself always passes: how hard is decided at the trigger.
 [[nodiscard]] Check check(const manoeuvre::Plan& plan, const preview::Situation& situation,
                           const preview::ForecastTools& tools);
 

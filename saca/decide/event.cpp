@@ -21,7 +21,7 @@ std::string told(const Verdict& verdict, const manoeuvre::Plan& plan) {
   std::string text;
   for (const manoeuvre::Plan& one : {plan, manoeuvre::full_braking}) {
     const JudgedPlan* const judged = find_plan(verdict, one);
-    if (judged != nullptr && (text.empty() || one.policy != plan.policy)) {
+    if (judged != nullptr && (text.empty() || one != plan)) {
       text += fmt::format("{}{} {:.4f}", text.empty() ? "" : ", ", plan_text(one), judged->harm);
     }
   }
@@ -88,6 +88,7 @@ std::string switch_text(const Switch& change) {
                          change.harm_before, plan_text(change.plan), change.harm);
     case SwitchReason::no_longer_needed:
       return "nobody is in the way any more: lane and speed are kept";
+    case SwitchReason::harder_needed:
     case SwitchReason::better_by_far:
       break;
   }

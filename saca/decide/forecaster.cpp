@@ -51,6 +51,20 @@ EgoMotion rest_of(const UnderWay& under_way, const Scene& scene, const manoeuvre
   return rest;
 }
 
+/// `plan`, the next gentler way to brake, and all that are harder; of full braking that alone.
+preview::Plans not_much_gentler(const manoeuvre::Plan& plan, double speed) {
+  preview::Plans braking;
+  bool is_next = strength_of(plan) < 1.0;
+  for (const manoeuvre::Plan& one : preview::all_plans(speed)) {  // hardest first
+    const bool gentler = strength_of(one) < strength_of(plan);
+    if (one.policy == plan.policy && (!gentler || is_next)) {
+      braking.push_back(one);
+      is_next = is_next && !gentler;
+    }
+  }
+  return braking;
+}
+
 JudgedPlan judged(const preview::ExpectedHarm& one) {
   return {
       .plan = one.plan, .drivable = one.refusal.empty(), .harm = one.harm, .contact = one.contact};
@@ -80,15 +94,18 @@ Verdict Forecaster::judge(const Scene& scene, const intent::Beliefs& beliefs,
     }
   };
   if (under_way && under_way->plan.policy == manoeuvre::PolicyId::aeb) {
-    judge_plans({&manoeuvre::full_braking, 1});
-    if (verdict.plans[0].harm < material_harm) {
+    const preview::Plans braking = not_much_gentler(under_way->plan, scene.ego.v_B.x);
+    judge_plans({braking.begin(), braking.size()});
+    spread_over_strengths(verdict);
+    if (find_plan(verdict, under_way->plan)->harm < material_harm) {
       judge_plans({&manoeuvre::doing_nothing, 1});
       return verdict;
     }
     verdict.plans.clear();
   }
-  const preview::Plans plans = preview::all_plans(scene.ego.v_B.x);
+  const preview::Plans plans = preview::all_plans(scene.ego.v_B.x, tools_.braking);
   judge_plans({plans.begin(), plans.size()});
+  spread_over_strengths(verdict);
   if (under_way && has_past(under_way->plan)) {
     preview::ExpectedHarm rest =
         preview::expected_harm(rest_of(*under_way, scene, *tools_.car), scene, motions, tools_);

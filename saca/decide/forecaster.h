@@ -15,8 +15,8 @@
 
 namespace saca::decide {
 
-/// Does it matter for the rest of a plan when and where it began? Of braking and of doing nothing,
-/// what is left is what begins now.
+/// Does it matter for the rest of a plan when and where it began? Of braking, however hard, and of
+/// doing nothing, what is left is what begins now.
 [[nodiscard]] constexpr bool has_past(const manoeuvre::Plan& plan) {
   return plan.policy != manoeuvre::PolicyId::aeb &&
          plan.policy != manoeuvre::PolicyId::no_intervention;
@@ -61,9 +61,10 @@ class Forecaster {
   /// @param scene      breaks no rule of world::broken_rule
   /// @param beliefs    one per actor
   /// @param under_way  judged from where it is: the rest of the way that was meant when it began,
-  ///                   from the present place and direction back onto it. While it is emergency
-  ///                   braking that harms less than `material_harm`, nothing is better by so much:
-  ///                   then the verdict has only that and doing nothing
+  ///                   from the present place and direction back onto it. While it is braking
+  ///                   that harms less than `material_harm`, nothing is better by so much: then the
+  ///                   verdict has only that, harder braking and the next gentler, and doing
+  ///                   nothing
   /// @throws ContractViolation  if beliefs and actors differ in number
   [[nodiscard]] Verdict judge(const world::Scene& scene, const intent::Beliefs& beliefs,
                               const std::optional<UnderWay>& under_way = std::nullopt) const;

@@ -40,6 +40,14 @@ class ForecasterTest : public ::testing::Test {
     return scene;
   }
 
+  static UnderWay braking_in(const Scene& scene, const manoeuvre::Plan& plan) {
+    return {.plan = plan,
+            .begun = scene.time - 0.2,
+            .ego = scene.ego,
+            .road = scene.road,
+            .grip = scene.grip};
+  }
+
   manoeuvre::Car car_ = manoeuvre::default_car();
   outcome::HarmModel harm_ = outcome::read_harm("data/harm.toml").value();
   Forecaster forecaster_{{.car = &car_, .harm = &harm_}};
@@ -47,7 +55,7 @@ class ForecasterTest : public ::testing::Test {
 
 TEST_F(ForecasterTest, AnEmptyRoadNeedsNothing) {
   const Verdict verdict = judge(road());
-  EXPECT_EQ(verdict.plans.size(), 14U);
+  EXPECT_EQ(verdict.plans.size(), 18U);  // eight policies, 2 x 3 more speeds, 4 more strengths
   EXPECT_EQ(of(verdict, PolicyId::no_intervention).contact, 0.0);
   EXPECT_EQ(plan_of(verdict).policy, PolicyId::no_intervention);
   EXPECT_EQ(verdict.under_way.has_value(), false);
@@ -109,14 +117,7 @@ TEST_F(ForecasterTest, JudgesTheRestOfWhatIsUnderWay) {
 TEST_F(ForecasterTest, WhileBrakingDoesLittleHarmOnlyDoingNothingIsJudgedBesideIt) {
   Scene far = road();
   far.actors.push_back(test::car(1, {60.0, 0.0}));
-  const auto braking = [](const Scene& scene) {
-    return UnderWay{.plan = manoeuvre::full_braking,
-                    .begun = scene.time - 0.2,
-                    .ego = scene.ego,
-                    .road = scene.road,
-                    .grip = scene.grip};
-  };
-  const Verdict some = judge(far, braking(far));
+  const Verdict some = judge(far, braking_in(far, manoeuvre::full_braking));
   const Verdict all = judge(far);
   ASSERT_EQ(some.plans.size(), 2U);
   for (const PolicyId policy : {PolicyId::aeb, PolicyId::no_intervention}) {
@@ -127,7 +128,49 @@ TEST_F(ForecasterTest, WhileBrakingDoesLittleHarmOnlyDoingNothingIsJudgedBesideI
   // Braking into the wreck does harm: everything is judged.
   const Scene near = wreck_ahead();
   ASSERT_GE(of(judge(near), PolicyId::aeb).harm, material_harm);
-  EXPECT_EQ(judge(near, braking(near)).plans.size(), 14U);
+  EXPECT_EQ(judge(near, braking_in(near, manoeuvre::full_braking)).plans.size(), 18U);
+}
+
+// What may take its place at once, harder braking, is told with it, and as without a plan under
+// way; so is the next gentler one, which its own harm depends on.
+TEST_F(ForecasterTest, WhileGentleBrakingDoesLittleHarmHarderBrakingIsJudgedBesideIt) {
+  const manoeuvre::Plan gentle{.policy = PolicyId::aeb, .strength = 0.6};
+  Scene far = road();
+  far.actors.push_back(test::car(1, {80.0, 0.0}));
+  far.actors[0].kind = world::ActorKind::obstacle;
+  ASSERT_EQ(judge(far, braking_in(far, gentle)).plans.size(), 5U) << "full, 0.8, 0.6, 0.45, none";
+  // From 15 m/s 0.6 of the grip stops within some 24 m; what is a little nearer is met slowly.
+  bool found = false;
+  for (double gap = 20.0; gap < 30.0 && !found; gap += 0.25) {
+    Scene near = far;
+    near.actors[0].X_WA.p.x = gap + 4.5;
+    const Verdict all = judge(near);
+    const double harm = find_plan(all, gentle)->harm;
+    if (harm <= 1e-4 || harm >= material_harm) {
+      continue;
+    }
+    found = true;
+    const Verdict some = judge(near, braking_in(near, gentle));
+    ASSERT_EQ(some.plans.size(), 5U);
+    for (const double strength : {1.0, 0.8, 0.6}) {
+      const manoeuvre::Plan plan{.policy = PolicyId::aeb, .strength = strength};
+      EXPECT_EQ(find_plan(some, plan)->harm, find_plan(all, plan)->harm) << strength;
+    }
+    EXPECT_EQ(best_braking(some)->plan, best_braking(all)->plan);
+  }
+  EXPECT_TRUE(found);
+}
+
+// Who follows a car length behind at the same speed needs time that full braking takes from it.
+TEST_F(ForecasterTest, WhoFollowsGainsByGentlerBraking) {
+  Scene scene = road();
+  scene.actors.push_back(test::car(1, {40.0, 0.0}));
+  scene.actors[0].kind = world::ActorKind::obstacle;
+  scene.actors.push_back(test::car(2, {-10.0, 0.0}, {15.0, 0.0}));
+  const Verdict verdict = judge(scene);
+  const manoeuvre::Plan gentle{.policy = PolicyId::aeb, .strength = 0.45};
+  EXPECT_LT(find_plan(verdict, gentle)->harm, find_plan(verdict, manoeuvre::full_braking)->harm);
+  EXPECT_LT(strength_of(best_braking(verdict)->plan), 1.0);
 }
 
 TEST_F(ForecasterTest, SameSceneSameVerdict) {

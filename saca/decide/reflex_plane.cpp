@@ -50,12 +50,15 @@ Decision ReflexPlane::decide(const Scene& scene) noexcept {
   }
   const bool matches = best != nullptr && *decision.similarity > match_similarity;
   if (matches) {
+    const Plan wanted = decision.verdict ? as_judged(*decision.verdict, best->plan)
+                        : takes_strength(best->plan.policy) ? manoeuvre::full_braking
+                                                            : best->plan;
     const bool admissible = !guarded           ? true
-                            : decision.verdict ? admits(*decision.verdict, best->plan)
+                            : decision.verdict ? admits(*decision.verdict, wanted)
                                                : !best->worse_than_aeb;
     decision.not_admissible = !admissible;
     if (admissible) {
-      decision.plan = best->plan;
+      decision.plan = wanted;
       decision.source = best->source;
     }
   }

@@ -57,10 +57,11 @@ struct ReflexTools {
 /// system call.
 ///
 /// At the trigger, in this order: the cached plan whose situation this is, where the verdict finds
-/// it admissible; else what the verdict speaks for (plan_of). Where the newest verdict is older
-/// than verdict_expiry, the atlas gives one; where it cannot, emergency braking. What cannot be
-/// driven from here gives way to emergency braking. From then on the verdicts are watched
-/// (Supervisor). Guard::none: Algorithm 1 of the paper, and its plan is kept.
+/// it admissible (of a cached policy 0: the best braking; without a verdict full braking); else
+/// what the verdict speaks for (plan_of). Where the newest verdict is older than verdict_expiry,
+/// the atlas gives one; where it cannot, emergency braking. What cannot be driven from here gives
+/// way to emergency braking. From then on the verdicts are watched (Supervisor). Guard::none:
+/// Algorithm 1 of the paper, and its plan is kept.
 class ReflexPlane {
  public:
   explicit ReflexPlane(ReflexTools tools) noexcept : tools_(std::move(tools)) {}

@@ -5,6 +5,7 @@
 
 #include "saca/core/names.h"
 #include "saca/manoeuvre/drive.h"
+#include "saca/outcome/ordering.h"
 #include "saca/world/time_to_conflict.h"
 
 namespace saca::decide {
@@ -14,13 +15,39 @@ using manoeuvre::Plan;
 using manoeuvre::PolicyId;
 using world::Scene;
 
-constexpr std::array<std::string_view, 3> reason_names{"needed after all", "no longer needed",
-                                                       "better by far"};
+constexpr std::array<std::string_view, 4> reason_names{"needed after all", "no longer needed",
+                                                       "better by far", "harder needed"};
 constexpr double rest_speed = 0.5;  // [m/s]
 
 double harm_of_going_on(const SupervisedScene& now) {
   const JudgedPlan* const rest = going_on(now.verdict, now.under_way.plan);
   return rest == nullptr ? 0.0 : rest->harm;
+}
+
+/// Braking that is harder than what is under way.
+bool is_harder(const Plan& plan, const Plan& under_way) {
+  return plan.policy == PolicyId::aeb && under_way.policy == PolicyId::aeb &&
+         strength_of(plan) > strength_of(under_way);
+}
+
+/// Does another plan take the place of what is under way? A lane change to another speed does not.
+bool is_another(const Plan& plan, const Plan& under_way) {
+  return plan.policy != under_way.policy ||
+         (plan.policy == PolicyId::aeb && strength_of(plan) < strength_of(under_way));
+}
+
+/// Harder braking, where that is expected to harm less than going on.
+std::optional<Switch> harder(const SupervisedScene& now) {
+  const JudgedPlan* const best = best_braking(now.verdict);
+  const double before = harm_of_going_on(now);
+  if (best == nullptr || !is_harder(best->plan, now.under_way.plan) ||
+      best->harm + outcome::harm_tie >= before) {
+    return std::nullopt;
+  }
+  return Switch{.plan = best->plan,
+                .reason = SwitchReason::harder_needed,
+                .harm = best->harm,
+                .harm_before = before};
 }
 
 }  // namespace
@@ -74,7 +101,7 @@ std::optional<Switch> Supervisor::better(const SupervisedScene& now) noexcept {
   const auto wanted = is_better ? std::optional(plan_of(now.verdict)) : std::nullopt;
   const bool twice = wanted && better_before_ == wanted->policy;
   better_before_ = wanted ? std::optional(wanted->policy) : std::nullopt;
-  if (!twice || wanted->policy == now.under_way.plan.policy ||
+  if (!twice || !is_another(*wanted, now.under_way.plan) ||
       (switched_ && !somebody_came(now.scene))) {
     return std::nullopt;
   }
@@ -114,11 +141,14 @@ std::optional<Switch> Supervisor::look(const SupervisedScene& now,
     }
   } else {
     change = better(now);
+    if (!change) {
+      change = harder(now);
+    }
   }
   if (change && car != nullptr && manoeuvre::why_refused(*car, change->plan, now.scene)) {
     return std::nullopt;
   }
-  if (change) {
+  if (change && change->reason != SwitchReason::harder_needed) {
     switched_ = switched_ || change->reason == SwitchReason::better_by_far;
     clear_since_.reset();
     better_before_.reset();

@@ -19,6 +19,7 @@ enum class SwitchReason : std::uint8_t {
   needed_after_all,  ///< nothing was done, and now something has to be
   no_longer_needed,  ///< nobody is in the way under any hypothesis: the wheel is given back
   better_by_far,     ///< from the present state, the other is materially better
+  harder_needed,     ///< braking goes on, but harder: that is expected to harm less
 };
 [[nodiscard]] std::string_view name(SwitchReason reason);
 
@@ -50,7 +51,11 @@ struct SupervisedScene {
 ///   whenever the trigger's rule fires;
 /// * give the wheel back where braking is under way and, for `clear_time`, doing nothing harms
 ///   nobody under any hypothesis;
-/// * begin another plan where that is expected to harm less by `material_harm`, in two verdicts one
+/// * brake harder at once, as often as it likes, where braking is under way and harder braking is
+///   expected to harm less by more than outcome::harm_tie: to wait for a second verdict would cost
+///   way, and nothing is begun that was not under way;
+/// * begin another plan, gentler braking among them, where that is expected to harm less by
+/// `material_harm`, in two verdicts one
 ///   after the other: once, and once more for each road user who has come since. Not out of a
 ///   drift, which cannot be left.
 /// Trivially copyable; allocates nothing.

@@ -34,6 +34,7 @@ class Watched {
   void somebody_comes() { scene_.actors.push_back(test::car(2, {20.0, 3.5})); }
   world::Scene& scene() { return scene_; }
   void carries_out(PolicyId policy) { under_way_.plan = {policy, std::nullopt}; }
+  void carries_out(const manoeuvre::Plan& plan) { under_way_.plan = plan; }
 
  private:
   manoeuvre::Car car_ = manoeuvre::default_car();
@@ -160,6 +161,83 @@ TEST(Supervisor, GivesTheWheelBackAfterHalfASecondOfPeace) {
               std::nullopt);
     EXPECT_EQ(at_rest.look(peace(time), false), std::nullopt);
   }
+}
+
+// At once, as often as verdicts say so, whoever is there; a tie is no reason.
+TEST(Supervisor, BrakesHarderAtOnceAndAsOftenAsNeeded) {
+  Watched watched(PolicyId::aeb);
+  watched.carries_out(braking_at(0.3));
+  EXPECT_EQ(watched.look(braking_verdict(0.1, 0.05, 0.02, 0.01, 0.01)), std::nullopt);
+  EXPECT_EQ(watched.look(braking_verdict(0.2, 0.05, 0.00995, 0.01, 0.01)), std::nullopt);
+  const auto first = watched.look(braking_verdict(0.3, 0.05, 0.02, 0.0095, 0.01));
+  ASSERT_TRUE(first.has_value());
+  EXPECT_EQ(first->plan, braking_at(0.6));
+  EXPECT_EQ(first->reason, SwitchReason::harder_needed);
+  EXPECT_EQ(first->harm, 0.0095);
+  EXPECT_EQ(first->harm_before, 0.01);
+  watched.carries_out(first->plan);
+  const auto second = watched.look(braking_verdict(0.4, 0.05, 0.1, 0.2, 0.3));
+  ASSERT_TRUE(second.has_value());
+  EXPECT_EQ(second->plan, manoeuvre::full_braking);
+  watched.carries_out(second->plan);
+  EXPECT_EQ(watched.look(braking_verdict(0.5, 0.05, 0.1, 0.2, 0.3)), std::nullopt);
+}
+
+// Harder now does not use up what else may be begun later, nor does it make a swerve wait longer.
+TEST(Supervisor, BrakingHarderLeavesTheOneOtherSwitch) {
+  Watched watched(PolicyId::aeb);
+  watched.carries_out(braking_at(0.3));
+  const auto swerve_is_best = [](double time) {
+    Verdict verdict = braking_verdict(time, 0.05, 0.06, 0.07, 0.08);
+    add_to(verdict, {PolicyId::aes_left, std::nullopt}, 0.0);
+    return verdict;
+  };
+  const auto harder = watched.look(swerve_is_best(0.1));
+  ASSERT_TRUE(harder.has_value());
+  EXPECT_EQ(harder->plan, manoeuvre::full_braking);
+  watched.carries_out(harder->plan);
+  const auto swerve = watched.look(swerve_is_best(0.2));
+  ASSERT_TRUE(swerve.has_value());
+  EXPECT_EQ(swerve->plan.policy, PolicyId::aes_left);
+}
+
+// The other way it takes what any other plan takes: materially better, twice, once.
+TEST(Supervisor, BrakesGentlierOnlyWithTheUsualCaution) {
+  Watched watched(PolicyId::aeb);
+  const auto gentler_is_better = [](double time, double by) {
+    return braking_verdict(time, 0.05, 0.05 - by, 0.06, 0.07);
+  };
+  for (int k = 1; k < 10; ++k) {
+    EXPECT_EQ(watched.look(gentler_is_better(0.1 * k, 0.009)), std::nullopt);
+  }
+  EXPECT_EQ(watched.look(gentler_is_better(1.0, 0.03)), std::nullopt);
+  const auto change = watched.look(gentler_is_better(1.1, 0.03));
+  ASSERT_TRUE(change.has_value());
+  EXPECT_EQ(change->plan, braking_at(0.8));
+  EXPECT_EQ(change->reason, SwitchReason::better_by_far);
+  watched.carries_out(change->plan);
+  const auto still_gentler = [](double time) {
+    return braking_verdict(time, 0.1, 0.05, 0.0, 0.07);
+  };
+  for (int k = 12; k < 20; ++k) {
+    EXPECT_EQ(watched.look(still_gentler(0.1 * k)), std::nullopt) << "once";
+  }
+  watched.somebody_comes();
+  const auto again = watched.look(still_gentler(2.5));
+  ASSERT_TRUE(again.has_value());
+  EXPECT_EQ(again->plan, braking_at(0.6));
+}
+
+TEST(Supervisor, GivesTheWheelBackFromGentleBrakingToo) {
+  Watched watched(PolicyId::aeb);
+  watched.carries_out(braking_at(0.3));
+  const auto peace = [](double time) {
+    return verdict_of(time, {{PolicyId::aeb, 0.0}, {PolicyId::no_intervention, 0.0}});
+  };
+  EXPECT_EQ(watched.look(peace(1.0), false), std::nullopt);
+  const auto change = watched.look(peace(1.5), false);
+  ASSERT_TRUE(change.has_value());
+  EXPECT_EQ(change->reason, SwitchReason::no_longer_needed);
 }
 
 TEST(Supervisor, BeginsNothingThatCannotBeDriven) {

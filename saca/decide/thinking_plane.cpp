@@ -59,6 +59,9 @@ ThinkingPlane::ThinkingPlane(const ThinkingTools& tools, const preview::Threshol
     : tools_(tools), thresholds_(thresholds), output_(std::move(output)) {
   expects(tools.forecast.car != nullptr && tools.forecast.harm != nullptr && tools.clock != nullptr,
           "car, harm and clock are given");
+  if (tools_.guard == Guard::none) {
+    tools_.forecast.braking = preview::Braking::full;  // Algorithm 1 has the paper's eight policies
+  }
   expects(output_.publish && output_.event && output_.reasoning, "every output goes somewhere");
 }
 

@@ -13,7 +13,8 @@ namespace saca::decide {
 struct JudgedPlan {
   manoeuvre::Plan plan;
   bool drivable = false;  ///< from that scene; else the rest means nothing
-  double harm = 0.0;      ///< expected over everything that is not known of the others
+  double harm = 0.0;      ///< expected over everything that is not known of the others; of braking
+                          ///< below full strength see spread_over_strengths
   double contact = 0.0;   ///< probability, in [0, 1]
 };
 
@@ -32,11 +33,21 @@ constexpr double material_harm = 0.01;
 /// How old a verdict may be to be decided by [s].
 constexpr double verdict_expiry = 0.1;
 
+/// Says of each braking below full strength not what it alone is expected to end in, but the mean
+/// over it (1/2), the next harder one and the next gentler one (1/4 each, where they were judged).
+///
+/// The draws know neither grip nor brakes to be other than believed, and a strength that just
+/// suffices for the one ahead and just spares the one behind does so in no other world: the best of
+/// several is the one whose forecast errs most to the good side. Half of the weight one step to
+/// either side is the three-point rule for a strength that is known to some 20 %, an assumption.
+/// Full braking keeps its own harm: it is what all else is held against.
+void spread_over_strengths(Verdict& verdict) noexcept;
+
 /// The plan of the least expected harm among those that can be driven. nullptr: none can.
 [[nodiscard]] const JudgedPlan* least_harmful(const Verdict& verdict) noexcept;
 
 /// The expected harms that count as that of the best: what the forecasts cannot tell apart. They
-/// are the larger of 0.002 and 3 % of what emergency braking has above the best.
+/// are the larger of 0.002 and 3 % of what full braking has above the best.
 /// @return  the admissible harm at most; nullopt where nothing can be driven
 [[nodiscard]] std::optional<double> admissible_harm(const Verdict& verdict) noexcept;
 
@@ -44,16 +55,31 @@ constexpr double verdict_expiry = 0.1;
 [[nodiscard]] std::size_t num_admissible(const Verdict& verdict) noexcept;
 
 /// The judged plan that is the same as this, begun a little earlier or later: of the same policy,
-/// with the nearest target speed. nullptr: none.
+/// with the nearest target speed or strength. nullptr: none.
 [[nodiscard]] const JudgedPlan* find_plan(const Verdict& verdict,
                                           const manoeuvre::Plan& plan) noexcept;
 
-/// The plan that a verdict speaks for. In this order: doing nothing, where no hypothesis has
-/// contact then; emergency braking, where it is admissible; the mildest that is admissible, of
-/// equally mild ones the least harmful; emergency braking, where nothing can be driven.
+/// How to brake: the hardest plan of policy 0 that is expected to harm as little as the best of
+/// them, within 0.002 and as admissible. nullptr: none can be driven.
 ///
-/// Braking is admissible or worse than all that is: so nothing is knowingly worse than braking.
+/// The harder leaves more distance for what no draw foresees ahead. What those behind gain by the
+/// gentler is in the expected harm: they react in every draw.
+[[nodiscard]] const JudgedPlan* best_braking(const Verdict& verdict) noexcept;
+
+/// The plan that a verdict speaks for. In this order: doing nothing, where no hypothesis has
+/// contact then; the best braking, where full braking is admissible; where only gentler braking
+/// is, the best braking or the mildest admissible lane change or drift (of equally mild ones the
+/// least harmful), whichever is expected to harm less, braking where they harm alike
+/// (outcome::harm_tie); full braking, where nothing can be driven.
+///
+/// Full braking is admissible or worse than all that is: so nothing is knowingly worse than full
+/// braking. It comes first because it stands on no forecast; gentler braking does as a swerve does.
 [[nodiscard]] manoeuvre::Plan plan_of(const Verdict& verdict) noexcept;
+
+/// The plan that a choice of memory or model stands for now: of policy 0, which they choose without
+/// a strength, the best braking.
+[[nodiscard]] manoeuvre::Plan as_judged(const Verdict& verdict,
+                                        const manoeuvre::Plan& plan) noexcept;
 
 /// Whether the judged plan nearest to this one (find_plan) is admissible.
 [[nodiscard]] bool admits(const Verdict& verdict, const manoeuvre::Plan& plan) noexcept;

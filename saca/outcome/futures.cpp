@@ -217,10 +217,20 @@ bool better(const Future& a, const Future& b) noexcept {
 }
 
 Futures futures(const Atlas& atlas, const Scene& scene, std::span<const Track> tracks,
-                const HarmModel& harm, std::span<const double> shares, const AtlasBounds& bounds,
+                const HarmModel& harm, std::span<const double> shares,
+                std::span<const double> strengths, const AtlasBounds& bounds,
                 std::span<const SpreadOverTime> spreads) noexcept {
   const Judge judge(atlas, scene, tracks, harm, bounds, spreads);
   Futures all;
+  const auto try_also = [&](const Plan& plan) {
+    Future& best = all[manoeuvre::index(plan.policy)];
+    const Future one = judge.future(plan);
+    if (better(one, best)) {
+      best = one;
+    } else if (best.outside == AtlasLimit::target_speed && one.outside) {
+      best.outside = one.outside;
+    }
+  };
   for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
     Future& best = all[manoeuvre::index(policy)];
     if (!manoeuvre::brakes_to_speed(policy)) {
@@ -230,13 +240,11 @@ Futures futures(const Atlas& atlas, const Scene& scene, std::span<const Track> t
     best = {.plan = manoeuvre::default_plan(policy, scene.ego.v_B.x),
             .outside = AtlasLimit::target_speed};
     for (const double share : shares) {
-      const Future one = judge.future({policy, share * scene.ego.v_B.x});
-      if (better(one, best)) {
-        best = one;
-      } else if (best.outside == AtlasLimit::target_speed && one.outside) {
-        best.outside = one.outside;
-      }
+      try_also({policy, share * scene.ego.v_B.x});
     }
+  }
+  for (const double strength : strengths) {
+    try_also({.policy = manoeuvre::PolicyId::aeb, .strength = strength});
   }
   return all;
 }

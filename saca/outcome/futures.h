@@ -50,11 +50,14 @@ constexpr std::array target_shares{0.5, 0.0, 0.25, 0.75};
 /// comes last.
 [[nodiscard]] bool better(const Future& a, const Future& b) noexcept;
 
-/// All eight. 3 and 4 brake to whichever of `shares` of the present speed is best.
-/// @param shares  each 0, or a share that the atlas' grid spans; the first of equals is taken
+/// All eight. 3 and 4 brake to whichever of `shares` of the present speed is best, 0 by whichever
+/// strength is.
+/// @param shares     each 0, or a share that the atlas' grid spans; the first of equals is taken
+/// @param strengths  beside all of the grip, of which the same holds
 [[nodiscard]] Futures futures(const manoeuvre::Atlas& atlas, const world::Scene& scene,
                               std::span<const world::Track> tracks, const HarmModel& harm,
                               std::span<const double> shares = target_shares,
+                              std::span<const double> strengths = manoeuvre::braking_strengths,
                               const manoeuvre::AtlasBounds& bounds = {},
                               std::span<const world::SpreadOverTime> spreads = {}) noexcept;
 

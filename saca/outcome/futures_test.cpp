@@ -276,6 +276,28 @@ TEST(Futures, TakeTheTargetSpeedThatHarmsLeast) {
   }
 }
 
+// Of braking likewise, and the hardest of equals; without strengths there is full braking alone.
+TEST(Futures, BrakeByTheStrengthThatHarmsLeast) {
+  std::mt19937_64 rng(13);
+  int gentle = 0;
+  for (int i = 0; i < 30; ++i) {
+    const Staged stage = random_stage(rng);
+    const Future best = futures(small_atlas(), stage.scene, stage.tracks, harm())[0];
+    gentle += best.plan.strength ? 1 : 0;
+    for (const double strength : {1.0, 0.8, 0.6, 0.45, 0.3}) {
+      const manoeuvre::Plan plan{.policy = PolicyId::aeb, .strength = strength};
+      const Future one = future(small_atlas(), plan, stage.scene, stage.tracks, harm());
+      EXPECT_FALSE(better(one, best)) << strength;
+      EXPECT_TRUE(strength <= strength_of(best.plan) || better(best, one)) << strength;
+    }
+    const Futures published =
+        futures(small_atlas(), stage.scene, stage.tracks, harm(), target_shares, {});
+    EXPECT_EQ(published[0].plan, manoeuvre::full_braking);
+  }
+  EXPECT_GT(gentle, 0);
+  EXPECT_LT(gentle, 30);
+}
+
 TEST(Futures, WhatCannotBeJudgedSaysWhy) {
   Staged stage;
   stage.add(world::ActorKind::car, {{14.0, 0.3}, 0.0}, {});

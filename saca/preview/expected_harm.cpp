@@ -194,7 +194,7 @@ JointMotion all_going_on(const Scene& scene) {
 
 std::vector<ExpectedHarm> expected_harms(const Scene& scene, std::span<const JointMotion> motions,
                                          const ForecastTools& tools, Physics physics) {
-  const Plans plans = all_plans(scene.ego.v_B.x);
+  const Plans plans = all_plans(scene.ego.v_B.x, tools.braking);
   return expected_harms(scene, motions, tools, physics, {plans.begin(), plans.size()});
 }
 

@@ -74,7 +74,8 @@ enum class Physics : std::uint8_t {
                                          const ForecastTools& tools);
 
 /// The plan of the least expected harm by the one ordering (outcome/ordering.h): equal classes of
-/// harm go to the milder. Emergency braking, where none can be driven.
+/// harm go to the milder policy, and of one policy to the plan that all_plans has first: of braking
+/// to the hardest. Emergency braking, where none can be driven.
 [[nodiscard]] manoeuvre::Plan least_harmful(std::span<const ExpectedHarm> all);
 
 }  // namespace saca::preview

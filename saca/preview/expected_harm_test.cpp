@@ -51,7 +51,7 @@ TEST(ExpectedHarm, IsTheMeanOverTheMotionsByTheirWeights) {
     const auto hit = expected_harms(scene, {&stands, 1}, reading(), physics);
     const auto clear = expected_harms(scene, {&away, 1}, reading(), physics);
     const auto mixed = expected_harms(scene, both, reading(), physics);
-    ASSERT_EQ(mixed.size(), 6 + 2 * outcome::target_shares.size());
+    ASSERT_EQ(mixed.size(), all_plans(scene.ego.v_B.x).size());
     EXPECT_GT(of(hit, PolicyId::no_intervention).harm, 0.0);
     for (std::size_t i = 0; i < mixed.size(); ++i) {
       EXPECT_NEAR(mixed[i].harm, 0.25 * hit[i].harm + 0.75 * clear[i].harm, 1e-12);

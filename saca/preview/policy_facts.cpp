@@ -74,17 +74,22 @@ class FollowedFutures {
   std::vector<SpreadOverTime> spreads_;
 };
 
-/// What the atlas has of each policy, and of 3 and 4 of the best of their target speeds.
+std::span<const double> strengths_of(Braking braking) {
+  return braking == Braking::full ? std::span<const double>() : manoeuvre::braking_strengths;
+}
+
+/// What the atlas has of each policy: of 3 and 4 of the best of their target speeds, of 0 of the
+/// best of its strengths.
 outcome::Futures read(const Scene& scene, const std::vector<Track>& tracks,
                       const ForecastTools& tools, const std::vector<SpreadOverTime>& spreads) {
   FollowedFutures futures(scene, tracks, tools, spreads);
   if (!futures.followed()) {
-    return outcome::futures(*tools.atlas, scene, tracks, *tools.harm, outcome::target_shares, {},
-                            spreads);
+    return outcome::futures(*tools.atlas, scene, tracks, *tools.harm, outcome::target_shares,
+                            strengths_of(tools.braking), {}, spreads);
   }
   outcome::Futures best;
   std::array<bool, manoeuvre::num_policies> found{};
-  for (const Plan& plan : all_plans(scene.ego.v_B.x)) {
+  for (const Plan& plan : all_plans(scene.ego.v_B.x, tools.braking)) {
     const outcome::Future one = futures.of(plan);
     const std::size_t i = manoeuvre::index(plan.policy);
     if (!found[i] || outcome::better(one, best[i])) {
@@ -128,11 +133,16 @@ std::optional<AllFacts> read_facts(const Scene& scene, const std::vector<Track>&
 
 }  // namespace
 
-Plans all_plans(double speed) {
+Plans all_plans(double speed, Braking braking) {
   Plans plans;
   for (const PolicyId policy : manoeuvre::all_policies) {
     if (!manoeuvre::brakes_to_speed(policy)) {
       plans.push_back({policy, std::nullopt});
+      if (manoeuvre::takes_strength(policy)) {
+        for (const double strength : strengths_of(braking)) {
+          plans.push_back({policy, std::nullopt, strength});
+        }
+      }
       continue;
     }
     for (const double share : outcome::target_shares) {
@@ -215,7 +225,8 @@ AllFacts policy_facts(const Scene& scene, const std::vector<Track>& tracks,
   }
   AllFacts best;
   std::array<bool, manoeuvre::num_policies> found{};
-  for (PolicyFacts& fact : rolled_out(scene, tracks, all_plans(scene.ego.v_B.x), tools)) {
+  for (PolicyFacts& fact :
+       rolled_out(scene, tracks, all_plans(scene.ego.v_B.x, tools.braking), tools)) {
     const std::size_t i = manoeuvre::index(fact.plan.policy);
     const bool first_driven = !best[i].refusal.empty() && fact.refusal.empty();
     if (!found[i] || first_driven || is_better(fact, best[i])) {

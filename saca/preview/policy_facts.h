@@ -19,6 +19,12 @@
 
 namespace saca::preview {
 
+/// How policy 0 may brake.
+enum class Braking : std::uint8_t {
+  any_strength,  ///< with all the grip, or one of manoeuvre::braking_strengths of it
+  full,          ///< with all of it, as the paper has it
+};
+
 /// What futures are forecast with. What it points to outlives the forecasts.
 struct ForecastTools {
   const manoeuvre::Car* car = nullptr;
@@ -26,18 +32,20 @@ struct ForecastTools {
   const manoeuvre::Atlas* atlas = nullptr;     ///< of this car; nullptr: everything is rolled out
   const reach::DangerModel* danger = nullptr;  ///< of this car; nullptr: the best of few evasions
   intent::MotionLaw motion = hard_driving();   ///< how the others move under an intention
+  Braking braking = Braking::any_strength;     ///< which plans there are
 };
 
 /// Every plan that can be chosen at `speed` [m/s]: each policy, 3 and 4 once for each of
-/// outcome::target_shares of it, the default (manoeuvre::default_plan) first.
-/// Allocates nothing.
+/// outcome::target_shares of it, and 0 once more for each of manoeuvre::braking_strengths; of each
+/// the default (manoeuvre::default_plan) first. Allocates nothing.
 using Plans =
-    StaticVector<manoeuvre::Plan, manoeuvre::num_policies + 2 * outcome::target_shares.size()>;
-[[nodiscard]] Plans all_plans(double speed);
+    StaticVector<manoeuvre::Plan, manoeuvre::num_policies + 2 * outcome::target_shares.size() +
+                                      manoeuvre::braking_strengths.size()>;
+[[nodiscard]] Plans all_plans(double speed, Braking braking = Braking::any_strength);
 
 /// What each policy ends in when it begins in `scene` and the actors follow their tracks, those
 /// behind the ego but react to it: see with_reacting_followers. 3 and 4 brake to whichever of
-/// outcome::target_shares of the speed is best.
+/// outcome::target_shares of the speed is best, 0 by whichever strength is; of equals the hardest.
 ///
 /// Read from the atlas: a tenth of a millisecond, and where somebody follows some milliseconds.
 /// What is not known of the others' places then counts in harm and probability. Where the atlas has

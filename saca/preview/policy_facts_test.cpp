@@ -81,7 +81,8 @@ TEST(PolicyFacts, BeingHitFromBehindCounts) {
     double speed, gap;
     ForecastTools tools;
   };
-  for (const Case& one : {Case{15.0, 19.5, rolling()}, Case{12.5, 14.0, reading()}}) {
+  for (Case one : {Case{15.0, 19.5, rolling()}, Case{12.5, 14.0, reading()}}) {
+    one.tools.braking = Braking::full;
     Road road(one.speed, one.gap);
     const AllFacts alone = road.facts(one.tools);
     road.add({-9.0, 0.0}, one.speed);
@@ -93,6 +94,34 @@ TEST(PolicyFacts, BeingHitFromBehindCounts) {
     EXPECT_GT(of(followed, PolicyId::aeb).outcome.harm, of(alone, PolicyId::aeb).outcome.harm);
     EXPECT_EQ(of(followed, PolicyId::aes_left).outcome.harm,
               of(alone, PolicyId::aes_left).outcome.harm);
+  }
+}
+
+// 60 m to the wreck are enough for a third of the grip; the car behind needs time that full braking
+// does not leave it. Nobody behind: nothing is gained, and it is full braking.
+TEST(PolicyFacts, BrakingIsAsHardAsIsBest) {
+  for (const ForecastTools& tools : {rolling(), reading()}) {
+    Road road(12.5, 60.0);
+    EXPECT_EQ(of(road.facts(tools), PolicyId::aeb).plan, manoeuvre::full_braking);
+    road.add({-11.0, 0.0}, 12.5);
+    const PolicyFacts& best = of(road.facts(tools), PolicyId::aeb);
+    EXPECT_LT(strength_of(best.plan), 1.0);
+    ForecastTools published = tools;
+    published.braking = Braking::full;
+    const PolicyFacts& full = of(road.facts(published), PolicyId::aeb);
+    EXPECT_EQ(full.plan, manoeuvre::full_braking);
+    EXPECT_LT(best.outcome.harm, full.outcome.harm);
+  }
+}
+
+TEST(PolicyFacts, PlansAreThePapersPoliciesAndTheirParameters) {
+  const Plans all = all_plans(20.0);
+  EXPECT_EQ(all.size(), 8U + 2 * 3 + 4);
+  EXPECT_EQ(all_plans(20.0, Braking::full).size(), 8U + 2 * 3);
+  EXPECT_EQ(all[0], manoeuvre::full_braking);
+  for (std::size_t i = 1; i <= 4; ++i) {  // from hard to gentle
+    EXPECT_EQ(all[i].policy, PolicyId::aeb);
+    EXPECT_LT(strength_of(all[i]), strength_of(all[i - 1]));
   }
 }
 

@@ -267,12 +267,13 @@ std::string Story::rule() const {
            "emergency braking was begun although it is not.";
   }
   if (decision_.at("name") == "AEB") {
-    return "The arbiter decided: doing nothing may end in contact, and braking, being admissible, "
-           "comes before all other plans; of the ways to brake it is the one of the least expected "
-           "harm, and the hardest of those that harm as little.";
+    return "The arbiter decided: doing nothing may end in contact and braking is admissible. It "
+           "comes first where full braking is admissible, else where no lane change harms less; of "
+           "the ways to brake it is the hardest of those that harm as little as the best.";
   }
-  return "The arbiter decided: doing nothing may end in contact and no way to brake is "
-         "admissible, so it is the mildest of the admissible plans.";
+  return "The arbiter decided: doing nothing may end in contact, full braking is not "
+         "admissible and no gentler braking harms less, so it is the mildest of the admissible "
+         "plans that leave the lane.";
 }
 
 Story::Sentences Story::chosen() const {
@@ -320,7 +321,8 @@ std::string Story::why_not(const Judged& plan) const {
                                          "brakes less hard"
                                        : "braking comes first");
   }
-  return fmt::format("{}: admissible, but it is no milder than what was chosen.", plan.name);
+  return fmt::format("{}: admissible, but it is {} what was chosen.", plan.name,
+                     plan.is_braking ? "expected to harm more than" : "no milder than");
 }
 
 Story::Sentences Story::not_chosen() const {

@@ -126,7 +126,7 @@ TEST(Explanation, TellsHowHardWasBrakedAndWhyNotHarder) {
   EXPECT_THAT(told(other, "What was chosen, and by which rule"),
               HasSubstr("AEB at 45 % of the grip was begun"));
   EXPECT_THAT(told(other, "What was chosen, and by which rule"),
-              HasSubstr("the one of the least expected harm"));
+              HasSubstr("the hardest of those that harm as little"));
   const std::string why_not = told(other, "Why not the others");
   EXPECT_THAT(why_not, HasSubstr("AEB: its expected harm of 0.3500 is more than"));
   EXPECT_THAT(why_not, HasSubstr("AEB at 60 % of the grip: admissible, but it is expected to harm "

@@ -36,7 +36,7 @@ decide::ReflexTools reflex_tools(const PlanesSetup& setup) {
                             .forced = setup.forced,
                             .guard = setup.guard};
   if (forecast.atlas != nullptr) {
-    tools.atlas.emplace(*forecast.car, *forecast.atlas, *forecast.harm);
+    tools.atlas.emplace(*forecast.car, *forecast.atlas, *forecast.harm, forecast.braking);
   }
   return tools;
 }

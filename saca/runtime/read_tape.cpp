@@ -157,8 +157,8 @@ preview::Threat read_threat(JsonReader from) {
 decide::Switch read_switch(JsonReader from) {
   const decide::Switch change{
       .plan = read_plan(from.object("plan")),
-      .reason = from.word("reason", named<decide::SwitchReason, 3>,
-                          "needed after all, no longer needed or better by far"),
+      .reason = from.word("reason", named<decide::SwitchReason, 4>,
+                          "needed after all, no longer needed, better by far or harder needed"),
       .harm = from.number("harm"),
       .harm_before = from.number("harm_before")};
   from.refuse_others();

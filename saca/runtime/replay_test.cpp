@@ -123,7 +123,7 @@ TEST_F(ReplayTest, WithOtherWeightsOfHarmTheVerdictsDiffer) {
 // A drive that is longer than the tape: what is left of it is replayed, and told is what is not.
 TEST_F(ReplayTest, WhatIsLeftOfALongDriveIsReplayed) {
   PlanesSetup setup = drive_.setup();
-  setup.tape_size = 200 * Tape::step_size(1) / 4;
+  setup.tape_size = 200 * Tape::step_size(1) / 6;
   const TapeContent content = drive_.driven(setup);
   ASSERT_GT(content.dropped, 0U);
   const Replay replay = replayed(content);
