@@ -199,6 +199,8 @@ void Play::note_trigger(const Branch& branch) {
   const std::size_t best = best_of(tried);
   comparison_.best = tried[best].facts.plan;
   comparison_.best_harm = tried[best].facts.outcome.harm;
+  comparison_.published_best_harm =
+      tried[best_of(tried, preview::Braking::full)].facts.outcome.harm;
 }
 
 void Play::begin(Branch& branch, const Group& group) {

@@ -51,6 +51,8 @@ struct Comparison {
                                         ///< where T1 never comes
   std::optional<manoeuvre::Plan> best;  ///< of these
   double best_harm = 0.0;               ///< of the best; where T1 never comes, of doing nothing
+  double published_best_harm = 0.0;     ///< likewise of the paper's eight policies, whose braking
+                                        ///< has one strength
   std::vector<MethodRun> runs;          ///< one per method
 };
 

@@ -29,7 +29,7 @@ using manoeuvre::PolicyId;
 using preview::JointMotion;
 using preview::Physics;
 
-constexpr std::array<MethodInfo, 27> infos{{
+constexpr std::array<MethodInfo, 28> infos{{
     {"saca", "SACA",
      "The shipped planes: a cached plan that matches and is admissible, else what the verdict "
      "speaks "
@@ -38,6 +38,8 @@ constexpr std::array<MethodInfo, 27> infos{{
      Needs::memory},
     {"saca_no_model", "SACA without model", "As SACA; the language model is not asked.", false,
      Needs::model},
+    {"saca_full_braking", "SACA, braking with one strength",
+     "As SACA; who brakes does so with all the grip."},
     {"saca_paper", "SACA, as in the paper",
      "Algorithm 1 to the letter: a cached plan above 90 %, else emergency braking at T1; nothing "
      "is held against braking."},
@@ -241,6 +243,9 @@ runtime::PlanesSetup planes_of(std::string_view name, runtime::PlanesSetup plane
                                                 : decide::Guard::never_worse_than_braking;
   planes.asking = {.facts = name.find("_no_facts") == std::string_view::npos,
                    .reasoning = !name.ends_with("_at_once")};
+  if (name == "saca_full_braking") {
+    planes.forecast.braking = preview::Braking::full;
+  }
   planes.memory = name == "saca_no_memory" ? nullptr : planes.memory;
   planes.model = name == "saca_no_model" ? nullptr : planes.model;
   return planes;

@@ -151,6 +151,7 @@ json json_of(const Comparison& one) {
           {"tried", std::move(tried)},
           {"best", one.best ? json_of(*one.best) : json()},
           {"best_harm", one.best_harm},
+          {"published_best_harm", one.published_best_harm},
           {"runs", std::move(runs)}};
 }
 
@@ -168,6 +169,7 @@ Comparison comparison_from(const json& in, std::size_t num_methods) {
     one.best = plan_from(in.at("best"));
   }
   one.best_harm = in.at("best_harm").get<double>();
+  one.published_best_harm = in.at("published_best_harm").get<double>();
   for (const json& run : in.at("runs")) {
     MethodRun& back = one.runs.emplace_back();
     back.acted_at = optional_from<double>(run.at(0));

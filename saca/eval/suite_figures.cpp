@@ -123,6 +123,9 @@ MethodFigures figures_of(std::span<const SuiteRow* const> rows, const std::strin
   figures.regret = mean([](Row row, std::size_t m, Aeb) {
     return std::optional(run_of(row, m).harm - row.risk.best_harm);
   });
+  figures.published_regret = mean([](Row row, std::size_t m, Aeb) {
+    return std::optional(run_of(row, m).harm - row.risk.published_best_harm);
+  });
   figures.over_aeb = mean(over_aeb);
   figures.collision_loss = mean(
       [](Row row, std::size_t m, Aeb) { return std::optional(run_of(row, m).collision_loss); });

@@ -24,12 +24,14 @@ struct Estimate {
 struct MethodFigures {
   std::string method;
   Estimate harm;
-  Estimate regret;          ///< harm above that of the best plan begun at T1
-  Estimate over_aeb;        ///< harm above that of AEB at T1 in the same encounters: paired
-  Estimate collision_loss;  ///< the paper's
-  Estimate contact;         ///< share
-  Estimate right;           ///< share whose harm is in the class of the best's, or below
-  Estimate worse_than_aeb;  ///< share whose harm is more than `material` above AEB's
+  Estimate regret;            ///< harm above that of the best of all plans begun at T1
+  Estimate published_regret;  ///< likewise of the paper's eight policies, whose braking has one
+                              ///< strength
+  Estimate over_aeb;          ///< harm above that of AEB at T1 in the same encounters: paired
+  Estimate collision_loss;    ///< the paper's
+  Estimate contact;           ///< share
+  Estimate right;             ///< share whose harm is in the class of the best's, or below
+  Estimate worse_than_aeb;    ///< share whose harm is more than `material` above AEB's
   Estimate
       needless;  ///< share of encounters in which doing nothing harms nobody, where it intervened
   std::optional<Estimate> false_trigger_loss;     ///< the paper's, over the twins

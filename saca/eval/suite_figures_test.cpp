@@ -15,6 +15,7 @@ SuiteRow made(std::uint64_t number, std::vector<double> harms, double best, bool
   SuiteRow row{
       .number = number, .family = "made", .fault = {}, .risk = {}, .twin = {}, .driver = {}};
   row.risk.best_harm = best;
+  row.risk.published_best_harm = best;
   row.risk.tried = {{{PolicyId::no_intervention, std::nullopt}, quiet ? 0.0 : 1.0, !quiet}};
   for (const double harm : harms) {
     MethodRun run;
@@ -36,11 +37,14 @@ std::vector<MethodFigures> figures(const std::vector<SuiteRow>& rows,
 }
 
 TEST(SuiteFigures, AreMeansOverTheEncounters) {
-  const std::vector<SuiteRow> rows{made(0, {0.3, 0.1}, 0.1), made(1, {0.1, 0.106}, 0.0),
-                                   made(2, {0.0, 0.0049}, 0.0, true), made(3, {0.2, 0.0}, 0.05)};
+  std::vector<SuiteRow> rows{made(0, {0.3, 0.1}, 0.1), made(1, {0.1, 0.106}, 0.0),
+                             made(2, {0.0, 0.0049}, 0.0, true), made(3, {0.2, 0.0}, 0.05)};
+  rows[0].risk.published_best_harm = 0.15;
   const auto told = figures(rows, {"aeb", "other"});
   EXPECT_NEAR(told[0].harm.value, 0.6 / 4.0, 1e-12);
   EXPECT_NEAR(told[0].regret.value, (0.2 + 0.1 + 0.0 + 0.15) / 4.0, 1e-12);
+  // Of the eight policies the best harms 0.05 more in the first, and as much in the others.
+  EXPECT_NEAR(told[0].published_regret.value, (0.15 + 0.1 + 0.0 + 0.15) / 4.0, 1e-12);
   EXPECT_NEAR(told[1].over_aeb.value, (-0.2 + 0.006 + 0.0049 - 0.2) / 4.0, 1e-12);
   EXPECT_EQ(told[1].worse_than_aeb.value, 0.25);  // 0.006 is material, 0.0049 is not
   EXPECT_EQ(told[0].over_aeb.value, 0.0);

@@ -42,6 +42,8 @@ void write_comparisons(config::Hdf5Writer& writer, const std::string& group,
   };
   column(group + "/trigger_s", [](const Comparison& one) { return one.trigger.value_or(missing); });
   column(group + "/best_harm", [](const Comparison& one) { return one.best_harm; });
+  column(group + "/published_best_harm",
+         [](const Comparison& one) { return one.published_best_harm; });
   column(group + "/best_policy", [](const Comparison& one) { return number_of(one.best); });
   for (std::size_t m = 0; m < methods.size(); ++m) {
     const std::string place = group + "/" + methods[m];
@@ -60,12 +62,12 @@ void write_comparisons(config::Hdf5Writer& writer, const std::string& group,
     of_run("target_speed_mps", [](const MethodRun& run) {
       return run.plan ? run.plan->target_speed.value_or(missing) : missing;
     });
-    of_run("switches", [](const MethodRun& run) { return static_cast<double>(run.switches); });
-  }
     of_run("strength", [](const MethodRun& run) {
       return run.plan && manoeuvre::takes_strength(run.plan->policy) ? strength_of(*run.plan)
                                                                      : missing;
     });
+    of_run("switches", [](const MethodRun& run) { return static_cast<double>(run.switches); });
+  }
 }
 
 }  // namespace

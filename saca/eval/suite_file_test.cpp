@@ -19,11 +19,16 @@ TEST(SuiteFile, HoldsAColumnForEachNumber) {
   good.risk.trigger = 3.25;
   good.risk.best = manoeuvre::Plan{PolicyId::es_b_left, 6.0};
   good.risk.best_harm = 0.125;
+  good.risk.published_best_harm = 0.25;
   MethodRun run;
   run.harm = 0.5;
   run.plan = manoeuvre::Plan{PolicyId::t_drift_right, std::nullopt};
   run.met = "truck1";
-  good.risk.runs = {run};
+  MethodRun gentle;
+  gentle.plan = manoeuvre::Plan{PolicyId::aeb, std::nullopt, 0.45};
+  MethodRun full;
+  full.plan = manoeuvre::full_braking;
+  good.risk.runs = {run, gentle, full};
   SuiteRow bad{.number = 8,
                .family = "head_on",
                .fault = "broken\nin two",
@@ -32,7 +37,7 @@ TEST(SuiteFile, HoldsAColumnForEachNumber) {
                .driver = {}};
   const auto path = std::filesystem::temp_directory_path() / "saca_suite_file_test.h5";
   const std::vector<SuiteRow> rows{good, bad};
-  ASSERT_EQ(write_suite(path, rows, {"aeb"}, R"({"n": 2})"), std::nullopt);
+  ASSERT_EQ(write_suite(path, rows, {"aeb", "gentle", "full"}, R"({"n": 2})"), std::nullopt);
   const auto read = config::read_sealed_hdf5(path, "saca.suite/1", [](config::Hdf5Reader& reader) {
     const auto column = [&](const char* name) {
       return config::read_row(reader, name, 2, config::Numbers::all);
@@ -50,6 +55,10 @@ TEST(SuiteFile, HoldsAColumnForEachNumber) {
     EXPECT_EQ(column("risk/aeb/policy")[0], 6.0);
     EXPECT_TRUE(std::isnan(column("risk/aeb/target_speed_mps")[0]));
     EXPECT_TRUE(std::isnan(column("twin/aeb/harm")[0]));
+    EXPECT_EQ(column("risk/published_best_harm")[0], 0.25);
+    EXPECT_TRUE(std::isnan(column("risk/aeb/strength")[0]));  // a drift has none
+    EXPECT_EQ(column("risk/gentle/strength")[0], 0.45);
+    EXPECT_EQ(column("risk/full/strength")[0], 1.0);
     return 0;
   });
   EXPECT_TRUE(read.has_value()) << read.error().message;

@@ -47,6 +47,12 @@ TEST_F(SuiteTest, ALineComesBack) {
   ASSERT_TRUE(back.has_value()) << back.error().message;
   EXPECT_EQ(line_of(back.value()), line_of(row));
   EXPECT_EQ(back.value().risk.runs[1].harm, row.risk.runs[1].harm);
+  ASSERT_EQ(back.value().risk.tried.size(), row.risk.tried.size());
+  for (std::size_t i = 0; i < row.risk.tried.size(); ++i) {
+    EXPECT_EQ(back.value().risk.tried[i].plan, row.risk.tried[i].plan) << i;
+  }
+  EXPECT_EQ(back.value().risk.published_best_harm, row.risk.published_best_harm);
+  EXPECT_GE(row.risk.published_best_harm, row.risk.best_harm - 1e-4);  // a class of harm
   EXPECT_THAT(suite_row_from(line_of(row), 3).error().message,
               testing::HasSubstr("want runs of 3 methods, got 2"));
   for (const char* const spoilt :

@@ -20,11 +20,11 @@ std::vector<preview::RolledOut> try_all(const loop::ClosedLoop& now, const manoe
   return preview::tried(car, attempts, harm);
 }
 
-std::size_t best_of(const std::vector<preview::RolledOut>& tried) {
+std::size_t best_of(const std::vector<preview::RolledOut>& tried, preview::Braking braking) {
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < tried.size(); ++i) {
     const preview::PolicyFacts& one = tried[i].facts;
-    if (!one.refusal.empty()) {
+    if (!one.refusal.empty() || (braking == preview::Braking::full && one.plan.strength)) {
       continue;
     }
     if (!best || outcome::better(one.outcome, one.plan.policy, tried[*best].facts.outcome,
@@ -32,7 +32,7 @@ std::size_t best_of(const std::vector<preview::RolledOut>& tried) {
       best = i;
     }
   }
-  expects(best.has_value(), "emergency braking can always be driven");
+  expects(best.has_value(), "full braking can always be driven");
   return *best;
 }
 

@@ -25,8 +25,11 @@ enum class Knowledge : std::uint8_t {
                                                       Knowledge knowledge);
 
 /// Index of the best of those that can be driven, by the one ordering (outcome/ordering.h).
-/// @param tried  holds emergency braking, which can always be driven
-[[nodiscard]] std::size_t best_of(const std::vector<preview::RolledOut>& tried);
+/// @param tried    holds full braking, which can always be driven
+/// @param braking  full: among the paper's eight policies, so that what other strengths are worth
+///                 can be told
+[[nodiscard]] std::size_t best_of(const std::vector<preview::RolledOut>& tried,
+                                  preview::Braking braking = preview::Braking::any_strength);
 
 /// Tries all plans once for each instant of one encounter, whoever asks.
 class Hindsight {

@@ -51,6 +51,16 @@ TEST_F(Yardstick, WhoKnowsOnlyTheMotionsTakesTheRoadForWhatItSeems) {
   EXPECT_TRUE(braking_meets(Knowledge::everything));
 }
 
+TEST_F(Yardstick, TheBestAsPublishedBrakesWithAllTheGripOrNotAtAll) {
+  auto tried = try_all(at(0.7), car_, harm_, Knowledge::everything);
+  EXPECT_EQ(tried[best_of(tried, preview::Braking::full)].facts.plan.strength, std::nullopt);
+  for (preview::RolledOut& one : tried) {  // gentle braking alone harms nobody
+    one.facts.outcome.harm = one.facts.plan.strength == 0.45 ? 0.0 : 1.0;
+  }
+  EXPECT_EQ(tried[best_of(tried)].facts.plan.strength, 0.45);
+  EXPECT_EQ(tried[best_of(tried, preview::Braking::full)].facts.plan.strength, std::nullopt);
+}
+
 TEST_F(Yardstick, NoneIsBetterThanTheBestByTheOneOrdering) {
   const auto tried = try_all(at(0.7), car_, harm_, Knowledge::everything);
   const preview::PolicyFacts& best = tried[best_of(tried)].facts;
