@@ -56,6 +56,9 @@ inline preview::Situation crowded_situation(unsigned seed) {
     preview::PolicyFacts& facts = situation.facts[manoeuvre::index(policy)];
     facts.refusal.clear();
     facts.plan = manoeuvre::default_plan(policy, scene.ego.v_B.x);
+    if (manoeuvre::takes_strength(policy) && seed % 2 == 0) {
+      facts.plan.strength = 0.45;
+    }
     outcome::Contact contact;
     contact.actor = one_of(12);
     contact.relative_speed = between(0.0, 80.0);

@@ -33,7 +33,7 @@ constexpr double trigger_tolerance = 0.5;  // [s], as the trigger's
 constexpr double standing = 0.05;          // [m/s]: below it rounds to 0.0
 
 constexpr std::array<std::string_view, manoeuvre::num_policies> policy_words{
-    "full braking, lane kept",
+    "braking, lane kept",
     "lane change to the left at constant speed",
     "lane change to the right at constant speed",
     "lane change to the left with braking",

@@ -68,6 +68,21 @@ TEST(Prompt, ForecastOfEachPolicyIsTold) {
   EXPECT_THAT(text, HasSubstr("Not possible: T-D-L, T-D-R\n"));
 }
 
+// 4 and 3 have their speed, 0 its strength where that is not all of the grip.
+TEST(Prompt, StrengthOfBrakingIsTold) {
+  preview::Situation situation = example_situation();
+  preview::PolicyFacts& aeb = situation.facts[0];
+  aeb.plan.strength = 0.45;
+  const std::string text = prompt(situation);
+  EXPECT_THAT(text, HasSubstr("\n0 AEB at 45 % of the grip: clear by 0.6 m, no harm\n"));
+  std::istringstream lines(text);
+  int of_braking = 0;
+  for (std::string line; std::getline(lines, line);) {
+    of_braking += is_line_of(line, manoeuvre::PolicyId::aeb) ? 1 : 0;
+  }
+  EXPECT_EQ(of_braking, 1);
+}
+
 TEST(Prompt, OncomingLaneIsTold) {
   preview::Situation situation = example_situation();
   situation.scene_at_trigger.road.oncoming_left = true;
