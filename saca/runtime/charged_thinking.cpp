@@ -18,7 +18,7 @@ void ChargedThinking::think(decide::ThinkingPlane& plane, const world::Scene& sc
 
 void ChargedThinking::publish(const decide::PlanCache& plans, double ready) {
   waiting_.emplace_back(ready, plans);
-  free_at_ = std::max(free_at_, ready);
+  busy_until(ready);
 }
 
 std::optional<decide::PlanCache> ChargedThinking::take(double now) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <optional>
 #include <utility>
@@ -25,6 +26,10 @@ class ChargedThinking {
 
   /// For `decide::ThinkingOutput`: plans that are ready at `ready` [s].
   void publish(const decide::PlanCache& plans, double ready);
+
+  /// Something comes of the round at `time` [s], an answer whatever it is worth: until then nothing
+  /// else is thought about.
+  void busy_until(double time) { free_at_ = std::max(free_at_, time); }
 
   /// What was thought is of no use any more: plans that are not ready yet will not come. Whoever
   /// thinks is as busy as before.

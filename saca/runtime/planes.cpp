@@ -90,6 +90,9 @@ decide::ThinkingOutput Planes::output() {
               },
           .event =
               [this](const decide::Event& event) {
+                if (!real()) {
+                  charged_.busy_until(event.time);
+                }
                 keep(event);
                 listener_.event(event);
               },

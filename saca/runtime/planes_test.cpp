@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <functional>
@@ -321,6 +322,32 @@ TEST_F(PlanesTest, PlansOfOneEncounterAreNotHandedOverInTheNext) {
     ASSERT_TRUE(planes.decision().has_value());
     EXPECT_EQ(planes.decision()->source, anew ? decide::Source::fallback : decide::Source::model);
   }
+}
+
+// It reads for a second, and what it says fails the check: until then it is busy, also with what
+// comes up meanwhile.
+TEST_F(PlanesTest, TheModelIsBusyUntilItHasAnsweredWhateverItsAnswerIsWorth) {
+  reason::ScriptedReply reply = says(PolicyId::no_intervention);
+  reply.prompt_tokens = 1000;
+  reason::ScriptedModel model(reply, clock_);
+  Planes planes(setup(&model, decide::Guard::never_worse_than_braking), {}, 1000);
+  const auto step = [&](const world::Scene& scene) {
+    const auto beliefs = intent::beliefs_at_sight(intent::shipped_model(), scene);
+    planes.step(scene, beliefs, Clock::Time{0}, false);
+  };
+  for (int k = 0; k < 150; ++k) {
+    world::Scene scene = at(0.01 * k);
+    if (k >= 30) {
+      scene.actors[0].X_WA.p.x += 10.0;  // another forecast
+      scene.actors[0].kind = world::ActorKind::truck;
+    }
+    step(scene);
+  }
+  ASSERT_EQ(model.num_asked(), 2);
+  const auto& events = planes.thinking_events();
+  EXPECT_TRUE(std::is_sorted(
+      events.begin(), events.end(),
+      [](const decide::Event& a, const decide::Event& b) { return a.time < b.time; }));
 }
 
 // One forecast after the other is forgotten in an encounter that does not end. What is kept of its
