@@ -121,13 +121,15 @@ std::optional<Switch> Supervisor::look(const SupervisedScene& now,
   verdict_at_ = now.verdict.time;
   const PolicyId policy = now.under_way.plan.policy;
   const Plan wanted = plan_of(now.verdict);
-  const bool is_clear = wanted.policy == PolicyId::no_intervention;
+  const bool wants_nothing = wanted.policy == PolicyId::no_intervention;
+  const bool is_clear =
+      wants_nothing && find_plan(now.verdict, manoeuvre::doing_nothing)->contact == 0.0;
   std::optional<Switch> change;
   if (!is_clear) {
     clear_since_.reset();
   }
   if (policy == PolicyId::no_intervention || now.finished) {
-    if (!is_clear && now.triggers) {
+    if (!wants_nothing && now.triggers) {
       const JudgedPlan* const judged = find_plan(now.verdict, wanted);
       change = Switch{.plan = wanted,
                       .reason = SwitchReason::needed_after_all,
@@ -138,6 +140,8 @@ std::optional<Switch> Supervisor::look(const SupervisedScene& now,
     clear_since_ = clear_since_.value_or(now.verdict.time);
     if (now.verdict.time >= *clear_since_ + clear_time && !now.threatened) {
       change = Switch{.plan = manoeuvre::doing_nothing, .reason = SwitchReason::no_longer_needed};
+    } else {
+      change = better(now);
     }
   } else {
     change = better(now);

@@ -54,10 +54,9 @@ struct SupervisedScene {
 /// * brake harder at once, as often as it likes, where braking is under way and harder braking is
 ///   expected to harm less by more than outcome::harm_tie: to wait for a second verdict would cost
 ///   way, and nothing is begun that was not under way;
-/// * begin another plan, gentler braking among them, where that is expected to harm less by
-/// `material_harm`, in two verdicts one
-///   after the other: once, and once more for each road user who has come since. Not out of a
-///   drift, which cannot be left.
+/// * begin another plan, gentler braking or doing nothing among them, where that is expected to
+///   harm less by `material_harm`, in two verdicts one after the other: once, and once more for
+///   each road user who has come since. Not out of a drift, which cannot be left.
 /// Trivially copyable; allocates nothing.
 class Supervisor {
  public:

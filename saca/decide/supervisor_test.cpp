@@ -163,6 +163,24 @@ TEST(Supervisor, GivesTheWheelBackAfterHalfASecondOfPeace) {
   }
 }
 
+// Whoever brakes into the way of somebody behind need not go on for half a second.
+TEST(Supervisor, LeavesBrakingThatHarmsForDoingNothingThatDoesNot) {
+  const auto struck_from_behind = [](double time, double harm_of_nothing) {
+    return verdict_of(time, {{PolicyId::aeb, 0.373}, {PolicyId::no_intervention, harm_of_nothing}});
+  };
+  for (const double harm_of_nothing : {0.0, 0.002}) {  // without and with contact
+    Watched watched(PolicyId::aeb);
+    EXPECT_EQ(watched.look(struck_from_behind(1.0, harm_of_nothing)), std::nullopt);
+    const auto change = watched.look(struck_from_behind(1.1, harm_of_nothing));
+    ASSERT_TRUE(change.has_value());
+    EXPECT_EQ(change->plan, manoeuvre::doing_nothing);
+    EXPECT_EQ(change->reason, SwitchReason::better_by_far);
+  }
+  // Nothing is begun where nothing was done and that is still the best.
+  Watched idle(PolicyId::no_intervention);
+  EXPECT_EQ(idle.look(struck_from_behind(1.0, 0.002)), std::nullopt);
+}
+
 // At once, as often as verdicts say so, whoever is there; a tie is no reason.
 TEST(Supervisor, BrakesHarderAtOnceAndAsOftenAsNeeded) {
   Watched watched(PolicyId::aeb);

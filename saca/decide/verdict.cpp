@@ -148,6 +148,9 @@ Plan plan_of(const Verdict& verdict) noexcept {
       (mildest == nullptr || braking->harm <= mildest->harm + outcome::harm_tie)) {
     return braking->plan;
   }
+  if (mildest == nullptr && admits(verdict, doing_nothing)) {
+    return doing_nothing;
+  }
   return mildest == nullptr ? full_braking : mildest->plan;
 }
 

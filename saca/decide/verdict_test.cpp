@@ -44,6 +44,12 @@ TEST(Verdict, SpeaksForDoingNothingOnlyWhereThatTouchesNobody) {
                                      {PolicyId::no_intervention, 0.001}}))
                 .policy,
             PolicyId::aes_right);
+  // Only where all else harms more than forecasts can tell apart: braking would knowingly be worse.
+  EXPECT_EQ(plan_of(verdict_of(0.0, {{PolicyId::aeb, 0.3242},
+                                     {PolicyId::aes_right, 0.0235},
+                                     {PolicyId::no_intervention, 0.0025}}))
+                .policy,
+            PolicyId::no_intervention);
 }
 
 TEST(Verdict, SpeaksForBrakingWhereItIsAdmissible) {

@@ -260,7 +260,10 @@ std::string Story::rule() const {
            "emergency braking is the fallback.";
   }
   if (decision_.at("name") == "NI") {
-    return "The arbiter decided: no draw has contact where nothing is done, so nothing is done.";
+    return nothing_harms_nobody()
+               ? "The arbiter decided: no draw has contact where nothing is done, so nothing is "
+                 "done."
+               : "The arbiter decided: only doing nothing is admissible, so nothing is done.";
   }
   if (decision_.at("name") == "AEB" && !is_choice_admissible()) {
     return "The arbiter decided: doing nothing may end in contact and no other plan is admissible; "
