@@ -180,6 +180,28 @@ TEST(ReflexPlane, PrefersTheCachedPlanWhereItIsAdmissible) {
   EXPECT_TRUE(decided(0.007).not_admissible);
 }
 
+// Memory and model choose policy 0, the verdict how hard; without a verdict, or by the paper's
+// rule, it is full braking whatever was forecast.
+TEST(ReflexPlane, BrakesAsHardAsTheVerdictSaysWhereBrakingWasChosen) {
+  Scene scene = wreck_in(1.28);
+  scene.time = 5.0;
+  PlanCache cached = one_plan(scene, PolicyId::aeb);
+  cached[0].plan.strength = 0.45;
+  const auto decided = [&](Guard guard, double verdict_at) {
+    ReflexPlane plane({.guard = guard});
+    plane.receive(cached);
+    plane.receive(braking_verdict(verdict_at, 0.05, 0.02, 0.001, 0.08));
+    EXPECT_TRUE(plane.step(scene).triggered);
+    return plane.decision().value();
+  };
+  const Decision fresh = decided(Guard::never_worse_than_braking, 5.0);
+  EXPECT_EQ(fresh.plan, braking_at(0.6));
+  EXPECT_EQ(fresh.source, Source::model);
+  EXPECT_EQ(decided(Guard::never_worse_than_braking, 4.0).plan, manoeuvre::full_braking);
+  EXPECT_EQ(decided(Guard::never_worse_than_braking, 4.0).source, Source::model);
+  EXPECT_EQ(decided(Guard::none, 5.0).plan, manoeuvre::full_braking);
+}
+
 // Previewed at 24.9 m/s, triggered at 25.2: a lane change is made for at most 25.
 TEST(ReflexPlane, NeverBeginsWhatCannotBeDrivenFromHere) {
   ReflexPlane plane({.car = &small_car()});

@@ -49,11 +49,12 @@ class Thinking : public testing::Test {
   }
 
   ThinkingPlane plane(reason::LanguageModel* model, memory::Store* memory = nullptr,
-                      Asking asking = {}) {
+                      Asking asking = {}, Guard guard = Guard::never_worse_than_braking) {
     return {{.forecast = {.car = &car(), .harm = &harm_},
              .memory = memory,
              .model = model,
              .clock = &clock_,
+             .guard = guard,
              .asking = asking},
             {},
             {.publish = [this](const PlanCache& plans, double) { published_.push_back(plans); },
@@ -101,6 +102,24 @@ TEST_F(Thinking, CachesWhatTheModelChoosesAndTheRolloutConfirms) {
   EXPECT_EQ(published_.back()[0].plan.policy, PolicyId::aes_left);
   EXPECT_FALSE(published_.back()[0].worse_than_aeb);
   EXPECT_EQ(text_, "because.");
+}
+
+// From 10 m/s 13 m are more than full braking needs; who follows closely needs them. Algorithm 1 of
+// the paper has one strength, in what it is told, too.
+TEST_F(Thinking, BrakesByAStrengthButNotByThePapersRule) {
+  Scene scene = test::ego_at(10.0, manoeuvre::footprint(car()));
+  scene.ego_mass = car().mass;
+  scene.actors.push_back(test::car(1, {35.0, 0.0}));
+  scene.actors[0].kind = world::ActorKind::obstacle;
+  scene.actors.push_back(test::car(2, {-8.5, 0.0}, {10.0, 0.0}));
+  ThinkingPlane guarded = plane(nullptr);
+  ThinkingPlane published = plane(nullptr, nullptr, {}, Guard::none);
+  ASSERT_TRUE(think(guarded, scene) && think(published, scene));
+  ASSERT_FALSE(guarded.previews().empty());
+  EXPECT_TRUE(guarded.previews()[0].situation.facts[0].plan.strength.has_value());
+  for (const Preview& preview : published.previews()) {
+    EXPECT_EQ(preview.situation.facts[0].plan, manoeuvre::full_braking);
+  }
 }
 
 // An hour of following somebody closely: what has passed is forgotten, what is at hand is not, and

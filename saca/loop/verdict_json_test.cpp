@@ -41,14 +41,16 @@ TEST(VerdictJson, TellsEveryPlanAndWhatIsAdmissible) {
   EXPECT_EQ(out["plans"][1], (json{{"policy", 3},
                                    {"name", "ES-B-L"},
                                    {"target_speed_mps", 7.0},
+                                   {"strength", nullptr},
                                    {"harm", 0.01},
                                    {"contact", 0.0625}}));
   EXPECT_TRUE(out["plans"][2]["harm"].is_null());
   EXPECT_TRUE(out["plans"][2]["contact"].is_null());
   EXPECT_TRUE(out["under_way"].is_null());
   // Braking is not admissible, and only one other plan is.
-  EXPECT_EQ(out["speaks_for"],
-            (json{{"policy", 3}, {"name", "ES-B-L"}, {"target_speed_mps", 7.0}}));
+  EXPECT_EQ(
+      out["speaks_for"],
+      (json{{"policy", 3}, {"name", "ES-B-L"}, {"target_speed_mps", 7.0}, {"strength", nullptr}}));
 }
 
 // Of a swerve it is the rest, which is no longer what would begin now; braking can only begin now.

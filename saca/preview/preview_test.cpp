@@ -146,7 +146,9 @@ Situation read_situation(const Scene& scene) {
     beliefs.push_back({});
     beliefs[i].at.fill({1.0});
   }
-  const auto found = situations(scene, beliefs, {}, reading());
+  ForecastTools tools = reading();
+  tools.braking = Braking::full;
+  const auto found = situations(scene, beliefs, {}, tools);
   EXPECT_EQ(found.size(), 1U);
   return found.empty() ? Situation() : found[0];
 }

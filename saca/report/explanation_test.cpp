@@ -111,7 +111,7 @@ TEST(Explanation, DoesNotCallBrakingAdmissibleWhereItIsNot) {
   other["decision"]["verdict"]["admissible_harm"] = 0.0105;
   EXPECT_THAT(told(other, about), HasSubstr("emergency braking was begun although it is not"));
   other["decision"]["verdict"]["admissible_harm"] = 0.4;
-  EXPECT_THAT(told(other, about), HasSubstr("braking, being admissible,"));
+  EXPECT_THAT(told(other, about), HasSubstr("and braking is admissible."));
 }
 
 TEST(Explanation, TellsHowHardWasBrakedAndWhyNotHarder) {
