@@ -280,7 +280,10 @@ TEST(Futures, TakeTheTargetSpeedThatHarmsLeast) {
 TEST(Futures, BrakeByTheStrengthThatHarmsLeast) {
   std::mt19937_64 rng(13);
   for (int i = 0; i < 30; ++i) {
-    const Staged stage = random_stage(rng);
+    Staged stage = random_stage(rng);
+    if (i % 2 == 0) {  // who comes from behind and does not brake
+      stage.add(world::ActorKind::car, {{-9.0 - i, 0.0}, 0.0}, {11.0, 0.0});
+    }
     const Future best = futures(small_atlas(), stage.scene, stage.tracks, harm())[0];
     for (const double strength : {1.0, 0.8, 0.6, 0.45, 0.3}) {
       const manoeuvre::Plan plan{.policy = PolicyId::aeb, .strength = strength};
