@@ -294,10 +294,9 @@ void add_tables(CLI::App& line, int& exit_code) {
   command->add_option("--count", options->count, "Encounters of each table, at least")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
-  std::vector<std::string> numbers;
-  for (const TableSpec& table : tables) {
-    numbers.emplace_back(table.number);
-  }
+  std::vector<std::string> numbers(tables.size());
+  std::transform(tables.begin(), tables.end(), numbers.begin(),
+                 [](const TableSpec& table) { return table.number; });
   command->add_option("--table", options->only, "Only these: 2, 2_late, 3; all unless given")
       ->delimiter(',')
       ->check(CLI::IsMember(numbers));
