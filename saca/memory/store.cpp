@@ -271,20 +271,27 @@ struct Store::State {
   }
 
   [[nodiscard]] std::optional<Error> create_if_new() const {
-    auto is_empty = is_new();
+    const auto is_empty = is_new();
     if (!is_empty.has_value()) {
       return is_empty.error();
     }
     if (!is_empty.value()) {
       return std::nullopt;
     }
+    return run_where_needed(create, [this] { return is_new(); });
+  }
+
+  /// In one transaction, unless another process was faster and it is not needed any more.
+  template <class IsNeeded>
+  [[nodiscard]] std::optional<Error> run_where_needed(const char* statements,
+                                                      IsNeeded is_needed) const {
     if (auto error = run("BEGIN IMMEDIATE", Access::write)) {
       return error;
     }
-    is_empty = is_new();  // another process may have been faster
-    auto error = is_empty.has_value() ? std::nullopt : std::optional(is_empty.error());
-    if (!error && is_empty.value()) {
-      error = run(create, Access::write);
+    const Result<bool> needed = is_needed();
+    auto error = needed.has_value() ? std::nullopt : std::optional(needed.error());
+    if (!error && needed.value()) {
+      error = run(statements, Access::write);
     }
     if (!error) {
       error = run("COMMIT", Access::write);
@@ -334,21 +341,13 @@ struct Store::State {
   }
 
   [[nodiscard]] std::optional<Error> upgrade() const {
-    if (auto error = run("BEGIN IMMEDIATE", Access::write)) {
-      return error;
-    }
-    const auto found = integer("PRAGMA user_version");  // another process may have been faster
-    auto error = found.has_value() ? std::nullopt : std::optional(found.error());
-    if (!error && found.value() != version) {
-      error = run(add_strengths, Access::write);
-    }
-    if (!error) {
-      error = run("COMMIT", Access::write);
-    }
-    if (error) {
-      (void)run("ROLLBACK", Access::write);
-    }
-    return error;
+    return run_where_needed(add_strengths, [this]() -> Result<bool> {
+      const auto found = integer("PRAGMA user_version");
+      if (!found.has_value()) {
+        return found.error();
+      }
+      return found.value() != version;
+    });
   }
 
   /// Calls `take` with each case after `last`, in order.
