@@ -5,7 +5,6 @@
 #include <array>
 #include <span>
 
-#include "saca/decide/event.h"
 #include "saca/decide/forecaster.h"
 #include "saca/outcome/ordering.h"
 #include "saca/preview/drawn_motions.h"
