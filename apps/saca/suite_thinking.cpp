@@ -72,7 +72,7 @@ Result<std::unique_ptr<SuiteThinking>> SuiteThinking::open(const ThinkingOptions
 
 SuiteThinking::Loan SuiteThinking::lend(runtime::PlanesSetup setup) {
   Loan loan{.memory = memories_ ? memories_->lend() : LendingPool<memory::Store>::Loan(),
-            .setup = setup};
+            .setup = std::move(setup)};
   loan.setup.memory = loan.memory.get();
   loan.setup.model = shared_.get();
   return loan;
