@@ -9,7 +9,7 @@
 #   make soak    long runs: kills, deadlines, first contacts, futures, evasions
 .PHONY: run test build model bench lint setup soak
 
-SCENARIO ?= 100car_9018
+SCENARIO ?= 100car_8456
 
 run: build model
 	build/release/saca run $(SCENARIO)

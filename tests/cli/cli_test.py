@@ -50,7 +50,7 @@ def test_tells_what_the_driver_did_what_saca_did_and_what_would_have_been_best(t
     assert (tmp_path / "runs/100car_9018/report.html").exists()
 
 
-@pytest.mark.parametrize("name", ["100car_8676", "100car_8911", "100car_9018", "intersection_t1",
+@pytest.mark.parametrize("name", ["100car_8456", "100car_8676", "100car_8911", "100car_9018", "intersection_t1",
                                   "intersection_t2"])
 def test_every_shipped_scenario_gives_a_record(name, tmp_path):
     run = quick(name, "--json", "--no-memory", cwd=tmp_path)
@@ -138,6 +138,17 @@ def test_a_policy_can_be_asked_for(tmp_path):
     assert record["decision"]["policy"] == 7
     assert record["decision"]["source"] == "forced"
     assert record["result"]["contact"]["with"] == "truck1"
+
+
+def test_before_a_close_follower_braking_fully_harms_and_what_is_decided_does_not(tmp_path):
+    def record(*more):
+        run = quick("100car_8456", "--no-memory", "--json", *more, cwd=tmp_path)
+        assert run.returncode == SUCCESS, run.stderr
+        return json.loads(run.stdout)
+
+    braked, decided = record("--policy", 0), record()
+    assert braked["result"]["contact"]["with"] == "car1" and braked["result"]["contact"]["ego_face"] == "rear"
+    assert decided["decision"]["policy"] == 3 and decided["result"]["contact"] is None
 
 
 def test_a_drift_stops_across_the_lane(tmp_path):
