@@ -1,4 +1,5 @@
 """The program under test, its exit codes, and how an error looks."""
+import json
 import os
 import pathlib
 import signal
@@ -13,6 +14,11 @@ SUCCESS, WRONG_COMMAND_LINE, BAD_INPUT, CANNOT_WRITE, INTERRUPTED = 0, 2, 3, 4, 
 def saca(*arguments, cwd, **options):
     return subprocess.run([PROGRAM, *map(str, arguments)], cwd=cwd, capture_output=True, text=True,
                           timeout=1500, **options)
+
+
+def quick(*arguments, cwd, **options):
+    """A run without model, at the fast pace."""
+    return saca("run", *arguments, "--llm", "off", "--pace", "lockstep", cwd=cwd, **options)
 
 
 def interrupted_while_silent(server, *arguments, cwd):
@@ -34,3 +40,9 @@ def one_error(run, code):
     lines = run.stderr.strip().splitlines()
     assert len(lines) == 1, run.stderr
     return lines[0]
+
+
+def figures(run):
+    """What a run with `--json` printed."""
+    assert run.returncode == SUCCESS, run.stderr
+    return json.loads(run.stdout)

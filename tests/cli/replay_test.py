@@ -21,7 +21,7 @@ def taped(folder, *options):
 
 @pytest.fixture(scope="module")
 def tape(tmp_path_factory):
-    return taped(tmp_path_factory.mktemp("tape"), "100car_9018", "--pace", "lockstep")
+    return taped(tmp_path_factory.mktemp("tape"), "one_way", "--pace", "lockstep")
 
 
 def digest(text):
@@ -87,13 +87,13 @@ def test_a_plan_of_memory_comes_from_the_tape(tmp_path):
 
 def test_what_it_finds_is_told_in_words(tape, tmp_path):
     told = replayed(tape, tmp_path).stdout
-    assert "100car_9018" in told and "choices at a trigger                    1 of      1" in told
+    assert "one_way" in told and "choices at a trigger                    1 of      1" in told
     assert "difference" not in told
 
 
 def test_the_tape_is_that_of_the_run(tape):
     header, *steps = [json.loads(line) for line in tape.splitlines()]
-    assert (header["schema"], header["scenario"], header["pace"]) == ("saca.tape/1", "100car_9018", "lockstep")
+    assert (header["schema"], header["scenario"], header["pace"]) == ("saca.tape/1", "one_way", "lockstep")
     assert digest(tape[:tape.rindex("\n", 0, -1) + 1]) == steps[-1]["digest"]
 
 

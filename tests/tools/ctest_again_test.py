@@ -164,7 +164,7 @@ def ran(clone, code=0, **environment):
     """Names of tests that were run."""
     (clone / "chosen").write_text("")
     run = subprocess.run([sys.executable, "tools/ctest_again.py", "p"], cwd=clone, capture_output=True, text=True, timeout=1500,
-                         env={**os.environ, "PATH": f"{clone / 'bin'}:{os.environ['PATH']}", **environment})
+                         env={**os.environ, "SACA_TEST_ALL": "", "PATH": f"{clone / 'bin'}:{os.environ['PATH']}", **environment})
     assert run.returncode == code, run.stderr
     return (clone / "chosen").read_text().split()
 

@@ -1,0 +1,69 @@
+"""Runs beside a language model: its replies recorded and given again, and what happens when it is struck."""
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+
+import pytest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from chat_server import server  # noqa: F401, a fixture
+from program import PROGRAM, ROOT, SUCCESS, saca
+
+HOST = pathlib.Path(PROGRAM).parent / "saca-model-host"
+HAS_MODEL = HOST.exists() and (ROOT / "third_party/models/choice.json").exists()
+needs_model = pytest.mark.skipif(not HAS_MODEL, reason="`make model` has not been run")
+
+
+def replayed(scenario, *more, cwd):
+    """A run whose replies are recorded, and one that is given them. Both have the same answers, and some."""
+    replies = cwd / "replies.json"
+    first = saca("run", scenario, "--pace", "lockstep", "--no-memory", "--no-review", "--record-replies", replies, "--json", *more, cwd=cwd)
+    again = saca("run", scenario, "--pace", "lockstep", "--no-memory", "--llm",
+                 f"replay:{replies}", "--json", cwd=cwd)
+    assert first.returncode == again.returncode == SUCCESS, first.stderr + again.stderr
+    answers = [[preview["reasoning"] for preview in json.loads(run.stdout)["previews"]]
+               for run in (first, again)]
+    assert answers[0] == answers[1]
+    assert any(answers[0])
+
+
+@needs_model
+def test_recorded_replies_can_be_replayed(tmp_path):
+    replayed("one_way", cwd=tmp_path)
+
+
+def test_recorded_replies_of_several_forecasts_can_be_replayed(server, tmp_path):
+    replayed("100car_8676", "--llm", f"some-model@http://127.0.0.1:{server.server_port}/v1", cwd=tmp_path)
+
+
+def descendants(pid):
+    """Processes begun by a process, and by those."""
+    found = []
+    for child in pathlib.Path(f"/proc/{pid}/task").glob("*/children"):
+        for each in child.read_text().split():
+            found += [int(each), *descendants(each)]
+    return found
+
+
+@needs_model
+@pytest.mark.parametrize("blow", [signal.SIGKILL, signal.SIGSTOP])
+def test_a_model_that_is_struck_in_the_middle_changes_nothing_on_the_reflex_plane(blow, tmp_path):
+    # What the model would say here is refused, so that it brakes whatever it hears; it is over after seconds.
+    run = subprocess.Popen([PROGRAM, "run", "one_way", "--no-memory", "--no-review"], cwd=tmp_path, text=True,
+                           stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    story, struck = [], []
+    for line in run.stdout:
+        story.append(line)
+        if not struck and "the model is asked" in line:
+            struck = descendants(run.pid)
+            for child in struck:
+                os.kill(child, blow)
+    assert run.wait(timeout=1500) == SUCCESS, run.stderr.read()
+    assert any("policy 0 AEB" in line for line in story)
+    assert (tmp_path / "runs/one_way/report.html").exists()
+    if not struck:
+        pytest.skip("this machine was too busy to ask the model before the trigger")
+    assert any("thinking" in line and "model: " in line for line in story), story
