@@ -38,7 +38,7 @@ bench: build model
 # Long runs, on a machine of its own: kills in the middle of memory's writes; deadlines and deaths of the
 # language model beside one busy core; deadlines of a connection in real time; a server that others
 # wrote; first contacts against brute force; the batch against the scalar model; evasions against the
-# values that they follow; air3D on fine grids. `make test` has a short form of each, without the clock.
+# values that they follow; air3D on fine grids; memory over a day's drive. `make test` has a short form of each, without the clock.
 release := build/release
 soak: setup
 	@tools/model/setup.sh server
@@ -50,5 +50,6 @@ soak: setup
 	SACA_SOAK_TABLES=1 PYTHONDONTWRITEBYTECODE=1 python3 -m pytest -q -p no:cacheprovider tests/cli/suite_test.py -k table
 	SACA_SOAK_PAIRS=$${SACA_SOAK_PAIRS:-100000} $(release)/modules/outcome/outcome_test --gtest_filter='Exactness.*'
 	SACA_AGREEMENT_ENCOUNTERS=$${SACA_AGREEMENT_ENCOUNTERS:-4000} $(release)/modules/eval/eval_test --gtest_filter='RolloutAgreement.*'
+	SACA_SOAK_HOURS=$${SACA_SOAK_HOURS:-24} $(release)/modules/runtime/runtime_test --gtest_filter='LongDrive.*'
 	SACA_SOAK_REACH=1 $(release)/modules/reach/reach_test --gtest_filter='FollowAgreement.*'
 	SACA_SOAK_AIR3D=1 $(release)/modules/reach/reach_test --gtest_filter='Air3dReference.*'
