@@ -100,7 +100,11 @@ Reflex ReflexPlane::step(const Scene& scene, bool finished) noexcept {
   }
   reflex.threat = preview::nearest_threat(scene, tools_.thresholds.preview,
                                           tools_.thresholds.trigger_tolerance);
-  if (!decision_ && preview::triggers(reflex.threat, tools_.thresholds)) {
+  const auto trigger = preview::triggering_threat(scene, tools_.thresholds);
+  if (trigger) {
+    reflex.threat = trigger;
+  }
+  if (!decision_ && trigger) {
     decision_ = decide(scene);
     begin(decision_->plan, scene);
     supervisor_.begin(scene);
@@ -114,7 +118,7 @@ Reflex ReflexPlane::step(const Scene& scene, bool finished) noexcept {
                               .verdict = *verdict_,
                               .under_way = *under_way_,
                               .threatened = reflex.threat.has_value(),
-                              .triggers = preview::triggers(reflex.threat, tools_.thresholds),
+                              .triggers = trigger.has_value(),
                               .finished = finished};
     reflex.switched = supervisor_.look(now, tools_.car);
     if (reflex.switched) {

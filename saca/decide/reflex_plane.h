@@ -37,7 +37,9 @@ struct Decision {
 struct Reflex {
   manoeuvre::Plan plan{manoeuvre::PolicyId::no_intervention,
                        std::nullopt};     ///< valid at every instant
-  std::optional<preview::Threat> threat;  ///< nearest conflict within T2, all going on as they do
+  std::optional<preview::Threat> threat;  ///< what sets off the trigger; where nothing does, the
+                                          ///< nearest conflict within T2, the ego going on in its
+                                          ///< lane and the others as they do
   bool triggered = false;                 ///< in this very call
   std::optional<Switch> switched;  ///< in this very call: `plan` begins now, in place of another
   bool refused_scene = false;      ///< the scene broke a rule and was left aside

@@ -55,6 +55,18 @@ TEST(ReflexPlane, DoesNothingBeforeTheTrigger) {
   EXPECT_EQ(plane.decision(), std::nullopt);
 }
 
+// 25.6 m at 20 m/s: the driver needs 7.8 m/s^2 and brakes with 9, until he lets go.
+TEST(ReflexPlane, LeavesADriverAloneWhoBrakesEnough) {
+  ReflexPlane plane{ReflexTools{}};
+  Scene braking = wreck_in(1.28);
+  braking.ego.a_B = {-9.0, 0.0};
+  EXPECT_FALSE(plane.needs_verdict(braking, false));
+  const Reflex reflex = plane.step(braking);
+  EXPECT_FALSE(reflex.triggered);
+  EXPECT_NEAR(reflex.threat->time, 1.28, 0.011) << "who lets go is in conflict";
+  EXPECT_TRUE(plane.step(wreck_in(1.27)).triggered);
+}
+
 TEST(ReflexPlane, BrakesWhenNothingWasThought) {
   ReflexPlane plane{ReflexTools{}};
   const Reflex reflex = plane.step(wreck_in(1.28));

@@ -208,8 +208,9 @@ ShadowPicture shadow_picture(const sim::Scenario& scenario, const ShadowSetup& s
   picture.ego = track_to(now, std::min(now + shown_for, recorded),
                          [&](double t) { return sim::ego_at(world, now + t).X_WB; });
   const double conflict = now + trigger.time_to_conflict;
-  picture.supposed_ego =
-      track_to(now, conflict, [&](double t) { return world::ego_going_on(scene, t); });
+  picture.supposed_ego = track_to(now, conflict, [&](double t) {
+    return world::ego_going_on(scene, t, world::EgoPrediction::as_measured);
+  });
   for (const world::Actor& actor : scene.actors) {
     const std::size_t i = actor_index(world, actor);
     const auto* recording = std::get_if<sim::Recording>(&world.actors[i].motion);

@@ -7,7 +7,8 @@
 
 namespace saca::preview {
 
-std::optional<Threat> nearest_threat(const world::Scene& scene, double horizon, double tolerance) {
+std::optional<Threat> nearest_threat(const world::Scene& scene, double horizon, double tolerance,
+                                     world::EgoPrediction ego) {
   std::optional<Threat> nearest;
   for (std::size_t i = 0; i < scene.actors.size(); ++i) {
     const world::Actor& actor = scene.actors[i];
@@ -15,7 +16,7 @@ std::optional<Threat> nearest_threat(const world::Scene& scene, double horizon, 
       continue;
     }
     const auto time =
-        world::time_to_conflict(scene, actor, nearest ? nearest->time : horizon, tolerance);
+        world::time_to_conflict(scene, actor, nearest ? nearest->time : horizon, tolerance, ego);
     if (time && (!nearest || *time < nearest->time)) {
       nearest = Threat{.actor = i, .time = *time};
       if (nearest->time <= 0.0) {
@@ -27,8 +28,9 @@ std::optional<Threat> nearest_threat(const world::Scene& scene, double horizon, 
 }
 
 std::optional<Threat> triggering_threat(const world::Scene& scene, const Thresholds& thresholds) {
-  const auto threat = nearest_threat(scene, thresholds.preview, thresholds.trigger_tolerance);
-  return triggers(threat, thresholds) ? threat : std::nullopt;
+  const auto threat = nearest_threat(scene, thresholds.preview, thresholds.trigger_tolerance,
+                                     world::EgoPrediction::as_measured);
+  return threat && threat->time <= thresholds.trigger ? threat : std::nullopt;
 }
 
 std::optional<Threat> previewed_threat(const world::Scene& scene, const intent::Beliefs& beliefs,
@@ -37,6 +39,10 @@ std::optional<Threat> previewed_threat(const world::Scene& scene, const intent::
   const intent::Beliefs prepared = cautious(scene, beliefs, thresholds);
   std::optional<Threat> nearest =
       nearest_threat(scene, thresholds.preview, thresholds.preview_tolerance);
+  const std::optional<Threat> trigger = triggering_threat(scene, thresholds);
+  if (trigger && (!nearest || trigger->time < nearest->time)) {
+    nearest = trigger;
+  }
   for (std::size_t i = 0; i < scene.actors.size(); ++i) {
     const world::Actor& actor = scene.actors[i];
     if (world::is_behind(scene, actor)) {

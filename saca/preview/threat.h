@@ -6,6 +6,7 @@
 #include "saca/intent/motion.h"
 #include "saca/intent/observer.h"
 #include "saca/world/scene.h"
+#include "saca/world/time_to_conflict.h"
 
 namespace saca::preview {
 
@@ -29,22 +30,20 @@ struct Threat {
 /// threat.
 /// @param tolerance  of crossing traffic [s]; other traffic has none
 /// Allocates nothing: for the reflex plane.
-[[nodiscard]] std::optional<Threat> nearest_threat(const world::Scene& scene, double horizon,
-                                                   double tolerance);
+[[nodiscard]] std::optional<Threat> nearest_threat(
+    const world::Scene& scene, double horizon, double tolerance,
+    world::EgoPrediction ego = world::EgoPrediction::in_lane);
 
-/// Does the nearest conflict within T2 set off the trigger: is it within T1? The one rule of the
-/// reflex plane and of everybody who is compared with it.
-[[nodiscard]] inline bool triggers(const std::optional<Threat>& threat,
-                                   const Thresholds& thresholds) {
-  return threat && threat->time <= thresholds.trigger;
-}
-
-/// The conflict that sets off the trigger; nullopt: none does now. Allocates nothing.
+/// The conflict that sets off the trigger: the nearest within T1, the ego going on as it is
+/// measured to, so that a driver who already brakes or steers enough is left alone. nullopt: none
+/// does now. The one rule of the reflex plane and of everybody who is compared with it. Allocates
+/// nothing.
 [[nodiscard]] std::optional<Threat> triggering_threat(const world::Scene& scene,
                                                       const Thresholds& thresholds);
 
 /// The nearest conflict under any intention that is likely enough, crossing traffic with the wide
-/// tolerance; within thresholds.preview.
+/// tolerance; within thresholds.preview. The ego goes on in its lane, or, where that leads into a
+/// conflict within T1, as it is measured to: its driver may stop braking or turning at any time.
 /// @param beliefs  one per actor; those that are prepared for are `preview::cautious`
 /// @throws ContractViolation  if beliefs and actors differ in number
 [[nodiscard]] std::optional<Threat> previewed_threat(const world::Scene& scene,

@@ -13,6 +13,14 @@ namespace {
 constexpr double shortest_step = 0.01;  // [s], the stated exactness
 constexpr double rest_speed = 0.1;      // [m/s]
 
+// What a driver does who keeps speed and lane, and what sensors err by: only what is beyond it is
+// taken for braking or turning. Assumptions: engine braking and air resistance at 30 m/s decelerate
+// a car by some 0.5 m/s^2, and drivers who keep their lane (0.2 m of standard deviation, Verster
+// and Roth, Int. J. General Medicine 4, 2011) correct it within a second or two.
+constexpr double unnoticed_deceleration = 0.5;     // [m/s^2]
+constexpr double lane_keeping_speed = 0.5;         // across the lane [m/s]
+constexpr double lane_keeping_acceleration = 0.5;  // likewise [m/s^2]
+
 /// What a body's motion can be within a horizon: its velocity now, and bounds on how it changes.
 struct MotionBound {
   Vec2 v_W;                   ///< now [m/s]
@@ -20,64 +28,89 @@ struct MotionBound {
   double acceleration = 0.0;  ///< largest, in any direction [m/s^2]
 };
 
-/// The ego's lane pose and speed, worked out once for many times.
-class EgoLine {
- public:
-  explicit EgoLine(const Scene& scene)
-      : road_(scene.road),
-        start_(to_lane(scene.road, scene.ego.X_WB)),
-        speed_(norm(scene.ego.v_B)),
-        // Beside the centre line the same way along the lane is longer or shorter.
-        along_(speed_ / std::max(0.1, 1.0 - scene.road.curvature * start_.d)),
-        corner_speed_(turn_rate() * bounding_radius(scene.ego_footprint)) {}
-
-  [[nodiscard]] Pose at(double after) const {
-    return from_lane(road_, {.s = start_.s + along_ * after, .d = start_.d});
-  }
-  [[nodiscard]] MotionBound bound(const Pose& X_WB) const {
-    return {rotated({speed_, 0.0}, X_WB.yaw), corner_speed_, speed_ * turn_rate()};
-  }
-  [[nodiscard]] double top_speed() const { return speed_ + corner_speed_; }
-
- private:
-  [[nodiscard]] double turn_rate() const { return std::abs(road_.curvature) * along_; }
-
-  Road road_;
-  LanePose start_;
-  double speed_;
-  double along_;
-  double corner_speed_;
+/// An arc that a body describes, with a constant acceleration along it until it is at rest.
+struct Arc {
+  Pose X_WC;                  ///< where it is now, x along its course
+  double crab = 0.0;          ///< of the body's heading against its course [rad]
+  double curvature = 0.0;     ///< [1/m]
+  double speed = 0.0;         ///< [m/s], >= 0
+  double acceleration = 0.0;  ///< along the arc [m/s^2]
 };
 
-/// The arc that an actor describes.
-class ActorLine {
+/// @return  0 within the band, beyond it what is beyond: a measured value and its noise count from
+///          there on, without a jump
+double beyond_band(double value, double band) {
+  return value > 0.0 ? std::max(0.0, value - band) : std::min(0.0, value + band);
+}
+
+Arc lane_arc(const Scene& scene) {
+  const LanePose here = to_lane(scene.road, scene.ego.X_WB);
+  return {.X_WC = {scene.ego.X_WB.p, wrap_angle(scene.ego.X_WB.yaw - here.heading)},
+          // Beside the centre line the same way along the lane is longer or shorter.
+          .curvature = scene.road.curvature / std::max(0.1, 1.0 - scene.road.curvature * here.d),
+          .speed = norm(scene.ego.v_B)};
+}
+
+Arc measured_arc(const Scene& scene) {
+  const EgoState& ego = scene.ego;
+  Arc arc = lane_arc(scene);
+  if (ego.v_B.x < rest_speed) {
+    return arc;
+  }
+  const double speed = arc.speed;
+  const double course = ego.X_WB.yaw + std::atan2(ego.v_B.y, ego.v_B.x);
+  const double across = speed * std::sin(course - arc.X_WC.yaw);
+  const double aside = speed * (ego.yaw_rate - speed * arc.curvature);
+  arc.X_WC.yaw =
+      wrap_angle(arc.X_WC.yaw + std::asin(beyond_band(across, lane_keeping_speed) / speed));
+  arc.curvature += beyond_band(aside, lane_keeping_acceleration) / (speed * speed);
+  arc.acceleration =
+      std::min(0.0, beyond_band(dot(ego.a_B, ego.v_B) / speed, unnoticed_deceleration));
+  return arc;
+}
+
+Arc ego_arc(const Scene& scene, EgoPrediction prediction) {
+  return prediction == EgoPrediction::as_measured ? measured_arc(scene) : lane_arc(scene);
+}
+
+Arc actor_arc(const Actor& actor) {
+  const double speed = norm(actor.v_W);
+  if (speed < rest_speed) {
+    return {.X_WC = actor.X_WA};
+  }
+  const double course = std::atan2(actor.v_W.y, actor.v_W.x);
+  return {.X_WC = {actor.X_WA.p, course},
+          .crab = wrap_angle(actor.X_WA.yaw - course),
+          .curvature = actor.yaw_rate / speed,
+          .speed = speed,
+          .acceleration = dot(actor.a_W, actor.v_W) / speed};
+}
+
+/// A body on its arc, worked out once for many times.
+class ArcLine {
  public:
+  /// @param radius   of a circle about its centre that holds the body [m]
   /// @param horizon  until when the bounds hold [s]
-  explicit ActorLine(const Actor& actor, double horizon = 0.0) : speed_(norm(actor.v_W)) {
-    if (speed_ < rest_speed) {
-      speed_ = 0.0;
-      arc_.X_WL = actor.X_WA;
-      return;
-    }
-    const double course = std::atan2(actor.v_W.y, actor.v_W.x);
-    arc_.X_WL = {actor.X_WA.p, course};
-    arc_.curvature = actor.yaw_rate / speed_;
-    crab_ = wrap_angle(actor.X_WA.yaw - course);
-    acceleration_ = dot(actor.a_W, actor.v_W) / speed_;
-    fastest_ = speed_ + std::max(0.0, acceleration_) * horizon;
-    const double turn_rate = fastest_ * std::abs(arc_.curvature);
-    corner_speed_ = turn_rate * bounding_radius(actor.footprint);
+  explicit ArcLine(const Arc& arc, double radius = 0.0, double horizon = 0.0)
+      : crab_(arc.crab),
+        speed_(arc.speed),
+        acceleration_(arc.acceleration),
+        fastest_(arc.speed + std::max(0.0, arc.acceleration) * horizon) {
+    path_.X_WL = arc.X_WC;
+    path_.curvature = arc.curvature;
+    const double turn_rate = fastest_ * std::abs(arc.curvature);
+    corner_speed_ = turn_rate * radius;
     change_ = std::abs(acceleration_) + fastest_ * turn_rate;
   }
 
   [[nodiscard]] Pose at(double after) const {
     const double moving = until_rest(after);
     const double way = (speed_ + 0.5 * acceleration_ * moving) * moving;
-    return from_lane(arc_, {.s = way, .heading = crab_});
+    return from_lane(path_, {.s = way, .heading = crab_});
   }
-  [[nodiscard]] MotionBound bound(double after, const Pose& X_WA) const {
+  [[nodiscard]] MotionBound bound(double after, const Pose& X_W) const {
     const double speed = speed_ + acceleration_ * until_rest(after);
-    return {rotated({speed, 0.0}, X_WA.yaw - crab_), corner_speed_, change_};
+    return {rotated({speed, 0.0}, X_W.yaw - crab_), corner_speed_, change_};
   }
   /// The largest of any of its points within the horizon.
   [[nodiscard]] double top_speed() const { return fastest_ + corner_speed_; }
@@ -87,11 +120,11 @@ class ActorLine {
     return acceleration_ < 0.0 ? std::min(after, -speed_ / acceleration_) : after;
   }
 
-  Road arc_;
+  Road path_;
+  double crab_;
   double speed_;
-  double acceleration_ = 0.0;
-  double crab_ = 0.0;
-  double fastest_ = 0.0;
+  double acceleration_;
+  double fastest_;
   double corner_speed_ = 0.0;
   double change_ = 0.0;  ///< of its velocity, at most [m/s^2]
 };
@@ -139,7 +172,7 @@ double surely_apart(const Separation& separation, const MotionBound& a, const Mo
 /// Steps as long as the bodies surely stay apart, and no shorter than 10 ms: only a touch that is
 /// shorter can be jumped over.
 template <class Line>
-std::optional<double> first_collision(const Scene& scene, const Actor& actor, const EgoLine& ego,
+std::optional<double> first_collision(const Scene& scene, const Actor& actor, const ArcLine& ego,
                                       const Line& line, double horizon) {
   double t = 0.0;
   while (true) {
@@ -152,7 +185,7 @@ std::optional<double> first_collision(const Scene& scene, const Actor& actor, co
     if (t >= horizon) {
       return std::nullopt;
     }
-    const double apart = surely_apart(now, ego.bound(X_WB), line.bound(t, X_WA));
+    const double apart = surely_apart(now, ego.bound(t, X_WB), line.bound(t, X_WA));
     t = std::min(horizon, t + std::max(apart, shortest_step));
   }
 }
@@ -182,7 +215,7 @@ double sure_distance(const Scene& scene, const Pose& X_WB, const Actor& actor, c
 
 /// The same as `first_collision`, with the actor at any time within the tolerance.
 template <class Line>
-std::optional<double> first_crossing(const Scene& scene, const Actor& actor, const EgoLine& ego,
+std::optional<double> first_crossing(const Scene& scene, const Actor& actor, const ArcLine& ego,
                                      const Line& line, double horizon, double tolerance) {
   const double closing = ego.top_speed() + line.top_speed();
   double t = 0.0;
@@ -201,10 +234,11 @@ std::optional<double> first_crossing(const Scene& scene, const Actor& actor, con
 
 template <class Line>
 std::optional<double> first_conflict(const Scene& scene, const Actor& actor, const Line& line,
-                                     double horizon, double crossing_tolerance) {
+                                     double horizon, double crossing_tolerance,
+                                     EgoPrediction prediction) {
   expects(horizon > 0.0 && std::isfinite(horizon), "horizon > 0");
   expects(crossing_tolerance >= 0.0, "tolerance >= 0");
-  const EgoLine ego(scene);
+  const ArcLine ego(ego_arc(scene, prediction), bounding_radius(scene.ego_footprint), horizon);
   if (crossing_tolerance > 0.0 && is_crossing(scene, actor)) {
     return first_crossing(scene, actor, ego, line, horizon, crossing_tolerance);
   }
@@ -213,12 +247,12 @@ std::optional<double> first_conflict(const Scene& scene, const Actor& actor, con
 
 }  // namespace
 
-Pose ego_going_on(const Scene& scene, double after) {
-  return EgoLine(scene).at(after);
+Pose ego_going_on(const Scene& scene, double after, EgoPrediction prediction) {
+  return ArcLine(ego_arc(scene, prediction)).at(after);
 }
 
 Pose actor_going_on(const Actor& actor, double after) {
-  return ActorLine(actor).at(after);
+  return ArcLine(actor_arc(actor)).at(after);
 }
 
 bool is_crossing(const Scene& scene, const Actor& actor) {
@@ -255,12 +289,15 @@ std::optional<double> time_to_collision(const Scene& scene, const Actor& actor, 
 std::optional<double> time_to_conflict(const Scene& scene, const Actor& actor, const Track& track,
                                        double horizon, double tolerance) {
   return first_conflict(scene, actor, TrackLine(track, scene.time, actor.footprint), horizon,
-                        tolerance);
+                        tolerance, EgoPrediction::in_lane);
 }
 
 std::optional<double> time_to_conflict(const Scene& scene, const Actor& actor, double horizon,
-                                       double tolerance) {
-  return first_conflict(scene, actor, ActorLine(actor, horizon + tolerance), horizon, tolerance);
+                                       double tolerance, EgoPrediction prediction) {
+  return first_conflict(
+      scene, actor,
+      ArcLine(actor_arc(actor), bounding_radius(actor.footprint), horizon + tolerance), horizon,
+      tolerance, prediction);
 }
 
 }  // namespace saca::world

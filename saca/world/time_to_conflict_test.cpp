@@ -219,5 +219,108 @@ TEST(TimeToConflict, NoStandingCarIsLostOnTheWayToIt) {
   }
 }
 
+constexpr EgoPrediction as_measured = EgoPrediction::as_measured;
+
+// 4.5 m/s^2 are measured, and 0.5 of them do not count: 20 m/s are lost in 5 s and 50 m.
+TEST(EgoGoingOn, AsMeasuredBrakesUntilItIsAtRest) {
+  Scene scene = ego_at(20.0);
+  scene.ego.a_B = {-4.5, 0.0};
+  EXPECT_NEAR(ego_going_on(scene, 2.0, as_measured).p.x, 20.0 * 2.0 - 0.5 * 4.0 * 4.0, 1e-9);
+  EXPECT_NEAR(ego_going_on(scene, 9.0, as_measured).p.x, 50.0, 1e-9);
+  EXPECT_NEAR(ego_going_on(scene, 9.0).p.x, 180.0, 1e-9);
+  scene.ego.a_B = {3.0, 0.0};
+  EXPECT_NEAR(ego_going_on(scene, 2.0, as_measured).p.x, 40.0, 1e-9) << "it does not speed up";
+}
+
+// Oracle: small steps along the arc that is left of what is measured beyond the bands.
+TEST(EgoGoingOn, AsMeasuredFollowsCourseAndYawRate) {
+  Scene scene = ego_at(15.0);
+  scene.ego.X_WB.yaw = 0.1;
+  scene.ego.yaw_rate = 0.3;
+  scene.ego.a_B = {-3.5, 15.0 * 0.3};
+  double course = std::asin((15.0 * std::sin(0.1) - 0.5) / 15.0);
+  const double curvature = (15.0 * 0.3 - 0.5) / (15.0 * 15.0);
+  Vec2 p_W;
+  double speed = 15.0;
+  constexpr double dt = 1e-4;
+  for (int k = 0; k < 15'000; ++k) {
+    p_W = p_W + (speed * dt) * Vec2{std::cos(course), std::sin(course)};
+    course += curvature * speed * dt;
+    speed -= 3.0 * dt;
+  }
+  const Pose there = ego_going_on(scene, 1.5, as_measured);
+  EXPECT_NEAR(there.p.x, p_W.x, 2e-3);  // of Euler's steps, O(dt)
+  EXPECT_NEAR(there.p.y, p_W.y, 2e-3);
+  EXPECT_NEAR(there.yaw, course, 1e-3);
+}
+
+TEST(EgoGoingOn, AsMeasuredIsInLaneWhileTheLaneIsKept) {
+  std::mt19937 rng(8);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  for (int i = 0; i < 200; ++i) {
+    const double speed = 15.0 + 10.0 * u(rng);
+    Scene scene = ego_at(speed);
+    scene.road.curvature = 0.01 * u(rng);
+    scene.ego.X_WB =
+        from_lane(scene.road,
+                  {.s = 30.0 * u(rng), .d = u(rng), .heading = std::asin(0.499 * u(rng) / speed)});
+    const double d = to_lane(scene.road, scene.ego.X_WB).d;
+    scene.ego.yaw_rate =
+        speed * scene.road.curvature / (1.0 - scene.road.curvature * d) + 0.499 * u(rng) / speed;
+    scene.ego.a_B = {0.499 * u(rng), speed * scene.ego.yaw_rate};
+    const Pose in_lane = ego_going_on(scene, 1.3);
+    const Pose measured = ego_going_on(scene, 1.3, as_measured);
+    EXPECT_NEAR(measured.p.x, in_lane.p.x, 1e-9) << i;
+    EXPECT_NEAR(measured.p.y, in_lane.p.y, 1e-9) << i;
+    EXPECT_NEAR(measured.yaw, in_lane.yaw, 1e-9) << i;
+    // In its lane it keeps its offset from the middle, whatever the bend.
+    const LanePose kept = to_lane(scene.road, in_lane);
+    EXPECT_NEAR(kept.d, d, 1e-9) << i;
+    EXPECT_NEAR(kept.heading, 0.0, 1e-9) << i;
+  }
+}
+
+// At rest, crawling and backwards there is no course to be measured.
+TEST(EgoGoingOn, IsInLaneWhereNoCourseIsMeasured) {
+  for (const Vec2 v_B : {Vec2{0.0, 0.0}, Vec2{0.05, 0.0}, Vec2{-2.0, 0.0}}) {
+    Scene scene = ego_at(0.0);
+    scene.ego.v_B = v_B;
+    scene.ego.yaw_rate = 0.4;
+    scene.ego.a_B = {-5.0, 0.0};
+    EXPECT_EQ(ego_going_on(scene, 2.0, as_measured).p.x, ego_going_on(scene, 2.0).p.x);
+    EXPECT_EQ(ego_going_on(scene, 2.0, as_measured).p.y, ego_going_on(scene, 2.0).p.y);
+  }
+}
+
+// Oracle: every 10 ms, the ego braking and turning.
+TEST(TimeToConflict, AsMeasuredAgreesWithLookingAtEveryInstant) {
+  std::mt19937 rng(9);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  int num_conflicts = 0;
+  int num_different = 0;
+  for (int i = 0; i < 300; ++i) {
+    Scene scene = ego_at(15.0, whole_metres);
+    scene.road.curvature = i % 3 == 0 ? 0.0 : 0.01 * u(rng);
+    scene.ego.X_WB.yaw = 0.1 * u(rng);
+    scene.ego.yaw_rate = 0.3 * u(rng);
+    scene.ego.a_B = {6.0 * u(rng), 0.0};
+    const Actor actor = block(1, {20.0 + 8.0 * u(rng), 4.0 * u(rng)}, {8.0 * u(rng), u(rng)});
+    std::optional<double> expected;
+    for (int k = 0; k <= 300 && !expected; ++k) {
+      const Pose X_WB = ego_going_on(scene, 0.01 * k, as_measured);
+      if (separation(scene.ego_footprint, X_WB, actor.footprint, actor_going_on(actor, 0.01 * k))
+              .distance <= 0.0) {
+        expected = 0.01 * k;
+      }
+    }
+    num_conflicts += expected ? 1 : 0;
+    const auto found = time_to_conflict(scene, actor, 3.0, 0.0, as_measured);
+    EXPECT_NEAR(found.value_or(-1.0), expected.value_or(-1.0), 0.0201) << i;
+    num_different += found.has_value() != time_to_conflict(scene, actor, 3.0, 0.0).has_value();
+  }
+  EXPECT_GT(num_conflicts, 60);
+  EXPECT_GT(num_different, 20);
+}
+
 }  // namespace
 }  // namespace saca::world::time_to_conflict_test
