@@ -85,8 +85,17 @@ bool ReflexPlane::needs_verdict(const Scene& scene, bool finished) const noexcep
   if (!supervises() || world::broken_rule(scene)) {
     return false;
   }
-  const bool triggers = preview::triggering_threat(scene, tools_.thresholds).has_value();
+  TrackConfirmation tracks = tracks_;
+  tracks.look(scene);
+  const bool triggers =
+      preview::triggering_threat(scene, tools_.thresholds, tracks.confirmed()).has_value();
   return under_way_ ? supervisor_.is_due(scene, *under_way_, triggers, finished) : triggers;
+}
+
+void ReflexPlane::watch(const Scene& scene) noexcept {
+  if (!world::broken_rule(scene)) {
+    tracks_.look(scene);
+  }
 }
 
 Reflex ReflexPlane::step(const Scene& scene, bool finished) noexcept {
@@ -98,9 +107,10 @@ Reflex ReflexPlane::step(const Scene& scene, bool finished) noexcept {
     reflex.refused_scene = true;
     return reflex;
   }
+  tracks_.look(scene);
   reflex.threat = preview::nearest_threat(scene, tools_.thresholds.preview,
                                           tools_.thresholds.trigger_tolerance);
-  const auto trigger = preview::triggering_threat(scene, tools_.thresholds);
+  const auto trigger = preview::triggering_threat(scene, tools_.thresholds, tracks_.confirmed());
   if (trigger) {
     reflex.threat = trigger;
   }

@@ -8,6 +8,7 @@
 #include "saca/decide/forecaster.h"
 #include "saca/decide/plan_cache.h"
 #include "saca/decide/supervisor.h"
+#include "saca/decide/track_confirmation.h"
 #include "saca/decide/verdict.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/manoeuvre/plan.h"
@@ -58,6 +59,8 @@ struct ReflexTools {
 /// The plane that is always in time: a scene in, a plan out. One thread; no lock, no allocation, no
 /// system call.
 ///
+/// Only who is confirmed (TrackConfirmation) sets off the trigger.
+///
 /// At the trigger, in this order: the cached plan whose situation this is, where the verdict finds
 /// it admissible (of a cached policy 0: the best braking; without a verdict full braking); else
 /// what the verdict speaks for (plan_of). Where the newest verdict is older than verdict_expiry,
@@ -73,11 +76,15 @@ class ReflexPlane {
   /// Takes over the newest verdict.
   void receive(const Verdict& verdict) noexcept { verdict_ = verdict; }
 
+  /// An instant at which nothing is to be decided: takes note of who is there.
+  void watch(const world::Scene& scene) noexcept;
+
   /// @param finished  what is carried out has reached its safe end: from now on the plane watches
   ///                  for another trigger
   [[nodiscard]] Reflex step(const world::Scene& scene, bool finished = false) noexcept;
 
-  /// The encounter is over: the next trigger is another's, and what was cached is not for it.
+  /// The encounter is over: the next trigger is another's, and what was cached is not for it. Who
+  /// is confirmed stays so.
   void begin_anew() noexcept {
     plans_.clear();
     verdict_.reset();
@@ -107,6 +114,7 @@ class ReflexPlane {
   std::optional<Decision> decision_;
   std::optional<UnderWay> under_way_;
   Supervisor supervisor_;
+  TrackConfirmation tracks_;
 };
 
 }  // namespace saca::decide

@@ -67,6 +67,53 @@ TEST(ReflexPlane, LeavesADriverAloneWhoBrakesEnough) {
   EXPECT_TRUE(plane.step(wreck_in(1.27)).triggered);
 }
 
+/// 20 m/s and 20 m to somebody who was not there before.
+Scene appeared(double time) {
+  Scene scene = wreck_in(1.0);
+  scene.time = time;
+  return scene;
+}
+Scene nobody(double time) {
+  Scene scene = motorway(20.0);
+  scene.time = time;
+  return scene;
+}
+
+TEST(ReflexPlane, ASingleLookAtSomebodyIsNoTrigger) {
+  ReflexPlane plane{ReflexTools{}};
+  EXPECT_FALSE(plane.step(nobody(0.0)).triggered);
+  EXPECT_FALSE(plane.needs_verdict(appeared(0.01), false));
+  const Reflex ghost = plane.step(appeared(0.01));
+  EXPECT_FALSE(ghost.triggered);
+  EXPECT_NEAR(ghost.threat->time, 1.0, 0.011) << "it is in conflict all the same";
+  for (int k = 2; k <= 10; ++k) {
+    EXPECT_FALSE(plane.step(nobody(0.01 * k)).triggered);
+  }
+}
+
+TEST(ReflexPlane, TwoLooksOfThreeAre) {
+  for (const bool misses_one : {false, true}) {
+    ReflexPlane plane{ReflexTools{}};
+    (void)plane.step(nobody(0.0));
+    (void)plane.step(appeared(0.01));
+    if (misses_one) {
+      EXPECT_FALSE(plane.step(nobody(0.02)).triggered);
+    }
+    EXPECT_TRUE(plane.needs_verdict(appeared(0.03), false));
+    EXPECT_TRUE(plane.step(appeared(0.03)).triggered);
+  }
+}
+
+TEST(ReflexPlane, WhoWasSeenBeforeItDecidesIsNotWaitedFor) {
+  ReflexPlane plane{ReflexTools{}};
+  plane.watch(nobody(0.0));
+  Scene broken = appeared(0.005);
+  broken.actors[0].v_W.x = std::numeric_limits<double>::quiet_NaN();
+  plane.watch(broken);  // is no look
+  plane.watch(appeared(0.01));
+  EXPECT_TRUE(plane.step(appeared(0.02)).triggered);
+}
+
 TEST(ReflexPlane, BrakesWhenNothingWasThought) {
   ReflexPlane plane{ReflexTools{}};
   const Reflex reflex = plane.step(wreck_in(1.28));

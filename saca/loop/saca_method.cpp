@@ -4,6 +4,7 @@ namespace saca::loop {
 
 std::optional<Action> SacaMethod::step(const View& view) {
   if (!view.driven) {
+    planes_.watch(view.scene, view.beliefs);
     return std::nullopt;
   }
   const decide::Reflex reflex =

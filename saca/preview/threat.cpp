@@ -8,11 +8,11 @@
 namespace saca::preview {
 
 std::optional<Threat> nearest_threat(const world::Scene& scene, double horizon, double tolerance,
-                                     world::EgoPrediction ego) {
+                                     world::EgoPrediction ego, const ActorSet& who) {
   std::optional<Threat> nearest;
   for (std::size_t i = 0; i < scene.actors.size(); ++i) {
     const world::Actor& actor = scene.actors[i];
-    if (world::is_behind(scene, actor)) {
+    if (!who.test(i) || world::is_behind(scene, actor)) {
       continue;
     }
     const auto time =
@@ -27,9 +27,10 @@ std::optional<Threat> nearest_threat(const world::Scene& scene, double horizon, 
   return nearest;
 }
 
-std::optional<Threat> triggering_threat(const world::Scene& scene, const Thresholds& thresholds) {
+std::optional<Threat> triggering_threat(const world::Scene& scene, const Thresholds& thresholds,
+                                        const ActorSet& who) {
   const auto threat = nearest_threat(scene, thresholds.preview, thresholds.trigger_tolerance,
-                                     world::EgoPrediction::as_measured);
+                                     world::EgoPrediction::as_measured, who);
   return threat && threat->time <= thresholds.trigger ? threat : std::nullopt;
 }
 

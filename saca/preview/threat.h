@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bitset>
 #include <cstddef>
 #include <optional>
 
@@ -26,20 +27,27 @@ struct Threat {
   double time = 0.0;      ///< to the conflict [s], >= 0
 };
 
+/// Some of a scene's actors, by index.
+using ActorSet = std::bitset<world::max_actors>;
+constexpr ActorSet all_actors{~0ULL};
+
 /// The nearest conflict in time within `horizon` if all go on as they do. Who is behind is no
 /// threat.
 /// @param tolerance  of crossing traffic [s]; other traffic has none
+/// @param who        nobody else is looked at
 /// Allocates nothing: for the reflex plane.
 [[nodiscard]] std::optional<Threat> nearest_threat(
     const world::Scene& scene, double horizon, double tolerance,
-    world::EgoPrediction ego = world::EgoPrediction::in_lane);
+    world::EgoPrediction ego = world::EgoPrediction::in_lane, const ActorSet& who = all_actors);
 
 /// The conflict that sets off the trigger: the nearest within T1, the ego going on as it is
 /// measured to, so that a driver who already brakes or steers enough is left alone. nullopt: none
 /// does now. The one rule of the reflex plane and of everybody who is compared with it. Allocates
 /// nothing.
+/// @param who  nobody else is looked at
 [[nodiscard]] std::optional<Threat> triggering_threat(const world::Scene& scene,
-                                                      const Thresholds& thresholds);
+                                                      const Thresholds& thresholds,
+                                                      const ActorSet& who = all_actors);
 
 /// The nearest conflict under any intention that is likely enough, crossing traffic with the wide
 /// tolerance; within thresholds.preview. The ego goes on in its lane, or, where that leads into a

@@ -117,6 +117,7 @@ void Planes::begin_entry(const world::Scene& scene, const intent::Beliefs& belie
 
 void Planes::watch(const world::Scene& scene, const intent::Beliefs& beliefs) {
   begin_entry(scene, beliefs);
+  reflex_.watch(scene);
   tape_.add(*entry_);
 }
 

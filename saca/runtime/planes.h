@@ -82,8 +82,8 @@ class Planes {
   decide::Reflex step(const world::Scene& scene, const intent::Beliefs& beliefs, Clock::Time at,
                       bool finished);
 
-  /// An instant at which nothing is to be decided yet. Only the tape takes note of it: what is
-  /// believed later follows from it.
+  /// An instant at which nothing is to be decided yet. The tape takes note of it, because what is
+  /// believed later follows from it, and the reflex plane of who is there.
   void watch(const world::Scene& scene, const intent::Beliefs& beliefs);
 
   [[nodiscard]] const std::optional<decide::Decision>& decision() const {

@@ -80,6 +80,8 @@ Replay Player::play() {
     if (step.asked) {
       judge(step);
       answer(step);
+    } else {
+      reflex_.watch(step.scene);
     }
     last_ = step.number;
   }
