@@ -34,7 +34,7 @@ std::vector<std::string> example_scenes() {
   for (const double speed : {7.5, 5.0, 2.5}) {
     preview::Situation situation = reason::example_situation();
     situation.scene_at_trigger.actors[0].v_W.y = -speed;
-    situation.facts[1].outcome.contact->relative_speed += speed;
+    situation.facts[1].outcome().contact->relative_speed += speed;
     scenes.push_back(reason::scene_part(situation, std::nullopt, 0.0));
   }
   return scenes;

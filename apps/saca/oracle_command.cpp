@@ -39,8 +39,8 @@ json json_of(const eval::Verdict& verdict, const world::Scene& scene) {
            {"name", name(facts.plan.policy)},
            {"target_speed_mps", facts.plan.target_speed ? json(*facts.plan.target_speed) : json()},
            {"strength", facts.plan.strength ? json(*facts.plan.strength) : json()},
-           {"refusal", facts.refusal.empty() ? json() : json(facts.refusal)}};
-  if (!facts.refusal.empty()) {
+           {"refusal", facts.drivable() ? json() : json(facts.refusal())}};
+  if (!facts.drivable()) {
     return all;
   }
   all["harm"] = interval_of(verdict.expected.harm);
@@ -49,7 +49,7 @@ json json_of(const eval::Verdict& verdict, const world::Scene& scene) {
   all["contact_share"] = {{"mean", verdict.expected.contact.share},
                           {"low", verdict.expected.contact.low},
                           {"high", verdict.expected.contact.high}};
-  const outcome::Outcome& written = facts.outcome;
+  const outcome::Outcome& written = facts.outcome();
   all["as_written"] = {{"harm", written.harm},
                        {"collision_loss", written.collision_loss},
                        {"clearance_m", written.clearance},
@@ -74,7 +74,7 @@ std::string row_of(const eval::Verdict& verdict, const world::Scene& scene) {
                      manoeuvre::index(facts.plan.policy), name(facts.plan.policy),
                      expected.harm.value, expected.harm.low, expected.harm.high,
                      expected.collision_loss.value, 100.0 * expected.contact.share,
-                     describe(facts.outcome, scene));
+                     describe(facts.outcome(), scene));
 }
 
 void print(const eval::Oracle& oracle, const OracleCommand& options) {
@@ -85,9 +85,9 @@ void print(const eval::Oracle& oracle, const OracleCommand& options) {
     fmt::print("{}\n", row_of(oracle.of(policy), oracle.scene));
   }
   for (const eval::Verdict& verdict : oracle.verdicts) {
-    if (!verdict.written.facts.refusal.empty()) {
+    if (!verdict.written.facts.drivable()) {
       fmt::print("{} {:7}  {}\n", manoeuvre::index(verdict.written.facts.plan.policy),
-                 name(verdict.written.facts.plan.policy), verdict.written.facts.refusal);
+                 name(verdict.written.facts.plan.policy), verdict.written.facts.refusal());
     }
   }
   const eval::Margin margin = margin_of_best(oracle);

@@ -12,20 +12,20 @@ report::SceneView view_of(const world::Scene& scene, const loop::Hindsight& trie
   view.policy = facts.plan.policy;
   view.title = name(facts.plan.policy);
   view.scene = scene;
-  if (!facts.refusal.empty()) {
-    view.lines = {facts.refusal};
+  if (!facts.drivable()) {
+    view.lines = {facts.refusal()};
     for (const world::Actor& actor : scene.actors) {
       view.others.push_back({.start = scene.time, .X_WA = {actor.X_WA}});
     }
     return view;
   }
-  view.lines = {describe(facts.outcome, scene)};
+  view.lines = {describe(facts.outcome(), scene)};
   view.ego = tried.course.ego.track;
   view.others = tried.course.others;
-  if (facts.outcome.contact) {
-    view.contacts.push_back(*facts.outcome.contact);
-    view.contacts.insert(view.contacts.end(), facts.outcome.later.begin(),
-                         facts.outcome.later.end());
+  if (facts.outcome().contact) {
+    view.contacts.push_back(*facts.outcome().contact);
+    view.contacts.insert(view.contacts.end(), facts.outcome().later.begin(),
+                         facts.outcome().later.end());
   }
   return view;
 }
@@ -38,7 +38,7 @@ report::ContactSheet sheet_of(const eval::Oracle& oracle, const sim::Scenario& s
   const auto add = [&](const eval::Verdict& verdict, const std::string& badge) {
     sheet.scenes.push_back(view_of(oracle.scene, verdict.written));
     sheet.scenes.back().badge = badge;
-    if (verdict.written.facts.refusal.empty()) {
+    if (verdict.written.facts.drivable()) {
       sheet.scenes.back().lines.push_back(
           fmt::format("expected harm {:.4f} ({:.4f} to {:.4f})", verdict.expected.harm.value,
                       verdict.expected.harm.low, verdict.expected.harm.high));
@@ -48,7 +48,7 @@ report::ContactSheet sheet_of(const eval::Oracle& oracle, const sim::Scenario& s
     add(oracle.of(policy), policy == oracle.best() ? "best" : "");
   }
   for (const eval::Verdict& verdict : oracle.verdicts) {
-    if (!verdict.written.facts.refusal.empty()) {
+    if (!verdict.written.facts.drivable()) {
       add(verdict, "");
     }
   }

@@ -109,7 +109,7 @@ void Story::ending(const sim::Scenario& scenario, const loop::Record& record) {
                  record.result.harm);
   const preview::PolicyFacts& best = (*record.hindsight)[manoeuvre::index(*record.best)].facts;
   fmt::format_to(line, "Best in hindsight: {} {}, {}{}.\n", manoeuvre::index(*record.best),
-                 name(*record.best), outcome::describe(best.outcome, *record.at_trigger),
+                 name(*record.best), outcome::describe(best.outcome(), *record.at_trigger),
                  *record.best == chosen ? ": the same" : "");
   say(text);
 }

@@ -21,9 +21,9 @@ preview::Situation situation(double harm_of_braking) {
   for (const PolicyId policy : manoeuvre::all_policies) {
     auto& fact = made.facts[manoeuvre::index(policy)];
     fact.plan = manoeuvre::default_plan(policy, 20.0);
-    fact.outcome.clearance = 1.0;
+    fact.outcome().clearance = 1.0;
   }
-  auto& aeb = made.facts[manoeuvre::index(PolicyId::aeb)].outcome;
+  auto& aeb = made.facts[manoeuvre::index(PolicyId::aeb)].outcome();
   if (harm_of_braking > 0.0) {
     aeb.contact = outcome::Contact{.actor = 0, .relative_speed = 5.0};
     aeb.harm = harm_of_braking;
@@ -113,9 +113,9 @@ TEST(Check, ACentimetreInOneFutureDoesNotDecide) {
   const std::array plans{manoeuvre::full_braking};
   const preview::Situation far = wreck_ahead(car, 40.0, 0.9);
   const double left =
-      rolled_out(far.scene_at_trigger, far.tracks, plans, tools)[0].outcome.clearance;
+      rolled_out(far.scene_at_trigger, far.tracks, plans, tools)[0].outcome().clearance;
   preview::Situation near = wreck_ahead(car, 40.0 - left + 0.01, 0.9);
-  ASSERT_FALSE(rolled_out(near.scene_at_trigger, near.tracks, plans, tools)[0].outcome.contact);
+  ASSERT_FALSE(rolled_out(near.scene_at_trigger, near.tracks, plans, tools)[0].outcome().contact);
   EXPECT_FALSE(check(swerve, near, tools).passed);  // known exactly, both harm nobody
   near.spreads[0].at = {{1.5, 0.1}};
   const Check passed = check(swerve, near, tools);

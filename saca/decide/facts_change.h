@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include "saca/manoeuvre/plan.h"
@@ -8,7 +7,7 @@
 
 namespace saca::decide {
 
-using AllFacts = std::array<preview::PolicyFacts, manoeuvre::num_policies>;  ///< by PolicyId
+using preview::AllFacts;
 
 /// How much more harm a policy is forecast to do than the least of all [harm]; infinite where it
 /// cannot be driven.

@@ -14,10 +14,10 @@ AllFacts facts(double swerve) {
   AllFacts all;
   for (const PolicyId policy : manoeuvre::all_policies) {
     all[manoeuvre::index(policy)].plan = manoeuvre::default_plan(policy, 20.0);
-    all[manoeuvre::index(policy)].outcome.harm = 0.2;
+    all[manoeuvre::index(policy)].outcome().harm = 0.2;
   }
-  all[manoeuvre::index(PolicyId::aeb)].outcome.harm = 0.05;
-  all[manoeuvre::index(PolicyId::aes_left)].outcome.harm = swerve;
+  all[manoeuvre::index(PolicyId::aeb)].outcome().harm = 0.05;
+  all[manoeuvre::index(PolicyId::aes_left)].outcome().harm = swerve;
   return all;
 }
 
@@ -26,7 +26,7 @@ TEST(Regret, IsWhatAPolicyHarmsMoreThanTheLeast) {
   EXPECT_NEAR(regret(all, PolicyId::aeb), 0.03, 1e-12);
   EXPECT_EQ(regret(all, PolicyId::aes_left), 0.0);
   // What cannot be driven is no measure for others.
-  all[manoeuvre::index(PolicyId::aes_left)].refusal = "too fast";
+  all[manoeuvre::index(PolicyId::aes_left)].end = preview::Refused{"too fast"};
   EXPECT_EQ(regret(all, PolicyId::aeb), 0.0);
   EXPECT_TRUE(std::isinf(regret(all, PolicyId::aes_left)));
 }
@@ -36,7 +36,7 @@ TEST(ChangedPolicy, IsOneThatWasAsGoodAsTheBestAndIsMateriallyWorse) {
   EXPECT_EQ(changed_policy(facts(0.061), facts(0.0505)), PolicyId::aes_left);  // and back
   EXPECT_EQ(changed_policy(facts(0.05), facts(0.03)), PolicyId::aeb);  // braking is worse now
   AllFacts refused = facts(0.05);
-  refused[manoeuvre::index(PolicyId::aes_left)].refusal = "too fast";
+  refused[manoeuvre::index(PolicyId::aes_left)].end = preview::Refused{"too fast"};
   EXPECT_EQ(changed_policy(facts(0.05), refused), PolicyId::aes_left);
 }
 
@@ -51,7 +51,7 @@ TEST(ChangedPolicy, IsNoneWhereFactsWaver) {
 TEST(ChangedPolicy, DoesNotCompareTheAtlasWithFullDynamics) {
   AllFacts rolled = facts(0.3);
   for (preview::PolicyFacts& fact : rolled) {
-    fact.rolled_out = true;
+    fact.end = preview::RolledOutcome{fact.outcome()};
   }
   EXPECT_EQ(changed_policy(facts(0.05), rolled), std::nullopt);
 }

@@ -402,7 +402,7 @@ bool ThinkingPlane::settle(Preview& preview, PolicyId policy, Source source, dou
                    fmt::format("rollout check {}: {}", preview.check->passed ? "passed" : "failed",
                                preview.check->text)});
   }
-  if (!fact.refusal.empty() || (needs_check && !preview.check->passed)) {
+  if (!fact.drivable() || (needs_check && !preview.check->passed)) {
     return false;  // what was checked before stands
   }
   if (preview.plan != fact.plan) {

@@ -246,7 +246,7 @@ TEST_F(Thinking, NeverCachesWhatCannotBeDriven) {
   world::Scene scene = wreck_ahead();
   scene.grip = 0.15;
   think(thinking, scene);
-  EXPECT_FALSE(thinking.previews()[0].situation.facts[6].refusal.empty());
+  EXPECT_FALSE(thinking.previews()[0].situation.facts[6].drivable());
   EXPECT_FALSE(thinking.previews()[0].plan.has_value());
 }
 

@@ -190,17 +190,17 @@ void Play::note_trigger(const Branch& branch) {
   comparison_.threat = actor_name(loop.seen().actors[threat->actor]);
   const auto& tried = hindsight_.at(loop);
   for (const preview::RolledOut& one : tried) {
-    const bool driven = one.facts.refusal.empty();
+    const bool driven = one.facts.drivable();
     comparison_.tried.push_back(
         {.plan = one.facts.plan,
-         .harm = driven ? std::optional(one.facts.outcome.harm) : std::nullopt,
-         .contact = driven && one.facts.outcome.contact.has_value()});
+         .harm = driven ? std::optional(one.facts.outcome().harm) : std::nullopt,
+         .contact = driven && one.facts.outcome().contact.has_value()});
   }
   const std::size_t best = best_of(tried);
   comparison_.best = tried[best].facts.plan;
-  comparison_.best_harm = tried[best].facts.outcome.harm;
+  comparison_.best_harm = tried[best].facts.outcome().harm;
   comparison_.published_best_harm =
-      tried[best_of(tried, preview::Braking::full)].facts.outcome.harm;
+      tried[best_of(tried, preview::Braking::full)].facts.outcome().harm;
 }
 
 void Play::begin(Branch& branch, const Group& group) {

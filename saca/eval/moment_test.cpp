@@ -51,7 +51,7 @@ TEST(Moment, AllEightAreTriedFromThere) {
   const Moment moment = moment_at(scenario, default_car(), 2.7);
   const auto tried = hindsight(moment, default_car(), shipped_harm());
   const auto outcome = [&](PolicyId policy) {
-    return tried[manoeuvre::index(policy)].facts.outcome;
+    return tried[manoeuvre::index(policy)].facts.outcome();
   };
   EXPECT_FALSE(outcome(PolicyId::aeb).contact.has_value());
   EXPECT_FALSE(outcome(PolicyId::aes_left).contact.has_value());
@@ -81,7 +81,7 @@ TEST(Moment, ThoseThatAreThereAreTriedInTheirPlaces) {
   ASSERT_EQ(tried.size(), 4U);
   EXPECT_FALSE(tried[0] || tried[2]);
   const auto clearance = [&](std::size_t i) {
-    return (*tried[i])[manoeuvre::index(PolicyId::aeb)].facts.outcome.clearance;
+    return (*tried[i])[manoeuvre::index(PolicyId::aeb)].facts.outcome().clearance;
   };
   EXPECT_NEAR(clearance(3) - clearance(1), 20.0, 1e-3);  // the same way, the wreck 20 m farther
 }

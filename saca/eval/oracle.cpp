@@ -15,8 +15,9 @@ using Tried = std::array<outcome::Outcome, num_policies>;  // meaningless where 
 
 Tried outcomes_of(const loop::Hindsights& tried) {
   Tried outcomes;
-  std::transform(tried.begin(), tried.end(), outcomes.begin(),
-                 [](const loop::Hindsight& one) { return one.facts.outcome; });
+  std::transform(tried.begin(), tried.end(), outcomes.begin(), [](const loop::Hindsight& one) {
+    return one.facts.drivable() ? one.facts.outcome() : outcome::Outcome{};
+  });
   return outcomes;
 }
 
@@ -76,7 +77,7 @@ Oracle oracle(const sim::Scenario& scenario, const manoeuvre::Car& car,
   std::array<outcome::Outcome, num_policies> average;
   for (std::size_t i = 0; i < num_policies; ++i) {
     told.verdicts[i].written = written[i];
-    if (!written[i].facts.refusal.empty()) {
+    if (!written[i].facts.drivable()) {
       continue;
     }
     for (const Tried& draw : draws) {

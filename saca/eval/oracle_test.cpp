@@ -28,7 +28,7 @@ TEST(Oracle, WhatCannotBeDrivenIsNotRanked) {
   const Oracle told = oracle(standing_car(4.0, 30.0), default_car(), shipped_harm(), {.time = 6.0});
   EXPECT_EQ(std::set(told.ranking.begin(), told.ranking.end()),
             (std::set{PolicyId::aeb, PolicyId::no_intervention}));
-  EXPECT_FALSE(told.of(PolicyId::aes_left).written.facts.refusal.empty());
+  EXPECT_FALSE(told.of(PolicyId::aes_left).written.facts.drivable());
 }
 
 // Too near to brake (19 m/s needs some 24 m, 20 are there), both sides closed by barriers: nothing

@@ -83,8 +83,8 @@ TEST(RolloutAgreement, TheBatchEndsAsTheScalarModelDoes) {
   std::vector<std::vector<Pair>> pairs(batch.size());
   in_parallel(batch.size(), threads, [&](std::size_t i) {
     for (const loop::Hindsight& one : batch[i]) {
-      if (one.facts.refusal.empty()) {
-        pairs[i].push_back({one.facts.plan.policy, one.facts.outcome,
+      if (one.facts.drivable()) {
+        pairs[i].push_back({one.facts.plan.policy, one.facts.outcome(),
                             scalar(encounters.moments[i], one.facts.plan)});
       }
     }

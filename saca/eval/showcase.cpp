@@ -29,7 +29,7 @@ std::string figure(const Oracle& oracle, PolicyId policy) {
   const Verdict& verdict = oracle.of(policy);
   const auto& harm = verdict.expected.harm;
   return fmt::format("{} {:.4f} ({:.4f} to {:.4f}; as written: {})", name(policy), harm.value,
-                     harm.low, harm.high, describe(verdict.written.facts.outcome, oracle.scene));
+                     harm.low, harm.high, describe(verdict.written.facts.outcome(), oracle.scene));
 }
 
 }  // namespace

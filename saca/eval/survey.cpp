@@ -78,12 +78,12 @@ Result<std::vector<Finding>> look_on(const SurveyWork& work, std::size_t from, s
 Finding finding_of(double time, const loop::Hindsights& tried) {
   Finding finding;
   finding.time = time;
-  std::array<preview::PolicyFacts, num_policies> facts;
+  preview::AllFacts facts;
   for (std::size_t i = 0; i < num_policies; ++i) {
     facts[i] = tried[i].facts;
-    if (facts[i].refusal.empty()) {
-      finding.harm[i] = facts[i].outcome.harm;
-      finding.contact[i] = facts[i].outcome.contact.has_value();
+    if (facts[i].drivable()) {
+      finding.harm[i] = facts[i].outcome().harm;
+      finding.contact[i] = facts[i].outcome().contact.has_value();
     }
   }
   finding.best = preview::best_by_forecast(facts);

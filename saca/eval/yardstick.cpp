@@ -1,7 +1,6 @@
 #include "saca/eval/yardstick.h"
 
 #include "saca/core/contract.h"
-#include "saca/outcome/ordering.h"
 
 namespace saca::eval {
 
@@ -24,11 +23,10 @@ std::size_t best_of(const std::vector<preview::RolledOut>& tried, preview::Braki
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < tried.size(); ++i) {
     const preview::PolicyFacts& one = tried[i].facts;
-    if (!one.refusal.empty() || (braking == preview::Braking::full && one.plan.strength)) {
+    if (!one.drivable() || (braking == preview::Braking::full && one.plan.strength)) {
       continue;
     }
-    if (!best || outcome::better(one.outcome, one.plan.policy, tried[*best].facts.outcome,
-                                 tried[*best].facts.plan.policy)) {
+    if (!best || preview::better(one, tried[*best].facts)) {
       best = i;
     }
   }

@@ -42,7 +42,7 @@ TEST_F(Yardstick, WhoKnowsOnlyTheMotionsTakesTheRoadForWhatItSeems) {
   const auto braking_meets = [&](Knowledge knowledge) {
     for (const preview::RolledOut& one : try_all(loop, car_, harm_, knowledge)) {
       if (one.facts.plan.policy == PolicyId::aeb) {
-        return one.facts.outcome.contact.has_value();
+        return one.facts.outcome().contact.has_value();
       }
     }
     throw std::logic_error("braking was not tried");
@@ -55,7 +55,9 @@ TEST_F(Yardstick, TheBestAsPublishedBrakesWithAllTheGripOrNotAtAll) {
   auto tried = try_all(at(0.7), car_, harm_, Knowledge::everything);
   EXPECT_EQ(tried[best_of(tried, preview::Braking::full)].facts.plan.strength, std::nullopt);
   for (preview::RolledOut& one : tried) {  // gentle braking alone harms nobody
-    one.facts.outcome.harm = one.facts.plan.strength == 0.45 ? 0.0 : 1.0;
+    if (one.facts.drivable()) {
+      one.facts.outcome().harm = one.facts.plan.strength == 0.45 ? 0.0 : 1.0;
+    }
   }
   EXPECT_EQ(tried[best_of(tried)].facts.plan.strength, 0.45);
   EXPECT_EQ(tried[best_of(tried, preview::Braking::full)].facts.plan.strength, std::nullopt);
@@ -65,8 +67,8 @@ TEST_F(Yardstick, NoneIsBetterThanTheBestByTheOneOrdering) {
   const auto tried = try_all(at(0.7), car_, harm_, Knowledge::everything);
   const preview::PolicyFacts& best = tried[best_of(tried)].facts;
   for (const preview::RolledOut& one : tried) {
-    if (one.facts.refusal.empty()) {
-      EXPECT_FALSE(outcome::better(one.facts.outcome, one.facts.plan.policy, best.outcome,
+    if (one.facts.drivable()) {
+      EXPECT_FALSE(outcome::better(one.facts.outcome(), one.facts.plan.policy, best.outcome(),
                                    best.plan.policy));
     }
   }
@@ -78,8 +80,8 @@ TEST_F(Yardstick, AnInstantIsTriedOnceWhoeverAsks) {
   const loop::ClosedLoop loop = at(0.5);
   const auto* const first = hindsight.at(loop).data();
   EXPECT_EQ(hindsight.at(loop).data(), first);
-  const double harm = hindsight.at(loop)[0].facts.outcome.harm;
-  EXPECT_NE(hindsight.at(at(1.2))[0].facts.outcome.harm, harm);  // nearer: harder
+  const double harm = hindsight.at(loop)[0].facts.outcome().harm;
+  EXPECT_NE(hindsight.at(at(1.2))[0].facts.outcome().harm, harm);  // nearer: harder
 }
 
 }  // namespace

@@ -272,7 +272,7 @@ void Encounter::conclude() {
                    loop_.truth().unknown_from_now(), record_.decision->plan};
     trigger.scene.grip = seen_at_trigger_.grip;
     record_.hindsight = hindsight(trigger, *setup_.car, *setup_.harm);
-    std::array<preview::PolicyFacts, manoeuvre::num_policies> facts;
+    preview::AllFacts facts;
     std::transform(record_.hindsight->begin(), record_.hindsight->end(), facts.begin(),
                    [](const Hindsight& one) { return one.facts; });
     record_.best = preview::best_by_forecast(facts);
@@ -319,11 +319,11 @@ void Encounter::learn() {
       .plan = record_.decision->plan,
       .best = *record_.best,
       .harm = record_.result.harm,
-      .best_harm = best.outcome.harm,
+      .best_harm = best.outcome().harm,
       .collision_loss = record_.result.collision_loss,
       .review = fmt::format("{}: {}; best {}: {}", name(record_.decision->plan.policy),
                             outcome::describe(record_.result, record_.met), name(*record_.best),
-                            outcome::describe(best.outcome, *record_.at_trigger)),
+                            outcome::describe(best.outcome(), *record_.at_trigger)),
       .source = setup_.scenario->name};
   const auto id = setup_.memory->add(learnt);
   if (id.has_value()) {

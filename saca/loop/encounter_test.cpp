@@ -236,7 +236,8 @@ TEST_F(EncounterTest, WithAnAtlasForecastsAndTheLastCheckAreReadFromIt) {
   const Record record = play_with_atlas();
   ASSERT_FALSE(record.previews.empty());
   for (const preview::PolicyFacts& fact : record.previews[0].situation.facts) {
-    EXPECT_FALSE(fact.rolled_out) << name(fact.plan.policy);
+    EXPECT_FALSE(std::holds_alternative<preview::RolledOutcome>(fact.end))
+        << name(fact.plan.policy);
   }
   ASSERT_TRUE(record.decision.has_value());
   EXPECT_EQ(record.decision->plan.policy, PolicyId::aes_left);
@@ -439,7 +440,7 @@ TEST_F(EncounterTest, BeingHitFromBehindCounts) {
   ASSERT_TRUE(braked.result.contact.has_value());
   EXPECT_EQ(braked.result.contact->ego_face, outcome::Face::rear);
   const outcome::Outcome& foreseen =
-      (*braked.hindsight)[manoeuvre::index(PolicyId::aeb)].facts.outcome;
+      (*braked.hindsight)[manoeuvre::index(PolicyId::aeb)].facts.outcome();
   EXPECT_NEAR(foreseen.contact->time, braked.result.contact->time, 0.05);
   EXPECT_NEAR(foreseen.contact->relative_speed, braked.result.contact->relative_speed, 0.2);
   EXPECT_NE(*braked.best, PolicyId::aeb);

@@ -32,12 +32,13 @@ TEST(Hindsight, KnowsWhatEachPolicyWouldHaveDone) {
   const auto of = [&](PolicyId policy) -> const Hindsight& {
     return all[manoeuvre::index(policy)];
   };
-  EXPECT_TRUE(of(PolicyId::aeb).facts.outcome.contact.has_value());
-  EXPECT_GT(of(PolicyId::no_intervention).facts.outcome.harm, of(PolicyId::aeb).facts.outcome.harm);
-  EXPECT_FALSE(of(PolicyId::aes_left).facts.outcome.contact.has_value());
+  EXPECT_TRUE(of(PolicyId::aeb).facts.outcome().contact.has_value());
+  EXPECT_GT(of(PolicyId::no_intervention).facts.outcome().harm,
+            of(PolicyId::aeb).facts.outcome().harm);
+  EXPECT_FALSE(of(PolicyId::aes_left).facts.outcome().contact.has_value());
   // Whoever hits the wreck slides to rest behind it.
   const Hindsight& nothing = of(PolicyId::no_intervention);
-  EXPECT_GT(world::end_time(nothing.course.ego.track), nothing.facts.outcome.contact->time);
+  EXPECT_GT(world::end_time(nothing.course.ego.track), nothing.facts.outcome().contact->time);
   EXPECT_LT(norm(nothing.course.ego.v_B.back()), 0.1);
   // What was carried out is tried as it was.
   const Moment slowly{.scene = scene,
@@ -50,13 +51,13 @@ TEST(Hindsight, KnowsWhatEachPolicyWouldHaveDone) {
   EXPECT_EQ(tried[manoeuvre::index(PolicyId::es_b_right)].facts.plan.target_speed, 10.0);
   // On dry road braking would have been enough.
   scene.grip = 0.9;
-  EXPECT_FALSE(try_all(0.9)[manoeuvre::index(PolicyId::aeb)].facts.outcome.contact.has_value());
+  EXPECT_FALSE(try_all(0.9)[manoeuvre::index(PolicyId::aeb)].facts.outcome().contact.has_value());
   // A drift cannot be driven where the road is slippery enough.
   scene.grip = 0.15;
   const auto slippery = try_all(0.15);
   const Hindsight& drift = slippery[manoeuvre::index(PolicyId::t_drift_left)];
   EXPECT_TRUE(drift.course.ego.track.X_WA.empty());
-  EXPECT_FALSE(drift.facts.refusal.empty());
+  EXPECT_FALSE(drift.facts.drivable());
 }
 
 }  // namespace

@@ -94,20 +94,22 @@ std::span<const world::Actor> actors_of(const world::Scene& scene) {
 }
 
 /// What a policy is forecast, or known, to end in.
-json facts_json(const preview::PolicyFacts& facts, const world::Scene& scene) {
-  const bool driven = facts.refusal.empty();
-  return {{"policy", manoeuvre::index(facts.plan.policy)},
-          {"name", name(facts.plan.policy)},
-          {"target_speed_mps", number_or_null(facts.plan.target_speed)},
-          {"strength", number_or_null(facts.plan.strength)},
-          {"refusal", driven ? json(nullptr) : json(facts.refusal)},
-          {"text", driven ? outcome::describe(facts.outcome, scene) : facts.refusal},
-          {"contact", driven ? first_contact_json(facts.outcome, actors_of(scene)) : json(nullptr)},
-          {"clearance_m", driven ? json(facts.outcome.clearance) : json(nullptr)},
-          {"collision_loss", driven ? json(facts.outcome.collision_loss) : json(nullptr)},
-          {"harm", driven ? json(facts.outcome.harm) : json(nullptr)},
-          {"probability", driven ? json(facts.probability) : json(nullptr)},
-          {"rolled_out", facts.rolled_out}};
+/// @param rolled_out  as all that can be driven beside it
+json facts_json(const preview::PolicyFacts& facts, const world::Scene& scene, bool rolled_out) {
+  const bool driven = facts.drivable();
+  return {
+      {"policy", manoeuvre::index(facts.plan.policy)},
+      {"name", name(facts.plan.policy)},
+      {"target_speed_mps", number_or_null(facts.plan.target_speed)},
+      {"strength", number_or_null(facts.plan.strength)},
+      {"refusal", driven ? json(nullptr) : json(facts.refusal())},
+      {"text", driven ? outcome::describe(facts.outcome(), scene) : facts.refusal()},
+      {"contact", driven ? first_contact_json(facts.outcome(), actors_of(scene)) : json(nullptr)},
+      {"clearance_m", driven ? json(facts.outcome().clearance) : json(nullptr)},
+      {"collision_loss", driven ? json(facts.outcome().collision_loss) : json(nullptr)},
+      {"harm", driven ? json(facts.outcome().harm) : json(nullptr)},
+      {"probability", driven ? json(facts.contact_probability()) : json(nullptr)},
+      {"rolled_out", rolled_out}};
 }
 
 json answer_json(const reason::Answer& answer) {
@@ -144,7 +146,7 @@ json preview_json(const decide::Preview& preview) {
   }
   json facts = json::array();
   for (const preview::PolicyFacts& fact : situation.facts) {
-    facts.push_back(facts_json(fact, scene));
+    facts.push_back(facts_json(fact, scene, preview::rolled_out(situation.facts)));
   }
   json answers = json::array();
   std::transform(preview.reply.answers.begin(), preview.reply.answers.end(),
@@ -229,11 +231,11 @@ json hindsight_json(const Record& record) {
     return all;
   }
   for (const Hindsight& one : *record.hindsight) {
-    json entry = facts_json(one.facts, *record.at_trigger);
+    json entry = facts_json(one.facts, *record.at_trigger, true);
     entry["path"] = json::array();
     entry["others"] = json::array();
     entry["later"] = json::array();
-    if (one.facts.refusal.empty()) {
+    if (one.facts.drivable()) {
       add_course(one.course, *record.at_trigger, entry);
     }
     all.push_back(entry);
@@ -256,7 +258,7 @@ double false_trigger_loss(const Record& record) {
   }
   const Hindsight& nothing =
       (*record.hindsight)[manoeuvre::index(manoeuvre::PolicyId::no_intervention)];
-  const bool no_risk = nothing.facts.refusal.empty() && !nothing.facts.outcome.contact;
+  const bool no_risk = nothing.facts.drivable() && !nothing.facts.outcome().contact;
   return no_risk ? outcome::false_trigger_loss(record.decision->plan.policy) : 0.0;
 }
 

@@ -144,9 +144,13 @@ std::optional<std::vector<ExpectedHarm>> read(const Scene& scene,
       return std::nullopt;
     }
     for (std::size_t i = 0; i < plans.size(); ++i) {
-      all[i].refusal = (*facts)[i].refusal;
-      all[i].harm += motion.probability / sum * (*facts)[i].outcome.harm;
-      all[i].contact += motion.probability / sum * (*facts)[i].probability;
+      const PolicyFacts& one = (*facts)[i];
+      if (one.drivable()) {
+        all[i].harm += motion.probability / sum * one.outcome().harm;
+        all[i].contact += motion.probability / sum * one.contact_probability();
+      } else {
+        all[i].refusal = one.refusal();
+      }
     }
   }
   return all;

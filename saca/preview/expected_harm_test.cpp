@@ -72,7 +72,7 @@ TEST(ExpectedHarm, AStopEndsWhereItEnds) {
     };
     const Scene far = at(30.0);
     const auto stop = rolled_out(far, all_going_on(far).tracks, brakes, rolling());
-    const double way = 30.0 - stop[0].outcome.clearance;
+    const double way = 30.0 - stop[0].outcome().clearance;
     for (const double more : {-0.05, 0.05}) {
       const Scene scene = at(way + more);
       const JointMotion stands = all_going_on(scene);

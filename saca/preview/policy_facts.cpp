@@ -20,22 +20,12 @@ using world::Scene;
 using world::SpreadOverTime;
 using world::Track;
 
-using AllFacts = std::array<PolicyFacts, manoeuvre::num_policies>;
-
 outcome::Outcome outcome_of(const outcome::Future& future) {
   return {.contact = future.contact,
           .collision_loss = future.collision_loss,
           .harm = future.harm,
           .clearance = future.clearance,
           .end_time = future.end_time};
-}
-
-std::string refusal_of(const manoeuvre::Car& car, const Plan& plan, const Scene& scene) {
-  return manoeuvre::refusal(car, plan, scene).value_or("");
-}
-
-bool is_better(const PolicyFacts& a, const PolicyFacts& b) {
-  return a.refusal.empty() && outcome::better(a.outcome, a.plan.policy, b.outcome, b.plan.policy);
 }
 
 /// The atlas' futures of some plans, while the followers react.
@@ -103,16 +93,13 @@ outcome::Futures read(const Scene& scene, const std::vector<Track>& tracks,
 /// nullopt: it can be driven, and the atlas does not have it.
 std::optional<PolicyFacts> facts_of(const outcome::Future& future, const Scene& scene,
                                     const ForecastTools& tools) {
-  PolicyFacts facts{
-      .plan = future.plan, .refusal = refusal_of(*tools.car, future.plan, scene), .outcome = {}};
-  if (facts.refusal.empty()) {
-    if (future.outside) {
-      return std::nullopt;
-    }
-    facts.outcome = outcome_of(future);
-    facts.probability = future.probability;
+  if (auto refusal = manoeuvre::refusal(*tools.car, future.plan, scene)) {
+    return PolicyFacts{future.plan, Refused{*std::move(refusal)}};
   }
-  return facts;
+  if (future.outside) {
+    return std::nullopt;
+  }
+  return PolicyFacts{future.plan, ExpectedOutcome{outcome_of(future), future.probability}};
 }
 
 /// nullopt: the atlas does not have all that can be driven.
@@ -179,21 +166,19 @@ std::vector<RolledOut> tried(const manoeuvre::Car& car, std::span<const outcome:
   for (std::size_t i = 0; i < attempts.size(); ++i) {
     const outcome::Attempt& attempt = attempts[i];
     expects(attempt.scene != nullptr, "an attempt has a scene");
-    all[i].facts = {.plan = attempt.plan,
-                    .refusal = refusal_of(car, attempt.plan, *attempt.scene),
-                    .outcome = {},
-                    .rolled_out = true};
-    if (all[i].facts.refusal.empty()) {
+    all[i].facts.plan = attempt.plan;
+    if (auto refusal = manoeuvre::refusal(car, attempt.plan, *attempt.scene)) {
+      all[i].facts.end = Refused{*std::move(refusal)};
+    } else {
       driven.push_back(attempt);
     }
   }
   std::vector<outcome::Course> courses = roll_out_all(car, driven, harm, threads);
   auto next = courses.begin();
   for (auto& [facts, course] : all) {
-    if (facts.refusal.empty()) {
+    if (facts.drivable()) {
       course = std::move(*next++);
-      facts.outcome = course.outcome;
-      facts.probability = course.outcome.contact ? 1.0 : 0.0;
+      facts.end = RolledOutcome{course.outcome};
     }
   }
   return all;
@@ -228,8 +213,7 @@ AllFacts policy_facts(const Scene& scene, const std::vector<Track>& tracks,
   for (PolicyFacts& fact :
        rolled_out(scene, tracks, all_plans(scene.ego.v_B.x, tools.braking), tools)) {
     const std::size_t i = manoeuvre::index(fact.plan.policy);
-    const bool first_driven = !best[i].refusal.empty() && fact.refusal.empty();
-    if (!found[i] || first_driven || is_better(fact, best[i])) {
+    if (!found[i] || better(fact, best[i])) {
       best[i] = std::move(fact);
     }
     found[i] = true;
@@ -240,7 +224,7 @@ AllFacts policy_facts(const Scene& scene, const std::vector<Track>& tracks,
 PolicyId best_by_forecast(const AllFacts& facts) {
   const PolicyFacts* best = &facts[manoeuvre::index(PolicyId::aeb)];
   for (const PolicyFacts& fact : facts) {
-    if (is_better(fact, *best)) {
+    if (better(fact, *best)) {
       best = &fact;
     }
   }

@@ -53,9 +53,10 @@ using Plans =
 /// first contact only, so figures of the two are not compared.
 /// @param spreads  about the tracks, one per actor, those who react included; or none at all: as
 ///                 perceived in `scene`, of who reacts the place alone
-[[nodiscard]] std::array<PolicyFacts, manoeuvre::num_policies> policy_facts(
-    const world::Scene& scene, const std::vector<world::Track>& tracks, const ForecastTools& tools,
-    const std::vector<world::SpreadOverTime>& spreads = {});
+[[nodiscard]] AllFacts policy_facts(const world::Scene& scene,
+                                    const std::vector<world::Track>& tracks,
+                                    const ForecastTools& tools,
+                                    const std::vector<world::SpreadOverTime>& spreads = {});
 
 /// What the atlas says that these plans end in; followers react as in policy_facts.
 /// @return  in the order of `plans`; nullopt: there is no atlas, or it lacks one that can be driven
@@ -81,7 +82,6 @@ struct RolledOut {
                                                   const ForecastTools& tools);
 
 /// The policy whose forecast is best by the one ordering; ties go to the milder.
-[[nodiscard]] manoeuvre::PolicyId best_by_forecast(
-    const std::array<PolicyFacts, manoeuvre::num_policies>& facts);
+[[nodiscard]] manoeuvre::PolicyId best_by_forecast(const AllFacts& facts);
 
 }  // namespace saca::preview

@@ -20,7 +20,6 @@ using manoeuvre::small_atlas_car;
 using world::Actor;
 using world::Scene;
 using world::Track;
-using AllFacts = std::array<PolicyFacts, manoeuvre::num_policies>;
 
 /// A wreck so far ahead of the bumper; two lanes to the left of the ego, one to its right.
 struct Road {
@@ -57,18 +56,19 @@ const PolicyFacts& of(const AllFacts& facts, PolicyId policy) {
 // has the lanes.
 TEST(PolicyFacts, SayWhatEachPolicyEndsIn) {
   const AllFacts facts = Road(20.0, 26.0).facts(rolling());
-  const outcome::Outcome& nothing = of(facts, PolicyId::no_intervention).outcome;
+  const outcome::Outcome& nothing = of(facts, PolicyId::no_intervention).outcome();
   ASSERT_TRUE(nothing.contact.has_value());
   EXPECT_NEAR(nothing.contact->relative_speed, 20.0, 0.3);
   EXPECT_EQ(nothing.contact->ego_face, outcome::Face::front);
-  EXPECT_FALSE(of(facts, PolicyId::aes_left).outcome.contact.has_value());
+  EXPECT_FALSE(of(facts, PolicyId::aes_left).outcome().contact.has_value());
   EXPECT_TRUE(of(facts, PolicyId::es_b_left).plan.target_speed.has_value());
-  EXPECT_TRUE(of(facts, PolicyId::t_drift_left).refusal.empty());
+  EXPECT_TRUE(of(facts, PolicyId::t_drift_left).drivable());
   const PolicyFacts& best = of(facts, best_by_forecast(facts));
   for (const PolicyFacts& fact : facts) {
-    EXPECT_TRUE(fact.rolled_out);
-    if (fact.refusal.empty()) {
-      EXPECT_FALSE(outcome::better(fact.outcome, fact.plan.policy, best.outcome, best.plan.policy))
+    EXPECT_FALSE(std::holds_alternative<ExpectedOutcome>(fact.end));
+    if (fact.drivable()) {
+      EXPECT_FALSE(
+          outcome::better(fact.outcome(), fact.plan.policy, best.outcome(), best.plan.policy))
           << name(fact.plan.policy);
     }
   }
@@ -87,13 +87,13 @@ TEST(PolicyFacts, BeingHitFromBehindCounts) {
     const AllFacts alone = road.facts(one.tools);
     road.add({-9.0, 0.0}, one.speed);
     const AllFacts followed = road.facts(one.tools);
-    EXPECT_EQ(of(followed, PolicyId::aeb).rolled_out, one.tools.atlas == nullptr);
-    EXPECT_FALSE(of(alone, PolicyId::aeb).outcome.contact.has_value());
-    ASSERT_TRUE(of(followed, PolicyId::aeb).outcome.contact.has_value());
-    EXPECT_EQ(of(followed, PolicyId::aeb).outcome.contact->ego_face, outcome::Face::rear);
-    EXPECT_GT(of(followed, PolicyId::aeb).outcome.harm, of(alone, PolicyId::aeb).outcome.harm);
-    EXPECT_EQ(of(followed, PolicyId::aes_left).outcome.harm,
-              of(alone, PolicyId::aes_left).outcome.harm);
+    EXPECT_EQ(rolled_out(followed), one.tools.atlas == nullptr);
+    EXPECT_FALSE(of(alone, PolicyId::aeb).outcome().contact.has_value());
+    ASSERT_TRUE(of(followed, PolicyId::aeb).outcome().contact.has_value());
+    EXPECT_EQ(of(followed, PolicyId::aeb).outcome().contact->ego_face, outcome::Face::rear);
+    EXPECT_GT(of(followed, PolicyId::aeb).outcome().harm, of(alone, PolicyId::aeb).outcome().harm);
+    EXPECT_EQ(of(followed, PolicyId::aes_left).outcome().harm,
+              of(alone, PolicyId::aes_left).outcome().harm);
   }
 }
 
@@ -110,7 +110,7 @@ TEST(PolicyFacts, BrakingIsAsHardAsIsBest) {
     published.braking = Braking::full;
     const PolicyFacts& full = of(road.facts(published), PolicyId::aeb);
     EXPECT_EQ(full.plan, manoeuvre::full_braking);
-    EXPECT_LT(best.outcome.harm, full.outcome.harm);
+    EXPECT_LT(best.outcome().harm, full.outcome().harm);
   }
 }
 
@@ -136,16 +136,16 @@ TEST(PolicyFacts, ReadAndRolledOutAgree) {
     const AllFacts read = road.facts(reading());
     const AllFacts rolled = road.facts(rolling());
     for (std::size_t i = 0; i < read.size(); ++i) {
-      EXPECT_FALSE(read[i].rolled_out);
-      ASSERT_EQ(read[i].refusal.empty(), rolled[i].refusal.empty());
-      if (!read[i].refusal.empty() || read[i].plan != rolled[i].plan) {
+      EXPECT_FALSE(std::holds_alternative<RolledOutcome>(read[i].end));
+      ASSERT_EQ(read[i].drivable(), rolled[i].drivable());
+      if (!read[i].drivable() || read[i].plan != rolled[i].plan) {
         continue;  // equals within the error may be chosen differently
       }
       const std::string_view policy = name(read[i].plan.policy);
-      EXPECT_EQ(read[i].outcome.contact.has_value(), rolled[i].outcome.contact.has_value())
+      EXPECT_EQ(read[i].outcome().contact.has_value(), rolled[i].outcome().contact.has_value())
           << policy << gap;
-      EXPECT_NEAR(read[i].outcome.clearance, rolled[i].outcome.clearance, 0.3) << policy << gap;
-      EXPECT_NEAR(read[i].outcome.collision_loss, rolled[i].outcome.collision_loss, 0.15)
+      EXPECT_NEAR(read[i].outcome().clearance, rolled[i].outcome().clearance, 0.3) << policy << gap;
+      EXPECT_NEAR(read[i].outcome().collision_loss, rolled[i].outcome().collision_loss, 0.15)
           << policy << gap;
     }
   }
@@ -154,7 +154,7 @@ TEST(PolicyFacts, ReadAndRolledOutAgree) {
 // The small atlas ends at 13 m/s.
 TEST(PolicyFacts, OutsideTheAtlasAllIsRolledOut) {
   for (const PolicyFacts& fact : Road(14.0, 20.0).facts(reading())) {
-    EXPECT_TRUE(fact.rolled_out);
+    EXPECT_FALSE(std::holds_alternative<ExpectedOutcome>(fact.end));
   }
 }
 
@@ -170,7 +170,7 @@ TEST(PolicyFacts, TheTargetSpeedIsTheBestOfItsGrid) {
   }
   for (const PolicyFacts& one : rolled_out(road.scene, road.tracks, plans, rolling())) {
     EXPECT_FALSE(
-        outcome::better(one.outcome, PolicyId::es_b_left, chosen.outcome, PolicyId::es_b_left))
+        outcome::better(one.outcome(), PolicyId::es_b_left, chosen.outcome(), PolicyId::es_b_left))
         << *one.plan.target_speed;
   }
 }

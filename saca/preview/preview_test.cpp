@@ -169,7 +169,7 @@ TEST(Situations, WhoIsAbreastMayBeAheadOrBehindAndStaysInItsLane) {
   scene.actors.push_back(car(2, {0.0, 3.5}, {12.5, 0.0}));
   const Situation surely = read_situation(scene);
   ASSERT_GT(surely.scene_at_trigger.time, 3.0);
-  EXPECT_LT(braking(surely).probability, 1e-4);
+  EXPECT_LT(braking(surely).contact_probability(), 1e-4);
   scene.actors[1].position_sd = 0.3;
   scene.actors[1].velocity_sd = 0.3;
   const Situation found = read_situation(scene);
@@ -178,8 +178,8 @@ TEST(Situations, WhoIsAbreastMayBeAheadOrBehindAndStaysInItsLane) {
   const double at_trigger = std::hypot(0.3, 0.3 * t);
   // The ego rests after 12.5 / 8 s; by then the other has surely passed.
   const double when_passed = std::hypot(at_trigger, 0.3 * 12.5 / 8.0);
-  EXPECT_GT(braking(found).probability, 0.9 * normal_below(-gap / at_trigger));
-  EXPECT_LT(braking(found).probability, 1.1 * normal_below(-gap / when_passed));
+  EXPECT_GT(braking(found).contact_probability(), 0.9 * normal_below(-gap / at_trigger));
+  EXPECT_LT(braking(found).contact_probability(), 1.1 * normal_below(-gap / when_passed));
 }
 
 // Who follows reacts: it keeps a gap that it sees, whatever it might have done by then if nobody
@@ -192,9 +192,9 @@ TEST(Situations, WhoReactsIsAsUnsureAsItIsPerceived) {
   const Situation found = read_situation(scene);
   const std::array plans{manoeuvre::Plan{manoeuvre::PolicyId::aeb, std::nullopt}};
   const auto rolled = rolled_out(found.scene_at_trigger, found.tracks, plans, reading());
-  ASSERT_FALSE(rolled[0].outcome.contact.has_value());
-  ASSERT_GT(rolled[0].outcome.clearance, 1.0);
-  EXPECT_LT(braking(found).probability, 1e-4);
+  ASSERT_FALSE(rolled[0].outcome().contact.has_value());
+  ASSERT_GT(rolled[0].outcome().clearance, 1.0);
+  EXPECT_LT(braking(found).contact_probability(), 1e-4);
 }
 
 TEST(Situations, WhoCrossesIsUnsureByTheTriggersTolerance) {

@@ -1,28 +1,13 @@
 #pragma once
 
-#include <array>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "saca/intent/intention.h"
-#include "saca/manoeuvre/plan.h"
-#include "saca/outcome/outcome.h"
+#include "saca/preview/plan_facts.h"
 #include "saca/reach/risk.h"
 #include "saca/world/scene.h"
 
 namespace saca::preview {
-
-/// What one policy is forecast to end in; why it cannot be driven, where it cannot.
-struct PolicyFacts {
-  manoeuvre::Plan plan;
-  std::string refusal;       ///< empty when the plan can be driven
-  outcome::Outcome outcome;  ///< meaningless when refused
-  double probability = 0.0;  ///< of contact with anybody, or an edge that stops the ego;
-                             ///< rolled out: 1 with any contact
-  bool rolled_out = false;  ///< with full dynamics; else read from the atlas, where outcome.harm is
-                            ///< the expected one, and contact that at the mean
-};
 
 /// A likely situation at the trigger: the forecast scene, with all that is computed about it.
 struct Situation {
@@ -35,7 +20,7 @@ struct Situation {
   std::vector<world::Track> tracks;                 ///< one per actor, from the preview on
   std::vector<world::SpreadOverTime> spreads;       ///< about the tracks, from the trigger on; of
                                                     ///< who reacts to the ego, as perceived
-  std::array<PolicyFacts, manoeuvre::num_policies> facts;
+  AllFacts facts;
 };
 
 }  // namespace saca::preview

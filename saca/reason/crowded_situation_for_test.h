@@ -54,7 +54,7 @@ inline preview::Situation crowded_situation(unsigned seed) {
   }
   for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
     preview::PolicyFacts& facts = situation.facts[manoeuvre::index(policy)];
-    facts.refusal.clear();
+    auto& end = facts.end.emplace<preview::ExpectedOutcome>();
     facts.plan = manoeuvre::default_plan(policy, scene.ego.v_B.x);
     if (manoeuvre::takes_strength(policy) && seed % 2 == 0) {
       facts.plan.strength = 0.45;
@@ -62,12 +62,12 @@ inline preview::Situation crowded_situation(unsigned seed) {
     outcome::Contact contact;
     contact.actor = one_of(12);
     contact.relative_speed = between(0.0, 80.0);
-    facts.outcome.contact = contact;
+    end.outcome.contact = contact;
     contact.actor = one_of(12);
-    facts.outcome.later.push_back(contact);
-    facts.outcome.clearance = 0.0;
-    facts.outcome.harm = between(0.0, 20.0);
-    facts.probability = between(0.0, 1.0);
+    end.outcome.later.push_back(contact);
+    end.outcome.clearance = 0.0;
+    end.outcome.harm = between(0.0, 20.0);
+    end.contact_probability = between(0.0, 1.0);
   }
   return situation;
 }

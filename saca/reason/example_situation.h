@@ -50,17 +50,17 @@ inline preview::Situation example_situation() {
     outcome::Contact contact;
     contact.actor = 0;
     contact.relative_speed = 8.0 + static_cast<double>(manoeuvre::index(policy));
-    facts.outcome.contact = contact;
-    facts.outcome.clearance = 0.0;
-    facts.outcome.harm = 0.0125;
+    facts.outcome().contact = contact;
+    facts.outcome().clearance = 0.0;
+    facts.outcome().harm = 0.0125;
   }
   preview::PolicyFacts& aeb = situation.facts[manoeuvre::index(manoeuvre::PolicyId::aeb)];
-  aeb.outcome = {};
-  aeb.outcome.clearance = 0.62;
-  situation.facts[manoeuvre::index(manoeuvre::PolicyId::t_drift_left)].refusal =
-      "the road is too slippery";
-  situation.facts[manoeuvre::index(manoeuvre::PolicyId::t_drift_right)].refusal =
-      "the road is too slippery";
+  aeb.outcome() = {};
+  aeb.outcome().clearance = 0.62;
+  situation.facts[manoeuvre::index(manoeuvre::PolicyId::t_drift_left)].end =
+      preview::Refused{"the road is too slippery"};
+  situation.facts[manoeuvre::index(manoeuvre::PolicyId::t_drift_right)].end =
+      preview::Refused{"the road is too slippery"};
   return situation;
 }
 

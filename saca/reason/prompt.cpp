@@ -121,14 +121,12 @@ std::vector<std::size_t> by_danger(const preview::Situation& situation) {
 std::vector<std::size_t> by_forecast(const preview::Situation& situation) {
   std::vector<std::size_t> order;
   for (std::size_t k = 0; k < situation.facts.size(); ++k) {
-    if (situation.facts[k].refusal.empty()) {
+    if (situation.facts[k].drivable()) {
       order.push_back(k);
     }
   }
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    const preview::PolicyFacts& one = situation.facts[a];
-    const preview::PolicyFacts& other = situation.facts[b];
-    return outcome::better(one.outcome, one.plan.policy, other.outcome, other.plan.policy);
+    return preview::better(situation.facts[a], situation.facts[b]);
   });
   return order;
 }
@@ -195,25 +193,25 @@ std::string road_section(const Scene& scene) {
 // Where it is not sure whether there is contact, how likely it is.
 std::string chance_text(const preview::PolicyFacts& facts) {
   constexpr double sure = 0.005;
-  return facts.probability < sure || facts.probability > 1.0 - sure
+  return facts.contact_probability() < sure || facts.contact_probability() > 1.0 - sure
              ? ""
-             : fmt::format(", contact {:.0f} % likely", 100.0 * facts.probability);
+             : fmt::format(", contact {:.0f} % likely", 100.0 * facts.contact_probability());
 }
 
 std::string line_of(const preview::PolicyFacts& facts, const Scene& scene, bool in_whole) {
   std::string line = manoeuvre::plan_text(facts.plan);
-  if (!facts.refusal.empty()) {
-    return line + ": not possible: " + facts.refusal;
+  if (!facts.drivable()) {
+    return line + ": not possible: " + facts.refusal();
   }
-  const auto& contact = facts.outcome.contact;
+  const auto& contact = facts.outcome().contact;
   line += ": ";
   if (in_whole || !contact) {
-    line += outcome::describe(facts.outcome, scene) + chance_text(facts);
+    line += outcome::describe(facts.outcome(), scene) + chance_text(facts);
   } else {
     line +=
         contact->actor ? "hits " + actor_name(scene.actors[*contact->actor]) : "leaves the road";
   }
-  return line + ", " + harm_text(facts.outcome.harm);
+  return line + ", " + harm_text(facts.outcome().harm);
 }
 
 /// Every line that may stand in a prompt.
@@ -261,7 +259,7 @@ std::string manoeuvre_section(const preview::Situation& situation, const Lines& 
   std::string refused;
   for (std::size_t k = 0; k < situation.facts.size(); ++k) {
     const preview::PolicyFacts& facts = situation.facts[k];
-    if (facts.refusal.empty()) {
+    if (facts.drivable()) {
       text += (depth.in_whole.at(k) ? lines.in_whole : lines.in_short).at(k);
     } else {
       refused += fmt::format("{}{}", refused.empty() ? "" : ", ", name(facts.plan.policy));

@@ -193,16 +193,17 @@ TEST(Prompt, CrowdFitsIntoTheBound) {
 
 TEST(Prompt, LittleIsToldOfWhatIsForecastBadly) {
   preview::Situation situation = example_situation();
+  const outcome::Contact contact = situation.facts[1].outcome().contact.value();
   for (preview::PolicyFacts& facts : situation.facts) {
-    facts.refusal.clear();
-    facts.outcome.contact = situation.facts[1].outcome.contact;
-    facts.outcome.later.push_back(*facts.outcome.contact);
-    facts.outcome.later.push_back(*facts.outcome.contact);
-    facts.outcome.harm = 0.5;
-    facts.probability = 0.5;
+    auto& end = facts.end.emplace<preview::ExpectedOutcome>();
+    end.outcome.contact = contact;
+    end.outcome.later.push_back(contact);
+    end.outcome.later.push_back(contact);
+    end.outcome.harm = 0.5;
+    end.contact_probability = 0.5;
   }
-  situation.facts[2].outcome.harm = 0.25;
-  situation.facts[1].outcome.harm = 0.75;
+  situation.facts[2].outcome().harm = 0.25;
+  situation.facts[1].outcome().harm = 0.75;
   const std::string text = prompt(situation);
   EXPECT_THAT(text, HasSubstr("\n1 AES-L: hits truck1, harm 0.7500\n"));
   EXPECT_THAT(text, HasSubstr("\n2 AES-R: hits truck1 with its front at 9.0 m/s, then truck1 with "

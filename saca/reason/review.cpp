@@ -27,14 +27,14 @@ std::string review_prompt(const Aftermath& aftermath) {
   }
   text += "\n## What each policy leads to, as is known now:\n";
   for (const preview::PolicyFacts& each : facts) {
-    text += each.refusal.empty() ? policy_line(each, aftermath.known.scene_at_trigger) + '\n'
-                                 : manoeuvre::plan_text(each.plan) + ": not possible\n";
+    text += each.drivable() ? policy_line(each, aftermath.known.scene_at_trigger) + '\n'
+                            : manoeuvre::plan_text(each.plan) + ": not possible\n";
   }
   text += "## Best in Hindsight:\n" + manoeuvre::plan_text(best.plan);
-  return text +
-         (aftermath.best == aftermath.done.policy && aftermath.later.empty()
-              ? ": what was carried out\n"
-              : fmt::format(": harm less by {:.4f}\n", aftermath.result.harm - best.outcome.harm));
+  return text + (aftermath.best == aftermath.done.policy && aftermath.later.empty()
+                     ? ": what was carried out\n"
+                     : fmt::format(": harm less by {:.4f}\n",
+                                   aftermath.result.harm - best.outcome().harm));
 }
 
 }  // namespace saca::reason

@@ -220,10 +220,10 @@ bool is_quotient(const std::vector<QuotedNumber>& numbers, std::size_t i) {
 }
 
 bool hits(const PolicyFacts& facts) {
-  return facts.refusal.empty() && facts.outcome.contact.has_value();
+  return facts.drivable() && facts.outcome().contact.has_value();
 }
 bool is_blocked(const PolicyFacts& facts) {
-  return !facts.refusal.empty() || hits(facts);
+  return !facts.drivable() || hits(facts);
 }
 
 /// What a sentence says of a manoeuvre.
@@ -300,39 +300,29 @@ std::vector<std::string_view> clauses(std::string_view sentence) {
   return all;
 }
 
-double least_harm(const Situation& situation) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const PolicyFacts& facts : situation.facts) {
-    if (facts.refusal.empty()) {
-      least = std::min(least, facts.outcome.harm);
-    }
-  }
-  return least;
-}
-
 bool is_so(Claim claim, const PolicyFacts& facts, const Situation& situation) {
   switch (claim) {
     case Claim::not_possible:
-      return !facts.refusal.empty();
+      return !facts.drivable();
     case Claim::blocked:
       return is_blocked(facts);
     case Claim::hits:
       return hits(facts);
     case Claim::no_harm:
-      return facts.refusal.empty() && facts.outcome.harm < told_as_none;
+      return facts.drivable() && facts.outcome().harm < told_as_none;
     case Claim::least_harm:
-      return facts.refusal.empty() &&
-             facts.outcome.harm <= least_harm(situation) + outcome::harm_tie;
+      return facts.drivable() &&
+             facts.outcome().harm <= preview::least_harm(situation.facts) + outcome::harm_tie;
     case Claim::clear:
-      return facts.refusal.empty() && !facts.outcome.contact;
+      return facts.drivable() && !facts.outcome().contact;
   }
   return true;
 }
 
 std::string told(const PolicyFacts& facts, const Situation& situation) {
   return fmt::format("{} {}: {}", manoeuvre::index(facts.plan.policy), name(facts.plan.policy),
-                     facts.refusal.empty()
-                         ? outcome::describe(facts.outcome, situation.scene_at_trigger)
+                     facts.drivable()
+                         ? outcome::describe(facts.outcome(), situation.scene_at_trigger)
                          : "not possible");
 }
 
