@@ -44,6 +44,7 @@ struct ThinkingPlane::Round {
   Clock::Time scene_at;
   const Clock& clock;
   const std::stop_token& stop;
+  const NewestScene& newest;
 
   [[nodiscard]] double time_of(Clock::Time at) const {
     return scene.time + to_seconds(at - scene_at);
@@ -86,11 +87,12 @@ void ThinkingPlane::describe_scene(const Round& round, const preview::Threat& th
 }
 
 bool ThinkingPlane::think(const world::Scene& scene, const intent::Beliefs& beliefs,
-                          Clock::Time scene_at, const std::stop_token& stop) {
+                          Clock::Time scene_at, const std::stop_token& stop,
+                          const NewestScene& newest) {
   if (world::broken_rule(scene)) {
     return false;
   }
-  const Round round{scene, beliefs, scene_at, *tools_.clock, stop};
+  const Round round{scene, beliefs, scene_at, *tools_.clock, stop, newest};
   const bool withdrawn = forget_what_has_passed(scene.time);
   const auto threat =
       preview::previewed_threat(scene, beliefs, tools_.forecast.motion, thresholds_);
@@ -259,15 +261,16 @@ double ThinkingPlane::time_left(const Round& round, const Preview& preview) {
   return preview.newest_scene.time - handover_margin - round.now();
 }
 
+double ThinkingPlane::least_time(std::size_t count) const {
+  return std::max(least_thinking_time,
+                  shortest_share * fastest_answer_ * static_cast<double>(count));
+}
+
 std::vector<std::size_t> ThinkingPlane::in_time(const Round& round,
                                                 std::vector<std::size_t> which) const {
   std::stable_sort(which.begin(), which.end(), [&](std::size_t a, std::size_t b) {
     return previews_[a].situation.probability > previews_[b].situation.probability;
   });
-  const auto least = [&](std::size_t count) {
-    return std::max(least_thinking_time,
-                    shortest_share * fastest_answer_ * static_cast<double>(count));
-  };
   std::vector<std::size_t> asked;
   for (const std::size_t i : which) {
     const double left = time_left(round, previews_[i]);
@@ -276,11 +279,34 @@ std::vector<std::size_t> ThinkingPlane::in_time(const Round& round,
       left_to_all = std::min(left_to_all, time_left(round, previews_[other]));
     }
     const bool new_chance = !previews_[i].unheard || left > previews_[i].missed;
-    if (new_chance && left_to_all >= least(asked.size() + 1)) {
+    if (new_chance && left_to_all >= least_time(asked.size() + 1)) {
       asked.push_back(i);
     }
   }
   return asked;
+}
+
+bool ThinkingPlane::asks_in_vain(const Round& round, const std::vector<std::size_t>& which) const {
+  const std::optional<NewerScene> newer = round.newest();
+  if (!newer || world::broken_rule(newer->scene)) {
+    return false;
+  }
+  for (const preview::Situation& situation :
+       preview::situations(newer->scene, newer->beliefs, thresholds_, tools_.forecast)) {
+    const std::optional<std::size_t> known = provided_for(situation);
+    if (!known || std::find(which.begin(), which.end(), *known) == which.end()) {
+      continue;
+    }
+    const double left = situation.scene_at_trigger.time - handover_margin - round.now();
+    const Preview& preview = previews_[*known];
+    if (left >= least_time(1) && changed_policy(preview.situation.facts, situation.facts)) {
+      tell(round, EventKind::ask,
+           fmt::format("forecast {}: its facts have changed, the question is withdrawn",
+                       preview.number + 1));
+      return true;
+    }
+  }
+  return false;
 }
 
 void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>& which) {
@@ -304,8 +330,22 @@ void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>
   tell(round, EventKind::ask,
        fmt::format("the model is asked about {} forecast{}, {:.1f} s left", scenes.size(),
                    scenes.size() == 1 ? "" : "s", left));
+  std::stop_source withdrawn;
+  const std::stop_callback withdraw(round.stop, [&] { withdrawn.request_stop(); });
+  bool in_vain = false;
+  double looked_at = asked_at;
+  const auto look_again = [&] {
+    if (round.newest && !in_vain && round.now() >= looked_at + looked_again) {
+      in_vain = asks_in_vain(round, which);
+      looked_at = round.now();
+      if (in_vain) {
+        withdrawn.request_stop();
+      }
+    }
+  };
   const auto progress = [&](const reason::Progress& news) {
-    if (news.prompt >= which.size()) {
+    look_again();
+    if (in_vain || news.prompt >= which.size()) {
       return;
     }
     Preview& preview = previews_[which[news.prompt]];
@@ -322,8 +362,15 @@ void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>
       take_answer(round, preview, *news.answer);
     }
   };
-  const auto replies =
-      tools_.model->ask(scenes, round.clock_at(asked_at + left), progress, {.stop = round.stop});
+  const auto replies = tools_.model->ask(scenes, round.clock_at(asked_at + left), progress,
+                                         {.stop = withdrawn.get_token()});
+  if (in_vain) {
+    for (const std::size_t i : which) {
+      previews_[i].unheard = !previews_[i].plan;  // the next round asks about all of them
+      previews_[i].missed = 0.0;
+    }
+    return;
+  }
   if (!replies.has_value() && round.stop.stop_requested()) {
     return;  // nobody waits for it any more
   }

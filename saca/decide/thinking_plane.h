@@ -41,12 +41,22 @@ struct ThinkingOutput {
   std::function<void(std::int32_t preview, std::string_view text)> reasoning;  ///< streamed
 };
 
+/// A scene that has come since a round began, and what is believed of its actors' intentions, one
+/// for each.
+struct NewerScene {
+  world::Scene scene;
+  intent::Beliefs beliefs;
+};
+/// The newest that there is; nullopt: none has come since it was last asked.
+using NewestScene = std::function<std::optional<NewerScene>()>;
+
 /// The plane that may be slow and may fail. Each round looks at the newest scene, forecasts the
 /// likely situations at the trigger, and finds a plan for each that is not yet provided for: from
 /// memory, or by asking the language model. A forecast that is more than 90 % like one that is
 /// known is that one, as it looks now; of several in one round the likeliest. Where a policy that
 /// was as good as the best is materially worse now, or the other way round, it is thought about
-/// anew. The model is asked about what it can answer before the trigger, as far as is known.
+/// anew; a question to the model about it that is under way is withdrawn where there is time for
+/// another. The model is asked about what it can answer before the trigger, as far as is known.
 ///
 /// Algorithm 1 of the paper, its first half. Not thread-safe: one thread thinks.
 class ThinkingPlane {
@@ -60,10 +70,16 @@ class ThinkingPlane {
   /// @param beliefs   about its actors' intentions, one for each
   /// @param scene_at  when, on the clock, scene.time was
   /// @param stop      a question to the model under way is withdrawn when a stop is asked for
+  /// @param newest    looked at every `looked_again` while the model writes; empty: what is asked
+  ///                  stays asked
   /// @return          false when nothing threatens within T2: nothing was done, but that plans for
   ///                  what has long passed are withdrawn
   bool think(const world::Scene& scene, const intent::Beliefs& beliefs, Clock::Time scene_at,
-             const std::stop_token& stop = {});
+             const std::stop_token& stop = {}, const NewestScene& newest = {});
+
+  /// Between two looks at newer facts while the model writes [s]: each costs as much as a round of
+  /// forecasts, and that slows the model down.
+  static constexpr double looked_again = 0.5;
 
   /// How long a forecast is kept after its trigger has passed [s]: an encounter that lasts for
   /// hours, as in dense traffic, stays small.
@@ -98,6 +114,11 @@ class ThinkingPlane {
   /// Those that can be answered in one question, the likeliest first.
   [[nodiscard]] std::vector<std::size_t> in_time(const Round& round,
                                                  std::vector<std::size_t> which) const;
+  /// The shortest time in which the model may answer about so many forecasts [s].
+  [[nodiscard]] double least_time(std::size_t count) const;
+  /// By the newest scene, the facts of one of these forecasts have changed, and there is time to
+  /// ask about them anew.
+  [[nodiscard]] bool asks_in_vain(const Round& round, const std::vector<std::size_t>& which) const;
   void ask_model(const Round& round, const std::vector<std::size_t>& which);
   void take_answer(const Round& round, Preview& preview, const reason::Answer& answer);
   void judge_reasoning(const Round& round, Preview& preview);

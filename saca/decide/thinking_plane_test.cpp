@@ -337,6 +337,69 @@ TEST_F(Thinking, AsksAnewAndWithdrawsThePlanWhereTheFactsHaveChanged) {
   EXPECT_TRUE(published_.back().empty());
 }
 
+/// Nothing for a second, then the same as `says`.
+reason::ScriptedReply writes_for_a_second(PolicyId policy) {
+  reason::ScriptedReply reply = says(policy);
+  for (int k = 1; k <= 10; ++k) {
+    reply.lines.insert(reply.lines.begin() + k - 1,
+                       {.after = std::chrono::milliseconds(100 * k), .text = "so "});
+  }
+  reply.lines[10].after = reply.lines[11].after = std::chrono::seconds(1);
+  return reply;
+}
+
+// As above, but the second wreck turns out to be nearer while the model writes: what it writes is
+// about facts that hold no more. It is asked anew in the next round.
+TEST_F(Thinking, WithdrawsAQuestionWhoseFactsHaveChanged) {
+  reason::ScriptedModel model(writes_for_a_second(PolicyId::aes_left), clock_);
+  ThinkingPlane thinking = plane(&model);
+  Scene free = wreck_ahead();
+  free.actors.push_back(test::car(2, {130.0, 3.5}));
+  Scene blocked = wreck_ahead();
+  blocked.actors.push_back(test::car(2, {110.0, 3.5}));
+  const auto beliefs = intent::beliefs_at_sight(intent::shipped_model(), free);
+  const auto asked = [&](const Scene& newest) {
+    int looks = 0;
+    thinking.think(free, beliefs, clock_.now(), {}, [&]() -> std::optional<NewerScene> {
+      ++looks;
+      return NewerScene{newest, beliefs};
+    });
+    return looks;
+  };
+  EXPECT_EQ(asked(blocked), 1);
+  EXPECT_EQ(to_seconds(clock_.now()), ThinkingPlane::looked_again);
+  EXPECT_EQ(model.num_asked(), 1);
+  EXPECT_EQ(thinking.previews()[0].plan, std::nullopt);
+  EXPECT_EQ(thinking.deadline_misses(), 0);
+  // The same facts as when it was asked: it comes to its end.
+  EXPECT_EQ(asked(free), 2);
+  EXPECT_EQ(model.num_asked(), 2);
+  ASSERT_TRUE(thinking.previews()[0].plan.has_value());
+  EXPECT_EQ(thinking.previews()[0].plan->policy, PolicyId::aes_left);
+}
+
+// The trigger comes sooner than forecast, 0.1 s after the newest scene: there is no time to ask
+// anew, and what is under way goes on.
+TEST_F(Thinking, WithdrawsNoQuestionThatCannotBeAskedAnew) {
+  reason::ScriptedModel model(writes_for_a_second(PolicyId::aes_left), clock_);
+  ThinkingPlane thinking = plane(&model);
+  Scene free = wreck_ahead();
+  free.actors.push_back(test::car(2, {130.0, 3.5}));
+  const auto beliefs = intent::beliefs_at_sight(intent::shipped_model(), free);
+  int looks = 0;
+  thinking.think(free, beliefs, clock_.now(), {}, [&]() -> std::optional<NewerScene> {
+    ++looks;
+    Scene blocked = free;
+    blocked.time = to_seconds(clock_.now());
+    blocked.actors[0].X_WA.p.x = 4.5 + 20.0 * (1.3 + 0.1);
+    blocked.actors[1].X_WA.p.x = blocked.actors[0].X_WA.p.x + 40.0;
+    return NewerScene{blocked, beliefs};
+  });
+  EXPECT_EQ(looks, 2);
+  EXPECT_EQ(count(EventKind::first_answer), 1U);
+  EXPECT_EQ(count(EventKind::answer), 1U);
+}
+
 // An answer to one forecast takes a second: with 0.4 s left none is asked for.
 TEST_F(Thinking, IsNotAskedWhereNoAnswerHasEverComeSoSoon) {
   reason::ScriptedReply slow = says(PolicyId::aes_left);

@@ -55,12 +55,9 @@ Planes::Planes(const PlanesSetup& setup, Listener listener, std::size_t looks)
       plane_(tools(), setup.thresholds, output()) {
   reflex_times_.reserve(looks);
   if (real()) {
-    thinking_ =
-        std::make_unique<WorkThread>(scenes_, *setup_.clock, breath,
-                                     [this](const TimedScene& newest, const std::stop_token& stop) {
-                                       think_of(newest.encounter);
-                                       plane_.think(newest.scene, newest.beliefs, newest.at, stop);
-                                     });
+    thinking_ = std::make_unique<WorkThread>(
+        scenes_, *setup_.clock, breath,
+        [this](const TimedScene& newest, const std::stop_token& stop) { think(newest, stop); });
   }
   if (real() && reflex_.supervises()) {
     forecasting_ = std::make_unique<WorkThread>(
@@ -195,6 +192,17 @@ void Planes::judge(const TimedScene& newest) {
     verdicts_.publish(
         {setup_.judge(newest.scene, newest.beliefs, newest.under_way), newest.number});
   }
+}
+
+void Planes::think(const TimedScene& newest, const std::stop_token& stop) {
+  think_of(newest.encounter);
+  const auto newer = [&]() -> std::optional<decide::NewerScene> {
+    if (!scenes_.take(*newer_) || newer_->encounter != newest.encounter) {
+      return std::nullopt;
+    }
+    return decide::NewerScene{newer_->scene, newer_->beliefs};
+  };
+  plane_.think(newest.scene, newest.beliefs, newest.at, stop, newer);
 }
 
 void Planes::think_of(std::uint32_t encounter) {

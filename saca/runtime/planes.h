@@ -122,6 +122,7 @@ class Planes {
   void begin_entry(const world::Scene& scene, const intent::Beliefs& beliefs);
   void hand_over(const world::Scene& scene, bool finished);
   void think_of(std::uint32_t encounter);
+  void think(const TimedScene& newest, const std::stop_token& stop);
   void keep(const decide::Event& event);
   void judge(const TimedScene& newest);
 
@@ -152,6 +153,7 @@ class Planes {
   std::uint32_t encounter_ = 0;
   std::uint32_t thought_of_ = 0;  ///< the encounter that the thinking plane was last asked about;
                                   ///< of the thread that thinks
+  std::unique_ptr<TimedScene> newer_ = std::make_unique<TimedScene>();  ///< of the same thread
   decide::ThinkingPlane plane_;
   std::unique_ptr<WorkThread> thinking_;     ///< at pace `real`
   std::unique_ptr<WorkThread> forecasting_;  ///< likewise
