@@ -31,6 +31,7 @@ enum class Guard : std::uint8_t {
 /// A checked plan, ready for the situation that it was made for.
 struct CachedPlan {
   memory::Features at_trigger;  ///< of the scene that was forecast
+  double trigger = 0.0;         ///< when, in the scene's time [s]
   manoeuvre::Plan plan;
   Source source = Source::model;
   bool worse_than_aeb = false;  ///< by forecast, by the one ordering of harm

@@ -31,9 +31,13 @@ Decision ReflexPlane::decide(const Scene& scene) noexcept {
     decision.source = Source::forced;
     return decision;
   }
+  const bool guarded = tools_.guard != Guard::none;
   const CachedPlan* best = nullptr;
   const memory::Features here = memory::features(scene);
   for (const CachedPlan& cached : plans_) {
+    if (guarded && scene.time > cached.trigger + plan_expiry) {
+      continue;
+    }
     const double similarity = memory::similarity(here, cached.at_trigger);
     if (!decision.similarity || similarity > *decision.similarity) {
       decision.similarity = similarity;
@@ -41,7 +45,6 @@ Decision ReflexPlane::decide(const Scene& scene) noexcept {
       best = &cached;
     }
   }
-  const bool guarded = tools_.guard != Guard::none;
   if (guarded && is_fresh(verdict_, scene)) {
     decision.verdict = verdict_;
   } else if (guarded && tools_.atlas) {

@@ -20,6 +20,12 @@ namespace saca::decide {
 /// Similarity above which a cached plan is taken for the scene at hand (the paper: 90 %).
 constexpr double match_similarity = 0.90;
 
+/// How long after the forecast trigger a cached plan is still used [s], an assumption: road users
+/// that brake or turn a little less than forecast come so much later. What comes later still is
+/// another situation, however alike. Forecasts reach T2 - T1 ahead, so that a plan that is used is
+/// never older than T2 - T1 and this. Algorithm 1 of the paper (Guard::none) has no such limit.
+constexpr double plan_expiry = 1.0;
+
 /// What was decided at the trigger, and why.
 struct Decision {
   manoeuvre::Plan plan;

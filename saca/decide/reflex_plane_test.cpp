@@ -39,6 +39,7 @@ Scene wreck_in(double time) {
 PlanCache one_plan(const Scene& scene_at_trigger, PolicyId policy, bool worse = false) {
   PlanCache cache;
   cache.push_back({.at_trigger = memory::features(scene_at_trigger),
+                   .trigger = scene_at_trigger.time,
                    .plan = {policy, std::nullopt},
                    .source = Source::model,
                    .worse_than_aeb = worse,
@@ -131,6 +132,23 @@ TEST(ReflexPlane, CarriesOutThePlanOfTheSituationThatCame) {
   EXPECT_EQ(plane.decision()->source, Source::model);
   EXPECT_EQ(plane.decision()->preview, 3);
   EXPECT_GT(plane.decision()->similarity.value(), match_similarity);
+}
+
+TEST(ReflexPlane, HasNoUseForAPlanWhoseTriggerHasLongPassed) {
+  const auto source = [](double late, Guard guard) {
+    ReflexPlane plane({.guard = guard});
+    Scene scene = wreck_in(1.3);
+    scene.time = 5.0;
+    plane.receive(one_plan(scene, PolicyId::aes_left));
+    scene = wreck_in(1.29);
+    scene.time = 5.0 + late;
+    (void)plane.step(scene);
+    return plane.decision()->source;
+  };
+  EXPECT_EQ(source(-0.3, Guard::never_worse_than_braking), Source::model);
+  EXPECT_EQ(source(0.99, Guard::never_worse_than_braking), Source::model);
+  EXPECT_EQ(source(1.01, Guard::never_worse_than_braking), Source::fallback);
+  EXPECT_EQ(source(1.01, Guard::none), Source::model);
 }
 
 TEST(ReflexPlane, BrakesWhenAnotherSituationCame) {

@@ -473,6 +473,7 @@ void ThinkingPlane::publish(double ready) const {
       continue;
     }
     cache.push_back({.at_trigger = memory::features(preview.newest_scene),
+                     .trigger = preview.newest_scene.time,
                      .plan = *preview.plan,
                      .source = preview.source,
                      .worse_than_aeb = preview.worse_than_aeb,

@@ -140,6 +140,7 @@ decide::CachedPlan read_cached(JsonReader from) {
   decide::CachedPlan cached;
   cached.at_trigger.ego = read_ego_features(from.object("ego"));
   read_list(from, "actors", cached.at_trigger.actors, read_actor_features);
+  cached.trigger = from.number("trigger_s");
   cached.plan = read_plan(from.object("plan"));
   cached.source = read_source(from);
   cached.worse_than_aeb = from.flag("worse_than_aeb");

@@ -33,6 +33,7 @@ class ReadTape : public testing::Test {
     content.dropped = 165;  // the trigger and what is around it
     content.steps.erase(content.steps.begin(), content.steps.begin() + 165);
     decide::CachedPlan cached{.at_trigger = memory::features(content.steps[3].scene),
+                              .trigger = content.steps[3].scene.time + 1.0 / 3.0,
                               .plan = {manoeuvre::PolicyId::aes_left, std::nullopt},
                               .source = decide::Source::memory,
                               .preview = 2};

@@ -100,6 +100,7 @@ void pass(Packing& packing, Step& step) {
     packing.list(plans, [&](auto& cached) {
       packing.value(cached.at_trigger.ego);
       packing.list(cached.at_trigger.actors, whole);
+      packing.value(cached.trigger);
       packing.value(cached.plan);
       packing.value(cached.source);
       packing.value(cached.worse_than_aeb);

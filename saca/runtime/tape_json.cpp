@@ -71,6 +71,7 @@ json actor_features_json(const memory::ActorFeatures& actor) {
 json cached_json(const decide::CachedPlan& cached) {
   return {{"ego", ego_features_json(cached.at_trigger.ego)},
           {"actors", list_json(cached.at_trigger.actors, actor_features_json)},
+          {"trigger_s", cached.trigger},
           {"plan", plan_json(cached.plan)},
           {"source", name(cached.source)},
           {"worse_than_aeb", cached.worse_than_aeb},

@@ -25,6 +25,7 @@ TapeStep full_step(std::uint64_t number, std::size_t num_actors) {
   }
   step.asked = true;
   step.plans.emplace().push_back({.at_trigger = memory::features(step.scene),
+                                  .trigger = step.scene.time + 0.7,
                                   .plan = {PolicyId::es_b_left, 7.5},
                                   .source = decide::Source::memory,
                                   .preview = static_cast<std::int32_t>(number)});
