@@ -28,6 +28,9 @@ Decision ReflexPlane::decide(const Scene& scene) noexcept {
   Decision decision{.plan = manoeuvre::full_braking, .time = scene.time};
   if (tools_.forced) {
     decision.plan = *tools_.forced;
+    if (manoeuvre::brakes_to_speed(decision.plan.policy) && !decision.plan.target_speed) {
+      decision.plan = manoeuvre::default_plan(decision.plan.policy, norm(scene.ego.v_B));
+    }
     decision.source = Source::forced;
     return decision;
   }

@@ -58,7 +58,9 @@ struct ReflexTools {
   const manoeuvre::Car* car = nullptr;    ///< nullptr: what cannot be driven is not found out
   std::optional<AtlasJudge> atlas;        ///< nullopt: without a verdict, cached plans are taken
                                           ///< unless their last forecast was worse than braking's
-  std::optional<manoeuvre::Plan> forced;  ///< what to carry out at the trigger whatever was thought
+  std::optional<manoeuvre::Plan> forced;  ///< what to carry out at the trigger whatever was
+                                          ///< thought; 3 and 4 without a target speed brake to half
+                                          ///< of the speed then
   Guard guard = Guard::never_worse_than_braking;
 };
 

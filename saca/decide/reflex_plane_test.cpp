@@ -344,6 +344,15 @@ TEST(ReflexPlane, DoesWhatTheUserAsksFor) {
   EXPECT_EQ(plane.decision()->source, Source::forced);
 }
 
+TEST(ReflexPlane, APlanThatIsAskedForBrakesToHalfOfTheSpeedUnlessItSaysToWhich) {
+  const Scene scene = wreck_in(1.2);
+  const PolicyId policy = PolicyId::es_b_left;
+  ReflexPlane without({.forced = manoeuvre::Plan{policy, std::nullopt}});
+  EXPECT_EQ(without.step(scene).plan.target_speed, 0.5 * norm(scene.ego.v_B));
+  ReflexPlane with({.forced = manoeuvre::Plan{policy, 3.0}});
+  EXPECT_EQ(with.step(scene).plan.target_speed, 3.0);
+}
+
 TEST(ReflexPlane, LeavesABrokenSceneAside) {
   ReflexPlane plane{ReflexTools{}};
   Scene broken = wreck_in(0.5);
