@@ -41,6 +41,8 @@ class Observer {
   /// @return  valid until the next look
   /// @throws ContractViolation  if the scene breaks a rule of `world::broken_rule`
   const Beliefs& look(const world::Scene& scene);
+  /// Of the last look; empty before the first.
+  [[nodiscard]] const Beliefs& beliefs() const { return beliefs_; }
 
   /// How many road users it remembers, at most world::max_actors. Where there is no room for
   /// somebody new, who has been gone longest is forgotten early.

@@ -1,9 +1,6 @@
 #include "saca/runtime/avoider.h"
 
-#include <cmath>
-
 #include "saca/core/contract.h"
-#include "saca/manoeuvre/drive.h"
 
 namespace saca {
 namespace {
@@ -24,7 +21,9 @@ Avoider::Avoider(const AvoiderSetup& setup)
       observer_(*setup.intent),
       events_(most_events),
       planes_(setup.planes,
-              {.event = [this](const decide::Event& event) { events_.thought(event); }}, 0) {}
+              setup.thinking.value_or(runtime::Planes::Listener{
+                  .event = [this](const decide::Event& event) { events_.thought(event); }}),
+              setup.num_timed) {}
 
 Answer Avoider::step(const world::Scene& scene, Clock::Time at) {
   return answer(intake_.take(scene), at);
@@ -35,7 +34,7 @@ Answer Avoider::step(double now, Clock::Time at) {
 }
 
 Answer Avoider::answer(const runtime::Taken& taken, Clock::Time at) {
-  Answer answer{.plan = plan_, .degraded = taken.degraded};
+  Answer answer{.plan = plan(), .degraded = taken.degraded};
   remark_on(taken);
   if (!taken.usable) {
     return answer;  // what is under way goes on
@@ -49,18 +48,20 @@ Answer Avoider::answer(const runtime::Taken& taken, Clock::Time at) {
   grip_ = scene.grip;
   const decide::Reflex reflex = planes_.step(scene, beliefs, at, finished_);
   answer.threat = reflex.threat;
+  answer.triggered = reflex.triggered;
+  answer.switched = reflex.switched;
   answer.begins = reflex.triggered || reflex.switched.has_value();
   if (answer.begins) {
     begin(reflex.plan, scene);
   }
   if (reflex.triggered) {
     events_.triggered(*planes_.decision(), scene.actors[reflex.threat->actor], reflex.threat->time,
-                      plan_.value_or(manoeuvre::doing_nothing));
+                      plan().value_or(manoeuvre::doing_nothing));
   } else if (reflex.switched) {
     events_.switched(scene.time, *reflex.switched);
   }
   look_for_the_end(scene, answer);
-  answer.plan = plan_;
+  answer.plan = plan();
   return answer;
 }
 
@@ -83,24 +84,20 @@ void Avoider::remark_on(const runtime::Taken& taken) {
 void Avoider::begin(const manoeuvre::Plan& plan, const world::Scene& scene) {
   finished_ = false;
   if (plan.policy == manoeuvre::PolicyId::no_intervention) {
-    plan_.reset();  // the stack drives
+    execution_.reset();  // the stack drives
     return;
   }
   // A plan that cannot be driven is not decided on; one that is forced may be.
-  const bool can_be_driven = !manoeuvre::why_refused(*setup_.planes.forecast.car, plan, scene);
-  plan_ = can_be_driven ? plan : manoeuvre::full_braking;
-  road_ = scene.road;
-  controller_ = manoeuvre::begin(*setup_.planes.forecast.car, *plan_, scene);
-  steered_ = false;
+  execution_.emplace(*setup_.planes.forecast.car, plan, scene);
 }
 
 void Avoider::look_for_the_end(const world::Scene& scene, const Answer& answer) {
   constexpr double rest = 0.1;  // [m/s]
-  if (finished_ && plan_ && norm(scene.ego.v_B) >= rest) {
-    plan_.reset();  // a lane has been recovered; who has come to rest is held
+  if (finished_ && execution_ && norm(scene.ego.v_B) >= rest) {
+    execution_.reset();  // a lane has been recovered; who has come to rest is held
   }
-  meets_somebody_ = meets_somebody_ || answer.threat || plan_;
-  if (!meets_somebody_ || answer.threat || (plan_ && !finished_)) {
+  meets_somebody_ = meets_somebody_ || answer.threat || execution_;
+  if (!meets_somebody_ || answer.threat || (execution_ && !finished_)) {
     quiet_.reset();
     return;
   }
@@ -114,25 +111,18 @@ void Avoider::look_for_the_end(const world::Scene& scene, const Answer& answer) 
 
 void Avoider::begin_anew(runtime::Forgotten forgotten) {
   planes_.begin_anew(forgotten);
-  plan_.reset();
+  execution_.reset();
   quiet_.reset();
   meets_somebody_ = false;
   finished_ = false;
 }
 
 vehicle::Command Avoider::control(const vehicle::VehicleState& state, double dt) noexcept {
-  if (!plan_) {
+  if (!execution_) {
     return {};
   }
-  const manoeuvre::Car& car = *setup_.planes.forecast.car;
-  if (!steered_ && std::isfinite(state.v_B.x)) {
-    // A scene may err; brakes that believe it would take wheels that roll for locked ones.
-    controller_.abs = vehicle::begin_abs(state.v_B.x);
-    steered_ = true;
-  }
-  const vehicle::Command command =
-      manoeuvre::control(car, *plan_, road_, grip_, state, controller_, dt);
-  finished_ = finished_ || manoeuvre::finished(*plan_, state, controller_);
+  const vehicle::Command command = execution_->control(state, grip_, dt);
+  finished_ = finished_ || execution_->finished();
   return command;
 }
 

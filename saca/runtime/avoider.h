@@ -8,7 +8,7 @@
 #include "saca/decide/reflex_plane.h"
 #include "saca/intent/model.h"
 #include "saca/intent/observer.h"
-#include "saca/manoeuvre/controller.h"
+#include "saca/manoeuvre/execution.h"
 #include "saca/preview/threat.h"
 #include "saca/runtime/event_log.h"
 #include "saca/runtime/intake.h"
@@ -22,15 +22,22 @@ namespace saca {
 struct AvoiderSetup {
   runtime::PlanesSetup planes;  ///< the car, its harm and atlas, memory, model, pace, clock
   const intent::Model* intent = nullptr;  ///< not null
+  /// Hears the thinking plane while it thinks, its reasoning too, in place of `next_event`; at pace
+  /// `real` on its thread, which waits for it. nullopt: nobody does.
+  std::optional<runtime::Planes::Listener> thinking;
+  std::size_t num_timed = 0;  ///< of how many steps, the first, `planes().timing()` knows
 };
 
 /// What an avoider says to one instant.
 struct Answer {
-  std::optional<manoeuvre::Plan> plan;    ///< to be carried out now: `Avoider::control` does it;
-                                          ///< nullopt: the stack drives
-  bool begins = false;                    ///< it begins in this very answer
-  std::optional<preview::Threat> threat;  ///< nearest conflict within T2, all going on as they do
-  bool degraded = false;                  ///< somebody or everything is carried on instead of seen
+  std::optional<manoeuvre::Plan> plan;     ///< to be carried out now: `Avoider::control` does it;
+                                           ///< nullopt: the stack drives
+  bool begins = false;                     ///< it begins in this very answer, as the next two tell
+  bool triggered = false;                  ///< by a decision at a trigger: `Avoider::decision`
+  std::optional<decide::Switch> switched;  ///< in place of another plan; of no intervention, the
+                                           ///< wheel is given back
+  std::optional<preview::Threat> threat;   ///< nearest conflict within T2, all going on as they do
+  bool degraded = false;                   ///< somebody or everything is carried on instead of seen
 };
 
 /// SACA as a driving stack embeds it: scenes in, at 10 to 100 Hz, a plan out at each; while there
@@ -63,6 +70,14 @@ class Avoider {
   /// @return       nothing to steer or brake, where there is no plan
   [[nodiscard]] vehicle::Command control(const vehicle::VehicleState& state, double dt) noexcept;
 
+  /// What `control` carries out: the plan of the last answer; nullopt: the stack drives.
+  [[nodiscard]] std::optional<manoeuvre::Plan> plan() const {
+    return execution_ ? std::optional(execution_->plan()) : std::nullopt;
+  }
+  /// Whether what was begun last in this encounter has reached its safe end: at rest, which is
+  /// held, or in a recovered lane, where the wheel is given back.
+  [[nodiscard]] bool finished() const { return finished_; }
+
   /// The oldest event that has not been asked for: what was decided, begun, thought and not seen,
   /// in words, for a log. nullopt: there is none now.
   ///
@@ -75,6 +90,12 @@ class Avoider {
   [[nodiscard]] const std::optional<decide::Decision>& decision() const {
     return planes_.decision();
   }
+  /// The scene by which the last answer was given, as the intake made it of what came.
+  [[nodiscard]] const world::Scene& scene() const { return intake_.scene(); }
+  /// What was believed of it: one for each of its actors.
+  [[nodiscard]] const intent::Beliefs& beliefs() const { return observer_.beliefs(); }
+  /// What is thought, forecast and decided with: for records.
+  [[nodiscard]] const runtime::Planes& planes() const { return planes_; }
   /// All that was decided by, where the setup gives it memory (runtime::PlanesSetup::tape_size).
   /// Belongs to the thread that calls `step`; a copy of its content may be written by any
   /// (runtime::tape_text), and worked out again (runtime::replay).
@@ -101,12 +122,9 @@ class Avoider {
   intent::Observer observer_;
   runtime::EventLog events_;
   runtime::Planes planes_;
-  std::optional<manoeuvre::Plan> plan_;
-  manoeuvre::ControllerState controller_;
-  bool steered_ = false;   ///< `control` has been called since the plan began
-  world::Road road_;       ///< where the plan began
-  double grip_ = 0.9;      ///< as believed at the last look [-]
-  bool finished_ = false;  ///< the plan has reached its safe end
+  std::optional<manoeuvre::Execution> execution_;
+  double grip_ = 0.9;                                         ///< as believed at the last look [-]
+  bool finished_ = false;                                     ///< the plan has reached its safe end
   runtime::Remark perception_ = runtime::Remark::seen_again;  ///< as last reported
   bool watches_ = false;         ///< a scene has come that could be used
   bool meets_somebody_ = false;  ///< somebody has threatened since the last encounter

@@ -133,9 +133,13 @@ TEST(Avoider, StopsBeforeAWreck) {
   for (int k = 0; k < 900; ++k) {
     const Answer answer = drive.step();
     if (answer.begins) {
+      EXPECT_TRUE(answer.triggered);
+      EXPECT_FALSE(drive.avoider().finished());
       begun.push_back(answer.plan.value().policy);
     }
+    EXPECT_EQ(drive.avoider().plan(), answer.plan);
   }
+  EXPECT_TRUE(drive.avoider().finished() || drive.avoider().num_encounters() == 1);
   EXPECT_EQ(begun, std::vector{PolicyId::aeb});
   EXPECT_LT(norm(drive.scene().ego.v_B), 0.1);
   const double front = drive.scene().ego.X_WB.p.x + 2.3;
@@ -247,6 +251,54 @@ TEST(Avoider, TellsWhatItDid) {
   EXPECT_THAT(driving[0].text, HasSubstr("car1"));
   EXPECT_EQ(driving[1].text, decision_text(drive.avoider().decision().value()));
   EXPECT_EQ(driving[2].text, "policy 0 AEB (arbiter)");
+}
+
+// Who wants to hear the thinking plane while it thinks gets all of it, and `next_event` the rest.
+// What was thought is handed over when the encounter is over, and in the end.
+TEST(Avoider, WhoListensToTheThinkingPlaneHearsItAtOnce) {
+  const manoeuvre::Car car = manoeuvre::default_car();
+  const auto harm = outcome::read_harm("data/harm.toml").value();
+  SteadyClock clock;
+  std::size_t num_heard = 0;
+  std::vector<std::pair<std::uint32_t, std::size_t>> thought;  // encounter, events of it
+  const runtime::Planes::Listener listener{
+      .event = [&](const decide::Event&) { ++num_heard; },
+      .thought =
+          [&](std::uint32_t encounter, const std::vector<decide::Preview>& previews,
+              const std::vector<decide::Event>& events) {
+            EXPECT_FALSE(previews.empty());
+            thought.emplace_back(encounter, events.size());
+          }};
+  Avoider avoider({.planes = {.forecast = {&car, &harm}, .clock = &clock},
+                   .intent = &intent::shipped_model(),
+                   .thinking = listener,
+                   .num_timed = 10});
+  Scene scene = test::ego_at(12.0, manoeuvre::footprint(car));
+  scene.ego_mass = car.mass;
+  std::vector<std::uint32_t> encounters;
+  for (int k = 0; k < 900; ++k) {
+    if (k == 0 || k == 450) {  // a wreck that is there for a second
+      encounters.push_back(avoider.planes().encounter() + (k == 0 ? 1 : 0));
+      scene.actors.push_back(test::car(1, {scene.ego.X_WB.p.x + 50.0, 0.0}));
+    } else if (k == 100 || k == 550) {
+      scene.actors.clear();
+    }
+    (void)avoider.step(scene);
+    EXPECT_EQ(avoider.scene().time, scene.time);
+    EXPECT_EQ(avoider.beliefs().size(), scene.actors.size());
+    scene.time += 0.01;
+    scene.ego.X_WB.p.x += 0.12;
+  }
+  EXPECT_EQ(avoider.finish(), "");
+  ASSERT_EQ(thought.size(), 2U);
+  EXPECT_EQ(thought[0].first, encounters[0]);
+  EXPECT_EQ(thought[1].first, encounters[1]);
+  EXPECT_GT(thought[0].second, 0U);
+  EXPECT_EQ(thought[0].second + thought[1].second, num_heard);
+  EXPECT_EQ(avoider.planes().timing().calls, 10U);
+  while (const auto event = avoider.next_event()) {
+    EXPECT_NE(event->plane, decide::Plane::thinking) << event->text;
+  }
 }
 
 // Nobody ever reads: the oldest events wait, the number of the others is told, and it goes on.

@@ -81,11 +81,13 @@ void EventLog::add_events_of(const Notice& notice) {
     const auto& trigger = std::get<Triggered>(notice.what);
     add(EventKind::trigger, decide::trigger_text(trigger.by, trigger.left));
     add(EventKind::match, decision_text(trigger.decision));
-    if (trigger.plan != trigger.decision.plan) {
+    const bool can_be_driven = trigger.plan == trigger.decision.plan;
+    if (!can_be_driven) {
       add(EventKind::fault,
           manoeuvre::plan_text(trigger.decision.plan) + " cannot be driven from here");
     }
-    add(EventKind::execute, execution_text(trigger.plan, trigger.decision.source));
+    add(EventKind::execute, execution_text(trigger.plan, can_be_driven ? trigger.decision.source
+                                                                       : decide::Source::fallback));
   }
 }
 

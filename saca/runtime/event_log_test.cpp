@@ -71,7 +71,7 @@ TEST(EventLog, SaysWhatCannotBeDriven) {
   ASSERT_THAT(kinds(events), ElementsAre(EventKind::trigger, EventKind::match, EventKind::fault,
                                          EventKind::execute));
   EXPECT_THAT(events[2].text, HasSubstr("cannot be driven"));
-  EXPECT_THAT(events[3].text, HasSubstr("AEB"));
+  EXPECT_EQ(events[3].text, "policy 0 AEB (fallback)");
 }
 
 TEST(EventLog, SaysWhatCameAfterIt) {

@@ -131,7 +131,10 @@ decide::Reflex Planes::step(const world::Scene& scene, const intent::Beliefs& be
       scenes_.publish(newest);
     }
   } else {
-    if (judges && !world::broken_rule(scene)) {
+    // From the first threat on, so that the rounds of an encounter do not depend on what was
+    // before.
+    threatened_ = threatened_ || is_to_be_judged(newest);
+    if (judges && threatened_ && !world::broken_rule(scene)) {
       charged_forecasts_.offer(newest);
     }
     if (!decision()) {
@@ -180,15 +183,18 @@ void Planes::hand_over(const world::Scene& scene, bool finished) {
 void Planes::begin_anew(Forgotten forgotten) {
   forgotten_ = std::max(forgotten_, forgotten);
   ++encounter_;
+  threatened_ = false;
   reflex_.begin_anew();
 }
 
+bool Planes::is_to_be_judged(const TimedScene& newest) const {
+  return !world::broken_rule(newest.scene) &&
+         (newest.under_way || preview::previewed_threat(newest.scene, newest.beliefs,
+                                                        setup_.forecast.motion, setup_.thresholds));
+}
+
 void Planes::judge(const TimedScene& newest) {
-  if (world::broken_rule(newest.scene)) {
-    return;
-  }
-  if (newest.under_way || preview::previewed_threat(newest.scene, newest.beliefs,
-                                                    setup_.forecast.motion, setup_.thresholds)) {
+  if (is_to_be_judged(newest)) {
     verdicts_.publish(
         {setup_.judge(newest.scene, newest.beliefs, newest.under_way), newest.number});
   }
@@ -207,11 +213,18 @@ void Planes::think(const TimedScene& newest, const std::stop_token& stop) {
 
 void Planes::think_of(std::uint32_t encounter) {
   if (thought_of_ != encounter) {
+    hand_over_thoughts();
     thought_of_ = encounter;
     plane_.forget();
     charged_.forget();
     events_.clear();
     events_left_out_ = 0;
+  }
+}
+
+void Planes::hand_over_thoughts() {
+  if (!plane_.previews().empty() || !events_.empty()) {
+    listener_.thought(thought_of_, plane_.previews(), events_);
   }
 }
 
@@ -236,6 +249,7 @@ std::string Planes::finish() {
     const std::string thrown = thread == nullptr ? "" : thread->finish();
     fault += thrown.empty() ? "" : (fault.empty() ? "" : "; ") + (plane + thrown);
   }
+  hand_over_thoughts();
   return fault;
 }
 

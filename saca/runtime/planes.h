@@ -66,6 +66,12 @@ class Planes {
     std::function<void(const decide::Event&)> event = [](const decide::Event&) {};
     std::function<void(std::int32_t preview, std::string_view text)> reasoning =
         [](std::int32_t, std::string_view) {};
+    /// What was thought in one encounter, and the events of it (`thinking_events`), before it is
+    /// forgotten; of the last one in `finish`.
+    std::function<void(std::uint32_t encounter, const std::vector<decide::Preview>&,
+                       const std::vector<decide::Event>&)>
+        thought = [](std::uint32_t, const std::vector<decide::Preview>&,
+                     const std::vector<decide::Event>&) {};
   };
 
   /// @param listener  hears the thinking plane; at pace `real` on its thread, which waits for it
@@ -100,6 +106,9 @@ class Planes {
   /// @param forgotten  for the tape: whether whoever observes the road users begins anew, too
   void begin_anew(Forgotten forgotten = Forgotten::encounter);
 
+  /// The encounter under way, counted.
+  [[nodiscard]] std::uint32_t encounter() const { return encounter_; }
+
   /// Belongs to the thread that calls `step`.
   [[nodiscard]] const Tape& tape() const { return tape_; }
 
@@ -123,7 +132,10 @@ class Planes {
   void hand_over(const world::Scene& scene, bool finished);
   void think_of(std::uint32_t encounter);
   void think(const TimedScene& newest, const std::stop_token& stop);
+  void hand_over_thoughts();
   void keep(const decide::Event& event);
+  /// Does somebody threaten within T2, or is a plan under way?
+  [[nodiscard]] bool is_to_be_judged(const TimedScene& newest) const;
   void judge(const TimedScene& newest);
 
   PlanesSetup setup_;
@@ -151,6 +163,7 @@ class Planes {
   std::uint64_t num_scenes_ = 0;
   Forgotten forgotten_ = Forgotten::drive;  ///< before the next step
   std::uint32_t encounter_ = 0;
+  bool threatened_ = false;       ///< somebody has, in this encounter; in lockstep
   std::uint32_t thought_of_ = 0;  ///< the encounter that the thinking plane was last asked about;
                                   ///< of the thread that thinks
   std::unique_ptr<TimedScene> newer_ = std::make_unique<TimedScene>();  ///< of the same thread
