@@ -18,6 +18,7 @@ using manoeuvre::PolicyId;
 struct Branch {
   ClosedLoop loop;
   std::vector<std::size_t> methods;
+  Avoider* avoider = nullptr;      ///< who drives; nullptr: the loop itself
   bool untouched = true;           ///< nobody has acted in it
   bool decided = false;            ///< at this instant everybody has been asked
   double time = 0.0;               ///< of the look before [s]
@@ -29,6 +30,7 @@ struct Branch {
 struct Group {
   std::optional<Action> action;
   std::vector<std::size_t> methods;
+  Avoider* avoider = nullptr;  ///< who does it, for one method alone; nullptr: the loop does
 };
 
 /// Of the ego, between the last look at which nobody was touched and now [m/s].
@@ -105,7 +107,7 @@ void Play::play(Branch branch) {
       break;  // what the ego does from now on is the outcome's
     }
     note_motion(branch);
-    loop.advance();
+    branch.avoider != nullptr ? loop.advance(*branch.avoider) : loop.advance();
   }
   conclude(branch);
 }
@@ -156,10 +158,12 @@ std::vector<Group> Play::decide(const Branch& branch) {
         give_up(method, *fault.what() == '\0' ? "an exception without text" : fault.what());
       }
     }
-    const auto same = std::find_if(groups.begin(), groups.end(),
-                                   [&](const Group& group) { return alike(group.action, action); });
+    Avoider* const avoider = action ? methods_[method]->avoider() : nullptr;
+    const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
+      return avoider == nullptr && group.avoider == nullptr && alike(group.action, action);
+    });
     if (same == groups.end()) {
-      groups.push_back({action, {method}});
+      groups.push_back({action, {method}, avoider});
     } else {
       same->methods.push_back(method);
     }
@@ -209,18 +213,21 @@ void Play::begin(Branch& branch, const Group& group) {
     return;
   }
   ClosedLoop& loop = branch.loop;
-  const bool goes_on = !branch.untouched && loop.plan() == group.action->plan;
-  if (goes_on) {
+  std::optional<std::string> refused;
+  if (group.avoider != nullptr) {
+    branch.avoider = group.avoider;
+  } else if (!branch.untouched && loop.plan() == group.action->plan) {  // it goes on
     loop.limit_braking(group.action->deceleration);
     return;
+  } else {
+    refused = loop.carry_out(group.action->plan, group.action->deceleration);
   }
-  const auto refused = loop.carry_out(group.action->plan, group.action->deceleration);
   branch.untouched = false;
   for (const std::size_t method : group.methods) {
     MethodRun& run = comparison_.runs[method];
     run.switches += run.plan ? 1 : 0;
     if (!run.plan) {
-      run.plan = loop.plan();
+      run.plan = group.avoider != nullptr ? group.action->plan : loop.plan();
       if (refused) {
         run.reason = "cannot be driven: " + *refused;
       }

@@ -65,8 +65,7 @@ class ComparisonTest : public testing::Test {
     return make_method(name, {.saca = {.forecast = {&car_, &harm_}, .clock = &clock_},
                               .hindsight = &hindsight,
                               .intent = &intent::shipped_model(),
-                              .seed = 1,
-                              .num_looks = 2'000});
+                              .seed = 1});
   }
 
   SteadyClock clock_;

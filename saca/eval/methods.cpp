@@ -361,7 +361,7 @@ std::unique_ptr<Method> make_method(std::string_view name, const MethodTools& to
   expects(tools.hindsight != nullptr && tools.intent != nullptr, "hindsight and intent are given");
   const runtime::PlanesSetup& setup = tools.saca;
   if (name.starts_with("saca")) {
-    return std::make_unique<loop::SacaMethod>(planes_of(name, setup), tools.num_looks);
+    return std::make_unique<loop::SacaMethod>(planes_of(name, setup), *tools.intent);
   }
   if (name == "nothing") {
     return std::make_unique<Nothing>();

@@ -34,8 +34,7 @@ struct MethodTools {
                                    ///< forecasts and thresholds are everybody's
   Hindsight* hindsight = nullptr;  ///< of this encounter
   const intent::Model* intent = nullptr;
-  std::uint64_t seed = 0;     ///< of who chooses at random, and of this encounter
-  std::size_t num_looks = 0;  ///< at most
+  std::uint64_t seed = 0;  ///< of who chooses at random, and of this encounter
 };
 
 /// @param name  of `methods()`

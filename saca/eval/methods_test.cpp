@@ -29,8 +29,7 @@ class MethodsTest : public testing::Test {
       all.push_back(make_method(info.name, {.saca = {.forecast = {&car_, &harm_}, .clock = &clock_},
                                             .hindsight = &hindsight,
                                             .intent = &intent::shipped_model(),
-                                            .seed = 7,
-                                            .num_looks = 2'000}));
+                                            .seed = 7}));
     }
     const Comparison told = compare(stage, all, hindsight).value();
     std::map<std::string, MethodRun, std::less<>> runs;

@@ -43,13 +43,10 @@ Played play(const sim::Scenario& scenario, std::uint64_t number, const SuiteOpti
     Hindsight hindsight(*saca.forecast.car, *saca.forecast.harm);
     std::vector<std::unique_ptr<loop::Method>> methods;
     for (const std::string& name : options.methods) {
-      methods.push_back(make_method(
-          name,
-          {.saca = saca,
-           .hindsight = &hindsight,
-           .intent = &intent,
-           .seed = encounter_seed(options.seed, number),
-           .num_looks = static_cast<std::size_t>(world.duration / loop::ClosedLoop::step) + 2}));
+      methods.push_back(make_method(name, {.saca = saca,
+                                           .hindsight = &hindsight,
+                                           .intent = &intent,
+                                           .seed = encounter_seed(options.seed, number)}));
     }
     auto compared = compare(stage, methods, hindsight);
     if (!compared.has_value()) {

@@ -14,7 +14,6 @@
 namespace saca::loop {
 namespace {
 
-using manoeuvre::PolicyId;
 using world::Scene;
 
 constexpr double rest_after_end = 2.0;  // [s] that is still watched, as outcome::judge looks on
@@ -87,20 +86,23 @@ std::optional<preview::Threat> ClosedLoop::wake() {
 
 void ClosedLoop::take_the_wheel() {
   stepper_.take_the_wheel();
-  controller_ = manoeuvre::begin(*stage_->car, plan_, seen_);
+  keep_lane_and_speed();
+}
+
+void ClosedLoop::keep_lane_and_speed() {
+  execution_.emplace(*stage_->car, manoeuvre::doing_nothing, seen_);
 }
 
 std::optional<std::string> ClosedLoop::carry_out(const manoeuvre::Plan& plan, double deceleration) {
   if (!driven()) {
     take_the_wheel();
   }
-  auto refused = manoeuvre::refusal(*stage_->car, plan, seen_);
-  plan_ = refused ? manoeuvre::Plan{PolicyId::aeb, std::nullopt} : plan;
-  controller_ = manoeuvre::begin(*stage_->car, plan_, seen_);
+  execution_.emplace(*stage_->car, plan, seen_);
   limit_braking(deceleration);
   acts_ = true;
+  finished_ = false;
   ended_.reset();
-  return refused;
+  return manoeuvre::refusal(*stage_->car, plan, seen_);
 }
 
 void ClosedLoop::limit_braking(double deceleration) {
@@ -113,25 +115,52 @@ void ClosedLoop::keep() {
     contact_ = witness_.look(stepper_);
     kept_ = true;
   }
-  if (acts_ && !ended_ && finished()) {
+}
+
+void ClosedLoop::advance() {
+  note_end();
+  move([this](const vehicle::VehicleState& state) { return own_command(state); });
+  finished_ = execution_ && execution_->finished();
+}
+
+void ClosedLoop::advance(Avoider& avoider) {
+  const bool has_plan = avoider.plan().has_value();
+  if (has_plan && !driven()) {
+    take_the_wheel();
+  }
+  if (avoids_ && !has_plan) {
+    keep_lane_and_speed();
+  }
+  avoids_ = has_plan;
+  finished_ = avoider.finished();
+  if (has_plan && !finished_) {
+    acts_ = true;
+    ended_.reset();
+  }
+  note_end();
+  move([&](const vehicle::VehicleState& state) {
+    return has_plan ? avoider.control(state, sim::Stepper::step) : own_command(state);
+  });
+  finished_ = avoider.finished();
+}
+
+void ClosedLoop::note_end() {
+  if (acts_ && !ended_ && finished_) {
     ended_ = time();
   }
 }
 
-void ClosedLoop::advance() {
+template <class Command>
+void ClosedLoop::move(Command&& command) {
   for (int k = 0; k < steps_per_look; ++k) {
-    vehicle::Command command;
-    if (driven()) {
-      command = manoeuvre::control(*stage_->car, plan_, stage_->scenario->road, seen_.grip,
-                                   stepper_.car_state(), controller_, sim::Stepper::step);
-      limit(command.brake_torque, *stage_->car, deceleration_);
-    }
-    stepper_.advance(command);
+    stepper_.advance(driven() ? command(stepper_.car_state()) : vehicle::Command{});
   }
 }
 
-bool ClosedLoop::finished() const {
-  return driven() && manoeuvre::finished(plan_, stepper_.car_state(), controller_);
+vehicle::Command ClosedLoop::own_command(const vehicle::VehicleState& state) {
+  vehicle::Command command = execution_->control(state, seen_.grip, sim::Stepper::step);
+  limit(command.brake_torque, *stage_->car, deceleration_);
+  return command;
 }
 
 bool ClosedLoop::over() const {

@@ -8,10 +8,11 @@
 #include "saca/intent/observer.h"
 #include "saca/loop/witness.h"
 #include "saca/manoeuvre/car.h"
-#include "saca/manoeuvre/controller.h"
+#include "saca/manoeuvre/execution.h"
 #include "saca/manoeuvre/plan.h"
 #include "saca/outcome/harm.h"
 #include "saca/preview/threat.h"
+#include "saca/runtime/avoider.h"
 #include "saca/sim/chance.h"
 #include "saca/sim/scenario.h"
 #include "saca/sim/stepper.h"
@@ -30,12 +31,13 @@ struct Stage {
 };
 
 /// One encounter in motion, in closed loop: the true world, what the ego perceives and believes of
-/// it, the controller that carries out a plan with full vehicle dynamics, and what happens to the
-/// ego. Whoever decides (Method) is not part of it.
+/// it, what carries out a plan with full vehicle dynamics, and what happens to the ego. Whoever
+/// decides (Method) is not part of it.
 ///
 /// At every instant, 10 ms apart, in this order: look(); wake(); whatever is decided:
-/// carry_out(); keep(); advance(). A copy goes on by itself: from one instant on, what follows from
-/// several decisions can be simulated without simulating again what led there.
+/// carry_out(), or an avoider is shown what is seen; keep(); advance(), of that avoider where there
+/// is one. A copy goes on by itself: from one instant on, what follows from several decisions can
+/// be simulated without simulating again what led there.
 class ClosedLoop {
  public:
   static constexpr int steps_per_look = 10;                            ///< of the stepper
@@ -74,18 +76,25 @@ class ClosedLoop {
       const manoeuvre::Plan& plan, double deceleration = std::numeric_limits<double>::infinity());
   /// Changes how hard the plan under way may brake.
   void limit_braking(double deceleration);
-  /// Lane and speed kept, or the last that was carried out.
-  [[nodiscard]] const manoeuvre::Plan& plan() const { return plan_; }
+  /// Lane and speed kept, or the last that was carried out; not that of an avoider.
+  [[nodiscard]] const manoeuvre::Plan& plan() const {
+    return execution_ ? execution_->plan() : manoeuvre::doing_nothing;
+  }
 
   /// Keeps what truly happened since the last look; counts only once the wheel is taken.
   void keep();
   /// To the next instant.
   void advance();
+  /// Likewise; while the avoider has a plan, it commands the car, taking the wheel where nobody
+  /// has. Else the driving stack does: it keeps lane and speed, from where the avoider left them.
+  /// @param avoider  has been shown what is seen now
+  void advance(Avoider& avoider);
 
   /// Did a contact end the ego's motion?
   [[nodiscard]] bool contact() const { return contact_; }
-  /// Has what was carried out reached its safe end now: at rest, or in a recovered lane?
-  [[nodiscard]] bool finished() const;
+  /// Has what was carried out, by an avoider or else by this, reached its safe end: at rest, or in
+  /// a recovered lane? As of the last step.
+  [[nodiscard]] bool finished() const { return finished_; }
   /// Nothing that matters comes any more: a contact ended the motion, the scenario is over, or what
   /// was carried out ended 2 s ago and nobody threatens or comes up from behind.
   [[nodiscard]] bool over() const;
@@ -99,18 +108,27 @@ class ClosedLoop {
   [[nodiscard]] double steering() const;
 
  private:
+  void keep_lane_and_speed();
+  void note_end();
+  /// @param command  what to tell a car in this state
+  template <class Command>
+  void move(Command&& command);
+  /// What the loop's own execution tells the car.
+  [[nodiscard]] vehicle::Command own_command(const vehicle::VehicleState& state);
+
   const Stage* stage_;
   sim::Stepper stepper_;
   intent::Observer observer_;
   Witness witness_;
   world::Scene seen_;
   intent::Beliefs beliefs_;
-  manoeuvre::Plan plan_{manoeuvre::PolicyId::no_intervention, std::nullopt};
+  std::optional<manoeuvre::Execution> execution_;  ///< once the wheel is taken
   double deceleration_ = std::numeric_limits<double>::infinity();
-  manoeuvre::ControllerState controller_;
-  bool acts_ = false;  ///< something was carried out
-  bool kept_ = false;  ///< something was kept
+  bool avoids_ = false;  ///< an avoider's plan was carried out in the last step
+  bool acts_ = false;    ///< something was carried out
+  bool kept_ = false;    ///< something was kept
   bool contact_ = false;
+  bool finished_ = false;
   std::optional<double> ended_;  ///< when what was carried out had reached its end [s]
 };
 

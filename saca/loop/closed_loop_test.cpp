@@ -43,6 +43,24 @@ class ClosedLoopTest : public testing::Test {
     }
   }
 
+  /// With an avoider to the end; `each` is called at every instant after its answer.
+  template <class Each>
+  static void avoid(ClosedLoop& loop, Avoider& avoider, Each&& each) {
+    while (!loop.over()) {
+      ASSERT_FALSE(loop.look().has_value());
+      loop.wake();
+      each(avoider.step(loop.seen()));
+      loop.keep();
+      loop.advance(avoider);
+      EXPECT_EQ(loop.finished(), avoider.finished());
+    }
+  }
+  AvoiderSetup avoider_setup(std::optional<manoeuvre::Plan> forced = std::nullopt) {
+    return {.planes = {.forecast = {&car_, &harm_}, .forced = forced, .clock = &clock_},
+            .intent = &intent_};
+  }
+
+  SteadyClock clock_;
   sim::Scenario scenario_ = wreck_on_wet_road();
   manoeuvre::Car car_ = manoeuvre::default_car();
   outcome::HarmModel harm_ = outcome::read_harm("data/harm.toml").value();
@@ -102,6 +120,64 @@ TEST_F(ClosedLoopTest, WhatCannotBeDrivenGivesWayToBraking) {
   const auto refused = loop.carry_out({PolicyId::t_drift_left, std::nullopt});
   ASSERT_TRUE(refused.has_value());
   EXPECT_EQ(loop.plan(), braking);
+}
+
+// Begun at the trigger, braking ends where it does when the loop carries it out from there.
+TEST_F(ClosedLoopTest, AnAvoiderDrivesAsTheLoopItselfWould) {
+  std::get<sim::EgoStart>(scenario_.ego).speed = 12.0;
+  const Stage s = stage();
+  ClosedLoop loop(s);
+  std::optional<ClosedLoop> by_itself;
+  Avoider avoider(avoider_setup(braking));
+  avoid(loop, avoider, [&](const Answer& answer) {
+    if (answer.triggered) {
+      by_itself.emplace(loop).carry_out(braking);
+    }
+  });
+  ASSERT_TRUE(by_itself.has_value());
+  to_the_end(*by_itself);
+  EXPECT_EQ(loop.truth().ego().X_WB.p.x, by_itself->truth().ego().X_WB.p.x);
+  EXPECT_EQ(loop.outcome().value().clearance, by_itself->outcome().value().clearance);
+  EXPECT_EQ(loop.time(), by_itself->time());
+  EXPECT_LT(norm(loop.truth().ego().v_B), 0.1);
+}
+
+// Braking would hit the wreck on the wet road; the lane beside is free. Once it is recovered the
+// stack keeps it, at the speed that it has then.
+TEST_F(ClosedLoopTest, TheStackKeepsTheLaneThatTheAvoiderLeavesItIn) {
+  scenario_.grip = 0.5;
+  const Stage s = stage();
+  ClosedLoop loop(s);
+  Avoider avoider(avoider_setup(manoeuvre::Plan{PolicyId::aes_left, std::nullopt}));
+  std::optional<world::EgoState> given_back;
+  bool had_plan = false;
+  avoid(loop, avoider, [&](const Answer& answer) {
+    if (had_plan && !answer.plan && !given_back) {
+      given_back = loop.truth().ego();
+    }
+    had_plan = had_plan || answer.plan;
+  });
+  ASSERT_TRUE(given_back.has_value());
+  const world::EgoState end = loop.truth().ego();
+  EXPECT_FALSE(loop.contact());
+  EXPECT_NEAR(end.X_WB.p.y, scenario_.road.lane_width, 0.3);
+  EXPECT_NEAR(norm(end.v_B), norm(given_back->v_B), 0.5);
+  EXPECT_GT(end.X_WB.p.x, given_back->X_WB.p.x + 15.0);  // for 2 s at the least
+}
+
+TEST_F(ClosedLoopTest, AnAvoiderThatHasAPlanTakesTheWheel) {
+  const Stage s = stage();
+  ClosedLoop loop(s);
+  Avoider avoider(avoider_setup());
+  while (!avoider.plan()) {
+    ASSERT_LT(loop.time(), 5.0);
+    ASSERT_FALSE(loop.look().has_value());
+    (void)avoider.step(loop.seen());
+    EXPECT_FALSE(loop.driven());
+    loop.keep();
+    loop.advance(avoider);
+  }
+  EXPECT_TRUE(loop.driven());
 }
 
 TEST_F(ClosedLoopTest, ABrokenSceneIsToldAndNotPlayed) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -11,8 +12,10 @@
 #include "saca/loop/closed_loop.h"
 #include "saca/loop/dispatcher.h"
 #include "saca/loop/recorded_driver.h"
+#include "saca/manoeuvre/drive.h"
 #include "saca/outcome/describe.h"
 #include "saca/preview/preview.h"
+#include "saca/runtime/avoider.h"
 
 namespace saca::loop {
 namespace {
@@ -36,7 +39,10 @@ class Encounter {
         stage_(stage_of(setup)),
         loop_(stage_),
         dispatcher_(real() ? std::make_unique<Dispatcher>(listener) : nullptr),
-        planes_(planes_setup(setup), thinking_listener(), num_looks(*setup.scenario)) {}
+        avoider_({.planes = planes_setup(setup),
+                  .intent = setup.intent,
+                  .thinking = thinking_listener(),
+                  .num_timed = num_looks(*setup.scenario)}) {}
 
   Result<Record> play();
 
@@ -50,14 +56,17 @@ class Encounter {
   static runtime::PlanesSetup planes_setup(const Setup& setup);
 
   [[nodiscard]] runtime::Planes::Listener thinking_listener();
-  void tell(Plane plane, EventKind kind, std::string text);
+  void tell(Event event);
+  void tell(Plane plane, EventKind kind, std::string text) {
+    tell({loop_.time(), plane, kind, std::move(text)});
+  }
   [[nodiscard]] std::optional<Error> look();
   void wake();
-  void note_verdicts(const decide::Reflex& reflex);
-  void execute(const preview::Threat& threat);
-  void change(const decide::Switch& change);
-  void film(const decide::Reflex& reflex);
+  void note(const Answer& answer, std::uint32_t encounter);
+  void note_decision(const Answer& answer);
+  void film(const Answer& answer);
   void conclude();
+  void take_over_thoughts();
   void compare_with_driver();
   void learn();
 
@@ -66,13 +75,20 @@ class Encounter {
   Stage stage_;
   ClosedLoop loop_;
   std::unique_ptr<Dispatcher> dispatcher_;  ///< at pace `real`; lives longer than who hands over
-  runtime::Planes planes_;
+  /// What the thinking plane thought in one encounter of the avoider.
+  struct Thoughts {
+    std::vector<decide::Preview> previews;
+    std::vector<Event> events;
+  };
+  std::map<std::uint32_t, Thoughts> thoughts_;  ///< of the thread that thinks, until that has ended
+  Avoider avoider_;
   Record record_;
   Clock::Time start_{0};
   int looks_ = 0;
-  std::optional<double> woke_;  ///< when SACA took the wheel [s]
-  bool ended_ = false;          ///< the manoeuvre is finished
-  Scene seen_at_trigger_;       ///< what SACA perceived then
+  std::optional<double> woke_;              ///< when SACA took the wheel [s]
+  std::optional<std::uint32_t> encounter_;  ///< the avoider's, in which the decision was made
+  bool ended_ = false;                      ///< the manoeuvre is finished
+  Scene seen_at_trigger_;                   ///< what SACA perceived then
   outcome::Others others_at_trigger_;
 };
 
@@ -101,27 +117,30 @@ runtime::PlanesSetup Encounter::planes_setup(const Setup& setup) {
 }
 
 runtime::Planes::Listener Encounter::thinking_listener() {
-  if (!real()) {
-    return {.event = [this](const Event& event) { listener_.on_event(event); },
-            .reasoning = [this](std::int32_t preview,
-                                std::string_view text) { listener_.on_reasoning(preview, text); }};
-  }
-  return {
-      .event =
-          [this](const Event& event) { dispatcher_->event(Dispatcher::Producer::thinking, event); },
-      .reasoning =
-          [this](std::int32_t preview, std::string_view text) {
-            dispatcher_->reasoning(preview, std::string(text));
-          }};
+  return {.event =
+              [this](const Event& event) {
+                real() ? dispatcher_->event(Dispatcher::Producer::thinking, event)
+                       : listener_.on_event(event);
+              },
+          .reasoning =
+              [this](std::int32_t preview, std::string_view text) {
+                real() ? dispatcher_->reasoning(preview, std::string(text))
+                       : listener_.on_reasoning(preview, text);
+              },
+          .thought =
+              [this](std::uint32_t encounter, const std::vector<decide::Preview>& previews,
+                     const std::vector<Event>& events) {
+                thoughts_[encounter] = {previews, events};
+              }};
 }
 
-void Encounter::tell(Plane plane, EventKind kind, std::string text) {
-  record_.events.push_back({loop_.time(), plane, kind, std::move(text)});
+void Encounter::tell(Event event) {
   if (real()) {
-    dispatcher_->event(Dispatcher::Producer::driving, record_.events.back());
+    dispatcher_->event(Dispatcher::Producer::driving, event);
   } else {
-    listener_.on_event(record_.events.back());
+    listener_.on_event(event);
   }
+  record_.events.push_back(std::move(event));
 }
 
 Result<Record> Encounter::play() {
@@ -130,12 +149,12 @@ Result<Record> Encounter::play() {
     if (const auto problem = look()) {
       return *problem;
     }
-    loop_.advance();
+    loop_.advance(avoider_);
     if (real()) {
       setup_.clock->wait_until(start_ + from_seconds(loop_.time()));
     }
   }
-  const std::string fault = planes_.finish();
+  const std::string fault = avoider_.finish();
   if (!fault.empty()) {
     tell(Plane::thinking, EventKind::fault, "an exception ended a round of the " + fault);
   }
@@ -150,28 +169,18 @@ std::optional<Error> Encounter::look() {
   if (auto problem = loop_.look()) {
     return problem;
   }
-  if (looks_ % looks_per_judgement == 0) {
-    note(loop_.seen(), loop_.beliefs(), record_.intentions);
-  }
   wake();
-  decide::Reflex reflex;
-  if (woke_) {
-    reflex = planes_.step(loop_.seen(), loop_.beliefs(), start_ + from_seconds(loop_.time()),
-                          loop_.finished());
-    note_verdicts(reflex);
-  } else {
-    planes_.watch(loop_.seen(), loop_.beliefs());
+  const std::uint32_t encounter = avoider_.planes().encounter();
+  const Answer answer = avoider_.step(loop_.seen(), start_ + from_seconds(loop_.time()));
+  if (looks_ % looks_per_judgement == 0) {
+    loop::note(avoider_.scene(), avoider_.beliefs(), record_.intentions);
   }
-  if (reflex.triggered) {
-    execute(*reflex.threat);
-  } else if (reflex.switched) {
-    change(*reflex.switched);
-  }
+  note(answer, encounter);
   loop_.keep();
-  if (looks_ % looks_per_frame == 0 || loop_.contact() || reflex.triggered) {
-    film(reflex);
+  if (looks_ % looks_per_frame == 0 || loop_.contact() || answer.triggered) {
+    film(answer);
   }
-  if (record_.decision && !ended_ && loop_.finished()) {
+  if (record_.decision && !ended_ && avoider_.finished()) {
     ended_ = true;
     const double speed = norm(loop_.truth().ego().v_B);
     tell(Plane::world, EventKind::rest,
@@ -194,61 +203,54 @@ void Encounter::wake() {
                    actor_name(scene.actors[threat->actor]), threat->time, norm(scene.ego.v_B)));
 }
 
-void Encounter::note_verdicts(const decide::Reflex& reflex) {
-  const auto& got = planes_.new_verdict();
-  record_.verdicts.note(loop_.seen(), loop_.beliefs(),
+/// What the avoider decided, and by what. Of one encounter: what follows it is told.
+/// @param encounter  that was under way when it was asked
+void Encounter::note(const Answer& answer, std::uint32_t encounter) {
+  while (auto event = avoider_.next_event()) {
+    tell(*std::move(event));
+  }
+  ended_ = ended_ && !answer.begins;
+  if (encounter_ && *encounter_ != encounter) {
+    return;
+  }
+  const auto& got = avoider_.planes().new_verdict();
+  record_.verdicts.note(avoider_.scene(), avoider_.beliefs(),
                         got ? std::optional(got->verdict) : std::nullopt);
-  if (reflex.triggered) {
-    record_.verdicts.note(*planes_.decision());
-  } else if (reflex.switched) {
-    record_.verdicts.note(*reflex.switched);
+  if (answer.triggered) {
+    note_decision(answer);
+  } else if (answer.switched) {
+    record_.verdicts.note(*answer.switched);
+    record_.switches.push_back({loop_.time(), *answer.switched});
   }
 }
 
-void Encounter::execute(const preview::Threat& threat) {
-  const Scene& scene = loop_.seen();
-  decide::Decision decision = *planes_.decision();
-  if (decision.source == decide::Source::forced &&
-      manoeuvre::brakes_to_speed(decision.plan.policy)) {
-    decision.plan = manoeuvre::default_plan(decision.plan.policy, norm(scene.ego.v_B));
-  }
+void Encounter::note_decision(const Answer& answer) {
+  const Scene& scene = avoider_.scene();
+  decide::Decision decision = *avoider_.decision();
   const manoeuvre::Plan wanted = decision.plan;
-  const auto refused = loop_.carry_out(wanted);
-  if (refused) {
-    decision.plan = loop_.plan();
+  decision.plan = answer.plan.value_or(manoeuvre::doing_nothing);
+  if (decision.plan != wanted) {
     decision.source = decide::Source::fallback;
+    tell(Plane::reflex, EventKind::fault,
+         "not carried out: " + manoeuvre::refusal(*setup_.car, wanted, scene).value_or(""));
   }
+  encounter_ = avoider_.planes().encounter();
+  woke_ = woke_.value_or(scene.time);
   record_.decision = decision;
+  record_.verdicts.note(decision);
   record_.at_trigger = loop_.truth().whole_scene();
-  record_.threat = actor_name(scene.actors[threat.actor]);
+  record_.threat = actor_name(scene.actors[answer.threat->actor]);
   seen_at_trigger_ = scene;
   others_at_trigger_ = loop_.truth().others();
-  // The plan stands; now it can be talked about.
-  tell(Plane::reflex, EventKind::trigger,
-       decide::trigger_text(scene.actors[threat.actor], threat.time));
-  tell(Plane::reflex, EventKind::match, decision_text(*planes_.decision()));
-  if (refused) {
-    tell(Plane::reflex, EventKind::fault,
-         manoeuvre::plan_text(wanted) + " cannot be driven: " + *refused);
-  }
-  tell(Plane::reflex, EventKind::execute, decide::execution_text(decision.plan, decision.source));
 }
 
-void Encounter::change(const decide::Switch& change) {
-  loop_.carry_out(change.plan);
-  ended_ = false;
-  record_.switches.push_back({loop_.time(), change});
-  tell(Plane::reflex, EventKind::switched,
-       fmt::format("{}: {}", name(change.reason), switch_text(change)));
-}
-
-void Encounter::film(const decide::Reflex& reflex) {
+void Encounter::film(const Answer& answer) {
   const Phase phase = record_.decision ? Phase::manoeuvre
                       : woke_          ? Phase::driving
                                        : Phase::recorded;
   std::optional<double> conflict;
-  if (reflex.threat) {
-    conflict = reflex.threat->time;
+  if (answer.threat) {
+    conflict = answer.threat->time;
   }
   record_.frames.push_back({.phase = phase,
                             .scene = loop_.truth().scene(),
@@ -278,24 +280,33 @@ void Encounter::conclude() {
     record_.best = preview::best_by_forecast(facts);
   }
   compare_with_driver();
-  const auto& thought = planes_.thinking_events();
-  record_.events.insert(record_.events.end(), thought.begin(), thought.end());
-  std::stable_sort(record_.events.begin(), record_.events.end(),
-                   [](const Event& a, const Event& b) { return a.time < b.time; });
-  record_.previews = planes_.previews();
-  record_.deadline_misses = planes_.deadline_misses();
+  take_over_thoughts();
   if (setup_.danger != nullptr) {
     record_.danger_maps = danger_maps(record_, *setup_.danger);
   }
-  record_.reflex = planes_.timing();
+  record_.reflex = avoider_.planes().timing();
   if (setup_.tapes) {
     runtime::TapeHeader header = runtime::tape_header(planes_setup(setup_), *setup_.intent);
     header.car = setup_.scenario->car;
     header.scenario = setup_.scenario->name;
     header.seed = setup_.seed;
-    record_.tape = {header, planes_.tape().content()};
+    record_.tape = {header, avoider_.tape().content()};
   }
   learn();
+}
+
+/// All events, and the previews of the encounter in which it was decided; of the last one where
+/// nothing was.
+void Encounter::take_over_thoughts() {
+  for (auto& [encounter, thoughts] : thoughts_) {
+    record_.events.insert(record_.events.end(), thoughts.events.begin(), thoughts.events.end());
+    if (!encounter_ || encounter == *encounter_) {
+      record_.previews = std::move(thoughts.previews);
+    }
+  }
+  std::stable_sort(record_.events.begin(), record_.events.end(),
+                   [](const Event& a, const Event& b) { return a.time < b.time; });
+  record_.deadline_misses = avoider_.planes().deadline_misses();
 }
 
 /// The recorded driver's own way through the same scene, from where SACA took the wheel.

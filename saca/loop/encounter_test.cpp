@@ -115,7 +115,7 @@ TEST_F(EncounterTest, TheTapeHoldsEveryLookFromTheFirstOn) {
   const auto& steps = record.tape->content.steps;
   ASSERT_FALSE(steps.empty());
   EXPECT_EQ(steps.front().scene.time, 0.0);
-  EXPECT_FALSE(steps.front().asked);
+  EXPECT_TRUE(steps.front().asked);
   for (std::size_t k = 0; k < steps.size(); ++k) {
     EXPECT_NEAR(steps[k].scene.time, 0.01 * static_cast<double>(k), 1e-9);
     if (steps[k].decision) {
@@ -322,6 +322,37 @@ TEST_F(EncounterTest, WhatCannotBeDrivenBecomesBraking) {
   EXPECT_EQ(record.decision->plan.policy, PolicyId::aeb);
   EXPECT_EQ(record.decision->source, Source::fallback);
   EXPECT_TRUE(has(record, EventKind::fault));
+  const auto& events = record.events;
+  EXPECT_TRUE(std::any_of(events.begin(), events.end(), [](const decide::Event& event) {
+    return event.text.find("not carried out: ") == 0 && event.text.find("grip") != event.text.npos;
+  }));
+}
+
+// Nothing is done about two that are not there, one after the other: at 20 m/s the first, 90 m
+// ahead, is passed after 4.8 s, and the second is not within 5.5 s before 9.8 s. The avoider
+// decides twice; the record keeps what it decided first, and tells the rest.
+TEST_F(EncounterTest, OfTwoEncountersTheFirstIsInTheRecordAndTheSecondIsTold) {
+  sim::Scenario scenario = wreck_on_wet_road(90.0, 18.0);
+  scenario.actors[0].ghost = true;
+  scenario.actors.push_back(scenario.actors[0]);
+  scenario.actors[1].id = 2;
+  std::get<sim::Script>(scenario.actors[1].motion).start.s = 310.0;
+  const Record record = play(scenario, nullptr, nullptr, manoeuvre::doing_nothing).value();
+  std::vector<double> triggers;
+  for (const decide::Event& event : record.events) {
+    if (event.kind == EventKind::trigger) {
+      triggers.push_back(event.time);
+    }
+  }
+  ASSERT_EQ(triggers.size(), 2U);
+  EXPECT_NEAR(triggers[1] - triggers[0], (310.0 - 90.0) / 20.0, 0.1);
+  EXPECT_EQ(record.decision->time, triggers[0]);
+  EXPECT_EQ(record.threat, "car1");
+  ASSERT_FALSE(record.previews.empty());
+  for (const decide::Preview& preview : record.previews) {
+    EXPECT_NEAR(preview.newest_scene.time, triggers[0], 1.0);
+  }
+  EXPECT_EQ(record.result.harm, 0.0);
 }
 
 // An observer has watched since the beginning when SACA wakes.

@@ -45,6 +45,10 @@ class Method {
   ///          deceleration goes on; nullopt: goes on as it is
   [[nodiscard]] virtual std::optional<Action> step(const View& view) = 0;
 
+  /// Who carries out what this method begins, and drives from then on (ClosedLoop::advance);
+  /// nullptr: the closed loop does.
+  [[nodiscard]] virtual Avoider* avoider() { return nullptr; }
+
   /// What was thought until now; nullopt: this method does not think ahead.
   [[nodiscard]] virtual std::optional<ThinkingFigures> thinking() const { return std::nullopt; }
 };

@@ -3,28 +3,31 @@
 namespace saca::loop {
 
 std::optional<Action> SacaMethod::step(const View& view) {
-  if (!view.driven) {
-    planes_.watch(view.scene, view.beliefs);
+  const std::size_t num_encounters = avoider_.num_encounters();
+  const Answer answer = avoider_.step(view.scene, from_seconds(view.scene.time));
+  if (first_ && !thinking_ && avoider_.num_encounters() > num_encounters) {
+    thinking_ = thinking();  // it is forgotten in the next step
+  }
+  if (!answer.begins) {
     return std::nullopt;
   }
-  const decide::Reflex reflex =
-      planes_.step(view.scene, view.beliefs, from_seconds(view.scene.time), view.finished);
-  if (reflex.switched) {
-    return Action{.plan = reflex.switched->plan,
-                  .source = "supervisor",
-                  .reason = std::string(name(reflex.switched->reason))};
+  Action action{.plan = answer.plan.value_or(manoeuvre::doing_nothing)};
+  if (answer.switched) {
+    action.source = "supervisor";
+    action.reason = name(answer.switched->reason);
+    return action;
   }
-  if (!reflex.triggered) {
-    return std::nullopt;
+  const decide::Decision& decision = *avoider_.decision();
+  if (!first_) {
+    first_ = decision;
   }
-  const decide::Decision& decision = *planes_.decision();
-  return Action{.plan = decision.plan,
-                .source = std::string(name(decision.source)),
-                .reason = reason_of(decision, planes_.previews())};
+  action.source = name(decision.source);
+  action.reason = reason_of(decision, avoider_.planes().previews());
+  return action;
 }
 
 std::optional<ThinkingFigures> SacaMethod::thinking() const {
-  return thinking_figures(planes_.previews(), planes_.decision());
+  return thinking_ ? thinking_ : thinking_figures(avoider_.planes().previews(), first_);
 }
 
 }  // namespace saca::loop

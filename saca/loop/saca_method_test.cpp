@@ -15,13 +15,14 @@ struct Played {
   std::optional<double> acted_at;
   Action action;
   outcome::Outcome outcome;
+  ThinkingFigures thinking;
 };
 
 class SacaMethodTest : public testing::Test {
  protected:
   Played play(const sim::Scenario& scenario) {
     const Stage stage{&scenario, &car_, &harm_, &intent::shipped_model(), {}, {}};
-    SacaMethod saca({.forecast = {&car_, &harm_}, .clock = &clock_}, 2'000);
+    SacaMethod saca({.forecast = {&car_, &harm_}, .clock = &clock_}, intent::shipped_model());
     ClosedLoop loop(stage);
     Played played;
     while (!loop.over()) {
@@ -31,11 +32,11 @@ class SacaMethodTest : public testing::Test {
               saca.step({loop.seen(), loop.beliefs(), loop.driven(), loop.finished(), loop})) {
         played.acted_at = loop.time();
         played.action = *action;
-        loop.carry_out(action->plan);
       }
       loop.keep();
-      loop.advance();
+      loop.advance(*saca.avoider());
     }
+    played.thinking = saca.thinking().value();
     played.outcome = loop.outcome().value_or(outcome::Outcome{});
     return played;
   }
@@ -45,7 +46,7 @@ class SacaMethodTest : public testing::Test {
   outcome::HarmModel harm_ = outcome::read_harm("data/harm.toml").value();
 };
 
-TEST_F(SacaMethodTest, DoesWhatAnEncounterWithTheSamePlanesDoes) {
+TEST_F(SacaMethodTest, DoesWhatAnEncounterWithTheSameSetupDoes) {
   const sim::Scenario scenario = wreck_on_wet_road();
   const Played played = play(scenario);
   Silence silence;
@@ -64,6 +65,8 @@ TEST_F(SacaMethodTest, DoesWhatAnEncounterWithTheSamePlanesDoes) {
   EXPECT_EQ(played.action.reason, "no plan is cached");
   EXPECT_EQ(played.outcome.harm, record.result.harm);
   EXPECT_EQ(played.outcome.clearance, record.result.clearance);
+  EXPECT_EQ(played.thinking, thinking_figures(record.previews, record.decision));
+  EXPECT_GT(played.thinking.forecasts, 0);
 }
 
 }  // namespace
