@@ -81,14 +81,14 @@ class Planes {
   Planes& operator=(const Planes&) = delete;
   ~Planes() = default;
 
-  /// One instant, from the moment on at which something threatens within T2.
+  /// One instant. While nobody threatens within T2, nothing is forecast and nothing thought about.
   /// @param beliefs  one per actor of the scene
   /// @param at       when, on the clock, the scene was true; of no account in lockstep
   /// @param finished  what is carried out has reached its safe end
   decide::Reflex step(const world::Scene& scene, const intent::Beliefs& beliefs, Clock::Time at,
                       bool finished);
 
-  /// An instant at which nothing is to be decided yet. The tape takes note of it, because what is
+  /// An instant in which nothing is to be decided. The tape takes note of it, because what is
   /// believed later follows from it, and the reflex plane of who is there.
   void watch(const world::Scene& scene, const intent::Beliefs& beliefs);
 
