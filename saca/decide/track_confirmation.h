@@ -10,33 +10,35 @@
 
 namespace saca::decide {
 
-/// Which road users are confirmed: seen in two looks of three. A false detection lasts for a look,
-/// mostly, and must not set off the trigger by itself; who is there is seen again.
+/// Which road users are confirmed: seen in two looks of three. A false detection mostly lasts for
+/// one look and must not set off the trigger by itself; a road user who is there is seen again.
 ///
-/// The M-of-N rule by which trackers begin a track, on top of whatever perception does itself:
-/// * A look is a scene in which somebody has been measured anew (`Actor::age` says when), or nobody
-///   is there. Who is in a scene without having been measured anew, carried on by a tracker, has
-///   not been seen in it.
-/// * A name that is new is who it was before, where somebody has gone whose place it is: trackers
-///   that change names at every look do not keep anybody from being confirmed.
-/// * Who has been confirmed stays so, occluded or not, until three looks have passed without him
-///   and he is in the scene no more.
-/// * Who is there from the beginning, or after a gap in time, is confirmed: nothing is known of
-///   before.
-/// * Where looks are farther apart than `longest_wait`, to wait for another costs more than it is
-///   worth: who is more likely there than not by perception's own word (`Actor::existence`) is
-///   confirmed at once.
-/// So a road user who is seen in each look is confirmed one look after the first, 10 ms at 100 Hz
-/// and 50 ms at 20 Hz, and never later than `longest_wait` where he is more likely there than not;
-/// each look that misses him costs one more.
+/// This is the M-of-N rule by which trackers begin a track, on top of whatever perception does
+/// itself:
+/// * A road user is seen where its state has been measured anew (`Actor::age` says when), and
+/// missed
+///   where it is not in a new scene, or has only been carried on for 0.1 s, the period of the
+///   slowest looks. Whatever is carried on for less is neither seen nor missed.
+/// * A new name at a place from which another name has gone is the same road user: a tracker that
+///   renames everybody at every look does not keep anybody from being confirmed.
+/// * A confirmed road user stays confirmed, occluded or not, until it has not been in the scene for
+///   three looks.
+/// * Whoever is in the first scene, or in the first after a gap in time, is confirmed: nothing is
+///   known of the time before.
+/// * Where looks are farther apart than `longest_wait`, waiting for another costs more than it is
+///   worth: a road user that by perception's own word (`Actor::existence`) is more likely there
+///   than not is confirmed at once.
+/// So a road user that is seen in every look is confirmed one look after the first: after 10 ms at
+/// 100 Hz, 50 ms at 20 Hz, and never later than `longest_wait` where it is more likely there than
+/// not. Each look that misses it costs one more.
 ///
 /// Trivially copyable; allocates nothing.
-/// Source: Bar-Shalom, Li, Multitarget-Multisensor Tracking: Principles and Techniques, 1995,
-/// section 2.5 (logic-based track formation); the figures are ours.
+/// Source: Bar-Shalom, Li, Multitarget-Multisensor Tracking: Principles and Techniques, 1995, on
+/// logic-based track formation; the figures are ours.
 class TrackConfirmation {
  public:
   static constexpr double longest_wait = 0.05;  ///< between two looks [s]
-  static constexpr double likely = 0.5;         ///< existence of who is not waited for
+  static constexpr double likely = 0.5;         ///< least existence of whom it does not wait for
   static constexpr double longest_gap = 1.0;    ///< between two scenes: then all begins anew [s]
 
   /// The next scene.
@@ -49,12 +51,13 @@ class TrackConfirmation {
   struct Track {
     world::ActorKind kind = world::ActorKind::car;
     std::uint8_t id = 0;
-    std::uint8_t looks = 0;  ///< the last three, the newest lowest; 1: was seen
+    std::uint8_t looks = 0;  ///< the last three, the newest lowest; 1: seen, 0: missed
     bool confirmed = false;
-    double measured = 0.0;  ///< when last [s]
-    Vec2 p_W;               ///< in the newest scene that he was in [m]
-    Vec2 v_W;               ///< likewise [m/s]
-    double seen = 0.0;      ///< time of that scene [s]
+    double measured = 0.0;   ///< when last [s]
+    double looked_at = 0.0;  ///< time of the last of its looks [s]
+    Vec2 p_W;                ///< in the newest scene that it was in [m]
+    Vec2 v_W;                ///< likewise [m/s]
+    double present = 0.0;    ///< time of that scene [s]
   };
   static constexpr double never = -std::numeric_limits<double>::infinity();
 

@@ -70,7 +70,21 @@ TEST(TrackConfirmation, NeedsTwoLooksOfThree) {
 TEST(TrackConfirmation, ToBeCarriedOnIsNotToBeSeen) {
   EXPECT_EQ(confirmed_in("x~~~~~~~~", 0.01), std::nullopt);
   EXPECT_EQ(confirmed_in("x~x", 0.01), 2);
-  EXPECT_EQ(confirmed_in("x~~x", 0.01), std::nullopt);
+  EXPECT_EQ(confirmed_in("x~~x", 0.01), 3) << "carried on for 20 ms is not missed";
+  EXPECT_EQ(confirmed_in("x~~x", 0.05), 3) << "missed once";
+  EXPECT_EQ(confirmed_in("x~~~~x", 0.05), std::nullopt) << "missed twice";
+}
+
+// Scenes come at 100 Hz, and each road user is measured in every tenth, others in others.
+TEST(TrackConfirmation, TakesWhoIsMeasuredSeldomerThanScenesCome) {
+  TrackConfirmation tracks;
+  tracks.look(quiet(0.0));
+  for (int k = 1; k <= 25; ++k) {
+    Scene scene = with_one(0.01 * k);
+    scene.actors[1].age = 0.01 * ((k - 1) % 10);
+    tracks.look(scene);
+    EXPECT_EQ(last_is_confirmed(tracks, scene), k >= 11) << k;
+  }
 }
 
 // Every rate from 10 to 100 Hz: a road user whom perception believes in waits for 50 ms at most.

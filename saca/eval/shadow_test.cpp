@@ -116,16 +116,24 @@ TEST_F(Shadow, ExposureEndsWhereItIsToldTo) {
   EXPECT_NEAR(seen.metres, 30.0, 1e-6);
 }
 
-// A trigger that holds already counts from the first look on.
+// A trigger that holds already counts from the first look on: 5.8 m/s^2 are needed, he brakes with
+// 2.
 TEST_F(Shadow, NothingCountsBeforeTheWindow) {
-  drive({.speed = 15.0, .brakes_at = 3.9, .deceleration = 6.5}, 10.0);
+  drive({.speed = 15.0, .brakes_at = 3.9, .deceleration = 2.0}, 10.0);
   add(80.0, {}, 0.0, 10.0);
   const ShadowDrive seen = watched({.from = 4.5, .until = 5.0});
   ASSERT_EQ(seen.triggers.size(), 1U);
   EXPECT_NEAR(seen.triggers[0].time, 4.5, 1e-9);
   EXPECT_NEAR(seen.seconds, 0.5, 1e-9);
-  // From 0.6 to 1.1 s after the brakes: 15 x 0.5 - 3.25 (1.1^2 - 0.6^2).
-  EXPECT_NEAR(seen.metres, 7.5 - 3.25 * 0.85, 0.01);
+  // From 0.6 to 1.1 s after the brakes: 15 x 0.5 - 1.1^2 + 0.6^2.
+  EXPECT_NEAR(seen.metres, 7.5 - 0.85, 0.01);
+}
+
+// 0.6 s after the brakes 9.5 m are left at 11.1 m/s: 0.86 s, if he did not brake.
+TEST_F(Shadow, WhoBrakesEnoughSetsOffNothing) {
+  drive({.speed = 15.0, .brakes_at = 3.9, .deceleration = 6.5}, 10.0);
+  add(80.0, {}, 0.0, 10.0);
+  EXPECT_TRUE(watched({.from = 4.5, .until = 5.0}).triggers.empty());
 }
 
 // T1 ahead at 10 m/s is 13 m: the road ends, 50 m on, for who is beyond 37 m.

@@ -104,11 +104,11 @@ TEST(PolicyFacts, BrakingIsAsHardAsIsBest) {
     Road road(12.5, 60.0);
     EXPECT_EQ(of(road.facts(tools), PolicyId::aeb).plan, manoeuvre::full_braking);
     road.add({-11.0, 0.0}, 12.5);
-    const PolicyFacts& best = of(road.facts(tools), PolicyId::aeb);
+    const PolicyFacts best = of(road.facts(tools), PolicyId::aeb);
     EXPECT_LT(strength_of(best.plan), 1.0);
     ForecastTools published = tools;
     published.braking = Braking::full;
-    const PolicyFacts& full = of(road.facts(published), PolicyId::aeb);
+    const PolicyFacts full = of(road.facts(published), PolicyId::aeb);
     EXPECT_EQ(full.plan, manoeuvre::full_braking);
     EXPECT_LT(best.outcome().harm, full.outcome().harm);
   }
