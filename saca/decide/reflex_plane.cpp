@@ -114,12 +114,10 @@ Reflex ReflexPlane::step(const Scene& scene, bool finished) noexcept {
     return reflex;
   }
   tracks_.look(scene);
-  reflex.threat = preview::nearest_threat(scene, tools_.thresholds.preview,
-                                          tools_.thresholds.trigger_tolerance);
   const auto trigger = preview::triggering_threat(scene, tools_.thresholds, tracks_.confirmed());
-  if (trigger) {
-    reflex.threat = trigger;
-  }
+  reflex.threat = trigger ? trigger
+                          : preview::nearest_threat(scene, tools_.thresholds.preview,
+                                                    tools_.thresholds.trigger_tolerance);
   if (!decision_ && trigger) {
     decision_ = decide(scene);
     begin(decision_->plan, scene);

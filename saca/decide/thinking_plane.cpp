@@ -174,7 +174,7 @@ bool ThinkingPlane::think(const world::Scene& scene, const intent::Beliefs& beli
   } else if (!unanswered.empty() && !fresh.empty()) {
     tell(round, EventKind::ask,
          fmt::format("{:.2f} s to the trigger: too late to ask",
-                     time_left(round, previews_[fresh.front()])));
+                     time_left(round, previews_[fresh.front()].newest_scene)));
   }
   return true;
 }
@@ -257,8 +257,8 @@ bool ThinkingPlane::consult_memory(const Round& round, Preview& preview) {
          settle(preview, policy, Source::memory, round.now(), preview.gate == memory::Gate::check);
 }
 
-double ThinkingPlane::time_left(const Round& round, const Preview& preview) {
-  return preview.newest_scene.time - handover_margin - round.now();
+double ThinkingPlane::time_left(const Round& round, const world::Scene& at_trigger) {
+  return at_trigger.time - handover_margin - round.now();
 }
 
 double ThinkingPlane::least_time(std::size_t count) const {
@@ -273,10 +273,10 @@ std::vector<std::size_t> ThinkingPlane::in_time(const Round& round,
   });
   std::vector<std::size_t> asked;
   for (const std::size_t i : which) {
-    const double left = time_left(round, previews_[i]);
+    const double left = time_left(round, previews_[i].newest_scene);
     double left_to_all = left;
     for (const std::size_t other : asked) {
-      left_to_all = std::min(left_to_all, time_left(round, previews_[other]));
+      left_to_all = std::min(left_to_all, time_left(round, previews_[other].newest_scene));
     }
     const bool new_chance = !previews_[i].unheard || left > previews_[i].missed;
     if (new_chance && left_to_all >= least_time(asked.size() + 1)) {
@@ -286,7 +286,7 @@ std::vector<std::size_t> ThinkingPlane::in_time(const Round& round,
   return asked;
 }
 
-bool ThinkingPlane::asks_in_vain(const Round& round, const std::vector<std::size_t>& which) const {
+bool ThinkingPlane::is_outdated(const Round& round, const std::vector<std::size_t>& which) const {
   const std::optional<NewerScene> newer = round.newest();
   if (!newer || world::broken_rule(newer->scene)) {
     return false;
@@ -297,7 +297,7 @@ bool ThinkingPlane::asks_in_vain(const Round& round, const std::vector<std::size
     if (!known || std::find(which.begin(), which.end(), *known) == which.end()) {
       continue;
     }
-    const double left = situation.scene_at_trigger.time - handover_margin - round.now();
+    const double left = time_left(round, situation.scene_at_trigger);
     const Preview& preview = previews_[*known];
     if (left >= least_time(1) && changed_policy(preview.situation.facts, situation.facts)) {
       tell(round, EventKind::ask,
@@ -314,7 +314,7 @@ void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>
   std::vector<std::string> scenes;
   for (const std::size_t i : which) {
     Preview& preview = previews_[i];
-    left = std::min(left, time_left(round, preview));
+    left = std::min(left, time_left(round, preview.newest_scene));
     std::optional<memory::Case> nearest;
     if (preview.nearest) {
       nearest = preview.nearest->found;
@@ -332,20 +332,20 @@ void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>
                    scenes.size() == 1 ? "" : "s", left));
   std::stop_source withdrawn;
   const std::stop_callback withdraw(round.stop, [&] { withdrawn.request_stop(); });
-  bool in_vain = false;
+  bool outdated = false;
   double looked_at = asked_at;
   const auto look_again = [&] {
-    if (round.newest && !in_vain && round.now() >= looked_at + looked_again) {
-      in_vain = asks_in_vain(round, which);
+    if (round.newest && !outdated && round.now() >= looked_at + looked_again) {
+      outdated = is_outdated(round, which);
       looked_at = round.now();
-      if (in_vain) {
+      if (outdated) {
         withdrawn.request_stop();
       }
     }
   };
   const auto progress = [&](const reason::Progress& news) {
     look_again();
-    if (in_vain || news.prompt >= which.size()) {
+    if (outdated || news.prompt >= which.size()) {
       return;
     }
     Preview& preview = previews_[which[news.prompt]];
@@ -364,7 +364,7 @@ void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>
   };
   const auto replies = tools_.model->ask(scenes, round.clock_at(asked_at + left), progress,
                                          {.stop = withdrawn.get_token()});
-  if (in_vain) {
+  if (outdated) {
     for (const std::size_t i : which) {
       previews_[i].unheard = !previews_[i].plan;  // the next round asks about all of them
       previews_[i].missed = 0.0;

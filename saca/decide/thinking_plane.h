@@ -110,7 +110,7 @@ class ThinkingPlane {
   /// @return  whether memory provided a plan
   bool consult_memory(const Round& round, Preview& preview);
   /// To the instant at which the model must be done [s].
-  [[nodiscard]] static double time_left(const Round& round, const Preview& preview);
+  [[nodiscard]] static double time_left(const Round& round, const world::Scene& at_trigger);
   /// Those that can be answered in one question, the likeliest first.
   [[nodiscard]] std::vector<std::size_t> in_time(const Round& round,
                                                  std::vector<std::size_t> which) const;
@@ -118,7 +118,7 @@ class ThinkingPlane {
   [[nodiscard]] double least_time(std::size_t count) const;
   /// By the newest scene, the facts of one of these forecasts have changed, and there is time to
   /// ask about them anew.
-  [[nodiscard]] bool asks_in_vain(const Round& round, const std::vector<std::size_t>& which) const;
+  [[nodiscard]] bool is_outdated(const Round& round, const std::vector<std::size_t>& which) const;
   void ask_model(const Round& round, const std::vector<std::size_t>& which);
   void take_answer(const Round& round, Preview& preview, const reason::Answer& answer);
   void judge_reasoning(const Round& round, Preview& preview);

@@ -16,9 +16,8 @@ namespace saca::decide {
 /// This is the M-of-N rule by which trackers begin a track, on top of whatever perception does
 /// itself:
 /// * A road user is seen where its state has been measured anew (`Actor::age` says when), and
-/// missed
-///   where it is not in a new scene, or has only been carried on for 0.1 s, the period of the
-///   slowest looks. Whatever is carried on for less is neither seen nor missed.
+///   missed where it is not in a new scene, or has only been carried on for 0.1 s, the period of
+///   the slowest looks. Whatever is carried on for less is neither seen nor missed.
 /// * A new name at a place from which another name has gone is the same road user: a tracker that
 ///   renames everybody at every look does not keep anybody from being confirmed.
 /// * A confirmed road user stays confirmed, occluded or not, until it has not been in the scene for

@@ -200,12 +200,7 @@ Action least_tried(const world::Scene& scene, std::span<const JointMotion> motio
     const auto tried = preview::tried(*setup.forecast.car, attempts, *setup.forecast.harm);
     for (std::size_t i = 0; i < plans.size(); ++i) {
       all[i].plan = plans[i];
-      const preview::PolicyFacts& facts = tried[i].facts;
-      if (facts.drivable()) {
-        all[i].harm += motion.probability * facts.outcome().harm;
-      } else {
-        all[i].refusal = facts.refusal();
-      }
+      all[i].add(tried[i].facts, motion.probability);
     }
   }
   return {.plan = preview::least_harmful(all), .source = "forecast"};

@@ -93,7 +93,7 @@ void ClosedLoop::keep_lane_and_speed() {
   execution_.emplace(*stage_->car, manoeuvre::doing_nothing, seen_);
 }
 
-std::optional<std::string> ClosedLoop::carry_out(const manoeuvre::Plan& plan, double deceleration) {
+std::optional<std::string> ClosedLoop::carry_out(manoeuvre::Plan plan, double deceleration) {
   if (!driven()) {
     take_the_wheel();
   }
@@ -102,7 +102,7 @@ std::optional<std::string> ClosedLoop::carry_out(const manoeuvre::Plan& plan, do
   acts_ = true;
   finished_ = false;
   ended_.reset();
-  return manoeuvre::refusal(*stage_->car, plan, seen_);
+  return execution_->refused() ? manoeuvre::refusal(*stage_->car, plan, seen_) : std::nullopt;
 }
 
 void ClosedLoop::limit_braking(double deceleration) {

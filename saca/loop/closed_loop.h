@@ -73,7 +73,7 @@ class ClosedLoop {
   /// @param deceleration  largest that the brakes are asked for [m/s^2], > 0
   /// @return  why it cannot be driven; nullopt: it can
   std::optional<std::string> carry_out(
-      const manoeuvre::Plan& plan, double deceleration = std::numeric_limits<double>::infinity());
+      manoeuvre::Plan plan, double deceleration = std::numeric_limits<double>::infinity());
   /// Changes how hard the plan under way may brake.
   void limit_braking(double deceleration);
   /// Lane and speed kept, or the last that was carried out; not that of an avoider.

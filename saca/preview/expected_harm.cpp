@@ -144,13 +144,7 @@ std::optional<std::vector<ExpectedHarm>> read(const Scene& scene,
       return std::nullopt;
     }
     for (std::size_t i = 0; i < plans.size(); ++i) {
-      const PolicyFacts& one = (*facts)[i];
-      if (one.drivable()) {
-        all[i].harm += motion.probability / sum * one.outcome().harm;
-        all[i].contact += motion.probability / sum * one.contact_probability();
-      } else {
-        all[i].refusal = one.refusal();
-      }
+      all[i].add((*facts)[i], motion.probability / sum);
     }
   }
   return all;
@@ -237,6 +231,15 @@ ExpectedHarm expected_harm(const EgoMotion& way, const Scene& scene,
     expected.contact += outcome.contact ? motion.probability / sum : 0.0;
   }
   return expected;
+}
+
+void ExpectedHarm::add(const PolicyFacts& facts, double share) {
+  if (!facts.drivable()) {
+    refusal = facts.refusal();
+    return;
+  }
+  harm += share * facts.outcome().harm;
+  contact += share * facts.contact_probability();
 }
 
 manoeuvre::Plan least_harmful(std::span<const ExpectedHarm> all) {

@@ -45,6 +45,10 @@ struct ExpectedHarm {
   std::string refusal;   ///< empty when the plan can be driven; else the rest means nothing
   double harm = 0.0;     ///< mean over the joint motions
   double contact = 0.0;  ///< likewise: probability of contact
+
+  /// What it ends in under one more joint motion, which has this share of the mean; or why it
+  /// cannot be driven.
+  void add(const PolicyFacts& facts, double share);
 };
 
 /// With what a plan is forecast.

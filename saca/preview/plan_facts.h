@@ -46,7 +46,7 @@ struct PolicyFacts {
   /// Why it cannot be driven.
   /// @throws ContractViolation  if it can
   [[nodiscard]] const std::string& refusal() const;
-  /// Of either kind: to be told. What decides compares by `better` and `least_harm`.
+  /// Of either kind, for texts and records. What decides compares by `better` and `least_harm`.
   /// @throws ContractViolation  if it cannot be driven
   [[nodiscard]] const outcome::Outcome& outcome() const;
   [[nodiscard]] outcome::Outcome& outcome();

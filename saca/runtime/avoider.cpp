@@ -122,7 +122,7 @@ vehicle::Command Avoider::control(const vehicle::VehicleState& state, double dt)
     return {};
   }
   const vehicle::Command command = execution_->control(state, grip_, dt);
-  finished_ = finished_ || execution_->finished();
+  finished_ = execution_->finished();
   return command;
 }
 

@@ -23,7 +23,8 @@ struct AvoiderSetup {
   runtime::PlanesSetup planes;  ///< the car, its harm and atlas, memory, model, pace, clock
   const intent::Model* intent = nullptr;  ///< not null
   /// Hears the thinking plane while it thinks, its reasoning too, in place of `next_event`; at pace
-  /// `real` on its thread, which waits for it. nullopt: nobody does.
+  /// `real` on its thread, which waits for it. nullopt: `next_event` tells its events, and nobody
+  /// hears its reasoning.
   std::optional<runtime::Planes::Listener> thinking;
   std::size_t num_timed = 0;  ///< of how many steps, the first, `planes().timing()` knows
 };
@@ -36,7 +37,7 @@ struct Answer {
   bool triggered = false;                  ///< by a decision at a trigger: `Avoider::decision`
   std::optional<decide::Switch> switched;  ///< in place of another plan; of no intervention, the
                                            ///< wheel is given back
-  std::optional<preview::Threat> threat;   ///< nearest conflict within T2, all going on as they do
+  std::optional<preview::Threat> threat;   ///< as decide::Reflex has it
   bool degraded = false;                   ///< somebody or everything is carried on instead of seen
 };
 

@@ -58,8 +58,8 @@ struct ReflexTiming {
   double max = 0.0;  ///< [s]
 };
 
-/// SACA: its reflex plane, its forecaster and its thinking plane, joined at either pace. One
-/// encounter.
+/// SACA: its reflex plane, its forecaster and its thinking plane, joined at either pace;
+/// encounters one after the other.
 class Planes {
  public:
   struct Listener {
