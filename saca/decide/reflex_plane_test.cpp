@@ -373,6 +373,22 @@ Scene crowd() {
   return crowded;
 }
 
+/// Within T1, and somebody follows.
+Scene near_crowd() {
+  Scene scene = crowd();
+  scene.actors[0].X_WA.p.x -= 15.0;
+  scene.actors[1] = car(2, {-12.0, 0.0}, {12.5, 0.0});
+  return scene;
+}
+
+/// Nobody within T1, and then nothing is seen for 2 s.
+Scene long_before(const Scene& now) {
+  Scene scene = now;
+  scene.time -= 2.0;
+  scene.actors[0].X_WA.p.x += 15.0;
+  return scene;
+}
+
 // The kernel itself says so: any other system call than to end the process would end it at once.
 TEST(ReflexPlane, MakesNoSystemCall) {
   const std::string why = why_system_calls_cannot_be_forbidden();
@@ -381,9 +397,8 @@ TEST(ReflexPlane, MakesNoSystemCall) {
   }
   ReflexPlane asks_the_atlas(with_atlas());
   ReflexPlane has_a_verdict(with_atlas());
-  const Scene crowded = crowd();
-  Scene now = crowded;
-  now.actors[0].X_WA.p.x -= 15.0;
+  const Scene now = near_crowd();
+  const Scene crowded = long_before(now);
   Scene later = now;
   later.time = 0.2;
   const PlanCache plans = one_plan(now, PolicyId::aes_left);
@@ -424,10 +439,8 @@ TEST(SystemCalls, AreNoticedWhereTheyAreForbidden) {
 }
 
 TEST(ReflexPlane, AllocatesNothing) {
-  const Scene crowded = crowd();
-  Scene now = crowded;
-  now.actors[0].X_WA.p.x -= 15.0;
-  now.actors[1] = car(2, {-12.0, 0.0}, {12.5, 0.0});  // follows
+  const Scene now = near_crowd();
+  const Scene crowded = long_before(now);
   PlanCache cache;
   while (!cache.full()) {
     cache.push_back(one_plan(now, PolicyId::aes_left)[0]);

@@ -8,6 +8,7 @@
 #include <random>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "tests/support/count_allocations.h"
 #include "tests/support/scenes.h"
@@ -68,22 +69,26 @@ TEST(TrackConfirmation, NeedsTwoLooksOfThree) {
 }
 
 TEST(TrackConfirmation, ToBeCarriedOnIsNotToBeSeen) {
-  EXPECT_EQ(confirmed_in("x~~~~~~~~", 0.01), std::nullopt);
-  EXPECT_EQ(confirmed_in("x~x", 0.01), 2);
-  EXPECT_EQ(confirmed_in("x~~x", 0.01), 3) << "carried on for 20 ms is not missed";
-  EXPECT_EQ(confirmed_in("x~~x", 0.05), 3) << "missed once";
-  EXPECT_EQ(confirmed_in("x~~~~x", 0.05), std::nullopt) << "missed twice";
+  constexpr double unlikely = 0.4;
+  EXPECT_EQ(confirmed_in("x~~~~~~~~", 0.01, unlikely), std::nullopt);
+  EXPECT_EQ(confirmed_in("x~x", 0.01, unlikely), 2);
+  EXPECT_EQ(confirmed_in("x~~x", 0.01, unlikely), 3) << "carried on for 20 ms is not missed";
+  EXPECT_EQ(confirmed_in("x~~x", 0.05, unlikely), 3) << "missed once";
+  EXPECT_EQ(confirmed_in("x~~~~x", 0.05, unlikely), std::nullopt) << "missed twice";
 }
 
-// Scenes come at 100 Hz, and each road user is measured in every tenth, others in others.
+// Scenes come at 100 Hz, and each road user is measured in every tenth, others in others. Whom
+// perception believes in waits for 50 ms, anybody else to be measured again.
 TEST(TrackConfirmation, TakesWhoIsMeasuredSeldomerThanScenesCome) {
-  TrackConfirmation tracks;
-  tracks.look(quiet(0.0));
-  for (int k = 1; k <= 25; ++k) {
-    Scene scene = with_one(0.01 * k);
-    scene.actors[1].age = 0.01 * ((k - 1) % 10);
-    tracks.look(scene);
-    EXPECT_EQ(last_is_confirmed(tracks, scene), k >= 11) << k;
+  for (const auto& [existence, expected] : {std::pair(1.0, 6), std::pair(0.4, 11)}) {
+    TrackConfirmation tracks;
+    tracks.look(quiet(0.0));
+    for (int k = 1; k <= 25; ++k) {
+      Scene scene = with_one(0.01 * k, existence);
+      scene.actors[1].age = 0.01 * ((k - 1) % 10);
+      tracks.look(scene);
+      EXPECT_EQ(last_is_confirmed(tracks, scene), k >= expected) << k;
+    }
   }
 }
 
@@ -128,6 +133,71 @@ TEST(TrackConfirmation, WhoIsConfirmedStaysSoWhileOccluded) {
     scene.actors[1].occluded = k > 2;
     tracks.look(scene);
     EXPECT_EQ(last_is_confirmed(tracks, scene), k >= 2) << k;
+  }
+}
+
+// Carried on for 0.4 s behind something, then missing from one scene.
+TEST(TrackConfirmation, WhoWasOccludedAndIsMissingOnceIsNotForgotten) {
+  TrackConfirmation tracks;
+  tracks.look(with_one(0.0));
+  double time = 0.0;
+  for (int k = 1; k <= 40; ++k) {
+    time = 0.01 * k;
+    Scene scene = with_one(time);
+    scene.actors[1].age = time;
+    tracks.look(scene);
+    ASSERT_TRUE(last_is_confirmed(tracks, scene)) << k;
+  }
+  tracks.look(quiet(time + 0.01));
+  const Scene scene = with_one(time + 0.02, 0.4);
+  tracks.look(scene);
+  EXPECT_TRUE(last_is_confirmed(tracks, scene));
+}
+
+// A name that is used again for somebody elsewhere, at once or after a look, says nothing of him.
+TEST(TrackConfirmation, ANameElsewhereIsAnother) {
+  for (const int num_missed : {0, 1}) {
+    TrackConfirmation tracks;
+    tracks.look(with_one(0.0));
+    int k = 1;
+    for (; k <= num_missed; ++k) {
+      tracks.look(quiet(0.01 * k));
+    }
+    Scene scene = quiet(0.01 * k);
+    scene.actors.push_back(block(1, {24.0, 30.0}));
+    tracks.look(scene);
+    EXPECT_FALSE(last_is_confirmed(tracks, scene)) << num_missed;
+    scene.time += 0.01;
+    tracks.look(scene);
+    EXPECT_TRUE(last_is_confirmed(tracks, scene)) << num_missed;
+  }
+}
+
+// 16 m away, not measured for 2 s: it may have braked by 10 m/s2 meanwhile.
+TEST(TrackConfirmation, WhoComesOutOfAnOcclusionElsewhereIsTheSame) {
+  TrackConfirmation tracks;
+  tracks.look(with_one(0.0));
+  for (int k = 1; k < 200; ++k) {
+    Scene scene = with_one(0.01 * k);
+    scene.actors[1].age = 0.01 * k;
+    tracks.look(scene);
+  }
+  Scene scene = with_one(2.0, 0.4);
+  scene.actors[1].X_WA.p.x += 16.0;
+  tracks.look(scene);
+  EXPECT_TRUE(last_is_confirmed(tracks, scene));
+}
+
+// Two that exchange their names at every look are who they were.
+TEST(TrackConfirmation, ExchangedNamesChangeNothing) {
+  TrackConfirmation tracks;
+  for (int k = 0; k < 6; ++k) {
+    Scene scene = quiet(0.01 * k);
+    const auto first = static_cast<std::uint8_t>(1 + k % 2);
+    scene.actors.push_back(block(first, {24.0, 0.0}));
+    scene.actors.push_back(block(static_cast<std::uint8_t>(3 - first), {24.0, 30.0}));
+    tracks.look(scene);
+    EXPECT_EQ(tracks.confirmed().count(), 3U) << k;
   }
 }
 
