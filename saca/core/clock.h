@@ -38,12 +38,14 @@ class SteadyClock final : public Clock {
   void wait_until(Time time) noexcept override;
 };
 
-/// Stands still until told; waiting moves it on. For tests.
+/// Stands still until told; waiting moves it on. For tests and simulated time.
 class ManualClock final : public Clock {
  public:
   [[nodiscard]] Time now() const noexcept override { return now_; }
   void wait_until(Time time) noexcept override;
   void advance(Time by) noexcept { now_ += by; }
+  /// To any time, an earlier one too.
+  void set(Time now) noexcept { now_ = now; }
 
  private:
   Time now_{0};

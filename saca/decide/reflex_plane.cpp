@@ -98,12 +98,6 @@ bool ReflexPlane::needs_verdict(const Scene& scene, bool finished) const noexcep
   return under_way_ ? supervisor_.is_due(scene, *under_way_, triggers, finished) : triggers;
 }
 
-void ReflexPlane::watch(const Scene& scene) noexcept {
-  if (!world::broken_rule(scene)) {
-    tracks_.look(scene);
-  }
-}
-
 Reflex ReflexPlane::step(const Scene& scene, bool finished) noexcept {
   Reflex reflex;
   if (under_way_) {

@@ -84,9 +84,6 @@ class ReflexPlane {
   /// Takes over the newest verdict.
   void receive(const Verdict& verdict) noexcept { verdict_ = verdict; }
 
-  /// An instant at which nothing is to be decided: takes note of who is there.
-  void watch(const world::Scene& scene) noexcept;
-
   /// @param finished  what is carried out has reached its safe end: from now on the plane watches
   ///                  for another trigger
   [[nodiscard]] Reflex step(const world::Scene& scene, bool finished = false) noexcept;

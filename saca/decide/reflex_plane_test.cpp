@@ -105,13 +105,13 @@ TEST(ReflexPlane, TwoLooksOfThreeAre) {
   }
 }
 
-TEST(ReflexPlane, WhoWasSeenBeforeItDecidesIsNotWaitedFor) {
+TEST(ReflexPlane, ABrokenSceneIsNoLook) {
   ReflexPlane plane{ReflexTools{}};
-  plane.watch(nobody(0.0));
+  (void)plane.step(nobody(0.0));
   Scene broken = appeared(0.005);
   broken.actors[0].v_W.x = std::numeric_limits<double>::quiet_NaN();
-  plane.watch(broken);  // is no look
-  plane.watch(appeared(0.01));
+  EXPECT_TRUE(plane.step(broken).refused_scene);
+  EXPECT_FALSE(plane.step(appeared(0.01)).triggered);
   EXPECT_TRUE(plane.step(appeared(0.02)).triggered);
 }
 

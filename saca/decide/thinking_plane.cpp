@@ -291,22 +291,34 @@ bool ThinkingPlane::is_outdated(const Round& round, const std::vector<std::size_
   if (!newer || world::broken_rule(newer->scene)) {
     return false;
   }
+  if (newer->encounter_is_over) {
+    tell(round, EventKind::ask, "the encounter is over, the question is withdrawn");
+    return true;
+  }
+  std::vector<std::size_t> served;  // by the plan for a likelier one
+  std::optional<std::size_t> changed;
+  double left = std::numeric_limits<double>::infinity();
   for (const preview::Situation& situation :
        preview::situations(newer->scene, newer->beliefs, thresholds_, tools_.forecast)) {
     const std::optional<std::size_t> known = provided_for(situation);
-    if (!known || std::find(which.begin(), which.end(), *known) == which.end()) {
+    if (situation.scene_at_trigger.time < round.now() || !known ||
+        std::find(which.begin(), which.end(), *known) == which.end() ||
+        std::find(served.begin(), served.end(), *known) != served.end()) {
       continue;
     }
-    const double left = time_left(round, situation.scene_at_trigger);
-    const Preview& preview = previews_[*known];
-    if (left >= least_time(1) && changed_policy(preview.situation.facts, situation.facts)) {
-      tell(round, EventKind::ask,
-           fmt::format("forecast {}: its facts have changed, the question is withdrawn",
-                       preview.number + 1));
-      return true;
+    served.push_back(*known);
+    left = std::min(left, time_left(round, situation.scene_at_trigger));
+    if (!changed && changed_policy(previews_[*known].situation.facts, situation.facts)) {
+      changed = *known;
     }
   }
-  return false;
+  if (!changed || left < least_time(which.size())) {
+    return false;
+  }
+  tell(round, EventKind::ask,
+       fmt::format("forecast {}: its facts have changed, the question is withdrawn",
+                   previews_[*changed].number + 1));
+  return true;
 }
 
 void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>& which) {
@@ -364,17 +376,10 @@ void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>
   };
   const auto replies = tools_.model->ask(scenes, round.clock_at(asked_at + left), progress,
                                          {.stop = withdrawn.get_token()});
-  if (outdated) {
-    for (const std::size_t i : which) {
-      previews_[i].unheard = !previews_[i].plan;  // the next round asks about all of them
-      previews_[i].missed = 0.0;
-    }
-    return;
-  }
   if (!replies.has_value() && round.stop.stop_requested()) {
     return;  // nobody waits for it any more
   }
-  if (!replies.has_value()) {
+  if (!replies.has_value() && !outdated) {
     ++deadline_misses_;
     const bool late = replies.error().code == Error::Code::too_late;
     for (const std::size_t i : which) {
@@ -384,7 +389,8 @@ void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>
     tell(round, EventKind::fault, "model: " + replies.error().message);
     return;
   }
-  for (std::size_t k = 0; k < replies.value().size() && k < which.size(); ++k) {
+  for (std::size_t k = 0; replies.has_value() && k < replies.value().size() && k < which.size();
+       ++k) {
     Preview& preview = previews_[which[k]];
     preview.unheard = false;
     const reason::Reply& reply = replies.value()[k];
@@ -395,6 +401,12 @@ void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>
     preview.reply.reasoning = reply.reasoning;
     preview.reply.reply_tokens = reply.reply_tokens;
     judge_reasoning(round, preview);
+  }
+  for (const std::size_t i : which) {
+    if (outdated) {  // the next round asks about all that have no plan
+      previews_[i].unheard = !previews_[i].plan;
+      previews_[i].missed = 0.0;
+    }
   }
 }
 

@@ -46,6 +46,7 @@ struct ThinkingOutput {
 struct NewerScene {
   world::Scene scene;
   intent::Beliefs beliefs;
+  bool encounter_is_over = false;  ///< the scene is one of the next: nothing asked is of use
 };
 /// The newest that there is; nullopt: none has come since it was last asked.
 using NewestScene = std::function<std::optional<NewerScene>()>;
@@ -117,7 +118,7 @@ class ThinkingPlane {
   /// The shortest time in which the model may answer about so many forecasts [s].
   [[nodiscard]] double least_time(std::size_t count) const;
   /// By the newest scene, the facts of one of these forecasts have changed, and there is time to
-  /// ask about them anew.
+  /// ask about all of them anew; or the encounter is over.
   [[nodiscard]] bool is_outdated(const Round& round, const std::vector<std::size_t>& which) const;
   void ask_model(const Round& round, const std::vector<std::size_t>& which);
   void take_answer(const Round& round, Preview& preview, const reason::Answer& answer);

@@ -378,6 +378,90 @@ TEST_F(Thinking, WithdrawsAQuestionWhoseFactsHaveChanged) {
   EXPECT_EQ(thinking.previews()[0].plan->policy, PolicyId::aes_left);
 }
 
+// An answer is there before the question is withdrawn, and it rests on what is not so: the swerve
+// is not the best any more, and there is no such wreck as it names.
+TEST_F(Thinking, WhatWasSaidBeforeAQuestionIsWithdrawnIsJudgedToo) {
+  for (const bool lies : {false, true}) {
+    SCOPED_TRACE(lies);
+    events_.clear();
+    reason::ScriptedReply reply = writes_for_a_second(PolicyId::aes_left);
+    reply.lines.insert(
+        reply.lines.begin(),
+        {.text = lies ? "Evading to the left hits car2 with harm 0.9, so I choose it. " : "",
+         .answer = Answer::Kind::first,
+         .policy = PolicyId::aes_left});
+    reason::ScriptedModel model(reply, clock_);
+    ThinkingPlane thinking = plane(&model);
+    Scene free = wreck_ahead();
+    free.time = to_seconds(clock_.now());
+    free.actors.push_back(test::car(2, {130.0, 3.5}));
+    Scene blocked = free;
+    blocked.actors[1].X_WA.p.x = 110.0;
+    const auto beliefs = intent::beliefs_at_sight(intent::shipped_model(), free);
+    thinking.think(free, beliefs, clock_.now(), {}, [&] {
+      return std::optional(NewerScene{blocked, beliefs});
+    });
+    EXPECT_EQ(count(EventKind::ask), 2U) << "asked and withdrawn";
+    EXPECT_EQ(count(EventKind::first_answer), 1U);
+    const Preview& preview = thinking.previews()[0];
+    ASSERT_TRUE(preview.truth.has_value());
+    EXPECT_EQ(preview.truth->is_choice_unfounded(), lies);
+  }
+}
+
+TEST_F(Thinking, WithdrawsAQuestionOfAnEncounterThatIsOver) {
+  reason::ScriptedModel model(writes_for_a_second(PolicyId::aes_left), clock_);
+  ThinkingPlane thinking = plane(&model);
+  const Scene scene = wreck_ahead();
+  const auto beliefs = intent::beliefs_at_sight(intent::shipped_model(), scene);
+  thinking.think(scene, beliefs, clock_.now(), {}, [&] {
+    return std::optional(NewerScene{scene, beliefs, /*encounter_is_over=*/true});
+  });
+  EXPECT_EQ(to_seconds(clock_.now()), ThinkingPlane::looked_again);
+  EXPECT_EQ(count(EventKind::answer), 0U);
+  EXPECT_EQ(thinking.deadline_misses(), 0);
+}
+
+// Two forecasts are asked about: the car goes on, or it brakes. What stands to the left turns out
+// to be nearer. With the car 36 m nearer, too, an answer in the time that is left to one of them
+// could come, to both it could not: what is being said counts.
+TEST_F(Thinking, WithdrawsNoQuestionWhoseOtherForecastsCannotBeAskedAnew) {
+  const auto num_withdrawn = [&](double earlier) {
+    events_.clear();
+    reason::ScriptedReply reply = writes_for_a_second(PolicyId::aes_left);
+    reply.lines.insert(reply.lines.begin() + 4, {.after = std::chrono::milliseconds(450),
+                                                 .answer = Answer::Kind::first,
+                                                 .policy = PolicyId::aes_left});
+    reason::ScriptedModel model(reply, clock_);
+    ThinkingPlane thinking = plane(&model);
+    Scene scene = test::ego_at(20.0, manoeuvre::footprint(car()));
+    scene.time = to_seconds(clock_.now());
+    scene.ego_mass = car().mass;
+    scene.road.left_edge = 5.25;
+    scene.road.right_edge = -5.25;
+    scene.actors.push_back(test::car(1, {62.0, 0.0}, {6.0, 0.0}));
+    scene.actors.push_back(test::car(2, {160.0, 3.5}));
+    intent::Beliefs beliefs;
+    beliefs.push_back({});
+    beliefs.push_back({});
+    beliefs[0].at.fill({0.6, 0.0, 0.0, 0.4});
+    beliefs[1].at.fill({1.0, 0.0, 0.0, 0.0});
+    thinking.think(scene, beliefs, clock_.now(), {}, [&] {
+      Scene now = scene;
+      now.time = to_seconds(clock_.now());
+      now.actors[0].X_WA.p.x -= earlier;
+      now.actors[1].X_WA.p.x = 125.0 - 20.0 * earlier / 14.0;  // where it was by then
+      return std::optional(NewerScene{now, beliefs});
+    });
+    EXPECT_EQ(model.last_scenes().size(), 2U);
+    return std::count_if(events_.begin(), events_.end(), [](const Event& event) {
+      return event.text.find("withdrawn") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(num_withdrawn(0.0), 1);
+  EXPECT_EQ(num_withdrawn(36.0), 0);
+}
+
 // The trigger comes sooner than forecast, 0.1 s after the newest scene: there is no time to ask
 // anew, and what is under way goes on.
 TEST_F(Thinking, WithdrawsNoQuestionThatCannotBeAskedAnew) {

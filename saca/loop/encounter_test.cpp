@@ -115,7 +115,6 @@ TEST_F(EncounterTest, TheTapeHoldsEveryLookFromTheFirstOn) {
   const auto& steps = record.tape->content.steps;
   ASSERT_FALSE(steps.empty());
   EXPECT_EQ(steps.front().scene.time, 0.0);
-  EXPECT_TRUE(steps.front().asked);
   for (std::size_t k = 0; k < steps.size(); ++k) {
     EXPECT_NEAR(steps[k].scene.time, 0.01 * static_cast<double>(k), 1e-9);
     if (steps[k].decision) {

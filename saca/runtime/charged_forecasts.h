@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -23,10 +24,22 @@ class ChargedForecasts {
   /// Begins a round unless the last one was begun less than a period ago, or is still worked on.
   void offer(const TimedScene& newest);
 
+  /// The encounter is over: verdicts of its scenes will not come. The forecaster is as busy as
+  /// before.
+  void forget() { rounds_.clear(); }
+
+  /// Time jumped: the forecaster is free.
+  void begin_anew() {
+    forget();
+    free_at_ = never;
+  }
+
   /// The newest verdict that is ready at `now` [s] and has not been taken.
   [[nodiscard]] std::optional<NumberedVerdict> take(double now);
 
  private:
+  static constexpr double never = -std::numeric_limits<double>::infinity();
+
   [[nodiscard]] bool is_ready(const TimedScene& round, double now) const {
     return round.scene.time + cost_ <= now;
   }
@@ -34,7 +47,7 @@ class ChargedForecasts {
   decide::Judge judge_;
   double cost_;
   std::deque<TimedScene> rounds_;  ///< by time; what nobody can take any more is dropped
-  double free_at_ = 0.0;           ///< [s]
+  double free_at_ = never;         ///< [s]
 };
 
 }  // namespace saca::runtime

@@ -44,6 +44,24 @@ TEST_F(ChargedForecastsTest, TheNewestThatIsReadyIsTaken) {
   EXPECT_EQ(last->scene, 100U);
 }
 
+TEST_F(ChargedForecastsTest, WhatWasBegunForAnEncounterThatIsOverDoesNotCome) {
+  ChargedForecasts forecasts(judge_, 0.03);
+  offer_until(forecasts, 1.0);
+  forecasts.forget();
+  EXPECT_FALSE(forecasts.take(2.0).has_value());
+}
+
+// Time jumps back by a second: rounds begin at once, not a second later.
+TEST_F(ChargedForecastsTest, BeginsAnewWhereTimeJumps) {
+  ChargedForecasts forecasts(judge_, 0.03);
+  offer_until(forecasts, 1.0);
+  forecasts.begin_anew();
+  offer_until(forecasts, 0.0);
+  const auto verdict = forecasts.take(0.03);
+  ASSERT_TRUE(verdict.has_value());
+  EXPECT_EQ(verdict->scene, 0U);
+}
+
 TEST_F(ChargedForecastsTest, ASlowForecasterBeginsFewerRounds) {
   ChargedForecasts forecasts(judge_, 0.3);
   offer_until(forecasts, 1.0);  // rounds at 0, 0.3, 0.6, 0.9

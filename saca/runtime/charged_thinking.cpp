@@ -10,7 +10,7 @@ void ChargedThinking::think(decide::ThinkingPlane& plane, const world::Scene& sc
     return;
   }
   constexpr double shortest_round = 0.2;  // [s], as the thinking thread's breath
-  clock_.wait_until(from_seconds(scene.time + round_));
+  clock_.set(from_seconds(scene.time + round_));
   if (plane.think(scene, beliefs, from_seconds(scene.time))) {
     free_at_ = std::max(free_at_, scene.time + std::max(round_, shortest_round));
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -17,7 +18,7 @@ namespace saca::runtime {
 class ChargedThinking {
  public:
   /// @param round  what forecasts and rollouts of one round cost [s], >= 0
-  /// @param clock  simulated; moved to the time at which the forecasts are made
+  /// @param clock  simulated; set to the time at which the forecasts are made
   ChargedThinking(double round, ManualClock& clock) : round_(round), clock_(clock) {}
 
   /// Thinks about the scene unless the last round is still being charged.
@@ -35,14 +36,22 @@ class ChargedThinking {
   /// thinks is as busy as before.
   void forget() { waiting_.clear(); }
 
+  /// Time jumped: whoever thinks is free.
+  void begin_anew() {
+    forget();
+    free_at_ = never;
+  }
+
   /// The newest plans that are ready at `now` [s] and have not been taken.
   [[nodiscard]] std::optional<decide::PlanCache> take(double now);
 
  private:
+  static constexpr double never = -std::numeric_limits<double>::infinity();
+
   double round_;
   ManualClock& clock_;
   std::deque<std::pair<double, decide::PlanCache>> waiting_;
-  double free_at_ = 0.0;
+  double free_at_ = never;
 };
 
 }  // namespace saca::runtime

@@ -104,18 +104,11 @@ void Planes::begin_entry(const world::Scene& scene, const intent::Beliefs& belie
     entry_->scene = scene;
     entry_->beliefs = beliefs;
   }
-  entry_->asked = false;
   entry_->finished = false;
   entry_->plans.reset();
   entry_->verdict.reset();
   entry_->reflex = {};
   entry_->decision.reset();
-}
-
-void Planes::watch(const world::Scene& scene, const intent::Beliefs& beliefs) {
-  begin_entry(scene, beliefs);
-  reflex_.watch(scene);
-  tape_.add(*entry_);
 }
 
 decide::Reflex Planes::step(const world::Scene& scene, const intent::Beliefs& beliefs,
@@ -148,7 +141,6 @@ decide::Reflex Planes::step(const world::Scene& scene, const intent::Beliefs& be
   if (reflex_times_.size() < reflex_times_.capacity()) {
     reflex_times_.push_back(to_seconds(setup_.clock->now() - before));
   }
-  entry_->asked = true;
   entry_->finished = finished;
   entry_->reflex = reflex;
   if (reflex.triggered) {
@@ -168,7 +160,7 @@ void Planes::hand_over(const world::Scene& scene, bool finished) {
     if (plans_.take(newest_plans_) && newest_plans_.encounter == encounter_) {
       entry_->plans = newest_plans_.plans;
     }
-    if (!verdicts_.take(entry_->verdict.emplace())) {
+    if (!verdicts_.take(entry_->verdict.emplace()) || entry_->verdict->scene < first_scene_) {
       entry_->verdict.reset();
     }
   }
@@ -183,8 +175,14 @@ void Planes::hand_over(const world::Scene& scene, bool finished) {
 void Planes::begin_anew(Forgotten forgotten) {
   forgotten_ = std::max(forgotten_, forgotten);
   ++encounter_;
+  first_scene_ = num_scenes_;
   threatened_ = false;
   reflex_.begin_anew();
+  charged_forecasts_.forget();
+  if (forgotten == Forgotten::drive) {
+    charged_forecasts_.begin_anew();
+    charged_.begin_anew();
+  }
 }
 
 bool Planes::is_to_be_judged(const TimedScene& newest) const {
@@ -203,10 +201,11 @@ void Planes::judge(const TimedScene& newest) {
 void Planes::think(const TimedScene& newest, const std::stop_token& stop) {
   think_of(newest.encounter);
   const auto newer = [&]() -> std::optional<decide::NewerScene> {
-    if (!scenes_.take(*newer_) || newer_->encounter != newest.encounter) {
+    if (!scenes_.take(*newer_)) {
       return std::nullopt;
     }
-    return decide::NewerScene{newer_->scene, newer_->beliefs};
+    return decide::NewerScene{newer_->scene, newer_->beliefs,
+                              newer_->encounter != newest.encounter};
   };
   plane_.think(newest.scene, newest.beliefs, newest.at, stop, newer);
 }

@@ -88,10 +88,6 @@ class Planes {
   decide::Reflex step(const world::Scene& scene, const intent::Beliefs& beliefs, Clock::Time at,
                       bool finished);
 
-  /// An instant in which nothing is to be decided. The tape takes note of it, because what is
-  /// believed later follows from it, and the reflex plane of who is there.
-  void watch(const world::Scene& scene, const intent::Beliefs& beliefs);
-
   [[nodiscard]] const std::optional<decide::Decision>& decision() const {
     return reflex_.decision();
   }
@@ -103,7 +99,8 @@ class Planes {
 
   /// The encounter is over: decision, plans and previews are forgotten, those of the thinking plane
   /// at its next scene. Waits for nobody.
-  /// @param forgotten  for the tape: whether whoever observes the road users begins anew, too
+  /// @param forgotten  whether the drive is over, too: who observes the road users begins anew, and
+  ///                   time jumps
   void begin_anew(Forgotten forgotten = Forgotten::encounter);
 
   /// The encounter under way, counted.
@@ -163,9 +160,10 @@ class Planes {
   std::uint64_t num_scenes_ = 0;
   Forgotten forgotten_ = Forgotten::drive;  ///< before the next step
   std::uint32_t encounter_ = 0;
-  bool threatened_ = false;       ///< somebody has, in this encounter; in lockstep
-  std::uint32_t thought_of_ = 0;  ///< the encounter that the thinking plane was last asked about;
-                                  ///< of the thread that thinks
+  std::uint64_t first_scene_ = 0;  ///< of the encounter under way
+  bool threatened_ = false;        ///< somebody has, in this encounter; in lockstep
+  std::uint32_t thought_of_ = 0;   ///< the encounter that the thinking plane was last asked about;
+                                   ///< of the thread that thinks
   std::unique_ptr<TimedScene> newer_ = std::make_unique<TimedScene>();  ///< of the same thread
   decide::ThinkingPlane plane_;
   std::unique_ptr<WorkThread> thinking_;     ///< at pace `real`

@@ -324,6 +324,78 @@ TEST_F(PlanesTest, PlansOfOneEncounterAreNotHandedOverInTheNext) {
   }
 }
 
+// Ten minutes into a drive another begins, whose time counts from 0: forecaster and model are there
+// for it as for the first.
+TEST_F(PlanesTest, ANewDriveIsThoughtAboutAsTheFirst) {
+  reason::ScriptedModel model(says(PolicyId::aes_left), clock_);
+  Planes planes(setup(&model, decide::Guard::never_worse_than_braking), {}, 1000);
+  const decide::Decision first = met(planes, 600.0);
+  EXPECT_EQ(first.source, decide::Source::model);
+  ASSERT_TRUE(first.verdict.has_value());
+  planes.begin_anew(Forgotten::drive);
+  const decide::Decision second = met(planes);
+  EXPECT_EQ(second.source, decide::Source::model);
+  ASSERT_TRUE(second.verdict.has_value());
+  EXPECT_NEAR(second.verdict->time, first.verdict->time - 600.0, 1e-6);
+}
+
+// The forecaster is at work on the last scene of an encounter when the next begins.
+TEST_F(PlanesTest, AVerdictOfOneEncounterIsNotHandedOverInTheNext) {
+  for (const bool anew : {false, true}) {
+    MeetingClock meeting(3);
+    PlanesSetup slow = setup(nullptr, decide::Guard::never_worse_than_braking);
+    slow.pace = Pace::real;
+    slow.clock = &meeting;
+    slow.judge = [&, forecaster = decide::Forecaster(slow.forecast)](const auto&... seen) {
+      meeting.wait_until(meeting.now() + from_seconds(0.1));
+      return forecaster.judge(seen...);
+    };
+    Planes planes(slow, {}, 10);
+    const auto step = [&](double time) {
+      const world::Scene scene = at(time);
+      planes.step(scene, intent::beliefs_at_sight(intent::shipped_model(), scene), meeting.now(),
+                  false);
+    };
+    step(0.0);
+    meeting.wait_until(from_seconds(0.05));
+    if (anew) {
+      planes.begin_anew();
+    }
+    meeting.wait_until(from_seconds(0.2));
+    step(0.2);
+    EXPECT_EQ(planes.new_verdict().has_value(), !anew);
+    EXPECT_EQ(planes.finish(), "");
+  }
+}
+
+// It writes for two seconds. The encounter is over after 0.3 s; within half a second the question
+// is withdrawn, and the model is asked about the next.
+TEST_F(PlanesTest, AQuestionOfAnEncounterThatIsOverKeepsTheModelFromNobody) {
+  MeetingClock meeting(3);
+  reason::ScriptedReply reply = says(PolicyId::aes_left);
+  reply.lines[0].after = std::chrono::seconds(2);
+  for (int k = 19; k > 0; --k) {
+    reply.lines.insert(reply.lines.begin(),
+                       {.after = std::chrono::milliseconds(100 * k), .text = "so "});
+  }
+  reason::ScriptedModel model(reply, meeting);
+  PlanesSetup real = setup(&model, decide::Guard::never_worse_than_braking);
+  real.pace = Pace::real;
+  real.clock = &meeting;
+  Planes planes(real, {}, 100);
+  for (int k = 0; k < 110; ++k) {
+    if (k == 30) {
+      planes.begin_anew();
+    }
+    const world::Scene scene = at(0.01 * k);
+    planes.step(scene, intent::beliefs_at_sight(intent::shipped_model(), scene), meeting.now(),
+                false);
+    meeting.wait_until(from_seconds(0.01 * (k + 1)));
+  }
+  EXPECT_EQ(planes.finish(), "");
+  EXPECT_EQ(model.num_asked(), 2);
+}
+
 // It reads for a second, and what it says fails the check: until then it is busy, also with what
 // comes up meanwhile.
 TEST_F(PlanesTest, TheModelIsBusyUntilItHasAnsweredWhateverItsAnswerIsWorth) {

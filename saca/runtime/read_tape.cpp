@@ -226,7 +226,6 @@ TapeStep read_step(JsonReader& from) {
     }
   }
   read_beliefs(from, step.beliefs);
-  step.asked = from.flag("asked");
   step.finished = from.flag("finished");
   if (from.has_value("plans")) {
     read_list(from, "plans", step.plans.emplace(), read_cached);
@@ -242,7 +241,7 @@ TapeStep read_step(JsonReader& from) {
   if (step.reflex.triggered != step.decision.has_value()) {
     from.reject("decision", "want one where the step triggers, and only there");
   }
-  if (step.asked && !usable && !step.reflex.refused_scene) {
+  if (!usable && !step.reflex.refused_scene) {
     from.reject("scene", "want an object, got null");
   }
   return step;
@@ -342,7 +341,7 @@ class TapeReader {
 
 Result<TapeFile> TapeReader::read(std::string_view text) {
   if (text.empty()) {
-    return error("want a tape (saca.tape/1), got an empty file");
+    return error("want a tape (saca.tape/2), got an empty file");
   }
   while (!text.empty()) {
     ++line_;
@@ -370,7 +369,7 @@ Result<TapeFile> TapeReader::read(std::string_view text) {
 std::optional<Error> TapeReader::read_line(std::string_view line) {
   const json node = json::parse(line, nullptr, false);
   if (node.is_discarded()) {
-    return error("want one JSON object of a tape (saca.tape/1), got " + shown(line));
+    return error("want one JSON object of a tape (saca.tape/2), got " + shown(line));
   }
   std::optional<Error> problem;
   JsonReader from(node, "", problem, "line");
@@ -384,7 +383,7 @@ void TapeReader::read_object(JsonReader& from) {
     const std::string_view wanted = line_ == 1 ? "header" : "before";
     if (type != wanted) {
       from.reject("type",
-                  fmt::format("want \"{}\" of a tape (saca.tape/1), got {}", wanted, shown(type)));
+                  fmt::format("want \"{}\" of a tape (saca.tape/2), got {}", wanted, shown(type)));
     } else if (line_ == 1) {
       tape_.header = read_header(from);
     } else {

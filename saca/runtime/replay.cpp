@@ -77,12 +77,8 @@ Replay Player::play() {
     if (!step.reflex.refused_scene) {
       observe(step);
     }
-    if (step.asked) {
-      judge(step);
-      answer(step);
-    } else {
-      reflex_.watch(step.scene);
-    }
+    judge(step);
+    answer(step);
     last_ = step.number;
   }
   return replay_;

@@ -94,7 +94,6 @@ void pass(Packing& packing, Step& step) {
   packing.value(step.scene.grip);
   packing.value(step.scene.grip_sd);
   packing.list(step.beliefs, whole);
-  packing.value(step.asked);
   packing.value(step.finished);
   packing.optional(step.plans, [&](auto& plans) {
     packing.list(plans, [&](auto& cached) {

@@ -30,7 +30,6 @@ struct TapeStep {
   Forgotten forgotten = Forgotten::nothing;  ///< before this step
   world::Scene scene;                        ///< as it was perceived
   intent::Beliefs beliefs;                   ///< one per actor
-  bool asked = false;                        ///< the planes were; else the scene was only observed
   bool finished = false;                     ///< what was carried out had reached its safe end
   std::optional<decide::PlanCache> plans;    ///< of the thinking plane, handed over in this step
   std::optional<NumberedVerdict> verdict;    ///< of the forecaster, likewise

@@ -28,8 +28,8 @@ struct TapedDrive {
             .tape_size = 400 * Tape::step_size(1)};
   }
 
-  /// From 3 s before the conflict on, for `num_steps` of 10 ms, the first 50 only watched; at pace
-  /// `real` on the setup's clock.
+  /// From 3 s before the conflict on, for `num_steps` of 10 ms; at pace `real` on the setup's
+  /// clock.
   [[nodiscard]] TapeContent driven(const PlanesSetup& setup, int num_steps = 330) {
     Planes planes(setup, {}, 0);
     intent::Observer observer(intent::shipped_model());
@@ -44,9 +44,7 @@ struct TapedDrive {
       }
       const intent::Beliefs& beliefs = observer.look(scene);
       const Clock::Time at = start + from_seconds(scene.time);
-      if (k < 50) {
-        planes.watch(scene, beliefs);
-      } else if (planes.step(scene, beliefs, at, false).triggered) {
+      if (planes.step(scene, beliefs, at, false).triggered) {
         gone = scene.time + 0.4;
       }
       if (setup.pace == Pace::real) {

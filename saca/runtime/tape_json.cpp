@@ -99,7 +99,6 @@ json step_json(const TapeStep& step) {
           {"forgotten", name(step.forgotten)},
           {"scene", usable ? memory::to_json(step.scene) : json(nullptr)},
           {"beliefs", usable ? beliefs_json(step.beliefs) : json::array()},
-          {"asked", step.asked},
           {"finished", step.finished},
           {"plans", or_null(step.plans, plans_json)},
           {"verdict", or_null(step.verdict, numbered_json)},

@@ -28,13 +28,12 @@ TEST(TapeJson, IsAHeaderWhatWasBeforeTheStepsAndAnEnd) {
   const auto lines = lines_of(tape_text({tape_header(setup, intent::shipped_model()), content}));
   ASSERT_EQ(lines.size(), 60U + 3U);
   EXPECT_EQ(lines[0]["type"], "header");
-  EXPECT_EQ(lines[0]["schema"], "saca.tape/1");
+  EXPECT_EQ(lines[0]["schema"], "saca.tape/2");
   EXPECT_EQ(lines[1]["type"], "before");
   EXPECT_EQ(lines[2]["forgotten"], "drive");
   for (std::size_t k = 0; k < 60; ++k) {
     EXPECT_EQ(lines[k + 2]["type"], "step");
     EXPECT_EQ(lines[k + 2]["number"], k);
-    EXPECT_EQ(lines[k + 2]["asked"], k >= 50);
     EXPECT_EQ(lines[k + 2]["scene"]["time_s"].get<double>(), content.steps[k].scene.time);
   }
   EXPECT_EQ(lines.back()["steps"], 60);
@@ -44,7 +43,6 @@ TEST(TapeJson, IsAHeaderWhatWasBeforeTheStepsAndAnEnd) {
 TEST(TapeJson, ASceneThatBreaksARuleIsLeftOut) {
   TapeStep step;
   step.scene.grip = -1.0;
-  step.asked = true;
   step.reflex.refused_scene = true;
   TapeContent content;
   content.steps.push_back(step);

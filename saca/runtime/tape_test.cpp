@@ -23,7 +23,6 @@ TapeStep full_step(std::uint64_t number, std::size_t num_actors) {
     belief.at[1][2] = 1.0 / static_cast<double>(i + 3);
     step.beliefs.push_back(belief);
   }
-  step.asked = true;
   step.plans.emplace().push_back({.at_trigger = memory::features(step.scene),
                                   .trigger = step.scene.time + 0.7,
                                   .plan = {PolicyId::es_b_left, 7.5},
