@@ -53,6 +53,13 @@ std::string decision_text(const Decision& decision) {
   if (decision.source == Source::forced) {
     return "asked for by the user";
   }
+  const std::string refused =
+      decision.refused ? fmt::format("{} cannot be driven from here ({}): emergency braking",
+                                     plan_text(decision.refused->plan), name(decision.refused->why))
+                       : "";
+  if (decision.refused && !decision.similarity && !decision.verdict) {
+    return refused;  // asked for by the user
+  }
   std::string text = decision.similarity
                          ? fmt::format("the scene is {:.0f} % like forecast {}",
                                        100.0 * *decision.similarity, *decision.preview + 1)
@@ -66,7 +73,7 @@ std::string decision_text(const Decision& decision) {
     text += ", not more than 90 %";
   }
   if (decision.refused) {
-    return text + "; what was decided on cannot be driven from here: emergency braking";
+    return text + "; " + refused;
   }
   if (!decision.verdict) {
     return text + "; nothing can be judged: emergency braking";

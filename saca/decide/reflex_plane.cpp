@@ -25,15 +25,28 @@ std::string_view name(Source source) {
 }
 
 Decision ReflexPlane::decide(const Scene& scene) noexcept {
-  Decision decision{.plan = manoeuvre::full_braking, .time = scene.time};
-  if (tools_.forced) {
-    decision.plan = *tools_.forced;
-    if (manoeuvre::brakes_to_speed(decision.plan.policy) && !decision.plan.target_speed) {
-      decision.plan = manoeuvre::default_plan(decision.plan.policy, norm(scene.ego.v_B));
-    }
-    decision.source = Source::forced;
-    return decision;
+  Decision decision = tools_.forced ? as_asked_for(scene) : chosen(scene);
+  const auto why = tools_.car == nullptr
+                       ? std::nullopt
+                       : manoeuvre::why_refused(*tools_.car, decision.plan, scene);
+  if (why) {
+    decision.refused = {decision.plan, *why};
+    decision.plan = manoeuvre::full_braking;
+    decision.source = Source::fallback;
   }
+  return decision;
+}
+
+Decision ReflexPlane::as_asked_for(const Scene& scene) const noexcept {
+  Decision decision{.plan = *tools_.forced, .source = Source::forced, .time = scene.time};
+  if (manoeuvre::brakes_to_speed(decision.plan.policy) && !decision.plan.target_speed) {
+    decision.plan = manoeuvre::default_plan(decision.plan.policy, norm(scene.ego.v_B));
+  }
+  return decision;
+}
+
+Decision ReflexPlane::chosen(const Scene& scene) noexcept {
+  Decision decision{.plan = manoeuvre::full_braking, .time = scene.time};
   const bool guarded = tools_.guard != Guard::none;
   const CachedPlan* best = nullptr;
   const memory::Features here = memory::features(scene);
@@ -71,13 +84,6 @@ Decision ReflexPlane::decide(const Scene& scene) noexcept {
   if (decision.source == Source::fallback && decision.verdict) {
     decision.plan = plan_of(*decision.verdict);
     decision.source = Source::arbiter;
-  }
-  if (tools_.car != nullptr) {
-    decision.refused = manoeuvre::why_refused(*tools_.car, decision.plan, scene);
-  }
-  if (decision.refused) {
-    decision.plan = manoeuvre::full_braking;
-    decision.source = Source::fallback;
   }
   return decision;
 }

@@ -26,6 +26,13 @@ constexpr double match_similarity = 0.90;
 /// never older than T2 - T1 and this. Algorithm 1 of the paper (Guard::none) has no such limit.
 constexpr double plan_expiry = 1.0;
 
+/// A plan that cannot be driven from here, and why.
+struct RefusedPlan {
+  manoeuvre::Plan plan;
+  manoeuvre::Refusal why{};
+  friend bool operator==(const RefusedPlan&, const RefusedPlan&) = default;
+};
+
 /// What was decided at the trigger, and why.
 struct Decision {
   manoeuvre::Plan plan;
@@ -35,9 +42,8 @@ struct Decision {
   bool not_admissible = false;  ///< a plan matched, but it is forecast to harm too much from here
   std::optional<Verdict> verdict;  ///< by which it was decided; nullopt: by none
   bool by_atlas = false;           ///< that is the reflex plane's own: the forecaster's was too old
-  std::optional<manoeuvre::Refusal> refused;  ///< why what was decided on cannot be driven:
-                                              ///< emergency braking took its place
-  double time = 0.0;                          ///< of the trigger [s], in the scene's time
+  std::optional<RefusedPlan> refused;  ///< decided on first; emergency braking took its place
+  double time = 0.0;                   ///< of the trigger [s], in the scene's time
 };
 
 /// What the reflex plane says to one scene.
@@ -58,7 +64,7 @@ struct ReflexTools {
   const manoeuvre::Car* car = nullptr;    ///< nullptr: what cannot be driven is not found out
   std::optional<AtlasJudge> atlas;        ///< nullopt: without a verdict, cached plans are taken
                                           ///< unless their last forecast was worse than braking's
-  std::optional<manoeuvre::Plan> forced;  ///< what to carry out at the trigger whatever was
+  std::optional<manoeuvre::Plan> forced;  ///< what to decide on at the trigger whatever was
                                           ///< thought; 3 and 4 without a target speed brake to half
                                           ///< of the speed then
   Guard guard = Guard::never_worse_than_braking;
@@ -111,6 +117,9 @@ class ReflexPlane {
 
  private:
   [[nodiscard]] Decision decide(const world::Scene& scene) noexcept;
+  [[nodiscard]] Decision as_asked_for(const world::Scene& scene) const noexcept;
+  /// From cache and verdict, whether or not it can be driven.
+  [[nodiscard]] Decision chosen(const world::Scene& scene) noexcept;
   void begin(const manoeuvre::Plan& plan, const world::Scene& scene) noexcept;
 
   ReflexTools tools_;

@@ -287,7 +287,20 @@ TEST(ReflexPlane, NeverBeginsWhatCannotBeDrivenFromHere) {
   plane.receive(one_plan(scene, PolicyId::aes_left));
   EXPECT_EQ(plane.step(scene).plan.policy, PolicyId::aeb);
   EXPECT_EQ(plane.decision()->source, Source::fallback);
-  EXPECT_EQ(plane.decision()->refused, manoeuvre::Refusal::speed);
+  EXPECT_EQ(plane.decision()->refused,
+            (RefusedPlan{{PolicyId::aes_left, std::nullopt}, manoeuvre::Refusal::speed}));
+  EXPECT_THAT(decision_text(*plane.decision()),
+              testing::HasSubstr("AES-L cannot be driven from here (speed)"));
+}
+
+TEST(ReflexPlane, NeverBeginsWhatTheUserAsksForAndCannotBeDriven) {
+  const manoeuvre::Plan drift{PolicyId::t_drift_left, std::nullopt};
+  ReflexPlane plane({.car = &small_car(), .forced = drift});
+  Scene scene = wreck_in(1.28);
+  scene.grip = 0.15;
+  EXPECT_EQ(plane.step(scene).plan, manoeuvre::full_braking);
+  EXPECT_EQ(plane.decision()->source, Source::fallback);
+  EXPECT_EQ(plane.decision()->refused, (RefusedPlan{drift, manoeuvre::Refusal::grip}));
 }
 
 TEST(ReflexPlane, ByThePapersRuleNoVerdictCounts) {

@@ -184,6 +184,7 @@ void ThinkingPlane::forget() {
   num_previews_ = 0;
   current_.clear();
   fastest_answer_ = 0.0;
+  deadline_misses_ = 0;
 }
 
 bool ThinkingPlane::forget_what_has_passed(double now) {

@@ -92,7 +92,7 @@ class ThinkingPlane {
   /// What was thought since the last `forget` and is remembered; numbers ascend.
   [[nodiscard]] const std::vector<Preview>& previews() const { return previews_; }
 
-  /// How often the model, when asked, gave no answer in time, for whatever reason.
+  /// How often since then the model, when asked, gave no answer in time, for whatever reason.
   [[nodiscard]] int deadline_misses() const { return deadline_misses_; }
 
  private:

@@ -79,6 +79,7 @@ class Encounter {
   struct Thoughts {
     std::vector<decide::Preview> previews;
     std::vector<Event> events;
+    int deadline_misses = 0;
   };
   std::map<std::uint32_t, Thoughts> thoughts_;  ///< of the thread that thinks, until that has ended
   Avoider avoider_;
@@ -87,6 +88,7 @@ class Encounter {
   int looks_ = 0;
   std::optional<double> woke_;              ///< when SACA took the wheel [s]
   std::optional<std::uint32_t> encounter_;  ///< the avoider's, in which the decision was made
+  std::uint32_t judged_ = 0;                ///< the one that the record's verdicts are of
   bool ended_ = false;                      ///< the manoeuvre is finished
   Scene seen_at_trigger_;                   ///< what SACA perceived then
   outcome::Others others_at_trigger_;
@@ -129,8 +131,8 @@ runtime::Planes::Listener Encounter::thinking_listener() {
               },
           .thought =
               [this](std::uint32_t encounter, const std::vector<decide::Preview>& previews,
-                     const std::vector<Event>& events) {
-                thoughts_[encounter] = {previews, events};
+                     const std::vector<Event>& events, int deadline_misses) {
+                thoughts_[encounter] = {previews, events, deadline_misses};
               }};
 }
 
@@ -213,6 +215,10 @@ void Encounter::note(const Answer& answer, std::uint32_t encounter) {
   if (encounter_ && *encounter_ != encounter) {
     return;
   }
+  if (!encounter_ && encounter != judged_) {  // another, and in none was anything decided
+    judged_ = encounter;
+    record_.verdicts = {};
+  }
   const auto& got = avoider_.planes().new_verdict();
   record_.verdicts.note(avoider_.scene(), avoider_.beliefs(),
                         got ? std::optional(got->verdict) : std::nullopt);
@@ -226,14 +232,7 @@ void Encounter::note(const Answer& answer, std::uint32_t encounter) {
 
 void Encounter::note_decision(const Answer& answer) {
   const Scene& scene = avoider_.scene();
-  decide::Decision decision = *avoider_.decision();
-  const manoeuvre::Plan wanted = decision.plan;
-  decision.plan = answer.plan.value_or(manoeuvre::doing_nothing);
-  if (decision.plan != wanted) {
-    decision.source = decide::Source::fallback;
-    tell(Plane::reflex, EventKind::fault,
-         "not carried out: " + manoeuvre::refusal(*setup_.car, wanted, scene).value_or(""));
-  }
+  const decide::Decision& decision = *avoider_.decision();
   encounter_ = avoider_.planes().encounter();
   woke_ = woke_.value_or(scene.time);
   record_.decision = decision;
@@ -302,11 +301,11 @@ void Encounter::take_over_thoughts() {
     record_.events.insert(record_.events.end(), thoughts.events.begin(), thoughts.events.end());
     if (!encounter_ || encounter == *encounter_) {
       record_.previews = std::move(thoughts.previews);
+      record_.deadline_misses = thoughts.deadline_misses;
     }
   }
   std::stable_sort(record_.events.begin(), record_.events.end(),
                    [](const Event& a, const Event& b) { return a.time < b.time; });
-  record_.deadline_misses = avoider_.planes().deadline_misses();
 }
 
 /// The recorded driver's own way through the same scene, from where SACA took the wheel.

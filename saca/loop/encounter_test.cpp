@@ -323,7 +323,8 @@ TEST_F(EncounterTest, WhatCannotBeDrivenBecomesBraking) {
   EXPECT_TRUE(has(record, EventKind::fault));
   const auto& events = record.events;
   EXPECT_TRUE(std::any_of(events.begin(), events.end(), [](const decide::Event& event) {
-    return event.text.find("not carried out: ") == 0 && event.text.find("grip") != event.text.npos;
+    return event.kind == EventKind::fault &&
+           event.text.find("T-D-L cannot be driven from here (grip)") != event.text.npos;
   }));
 }
 

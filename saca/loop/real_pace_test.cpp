@@ -98,6 +98,29 @@ TEST(RealPace, TheModelsPlanIsReadyInTimeAndCarriedOut) {
   expect_a_true_story(story, record);
 }
 
+// The car ahead is slow and then drives away: verdicts are made, and nothing is decided. 10 s later
+// a wreck comes up: the record has the verdicts of that encounter, in which it was decided.
+TEST(RealPace, TheRecordHasTheVerdictsOfItsOwnEncounterOnly) {
+  sim::Scenario scenario = wreck_on_wet_road(310.0, 18.0);
+  scenario.actors.push_back({.id = 2,
+                             .footprint = {.length = 4.5, .width = 1.8},
+                             .mass = 1'500.0,
+                             .motion = sim::Script{.start = {.s = 40.0},
+                                                   .speed = 12.0,
+                                                   .behaviour = sim::Behaviour::accelerate,
+                                                   .acceleration = 3.0,
+                                                   .from = 0.5,
+                                                   .until_speed = 30.0}});
+  MeetingClock clock(3);
+  Story story;
+  const Record record = played(scenario, clock, story);
+  ASSERT_TRUE(record.decision.has_value());
+  EXPECT_EQ(record.threat, "car1");
+  EXPECT_LT(story.events_.front().time, 1.0) << "the first encounter";
+  ASSERT_FALSE(record.verdicts.verdicts().empty());
+  EXPECT_GT(record.verdicts.verdicts().front().received, record.decision->time - 5.0);
+}
+
 // From the first event on, which is T2, to half a second after the trigger, nobody hears anything.
 // Were it waited for, the world's time would stand still, and so would this test.
 TEST(RealPace, AListenerThatBlocksIsNotWaitedFor) {

@@ -5,10 +5,15 @@
 #include <cstdio>
 
 #include "saca/core/contract.h"
+#include "saca/core/names.h"
 #include "saca/manoeuvre/ride.h"
 
 namespace saca::manoeuvre {
 namespace {
+
+constexpr std::array<std::string_view, 9> refusal_names{
+    "unknown policy", "target speed", "grip", "state of the ego", "grip",
+    "speed",          "road",         "bend", "strength"};
 
 constexpr int steps_per_pose = 10;
 constexpr double slowest_lane_change = 5.0;  // [m/s]
@@ -89,6 +94,10 @@ std::string in_words(Refusal why, const Car& car, const Plan& plan, const world:
 }
 
 }  // namespace
+
+std::string_view name(Refusal why) {
+  return name_of(why, refusal_names);
+}
 
 std::optional<Refusal> why_refused(const Car& car, const Plan& plan,
                                    const world::Scene& scene) noexcept {

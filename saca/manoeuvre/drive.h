@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "saca/manoeuvre/car.h"
@@ -38,7 +39,10 @@ enum class Refusal : std::uint8_t {
 [[nodiscard]] std::optional<Refusal> why_refused(const Car& car, const Plan& plan,
                                                  const world::Scene& scene) noexcept;
 
-/// The same in words, with the numbers.
+/// What stands in the way, in a word or two.
+[[nodiscard]] std::string_view name(Refusal why);
+
+/// Why, in words and with the numbers.
 [[nodiscard]] std::optional<std::string> refusal(const Car& car, const Plan& plan,
                                                  const world::Scene& scene);
 

@@ -55,8 +55,7 @@ Answer Avoider::answer(const runtime::Taken& taken, Clock::Time at) {
     begin(reflex.plan, scene);
   }
   if (reflex.triggered) {
-    events_.triggered(*planes_.decision(), scene.actors[reflex.threat->actor], reflex.threat->time,
-                      plan().value_or(manoeuvre::doing_nothing));
+    events_.triggered(*planes_.decision(), scene.actors[reflex.threat->actor], reflex.threat->time);
   } else if (reflex.switched) {
     events_.switched(scene.time, *reflex.switched);
   }
@@ -87,7 +86,6 @@ void Avoider::begin(const manoeuvre::Plan& plan, const world::Scene& scene) {
     execution_.reset();  // the stack drives
     return;
   }
-  // A plan that cannot be driven is not decided on; one that is forced may be.
   execution_.emplace(*setup_.planes.forecast.car, plan, scene);
 }
 

@@ -265,7 +265,7 @@ TEST(Avoider, WhoListensToTheThinkingPlaneHearsItAtOnce) {
       .event = [&](const decide::Event&) { ++num_heard; },
       .thought =
           [&](std::uint32_t encounter, const std::vector<decide::Preview>& previews,
-              const std::vector<decide::Event>& events) {
+              const std::vector<decide::Event>& events, int) {
             EXPECT_FALSE(previews.empty());
             thought.emplace_back(encounter, events.size());
           }};

@@ -32,9 +32,9 @@ EventKind kind_of(Remark remark) {
 
 EventLog::EventLog(std::size_t capacity) : notices_(capacity), thoughts_(capacity) {}
 
-void EventLog::triggered(const decide::Decision& decision, const world::Actor& by, double left,
-                         const manoeuvre::Plan& plan) noexcept {
-  notices_.push({decision.time, Triggered{decision, by, left, plan}});
+void EventLog::triggered(const decide::Decision& decision, const world::Actor& by,
+                         double left) noexcept {
+  notices_.push({decision.time, Triggered{decision, by, left}});
 }
 
 void EventLog::switched(double time, const decide::Switch& change) noexcept {
@@ -80,14 +80,9 @@ void EventLog::add_events_of(const Notice& notice) {
   } else {
     const auto& trigger = std::get<Triggered>(notice.what);
     add(EventKind::trigger, decide::trigger_text(trigger.by, trigger.left));
-    add(EventKind::match, decision_text(trigger.decision));
-    const bool can_be_driven = trigger.plan == trigger.decision.plan;
-    if (!can_be_driven) {
-      add(EventKind::fault,
-          manoeuvre::plan_text(trigger.decision.plan) + " cannot be driven from here");
-    }
-    add(EventKind::execute, execution_text(trigger.plan, can_be_driven ? trigger.decision.source
-                                                                       : decide::Source::fallback));
+    add(trigger.decision.refused ? EventKind::fault : EventKind::match,
+        decision_text(trigger.decision));
+    add(EventKind::execute, execution_text(trigger.decision.plan, trigger.decision.source));
   }
 }
 

@@ -38,9 +38,7 @@ class EventLog {
 
   /// @param by    who set it off
   /// @param left  to the conflict [s]
-  /// @param plan  what is carried out; another than decided where that cannot be driven
-  void triggered(const decide::Decision& decision, const world::Actor& by, double left,
-                 const manoeuvre::Plan& plan) noexcept;
+  void triggered(const decide::Decision& decision, const world::Actor& by, double left) noexcept;
   /// @param time  [s], in the scene's time
   void switched(double time, const decide::Switch& change) noexcept;
   void remark(double time, Remark remark) noexcept;
@@ -57,7 +55,6 @@ class EventLog {
     decide::Decision decision;
     world::Actor by;
     double left = 0.0;  ///< [s]
-    manoeuvre::Plan plan;
   };
   struct Notice {
     double time = 0.0;  ///< [s]

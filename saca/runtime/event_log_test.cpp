@@ -51,7 +51,7 @@ TEST(EventLog, IsEmptyAtFirst) {
 
 TEST(EventLog, SaysInWordsWhatWasDecided) {
   EventLog log(4);
-  log.triggered(braking(2.5), test::car(3, {30.0, 0.0}), 1.29, manoeuvre::full_braking);
+  log.triggered(braking(2.5), test::car(3, {30.0, 0.0}), 1.29);
   const std::vector<Event> events = all(log);
   ASSERT_THAT(kinds(events), ElementsAre(EventKind::trigger, EventKind::match, EventKind::execute));
   EXPECT_EQ(events[0].text, "T1: 1.29 s to the conflict with car3");
@@ -65,13 +65,13 @@ TEST(EventLog, SaysInWordsWhatWasDecided) {
 TEST(EventLog, SaysWhatCannotBeDriven) {
   EventLog log(4);
   decide::Decision drift = braking(2.5);
-  drift.plan = {PolicyId::t_drift_left, std::nullopt};
-  log.triggered(drift, test::car(3, {30.0, 0.0}), 1.29, manoeuvre::full_braking);
+  drift.source = decide::Source::fallback;
+  drift.refused = {{PolicyId::t_drift_left, std::nullopt}, manoeuvre::Refusal::slippery};
+  log.triggered(drift, test::car(3, {30.0, 0.0}), 1.29);
   const std::vector<Event> events = all(log);
-  ASSERT_THAT(kinds(events), ElementsAre(EventKind::trigger, EventKind::match, EventKind::fault,
-                                         EventKind::execute));
-  EXPECT_THAT(events[2].text, HasSubstr("cannot be driven"));
-  EXPECT_EQ(events[3].text, "policy 0 AEB (fallback)");
+  ASSERT_THAT(kinds(events), ElementsAre(EventKind::trigger, EventKind::fault, EventKind::execute));
+  EXPECT_THAT(events[1].text, HasSubstr("T-D-L cannot be driven from here (grip)"));
+  EXPECT_EQ(events[2].text, "policy 0 AEB (fallback)");
 }
 
 TEST(EventLog, SaysWhatCameAfterIt) {
@@ -112,7 +112,7 @@ TEST(EventLog, TheDrivingThreadAllocatesNothing) {
   const world::Actor actor = test::car(3, {30.0, 0.0});
   const std::size_t before = num_allocations;
   for (int i = 0; i < 3; ++i) {
-    log.triggered(decision, actor, 1.29, manoeuvre::full_braking);
+    log.triggered(decision, actor, 1.29);
     log.switched(3.0, {});
     log.remark(4.0, Remark::degraded);
   }

@@ -223,7 +223,7 @@ void Planes::think_of(std::uint32_t encounter) {
 
 void Planes::hand_over_thoughts() {
   if (!plane_.previews().empty() || !events_.empty()) {
-    listener_.thought(thought_of_, plane_.previews(), events_);
+    listener_.thought(thought_of_, plane_.previews(), events_, plane_.deadline_misses());
   }
 }
 

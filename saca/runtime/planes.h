@@ -68,10 +68,11 @@ class Planes {
         [](std::int32_t, std::string_view) {};
     /// What was thought in one encounter, and the events of it (`thinking_events`), before it is
     /// forgotten; of the last one in `finish`.
+    /// `deadline_misses`: how often the model gave no answer in time
     std::function<void(std::uint32_t encounter, const std::vector<decide::Preview>&,
-                       const std::vector<decide::Event>&)>
+                       const std::vector<decide::Event>&, int deadline_misses)>
         thought = [](std::uint32_t, const std::vector<decide::Preview>&,
-                     const std::vector<decide::Event>&) {};
+                     const std::vector<decide::Event>&, int) {};
   };
 
   /// @param listener  hears the thinking plane; at pace `real` on its thread, which waits for it
@@ -118,7 +119,6 @@ class Planes {
   /// many are left out.
   [[nodiscard]] const std::vector<decide::Event>& thinking_events() const { return events_; }
   [[nodiscard]] const std::vector<decide::Preview>& previews() const { return plane_.previews(); }
-  [[nodiscard]] int deadline_misses() const { return plane_.deadline_misses(); }
   [[nodiscard]] ReflexTiming timing() const;
 
  private:

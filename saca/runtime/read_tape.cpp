@@ -177,8 +177,15 @@ decide::Reflex read_reflex(JsonReader from) {
   return reflex;
 }
 
+decide::RefusedPlan read_refused(JsonReader from) {
+  constexpr std::uint64_t last = static_cast<std::uint64_t>(manoeuvre::Refusal::strength);
+  const decide::RefusedPlan refused{read_plan(from.object("plan")),
+                                    static_cast<manoeuvre::Refusal>(from.integer("why", last))};
+  from.refuse_others();
+  return refused;
+}
+
 decide::Decision read_decision(JsonReader from) {
-  constexpr std::uint64_t last_refusal = static_cast<std::uint64_t>(manoeuvre::Refusal::strength);
   decide::Decision decision;
   decision.plan = read_plan(from.object("plan"));
   decision.source = read_source(from);
@@ -189,9 +196,7 @@ decide::Decision read_decision(JsonReader from) {
   decision.not_admissible = from.flag("not_admissible");
   decision.verdict = read_optional(from, "verdict", read_verdict);
   decision.by_atlas = from.flag("by_atlas");
-  if (from.has_value("refusal")) {
-    decision.refused = static_cast<manoeuvre::Refusal>(from.integer("refusal", last_refusal));
-  }
+  decision.refused = read_optional(from, "refused", read_refused);
   decision.time = from.number("t_s");
   from.refuse_others();
   return decision;

@@ -173,6 +173,10 @@ json reflex_json(const decide::Reflex& reflex) {
           {"refused_scene", reflex.refused_scene}};
 }
 
+json refused_json(const decide::RefusedPlan& refused) {
+  return {{"plan", plan_json(refused.plan)}, {"why", static_cast<int>(refused.why)}};
+}
+
 json decision_json(const decide::Decision& decision) {
   return {{"plan", plan_json(decision.plan)},
           {"source", name(decision.source)},
@@ -181,7 +185,7 @@ json decision_json(const decide::Decision& decision) {
           {"not_admissible", decision.not_admissible},
           {"verdict", or_null(decision.verdict, verdict_json)},
           {"by_atlas", decision.by_atlas},
-          {"refusal", decision.refused ? json(static_cast<int>(*decision.refused)) : json(nullptr)},
+          {"refused", or_null(decision.refused, refused_json)},
           {"t_s", decision.time}};
 }
 
