@@ -151,9 +151,9 @@ std::vector<Group> Play::decide(const Branch& branch) {
     std::optional<Action> action;
     if (comparison_.runs[method].fault.empty()) {
       try {
-        action =
-            methods_[method]->step({branch.loop.seen(), branch.loop.beliefs(), branch.loop.driven(),
-                                    branch.loop.finished(), branch.loop});
+        action = methods_[method]->step({branch.loop.seen(), branch.loop.beliefs(),
+                                         branch.loop.confirmed(), branch.loop.driven(),
+                                         branch.loop.finished(), branch.loop});
       } catch (const std::exception& fault) {
         give_up(method, *fault.what() == '\0' ? "an exception without text" : fault.what());
       }
@@ -186,7 +186,7 @@ void Play::note_trigger(const Branch& branch) {
   if (comparison_.trigger || !loop.driven()) {
     return;
   }
-  const auto threat = preview::triggering_threat(loop.seen(), stage_.thresholds);
+  const auto threat = loop.trigger();
   if (!threat) {
     return;
   }

@@ -8,6 +8,7 @@
 #include "saca/eval/comparison.h"
 #include "saca/eval/scenes_for_test.h"
 #include "saca/intent/shipped_model.h"
+#include "saca/sim/stepper.h"
 
 namespace saca::eval::methods_test {
 namespace {
@@ -26,10 +27,7 @@ class MethodsTest : public testing::Test {
         continue;  // without memory and model they are what SACA is
       }
       names.emplace_back(info.name);
-      all.push_back(make_method(info.name, {.saca = {.forecast = {&car_, &harm_}, .clock = &clock_},
-                                            .hindsight = &hindsight,
-                                            .intent = &intent::shipped_model(),
-                                            .seed = 7}));
+      all.push_back(make_method(info.name, tools(hindsight)));
     }
     const Comparison told = compare(stage, all, hindsight).value();
     std::map<std::string, MethodRun, std::less<>> runs;
@@ -37,6 +35,13 @@ class MethodsTest : public testing::Test {
       runs[names[i]] = told.runs[i];
     }
     return runs;
+  }
+
+  MethodTools tools(Hindsight& hindsight) {
+    return {.saca = {.forecast = {&car_, &harm_}, .clock = &clock_},
+            .hindsight = &hindsight,
+            .intent = &intent::shipped_model(),
+            .seed = 7};
   }
 
   SteadyClock clock_;
@@ -72,6 +77,20 @@ TEST_F(MethodsTest, WhereOnlyALaneChangeHelpsThoseThatForecastFindIt) {
   // Rules that brake for what stands ahead do it before T1 at this speed.
   for (const char* const name : {"r157", "rss", "fsm"}) {
     EXPECT_LT(*runs.at(name).acted_at, *runs.at("aeb").acted_at) << name;
+  }
+}
+
+// A wreck 1 s ahead that is not confirmed sets off no baseline that triggers as SACA does.
+TEST_F(MethodsTest, WhoIsNotConfirmedSetsOffNobody) {
+  const UnseenTruth truth;
+  sim::Scenario near_wreck = standing_car(20.0, 20.0);
+  const world::Scene scene = sim::Stepper(near_wreck, truth.car).scene();
+  for (const bool confirmed : {false, true}) {
+    Hindsight hindsight(car_, harm_);
+    const auto method = make_method("aeb", tools(hindsight));
+    EXPECT_EQ(truth.step(*method, scene, confirmed ? preview::all_actors : preview::ActorSet())
+                  .has_value(),
+              confirmed);
   }
 }
 

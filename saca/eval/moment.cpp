@@ -28,8 +28,7 @@ void advance_to(sim::Stepper& stepper, const sim::Scenario& scenario, double tim
 /// Goes on to the first look at which the trigger fires; false: it never does.
 bool advance_to_trigger(sim::Stepper& stepper, const preview::Thresholds& thresholds) {
   while (!stepper.over()) {
-    if (preview::nearest_threat(stepper.scene(), thresholds.trigger, thresholds.trigger_tolerance,
-                                world::EgoPrediction::as_measured)) {
+    if (preview::triggering_threat(stepper.scene(), thresholds)) {
       return true;
     }
     advance_one_look(stepper);

@@ -57,9 +57,10 @@ struct UnseenTruth {
   loop::ClosedLoop loop{stage};
 
   /// One step of a method in a scene, believing what is believed at sight.
-  std::optional<loop::Action> step(loop::Method& method, const world::Scene& scene) const {
+  std::optional<loop::Action> step(loop::Method& method, const world::Scene& scene,
+                                   const preview::ActorSet& confirmed = preview::all_actors) const {
     const intent::Beliefs beliefs = intent::beliefs_at_sight(intent::shipped_model(), scene);
-    return method.step({scene, beliefs, true, false, loop});
+    return method.step({scene, beliefs, confirmed, true, false, loop});
   }
 };
 

@@ -7,6 +7,7 @@
 
 #include "saca/core/contract.h"
 #include "saca/core/units.h"
+#include "saca/decide/track_confirmation.h"
 #include "saca/eval/shadow_judge.h"
 #include "saca/intent/observer.h"
 #include "saca/loop/closed_loop.h"
@@ -145,6 +146,7 @@ Result<ShadowDrive> shadow_drive(const sim::Scenario& scenario, const ShadowSetu
   const auto num_looks = static_cast<int>(std::floor(end / loop::ClosedLoop::step + 1e-6));
   sim::Stepper stepper(world, *setup.car);
   intent::Observer observer(*setup.intent);
+  decide::TrackConfirmation tracks;
   ShadowDrive drive;
   Arming preview;
   Arming trigger;
@@ -158,6 +160,7 @@ Result<ShadowDrive> shadow_drive(const sim::Scenario& scenario, const ShadowSetu
                                                           world.name, seen.time, *rule)};
     }
     const intent::Beliefs& beliefs = observer.look(seen);
+    tracks.look(seen);
     if (seen.time < window.from - nearly_now) {
       advance_to_next_look(stepper);
       continue;
@@ -172,7 +175,7 @@ Result<ShadowDrive> shadow_drive(const sim::Scenario& scenario, const ShadowSetu
     } else if (near) {
       drive.previews.back().to = seen.time;
     }
-    const auto threat = preview::triggering_threat(seen, setup.thresholds);
+    const auto threat = preview::triggering_threat(seen, setup.thresholds, tracks.confirmed());
     if (trigger.look(seen.time, threat.has_value())) {
       const world::Actor& who = seen.actors[threat->actor];
       drive.triggers.push_back({seen.time, actor_name(who), threat->time, norm(seen.ego.v_B),

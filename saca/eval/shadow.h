@@ -36,7 +36,7 @@ struct ShadowPreview {
   std::string who;    ///< threatens at first
 };
 
-/// Somebody threatens within T1 if all go on as they do (preview::triggering_threat): SACA would
+/// Somebody who is confirmed threatens within T1 if all go on as they do: SACA would
 /// have acted.
 struct ShadowTrigger {
   double time = 0.0;  ///< [s]

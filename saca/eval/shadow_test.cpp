@@ -107,6 +107,26 @@ TEST_F(Shadow, WhoStopsLateSetsOffOneTrigger) {
   EXPECT_NEAR(seen.metres, 58.5 + 225.0 / 13.0, 1e-6);
 }
 
+// 15 m ahead at 15 m/s somebody stands, seen in one look, or in two: the reflex plane waits for the
+// second.
+TEST_F(Shadow, NobodyTriggersBeforeHeIsConfirmed) {
+  for (const auto& [until, triggers] : {std::pair(2.005, 0U), std::pair(2.015, 1U)}) {
+    scenario_.actors.clear();
+    drive({.speed = 15.0}, 4.0);
+    sim::Recording seen;
+    for (const double time : {2.0, until}) {
+      seen.push_back({time, {{15.0 * 2.0 + front + 15.0 + 2.25, 0.0}, 0.0}, 0.0, 0.0});
+    }
+    scenario_.actors.push_back(
+        {.id = 1, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1500.0, .motion = seen});
+    const ShadowDrive watched_drive = watched();
+    ASSERT_EQ(watched_drive.triggers.size(), triggers);
+    if (triggers > 0) {
+      EXPECT_NEAR(watched_drive.triggers[0].time, 2.01, 1e-9);
+    }
+  }
+}
+
 TEST_F(Shadow, ExposureEndsWhereItIsToldTo) {
   drive({.speed = 15.0, .brakes_at = 3.9, .deceleration = 6.5}, 10.0);
   add(80.0, {}, 0.0, 10.0);

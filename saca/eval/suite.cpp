@@ -268,7 +268,7 @@ std::optional<TriedScene> tried_in(const SuiteEncounter& encounter, const SuiteO
       return std::nullopt;
     }
     loop.wake();
-    if (loop.driven() && preview::triggering_threat(loop.seen(), stage.thresholds)) {
+    if (loop.driven() && loop.trigger()) {
       return TriedScene{loop.truth().whole_scene(),
                         try_all(loop, *stage.car, *stage.harm, Knowledge::everything)};
     }

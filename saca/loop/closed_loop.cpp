@@ -69,6 +69,7 @@ std::optional<Error> ClosedLoop::look() {
     return problem;
   }
   beliefs_ = observer_.look(seen_);
+  tracks_.look(seen_);
   return std::nullopt;
 }
 

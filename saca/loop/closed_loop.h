@@ -5,6 +5,7 @@
 #include <string>
 
 #include "saca/core/result.h"
+#include "saca/decide/track_confirmation.h"
 #include "saca/intent/observer.h"
 #include "saca/loop/witness.h"
 #include "saca/manoeuvre/car.h"
@@ -56,6 +57,13 @@ class ClosedLoop {
   [[nodiscard]] const world::Scene& seen() const { return seen_; }
   /// One for each actor of `seen()`.
   [[nodiscard]] const intent::Beliefs& beliefs() const { return beliefs_; }
+
+  /// Who of them has been seen often enough to set off a trigger.
+  [[nodiscard]] const preview::ActorSet& confirmed() const { return tracks_.confirmed(); }
+  /// What sets off the reflex plane's trigger now, as far as it has not been by then.
+  [[nodiscard]] std::optional<preview::Threat> trigger() const {
+    return preview::triggering_threat(seen_, stage_->thresholds, confirmed());
+  }
 
   /// Takes the wheel as soon as somebody threatens within T2 under any likely intention
   /// (preview::previewed_threat): it is then that an automated vehicle takes over from whoever
@@ -122,6 +130,7 @@ class ClosedLoop {
   Witness witness_;
   world::Scene seen_;
   intent::Beliefs beliefs_;
+  decide::TrackConfirmation tracks_;
   std::optional<manoeuvre::Execution> execution_;  ///< once the wheel is taken
   double deceleration_ = std::numeric_limits<double>::infinity();
   bool avoids_ = false;  ///< an avoider's plan was carried out in the last step

@@ -8,18 +8,21 @@
 #include "saca/loop/closed_loop.h"
 #include "saca/loop/thinking_figures.h"
 #include "saca/manoeuvre/plan.h"
+#include "saca/preview/threat.h"
 #include "saca/world/scene.h"
 
 namespace saca::loop {
 
 /// What a method is shown at one instant.
 struct View {
-  const world::Scene& scene;       ///< as perceived
-  const intent::Beliefs& beliefs;  ///< one per actor of it
-  bool driven = false;             ///< somebody threatens within T2, or did: the wheel is taken
-  bool finished = false;           ///< what is carried out has reached its safe end
-  const ClosedLoop& truth;         ///< for yardsticks that know what nobody can; no method on a
-                                   ///< road may look
+  const world::Scene& scene;           ///< as perceived
+  const intent::Beliefs& beliefs;      ///< one per actor of it
+  const preview::ActorSet& confirmed;  ///< who of it may set off SACA's trigger; published rules
+                                       ///< of others know no such thing
+  bool driven = false;                 ///< somebody threatens within T2, or did: the wheel is taken
+  bool finished = false;               ///< what is carried out has reached its safe end
+  const ClosedLoop& truth;             ///< for yardsticks that know what nobody can; no method on a
+                                       ///< road may look
 };
 
 /// What a method does from an instant on.

@@ -28,8 +28,8 @@ class SacaMethodTest : public testing::Test {
     while (!loop.over()) {
       EXPECT_FALSE(loop.look().has_value());
       loop.wake();
-      if (const auto action =
-              saca.step({loop.seen(), loop.beliefs(), loop.driven(), loop.finished(), loop})) {
+      if (const auto action = saca.step({loop.seen(), loop.beliefs(), loop.confirmed(),
+                                         loop.driven(), loop.finished(), loop})) {
         played.acted_at = loop.time();
         played.action = *action;
       }
