@@ -64,6 +64,7 @@ int main(int argc, char** argv) {
     add_whatif(line, exit_code);
     add_family(line, exit_code);
     add_balance(line, exit_code);
+    add_forecast(line, exit_code);
     add_ladder(line, exit_code);
     add_tables(line, exit_code);
     add_suite(line, exit_code);

@@ -200,7 +200,12 @@ Estimate harm_above(std::span<const SuiteRow> rows, std::size_t method, std::siz
       differences.emplace_back(row.risk.runs[method].harm - row.risk.runs[other].harm);
     }
   }
-  return differences.empty() ? Estimate{} : Bootstrap(differences.size(), seed).mean(differences);
+  return mean_over_encounters(differences, seed);
+}
+
+Estimate mean_over_encounters(const std::vector<std::optional<double>>& values,
+                              std::uint64_t seed) {
+  return values.empty() ? Estimate{} : Bootstrap(values.size(), seed).mean(values);
 }
 
 }  // namespace saca::eval

@@ -68,4 +68,9 @@ constexpr double material = 0.005;
 [[nodiscard]] Estimate harm_above(std::span<const SuiteRow> rows, std::size_t method,
                                   std::size_t other, std::uint64_t seed);
 
+/// Of what an encounter counts for, with the intervals of suite_figures.
+/// @param values  one for each encounter; nullopt: it does not count
+[[nodiscard]] Estimate mean_over_encounters(const std::vector<std::optional<double>>& values,
+                                            std::uint64_t seed);
+
 }  // namespace saca::eval

@@ -13,12 +13,10 @@ namespace saca::preview {
 
 /// Draws from all that is not known of how the others move on from a scene, all alike likely.
 ///
-/// In each draw everybody moves under an intention drawn from its belief, as the law has it, and is
-/// off by an error along its line and one across, each of the spread that the law tells
+/// In each draw everybody moves in one of the ways that are likely of it (intent::likely_motions),
+/// and is off by an error along its line and one across, each of the spread that is told
 /// (intent::Forecast) and kept from now on: errors of perception and manners of driving are not
-/// separated. A vehicle that moves sideways in its lane has in up to half of the draws no intention
-/// of that kind: its sideways speed as measured goes on and ends within `longest_drift`, sooner or
-/// later alike likely. Nobody's errors and intentions depend on another's.
+/// separated. Nobody's errors and ways depend on another's.
 ///
 /// Each road user's draws are a Latin hypercube that depends on its name and `count` only:
 /// forecasts of one instant and the next differ by what has changed, not by chance, and plans that
@@ -42,8 +40,5 @@ namespace saca::preview {
 /// @param count  >= 1
 /// @throws ContractViolation  if the situation lacks a track or a spread, or count is 0
 [[nodiscard]] std::vector<JointMotion> drawn_motions(const Situation& situation, std::size_t count);
-
-/// After which a drift within the lanes has ended [s]: an assumption.
-constexpr double longest_drift = 3.0;
 
 }  // namespace saca::preview

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "saca/core/contract.h"
+#include "saca/intent/likely_motions.h"
 #include "tests/support/scenes.h"
 
 namespace saca::preview::drawn_motions_test {
@@ -128,18 +129,22 @@ TEST(DrawnMotions, HoldEachIntentionAsOftenAsItIsBelieved) {
   EXPECT_EQ(std::count_if(far.begin(), far.end(), [](double y) { return std::abs(y) < 1e-9; }), 48);
 }
 
-TEST(DrawnMotions, OfWhoDriftsEndAnywhereWithinThreeSeconds) {
-  const auto motions =
-      drawn_motions(with_a_car(1.0), believing(belief_in(Intention::lane_left)), {}, count);
-  auto far = across(places(motions, 9.0));
-  std::sort(far.begin(), far.end());
-  // One half changes lanes, the other ends its 1 m/s between now and in 3 s, alike likely: of 64,
-  // a third of the half is between 0 and 1 m, and a lane change ends beyond 3 m but for its spread.
-  const auto within = [&](double low, double high) {
-    return std::count_if(far.begin(), far.end(), [&](double y) { return low <= y && y < high; });
-  };
-  EXPECT_NEAR(static_cast<double>(within(-0.5, 1.0)), 32.0 / 3.0, 5.0);
-  EXPECT_NEAR(static_cast<double>(within(-0.5, 2.0)), 64.0 / 3.0, 6.0);
+// Moves to the side are drawn as often as they are likely, and end where they are said to.
+TEST(DrawnMotions, OfWhoDriftsEndWhereItsMovesMay) {
+  const Scene scene = with_a_car(2.0);
+  const auto belief = belief_in(Intention::maintain);
+  const auto likely = intent::likely_motions(scene, scene.actors[0], belief);
+  double mean = 0.0;
+  double square = 0.0;
+  for (const intent::LikelyMotion& one : likely) {
+    const double way = one.aside ? one.aside->way(9.0) : 0.0;
+    const double sd = one.aside ? one.aside->left_sd : 0.0;
+    mean += one.probability * way;
+    square += one.probability * (way * way + sd * sd);
+  }
+  const auto far = across(places(drawn_motions(scene, believing(belief), {}, count), 9.0));
+  EXPECT_NEAR(mean_of(far), mean, 0.1);
+  EXPECT_NEAR(sd_of(far), std::sqrt(square - mean * mean), 0.15);
 }
 
 TEST(DrawnMotions, OfWhoDriftsAreMirroredInTheMirror) {
@@ -149,8 +154,8 @@ TEST(DrawnMotions, OfWhoDriftsAreMirroredInTheMirror) {
       drawn_motions(with_a_car(-0.8), believing(belief_in(Intention::maintain)), {}, count);
   auto y_left = across(places(left, 5.0));
   auto y_right = across(places(right, 5.0));
-  EXPECT_NEAR(mean_of(y_left), -mean_of(y_right), 0.02);
-  EXPECT_NEAR(sd_of(y_left), sd_of(y_right), 0.05);
+  EXPECT_NEAR(mean_of(y_left), -mean_of(y_right), 0.06);
+  EXPECT_NEAR(sd_of(y_left), sd_of(y_right), 0.12);
 }
 
 TEST(DrawnMotions, DependOnNamesNotOnOrder) {

@@ -1,0 +1,284 @@
+#include <fmt/core.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+#include "apps/saca/commands.h"
+#include "apps/saca/progress.h"
+#include "apps/saca/suite_sources.h"
+#include "saca/core/parallel.h"
+#include "saca/eval/forecast_score.h"
+#include "saca/eval/suite_figures.h"
+#include "saca/sim/chance.h"
+
+namespace saca::app {
+namespace {
+
+using eval::Estimate;
+using eval::forecast_times;
+using eval::ForecastSample;
+using eval::MotionModel;
+using nlohmann::json;
+
+/// What an encounter had to say.
+struct Heard {
+  std::string family;
+  std::string problem;
+  std::vector<ForecastSample> samples;
+};
+
+using Value = double (*)(const ForecastSample& sample, std::size_t model, std::size_t time);
+
+struct Figure {
+  const char* name;
+  const char* title;
+  bool each_time;
+  Value value;
+};
+
+bool is_within(double pit, double share) {
+  return std::abs(pit - 0.5) < 0.5 * share;
+}
+
+constexpr std::array<Figure, 8> score_figures{{
+    {"nll", "negative log likelihood", true,
+     [](const ForecastSample& s, std::size_t m, std::size_t t) { return s.scores[m][t].nll; }},
+    {"miss_of_6", "least miss of 6 [m]", true,
+     [](const ForecastSample& s, std::size_t m, std::size_t t) { return s.scores[m][t].miss; }},
+    {"missed", "share more than 2 m off", true,
+     [](const ForecastSample& s, std::size_t m, std::size_t t) {
+       return s.scores[m][t].miss > 2.0 ? 1.0 : 0.0;
+     }},
+    {"within_50_along", "in the 50 % region along", true,
+     [](const ForecastSample& s, std::size_t m, std::size_t t) {
+       return is_within(s.scores[m][t].pit_along, 0.5) ? 1.0 : 0.0;
+     }},
+    {"within_90_along", "in the 90 % region along", true,
+     [](const ForecastSample& s, std::size_t m, std::size_t t) {
+       return is_within(s.scores[m][t].pit_along, 0.9) ? 1.0 : 0.0;
+     }},
+    {"within_50_across", "in the 50 % region across", true,
+     [](const ForecastSample& s, std::size_t m, std::size_t t) {
+       return is_within(s.scores[m][t].pit_across, 0.5) ? 1.0 : 0.0;
+     }},
+    {"within_90_across", "in the 90 % region across", true,
+     [](const ForecastSample& s, std::size_t m, std::size_t t) {
+       return is_within(s.scores[m][t].pit_across, 0.9) ? 1.0 : 0.0;
+     }},
+    {"mean_miss_of_6", "least mean miss of 6 [m]", false,
+     [](const ForecastSample& s, std::size_t m, std::size_t) { return s.mean_miss_of_6[m]; }},
+}};
+
+/// Of those that count in an encounter; nullopt: nobody does.
+template <class Counts>
+std::optional<double> mean_in(const Heard& heard, const Figure& figure, std::size_t model,
+                              std::size_t time, const Counts& counts) {
+  double sum = 0.0;
+  int n = 0;
+  for (const ForecastSample& one : heard.samples) {
+    if (counts(one)) {
+      sum += figure.value(one, model, time);
+      ++n;
+    }
+  }
+  return n == 0 ? std::nullopt : std::optional(sum / n);
+}
+
+/// All score_figures of some road users.
+struct Group {
+  std::string name;
+  std::function<bool(const Heard&)> encounter;
+  std::function<bool(const ForecastSample&)> sample;
+};
+
+struct Line {
+  MotionModel model{};
+  std::size_t figure = 0;
+  std::size_t time = 0;
+  Estimate mean;
+  std::optional<Estimate> above_shipped;  ///< paired, of the likelihood
+};
+
+std::vector<Line> lines_of(const std::vector<Heard>& all, const Group& group, std::uint64_t seed) {
+  std::vector<Line> lines;
+  for (std::size_t f = 0; f < score_figures.size(); ++f) {
+    for (std::size_t t = 0; t < (score_figures[f].each_time ? forecast_times.size() : 1); ++t) {
+      std::array<std::vector<std::optional<double>>, eval::motion_models.size()> values;
+      for (const Heard& heard : all) {
+        for (std::size_t m = 0; m < values.size(); ++m) {
+          values[m].push_back(group.encounter(heard)
+                                  ? mean_in(heard, score_figures[f], m, t, group.sample)
+                                  : std::nullopt);
+        }
+      }
+      const auto& shipped = values[static_cast<std::size_t>(MotionModel::shipped)];
+      for (std::size_t m = 0; m < values.size(); ++m) {
+        Line line{.model = eval::motion_models[m],
+                  .figure = f,
+                  .time = t,
+                  .mean = eval::mean_over_encounters(values[m], seed)};
+        if (f == 0 && line.model != MotionModel::shipped) {
+          auto above = values[m];
+          for (std::size_t i = 0; i < above.size(); ++i) {
+            above[i] = above[i] ? std::optional(*above[i] - *shipped[i]) : std::nullopt;
+          }
+          line.above_shipped = eval::mean_over_encounters(above, seed);
+        }
+        lines.push_back(line);
+      }
+    }
+  }
+  return lines;
+}
+
+std::string time_text(const Line& line) {
+  return score_figures[line.figure].each_time ? fmt::format("{:g}s", forecast_times[line.time])
+                                              : "over_time";
+}
+
+void add_lines(json& out, const std::string& place, const std::vector<Line>& lines) {
+  for (const Line& line : lines) {
+    const std::string key = fmt::format("{}.{}.{}.{}", place, score_figures[line.figure].name,
+                                        time_text(line), name(line.model));
+    out[key] = {line.mean.value, line.mean.low, line.mean.high};
+    if (line.above_shipped) {
+      out[key + ".above_shipped"] = {line.above_shipped->value, line.above_shipped->low,
+                                     line.above_shipped->high};
+    }
+  }
+}
+
+void print_lines(const std::string& title, const std::vector<Line>& lines) {
+  fmt::print("\n{}\n{:28} {:>9}", title, "", "");
+  for (const MotionModel model : eval::motion_models) {
+    fmt::print(" {:>18}", name(model));
+  }
+  fmt::print("\n");
+  for (std::size_t i = 0; i < lines.size(); i += eval::motion_models.size()) {
+    fmt::print("{:28} {:>9}", score_figures[lines[i].figure].title, time_text(lines[i]));
+    for (std::size_t m = 0; m < eval::motion_models.size(); ++m) {
+      fmt::print(" {:18.3f}", lines[i + m].mean.value);
+    }
+    fmt::print("\n");
+  }
+}
+
+struct ForecastCommand {
+  SuiteCommandOptions suite;
+  bool as_json = false;
+};
+
+std::vector<Heard> heard_in(const SuiteEncounters& encounters, const SuiteCommandOptions& options) {
+  const eval::SuiteOptions played{.methods = {}, .seed = options.seed, .exact = options.exact};
+  std::vector<Heard> all(static_cast<std::size_t>(encounters.count));
+  in_parallel(all.size(), options.threads, [&](std::size_t i) {
+    if (interrupted()) {
+      return;
+    }
+    const auto found = encounters.at(i);
+    if (!found.has_value()) {
+      all[i].problem = found.error().message;
+      return;
+    }
+    all[i].family = found.value().family;
+    const sim::Scenario world = eval::as_played(found.value().scenario, played);
+    const loop::Stage stage{
+        .scenario = &world,
+        .car = &encounters.inputs.car,
+        .harm = &encounters.inputs.harm,
+        .intent = &encounters.inputs.intent,
+        .thresholds = {},
+        .chance = options.exact ? sim::Chance{}
+                                : sim::draw_chance(eval::encounter_seed(options.seed, i), 0, 0.0)};
+    auto samples = eval::forecast_samples(stage);
+    if (samples.has_value()) {
+      all[i].samples = std::move(samples).value();
+    } else {
+      all[i].problem = samples.error().message;
+    }
+  });
+  return all;
+}
+
+int run(const ForecastCommand& options) {
+  const SuiteCommandOptions& suite = options.suite;
+  const auto encounters = open_encounters(suite, "forecast eval");
+  if (!encounters.has_value()) {
+    return refused(encounters.error());
+  }
+  watch_for_interrupt();
+  const std::vector<Heard> all = heard_in(encounters.value(), suite);
+  if (interrupted()) {
+    complain("interrupted; nothing was kept: the same command begins anew");
+    return was_interrupted;
+  }
+  std::map<std::string, int> families;
+  std::size_t num_samples = 0;
+  std::size_t num_acting = 0;
+  int num_failed = 0;
+  for (const Heard& heard : all) {
+    ++families[heard.family];
+    num_samples += heard.samples.size();
+    for (const ForecastSample& one : heard.samples) {
+      num_acting += one.acts ? 1U : 0U;
+    }
+    if (!heard.problem.empty()) {
+      ++num_failed;
+      complain(heard.problem);
+    }
+  }
+  std::vector<Group> groups;
+  const auto any = [](const Heard&) { return true; };
+  const auto acts = [](const ForecastSample& one) { return one.acts; };
+  groups.push_back({"all", any, [](const ForecastSample&) { return true; }});
+  groups.push_back({"acting", any, acts});
+  groups.push_back({"aside", any, [](const ForecastSample& one) { return one.aside; }});
+  for (const auto& [family, count] : families) {
+    groups.push_back({family + "_acting",
+                      [family = family](const Heard& one) { return one.family == family; }, acts});
+  }
+  json out{{"schema", "saca.forecast_score/1"},
+           {"of", encounters.value().what},
+           {"seed", suite.seed},
+           {"encounters", all.size()},
+           {"failed", num_failed},
+           {"samples", num_samples},
+           {"acting", num_acting}};
+  if (!options.as_json) {
+    fmt::print("{}: {} encounters, {} forecasts, {} of them of road users that act\n", suite.name,
+               all.size(), num_samples, num_acting);
+  }
+  for (const Group& group : groups) {
+    const auto lines = lines_of(all, group, suite.seed);
+    add_lines(out, group.name, lines);
+    if (!options.as_json) {
+      print_lines(group.name, lines);
+    }
+  }
+  if (options.as_json) {
+    fmt::print("{}\n", out.dump(1));
+  }
+  return num_failed > 0 ? some_failed : success;
+}
+
+}  // namespace
+
+void add_forecast(CLI::App& line, int& exit_code) {
+  CLI::App* const forecast =
+      line.add_subcommand("forecast", "How well it is foretold where road users will be");
+  forecast->require_subcommand(1);
+  CLI::App* const command = forecast->add_subcommand(
+      "eval", "Hold forecasts against what happens in many encounters, beside simpler ones");
+  const auto options = std::make_shared<ForecastCommand>();
+  add_suite_options(*command, options->suite);
+  command->add_flag("--json", options->as_json, "For programs");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace saca::app

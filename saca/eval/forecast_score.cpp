@@ -1,0 +1,234 @@
+#include "saca/eval/forecast_score.h"
+
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "saca/core/contract.h"
+#include "saca/core/names.h"
+#include "saca/intent/likely_motions.h"
+#include "saca/intent/line.h"
+
+namespace saca::eval {
+namespace {
+
+using intent::Intention;
+using world::Actor;
+using world::Scene;
+
+constexpr std::array<std::string_view, motion_models.size()> model_names{
+    "constant_velocity", "constant_turn", "lane_following", "law", "shipped"};
+
+constexpr double least_sd = 0.1;  // [m]: no place is known better, and no density is endless
+
+double course_of(const Actor& actor) {
+  return std::atan2(actor.v_W.y, actor.v_W.x);
+}
+
+/// Where the measured motion leads, and how sure that is.
+LikelyPlace going_on(const Actor& actor, double after, bool turns) {
+  constexpr double unknown_acceleration = 1.0;  // [m/s^2]
+  const double sd = std::hypot(actor.position_sd, actor.velocity_sd * after,
+                               0.5 * unknown_acceleration * after * after);
+  LikelyPlace place{
+      .p_W = actor.X_WA.p + after * actor.v_W, .course = course_of(actor), .spread = {sd, sd}};
+  if (!turns) {
+    return place;
+  }
+  constexpr int num_steps = 50;
+  const double h = after / num_steps;
+  const double speed = norm(actor.v_W);
+  const double acceleration = dot(actor.a_W, actor.v_W) / speed;
+  place.p_W = actor.X_WA.p;
+  for (int k = 0; k < num_steps; ++k) {
+    const double t = (k + 0.5) * h;
+    const double course = course_of(actor) + actor.yaw_rate * t;
+    const double now = std::max(0.0, speed + acceleration * t);
+    place.p_W = place.p_W + h * now * Vec2{std::cos(course), std::sin(course)};
+  }
+  place.course += actor.yaw_rate * after;
+  return place;
+}
+
+void add(LikelyPlaces& places, const intent::LikelyMotion& motion, const Scene& scene,
+         const Actor& actor) {
+  const intent::Forecast forecast =
+      intent::forecast_of(motion, scene, actor, forecast_times.back() + 0.1, intent::MotionLaw{});
+  for (std::size_t i = 0; i < forecast_times.size(); ++i) {
+    const double time = scene.time + forecast_times[i];
+    const Vec2 way = world::pose_at(forecast.track, time + 0.05).p -
+                     world::pose_at(forecast.track, time - 0.05).p;
+    places[i].push_back({motion.probability, world::pose_at(forecast.track, time).p,
+                         norm(way) > 1e-4 ? std::atan2(way.y, way.x) : course_of(actor),
+                         spread_at(forecast.spread, time)});
+  }
+}
+
+std::vector<std::size_t> likeliest_first(std::span<const LikelyPlace> places) {
+  std::vector<std::size_t> order(places.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return places[a].probability > places[b].probability;
+  });
+  return order;
+}
+
+std::optional<Vec2> place_of(const Scene& scene, const Actor& actor) {
+  for (const Actor& one : scene.actors) {
+    if (one.kind == actor.kind && one.id == actor.id) {
+      return one.X_WA.p;
+    }
+  }
+  return std::nullopt;
+}
+
+/// What was perceived and believed at one instant.
+struct Look {
+  Scene seen;
+  intent::Beliefs beliefs;
+  Scene truth;
+};
+
+ForecastSample sample_of(const Look& look, std::size_t i,
+                         const std::array<Vec2, forecast_times.size()>& truth, Vec2 truly_now,
+                         Vec2 truly_before) {
+  const Actor& actor = look.seen.actors[i];
+  constexpr std::size_t after_two = 2;
+  const Vec2 straight_on = truly_now + 4.0 * (truly_now - truly_before);
+  ForecastSample sample{.who = actor_name(actor),
+                        .time = look.seen.time,
+                        .acts = norm(truth[after_two] - straight_on) > 1.0,
+                        .aside = !intent::is_walker(actor.kind) &&
+                                 std::abs(intent::line_of(look.seen, actor).lateral) > 0.5};
+  for (const MotionModel model : motion_models) {
+    const LikelyPlaces places = places_of(model, look.seen, actor, look.beliefs[i]);
+    const auto m = static_cast<std::size_t>(model);
+    for (std::size_t k = 0; k < forecast_times.size(); ++k) {
+      sample.scores[m][k] = score(places[k], truth[k]);
+    }
+    sample.mean_miss_of_6[m] = least_mean_miss(places, truth, 6);
+    sample.mean_miss_of_12[m] = least_mean_miss(places, truth, 12);
+  }
+  return sample;
+}
+
+}  // namespace
+
+std::string_view name(MotionModel model) {
+  return name_of(model, model_names);
+}
+
+LikelyPlaces places_of(MotionModel model, const Scene& scene, const Actor& actor,
+                       const intent::Belief& belief) {
+  LikelyPlaces places;
+  switch (model) {
+    case MotionModel::constant_velocity:
+    case MotionModel::constant_turn:
+      for (std::size_t i = 0; i < forecast_times.size(); ++i) {
+        places[i] = {going_on(actor, forecast_times[i], model == MotionModel::constant_turn)};
+      }
+      return places;
+    case MotionModel::lane_following:
+      add(places, {1.0, Intention::maintain, std::nullopt}, scene, actor);
+      return places;
+    case MotionModel::law: {
+      const auto motions = intent::intended_motions(belief);
+      for (const intent::LikelyMotion& one : motions) {
+        add(places, one, scene, actor);
+      }
+      return places;
+    }
+    case MotionModel::shipped:
+      break;
+  }
+  for (const intent::LikelyMotion& one : intent::likely_motions(scene, actor, belief)) {
+    add(places, one, scene, actor);
+  }
+  return places;
+}
+
+PlaceScore score(std::span<const LikelyPlace> places, Vec2 truth) {
+  expects(!places.empty(), "at least one place");
+  const boost::math::normal standard;
+  PlaceScore told{.miss = std::numeric_limits<double>::infinity()};
+  double density = 0.0;
+  for (const LikelyPlace& one : places) {
+    const Vec2 off = rotated(truth - one.p_W, -one.course);
+    const double along_sd = std::max(least_sd, one.spread.along_sd);
+    const double across_sd = std::max(least_sd, one.spread.across_sd);
+    const Vec2 z{off.x / along_sd, off.y / across_sd};
+    density += one.probability * std::exp(-0.5 * dot(z, z)) /
+               (2.0 * std::numbers::pi * along_sd * across_sd);
+    told.pit_along += one.probability * cdf(standard, z.x);
+    told.pit_across += one.probability * cdf(standard, z.y);
+  }
+  told.nll = -std::log(std::max(density, std::numeric_limits<double>::min()));
+  constexpr std::size_t most = 6;
+  const auto order = likeliest_first(places);
+  for (std::size_t k = 0; k < std::min(most, order.size()); ++k) {
+    told.miss = std::min(told.miss, norm(places[order[k]].p_W - truth));
+  }
+  return told;
+}
+
+double least_mean_miss(const LikelyPlaces& places,
+                       const std::array<Vec2, forecast_times.size()>& truth, std::size_t most) {
+  const auto order = likeliest_first(places.front());
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < std::min(most, order.size()); ++k) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < forecast_times.size(); ++i) {
+      sum += norm(places[i][order[k]].p_W - truth[i]);
+    }
+    least = std::min(least, sum / static_cast<double>(forecast_times.size()));
+  }
+  return least;
+}
+
+Result<std::vector<ForecastSample>> forecast_samples(const loop::Stage& stage) {
+  constexpr int looks_per_note = 50;  // 0.5 s
+  std::vector<Look> looks;
+  loop::ClosedLoop loop(stage);
+  for (int k = 0; !loop.truth().over(); ++k) {
+    if (auto problem = loop.look()) {
+      return *std::move(problem);
+    }
+    if (k % looks_per_note == 0) {
+      looks.push_back({loop.seen(), loop.beliefs(), loop.truth().whole_scene()});
+    }
+    loop.advance();
+  }
+  std::vector<ForecastSample> samples;
+  // Of forecast_times in notes; the first note has none before it.
+  constexpr std::array<std::size_t, forecast_times.size()> after{1, 2, 4, 6};
+  for (std::size_t n = 1; n + after.back() < looks.size(); ++n) {
+    const Look& look = looks[n];
+    for (std::size_t i = 0; i < look.seen.actors.size(); ++i) {
+      const Actor& actor = look.seen.actors[i];
+      const auto now = place_of(look.truth, actor);
+      const auto before = place_of(looks[n - 1].truth, actor);
+      if (actor.kind == world::ActorKind::obstacle || !now || !before ||
+          norm(actor.v_W) < intent::rest_speed) {
+        continue;
+      }
+      std::array<Vec2, forecast_times.size()> truth{};
+      bool stays = true;
+      for (std::size_t k = 0; k < after.size(); ++k) {
+        const auto then = place_of(looks[n + after[k]].truth, actor);
+        stays = stays && then.has_value();
+        truth[k] = then.value_or(Vec2{});
+      }
+      if (stays) {
+        samples.push_back(sample_of(look, i, truth, *now, *before));
+      }
+    }
+  }
+  return samples;
+}
+
+}  // namespace saca::eval

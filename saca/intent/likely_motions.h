@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "saca/intent/motion.h"
+#include "saca/intent/observer.h"
+#include "saca/intent/side_moves.h"
+#include "saca/world/scene.h"
+
+namespace saca::intent {
+
+/// One way in which a road user may move on: under an intention, or, where it moves to the side
+/// already, going on with that until it ends somewhere.
+struct LikelyMotion {
+  double probability = 0.0;
+  Intention intention = Intention::maintain;
+  std::optional<SideMove> aside;  ///< beside it, where it maintains or brakes; nullopt: as the law
+                                  ///< has the intention
+};
+
+/// Of a vehicle that surely moves to the side, the share that ends it anywhere [-]: fitted.
+constexpr double side_move_share = 0.85;
+
+/// Its intentions alone. Their probabilities sum to 1.
+[[nodiscard]] std::vector<LikelyMotion> intended_motions(const Belief& belief);
+
+/// All that are likely by what is believed of it now; those that go on with a move to the side end
+/// soonest first. Their probabilities sum to 1.
+[[nodiscard]] std::vector<LikelyMotion> likely_motions(const world::Scene& scene,
+                                                       const world::Actor& actor,
+                                                       const Belief& belief,
+                                                       const SideMoveLaw& law = {});
+
+/// As motion_under, of any of them.
+[[nodiscard]] Forecast forecast_of(const LikelyMotion& motion, const world::Scene& scene,
+                                   const world::Actor& actor, double horizon, const MotionLaw& law);
+
+}  // namespace saca::intent

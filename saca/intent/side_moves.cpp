@@ -1,0 +1,164 @@
+#include "saca/intent/side_moves.h"
+
+#include <algorithm>
+#include <array>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <utility>
+
+#include "saca/core/contract.h"
+
+namespace saca::intent {
+namespace {
+
+constexpr int num_times = 9;
+constexpr int num_shares = 24;
+constexpr int num_groups = 8;
+
+/// Share of the way after a share of the time, and its derivatives: 0 before it and at its ends.
+double way_share(double x) {
+  return x <= 0.0 ? 0.0 : x >= 1.0 ? 1.0 : x * x * x * (10.0 + x * (-15.0 + 6.0 * x));
+}
+double speed_share(double x) {
+  return x <= 0.0 || x >= 1.0 ? 0.0 : 30.0 * x * x * (1.0 - x) * (1.0 - x);
+}
+double acceleration_share(double x) {
+  return x <= 0.0 || x >= 1.0 ? 0.0 : 60.0 * x * (1.0 - x) * (1.0 - 2.0 * x);
+}
+
+/// The same as it is perceived: its mean over the past, fading with `lag`, in shares of the time.
+double perceived_acceleration_share(double x, double lag) {
+  constexpr int num_parts = 12;  // alike weighty
+  double sum = 0.0;
+  for (int i = 0; i < num_parts; ++i) {
+    sum += acceleration_share(x + lag * std::log1p(-(i + 0.5) / num_parts));
+  }
+  return sum / num_parts;
+}
+
+struct Candidate {
+  SideMove move;
+  double left = 0.0;  // of the way, in the direction of the measured speed [m]
+};
+
+/// Of this time and progress; its probability is the logarithm of a weight.
+Candidate candidate(const MeasuredSideMove& measured, const SideMoveLaw& law, double time,
+                    double share) {
+  constexpr double least_sd = 0.05;  // [m/s]: nobody's speed is smoother
+  const double speed_sd = std::max(least_sd, measured.speed_sd);
+  struct Equation {
+    double per_size;
+    double measured;
+  };
+  const std::array<Equation, 2> equations{
+      {{speed_share(share) / (time * speed_sd), measured.speed / speed_sd},
+       {perceived_acceleration_share(share, law.acceleration_lag / time) /
+            (time * time * law.acceleration_sd),
+        measured.acceleration / law.acceleration_sd}}};
+  double precision = 1.0 / (law.size * law.size);
+  double sum = 0.0;
+  double unexplained = 0.0;
+  for (const Equation& one : equations) {
+    precision += one.per_size * one.per_size;
+    sum += one.per_size * one.measured;
+    unexplained += one.measured * one.measured;
+  }
+  const double size = sum / precision;
+  const double rest = 1.0 - way_share(share);
+  return {{.probability = -0.5 * (unexplained - sum * size + std::log(precision)),
+           .size = size,
+           .time = time,
+           .share = share,
+           .left_sd = rest / std::sqrt(precision)},
+          (measured.speed < 0.0 ? -1.0 : 1.0) * size * rest};
+}
+
+/// Those that end alike together, in groups of about the same weight, in the middle of which one
+/// stands for all.
+std::vector<SideMove> grouped(std::vector<Candidate> all, double sum) {
+  std::sort(all.begin(), all.end(),
+            [](const Candidate& a, const Candidate& b) { return a.left < b.left; });
+  std::vector<SideMove> moves;
+  std::size_t first = 0;
+  double before = 0.0;
+  for (int group = 1; group <= num_groups && first < all.size(); ++group) {
+    std::size_t end = first;
+    double weight = 0.0;
+    while (end < all.size() &&
+           (group == num_groups || before + weight < sum * group / num_groups)) {
+      weight += all[end++].move.probability;
+    }
+    if (!(weight > 0.0)) {
+      first = end;
+      continue;
+    }
+    std::size_t middle = first;
+    double until = all[first].move.probability;
+    while (until < 0.5 * weight) {
+      until += all[++middle].move.probability;
+    }
+    SideMove move = all[middle].move;
+    double variance = 0.0;
+    for (std::size_t i = first; i < end; ++i) {
+      const double off = all[i].left - all[middle].left;
+      variance += all[i].move.probability * (off * off + all[i].move.left_sd * all[i].move.left_sd);
+    }
+    move.left_sd = std::sqrt(variance / weight);
+    move.probability = weight / sum;
+    moves.push_back(move);
+    before += weight;
+    first = end;
+  }
+  return moves;
+}
+
+}  // namespace
+
+MeasuredSideMove measured_side_move(const Line& line, const world::Actor& actor) {
+  const double of_the_bend = line.road.curvature * line.speed * line.speed;
+  return {.speed = line.lateral,
+          .speed_sd = actor.velocity_sd,
+          .acceleration = rotated(actor.a_W, -line.road.X_WL.yaw).y - of_the_bend};
+}
+
+double SideMove::way(double after) const {
+  return size * (way_share(share + after / time) - way_share(share));
+}
+
+double SideMove::speed(double after) const {
+  return size / time * speed_share(share + after / time);
+}
+
+double SideMove::way_sd(double after) const {
+  const double begun = way_share(share);
+  return begun < 1.0 ? left_sd * (way_share(share + after / time) - begun) / (1.0 - begun)
+                     : left_sd;
+}
+
+std::vector<SideMove> side_moves(const MeasuredSideMove& measured, const SideMoveLaw& law) {
+  expects(law.time > 0.0 && law.time_log_sd > 0.0 && law.size > 0.0 && law.acceleration_sd > 0.0 &&
+              law.acceleration_lag > 0.0,
+          "a law's numbers are in their ranges");
+  expects(measured.speed_sd >= 0.0, "speed_sd >= 0");
+  std::vector<Candidate> all;
+  all.reserve(num_times * num_shares);
+  for (int i = 0; i < num_times; ++i) {
+    const double quantile = boost::math::quantile(boost::math::normal(), (i + 0.5) / num_times);
+    const double time = law.time * std::exp(law.time_log_sd * quantile);
+    for (int k = 0; k < num_shares; ++k) {
+      all.push_back(candidate(measured, law, time, (k + 0.5) / num_shares));
+    }
+  }
+  const double likeliest =
+      std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
+        return a.move.probability < b.move.probability;
+      })->move.probability;
+  double sum = 0.0;
+  for (Candidate& one : all) {
+    one.move.probability = std::exp(one.move.probability - likeliest);
+    sum += one.move.probability;
+  }
+  return grouped(std::move(all), sum);
+}
+
+}  // namespace saca::intent
