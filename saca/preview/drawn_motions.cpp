@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 #include <random>
+#include <utility>
 
 #include "saca/core/contract.h"
 #include "saca/intent/likely_motions.h"
@@ -18,13 +19,37 @@ using world::Actor;
 using world::Scene;
 using world::Track;
 
+// Of a lattice that fills three dimensions evenly: the ways on in equal steps, and with each the
+// errors by 1 / g and 1 / g^2, where g^3 = g + 1.
+constexpr double along_step = 0.7548776662466927;
+constexpr double across_step = 0.5698402909980532;
+
 /// Values in (0, 1), one for each draw, one in each of as many equal parts.
 class Strata {
  public:
+  /// In a random order.
   Strata(std::size_t count, std::mt19937_64& rng) : order_(count) {
     std::iota(order_.begin(), order_.end(), std::size_t{0});
     for (std::size_t i = count; i > 1; --i) {  // std::shuffle differs between libraries
       std::swap(order_[i - 1], order_[rng() % i]);
+    }
+  }
+  /// Spread evenly over those of another: in the order of the multiples of `step`, an irrational
+  /// number, from some beginning on, in shares of 1.
+  Strata(const Strata& other, double step, std::mt19937_64& rng) : order_(other.order_.size()) {
+    const double begin = static_cast<double>(rng()) / static_cast<double>(std::mt19937_64::max());
+    std::vector<std::pair<double, std::size_t>> places;
+    for (std::size_t k = 0; k < order_.size(); ++k) {
+      const double multiple = begin + step * static_cast<double>(k);
+      places.emplace_back(multiple - std::floor(multiple), k);
+    }
+    std::sort(places.begin(), places.end());
+    std::vector<std::size_t> rank(order_.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      rank[places[i].second] = i;
+    }
+    for (std::size_t draw = 0; draw < order_.size(); ++draw) {
+      order_[draw] = rank[other.order_[draw]];
     }
   }
   [[nodiscard]] double operator[](std::size_t draw) const {
@@ -74,8 +99,8 @@ class Draws {
         forecasts_(motions_.size()),
         rng_(rng_of(actor)),
         which_(count, rng_),
-        along_(count, rng_),
-        across_(count, rng_) {}
+        along_(which_, along_step, rng_),
+        across_(which_, across_step, rng_) {}
 
   [[nodiscard]] Track track(std::size_t draw) {
     const Forecast& drawn = forecast(which_[draw]);
@@ -139,7 +164,7 @@ std::vector<JointMotion> drawn_motions(const Situation& situation, std::size_t c
     const Actor& actor = scene.actors[i];
     std::mt19937_64 rng = rng_of(actor);
     const Strata along(count, rng);
-    const Strata across(count, rng);
+    const Strata across(along, along_step, rng);
     Track mean{.start = scene.time, .step = intent::motion_step, .X_WA = {}};
     const long last = std::lround(motion_horizon / mean.step);
     for (long k = 0; k <= last; ++k) {

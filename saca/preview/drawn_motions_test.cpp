@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -119,6 +120,27 @@ TEST(DrawnMotions, HaveTheSpreadThatTheLawTellsAlongAndAcross) {
   const world::Spread late = spread_at(law.spread, 4.0);
   ASSERT_GT(late.along_sd, 3.0 * late.across_sd)
       << "else the two could be confused and nobody would see";
+}
+
+// Errors along and across fill the plane: of 64 draws, four are in each of 16 fields that are alike
+// likely, one more or less; of independent ones, two fields would be empty or have eight.
+TEST(DrawnMotions, LeaveNoGaps) {
+  Scene scene = with_a_car();
+  scene.actors[0].position_sd = 1.0;
+  for (std::uint8_t id = 1; id <= 20; ++id) {
+    scene.actors[0].id = id;
+    std::array<int, 16> in_field{};
+    for (const Vec2 p :
+         places(drawn_motions(scene, believing(belief_in(Intention::maintain)), {}, count), 0.0)) {
+      const auto quarter = [](double z) {
+        return z < -0.6745 ? 0 : z < 0.0 ? 1 : z < 0.6745 ? 2 : 3;
+      };
+      ++in_field[static_cast<std::size_t>(4 * quarter(p.x - 40.0) + quarter(p.y))];
+    }
+    const auto [fewest, most] = std::minmax_element(in_field.begin(), in_field.end());
+    EXPECT_GE(*fewest, 2) << static_cast<int>(id);
+    EXPECT_LE(*most, 6) << static_cast<int>(id);
+  }
 }
 
 TEST(DrawnMotions, HoldEachIntentionAsOftenAsItIsBelieved) {
