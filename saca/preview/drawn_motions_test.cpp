@@ -122,8 +122,8 @@ TEST(DrawnMotions, HaveTheSpreadThatTheLawTellsAlongAndAcross) {
       << "else the two could be confused and nobody would see";
 }
 
-// Errors along and across fill the plane: of 64 draws, four are in each of 16 fields that are alike
-// likely, one more or less; of independent ones, two fields would be empty or have eight.
+// Errors along and across fill the plane: of 64 draws, two to six are in each of 16 fields that are
+// alike likely; of independent ones, one field or another would be empty or have eight.
 TEST(DrawnMotions, LeaveNoGaps) {
   Scene scene = with_a_car();
   scene.actors[0].position_sd = 1.0;
