@@ -44,6 +44,8 @@ def trimmed(figures):
         if parts[0] == "suite" and len(parts) > 4 and parts[3] not in NUMBERS and parts[3] not in ("source", "reason"):
             if parts[4] != "regret" or len(parts) > 5:
                 continue
+        if parts[0] == "forecast" and key.endswith((".n", ".lo", ".hi")) and "above_shipped" not in parts:
+            continue
         kept[key] = value
     return kept
 
@@ -159,9 +161,42 @@ def tables_section(figures):
     return "\n".join(text)
 
 
+MODELS = ("constant_velocity", "constant_turn", "lane_following", "law", "shipped")  # as saca/eval/forecast_score.cpp has them
+GROUPS = (("all", "All road users that move"), ("acting", "Those that act: after 2 s more than 1 m from where they would be, straight on"),
+          ("aside", "Vehicles that are seen to move aside by more than 0.5 m/s"))
+SCORES = (("nll", "negative log likelihood, ln m2", 1.0), ("miss_of_6", "least miss of 6, m", 1.0), ("missed", "more than 2 m off, %", 100.0),
+          ("within_90_along", "in the 90 % region along, %", 100.0), ("within_90_across", "likewise across, %", 100.0),
+          ("within_50_along", "in the 50 % region along, %", 100.0), ("within_50_across", "likewise across, %", 100.0))
+
+
+def forecast_section(figures, name):
+    head = f"forecast.{name}."
+    text = [f"## Forecasts `{name}`\n",
+            f"{figures[head + 'num_encounters']} encounters, {figures[head + 'num_failed']} could not be played; {figures[head + 'num_forecasts']} forecasts, "
+            f"{figures[head + 'num_acting']} of them of road users that act. Means over encounters."]
+    for group, words in GROUPS:
+        lines = []
+        for score, what, factor in SCORES:
+            for time in (500, 1000, 2000, 3000):
+                values = [figures.get(f"{head}{group}.{score}.{time}ms.{model}") for model in MODELS]
+                if None not in values:
+                    digits = 3 if factor == 1.0 else 1
+                    lines.append([f"{what}, {time / 1000:g} s", *(f"{factor * value:.{digits}f}" for value in values),
+                                  interval(figures, f"{head}{group}.{score}.{time}ms.law.above_shipped", 3)])
+        if lines:
+            text += [f"\n{words}:\n", table(["", *(f"`{model}`" for model in MODELS), "`law` above `shipped`, paired"], lines)]
+    families = sorted({key[len(head):].split(".")[0] for key in figures if key.startswith(head) and ".nll.2000ms." in key} - {group for group, _ in GROUPS})
+    if families:
+        text += ["\nNegative log likelihood after 2 s of those that act, by family:\n",
+                 table(["family", *(f"`{model}`" for model in MODELS)],
+                       [[family.removesuffix("_acting"), *(f"{figures[f'{head}{family}.nll.2000ms.{model}']:.3f}" for model in MODELS)] for family in families
+                        if f"{head}{family}.nll.2000ms.{MODELS[0]}" in figures])]
+    return "\n".join(text)
+
+
 def section(figures):
     sections = []
-    for kind, make in (("suite", suite_section), ("ladder", ladder_section)):
+    for kind, make in (("suite", suite_section), ("ladder", ladder_section), ("forecast", forecast_section)):
         for name in sorted({key.split(".")[1] for key in figures if key.startswith(kind + ".")}):
             sections.append(make(figures, name))
     if any(key.startswith("tables.") for key in figures):
@@ -172,7 +207,7 @@ def section(figures):
 
 
 def page_of(runs):
-    head = ("# Suites, ladders and tables\n\nMade by `tools/suite_results.py` from [suites.json](suites.json), which holds what the commands "
+    head = ("# Suites, ladders, forecasts and tables\n\nMade by `tools/suite_results.py` from [suites.json](suites.json), which holds what the commands "
             "below printed: no figure here is typed by hand. What the words mean: docs/formats.md, section Suite. `regret` is the harm above that "
             "of the best plan begun at T1 with full knowledge; materially worse means by more than 0.005.\n\n")
     return head + "\n\n".join(section(one) for one in runs) + "\n"

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -11,7 +12,10 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/progress.h"
+#include "apps/saca/suite_pages.h"
 #include "apps/saca/suite_sources.h"
+#include "apps/saca/surveying.h"
+#include "saca/core/file.h"
 #include "saca/core/parallel.h"
 #include "saca/eval/forecast_score.h"
 #include "saca/eval/suite_figures.h"
@@ -46,7 +50,7 @@ bool is_within(double pit, double share) {
   return std::abs(pit - 0.5) < 0.5 * share;
 }
 
-constexpr std::array<Figure, 8> score_figures{{
+constexpr std::array<Figure, 9> score_figures{{
     {"nll", "negative log likelihood", true,
      [](const ForecastSample& s, std::size_t m, std::size_t t) { return s.scores[m][t].nll; }},
     {"miss_of_6", "least miss of 6 [m]", true,
@@ -73,6 +77,8 @@ constexpr std::array<Figure, 8> score_figures{{
      }},
     {"mean_miss_of_6", "least mean miss of 6 [m]", false,
      [](const ForecastSample& s, std::size_t m, std::size_t) { return s.mean_miss_of_6[m]; }},
+    {"mean_miss_of_12", "least mean miss of 12 [m]", false,
+     [](const ForecastSample& s, std::size_t m, std::size_t) { return s.mean_miss_of_12[m]; }},
 }};
 
 /// Of those that count in an encounter; nullopt: nobody does.
@@ -95,6 +101,7 @@ struct Group {
   std::string name;
   std::function<bool(const Heard&)> encounter;
   std::function<bool(const ForecastSample&)> sample;
+  bool likelihood_only = false;
 };
 
 struct Line {
@@ -107,7 +114,7 @@ struct Line {
 
 std::vector<Line> lines_of(const std::vector<Heard>& all, const Group& group, std::uint64_t seed) {
   std::vector<Line> lines;
-  for (std::size_t f = 0; f < score_figures.size(); ++f) {
+  for (std::size_t f = 0; f < (group.likelihood_only ? 1 : score_figures.size()); ++f) {
     for (std::size_t t = 0; t < (score_figures[f].each_time ? forecast_times.size() : 1); ++t) {
       std::array<std::vector<std::optional<double>>, eval::motion_models.size()> values;
       for (const Heard& heard : all) {
@@ -137,40 +144,44 @@ std::vector<Line> lines_of(const std::vector<Heard>& all, const Group& group, st
   return lines;
 }
 
-std::string time_text(const Line& line) {
-  return score_figures[line.figure].each_time ? fmt::format("{:g}s", forecast_times[line.time])
-                                              : "over_time";
+/// In milliseconds: keys have dots between their parts.
+std::string time_key(const Line& line) {
+  return score_figures[line.figure].each_time
+             ? fmt::format("{:.0f}ms", 1e3 * forecast_times[line.time])
+             : "over_time";
 }
 
+/// @param place  "forecast.NAME.GROUP"
 void add_lines(json& out, const std::string& place, const std::vector<Line>& lines) {
   for (const Line& line : lines) {
     const std::string key = fmt::format("{}.{}.{}.{}", place, score_figures[line.figure].name,
-                                        time_text(line), name(line.model));
-    out[key] = {line.mean.value, line.mean.low, line.mean.high};
+                                        time_key(line), name(line.model));
+    add_estimate(out, key, line.mean);
     if (line.above_shipped) {
-      out[key + ".above_shipped"] = {line.above_shipped->value, line.above_shipped->low,
-                                     line.above_shipped->high};
+      add_estimate(out, key + ".above_shipped", *line.above_shipped);
     }
   }
 }
 
 void print_lines(const std::string& title, const std::vector<Line>& lines) {
-  fmt::print("\n{}\n{:28} {:>9}", title, "", "");
+  fmt::print("\n{:28} {:>9}", title, "");
   for (const MotionModel model : eval::motion_models) {
-    fmt::print(" {:>18}", name(model));
+    fmt::print(" {:>17}", name(model));
   }
   fmt::print("\n");
   for (std::size_t i = 0; i < lines.size(); i += eval::motion_models.size()) {
-    fmt::print("{:28} {:>9}", score_figures[lines[i].figure].title, time_text(lines[i]));
+    const Figure& figure = score_figures[lines[i].figure];
+    fmt::print("{:28} {:>9}", figure.title,
+               figure.each_time ? fmt::format("{:g} s", forecast_times[lines[i].time]) : "");
     for (std::size_t m = 0; m < eval::motion_models.size(); ++m) {
-      fmt::print(" {:18.3f}", lines[i + m].mean.value);
+      fmt::print(" {:17.3f}", lines[i + m].mean.value);
     }
     fmt::print("\n");
   }
 }
 
 struct ForecastCommand {
-  SuiteCommandOptions suite;
+  SuiteCommandOptions from;  ///< which encounters; nothing is decided in them
   bool as_json = false;
 };
 
@@ -207,13 +218,13 @@ std::vector<Heard> heard_in(const SuiteEncounters& encounters, const SuiteComman
 }
 
 int run(const ForecastCommand& options) {
-  const SuiteCommandOptions& suite = options.suite;
-  const auto encounters = open_encounters(suite, "forecast eval");
+  const SuiteCommandOptions& from = options.from;
+  const auto encounters = open_encounters(from, "forecast eval");
   if (!encounters.has_value()) {
     return refused(encounters.error());
   }
   watch_for_interrupt();
-  const std::vector<Heard> all = heard_in(encounters.value(), suite);
+  const std::vector<Heard> all = heard_in(encounters.value(), from);
   if (interrupted()) {
     complain("interrupted; nothing was kept: the same command begins anew");
     return was_interrupted;
@@ -241,28 +252,39 @@ int run(const ForecastCommand& options) {
   groups.push_back({"aside", any, [](const ForecastSample& one) { return one.aside; }});
   for (const auto& [family, count] : families) {
     groups.push_back({family + "_acting",
-                      [family = family](const Heard& one) { return one.family == family; }, acts});
+                      [family = family](const Heard& one) { return one.family == family; }, acts,
+                      true});
   }
-  json out{{"schema", "saca.forecast_score/1"},
-           {"of", encounters.value().what},
-           {"seed", suite.seed},
-           {"encounters", all.size()},
-           {"failed", num_failed},
-           {"samples", num_samples},
-           {"acting", num_acting}};
+  const std::string place = "forecast." + std::filesystem::path(from.name).filename().string();
+  json out{{"meta.command",
+            fmt::format("saca forecast eval {} --count {} --split {} --car {} --seed {}{}{}",
+                        from.name, from.count, from.split, from.car, from.seed,
+                        from.exact ? " --exact" : "", from.data.empty() ? "" : " --data FOLDER")},
+           {"meta.seed", std::to_string(from.seed)},
+           {"meta.version", SACA_VERSION},
+           {place + ".num_encounters", all.size()},
+           {place + ".num_failed", num_failed},
+           {place + ".num_forecasts", num_samples},
+           {place + ".num_acting", num_acting}};
   if (!options.as_json) {
-    fmt::print("{}: {} encounters, {} forecasts, {} of them of road users that act\n", suite.name,
+    fmt::print("{}: {} encounters, {} forecasts, {} of them of road users that act\n", from.name,
                all.size(), num_samples, num_acting);
   }
   for (const Group& group : groups) {
-    const auto lines = lines_of(all, group, suite.seed);
-    add_lines(out, group.name, lines);
+    const auto lines = lines_of(all, group, from.seed);
+    add_lines(out, place + "." + group.name, lines);
     if (!options.as_json) {
       print_lines(group.name, lines);
     }
   }
+  const std::string text = out.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
+  if (!from.output.empty()) {
+    if (const auto problem = write_file(from.output, text)) {
+      return refused(*problem);
+    }
+  }
   if (options.as_json) {
-    fmt::print("{}\n", out.dump(1));
+    fmt::print("{}", text);
   }
   return num_failed > 0 ? some_failed : success;
 }
@@ -276,7 +298,21 @@ void add_forecast(CLI::App& line, int& exit_code) {
   CLI::App* const command = forecast->add_subcommand(
       "eval", "Hold forecasts against what happens in many encounters, beside simpler ones");
   const auto options = std::make_shared<ForecastCommand>();
-  add_suite_options(*command, options->suite);
+  SuiteCommandOptions& from = options->from;
+  command
+      ->add_option("name", from.name,
+                   "A suite (natural, balanced), a family, a folder of scenarios, or 100car")
+      ->required();
+  command->add_option("--data", from.data, "Of 100car the folder of the study's release");
+  add_draw_options(*command, from.count, from.split, from.test_log, from.car);
+  command->add_option("--seed", from.seed, "Of all that is drawn: same seed, same figures")
+      ->capture_default_str();
+  command->add_flag("--exact", from.exact,
+                    "Nothing is left to chance, and perception is as the scenarios have it");
+  command->add_option("--output", from.output, "The figures as JSON, besides");
+  command->add_option("--threads", from.threads, "They do not change the result")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
   command->add_flag("--json", options->as_json, "For programs");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

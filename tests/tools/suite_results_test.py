@@ -24,6 +24,18 @@ def test_a_table_shows_mean_and_interval():
     assert "| `aeb` | 0.2500 |" in text and "7 encounters" in text
 
 
+def test_forecasts_show_each_model_beside_what_ships():
+    figures = {f"forecast.x.{part}": 3 for part in ("num_encounters", "num_failed", "num_forecasts", "num_acting")}
+    for k, model in enumerate(suite_results.MODELS):
+        figures[f"forecast.x.all.nll.1000ms.{model}"] = 1.0 + k
+        figures[f"forecast.x.head_on_acting.nll.2000ms.{model}"] = 2.0 + k
+    figures |= {"forecast.x.all.nll.1000ms.law.above_shipped" + end: value for end, value in (("", 0.5), (".lo", 0.25), (".hi", 0.75))}
+    text = suite_results.forecast_section(figures, "x")
+    assert "| negative log likelihood, ln m2, 1 s | 1.000 | 2.000 | 3.000 | 4.000 | 5.000 | 0.500 (0.250 to 0.750) |" in text
+    assert "| head_on | 2.000 | 3.000 | 4.000 | 5.000 | 6.000 |" in text
+    assert "forecast.x.all.nll.1000ms.law.above_shipped.lo" in suite_results.trimmed(figures)
+
+
 def test_single_families_keep_their_regret_only():
     figures = {"suite.x.aeb.regret": 1, "suite.x.aeb.crossing.regret": 2, "suite.x.aeb.crossing.harm": 3, "suite.x.aeb.crossing.regret.lo": 4,
                "suite.x.aeb.harm.lo": 5, "meta.seed": "1"}
