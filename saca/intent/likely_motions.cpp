@@ -25,6 +25,32 @@ world::Actor along(const Line& line, world::Actor actor) {
   return actor;
 }
 
+/// Some of those who brake do it as in an emergency.
+std::vector<LikelyMotion> with_emergencies(const std::vector<LikelyMotion>& intended) {
+  std::vector<LikelyMotion> motions;
+  for (LikelyMotion one : intended) {
+    const bool may_be_hard = is_braking(one.intention) && one.intention != Intention::stop;
+    if (may_be_hard) {
+      LikelyMotion hard = one;
+      hard.hard = true;
+      hard.probability *= hard_braking_share;
+      motions.push_back(hard);
+      one.probability -= hard.probability;
+    }
+    motions.push_back(one);
+  }
+  return motions;
+}
+
+/// Of who brakes as in an emergency.
+MotionLaw hard_braking(MotionLaw law) {
+  law.braking = 6.0;
+  law.braking_log_sd = 0.35;
+  law.braking_rise = 0.5;
+  law.holds = false;
+  return law;
+}
+
 }  // namespace
 
 std::vector<LikelyMotion> intended_motions(const Belief& belief) {
@@ -45,7 +71,7 @@ std::vector<LikelyMotion> intended_motions(const Belief& belief) {
 
 std::vector<LikelyMotion> likely_motions(const world::Scene& scene, const world::Actor& actor,
                                          const Belief& belief, const SideMoveLaw& law) {
-  std::vector<LikelyMotion> motions = intended_motions(belief);
+  std::vector<LikelyMotion> motions = with_emergencies(intended_motions(belief));
   if (actor.kind == world::ActorKind::obstacle || norm(actor.v_W) < rest_speed) {
     return motions;
   }
@@ -74,7 +100,8 @@ std::vector<LikelyMotion> likely_motions(const world::Scene& scene, const world:
 Forecast forecast_of(const LikelyMotion& motion, const world::Scene& scene,
                      const world::Actor& actor, double horizon, const MotionLaw& law) {
   if (!motion.aside) {
-    return motion_under(scene, actor, motion.intention, horizon, law);
+    return motion_under(scene, actor, motion.intention, horizon,
+                        motion.hard ? hard_braking(law) : law);
   }
   const Line line = line_of(scene, actor);
   Forecast forecast = motion_under(scene, along(line, actor), motion.intention, horizon, law);

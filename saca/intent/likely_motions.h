@@ -17,7 +17,12 @@ struct LikelyMotion {
   Intention intention = Intention::maintain;
   std::optional<SideMove> aside;  ///< beside it, where it maintains or brakes; nullopt: as the law
                                   ///< has the intention
+  bool hard = false;              ///< where it brakes: as in an emergency
 };
+
+/// Of vehicles that brake, the share that does it as in an emergency, by 6 m/s^2 or what is
+/// measured, if that is more, reached within 0.5 s [-]. Fitted (docs/forecast.md).
+constexpr double hard_braking_share = 0.3;
 
 /// Of a vehicle that surely moves to the side, the share that ends it anywhere [-]: fitted.
 constexpr double side_move_share = 0.85;

@@ -56,6 +56,7 @@ TEST(LikelyMotions, OfWhoMovesAsideSurelyEndAnywhereByTheStatedShare) {
   for (const LikelyMotion& one : motions) {
     sum += one.probability;
     EXPECT_EQ(one.intention, one.aside ? Intention::brake : Intention::brake_left);
+    EXPECT_TRUE(!one.hard || !one.aside);
   }
   EXPECT_NEAR(sum, 1.0, 1e-12);
 }
@@ -88,6 +89,41 @@ TEST(LikelyMotions, GoOnToTheSideAndThenAlongTheLane) {
     EXPECT_NEAR(at.yaw, std::atan2(motion.aside->speed(time), std::hypot(10.0, 1.0)), 1e-6);
   }
   EXPECT_NEAR(world::spread_at(forecast.spread, 4.0).across_sd, std::hypot(0.1, 0.3), 1e-9);
+}
+
+// Three of ten who brake do it by 6 m/s2, or harder where harder is measured: after 1 s, of which
+// half is the rise, 6 (1 - 0.5 / 2) are off the speed.
+TEST(LikelyMotions, OfWhoBrakesAreHardToo) {
+  for (const double measured : {0.0, 3.0, 8.0}) {
+    world::Scene scene = with_a_car(0.0);
+    scene.actors[0].v_W = {20.0, 0.0};
+    scene.actors[0].a_W = {-measured, 0.0};
+    const auto motions = likely_motions(scene, scene.actors[0], belief_in(Intention::brake, 0.5));
+    double hard = 0.0;
+    for (const LikelyMotion& one : motions) {
+      if (!one.hard) {
+        continue;
+      }
+      hard += one.probability;
+      const Forecast forecast = forecast_of(one, scene, scene.actors[0], 2.0, {});
+      const double speed =
+          (world::pose_at(forecast.track, 1.05).p.x - world::pose_at(forecast.track, 0.95).p.x) /
+          0.1;
+      const double full = std::max(6.0, measured);
+      EXPECT_NEAR(20.0 - speed, full - 0.25 * (full - measured), 0.02) << measured;
+    }
+    EXPECT_NEAR(hard, 0.5 * hard_braking_share, 1e-9);
+  }
+}
+
+TEST(LikelyMotions, OfWhoStopsOrMaintainsAreNotHard) {
+  const world::Scene scene = with_a_car(0.0, world::ActorKind::pedestrian);
+  for (const Intention intention : {Intention::maintain, Intention::stop}) {
+    for (const LikelyMotion& one :
+         likely_motions(scene, scene.actors[0], belief_in(intention, 0.5))) {
+      EXPECT_FALSE(one.hard);
+    }
+  }
 }
 
 // Off its lane's middle and moving towards it: what the law would add is left out.

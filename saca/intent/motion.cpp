@@ -165,6 +165,10 @@ Aside aside(const Line& line, double side, const MotionLaw& law) {
           .length = std::max(line.speed * time, peak / steepest * size)};
 }
 
+bool is_held(const Line& line, const MotionLaw& law) {
+  return law.holds && line.deceleration >= braking_mark;
+}
+
 Slowing slowing(const Line& line, ActorKind kind, Intention intention, const MotionLaw& law) {
   if (!is_braking(intention)) {
     return {line.speed, 0.0, 0.0, 0.0};
@@ -174,11 +178,12 @@ Slowing slowing(const Line& line, ActorKind kind, Intention intention, const Mot
     const double full = std::max(usual, line.deceleration);
     return {line.speed, full, full, 0.0};
   }
-  if (line.deceleration >= braking_mark) {
+  if (is_held(line, law)) {
     return {line.speed, line.deceleration, line.deceleration, 0.0};
   }
-  const double first = std::clamp(line.deceleration, 0.0, law.braking);
-  return {line.speed, first, law.braking, law.braking_rise};
+  const double full = std::max(law.braking, line.deceleration);
+  const double first = std::clamp(line.deceleration, 0.0, full);
+  return {line.speed, first, full, law.braking_rise};
 }
 
 void check(const MotionLaw& law) {
@@ -232,7 +237,7 @@ Forecast motion_under(const Scene& scene, const Actor& actor, Intention intentio
   const Line line = line_of(scene, actor);
   const bool brakes = is_braking(intention);
   const Slowing slowed = slowing(line, actor.kind, intention, law);
-  const double log_sd = line.deceleration >= braking_mark ? law.held_log_sd : law.braking_log_sd;
+  const double log_sd = is_held(line, law) ? law.held_log_sd : law.braking_log_sd;
   const Wavering& wavering = is_walker(actor.kind) ? law.walking : law.driving;
   const Aside moved = is_walker(actor.kind) ? Aside{} : aside(line, side_of(intention), law);
 

@@ -23,6 +23,8 @@ struct MotionLaw {
   double braking = 2.6;          ///< of one who does not brake yet: median [m/s^2], > 0
   double braking_log_sd = 0.32;  ///< standard deviation of its logarithm [-]
   double braking_rise = 2.0;     ///< until such a braking has built up, linearly [s], >= 0
+  bool holds = true;          ///< who brakes already goes on as it does; else it brakes harder, to
+                              ///< `braking` at least
   double held_log_sd = 0.61;  ///< of one who brakes: of the logarithm of what it goes on with over
                               ///< what is measured now [-]
   double lane_change = 5.9;   ///< from lane to lane: median [s], > 0
@@ -55,8 +57,9 @@ constexpr double braking_mark = 2.0;
 /// Vehicles and cyclists along the lane follow it, others the arc that their velocity and turning
 /// rate describe, pedestrians a straight line; obstacles, and who is at rest, stay.
 /// * Maintaining keeps the speed; the acceleration wavers.
-/// * Braking, until rest: who brakes already keeps its deceleration; another's grows from what is
-///   measured to `braking`.
+/// * Braking, until rest: who brakes already keeps its deceleration where the law holds it;
+/// another's
+///   grows from what is measured to `braking`.
 /// * A lane change leads to the next lane's centre that is still a quarter of a lane away, as a
 ///   polynomial of fifth order over the way driven, from the lateral speed that there is to none;
 ///   the less of a lane is left, the less time is. It is made along the way: who stands does not
