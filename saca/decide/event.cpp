@@ -53,7 +53,7 @@ std::string decision_text(const Decision& decision) {
   if (decision.source == Source::forced) {
     return "asked for by the user";
   }
-  const std::string refused =
+  std::string refused =
       decision.refused ? fmt::format("{} cannot be driven from here ({}): emergency braking",
                                      plan_text(decision.refused->plan), name(decision.refused->why))
                        : "";

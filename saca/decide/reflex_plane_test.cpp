@@ -1,5 +1,6 @@
 #include "saca/decide/reflex_plane.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -8,6 +9,7 @@
 #include <limits>
 #include <string>
 
+#include "saca/decide/event.h"
 #include "saca/decide/verdict_for_test.h"
 #include "saca/manoeuvre/atlas_for_test.h"
 #include "tests/support/count_allocations.h"
@@ -19,7 +21,6 @@ namespace {
 
 using manoeuvre::PolicyId;
 using test::car;
-using world::Actor;
 using world::Scene;
 
 Scene motorway(double speed) {

@@ -17,7 +17,6 @@ namespace {
 
 using manoeuvre::PolicyId;
 using reason::Answer;
-using world::Actor;
 using world::Scene;
 
 /// About each scene one policy, first and at the end.

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "saca/eval/scenes_for_test.h"
+#include "tests/support/scenes.h"
 
 namespace saca::eval::forecast_score_test {
 namespace {

@@ -4,6 +4,7 @@
 #include <array>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "saca/core/contract.h"
@@ -73,40 +74,50 @@ Candidate candidate(const MeasuredSideMove& measured, const SideMoveLaw& law, do
           (measured.speed < 0.0 ? -1.0 : 1.0) * size * rest};
 }
 
-/// Those that end alike together, in groups of about the same weight, in the middle of which one
-/// stands for all.
-std::vector<SideMove> grouped(std::vector<Candidate> all, double sum) {
+double weight_of(std::span<const Candidate> some) {
+  double sum = 0.0;
+  for (const Candidate& one : some) {
+    sum += one.move.probability;
+  }
+  return sum;
+}
+
+/// The middle one by weight, with the spread of them all about it.
+SideMove standing_for(std::span<const Candidate> some, double weight) {
+  std::size_t middle = 0;
+  for (double until = some[0].move.probability; until < 0.5 * weight && middle + 1 < some.size();) {
+    until += some[++middle].move.probability;
+  }
+  SideMove move = some[middle].move;
+  double variance = 0.0;
+  for (const Candidate& one : some) {
+    const double off = one.left - some[middle].left;
+    variance += one.move.probability * (off * off + one.move.left_sd * one.move.left_sd);
+  }
+  move.left_sd = std::sqrt(variance / weight);
+  return move;
+}
+
+/// Those that end alike together, in groups of about the same weight; one stands for each.
+std::vector<SideMove> grouped(std::vector<Candidate> all) {
   std::sort(all.begin(), all.end(),
             [](const Candidate& a, const Candidate& b) { return a.left < b.left; });
+  const double sum = weight_of(all);
   std::vector<SideMove> moves;
   std::size_t first = 0;
-  double before = 0.0;
-  for (int group = 1; group <= num_groups && first < all.size(); ++group) {
-    std::size_t end = first;
-    double weight = 0.0;
-    while (end < all.size() &&
-           (group == num_groups || before + weight < sum * group / num_groups)) {
-      weight += all[end++].move.probability;
-    }
-    if (!(weight > 0.0)) {
-      first = end;
+  double until = 0.0;  // weight of the groups and of this one so far
+  for (std::size_t end = 1; end <= all.size(); ++end) {
+    until += all[end - 1].move.probability;
+    const double wanted = sum * static_cast<double>(moves.size() + 1) / num_groups;
+    if (until < wanted && end < all.size()) {
       continue;
     }
-    std::size_t middle = first;
-    double until = all[first].move.probability;
-    while (until < 0.5 * weight) {
-      until += all[++middle].move.probability;
+    const std::span<const Candidate> group(all.begin() + static_cast<std::ptrdiff_t>(first),
+                                           end - first);
+    if (const double weight = weight_of(group); weight > 0.0) {
+      moves.push_back(standing_for(group, weight));
+      moves.back().probability = weight / sum;
     }
-    SideMove move = all[middle].move;
-    double variance = 0.0;
-    for (std::size_t i = first; i < end; ++i) {
-      const double off = all[i].left - all[middle].left;
-      variance += all[i].move.probability * (off * off + all[i].move.left_sd * all[i].move.left_sd);
-    }
-    move.left_sd = std::sqrt(variance / weight);
-    move.probability = weight / sum;
-    moves.push_back(move);
-    before += weight;
     first = end;
   }
   return moves;
@@ -141,7 +152,7 @@ std::vector<SideMove> side_moves(const MeasuredSideMove& measured, const SideMov
           "a law's numbers are in their ranges");
   expects(measured.speed_sd >= 0.0, "speed_sd >= 0");
   std::vector<Candidate> all;
-  all.reserve(num_times * num_shares);
+  all.reserve(std::size_t{num_times} * num_shares);
   for (int i = 0; i < num_times; ++i) {
     const double quantile = boost::math::quantile(boost::math::normal(), (i + 0.5) / num_times);
     const double time = law.time * std::exp(law.time_log_sd * quantile);
@@ -153,12 +164,10 @@ std::vector<SideMove> side_moves(const MeasuredSideMove& measured, const SideMov
       std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
         return a.move.probability < b.move.probability;
       })->move.probability;
-  double sum = 0.0;
   for (Candidate& one : all) {
     one.move.probability = std::exp(one.move.probability - likeliest);
-    sum += one.move.probability;
   }
-  return grouped(std::move(all), sum);
+  return grouped(std::move(all));
 }
 
 }  // namespace saca::intent

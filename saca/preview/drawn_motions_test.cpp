@@ -41,6 +41,7 @@ Scene with_a_car(double sideways = 0.0) {
 /// Where the first actor is then, in each draw.
 std::vector<Vec2> places(const std::vector<JointMotion>& motions, double time) {
   std::vector<Vec2> all;
+  all.reserve(motions.size());
   for (const JointMotion& motion : motions) {
     all.push_back(world::pose_at(motion.tracks.at(0), time).p);
   }
@@ -70,6 +71,7 @@ double sd_of(const std::vector<double>& values) {
 }
 std::vector<double> along(const std::vector<Vec2>& places) {
   std::vector<double> all;
+  all.reserve(places.size());
   for (const Vec2 p : places) {
     all.push_back(p.x);
   }
@@ -77,6 +79,7 @@ std::vector<double> along(const std::vector<Vec2>& places) {
 }
 std::vector<double> across(const std::vector<Vec2>& places) {
   std::vector<double> all;
+  all.reserve(places.size());
   for (const Vec2 p : places) {
     all.push_back(p.y);
   }
@@ -132,10 +135,10 @@ TEST(DrawnMotions, LeaveNoGaps) {
     std::array<int, 16> in_field{};
     for (const Vec2 p :
          places(drawn_motions(scene, believing(belief_in(Intention::maintain)), {}, count), 0.0)) {
-      const auto quarter = [](double z) {
+      const auto quarter = [](double z) -> std::size_t {
         return z < -0.6745 ? 0 : z < 0.0 ? 1 : z < 0.6745 ? 2 : 3;
       };
-      ++in_field[static_cast<std::size_t>(4 * quarter(p.x - 40.0) + quarter(p.y))];
+      ++in_field[4 * quarter(p.x - 40.0) + quarter(p.y)];
     }
     const auto [fewest, most] = std::minmax_element(in_field.begin(), in_field.end());
     EXPECT_GE(*fewest, 2) << static_cast<int>(id);

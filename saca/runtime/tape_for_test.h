@@ -30,7 +30,7 @@ struct TapedDrive {
 
   /// From 3 s before the conflict on, for `num_steps` of 10 ms; at pace `real` on the setup's
   /// clock.
-  [[nodiscard]] TapeContent driven(const PlanesSetup& setup, int num_steps = 330) {
+  [[nodiscard]] TapeContent driven(const PlanesSetup& setup, int num_steps = 330) const {
     Planes planes(setup, {}, 0);
     intent::Observer observer(intent::shipped_model());
     const Clock::Time start = setup.clock->now();
