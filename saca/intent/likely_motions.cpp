@@ -7,8 +7,8 @@
 namespace saca::intent {
 namespace {
 
-constexpr double sure_speed =
-    0.6;  // [m/s] sideways: less is told apart from none ever less; fitted
+// Sideways [m/s]: less is told apart from none ever less. Fitted (docs/forecast.md).
+constexpr double sure_speed = 0.6;
 constexpr double least_likely = 0.01;
 
 /// How likely it is that a measured move to the side ends anywhere.

@@ -27,14 +27,24 @@ double acceleration_share(double x) {
   return x <= 0.0 || x >= 1.0 ? 0.0 : 60.0 * x * (1.0 - x) * (1.0 - 2.0 * x);
 }
 
+/// When each of twelve equally weighty parts of a fading past was, in shares of the time after
+/// which 1/e of it is left.
+std::array<double, 12> parts_of_the_past() {
+  std::array<double, 12> parts{};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    parts[i] = std::log1p(-(static_cast<double>(i) + 0.5) / static_cast<double>(parts.size()));
+  }
+  return parts;
+}
+
 /// The same as it is perceived: its mean over the past, fading with `lag`, in shares of the time.
 double perceived_acceleration_share(double x, double lag) {
-  constexpr int num_parts = 12;  // alike weighty
+  static const auto parts = parts_of_the_past();
   double sum = 0.0;
-  for (int i = 0; i < num_parts; ++i) {
-    sum += acceleration_share(x + lag * std::log1p(-(i + 0.5) / num_parts));
+  for (const double part : parts) {
+    sum += acceleration_share(x + lag * part);
   }
-  return sum / num_parts;
+  return sum / static_cast<double>(parts.size());
 }
 
 struct Candidate {
