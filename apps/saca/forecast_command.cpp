@@ -19,7 +19,6 @@
 #include "saca/core/parallel.h"
 #include "saca/eval/forecast_score.h"
 #include "saca/eval/suite_figures.h"
-#include "saca/sim/chance.h"
 
 namespace saca::app {
 namespace {
@@ -46,8 +45,10 @@ struct Figure {
   Value value;
 };
 
-bool is_within(double pit, double share) {
-  return std::abs(pit - 0.5) < 0.5 * share;
+/// Is it in the central region along or across that holds so many per cent?
+template <double eval::PlaceScore::*pit, int percent>
+double is_within(const ForecastSample& sample, std::size_t model, std::size_t time) {
+  return std::abs(sample.scores[model][time].*pit - 0.5) < 0.005 * percent ? 1.0 : 0.0;
 }
 
 constexpr std::array<Figure, 9> score_figures{{
@@ -60,21 +61,13 @@ constexpr std::array<Figure, 9> score_figures{{
        return s.scores[m][t].miss > 2.0 ? 1.0 : 0.0;
      }},
     {"within_50_along", "in the 50 % region along", true,
-     [](const ForecastSample& s, std::size_t m, std::size_t t) {
-       return is_within(s.scores[m][t].pit_along, 0.5) ? 1.0 : 0.0;
-     }},
+     is_within<&eval::PlaceScore::pit_along, 50>},
     {"within_90_along", "in the 90 % region along", true,
-     [](const ForecastSample& s, std::size_t m, std::size_t t) {
-       return is_within(s.scores[m][t].pit_along, 0.9) ? 1.0 : 0.0;
-     }},
+     is_within<&eval::PlaceScore::pit_along, 90>},
     {"within_50_across", "in the 50 % region across", true,
-     [](const ForecastSample& s, std::size_t m, std::size_t t) {
-       return is_within(s.scores[m][t].pit_across, 0.5) ? 1.0 : 0.0;
-     }},
+     is_within<&eval::PlaceScore::pit_across, 50>},
     {"within_90_across", "in the 90 % region across", true,
-     [](const ForecastSample& s, std::size_t m, std::size_t t) {
-       return is_within(s.scores[m][t].pit_across, 0.9) ? 1.0 : 0.0;
-     }},
+     is_within<&eval::PlaceScore::pit_across, 90>},
     {"mean_miss_of_6", "least mean miss of 6 [m]", false,
      [](const ForecastSample& s, std::size_t m, std::size_t) { return s.mean_miss_of_6[m]; }},
     {"mean_miss_of_12", "least mean miss of 12 [m]", false,
@@ -96,7 +89,7 @@ std::optional<double> mean_in(const Heard& heard, const Figure& figure, std::siz
   return n == 0 ? std::nullopt : std::optional(sum / n);
 }
 
-/// All score_figures of some road users.
+/// All figures of some road users.
 struct Group {
   std::string name;
   std::function<bool(const Heard&)> encounter;
@@ -199,14 +192,12 @@ std::vector<Heard> heard_in(const SuiteEncounters& encounters, const SuiteComman
     }
     all[i].family = found.value().family;
     const sim::Scenario world = eval::as_played(found.value().scenario, played);
-    const loop::Stage stage{
-        .scenario = &world,
-        .car = &encounters.inputs.car,
-        .harm = &encounters.inputs.harm,
-        .intent = &encounters.inputs.intent,
-        .thresholds = {},
-        .chance = options.exact ? sim::Chance{}
-                                : sim::draw_chance(eval::encounter_seed(options.seed, i), 0, 0.0)};
+    const loop::Stage stage{.scenario = &world,
+                            .car = &encounters.inputs.car,
+                            .harm = &encounters.inputs.harm,
+                            .intent = &encounters.inputs.intent,
+                            .thresholds = {},
+                            .chance = eval::chance_of(played, i)};
     auto samples = eval::forecast_samples(stage);
     if (samples.has_value()) {
       all[i].samples = std::move(samples).value();

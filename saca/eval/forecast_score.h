@@ -46,7 +46,7 @@ using LikelyPlaces = std::array<std::vector<LikelyPlace>, forecast_times.size()>
 [[nodiscard]] LikelyPlaces places_of(MotionModel model, const world::Scene& scene,
                                      const world::Actor& actor, const intent::Belief& belief);
 
-/// How well a forecast of one time foretold a place.
+/// How well a forecast of one time predicted a place.
 struct PlaceScore {
   double nll = 0.0;         ///< negative logarithm of the density there [ln m^2]
   double miss = 0.0;        ///< to the nearest of the six likeliest [m]
@@ -61,7 +61,7 @@ struct PlaceScore {
                                      const std::array<Vec2, forecast_times.size()>& truth,
                                      std::size_t most);
 
-/// One road user at one instant, and how well each model foretold where it went.
+/// One road user at one instant, and how well each model predicted where it went.
 struct ForecastSample {
   std::string who;
   double time = 0.0;   ///< [s]

@@ -26,8 +26,7 @@ loop::Stage stage_of(const sim::Scenario& world, std::uint64_t number, const Sui
           .harm = saca.forecast.harm,
           .intent = &intent,
           .thresholds = saca.thresholds,
-          .chance = options.exact ? sim::Chance{}
-                                  : sim::draw_chance(encounter_seed(options.seed, number), 0, 0.0)};
+          .chance = chance_of(options, number)};
 }
 
 struct Played {
@@ -225,6 +224,11 @@ sim::PerceptionModel usual_perception() {
 
 std::uint64_t encounter_seed(std::uint64_t seed, std::uint64_t number) {
   return sim::generator(seed, number)();
+}
+
+sim::Chance chance_of(const SuiteOptions& options, std::uint64_t number) {
+  return options.exact ? sim::Chance{}
+                       : sim::draw_chance(encounter_seed(options.seed, number), 0, 0.0);
 }
 
 sim::Scenario as_played(sim::Scenario scenario, const SuiteOptions& options) {

@@ -33,6 +33,9 @@ struct SuiteOptions {
   bool exact = false;  ///< nothing is left to chance and perception is as the scenarios have it
 };
 
+/// What is left to chance in encounter `number`.
+[[nodiscard]] sim::Chance chance_of(const SuiteOptions& options, std::uint64_t number);
+
 /// What the recorded driver did in an encounter that was recorded, from T2 on.
 struct DriverRow {
   double harm = 0.0;

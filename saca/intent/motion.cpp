@@ -6,6 +6,7 @@
 #include <span>
 
 #include "saca/core/contract.h"
+#include "saca/core/quintic.h"
 #include "saca/intent/line.h"
 #include "saca/intent/walkers.h"
 
@@ -66,14 +67,6 @@ class Slowing {
   double rest_;
 };
 
-/// 0 to 1 with zero slope and curvature at both ends.
-double smooth(double x) {
-  return x * x * x * (10.0 + x * (-15.0 + 6.0 * x));
-}
-double smooth_slope(double x) {
-  return 30.0 * x * x * (1.0 - x) * (1.0 - x);
-}
-
 /// 0 to 0 with slope 1 at the beginning and 0 at the end, and zero curvature at both.
 double fading(double x) {
   const double left = 1.0 - x;
@@ -90,7 +83,7 @@ double time_share(double way_share) {
   constexpr int halvings = 40;
   for (int i = 0; i < halvings; ++i) {
     const double middle = 0.5 * (low + high);
-    (smooth(middle) < way_share ? low : high) = middle;
+    (quintic(middle) < way_share ? low : high) = middle;
   }
   return low;
 }
@@ -104,18 +97,18 @@ struct Aside {
   [[nodiscard]] double share(double driven) const { return std::clamp(driven / length, 0.0, 1.0); }
   [[nodiscard]] double at(double driven) const {
     const double x = share(driven);
-    return way * smooth(x) + slope * length * fading(x);
+    return way * quintic(x) + slope * length * fading(x);
   }
   [[nodiscard]] double slope_at(double driven) const {
     const double x = share(driven);
-    return std::clamp(way / length * smooth_slope(x) + slope * fading_slope(x), -1.0, 1.0);
+    return std::clamp(way / length * quintic_slope(x) + slope * fading_slope(x), -1.0, 1.0);
   }
   /// Derivative of the place across by the logarithm of the duration, as a size; once it was at its
   /// largest, that: nobody knows better later where it drives.
   [[nodiscard]] double way_per_log(double driven) const {
     constexpr double of_the_largest = 0.6;  // x^3 (1 - x)^2
     const double x = std::min(share(driven), of_the_largest);
-    return std::abs(way) * x * smooth_slope(x);
+    return std::abs(way) * x * quintic_slope(x);
   }
 };
 
@@ -154,12 +147,12 @@ Aside aside(const Line& line, double side, const MotionLaw& law) {
   const double made = std::max(0.0, 1.0 - size / line.road.lane_width);
   double time = law.lane_change * (1.0 - time_share(made));
   if (line.lateral * way > 0.0) {
-    // Longer, and it would overshoot: 1 - smooth(x) is 10 (1 - x)^3 near the end, fading(x) is
+    // Longer, and it would overshoot: 1 - quintic(x) is 10 (1 - x)^3 near the end, fading(x) is
     // 4 (1 - x)^3.
     time = std::min(time, 2.5 * size / std::abs(line.lateral));
   }
   constexpr double steepest = 0.5;      // sin 30 deg
-  constexpr double peak = 30.0 / 16.0;  // of smooth_slope
+  constexpr double peak = 30.0 / 16.0;  // of quintic_slope
   return {.way = way,
           .slope = line.lateral / line.speed,
           .length = std::max(line.speed * time, peak / steepest * size)};

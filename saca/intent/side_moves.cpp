@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "saca/core/contract.h"
+#include "saca/core/quintic.h"
 
 namespace saca::intent {
 namespace {
@@ -15,17 +16,6 @@ namespace {
 constexpr int num_times = 9;
 constexpr int num_shares = 24;
 constexpr int num_groups = 8;
-
-/// Share of the way after a share of the time, and its derivatives: 0 before it and at its ends.
-double way_share(double x) {
-  return x <= 0.0 ? 0.0 : x >= 1.0 ? 1.0 : x * x * x * (10.0 + x * (-15.0 + 6.0 * x));
-}
-double speed_share(double x) {
-  return x <= 0.0 || x >= 1.0 ? 0.0 : 30.0 * x * x * (1.0 - x) * (1.0 - x);
-}
-double acceleration_share(double x) {
-  return x <= 0.0 || x >= 1.0 ? 0.0 : 60.0 * x * (1.0 - x) * (1.0 - 2.0 * x);
-}
 
 /// When each of twelve equally weighty parts of a fading past was, in shares of the time after
 /// which 1/e of it is left.
@@ -37,12 +27,13 @@ std::array<double, 12> parts_of_the_past() {
   return parts;
 }
 
-/// The same as it is perceived: its mean over the past, fading with `lag`, in shares of the time.
+/// The move's acceleration in shares of size and time, as it is perceived: its mean over the past,
+/// fading with `lag`, in shares of the time.
 double perceived_acceleration_share(double x, double lag) {
   static const auto parts = parts_of_the_past();
   double sum = 0.0;
   for (const double part : parts) {
-    sum += acceleration_share(x + lag * part);
+    sum += quintic_curvature(x + lag * part);
   }
   return sum / static_cast<double>(parts.size());
 }
@@ -62,7 +53,7 @@ Candidate candidate(const MeasuredSideMove& measured, const SideMoveLaw& law, do
     double measured;
   };
   const std::array<Equation, 2> equations{
-      {{speed_share(share) / (time * speed_sd), measured.speed / speed_sd},
+      {{quintic_slope(share) / (time * speed_sd), measured.speed / speed_sd},
        {perceived_acceleration_share(share, law.acceleration_lag / time) /
             (time * time * law.acceleration_sd),
         measured.acceleration / law.acceleration_sd}}};
@@ -75,7 +66,7 @@ Candidate candidate(const MeasuredSideMove& measured, const SideMoveLaw& law, do
     unexplained += one.measured * one.measured;
   }
   const double size = sum / precision;
-  const double rest = 1.0 - way_share(share);
+  const double rest = 1.0 - quintic(share);
   return {{.probability = -0.5 * (unexplained - sum * size + std::log(precision)),
            .size = size,
            .time = time,
@@ -143,17 +134,16 @@ MeasuredSideMove measured_side_move(const Line& line, const world::Actor& actor)
 }
 
 double SideMove::way(double after) const {
-  return size * (way_share(share + after / time) - way_share(share));
+  return size * (quintic(share + after / time) - quintic(share));
 }
 
 double SideMove::speed(double after) const {
-  return size / time * speed_share(share + after / time);
+  return size / time * quintic_slope(share + after / time);
 }
 
 double SideMove::way_sd(double after) const {
-  const double begun = way_share(share);
-  return begun < 1.0 ? left_sd * (way_share(share + after / time) - begun) / (1.0 - begun)
-                     : left_sd;
+  const double begun = quintic(share);
+  return begun < 1.0 ? left_sd * (quintic(share + after / time) - begun) / (1.0 - begun) : left_sd;
 }
 
 std::vector<SideMove> side_moves(const MeasuredSideMove& measured, const SideMoveLaw& law) {

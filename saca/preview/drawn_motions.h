@@ -14,7 +14,7 @@ namespace saca::preview {
 /// Draws from all that is not known of how the others move on from a scene, all alike likely.
 ///
 /// In each draw everybody moves in one of the ways that are likely of it (intent::likely_motions),
-/// and is off by an error along its line and one across, each of the spread that is told
+/// and is off by an error along its line and one across, each of the forecast's spread
 /// (intent::Forecast) and kept from now on: errors of perception and manners of driving are not
 /// separated. Nobody's errors and ways depend on another's.
 ///

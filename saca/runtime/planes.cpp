@@ -178,10 +178,11 @@ void Planes::begin_anew(Forgotten forgotten) {
   first_scene_ = num_scenes_;
   threatened_ = false;
   reflex_.begin_anew();
-  charged_forecasts_.forget();
   if (forgotten == Forgotten::drive) {
     charged_forecasts_.begin_anew();
     charged_.begin_anew();
+  } else {
+    charged_forecasts_.forget();
   }
 }
 

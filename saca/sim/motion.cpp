@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "saca/core/contract.h"
+#include "saca/core/quintic.h"
 
 namespace saca::sim {
 namespace {
@@ -101,11 +102,10 @@ Aside aside(const Script& script, const SpeedProfile& speed, double time) {
   const double begun = speed.way(speed.from);
   const double takes = speed.way(speed.from + script.takes) - begun;  // [m]
   const double x = std::min(1.0, (way - begun) / takes);
-  const double share = x * x * x * (10.0 + x * (-15.0 + 6.0 * x));
-  const double slope = 30.0 * x * x * (1.0 - x) * (1.0 - x) / takes;
+  const double slope = quintic_slope(x) / takes;
   const double sum = takes * x * x * x * x * (2.5 + x * (-3.0 + x)) +
                      std::max(0.0, way - begun - takes);  // of the share over the way
-  return {d + change * share, d + change * sum / way, change * slope};
+  return {d + change * quintic(x), d + change * sum / way, change * slope};
 }
 
 Pose scripted_pose(const world::Road& road, const Script& script, double time,
