@@ -147,11 +147,13 @@ EdgeApproach edge_approach(const Road& road, Side side, const Footprint& footpri
   double inside = begin;
   const int first = static_cast<int>(std::min((begin - track.start) / step, double(steps)));
   for (int i = first; i <= steps; ++i) {
-    const double time = i == first ? begin : track.start + i * step;
     if (i > first && is_far(i, found.room)) {
-      inside = time;
+      i = std::min(steps,
+                   (i / parts + 1) * parts - 1);  // so is all that is left until the next pose
+      inside = track.start + i * step;
       continue;
     }
+    const double time = i == first ? begin : track.start + i * step;
     const double now = room_at(time);
     found.room = std::min(found.room, now);
     if (now > 0.0) {

@@ -131,8 +131,8 @@ manoeuvre::EgoMotion slide(const world::Footprint& footprint, const ImpactBody& 
           "the body's motion is finite");
   expects(grip > 0.0 && std::isfinite(grip), "grip > 0");
   expects(footprint.length > 0.0 && std::isfinite(footprint.centre_x), "length > 0");
-  expects(steps.pose > 0.0 && steps.pose <= 0.02 && steps.per_pose >= 1,
-          "steps.pose in (0, 0.02], steps.per_pose >= 1");
+  expects(steps.pose > 0.0 && steps.pose <= 0.05 && steps.per_pose >= 1,
+          "steps.pose in (0, 0.05], steps.per_pose >= 1");
   manoeuvre::EgoMotion motion;
   motion.track.start = start;
   motion.track.step = steps.pose;

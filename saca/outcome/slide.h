@@ -8,11 +8,11 @@ namespace saca::outcome {
 
 /// How finely a slide is worked out.
 struct SlideSteps {
-  double pose = 0.01;  ///< between poses [s], in (0, 0.02]
+  double pose = 0.01;  ///< between poses [s], in (0, 0.05]
   int per_pose = 2;    ///< of the integration, >= 1
 };
-/// For forecasts: positions to centimetres, in a quarter of the time.
-constexpr SlideSteps coarse_slide{.pose = 0.02, .per_pose = 1};
+/// For forecasts: positions to half a decimetre, in an eighth of the time.
+constexpr SlideSteps coarse_slide{.pose = 0.04, .per_pose = 1};
 
 /// A body after a blow, all wheels at the limit of friction, until it rests.
 ///

@@ -26,7 +26,8 @@ struct Turn {
   double s = 0.0;
 };
 Turn turn_by(double angle) {
-  return {std::cos(angle), std::sin(angle)};
+  const Direction at = direction(angle);
+  return {at.cosine, at.sine};
 }
 Vec2 operator*(Turn turn, Vec2 a) {
   return {turn.c * a.x - turn.s * a.y, turn.s * a.x + turn.c * a.y};

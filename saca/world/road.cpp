@@ -35,21 +35,26 @@ std::optional<Topology> topology_from(std::string_view name) {
 }
 
 LanePose to_lane(const Road& road, const Pose& X_WB) {
-  const Pose X_LB = inverse(road.X_WL) * X_WB;
+  const Vec2 p = rotated(X_WB.p - road.X_WL.p, -road.X_WL.yaw);
   const double k = road.curvature;
-  const Vec2 p = X_LB.p;
+  if (k == 0.0) {
+    return {p.x, p.y, wrap_angle(X_WB.yaw - road.X_WL.yaw)};
+  }
   // The centre of the arc lies at (0, 1/k). With the angle `turned` about it, s = turned / k; the
   // forms below have no 1/k, so they hold on a straight road.
   const double turned = std::atan2(k * p.x, 1.0 - k * p.y);
   const double s =
       std::abs(k * p.x) < 1e-9 && 1.0 - k * p.y > 0.0 ? p.x / (1.0 - k * p.y) : turned / k;
   // With r = |1 - k * (x, y)|: d = (1 - r) / k = (2 y - k (x^2 + y^2)) / (1 + r).
-  const double r = std::hypot(k * p.x, 1.0 - k * p.y);
+  const double r = norm({k * p.x, 1.0 - k * p.y});
   const double d = (2.0 * p.y - k * dot(p, p)) / (1.0 + r);
-  return {s, d, wrap_angle(X_LB.yaw - turned)};
+  return {s, d, wrap_angle(X_WB.yaw - road.X_WL.yaw - turned)};
 }
 
 Pose from_lane(const Road& road, const LanePose& pose) {
+  if (road.curvature == 0.0) {
+    return road.X_WL * Pose{{pose.s, pose.d}, wrap_angle(pose.heading)};
+  }
   const double turned = road.curvature * pose.s;
   const Vec2 centre{pose.s * sinc(turned), pose.s * cosc(turned)};
   const Pose X_LC{centre, turned};
