@@ -77,6 +77,10 @@ std::vector<std::string> sentences(const SuiteRun& run, const SuiteResult& resul
                                 where_better.empty() ? "no family" : where_better,
                                 where_worse.empty() ? "no family" : where_worse));
   }
+  lines.push_back(fmt::format(
+      "Regret, the harm above that of the best of all plans begun at T1, is {:.4f} for {}. 0.005 "
+      "harm is half a per cent of a severely injured person.",
+      first.regret.value, title_of(first.method)));
   const MethodFigures* best = nullptr;  // of those that a road allows
   for (const MethodFigures& one : result.all) {
     if (!eval::find_method(one.method)->knows_truth &&
@@ -84,12 +88,10 @@ std::vector<std::string> sentences(const SuiteRun& run, const SuiteResult& resul
       best = &one;
     }
   }
-  lines.push_back(fmt::format(
-      "Regret, the harm above that of the best of all plans begun at T1, is {:.4f} for {}; least "
-      "of all "
-      "methods that a road allows has {}: {:.4f}. 0.005 harm is half a per cent of a severely "
-      "injured person.",
-      first.regret.value, title_of(first.method), title_of(best->method), best->regret.value));
+  if (best != nullptr) {
+    lines.push_back(fmt::format("Of all methods that a road allows, {} has the least: {:.4f}.",
+                                title_of(best->method), best->regret.value));
+  }
   return lines;
 }
 

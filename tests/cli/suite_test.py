@@ -50,6 +50,13 @@ def test_a_suite_gives_rows_figures_and_a_page(tmp_path):
     assert "Regret by family" in text and "How it was made" in text and "--seed 1" in text
 
 
+def test_yardsticks_alone_have_a_page_too(tmp_path):
+    told = figures(saca("suite", "balanced", "--count", 2, "--methods", "oracle", "--json", "--output", "s.h5", cwd=tmp_path))
+    assert told["suite.balanced.oracle.harm.n"] == 2
+    page = (tmp_path / "s.html").read_text()
+    assert "Best in hindsight" in page and "that a road allows" not in page
+
+
 def test_the_same_seed_gives_the_same_rows_whatever_the_threads(tmp_path):
     rows = []
     for name, threads, seed in (("a", 1, 1), ("b", 2, 1), ("c", 2, 2)):
