@@ -11,11 +11,11 @@ namespace {
 constexpr double sure_speed = 0.6;
 constexpr double least_likely = 0.01;
 
-/// How likely it is that a measured move to the side ends anywhere.
+/// How likely it is that a measured move to the side ends anywhere; of who follows no lane, 0.
 double side_move_probability(const world::Actor& actor, const Line& line) {
-  return is_walker(actor.kind)
-             ? 0.0
-             : side_move_share * (1.0 - std::exp(-std::pow(line.lateral / sure_speed, 2.0)));
+  const bool cycles = actor.kind == world::ActorKind::bicycle;
+  return (cycles ? cyclist_side_move_share : side_move_share) *
+         (1.0 - std::exp(-std::pow(line.lateral / sure_speed, 2.0)));
 }
 
 /// As if it did not move to the side.
@@ -85,12 +85,13 @@ std::vector<LikelyMotion> likely_motions(const world::Scene& scene, const world:
     brakes += is_braking(one.intention) ? one.probability : 0.0;
     one.probability *= 1.0 - of_side_moves;
   }
+  const Intention slower = is_walker(actor.kind) ? Intention::stop : Intention::brake;
   for (const SideMove& move : side_moves(measured_side_move(line, actor), law)) {
     for (const bool braking : {false, true}) {
       const double p = braking ? brakes : 1.0 - brakes;
       if (p > 0.0) {
-        motions.push_back({of_side_moves * p * move.probability,
-                           braking ? Intention::brake : Intention::maintain, move});
+        motions.push_back(
+            {of_side_moves * p * move.probability, braking ? slower : Intention::maintain, move});
       }
     }
   }

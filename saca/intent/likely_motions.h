@@ -27,6 +27,10 @@ constexpr double hard_braking_share = 0.3;
 /// Of a vehicle that surely moves to the side, the share that ends it anywhere [-]: fitted.
 constexpr double side_move_share = 0.85;
 
+/// Likewise of a cyclist who rides along a lane: who moves across it swerves and rides on, or
+/// crosses the road, as likely either way. An assumption: no recording here has cyclists.
+constexpr double cyclist_side_move_share = 0.5;
+
 /// Its intentions alone. Their probabilities sum to 1.
 [[nodiscard]] std::vector<LikelyMotion> intended_motions(const Belief& belief);
 

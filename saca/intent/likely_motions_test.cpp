@@ -61,9 +61,8 @@ TEST(LikelyMotions, OfWhoMovesAsideSurelyEndAnywhereByTheStatedShare) {
   EXPECT_NEAR(sum, 1.0, 1e-12);
 }
 
-TEST(LikelyMotions, OfWalkersObstaclesAndWhoStandsHaveNoMoveToTheSide) {
-  for (const auto kind :
-       {world::ActorKind::pedestrian, world::ActorKind::bicycle, world::ActorKind::obstacle}) {
+TEST(LikelyMotions, OfPedestriansObstaclesAndWhoStandsHaveNoMoveToTheSide) {
+  for (const auto kind : {world::ActorKind::pedestrian, world::ActorKind::obstacle}) {
     const world::Scene scene = with_a_car(1.5, kind);
     EXPECT_EQ(share_aside(likely_motions(scene, scene.actors[0], belief_in(Intention::maintain))),
               0.0);
@@ -72,6 +71,26 @@ TEST(LikelyMotions, OfWalkersObstaclesAndWhoStandsHaveNoMoveToTheSide) {
   scene.actors[0].v_W = {0.05, 0.0};
   EXPECT_EQ(share_aside(likely_motions(scene, scene.actors[0], belief_in(Intention::maintain))),
             0.0);
+}
+
+// Who rides along the lane and moves across it may swerve and ride on: a half, as stated. Riding
+// across the road, it goes on across.
+TEST(LikelyMotions, OfACyclistMaySwerve) {
+  world::Scene scene = with_a_car(2.5, world::ActorKind::bicycle);
+  Belief belief = belief_in(Intention::cross);
+  belief.at[0][static_cast<std::size_t>(Intention::cross)] = 0.75;
+  belief.at[0][static_cast<std::size_t>(Intention::stop)] = 0.25;
+  const auto motions = likely_motions(scene, scene.actors[0], belief);
+  EXPECT_NEAR(share_aside(motions), cyclist_side_move_share, 1e-6);
+  for (const LikelyMotion& one : motions) {
+    const Forecast forecast = forecast_of(one, scene, scene.actors[0], 6.0, {});
+    if (one.aside) {
+      EXPECT_NEAR(forecast.track.X_WA.back().yaw, 0.0, 1e-6) << "along the lane in the end";
+      EXPECT_TRUE(one.intention == Intention::maintain || one.intention == Intention::stop);
+    }
+  }
+  scene.actors[0].v_W = {0.5, 4.0};
+  EXPECT_EQ(share_aside(likely_motions(scene, scene.actors[0], belief)), 0.0);
 }
 
 // It goes on as fast along the lane, and to the side as the move has it, heading where it goes.
