@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/forecast_commands.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/suite_pages.h"
-#include "apps/saca/suite_sources.h"
 #include "apps/saca/surveying.h"
 #include "saca/core/file.h"
 #include "saca/core/parallel.h"
@@ -179,26 +179,18 @@ struct ForecastCommand {
 };
 
 std::vector<Heard> heard_in(const SuiteEncounters& encounters, const SuiteCommandOptions& options) {
-  const eval::SuiteOptions played{.methods = {}, .seed = options.seed, .exact = options.exact};
   std::vector<Heard> all(static_cast<std::size_t>(encounters.count));
   in_parallel(all.size(), options.threads, [&](std::size_t i) {
     if (interrupted()) {
       return;
     }
-    const auto found = encounters.at(i);
+    const auto found = played_encounter(encounters, options, i);
     if (!found.has_value()) {
       all[i].problem = found.error().message;
       return;
     }
     all[i].family = found.value().family;
-    const sim::Scenario world = eval::as_played(found.value().scenario, played);
-    const loop::Stage stage{.scenario = &world,
-                            .car = &encounters.inputs.car,
-                            .harm = &encounters.inputs.harm,
-                            .intent = &encounters.inputs.intent,
-                            .thresholds = {},
-                            .chance = eval::chance_of(played, i)};
-    auto samples = eval::forecast_samples(stage);
+    auto samples = eval::forecast_samples(found.value().stage(encounters.inputs));
     if (samples.has_value()) {
       all[i].samples = std::move(samples).value();
     } else {
@@ -280,32 +272,62 @@ int run(const ForecastCommand& options) {
   return num_failed > 0 ? some_failed : success;
 }
 
-}  // namespace
-
-void add_forecast(CLI::App& line, int& exit_code) {
-  CLI::App* const forecast =
-      line.add_subcommand("forecast", "How well it is foretold where road users will be");
-  forecast->require_subcommand(1);
-  CLI::App* const command = forecast->add_subcommand(
+void add_forecast_eval(CLI::App& forecast, int& exit_code) {
+  CLI::App* const command = forecast.add_subcommand(
       "eval", "Hold forecasts against what happens in many encounters, beside simpler ones");
   const auto options = std::make_shared<ForecastCommand>();
   SuiteCommandOptions& from = options->from;
-  command
-      ->add_option("name", from.name,
-                   "A suite (natural, balanced), a family, a folder of scenarios, or 100car")
-      ->required();
-  command->add_option("--data", from.data, "Of 100car the folder of the study's release");
-  add_draw_options(*command, from.count, from.split, from.test_log, from.car);
-  command->add_option("--seed", from.seed, "Of all that is drawn: same seed, same figures")
-      ->capture_default_str();
-  command->add_flag("--exact", from.exact,
-                    "Nothing is left to chance, and perception is as the scenarios have it");
+  add_encounter_options(*command, from);
   command->add_option("--output", from.output, "The figures as JSON, besides");
   command->add_option("--threads", from.threads, "They do not change the result")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   command->add_flag("--json", options->as_json, "For programs");
   command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace
+
+loop::Stage PlayedEncounter::stage(const Inputs& inputs) const {
+  return {.scenario = &world,
+          .car = &inputs.car,
+          .harm = &inputs.harm,
+          .intent = &inputs.intent,
+          .thresholds = {},
+          .chance = chance};
+}
+
+Result<PlayedEncounter> played_encounter(const SuiteEncounters& encounters,
+                                         const SuiteCommandOptions& options, std::uint64_t number) {
+  const eval::SuiteOptions played{.methods = {}, .seed = options.seed, .exact = options.exact};
+  const auto found = encounters.at(number);
+  if (!found.has_value()) {
+    return found.error();
+  }
+  return PlayedEncounter{.family = found.value().family,
+                         .world = eval::as_played(found.value().scenario, played),
+                         .chance = eval::chance_of(played, number)};
+}
+
+void add_encounter_options(CLI::App& command, SuiteCommandOptions& from) {
+  command
+      .add_option("name", from.name,
+                  "A suite (natural, balanced), a family, a folder of scenarios, or 100car")
+      ->required();
+  command.add_option("--data", from.data, "Of 100car the folder of the study's release");
+  add_draw_options(command, from.count, from.split, from.test_log, from.car);
+  command.add_option("--seed", from.seed, "Of all that is drawn: same seed, same figures")
+      ->capture_default_str();
+  command.add_flag("--exact", from.exact,
+                   "Nothing is left to chance, and perception is as the scenarios have it");
+}
+
+void add_forecast(CLI::App& line, int& exit_code) {
+  CLI::App* const forecast =
+      line.add_subcommand("forecast", "How well it is foretold where road users will be");
+  forecast->require_subcommand(1);
+  add_forecast_eval(*forecast, exit_code);
+  add_forecast_show(*forecast, exit_code);
 }
 
 }  // namespace saca::app

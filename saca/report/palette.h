@@ -54,6 +54,8 @@ inline constexpr std::string_view svg_style = R"svg(
 .saca .body{stroke-width:1.2px}
 .saca .trail{fill:none;stroke-width:1.4px;stroke-opacity:.55}
 .saca .touch{fill:none;stroke-width:1.6px;stroke-dasharray:3 2}
+.saca .fan{fill:none;stroke:#b8458f;stroke-linejoin:round}
+.saca .fan-place{fill:#b8458f;fill-opacity:.25;stroke:#b8458f;stroke-width:.8px}
 .saca .glass{fill:#10202c;fill-opacity:.75}
 .saca .ego{fill:#0072b2;stroke:#003f63}
 .saca .car{fill:#e08a00;stroke:#7a4a00}

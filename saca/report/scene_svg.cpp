@@ -113,7 +113,7 @@ class Drawing {
   }
 
   [[nodiscard]] std::string picture() const {
-    std::string out = road_svg(view_.scene.road, frame_);
+    std::string out = road_svg(view_.scene.road, frame_) + fan_svg(view_.fan, frame_);
     for (const Moving& body : bodies_) {
       out += trail(body);
     }

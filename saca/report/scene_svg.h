@@ -6,6 +6,7 @@
 
 #include "saca/manoeuvre/plan.h"
 #include "saca/outcome/outcome.h"
+#include "saca/report/fan_svg.h"
 #include "saca/report/picture_frame.h"
 #include "saca/report/svg.h"
 #include "saca/world/scene.h"
@@ -23,6 +24,7 @@ struct SceneView {
   world::Track ego;                           ///< X_WB to its end; no poses: it is not driven
   std::vector<world::Track> others;           ///< X_WA, one per actor of the scene, in its order
   std::vector<outcome::Contact> contacts;     ///< in order of time
+  std::vector<LikelyWay> fan;                 ///< where somebody was thought to go on
   std::optional<Extent> shown_P;  ///< the ground to show; nullopt: where something happens
 };
 

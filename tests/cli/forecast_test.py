@@ -2,6 +2,7 @@
 import json
 import pathlib
 import sys
+import xml.etree.ElementTree
 
 import pytest
 
@@ -45,3 +46,25 @@ def test_the_figures_go_into_a_file_too(tmp_path):
 ])
 def test_bad_input_is_refused_in_one_line(arguments, code, words):
     assert words in one_error(saca("forecast", "eval", *arguments, cwd=ROOT), code)
+
+
+def show(tmp_path, *arguments):
+    return saca("forecast", "show", "head_on", *arguments, "-o", str(tmp_path / "fan.svg"), cwd=ROOT)
+
+
+def test_a_fan_is_drawn_over_what_happened(tmp_path):
+    assert show(tmp_path, "--encounter", "3", "--who", "van1", "--at_s", "4.5").returncode == SUCCESS
+    picture = xml.etree.ElementTree.parse(tmp_path / "fan.svg")
+    classes = [element.get("class") for element in picture.iter()]
+    ways, places = classes.count("fan"), classes.count("fan-place")
+    assert ways > 3 and places == 3 * ways  # after 1, 2 and 3 s
+    assert "van body" in classes and "ego body" in classes
+
+
+@pytest.mark.parametrize("arguments, words", [
+    (("--encounter", "3", "--who", "tram1", "--at_s", "4.5"), 'head_on 3: want somebody who is perceived at 4.5 s: van1'),
+    (("--encounter", "3", "--who", "van1", "--at_s", "99"), "got 99 s"),
+])
+def test_a_fan_of_nobody_is_refused(tmp_path, arguments, words):
+    assert words in one_error(show(tmp_path, *arguments), BAD_INPUT)
+    assert not (tmp_path / "fan.svg").exists()

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+
+#include "apps/saca/inputs.h"
+#include "apps/saca/suite_sources.h"
+#include "saca/loop/closed_loop.h"
+#include "saca/sim/chance.h"
+#include "saca/sim/scenario.h"
+
+namespace saca::app {
+
+/// An encounter as forecasts are held against it: with the draws and the perception of a suite.
+struct PlayedEncounter {
+  std::string family;
+  sim::Scenario world;
+  sim::Chance chance;
+
+  /// Refers to this and to the inputs.
+  [[nodiscard]] loop::Stage stage(const Inputs& inputs) const;
+};
+[[nodiscard]] Result<PlayedEncounter> played_encounter(const SuiteEncounters& encounters,
+                                                       const SuiteCommandOptions& options,
+                                                       std::uint64_t number);
+
+/// Which encounters, and what is drawn in them.
+void add_encounter_options(CLI::App& command, SuiteCommandOptions& from);
+
+/// `saca forecast show`.
+void add_forecast_show(CLI::App& forecast, int& exit_code);
+
+}  // namespace saca::app

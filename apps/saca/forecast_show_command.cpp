@@ -1,0 +1,95 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+
+#include "apps/saca/commands.h"
+#include "apps/saca/forecast_commands.h"
+#include "saca/core/file.h"
+#include "saca/eval/forecast_fan.h"
+#include "saca/report/scene_svg.h"
+
+namespace saca::app {
+namespace {
+
+struct ShowCommand {
+  SuiteCommandOptions from;  ///< `count` follows from the encounter
+  std::uint64_t encounter = 0;
+  std::string who;
+  double at = 0.0;  ///< [s]
+  std::string output;
+};
+
+report::SceneView fan_view(const eval::ForecastFan& fan, const std::string& who,
+                           const std::string& encounter) {
+  const auto likely = std::count_if(fan.ways.begin(), fan.ways.end(),
+                                    [](const auto& way) { return way.probability >= 0.01; });
+  report::SceneView view{
+      .title = fmt::format("{}: what may come of {}, and what came", encounter, who),
+      .lines = {fmt::format(
+                    "At {:.1f} s {} likely, the thicker the likelier; on each, after 1, 2 and "
+                    "3 s, where it is with a half.",
+                    fan.seen.time, likely == 1 ? "1 way is" : fmt::format("{} ways are", likely)),
+                "Bodies are where they truly were, every quarter of a second."},
+      .badge = {},
+      .policy = {},
+      .scene = fan.seen,
+      .ego = fan.ego,
+      .others = fan.others,
+      .contacts = {},
+      .fan = {},
+      .shown_P = {}};
+  for (const eval::ForecastFan::Way& way : fan.ways) {
+    view.fan.push_back({way.probability, way.forecast.track, way.forecast.spread});
+  }
+  return view;
+}
+
+int show(ShowCommand options) {
+  options.from.count = static_cast<int>(options.encounter) + 1;
+  const auto encounters = open_encounters(options.from, "forecast show");
+  if (!encounters.has_value()) {
+    return refused(encounters.error());
+  }
+  if (options.encounter >= static_cast<std::uint64_t>(encounters.value().count)) {
+    complain(fmt::format("{}: want an encounter below {}, got {}", options.from.name,
+                         encounters.value().count, options.encounter));
+    return bad_input;
+  }
+  const auto played = played_encounter(encounters.value(), options.from, options.encounter);
+  if (!played.has_value()) {
+    return refused(played.error());
+  }
+  const std::string name = fmt::format("{} {}", played.value().family, options.encounter);
+  const auto fan =
+      eval::forecast_fan(played.value().stage(encounters.value().inputs), options.who, options.at);
+  if (!fan.has_value()) {
+    return refused({fan.error().code, fmt::format("{}: {}", name, fan.error().message)});
+  }
+  constexpr report::SvgSize size{760.0, 250.0};
+  const std::string picture = report::scene_svg(fan_view(fan.value(), options.who, name), size);
+  if (const auto problem = write_file(options.output, picture)) {
+    return refused(*problem);
+  }
+  fmt::print("{}\n", options.output);
+  return success;
+}
+
+}  // namespace
+
+void add_forecast_show(CLI::App& forecast, int& exit_code) {
+  CLI::App* const command = forecast.add_subcommand(
+      "show", "Draw what is forecast of one road user at one instant, and what then happened");
+  const auto options = std::make_shared<ShowCommand>();
+  add_encounter_options(*command, options->from);
+  command->remove_option(command->get_option("--count"));
+  command->add_option("--encounter", options->encounter, "Number of the encounter in it")
+      ->required();
+  command->add_option("--who", options->who, "car1, pedestrian2, ...")->required();
+  command->add_option("--at_s", options->at, "When [s]")->required();
+  command->add_option("-o,--output", options->output, "The picture (.svg)")->required();
+  command->callback([options, &exit_code] { exit_code = show(*options); });
+}
+
+}  // namespace saca::app
