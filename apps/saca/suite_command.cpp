@@ -77,6 +77,13 @@ json json_of(const SuiteRun& run, const SuiteResult& result, const SuiteCommandO
     add_estimate(out, place + "right", one.right);
     add_estimate(out, place + "materially_worse_than_aeb", one.worse_than_aeb);
     add_estimate(out, place + "needless", one.needless);
+    if (one.expected) {
+      add_estimate(out, place + "expected", one.expected->expected);
+      add_estimate(out, place + "expected.happened", one.expected->happened);
+      add_estimate(out, place + "expected.braking", one.expected->braking_expected);
+      add_estimate(out, place + "expected.braking_happened", one.expected->braking_happened);
+      add_estimate(out, place + "expected.knowingly_worse", one.expected->knowingly_worse);
+    }
     if (one.false_trigger_loss) {
       add_estimate(out, place + "false_trigger_loss", *one.false_trigger_loss);
       add_estimate(out, place + "false_triggers", *one.false_triggers);
@@ -142,6 +149,9 @@ void print(const SuiteRun& run, const SuiteResult& result, const SuiteCommandOpt
   for (const MethodFigures& one : result.all) {
     if (one.thinking) {
       fmt::print("\n{}\n", decisions_text(one));
+      if (one.expected) {
+        fmt::print("{}\n", expectations_text(one));
+      }
     }
   }
   const DriverFigures drivers = driver_figures(run);

@@ -110,6 +110,19 @@ void add_decisions(nlohmann::json& out, const std::string& place, const MethodFi
   }
 }
 
+std::string expectations_text(const MethodFigures& figures) {
+  if (!figures.expected) {
+    return "";
+  }
+  const eval::ExpectedFigures& one = *figures.expected;
+  return fmt::format(
+      "At T1 the verdict expected {:.4f} harm of what was decided on, and {:.4f} of full braking; "
+      "tried with full knowledge they harm {:.4f} and {:.4f} ({} decisions). {:.1f} % were "
+      "knowingly worse than braking.",
+      one.expected.value, one.braking_expected.value, one.happened.value,
+      one.braking_happened.value, one.expected.n, 100.0 * one.knowingly_worse.value);
+}
+
 std::string decisions_text(const MethodFigures& figures) {
   std::string text = fmt::format("{}: {} decisions", figures.method, total_of(figures.sources));
   const char* before = ": ";

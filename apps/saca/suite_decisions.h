@@ -16,7 +16,11 @@ namespace saca::app {
 void add_decisions(nlohmann::json& out, const std::string& place,
                    const eval::MethodFigures& figures);
 
-/// The same in a line, for the terminal.
+/// What its verdicts expected at T1 and what would have happened, in two sentences; empty where it
+/// decides by none.
+[[nodiscard]] std::string expectations_text(const eval::MethodFigures& figures);
+
+/// Where the decisions came from in a line, for the terminal.
 [[nodiscard]] std::string decisions_text(const eval::MethodFigures& figures);
 
 }  // namespace saca::app

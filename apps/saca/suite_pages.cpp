@@ -92,6 +92,9 @@ std::vector<std::string> sentences(const SuiteRun& run, const SuiteResult& resul
     lines.push_back(fmt::format("Of all methods that a road allows, {} has the least: {:.4f}.",
                                 title_of(best->method), best->regret.value));
   }
+  if (first.expected) {
+    lines.push_back(expectations_text(first));
+  }
   return lines;
 }
 

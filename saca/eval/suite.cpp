@@ -108,10 +108,21 @@ Plan plan_from(const json& in) {
   return plan;
 }
 
+json json_of(const loop::ExpectedAtDecision& one) {
+  return json::array({one.time, json_of(one.plan), one.harm, one.braking_harm});
+}
+
+loop::ExpectedAtDecision expected_from(const json& in) {
+  return {.time = in.at(0).get<double>(),
+          .plan = plan_from(in.at(1)),
+          .harm = in.at(2).get<double>(),
+          .braking_harm = in.at(3).get<double>()};
+}
+
 json json_of(const loop::ThinkingFigures& one) {
   return json::array({one.forecasts, one.recalled, one.from_memory, one.from_model, one.asked,
                       one.answered, one.ended, one.statements, one.false_statements, one.unfounded,
-                      json_of(one.answer)});
+                      json_of(one.answer), one.expected ? json_of(*one.expected) : json()});
 }
 
 loop::ThinkingFigures thinking_from(const json& in) {
@@ -126,7 +137,8 @@ loop::ThinkingFigures thinking_from(const json& in) {
           .statements = number(7),
           .false_statements = number(8),
           .unfounded = number(9),
-          .answer = optional_from<std::array<double, manoeuvre::num_policies>>(in.at(10))};
+          .answer = optional_from<std::array<double, manoeuvre::num_policies>>(in.at(10)),
+          .expected = in.at(11).is_null() ? std::nullopt : std::optional(expected_from(in.at(11)))};
 }
 
 json json_of(const Comparison& one) {

@@ -105,6 +105,30 @@ void add(std::optional<loop::ThinkingFigures>& sum, const loop::ThinkingFigures&
   }
 }
 
+/// What was expected at the decision, where that was made at T1.
+const loop::ExpectedAtDecision* expected_at_trigger(const SuiteRow& row, std::size_t method) {
+  constexpr double same_instant = 0.005;  // [s]: half a look
+  const auto& thinking = run_of(row, method).thinking;
+  const bool counts = thinking && thinking->expected && row.risk.trigger &&
+                      std::abs(thinking->expected->time - *row.risk.trigger) < same_instant;
+  return counts ? &*thinking->expected : nullptr;
+}
+
+/// What happens to a plan with full knowledge: the tried one of its policy that is most like it.
+std::optional<double> happened(const Comparison& comparison, const manoeuvre::Plan& plan) {
+  const TriedPlan* nearest = nullptr;
+  const auto off = [&](const TriedPlan& one) {
+    return std::abs(one.plan.target_speed.value_or(0.0) - plan.target_speed.value_or(0.0)) +
+           std::abs(strength_of(one.plan) - strength_of(plan));
+  };
+  for (const TriedPlan& one : comparison.tried) {
+    if (one.plan.policy == plan.policy && (nearest == nullptr || off(one) < off(*nearest))) {
+      nearest = &one;
+    }
+  }
+  return nearest == nullptr ? std::nullopt : nearest->harm;
+}
+
 MethodFigures figures_of(std::span<const SuiteRow* const> rows, const std::string& name,
                          std::size_t method, std::optional<std::size_t> aeb,
                          const Bootstrap& bootstrap) {
@@ -142,6 +166,32 @@ MethodFigures figures_of(std::span<const SuiteRow* const> rows, const std::strin
   figures.needless = mean([](Row row, std::size_t m, Aeb) {
     return is_quiet(row.risk) ? flag(run_of(row, m).intervened()) : std::nullopt;
   });
+  const bool decides = std::any_of(rows.begin(), rows.end(), [&](const SuiteRow* row) {
+    return expected_at_trigger(*row, method) != nullptr;
+  });
+  if (decides) {
+    figures.expected.emplace();
+    figures.expected->expected = mean([](Row row, std::size_t m, Aeb) {
+      const auto* const told = expected_at_trigger(row, m);
+      return told != nullptr ? std::optional(told->harm) : std::nullopt;
+    });
+    figures.expected->happened = mean([](Row row, std::size_t m, Aeb) {
+      const auto* const told = expected_at_trigger(row, m);
+      return told != nullptr ? happened(row.risk, told->plan) : std::nullopt;
+    });
+    figures.expected->braking_expected = mean([](Row row, std::size_t m, Aeb) {
+      const auto* const told = expected_at_trigger(row, m);
+      return told != nullptr ? std::optional(told->braking_harm) : std::nullopt;
+    });
+    figures.expected->braking_happened = mean([](Row row, std::size_t m, Aeb) {
+      return expected_at_trigger(row, m) != nullptr ? happened(row.risk, manoeuvre::full_braking)
+                                                    : std::nullopt;
+    });
+    figures.expected->knowingly_worse = mean([](Row row, std::size_t m, Aeb) {
+      const auto* const told = expected_at_trigger(row, m);
+      return told != nullptr ? flag(told->harm > told->braking_harm + material) : std::nullopt;
+    });
+  }
   const bool twins = std::any_of(rows.begin(), rows.end(),
                                  [](const SuiteRow* row) { return row->twin.has_value(); });
   if (twins) {

@@ -20,6 +20,21 @@ struct Estimate {
   int n = 0;
 };
 
+/// Harm above AEB's that counts as materially worse [-]: half a per cent of a severely injured
+/// person.
+constexpr double material = 0.005;
+
+/// What verdicts expected at the decision, and what then happened to the same plans, carried out to
+/// their end from T1 on: over the encounters that were decided by a verdict at T1.
+struct ExpectedFigures {
+  Estimate expected;          ///< harm of what was decided on
+  Estimate happened;          ///< likewise, with full knowledge
+  Estimate braking_expected;  ///< of full braking, in the same encounters
+  Estimate braking_happened;
+  Estimate knowingly_worse;  ///< share decided on although expected to harm more than full braking
+                             ///< by more than `material`
+};
+
 /// Figures of one method over some encounters.
 struct MethodFigures {
   std::string method;
@@ -40,12 +55,9 @@ struct MethodFigures {
   std::map<std::string, int> reasons;             ///< likewise
   std::optional<loop::ThinkingFigures> thinking;  ///< summed, without answers; nullopt: the method
                                                   ///< does not think ahead
+  std::optional<ExpectedFigures> expected;        ///< nullopt: nothing was decided by verdicts
   int faults = 0;
 };
-
-/// Harm above AEB's that counts as materially worse [-]: half a per cent of a severely injured
-/// person.
-constexpr double material = 0.005;
 
 /// The paper's false-trigger loss: 0.5 for policies 0 to 4, 1 for 5 and 6, 0 for none.
 [[nodiscard]] double false_trigger_loss(const MethodRun& run);

@@ -66,6 +66,35 @@ TEST(SuiteFigures, SumWhatWasThought) {
             (loop::ThinkingFigures{.forecasts = 4, .recalled = 2, .answered = 1}));
 }
 
+// Decided by a verdict at T1: 0.1 expected of a drift that harms 0.4 in truth, braking 0.3 for 0.2;
+// of a swerve to 5 m/s 0.5, which the tried one to 4 m/s is most like. One decided later, one by no
+// verdict: they do not count.
+TEST(SuiteFigures, HoldWhatWasExpectedAgainstWhatHappened) {
+  const auto drift = manoeuvre::Plan{PolicyId::t_drift_left, std::nullopt};
+  const auto swerve = manoeuvre::Plan{PolicyId::es_b_left, 5.0};
+  std::vector<SuiteRow> rows(4, made(0, {0.0, 0.0}, 0.0));
+  for (SuiteRow& row : rows) {
+    row.risk.trigger = 2.0;
+    row.risk.tried = {{manoeuvre::full_braking, 0.2, true},
+                      {{PolicyId::es_b_left, 0.0}, 0.9, true},
+                      {{PolicyId::es_b_left, 4.0}, 0.6, true},
+                      {drift, 0.4, true}};
+    row.risk.runs[1].thinking.emplace();
+  }
+  rows[0].risk.runs[1].thinking->expected = {2.0, drift, 0.1, 0.3};
+  rows[1].risk.runs[1].thinking->expected = {2.0, swerve, 0.5, 0.3};
+  rows[2].risk.runs[1].thinking->expected = {2.5, drift, 0.7, 0.7};
+  const auto told = figures(rows, {"aeb", "saca"});
+  EXPECT_FALSE(told[0].expected.has_value());
+  const ExpectedFigures& saca = told[1].expected.value();
+  EXPECT_EQ(saca.expected.n, 2);
+  EXPECT_NEAR(saca.expected.value, 0.5 * (0.1 + 0.5), 1e-12);
+  EXPECT_NEAR(saca.happened.value, 0.5 * (0.4 + 0.6), 1e-12);
+  EXPECT_NEAR(saca.braking_expected.value, 0.3, 1e-12);
+  EXPECT_NEAR(saca.braking_happened.value, 0.2, 1e-12);
+  EXPECT_EQ(saca.knowingly_worse.value, 0.5);
+}
+
 // 400 encounters of variance 1/12: the standard error is 0.0144, 1.96 of it 0.0283; the bootstrap's
 // 1,000 samples know their ends to some 6 %.
 TEST(SuiteFigures, IntervalsAreAsWideAsTheoryHasThem) {

@@ -34,6 +34,18 @@ std::string why_nothing_is_cached(std::span<const Preview> previews) {
   return "no plan is cached";
 }
 
+std::optional<ExpectedAtDecision> expected_at(const decide::Decision& decision) {
+  if (!decision.verdict) {
+    return std::nullopt;
+  }
+  const decide::JudgedPlan* const plan = find_plan(*decision.verdict, decision.plan);
+  const decide::JudgedPlan* const braking = find_plan(*decision.verdict, manoeuvre::full_braking);
+  if (plan == nullptr || !plan->drivable || braking == nullptr || !braking->drivable) {
+    return std::nullopt;
+  }
+  return ExpectedAtDecision{decision.time, decision.plan, plan->harm, braking->harm};
+}
+
 }  // namespace
 
 ThinkingFigures thinking_figures(std::span<const Preview> previews,
@@ -61,6 +73,7 @@ ThinkingFigures thinking_figures(std::span<const Preview> previews,
     figures.statements += one.truth ? one.truth->num_checked : 0;
     figures.false_statements += one.truth ? static_cast<int>(one.truth->wrong.size()) : 0;
   }
+  figures.expected = decision ? expected_at(*decision) : std::nullopt;
   if (decision && decision->preview) {
     const Preview* const most_alike = decide::find_preview(previews, *decision->preview);
     if (most_alike != nullptr && is_answered(*most_alike)) {

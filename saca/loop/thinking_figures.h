@@ -9,6 +9,16 @@
 
 namespace saca::loop {
 
+/// What the verdict by which it was decided expected.
+struct ExpectedAtDecision {
+  double time = 0.0;          ///< of the decision [s]
+  manoeuvre::Plan plan;       ///< what was decided on
+  double harm = 0.0;          ///< expected of it
+  double braking_harm = 0.0;  ///< of full braking
+
+  bool operator==(const ExpectedAtDecision&) const = default;
+};
+
 /// What was thought about the forecasts of one encounter, counted.
 struct ThinkingFigures {
   int forecasts = 0;         ///< for which a plan was sought
@@ -24,6 +34,8 @@ struct ThinkingFigures {
   /// The model's last answer about the forecast that the scene at the trigger is most like: over
   /// the eight policies; nullopt: it said nothing of it.
   std::optional<std::array<double, manoeuvre::num_policies>> answer;
+  std::optional<ExpectedAtDecision>
+      expected;  ///< nullopt: no verdict, or it says nothing of either
 
   bool operator==(const ThinkingFigures&) const = default;
 };

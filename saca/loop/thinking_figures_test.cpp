@@ -45,7 +45,21 @@ TEST(ThinkingFigures, CountWhatWasThought) {
                                                                   .statements = 3,
                                                                   .false_statements = 1,
                                                                   .unfounded = 1,
-                                                                  .answer = std::nullopt}));
+                                                                  .answer = std::nullopt,
+                                                                  .expected = std::nullopt}));
+}
+
+TEST(ThinkingFigures, KeepWhatTheVerdictExpected) {
+  decide::Verdict verdict;
+  verdict.plans.push_back({.plan = manoeuvre::full_braking, .drivable = true, .harm = 0.3});
+  verdict.plans.push_back({.plan = left, .drivable = true, .harm = 0.1});
+  decide::Decision decision{.plan = left, .verdict = verdict, .time = 4.5};
+  EXPECT_EQ(thinking_figures({}, decision).expected, (ExpectedAtDecision{4.5, left, 0.1, 0.3}));
+  decision.plan.policy = PolicyId::t_drift_left;  // nothing is said of it
+  EXPECT_EQ(thinking_figures({}, decision).expected, std::nullopt);
+  decision.verdict.reset();
+  EXPECT_EQ(thinking_figures({}, decision).expected, std::nullopt);
+  EXPECT_EQ(thinking_figures({}, std::nullopt).expected, std::nullopt);
 }
 
 TEST(ThinkingFigures, KeepTheAnswerAboutTheForecastThatCame) {
