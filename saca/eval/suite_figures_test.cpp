@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -11,7 +12,8 @@ namespace {
 using manoeuvre::PolicyId;
 
 /// A row in which methods suffered so much, the first being AEB.
-SuiteRow made(std::uint64_t number, std::vector<double> harms, double best, bool quiet = false) {
+SuiteRow made(std::uint64_t number, const std::vector<double>& harms, double best,
+              bool quiet = false) {
   SuiteRow row{
       .number = number, .family = "made", .fault = {}, .risk = {}, .twin = {}, .driver = {}};
   row.risk.best_harm = best;
@@ -29,10 +31,8 @@ SuiteRow made(std::uint64_t number, std::vector<double> harms, double best, bool
 
 std::vector<MethodFigures> figures(const std::vector<SuiteRow>& rows,
                                    const std::vector<std::string>& methods) {
-  std::vector<const SuiteRow*> all;
-  for (const SuiteRow& row : rows) {
-    all.push_back(&row);
-  }
+  std::vector<const SuiteRow*> all(rows.size());
+  std::transform(rows.begin(), rows.end(), all.begin(), [](const SuiteRow& row) { return &row; });
   return suite_figures(all, methods, 0, 1);
 }
 
