@@ -93,6 +93,7 @@ void bench_atlas(const manoeuvre::Car& car, const manoeuvre::Atlas& atlas,
                                                chooses ? ".targets4" : "");
         figures["atlas.futures_us.p50" + suffix] = percentile(times, 0.5);
         figures["atlas.futures_us.p99" + suffix] = percentile(times, 0.99);
+        figures["atlas.futures_us.n" + suffix] = num_calls;
         figures["atlas.outside_share" + suffix] = static_cast<double>(num_outside) / num_calls;
       }
     }

@@ -33,6 +33,11 @@ void add_figures(const manoeuvre::Car& car, bool quiet, json& figures) {
   for (const manoeuvre::Figure& figure : manoeuvre::physics_figures(car)) {
     outside += in_band(figure) ? 0 : 1;
     figures[figure.name] = figure.value;
+    figures[figure.name + ".low"] = figure.low;
+    figures[figure.name + ".high"] = figure.high;
+    if (figure.reference) {
+      figures[figure.name + ".reference"] = *figure.reference;
+    }
     if (!quiet) {
       const std::string reference =
           figure.reference ? fmt::format("{:8.3f}", *figure.reference) : "       -";
@@ -59,6 +64,7 @@ void add_drifts(const std::string& name, const manoeuvre::Car& car, const Physic
       scene.grip = grip;
       const std::string key = fmt::format(".{}.v{:g}.mu{:.1f}", name, speed, grip);
       if (manoeuvre::refusal(car, plan, scene)) {
+        figures["t_drift.refused" + key] = true;
         if (!options.as_json) {
           fmt::print("{:16} {:5g} {:5.1f}   refused\n", name, speed, grip);
         }
@@ -124,6 +130,10 @@ int physics(const PhysicsOptions& options) {
     add_drifts(file.stem().string(), one.value(), options, figures);
   }
   if (options.as_json) {
+    if (options.drift_draws > 0) {
+      figures["t_drift.n"] = options.drift_draws;
+      figures["t_drift.seed"] = options.seed;
+    }
     fmt::print("{}\n", figures.dump(1));
   }
   return success;

@@ -134,8 +134,11 @@ def test_physics_stands_beside_its_reference(tmp_path):
     assert run.returncode == SUCCESS, run.stderr
     assert "physics.aeb.stop_distance_m.v14.mu0.9" in run.stdout
     figures = json.loads(saca("physics", "--json", "--drift-draws", 2, "--car", "compact_rwd_ev", cwd=tmp_path).stdout)
-    assert figures["physics.aeb_ideal.stop_distance_m.v14.mu0.9"] == pytest.approx(12.70, rel=0.05)
+    stop = "physics.aeb_ideal.stop_distance_m.v14.mu0.9"
+    assert figures[stop] == pytest.approx(12.70, rel=0.05)
+    assert figures[stop + ".reference"] == 12.7 and figures[stop + ".low"] < 12.7 < figures[stop + ".high"]
     assert 0 <= figures["t_drift.within_10_deg.share.compact_rwd_ev.v14.mu0.9"] <= 1
+    assert figures["t_drift.refused.compact_rwd_ev.v10.mu1.0"] and figures["t_drift.n"] == 2 and figures["t_drift.seed"] == 1
 
 
 TUNE = ["tune", "--car", "own.toml", "--swerve-evaluations", 12, "--drift-evaluations", 6, "--draws", 2]
