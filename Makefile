@@ -5,7 +5,7 @@
 #   make build   leaves build/release/saca
 #   make model   the local language model: libraries, weights, the choice for this processor
 #   make lint    clang-tidy over everything; `make test` looks at what has changed
-#   make bench   every figure of docs/results.md
+#   make bench   measures every figure of docs/results.md anew and makes the page; about a quarter of an hour
 #   make soak    long runs: kills, deadlines, first contacts, futures, evasions
 .PHONY: run test build model bench lint setup soak
 
@@ -32,7 +32,10 @@ test: setup model
 lint: setup
 	@tools/lint.sh
 
+measuring := manoeuvre_bench outcome_bench sim_bench intent_bench memory_bench model_host_process_bench
+# Only the programs that measure are built, not the tests.
 bench: build model
+	@cmake --build --preset release --target $(measuring) -- --quiet
 	@tools/bench.sh
 
 # Long runs, on a machine of its own: kills in the middle of memory's writes; deadlines and deaths of the

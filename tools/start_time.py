@@ -7,6 +7,7 @@ begins with the first line of the story after the headline's empty line.
 """
 import json
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -27,7 +28,7 @@ def children(pid):
 
 
 def main(program, scenario):
-    program = pathlib.Path(program).resolve()
+    program = pathlib.Path(shutil.which(program) or program).resolve()
     with tempfile.TemporaryDirectory() as folder:
         begin = time.monotonic()
         run = subprocess.Popen([program, "run", scenario], stdout=subprocess.PIPE, text=True, cwd=folder)

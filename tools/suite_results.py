@@ -11,12 +11,12 @@ Of the single families only the regret is kept.
 import datetime
 import json
 import pathlib
-import platform
 import re
 import subprocess
 import sys
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from figures import ROOT, Figures, interval, percent, processor, table
+
 KEPT = ROOT / "docs" / "suites.json"
 PAGE = ROOT / "docs" / "suites.md"
 NUMBERS = ("harm", "regret", "harm_over_aeb", "contact", "right", "materially_worse_than_aeb", "needless", "false_trigger_loss",
@@ -27,13 +27,6 @@ ORDER = ("saca", "saca_no_memory", "saca_no_model", "saca_paper", "saca_paper_at
          "saca_paper_no_facts_at_once", "aeb", "r157", "cc_driver", "fsm", "rss", "rss_steering", "random", "nothing", "first_forecast",
          "newest_forecast", "going_on_atlas", "beliefs_atlas", "beliefs_rolled_out", "beliefs_drawn", "beliefs_and_grip", "beliefs_and_followers",
          "beliefs_and_hidden", "true_atlas", "true_rolled_out", "oracle")  # as saca/eval/methods.cpp has them
-
-
-def processor():
-    for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
-        if line.startswith("model name"):
-            return line.split(":", 1)[1].strip()
-    return platform.machine()
 
 
 def trimmed(figures):
@@ -62,22 +55,6 @@ def merged(commit, files):
         figures["meta.commit"] = commit
         runs.append(trimmed(figures))
     return runs
-
-
-def interval(figures, key, digits=4, factor=1.0):
-    if key not in figures:
-        return "-"
-    low, high = figures.get(key + ".lo"), figures.get(key + ".hi")
-    text = f"{factor * figures[key]:.{digits}f}"
-    return text if low is None else f"{text} ({factor * low:.{digits}f} to {factor * high:.{digits}f})"
-
-
-def percent(figures, key):
-    return "-" if key not in figures else f"{100.0 * figures[key]:.1f}"
-
-
-def table(head, lines):
-    return "\n".join(["| " + " | ".join(head) + " |", "|" + "---|" * len(head), *("| " + " | ".join(line) + " |" for line in lines)])
 
 
 def methods_of(figures, head):
@@ -210,7 +187,8 @@ def page_of(runs):
     head = ("# Suites, ladders, forecasts and tables\n\nMade by `tools/suite_results.py` from [suites.json](suites.json), which holds what the commands "
             "below printed: no figure here is typed by hand. What the words mean: docs/formats.md, section Suite. `regret` is the harm above that "
             "of the best plan begun at T1 with full knowledge; materially worse means by more than 0.005.\n\n")
-    return head + "\n\n".join(section(one) for one in runs) + "\n"
+    named = [Figures(run, f"docs/suites.json, `{run.get('meta.command')}`") for run in runs]
+    return head + "\n\n".join(section(one) for one in named) + "\n"
 
 
 def groups_of(words):

@@ -1,12 +1,13 @@
 """docs/suites.md says what docs/suites.json holds."""
-import importlib.util
 import json
 import pathlib
+import sys
+
+import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SPEC = importlib.util.spec_from_file_location("suite_results", ROOT / "tools" / "suite_results.py")
-suite_results = importlib.util.module_from_spec(SPEC)
-SPEC.loader.exec_module(suite_results)
+sys.path.insert(0, str(ROOT / "tools"))
+import suite_results  # noqa: E402
 
 
 def test_no_figure_of_the_page_was_typed_by_hand():
@@ -40,3 +41,10 @@ def test_single_families_keep_their_regret_only():
     figures = {"suite.x.aeb.regret": 1, "suite.x.aeb.crossing.regret": 2, "suite.x.aeb.crossing.harm": 3, "suite.x.aeb.crossing.regret.lo": 4,
                "suite.x.aeb.harm.lo": 5, "meta.seed": "1"}
     assert set(suite_results.trimmed(figures)) == {"suite.x.aeb.regret", "suite.x.aeb.crossing.regret", "suite.x.aeb.harm.lo", "meta.seed"}
+
+
+def test_a_figure_that_is_missing_is_named_with_its_file():
+    kept = json.loads(suite_results.KEPT.read_text())
+    del kept[0]["suite.balanced.faults"]
+    with pytest.raises(SystemExit, match=r"docs/suites\.json, `saca suite balanced .*`: want the figure 'suite\.balanced\.faults', got none"):
+        suite_results.page_of(kept)

@@ -12,24 +12,6 @@ def tool(name, *arguments):
                           capture_output=True, text=True, timeout=1500)
 
 
-def test_figures_are_merged_with_where_they_come_from(tmp_path):
-    (tmp_path / "a.json").write_text('{"x.y": 1, "meta.model": "m"}')
-    (tmp_path / "b.json").write_text('{"z": 2.5}')
-    run = tool("merge_figures.py", tmp_path / "a.json", tmp_path / "b.json")
-    assert run.returncode == 0, run.stderr
-    figures = json.loads(run.stdout)
-    assert figures["x.y"] == 1 and figures["z"] == 2.5 and figures["meta.model"] == "m"
-    assert figures["meta.commit"] and figures["meta.date"] and figures["meta.processor"]
-
-
-def test_a_figure_measured_twice_is_refused(tmp_path):
-    for name in "ab":
-        (tmp_path / f"{name}.json").write_text('{"x": 1}')
-    run = tool("merge_figures.py", tmp_path / "a.json", tmp_path / "b.json")
-    assert run.returncode != 0
-    assert "x is measured twice" in run.stderr
-
-
 def test_the_start_is_the_empty_line_after_the_headline(tmp_path):
     program = tmp_path / "program"
     program.write_text("#!/bin/sh\necho headline\nsleep 0.3\necho\nsleep 3\necho T1: now\nsleep 3\n")
