@@ -34,8 +34,8 @@ def trimmed(figures):
     kept = {}
     for key, value in figures.items():
         parts = key.split(".")
-        if parts[0] == "suite" and len(parts) > 4 and parts[3] not in NUMBERS and parts[3] not in ("source", "reason"):
-            if parts[4] != "regret" or len(parts) > 5:
+        if parts[0] == "suite" and len(parts) > 4 and parts[3] not in NUMBERS and parts[3] not in ("source", "reason", "expected"):
+            if (parts[4] != "regret" or len(parts) > 5) and parts[4] != "expected":
                 continue
         if parts[0] == "forecast" and key.endswith((".n", ".lo", ".hi")) and "above_shipped" not in parts:
             continue
@@ -82,6 +82,21 @@ def decisions(figures, place, method):
             f"{figures[place + 'model_asked']} that it was asked about."]
 
 
+EXPECTED = ("expected", "expected.happened", "expected.braking", "expected.braking_happened")
+
+
+def expectations(figures, head, method, families):
+    """What verdicts expected at T1 and what happened, over all and by family; nothing of a method that decides by none."""
+    places = [("all", f"{head}{method}.")] + [(family, f"{head}{method}.{family}.") for family in families]
+    lines = [[words, f"{figures[place + 'expected.n']}", *(interval(figures, place + key) for key in EXPECTED)]
+             for words, place in places if place + "expected" in figures]
+    if not lines:
+        return []
+    return [f"\nWhat the verdicts of `{method}` expected at T1 of what was decided on and of full braking, and the harm of the same plans begun at T1 "
+            f"with full knowledge. {percent(figures, f'{head}{method}.expected.knowingly_worse')} % were knowingly worse than braking.\n",
+            table(["family", "decisions", "expected", "happened", "of braking expected", "happened"], lines)]
+
+
 def suite_section(figures, name):
     head = f"suite.{name}."
     methods = methods_of(figures, head)
@@ -101,7 +116,7 @@ def suite_section(figures, name):
                  table(["method", *families], [[f"`{m}`", *(f"{figures.get(f'{head}{m}.{f}.regret', float('nan')):.4f}" for f in families)]
                                                for m in methods])]
     for m in methods:
-        text += decisions(figures, f"{head}{m}.", m)
+        text += decisions(figures, f"{head}{m}.", m) + expectations(figures, head, m, families)
     if head + "driver.n" in figures:
         agreement = ", ".join(f"`{m}` {percent(figures, f'{head}{m}.agrees_with_driver')} %" for m in methods)
         text.append(f"\n{figures[head + 'driver.n']} recorded drivers: harm {figures[head + 'driver.harm']:.4f}, "

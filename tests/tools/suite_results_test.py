@@ -25,6 +25,20 @@ def test_a_table_shows_mean_and_interval():
     assert "| `aeb` | 0.2500 |" in text and "7 encounters" in text
 
 
+def test_verdicts_stand_beside_what_happened():
+    figures = {"suite.x.n": 7, "suite.x.faults": 0, "suite.x.saca.harm": 0.1, "suite.x.saca.expected.knowingly_worse": 0.25}
+    for k, place in enumerate(("suite.x.saca.", "suite.x.saca.crossing.")):
+        figures[place + "expected.n"] = 6 - k
+        for i, key in enumerate(suite_results.EXPECTED):
+            figures[place + key] = 0.1 * (i + 1) + 0.01 * k
+    figures["suite.x.saca.crossing.regret"] = 0.5
+    text = suite_results.suite_section(figures, "x")
+    assert "25.0 % were knowingly worse" in text
+    assert "| all | 6 | 0.1000 | 0.2000 | 0.3000 | 0.4000 |" in text and "| crossing | 5 | 0.1100 | 0.2100 | 0.3100 | 0.4100 |" in text
+    assert set(suite_results.trimmed(figures)) == set(figures)
+    assert "knowingly" not in suite_results.suite_section({key: value for key, value in figures.items() if "expected" not in key}, "x")
+
+
 def test_forecasts_show_each_model_beside_what_ships():
     figures = {f"forecast.x.{part}": 3 for part in ("num_encounters", "num_failed", "num_forecasts", "num_acting")}
     for k, model in enumerate(suite_results.MODELS):
