@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 #include <vector>
 
+#include "saca/config/json_text.h"
 #include "saca/core/file.h"
 
 namespace saca::app {
@@ -37,11 +37,15 @@ std::optional<fs::path> find_weights(const Places& places) {
   if (!choice.has_value()) {
     return std::nullopt;
   }
-  const auto parsed = nlohmann::json::parse(choice.value(), nullptr, false);
-  if (!parsed.is_object() || !parsed.contains("weights") || !parsed["weights"].is_string()) {
+  const auto parsed = config::parse_json(choice.value());
+  if (!parsed.has_value() || !parsed.value().is_object()) {
     return std::nullopt;
   }
-  const fs::path weights = folder / parsed["weights"].get<std::string>();
+  const auto name = parsed.value().find("weights");
+  if (name == parsed.value().end() || !name->is_string()) {
+    return std::nullopt;
+  }
+  const fs::path weights = folder / name->get<std::string>();
   std::error_code problem;
   return fs::exists(weights, problem) ? std::optional(weights) : std::nullopt;
 }

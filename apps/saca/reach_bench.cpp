@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "saca/config/json_text.h"
 #include "saca/core/file.h"
 #include "saca/core/parallel.h"
 #include "saca/core/percentile.h"
@@ -82,7 +83,8 @@ Result<json> air3d_reference(const fs::path& root, const AirGrid& size) {
   if (!text.has_value()) {
     return text.error();
   }
-  const json all = json::parse(text.value(), nullptr, false);
+  const auto read = config::parse_json(text.value());
+  const json all = read.has_value() ? read.value() : json();
   const json points{size.x, size.y, size.heading};
   for (const json& one : all.is_object() ? all.value("solutions", json::array()) : json()) {
     if (one.is_object() && one.value("points", json()) == points &&

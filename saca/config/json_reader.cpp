@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "saca/core/printable.h"
+
 namespace saca::config {
 
 using nlohmann::json;
@@ -132,7 +134,7 @@ const json& JsonReader::any(std::string_view key) {
 
 void JsonReader::reject(std::string_view key, const std::string& why) {
   if (!problem_) {
-    const std::string name = name_of(key);
+    const std::string name = one_line(name_of(key));
     problem_ =
         Error{Error::Code::malformed, (name.empty() ? std::string(document_) : name) + ": " + why};
   }

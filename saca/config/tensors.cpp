@@ -12,6 +12,7 @@
 #include <optional>
 #include <utility>
 
+#include "saca/config/json_text.h"
 #include "saca/core/contract.h"
 
 namespace saca::config {
@@ -135,8 +136,8 @@ Result<json> header_of(std::string_view bytes, std::string_view source, std::siz
                                                  told, bytes.size()));
   }
   size = static_cast<std::size_t>(told);
-  json header = json::parse(bytes.substr(sizeof told, size), nullptr, false);
-  if (!header.is_object()) {
+  auto header = parse_json(bytes.substr(sizeof told, size));
+  if (!header.has_value() || !header.value().is_object()) {
     return malformed_tensors(source, "want a safetensors header: one JSON object");
   }
   return header;

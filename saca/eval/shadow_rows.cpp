@@ -6,6 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "saca/config/json_text.h"
+#include "saca/core/printable.h"
+
 namespace saca::eval {
 namespace {
 
@@ -63,7 +66,11 @@ std::string line_of(const ShadowRow& row) {
 
 Result<ShadowRow> shadow_row_from(std::string_view line) {
   try {
-    const auto in = nlohmann::json::parse(line);
+    const auto read = config::parse_json(line);
+    if (!read.has_value()) {
+      return Error{Error::Code::malformed, "want one watched drive: " + read.error().message};
+    }
+    const nlohmann::json& in = read.value();
     ShadowRow row{.source = in.at("source").get<std::string>(),
                   .drive = in.at("drive").get<std::string>(),
                   .left_out = in.value("left_out", std::string()),
@@ -82,7 +89,7 @@ Result<ShadowRow> shadow_row_from(std::string_view line) {
     return row;
   } catch (const std::exception& problem) {
     return Error{Error::Code::malformed, fmt::format("want one watched drive, got \"{}\": {}",
-                                                     line.substr(0, 80), problem.what())};
+                                                     one_line(line, 80), one_line(problem.what()))};
   }
 }
 

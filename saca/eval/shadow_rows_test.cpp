@@ -1,5 +1,6 @@
 #include "saca/eval/shadow_rows.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -47,6 +48,8 @@ TEST(ShadowRows, WhatIsNoLineIsRefused) {
     ASSERT_FALSE(row.has_value()) << line;
     EXPECT_EQ(row.error().code, Error::Code::malformed);
   }
+  EXPECT_THAT(shadow_row_from(std::string(500'000, '[')).error().message,
+              testing::HasSubstr("want JSON of at most 32 levels"));
 }
 
 // 2 x 1,800 s and 2 x 25 km at one place: 4 triggers, 2 of them false, in an hour and 50 km.

@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "saca/config/json_text.h"
 #include "saca/core/contract.h"
+#include "saca/core/printable.h"
 #include "saca/loop/recorded_driver.h"
 
 namespace saca::eval {
@@ -312,7 +314,12 @@ std::string line_of(const SuiteRow& row) {
 
 Result<SuiteRow> suite_row_from(std::string_view line, std::size_t num_methods) {
   try {
-    const json in = json::parse(line);
+    const auto read = config::parse_json(line);
+    if (!read.has_value()) {
+      return Error{Error::Code::malformed,
+                   "want one encounter of a suite: " + read.error().message};
+    }
+    const json& in = read.value();
     SuiteRow row{.number = in.at("number").get<std::uint64_t>(),
                  .family = in.at("family").get<std::string>(),
                  .fault = in.value("fault", std::string()),
@@ -331,8 +338,8 @@ Result<SuiteRow> suite_row_from(std::string_view line, std::size_t num_methods) 
     return row;
   } catch (const std::exception& problem) {
     return Error{Error::Code::malformed,
-                 fmt::format("want one encounter of a suite, got \"{}\": {}", line.substr(0, 80),
-                             problem.what())};
+                 fmt::format("want one encounter of a suite, got \"{}\": {}", one_line(line, 80),
+                             one_line(problem.what()))};
   }
 }
 

@@ -59,6 +59,8 @@ TEST_F(SuiteTest, ALineComesBack) {
        {"", "{", "[]", R"({"number": -1})", R"({"number": 1, "family": 7})"}) {
     EXPECT_FALSE(suite_row_from(spoilt, 2).has_value()) << spoilt;
   }
+  EXPECT_THAT(suite_row_from(std::string(500'000, '['), 2).error().message,
+              testing::HasSubstr("want JSON of at most 32 levels"));
 }
 
 /// SACA with a memory that holds the scene at T1, where the best is to the left, or with a model

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "saca/config/json_text.h"
 #include "saca/core/contract.h"
 #include "saca/core/fnv.h"
 #include "saca/memory/feature_index.h"
@@ -123,12 +124,12 @@ class Row {
   }
 
   world::Scene scene(Column column) {
-    const nlohmann::json parsed = nlohmann::json::parse(text(column), nullptr, false);
-    if (parsed.is_discarded()) {
-      reject(column, "is not JSON");
+    const auto parsed = config::parse_json(text(column));
+    if (!parsed.has_value()) {
+      reject(column, parsed.error().message);
       return {};
     }
-    Result<world::Scene> scene = scene_from_json(parsed);
+    Result<world::Scene> scene = scene_from_json(parsed.value());
     if (!scene.has_value()) {
       reject(column, scene.error().message);
       return {};

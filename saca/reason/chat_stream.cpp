@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "saca/config/json_text.h"
+
 namespace saca::reason {
 namespace {
 
@@ -78,16 +80,18 @@ std::string json_text(const ChatQuestion& question) {
 }
 
 std::string server_message(std::string_view body) {
-  return message_in(ChatJson::parse(body, nullptr, false)).value_or(std::string(body));
+  const auto json = config::parse_json<ChatJson>(body);
+  return (json.has_value() ? message_in(json.value()) : std::nullopt).value_or(std::string(body));
 }
 
 // Takes one event.
 // @return  what is wrong with it; empty when nothing is
 std::string ChatStream::problem_in(std::string_view data) {
-  const ChatJson event = ChatJson::parse(data, nullptr, false);
-  if (!event.is_object()) {
+  const auto read = config::parse_json<ChatJson>(data);
+  if (!read.has_value() || !read.value().is_object()) {
     return "want a JSON object in each event, got " + std::string(data);
   }
+  const ChatJson& event = read.value();
   if (member(event, "error") != nullptr) {
     return "want text, got " + server_message(data);
   }

@@ -105,6 +105,18 @@ TEST(ChatStream, KeepsTheBeginningOfWhatIsNoStream) {
   EXPECT_EQ(stream.head().size(), 4096U);
 }
 
+TEST(ChatStream, RefusesWhatIsNestedDeeply) {
+  std::string errors;
+  for (int i = 0; i < 20'000; ++i) {
+    errors += R"({"error":)";
+  }
+  ChatStream stream;
+  const auto taken = stream.take("data: " + errors + "1" + std::string(20'000, '}') + "\n");
+  ASSERT_FALSE(taken.has_value());
+  EXPECT_NE(taken.error().message.find("want a JSON object"), std::string::npos);
+  EXPECT_EQ(server_message(std::string(60'000, '[')), std::string(60'000, '['));
+}
+
 TEST(ChatStream, DamageNeverThrows) {
   std::mt19937 random(7);  // NOLINT: the same damage each time
   for (int i = 0; i < 2000; ++i) {

@@ -1,12 +1,17 @@
 #include "saca/reason/child_model.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <utility>
+
+#include "saca/core/printable.h"
 
 namespace saca::reason {
 namespace {
 
 constexpr std::size_t longest_reasoning = 1U << 16U;  // bytes; a reply has a few hundred
+constexpr std::size_t most_answers = 16;              // of a scene; there are two
 constexpr double longest_load = 60.0;                 // [s]; a minute on a very slow disk
 
 Error malformed(const std::string& message) {
@@ -77,11 +82,11 @@ std::optional<Error> ChildModel::wait_until_ready(Clock::Time deadline,
     }
     if (const auto* failed = std::get_if<protocol::Failed>(&event.value())) {
       give_up();
-      return Error{Error::Code::unreadable, "model process: " + failed->message};
+      return Error{Error::Code::unreadable, "model process: " + one_line(failed->message)};
     }
     if (const auto* ready = std::get_if<protocol::Ready>(&event.value())) {
       ready_ = true;
-      model_description_ = ready->description;
+      model_description_ = one_line(ready->description);
       figures_.load_time = ready->load_time;
       figures_.system_tokens = ready->system_tokens;
     }
@@ -107,8 +112,8 @@ std::optional<Error> ChildModel::take(Exchange& exchange, const protocol::Event&
     exchange.progress({.prompt = text->scene, .text = text->text, .answer = nullptr});
   } else if (const auto* said = std::get_if<protocol::Answered>(&event); said && is_ours(*said)) {
     Reply* r = reply(said->scene);
-    if (r == nullptr) {
-      return malformed("answer: want one of the scenes");
+    if (r == nullptr || r->answers.size() == most_answers) {
+      return malformed(fmt::format("want answers to one of the scenes, at most {}", most_answers));
     }
     r->answers.push_back(
         {.time = clock_.now(), .probability = said->probability, .kind = said->kind});
@@ -127,7 +132,7 @@ std::optional<Error> ChildModel::take(Exchange& exchange, const protocol::Event&
              failed && failed->id.value_or(exchange.id) == exchange.id) {
     exchange.done = true;
     return Error{failed->late ? Error::Code::too_late : Error::Code::unreadable,
-                 "model process: " + failed->message};
+                 "model process: " + one_line(failed->message)};
   }
   return std::nullopt;
 }
@@ -204,7 +209,10 @@ Result<protocol::Info> ChildModel::info(Clock::Time deadline) {
     if (!event.has_value()) {
       error = event.error();
     } else if (const auto* info = std::get_if<protocol::Info>(&event.value())) {
-      return *info;
+      protocol::Info bounded = *info;
+      bounded.description = one_line(info->description);
+      bounded.file = one_line(info->file);
+      return bounded;
     }
   }
   return *error;

@@ -159,6 +159,40 @@ TEST_F(ChildModelTest, NonsenseIsAnError) {
   EXPECT_EQ(model.restarts(), 1);
 }
 
+TEST_F(ChildModelTest, NestedNonsenseIsAnError) {
+  ChildModel model(
+      settings("ready; ask; printf '{\"v\":%s\\n' \"$(head -c 900000 /dev/zero | tr '\\0' '[')\""),
+      clock_);
+  expect_ready(model);
+  clock_.step(1us);  // the line comes in hundreds of pieces
+  const auto replies = model.ask({"a"}, deadline, record_);
+  ASSERT_FALSE(replies.has_value());
+  EXPECT_EQ(replies.error().code, Error::Code::malformed);
+  EXPECT_LT(replies.error().message.size(), 300U);
+}
+
+TEST_F(ChildModelTest, WhatItSaysOfAFailureIsBoundedAndCommandsNoTerminal) {
+  ChildModel model(
+      settings(
+          "ready; ask; say \"\\\"error\\\",\\\"id\\\":$id,\\\"message\\\":\\\"\\\\u001b[2J$(head "
+          "-c 100000 /dev/zero | tr '\\0' x)\\\"\""),
+      clock_);
+  expect_ready(model);
+  const auto replies = model.ask({"a"}, deadline, record_);
+  ASSERT_FALSE(replies.has_value());
+  EXPECT_THAT(replies.error().message, testing::StartsWith("model process:  [2Jxxx"));
+  EXPECT_LT(replies.error().message.size(), 300U);
+}
+
+TEST_F(ChildModelTest, AnswersWithoutEndAreAnError) {
+  ChildModel model(settings("ready; ask; while :; do first 0; done"), clock_);
+  expect_ready(model);
+  clock_.step(1us);
+  const auto replies = model.ask({"a"}, deadline, record_);
+  ASSERT_TRUE(replies.has_value());  // the first of them count
+  EXPECT_LE(replies.value().front().answers.size(), 16U);
+}
+
 TEST_F(ChildModelTest, LineWithoutEndIsAnError) {
   ChildModel model(settings("ready; ask; tr '\\0' x < /dev/zero"), clock_);
   const auto replies = model.ask({"a"}, deadline, record_);

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "saca/config/json_text.h"
 #include "saca/reason/reply.h"
 
 namespace saca::reason::protocol {
@@ -74,9 +76,13 @@ const Json& list_at(const Json& object, const std::string& key) {
 }
 
 Json parsed(std::string_view line) {
-  Json json = Json::parse(line, nullptr, false);
-  if (json.is_discarded() || !json.is_object()) {
-    refuse("line", "a JSON object", Json(std::string(line.substr(0, 60))));
+  auto read = config::parse_json(line);
+  if (!read.has_value()) {
+    throw Malformed{"line: " + read.error().message};
+  }
+  Json json = std::move(read).value();
+  if (!json.is_object()) {
+    refuse("line", "a JSON object", json);
   }
   if (const int got = count_at<int>(json, "v"); got != version) {
     refuse("v", std::to_string(version), json["v"]);

@@ -82,7 +82,8 @@ TEST(Protocol, RefusalNamesKeyAndWhatCame) {
             std::string::npos);
   EXPECT_NE(refused(R"({"v":1,"event":"text","id":1,"scene":0.5,"text":""})").find("scene: want"),
             std::string::npos);
-  EXPECT_NE(refused("Segmentation fault").find("JSON object"), std::string::npos);
+  EXPECT_NE(refused("Segmentation fault").find("want JSON, got `Segmentation fault`"),
+            std::string::npos);
 }
 
 TEST(Protocol, ProbabilitiesMustBeEightThatSumToOne) {
@@ -101,6 +102,21 @@ TEST(Protocol, ProbabilitiesMustBeEightThatSumToOne) {
 }
 
 // Whatever comes is read or refused, never thrown at the caller.
+// A line may have 1 MiB; what quotes a value walks it, level by level.
+TEST(Protocol, RefusesWhatIsNestedDeeply) {
+  for (const std::string& deep :
+       {std::string(500'000, '['), std::string(450'000, '[') + std::string(450'000, ']')}) {
+    for (const std::string& line :
+         {deep, R"({"v":)" + deep + "}", R"({"v":1,"event":)" + deep + "}",
+          R"({"v":1,"event":"text","id":1,"scene":0,"text":)" + deep + "}"}) {
+      const auto event = event_from(line);
+      ASSERT_FALSE(event.has_value());
+      EXPECT_LT(event.error().message.size(), 300U);
+      EXPECT_FALSE(request_from(line).has_value());
+    }
+  }
+}
+
 TEST(Protocol, DamagedLinesAreReadOrRefused) {
   std::mt19937 random(1);
   const std::string whole = answer_line;

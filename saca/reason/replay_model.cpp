@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "saca/config/json_text.h"
 #include "saca/core/file.h"
 #include "saca/core/fnv.h"
+#include "saca/core/printable.h"
 #include "saca/reason/reply.h"
 
 namespace saca::reason {
@@ -98,9 +100,13 @@ Result<RecordedReplies> parse_replies(std::string_view text, std::string_view so
     return Error{Error::Code::malformed, fmt::format("{}: {}", source, what)};
   };
   try {
-    const Json file = Json::parse(text);
+    const auto read = config::parse_json<Json>(text);
+    if (!read.has_value()) {
+      return refuse(read.error().message);
+    }
+    const Json& file = read.value();
     if (const auto got = file.at("schema").get<std::string>(); got != schema) {
-      return refuse(fmt::format("schema: want {}, got {}", schema, got));
+      return refuse(fmt::format("schema: want {}, got {}", schema, one_line(got)));
     }
     RecordedReplies replies{.model = file.at("model").get<std::string>(), .replies = {}};
     for (const auto& [key, json] : file.at("replies").items()) {
@@ -108,16 +114,16 @@ Result<RecordedReplies> parse_replies(std::string_view text, std::string_view so
       try {
         recorded = reply_from(json);
       } catch (const std::exception& problem) {
-        return refuse(fmt::format("replies.{}: {}", key, problem.what()));
+        return refuse(fmt::format("replies.{}: {}", one_line(key), one_line(problem.what())));
       }
       if (const char* rule = broken_rule(key, recorded)) {
-        return refuse(fmt::format("replies.{}: want {}", key, rule));
+        return refuse(fmt::format("replies.{}: want {}", one_line(key), rule));
       }
       replies.replies.emplace(key, std::move(recorded));
     }
     return replies;
   } catch (const Json::exception& problem) {
-    return refuse(problem.what());
+    return refuse(one_line(problem.what()));
   }
 }
 

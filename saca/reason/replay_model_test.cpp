@@ -131,6 +131,9 @@ TEST(ParseReplies, RefusalNamesFileAndPlace) {
   EXPECT_THAT(refused(good, "saca.replies/1", "saca.replies/2"), HasSubstr("r.json: schema: want"));
   EXPECT_THAT(refused(good, "\"prompt\": \"a\"", "\"prompt\": \"x\""),
               HasSubstr("key of its prompt"));
+  const std::string deep = std::string(500'000, '[');
+  EXPECT_THAT(refused(good, "\"a\"", deep), HasSubstr("r.json: want JSON of at most 32 levels"));
+  EXPECT_LT(refused(good, "saca.replies/1", deep).size(), 300U);
   EXPECT_THAT(refused(good, "1.0", "0.5"), HasSubstr("sum to 1"));
   EXPECT_THAT(refused(good, "1.0", "-1.0"), HasSubstr(">= 0"));
   EXPECT_THAT(refused(good, "\"first\"", "\"song\""), HasSubstr(prompt_key("a")));

@@ -9,6 +9,9 @@
 #include <sstream>
 #include <utility>
 
+#include "saca/config/json_reader.h"
+#include "saca/config/json_text.h"
+#include "saca/core/printable.h"
 #include "saca/manoeuvre/plan.h"
 #include "saca/report/verdicts_told.h"
 
@@ -408,19 +411,24 @@ Result<std::vector<Paragraph>> explanation(std::string_view record, std::string_
   const auto refuse = [&](const std::string& what) {
     return Error{Error::Code::malformed, fmt::format("{}: {}", source, what)};
   };
-  const json document = json::parse(record, nullptr, false);
+  const auto read = config::parse_json(record);
+  if (!read.has_value()) {
+    return refuse("want the JSON of a record (saca.record/1): " + read.error().message);
+  }
+  const json& document = read.value();
   if (!document.is_object()) {
     return refuse("want the JSON of a record (saca.record/1), got something else");
   }
   if (const auto schema = document.find("schema");
       schema == document.end() || *schema != "saca.record/1") {
     return refuse("schema: want \"saca.record/1\", got " +
-                  (schema == document.end() ? "none" : schema->dump()));
+                  (schema == document.end() ? "none" : config::JsonReader::shown(*schema)));
   }
   try {
     return Story(document).told();
   } catch (const json::exception& problem) {  // a key that is missing or of another type
-    return refuse(fmt::format("want a whole record (saca.record/1), got: {}", problem.what()));
+    return refuse(
+        fmt::format("want a whole record (saca.record/1), got: {}", one_line(problem.what())));
   }
 }
 

@@ -168,6 +168,11 @@ TEST(Explanation, RefusesWhatIsNoRecord) {
             "r.json: want the JSON of a record (saca.record/1), got something else");
   EXPECT_EQ(explanation(R"({"schema": "saca.tape/1"})", "r.json").error().message,
             "r.json: schema: want \"saca.record/1\", got \"saca.tape/1\"");
+  const std::string deep(500'000, '[');
+  EXPECT_EQ(explanation(deep, "r.json").error().message,
+            "r.json: want the JSON of a record (saca.record/1): want JSON of at most 32 levels, "
+            "got more at byte 32");
+  EXPECT_LT(explanation("{\"schema\": \"" + deep + "\"}", "r.json").error().message.size(), 200U);
   json cut = record();
   cut.erase("switches");
   EXPECT_THAT(explanation(cut.dump(), "r.json").error().message, HasSubstr("'switches'"));

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "saca/config/json_reader.h"
+#include "saca/config/json_text.h"
 #include "saca/core/contract.h"
 #include "saca/report/page.h"
 #include "saca/report/value_map.h"
@@ -19,22 +21,19 @@ constexpr std::string_view record_marker = "\"record.json\"";
 constexpr std::string_view js_marker = "/* script */";
 
 std::optional<Error> problem(std::string_view record_json, std::string_view schema) {
-  nlohmann::json record;
-  try {
-    record = nlohmann::json::parse(record_json);
-  } catch (const nlohmann::json::exception& e) {
-    std::string why = e.what();  // it quotes what it could not read, byte for byte
-    std::replace_if(
-        why.begin(), why.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-    return Error{Error::Code::malformed, "record: want JSON, got: " + why};
+  const auto read = config::parse_json(record_json);
+  if (!read.has_value()) {
+    return Error{Error::Code::malformed, "record: " + read.error().message};
   }
+  const nlohmann::json& record = read.value();
   if (!record.is_object() || !record.contains("schema")) {
     return Error{Error::Code::malformed, "record: schema: want \"" + std::string(schema) +
                                              "\", got a document without one"};
   }
   if (record["schema"] != schema) {
     return Error{Error::Code::malformed, "record: schema: want \"" + std::string(schema) +
-                                             "\", got " + record["schema"].dump()};
+                                             "\", got " +
+                                             config::JsonReader::shown(record["schema"])};
   }
   return std::nullopt;
 }

@@ -117,6 +117,8 @@ TEST_P(HtmlReport, RefusesWhatIsNoRecord) {
   EXPECT_EQ(refused(std::string_view(whole).substr(0, whole.size() - 1)).code,
             Error::Code::malformed);
   EXPECT_EQ(refused(whole + whole).code, Error::Code::malformed);
+  EXPECT_EQ(refused("{\"a\":" + std::string(500'000, '[')).message,
+            "record: want JSON of at most 32 levels, got more at byte 36");
   EXPECT_EQ(refused("[]").code, Error::Code::malformed);
   EXPECT_EQ(refused("{}").code, Error::Code::malformed);
   EXPECT_EQ(refused("{\"schema\":\"\xFF\"}").code, Error::Code::malformed) << "not UTF-8";

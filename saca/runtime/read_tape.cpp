@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "saca/config/json_reader.h"
+#include "saca/config/json_text.h"
 #include "saca/manoeuvre/drive.h"
 #include "saca/memory/scene_json.h"
 #include "saca/runtime/tape_json.h"
@@ -372,12 +373,12 @@ Result<TapeFile> TapeReader::read(std::string_view text) {
 }
 
 std::optional<Error> TapeReader::read_line(std::string_view line) {
-  const json node = json::parse(line, nullptr, false);
-  if (node.is_discarded()) {
+  const auto node = config::parse_json(line);
+  if (!node.has_value()) {
     return error("want one JSON object of a tape (saca.tape/2), got " + shown(line));
   }
   std::optional<Error> problem;
-  JsonReader from(node, "", problem, "line");
+  JsonReader from(node.value(), "", problem, "line");
   read_object(from);
   return problem ? std::optional(error(problem->message)) : std::nullopt;
 }

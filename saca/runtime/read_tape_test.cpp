@@ -141,6 +141,10 @@ TEST_F(ReadTape, NamesLineKeyWantedAndGot) {
               HasSubstr("a.tape:5: beliefs[0]: want 24 finite numbers"));
   EXPECT_EQ(refusal(with_line(5, [](json& line) { line["beliefs"].clear(); })),
             "a.tape:5: beliefs: want one for each of the scene's 1 actors, got 0");
+  EXPECT_LT(refusal(with_line(5, [](json& line) { line[std::string(500'000, 'k')] = 1; })).size(),
+            300U);
+  EXPECT_THAT(refusal("{\"type\":" + std::string(500'000, '[') + "\n"),
+              HasSubstr("a.tape:1: want one JSON object of a tape"));
   EXPECT_THAT(refusal(*text_ + "{}\n"), HasSubstr("want nothing after the end of the tape"));
 }
 
