@@ -98,7 +98,7 @@ void print(const runtime::TapeFile& tape, const runtime::Replay& replay) {
 }
 
 int run(const ReplayOptions& options) {
-  const auto text = read_file(options.tape);
+  const auto text = read_file(options.tape, many_bytes);
   if (!text.has_value()) {
     return refused(text.error());
   }

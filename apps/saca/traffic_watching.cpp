@@ -43,7 +43,7 @@ Error stopped() {
 
 std::optional<Error> hash_files(const std::vector<fs::path>& files, Fnv& hash) {
   for (const fs::path& file : files) {
-    const auto text = read_file(file);
+    const auto text = read_file(file, many_bytes);
     if (!text.has_value()) {
       return text.error();
     }

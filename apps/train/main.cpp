@@ -102,7 +102,7 @@ Result<config::Tensors> calibrated(const Options& options, const Data& data,
   for (std::size_t h = 0; h < sharpness.size(); ++h) {
     tensors.tensors["sharpness"].values[h] = static_cast<float>(sharpness[h]);
   }
-  const auto bytes = read_file(options.sequences);
+  const auto bytes = read_file(options.sequences, many_bytes);
   Fnv digest;
   digest.add(bytes.has_value() ? std::string_view(bytes.value()) : std::string_view());
   tensors.words = {{"left_out", options.leave_out.empty() ? "nothing" : options.leave_out},

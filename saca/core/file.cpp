@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
+#include <limits>
 #include <utility>
 
 namespace saca {
@@ -17,6 +17,33 @@ namespace {
 std::string reason() {
   return std::strerror(errno);  // NOLINT(concurrency-mt-unsafe): glibc's is thread-safe
 }
+
+// What is no file; empty: it is one.
+std::string_view other_kind(mode_t mode) {
+  return S_ISREG(mode)                    ? ""
+         : S_ISDIR(mode)                  ? "a folder"
+         : S_ISCHR(mode) || S_ISBLK(mode) ? "a device"
+         : S_ISFIFO(mode)                 ? "a pipe"
+                                          : "a socket";
+}
+
+// An open file, closed with this.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() { (void)close(); }
+
+  [[nodiscard]] int number() const { return number_; }
+  [[nodiscard]] bool close() {
+    const int number = std::exchange(number_, -1);
+    return number < 0 || ::close(number) == 0;
+  }
+
+ private:
+  int number_;
+};
 
 bool write_all(int file, std::string_view text) {
   while (!text.empty()) {
@@ -29,11 +56,71 @@ bool write_all(int file, std::string_view text) {
   return true;
 }
 
+bool write_parts(int file, std::initializer_list<std::string_view> parts) {
+  return std::all_of(parts.begin(), parts.end(),
+                     [file](std::string_view part) { return write_all(file, part); });
+}
+
+std::optional<Error> read(const std::filesystem::path& path, std::uintmax_t most,
+                          const std::function<void(std::string_view)>& take) {
+  const auto refuse = [&](const std::string& why) {
+    return Error{Error::Code::unreadable, path.string() + ": " + why};
+  };
+  // Without waiting: nobody may ever write into a pipe.
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+  struct stat about {};
+  if (file.number() < 0 || ::fstat(file.number(), &about) != 0) {
+    return refuse("cannot be opened: " + reason());
+  }
+  if (const std::string_view kind = other_kind(about.st_mode); !kind.empty()) {
+    return refuse("is " + std::string(kind) + ", want a file");
+  }
+  auto left = most;  // asked of what is read, too: a file may grow, and those of /proc tell no size
+  std::string bytes(std::size_t{1} << 20U, '\0');
+  const auto too_long = [&](std::uintmax_t got) {
+    return refuse("want at most " + std::to_string(most) + " bytes, got " + std::to_string(got));
+  };
+  if (static_cast<std::uintmax_t>(about.st_size) > most) {
+    return too_long(static_cast<std::uintmax_t>(about.st_size));
+  }
+  while (true) {
+    const ssize_t count = ::read(file.number(), bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) {
+      continue;
+    }
+    if (count < 0) {
+      return refuse("cannot be read: " + reason());
+    }
+    if (count == 0) {
+      return std::nullopt;
+    }
+    const auto size = static_cast<std::size_t>(count);
+    if (size > left) {
+      return too_long(most - left + size);
+    }
+    left -= size;
+    take(std::string_view(bytes).substr(0, size));
+  }
+}
+
+std::optional<Error> write_into_device(const std::filesystem::path& path,
+                                       std::initializer_list<std::string_view> parts) {
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY));
+  if (file.number() < 0 || !write_parts(file.number(), parts) || !file.close()) {
+    return Error{Error::Code::unwritable, path.string() + ": cannot be written: " + reason()};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
-Result<std::string> read_file(const std::filesystem::path& path) {
+Result<std::string> read_file(const std::filesystem::path& path, std::uintmax_t most) {
   std::string text;
-  if (auto problem = read_file(path, [&](std::string_view bytes) { text += bytes; })) {
+  std::error_code unknown;
+  if (const auto size = std::filesystem::file_size(path, unknown); !unknown && size <= most) {
+    text.reserve(size);
+  }
+  if (auto problem = read(path, most, [&](std::string_view bytes) { text += bytes; })) {
     return *std::move(problem);
   }
   return text;
@@ -41,27 +128,7 @@ Result<std::string> read_file(const std::filesystem::path& path) {
 
 std::optional<Error> read_file(const std::filesystem::path& path,
                                const std::function<void(std::string_view)>& take) {
-  std::error_code problem;
-  if (std::filesystem::is_directory(path, problem)) {
-    return Error{Error::Code::unreadable, path.string() + ": is a folder, want a file"};
-  }
-  if (std::filesystem::is_character_file(path, problem)) {  // it may never end
-    return Error{Error::Code::unreadable, path.string() + ": is a device, want a file"};
-  }
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    return Error{Error::Code::unreadable, path.string() + ": cannot be opened: " + reason()};
-  }
-  std::string bytes(std::size_t{1} << 20, '\0');
-  while (file) {
-    file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    take(std::string_view(bytes).substr(0, static_cast<std::size_t>(file.gcount())));
-  }
-  if (file.bad()) {
-    return Error{Error::Code::unreadable, path.string() + ": cannot be read: " + reason()};
-  }
-  return std::nullopt;
+  return read(path, std::numeric_limits<std::uintmax_t>::max(), take);
 }
 
 std::optional<Error> write_file(const std::filesystem::path& path, std::string_view text) {
@@ -70,19 +137,31 @@ std::optional<Error> write_file(const std::filesystem::path& path, std::string_v
 
 std::optional<Error> write_file(const std::filesystem::path& path,
                                 std::initializer_list<std::string_view> parts) {
-  std::string draft = path.string() + ".XXXXXX";
-  const int file = ::mkstemp(draft.data());
-  if (file < 0) {
+  struct stat about {};
+  if (::stat(path.c_str(), &about) == 0) {
+    if (S_ISCHR(about.st_mode)) {
+      return write_into_device(path, parts);
+    }
+    if (const std::string_view kind = other_kind(about.st_mode); !kind.empty()) {
+      return Error{Error::Code::unwritable,
+                   path.string() + ": is " + std::string(kind) + ", want a file"};
+    }
+  }
+  std::error_code no_link;
+  const auto target = std::filesystem::is_symlink(path, no_link)
+                          ? std::filesystem::weakly_canonical(path, no_link)
+                          : path;
+  std::string draft = target.string() + ".XXXXXX";
+  Descriptor file(::mkstemp(draft.data()));
+  if (file.number() < 0) {
     return Error{Error::Code::unwritable, path.string() + ": cannot be created: " + reason()};
   }
   constexpr mode_t readable_by_all = 0644;
-  bool good = ::fchmod(file, readable_by_all) == 0 &&
-              std::all_of(parts.begin(), parts.end(),
-                          [file](std::string_view part) { return write_all(file, part); }) &&
-              ::fsync(file) == 0;
+  bool good = ::fchmod(file.number(), readable_by_all) == 0 && write_parts(file.number(), parts) &&
+              ::fsync(file.number()) == 0;
   std::string why = good ? "" : reason();
-  good = ::close(file) == 0 && good;
-  if (good && ::rename(draft.c_str(), path.c_str()) == 0) {
+  good = file.close() && good;
+  if (good && ::rename(draft.c_str(), target.c_str()) == 0) {
     return std::nullopt;
   }
   if (why.empty()) {

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <string_view>
@@ -48,6 +49,58 @@ TEST_F(File, SaysWhichFileIsMissing) {
 
 TEST_F(File, RefusesAFolder) {
   EXPECT_THAT(read_file(folder_).error().message, HasSubstr("is a folder"));
+}
+
+TEST_F(File, WaitsForNoPipeAndReadsNoDevice) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  EXPECT_THAT(read_file(folder_ / "pipe").error().message,
+              HasSubstr("pipe: is a pipe, want a file"));
+  EXPECT_THAT(read_file("/dev/zero").error().message, HasSubstr("is a device"));
+  const auto take = [](std::string_view /*bytes*/) {};
+  EXPECT_THAT(read_file(folder_ / "pipe", take)->message, HasSubstr("is a pipe"));
+}
+
+TEST_F(File, ReadsNoMoreThanWasWanted) {
+  ASSERT_EQ(write_file(folder_ / "x", "12345"), std::nullopt);
+  EXPECT_EQ(read_file(folder_ / "x", 5).value(), "12345");
+  EXPECT_THAT(read_file(folder_ / "x", 4).error().message,
+              HasSubstr("x: want at most 4 bytes, got 5"));
+  fs::resize_file(folder_ / "x",
+                  std::uintmax_t{10} << 30U);  // a hole: on the disk there is nothing
+  EXPECT_THAT(read_file(folder_ / "x").error().message,
+              HasSubstr("x: want at most 67108864 bytes, got 10737418240"));
+  EXPECT_THAT(read_file("/proc/self/status", 10).error().message,  // which tells no size
+              HasSubstr("want at most 10 bytes, got"));
+}
+
+// By links: should this ever fail, the machine keeps its devices.
+TEST_F(File, ADeviceIsWrittenInto) {
+  fs::create_symlink("/dev/null", folder_ / "null");
+  EXPECT_EQ(write_file(folder_ / "null", "text"), std::nullopt);
+  EXPECT_TRUE(fs::is_character_file(folder_ / "null"));
+  fs::create_symlink("/dev/full", folder_ / "full");
+  const auto full = write_file(folder_ / "full", "text");
+  ASSERT_TRUE(full.has_value());
+  EXPECT_EQ(full->code, Error::Code::unwritable);
+  EXPECT_THAT(full->message, HasSubstr("full: cannot be written: No space left"));
+  EXPECT_TRUE(fs::is_character_file(folder_ / "full"));
+}
+
+TEST_F(File, APipeIsNotReplaced) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  const auto problem = write_file(folder_ / "pipe", "text");
+  ASSERT_TRUE(problem.has_value());
+  EXPECT_EQ(problem->code, Error::Code::unwritable);
+  EXPECT_THAT(problem->message, HasSubstr("pipe: is a pipe, want a file"));
+  EXPECT_TRUE(fs::is_fifo(folder_ / "pipe"));
+}
+
+TEST_F(File, ALinkStaysAndWhatItLeadsToIsReplaced) {
+  ASSERT_EQ(write_file(folder_ / "x", "old"), std::nullopt);
+  fs::create_symlink("x", folder_ / "link");
+  ASSERT_EQ(write_file(folder_ / "link", "new"), std::nullopt);
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
+  EXPECT_EQ(read_file(folder_ / "x").value(), "new");
 }
 
 TEST_F(File, AFailedReplacementLeavesTheOldAndNoDraft) {

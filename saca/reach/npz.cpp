@@ -346,7 +346,7 @@ Result<std::map<std::string, NpyArray>> read_npz(const std::filesystem::path& pa
   if (!unknown_size && size > most_bytes) {
     return malformed(path.string(), fmt::format("want at most {} bytes, got {}", most_bytes, size));
   }
-  const auto bytes = read_file(path);
+  const auto bytes = read_file(path, many_bytes);
   if (!bytes.has_value()) {
     return bytes.error();
   }

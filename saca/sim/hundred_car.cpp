@@ -391,7 +391,7 @@ Result<HundredCarImport> import_hundred_car(const fs::path& path,
   if (!files.problem.empty()) {
     return Error{Error::Code::unreadable, files.problem};
   }
-  const Result<std::string> table = read_file(files.table);
+  const Result<std::string> table = read_file(files.table, many_bytes);
   if (!table.has_value()) {
     return table.error();
   }
@@ -402,7 +402,7 @@ Result<HundredCarImport> import_hundred_car(const fs::path& path,
   }
   std::optional<Error> problem;
   for (const fs::path& file : files.series) {
-    const Result<std::string> text = read_file(file);
+    const Result<std::string> text = read_file(file, many_bytes);
     if (!text.has_value()) {
       return text.error();
     }

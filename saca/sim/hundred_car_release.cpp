@@ -105,14 +105,14 @@ Result<std::vector<HundredCarOutcome>> import_hundred_cars(const fs::path& folde
     return Error{Error::Code::malformed,
                  folder.string() + ": want series HundredCar_*.txt in or below it, got none"};
   }
-  const Result<std::string> table_text = read_file(*table_path);
+  const Result<std::string> table_text = read_file(*table_path, many_bytes);
   if (!table_text.has_value()) {
     return table_text.error();
   }
   const EventTable table{*table_path, table_text.value()};
   Outcomes outcomes;
   for (std::size_t k = 0; k < series.size(); ++k) {
-    const Result<std::string> text = read_file(series[k]);
+    const Result<std::string> text = read_file(series[k], many_bytes);
     if (!text.has_value()) {
       return text.error();
     }

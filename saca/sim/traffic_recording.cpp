@@ -380,7 +380,7 @@ Result<TrafficImport> traffic_scenario(const traffic::CommonRoad& file,
 
 Result<TrafficImport> import_commonroad(const std::filesystem::path& path,
                                         const TrafficRequest& request) {
-  const Result<std::string> text = read_file(path);
+  const Result<std::string> text = read_file(path, many_bytes);
   if (!text.has_value()) {
     return text.error();
   }

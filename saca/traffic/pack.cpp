@@ -45,7 +45,7 @@ void keep(Recording recording, Packed& packed) {
 }
 
 void pack_map(const fs::path& path, Packed& packed) {
-  const Result<std::string> text = read_file(path);
+  const Result<std::string> text = read_file(path, many_bytes);
   if (!text.has_value()) {
     refuse(text.error(), packed);
     return;
@@ -154,7 +154,7 @@ Result<Packed> pack_hundred_car(const std::vector<fs::path>& files, const PackPr
         Error::Code::malformed,
         "want a table of events " + std::string(hundred_car_table) + " among the files, got none"};
   }
-  const Result<std::string> text = read_file(*table);
+  const Result<std::string> text = read_file(*table, many_bytes);
   if (!text.has_value()) {
     return text.error();
   }
@@ -163,7 +163,7 @@ Result<Packed> pack_hundred_car(const std::vector<fs::path>& files, const PackPr
     return is_hundred_car_series(path.filename().string());
   });
   return pack_each(series, progress, [&](const fs::path& path, Packed& packed) {
-    const Result<std::string> bytes = read_file(path);
+    const Result<std::string> bytes = read_file(path, many_bytes);
     if (!bytes.has_value()) {
       refuse(bytes.error(), packed);
       return;

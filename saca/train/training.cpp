@@ -267,7 +267,7 @@ std::optional<Error> Training::resume() {
   if (state_.empty() || !std::filesystem::exists(state_)) {
     return std::nullopt;
   }
-  const auto bytes = read_file(state_);
+  const auto bytes = read_file(state_, many_bytes);
   if (!bytes.has_value()) {
     return bytes.error();
   }
