@@ -1,13 +1,8 @@
 #include "saca/manoeuvre/atlas_file.h"
 
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <functional>
@@ -15,8 +10,10 @@
 #include <span>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include "saca/core/contract.h"
+#include "saca/core/file.h"
 #include "saca/core/fnv.h"
 
 namespace saca::manoeuvre {
@@ -65,55 +62,12 @@ std::string as_hex(std::uint64_t number) {
   return text;
 }
 
-// A file in memory for as long as somebody holds it.
-struct Mapping {
-  void* start = nullptr;
-  std::size_t size = 0;
-
-  Mapping(void* from, std::size_t bytes) : start(from), size(bytes) {}
-  Mapping(const Mapping&) = delete;
-  Mapping& operator=(const Mapping&) = delete;
-  ~Mapping() { ::munmap(start, size); }
-
-  [[nodiscard]] std::string_view bytes() const { return {static_cast<const char*>(start), size}; }
-};
-using MappingPtr = std::shared_ptr<const Mapping>;
-
-std::string reason_now() {
-  return std::strerror(errno);  // NOLINT(concurrency-mt-unsafe): glibc's is thread-safe
-}
-
-Result<MappingPtr> mapped(const std::filesystem::path& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) {
-    return Error{Error::Code::unreadable, path.string() + ": cannot be opened: " + reason_now()};
-  }
-  struct stat about {};
-  const bool known = ::fstat(file, &about) == 0 && S_ISREG(about.st_mode);
-  const auto size = known ? static_cast<std::size_t>(about.st_size) : 0;
-  void* const start =
-      size > 0 ? ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE | MAP_POPULATE, file, 0) : MAP_FAILED;
-  const std::string why = reason_now();
-  ::close(file);
-  if (!known || size < sizeof(Header)) {
-    if (start != MAP_FAILED) {
-      ::munmap(start, size);
-    }
-    return broken(path, known ? "is no atlas, or cut short: want at least " +
-                                    std::to_string(sizeof(Header)) + " bytes, got " +
-                                    std::to_string(size)
-                              : "want a file");
-  }
-  if (start == MAP_FAILED) {
-    return Error{Error::Code::unreadable, path.string() + ": cannot be mapped: " + why};
-  }
-  return MappingPtr(std::make_shared<Mapping>(start, size));
-}
-
 bool sensible(const AtlasGrid& grid) {
+  const auto is_finite = [](double value) { return std::isfinite(value); };
   for (const AtlasAxes& axes : grid) {
     for (const AtlasAxes::Axis* axis : {&axes.speeds, &axes.grips, &axes.ways, &axes.shares}) {
       if (axis->empty() || axis->size() > AtlasAxes::Axis::capacity() ||
+          !std::all_of(axis->begin(), axis->end(), is_finite) ||
           std::adjacent_find(axis->begin(), axis->end(), std::greater_equal<>()) != axis->end()) {
         return false;
       }
@@ -150,22 +104,50 @@ std::optional<Error> fault(const std::filesystem::path& path, const Header& head
   return std::nullopt;
 }
 
+// Its integers may be any; a time that is no number, or below 0, would be told as one.
+bool sensible(const AtlasNode& node) {
+  const auto is_time = [](float time) { return std::isfinite(time) && time >= 0.0F; };
+  const auto is_finite = [](float scale) { return std::isfinite(scale); };
+  return is_time(node.span) && is_time(node.end) && is_time(node.sway_span) && node.ended <= 1 &&
+         std::all_of(node.scale.begin(), node.scale.end(), is_finite) &&
+         std::all_of(node.sway_scale.begin(), node.sway_scale.end(), is_finite);
+}
+
+// In memory that nobody else can cut or write: a file mapped into it would change under the reader,
+// and end the program where it became shorter.
 struct Opened {
-  MappingPtr mapping;
+  std::shared_ptr<const std::string> bytes;
   std::shared_ptr<const Header> header;
+  std::span<const AtlasNode> nodes;  ///< in `bytes`
 };
 
 Result<Opened> open_whole(const std::filesystem::path& path) {
-  auto mapping = mapped(path);
-  if (!mapping.has_value()) {
-    return mapping.error();
+  auto read = read_file(path, many_bytes);
+  if (!read.has_value()) {
+    return read.error();
+  }
+  const auto bytes = std::make_shared<const std::string>(std::move(read).value());
+  if (bytes->size() < sizeof(Header)) {
+    return broken(path, "is no atlas, or cut short: want at least " +
+                            std::to_string(sizeof(Header)) + " bytes, got " +
+                            std::to_string(bytes->size()));
   }
   const auto header = std::make_shared<Header>();
-  std::memcpy(static_cast<void*>(header.get()), mapping.value()->start, sizeof(Header));
-  if (auto problem = fault(path, *header, mapping.value()->bytes())) {
+  std::memcpy(static_cast<void*>(header.get()), bytes->data(), sizeof(Header));
+  if (auto problem = fault(path, *header, *bytes)) {
     return *problem;
   }
-  return Opened{mapping.value(), header};
+  // The header's size keeps the nodes' alignment.
+  static_assert(sizeof(Header) % alignof(AtlasNode) == 0);
+  const void* const first = std::string_view(*bytes).substr(sizeof(Header)).data();
+  const std::span nodes(static_cast<const AtlasNode*>(first), header->num_nodes);
+  const auto wrong = std::find_if_not(nodes.begin(), nodes.end(),
+                                      [](const AtlasNode& node) { return sensible(node); });
+  if (wrong != nodes.end()) {
+    return broken(path, "node " + std::to_string(wrong - nodes.begin()) +
+                            ": want finite scales and times of 0 s or more");
+  }
+  return Opened{bytes, header, nodes};
 }
 
 }  // namespace
@@ -208,12 +190,7 @@ Result<Atlas> read_atlas(const std::filesystem::path& path, const Car& car) {
                      ": was driven by another vehicle model or controller than this program's: "
                      "build it anew"};
   }
-  const MappingPtr& mapping = opened.value().mapping;
-  // The header's size keeps the nodes' alignment.
-  static_assert(sizeof(Header) % alignof(AtlasNode) == 0);
-  const void* const first = mapping->bytes().substr(sizeof(Header)).data();
-  const std::span nodes(static_cast<const AtlasNode*>(first), header.num_nodes);
-  return Atlas(header.grid, car.tuning.domain, nodes, mapping);
+  return Atlas(header.grid, car.tuning.domain, opened.value().nodes, opened.value().bytes);
 }
 
 Result<AtlasInfo> read_atlas_info(const std::filesystem::path& path) {
@@ -222,7 +199,7 @@ Result<AtlasInfo> read_atlas_info(const std::filesystem::path& path) {
     return opened.error();
   }
   const Header& header = *opened.value().header;
-  return AtlasInfo{header.car, header.grid, opened.value().mapping->size, header.driven};
+  return AtlasInfo{header.car, header.grid, opened.value().bytes->size(), header.driven};
 }
 
 }  // namespace saca::manoeuvre

@@ -15,8 +15,9 @@ namespace saca::manoeuvre {
 [[nodiscard]] std::string atlas_bytes(const Car& car, const AtlasGrid& grid,
                                       const std::vector<AtlasNode>& nodes);
 
-/// Maps a file into memory and makes sure that it is whole and belongs to this car and this
-/// program: the checksums, the car's hash, and a few manoeuvres driven anew (some 50 ms).
+/// Reads a file into memory and makes sure that it is whole and belongs to this car and this
+/// program: the checksums, the numbers, the car's hash, and a few manoeuvres driven anew (some
+/// 50 ms). What becomes of the file afterwards does not matter.
 /// @return  Error::Code::unreadable, malformed (no atlas, another version, cut short, altered) or
 ///          out_of_range (another car, other controllers), naming the file, wanted and got
 [[nodiscard]] Result<Atlas> read_atlas(const std::filesystem::path& path, const Car& car);

@@ -1,9 +1,12 @@
 #include "saca/manoeuvre/atlas_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstring>
 #include <filesystem>
+#include <functional>
+#include <limits>
 #include <string>
 
 #include "saca/core/file.h"
@@ -23,6 +26,7 @@ class AtlasFile : public testing::Test {
     path_ = std::filesystem::temp_directory_path() /
             (std::string("saca_") + testing::UnitTest::GetInstance()->current_test_info()->name() +
              ".atlas");
+    std::filesystem::remove(path_);  // of a run that was cut short
   }
   void TearDown() override { std::filesystem::remove(path_); }
 
@@ -53,6 +57,44 @@ TEST_F(AtlasFile, OutlivesTheFile) {
   const auto atlas = read(good());
   std::filesystem::remove(path_);
   EXPECT_EQ(atlas.value().nodes()[1].end, small_nodes()[1].end);
+}
+
+TEST_F(AtlasFile, MayBeCutOrOverwrittenWhileItIsHeld) {
+  const auto atlas = read(good());
+  ASSERT_TRUE(atlas.has_value());
+  std::filesystem::resize_file(path_, 10);
+  const auto nodes = atlas.value().nodes();
+  EXPECT_EQ(std::memcmp(nodes.data(), small_nodes().data(), nodes.size_bytes()), 0);
+  std::filesystem::resize_file(path_, good().size());  // in place: all zeros from there on
+  EXPECT_EQ(std::memcmp(nodes.data(), small_nodes().data(), nodes.size_bytes()), 0);
+}
+
+// Sums hold, so what wrote it meant it.
+TEST_F(AtlasFile, WithoutFiniteNumbersIsRefused) {
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float infinite = std::numeric_limits<float>::infinity();
+  const auto bytes_with = [](const std::function<void(AtlasNode&)>& change) {
+    auto nodes = small_nodes();
+    change(nodes[1]);
+    return atlas_bytes(small_atlas_car(), small_grid(), nodes);
+  };
+  const std::string words = "node 1: want finite scales and times of 0 s or more";
+  expect_refused(bytes_with([](AtlasNode& node) { node.span = nan; }), words);
+  expect_refused(bytes_with([](AtlasNode& node) { node.end = infinite; }), words);
+  expect_refused(bytes_with([](AtlasNode& node) { node.sway_span = -1.0F; }), words);
+  expect_refused(bytes_with([](AtlasNode& node) { node.scale[5] = nan; }), words);
+  expect_refused(bytes_with([](AtlasNode& node) { node.sway_scale[0] = infinite; }), words);
+  AtlasGrid grid = small_grid();
+  grid[0].speeds[grid[0].speeds.size() - 1] = std::numeric_limits<double>::quiet_NaN();
+  expect_refused(atlas_bytes(small_atlas_car(), grid, small_nodes()), "header was altered");
+}
+
+TEST_F(AtlasFile, ThatIsAPipeOrADeviceIsRefusedAtOnce) {
+  ASSERT_EQ(::mkfifo(path_.c_str(), 0600), 0);
+  const auto pipe = read_atlas(path_, small_atlas_car());
+  ASSERT_FALSE(pipe.has_value());
+  EXPECT_NE(pipe.error().message.find("is a pipe"), std::string::npos);
+  EXPECT_FALSE(read_atlas("/dev/zero", small_atlas_car()).has_value());
 }
 
 TEST_F(AtlasFile, WithAnyByteChangedIsRefused) {
