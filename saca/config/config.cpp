@@ -7,6 +7,9 @@
 #include <sstream>
 #include <utility>
 
+#include "saca/config/toml_bounds.h"
+#include "saca/core/printable.h"
+
 namespace saca::config {
 
 /// The parsed document, what was read of it, and what was wrong first.
@@ -23,9 +26,9 @@ struct DocumentState {
     }
     std::string text = source + ":" + std::to_string(where.begin.line) + ": ";
     if (!key.empty()) {
-      text += std::string(key) + ": ";
+      text += one_line(key, 80) + ": ";
     }
-    error = Error{code, text + std::string(message)};
+    error = Error{code, text + one_line(message, 500)};
   }
 };
 
@@ -296,12 +299,16 @@ void Table::reject(std::string_view key, std::string_view message) {
 Result<Document> Document::parse(std::string_view text, std::string_view source) {
   auto state = std::make_shared<DocumentState>();
   state->source = source;
+  if (const auto excess = beyond(TomlBounds{}, text)) {
+    return Error{Error::Code::malformed,
+                 std::string(source) + ":" + std::to_string(excess->line) + ": " + excess->message};
+  }
   try {
     state->root = toml::parse(text, source);
   } catch (const toml::parse_error& problem) {
     return Error{Error::Code::malformed, std::string(source) + ":" +
                                              std::to_string(problem.source().begin.line) +
-                                             ": not TOML: " + std::string(problem.description())};
+                                             ": not TOML: " + one_line(problem.description())};
   }
   return Document(std::move(state));
 }

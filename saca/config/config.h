@@ -66,7 +66,8 @@ class Table {
 class Document {
  public:
   /// @param source  name for messages, usually the path
-  /// @return        Error::Code::malformed, naming source and line, when it is not TOML
+  /// @return        Error::Code::malformed, naming source and line, when it is not TOML or breaks
+  ///                the bounds of `TomlBounds`
   [[nodiscard]] static Result<Document> parse(std::string_view text, std::string_view source);
 
   [[nodiscard]] Table root() const;

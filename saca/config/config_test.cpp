@@ -132,5 +132,27 @@ TEST(Config, SaysWhereItIsNotToml) {
   EXPECT_THAT(problem("a = 1\nb = = 2", [](Table&) {}), HasSubstr("car.toml:2: not TOML:"));
 }
 
+TEST(Config, RefusesWhatIsNestedDeeply) {
+  std::string dotted = "b = 1\na";
+  for (int i = 0; i < 30'000; ++i) {
+    dotted += ".a";
+  }
+  EXPECT_EQ(problem(dotted + " = 1", [](Table&) {}),
+            "car.toml:2: want keys of at most 32 parts, got one of more");
+  EXPECT_EQ(problem("[" + dotted.substr(6) + "]", [](Table&) {}),
+            "car.toml:1: want keys of at most 32 parts, got one of more");
+  EXPECT_EQ(problem("b = 1\na = " + std::string(30'000, '['), [](Table&) {}),
+            "car.toml:2: want arrays and tables within each other at most 32 deep, got more");
+}
+
+TEST(Config, ShowsOfWhatCameOneShortLine) {
+  const std::string key(100'000, 'k');
+  EXPECT_LT(problem(key + " = 1", [](Table&) {}).size(), 200U);
+  const std::string message =
+      problem("schema = \"a\\n\\u001b[2J" + key + "\"", [](Table& t) { t.want_schema("b"); });
+  EXPECT_THAT(message, testing::StartsWith("car.toml:1: schema: want \"b\", got \"a  [2Jkkk"));
+  EXPECT_LT(message.size(), 600U);
+}
+
 }  // namespace
 }  // namespace saca::config::config_test
