@@ -23,14 +23,29 @@ struct Close {
 };
 using Database = std::unique_ptr<sqlite3, Close>;
 
-/// One prepared SQL statement. A failure shows in `step`.
+/// Steps of SQLite's machine after which a statement is given up: ten million cases take fewer, and
+/// seconds.
+constexpr int most_work = 200'000'000;
+
+/// A connection for a file that somebody else may have made: its views and triggers are not run,
+/// its schema cannot be written past SQL, and no value is longer than 16 MiB.
+void be_wary(sqlite3* database);
+
+/// One prepared SQL statement, the only one of its connection that is stepped while it lives. A
+/// failure shows in `step`, also one for too much work.
 class Statement {
  public:
-  Statement(sqlite3* database, const char* sql) {
+  /// @param most  steps of work, > 0
+  Statement(sqlite3* database, const char* sql, int most = most_work) : database_(database) {
     sqlite3_stmt* statement = nullptr;
     problem_ = sqlite3_prepare_v2(database, sql, -1, &statement, nullptr);
     statement_.reset(statement);
+    sqlite3_progress_handler(
+        database, most, [](void* /*nothing*/) { return 1; }, nullptr);
   }
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+  ~Statement() { sqlite3_progress_handler(database_, 0, nullptr, nullptr); }
 
   Statement& bind(int parameter, std::int64_t value) {
     return note(sqlite3_bind_int64(statement_.get(), parameter, value));
@@ -69,6 +84,7 @@ class Statement {
     return *this;
   }
 
+  sqlite3* database_;
   std::unique_ptr<sqlite3_stmt, Close> statement_;
   int problem_ = SQLITE_OK;
 };

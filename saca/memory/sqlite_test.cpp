@@ -41,6 +41,34 @@ TEST(Statement, FailsWhenItCannotBePrepared) {
   EXPECT_THAT(error.message, HasSubstr("no such table: cases"));
 }
 
+TEST(Statement, GivesUpWhatTakesTooMuchWork) {
+  const Database database = empty_database();
+  const char* const endless =
+      "WITH RECURSIVE r(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM r) SELECT count(*) FROM r";
+  EXPECT_EQ(Statement(database.get(), endless, 10'000).step(), SQLITE_INTERRUPT);
+  const Error error = sqlite_problem(database.get(), "bank.db", Access::read);
+  EXPECT_EQ(error.code, Error::Code::malformed);
+  EXPECT_THAT(error.message,
+              HasSubstr("bank.db: want a memory bank, got what takes too much work"));
+  EXPECT_EQ(Statement(database.get(), "SELECT 1").step(), SQLITE_ROW);
+}
+
+TEST(Wariness, RunsNoViewAndNoTrigger) {
+  const Database database = empty_database();
+  const auto run = [&](const char* sql) {
+    return sqlite3_exec(database.get(), sql, nullptr, nullptr, nullptr);
+  };
+  ASSERT_EQ(run("CREATE TABLE t (a); CREATE VIEW v AS SELECT 1;"
+                "CREATE TRIGGER r AFTER INSERT ON t BEGIN DELETE FROM t; END"),
+            SQLITE_OK);
+  be_wary(database.get());
+  EXPECT_NE(run("SELECT * FROM v"), SQLITE_OK);
+  ASSERT_EQ(run("INSERT INTO t VALUES (1)"), SQLITE_OK);
+  EXPECT_EQ(Statement(database.get(), "SELECT a FROM t").step(), SQLITE_ROW);
+  EXPECT_NE(run("PRAGMA writable_schema = ON; DELETE FROM sqlite_schema"), SQLITE_OK);
+  EXPECT_NE(run("SELECT zeroblob(17000000)"), SQLITE_OK);
+}
+
 TEST(SqliteProblem, OfAFileThatAnotherHoldsIsThatItIsTooLate) {
   const std::string path = testing::TempDir() + "saca_sqlite_held.db";
   std::remove(path.c_str());

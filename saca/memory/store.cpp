@@ -1,15 +1,18 @@
 #include "saca/memory/store.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "saca/config/json_text.h"
 #include "saca/core/contract.h"
 #include "saca/core/fnv.h"
+#include "saca/core/printable.h"
 #include "saca/memory/feature_index.h"
 #include "saca/memory/scene_json.h"
 #include "saca/memory/similarity.h"
@@ -29,22 +32,30 @@ constexpr const char* set_up =
     "PRAGMA journal_mode = DELETE; PRAGMA synchronous = EXTRA;"
     "PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON;";
 
-constexpr const char* create =
-    "CREATE TABLE cases ("
-    " id INTEGER PRIMARY KEY AUTOINCREMENT,"
-    " policy INTEGER NOT NULL,"
-    " target_speed_mps REAL,"
-    " best_policy INTEGER NOT NULL,"
-    " harm REAL NOT NULL,"
-    " best_harm REAL NOT NULL,"
-    " collision_loss REAL NOT NULL,"
-    " review TEXT NOT NULL,"
-    " source TEXT NOT NULL,"
-    " scene TEXT NOT NULL,"
-    " strength REAL"
-    ") STRICT;"
-    "PRAGMA application_id = 1396785985;"
-    "PRAGMA user_version = 2;";
+// As SQLite keeps it, also of a table that got its last column later.
+std::string table_of_cases(bool with_strengths) {
+  return std::string(
+             "CREATE TABLE cases ("
+             " id INTEGER PRIMARY KEY AUTOINCREMENT,"
+             " policy INTEGER NOT NULL,"
+             " target_speed_mps REAL,"
+             " best_policy INTEGER NOT NULL,"
+             " harm REAL NOT NULL,"
+             " best_harm REAL NOT NULL,"
+             " collision_loss REAL NOT NULL,"
+             " review TEXT NOT NULL,"
+             " source TEXT NOT NULL,"
+             " scene TEXT NOT NULL") +
+         (with_strengths ? ", strength REAL" : "") + ") STRICT";
+}
+// SQLite's own, for AUTOINCREMENT.
+constexpr const char* table_of_ids = "CREATE TABLE sqlite_sequence(name,seq)";
+
+std::string create() {
+  return table_of_cases(true) +
+         ";PRAGMA application_id = 1396785985;"
+         "PRAGMA user_version = 2;";
+}
 
 constexpr const char* add_strengths =
     "ALTER TABLE cases ADD COLUMN strength REAL; PRAGMA user_version = 2;";
@@ -211,12 +222,17 @@ struct Store::State {
     // Absolute, so that no name is special to SQLite (":memory:", "file:...").
     std::error_code no_folder;
     const std::string file = std::filesystem::absolute(path, no_folder).string();
+    if (std::filesystem::exists(file, no_folder) &&
+        !std::filesystem::is_regular_file(file, no_folder)) {
+      return Error{Error::Code::unreadable, name + ": cannot be read: is no file"};
+    }
     sqlite3* opened = nullptr;
     const int code = sqlite3_open_v2(file.c_str(), &opened, flags, nullptr);
     database.reset(opened);
     if (opened == nullptr || path.empty()) {
       return Error{Error::Code::unreadable, name + ": want a file"};
     }
+    be_wary(opened);
     if (code != SQLITE_OK) {
       return problem(Access::read);
     }
@@ -233,6 +249,7 @@ struct Store::State {
     if (code != SQLITE_OK) {
       return Error{Error::Code::unreadable, name + ": want memory for a copy of it, got none"};
     }
+    be_wary(opened);
     sqlite3_backup* const backup = sqlite3_backup_init(opened, "main", database.get(), "main");
     if (backup != nullptr) {
       sqlite3_backup_step(backup, -1);  // the whole; `finish` tells what went wrong
@@ -261,14 +278,14 @@ struct Store::State {
   }
 
   [[nodiscard]] Result<bool> is_new() const {
-    const auto contents = integer(
-        "SELECT (SELECT count(*) FROM sqlite_schema)"
-        " + (SELECT application_id FROM pragma_application_id)"
-        " + (SELECT user_version FROM pragma_user_version)");
-    if (!contents.has_value()) {
-      return contents.error();
+    for (const char* number :
+         {"SELECT count(*) FROM sqlite_schema", "PRAGMA application_id", "PRAGMA user_version"}) {
+      const auto found = integer(number);
+      if (!found.has_value() || found.value() != 0) {
+        return found.has_value() ? Result(false) : found.error();
+      }
     }
-    return contents.value() == 0;
+    return true;
   }
 
   [[nodiscard]] std::optional<Error> create_if_new() const {
@@ -279,7 +296,7 @@ struct Store::State {
     if (!is_empty.value()) {
       return std::nullopt;
     }
-    return run_where_needed(create, [this] { return is_new(); });
+    return run_where_needed(create().c_str(), [this] { return is_new(); });
   }
 
   /// In one transaction, unless another process was faster and it is not needed any more.
@@ -303,6 +320,31 @@ struct Store::State {
     return error;
   }
 
+  /// The first thing in the schema that our statements do not make: a view, a trigger, an index or
+  /// a rule of somebody else could change what ours do.
+  [[nodiscard]] std::optional<Error> foreign_schema(bool with_strengths) const {
+    std::vector<std::string> missing{table_of_cases(with_strengths), table_of_ids};
+    Statement statement(database.get(), "SELECT type, name, sql FROM main.sqlite_schema");
+    int code = statement.step();
+    for (; code == SQLITE_ROW; code = statement.step()) {
+      const auto found = std::find(missing.begin(), missing.end(), statement.text(2));
+      if (found == missing.end()) {
+        return Error{Error::Code::malformed, name + ": want a memory bank's own tables, got the " +
+                                                 one_line(statement.text(0), 20) + " " +
+                                                 one_line(statement.text(1), 40) + ": " +
+                                                 one_line(statement.text(2))};
+      }
+      missing.erase(found);
+    }
+    if (code != SQLITE_DONE) {
+      return problem(Access::read);
+    }
+    return missing.empty()
+               ? std::nullopt
+               : std::optional(Error{Error::Code::malformed, name + ": is damaged: lacks " +
+                                                                 one_line(missing.front(), 60)});
+  }
+
   [[nodiscard]] std::optional<Error> wrong_kind() const {
     const auto owner = integer("PRAGMA application_id");
     const auto found = integer("PRAGMA user_version");
@@ -316,6 +358,9 @@ struct Store::State {
     if (found.value() != version && found.value() != version_without_strengths) {
       return Error{Error::Code::malformed, name + ": want version " + std::to_string(version) +
                                                ", got version " + std::to_string(found.value())};
+    }
+    if (auto foreign = foreign_schema(found.value() == version)) {
+      return foreign;
     }
     Statement check(database.get(), "PRAGMA quick_check(1)");
     if (check.step() != SQLITE_ROW) {

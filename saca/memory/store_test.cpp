@@ -5,6 +5,7 @@
 #include <sqlite3.h>
 #include <sys/mount.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -235,6 +236,11 @@ TEST_F(Memory, SaysWhatItCannotOpen) {
   EXPECT_EQ(error_of_opening().code, Error::Code::unreadable);
   path_ = "";
   EXPECT_EQ(error_of_opening().code, Error::Code::unreadable);
+  path_ = folder_ / "pipe";
+  ASSERT_EQ(::mkfifo(path_.c_str(), 0600), 0);
+  EXPECT_THAT(error_of_opening().message, HasSubstr("pipe: cannot be read: is no file"));
+  path_ = "/dev/null";
+  EXPECT_EQ(error_of_opening().code, Error::Code::unreadable);
 }
 
 TEST_F(Memory, RefusesAFileThatIsNoDatabase) {
@@ -334,11 +340,51 @@ TEST_F(Memory, NamesTheRowThatSomebodyEditedWrongly) {
   }
 }
 
+// What SQL can hide in a file: a view that never ends, a trigger that takes back what was written,
+// columns and indices that compute.
+TEST_F(Memory, RefusesWhateverItsOwnStatementsDoNotMake) {
+  const std::string endless =
+      "WITH RECURSIVE r(id) AS (SELECT 1 UNION ALL SELECT id + 1 FROM r) SELECT id, 0 AS policy,"
+      " NULL AS target_speed_mps, 0 AS best_policy, 0.0 AS harm, 0.0 AS best_harm,"
+      " 0.0 AS collision_loss, '' AS review, '' AS source, '{}' AS scene, NULL AS strength FROM r";
+  const std::vector<std::pair<std::string, const char*>> hidden{
+      {"DROP TABLE cases; CREATE VIEW cases AS " + endless, "got the view cases: CREATE VIEW"},
+      {"CREATE VIEW more AS " + endless, "got the view more"},
+      {"CREATE TRIGGER t AFTER INSERT ON cases BEGIN DELETE FROM cases; END",
+       "got the trigger t: CREATE TRIGGER"},
+      {"CREATE INDEX i ON cases (length(scene))", "got the index i"},
+      {"CREATE TABLE other (a)", "got the table other"},
+      {"CREATE VIRTUAL TABLE other USING rtree(id, a, b)", "got the table other"},
+      {"ALTER TABLE cases ADD COLUMN more TEXT", "got the table cases"},
+      {"ALTER TABLE cases ADD COLUMN more TEXT AS (hex(zeroblob(100000000)))",
+       "got the table cases"},
+      {"DROP TABLE cases", "lacks CREATE TABLE cases"},
+  };
+  for (const auto& [sql, words] : hidden) {
+    fs::remove(path_);
+    ASSERT_TRUE(opened().add(example_case(1)).has_value());
+    shell(path_, sql);
+    EXPECT_EQ(error_of_opening().code, Error::Code::malformed) << sql;
+    EXPECT_THAT(error_of_opening().message, HasSubstr(words));
+    EXPECT_LT(error_of_opening().message.size(), 500U);
+    EXPECT_FALSE(Store::snapshot(path_).has_value()) << sql;
+  }
+}
+
+TEST_F(Memory, ATriggerThatSomebodyAddsMeanwhileTakesNoCaseBack) {
+  Store store = opened();
+  shell(path_, "CREATE TRIGGER t AFTER INSERT ON cases BEGIN DELETE FROM cases; END");
+  const auto id = store.add(example_case(1));
+  ASSERT_TRUE(id.has_value());
+  EXPECT_TRUE(store.find(id.value()).value().has_value());
+  EXPECT_EQ(shell(path_, "SELECT count(*) FROM cases"), "1");
+}
+
 TEST_F(Memory, RefusesATableThatLacksAColumn) {
   ASSERT_TRUE(opened().add(example_case(1)).has_value());
   shell(path_, "ALTER TABLE cases DROP COLUMN harm");
   EXPECT_EQ(error_of_opening().code, Error::Code::malformed);
-  EXPECT_THAT(error_of_opening().message, HasSubstr("no such column: harm"));
+  EXPECT_THAT(error_of_opening().message, HasSubstr("want a memory bank's own tables"));
 }
 
 // ---- A copy to ask
