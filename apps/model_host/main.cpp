@@ -17,6 +17,7 @@
 #include <iostream>
 #include <thread>
 
+#include "saca/core/standard_files.h"
 #include "service.h"
 
 namespace {
@@ -74,6 +75,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  saca::occupy_standard_files();
   spin_shortly(argv);
   try {
     return run(argc, argv);

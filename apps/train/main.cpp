@@ -15,6 +15,7 @@
 #include "saca/core/file.h"
 #include "saca/core/fnv.h"
 #include "saca/core/parallel.h"
+#include "saca/core/standard_files.h"
 #include "saca/intent/model.h"
 #include "saca/learn/foretell.h"
 #include "saca/learn/sequence_file.h"
@@ -166,6 +167,7 @@ int train_model(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  saca::occupy_standard_files();
   CLI::App app("Trains the model of intentions: an LSTM-CRF, with libtorch");
   Options options;
   app.add_option("sequences", options.sequences, "HDF5 file of `saca intent examples`")->required();
