@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -38,6 +39,52 @@ std::optional<std::array<int, 2>> connection() {
   return ends;
 }
 
+// Whether a variable's name is one under which people keep what nobody else may know.
+bool is_secret(std::string_view variable) {
+  std::string name(variable.substr(0, variable.find('=')));
+  std::transform(name.begin(), name.end(), name.begin(), [](char c) {
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  });
+  constexpr std::array<std::string_view, 5> words{"KEY", "TOKEN", "SECRET", "PASSW", "CREDENTIAL"};
+  return std::any_of(words.begin(), words.end(),
+                     [&](std::string_view word) { return name.find(word) != std::string::npos; });
+}
+
+// As POSIX wants it: pointers to the environment's own texts, and nullptr.
+std::vector<char*> environment_without_secrets() {
+  std::vector<char*> kept;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    if (!is_secret(*variable)) {
+      kept.push_back(*variable);
+    }
+  }
+  kept.push_back(nullptr);
+  return kept;
+}
+
+// No dump of what it was told, no file without end, no more files than a model needs; and where
+// memory is short, it is the first to be ended. How much it may take is left to the system: drivers
+// of accelerators reserve more than there is.
+void restrain(pid_t pid) {
+  constexpr rlim_t longest_file = rlim_t{1} << 30U;  // bytes; drivers keep compiled programs
+  for (const auto& [resource, most] :
+       {std::pair{RLIMIT_CORE, rlim_t{0}}, std::pair{RLIMIT_NOFILE, rlim_t{1024}},
+        std::pair{RLIMIT_FSIZE, longest_file}}) {
+    rlimit limit{};
+    if (prlimit(pid, resource, nullptr, &limit) == 0) {
+      limit.rlim_max = std::min(limit.rlim_max, most);
+      limit.rlim_cur = std::min(limit.rlim_cur, limit.rlim_max);
+      prlimit(pid, resource, &limit, nullptr);
+    }
+  }
+  const std::string badness = "/proc/" + std::to_string(pid) + "/oom_score_adj";
+  const int file = open(badness.c_str(), O_WRONLY | O_CLOEXEC);
+  if (file >= 0) {
+    (void)!write(file, "1000", 4);
+    close(file);
+  }
+}
+
 // @return  0, or the error number
 int spawn(const std::vector<std::string>& command, int socket, pid_t& pid) {
   posix_spawn_file_actions_t actions;
@@ -62,8 +109,9 @@ int spawn(const std::vector<std::string>& command, int socket, pid_t& pid) {
     arguments.push_back(const_cast<char*>(argument.c_str()));  // NOLINT: as POSIX wants it
   }
   arguments.push_back(nullptr);
-  const int error =
-      posix_spawn(&pid, command.front().c_str(), &actions, &attributes, arguments.data(), environ);
+  const std::vector<char*> environment = environment_without_secrets();
+  const int error = posix_spawn(&pid, command.front().c_str(), &actions, &attributes,
+                                arguments.data(), environment.data());
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   return error;
@@ -108,6 +156,7 @@ std::optional<Error> ChildProcess::start() {
     return Error{Error::Code::unreadable,
                  command_.front() + ": cannot be started: " + std::strerror(error)};
   }
+  restrain(pid);
   fcntl(ours, F_SETFL, O_NONBLOCK);
   socket_ = ours;
   const std::lock_guard lock(mutex_);

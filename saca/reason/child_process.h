@@ -16,6 +16,10 @@ namespace saca::reason {
 
 /// A program in a process group of its own, spoken to in lines. No call waits past its deadline,
 /// whatever the program does; no signal reaches the caller, no zombie stays.
+///
+/// It gets the environment without variables whose names tell of a secret (key, token, password),
+/// no core dumps, at most 1024 open files of at most 1 GiB each; where memory is short, the system
+/// ends it first.
 class ChildProcess {
  public:
   /// @param command  program (found by its path alone) and its arguments, not empty

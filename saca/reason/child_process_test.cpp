@@ -83,6 +83,37 @@ TEST(ChildProcess, StartsAgainAfterKill) {
   }
 }
 
+TEST(ChildProcess, GetsNoSecretOfTheEnvironment) {
+  const std::vector<const char*> secrets{"SACA_LLM_KEY", "a_token", "MY_PASSWORD"};
+  for (const char* secret : secrets) {
+    ASSERT_EQ(::setenv(secret, "sk-0123", 1), 0);
+  }
+  StillClock clock;
+  ChildProcess process(shell("env"), clock);
+  ASSERT_FALSE(process.start().has_value());
+  std::string all;
+  for (auto line = process.receive(1s); line.has_value(); line = process.receive(1s)) {
+    all += line.value() + "\n";
+  }
+  for (const char* secret : secrets) {
+    ::unsetenv(secret);
+  }
+  EXPECT_EQ(all.find("sk-0123"), std::string::npos);
+  EXPECT_NE(all.find("PATH="), std::string::npos);
+}
+
+TEST(ChildProcess, IsRestrained) {
+  StillClock clock;
+  ChildProcess process(
+      shell("read -r line; ulimit -c; ulimit -n; ulimit -f; cat /proc/self/oom_score_adj"), clock);
+  ASSERT_FALSE(process.start().has_value());
+  ASSERT_FALSE(process.send("now", 1s).has_value());  // when it has been done to it
+  EXPECT_EQ(process.receive(1s).value(), "0");
+  EXPECT_LE(std::stoi(process.receive(1s).value()), 1024);
+  EXPECT_NE(process.receive(1s).value(), "unlimited");
+  EXPECT_EQ(process.receive(1s).value(), "1000");
+}
+
 TEST(ChildProcess, EmptyCommandIsRefused) {
   StillClock clock;
   EXPECT_THROW(ChildProcess({}, clock), ContractViolation);

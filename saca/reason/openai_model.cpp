@@ -107,6 +107,7 @@ struct OpenAiModel::Call {
   std::string arrived;  ///< not yet looked at
   std::string refusal;  ///< body of a reply that is no stream
   ChatStream stream;
+  SecretFilter filter;  ///< of what the stream says
   State state = State::waiting;
   Clock::Time begin_at{0};
   Clock::Time pause = first_pause;
@@ -204,6 +205,7 @@ class OpenAiModel::Exchange {
   void begin_what_is_due();
   void wait();
   void hear(Call& call);
+  void tell(Call& call, const std::string& text);
   void see_ends();
   void see_end(Call& call, CURLcode code);
   void leave(Call& call, Call::State state);
@@ -258,6 +260,7 @@ void OpenAiModel::Exchange::begin_what_is_due() {
       call.arrived.clear();
       call.refusal.clear();
       call.stream = {};
+      call.filter = SecretFilter(model_.settings_.key);
       if (curl_multi_add_handle(multi(), call.easy.get()) == CURLM_OK) {
         call.state = Call::State::running;
       } else {
@@ -302,12 +305,16 @@ void OpenAiModel::Exchange::hear(Call& call) {
   Reply& reply = replies_[call.scene];
   reply.prompt_tokens = call.stream.prompt_tokens();
   reply.reply_tokens = call.stream.reply_tokens();
-  if (!said.value().empty()) {
-    reply.reasoning += said.value();
-    progress_({.prompt = call.scene, .text = said.value(), .answer = nullptr});
-  }
+  tell(call, call.filter.take(said.value()));
   if (call.stream.done()) {
     conclude(call);
+  }
+}
+
+void OpenAiModel::Exchange::tell(Call& call, const std::string& text) {
+  if (!text.empty()) {
+    replies_[call.scene].reasoning += text;
+    progress_({.prompt = call.scene, .text = text, .answer = nullptr});
   }
 }
 
@@ -416,6 +423,7 @@ void OpenAiModel::Exchange::cut_short(Call& call) {
 
 void OpenAiModel::Exchange::answer(Call& call, manoeuvre::PolicyId policy, Answer::Kind kind) {
   call.answered = true;
+  tell(call, call.filter.rest());
   Answer answer{.time = model_.clock_.now(), .kind = kind};
   answer.probability[manoeuvre::index(policy)] = 1.0;
   Reply& reply = replies_[call.scene];

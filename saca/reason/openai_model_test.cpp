@@ -477,6 +477,19 @@ TEST_F(OpenAiModelTest, KeyIsNeverShown) {
   }
 }
 
+// Whoever thinks aloud is told on the terminal, and recorded.
+TEST_F(OpenAiModelTest, KeyIsNotHeardInWhatTheModelSays) {
+  const std::string key = "sk-0123456789abcdef";
+  const std::string reply = stream_head + said("the key is sk-01234") + said("56789abcdef, so ") +
+                            said("Response to user: 3") + stream_end;
+  RudeServer server({sends(reply)});
+  OpenAiModel model(settings(server.url(), key), clock_);
+  const auto replies = model.ask({"a"}, deadline, record_);
+  ASSERT_TRUE(replies.has_value()) << replies.error().message;
+  EXPECT_EQ(replies.value()[0].reasoning, "the key is ***, so Response to user: 3");
+  EXPECT_EQ(text_, replies.value()[0].reasoning);
+}
+
 TEST_F(OpenAiModelTest, WrongSettingsAreNamedWithoutARequest) {
   const auto refused = [&](const OpenAiModelSettings& wrong) {
     OpenAiModel model(wrong, clock_);

@@ -1,7 +1,9 @@
 #include "saca/reason/quote.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "saca/core/printable.h"
 
 namespace saca::reason {
 namespace {
@@ -35,47 +37,27 @@ std::string masked(std::string_view text, std::string_view secret) {
   return result;
 }
 
-// Bytes that are no UTF-8 become U+FFFD, by the JSON library, which has to know them anyway.
-std::string as_utf8(const std::string& bytes) {
-  using Json = nlohmann::json;
-  return Json::parse(Json(bytes).dump(-1, ' ', false, Json::error_handler_t::replace))
-      .get<std::string>();
-}
-
-// Bytes of the control character at the beginning of `text`: 0 where there is none.
-std::size_t control_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0x20U;
-  };
-  if (byte(0) < 0x20U || byte(0) == 0x7FU) {
-    return 1;
-  }
-  // U+0080 to U+009F command some terminals, U+2028 and U+2029 end lines.
-  if (byte(0) == 0xC2U && byte(1) < 0xA0U) {
-    return 2;
-  }
-  return byte(0) == 0xE2U && byte(1) == 0x80U && (byte(2) == 0xA8U || byte(2) == 0xA9U) ? 3 : 0;
-}
-
-bool continues_character(char c) {
-  return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
-}
-
 }  // namespace
 
 std::string quote(std::string_view text, std::string_view secret) {
-  const std::string whole = as_utf8(masked(text.substr(0, quoted_bytes), secret));
-  std::string result;
-  std::size_t characters = 0;
-  for (std::size_t i = 0; i < whole.size();) {
-    if (!continues_character(whole[i]) && ++characters > longest_quote) {
-      break;
-    }
-    const std::size_t control = control_length(std::string_view(whole).substr(i));
-    result += control > 0 ? ' ' : whole[i];
-    i += std::max<std::size_t>(control, 1);
+  return one_line(masked(text.substr(0, quoted_bytes), secret), longest_quote);
+}
+
+std::string SecretFilter::take(std::string_view piece) {
+  waiting_ += piece;
+  // The longest end that stands in the secret may go on to be more of it.
+  std::size_t kept = std::min(waiting_.size(), secret_.size());
+  while (kept > 0 && secret_.find(waiting_.substr(waiting_.size() - kept)) == std::string::npos) {
+    --kept;
   }
-  return result;
+  const std::string_view known = std::string_view(waiting_).substr(0, waiting_.size() - kept);
+  std::string shown = masked(known, secret_);
+  waiting_.erase(0, known.size());
+  return shown;
+}
+
+std::string SecretFilter::rest() {
+  return masked(std::exchange(waiting_, {}), secret_);
 }
 
 }  // namespace saca::reason

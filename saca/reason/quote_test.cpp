@@ -13,7 +13,7 @@ TEST(Quote, IsOneLineOfAtMost200Characters) {
                   "c",
                   ""),
             "a b c");
-  EXPECT_EQ(quote(std::string(1000, 'x'), ""), std::string(200, 'x'));
+  EXPECT_EQ(quote(std::string(1000, 'x'), ""), std::string(200, 'x') + "...");
 }
 
 TEST(Quote, HasWholeCharactersOnly) {
@@ -21,7 +21,7 @@ TEST(Quote, HasWholeCharactersOnly) {
   for (int i = 0; i < 2000; ++i) {  // cut inside the 1366th
     euros += "\xE2\x82\xAC";
   }
-  EXPECT_EQ(quote(euros, ""), euros.substr(0, 600));
+  EXPECT_EQ(quote(euros, ""), euros.substr(0, 600) + "...");
   EXPECT_EQ(quote("a\xFF\xE2", ""), "a\xEF\xBF\xBD\xEF\xBF\xBD");  // U+FFFD
 }
 
@@ -42,6 +42,30 @@ TEST(Quote, HidesPiecesOfTheSecret) {
     many += secret;
   }
   EXPECT_EQ(quote(many, secret).find('s'), std::string::npos);
+}
+
+TEST(SecretFilter, HidesTheSecretWhereverItIsCut) {
+  const std::string secret = "sk-abcdefghijklmnop";
+  const std::string text = "the key is " + secret + ", a piece of it ghijklmno, and sk-a is none";
+  for (std::size_t size = 1; size <= text.size(); ++size) {
+    SecretFilter filter(secret);
+    std::string shown;
+    for (std::size_t from = 0; from < text.size(); from += size) {
+      shown += filter.take(std::string_view(text).substr(from, size));
+    }
+    shown += filter.rest();
+    EXPECT_EQ(shown, "the key is ***, a piece of it ***, and sk-a is none") << size;
+  }
+}
+
+TEST(SecretFilter, KeepsBackOnlyWhatMayBeTheSecret) {
+  SecretFilter filter("sk-abcdefgh");
+  EXPECT_EQ(filter.take("risk"), "ri");
+  EXPECT_EQ(filter.take("s"), "sk");
+  EXPECT_EQ(filter.rest(), "s");
+  SecretFilter nothing;
+  EXPECT_EQ(nothing.take("all of it"), "all of it");
+  EXPECT_EQ(nothing.rest(), "");
 }
 
 }  // namespace
