@@ -14,6 +14,7 @@
 #include "apps/saca/commands.h"
 #include "apps/saca/inputs.h"
 #include "apps/saca/places.h"
+#include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
 #include "saca/core/parallel.h"
 #include "saca/eval/atlas_check.h"
@@ -50,7 +51,7 @@ int build(const AtlasOptions& options) {
   }
   const fs::path output = file_of(options, inputs.value());
   if (manoeuvre::read_atlas(output, inputs.value().car).has_value()) {
-    fmt::print("{} is there and right for this car\n", output.string());
+    app::print("{} is there and right for this car\n", output.string());
     return success;
   }
   const auto atlas = make_atlas(inputs.value(), output, options.threads);
@@ -61,7 +62,7 @@ int build(const AtlasOptions& options) {
     return was_interrupted;
   }
   std::error_code unknown;
-  fmt::print("{}: {} points, {:.1f} MB\n", output.string(), atlas.value()->nodes().size(),
+  app::print("{}: {} points, {:.1f} MB\n", output.string(), atlas.value()->nodes().size(),
              1e-6 * static_cast<double>(fs::file_size(output, unknown)));
   return success;
 }
@@ -110,19 +111,19 @@ int tell(const AtlasOptions& options) {
   const auto problem = atlas.has_value() ? std::nullopt : std::optional(atlas.error().message);
   const json about = told(info.value(), problem);
   if (options.as_json) {
-    fmt::print("{}\n", about.dump(1, ' ', false, json::error_handler_t::replace));
+    app::print("{}\n", about.dump(1, ' ', false, json::error_handler_t::replace));
   } else {
-    fmt::print("{}: whole, version {}, {} points, {:.1f} MB, car {}\n", file.string(),
+    app::print("{}: whole, version {}, {} points, {:.1f} MB, car {}\n", file.string(),
                manoeuvre::atlas_version, num_nodes(info.value().grid),
                1e-6 * static_cast<double>(info.value().bytes),
                about["car_hash"].get<std::string>());
     for (const json& kind : about["kinds"]) {
-      fmt::print("  {:15} {:5} points: {:.4g} to {:.4g} m/s, grip {:.3g} to {:.3g}\n",
+      app::print("  {:15} {:5} points: {:.4g} to {:.4g} m/s, grip {:.3g} to {:.3g}\n",
                  kind["kind"].get<std::string>(), kind["points"].get<int>(),
                  kind["speed_mps"].front().get<double>(), kind["speed_mps"].back().get<double>(),
                  kind["grip"].front().get<double>(), kind["grip"].back().get<double>());
     }
-    fmt::print("{}\n",
+    app::print("{}\n",
                problem ? *problem
                        : "of " + inputs.value().car_name + " as this program drives it: usable");
   }
@@ -131,32 +132,32 @@ int tell(const AtlasOptions& options) {
 
 void print_figures(const eval::AtlasFigures& figures, const json& all, bool as_json) {
   if (as_json) {
-    fmt::print("{}\n", all.dump(1));
+    app::print("{}\n", all.dump(1));
     return;
   }
   const auto percent = [](const Proportion& share) {
     return fmt::format("{:.2f} % ({:.2f} to {:.2f})", 100.0 * share.share, 100.0 * share.low,
                        100.0 * share.high);
   };
-  fmt::print("{} scenes, {} plans that physics does not refuse\n", figures.scenes, figures.plans);
-  fmt::print("  within the atlas' bounds   {}\n", percent(figures.covered));
-  fmt::print("  agree on contact           {}\n", percent(figures.agreement));
-  fmt::print("  on with whom               {}\n", percent(figures.partner));
-  fmt::print("  on the ego's face          {}\n", percent(figures.face));
-  fmt::print("  impact speed off by        {:.3f} m/s p50, {:.3f} p95, {:.2f} at most\n",
+  app::print("{} scenes, {} plans that physics does not refuse\n", figures.scenes, figures.plans);
+  app::print("  within the atlas' bounds   {}\n", percent(figures.covered));
+  app::print("  agree on contact           {}\n", percent(figures.agreement));
+  app::print("  on with whom               {}\n", percent(figures.partner));
+  app::print("  on the ego's face          {}\n", percent(figures.face));
+  app::print("  impact speed off by        {:.3f} m/s p50, {:.3f} p95, {:.2f} at most\n",
              figures.speed_p50, figures.speed_p95, figures.speed_max);
-  fmt::print("  clearance off by           {:.2f} m p95 (below 5 m)\n", figures.clearance_p95);
-  fmt::print("  regret of choosing by it   {:.4f} mean, {:.4f} p95; none in {}\n",
+  app::print("  clearance off by           {:.2f} m p95 (below 5 m)\n", figures.clearance_p95);
+  app::print("  regret of choosing by it   {:.4f} mean, {:.4f} p95; none in {}\n",
              figures.regret_mean, figures.regret_p95, percent(figures.same_choice));
-  fmt::print(
+  app::print(
       "    where nothing is struck twice: {:.4f} mean in {} scenes, {:.1f} % of all regret\n",
       figures.lone.mean, figures.lone.scenes, 100.0 * figures.lone.share);
-  fmt::print("  harm off by                {:.4f} p95 with one contact, {:.4f} with more\n",
+  app::print("  harm off by                {:.4f} p95 with one contact, {:.4f} with more\n",
              figures.lone.harm_off_p95, figures.lone.lasting_off_p95);
-  fmt::print("  chance of contact on grip known to {:.0f} %:\n", 100.0 * eval::grip_sd_share);
+  app::print("  chance of contact on grip known to {:.0f} %:\n", 100.0 * eval::grip_sd_share);
   for (const eval::ChanceBin& bin : figures.chances) {
     if (bin.plans > 0) {
-      fmt::print("    told {:5.3f} to {:5.3f}: {:.3f} of {:6} plans; touched {}\n", bin.low,
+      app::print("    told {:5.3f} to {:5.3f}: {:.3f} of {:6} plans; touched {}\n", bin.low,
                  bin.high, bin.told, bin.plans, percent(bin.touched));
     }
   }

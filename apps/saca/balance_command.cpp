@@ -8,6 +8,7 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/places.h"
+#include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/surveying.h"
 #include "saca/core/proportion.h"
@@ -35,14 +36,14 @@ std::string percent(int hits, int count) {
 }
 
 void print(const eval::Balance& balance) {
-  fmt::print("{} encounters\n", balance.count);
+  app::print("{} encounters\n", balance.count);
   for (std::size_t i = 0; i < lesson_words.size(); ++i) {
-    fmt::print("  {:42} {}\n", lesson_words[i], percent(balance.lessons[i], balance.count));
+    app::print("  {:42} {}\n", lesson_words[i], percent(balance.lessons[i], balance.count));
   }
-  fmt::print("\npolicy    strictly best             median margin   best, ties to the milder\n");
+  app::print("\npolicy    strictly best             median margin   best, ties to the milder\n");
   for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
     const std::size_t i = manoeuvre::index(policy);
-    fmt::print("{} {:6}  {:24}  {:13.4f}   {}\n", i, name(policy),
+    app::print("{} {:6}  {:24}  {:13.4f}   {}\n", i, name(policy),
                percent(balance.alone[i], balance.count), balance.margin[i],
                percent(balance.best[i], balance.count));
   }
@@ -92,7 +93,7 @@ int run(const BalanceCommand& options) {
   if (options.as_json) {
     json all = figures_of(balance, options.survey.suite);
     all["meta.command"] = command_line(options.survey, "balance");
-    fmt::print("{}\n", all.dump(1, ' ', false, json::error_handler_t::replace));
+    app::print("{}\n", all.dump(1, ' ', false, json::error_handler_t::replace));
   } else {
     print(balance);
   }

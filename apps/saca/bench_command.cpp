@@ -17,6 +17,7 @@
 #include "apps/saca/decide_bench.h"
 #include "apps/saca/inputs.h"
 #include "apps/saca/places.h"
+#include "apps/saca/printing.h"
 #include "apps/saca/reach_bench.h"
 #include "saca/core/clock.h"
 #include "saca/core/percentile.h"
@@ -141,11 +142,11 @@ int bench(const BenchOptions& options) {
     }
   }
   if (options.as_json) {
-    fmt::print("{}\n", figures.dump(1));
+    app::print("{}\n", figures.dump(1));
     return success;
   }
   for (const auto& [name, value] : figures.items()) {
-    fmt::print("{:52} {:.6g}\n", name, value.get<double>());
+    app::print("{:52} {:.6g}\n", name, value.get<double>());
   }
   return success;
 }

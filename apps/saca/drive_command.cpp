@@ -8,6 +8,7 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/places.h"
+#include "apps/saca/printing.h"
 #include "apps/saca/within.h"
 #include "saca/core/file.h"
 #include "saca/core/parallel.h"
@@ -67,12 +68,12 @@ std::string command_line(const DriveOptions& options) {
 /// For people: what the record says of the end, and of the draws.
 void tell(const json& record) {
   const json& end = record["end"];
-  fmt::print("{} from {:g} m/s on grip {:g} with {}: {} after {:.2f} s\n",
+  app::print("{} from {:g} m/s on grip {:g} with {}: {} after {:.2f} s\n",
              record["policy"]["name"].get<std::string>(),
              record["start"]["speed_mps"].get<double>(), record["road"]["grip"].get<double>(),
              record["car"]["name"].get<std::string>(), end["state"].get<std::string>(),
              end["time_s"].get<double>());
-  fmt::print(
+  app::print(
       "  centre of mass {:.2f} m forward, {:.2f} m to the left; heading {:.1f} deg, "
       "{:.1f} m/s\n",
       end["forward_m"].get<double>(), end["sideways_m"].get<double>(),
@@ -81,9 +82,9 @@ void tell(const json& record) {
   if (draws.is_null()) {
     return;
   }
-  fmt::print("  {} draws of what the controller does not know:\n", draws["count"].get<int>());
+  app::print("  {} draws of what the controller does not know:\n", draws["count"].get<int>());
   if (const json& across = draws["within_10_deg"]; !across.is_null()) {
-    fmt::print("    within 10 deg of across the lane: {:.1f} % (95 % interval {:.1f} to {:.1f})\n",
+    app::print("    within 10 deg of across the lane: {:.1f} % (95 % interval {:.1f} to {:.1f})\n",
                100.0 * across["share"].get<double>(), 100.0 * across["low"].get<double>(),
                100.0 * across["high"].get<double>());
   }
@@ -92,7 +93,7 @@ void tell(const json& record) {
                                   {"sideways_m", "to the left, m"},
                                   {"heading_deg", "heading, deg"}}) {
     const json& spread = draws[key];
-    fmt::print("    {:16} p05 {:8.2f}   p50 {:8.2f}   p95 {:8.2f}\n", what,
+    app::print("    {:16} p05 {:8.2f}   p50 {:8.2f}   p95 {:8.2f}\n", what,
                spread["p05"].get<double>(), spread["p50"].get<double>(),
                spread["p95"].get<double>());
   }
@@ -142,7 +143,7 @@ int drive(const DriveOptions& options) {
   }
   const std::string text = report::drive_json(record);
   if (options.as_json) {
-    fmt::print("{}\n", text);
+    app::print("{}\n", text);
   } else {
     tell(json::parse(text));
   }
@@ -154,7 +155,7 @@ int drive(const DriveOptions& options) {
     return cannot_write;
   }
   if (!options.as_json) {
-    fmt::print("Report: {}\n", fs::absolute(options.report).string());
+    app::print("Report: {}\n", fs::absolute(options.report).string());
   }
   return success;
 }

@@ -1,11 +1,10 @@
-#include <fmt/core.h>
-
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "apps/saca/commands.h"
 #include "apps/saca/places.h"
+#include "apps/saca/printing.h"
 #include "saca/core/file.h"
 #include "saca/report/explanation.h"
 
@@ -32,13 +31,13 @@ int run(const ExplainOptions& options) {
       paragraphs.push_back({{"about", paragraph.about}, {"sentences", paragraph.sentences}});
       continue;
     }
-    fmt::print("{}\n", paragraph.about);
+    app::print("{}\n", paragraph.about);
     for (const std::string& sentence : paragraph.sentences) {
-      fmt::print("  {}\n", sentence);
+      app::print("  {}\n", sentence);
     }
   }
   if (options.as_json) {
-    fmt::print("{}\n",
+    app::print("{}\n",
                nlohmann::json{{"schema", "saca.explanation/1"}, {"paragraphs", paragraphs}}.dump(
                    1, ' ', false, nlohmann::json::error_handler_t::replace));
   }

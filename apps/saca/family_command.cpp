@@ -8,6 +8,7 @@
 #include "apps/saca/commands.h"
 #include "apps/saca/inputs.h"
 #include "apps/saca/pictures.h"
+#include "apps/saca/printing.h"
 #include "saca/core/file.h"
 #include "saca/eval/moment.h"
 #include "saca/manoeuvre/ego.h"
@@ -114,7 +115,7 @@ int run(const FamilyCommand& options) {
     return refused(*problem);
   }
   if (options.as_json) {
-    fmt::print("{}\n", json{{"schema", "saca.family_samples/1"},
+    app::print("{}\n", json{{"schema", "saca.family_samples/1"},
                             {"family", family.value().name},
                             {"split", options.split},
                             {"seed", seed.value()},
@@ -122,7 +123,7 @@ int run(const FamilyCommand& options) {
                             {"samples", list}}
                            .dump(1, ' ', false, json::error_handler_t::replace));
   } else {
-    fmt::print("{} samples of {}: {}\n", options.count, family.value().name,
+    app::print("{} samples of {}: {}\n", options.count, family.value().name,
                fs::absolute(options.svg).string());
   }
   return success;

@@ -12,6 +12,7 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/forecast_commands.h"
+#include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/suite_pages.h"
 #include "apps/saca/surveying.h"
@@ -157,19 +158,19 @@ void add_lines(json& out, const std::string& place, const std::vector<Line>& lin
 }
 
 void print_lines(const std::string& title, const std::vector<Line>& lines) {
-  fmt::print("\n{:28} {:>9}", title, "");
+  app::print("\n{:28} {:>9}", title, "");
   for (const MotionModel model : eval::motion_models) {
-    fmt::print(" {:>17}", name(model));
+    app::print(" {:>17}", name(model));
   }
-  fmt::print("\n");
+  app::print("\n");
   for (std::size_t i = 0; i < lines.size(); i += eval::motion_models.size()) {
     const Figure& figure = score_figures[lines[i].figure];
-    fmt::print("{:28} {:>9}", figure.title,
+    app::print("{:28} {:>9}", figure.title,
                figure.each_time ? fmt::format("{:g} s", forecast_times[lines[i].time]) : "");
     for (std::size_t m = 0; m < eval::motion_models.size(); ++m) {
-      fmt::print(" {:17.3f}", lines[i + m].mean.value);
+      app::print(" {:17.3f}", lines[i + m].mean.value);
     }
-    fmt::print("\n");
+    app::print("\n");
   }
 }
 
@@ -250,7 +251,7 @@ int run(const ForecastCommand& options) {
            {place + ".num_forecasts", num_samples},
            {place + ".num_acting", num_acting}};
   if (!options.as_json) {
-    fmt::print("{}: {} encounters, {} forecasts, {} of them of road users that act\n", from.name,
+    app::print("{}: {} encounters, {} forecasts, {} of them of road users that act\n", from.name,
                all.size(), num_samples, num_acting);
   }
   for (const Group& group : groups) {
@@ -267,7 +268,7 @@ int run(const ForecastCommand& options) {
     }
   }
   if (options.as_json) {
-    fmt::print("{}", text);
+    app::print("{}", text);
   }
   return num_failed > 0 ? some_failed : success;
 }

@@ -6,6 +6,7 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/forecast_commands.h"
+#include "apps/saca/printing.h"
 #include "saca/core/file.h"
 #include "saca/eval/forecast_fan.h"
 #include "saca/report/scene_svg.h"
@@ -72,7 +73,7 @@ int show(ShowCommand options) {
   if (const auto problem = write_file(options.output, picture)) {
     return refused(*problem);
   }
-  fmt::print("{}\n", options.output);
+  app::print("{}\n", options.output);
   return success;
 }
 

@@ -1,11 +1,10 @@
-#include <fmt/core.h>
-
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "apps/saca/commands.h"
 #include "apps/saca/places.h"
+#include "apps/saca/printing.h"
 #include "saca/core/file.h"
 #include "saca/core/units.h"
 #include "saca/report/harm_chart.h"
@@ -23,17 +22,17 @@ struct HarmOptions {
 /// A column of risks for each speed.
 void print_table(const std::string& title, const std::vector<report::HarmRisk>& risks,
                  const std::vector<double>& speeds) {
-  fmt::print("\n{:44}", title);
+  app::print("\n{:44}", title);
   for (const double speed : speeds) {
-    fmt::print(" {:>6.0f}", to_kmh(speed));
+    app::print(" {:>6.0f}", to_kmh(speed));
   }
-  fmt::print("   km/h\n");
+  app::print("   km/h\n");
   for (const report::HarmRisk& risk : risks) {
-    fmt::print("{:44}", risk.name);
+    app::print("{:44}", risk.name);
     for (const double value : risk.values) {
-      fmt::print(" {:6.3f}", value);
+      app::print(" {:6.3f}", value);
     }
-    fmt::print("   over {}\n",
+    app::print("   over {}\n",
                risk.over == report::HarmOver::delta_v ? "delta-v" : "closing speed");
   }
 }
@@ -69,9 +68,9 @@ int harm(const HarmOptions& options) {
                    {"speed_mps", speeds},
                    {"probability", table_json(risks)},
                    {"harm", table_json(harms)}};
-    fmt::print("{}\n", out.dump(1));
+    app::print("{}\n", out.dump(1));
   } else {
-    fmt::print("From {}. Probabilities are what is due to the blow.\n", file.string());
+    app::print("From {}. Probabilities are what is due to the blow.\n", file.string());
     print_table("probability", risks, speeds);
     print_table("weighted harm of one person", harms, speeds);
   }

@@ -12,6 +12,7 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/places.h"
+#include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/within.h"
 #include "saca/core/clock.h"
@@ -42,7 +43,7 @@ int import_hundred_car(const ImportOptions& options) {
   }
   const std::string text = sim::write_scenario(imported.value().scenario);
   if (options.output.empty()) {
-    fmt::print("{}", text);
+    app::print("{}", text);
     return success;
   }
   if (const auto problem = write_file(options.output, text)) {
@@ -50,7 +51,7 @@ int import_hundred_car(const ImportOptions& options) {
     return cannot_write;
   }
   const sim::HundredCarReport& report = imported.value().report;
-  fmt::print("{}: event {}, rows {} to {}; lead seen in {} rows, {} gaps bridged, {} outliers\n",
+  app::print("{}: event {}, rows {} to {}; lead seen in {} rows, {} gaps bridged, {} outliers\n",
              options.output, options.request.event, report.first_row, report.last_row,
              report.lead.num_seen, report.lead.num_gaps, report.lead.num_outliers);
   return success;
@@ -119,13 +120,13 @@ void tell_all(const std::vector<sim::HundredCarOutcome>& outcomes, std::size_t n
                               {"rebuilt", num_rebuilt},
                               {"refused", reasons},
                               {"list", list}};
-    fmt::print("{}\n", told.dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
+    app::print("{}\n", told.dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
     return;
   }
-  fmt::print("{} events: {} rebuilt, {} refused\n", outcomes.size(), num_rebuilt,
+  app::print("{} events: {} rebuilt, {} refused\n", outcomes.size(), num_rebuilt,
              outcomes.size() - num_rebuilt);
   for (const auto& [reason, count] : refusals) {
-    fmt::print("  {:5} {:24} {}\n", count, name(reason), meaning(reason));
+    app::print("  {:5} {:24} {}\n", count, name(reason), meaning(reason));
   }
 }
 
@@ -191,19 +192,19 @@ nlohmann::json traffic_json(const sim::TrafficImport& made, const TrafficOptions
 void tell(const sim::TrafficImport& made, const TrafficOptions& options) {
   const sim::TrafficReport& report = made.report;
   const traffic::LaneFit& lane = report.lane;
-  fmt::print("{}: {} vehicles around {}, {:.1f} s\n", options.output, made.scenario.actors.size(),
+  app::print("{}: {} vehicles around {}, {:.1f} s\n", options.output, made.scenario.actors.size(),
              options.request.ego ? fmt::format("obstacle {}", *options.request.ego)
                                  : "the planning problem's start",
              made.scenario.duration);
-  fmt::print("  lane: an arc over {:.0f} m ahead, {:.2f} m off rms, {:.2f} m at most\n", lane.ahead,
+  app::print("  lane: an arc over {:.0f} m ahead, {:.2f} m off rms, {:.2f} m at most\n", lane.ahead,
              lane.rms, lane.largest);
-  fmt::print("  smoothing: {:.2f} m rms, {:.2f} m at most, {} outliers\n", report.rms_shift,
+  app::print("  smoothing: {:.2f} m rms, {:.2f} m at most, {} outliers\n", report.rms_shift,
              report.largest_shift, report.num_outliers);
   for (const auto& [reason, count] : report.left_out) {
-    fmt::print("  left out: {} {}\n", count, reason);
+    app::print("  left out: {} {}\n", count, reason);
   }
   for (const auto& [element, count] : report.ignored) {
-    fmt::print("  ignored: {} {}\n", count, element);
+    app::print("  ignored: {} {}\n", count, element);
   }
 }
 
@@ -224,7 +225,7 @@ int import_traffic(const TrafficOptions& options) {
     return cannot_write;
   }
   if (options.as_json) {
-    fmt::print("{}\n", traffic_json(imported.value(), options).dump(1));
+    app::print("{}\n", traffic_json(imported.value(), options).dump(1));
   } else {
     tell(imported.value(), options);
   }

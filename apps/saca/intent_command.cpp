@@ -13,6 +13,7 @@
 #include "apps/saca/commands.h"
 #include "apps/saca/intent_commands.h"
 #include "apps/saca/places.h"
+#include "apps/saca/printing.h"
 #include "saca/core/parallel.h"
 #include "saca/learn/examples.h"
 #include "saca/learn/sequence_file.h"
@@ -36,7 +37,7 @@ struct ExamplesOptions {
 
 void tell_shares(const SequenceSet& set) {
   std::set<std::string> splits(set.splits.begin(), set.splits.end());
-  fmt::print("{:12} {:>9} {:>8} {:>8} | frames: M, LC, RC, FB, LB, RB; in doubt\n", "split",
+  app::print("{:12} {:>9} {:>8} {:>8} | frames: M, LC, RC, FB, LB, RB; in doubt\n", "split",
              "sequences", "groups", "hours");
   for (const std::string& split : splits) {
     std::vector<std::size_t> frames(learn::num_vehicle_classes, 0);
@@ -56,12 +57,12 @@ void tell_shares(const SequenceSet& set) {
         sequence.scored[t] ? ++frames[sequence.labels[t]] : ++doubtful;
       }
     }
-    fmt::print("{:12} {:9} {:8} {:8.2f} |", split, num, groups.size(),
+    app::print("{:12} {:9} {:8} {:8.2f} |", split, num, groups.size(),
                static_cast<double>(all) * learn::frame_step / 3600.0);
     for (const std::size_t count : frames) {
-      fmt::print(" {}", count);
+      app::print(" {}", count);
     }
-    fmt::print("; {}\n", doubtful);
+    app::print("; {}\n", doubtful);
   }
 }
 

@@ -1,5 +1,3 @@
-#include <fmt/core.h>
-
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -12,6 +10,7 @@
 #include "apps/saca/intent_commands.h"
 #include "apps/saca/intent_figures.h"
 #include "apps/saca/places.h"
+#include "apps/saca/printing.h"
 #include "saca/core/file.h"
 #include "saca/core/parallel.h"
 #include "saca/learn/baselines.h"
@@ -85,7 +84,7 @@ class Comparison {
     tell_acts(rows_.front());
     for (const Row& row : rows_) {
       if (row.behind_ours) {
-        fmt::print("ours less {}: macro F1 now {:+.3f} [{:+.3f}, {:+.3f}]\n", row.method,
+        app::print("ours less {}: macro F1 now {:+.3f} [{:+.3f}, {:+.3f}]\n", row.method,
                    row.behind_ours->value, row.behind_ours->low, row.behind_ours->high);
       }
     }
@@ -266,7 +265,7 @@ int evaluate(EvalOptions options) {
   }
   if (options.as_json) {
     document["displacements"] = displacements_json(moved);
-    fmt::print("{}\n", document.dump(1));
+    app::print("{}\n", document.dump(1));
   } else {
     tell_displacements(moved);
   }

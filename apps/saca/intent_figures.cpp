@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "apps/saca/printing.h"
 #include "saca/intent/intention.h"
 
 namespace saca::app {
@@ -92,8 +93,8 @@ json row_json(const Row& row) {
 }
 
 void tell_table(const std::string& title, const std::vector<Row>& rows) {
-  fmt::print("\n{}\n", title);
-  fmt::print("{:24} {:>22} {:>8} {:>8} {:>7} {:>12} {:>12} {:>8} {:>8}\n", "", "macro F1 now",
+  app::print("\n{}\n", title);
+  app::print("{:24} {:>22} {:>8} {:>8} {:>7} {:>12} {:>12} {:>8} {:>8}\n", "", "macro F1 now",
              "0.5 s", "1 s", "ECE", "line [s]", "brake [s]", "alarm/h", "illegal");
   for (const Row& row : rows) {
     const Figures& f = row.figures;
@@ -101,7 +102,7 @@ void tell_table(const std::string& title, const std::vector<Row>& rows) {
     const auto value = [&](std::size_t head) {
       return f.macro_f1[head] ? std::optional(f.macro_f1[head]->value) : std::nullopt;
     };
-    fmt::print(
+    app::print(
         "{:24} {:>22} {:>8} {:>8} {:>7} {:>12} {:>12} {:>8} {:>8}\n", row.method,
         now ? fmt::format("{:.3f} [{:.3f}, {:.3f}]", now->value, now->low, now->high) : "-",
         cell(value(1)), cell(value(2)), cell(f.tallies[0].top_calibration_error()),
@@ -114,39 +115,39 @@ void tell_table(const std::string& title, const std::vector<Row>& rows) {
 void tell_confusion(const Row& row) {
   for (std::size_t head = 0; head < learn::num_heads; ++head) {
     const learn::Confusion& confusion = row.figures.tallies[head].confusion;
-    fmt::print("\n{}, {:.1f} s ahead: truth in rows, foretold in columns\n{:>8}", row.method,
+    app::print("\n{}, {:.1f} s ahead: truth in rows, foretold in columns\n{:>8}", row.method,
                intent::horizons[head], "");
     for (std::size_t k = 0; k < learn::num_vehicle_classes; ++k) {
-      fmt::print("{:>8}", name(static_cast<intent::Intention>(k)));
+      app::print("{:>8}", name(static_cast<intent::Intention>(k)));
     }
-    fmt::print("{:>8} {:>9} {:>6}\n", "recall", "precision", "F1");
+    app::print("{:>8} {:>9} {:>6}\n", "recall", "precision", "F1");
     for (std::size_t k = 0; k < learn::num_vehicle_classes; ++k) {
-      fmt::print("{:>8}", name(static_cast<intent::Intention>(k)));
+      app::print("{:>8}", name(static_cast<intent::Intention>(k)));
       for (const std::size_t count : confusion.counts[k]) {
-        fmt::print("{:>8}", count);
+        app::print("{:>8}", count);
       }
-      fmt::print("{:>8} {:>9} {:>6}\n", cell(confusion.recall(k), 2),
+      app::print("{:>8} {:>9} {:>6}\n", cell(confusion.recall(k), 2),
                  cell(confusion.precision(k), 2), cell(confusion.f1(k), 2));
     }
   }
 }
 
 void tell_acts(const Row& row) {
-  fmt::print("\n{}, now: acts found, and recall of their frames by the age of the act [s]\n{:8}",
+  app::print("\n{}, now: acts found, and recall of their frames by the age of the act [s]\n{:8}",
              row.method, "");
-  fmt::print("{:>16}", "acts found");
+  app::print("{:>16}", "acts found");
   for (const double age : learn::ActsFound::ages) {
-    fmt::print("{:>8}", fmt::format("{:.1f}-", age));
+    app::print("{:>8}", fmt::format("{:.1f}-", age));
   }
-  fmt::print("\n");
+  app::print("\n");
   for (std::size_t k = 1; k < learn::num_vehicle_classes; ++k) {
     const auto& found = row.figures.acts.of[k];
-    fmt::print("{:>8}{:>16}", name(static_cast<intent::Intention>(k)),
+    app::print("{:>8}{:>16}", name(static_cast<intent::Intention>(k)),
                fmt::format("{} of {}", found.acts.found, found.acts.num));
     for (const learn::ActsFound::Share& frames : found.frames) {
-      fmt::print("{:>8}", cell(frames.share(), 2));
+      app::print("{:>8}", cell(frames.share(), 2));
     }
-    fmt::print("\n");
+    app::print("\n");
   }
 }
 
@@ -154,14 +155,14 @@ void tell_displacements(const learn::Displacements& found) {
   for (const auto& [title, table] :
        {std::pair("all vehicles in lanes", &found.all),
         std::pair("those that brake or change lanes", &found.acting)}) {
-    fmt::print("\nMean displacement error [m] after 1, 2, 3 s: {} ({} frames)\n", title,
+    app::print("\nMean displacement error [m] after 1, 2, 3 s: {} ({} frames)\n", title,
                (*table)[0][0].num);
     for (std::size_t f = 0; f < learn::num_foresights; ++f) {
-      fmt::print("{:24}", foresight_names[f]);
+      app::print("{:24}", foresight_names[f]);
       for (const learn::Displacement& each : (*table)[f]) {
-        fmt::print(" {:8.2f}", each.mean());
+        app::print(" {:8.2f}", each.mean());
       }
-      fmt::print("\n");
+      app::print("\n");
     }
   }
 }

@@ -1,5 +1,3 @@
-#include <fmt/core.h>
-
 #include <array>
 #include <map>
 #include <memory>
@@ -12,6 +10,7 @@
 #include "apps/saca/commands.h"
 #include "apps/saca/intent_commands.h"
 #include "apps/saca/places.h"
+#include "apps/saca/printing.h"
 #include "saca/learn/examples.h"
 #include "saca/learn/motion_fit.h"
 #include "saca/traffic/set_file.h"
@@ -52,11 +51,11 @@ nlohmann::json fit_json(const MotionFit& fit) {
 }
 
 void tell_fit(const std::string& site, const MotionFit& fit) {
-  fmt::print("{}: maintaining, acceleration wavers by {:.2f} m/s2 over {:.1f} s\n", site,
+  app::print("{}: maintaining, acceleration wavers by {:.2f} m/s2 over {:.1f} s\n", site,
              fit.wavering.sd, fit.wavering.time);
   for (const Measured& each : measured) {
     const LogNormal& one = fit.*each.fit;
-    fmt::print("  {:38} median {:5.2f}, sd of the logarithm {:.2f} ({} measured)\n", each.words,
+    app::print("  {:38} median {:5.2f}, sd of the logarithm {:.2f} ({} measured)\n", each.words,
                one.median, one.log_sd, one.num);
   }
 }
@@ -88,7 +87,7 @@ int fit_motion(const MotionOptions& options) {
     }
   }
   if (options.as_json) {
-    fmt::print("{}\n", document.dump(1));
+    app::print("{}\n", document.dump(1));
   }
   return success;
 }

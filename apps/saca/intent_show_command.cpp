@@ -14,6 +14,7 @@
 #include "apps/saca/commands.h"
 #include "apps/saca/intent_commands.h"
 #include "apps/saca/places.h"
+#include "apps/saca/printing.h"
 #include "saca/core/file.h"
 #include "saca/core/parallel.h"
 #include "saca/intent/intention.h"
@@ -130,7 +131,7 @@ int show(const ShowOptions& options) {
   if (const auto problem = write_file(options.output, text)) {
     return refused(*problem);
   }
-  fmt::print("{}: {} samples\n", options.output, as_svg ? 1 : page.samples.size());
+  app::print("{}: {} samples\n", options.output, as_svg ? 1 : page.samples.size());
   return success;
 }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/printing.h"
 #include "apps/saca/suite_decisions.h"
 #include "apps/saca/suite_pages.h"
 #include "saca/core/file.h"
@@ -200,15 +201,15 @@ int run(LadderCommand options) {
     return refused(*problem);
   }
   if (options.as_json) {
-    fmt::print("{}", text);
+    app::print("{}", text);
   } else {
-    fmt::print("{}: {} encounters; regret, and what each step adds to it, with 95 % intervals\n\n",
+    app::print("{}: {} encounters; regret, and what each step adds to it, with 95 % intervals\n\n",
                suite.name, climbed.front().figures.regret.n);
     for (const Climbed& one : climbed) {
-      fmt::print("{:22} {:28} {}\n", one.rung.method, with_interval(one.figures.regret, 4),
+      app::print("{:22} {:28} {}\n", one.rung.method, with_interval(one.figures.regret, 4),
                  step_text(one));
     }
-    fmt::print("\npage: {}\n", fs::path(suite.output).replace_extension(".html").string());
+    app::print("\npage: {}\n", fs::path(suite.output).replace_extension(".html").string());
   }
   const bool faults = std::any_of(
       ran.value()->rows.begin(), ran.value()->rows.end(), [](const eval::SuiteRow& row) {

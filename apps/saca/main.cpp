@@ -1,13 +1,13 @@
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <sstream>
 #include <system_error>
 
 #include "apps/saca/commands.h"
 #include "apps/saca/places.h"
+#include "saca/core/printable.h"
+#include "saca/core/standard_files.h"
 
 namespace {
 
@@ -25,21 +25,11 @@ void choose_waiting(int /*argc*/, char** /*argv*/, char** /*environment*/) {
 [[gnu::section(".preinit_array"),
   gnu::used]] void (*const chooses_waiting)(int, char**, char**) = choose_waiting;
 
-// Where a standard file is closed, the next file that is opened would take its place, and be
-// written to as if it were that one. What is opened here instead can be neither read nor written.
-void occupy_standard_files() {
-  for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    if (::fcntl(file, F_GETFD) < 0) {
-      (void)::open("/dev/null", file == STDIN_FILENO ? O_WRONLY : O_RDONLY);
-    }
-  }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
   using namespace saca::app;
-  occupy_standard_files();
+  saca::occupy_standard_files();
   if (waiting_was_chosen_here) {  // not for the language model's process
     ::unsetenv(how_to_wait);
   }
@@ -79,7 +69,9 @@ int main(int argc, char** argv) {
     try {
       line.parse(argc, argv);
     } catch (const CLI::ParseError& problem) {
-      const bool asked_for_help = line.exit(problem) == 0;
+      std::ostringstream told;
+      const bool asked_for_help = line.exit(problem, told, told) == 0;
+      std::fputs(saca::printable(told.str()).c_str(), asked_for_help ? stdout : stderr);
       return asked_for_help ? success : wrong_command_line;
     }
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {

@@ -7,6 +7,7 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/places.h"
+#include "apps/saca/printing.h"
 #include "saca/memory/scene_json.h"
 #include "saca/memory/store.h"
 
@@ -57,14 +58,14 @@ int list_cases(const MemoryOptions& options) {
   for (const memory::Case& one : cases.value()) {
     list.push_back(case_json(one));
     if (!options.as_json) {
-      fmt::print("{:5}  {:24} did {} best {}  {}\n", one.id, one.source,
+      app::print("{:5}  {:24} did {} best {}  {}\n", one.id, one.source,
                  manoeuvre::index(one.plan.policy), manoeuvre::index(one.best), one.review);
     }
   }
   if (options.as_json) {
-    fmt::print("{}\n", list.dump(1));
+    app::print("{}\n", list.dump(1));
   } else if (cases.value().empty()) {
-    fmt::print("{}: no cases yet\n", options.file);
+    app::print("{}: no cases yet\n", options.file);
   }
   return success;
 }
@@ -87,7 +88,7 @@ int show_case(const MemoryOptions& options) {
   }
   json out = case_json(*found.value());
   out["scene"] = memory::to_json(found.value()->scene);
-  fmt::print("{}\n", out.dump(1));
+  app::print("{}\n", out.dump(1));
   return success;
 }
 

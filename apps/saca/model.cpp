@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "apps/saca/printing.h"
 #include "saca/config/config.h"
 #include "saca/core/file.h"
 #include "saca/core/fnv.h"
@@ -195,7 +196,7 @@ Result<ChosenModel> ChosenModel::open(const Places& places, const std::string& c
   if (model.has_value()) {
     chosen.model_ = std::move(model).value();
   } else if (choice == "local") {
-    fmt::print(stderr, "saca: {}\nsaca: going on as with --llm off\n", model.error().message);
+    app::print(stderr, "saca: {}\nsaca: going on as with --llm off\n", model.error().message);
   } else {
     return model.error();
   }

@@ -11,6 +11,7 @@
 
 #include "apps/saca/model.h"
 #include "apps/saca/model_commands.h"
+#include "apps/saca/printing.h"
 #include "saca/core/percentile.h"
 #include "saca/reason/child_model.h"
 #include "saca/reason/example_situation.h"
@@ -100,14 +101,14 @@ class BenchFigures {
       for (const auto& [name, text] : texts_) {
         document[name] = text;
       }
-      fmt::print("{}\n", document.dump());
+      app::print("{}\n", document.dump());
       return;
     }
     for (const auto& [name, text] : texts_) {
-      fmt::print("{:36} {}\n", name, text);
+      app::print("{:36} {}\n", name, text);
     }
     for (const auto& [name, value] : numbers_) {
-      fmt::print("{:36} {:.4g}\n", name, value);
+      app::print("{:36} {:.4g}\n", name, value);
     }
   }
 

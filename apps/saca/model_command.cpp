@@ -1,5 +1,3 @@
-#include <fmt/core.h>
-
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -7,6 +5,7 @@
 #include "apps/saca/model.h"
 #include "apps/saca/model_commands.h"
 #include "apps/saca/places.h"
+#include "apps/saca/printing.h"
 
 namespace saca::app {
 namespace {
@@ -35,11 +34,11 @@ int model_info(bool as_json) {
       {"load_s", model.value()->figures().load_time},
       {"system_tokens", model.value()->figures().system_tokens}};
   if (as_json) {
-    fmt::print("{}\n", out.dump(1));
+    app::print("{}\n", out.dump(1));
     return success;
   }
   for (const auto& [key, value] : out.items()) {
-    fmt::print("{:14} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+    app::print("{:14} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
   }
   return success;
 }

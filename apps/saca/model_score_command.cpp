@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/saca/model_commands.h"
+#include "apps/saca/printing.h"
 #include "apps/saca/suite_pages.h"
 #include "apps/saca/surveying.h"
 #include "saca/eval/model_score.h"
@@ -82,14 +83,14 @@ std::string percent(const json& share) {
 }
 
 void print(const ModelScore& score, const json& document) {
-  fmt::print("{} encounters, {}; means with 95 % intervals of what was carried out\n\n",
+  app::print("{} encounters, {}; means with 95 % intervals of what was carried out\n\n",
              document["encounters"].get<int>(), document["model"].get<std::string>());
-  fmt::print("{:36} {:>22} {:>26} {:>9} {:>11} {:>9}\n", "choice", "as good as the best, %",
+  app::print("{:36} {:>22} {:>26} {:>9} {:>11} {:>9}\n", "choice", "as good as the best, %",
              "regret", "contact,%", "needless,%", "by model");
   for (std::size_t i = 0; i < score.choices.size(); ++i) {
     const MethodFigures& one = score.choices[i];
     const auto by_model = one.sources.find("model");
-    fmt::print("{:36} {:>22} {:>26} {:9.1f} {:>11} {:9}\n", eval::scored_choices()[i].title,
+    app::print("{:36} {:>22} {:>26} {:9.1f} {:>11} {:9}\n", eval::scored_choices()[i].title,
                with_interval(one.right, 1, 100.0), with_interval(one.regret, 4),
                100.0 * one.contact.value,
                one.needless.n == 0 ? "-" : fmt::format("{:.1f}", 100.0 * one.needless.value),
@@ -97,7 +98,7 @@ void print(const ModelScore& score, const json& document) {
   }
   for (const char* key : {"with_facts", "without_facts"}) {
     const json& talk = document[key];
-    fmt::print(
+    app::print(
         "\n{}: of {} forecasts asked about {} got an answer in time, {} of these replies end by "
         "themselves; of {} statements that can be checked {} are true; {} of the choices rest on "
         "something false",
@@ -106,9 +107,9 @@ void print(const ModelScore& score, const json& document) {
         talk["statements_checked"].get<int>(), percent(talk["statements_true_share"]),
         percent(talk["unfounded_share"]));
   }
-  fmt::print("\n");
+  app::print("\n");
   if (const auto& calibration = score.calibration) {
-    fmt::print("Temperature: {:.2f} (log loss {:.3f}, as it is {:.3f}; {} encounters)\n",
+    app::print("Temperature: {:.2f} (log loss {:.3f}, as it is {:.3f}; {} encounters)\n",
                calibration->temperature, calibration->log_loss, calibration->log_loss_now,
                calibration->count);
   }
@@ -149,7 +150,7 @@ int model_score(const ScoreOptions& options) {
   const ModelScore score = eval::model_score(rows, suite.seed);
   const json document = document_of(score, options, *ran.value());
   if (options.as_json) {
-    fmt::print("{}\n", document.dump(1, ' ', false, json::error_handler_t::replace));
+    app::print("{}\n", document.dump(1, ' ', false, json::error_handler_t::replace));
   } else {
     print(score, document);
   }

@@ -9,6 +9,7 @@
 #include "apps/saca/inputs.h"
 #include "apps/saca/moment_option.h"
 #include "apps/saca/pictures.h"
+#include "apps/saca/printing.h"
 #include "saca/core/file.h"
 #include "saca/core/parallel.h"
 #include "saca/eval/oracle.h"
@@ -78,21 +79,21 @@ std::string row_of(const eval::Verdict& verdict, const world::Scene& scene) {
 }
 
 void print(const eval::Oracle& oracle, const OracleCommand& options) {
-  fmt::print("At {:.2f} s, {:.1f} m/s; {} draws of what nobody knows, seed {}.\n\n",
+  app::print("At {:.2f} s, {:.1f} m/s; {} draws of what nobody knows, seed {}.\n\n",
              oracle.scene.time, norm(oracle.scene.ego.v_B), options.draws, options.seed);
-  fmt::print("policy     expected harm (95 %)       loss   hit     as written\n");
+  app::print("policy     expected harm (95 %)       loss   hit     as written\n");
   for (const manoeuvre::PolicyId policy : oracle.ranking) {
-    fmt::print("{}\n", row_of(oracle.of(policy), oracle.scene));
+    app::print("{}\n", row_of(oracle.of(policy), oracle.scene));
   }
   for (const eval::Verdict& verdict : oracle.verdicts) {
     if (!verdict.written.facts.drivable()) {
-      fmt::print("{} {:7}  {}\n", manoeuvre::index(verdict.written.facts.plan.policy),
+      app::print("{} {:7}  {}\n", manoeuvre::index(verdict.written.facts.plan.policy),
                  name(verdict.written.facts.plan.policy), verdict.written.facts.refusal());
     }
   }
   const eval::Margin margin = margin_of_best(oracle);
-  fmt::print("\nBest: {}", name(oracle.best()));
-  fmt::print("{} (by {:.4f} harm, at least {:.4f}).\n",
+  app::print("\nBest: {}", name(oracle.best()));
+  app::print("{} (by {:.4f} harm, at least {:.4f}).\n",
              margin.low > 0.0 ? ", alone" : ", not clearly alone", margin.mean, margin.low);
 }
 
@@ -127,7 +128,7 @@ int run(const OracleCommand& options) {
     }
   }
   if (!options.as_json) {
-    fmt::print("{}\n", scenario.title);
+    app::print("{}\n", scenario.title);
     print(oracle, options);
     return success;
   }
@@ -142,7 +143,7 @@ int run(const OracleCommand& options) {
   }
   const eval::Margin margin = margin_of_best(oracle);
   all["margin"] = {{"mean", margin.mean}, {"low", margin.low}};
-  fmt::print("{}\n", all.dump(1, ' ', false, json::error_handler_t::replace));
+  app::print("{}\n", all.dump(1, ' ', false, json::error_handler_t::replace));
   return success;
 }
 

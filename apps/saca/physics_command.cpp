@@ -7,6 +7,7 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/places.h"
+#include "apps/saca/printing.h"
 #include "saca/core/parallel.h"
 #include "saca/core/percentile.h"
 #include "saca/core/proportion.h"
@@ -41,14 +42,14 @@ void add_figures(const manoeuvre::Car& car, bool quiet, json& figures) {
     if (!quiet) {
       const std::string reference =
           figure.reference ? fmt::format("{:8.3f}", *figure.reference) : "       -";
-      fmt::print("{:48} {:9.4f}   reference {}   band {:7.3f} to {:7.3f}   {}\n", figure.name,
+      app::print("{:48} {:9.4f}   reference {}   band {:7.3f} to {:7.3f}   {}\n", figure.name,
                  figure.value, reference, figure.low, figure.high,
                  in_band(figure) ? "inside" : "OUTSIDE");
     }
   }
   figures["physics.outside_band"] = outside;
   if (!quiet) {
-    fmt::print("outside their bands: {}\n", outside);
+    app::print("outside their bands: {}\n", outside);
   }
 }
 
@@ -66,7 +67,7 @@ void add_drifts(const std::string& name, const manoeuvre::Car& car, const Physic
       if (manoeuvre::refusal(car, plan, scene)) {
         figures["t_drift.refused" + key] = true;
         if (!options.as_json) {
-          fmt::print("{:16} {:5g} {:5.1f}   refused\n", name, speed, grip);
+          app::print("{:16} {:5g} {:5.1f}   refused\n", name, speed, grip);
         }
         continue;
       }
@@ -88,7 +89,7 @@ void add_drifts(const std::string& name, const manoeuvre::Car& car, const Physic
         figures[fmt::format("t_drift.sideways_m.{}{}", percent, key)] = percentile(sideways, share);
       }
       if (!options.as_json) {
-        fmt::print(
+        app::print(
             "{:16} {:5g} {:5.1f}   {:5.1f} ({:5.1f} to {:5.1f})   {:7.2f} {:7.2f} {:7.2f}   "
             "{:6.2f} {:6.2f} {:6.2f}\n",
             name, speed, grip, 100.0 * across.share, 100.0 * across.low, 100.0 * across.high,
@@ -114,7 +115,7 @@ int physics(const PhysicsOptions& options) {
   json figures;
   add_figures(car.value(), options.as_json, figures);
   if (options.drift_draws > 0 && !options.as_json) {
-    fmt::print(
+    app::print(
         "\nT-drift, {} draws each; forward and sideways: p05 p50 p95\n{:16} {:>5} {:>5}   "
         "{:23}   {:23}   {}\n",
         options.drift_draws, "car", "m/s", "grip", "within 10 deg, %", "forward, m", "sideways, m");
@@ -134,7 +135,7 @@ int physics(const PhysicsOptions& options) {
       figures["t_drift.n"] = options.drift_draws;
       figures["t_drift.seed"] = options.seed;
     }
-    fmt::print("{}\n", figures.dump(1));
+    app::print("{}\n", figures.dump(1));
   }
   return success;
 }

@@ -9,6 +9,7 @@
 
 #include "saca/config/json_text.h"
 #include "saca/core/file.h"
+#include "saca/core/printable.h"
 
 namespace saca::app {
 
@@ -133,7 +134,9 @@ std::optional<Error> make_folder_of(const fs::path& file) {
 }
 
 void complain(const std::string& message) {
-  std::fputs(fmt::format("saca: {}\n", message).c_str(), stderr);  // which may be closed
+  constexpr std::size_t longest_complaint = 8'000;  // characters; a path has up to 4096
+  std::fputs(fmt::format("saca: {}\n", one_line(message, longest_complaint)).c_str(),
+             stderr);  // which may be closed
 }
 
 int refused(const Error& problem) {

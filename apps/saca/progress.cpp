@@ -6,6 +6,8 @@
 #include <csignal>
 #include <utility>
 
+#include "saca/core/printable.h"
+
 namespace saca::app {
 namespace {
 
@@ -33,7 +35,7 @@ InterruptStop::InterruptStop()
       }) {}
 
 ProgressLine::ProgressLine(std::string what, int all, Clock& clock)
-    : what_(std::move(what)),
+    : what_(one_line(what)),
       all_(all),
       clock_(clock),
       start_(clock.now()),

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/saca/printing.h"
 #include "saca/config/json_text.h"
 #include "saca/core/file.h"
 #include "saca/core/parallel.h"
@@ -35,7 +36,7 @@ constexpr double bytes_per_mib = 1024.0 * 1024.0;
 constexpr double dry_grip = 0.9;  // dry: the tables' and that of the figures
 
 void note_progress(const std::string& what) {
-  fmt::print(stderr, "bench reach: {}\n", what);
+  app::print(stderr, "bench reach: {}\n", what);
 }
 
 // --- air3D ---------------------------------------------------------------------------------------

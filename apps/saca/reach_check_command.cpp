@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/saca/places.h"
+#include "apps/saca/printing.h"
 #include "apps/saca/reach_commands.h"
 #include "saca/core/file.h"
 #include "saca/core/parallel.h"
@@ -73,12 +74,12 @@ int check(const CheckOptions& options) {
     figures[name + ".order"] = order;
     figures[name + ".error_m"] = one.errors.back();
     if (!options.as_json) {
-      fmt::print("{:32} mean error {:.2e} m at {:.4f} m, order {:.2f}\n", one.name,
+      app::print("{:32} mean error {:.2e} m at {:.4f} m, order {:.2f}\n", one.name,
                  one.errors.back(), one.spacings.back(), order);
     }
   }
   if (options.as_json) {
-    fmt::print("{}\n", figures.dump(1));
+    app::print("{}\n", figures.dump(1));
   }
   if (options.picture.empty()) {
     return success;

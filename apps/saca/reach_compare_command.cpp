@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/saca/places.h"
+#include "apps/saca/printing.h"
 #include "apps/saca/reach_commands.h"
 #include "apps/saca/within.h"
 #include "saca/core/file.h"
@@ -97,20 +98,20 @@ json agreement_figures(const AuthorsComparison& found) {
 
 void tell_agreement(const AuthorsComparison& found) {
   const auto line = [](const std::string& head, const Agreement& agreement) {
-    fmt::print("{:>8} {:8} {:8} {:9.1f} % {:9.1f} % {:9.1f} %", head, agreement.states,
+    app::print("{:>8} {:8} {:8} {:9.1f} % {:9.1f} % {:9.1f} %", head, agreement.states,
                agreement.unsafe, 100.0 * agreement.sign_agreement(),
                100.0 * agreement.false_safe_share(), 100.0 * agreement.false_alarm_share());
   };
-  fmt::print("{:>8} {:>8} {:>8} {:>11} {:>11} {:>11}   mean value [m], solved and network\n", "m/s",
+  app::print("{:>8} {:>8} {:>8} {:>11} {:>11} {:>11}   mean value [m], solved and network\n", "m/s",
              "states", "unsafe", "same sign", "false safe", "false alarm");
   for (const auto& one : found.by_speed) {
     line(fmt::format("{:g}", one.speed), one.agreement);
-    fmt::print("   {:6.1f} {:6.1f}\n", one.mean_solved, one.mean_network);
+    app::print("   {:6.1f} {:6.1f}\n", one.mean_solved, one.mean_network);
   }
   line("all", found.all);
-  fmt::print("\n");
+  app::print("\n");
   if (found.outside > 0) {
-    fmt::print("{} states of the network's range lie outside the solution\n", found.outside);
+    app::print("{} states of the network's range lie outside the solution\n", found.outside);
   }
 }
 
@@ -153,11 +154,11 @@ int compare_values(const CompareOptions& options) {
     return refused(*problem);
   }
   if (options.as_json) {
-    fmt::print("{}\n", agreement_figures(found).dump(1));
+    app::print("{}\n", agreement_figures(found).dump(1));
     return success;
   }
   tell_agreement(found);
-  fmt::print("Maps: {}\n", fs::absolute(options.output).string());
+  app::print("Maps: {}\n", fs::absolute(options.output).string());
   return success;
 }
 

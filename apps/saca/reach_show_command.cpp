@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "apps/saca/places.h"
+#include "apps/saca/printing.h"
 #include "apps/saca/reach_commands.h"
 #include "apps/saca/within.h"
 #include "saca/core/file.h"
@@ -258,7 +259,7 @@ int show(const ReachShowOptions& options) {
   if (const auto problem = write_file(options.output, made.value())) {
     return refused(*problem);
   }
-  fmt::print("{}: {}\n", options.output, what_is_shown(solved, view));
+  app::print("{}: {}\n", options.output, what_is_shown(solved, view));
   return success;
 }
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "apps/saca/places.h"
+#include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/reach_commands.h"
 #include "apps/saca/reach_problem.h"
@@ -96,10 +97,10 @@ void tell(const SolveOptions& options, const Solved& solved, double seconds) {
                              {"times_s", solved.times},
                              {"unsafe_share", share},
                              {"seconds", seconds}};
-    fmt::print("{}\n", all.dump(1));
+    app::print("{}\n", all.dump(1));
     return;
   }
-  fmt::print("{}: {} cells, to {:g} s, {:.2f} % of them unsafe; {:.1f} s\n", options.output,
+  app::print("{}: {} cells, to {:g} s, {:.2f} % of them unsafe; {:.1f} s\n", options.output,
              values.size(), solved.times.back(), 100.0 * share, seconds);
 }
 
@@ -124,8 +125,11 @@ int solve_case(const SolveOptions& options) {
     return refused(*wrong);
   }
   std::error_code none;
-  if (fs::is_directory(options.output, none)) {
-    return refused({Error::Code::unwritable, options.output + ": is a folder, want a file"});
+  if (fs::exists(options.output, none) && !fs::is_regular_file(options.output, none)) {
+    const bool is_folder = fs::is_directory(options.output, none);
+    return refused(
+        {Error::Code::unwritable,
+         options.output + (is_folder ? ": is a folder" : ": is no file") + ", want a file"});
   }
   watch_for_interrupt();
   SteadyClock clock;

@@ -1,5 +1,3 @@
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -10,6 +8,7 @@
 
 #include "apps/saca/danger_making.h"
 #include "apps/saca/inputs.h"
+#include "apps/saca/printing.h"
 #include "apps/saca/reach_commands.h"
 
 namespace saca::app {
@@ -86,12 +85,12 @@ int make_tables(TablesOptions options) {
       list.push_back(
           {{"car", car}, {"table", name}, {"file", file}, {"was_there", ready.value().was_there}});
       if (!options.as_json) {
-        fmt::print("{:18} {:20} {}\n", car, name, ready.value().was_there ? "was there" : "solved");
+        app::print("{:18} {:20} {}\n", car, name, ready.value().was_there ? "was there" : "solved");
       }
     }
   }
   if (options.as_json) {
-    fmt::print("{}\n", list.dump(1));
+    app::print("{}\n", list.dump(1));
   }
   return success;
 }

@@ -1,4 +1,3 @@
-#include <fmt/core.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -15,6 +14,7 @@
 #include "apps/saca/first_question.h"
 #include "apps/saca/inputs.h"
 #include "apps/saca/model.h"
+#include "apps/saca/printing.h"
 #include "saca/decide/check.h"
 #include "saca/reason/prompt.h"
 #include "saca/reason/reply.h"
@@ -50,7 +50,7 @@ class Stream {
 
   void take(std::size_t scene, std::string_view text) {
     if (lines_.size() == 1) {
-      fmt::print("{}", text);
+      app::print("{}", text);
       std::fflush(stdout);
       return;
     }
@@ -67,12 +67,12 @@ class Stream {
         tell(scene, lines_[scene]);
       }
     }
-    fmt::print("\n");
+    app::print("\n");
   }
 
  private:
   static void tell(std::size_t scene, std::string_view line) {
-    fmt::print("{} | {}\n", scene + 1, line);
+    app::print("{} | {}\n", scene + 1, line);
     std::fflush(stdout);
   }
 
@@ -108,35 +108,35 @@ json considered_json(const Considered& one) {
 }
 
 void tell_considered(std::size_t number, const Considered& one, bool with_text) {
-  fmt::print("--- Forecast {} ---\n", number);
+  app::print("--- Forecast {} ---\n", number);
   if (with_text) {
-    fmt::print("{}\n", one.reply.reasoning);
+    app::print("{}\n", one.reply.reasoning);
   }
-  fmt::print("{:>9} {:>7}", "after", "answer");
+  app::print("{:>9} {:>7}", "after", "answer");
   for (const PolicyId policy : manoeuvre::all_policies) {
-    fmt::print(" {:>7}", name(policy));
+    app::print(" {:>7}", name(policy));
   }
-  fmt::print("\n");
+  app::print("\n");
   for (const Answer& answer : one.reply.answers) {
-    fmt::print("{:>6.0f} ms {:>7}", milliseconds(answer.time), name(answer.kind));
+    app::print("{:>6.0f} ms {:>7}", milliseconds(answer.time), name(answer.kind));
     for (const double p : answer.probability) {
-      fmt::print(" {:>5.0f} %", 100.0 * p);
+      app::print(" {:>5.0f} %", 100.0 * p);
     }
-    fmt::print("\n");
+    app::print("\n");
   }
   const auto num_checked = static_cast<std::size_t>(one.truth.num_checked);
-  fmt::print("Truth: {} of {} statements that can be checked.\n",
+  app::print("Truth: {} of {} statements that can be checked.\n",
              num_checked - one.truth.wrong.size(), num_checked);
   for (const reason::FalseStatement& each : one.truth.wrong) {
-    fmt::print("  false{}: \"{}\": {}\n", each.load_bearing ? ", and the choice rests on it" : "",
+    app::print("  false{}: \"{}\": {}\n", each.load_bearing ? ", and the choice rests on it" : "",
                each.text, each.why);
   }
   if (one.reply.answers.empty()) {
-    fmt::print("No answer in time.\n\n");
+    app::print("No answer in time.\n\n");
     return;
   }
   const PolicyId chosen = likeliest_policy(one.reply.answers.back());
-  fmt::print("Choice: {} {}; rollout check {}: {}.\n{} tokens read, {} written.\n\n",
+  app::print("Choice: {} {}; rollout check {}: {}.\n{} tokens read, {} written.\n\n",
              manoeuvre::index(chosen), name(chosen), one.check->passed ? "passed" : "failed",
              one.check->text, one.reply.prompt_tokens, one.reply.reply_tokens);
 }
@@ -144,7 +144,7 @@ void tell_considered(std::size_t number, const Considered& one, bool with_text) 
 void tell_question(const std::vector<Preview>& previews) {
   for (const Preview& preview : previews) {
     const preview::Situation& situation = preview.situation;
-    fmt::print("--- Forecast {} of {}: {:.0f} % likely, trigger at {:.2f} s ---\n{}\n",
+    app::print("--- Forecast {} of {}: {:.0f} % likely, trigger at {:.2f} s ---\n{}\n",
                preview.number + 1, previews.size(), 100.0 * situation.probability,
                situation.scene_at_trigger.time, preview.prompt);
   }
@@ -206,7 +206,7 @@ int reason_about(const ReasonOptions& options) {
   }
   const std::vector<Preview>& previews = asked.value().previews;
   if (!options.as_json) {
-    fmt::print("{}\nLanguage model: {}.\n\n", inputs.value().scenario.title,
+    app::print("{}\nLanguage model: {}.\n\n", inputs.value().scenario.title,
                model.value()->description());
     tell_question(previews);
   }
@@ -238,14 +238,14 @@ int reason_about(const ReasonOptions& options) {
     for (const Considered& one : all) {
       document["forecasts"].push_back(considered_json(one));
     }
-    fmt::print("{}\n", document.dump(1));
+    app::print("{}\n", document.dump(1));
     return success;
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
     tell_considered(i + 1, all[i], !options.stream);
   }
   if (all.empty()) {
-    fmt::print("Nothing threatens in this scenario: there is nothing to ask.\n");
+    app::print("Nothing threatens in this scenario: there is nothing to ask.\n");
   }
   return success;
 }

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "apps/saca/printing.h"
 #include "apps/saca/regulation_page.h"
 #include "apps/saca/suite_running.h"
 #include "saca/core/file.h"
@@ -91,32 +92,32 @@ json json_of(const RegulationRun& run) {
 }
 
 void print(const RegulationRun& run) {
-  fmt::print("{}: {} tests with each of {} cars; tests passed\n\n{:22}", run.regulation.title,
+  app::print("{}: {} tests with each of {} cars; tests passed\n\n{:22}", run.regulation.title,
              run.cells.size(), run.cars.size(), "row");
   for (const std::string& method : run.methods) {
-    fmt::print(" {:>20}", method);
+    app::print(" {:>20}", method);
   }
-  fmt::print("\n");
+  app::print("\n");
   const auto line = [&](const std::string& name, std::optional<std::size_t> car,
                         std::optional<std::size_t> row) {
-    fmt::print("{:22}", name);
+    app::print("{:22}", name);
     for (std::size_t m = 0; m < run.methods.size(); ++m) {
       const Passed sum = passed_by(run, {.method = m, .car = car, .row = row});
-      fmt::print(" {:>20}", fmt::format("{} of {}", sum.passed, sum.all));
+      app::print(" {:>20}", fmt::format("{} of {}", sum.passed, sum.all));
     }
-    fmt::print("\n");
+    app::print("\n");
   };
   for (std::size_t r = 0; r < run.regulation.rows.size(); ++r) {
     line(run.regulation.rows[r].name, std::nullopt, r);
   }
-  fmt::print("\n");
+  app::print("\n");
   for (std::size_t k = 0; k < run.cars.size(); ++k) {
     line(run.cars[k], k, std::nullopt);
   }
   line("all", std::nullopt, std::nullopt);
-  fmt::print("\n");
+  app::print("\n");
   for (const std::string& sentence : constant_in_words(run)) {
-    fmt::print("{}\n", sentence);
+    app::print("{}\n", sentence);
   }
 }
 
@@ -156,10 +157,10 @@ int run_regulation(RegulationOptions options) {
     return refused(*problem);
   }
   if (options.as_json) {
-    fmt::print("{}", text);
+    app::print("{}", text);
   } else {
     print(run);
-    fmt::print("\npage: {}\n", options.output);
+    app::print("\npage: {}\n", options.output);
   }
   for (std::size_t m = 0; m < run.methods.size(); ++m) {
     if (passed_by(run, {.method = m}).faults > 0) {

@@ -1,5 +1,3 @@
-#include <fmt/core.h>
-
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -9,6 +7,7 @@
 #include "apps/saca/atlas_making.h"
 #include "apps/saca/commands.h"
 #include "apps/saca/inputs.h"
+#include "apps/saca/printing.h"
 #include "saca/core/file.h"
 #include "saca/manoeuvre/atlas_file.h"
 #include "saca/runtime/read_tape.h"
@@ -68,30 +67,30 @@ json replay_json(const runtime::TapeFile& tape, const runtime::Replay& replay) {
 
 void print(const runtime::TapeFile& tape, const runtime::Replay& replay) {
   const runtime::TapeHeader& header = tape.header;
-  fmt::print("Recorded{}{}: {} steps at pace {}, car {}, language model {}.\n",
+  app::print("Recorded{}{}: {} steps at pace {}, car {}, language model {}.\n",
              header.scenario.empty() ? "" : " in ", header.scenario, tape.content.steps.size(),
              name(header.pace), header.car, header.model);
   const auto row = [](const char* what, const runtime::Reproduced& of) {
-    fmt::print("  {:<34} {:>6} of {:>6}\n", what, of.same, of.recorded);
+    app::print("  {:<34} {:>6} of {:>6}\n", what, of.same, of.recorded);
   };
-  fmt::print("Worked out again, the same to the last bit:\n");
+  app::print("Worked out again, the same to the last bit:\n");
   row("verdicts", replay.verdicts);
   row("choices at a trigger", replay.decisions);
   row("switches to another plan", replay.switches);
   row("answers of the reflex plane", replay.answers);
   row("scenes with what was believed", replay.beliefs);
   if (tape.content.dropped + tape.content.lost > 0) {
-    fmt::print("The tape had no room for {} earlier and {} later steps.\n", tape.content.dropped,
+    app::print("The tape had no room for {} earlier and {} later steps.\n", tape.content.dropped,
                tape.content.lost);
   }
   if (replay.verdicts_not_compared + replay.beliefs_not_compared > 0) {
-    fmt::print(
+    app::print(
         "Not compared, because the tape does not have what they come from: {} verdicts, "
         "the beliefs of {} scenes.\n",
         replay.verdicts_not_compared, replay.beliefs_not_compared);
   }
   if (replay.first) {
-    fmt::print("The first difference is at {} s, step {}: {} was {}, and is {} now.\n",
+    app::print("The first difference is at {} s, step {}: {} was {}, and is {} now.\n",
                replay.first->time, replay.first->scene, replay.first->what, replay.first->recorded,
                replay.first->got);
   }
@@ -138,7 +137,7 @@ int run(const ReplayOptions& options) {
   const runtime::Replay replay =
       runtime::replay(tape.value().content, setup, inputs.value().intent, header.num_draws);
   if (options.as_json) {
-    fmt::print("{}\n", replay_json(tape.value(), replay).dump(1));
+    app::print("{}\n", replay_json(tape.value(), replay).dump(1));
   } else {
     print(tape.value(), replay);
   }

@@ -1,4 +1,3 @@
-#include <fmt/core.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -13,6 +12,7 @@
 #include "apps/saca/danger_making.h"
 #include "apps/saca/inputs.h"
 #include "apps/saca/model.h"
+#include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/story.h"
 #include "apps/saca/thinking_options.h"
@@ -233,7 +233,7 @@ int run(const RunOptions& options) {
     problem = model.value().save_replies();
   }
   if (options.as_json) {
-    fmt::print("{}\n", text);
+    app::print("{}\n", text);
   } else if (!problem) {
     story.on_report(fs::absolute(report).string());
   }

@@ -1,10 +1,9 @@
-#include <fmt/core.h>
-
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "apps/saca/commands.h"
 #include "apps/saca/places.h"
+#include "apps/saca/printing.h"
 #include "saca/sim/scenario.h"
 
 namespace saca::app {
@@ -31,11 +30,11 @@ int list_scenarios(bool as_json) {
                     {"title", scenario.value().title},
                     {"source", scenario.value().source}});
     if (!as_json) {
-      fmt::print("{:28} {}\n", scenario.value().name, scenario.value().title);
+      app::print("{:28} {}\n", scenario.value().name, scenario.value().title);
     }
   }
   if (as_json) {
-    fmt::print("{}\n", list.dump(1));
+    app::print("{}\n", list.dump(1));
   }
   return code;
 }

@@ -9,6 +9,7 @@
 #include "apps/saca/commands.h"
 #include "apps/saca/pictures.h"
 #include "apps/saca/places.h"
+#include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/surveying.h"
 #include "apps/saca/within.h"
@@ -147,7 +148,7 @@ int run(const ShowcaseCommand& options) {
                       {"margin_low", margin.low},
                       {"why", one.scenario.why}});
       if (!options.as_json) {
-        fmt::print("{}: {}\n", one.scenario.name, one.scenario.why);
+        app::print("{}: {}\n", one.scenario.name, one.scenario.why);
       }
     }
   }
@@ -156,11 +157,11 @@ int run(const ShowcaseCommand& options) {
     return was_interrupted;
   }
   if (options.as_json) {
-    fmt::print("{}\n",
+    app::print("{}\n",
                json{{"schema", "saca.showcase/1"}, {"missing", missing}, {"found", list}}.dump(
                    1, ' ', false, json::error_handler_t::replace));
   } else if (missing > 0) {
-    fmt::print("{} scenes are missing: try more encounters (--count) or candidates (--tries)\n",
+    app::print("{} scenes are missing: try more encounters (--count) or candidates (--tries)\n",
                missing);
   }
   return success;

@@ -10,12 +10,14 @@
 #include <cstring>
 #include <iterator>
 
+#include "saca/core/printable.h"
 #include "saca/outcome/describe.h"
 
 namespace saca::app {
 namespace {
 
 constexpr const char* plain = "\033[0m";
+constexpr std::size_t longest_event = 2'000;  // characters; a terminal need not show more
 
 const char* colour_of(decide::EventKind kind) {
   using decide::EventKind;
@@ -71,7 +73,7 @@ void Story::write_waiting(int seconds) {
 
 void Story::on_event(const decide::Event& event) {
   say(fmt::format("{}{:7.2f} s  {:8}  {}{}\n", colour_ ? colour_of(event.kind) : "", event.time,
-                  name(event.plane), event.text, colour_ ? plain : ""));
+                  name(event.plane), one_line(event.text, longest_event), colour_ ? plain : ""));
 }
 
 void Story::on_reasoning(std::int32_t, std::string_view) {
@@ -80,8 +82,9 @@ void Story::on_reasoning(std::int32_t, std::string_view) {
 
 void Story::headline(const sim::Scenario& scenario, const loop::Setup& setup) {
   waiting_ += fmt::format("{}\n{}\nPace {}, grip {:.2f}, language model: {}, forecasts: {}.\n\n",
-                          scenario.title, scenario.source, name(setup.pace), scenario.grip,
-                          setup.model == nullptr ? "off" : setup.model->description(),
+                          printable(scenario.title), printable(scenario.source), name(setup.pace),
+                          scenario.grip,
+                          setup.model == nullptr ? "off" : one_line(setup.model->description()),
                           setup.atlas == nullptr ? "rolled out" : "from the atlas");
   write_waiting(0);
 }
@@ -90,7 +93,7 @@ void Story::ending(const sim::Scenario& scenario, const loop::Record& record) {
   std::string text = "\n";
   const auto line = std::back_inserter(text);
   if (!scenario.driver.empty()) {
-    fmt::format_to(line, "The driver: {}\n", scenario.driver);
+    fmt::format_to(line, "The driver: {}\n", printable(scenario.driver));
   }
   if (record.driver) {
     fmt::format_to(line, "The drive as recorded: {}.\n",
@@ -115,12 +118,12 @@ void Story::ending(const sim::Scenario& scenario, const loop::Record& record) {
 }
 
 void Story::on_review(std::string_view text) {
-  say(fmt::format("{}{}", reviewing_ ? "" : "\nThe language model looks back:\n", text));
+  say(fmt::format("{}{}", reviewing_ ? "" : "\nThe language model looks back:\n", printable(text)));
   reviewing_ = true;
 }
 
 void Story::on_report(const std::string& file) {
-  say(fmt::format("{}Report: {}\n", reviewing_ ? "\n\n" : "", file));
+  say(fmt::format("{}Report: {}\n", reviewing_ ? "\n\n" : "", one_line(file, longest_event)));
 }
 
 }  // namespace saca::app

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/printing.h"
 #include "apps/saca/regulation_command.h"
 #include "apps/saca/suite_decisions.h"
 #include "apps/saca/suite_pages.h"
@@ -128,46 +129,46 @@ json json_of(const SuiteRun& run, const SuiteResult& result, const SuiteCommandO
 }
 
 void print(const SuiteRun& run, const SuiteResult& result, const SuiteCommandOptions& options) {
-  fmt::print("{}: {} encounters, {} could not be played; means with 95 % intervals\n", options.name,
+  app::print("{}: {} encounters, {} could not be played; means with 95 % intervals\n", options.name,
              run.rows.size(), result.faults);
   for (const std::string& note : run.notes) {
-    fmt::print("{}\n", note);
+    app::print("{}\n", note);
   }
-  fmt::print("\n");
+  app::print("\n");
   constexpr const char* line = "{:22} {:26} {:26} {:26} {:7} {:6} {:9} {:8}\n";
-  fmt::print(line, "method", "harm", "regret, all plans", "regret, as published", "contact",
+  app::print(line, "method", "harm", "regret, all plans", "regret, as published", "contact",
              "right", "worse than", "needless");
-  fmt::print(line, "", "", "", "", "%", "%", "AEB, %", "%");
+  app::print(line, "", "", "", "", "%", "%", "AEB, %", "%");
   for (const MethodFigures& one : result.all) {
     const auto share = [](const Estimate& estimate) {
       return estimate.n == 0 ? std::string("-") : fmt::format("{:.1f}", 100.0 * estimate.value);
     };
-    fmt::print(line, one.method, with_interval(one.harm, 4), with_interval(one.regret, 4),
+    app::print(line, one.method, with_interval(one.harm, 4), with_interval(one.regret, 4),
                with_interval(one.published_regret, 4), share(one.contact), share(one.right),
                share(one.worse_than_aeb), share(one.needless));
   }
   for (const MethodFigures& one : result.all) {
     if (one.thinking) {
-      fmt::print("\n{}\n", decisions_text(one));
+      app::print("\n{}\n", decisions_text(one));
       if (one.expected) {
-        fmt::print("{}\n", expectations_text(one));
+        app::print("{}\n", expectations_text(one));
       }
     }
   }
   const DriverFigures drivers = driver_figures(run);
   if (drivers.count > 0) {
-    fmt::print("\n{} recorded drivers: harm {:.4f}, {} met somebody, {} braked, {} moved aside\n",
+    app::print("\n{} recorded drivers: harm {:.4f}, {} met somebody, {} braked, {} moved aside\n",
                drivers.count, drivers.harm, drivers.met, drivers.braked, drivers.steered);
     for (std::size_t m = 0; m < run.methods.size(); ++m) {
-      fmt::print("  {} does as the driver did in {:.0f} % of those who met nobody\n",
+      app::print("  {} does as the driver did in {:.0f} % of those who met nobody\n",
                  run.methods[m], 100.0 * drivers.agreement[m]);
     }
   }
   if (run.worked > 0) {
-    fmt::print("\n{:.1f} encounters/s on {} threads\n", run.worked / run.seconds, options.threads);
+    app::print("\n{:.1f} encounters/s on {} threads\n", run.worked / run.seconds, options.threads);
   }
   if (result.method_faults > 0) {
-    fmt::print("{} times a method failed: the rows hold why\n", result.method_faults);
+    app::print("{} times a method failed: the rows hold why\n", result.method_faults);
   }
 }
 
@@ -267,7 +268,7 @@ int run(const CLI::App& line, SuiteCommand options) {
     if (!command.has_value()) {
       return refused(command.error());
     }
-    fmt::print("{}\n", command.value());
+    app::print("{}\n", command.value());
     return success;
   }
   if (line.count("--methods") == 0) {
@@ -297,10 +298,10 @@ int run(const CLI::App& line, SuiteCommand options) {
     return refused(*problem);
   }
   if (options.as_json) {
-    fmt::print("{}\n", figures.dump(1, ' ', false, json::error_handler_t::replace));
+    app::print("{}\n", figures.dump(1, ' ', false, json::error_handler_t::replace));
   } else {
     print(done, result, suite);
-    fmt::print("page: {}, rows: {}\n", fs::path(suite.output).replace_extension(".html").string(),
+    app::print("page: {}, rows: {}\n", fs::path(suite.output).replace_extension(".html").string(),
                suite.output);
   }
   return result.faults + result.method_faults > 0 ? some_failed : success;

@@ -11,6 +11,7 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/planes_making.h"
+#include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/suite_pages.h"
 #include "saca/core/file.h"
@@ -182,17 +183,17 @@ std::vector<eval::MethodFigures> first_draws(const std::vector<SuiteRow>& played
 }
 
 void print_row(const char* title, const std::array<std::string, 6>& cells) {
-  fmt::print("  {:44} {:>9} {:>24} {:>24} | {:>9} {:>24} {:>24}\n", title, cells[0], cells[1],
+  app::print("  {:44} {:>9} {:>24} {:>24} | {:>9} {:>24} {:>24}\n", title, cells[0], cells[1],
              cells[2], cells[3], cells[4], cells[5]);
 }
 
 void print(const TableSpec& table, const std::vector<eval::MethodFigures>& few,
            const std::vector<eval::MethodFigures>& many) {
-  fmt::print("{}\n  {}\n", table.title, table.conditions);
+  app::print("{}\n  {}\n", table.title, table.conditions);
   print_row("", {"published", fmt::format("n = {}", few.front().collision_loss.n),
                  fmt::format("n = {}", many.front().collision_loss.n), "published",
                  "ten draws each", "all draws"});
-  fmt::print("  {:44} {:>9} {:>49} | {:>9} {:>49}\n", "", "", "Collision Loss", "",
+  app::print("  {:44} {:>9} {:>49} | {:>9} {:>49}\n", "", "", "Collision Loss", "",
              "False-Trigger Loss");
   for (const PublishedRow& row : table.published) {
     print_row(row.title, {fmt::format("{:.2f}", row.collision_loss), "not yet", "not yet",
@@ -206,7 +207,7 @@ void print(const TableSpec& table, const std::vector<eval::MethodFigures>& few,
               {"-", with_interval(few[m].collision_loss, 2),
                with_interval(many[m].collision_loss, 2), "-", triggers(few[m]), triggers(many[m])});
   }
-  fmt::print("\n");
+  app::print("\n");
 }
 
 void add(json& out, const TableSpec& table, const std::vector<eval::MethodFigures>& figures,
@@ -273,9 +274,9 @@ int run(const TablesCommand& options) {
     }
   }
   if (options.as_json) {
-    fmt::print("{}\n", out.dump(1, ' ', false, json::error_handler_t::replace));
+    app::print("{}\n", out.dump(1, ' ', false, json::error_handler_t::replace));
   } else {
-    fmt::print(
+    app::print(
         "Published: arXiv 2504.00115, Tables II and III (its text gives 1.54 for SACA's Collision "
         "Loss in the intersection, its table 0.54).\nThe paper counts only replies within 4.2 s; "
         "no "

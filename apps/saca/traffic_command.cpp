@@ -9,6 +9,7 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/places.h"
+#include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
 #include "saca/core/clock.h"
 #include "saca/traffic/pack.h"
@@ -44,9 +45,9 @@ nlohmann::json set_json(const RecordedSet& set) {
 }
 
 void tell_counts(const std::string& what, const SetCounts& counts) {
-  fmt::print("{}: {} recordings in {} groups, {} vehicles, {} samples, {:.2f} vehicle-hours\n",
+  app::print("{}: {} recordings in {} groups, {} vehicles, {} samples, {:.2f} vehicle-hours\n",
              what, counts.recordings, counts.groups, counts.vehicles, counts.samples, counts.hours);
-  fmt::print(
+  app::print(
       "  lanes crossed: {} to the left, {} to the right; samples in a lane: {}, with a lead: "
       "{}\n",
       counts.steps_left, counts.steps_right, counts.in_lane, counts.with_lead);
@@ -58,7 +59,7 @@ void tell_set(const RecordedSet& set) {
   }
   tell_counts("all", traffic::counts_of(set));
   for (const auto& [reason, count] : set.skipped) {
-    fmt::print("  left out: {} x {}\n", count, reason);
+    app::print("  left out: {} x {}\n", count, reason);
   }
 }
 
@@ -103,7 +104,7 @@ int pack(const PackSource& source, const TrafficPackOptions& options) {
     return refused(*problem);
   }
   if (options.as_json) {
-    fmt::print("{}\n", set_json(packed.value().set).dump(1));
+    app::print("{}\n", set_json(packed.value().set).dump(1));
   } else {
     tell_set(packed.value().set);
   }
@@ -126,7 +127,7 @@ int show_info(const std::string& file, bool as_json) {
     return refused(set.error());
   }
   if (as_json) {
-    fmt::print("{}\n", set_json(set.value()).dump(1));
+    app::print("{}\n", set_json(set.value()).dump(1));
   } else {
     tell_set(set.value());
   }

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "apps/saca/printing.h"
 #include "saca/core/file.h"
 #include "saca/report/suite_page.h"
 
@@ -92,28 +93,28 @@ std::string with_bounds(const Rate& rate) {
 }
 
 void print_line(const std::string& source, const ShadowFigures& one) {
-  fmt::print("{:12} {:6} {:8.3f} {:9.2f} {:8} {:8} {:6} {:6}  {:24} {:26}\n", source, one.drives,
+  app::print("{:12} {:6} {:8.3f} {:9.2f} {:8} {:8} {:6} {:6}  {:24} {:26}\n", source, one.drives,
              one.hours, one.kilometres, one.previews_per_hour.count, one.triggers_per_hour.count,
              one.danger, one.false_per_hour.count, with_bounds(one.triggers_per_hour),
              with_bounds(one.false_per_1000km));
 }
 
 void print_traffic(const WatchedTraffic& traffic, const ShadowFigures& all) {
-  fmt::print("SACA in shadow: {} of {} recorded drives; rates with exact 95 % intervals\n\n",
+  app::print("SACA in shadow: {} of {} recorded drives; rates with exact 95 % intervals\n\n",
              traffic.rows.size(), traffic.found);
-  fmt::print("{:12} {:>6} {:>8} {:>9} {:>8} {:>8} {:>6} {:>6}  {:24} {:26}\n", "source", "drives",
+  app::print("{:12} {:>6} {:>8} {:>9} {:>8} {:>8} {:>6} {:>6}  {:24} {:26}\n", "source", "drives",
              "h", "km", "previews", "triggers", "danger", "false", "triggers per h",
              "false per 1,000 km");
   for (const std::string& source : traffic_sources(traffic)) {
     print_line(source, eval::shadow_figures(traffic.rows, source));
   }
   print_line("all", all);
-  fmt::print("\n");
+  app::print("\n");
   for (const auto& [reason, times] : all.reasons) {
-    fmt::print("{:6} {:6} {}\n", times, is_danger(reason) ? "danger" : "false", meaning(reason));
+    app::print("{:6} {:6} {}\n", times, is_danger(reason) ? "danger" : "false", meaning(reason));
   }
   if (all.left_out > 0) {
-    fmt::print("{:6} drives could not be watched: the page tells why\n", all.left_out);
+    app::print("{:6} drives could not be watched: the page tells why\n", all.left_out);
   }
 }
 
@@ -340,10 +341,10 @@ int run_traffic_suite(const TrafficWatch& options, bool as_json) {
     return refused(*problem);
   }
   if (as_json) {
-    fmt::print("{}\n", text);
+    app::print("{}\n", text);
   } else {
     print_traffic(traffic, all);
-    fmt::print("page: {}, figures: {}\n", page.string(), beside.string());
+    app::print("page: {}, figures: {}\n", page.string(), beside.string());
   }
   return success;
 }

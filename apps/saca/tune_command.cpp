@@ -9,6 +9,7 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/places.h"
+#include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
 #include "saca/core/file.h"
 #include "saca/core/fnv.h"
@@ -158,7 +159,7 @@ int tune_car(TuneOptions options) {
   if (!drift.has_value() || !drift.value()) {
     return not_tuned(drift, output);
   }
-  fmt::print(stderr, "domain of the T-drift: {} draws at each speed and grip\n", options.draws);
+  app::print(stderr, "domain of the T-drift: {} draws at each speed and grip\n", options.draws);
   const auto domain = tune::find_domain(car, options.draws, options.seed + 1, options.threads,
                                         [] { return !interrupted(); });
   if (!domain) {
@@ -175,7 +176,7 @@ int tune_car(TuneOptions options) {
   fs::remove(swerve_journal);
   fs::remove(drift_journal);
   if (options.as_json) {
-    fmt::print("{}\n", nlohmann::json{{"output", output.string()},
+    app::print("{}\n", nlohmann::json{{"output", output.string()},
                                       {"swerve_cost", *swerve.value()},
                                       {"drift_cost", *drift.value()},
                                       {"drift_grip", manoeuvre::DriftDomain::grips},
@@ -183,7 +184,7 @@ int tune_car(TuneOptions options) {
                                       {"drift_fastest_mps", car.tuning.domain.fastest}}
                            .dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
-    fmt::print("{}: lane change {:.4f}, T-drift {:.4f}\n", output.string(), *swerve.value(),
+    app::print("{}: lane change {:.4f}, T-drift {:.4f}\n", output.string(), *swerve.value(),
                *drift.value());
   }
   return success;

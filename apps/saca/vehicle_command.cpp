@@ -8,6 +8,7 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/places.h"
+#include "apps/saca/printing.h"
 #include "apps/saca/within.h"
 #include "saca/core/file.h"
 #include "saca/core/names.h"
@@ -68,22 +69,22 @@ json fit_json(const FitOptions& options, const tune::VehicleFit& fit) {
 }
 
 void print_fit(const FitOptions& options, const tune::VehicleFit& fit) {
-  fmt::print("{:<26} {:>9} {:>9}   {}\n", "parameter", "base", "fitted", "95 % interval");
+  app::print("{:<26} {:>9} {:>9}   {}\n", "parameter", "base", "fitted", "95 % interval");
   for (const tune::FittedParameter& one : fit.parameters) {
     const std::string name = fmt::format("{}.{}", one.section, one.key);
     if (one.determined) {
-      fmt::print("{:<26} {:>9.4g} {:>9.4g}   {:.4g} to {:.4g}\n", name, one.base, one.value,
+      app::print("{:<26} {:>9.4g} {:>9.4g}   {:.4g} to {:.4g}\n", name, one.base, one.value,
                  one.low, one.high);
     } else {
-      fmt::print("{:<26} {:>9.4g} {:>9}   the logs do not determine it\n", name, one.base, "-");
+      app::print("{:<26} {:>9.4g} {:>9}   the logs do not determine it\n", name, one.base, "-");
     }
   }
-  fmt::print("\n{:<26} {:>9} {:>9} {:>9}   {}\n", "signal", "rms", "noise", "offset", "log");
+  app::print("\n{:<26} {:>9} {:>9} {:>9}   {}\n", "signal", "rms", "noise", "offset", "log");
   for (const tune::SignalQuality& one : fit.signals) {
-    fmt::print("{:<26} {:>9.2g} {:>9.2g} {:>9.2g}   {}\n", tune::info(one.signal).column, one.rms,
+    app::print("{:<26} {:>9.2g} {:>9.2g} {:>9.2g}   {}\n", tune::info(one.signal).column, one.rms,
                one.noise, one.offset, one.log);
   }
-  fmt::print("\n{}: the car as fitted; the grip is the road's and not in it\n", options.output);
+  app::print("\n{}: the car as fitted; the grip is the road's and not in it\n", options.output);
 }
 
 bool is_same_file(const fs::path& one, const fs::path& other) {
@@ -142,12 +143,12 @@ int fit_car(const FitOptions& options) {
     return refuse(problem->message, cannot_write);
   }
   if (options.as_json) {
-    fmt::print("{}\n", fit_json(options, fit).dump(1, ' ', false, json::error_handler_t::replace));
+    app::print("{}\n", fit_json(options, fit).dump(1, ' ', false, json::error_handler_t::replace));
   } else {
     print_fit(options, fit);
   }
   for (const std::string& warning : fit.warnings) {
-    fmt::print(stderr, "saca: warning: {}\n", warning);
+    app::print(stderr, "saca: warning: {}\n", warning);
   }
   return success;
 }
@@ -168,7 +169,7 @@ int drive_test(const TestDriveOptions& options) {
   if (const auto problem = write_file(options.output, tune::write_log(log))) {
     return refuse(problem->message, cannot_write);
   }
-  fmt::print("{}: {} of {} rows\n", options.output, name_of(log.kind, tune::kind_names),
+  app::print("{}: {} of {} rows\n", options.output, name_of(log.kind, tune::kind_names),
              log.time.size());
   return success;
 }

@@ -9,6 +9,7 @@
 #include "apps/saca/inputs.h"
 #include "apps/saca/moment_option.h"
 #include "apps/saca/places.h"
+#include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
 #include "saca/core/file.h"
 #include "saca/core/parallel.h"
@@ -175,12 +176,12 @@ void print_counts(const std::vector<Cell>& cells) {
   }
   for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
     if (counts[manoeuvre::index(policy)] > 0) {
-      fmt::print("  {:6} best in {:5.1f} %\n", name(policy),
+      app::print("  {:6} best in {:5.1f} %\n", name(policy),
                  100.0 * counts[manoeuvre::index(policy)] / static_cast<double>(cells.size()));
     }
   }
   if (impossible > 0) {
-    fmt::print("  {} of {} cannot be: bodies would overlap, or a value is out of range\n",
+    app::print("  {} of {} cannot be: bodies would overlap, or a value is out of range\n",
                impossible, cells.size());
   }
 }
@@ -226,10 +227,10 @@ int run(const WhatifCommand& options) {
     return refused(*problem);
   }
   if (!options.as_json) {
-    fmt::print("{}, {} scenes, from {:.2f} s on\n", inputs.value().scenario.title,
+    app::print("{}, {} scenes, from {:.2f} s on\n", inputs.value().scenario.title,
                cells.value()->size(), time.value());
     print_counts(*cells.value());
-    fmt::print("Map: {}\n", std::filesystem::absolute(options.svg).string());
+    app::print("Map: {}\n", std::filesystem::absolute(options.svg).string());
     return success;
   }
   json all{{"schema", "saca.whatif/1"},
@@ -243,7 +244,7 @@ int run(const WhatifCommand& options) {
   for (const Cell& cell : *cells.value()) {
     all["cells"].push_back(json_of(cell));
   }
-  fmt::print("{}\n", all.dump(1, ' ', false, json::error_handler_t::replace));
+  app::print("{}\n", all.dump(1, ' ', false, json::error_handler_t::replace));
   return success;
 }
 
