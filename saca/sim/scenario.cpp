@@ -75,13 +75,34 @@ world::Footprint read_footprint(Table& table, world::ActorKind kind) {
   return footprint;
 }
 
+/// What a body of this kind weighs [kg]: wide enough for anything of its kind, with who rides it,
+/// and narrow enough to catch a number in tonnes.
+Range masses_of(world::ActorKind kind) {
+  switch (kind) {
+    case world::ActorKind::car:
+    case world::ActorKind::van:
+      return {300.0, 10'000.0};
+    case world::ActorKind::truck:
+      return {1'000.0, 100'000.0};
+    case world::ActorKind::motorcycle:
+      return {40.0, 1'000.0};
+    case world::ActorKind::bicycle:
+      return {10.0, 500.0};
+    case world::ActorKind::pedestrian:
+      return {5.0, 500.0};
+    case world::ActorKind::obstacle:
+      break;
+  }
+  return {1.0, 1e6};
+}
+
 ScenarioActor read_actor(Table table) {
   ScenarioActor actor;
   actor.id = static_cast<std::uint8_t>(table.integer("id", 1, 99));
   actor.kind = read_word(table, "kind", world::actor_kind_from,
                          "car, van, truck, motorcycle, bicycle, pedestrian, obstacle");
   actor.footprint = read_footprint(table, actor.kind);
-  actor.mass = table.number("mass_kg", {1.0, 1e6});
+  actor.mass = table.number("mass_kg", masses_of(actor.kind));
   actor.ghost = table.flag("ghost", false);
   if (actor.ghost) {
     actor.existence = table.number("existence", {0.01, 0.99});

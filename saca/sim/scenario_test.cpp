@@ -135,6 +135,10 @@ TEST(ReadScenario, RefusesWhatCannotBe) {
   EXPECT_THAT(problem("speed_mps = 14", "speed_mps = -1"), HasSubstr("got -1"));
   EXPECT_THAT(problem("width_m = 2.5", "width_m = 0"), HasSubstr("width_m"));
   EXPECT_THAT(problem("mass_kg = 1500", "mass_kg = 0"), HasSubstr("mass_kg"));
+  EXPECT_THAT(problem("mass_kg = 1500", "mass_kg = 1.5"),  // in tonnes
+              HasSubstr("mass_kg: want 300 to 10000, got 1.5"));
+  EXPECT_THAT(problem("mass_kg = 12000", "mass_kg = 12"),
+              HasSubstr("mass_kg: want 1000 to 100000, got 12"));
   EXPECT_THAT(problem("grip = 0.9", "grip = 0"), HasSubstr("grip"));
   EXPECT_THAT(problem("duration_s = 8", "duration_s = 0"), HasSubstr("duration_s"));
   EXPECT_THAT(problem("\"saca.scenario/1\"", "\"saca.scenario/2\""), HasSubstr("schema"));

@@ -81,7 +81,7 @@ Scenario drawn(unsigned seed) {
     actor.id = static_cast<std::uint8_t>(i + 1);
     actor.kind = i == 7 ? world::ActorKind::bicycle : world::ActorKind::car;
     actor.footprint = {world::Shape::box, 1.0 + any(rng), 1.0 + any(rng), 0.0};
-    actor.mass = 1000.0 * any(rng) + 1.0;
+    actor.mass = 300.0 + 200.0 * any(rng);
     actor.motion = drawn_script(static_cast<Behaviour>(std::min(i, 6)), 100.0 + 10.0 * i, rng);
     scenario.actors.push_back(actor);
   }

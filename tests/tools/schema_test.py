@@ -77,6 +77,8 @@ WRONG = {
     "a probability above 1": top("perception", dropout=1.5),
     "a latency in ms": top("perception", latency_ms=100),
     "no size": actor(VAN, length_m=0),
+    "a car's mass in tonnes": actor(CAR, mass_kg=1.5),
+    "a truck as light as a car": actor(TRUCK, mass_kg=900),
     "a body without a width": without("actors", VAN, "width_m"),
     "an unknown kind": actor(VAN, kind="lorry"),
     "an unknown behaviour": start(VAN, behaviour="glide"),
