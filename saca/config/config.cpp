@@ -34,6 +34,8 @@ struct DocumentState {
 
 namespace {
 
+constexpr std::size_t longest_text = std::size_t{64} << 10U;  // bytes; our notes have 2 KiB
+
 const toml::table& table_of(const void* node) {
   return *static_cast<const toml::table*>(node);
 }
@@ -205,7 +207,14 @@ std::optional<std::string> Table::optional_text(std::string_view key) {
                     "want a text in quotes, got a " + kind(*node));
     return std::nullopt;
   }
-  return node->as_string()->get();
+  const std::string& text = node->as_string()->get();
+  if (text.size() > longest_text) {
+    document_->fail(Error::Code::out_of_range, node->source(), key,
+                    "want a text of at most " + std::to_string(longest_text) + " bytes, got " +
+                        std::to_string(text.size()));
+    return std::nullopt;
+  }
+  return text;
 }
 
 bool Table::flag(std::string_view key, bool otherwise) {

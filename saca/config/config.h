@@ -30,6 +30,7 @@ class Table {
   [[nodiscard]] std::optional<double> optional_number(std::string_view key, Range range = {});
   /// An integer in [min, max].
   [[nodiscard]] std::int64_t integer(std::string_view key, std::int64_t min, std::int64_t max);
+  /// A text of at most 64 KiB.
   [[nodiscard]] std::string text(std::string_view key);
   [[nodiscard]] std::optional<std::string> optional_text(std::string_view key);
   /// Rejects the document unless its text under `schema` is this.

@@ -145,8 +145,15 @@ TEST(Config, RefusesWhatIsNestedDeeply) {
             "car.toml:2: want arrays and tables within each other at most 32 deep, got more");
 }
 
+TEST(Config, RefusesATextWithoutEnd) {
+  const auto read = [](Table& t) { (void)t.text("a"); };
+  EXPECT_EQ(problem("a = \"" + std::string(65'536, 'x') + "\"", read), "");
+  EXPECT_EQ(problem("a = \"" + std::string(65'537, 'x') + "\"", read),
+            "car.toml:1: a: want a text of at most 65536 bytes, got 65537");
+}
+
 TEST(Config, ShowsOfWhatCameOneShortLine) {
-  const std::string key(100'000, 'k');
+  const std::string key(50'000, 'k');
   EXPECT_LT(problem(key + " = 1", [](Table&) {}).size(), 200U);
   const std::string message =
       problem("schema = \"a\\n\\u001b[2J" + key + "\"", [](Table& t) { t.want_schema("b"); });
