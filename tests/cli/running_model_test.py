@@ -5,6 +5,7 @@ import pathlib
 import signal
 import subprocess
 import sys
+import time
 
 import pytest
 
@@ -67,3 +68,35 @@ def test_a_model_that_is_struck_in_the_middle_changes_nothing_on_the_reflex_plan
     if not struck:
         pytest.skip("this machine was too busy to ask the model before the trigger")
     assert any("thinking" in line and "model: " in line for line in story), story
+
+
+SMALL_WEIGHTS = ROOT / "third_party" / "models" / "SmolLM2-135M-Instruct.Q8_0.gguf"
+
+
+@pytest.mark.skipif(not HOST.exists() or not SMALL_WEIGHTS.exists(), reason="llama.cpp and its smallest weights are not here")
+def test_the_models_process_ends_with_the_one_that_began_it():
+    """Also where somebody else still holds its input open."""
+    reader, writer = os.pipe()
+    begin = "import subprocess, sys, time; print(subprocess.Popen(sys.argv[1:], stdin=0, stdout=subprocess.DEVNULL).pid, flush=True); time.sleep(1000)"
+    parent = subprocess.Popen([sys.executable, "-c", begin, HOST, "--model", SMALL_WEIGHTS], stdin=reader, stdout=subprocess.PIPE, text=True)
+    child = pathlib.Path("/proc") / parent.stdout.readline().strip()
+
+    def lives():
+        return child.exists() and "\nState:\tZ" not in (child / "status").read_text()
+
+    def watches():  # it catches the signal that tells of its parent's end
+        caught = next(line for line in (child / "status").read_text().splitlines() if line.startswith("SigCgt"))
+        return int(caught.split()[1], 16) >> (signal.SIGUSR1 - 1) & 1
+
+    while not watches():
+        time.sleep(0.01)
+    time.sleep(0.1)
+    assert lives()
+    parent.kill()
+    parent.wait()
+    end = time.monotonic() + 100
+    while lives() and time.monotonic() < end:
+        time.sleep(0.01)
+    assert not lives()
+    os.close(reader)
+    os.close(writer)
