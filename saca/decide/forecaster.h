@@ -35,7 +35,7 @@ struct UnderWay {
 using Judge = std::function<Verdict(const world::Scene&, const intent::Beliefs&,
                                     const std::optional<UnderWay>&)>;
 
-/// Draws of a verdict: with 16 the regret in closed loop is that with 64 (docs/results.md).
+/// Draws of a verdict: with 16 the regret in closed loop is that with 64 (docs/decisions/0018).
 constexpr std::size_t usual_draws = 16;
 
 /// What the forecaster holds every plan against: draws of what the others may do from this scene on

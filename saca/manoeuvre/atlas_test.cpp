@@ -33,7 +33,7 @@ double worst_place(const AtlasPath& path, const world::Scene& scene, const EgoMo
 
 // At a node nothing lies between but integers of 16 bits and samples: 0.5 / 32767 of 40 m is
 // 0.6 mm, and a cubic over 0.1 s errs by jerk h^3 / 100 < 1 mm; the batch, which drives the nodes,
-// is some centimetres off `drive` itself (docs/results.md).
+// is some centimetres off `drive` itself (docs/decisions/0013).
 TEST(Atlas, AtANodeIsTheDrive) {
   for (const PolicyId policy : all_policies) {
     const double speed = policy == PolicyId::no_intervention ? 15.0 : 13.0;

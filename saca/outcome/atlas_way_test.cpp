@@ -16,7 +16,7 @@ using manoeuvre::PolicyId;
 using manoeuvre::small_atlas;
 using manoeuvre::small_atlas_car;
 
-// The atlas' error between its nodes is some centimetres (docs/results.md).
+// The atlas' error between its nodes is some centimetres (docs/decisions/0013).
 TEST(AtlasWay, IsWhereTheCarDrives) {
   world::Scene scene = atlas_scene(12.5, 0.85);
   scene.time = 3.0;
