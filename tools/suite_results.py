@@ -5,6 +5,8 @@ usage: tools/suite_results.py COMMIT FILE.json... [-- COMMIT FILE.json...]
            puts together files, each made at the commit named before it, as docs/suites.json, and writes docs/suites.md from it
        tools/suite_results.py
            writes docs/suites.md from docs/suites.json
+       tools/suite_results.py add COMMIT FILE.json...
+           the same with these files besides: each takes the place of the run of the same command
 Of the single families only the regret is kept.
 """
 
@@ -105,8 +107,8 @@ def suite_section(figures, name):
               percent(figures, f"{head}{m}.right"), percent(figures, f"{head}{m}.materially_worse_than_aeb"),
               percent(figures, f"{head}{m}.needless"), interval(figures, f"{head}{m}.false_trigger_loss", 3).split(" ")[0]]
              for m in methods]
-    text = [f"## Suite `{name}`\n",
-            f"{figures[head + 'n']} encounters, {figures[head + 'faults']} could not be played. Means with 95 % intervals; shares in per cent.\n",
+    text = [f"## Suite `{name}`, {figures[head + 'n']:,} encounters\n",
+            f"{figures[head + 'faults']} could not be played. Means with 95 % intervals; shares in per cent.\n",
             table(["method", "harm", "regret", "harm above AEB's", "contact", "as good as the best", "materially worse than AEB", "needless",
                    "False-Trigger Loss"], lines)]
     families = sorted({key[len(head):].split(".")[1] for key in figures
@@ -213,8 +215,17 @@ def groups_of(words):
     return groups
 
 
+def with_added(kept, added):
+    """The runs that are kept, and those that are added, in the places of those of the same commands."""
+    places = {run["meta.command"]: run for run in kept}
+    return list((places | {run["meta.command"]: run for run in added}).values())
+
+
 def main():
-    if len(sys.argv) > 1:
+    if sys.argv[1:2] == ["add"]:
+        runs = with_added(json.loads(KEPT.read_text()), merged(sys.argv[2], sys.argv[3:]))
+        KEPT.write_text(json.dumps(runs, indent=0, sort_keys=True) + "\n")
+    elif len(sys.argv) > 1:
         KEPT.write_text(json.dumps([run for commit, *files in groups_of(sys.argv[1:]) for run in merged(commit, files)], indent=0, sort_keys=True) + "\n")
     PAGE.write_text(page_of(json.loads(KEPT.read_text())))
 

@@ -22,7 +22,13 @@ def test_a_table_shows_mean_and_interval():
                "suite.x.aeb.crossing.regret": 0.25, "suite.x.n": 7, "suite.x.faults": 0}
     text = suite_results.suite_section(figures, "x")
     assert "| `aeb` | 0.1235 (0.1000 to 0.2000) | - | - | 50.0 |" in text.replace("0.1234 (", "0.1235 (")
-    assert "| `aeb` | 0.2500 |" in text and "7 encounters" in text
+    assert "| `aeb` | 0.2500 |" in text and "`x`, 7 encounters" in text
+
+
+def test_a_run_that_is_added_takes_the_place_of_the_same_command():
+    kept = [{"meta.command": "a", "x": 1}, {"meta.command": "b", "x": 2}]
+    assert suite_results.with_added(kept, [{"meta.command": "a", "x": 3}, {"meta.command": "c", "x": 4}]) == [
+        {"meta.command": "a", "x": 3}, {"meta.command": "b", "x": 2}, {"meta.command": "c", "x": 4}]
 
 
 def test_verdicts_stand_beside_what_happened():
