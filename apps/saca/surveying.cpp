@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string_view>
 
 #include "apps/saca/progress.h"
 #include "saca/core/file.h"
@@ -29,11 +30,9 @@ std::optional<Error> add_files(const Places& places, const std::string& car, Fnv
   }
   std::sort(files.begin(), files.end());
   for (const fs::path& file : files) {
-    const auto text = read_file(file);
-    if (!text.has_value()) {
-      return text.error();
+    if (auto problem = read_file(file, [&](std::string_view bytes) { hash.add(bytes); })) {
+      return problem;
     }
-    hash.add(text.value());
   }
   return std::nullopt;
 }
