@@ -139,6 +139,26 @@ TEST(Slide, ShorterStepsChangeLittle) {
   }
 }
 
+// Somebody on foot who is struck at the shoulder spins tens of times a second: a step of a forecast
+// turns by radians. Nothing is gained by that, and it ends where shorter steps have it.
+TEST(Slide, OfWhoSpinsFastIsWorkedOutInParts) {
+  const world::Footprint walker{.shape = world::Shape::ellipse, .length = 0.5, .width = 0.6};
+  for (const double spin : {30.0, -80.0, 150.0, -400.0}) {
+    ImpactBody body = free_body(75.0, walker);
+    body.v_W = {12.0, 3.0};
+    body.yaw_rate = spin;
+    const EgoMotion coarse = slide(walker, body, {}, 0.0, 0.8, coarse_slide);
+    const EgoMotion fine = slide(walker, body, {}, 0.0, 0.8, {.per_pose = 100});
+    for (std::size_t k = 1; k < coarse.v_B.size(); ++k) {
+      ASSERT_TRUE(is_finite(coarse.track.X_WA[k]));
+      ASSERT_LE(norm(coarse.v_B[k]), norm(coarse.v_B[k - 1]) + 1e-6) << spin;
+      ASSERT_LE(std::abs(coarse.yaw_rate[k]), std::abs(coarse.yaw_rate[k - 1]) + 1e-6) << spin;
+    }
+    const double tolerance = std::abs(spin) < 200.0 ? 0.06 : 1.0;  // [m]; 64 turns a second
+    EXPECT_LT(norm(coarse.track.X_WA.back().p - fine.track.X_WA.back().p), tolerance) << spin;
+  }
+}
+
 // Poses and velocities belong together: the way between two poses is the mean velocity's.
 TEST(Slide, VelocitiesAreThoseOfThePoses) {
   std::mt19937 rng(4);
