@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <utility>
 
 #include "saca/core/printable.h"
 
@@ -34,7 +33,7 @@ InterruptStop::InterruptStop()
         }
       }) {}
 
-ProgressLine::ProgressLine(std::string what, int all, Clock& clock)
+ProgressLine::ProgressLine(std::string_view what, int all, Clock& clock)
     : what_(one_line(what)),
       all_(all),
       clock_(clock),

@@ -2,6 +2,7 @@
 
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include "saca/core/clock.h"
@@ -31,7 +32,7 @@ class InterruptStop {
 class ProgressLine {
  public:
   /// @param all  how many steps there are at most, > 0
-  ProgressLine(std::string what, int all, Clock& clock);
+  ProgressLine(std::string_view what, int all, Clock& clock);
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
