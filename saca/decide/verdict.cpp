@@ -1,7 +1,6 @@
 #include "saca/decide/verdict.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 #include "saca/outcome/ordering.h"
@@ -87,17 +86,7 @@ std::size_t num_admissible(const Verdict& verdict) noexcept {
 }
 
 const JudgedPlan* find_plan(const Verdict& verdict, const Plan& plan) noexcept {
-  const JudgedPlan* nearest = nullptr;
-  const auto off = [&](const JudgedPlan& one) {
-    return std::abs(one.plan.target_speed.value_or(0.0) - plan.target_speed.value_or(0.0)) +
-           std::abs(strength_of(one.plan) - strength_of(plan));
-  };
-  for (const JudgedPlan& one : verdict.plans) {
-    if (one.plan.policy == plan.policy && (nearest == nullptr || off(one) < off(*nearest))) {
-      nearest = &one;
-    }
-  }
-  return nearest;
+  return manoeuvre::most_like<JudgedPlan>({verdict.plans.begin(), verdict.plans.size()}, plan);
 }
 
 const JudgedPlan* best_braking(const Verdict& verdict) noexcept {

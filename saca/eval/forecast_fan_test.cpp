@@ -13,20 +13,11 @@ using testing::HasSubstr;
 
 class ForecastFanTest : public testing::Test {
  protected:
-  /// 60 m ahead of an ego at 20 m/s a car drives as fast, and brakes at 6 m/s2 from 2 s on.
-  ForecastFanTest() {
-    scenario_.duration = 6.0;
-    scenario_.actors[0].motion = sim::Script{.start = {.s = 60.0},
-                                             .speed = 20.0,
-                                             .behaviour = sim::Behaviour::brake,
-                                             .acceleration = 6.0,
-                                             .from = 2.0};
-  }
   [[nodiscard]] Result<ForecastFan> fan(std::string_view who, double time) const {
     return forecast_fan({&scenario_, &car_, &harm_, &intent::shipped_model(), {}, {}}, who, time);
   }
 
-  sim::Scenario scenario_ = standing_car(20.0, 60.0);
+  sim::Scenario scenario_ = car_that_brakes();
   manoeuvre::Car car_ = manoeuvre::default_car();
   outcome::HarmModel harm_ = shipped_harm();
 };

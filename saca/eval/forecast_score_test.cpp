@@ -116,13 +116,7 @@ TEST(ForecastSamples, OfWhoGoesOnAreForetoldByAll) {
 
 // It brakes at 6 m/s2 from 2 s on: it acts, and straight on is wrong.
 TEST(ForecastSamples, OfWhoBrakesAct) {
-  sim::Scenario scenario = standing_car(20.0, 60.0);
-  scenario.duration = 6.0;
-  scenario.actors[0].motion = sim::Script{.start = {.s = 60.0},
-                                          .speed = 20.0,
-                                          .behaviour = sim::Behaviour::brake,
-                                          .acceleration = 6.0,
-                                          .from = 2.0};
+  const sim::Scenario scenario = car_that_brakes();
   const manoeuvre::Car car = manoeuvre::default_car();
   const outcome::HarmModel harm = shipped_harm();
   const loop::Stage stage{&scenario, &car, &harm, &intent::shipped_model(), {}, {}};

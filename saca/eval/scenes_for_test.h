@@ -48,6 +48,18 @@ inline sim::Scenario only_left_helps() {
   return scenario;
 }
 
+/// 60 m ahead of an ego at 20 m/s a car drives as fast, and brakes at 6 m/s2 from 2 s on.
+inline sim::Scenario car_that_brakes() {
+  sim::Scenario scenario = standing_car(20.0, 60.0);
+  scenario.duration = 6.0;
+  scenario.actors[0].motion = sim::Script{.start = {.s = 60.0},
+                                          .speed = 20.0,
+                                          .behaviour = sim::Behaviour::brake,
+                                          .acceleration = 6.0,
+                                          .from = 2.0};
+  return scenario;
+}
+
 /// A closed loop to be shown as the truth to methods that may not look at it.
 struct UnseenTruth {
   manoeuvre::Car car = manoeuvre::default_car();

@@ -114,19 +114,18 @@ const loop::ExpectedAtDecision* expected_at_trigger(const SuiteRow& row, std::si
   return counts ? &*thinking->expected : nullptr;
 }
 
+/// One of its figures, where it counts.
+template <double loop::ExpectedAtDecision::*harm>
+std::optional<double> expectation(const SuiteRow& row, std::size_t method,
+                                  std::optional<std::size_t> /*aeb*/) {
+  const auto* const told = expected_at_trigger(row, method);
+  return told != nullptr ? std::optional(told->*harm) : std::nullopt;
+}
+
 /// What happens to a plan with full knowledge: the tried one of its policy that is most like it.
 std::optional<double> happened(const Comparison& comparison, const manoeuvre::Plan& plan) {
-  const TriedPlan* nearest = nullptr;
-  const auto off = [&](const TriedPlan& one) {
-    return std::abs(one.plan.target_speed.value_or(0.0) - plan.target_speed.value_or(0.0)) +
-           std::abs(strength_of(one.plan) - strength_of(plan));
-  };
-  for (const TriedPlan& one : comparison.tried) {
-    if (one.plan.policy == plan.policy && (nearest == nullptr || off(one) < off(*nearest))) {
-      nearest = &one;
-    }
-  }
-  return nearest == nullptr ? std::nullopt : nearest->harm;
+  const TriedPlan* const tried = manoeuvre::most_like<TriedPlan>(comparison.tried, plan);
+  return tried == nullptr ? std::nullopt : tried->harm;
 }
 
 MethodFigures figures_of(std::span<const SuiteRow* const> rows, const std::string& name,
@@ -171,18 +170,12 @@ MethodFigures figures_of(std::span<const SuiteRow* const> rows, const std::strin
   });
   if (decides) {
     figures.expected.emplace();
-    figures.expected->expected = mean([](Row row, std::size_t m, Aeb) {
-      const auto* const told = expected_at_trigger(row, m);
-      return told != nullptr ? std::optional(told->harm) : std::nullopt;
-    });
+    figures.expected->expected = mean(expectation<&loop::ExpectedAtDecision::harm>);
     figures.expected->happened = mean([](Row row, std::size_t m, Aeb) {
       const auto* const told = expected_at_trigger(row, m);
       return told != nullptr ? happened(row.risk, told->plan) : std::nullopt;
     });
-    figures.expected->braking_expected = mean([](Row row, std::size_t m, Aeb) {
-      const auto* const told = expected_at_trigger(row, m);
-      return told != nullptr ? std::optional(told->braking_harm) : std::nullopt;
-    });
+    figures.expected->braking_expected = mean(expectation<&loop::ExpectedAtDecision::braking_harm>);
     figures.expected->braking_happened = mean([](Row row, std::size_t m, Aeb) {
       return expected_at_trigger(row, m) != nullptr ? happened(row.risk, manoeuvre::full_braking)
                                                     : std::nullopt;

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -81,6 +83,23 @@ struct Plan {
 /// How hard a plan of policy 0 brakes: 1 is full braking.
 constexpr double strength_of(const Plan& plan) {
   return plan.strength.value_or(1.0);
+}
+
+/// Of what has a plan, that whose plan is of the same policy, with the nearest target speed or
+/// strength; of several as near, the first. nullptr: none is of that policy.
+template <class Planned>
+[[nodiscard]] const Planned* most_like(std::span<const Planned> all, const Plan& plan) noexcept {
+  const Planned* nearest = nullptr;
+  const auto off = [&](const Planned& one) {
+    return std::abs(one.plan.target_speed.value_or(0.0) - plan.target_speed.value_or(0.0)) +
+           std::abs(strength_of(one.plan) - strength_of(plan));
+  };
+  for (const Planned& one : all) {
+    if (one.plan.policy == plan.policy && (nearest == nullptr || off(one) < off(*nearest))) {
+      nearest = &one;
+    }
+  }
+  return nearest;
 }
 
 /// Strengths below 1 that plans are chosen from, the hardest first (decisions/0019).

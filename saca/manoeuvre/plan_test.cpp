@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 namespace saca::manoeuvre::plan_test {
 namespace {
 
@@ -50,6 +52,20 @@ TEST(Plan, OnlyPolicyZeroHasAStrengthAndByDefaultItIsAll) {
 }
 
 // They are tried one after the other: the hardest first, all of them can be asked for.
+TEST(Plan, MostLikeIsOfThePolicyAndNearestInSpeedAndStrength) {
+  struct Planned {
+    Plan plan;
+  };
+  const std::array all{Planned{{PolicyId::es_b_left, 4.0}}, Planned{{PolicyId::es_b_left, 6.0}},
+                       Planned{full_braking}, Planned{{PolicyId::aeb, std::nullopt, 0.4}}};
+  const auto like = [&](const Plan& plan) { return most_like<Planned>(all, plan); };
+  EXPECT_EQ(like({PolicyId::es_b_left, 5.5}), &all[1]);
+  EXPECT_EQ(like({PolicyId::es_b_left, 5.0}), &all[0]) << "as near: the first";
+  EXPECT_EQ(like({PolicyId::aeb, std::nullopt, 0.8}), &all[2]);
+  EXPECT_EQ(like({PolicyId::aeb, std::nullopt, 0.6}), &all[3]);
+  EXPECT_EQ(like({PolicyId::es_b_right, 5.0}), nullptr);
+}
+
 TEST(Plan, StrengthsThatAreChosenFromFall) {
   double last = 1.0;
   for (const double strength : braking_strengths) {

@@ -9,7 +9,7 @@ namespace saca::outcome {
 /// How finely a slide is worked out.
 struct SlideSteps {
   double pose = 0.01;  ///< between poses [s], in (0, 0.05]
-  int per_pose = 2;    ///< of the integration, >= 1
+  int per_pose = 2;    ///< of the integration, >= 1; more while a body spins fast
 };
 /// For forecasts: positions to half a decimetre, in an eighth of the time.
 constexpr SlideSteps coarse_slide{.pose = 0.04, .per_pose = 1};
