@@ -10,10 +10,10 @@
 namespace saca::outcome {
 namespace {
 
-constexpr double resting = 0.05;     // of all wheels [m/s]
-constexpr double full_grip = 10.0;   // [m/s^2]: what a step takes of the speed at most
-constexpr double most_turned = 0.2;  // in a part of a step [rad]: beyond 2.8 energy is gained, and
-                                     // the course errs by 1e-2 of the fifth power of it
+constexpr double resting = 0.05;      // of all wheels [m/s]
+constexpr double full_grip = 10.0;    // [m/s^2]: what a step takes of the speed at most
+constexpr double most_turned = 0.2;   // in a part of a step [rad]: beyond 2.8 energy is gained, and
+                                      // the course errs by 1e-2 of the fifth power of it
 constexpr double most_parts = 100;    // of a step, however fast a body spins
 constexpr double longest_slide = 60;  // [s]: 25 m/s at a grip of 0.05 rest after 51
 
