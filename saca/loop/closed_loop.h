@@ -110,6 +110,10 @@ class ClosedLoop {
   /// Of all that was kept, and where a contact ended the motion, of what that leads to; nullopt:
   /// the wheel was never taken.
   [[nodiscard]] std::optional<outcome::Outcome> outcome() const;
+  /// Of what was kept from a time on, without contact until then and after it.
+  [[nodiscard]] outcome::Outcome outcome_since(double time) const {
+    return witness_.outcome_since(time);
+  }
   /// Among whom the outcome's contacts count.
   [[nodiscard]] const world::Scene& met() const { return witness_.scene(); }
 

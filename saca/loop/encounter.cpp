@@ -263,9 +263,15 @@ void Encounter::conclude() {
   if (const auto outcome = loop_.outcome()) {
     record_.result = *outcome;
   }
+  const auto& cast = loop_.met().actors;
+  record_.met.assign(cast.begin(), cast.end());
+  if (record_.decision && !record_.result.contact) {
+    // As hindsight does: what was near before something was decided is nothing that it led to.
+    const outcome::Outcome since = loop_.outcome_since(record_.decision->time);
+    record_.result.clearance = since.clearance;
+    record_.result.nearest = since.nearest;
+  }
   if (loop_.contact()) {
-    const auto& cast = loop_.met().actors;
-    record_.met.assign(cast.begin(), cast.end());
     tell(Plane::world, EventKind::contact, outcome::describe(record_.result, record_.met));
   }
   if (record_.decision) {

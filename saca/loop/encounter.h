@@ -82,12 +82,12 @@ struct Record {
   std::optional<world::Scene> at_trigger;  ///< the truth
   std::optional<std::string> threat;       ///< the actor that set off the trigger
   outcome::Outcome result;
-  std::vector<world::Actor> met;        ///< the actors that result.contact counts in
+  std::vector<world::Actor> met;        ///< the actors that the result counts in
   std::optional<Hindsights> hindsight;  ///< if triggered
   std::optional<manoeuvre::PolicyId> best;
   std::optional<DangerMaps> danger_maps;    ///< by `Setup::danger`
   std::optional<outcome::Outcome> driver;   ///< what the recorded driver's own motion led to
-  std::vector<world::Actor> met_by_driver;  ///< the actors that driver->contact counts in
+  std::vector<world::Actor> met_by_driver;  ///< the actors that `driver` counts in
   std::optional<memory::CaseId> stored;     ///< the case that memory learnt
   std::optional<Error> not_stored;          ///< why memory could not learn it
   std::optional<reason::Review> review;     ///< see loop/review.h
@@ -105,7 +105,11 @@ struct Record {
 /// @return  Error::Code::out_of_range when the scenario cannot be played with this car
 [[nodiscard]] Result<Record> run(const Setup& setup, Listener& listener);
 
+struct Provenance;
+
 /// The record as one JSON document, schema saca.record/1 of docs/formats.md.
-[[nodiscard]] std::string record_json(const Setup& setup, const Record& record);
+/// @param provenance  nullptr: it does not say who made it
+[[nodiscard]] std::string record_json(const Setup& setup, const Record& record,
+                                      const Provenance* provenance = nullptr);
 
 }  // namespace saca::loop

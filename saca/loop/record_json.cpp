@@ -4,6 +4,7 @@
 
 #include "saca/core/units.h"
 #include "saca/loop/encounter.h"
+#include "saca/loop/provenance.h"
 #include "saca/loop/state_json.h"
 #include "saca/loop/verdict_json.h"
 #include "saca/manoeuvre/ego.h"
@@ -89,6 +90,18 @@ json first_contact_json(const outcome::Outcome& outcome, std::span<const world::
   return outcome.contact ? contact_json(*outcome.contact, actors) : json(nullptr);
 }
 
+/// Whom or what it was clear of by how much, or null.
+json nearest_json(const outcome::Outcome& outcome, std::span<const world::Actor> actors) {
+  if (!outcome.nearest) {
+    return nullptr;
+  }
+  const outcome::Nearest& nearest = *outcome.nearest;
+  const char* const edge =
+      nearest.edge == outcome::Side::left ? "the road's left edge" : "the road's right edge";
+  return {{"to", nearest.actor ? actor_name(actors[*nearest.actor]) : edge},
+          {"time_s", nearest.time}};
+}
+
 std::span<const world::Actor> actors_of(const world::Scene& scene) {
   return {scene.actors.begin(), scene.actors.size()};
 }
@@ -106,6 +119,7 @@ json facts_json(const preview::PolicyFacts& facts, const world::Scene& scene, bo
       {"text", driven ? outcome::describe(facts.outcome(), scene) : facts.refusal()},
       {"contact", driven ? first_contact_json(facts.outcome(), actors_of(scene)) : json(nullptr)},
       {"clearance_m", driven ? json(facts.outcome().clearance) : json(nullptr)},
+      {"nearest", driven ? nearest_json(facts.outcome(), actors_of(scene)) : json(nullptr)},
       {"collision_loss", driven ? json(facts.outcome().collision_loss) : json(nullptr)},
       {"harm", driven ? json(facts.outcome().harm) : json(nullptr)},
       {"probability", driven ? json(facts.contact_probability()) : json(nullptr)},
@@ -190,6 +204,7 @@ json decision_json(const Record& record) {
   const decide::Decision& decision = *record.decision;
   json out = plan_json(decision.plan);
   out["source"] = name(decision.source);
+  out["threat"] = record.threat ? json(*record.threat) : json(nullptr);
   out["similarity"] = number_or_null(decision.similarity);
   out["preview"] = decision.preview ? json(*decision.preview) : json(nullptr);
   out["time_s"] = decision.time;
@@ -248,6 +263,7 @@ json outcome_json(const outcome::Outcome& outcome, std::span<const world::Actor>
           {"collision_loss", outcome.collision_loss},
           {"harm", outcome.harm},
           {"clearance_m", outcome.clearance},
+          {"nearest", nearest_json(outcome, actors)},
           {"text", outcome::describe(outcome, actors)}};
 }
 
@@ -324,7 +340,7 @@ json after_t2(const Record& record, decide::EventKind kind) {
 
 }  // namespace
 
-std::string record_json(const Setup& setup, const Record& record) {
+std::string record_json(const Setup& setup, const Record& record, const Provenance* provenance) {
   const sim::Scenario& scenario = *setup.scenario;
   const world::Footprint body = manoeuvre::footprint(*setup.car);
   json frames = json::array();
@@ -343,58 +359,61 @@ std::string record_json(const Setup& setup, const Record& record) {
   json previews = json::array();
   std::transform(record.previews.begin(), record.previews.end(), std::back_inserter(previews),
                  preview_json);
-  const json out{
-      {"schema", "saca.record/1"},
-      {"scenario",
-       {{"name", scenario.name},
-        {"title", scenario.title},
-        {"source", scenario.source},
-        {"licence", scenario.licence},
-        {"driver", scenario.driver.empty() ? json(nullptr) : json(scenario.driver)}}},
-      {"pace", name(setup.pace)},
-      {"model", setup.model == nullptr ? "off" : setup.model->description()},
-      {"atlas", setup.atlas != nullptr},
-      {"grip", record.grip},
-      {"thresholds",
-       {{"trigger_s", setup.thresholds.trigger},
-        {"preview_s", setup.thresholds.preview},
-        {"material_harm", decide::material_harm}}},
-      {"road", road_json(scenario.road)},
-      {"ego",
-       {{"length_m", body.length},
-        {"width_m", body.width},
-        {"centre_x_m", body.centre_x},
-        {"front_axle_x_m", setup.car->front_arm},
-        {"rear_axle_x_m", -setup.car->rear_arm},
-        {"track_m", setup.car->track_width}}},
-      {"actors", actor_bodies_json(scenario)},
-      {"frames", frames},
-      {"intentions", intentions},
-      {"events", events},
-      {"previews", previews},
-      {"decision", decision_json(record)},
-      {"switches", switches_json(record)},
-      {"verdicts", verdicts_json(record.verdicts)},
-      {"hypotheses", hypotheses_json(record.verdicts)},
-      {"result", result_json(record)},
-      {"driver",
-       record.driver ? outcome_json(*record.driver, record.met_by_driver) : json(nullptr)},
-      {"hindsight", hindsight_json(record)},
-      {"best", record.best ? json(manoeuvre::index(*record.best)) : json(nullptr)},
-      {"danger_maps", danger_maps_json(record.danger_maps)},
-      {"review", record.review ? json{{"prompt", record.review->prompt},
-                                      {"text", record.review->text},
-                                      {"truth", reason::truth_json(record.review->truth)}}
-                               : json(nullptr)},
-      {"case", record.stored ? json(*record.stored) : json(nullptr)},
-      {"timing",
-       {{"reflex_calls", record.reflex.calls},
-        {"reflex_us_p50", 1e6 * record.reflex.p50},
-        {"reflex_us_max", 1e6 * record.reflex.max},
-        {"preview_s", after_t2(record, decide::EventKind::forecast)},
-        {"first_answer_s", after_t2(record, decide::EventKind::first_answer)},
-        {"answer_s", after_t2(record, decide::EventKind::answer)},
-        {"deadline_misses", record.deadline_misses}}}};
+  json out{{"schema", "saca.record/1"},
+           {"scenario",
+            {{"name", scenario.name},
+             {"title", scenario.title},
+             {"source", scenario.source},
+             {"licence", scenario.licence},
+             {"driver", scenario.driver.empty() ? json(nullptr) : json(scenario.driver)}}},
+           {"pace", name(setup.pace)},
+           {"model", setup.model == nullptr ? "off" : setup.model->description()},
+           {"atlas", setup.atlas != nullptr},
+           {"grip", record.grip},
+           {"thresholds",
+            {{"trigger_s", setup.thresholds.trigger},
+             {"preview_s", setup.thresholds.preview},
+             {"material_harm", decide::material_harm}}},
+           {"road", road_json(scenario.road)},
+           {"ego",
+            {{"length_m", body.length},
+             {"width_m", body.width},
+             {"centre_x_m", body.centre_x},
+             {"front_axle_x_m", setup.car->front_arm},
+             {"rear_axle_x_m", -setup.car->rear_arm},
+             {"track_m", setup.car->track_width}}},
+           {"actors", actor_bodies_json(scenario)},
+           {"frames", frames},
+           {"intentions", intentions},
+           {"events", events},
+           {"previews", previews},
+           {"decision", decision_json(record)},
+           {"switches", switches_json(record)},
+           {"verdicts", verdicts_json(record.verdicts)},
+           {"hypotheses", hypotheses_json(record.verdicts)},
+           {"result", result_json(record)},
+           {"driver",
+            record.driver ? outcome_json(*record.driver, record.met_by_driver) : json(nullptr)},
+           {"hindsight", hindsight_json(record)},
+           {"best", record.best ? json(manoeuvre::index(*record.best)) : json(nullptr)},
+           {"danger_maps", danger_maps_json(record.danger_maps)},
+           {"review", record.review ? json{{"prompt", record.review->prompt},
+                                           {"text", record.review->text},
+                                           {"truth", reason::truth_json(record.review->truth)}}
+                                    : json(nullptr)},
+           {"case", record.stored ? json(*record.stored) : json(nullptr)},
+           {"timing",
+            {{"reflex_calls", record.reflex.calls},
+             {"reflex_us_p50", 1e6 * record.reflex.p50},
+             {"reflex_us_max", 1e6 * record.reflex.max},
+             {"preview_s", after_t2(record, decide::EventKind::forecast)},
+             {"first_answer_s", after_t2(record, decide::EventKind::first_answer)},
+             {"answer_s", after_t2(record, decide::EventKind::answer)},
+             {"deadline_misses", record.deadline_misses}}}};
+  if (provenance != nullptr) {
+    out["made"] = made_json(setup, *provenance);
+    out["made"]["content"] = content_digest(out);
+  }
   return out.dump(1, ' ', false, json::error_handler_t::replace);
 }
 

@@ -66,8 +66,6 @@ std::optional<RecordedDriver> recorded_driver(const sim::Scenario& scenario,
     if (replay.time() >= from) {
       watch.look(replay.scene(), driver);
       if (witness.look(replay)) {
-        const auto& cast = witness.scene().actors;
-        driver.met.assign(cast.begin(), cast.end());
         break;
       }
     }
@@ -76,6 +74,8 @@ std::optional<RecordedDriver> recorded_driver(const sim::Scenario& scenario,
     }
   }
   driver.outcome = witness.outcome();
+  const auto& cast = witness.scene().actors;
+  driver.met.assign(cast.begin(), cast.end());
   return driver;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "saca/core/contract.h"
 
@@ -36,15 +35,15 @@ void append(EgoMotion& motion, const world::EgoState& ego) {
   motion.yaw_rate.push_back(ego.yaw_rate);
 }
 
+Track from_sample(const Track& track, std::size_t first) {
+  return {.start = track.start + track.step * static_cast<double>(first),
+          .step = track.step,
+          .X_WA = {track.X_WA.begin() + static_cast<std::ptrdiff_t>(first), track.X_WA.end()}};
+}
+
 /// From its last but one pose on.
 Track last_step(const Track& track) {
-  const std::size_t first = track.X_WA.size() < 2 ? 0 : track.X_WA.size() - 2;
-  Track step{.start = track.start + track.step * static_cast<double>(first),
-             .step = track.step,
-             .X_WA = {}};
-  std::copy(track.X_WA.begin() + static_cast<std::ptrdiff_t>(first), track.X_WA.end(),
-            std::back_inserter(step.X_WA));
-  return step;
+  return from_sample(track, track.X_WA.size() < 2 ? 0 : track.X_WA.size() - 2);
 }
 
 EgoMotion last_step(const EgoMotion& motion) {
@@ -105,14 +104,32 @@ bool Witness::look(const sim::Stepper& stepper) {
   return true;
 }
 
+outcome::Outcome Witness::outcome_since(double time) const {
+  expects(!afterwards_, "no contact has ended the motion");
+  const auto skipped = [&](const Track& track) {
+    const double samples = std::ceil((time - track.start) / track.step - 1e-6);
+    return static_cast<std::size_t>(std::max(0.0, samples));
+  };
+  const std::size_t first = skipped(ego_.track);
+  expects(first < ego_.v_B.size(), "something was seen from then on");
+  EgoMotion ego{.track = from_sample(ego_.track, first), .v_B = {}, .yaw_rate = {}};
+  ego.v_B.assign(ego_.v_B.begin() + static_cast<std::ptrdiff_t>(first), ego_.v_B.end());
+  ego.yaw_rate.assign(ego_.yaw_rate.begin() + static_cast<std::ptrdiff_t>(first),
+                      ego_.yaw_rate.end());
+  std::vector<Track> tracks;
+  for (std::size_t i = 0; i < others_.size(); ++i) {
+    const std::size_t gone = skipped(others_[i]);
+    tracks.push_back(others_[i].X_WA.empty() || gone >= others_[i].X_WA.size()
+                         ? absent(scene_, i)
+                         : from_sample(others_[i], gone));
+  }
+  return outcome::judge(ego, scene_, tracks, harm_);
+}
+
 outcome::Outcome Witness::outcome() const {
   expects(!ego_.v_B.empty(), "something was seen");
   if (!afterwards_) {
-    std::vector<Track> tracks = others_;
-    for (std::size_t i = 0; i < tracks.size(); ++i) {
-      tracks[i] = tracks[i].X_WA.empty() ? absent(scene_, i) : tracks[i];
-    }
-    return outcome::judge(ego_, scene_, tracks, harm_);
+    return outcome_since(ego_.track.start);
   }
   return outcome::judge(
       ego_, scene_, [this](const EgoMotion& ego) { return carried_on(others_, afterwards_(ego)); },

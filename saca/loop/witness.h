@@ -24,6 +24,10 @@ class Witness {
   /// @throws ContractViolation  before the first look
   [[nodiscard]] outcome::Outcome outcome() const;
 
+  /// Of what was seen from a time on [s], while no contact has ended the motion.
+  /// @throws ContractViolation  after such a contact, or where nothing was seen from then on
+  [[nodiscard]] outcome::Outcome outcome_since(double time) const;
+
   /// The stepper's whole scene at the last look, to which the outcome's actors belong.
   [[nodiscard]] const world::Scene& scene() const { return scene_; }
 

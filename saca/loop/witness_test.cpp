@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "saca/core/contract.h"
 #include "saca/manoeuvre/default_car.h"
 
 namespace saca::loop::witness_test {
@@ -49,6 +50,23 @@ TEST(Witness, KeepsTheSmallestClearance) {
   const outcome::Outcome seen = watch(drive_at_a_wreck(3.5), harm).outcome();
   EXPECT_FALSE(seen.contact.has_value());
   EXPECT_NEAR(seen.clearance, 3.5 - 0.95 - 0.9, 1e-3);  // the two half widths
+  ASSERT_TRUE(seen.nearest.has_value());
+  EXPECT_EQ(seen.nearest->actor, 0U);
+  EXPECT_NEAR(seen.nearest->time, 50.0 / 20.0, 4.5 / 20.0);  // while they are abreast
+}
+
+// The wreck is 30 m behind after 4 s, and ever farther away.
+TEST(Witness, WhatWasPassedBeforeDoesNotCount) {
+  const auto harm = outcome::read_harm("data/harm.toml").value();
+  const Witness witness = watch(drive_at_a_wreck(3.5), harm);
+  const outcome::Outcome since = witness.outcome_since(4.0);
+  EXPECT_GT(since.clearance, 80.0 - 50.0 - 5.0);
+  EXPECT_LT(since.clearance, 80.0 - 50.0);
+  ASSERT_TRUE(since.nearest.has_value());
+  EXPECT_NEAR(since.nearest->time, 4.0, 1e-6);
+  EXPECT_EQ(witness.outcome_since(0.0).clearance, witness.outcome().clearance);
+  EXPECT_THROW((void)witness.outcome_since(100.0), ContractViolation);
+  EXPECT_THROW((void)watch(drive_at_a_wreck(0.0), harm).outcome_since(0.0), ContractViolation);
 }
 
 // The ego swerves over a kerb at 20 m/s, slows down, and meets the wreck at 10 m/s.

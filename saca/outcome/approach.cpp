@@ -67,26 +67,34 @@ double stride(const Moment& now, double closing, double top_speed) {
   return std::max({safe, least_travel / top_speed, tick});
 }
 
-// The smallest distance between two moments of a straight segment, as far as it is below `best`.
-// The distance lies above a line that falls from either end; where the lines meet too low, look
-// there.
-double least_between(const Mover& a, const Mover& b, const Moment& from, const Moment& to,
-                     double best, int depth) {
-  best = std::min({best, from.gap.distance, to.gap.distance});
+void note(const Moment& moment, Approach& found) {
+  if (moment.gap.distance < found.distance) {
+    found.distance = moment.gap.distance;
+    found.nearest_at = moment.time;
+  }
+}
+
+// Notes the smallest distance between two moments of a straight segment, as far as it is below what
+// was found. The distance lies above a line that falls from either end; where the lines meet too
+// low, look there.
+void note_between(const Mover& a, const Mover& b, const Moment& from, const Moment& to, int depth,
+                  Approach& found) {
+  note(from, found);
+  note(to, found);
   const double forward = closing_speed(a, b, from, to);
   const double backward = closing_speed(a, b, to, from);
   if (depth == 0 || forward <= 0.0 || backward <= 0.0) {
-    return best;
+    return;
   }
   const double span = to.time - from.time;
   const double meet = std::clamp(
       (from.gap.distance - to.gap.distance + backward * span) / (forward + backward), 0.0, span);
-  if (from.gap.distance - forward * meet >= best - distance_accuracy) {
-    return best;
+  if (from.gap.distance - forward * meet >= found.distance - distance_accuracy) {
+    return;
   }
   const Moment middle = moment(a, b, from.time + 0.5 * span);
-  best = least_between(a, b, from, middle, best, depth - 1);
-  return least_between(a, b, middle, to, best, depth - 1);
+  note_between(a, b, from, middle, depth - 1, found);
+  note_between(a, b, middle, to, depth - 1, found);
 }
 
 // Where along t_W the points lie that are within `depth` of the foremost along n_W.
@@ -223,13 +231,13 @@ Approach approach(const Mover& a, const Mover& b, double start, double end, doub
   expects(std::isfinite(start) && start <= end && std::isfinite(end), "start <= end");
   expects(of_interest >= 0.0, "of_interest >= 0");
   const double top_speed = a.top_speed() + b.top_speed();
-  Approach found{std::nullopt, of_interest};
+  Approach found{.distance = of_interest};
   Moment now = moment(a, b, start);
   while (true) {
     const double distance = now.gap.distance;
     // May be used up and nothing be missed, neither a smaller distance nor a touch.
     const double spare = distance - std::max(found.distance, 0.5 * touching);
-    found.distance = std::min(found.distance, distance);
+    note(now, found);
     if (distance <= touching) {
       found.contact = now.time;
       return found;
@@ -249,9 +257,11 @@ Approach approach(const Mover& a, const Mover& b, double start, double end, doub
     }
     if (next.gap.distance <= 0.0) {
       now = touching_between(a, b, now, next);
-      return {now.time, std::min(found.distance, now.gap.distance)};
+      note(now, found);
+      found.contact = now.time;
+      return found;
     }
-    found.distance = least_between(a, b, now, next, found.distance, 10);
+    note_between(a, b, now, next, 10, found);
     now = next;
   }
 }

@@ -34,6 +34,7 @@ class Mover {
 struct Approach {
   std::optional<double> contact;  ///< when they first touch
   double distance = 0.0;          ///< smallest until then, exact to 1 mm, at most `of_interest` [m]
+  double nearest_at = 0.0;        ///< when it is, if it is less than `of_interest` [s]
 };
 
 /// First contact and smallest distance of two bodies that move and turn.

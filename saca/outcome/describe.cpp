@@ -2,22 +2,44 @@
 
 #include <fmt/core.h>
 
+#include "saca/core/contract.h"
+
 namespace saca::outcome {
 namespace {
+
+std::string called(std::size_t actor, std::span<const world::Actor> actors) {
+  expects(actor < actors.size(), "the outcome counts in these actors");
+  return actor_name(actors[actor]);
+}
 
 // What is met with which face, e.g. "car1 with its front at 4.2 m/s".
 std::string meeting(const Contact& contact, std::span<const world::Actor> actors,
                     std::string_view edge) {
   return fmt::format("{} with its {} at {:.1f} m/s",
-                     contact.actor ? actor_name(actors[*contact.actor]) : std::string(edge),
+                     contact.actor ? called(*contact.actor, actors) : std::string(edge),
                      name(contact.ego_face), contact.relative_speed);
+}
+
+std::string staying_clear(const Outcome& outcome, std::span<const world::Actor> actors) {
+  if (!(outcome.clearance < far_away)) {
+    return fmt::format("clear: nobody within {:.0f} m", far_away);
+  }
+  const std::string by = fmt::format("clear by {:.1f} m", outcome.clearance);
+  if (!outcome.nearest) {
+    return by;
+  }
+  const Nearest& nearest = *outcome.nearest;
+  const std::string whom = nearest.actor                 ? called(*nearest.actor, actors)
+                           : *nearest.edge == Side::left ? "the road's left edge"
+                                                         : "the road's right edge";
+  return fmt::format("{} (nearest: {} at {:.1f} s)", by, whom, nearest.time);
 }
 
 }  // namespace
 
 std::string describe(const Outcome& outcome, std::span<const world::Actor> actors) {
   if (!outcome.contact) {
-    return fmt::format("clear by {:.1f} m", outcome.clearance);
+    return staying_clear(outcome, actors);
   }
   std::string text = outcome.contact->actor ? "hits " : "leaves ";
   text += meeting(*outcome.contact, actors, "the road");

@@ -8,9 +8,9 @@
 
 namespace saca::outcome {
 
-/// An outcome in one line, e.g. "clear by 1.2 m" or "hits car1 with its front at 4.2 m/s, then
-/// truck2 with its rear at 3.0 m/s".
-/// @param actors  those that the outcome's contacts count in
+/// An outcome in one line, e.g. "clear by 1.2 m (nearest: car1 at 5.4 s)" or "hits car1 with its
+/// front at 4.2 m/s, then truck2 with its rear at 3.0 m/s".
+/// @param actors  those that the outcome counts in
 [[nodiscard]] std::string describe(const Outcome& outcome, std::span<const world::Actor> actors);
 [[nodiscard]] std::string describe(const Outcome& outcome, const world::Scene& scene);
 

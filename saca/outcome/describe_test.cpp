@@ -11,8 +11,13 @@ world::Scene scene_with_a_truck() {
   return scene;
 }
 
-TEST(Describe, SaysHowFarItStayedClear) {
-  EXPECT_EQ(describe(Outcome{.clearance = 1.24}, scene_with_a_truck()), "clear by 1.2 m");
+TEST(Describe, SaysHowFarItStayedClearOfWhomAndWhen) {
+  const world::Scene scene = scene_with_a_truck();
+  EXPECT_EQ(describe(Outcome{}, scene), "clear: nobody within 100 m");
+  Outcome outcome{.clearance = 1.24, .nearest = Nearest{.actor = 0, .time = 5.36}};
+  EXPECT_EQ(describe(outcome, scene), "clear by 1.2 m (nearest: truck2 at 5.4 s)");
+  outcome.nearest = Nearest{.edge = Side::right, .time = 2.0};
+  EXPECT_EQ(describe(outcome, scene), "clear by 1.2 m (nearest: the road's right edge at 2.0 s)");
 }
 
 TEST(Describe, NamesWhoIsHitWhereAndHowFast) {

@@ -142,7 +142,7 @@ EdgeApproach edge_approach(const Road& road, Side side, const Footprint& footpri
     }
     return *bound > room;
   };
-  EdgeApproach found{std::nullopt, of_interest};
+  EdgeApproach found{.room = of_interest};
   const double begin = std::max(from, track.start);
   double inside = begin;
   const int first = static_cast<int>(std::min((begin - track.start) / step, double(steps)));
@@ -155,7 +155,10 @@ EdgeApproach edge_approach(const Road& road, Side side, const Footprint& footpri
     }
     const double time = i == first ? begin : track.start + i * step;
     const double now = room_at(time);
-    found.room = std::min(found.room, now);
+    if (now < found.room) {
+      found.room = now;
+      found.nearest_at = time;
+    }
     if (now > 0.0) {
       inside = time;
       continue;

@@ -24,6 +24,7 @@ enum class Side : std::uint8_t { left, right };
 struct EdgeApproach {
   std::optional<double> crossing;  ///< when any point of the footprint first lies on the edge
   double room = 0.0;               ///< smallest until then, at most `of_interest` [m]
+  double nearest_at = 0.0;         ///< when it is, if it is less than `of_interest` [s]
 };
 
 /// When a body that follows `track` first leaves the road to one side; at once when it stands

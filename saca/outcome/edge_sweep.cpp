@@ -143,7 +143,10 @@ Meeting edge_meeting(const AtlasEgo& ego, Side side, double of_interest) noexcep
                                           [&](double at) { return room_at(ego, side, at); })
                           : time;
     }
-    found.clearance = std::max(0.0, std::min(found.clearance, gap));
+    if (gap < found.clearance) {
+      found.clearance = std::max(0.0, gap);
+      found.nearest_at = time;
+    }
     const double score = edge_score(sway, time, gap);
     if (score < best) {
       best = score;

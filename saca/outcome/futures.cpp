@@ -89,8 +89,9 @@ Chances chances_of(const AtlasEgo& ego, std::span<const Track> tracks, std::span
     const world::Beyond what = beyond(scene.road, side);
     const bool counts = what != world::Beyond::unmarked;
     const Meeting edge = edge_meeting(ego, side, counts ? future.clearance : 0.0);
-    if (counts) {
-      future.clearance = std::min(future.clearance, edge.clearance);
+    if (counts && edge.nearest_at) {
+      future.clearance = edge.clearance;
+      future.nearest = {.edge = side, .time = scene.time + *edge.nearest_at};
     }
     if (edge.contact && edge.probability > 1.0 - negligible && stops_the_ego(what)) {
       until = std::min(until, *edge.contact);
@@ -103,7 +104,10 @@ Chances chances_of(const AtlasEgo& ego, std::span<const Track> tracks, std::span
   const Meetings met =
       meetings(ego, tracks, looks, spreads, leaves ? 0.0 : future.clearance, until);
   for (std::size_t i = 0; i < met.size(); ++i) {
-    future.clearance = std::min(future.clearance, met[i].clearance);
+    if (met[i].nearest_at) {
+      future.clearance = met[i].clearance;
+      future.nearest = {.actor = i, .time = scene.time + *met[i].nearest_at};
+    }
     add(chances, {met[i], i, std::nullopt, scene.actors[i].existence * met[i].probability, 0.0});
   }
   std::sort(chances.begin(), chances.end(),
@@ -147,6 +151,7 @@ void judge(const Chances& chances, const AtlasEgo& ego, std::span<const Track> t
     future.contact = first->contact;
     future.collision_loss = first->loss;
     future.clearance = 0.0;
+    future.nearest.reset();
   }
 }
 

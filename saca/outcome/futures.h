@@ -14,12 +14,13 @@ struct Future {
   manoeuvre::Plan plan;
   std::optional<manoeuvre::AtlasLimit> outside;  ///< why nothing is said; the rest is meaningless
   std::optional<Contact> contact;                ///< the first at the mean, as in Outcome
-  double probability = 0.0;     ///< of contact with anybody there, or an edge that stops the ego
-  double harm = 0.0;            ///< expected, of one first contact and edges that do not stop
-  double harm_at_mean = 0.0;    ///< that of `contact`, those who exist likely enough counted so
-  double collision_loss = 0.0;  ///< of `contact`, as in Outcome
-  double clearance = far_away;  ///< at the mean, as in Outcome [m]
-  double end_time = 0.0;        ///< at rest or lane recovered, whatever is struck [s]
+  double probability = 0.0;        ///< of contact with anybody there, or an edge that stops the ego
+  double harm = 0.0;               ///< expected, of one first contact and edges that do not stop
+  double harm_at_mean = 0.0;       ///< that of `contact`, those who exist likely enough counted so
+  double collision_loss = 0.0;     ///< of `contact`, as in Outcome
+  double clearance = far_away;     ///< at the mean, as in Outcome [m]
+  std::optional<Nearest> nearest;  ///< likewise
+  double end_time = 0.0;           ///< at rest or lane recovered, whatever is struck [s]
 };
 
 using Futures = std::array<Future, manoeuvre::num_policies>;  ///< by PolicyId

@@ -43,6 +43,13 @@ constexpr double far_away = 100.0;
 /// Does what stands beyond an edge end the ego's motion? Kerbs and open ground do not.
 [[nodiscard]] bool stops_the_ego(world::Beyond beyond);
 
+/// Whom or what the ego passes nearest, and when.
+struct Nearest {
+  std::optional<std::size_t> actor;  ///< index into scene.actors; nullopt: an edge of the road
+  std::optional<Side> edge;          ///< of the road, when it is no actor
+  double time = 0.0;                 ///< [s]
+};
+
 /// What a manoeuvre ends in.
 struct Outcome {
   std::optional<Contact> contact;          ///< the first
@@ -53,7 +60,8 @@ struct Outcome {
                       ///< data/harm.toml
   double clearance = far_away;  ///< smallest distance to anybody or an edge with something beyond,
                                 ///< at most `far_away`; 0 with contact [m]
-  double end_time = 0.0;        ///< when the ego came to rest, or its motion ended [s]
+  std::optional<Nearest> nearest;  ///< at `clearance`; nullopt with contact, and at `far_away`
+  double end_time = 0.0;           ///< when the ego came to rest, or its motion ended [s]
 };
 
 /// How the others move when the ego moves so: one track per actor of the scene, in its order.

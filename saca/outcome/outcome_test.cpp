@@ -37,6 +37,7 @@ TEST(Judge, AnEmptySceneHasNeitherContactNorHarm) {
   EXPECT_EQ(outcome.collision_loss, 0.0);
   EXPECT_EQ(outcome.harm, 0.0);
   EXPECT_EQ(outcome.clearance, far_away);
+  EXPECT_FALSE(outcome.nearest);
   EXPECT_DOUBLE_EQ(outcome.end_time, 5.0);
 }
 
@@ -60,6 +61,7 @@ TEST(Judge, HeadOn) {
   EXPECT_NEAR(outcome.collision_loss, 0.35 * 25.0, 1e-9);
   EXPECT_NEAR(outcome.harm, 3.0 * occupant_harm(harm(), Face::front, 13.75), 1e-6);
   EXPECT_EQ(outcome.clearance, 0.0);
+  EXPECT_FALSE(outcome.nearest);
   EXPECT_GT(outcome.end_time, contact.time);  // it slides on
 }
 
@@ -260,10 +262,20 @@ TEST(Judge, WithoutContactTellsTheClearance) {
   Encounter encounter = driving(15.0);
   encounter.add_car({{40.0, 3.2}, pi}, {-15.0, 0.0});
   encounter.add_car({{30.0, -5.0}, 0.0}, {});
-  EXPECT_NEAR(encounter.judged(harm()).clearance, 3.2 - 1.9, 1e-3);
+  const Outcome passing = encounter.judged(harm());
+  EXPECT_NEAR(passing.clearance, 3.2 - 1.9, 1e-3);
+  // 40 m apart and closing at 30 m/s, they are abreast once a length less remains.
+  ASSERT_TRUE(passing.nearest);
+  EXPECT_EQ(passing.nearest->actor, 0U);
+  EXPECT_GT(passing.nearest->time, (40.0 - 4.7) / 30.0 - 0.02);
+  EXPECT_LT(passing.nearest->time, (40.0 + 4.7) / 30.0 + 0.02);
   encounter.scene.road.right_edge = -1.75;
   encounter.scene.road.right_beyond = Beyond::barrier;
-  EXPECT_NEAR(encounter.judged(harm()).clearance, 1.75 - 0.95, 1e-3);
+  const Outcome beside = encounter.judged(harm());
+  EXPECT_NEAR(beside.clearance, 1.75 - 0.95, 1e-3);
+  ASSERT_TRUE(beside.nearest);
+  EXPECT_FALSE(beside.nearest->actor);
+  EXPECT_EQ(beside.nearest->edge, Side::right);
   encounter.scene.road.right_beyond = Beyond::unmarked;  // open ground is nothing to keep clear of
   EXPECT_NEAR(encounter.judged(harm()).clearance, 1.3, 1e-3);
 }

@@ -179,6 +179,12 @@ class Story {
   [[nodiscard]] double last_time() const;
   [[nodiscard]] std::optional<Event> next_at(Side side);
   [[nodiscard]] std::optional<Event> next_with(std::size_t i, double until, bool first);
+  void pass(double distance, const Nearest& whom) {
+    if (distance < clearance_) {
+      clearance_ = distance;
+      nearest_ = whom;
+    }
+  }
   void note(const Blow& blow, const Event& event);
   [[nodiscard]] EgoMotion slide_of(const world::Footprint& footprint, double mass,
                                    const Instant& after, double time) const;
@@ -192,6 +198,7 @@ class Story {
   std::span<const Track> tracks_;
   double since_;  ///< when the last event happened [s]
   double clearance_;
+  std::optional<Nearest> nearest_;
   SlideSteps steps_;
   double look_again_;
   std::vector<Dealings> dealings_;  ///< with each actor
@@ -232,7 +239,7 @@ std::optional<Event> Story::next_at(Side side) {
   const EdgeApproach edge =
       edge_approach(scene_.road, side, scene_.ego_footprint, track, interest, since_);
   if (what != Beyond::unmarked) {
-    clearance_ = std::min(clearance_, std::max(0.0, edge.room));
+    pass(std::max(0.0, edge.room), {.edge = side, .time = edge.nearest_at});
   }
   return at(edge.crossing);
 }
@@ -259,7 +266,7 @@ std::optional<Event> Story::next_with(std::size_t i, double until, bool first) {
   const double interest = first && !was_struck() ? clearance_ : 0.0;
   const Approach found = approach(ego, other, from, known, interest);
   if (interest > 0.0) {
-    clearance_ = std::min(clearance_, found.distance);
+    pass(found.distance, {.actor = i, .time = found.nearest_at});
   }
   return at(found.contact);
 }
@@ -342,9 +349,11 @@ bool Story::happen(const Event& event) {
 Outcome Story::outcome() const {
   Outcome outcome;
   outcome.harm = toll(blows_, scene_, harm_);
-  outcome.clearance = blows_.empty() ? clearance_ : 0.0;
+  outcome.clearance = 0.0;
   outcome.end_time = end_time(was_struck() ? now().track : given_.track);
   if (blows_.empty()) {
+    outcome.clearance = clearance_;
+    outcome.nearest = nearest_;
     return outcome;
   }
   const std::size_t first = first_.value_or(0);

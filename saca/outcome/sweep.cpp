@@ -70,8 +70,9 @@ class Pair {
   [[nodiscard]] double least() const noexcept { return std::min(least_, least_elsewhere_); }
   /// All but the clearance.
   [[nodiscard]] Meeting meet(double until) noexcept;
-  /// After `meet`.
-  [[nodiscard]] double clearance(double of_interest, double until) const noexcept;
+  /// Lowers the clearance that `nearest` has, and says when, where these two come nearer until
+  /// then. After `meet`.
+  void approach(double until, Meeting& nearest) const noexcept;
 
  private:
   [[nodiscard]] double last_look() const noexcept;
@@ -190,15 +191,18 @@ std::optional<double> Pair::first_touch(const Window& window,
                                : std::nullopt;
 }
 
-// Smallest distance at the mean of two that do not touch.
-double Pair::clearance(double of_interest, double until) const noexcept {
-  double best = of_interest;
+// At the mean, of two that do not touch.
+void Pair::approach(double until, Meeting& nearest) const noexcept {
+  double& best = nearest.clearance;
   const auto look_near = [&](const Window& window, std::size_t look) {
     narrow(window, look, 6, [&](double time) {
       const double distance = both_.distance_at(time);
-      const bool nearer = distance < best;
-      best = nearer ? distance : best;
-      return nearer;
+      if (!(distance < best)) {
+        return false;
+      }
+      best = std::max(0.0, distance);
+      nearest.nearest_at = time;
+      return true;
     });
   };
   if (least_ < best) {
@@ -214,7 +218,6 @@ double Pair::clearance(double of_interest, double until) const noexcept {
       }
     }
   }
-  return std::max(0.0, best);
 }
 
 Meeting Pair::meet(double until) noexcept {
@@ -263,24 +266,32 @@ class Pairs {
   };
 };
 
-// The smallest clearance that any of them has at the mean.
-double least_clearance(Pairs& pairs, std::size_t count, double of_interest, double until) noexcept {
-  double clearance = of_interest;
+// Gives all the smallest distance that any of them has at the mean, and says of whose it is when.
+void find_clearance(Pairs& pairs, double of_interest, double until, Meetings& all) noexcept {
+  Meeting least{.clearance = of_interest};
+  std::optional<std::size_t> whose;
   std::array<bool, world::max_actors> done{};
-  while (clearance > 0.0) {
-    std::size_t nearest = count;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!done[i] && (nearest == count || pairs[i].least() < pairs[nearest].least())) {
+  while (least.clearance > 0.0) {
+    std::size_t nearest = all.size();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (!done[i] && (nearest == all.size() || pairs[i].least() < pairs[nearest].least())) {
         nearest = i;
       }
     }
-    if (nearest == count || !(pairs[nearest].least() < clearance)) {
+    if (nearest == all.size() || !(pairs[nearest].least() < least.clearance)) {
       break;
     }
-    clearance = pairs[nearest].clearance(clearance, until);
+    const double before = least.clearance;
+    pairs[nearest].approach(until, least);
+    whose = least.clearance < before ? nearest : whose;
     done[nearest] = true;
   }
-  return clearance;
+  for (Meeting& met : all) {
+    met.clearance = least.clearance;
+  }
+  if (whose) {
+    all[*whose].nearest_at = least.nearest_at;
+  }
 }
 
 }  // namespace
@@ -309,10 +320,8 @@ Meetings meetings(const AtlasEgo& ego, std::span<const Track> tracks, std::span<
       until = std::min(until, *all[i].contact);
     }
   }
-  const double clearance =
-      touches ? 0.0 : least_clearance(pairs, tracks.size(), of_interest, until);
-  for (Meeting& met : all) {
-    met.clearance = clearance;
+  if (!touches) {
+    find_clearance(pairs, of_interest, until, all);
   }
   return all;
 }

@@ -82,6 +82,13 @@ TEST(Sweep, FindsTheContactsAndTheClearanceOfTheExactSearch) {
       // is least a little earlier or later than the distance.
       EXPECT_NEAR(told.clearance, truth.distance, 0.05 + 0.15 * truth.distance) << i;
       off.push_back(std::abs(told.clearance - truth.distance));
+      ASSERT_TRUE(told.nearest_at) << i;
+      EXPECT_NEAR(world::separation(scene.ego_footprint, ego.at(*told.nearest_at).X_WB,
+                                    scene.actors[0].footprint,
+                                    world::pose_at(track, scene.time + *told.nearest_at))
+                      .distance,
+                  told.clearance, 0.01)
+          << i;
       EXPECT_EQ(told.probability, 0.0);
     }
   }

@@ -25,6 +25,7 @@ outcome::Outcome outcome_of(const outcome::Future& future) {
           .collision_loss = future.collision_loss,
           .harm = future.harm,
           .clearance = future.clearance,
+          .nearest = future.nearest,
           .end_time = future.end_time};
 }
 

@@ -205,7 +205,9 @@ std::string line_of(const preview::PolicyFacts& facts, const Scene& scene, bool 
   }
   const auto& contact = facts.outcome().contact;
   line += ": ";
-  if (in_whole || !contact) {
+  if (!contact) {  // how far, and not of whom: each word of a prompt takes time
+    line += fmt::format("clear by {:.1f} m", facts.outcome().clearance) + chance_text(facts);
+  } else if (in_whole) {
     line += outcome::describe(facts.outcome(), scene) + chance_text(facts);
   } else {
     line +=
