@@ -87,10 +87,11 @@ std::vector<std::string_view> sentences(std::string_view text) {
 
 /// What a sentence is about.
 struct Subject {
-  std::vector<std::size_t> actors;   ///< of the scene
-  std::vector<std::string> unknown;  ///< names of our kind that nobody has
-  std::vector<PolicyId> policies;    ///< by number or name
-  int side = 0;                      ///< 1: left, -1: right, 0: none or both
+  std::vector<std::size_t> actors;      ///< of the scene
+  std::vector<std::string> unknown;     ///< names of our kind that nobody has
+  std::vector<PolicyId> policies;       ///< by number or name
+  std::optional<PolicyId> misnumbered;  ///< named beside a number that is not its own
+  int side = 0;                         ///< 1: left, -1: right, 0: none or both
 };
 
 /// "car3": the kinds' names with a number.
@@ -128,6 +129,20 @@ void find_actors(std::string_view low, const Situation& situation, Subject& subj
   }
 }
 
+/// Whether a number stands right before a place in the text that is not this one: "8 T-D-R".
+bool has_other_number(std::string_view low, std::size_t place, std::size_t number) {
+  std::size_t end = place;
+  if (end == 0 || low[end - 1] != ' ') {
+    return false;
+  }
+  std::size_t begin = --end;
+  while (begin > 0 && low[begin - 1] >= '0' && low[begin - 1] <= '9') {
+    --begin;
+  }
+  const bool alone = begin == 0 || (!is_word_char(low[begin - 1]) && low[begin - 1] != '.');
+  return begin < end && alone && low.substr(begin, end - begin) != std::to_string(number);
+}
+
 /// "policy 6", "actions 1, 3 and 5", "policies 1 to 4", "6 T-D-R" and "T-D-R".
 void find_policies(std::string_view low, Subject& subject) {
   const auto add = [&](PolicyId policy) {
@@ -137,8 +152,12 @@ void find_policies(std::string_view low, Subject& subject) {
     }
   };
   for (const PolicyId policy : manoeuvre::all_policies) {
-    if (has_phrase(low, lowered(name(policy)))) {
+    const std::string called = lowered(name(policy));
+    for (auto at = find_phrase(low, called); at; at = find_phrase(low, called, *at + 1)) {
       add(policy);
+      if (has_other_number(low, *at, manoeuvre::index(policy))) {
+        subject.misnumbered = policy;
+      }
     }
   }
   for (const std::string_view word : {"policy ", "policies ", "action ", "actions "}) {
@@ -319,6 +338,29 @@ bool is_so(Claim claim, const PolicyFacts& facts, const Situation& situation) {
   return true;
 }
 
+/// Is somebody among those that a policy is forecast to meet?
+bool meets(const PolicyFacts& facts, std::size_t actor) {
+  if (!hits(facts)) {
+    return false;
+  }
+  const outcome::Outcome& ends = facts.outcome();
+  return ends.contact->actor == actor ||
+         std::any_of(ends.later.begin(), ends.later.end(),
+                     [&](const outcome::Contact& one) { return one.actor == actor; });
+}
+
+/// Likewise, where it names road users: what it hits, or is clear of, is these.
+bool is_so_of(Claim claim, const PolicyFacts& facts, const Situation& situation,
+              const std::vector<std::size_t>& actors) {
+  const bool of_whom = claim == Claim::hits || claim == Claim::clear;
+  if (actors.empty() || !of_whom || !facts.drivable()) {
+    return is_so(claim, facts, situation);
+  }
+  return std::all_of(actors.begin(), actors.end(), [&](std::size_t actor) {
+    return meets(facts, actor) == (claim == Claim::hits);
+  });
+}
+
 std::string told(const PolicyFacts& facts, const Situation& situation) {
   return fmt::format("{} {}: {}", manoeuvre::index(facts.plan.policy), name(facts.plan.policy),
                      facts.drivable()
@@ -368,7 +410,7 @@ void judge_claim(Claim claim, const Subject& subject, const Situation& situation
     verdict.says_something = true;
     for (const PolicyId policy : subject.policies) {
       const PolicyFacts& one = facts[manoeuvre::index(policy)];
-      if (!is_so(claim, one, situation)) {
+      if (!is_so_of(claim, one, situation, subject.actors)) {
         verdict.wrong(told(one, situation));
       }
     }
@@ -409,6 +451,11 @@ Verdict judged(std::string_view sentence, std::string_view prompt, const Situati
   if (!subject.unknown.empty()) {
     verdict.says_something = true;
     verdict.wrong("there is no " + subject.unknown.front());
+  }
+  if (subject.misnumbered) {
+    verdict.says_something = true;
+    verdict.wrong(fmt::format("{} is policy {}", name(*subject.misnumbered),
+                              manoeuvre::index(*subject.misnumbered)));
   }
   judge_numbers(sentence, prompt, subject, situation, verdict);
   const std::optional<Claim> claim = claim_of(low);

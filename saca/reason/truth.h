@@ -38,7 +38,9 @@ struct Truth {
 ///   a tenth of it: "16" is a rounded 16.4, "1" no rounded 0.9; where the sentence names one road
 ///   user or policy, in a line about it. Numbers after "=" that are the quotient of the two before
 ///   it are true as well.
-/// * A name of our kind ("car3") must be somebody of the scene.
+/// * A name of our kind ("car3") must be somebody of the scene; who a named policy "hits" must be
+///   among those that it is forecast to hit.
+/// * A number right before a policy's name ("6 T-D-R") must be that policy's.
 /// * "clear", "no harm", "hits", "not possible", "blocked", "least harm" of a named policy must be
 ///   its forecast; of a named side ("left is blocked") that of all policies to it, "clear" of one.
 ///   "Blocked" is what is not possible or forecast to hit.

@@ -109,6 +109,22 @@ TEST(Truth, ClaimsAboutPoliciesAreTheirForecasts) {
   EXPECT_EQ(wrong("AES-L: harm 0."), "0 stands nowhere;");
 }
 
+TEST(Truth, WhoIsHitIsWhomThePolicyIsForecastToHit) {
+  EXPECT_EQ(wrong("AES-R hits truck1."), "");
+  EXPECT_EQ(wrong("AES-R hits pedestrian1."), "2 AES-R: hits truck1 with its front at 10.0 m/s;");
+  EXPECT_EQ(wrong("AES-R does not hit pedestrian1."), "");
+  EXPECT_EQ(wrong("AES-R is clear of truck1."), "2 AES-R: hits truck1 with its front at 10.0 m/s;");
+  EXPECT_EQ(wrong("T-D-R is clear of truck1."), "6 T-D-R: not possible;");
+}
+
+TEST(Truth, PoliciesHaveTheirOwnNumbers) {
+  EXPECT_EQ(wrong("6 T-D-R is not possible."), "");
+  EXPECT_EQ(wrong("8 T-D-R is not possible."), "T-D-R is policy 6;");
+  EXPECT_EQ(wrong("0 AEB is clear, 12 AES-L hits truck1."), "AES-L is policy 1;");
+  EXPECT_EQ(wrong("1. AEB is clear."), "");  // the line's number
+  EXPECT_EQ(wrong("The grip is 0.90 AEB is clear."), "");
+}
+
 // What denies or excepts is not understood well enough to accuse anybody.
 TEST(Truth, DenialsAndExceptionsAreNotJudged) {
   for (const char* text :
