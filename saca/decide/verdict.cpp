@@ -137,8 +137,10 @@ Plan plan_of(const Verdict& verdict) noexcept {
       (mildest == nullptr || braking->harm <= mildest->harm + outcome::harm_tie)) {
     return braking->plan;
   }
-  if (mildest == nullptr && admits(verdict, doing_nothing)) {
-    return doing_nothing;
+  if (admits(verdict, doing_nothing) &&
+      (mildest == nullptr ||
+       find_plan(verdict, doing_nothing)->harm < mildest->harm - outcome::harm_tie)) {
+    return doing_nothing;  // nobody leaves the lane for more harm than that has
   }
   return mildest == nullptr ? full_braking : mildest->plan;
 }

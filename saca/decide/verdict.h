@@ -70,8 +70,8 @@ void spread_over_strengths(Verdict& verdict) noexcept;
 /// contact then; the best braking, where full braking is admissible; where only gentler braking
 /// is, the best braking or the mildest admissible lane change or drift (of equally mild ones the
 /// least harmful), whichever is expected to harm less, braking where they harm alike
-/// (outcome::harm_tie); doing nothing, where only that is admissible; full braking, where nothing
-/// can be driven.
+/// (outcome::harm_tie); doing nothing, where only that is admissible or it is expected to harm less
+/// than leaving the lane; full braking, where nothing can be driven.
 ///
 /// Full braking is admissible or worse than all that is: so nothing is knowingly worse than full
 /// braking. It comes first because it stands on no forecast; gentler braking does as a swerve does.

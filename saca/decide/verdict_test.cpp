@@ -50,6 +50,13 @@ TEST(Verdict, SpeaksForDoingNothingOnlyWhereThatTouchesNobody) {
                                      {PolicyId::no_intervention, 0.0025}}))
                 .policy,
             PolicyId::no_intervention);
+  // A lane change that is admissible, and expected to harm more than that: far worse than both,
+  // braking makes the tolerance wide.
+  EXPECT_EQ(plan_of(verdict_of(0.0, {{PolicyId::aeb, 0.8},
+                                     {PolicyId::aes_right, 0.0167},
+                                     {PolicyId::no_intervention, 0.0025}}))
+                .policy,
+            PolicyId::no_intervention);
 }
 
 TEST(Verdict, SpeaksForBrakingWhereItIsAdmissible) {
