@@ -117,13 +117,13 @@ function show_futures(record) {
   const begin = { path: [[first.x_m, first.y_m, first.heading_deg]] };
   const ground = common_ground(record, [begin, ...drawn], origin);
   panel.append(el("div", { class: "futures" }, rows.map((row) => {
-    const marks = [row.policy === record.best ? tag("best", "good") : null, row.policy === record.decision?.policy ? tag("carried out", "strong") : null];
+    const marks = [row.policy === record.best ? tag("best", "good") : null, row.policy === record.decision?.policy ? tag(begun_words(record), "strong") : null];
     const words = row.refusal ? `refused: ${row.refusal}` : contact_words(row.contact);
     const shown = { ...row, path: drawn.includes(row) && list(row.path).length ? row.path : begin.path };
     const plan = draw_future(record, shown, row.refusal ? { ...first } : origin, ground);
     return el("figure", { class: `future ${row.refusal ? "refused" : ""} ${row.policy === record.decision?.policy ? "chosen" : ""}` },
       el("figcaption", {}, el("b", { text: `${row.policy} ${row.name ?? ""}` }), ...marks.filter(Boolean).flatMap((mark) => [" ", mark]),
-        el("small", { class: "future-words" }, row.refusal ? words : row.contact ? el("span", { class: "hit", text: `✕ ${words}` }) : el("span", { class: "free", text: is_number(row.clearance_m) ? `✓ clear by ${num(row.clearance_m, 1, "m")}` : "✓ no contact" }),
+        el("small", { class: "future-words" }, row.refusal ? words : row.contact ? el("span", { class: "hit", text: `✕ ${words}` }) : el("span", { class: "free", text: is_number(row.clearance_m) ? `✓ clear by ${num(row.clearance_m, 1, "m")}${row.nearest?.to ? `, of ${row.nearest.to}` : ""}` : "✓ no contact" }),
           row.refusal ? null : el("span", { class: "future-harm", text: `harm ${num(row.harm, 3)}` }))),
       plan.picture(`${row.name ?? row.policy}: ${words}`));
   })));

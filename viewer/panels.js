@@ -14,6 +14,20 @@ const gate_words = {
   reason: "nothing similar enough: the model is asked" };
 const answer_words = { first: "right after the prompt", ended: "reply ended", forced: "cut by the deadline" };
 
+/** " to car1 at 5.40 s", where the record says so. */
+function nearest_words({ nearest }) {
+  return nearest?.to ? ` to ${nearest.to}${is_number(nearest.time_s) ? ` at ${num(nearest.time_s, 2, "s")}` : ""}` : "";
+}
+
+/** The best in hindsight beside what truly came of it: the same only where nothing else was begun and it ended alike. */
+function hindsight_words({ decision, switches, result }, best) {
+  if (num(best.harm, 3) !== num(result.harm, 3)) return `harm ${num(best.harm, 3)}`;
+  return decision && best.policy === decision.policy && !switches.length ? "was carried out" : "with equal harm";
+}
+
+/** What a policy's row is marked by, where it was begun at the trigger. */
+const begun_words = (record) => (record.switches.length ? "begun first" : "carried out");
+
 function show_header(record) {
   const { scenario, result, decision } = record, contact = result.contact;
   by_id("title").textContent = scenario.title || scenario.name || "Encounter";
@@ -24,25 +38,36 @@ function show_header(record) {
   const tile = (name, value, note, kind = "") => el("div", { class: `tile ${kind}` },
     el("span", { class: "tile-name", text: name }), el("b", { class: "tile-value", text: value }), el("small", { text: note }));
   by_id("tiles").append(
-    decision ? tile("Decision", decision.name ?? String(decision.policy), source_words[decision.source] ?? decision.source ?? "", "tile-decision")
+    decision ? tile("Decision", decision.name ?? String(decision.policy), [policy_words[decision.policy], source_words[decision.source] ?? decision.source].filter(Boolean).join(", "), "tile-decision")
       : tile("Decision", "none", "nothing was triggered"),
     contact ? tile("Contact", `✕ ${num(contact.relative_speed_mps, 1, "m/s")}`, [contact.with, contact.ego_face].filter(Boolean).join(" · "), "tile-bad")
-      : tile("Contact", "✓ none", is_number(result.clearance_m) ? `smallest gap ${num(result.clearance_m, 2, "m")}` : "nobody came near", "tile-good"),
+      : tile("Contact", "✓ none", is_number(result.clearance_m) ? `smallest gap ${num(result.clearance_m, 2, "m")}${nearest_words(result)}` : "nobody came near", "tile-good"),
     tile("Harm", num(result.harm, 3), `Collision Loss ${num(result.collision_loss, 2)}`),
-    tile("Best in hindsight", best ? best.name : none, best ? (decision && best.policy === decision.policy ? "was carried out" : num(best.harm, 3) === num(result.harm, 3) ? "with equal harm" : `harm ${num(best.harm, 3)}`) : "not judged"));
+    tile("Best in hindsight", best ? best.name : none, best ? hindsight_words(record, best) : "not judged"));
+}
+
+/** What `saca explain` tells, by paragraph; the first is in short. */
+const read_explanation = (text) => list(JSON.parse(text)).map(dict);
+
+function explanation_details(paragraphs) {
+  if (!paragraphs.length) return [];
+  const one = ({ about, sentences }) => [el("h3", { text: about }), el("ul", {}, list(sentences).map((text) => el("li", { text })))];
+  return [el("details", { class: "explanation" }, el("summary", { text: "All of it, in words" }), ...paragraphs.flatMap(one))];
 }
 
 function show_decision(record) {
   const { decision } = record, panel = by_id("decision");
+  const [in_short, ...in_detail] = read_explanation(by_id("explanation").textContent);
+  const short_words = list(in_short?.sentences).map((text) => el("p", { class: "in-short", text }));
   if (!decision) {
-    panel.append(el("p", { text: "No manoeuvre was triggered in this encounter." }));
+    panel.append(el("p", { text: "No manoeuvre was triggered in this encounter." }), ...short_words, ...explanation_details(in_detail));
     return;
   }
   const match = is_number(decision.preview) ? `preview ${decision.preview + 1}${is_number(decision.similarity) ? `, ${percent(decision.similarity)} alike` : ""}` : "no preview matched";
   panel.append(
     el("p", { class: "lead" }, el("b", { text: `${decision.policy} ${decision.name ?? ""}` }), ` – ${plan_words(decision.policy, decision)}`),
     el("p", {}, tag(source_words[decision.source] ?? String(decision.source), "strong"), " ", tag(match), " ", tag(`at ${num(decision.time_s, 2, "s")}`)),
-    el("p", { text: decision.text || "The record gives no reason." }),
+    ...(short_words.length ? short_words : [el("p", { text: decision.text || "The record gives no reason." })]), ...explanation_details(in_detail),
     ...verdict_table(decision.verdict, decision, `at T1${decision.by_atlas ? ", by the atlas" : ""}`), ...switch_list(record));
 }
 
@@ -86,18 +111,18 @@ function show_driver(record) {
 function show_result(record) {
   const panel = by_id("result"), { result, decision } = record;
   const rows = record.hindsight.map((row) => {
-    const marks = [row.policy === record.best ? tag("best", "good") : null, row.policy === decision?.policy ? tag("carried out", "strong") : null];
+    const marks = [row.policy === record.best ? tag("best", "good") : null, row.policy === decision?.policy ? tag(begun_words(record), "strong") : null];
     const name = policy_cell(row.policy, row.name, ...marks);
     if (row.refusal) return { class: "refused", cells: [name, el("span", { text: `refused: ${row.refusal}` }), none, none, none] };
     return { class: row.policy === decision?.policy ? "chosen" : "", cells: [name, contact_cell(row.contact),
-      { class: "n", content: num(row.clearance_m, 2) }, { class: "n", content: num(row.collision_loss, 2) }, { class: "n", content: num(row.harm, 3) }] };
+      { class: "n", content: el("span", {}, num(row.clearance_m, 2), el("small", { text: nearest_words(row) })) }, { class: "n", content: num(row.collision_loss, 2) }, { class: "n", content: num(row.harm, 3) }] };
   });
   const hit = result.contact;
   panel.append(el("dl", { class: "facts" }, ...[
     ["Contact", hit ? contact_words(hit) : "none"],
     hit ? ["Face of the other", hit.other_face ?? none] : null,
     hit ? ["Change of speed, ego / other", `${num(hit.ego_delta_v_mps, 1)} / ${num(hit.other_delta_v_mps, 1, "m/s")}`] : null,
-    ["Smallest gap", num(result.clearance_m, 2, "m")], ["Collision Loss", num(result.collision_loss, 2)], ["Harm", num(result.harm, 3)],
+    ["Smallest gap", `${num(result.clearance_m, 2, "m")}${nearest_words(result)}`], ["Collision Loss", num(result.collision_loss, 2)], ["Harm", num(result.harm, 3)],
   ].filter(Boolean).map(([k, v]) => el("div", {}, el("dt", { text: k }), el("dd", { text: v })))));
   const pictures = [close_up(record), cost_charts(record)].filter(Boolean);
   if (pictures.length) panel.append(el("div", { class: "pictures" }, pictures));
@@ -176,7 +201,7 @@ function preview_steps(preview, record) {
 
 /** Tabs, one per preview; on paper all are shown. */
 function show_previews(record, show_in_plan) {
-  const panel = by_id("previews"), chosen = record.decision?.preview ?? 0;
+  const panel = by_id("previews"), chosen = shown_preview(record);
   if (!record.previews.length) {
     panel.append(el("p", { class: "soft", text: "No situation at the trigger was forecast in this encounter." }));
     return;

@@ -42,9 +42,15 @@ function read_record(text) {
   record.begun = read_begun(record);
   record.shape_of = new Map(record.actors.map((a) => [a.id, a]));
   record.risk_of = new Map();
-  const told = record.previews[record.decision?.preview ?? 0] ?? null;
+  const told = record.previews[shown_preview(record)] ?? null;
   for (const actor of list(told?.actors)) record.risk_of.set(actor.id, actor.risk);
   return record;
+}
+
+/** Index of the preview that was matched, or else of the likeliest. */
+function shown_preview({ decision, previews }) {
+  if (is_number(decision?.preview)) return decision.preview;
+  return previews.reduce((best, one, k) => ((one.probability ?? 0) > (previews[best].probability ?? 0) ? k : best), 0);
 }
 
 /** Id of the actor with the largest risk in the preview that counts, or null. */

@@ -59,7 +59,7 @@ function show_overlays() {
   const box = by_id("overlays");
   if (record.previews.length) {
     const options = [["", "none"], ...record.previews.map((p, k) => [String(k), `${k + 1} · ${percent(p.probability)}`])];
-    plan.ghost_preview = record.decision?.preview ?? 0;
+    plan.ghost_preview = shown_preview(record);
     box.append(el("label", { class: "field" }, swatch("forecast"), "Forecast", el("select", { id: "forecast", onchange: (e) => {
       plan.ghost_preview = e.target.value === "" ? null : Number(e.target.value);
       page.show();
@@ -122,6 +122,14 @@ function show_legend() {
     record.result.contact ? key("contact", "contact") : "", record.hypotheses.length ? el("span", { class: "key" }, swatch("hypothesis"), el("span", { id: "hypotheses-words", role: "status", text: hypotheses_words(null) })) : "", danger_switch(), el("span", { text: `arrows: way in ${arrow_seconds} s` }), el("span", { class: "road-words", text: words }));
 }
 
+/** What stands short in events and marks. */
+function show_short_words() {
+  const { thresholds } = record, at = (s) => (is_number(s) ? ` (${num(s, 1, "s")} to a conflict)` : "");
+  const intentions = Object.entries(intention_words).filter(([letters]) => letters === letters.toUpperCase());
+  by_id("short-words").textContent = `T2${at(thresholds.preview_s)}: SACA takes the wheel and previews. T1${at(thresholds.trigger_s)}: it acts. Intentions: ${
+    intentions.map(([letters, words]) => `${letters} ${words}`).join(", ")}. Policies: ${record.hindsight.map((row) => `${row.name} ${policy_words[row.policy]}`).join(", ") || "none was judged"}.`;
+}
+
 // --- window, start --------------------------------------------------------------------------------
 
 function toggle_window() {
@@ -154,6 +162,7 @@ function start() {
   show_events(record, (t, event) => page.seek(t, event));
   show_overlays();
   show_legend();
+  show_short_words();
   show_window();
   by_id("window").addEventListener("click", () => { toggle_window(); page.show(); });
   for (const [id, factor] of [["zoom-in", 1.25], ["zoom-out", 0.8]]) {

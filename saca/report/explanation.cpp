@@ -52,7 +52,8 @@ std::string percent(double probability) {
 /// What became of one plan of a verdict.
 struct Judged {
   std::string name;
-  std::string policy;  ///< in words
+  std::string short_name;  ///< of its policy
+  std::string policy;      ///< in words
   bool drivable = false;
   double harm = 0.0;
   double contact = 0.0;
@@ -74,6 +75,7 @@ class Story {
                 : std::optional(verdict.at("admissible_harm").get<double>());
     for (const json& plan : verdict.at("plans")) {
       Judged judged{.name = plan_name(plan),
+                    .short_name = plan.at("name").get<std::string>(),
                     .policy = meaning(plan.at("name").get<std::string>()),
                     .chosen = is_same_plan(plan, decision_)};
       judged.is_braking = plan.at("policy") == manoeuvre::index(manoeuvre::PolicyId::aeb);
@@ -88,7 +90,7 @@ class Story {
   }
 
   [[nodiscard]] std::vector<Paragraph> told() const {
-    std::vector<Paragraph> all{{"What threatened", threatened()}};
+    std::vector<Paragraph> all{{"In short", in_short()}, {"What threatened", threatened()}};
     if (!decision_.is_null()) {
       all.push_back({"What was believed of the others", believed()});
       all.push_back({"What each plan was expected to end in", expected()});
@@ -118,6 +120,7 @@ class Story {
   [[nodiscard]] double decided_at() const { return decision_.at("time_s").get<double>(); }
   [[nodiscard]] std::string source() const { return decision_.at("source").get<std::string>(); }
 
+  [[nodiscard]] Sentences in_short() const;
   [[nodiscard]] Sentences threatened() const;
   [[nodiscard]] Sentences believed() const;
   [[nodiscard]] Sentences expected() const;
@@ -127,7 +130,10 @@ class Story {
   [[nodiscard]] Sentences switched() const;
   [[nodiscard]] Sentences ended() const;
   [[nodiscard]] Sentences hindsight() const;
-  [[nodiscard]] std::string rule() const;
+  [[nodiscard]] std::string about_to_happen() const;
+  [[nodiscard]] std::string considered() const;
+  [[nodiscard]] std::string because() const;
+  [[nodiscard]] const json* last_frame() const;
   [[nodiscard]] std::string why_not(const Judged& plan) const;
   [[nodiscard]] bool nothing_harms_nobody() const {
     return std::any_of(judged_.begin(), judged_.end(), [](const Judged& plan) {
@@ -146,6 +152,15 @@ class Story {
   std::optional<double> most_;  ///< admissible harm
 };
 
+/// The last picture before what was decided; nullptr: there is none.
+const json* Story::last_frame() const {
+  const json& frames = record_.at("frames");
+  const auto found = std::find_if(frames.rbegin(), frames.rend(), [&](const json& frame) {
+    return frame.at("t_s").get<double>() <= decided_at();
+  });
+  return found == frames.rend() ? nullptr : &*found;
+}
+
 Story::Sentences Story::threatened() const {
   Sentences told;
   if (const std::string first = event("preview", "world"); !first.empty()) {
@@ -159,15 +174,11 @@ Story::Sentences Story::threatened() const {
     return told;
   }
   told.push_back(event("trigger", "reflex"));
-  for (auto frame = record_.at("frames").rbegin(); frame != record_.at("frames").rend(); ++frame) {
-    if (frame->at("t_s").get<double>() <= decided_at()) {
-      told.push_back(
-          fmt::format("The trigger fires where a conflict is at most {:.1f} s away; the "
-                      "ego drove at {:.1f} m/s.",
-                      record_.at("thresholds").at("trigger_s").get<double>(),
-                      frame->at("ego").at("speed_mps").get<double>()));
-      break;
-    }
+  if (const json* const frame = last_frame()) {
+    told.push_back(fmt::format(
+        "The trigger fires where a conflict is at most {:.1f} s away; the ego drove at {:.1f} m/s.",
+        record_.at("thresholds").at("trigger_s").get<double>(),
+        frame->at("ego").at("speed_mps").get<double>()));
   }
   return told;
 }
@@ -245,41 +256,100 @@ Story::Sentences Story::admissible() const {
       fmt::format("Admissible were {}.", names)};
 }
 
-std::string Story::rule() const {
+std::string Story::because() const {
   const std::string by = source();
   if (by == "forced") {
-    return "The user asked for this policy, whatever was thought.";
+    return "the user asked for it, whatever was thought";
   }
   if (by == "memory") {
-    return "A case in memory had this plan ready for a situation like this one.";
+    return "a case in memory had this plan ready for a situation like this one";
   }
   if (by == "model") {
-    return "The language model had chosen this plan for a situation like this one, and the check "
-           "by "
-           "rollout had passed.";
+    return "the language model had chosen this plan for a situation like this one, and the check "
+           "by rollout had passed";
   }
   if (by == "fallback") {
-    return "Nothing could be judged, or what was decided on could not be driven from here: "
-           "emergency braking is the fallback.";
+    return "nothing could be judged, or what was decided on could not be driven from here: "
+           "emergency braking is the fallback";
   }
   if (decision_.at("name") == "NI") {
-    return nothing_harms_nobody()
-               ? "The arbiter decided: no draw has contact where nothing is done, so nothing is "
-                 "done."
-               : "The arbiter decided: only doing nothing is admissible, so nothing is done.";
+    return nothing_harms_nobody() ? "no draw of what the others may do has contact where nothing "
+                                    "is done"
+                                  : "braking is not admissible, and nothing that is admissible is "
+                                    "expected to harm less than doing nothing";
   }
   if (decision_.at("name") == "AEB" && !is_choice_admissible()) {
-    return "The arbiter decided: doing nothing may end in contact and no other plan is admissible; "
-           "emergency braking was begun although it is not.";
+    return "doing nothing may end in contact and no other plan is admissible; emergency braking "
+           "was begun although it is not";
   }
   if (decision_.at("name") == "AEB") {
-    return "The arbiter decided: doing nothing may end in contact and braking is admissible. It "
-           "comes first where full braking is admissible, else where no lane change harms less; of "
-           "the ways to brake it is the hardest of those that harm as little as the best.";
+    return "doing nothing may end in contact and braking is admissible: it comes first where full "
+           "braking is admissible, else where no lane change harms less; of the ways to brake it "
+           "is the hardest of those that harm as little as the best";
   }
-  return "The arbiter decided: doing nothing may end in contact, full braking is not "
-         "admissible and no gentler braking harms less, so it is the mildest of the admissible "
-         "plans that leave the lane.";
+  return "doing nothing may end in contact, full braking is not admissible and no gentler braking "
+         "harms less: it is the mildest of the admissible plans that leave the lane";
+}
+
+std::string Story::about_to_happen() const {
+  std::string told = fmt::format("At {:.2f} s ", decided_at());
+  const auto threat = decision_.find("threat");
+  told += threat == decision_.end() || threat->is_null()
+              ? "a conflict came near"
+              : fmt::format("a conflict with {} came near", threat->get<std::string>());
+  if (const json* const frame = last_frame()) {
+    if (const auto conflict = frame->find("conflict_s");
+        conflict != frame->end() && !conflict->is_null()) {
+      told += fmt::format(", {:.2f} s away", conflict->get<double>());
+    }
+    told += fmt::format("; the ego drove at {:.1f} m/s",
+                        frame->at("ego").at("speed_mps").get<double>());
+  }
+  for (const json& one : record_.at("hindsight")) {
+    if (one.at("name") == "NI" && !one.at("harm").is_null()) {
+      told += fmt::format(". Had nothing been done, this would have come of it: {} (harm {:.4f})",
+                          one.at("text").get<std::string>(), one.at("harm").get<double>());
+    }
+  }
+  return told + ".";
+}
+
+std::string Story::considered() const {
+  if (judged_.empty() || !most_) {
+    return "No plan could be judged.";
+  }
+  // Of each policy the plan that harms least; one that may be chosen first.
+  std::vector<const Judged*> best;
+  for (const Judged& plan : judged_) {
+    const auto same = std::find_if(best.begin(), best.end(), [&](const Judged* one) {
+      return one->short_name == plan.short_name;
+    });
+    if (same == best.end()) {
+      best.push_back(&plan);
+    } else if (plan.drivable && (!(*same)->drivable || plan.harm < (*same)->harm)) {
+      *same = &plan;
+    }
+  }
+  std::string admissible;
+  std::string rejected;
+  for (const Judged* const one : best) {
+    std::string& list = one->admissible ? admissible : rejected;
+    list += (list.empty() ? "" : ", ") + one->policy;
+    list += one->drivable ? fmt::format(" ({:.4f})", one->harm) : " (cannot be driven)";
+  }
+  return fmt::format(
+      "Considered were {} plans. These kinds had one whose expected harm is at most {:.4f}, which "
+      "the forecasts cannot tell from the best: {}. Rejected as more harmful: {}.",
+      judged_.size(), *most_, admissible, rejected.empty() ? "none" : rejected);
+}
+
+Story::Sentences Story::in_short() const {
+  if (decision_.is_null()) {
+    return threatened();
+  }
+  return {about_to_happen(), considered(),
+          fmt::format("{}, {}, was begun because {}.", plan_name(decision_),
+                      meaning(decision_.at("name").get<std::string>()), because())};
 }
 
 Story::Sentences Story::chosen() const {
@@ -293,7 +363,7 @@ Story::Sentences Story::chosen() const {
             ? ", but that plan is expected to harm too much from here"
             : ""));
   }
-  told.push_back(rule());
+  told.push_back(fmt::format("It was begun because {}.", because()));
   return told;
 }
 
@@ -316,6 +386,9 @@ std::string Story::why_not(const Judged& plan) const {
   }
   if (nothing_harms_nobody()) {
     return fmt::format("{}: admissible, but not needed.", plan.name);
+  }
+  if (decision_.at("name") == "NI") {
+    return fmt::format("{}: admissible, but expected to harm more than doing nothing.", plan.name);
   }
   if (plan.name == "NI") {
     return fmt::format("NI: admissible, but it may end in contact ({}), and something can be done.",

@@ -14,7 +14,8 @@ struct Paragraph {
   std::vector<std::string> sentences;
 };
 
-/// Why an encounter went as it did, in plain words: what threatened, what was believed of whom,
+/// Why an encounter went as it did, in plain words. First in short: what was about to happen, what
+/// was considered and rejected, why this was done; then what threatened, what was believed of whom,
 /// what each plan was expected to end in, which were admissible, what was chosen and by which rule,
 /// why not each of the others, what was switched, how it ended, what hindsight says.
 ///

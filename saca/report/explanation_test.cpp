@@ -87,13 +87,33 @@ TEST(Explanation, TellsWhatWasExpectedOfEachPlanAndWhyItWasNotChosen) {
             "NI: its expected harm of 0.7700 is more than the admissible 0.0123.\n");
 }
 
+TEST(Explanation, TellsInShortWhatCameWhatWasWeighedAndWhy) {
+  json other = record();
+  other["decision"]["threat"] = "car7";
+  other["frames"][0]["conflict_s"] = 1.28;
+  other["hindsight"].push_back(lived(7, "NI", 0.5));
+  EXPECT_EQ(told(other, "In short"),
+            "At 2.50 s a conflict with car7 came near, 1.28 s away; the ego drove at 17.3 m/s. Had "
+            "nothing been done, this would have come of it: hits car7 (harm 0.5000).\n"
+            "Considered were 5 plans. These kinds had one whose expected harm is at most 0.0123, "
+            "which the forecasts cannot tell from the best: a lane change to the left (0.0111), a "
+            "lane change to the right (0.0122). Rejected as more harmful: emergency braking "
+            "(0.3500), a drift to a stop, facing left (cannot be driven), doing nothing (0.7700).\n"
+            "AES-L, a lane change to the left, was begun because doing nothing may end in contact, "
+            "full braking is not admissible and no gentler braking harms less: it is the mildest "
+            "of the admissible plans that leave the lane.\n");
+  other["decision"] = nullptr;
+  other["best"] = nullptr;
+  EXPECT_THAT(told(other, "In short"), HasSubstr("nothing had to be decided"));
+}
+
 TEST(Explanation, TellsTheRuleByWhichWasChosen) {
   const std::string about = "What was chosen, and by which rule";
   EXPECT_THAT(told(record(), about), HasSubstr("the mildest of the admissible plans"));
   EXPECT_THAT(told(record(), about), HasSubstr("like it to 61 %."));
   for (const auto& [source, words] :
-       {std::pair("memory", "A case in memory"),
-        std::pair("model", "The language model had chosen"), std::pair("forced", "The user asked"),
+       {std::pair("memory", "a case in memory"),
+        std::pair("model", "the language model had chosen"), std::pair("forced", "the user asked"),
         std::pair("fallback", "emergency braking is the fallback")}) {
     json other = record();
     other["decision"]["source"] = source;
@@ -111,7 +131,20 @@ TEST(Explanation, DoesNotCallBrakingAdmissibleWhereItIsNot) {
   other["decision"]["verdict"]["admissible_harm"] = 0.0105;
   EXPECT_THAT(told(other, about), HasSubstr("emergency braking was begun although it is not"));
   other["decision"]["verdict"]["admissible_harm"] = 0.4;
-  EXPECT_THAT(told(other, about), HasSubstr("and braking is admissible."));
+  EXPECT_THAT(told(other, about), HasSubstr("and braking is admissible:"));
+}
+
+TEST(Explanation, TellsWhyNothingIsDoneThoughItMayHarm) {
+  json other = record();
+  other["decision"].update(plan(7, "NI", nullptr, nullptr));
+  other["decision"]["verdict"]["plans"][4]["harm"] = 0.004;
+  while (other["hindsight"].size() < 8) {
+    other["hindsight"].push_back(lived(7, "NI", 0.0));
+  }
+  EXPECT_THAT(told(other, "In short"), HasSubstr("NI, doing nothing, was begun because braking is "
+                                                 "not admissible, and nothing that is admissible"));
+  EXPECT_THAT(told(other, "Why not the others"),
+              HasSubstr("AES-R: admissible, but expected to harm more than doing nothing."));
 }
 
 TEST(Explanation, TellsHowHardWasBrakedAndWhyNotHarder) {

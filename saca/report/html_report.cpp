@@ -10,6 +10,7 @@
 #include "saca/config/json_reader.h"
 #include "saca/config/json_text.h"
 #include "saca/core/contract.h"
+#include "saca/report/explanation.h"
 #include "saca/report/page.h"
 #include "saca/report/value_map.h"
 
@@ -18,6 +19,7 @@ namespace {
 
 constexpr std::string_view css_marker = "/* style */";
 constexpr std::string_view record_marker = "\"record.json\"";
+constexpr std::string_view told_marker = "\"explanation.json\"";  // of an encounter's page only
 constexpr std::string_view js_marker = "/* script */";
 
 std::optional<Error> problem(std::string_view record_json, std::string_view schema) {
@@ -83,6 +85,17 @@ std::string value_colours() {
                      list_of(danger_colours), list_of(safety_colours));
 }
 
+/// What `saca explain` says of it; empty where it lacks what that needs.
+std::string told(std::string_view record_json) {
+  nlohmann::json paragraphs = nlohmann::json::array();
+  if (const auto all = explanation(record_json, "record"); all.has_value()) {
+    for (const Paragraph& one : all.value()) {
+      paragraphs.push_back({{"about", one.about}, {"sentences", one.sentences}});
+    }
+  }
+  return paragraphs.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 /// @param more_css  that follows the page's own
 Result<std::string> filled(const Page& page, std::string_view record_json, std::string_view schema,
                            const std::string& more_css = {}) {
@@ -95,6 +108,9 @@ Result<std::string> filled(const Page& page, std::string_view record_json, std::
   std::string_view rest = page.html;
   fill(text, rest, css_marker, std::string(page.css) + more_css);
   fill(text, rest, record_marker, record);
+  if (rest.find(told_marker) != std::string_view::npos) {
+    fill(text, rest, told_marker, harmless(told(record_json)));
+  }
   fill(text, rest, js_marker, page.js);
   text += rest;
   return text;

@@ -2,6 +2,7 @@
 
 import copy
 import functools
+import json
 import math
 import pathlib
 import re
@@ -100,11 +101,62 @@ def test_text_of_a_record_never_becomes_markup(show):
     assert page.problems == []
     assert page.run("by_id('title').textContent") == HOSTILE
     assert page.run("document.querySelectorAll('img').length") == 0
-    assert page.run("document.querySelectorAll('script').length") == 2
+    assert page.run("document.querySelectorAll('script').length") == 3
     assert page.run("window.hit === undefined")
 
 
 # --- what each panel says ------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("kind", RECORDS)
+def test_the_decision_is_told_in_short(show, kind):
+    """As `saca explain` does, where the record has what that needs; else as it was told then."""
+    page = show(RECORDS[kind])
+    assert page.run("by_id('explanation').textContent") == "[]"
+    if RECORDS[kind]["decision"]:
+        assert RECORDS[kind]["decision"]["text"] in page.run("by_id('decision').textContent")
+    words = page.run("by_id('short-words').textContent")
+    assert "T1" in words and "FB brakes" in words
+    record = copy.deepcopy(RECORDS[kind])
+    record["decision"] = {"verdict": None, "by_atlas": False, "not_admissible": False, "target_speed_mps": None, **(record["decision"] or {})} if record["decision"] else None
+    record.update(switches=[], driver=None, hindsight=[{**row, "text": "x"} for row in record["hindsight"]], result={**record["result"], "text": "y", "harm": 0.0})
+    page = show(record)
+    paragraphs = json.loads(page.run("by_id('explanation').textContent"))
+    assert paragraphs[0]["about"] == "In short" and paragraphs[0]["sentences"]
+    assert page.run("[...document.querySelectorAll('.in-short')].map((p) => p.textContent)") == paragraphs[0]["sentences"]
+    assert page.run("document.querySelectorAll('.explanation h3').length") == len(paragraphs) - 1
+
+
+def test_whom_it_was_clear_of_is_told(show):
+    record = copy.deepcopy(RECORDS["clear"])
+    record["result"]["nearest"] = {"to": "car9", "time_s": 5.4}
+    record["hindsight"][0].update(contact=None, clearance_m=1.25, nearest={"to": "van8", "time_s": 5.0})
+    page = show(record)
+    assert "to car9 at 5.40" in page.run("by_id('tiles').textContent")
+    assert "of van8" in page.run("by_id('futures').textContent")
+
+
+def test_it_opens_on_the_likeliest_forecast_where_none_was_matched(show):
+    record = copy.deepcopy(RECORDS["clear"])
+    assert len(record["previews"]) > 1
+    record["decision"]["preview"] = None
+    for k, preview in enumerate(record["previews"]):
+        preview["probability"] = 0.1 * (k + 1)
+    page = show(record)
+    last = len(record["previews"]) - 1
+    assert page.run("document.querySelector('[role=tab][aria-selected=true]').id") == f"tab-{last}"
+    assert page.run("by_id('forecast').value") == str(last)
+
+
+def test_what_was_switched_later_is_not_called_carried_out(show):
+    record = copy.deepcopy(RECORDS["switched"])
+    record["best"] = record["decision"]["policy"]
+    record["hindsight"][record["best"]]["harm"] = record["result"]["harm"]
+    page = show(record)
+    assert "with equal harm" in page.run("by_id('tiles').textContent")
+    assert "begun first" in page.run("by_id('futures').textContent")
+    record["switches"] = []
+    assert "was carried out" in show(record).run("by_id('tiles').textContent")
 
 
 def test_the_header_gives_decision_contact_harm_and_best(show):
