@@ -12,7 +12,7 @@
 SCENARIO ?= 100car_8456
 
 run: build model
-	build/release/saca run $(SCENARIO)
+	build/release/saca run $(SCENARIO) --memory runs/memory.sqlite
 
 setup:
 	@tools/setup.sh

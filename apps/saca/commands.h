@@ -10,6 +10,8 @@ namespace saca::app {
 void add_run(CLI::App& line, int& exit_code);
 void add_replay(CLI::App& line, int& exit_code);
 void add_explain(CLI::App& line, int& exit_code);
+void add_report(CLI::App& line, int& exit_code);
+void add_verify(CLI::App& line, int& exit_code);
 void add_scenarios(CLI::App& line, int& exit_code);
 void add_import(CLI::App& line, int& exit_code);
 void add_memory(CLI::App& line, int& exit_code);

@@ -42,6 +42,8 @@ int main(int argc, char** argv) {
     add_run(line, exit_code);
     add_replay(line, exit_code);
     add_explain(line, exit_code);
+    add_report(line, exit_code);
+    add_verify(line, exit_code);
     add_scenarios(line, exit_code);
     add_import(line, exit_code);
     add_memory(line, exit_code);

@@ -11,6 +11,7 @@
 #include "apps/saca/commands.h"
 #include "apps/saca/danger_making.h"
 #include "apps/saca/inputs.h"
+#include "apps/saca/invocation.h"
 #include "apps/saca/model.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
@@ -18,12 +19,16 @@
 #include "apps/saca/thinking_options.h"
 #include "apps/saca/within.h"
 #include "saca/core/file.h"
+#include "saca/core/fnv.h"
 #include "saca/loop/encounter.h"
+#include "saca/loop/provenance.h"
 #include "saca/loop/review.h"
 #include "saca/loop/trace.h"
 #include "saca/manoeuvre/atlas_file.h"
 #include "saca/memory/store.h"
+#include "saca/report/explanation.h"
 #include "saca/report/html_report.h"
+#include "saca/runtime/tape_header.h"
 
 namespace saca::app {
 namespace {
@@ -33,7 +38,7 @@ namespace fs = std::filesystem;
 struct RunOptions {
   std::string scenario;
   std::string pace = "real";
-  ThinkingOptions thinking{.memory = "runs/memory.sqlite", .model = "local"};
+  ThinkingOptions thinking{.model = "local"};
   std::string record_replies;
   std::optional<int> policy;
   std::optional<double> strength;
@@ -42,7 +47,7 @@ struct RunOptions {
   std::string danger;
   bool no_memory = false;
   bool no_learning = false;
-  bool no_review = false;
+  bool review = false;
   std::string output = "runs";
   std::string report;
   std::string trace;
@@ -76,10 +81,10 @@ Result<std::optional<reach::DangerModel>> open_danger(const RunOptions& options,
 
 /// nullptr: none is wanted.
 Result<std::shared_ptr<memory::Store>> open_memory(const RunOptions& options) {
-  if (options.no_memory) {
+  const std::string& file = options.thinking.memory;
+  if (file.empty() || options.no_memory) {
     return std::shared_ptr<memory::Store>();
   }
-  const std::string& file = options.thinking.memory;
   if (const auto problem = make_folder_of(file)) {
     return *problem;
   }
@@ -87,7 +92,7 @@ Result<std::shared_ptr<memory::Store>> open_memory(const RunOptions& options) {
   if (!opened.has_value()) {
     return Error{opened.error().code, opened.error().message + " (" +
                                           (options.no_learning ? "" : "move the file away, or ") +
-                                          "run with --no-memory)"};
+                                          "run without --memory)"};
   }
   return std::make_shared<memory::Store>(std::move(opened).value());
 }
@@ -107,6 +112,27 @@ std::optional<Error> write_outputs(const std::string& record, const fs::path& fo
     return page.error();
   }
   return write_file(report, page.value());
+}
+
+/// Of a record that this command makes now.
+Result<loop::Provenance> provenance_of(const ScenarioInputs& inputs, const std::string& scenario) {
+  Fnv hash;
+  if (auto problem = read_file(find_scenario(inputs.places, scenario),
+                               [&](std::string_view bytes) { hash.add(bytes); })) {
+    return *std::move(problem);
+  }
+  return loop::Provenance{.program = "saca " SACA_VERSION,
+                          .commit = "",
+                          .date = now_in_utc(),
+                          .command = invocation(),
+                          .file = scenario,
+                          .digest = runtime::digest_text(hash)};
+}
+
+/// What came, what was weighed and why this was done.
+std::vector<std::string> in_short(const std::string& record) {
+  const auto told = report::explanation(record, "the record");
+  return told.has_value() ? told.value().front().sentences : std::vector<std::string>();
 }
 
 /// CLI11's convention: what is wrong with the name of a trace, or nothing.
@@ -203,22 +229,28 @@ int run(const RunOptions& options) {
   if (!played.has_value()) {
     return refused(played.error());
   }
-  story.ending(inputs.value().scenario, played.value());
   loop::Record record = std::move(played).value();
+  const auto provenance = provenance_of(inputs.value(), options.scenario);
+  if (!provenance.has_value()) {
+    return refused(provenance.error());
+  }
+  std::string text = loop::record_json(setup, record, &provenance.value());
+  story.ending(inputs.value().scenario, record, in_short(text));
   // What was played is written down even if nobody wants to wait for the review.
   watch_for_interrupt();
   const InterruptStop interrupt;
   const auto review =
-      options.no_review ? Result<std::optional<reason::Review>>(std::nullopt)
-                        : loop::review(
-                              setup, record, [&](std::string_view said) { story.on_review(said); },
-                              interrupt.token());
-  if (review.has_value()) {
-    record.review = review.value();
-  } else {
+      options.review ? loop::review(
+                           setup, record, [&](std::string_view said) { story.on_review(said); },
+                           interrupt.token())
+                     : Result<std::optional<reason::Review>>(std::nullopt);
+  if (!review.has_value()) {
     complain("no review: " + review.error().message);
+  } else if (review.value()) {
+    record.review = review.value();
+    story.on_truth(record.review->truth);
+    text = loop::record_json(setup, record, &provenance.value());
   }
-  const std::string text = loop::record_json(setup, record);
   const fs::path folder = fs::path(options.output) / inputs.value().scenario.name;
   const fs::path report =
       options.report.empty() ? folder / "report.html" : fs::path(options.report);
@@ -280,9 +312,9 @@ void add_run(CLI::App& line, int& exit_code) {
       ->add_option("--danger", options->danger,
                    "off: risks by a few evasions (default: solved tables, made when needed)")
       ->check(CLI::IsMember({"off"}));
-  command->add_flag("--no-memory", options->no_memory, "Neither ask nor fill a memory");
-  command->add_flag("--no-review", options->no_review,
-                    "Do not have the language model look back when all is over");
+  command->add_flag("--no-memory", options->no_memory, "As without --memory")->group("");
+  command->add_flag("--review", options->review,
+                    "Have the language model look back when all is over: half a minute");
   command->add_flag("--no-learning", options->no_learning,
                     "Ask the memory, but do not add to it what happens");
   command->add_option("--output", options->output, "Folder for records and reports")

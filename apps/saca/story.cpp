@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <cerrno>
 #include <climits>
+#include <cmath>
 #include <cstring>
 #include <iterator>
 
 #include "saca/core/printable.h"
 #include "saca/outcome/describe.h"
+#include "saca/outcome/ordering.h"
 
 namespace saca::app {
 namespace {
@@ -35,6 +37,27 @@ const char* colour_of(decide::EventKind kind) {
     default:
       return "";
   }
+}
+
+/// What was begun at the trigger, and after it.
+std::string done(const loop::Record& record) {
+  std::string text = manoeuvre::plan_text(record.decision->plan);
+  for (const loop::TimedSwitch& each : record.switches) {
+    text += fmt::format(", from {:.2f} s on {}", each.time, manoeuvre::plan_text(each.change.plan));
+  }
+  return text;
+}
+
+/// What would have been best beside what came of what was done.
+std::string beside(const preview::PolicyFacts& best, const loop::Record& record) {
+  const double more = record.result.harm - best.outcome().harm;
+  if (std::abs(more) >= outcome::harm_tie) {
+    return more > 0.0 ? fmt::format("It harms {:.4f} less.", more)
+                      : fmt::format("What was done harmed {:.4f} less.", -more);
+  }
+  return record.switches.empty() && best.plan == record.decision->plan
+             ? "That is what was done."
+             : "It harms as much as what was done.";
 }
 
 }  // namespace
@@ -81,17 +104,27 @@ void Story::on_reasoning(std::int32_t, std::string_view) {
 }
 
 void Story::headline(const sim::Scenario& scenario, const loop::Setup& setup) {
-  waiting_ += fmt::format("{}\n{}\nPace {}, grip {:.2f}, language model: {}, forecasts: {}.\n\n",
+  waiting_ += fmt::format("{}\n{}\nPace {}, grip {:.2f}, language model: {}, forecasts: {}.\n",
                           printable(scenario.title), printable(scenario.source), name(setup.pace),
                           scenario.grip,
                           setup.model == nullptr ? "off" : one_line(setup.model->description()),
                           setup.atlas == nullptr ? "rolled out" : "from the atlas");
+  waiting_ += fmt::format(
+      "T2: {:.1f} s to a conflict, SACA takes the wheel and previews. T1: {:.1f} s, it acts. AEB "
+      "emergency braking,\nAES-L/-R a lane change to the left or right, ES-B-L/-R the same while "
+      "braking, T-D-L/-R a drift to a stop facing\nleft or right, NI nothing. Intentions: M goes "
+      "on, FB brakes, LC/RC changes to the left or right, LB/RB brakes too.\n\n",
+      setup.thresholds.preview, setup.thresholds.trigger);
   write_waiting(0);
 }
 
-void Story::ending(const sim::Scenario& scenario, const loop::Record& record) {
+void Story::ending(const sim::Scenario& scenario, const loop::Record& record,
+                   const std::vector<std::string>& in_short) {
   std::string text = "\n";
   const auto line = std::back_inserter(text);
+  for (const std::string& sentence : in_short) {
+    fmt::format_to(line, "{}\n", printable(sentence));
+  }
   if (!scenario.driver.empty()) {
     fmt::format_to(line, "The driver: {}\n", printable(scenario.driver));
   }
@@ -105,15 +138,13 @@ void Story::ending(const sim::Scenario& scenario, const loop::Record& record) {
     say(text);
     return;
   }
-  const manoeuvre::PolicyId chosen = record.decision->plan.policy;
-  fmt::format_to(line, "SACA: {} {}, {}. Collision Loss {:.2f}, harm {:.4f}.\n",
-                 manoeuvre::index(chosen), name(chosen),
+  fmt::format_to(line, "SACA: {}, {}. Collision Loss {:.2f}, harm {:.4f}.\n", done(record),
                  outcome::describe(record.result, record.met), record.result.collision_loss,
                  record.result.harm);
   const preview::PolicyFacts& best = (*record.hindsight)[manoeuvre::index(*record.best)].facts;
-  fmt::format_to(line, "Best in hindsight: {} {}, {}{}.\n", manoeuvre::index(*record.best),
-                 name(*record.best), outcome::describe(best.outcome(), *record.at_trigger),
-                 *record.best == chosen ? ": the same" : "");
+  fmt::format_to(line, "Best in hindsight, kept to the end: {}, {}. {}\n",
+                 manoeuvre::plan_text(best.plan),
+                 outcome::describe(best.outcome(), *record.at_trigger), beside(best, record));
   say(text);
 }
 
@@ -122,8 +153,22 @@ void Story::on_review(std::string_view text) {
   reviewing_ = true;
 }
 
+void Story::on_truth(const reason::Truth& truth) {
+  if (truth.num_checked == 0) {
+    return;
+  }
+  const auto checked = static_cast<std::size_t>(truth.num_checked);
+  std::string text = fmt::format("\n{} of {} statements that can be checked are true.\n",
+                                 checked - truth.wrong.size(), checked);
+  for (const reason::FalseStatement& each : truth.wrong) {
+    text += fmt::format("  false: \"{}\": {}\n", one_line(each.text, longest_event),
+                        one_line(each.why, longest_event));
+  }
+  say(text);
+}
+
 void Story::on_report(const std::string& file) {
-  say(fmt::format("{}Report: {}\n", reviewing_ ? "\n\n" : "", one_line(file, longest_event)));
+  say(fmt::format("{}Report: {}\n", reviewing_ ? "\n" : "", one_line(file, longest_event)));
 }
 
 }  // namespace saca::app

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "saca/core/result.h"
 #include "saca/loop/encounter.h"
@@ -26,9 +27,13 @@ class Story final : public loop::Listener {
 
   /// Does not wait: what cannot be written now stands before the first event.
   void headline(const sim::Scenario& scenario, const loop::Setup& setup);
-  void ending(const sim::Scenario& scenario, const loop::Record& record);
+  /// @param in_short  what came, what was weighed and why this was done, in sentences
+  void ending(const sim::Scenario& scenario, const loop::Record& record,
+              const std::vector<std::string>& in_short);
   /// The model looking back, piece by piece.
   void on_review(std::string_view text);
+  /// What of that is false.
+  void on_truth(const reason::Truth& truth);
   /// Where the report lies.
   void on_report(const std::string& file);
 

@@ -62,7 +62,7 @@ def forecasts(run):
 
 
 def run(*arguments, cwd):
-    return saca("run", "one_way", "--llm", "off", "--pace", "lockstep", "--no-memory", "--json", *arguments, cwd=cwd)
+    return saca("run", "one_way", "--llm", "off", "--pace", "lockstep", "--json", *arguments, cwd=cwd)
 
 
 def test_a_run_reads_its_forecasts_from_the_atlas(tmp_path):
@@ -83,7 +83,7 @@ def test_a_run_builds_the_atlas_where_there_is_none_that_is_right(tmp_path):
         shutil.copy(table["file"], tables)
 
     def own_run():
-        done = subprocess.run([program, "run", "one_way", "--llm", "off", "--pace", "lockstep", "--no-memory", "--json"],
+        done = subprocess.run([program, "run", "one_way", "--llm", "off", "--pace", "lockstep", "--json"],
                               cwd=tmp_path, capture_output=True, text=True, check=True,
                               env=os.environ | {"XDG_CACHE_HOME": str(tmp_path / "cache")})
         assert forecasts(done) == (True, {False})

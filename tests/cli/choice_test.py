@@ -109,7 +109,7 @@ def test_every_family_gives_a_sheet_and_files_that_run(family, tmp_path):
     assert run.returncode == SUCCESS, run.stderr
     told = json.loads(run.stdout)
     assert len(told["samples"]) == 2
-    quick = saca("run", tmp_path / told["samples"][0]["file"], "--llm", "off", "--pace", "lockstep", "--no-memory", cwd=tmp_path)
+    quick = saca("run", tmp_path / told["samples"][0]["file"], "--llm", "off", "--pace", "lockstep", cwd=tmp_path)
     assert quick.returncode == SUCCESS, quick.stderr
     for sample in told["samples"]:
         made = tomllib.loads((tmp_path / sample["file"]).read_text())

@@ -35,7 +35,7 @@ def test_tells_what_the_driver_did_what_saca_did_and_what_would_have_been_best(t
     run = quick("100car_9018", cwd=tmp_path)
     assert run.returncode == SUCCESS, run.stderr
     for words in ("The driver: ", "looking out the left window", "The drive as recorded: clear by",
-                  "SACA: 0 AEB", "Best in hindsight: ", "T2: car1",
+                  "SACA: 0 AEB", "Best in hindsight, kept to the end: ", "T2: car1", "(nearest: ",
                   "s to the conflict with car1"):
         assert words in run.stdout
     assert (tmp_path / "runs/100car_9018/report.html").exists()
@@ -44,7 +44,7 @@ def test_tells_what_the_driver_did_what_saca_did_and_what_would_have_been_best(t
 @pytest.mark.parametrize("name", ["100car_8456", "100car_8676", "100car_8911", "100car_9018", "intersection_t1",
                                   "intersection_t2"])
 def test_every_shipped_scenario_gives_a_record(name, tmp_path):
-    run = quick(name, "--json", "--no-memory", cwd=tmp_path)
+    run = quick(name, "--json", cwd=tmp_path)
     assert run.returncode == SUCCESS, run.stderr
     record = json.loads(run.stdout)
     assert record == json.loads((tmp_path / "runs" / name / "record.json").read_text())
@@ -58,14 +58,17 @@ def test_every_shipped_scenario_gives_a_record(name, tmp_path):
 def test_the_same_run_gives_the_same_bytes_but_for_the_clock(tmp_path):
     def record(folder):
         (tmp_path / folder).mkdir()
-        out = quick("100car_9018", "--json", "--no-memory", cwd=tmp_path / folder).stdout
-        return re.sub(r'"reflex_us_\w+": [0-9.e+-]+', "", out)
+        out = quick("100car_9018", "--json", cwd=tmp_path / folder).stdout
+        made = json.loads(out)["made"]
+        return made["content"], re.sub(r'"reflex_us_\w+": [0-9.e+-]+|"date": "[^"]*"', "", out)
 
     assert record("a") == record("b")
 
 
 def test_memory_learns_and_is_shown(tmp_path):
     assert quick("100car_8676", cwd=tmp_path).returncode == SUCCESS
+    assert not list(tmp_path.rglob("*.sqlite")), "memory is used where it is asked for"
+    assert quick("100car_8676", "--memory", "runs/memory.sqlite", cwd=tmp_path).returncode == SUCCESS
     cases = json.loads(saca("memory", "list", "--json", cwd=tmp_path).stdout)
     assert [case["source"] for case in cases] == ["100car_8676"]
     shown = json.loads(saca("memory", "show", 1, cwd=tmp_path).stdout)
@@ -74,7 +77,7 @@ def test_memory_learns_and_is_shown(tmp_path):
 
 
 def test_a_trace_tells_every_frame_and_event(tmp_path):
-    run = quick("100car_9018", "--trace", "a/trace.jsonl", "--json", "--no-memory", cwd=tmp_path)
+    run = quick("100car_9018", "--trace", "a/trace.jsonl", "--json", cwd=tmp_path)
     assert run.returncode == SUCCESS, run.stderr
     record = json.loads(run.stdout)
     header, *lines = map(json.loads, (tmp_path / "a/trace.jsonl").read_text().splitlines())
@@ -92,7 +95,7 @@ def test_a_trace_tells_every_frame_and_event(tmp_path):
 
 def test_a_trace_as_csv_tells_the_same_and_comes_out_the_same(tmp_path):
     for file in ("a.csv", "b.csv", "c.jsonl"):
-        assert quick("100car_9018", "--trace", file, "--no-memory", cwd=tmp_path).returncode == SUCCESS
+        assert quick("100car_9018", "--trace", file, cwd=tmp_path).returncode == SUCCESS
     assert (tmp_path / "a.csv").read_bytes() == (tmp_path / "b.csv").read_bytes()
     rows = list(csv.DictReader((tmp_path / "a.csv").read_text().splitlines()))
     header, *lines = map(json.loads, (tmp_path / "c.jsonl").read_text().splitlines())
@@ -120,7 +123,7 @@ def test_a_trace_of_another_kind_is_refused(file, tmp_path):
 
 def test_a_trace_that_cannot_be_written_is_told(tmp_path):
     (tmp_path / "file").write_text("")
-    run = quick("100car_9018", "--trace", "file/trace.csv", "--no-memory", cwd=tmp_path)
+    run = quick("100car_9018", "--trace", "file/trace.csv", cwd=tmp_path)
     assert "file" in one_error(run, CANNOT_WRITE)
 
 
@@ -133,7 +136,7 @@ def test_a_policy_can_be_asked_for(tmp_path):
 
 def test_before_a_close_follower_braking_fully_harms_and_what_is_decided_does_not(tmp_path):
     def record(*more):
-        run = quick("100car_8456", "--no-memory", "--json", *more, cwd=tmp_path)
+        run = quick("100car_8456", "--json", *more, cwd=tmp_path)
         assert run.returncode == SUCCESS, run.stderr
         return json.loads(run.stdout)
 
@@ -282,7 +285,7 @@ def test_a_full_disk_leaves_no_half_written_file(tmp_path):
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
 
-    run = quick("100car_8676", "--no-memory", cwd=tmp_path, preexec_fn=small_files)
+    run = quick("100car_8676", cwd=tmp_path, preexec_fn=small_files)
     assert run.returncode == CANNOT_WRITE
     assert "record.json" in run.stderr
     assert list((tmp_path / "runs/100car_8676").iterdir()) == []

@@ -10,7 +10,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from program import BAD_INPUT, SUCCESS, one_error, saca
 
 NUMBER = re.compile(r"(?<![\w.-])-?\d+(?:\.\d+)?(?![\w]|\.\d)")
-ORDER = ["What threatened", "What was believed of the others", "What each plan was expected to end in",
+ORDER = ["In short", "What threatened", "What was believed of the others", "What each plan was expected to end in",
          "Which plans were admissible", "What was chosen, and by which rule", "Why not the others", "What was switched",
          "How it ended", "What hindsight says"]
 
@@ -29,11 +29,11 @@ def numbers_of(value):
 def could_be_told(record):
     """Numbers of the record, without its thousands of poses; shares also in percent."""
     time = record["decision"]["time_s"]
-    frame = [one for one in record["frames"] if one["t_s"] <= time][-1]["ego"]["speed_mps"]
+    frame = [one for one in record["frames"] if one["t_s"] <= time][-1]
     told = {key: record[key] for key in ("thresholds", "decision", "switches", "events")}
     told["ends"] = [{key: one[key] for key in ("text", "harm", "target_speed_mps")} for one in record["hindsight"]]
     told["results"] = [{key: one[key] for key in ("text", "harm")} for one in (record["result"], record["driver"]) if one]
-    numbers = numbers_of(told) + [frame]
+    numbers = numbers_of(told) + [frame["ego"]["speed_mps"], frame["conflict_s"], len(record["decision"]["verdict"]["plans"])]
     for seen in record["intentions"]:
         newest = [k for k, seen_at in enumerate(seen["times_s"]) if seen_at <= time][-1:]
         numbers += [seen["times_s"][k] for k in newest]
@@ -52,7 +52,7 @@ def could_be_told(record):
 @pytest.fixture(scope="module", params=["100car_9018", "intersection_t1", "showcase_1"])
 def record(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp("explain")
-    run = saca("run", request.param, "--llm", "off", "--no-memory", "--pace", "lockstep", "--json", cwd=folder)
+    run = saca("run", request.param, "--llm", "off", "--pace", "lockstep", "--json", cwd=folder)
     assert run.returncode == SUCCESS, run.stderr
     (folder / "record.json").write_text(run.stdout)
     return folder / "record.json"

@@ -38,7 +38,7 @@ def test_no_scenario_commands_the_terminal(tmp_path):
     loud = re.sub("^title = .*$", lambda _: 'title = "a \\\\u001B[2J\\\\u009B2J title"'.replace("\\\\", "\\"), text, count=1, flags=re.M)
     assert loud != text
     (tmp_path / "loud.toml").write_text(loud)
-    told, code = said("run", "loud.toml", "--llm", "off", "--pace", "lockstep", "--no-memory", cwd=tmp_path)
+    told, code = said("run", "loud.toml", "--llm", "off", "--pace", "lockstep", cwd=tmp_path)
     assert code == SUCCESS and b"title" in told and not holds_a_command(told)
 
 
@@ -59,7 +59,7 @@ def test_what_is_no_scenario_is_refused_at_once(tmp_path):
     (tmp_path / "lists.toml").write_text("a = " + "[" * 300_000)
     for name, words in (("pipe.toml", "is a pipe"), ("long.toml", "want at most"), ("deep.toml", "deep.toml:1: want keys"),
                         ("lists.toml", "lists.toml:1: want arrays"), ("/dev/zero", "is a device")):
-        assert words in one_error(quick(name, "--no-memory", cwd=tmp_path), BAD_INPUT)
+        assert words in one_error(quick(name, cwd=tmp_path), BAD_INPUT)
 
 
 @pytest.mark.parametrize("what", ["[" * 500_000, '{"schema": "saca.record/1", "a": ' + "[" * 500_000])

@@ -45,7 +45,7 @@ def unheard():
 
 def expect_the_record_of(name, folder):
     """The encounter was decided at the instant at which it is decided when everybody listens, and all of it was recorded."""
-    usual = json.loads(quick(name, "--no-memory", "--json", cwd=folder / "usual").stdout)
+    usual = json.loads(quick(name, "--json", cwd=folder / "usual").stdout)
     record = json.loads((folder / "runs" / name / "record.json").read_text())
     assert record["decision"]["time_s"] == pytest.approx(usual["decision"]["time_s"], abs=0.011)
     kinds = [event["kind"] for event in record["events"]]
@@ -55,7 +55,7 @@ def expect_the_record_of(name, folder):
 
 def test_at_real_pace_nobody_need_read_the_story_for_the_car_to_brake(unread, tmp_path):
     (tmp_path / "usual").mkdir()
-    run = subprocess.run([PROGRAM, "run", "one_way", "--llm", "off", "--no-memory", "--pace", "real"], cwd=tmp_path,
+    run = subprocess.run([PROGRAM, "run", "one_way", "--llm", "off", "--pace", "real"], cwd=tmp_path,
                          stdout=unread, stderr=subprocess.PIPE, text=True, timeout=1500)
     assert "nobody has read it" in one_error(run, CANNOT_WRITE)
     expect_the_record_of("one_way", tmp_path)
@@ -64,7 +64,7 @@ def test_at_real_pace_nobody_need_read_the_story_for_the_car_to_brake(unread, tm
 @pytest.mark.parametrize("pace", ["real", "lockstep"])
 def test_a_story_whose_reader_has_gone_is_told_and_the_encounter_played(pace, unheard, tmp_path):
     (tmp_path / "usual").mkdir()
-    run = subprocess.run([PROGRAM, "run", "one_way", "--llm", "off", "--no-memory", "--pace", pace], cwd=tmp_path,
+    run = subprocess.run([PROGRAM, "run", "one_way", "--llm", "off", "--pace", pace], cwd=tmp_path,
                          stdout=unheard, stderr=subprocess.PIPE, text=True, timeout=1500)
     assert "standard output" in one_error(run, CANNOT_WRITE)
     expect_the_record_of("one_way", tmp_path)
@@ -78,7 +78,7 @@ def test_with_closed_standard_files_nothing_else_is_written_to(closed, more, tmp
             os.close(file)
 
     (tmp_path / "usual").mkdir()
-    run = subprocess.run([PROGRAM, "run", "one_way", "--llm", "off", "--pace", "lockstep", *more],
+    run = subprocess.run([PROGRAM, "run", "one_way", "--llm", "off", "--pace", "lockstep", "--memory", "runs/memory.sqlite", *more],
                          cwd=tmp_path, stderr=subprocess.PIPE, preexec_fn=close, text=True, timeout=1500)
     assert run.returncode == CANNOT_WRITE
     expect_the_record_of("one_way", tmp_path)

@@ -7,14 +7,12 @@ import sys
 import pytest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from program import BAD_INPUT, CANNOT_WRITE, ROOT, SUCCESS, one_error, saca
-
-NOT_THE_SAME = 6
+from program import BAD_INPUT, CANNOT_WRITE, NOT_THE_SAME, ROOT, SUCCESS, one_error, saca
 
 
 def taped(folder, *options):
     """The tape of a run without model and memory."""
-    run = saca("run", *options, "--llm", "off", "--no-memory", "--tape", "a.tape", cwd=folder)
+    run = saca("run", *options, "--llm", "off", "--tape", "a.tape", cwd=folder)
     assert run.returncode == SUCCESS, run.stderr
     return (folder / "a.tape").read_text()
 
@@ -169,5 +167,5 @@ def test_a_damaged_or_cut_tape_is_refused_in_one_line(tape, tmp_path):
 
 def test_a_tape_that_cannot_be_written_is_said(tmp_path):
     (tmp_path / "file").write_text("")
-    run = saca("run", "one_way", "--llm", "off", "--no-memory", "--pace", "lockstep", "--tape", "file/a.tape", cwd=tmp_path)
+    run = saca("run", "one_way", "--llm", "off", "--pace", "lockstep", "--tape", "file/a.tape", cwd=tmp_path)
     assert "file" in one_error(run, CANNOT_WRITE)

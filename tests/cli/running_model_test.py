@@ -21,8 +21,8 @@ needs_model = pytest.mark.skipif(not HAS_MODEL, reason="`make model` has not bee
 def replayed(scenario, *more, cwd):
     """A run whose replies are recorded, and one that is given them. Both have the same answers, and some."""
     replies = cwd / "replies.json"
-    first = saca("run", scenario, "--pace", "lockstep", "--no-memory", "--no-review", "--record-replies", replies, "--json", *more, cwd=cwd)
-    again = saca("run", scenario, "--pace", "lockstep", "--no-memory", "--llm",
+    first = saca("run", scenario, "--pace", "lockstep", "--record-replies", replies, "--json", *more, cwd=cwd)
+    again = saca("run", scenario, "--pace", "lockstep", "--llm",
                  f"replay:{replies}", "--json", cwd=cwd)
     assert first.returncode == again.returncode == SUCCESS, first.stderr + again.stderr
     answers = [[preview["reasoning"] for preview in json.loads(run.stdout)["previews"]]
@@ -53,7 +53,7 @@ def descendants(pid):
 @pytest.mark.parametrize("blow", [signal.SIGKILL, signal.SIGSTOP])
 def test_a_model_that_is_struck_in_the_middle_changes_nothing_on_the_reflex_plane(blow, tmp_path):
     # What the model would say here is refused, so that it brakes whatever it hears; it is over after seconds.
-    run = subprocess.Popen([PROGRAM, "run", "one_way", "--no-memory", "--no-review"], cwd=tmp_path, text=True,
+    run = subprocess.Popen([PROGRAM, "run", "one_way"], cwd=tmp_path, text=True,
                            stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     story, struck = [], []
     for line in run.stdout:

@@ -16,7 +16,7 @@ RUNS = {"a swerve in place of braking": ("showcase_7_a", "--pace", "lockstep"), 
 def played(request, tmp_path_factory):
     """The record of a run, and the steps of its tape."""
     folder = tmp_path_factory.mktemp("verdicts")
-    run = saca("run", *request.param, "--llm", "off", "--no-memory", "--danger", "off", "--tape", "a.tape", "--json", cwd=folder)
+    run = saca("run", *request.param, "--llm", "off", "--danger", "off", "--tape", "a.tape", "--json", cwd=folder)
     assert run.returncode == SUCCESS, run.stderr
     return json.loads(run.stdout), [one for one in map(json.loads, (folder / "a.tape").read_text().splitlines()) if one["type"] == "step"]
 
