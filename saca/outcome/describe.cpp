@@ -24,7 +24,7 @@ std::string staying_clear(const Outcome& outcome, std::span<const world::Actor> 
   if (!(outcome.clearance < far_away)) {
     return fmt::format("clear: nobody within {:.0f} m", far_away);
   }
-  const std::string by = fmt::format("clear by {:.1f} m", outcome.clearance);
+  std::string by = fmt::format("clear by {:.1f} m", outcome.clearance);
   if (!outcome.nearest) {
     return by;
   }

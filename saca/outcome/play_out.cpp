@@ -122,7 +122,8 @@ class Story {
         steps_(detail.slides),
         look_again_(detail.look_again),
         dealings_(scene.actors.size()),
-        slides_(scene.actors.size()) {}
+        slides_(scene.actors.size()),
+        movers_(scene.actors.size()) {}
 
   // The ego's motion so far, and as it will be if nothing more happens.
   [[nodiscard]] EgoMotion ego() const {
@@ -137,6 +138,7 @@ class Story {
   void expect(std::span<const Track> tracks) {
     expects(tracks.size() == scene_.actors.size(), "one track per actor");
     tracks_ = tracks;
+    std::fill(movers_.begin(), movers_.end(), std::nullopt);
   }
 
   // The next thing that happens, if any.
@@ -174,6 +176,13 @@ class Story {
   [[nodiscard]] Instant other_at(std::size_t i, double time) const {
     return slides_[i].empty() ? instant_at(tracks_[i], time) : instant_at(slides_[i].back(), time);
   }
+  /// Made once for each track: that looks at all of its poses.
+  [[nodiscard]] const Mover& ego_mover() {
+    return ego_mover_ ? *ego_mover_ : ego_mover_.emplace(scene_.ego_footprint, now().track);
+  }
+  [[nodiscard]] const Mover& mover(std::size_t i) {
+    return movers_[i] ? *movers_[i] : movers_[i].emplace(scene_.actors[i].footprint, track(i));
+  }
   [[nodiscard]] Dealings& dealings(Side side) { return edges_[static_cast<std::size_t>(side)]; }
 
   [[nodiscard]] double last_time() const;
@@ -205,6 +214,8 @@ class Story {
   std::array<Dealings, 2> edges_;   ///< by Side
   std::vector<EgoMotion> ego_slides_;
   std::vector<std::vector<EgoMotion>> slides_;  ///< of each actor
+  std::optional<Mover> ego_mover_;              ///< of `now`; none: not needed yet
+  std::vector<std::optional<Mover>> movers_;    ///< of each actor's `track`, likewise
   std::vector<Blow> blows_;                     ///< in order of time
   std::optional<std::size_t> first_;            ///< of them: the first that struck the ego
 };
@@ -252,8 +263,8 @@ std::optional<Event> Story::next_with(std::size_t i, double until, bool first) {
   if (before.over || known < from) {
     return std::nullopt;
   }
-  const Mover ego(scene_.ego_footprint, now().track);
-  const Mover other(scene_.actors[i].footprint, track(i));
+  const Mover& ego = ego_mover();
+  const Mover& other = mover(i);
   if (before.last_blow) {
     const double rest = std::max(end_time(now().track), end_time(track(i)));
     return meet_again(
@@ -329,6 +340,7 @@ bool Story::happen(const Event& event) {
     blow = meet(scene_, i, ego, other_at(i, event.time), event.time, harm_);
     if (actor.kind != world::ActorKind::obstacle) {
       slides_[i].push_back(slide_of(actor.footprint, actor.mass, blow.other_after, event.time));
+      movers_[i].reset();
     }
     dealings_[i] = {event.time, unprotected(actor.kind)};
   } else {
@@ -340,6 +352,7 @@ bool Story::happen(const Event& event) {
   if (strikes) {
     ego_slides_.push_back(
         slide_of(scene_.ego_footprint, scene_.ego_mass, blow.ego_after, event.time));
+    ego_mover_.reset();
     first_ = first_.value_or(blows_.size());
   }
   note(blow, event);

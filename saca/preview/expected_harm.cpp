@@ -81,17 +81,18 @@ class HeldWay {
   }
 
  private:
+  /// What the followers reacted to, and what they did: one track per actor, of the others nothing.
+  struct Answers {
+    Track X_WB;
+    std::vector<Track> tracks;
+  };
+
   [[nodiscard]] std::vector<Track> moved(const std::vector<Track>& planned, const Track& X_WB) {
     std::vector<Track> tracks = planned;
-    if (!is_answered(X_WB)) {
-      answered_ = X_WB;
-      answers_.assign(planned.size(), {});
-      constexpr double step = 1.0 / 16.0;  // [s] of who reacts
-      let_react(scene_, followers_, X_WB, scene_.time + motion_horizon, step, answers_);
-    }
+    const std::vector<Track>& answers = answers_to(X_WB);
     for (const std::size_t i : followers_) {
       const Vec2 off = planned[i].X_WA.front().p - scene_.actors[i].X_WA.p;  // as it is drawn
-      tracks[i] = answers_[i];
+      tracks[i] = answers[i];
       for (Pose& pose : tracks[i].X_WA) {
         pose.p = pose.p + off;
       }
@@ -99,17 +100,28 @@ class HeldWay {
     return tracks;
   }
 
-  [[nodiscard]] bool is_answered(const Track& X_WB) const {
-    return answered_ && std::equal(answered_->X_WA.begin(), answered_->X_WA.end(),
-                                   X_WB.X_WA.begin(), X_WB.X_WA.end(), same);
+  /// What the followers do when the ego moves so. In every draw it first moves as it is meant to.
+  [[nodiscard]] const std::vector<Track>& answers_to(const Track& X_WB) {
+    for (const Answers* one : {&meant_, &struck_}) {
+      if (std::equal(one->X_WB.X_WA.begin(), one->X_WB.X_WA.end(), X_WB.X_WA.begin(),
+                     X_WB.X_WA.end(), same)) {
+        return one->tracks;
+      }
+    }
+    constexpr double step = 1.0 / 16.0;  // [s] of who reacts
+    Answers& answers = meant_.tracks.empty() ? meant_ : struck_;
+    answers.X_WB = X_WB;
+    answers.tracks.resize(scene_.actors.size());
+    let_react(scene_, followers_, X_WB, scene_.time + motion_horizon, step, answers.tracks);
+    return answers.tracks;
   }
 
   const Scene& scene_;
   EgoMotion way_;
   const ForecastTools& tools_;
   Followers followers_;
-  std::optional<Track> answered_;  ///< what the followers last reacted to
-  std::vector<Track> answers_;     ///< what they did, one per actor; of the others nothing
+  Answers meant_;   ///< to the ego's motion while nobody is struck
+  Answers struck_;  ///< to the last one else
 };
 
 /// Ways of the ego that can be driven, no longer than the others' motions; in the order of `plans`.
