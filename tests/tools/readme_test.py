@@ -1,0 +1,69 @@
+"""What README.md says is so: the figures of its emergency are those of a run, its commands are there."""
+import json
+import os
+import pathlib
+import re
+import subprocess
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAM = os.environ.get("SACA_PROGRAM", ROOT / "build/release/saca")
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def record(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("readme")
+    run = subprocess.run([PROGRAM, "run", "100car_8456", "--llm", "off", "--pace", "lockstep", "--json"], cwd=folder, text=True,
+                         capture_output=True, check=True)
+    return json.loads(run.stdout)
+
+
+def suite(command):
+    runs = json.loads((ROOT / "docs/suites.json").read_text())
+    return next(run for run in (runs if isinstance(runs, list) else runs["runs"]) if run["meta.command"].startswith(command))
+
+
+def test_the_emergency_is_told_as_it_is(record):
+    """Each sentence of README's explanation against the record."""
+    decided = record["decision"]
+    at_trigger = [frame for frame in record["frames"] if frame["t_s"] <= decided["time_s"] + 1e-9][-1]
+    aeb, nothing = record["hindsight"][0], record["hindsight"][7]
+    facts = [
+        "A man drives at %.1f m/s (%.0f km/h) behind a van" % (at_trigger["ego"]["speed_mps"], 3.6 * at_trigger["ego"]["speed_mps"]),
+        "When %.1f s are left, SACA acts" % at_trigger["conflict_s"],
+        "he would have hit the van at %.1f m/s" % nothing["contact"]["relative_speed_mps"],
+        "hit him at %.1f m/s" % nothing["later"][0]["relative_speed_mps"],
+        "%.1f s later the car behind runs into him at %.1f m/s" % (aeb["contact"]["time_s"] - decided["time_s"], aeb["contact"]["relative_speed_mps"]),
+        "brakes to %.1f m/s while it changes to the free lane on the left" % decided["target_speed_mps"],
+        "stays %.1f m off the barrier" % record["result"]["clearance_m"]]
+    for fact in facts:
+        assert fact in README
+    assert (nothing["contact"]["with"], nothing["later"][0]["with"], aeb["contact"]["with"]) == ("van1", "car1", "car1")
+    assert (aeb["contact"]["ego_face"], decided["name"], record["road"]["left_beyond"]) == ("rear", "ES-B-L", "barrier")
+    assert record["result"]["contact"] is None and "left edge" in record["result"]["nearest"]["to"] and not record["switches"]
+
+
+def test_the_figures_of_the_suites_are_those_of_their_page():
+    cars = suite("saca suite 100car")
+    met, count = cars["suite.100car.aeb.contact"], cars["suite.100car.aeb.contact.n"]
+    assert f"fails there, as it does in {met * count:.0f} of the {count} recorded emergencies" in README
+    runs = json.loads((ROOT / "docs/suites.json").read_text())
+    large = next(run for run in (runs if isinstance(runs, list) else runs["runs"]) if run["meta.command"].startswith("saca suite balanced") and "--count 10000" in run["meta.command"])
+    share = large["suite.balanced.saca.regret"] / large["suite.balanced.aeb.regret"]
+    assert "In 10,000 simulated encounters it does a tenth of the avoidable harm" in README and 0.08 < share < 0.12
+    assert "worse than braking in one of twenty" in README and 0.04 < large["suite.balanced.saca.materially_worse_than_aeb"] < 0.06
+
+
+def test_its_commands_are_there():
+    lines = re.findall(r"build/release/saca ([^#&\n]+)", README)
+    assert len(lines) > 25
+    for line in lines:
+        words = line.split()
+        options = [word for word in words if word.startswith("--")]
+        depth = 2 if words[0] in ("memory", "import", "reach", "atlas", "model", "intent", "vehicle", "forecast") else 1
+        told = subprocess.run([PROGRAM, *words[:depth], "--help"], text=True, capture_output=True)
+        assert told.returncode == 0, line
+        for option in options:
+            assert option in told.stdout, line
