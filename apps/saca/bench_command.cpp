@@ -19,6 +19,7 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/reach_bench.h"
+#include "apps/saca/within.h"
 #include "saca/core/clock.h"
 #include "saca/core/percentile.h"
 #include "saca/manoeuvre/atlas.h"
@@ -161,7 +162,7 @@ void add_bench(CLI::App& line, int& exit_code) {
   command
       ->add_option("what", options->what,
                    "all, vehicle, decide, atlas, reach, or air3d: a part of reach")
-      ->check(CLI::IsMember({"all", "vehicle", "decide", "atlas", "reach", "air3d"}))
+      ->check(one_of({"all", "vehicle", "decide", "atlas", "reach", "air3d"}))
       ->capture_default_str();
   command->add_option("--calls", options->calls, "Of the reflex plane, for each number of actors")
       ->check(CLI::Range(1'000, 100'000'000))

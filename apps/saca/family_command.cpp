@@ -9,6 +9,7 @@
 #include "apps/saca/inputs.h"
 #include "apps/saca/pictures.h"
 #include "apps/saca/printing.h"
+#include "apps/saca/within.h"
 #include "saca/core/file.h"
 #include "saca/eval/moment.h"
 #include "saca/manoeuvre/ego.h"
@@ -144,7 +145,7 @@ void add_family(CLI::App& line, int& exit_code) {
       ->check(CLI::Range(0, 1'000'000'000))
       ->capture_default_str();
   command->add_option("--split", options->split, "Whose seed is used")
-      ->check(CLI::IsMember({"tuning", "calibration", "test"}))
+      ->check(one_of({"tuning", "calibration", "test"}))
       ->capture_default_str();
   command->add_option("--test-log", options->test_log,
                       "Where a use of the test split is noted; needed for it");

@@ -88,7 +88,7 @@ void add_forecast_show(CLI::App& forecast, int& exit_code) {
   command->add_option("--encounter", options->encounter, "Number of the encounter in it")
       ->required();
   command->add_option("--who", options->who, "car1, pedestrian2, ...")->required();
-  command->add_option("--at_s", options->at, "When [s]")->required();
+  command->add_option("--at-s", options->at, "When [s]")->required();
   command->add_option("-o,--output", options->output, "The picture (.svg)")->required();
   command->callback([options, &exit_code] { exit_code = show(*options); });
 }

@@ -241,13 +241,13 @@ void add_commonroad(CLI::App& command, int& exit_code) {
                       "Id of the obstacle whose place the ego takes; without it the ego begins at "
                       "the planning problem's start");
   traffic
-      ->add_option("--from_s", options->request.from,
+      ->add_option("--from-s", options->request.from,
                    "Where in the file's time the scenario begins; without it where the ego does")
       ->check(within(0.0, 1e6));
   traffic
-      ->add_option("--after_s", options->request.after,
+      ->add_option("--after-s", options->request.after,
                    "How long the scenario goes on after the recording, everybody straight on")
-      ->check(within(0.0, 60.0))
+      ->check(within(0.0, 60.0, "s"))
       ->capture_default_str();
   traffic->add_option("--output", options->output, "The scenario file")->required();
   traffic->add_flag("--json", options->as_json, "For programs");
@@ -271,11 +271,11 @@ void add_import(CLI::App& line, int& exit_code) {
   CLI::Option* const all =
       which->add_flag("--all", options->all, "Every event in or below the folder, with counts");
   which->require_option(1);
-  study->add_option("--before_s", options->request.before, "Kept before the conflict")
-      ->check(within(1.0, 60.0))
+  study->add_option("--before-s", options->request.before, "Kept before the conflict")
+      ->check(within(1.0, 60.0, "s"))
       ->capture_default_str();
-  study->add_option("--after_s", options->request.after, "Kept after the last evasive manoeuvre")
-      ->check(within(0.0, 60.0))
+  study->add_option("--after-s", options->request.after, "Kept after the last evasive manoeuvre")
+      ->check(within(0.0, 60.0, "s"))
       ->capture_default_str();
   study->add_option("--narrative", options->request.narrative, "The study's own words, quoted")
       ->excludes(all);

@@ -7,7 +7,7 @@
 
 namespace saca::app {
 
-/// The option `--at_s`: when the policies begin.
+/// The option `--at-s`: when the policies begin.
 void add_at(CLI::App& command, std::optional<double>& at);
 
 /// As asked for, else at the trigger [s].

@@ -107,7 +107,11 @@ int physics(const PhysicsOptions& options) {
     complain(places.error().message);
     return bad_input;
   }
-  const auto car = manoeuvre::read_car(find_car(places.value(), "compact_rwd_ev"));
+  const auto usual = find_car(places.value(), "compact_rwd_ev");
+  if (!usual.has_value()) {
+    return refused(usual.error());
+  }
+  const auto car = manoeuvre::read_car(usual.value());
   if (!car.has_value()) {
     complain(car.error().message);
     return bad_input;
@@ -123,12 +127,15 @@ int physics(const PhysicsOptions& options) {
   for (const std::string& name :
        options.drift_draws > 0 ? options.cars : decltype(options.cars){}) {
     const auto file = find_car(places.value(), name);
-    const auto one = manoeuvre::read_car(file);
+    if (!file.has_value()) {
+      return refused(file.error());
+    }
+    const auto one = manoeuvre::read_car(file.value());
     if (!one.has_value()) {
       complain(one.error().message);
       return bad_input;
     }
-    add_drifts(file.stem().string(), one.value(), options, figures);
+    add_drifts(file.value().stem().string(), one.value(), options, figures);
   }
   if (options.as_json) {
     if (options.drift_draws > 0) {

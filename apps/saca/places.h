@@ -35,13 +35,20 @@ struct Places {
 [[nodiscard]] std::optional<std::filesystem::path> find_weights(const Places& places);
 
 /// A scenario by its path, or by the name of a shipped one.
-[[nodiscard]] std::filesystem::path find_scenario(const Places& places, const std::string& name);
+/// @return  Error::Code::unreadable where there is neither, with the name that was likely meant
+[[nodiscard]] Result<std::filesystem::path> find_scenario(const Places& places,
+                                                          const std::string& name);
 
 /// A case of `data/reach` likewise.
-[[nodiscard]] std::filesystem::path find_reach_case(const Places& places, const std::string& name);
+[[nodiscard]] Result<std::filesystem::path> find_reach_case(const Places& places,
+                                                            const std::string& name);
 
-/// A car's file by its path, or by the name of a shipped one.
-[[nodiscard]] std::filesystem::path find_car(const Places& places, const std::string& name);
+/// A car's file likewise.
+[[nodiscard]] Result<std::filesystem::path> find_car(const Places& places, const std::string& name);
+
+/// A family likewise: a shipped one, or a file of the user's own (*.toml).
+[[nodiscard]] Result<std::filesystem::path> find_family(const Places& places,
+                                                        const std::string& name);
 
 /// The shipped ones' files, by name.
 [[nodiscard]] std::vector<std::filesystem::path> shipped_scenarios(const Places& places);

@@ -164,8 +164,8 @@ int solve_case(const SolveOptions& options) {
   return success;
 }
 
-CLI::IsMember one_of(std::span<const std::string_view> names) {
-  return CLI::IsMember(std::vector<std::string>(names.begin(), names.end()));
+std::vector<std::string> texts_of(std::span<const std::string_view> names) {
+  return {names.begin(), names.end()};
 }
 
 }  // namespace
@@ -177,10 +177,10 @@ void add_reach_solve(CLI::App& reach, int& exit_code) {
   command->add_option("case", options->name, "air3d, a name in data/reach, or a file")->required();
   command->add_option("--output", options->output, "HDF5 file; default: reach/CASE.h5");
   command->add_option("--differences", options->differences, "upwind1, eno2, eno3 or weno5")
-      ->check(one_of(reach::difference_names))
+      ->check(one_of(texts_of(reach::difference_names)))
       ->capture_default_str();
   command->add_option("--steps", options->steps, "Runge-Kutta: euler, rk2 or rk3")
-      ->check(one_of(reach::step_names))
+      ->check(one_of(texts_of(reach::step_names)))
       ->capture_default_str();
   command->add_option("--cfl", options->scheme.cfl, "Share of the longest stable step")
       ->check(within(0.01, 1.0))

@@ -35,7 +35,8 @@ struct RunOptions {
   std::string pace = "real";
   ThinkingOptions thinking{.memory = "runs/memory.sqlite", .model = "local"};
   std::string record_replies;
-  std::optional<int> policy;
+  std::optional<manoeuvre::PolicyId> policy;
+  std::optional<double> target_speed;
   std::optional<double> strength;
   std::optional<std::uint64_t> seed;
   std::string atlas;
@@ -137,14 +138,16 @@ std::optional<Error> write_tape(const fs::path& file, const runtime::TapeFile& t
 
 /// nullopt: what SACA decides is carried out.
 Result<std::optional<manoeuvre::Plan>> forced_plan(const RunOptions& options) {
-  if (options.strength && options.policy != manoeuvre::index(manoeuvre::PolicyId::aeb)) {
+  if (options.strength && !(options.policy && manoeuvre::takes_strength(*options.policy))) {
     return Error{Error::Code::out_of_range, "--strength: only of --policy 0"};
+  }
+  if (options.target_speed && !(options.policy && manoeuvre::brakes_to_speed(*options.policy))) {
+    return Error{Error::Code::out_of_range, "--target-speed: only of --policy 3 and 4"};
   }
   if (!options.policy) {
     return std::optional<manoeuvre::Plan>();
   }
-  return std::optional(
-      manoeuvre::Plan{*manoeuvre::policy_from(*options.policy), std::nullopt, options.strength});
+  return std::optional(manoeuvre::Plan{*options.policy, options.target_speed, options.strength});
 }
 
 int run(const RunOptions& options) {
@@ -258,19 +261,21 @@ void add_run(CLI::App& line, int& exit_code) {
   command
       ->add_option("--pace", options->pace,
                    "real: the world goes on while SACA thinks; lockstep: fast and repeatable")
-      ->check(CLI::IsMember({"real", "lockstep"}))
+      ->check(one_of({"real", "lockstep"}))
       ->capture_default_str();
   add_thinking_options(*command, options->thinking);
   command->add_option("--record-replies", options->record_replies,
                       "Write the model's replies to a file for --llm replay:FILE");
+  add_policy(*command, options->policy,
+             "Carry out this policy (0-7, or its name) at the trigger, whatever was thought");
   command
-      ->add_option("--policy", options->policy,
-                   "Carry out this policy (0-7) at the trigger, whatever was thought")
-      ->check(CLI::Range(0, 7));
+      ->add_option("--target-speed", options->target_speed,
+                   "Of policies 3 and 4 [m/s] (default: half the speed)")
+      ->check(within(0.0, 100.0, "m/s"));
   command
       ->add_option("--strength", options->strength,
                    "Of policy 0: share of the grip that the brakes are asked for (default: all)")
-      ->check(within(manoeuvre::least_strength, 1.0));
+      ->check(within(manoeuvre::least_strength, 1.0, "-"));
   command->add_option("--seed", options->seed,
                       "Draw what is left to chance (default: as the scenario is written)");
   command->add_option("--atlas", options->atlas,
@@ -279,7 +284,7 @@ void add_run(CLI::App& line, int& exit_code) {
   command
       ->add_option("--danger", options->danger,
                    "off: risks by a few evasions (default: solved tables, made when needed)")
-      ->check(CLI::IsMember({"off"}));
+      ->check(one_of({"off"}));
   command->add_flag("--no-memory", options->no_memory, "Neither ask nor fill a memory");
   command->add_flag("--no-review", options->no_review,
                     "Do not have the language model look back when all is over");

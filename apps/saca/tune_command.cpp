@@ -131,14 +131,22 @@ int tune_car(TuneOptions options) {
   if (!places.has_value()) {
     return refused(places.error());
   }
-  const fs::path car_file = find_car(places.value(), options.car);
+  const auto found = find_car(places.value(), options.car);
+  if (!found.has_value()) {
+    return refused(found.error());
+  }
+  const fs::path& car_file = found.value();
   if (options.from.empty()) {
     const bool tuned = fs::exists(manoeuvre::tuning_path(car_file));
     options.from = tuned ? options.car : TuneOptions{}.car;
   }
   const fs::path output =
       options.output.empty() ? manoeuvre::tuning_path(car_file) : fs::path(options.output);
-  auto start = read_start(car_file, manoeuvre::tuning_path(find_car(places.value(), options.from)));
+  const auto from = find_car(places.value(), options.from);
+  if (!from.has_value()) {
+    return refused(from.error());
+  }
+  auto start = read_start(car_file, manoeuvre::tuning_path(from.value()));
   if (!start.has_value()) {
     return refused(start.error());
   }

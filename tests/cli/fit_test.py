@@ -20,7 +20,7 @@ def own_car(tmp_path):
     truth = tmp_path / "truth.toml"
     truth.write_text(text.replace("lag_s = 0.06 ", "lag_s = 0.09 ", 1).replace("stiffness = 18.0", "stiffness = 21.0"))
     for kind, speed in ("brake", 12), ("steer", 20):
-        run = saca("vehicle", "test-drive", kind, "--car", truth, "--speed_mps", speed, "--output",
+        run = saca("vehicle", "test-drive", kind, "--car", truth, "--speed-mps", speed, "--output",
                    tmp_path / f"{kind}.csv", cwd=tmp_path)
         assert run.returncode == SUCCESS, run.stderr
     shutil.copy(CAR, tmp_path / "base.toml")
