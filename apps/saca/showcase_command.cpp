@@ -81,8 +81,11 @@ Result<std::optional<std::vector<Shown>>> shown(const DrawnSuite& suite,
     }
     const sim::Scenario& scenario = sample.value().scenario;
     Shown one{scenario, eval::oracle(scenario, suite.inputs.car, suite.inputs.harm,
-                                     {*all[i].time, options.rule.draws, options.seed,
-                                      options.survey.threads})};
+                                     {.time = *all[i].time,
+                                      .draws = options.rule.draws,
+                                      .seed = options.seed,
+                                      .threads = options.survey.threads,
+                                      .only_defaults = true})};
     if (convinces(one.oracle, policy, options.rule)) {
       good += one.contact_share() <= hardly_ever ? 1 : 0;
       found.push_back(std::move(one));

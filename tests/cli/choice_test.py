@@ -44,6 +44,26 @@ def test_the_oracle_for_programs_repeats_itself(tmp_path):
     assert other["policies"][7]["harm"] != told["policies"][7]["harm"]
 
 
+def test_for_each_policy_stands_the_best_of_its_target_speeds_and_strengths(tmp_path):
+    told = json.loads(saca("oracle", "showcase_3", "--draws", 8, "--json", cwd=tmp_path).stdout)
+    speeds = {policy["policy"]: policy["target_speed_mps"] for policy in told["policies"]}
+    strengths = {policy["policy"]: policy["strength"] for policy in told["policies"]}
+    assert speeds[4] == 0 and isinstance(speeds[3], float) and speeds[0] is None
+    assert strengths[0] == 0.6 and strengths[3] is None  # the follower is braked into, the harder the worse
+    # Carried out, each plan ends as told: no other strength of braking harms less.
+    at = told["time_s"]
+    harms = {}
+    for strength in (1, 0.8, 0.6, 0.45, 0.3):
+        record = json.loads(saca("run", "showcase_3", "--policy", "AEB", "--strength", strength, "--llm", "off", "--pace", "lockstep",
+                                 "--no-memory", "--json", cwd=tmp_path).stdout)
+        assert record["decision"]["time_s"] == pytest.approx(at, abs=0.05)
+        harms[strength] = record["result"]["harm"]
+        # and hindsight knows the best of all plans, too
+        assert all(record["hindsight"][0]["harm"] <= harm + 2e-4 for harm in harms.values())
+        assert record["hindsight"][record["best"]]["harm"] <= min(harms.values()) + 1e-4
+    assert min(harms, key=harms.get) in (0.6, 0.45)
+
+
 # The paper's printed T1: whoever does nothing meets the truck's side with 14 m/s of its own and 7.5 of the truck's.
 def test_doing_nothing_at_the_printed_t1_hits_at_the_speeds_that_are_printed(tmp_path):
     told = json.loads(saca("oracle", "intersection_t1", "--at-s", 5, "--draws", 0, "--json", cwd=tmp_path).stdout)
