@@ -15,7 +15,7 @@ struct OracleOptions {
   double time = 0.0;  ///< when they begin [s]
   int draws = 0;      ///< of what is left to chance, two at least; 0: the scenario as written
   std::uint64_t seed = 1;
-  int threads = 1;  ///< they do not change the result
+  int threads = 1;             ///< they do not change the result
   bool only_defaults = false;  ///< one plan a policy, manoeuvre::default_plan, as the paper has it
 };
 

@@ -65,8 +65,7 @@ Hindsights hindsight_of_all_plans(const Moment& moment, const manoeuvre::Car& ca
       return outcome::harm_class(tried[one].facts.outcome().harm);
     };
     if (!of_policy || (tried[i].facts.drivable() &&
-                       (!tried[*of_policy].facts.drivable() ||
-                        harm_of(i) < harm_of(*of_policy)))) {
+                       (!tried[*of_policy].facts.drivable() || harm_of(i) < harm_of(*of_policy)))) {
       of_policy = i;
     }
   }
