@@ -16,6 +16,7 @@
 #include "apps/saca/commands.h"
 #include "apps/saca/decide_bench.h"
 #include "apps/saca/inputs.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/reach_bench.h"
@@ -143,7 +144,7 @@ int bench(const BenchOptions& options) {
     }
   }
   if (options.as_json) {
-    app::print("{}\n", figures.dump(1));
+    app::print_json(figures);
     return success;
   }
   for (const auto& [name, value] : figures.items()) {

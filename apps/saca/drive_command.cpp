@@ -104,10 +104,7 @@ std::optional<Error> write_report(const std::string& file, const std::string& re
   if (!page.has_value()) {
     return page.error();
   }
-  if (auto problem = make_folder_of(file)) {
-    return problem;
-  }
-  return write_file(file, page.value());
+  return write_output(file, page.value());
 }
 
 int drive(const DriveOptions& options) {
@@ -133,6 +130,9 @@ int drive(const DriveOptions& options) {
                              .plan = plan_of(options)};
   record.scene.ego.v_B = {options.speed, 0.0};
   record.scene.grip = options.grip;
+  if (const auto problem = why_outputs_unwritable({options.report})) {
+    return refused(*problem);
+  }
   if (const auto refused = manoeuvre::refusal(record.car, record.plan, record.scene)) {
     complain(*refused);
     return bad_input;

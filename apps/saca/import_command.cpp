@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
@@ -46,7 +47,7 @@ int import_hundred_car(const ImportOptions& options) {
     app::print("{}", text);
     return success;
   }
-  if (const auto problem = write_file(options.output, text)) {
+  if (const auto problem = write_output(options.output, text)) {
     complain(problem->message);
     return cannot_write;
   }
@@ -76,10 +77,7 @@ std::optional<Error> write_scenarios(const std::vector<sim::HundredCarOutcome>& 
   for (const sim::HundredCarOutcome& outcome : outcomes) {
     if (const sim::HundredCarImport* made = outcome.rebuilt()) {
       const fs::path file = folder / (made->scenario.name + ".toml");
-      if (auto problem = make_folder_of(file)) {
-        return problem;
-      }
-      if (auto problem = write_file(file, sim::write_scenario(made->scenario))) {
+      if (auto problem = write_output(file, sim::write_scenario(made->scenario))) {
         return problem;
       }
     }
@@ -120,7 +118,7 @@ void tell_all(const std::vector<sim::HundredCarOutcome>& outcomes, std::size_t n
                               {"rebuilt", num_rebuilt},
                               {"refused", reasons},
                               {"list", list}};
-    app::print("{}\n", told.dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
+    app::print_json(told);
     return;
   }
   app::print("{} events: {} rebuilt, {} refused\n", outcomes.size(), num_rebuilt,
@@ -131,6 +129,11 @@ void tell_all(const std::vector<sim::HundredCarOutcome>& outcomes, std::size_t n
 }
 
 int import_all_hundred_cars(const ImportOptions& options) {
+  const fs::path some_file =
+      options.output.empty() ? fs::path() : fs::path(options.output) / "x.toml";
+  if (const auto problem = why_outputs_unwritable({some_file})) {
+    return refused(*problem);
+  }
   const auto outcomes = all_hundred_cars(options);
   if (!outcomes.has_value()) {
     return interrupted() ? static_cast<int>(was_interrupted) : refused(outcomes.error());
@@ -220,12 +223,12 @@ int import_traffic(const TrafficOptions& options) {
     complain(again.error().message);
     return bad_input;
   }
-  if (const auto problem = write_file(options.output, text)) {
+  if (const auto problem = write_output(options.output, text)) {
     complain(problem->message);
     return cannot_write;
   }
   if (options.as_json) {
-    app::print("{}\n", traffic_json(imported.value(), options).dump(1));
+    app::print_json(traffic_json(imported.value(), options));
   } else {
     tell(imported.value(), options);
   }

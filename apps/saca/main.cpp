@@ -9,6 +9,7 @@
 #include "apps/saca/parsing.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
+#include "apps/saca/settings.h"
 #include "saca/core/standard_files.h"
 
 namespace {
@@ -40,6 +41,7 @@ int main(int argc, char** argv) {
         "SACA chooses, in the last seconds before a crash, the manoeuvre that harms least.",
         "saca"};
     line.set_version_flag("--version", SACA_VERSION);
+    add_settings(line);
     line.require_subcommand(1);
     int exit_code = success;
     add_run(line, exit_code);

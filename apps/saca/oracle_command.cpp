@@ -7,6 +7,7 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/inputs.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/moment_option.h"
 #include "apps/saca/pictures.h"
 #include "apps/saca/printing.h"
@@ -108,19 +109,21 @@ int run(const OracleCommand& options) {
   }
   const auto time = decision_time(inputs.value(), options.at);
   if (!time.has_value()) {
-    complain(time.error().message);
-    return bad_input;
+    return refused(time.error());
+  }
+  if (!time.value()) {
+    return nothing_to_decide;
+  }
+  if (const auto problem = why_outputs_unwritable({options.svg})) {
+    return refused(*problem);
   }
   const sim::Scenario& scenario = inputs.value().scenario;
   const eval::Oracle oracle =
       eval::oracle(scenario, inputs.value().car, inputs.value().harm,
-                   {time.value(), options.draws, options.seed, options.threads});
+                   {*time.value(), options.draws, options.seed, options.threads});
   if (!options.svg.empty()) {
     const std::string sheet = report::contact_sheet(sheet_of(oracle, scenario));
-    auto problem = make_folder_of(options.svg);
-    if (!problem) {
-      problem = write_file(options.svg, sheet);
-    }
+    auto problem = write_output(options.svg, sheet);
     if (problem) {
       complain(problem->message);
       return cannot_write;
@@ -142,7 +145,7 @@ int run(const OracleCommand& options) {
   }
   const eval::Margin margin = margin_of_best(oracle);
   all["margin"] = {{"mean", margin.mean}, {"low", margin.low}};
-  app::print("{}\n", all.dump(1, ' ', false, json::error_handler_t::replace));
+  app::print_json(all);
   return success;
 }
 

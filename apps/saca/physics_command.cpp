@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "saca/core/parallel.h"
@@ -142,7 +143,7 @@ int physics(const PhysicsOptions& options) {
       figures["t_drift.n"] = options.drift_draws;
       figures["t_drift.seed"] = options.seed;
     }
-    app::print("{}\n", figures.dump(1));
+    app::print_json(figures);
   }
   return success;
 }

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/saca/settings.h"
 #include "saca/config/json_text.h"
 #include "saca/core/file.h"
 #include "saca/core/printable.h"
@@ -148,6 +149,9 @@ fs::path kept_place(const Places& places, const fs::path& file) {
   if (fs::exists(places.root / file, problem)) {
     return places.root / file;
   }
+  if (!settings().cache.empty()) {
+    return fs::path(settings().cache) / file;
+  }
   if (const char* const cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != 0) {
     return fs::path(cache) / "saca" / file;
   }
@@ -174,6 +178,20 @@ bool is_png_or_html(const std::string& output) {
   return false;
 }
 
+std::optional<Error> why_outputs_unwritable(std::initializer_list<fs::path> files) {
+  for (const fs::path& file : files) {
+    if (auto problem = file.empty() ? std::nullopt : why_unwritable(file)) {
+      return problem;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> write_output(const fs::path& file, std::string_view text) {
+  auto problem = make_folder_of(file);
+  return problem ? problem : write_file(file, text);
+}
+
 std::optional<Error> make_folder_of(const fs::path& file) {
   std::error_code problem;
   if (file.has_parent_path()) {
@@ -195,6 +213,11 @@ void complain(const std::string& message) {
 int refused(const Error& problem) {
   complain(problem.message);
   return problem.code == Error::Code::unwritable ? cannot_write : bad_input;
+}
+
+int unanswered(const Error& problem) {
+  const int code = refused(problem);
+  return problem.code == Error::Code::too_late ? static_cast<int>(too_slow) : code;
 }
 
 }  // namespace saca::app

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
@@ -97,7 +98,7 @@ void tell(const SolveOptions& options, const Solved& solved, double seconds) {
                              {"times_s", solved.times},
                              {"unsafe_share", share},
                              {"seconds", seconds}};
-    app::print("{}\n", all.dump(1));
+    app::print_json(all);
     return;
   }
   app::print("{}: {} cells, to {:g} s, {:.2f} % of them unsafe; {:.1f} s\n", options.output,
@@ -120,6 +121,9 @@ int solve_case(const SolveOptions& options) {
   auto before = begun(part);
   if (!before.has_value()) {
     return refused(before.error());
+  }
+  if (const auto wrong = why_outputs_unwritable({options.output})) {
+    return refused(*wrong);
   }
   if (auto wrong = make_folder_of(options.output)) {
     return refused(*wrong);

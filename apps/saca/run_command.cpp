@@ -14,6 +14,7 @@
 #include "apps/saca/model.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
+#include "apps/saca/settings.h"
 #include "apps/saca/story.h"
 #include "apps/saca/thinking_options.h"
 #include "apps/saca/within.h"
@@ -81,7 +82,7 @@ Result<std::shared_ptr<memory::Store>> open_memory(const RunOptions& options) {
     return std::shared_ptr<memory::Store>();
   }
   const std::string& file = options.thinking.memory;
-  if (const auto problem = make_folder_of(file)) {
+  if (const auto problem = options.no_learning ? std::nullopt : make_folder_of(file)) {
     return *problem;
   }
   auto opened = options.no_learning ? memory::Store::snapshot(file) : memory::Store::open(file);
@@ -150,10 +151,20 @@ Result<std::optional<manoeuvre::Plan>> forced_plan(const RunOptions& options) {
   return std::optional(manoeuvre::Plan{*options.policy, options.target_speed, options.strength});
 }
 
+/// Before anything is played.
+std::optional<Error> why_unwritable(const RunOptions& options, const std::string& scenario) {
+  return why_outputs_unwritable({fs::path(options.output) / scenario / "record.json",
+                                 options.report, options.trace, options.tape,
+                                 options.record_replies});
+}
+
 int run(const RunOptions& options) {
   const auto inputs = read_scenario_inputs(options.scenario);
   if (!inputs.has_value()) {
     return refused(inputs.error());
+  }
+  if (const auto problem = why_unwritable(options, inputs.value().scenario.name)) {
+    return refused(*problem);
   }
   const auto costs = read_costs(inputs.value().places);
   if (!costs.has_value()) {
@@ -199,8 +210,8 @@ int run(const RunOptions& options) {
                           .tapes = !options.tape.empty(),
                           .clock = &clock};
   std::signal(SIGPIPE, [](int) {});  // nobody need listen for the encounter to be played
-  Story story(options.as_json ? std::nullopt : std::optional(STDOUT_FILENO),
-              isatty(STDOUT_FILENO) != 0);
+  const bool silent = options.as_json || settings().quiet;
+  Story story(silent ? std::nullopt : std::optional(STDOUT_FILENO), wants_colours(STDOUT_FILENO));
   story.headline(inputs.value().scenario, setup);
   auto played = loop::run(setup, story);
   if (!played.has_value()) {

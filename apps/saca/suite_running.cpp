@@ -258,11 +258,8 @@ Result<std::string> write_encounter(const SuiteCommandOptions& options, std::uin
   const fs::path file =
       fs::path("runs") / fmt::format("{}-{}-{}.toml", fs::path(options.name).filename().string(),
                                      options.split, number);
-  if (auto problem = make_folder_of(file)) {
-    return *problem;
-  }
-  if (auto problem =
-          write_file(file, sim::write_scenario(eval::as_played(encounter.value().scenario, how)))) {
+  if (auto problem = write_output(
+          file, sim::write_scenario(eval::as_played(encounter.value().scenario, how)))) {
     return *problem;
   }
   const ThinkingOptions& thinking = options.thinking;

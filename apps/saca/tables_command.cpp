@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/planes_making.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
@@ -277,7 +278,7 @@ int run(const TablesCommand& options) {
     }
   }
   if (options.as_json) {
-    app::print("{}\n", out.dump(1, ' ', false, json::error_handler_t::replace));
+    app::print_json(out);
   } else {
     app::print(
         "Published: arXiv 2504.00115, Tables II and III (its text gives 1.54 for SACA's Collision "

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/within.h"
@@ -138,16 +139,19 @@ int fit_car(const FitOptions& options) {
     names += (names.empty() ? "" : ", ") + fs::path(name).filename().string();
   }
 
+  if (const auto problem = why_outputs_unwritable({options.output})) {
+    return refused(*problem);
+  }
   const tune::VehicleFit fit = tune::fit_vehicle(car.value(), options.grip, logs);
   const auto fitted = tune::fitted_car_file(text.value(), base.string(), names, fit);
   if (!fitted.has_value()) {
     return refuse(fitted.error().message, bad_input);
   }
-  if (const auto problem = write_file(options.output, fitted.value())) {
+  if (const auto problem = write_output(options.output, fitted.value())) {
     return refuse(problem->message, cannot_write);
   }
   if (options.as_json) {
-    app::print("{}\n", fit_json(options, fit).dump(1, ' ', false, json::error_handler_t::replace));
+    app::print_json(fit_json(options, fit));
   } else {
     print_fit(options, fit);
   }
@@ -174,7 +178,7 @@ int drive_test(const TestDriveOptions& options) {
   drive.kind = options.kind == "brake" ? tune::TestKind::brake : tune::TestKind::steer;
   drive.steering = from_degrees(options.steering_deg);
   const tune::Log log = tune::drive_test(car.value(), drive);
-  if (const auto problem = write_file(options.output, tune::write_log(log))) {
+  if (const auto problem = write_output(options.output, tune::write_log(log))) {
     return refuse(problem->message, cannot_write);
   }
   app::print("{}: {} of {} rows\n", options.output, name_of(log.kind, tune::kind_names),

@@ -43,6 +43,7 @@ CLI::Validator one_of(std::vector<std::string> words) {
 CLI::Option* add_policy(CLI::App& command, std::optional<manoeuvre::PolicyId>& policy,
                         const std::string& what) {
   std::vector<std::string> names;
+  names.reserve(manoeuvre::num_policies);
   for (const manoeuvre::PolicyId one : manoeuvre::all_policies) {
     names.emplace_back(name(one));
   }

@@ -58,7 +58,7 @@ def test_a_fit_writes_over_its_base_only_by_force_and_over_a_log_never(own_car):
 
 
 def test_a_fitted_car_that_cannot_be_written_leaves_nothing(own_car):
-    assert "nowhere" in one_error(fit("brake.csv", output="nowhere/mine.toml", cwd=own_car), CANNOT_WRITE)
+    assert "brake.csv/mine.toml" in one_error(fit("brake.csv", output="brake.csv/mine.toml", cwd=own_car), CANNOT_WRITE)
 
 
 @pytest.mark.parametrize("spoil, words", [
