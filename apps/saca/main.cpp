@@ -10,6 +10,7 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/settings.h"
+#include "apps/saca/version.h"
 #include "saca/core/standard_files.h"
 
 namespace {
@@ -40,7 +41,7 @@ int main(int argc, char** argv) {
     CLI::App line{
         "SACA chooses, in the last seconds before a crash, the manoeuvre that harms least.",
         "saca"};
-    line.set_version_flag("--version", SACA_VERSION);
+    line.set_version_flag("--version", "saca " + version_text());
     add_settings(line);
     line.require_subcommand(1);
     int exit_code = success;
@@ -71,6 +72,8 @@ int main(int argc, char** argv) {
     add_traffic(line, exit_code);
     add_vehicle(line, exit_code);
     add_bench(line, exit_code);
+    add_completion(line, exit_code);
+    add_man(line, exit_code);
     std::vector<std::string> words = as_spelt(argc, argv);
     std::reverse(words.begin(), words.end());  // CLI11 takes them from the end
     try {
