@@ -1,5 +1,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "apps/saca/commands.h"
 #include "apps/saca/json_output.h"
@@ -35,7 +36,9 @@ int model_info(bool as_json) {
       {"load_s", model.value()->figures().load_time},
       {"system_tokens", model.value()->figures().system_tokens}};
   if (as_json) {
-    app::print_json(out);
+    nlohmann::json all = out;
+    all["schema"] = "saca.model_info/1";
+    app::print_json(std::move(all));
     return success;
   }
   for (const auto& [key, value] : out.items()) {

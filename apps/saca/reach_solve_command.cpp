@@ -93,11 +93,9 @@ void tell(const SolveOptions& options, const Solved& solved, double seconds) {
       std::count_if(values.begin(), values.end(), [](float v) { return v >= 0.0F; });
   const double share = static_cast<double>(unsafe) / static_cast<double>(values.size());
   if (options.as_json) {
-    const nlohmann::json all{{"file", options.output},
-                             {"cells", values.size()},
-                             {"times_s", solved.times},
-                             {"unsafe_share", share},
-                             {"seconds", seconds}};
+    const nlohmann::json all{{"schema", "saca.reach_solve/1"}, {"file", options.output},
+                             {"cells", values.size()},         {"times_s", solved.times},
+                             {"unsafe_share", share},          {"seconds", seconds}};
     app::print_json(all);
     return;
   }

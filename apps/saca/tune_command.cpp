@@ -191,7 +191,8 @@ int tune_car(TuneOptions options) {
   fs::remove(swerve_journal);
   fs::remove(drift_journal);
   if (options.as_json) {
-    app::print_json(nlohmann::json{{"output", output.string()},
+    app::print_json(nlohmann::json{{"schema", "saca.tune/1"},
+                                   {"output", output.string()},
                                    {"swerve_cost", *swerve.value()},
                                    {"drift_cost", *drift.value()},
                                    {"drift_grip", manoeuvre::DriftDomain::grips},

@@ -9,7 +9,7 @@ import sys
 import pytest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from program import PROGRAM, ROOT, SUCCESS, WRONG_COMMAND_LINE, one_error, saca
+from program import PROGRAM, ROOT, SUCCESS, WRONG_COMMAND_LINE, figures, one_error, saca
 
 
 def commands(*before, cwd):
@@ -53,6 +53,43 @@ def test_the_commit_is_written_only_where_it_is_another_one(tmp_path):
     assert f'"{commit}-dirty"' in source(checkout)[0]
     assert '"unknown"' in source(checkout / "below")[0]  # in somebody else's checkout
     assert '"unknown"' in source(tmp_path)[0]
+
+
+def json_table():
+    """Of each command what `--json` prints, as docs/formats.md has it."""
+    section = (ROOT / "docs/formats.md").read_text().partition("## What `--json` prints")[2].partition("\n## ")[0]
+    return {name: schema.strip("`") for name, schema in re.findall(r"^\| `saca ([^`]+)` \| ([^|]+) \| [^|]+ \|$", section, re.M)}
+
+
+def test_what_json_prints_is_told_of_every_command_that_has_it(tmp_path):
+    there = {" ".join(before) for before, text in commands(cwd=tmp_path) if "--json" in options_in(text)}
+    assert len(there) > 30 and set(json_table()) == there
+    text = (ROOT / "docs/formats.md").read_text()
+    for name, schema in json_table().items():
+        assert schema in ("list", "figures") or text.count(schema) >= 1, name
+
+
+@pytest.mark.parametrize("arguments", [
+    ("run", "one_way", "--llm", "off", "--pace", "lockstep"), ("scenarios",), ("memory", "list"), ("physics",), ("drive", "--policy", 0), ("harm",),
+    ("oracle", "one_way", "--draws", 0), ("whatif", "one_way", "--vary", "grip=0.9:0.9:1"), ("family", "crossing", "--sample", 1),
+    ("balance", "--count", 2), ("forecast", "eval", "crossing", "--count", 1), ("suite", "crossing", "--count", 1),
+    ("suite", "r152", "--methods", "aeb"), ("ladder", "crossing", "--count", 1), ("atlas", "info"), ("atlas", "check", "--scenes", 3),
+    ("reach", "solve", "road_edge", "--without-error"), ("reach", "tables", "one_way"), 
+    ("import", "commonroad", ROOT / "saca/traffic/testdata/commonroad_small.xml", "--output", "a.toml"), ("explain", "runs/one_way/record.json"),
+], ids=lambda arguments: " ".join(map(str, arguments[:2])))
+def test_what_json_prints_has_the_schema_that_is_told(arguments, tmp_path):
+    if arguments[0] in ("memory", "explain"):
+        assert saca("run", "one_way", "--llm", "off", "--pace", "lockstep", cwd=tmp_path).returncode == SUCCESS
+    document = figures(saca(*arguments, "--json", cwd=tmp_path))
+    table = json_table()
+    name = next(" ".join(arguments[:count]) for count in (3, 2, 1) if " ".join(map(str, arguments[:count])) in table)
+    if table[name] == "list":
+        assert isinstance(document, list) and document
+    elif table[name] == "figures":
+        assert "schema" not in document and document
+        assert all(isinstance(value, (int, float, list)) or value is None or key.startswith("meta") for key, value in document.items())
+    else:
+        assert document["schema"] == table[name]
 
 
 def completed(line, cwd):
