@@ -13,6 +13,7 @@
 #include "apps/saca/atlas_making.h"
 #include "apps/saca/commands.h"
 #include "apps/saca/inputs.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
@@ -53,6 +54,9 @@ int build(const AtlasOptions& options) {
   if (manoeuvre::read_atlas(output, inputs.value().car).has_value()) {
     app::print("{} is there and right for this car\n", output.string());
     return success;
+  }
+  if (const auto problem = why_outputs_unwritable({output})) {
+    return refused(*problem);
   }
   const auto atlas = make_atlas(inputs.value(), output, options.threads);
   if (!atlas.has_value()) {
@@ -111,7 +115,7 @@ int tell(const AtlasOptions& options) {
   const auto problem = atlas.has_value() ? std::nullopt : std::optional(atlas.error().message);
   const json about = told(info.value(), problem);
   if (options.as_json) {
-    app::print("{}\n", about.dump(1, ' ', false, json::error_handler_t::replace));
+    app::print_json(about);
   } else {
     app::print("{}: whole, version {}, {} points, {:.1f} MB, car {}\n", file.string(),
                manoeuvre::atlas_version, num_nodes(info.value().grid),
@@ -132,7 +136,7 @@ int tell(const AtlasOptions& options) {
 
 void print_figures(const eval::AtlasFigures& figures, const json& all, bool as_json) {
   if (as_json) {
-    app::print("{}\n", all.dump(1));
+    app::print_json(all);
     return;
   }
   const auto percent = [](const Proportion& share) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
@@ -93,7 +94,7 @@ int run(const BalanceCommand& options) {
   if (options.as_json) {
     json all = figures_of(balance, options.survey.suite);
     all["meta.command"] = command_line(options.survey, "balance");
-    app::print("{}\n", all.dump(1, ' ', false, json::error_handler_t::replace));
+    app::print_json(all);
   } else {
     print(balance);
   }

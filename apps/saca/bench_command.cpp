@@ -16,9 +16,11 @@
 #include "apps/saca/commands.h"
 #include "apps/saca/decide_bench.h"
 #include "apps/saca/inputs.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/reach_bench.h"
+#include "apps/saca/within.h"
 #include "saca/core/clock.h"
 #include "saca/core/percentile.h"
 #include "saca/manoeuvre/atlas.h"
@@ -142,7 +144,7 @@ int bench(const BenchOptions& options) {
     }
   }
   if (options.as_json) {
-    app::print("{}\n", figures.dump(1));
+    app::print_json(figures);
     return success;
   }
   for (const auto& [name, value] : figures.items()) {
@@ -161,7 +163,7 @@ void add_bench(CLI::App& line, int& exit_code) {
   command
       ->add_option("what", options->what,
                    "all, vehicle, decide, atlas, reach, or air3d: a part of reach")
-      ->check(CLI::IsMember({"all", "vehicle", "decide", "atlas", "reach", "air3d"}))
+      ->check(one_of({"all", "vehicle", "decide", "atlas", "reach", "air3d"}))
       ->capture_default_str();
   command->add_option("--calls", options->calls, "Of the reflex plane, for each number of actors")
       ->check(CLI::Range(1'000, 100'000'000))

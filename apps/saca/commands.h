@@ -36,5 +36,7 @@ void add_intent(CLI::App& line, int& exit_code);
 void add_traffic(CLI::App& line, int& exit_code);
 void add_vehicle(CLI::App& line, int& exit_code);
 void add_bench(CLI::App& line, int& exit_code);
+void add_completion(CLI::App& line, int& exit_code);  ///< after all that it is to complete
+void add_man(CLI::App& line, int& exit_code);         ///< likewise
 
 }  // namespace saca::app

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 struct DriveOptions {
-  int policy = 0;
+  std::optional<manoeuvre::PolicyId> policy;  ///< is there once the line is parsed
   double speed = 14.0;
   double grip = 0.9;
   std::optional<double> target_speed;
@@ -39,8 +39,7 @@ struct DriveOptions {
 };
 
 manoeuvre::Plan plan_of(const DriveOptions& options) {
-  const manoeuvre::PolicyId policy = *manoeuvre::policy_from(options.policy);
-  manoeuvre::Plan plan = manoeuvre::default_plan(policy, options.speed);
+  manoeuvre::Plan plan = manoeuvre::default_plan(*options.policy, options.speed);
   if (options.target_speed) {
     plan.target_speed = options.target_speed;
   }
@@ -50,13 +49,14 @@ manoeuvre::Plan plan_of(const DriveOptions& options) {
 
 /// How long it is watched when it does not end by itself [s].
 double horizon_of(const DriveOptions& options) {
-  const bool ends = options.policy != manoeuvre::index(manoeuvre::PolicyId::no_intervention);
+  const bool ends = options.policy != manoeuvre::PolicyId::no_intervention;
   return options.seconds.value_or(ends ? 30.0 : 3.0);
 }
 
 std::string command_line(const DriveOptions& options) {
-  std::string line = fmt::format("saca drive --policy {} --speed {:g} --grip {:g} --car {}",
-                                 options.policy, options.speed, options.grip, options.car);
+  std::string line =
+      fmt::format("saca drive --policy {} --speed {:g} --grip {:g} --car {}",
+                  manoeuvre::index(*options.policy), options.speed, options.grip, options.car);
   line += options.target_speed ? fmt::format(" --target-speed {:g}", *options.target_speed) : "";
   line += options.strength ? fmt::format(" --strength {:g}", *options.strength) : "";
   line += options.seconds ? fmt::format(" --seconds {:g}", *options.seconds) : "";
@@ -104,10 +104,7 @@ std::optional<Error> write_report(const std::string& file, const std::string& re
   if (!page.has_value()) {
     return page.error();
   }
-  if (auto problem = make_folder_of(file)) {
-    return problem;
-  }
-  return write_file(file, page.value());
+  return write_output(file, page.value());
 }
 
 int drive(const DriveOptions& options) {
@@ -116,7 +113,11 @@ int drive(const DriveOptions& options) {
     complain(places.error().message);
     return bad_input;
   }
-  const fs::path car_file = find_car(places.value(), options.car);
+  const auto found = find_car(places.value(), options.car);
+  if (!found.has_value()) {
+    return refused(found.error());
+  }
+  const fs::path& car_file = found.value();
   const auto car = manoeuvre::read_car(car_file);
   if (!car.has_value()) {
     complain(car.error().message);
@@ -129,6 +130,9 @@ int drive(const DriveOptions& options) {
                              .plan = plan_of(options)};
   record.scene.ego.v_B = {options.speed, 0.0};
   record.scene.grip = options.grip;
+  if (const auto problem = why_outputs_unwritable({options.report})) {
+    return refused(*problem);
+  }
   if (const auto refused = manoeuvre::refusal(record.car, record.plan, record.scene)) {
     complain(*refused);
     return bad_input;
@@ -166,24 +170,28 @@ void add_drive(CLI::App& line, int& exit_code) {
   CLI::App* const command =
       line.add_subcommand("drive", "Drive one manoeuvre on an empty road, and show it");
   const auto options = std::make_shared<DriveOptions>();
-  command->add_option("--policy", options->policy, "0 to 7")->check(CLI::Range(0, 7))->required();
+  add_policy(*command, options->policy, "Its number, 0 to 7, or its name")->required();
   command->add_option("--speed", options->speed, "At the start [m/s]")
-      ->check(within(0.0, 100.0))
+      ->check(within(0.0, 100.0, "m/s"))
       ->capture_default_str();
   command->add_option("--grip", options->grip, "Friction coefficient of the road")
-      ->check(within(0.01, 1.2))
+      ->check(within(0.01, 1.2, "-"))
       ->capture_default_str();
-  command->add_option("--target-speed", options->target_speed,
-                      "Of policies 3 and 4 [m/s] (default: half the speed)");
-  command->add_option("--strength", options->strength,
-                      "Of policy 0: share of the grip that the brakes are asked for, 0.2 to 1 "
-                      "(default: all)");
+  command
+      ->add_option("--target-speed", options->target_speed,
+                   "Of policies 3 and 4 [m/s] (default: half the speed)")
+      ->check(within(0.0, 100.0, "m/s"));
+  command
+      ->add_option("--strength", options->strength,
+                   "Of policy 0: share of the grip that the brakes are asked for, 0.2 to 1 "
+                   "(default: all)")
+      ->check(within(manoeuvre::least_strength, 1.0, "-"));
   command->add_option("--car", options->car, "A car's file, or the name of a shipped one")
       ->capture_default_str();
   command
       ->add_option("--seconds", options->seconds,
                    "Watch it no longer than this (default: 30, of policy 7: 3)")
-      ->check(within(0.01, 600.0));
+      ->check(within(0.01, 600.0, "s"));
   command
       ->add_option("--draws", options->draws,
                    "Again so many times, with grip, mass, lags, ... not as the controller thinks")

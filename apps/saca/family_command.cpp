@@ -7,8 +7,10 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/inputs.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/pictures.h"
 #include "apps/saca/printing.h"
+#include "apps/saca/within.h"
 #include "saca/core/file.h"
 #include "saca/eval/moment.h"
 #include "saca/manoeuvre/ego.h"
@@ -58,10 +60,7 @@ json json_of(const sim::Scenario& scenario, const fs::path& file) {
 
 std::optional<Error> write_picture(const FamilyCommand& options,
                                    const report::ContactSheet& sheet) {
-  if (auto problem = make_folder_of(options.svg)) {
-    return problem;
-  }
-  return write_file(options.svg, report::contact_sheet(sheet));
+  return write_output(options.svg, report::contact_sheet(sheet));
 }
 
 int run(const FamilyCommand& options) {
@@ -71,6 +70,11 @@ int run(const FamilyCommand& options) {
   }
   const auto family = read_family(inputs.value().places, options.name);
   const auto splits = read_splits(inputs.value().places);
+  const fs::path some_file =
+      options.write.empty() ? fs::path() : fs::path(options.write) / "x.toml";
+  if (const auto problem = why_outputs_unwritable({options.svg, some_file})) {
+    return refused(*problem);
+  }
   if (!family.has_value() || !splits.has_value()) {
     return refused(family.has_value() ? splits.error() : family.error());
   }
@@ -100,10 +104,7 @@ int run(const FamilyCommand& options) {
     fs::path file;
     if (!options.write.empty()) {
       file = fs::path(options.write) / (scenario.name + ".toml");
-      auto problem = make_folder_of(file);
-      if (!problem) {
-        problem = write_file(file, sim::write_scenario(scenario));
-      }
+      auto problem = write_output(file, sim::write_scenario(scenario));
       if (problem) {
         return refused(*problem);
       }
@@ -115,13 +116,12 @@ int run(const FamilyCommand& options) {
     return refused(*problem);
   }
   if (options.as_json) {
-    app::print("{}\n", json{{"schema", "saca.family_samples/1"},
-                            {"family", family.value().name},
-                            {"split", options.split},
-                            {"seed", seed.value()},
-                            {"svg", options.svg},
-                            {"samples", list}}
-                           .dump(1, ' ', false, json::error_handler_t::replace));
+    app::print_json(json{{"schema", "saca.family_samples/1"},
+                         {"family", family.value().name},
+                         {"split", options.split},
+                         {"seed", seed.value()},
+                         {"svg", options.svg},
+                         {"samples", list}});
   } else {
     app::print("{} samples of {}: {}\n", options.count, family.value().name,
                fs::absolute(options.svg).string());
@@ -144,7 +144,7 @@ void add_family(CLI::App& line, int& exit_code) {
       ->check(CLI::Range(0, 1'000'000'000))
       ->capture_default_str();
   command->add_option("--split", options->split, "Whose seed is used")
-      ->check(CLI::IsMember({"tuning", "calibration", "test"}))
+      ->check(one_of({"tuning", "calibration", "test"}))
       ->capture_default_str();
   command->add_option("--test-log", options->test_log,
                       "Where a use of the test split is noted; needed for it");

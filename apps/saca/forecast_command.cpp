@@ -12,6 +12,7 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/forecast_commands.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/suite_pages.h"
@@ -207,6 +208,9 @@ int run(const ForecastCommand& options) {
   if (!encounters.has_value()) {
     return refused(encounters.error());
   }
+  if (const auto problem = why_outputs_unwritable({from.output})) {
+    return refused(*problem);
+  }
   watch_for_interrupt();
   const std::vector<Heard> all = heard_in(encounters.value(), from);
   if (interrupted()) {
@@ -261,9 +265,9 @@ int run(const ForecastCommand& options) {
       print_lines(group.name, lines);
     }
   }
-  const std::string text = out.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
+  const std::string text = json_text(out) + "\n";
   if (!from.output.empty()) {
-    if (const auto problem = write_file(from.output, text)) {
+    if (const auto problem = write_output(from.output, text)) {
       return refused(*problem);
     }
   }

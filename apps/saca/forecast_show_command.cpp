@@ -53,6 +53,9 @@ int show(ShowCommand options) {
   if (!encounters.has_value()) {
     return refused(encounters.error());
   }
+  if (const auto problem = why_outputs_unwritable({options.output})) {
+    return refused(*problem);
+  }
   if (options.encounter >= static_cast<std::uint64_t>(encounters.value().count)) {
     complain(fmt::format("{}: want an encounter below {}, got {}", options.from.name,
                          encounters.value().count, options.encounter));
@@ -70,7 +73,7 @@ int show(ShowCommand options) {
   }
   constexpr report::SvgSize size{760.0, 250.0};
   const std::string picture = report::scene_svg(fan_view(fan.value(), options.who, name), size);
-  if (const auto problem = write_file(options.output, picture)) {
+  if (const auto problem = write_output(options.output, picture)) {
     return refused(*problem);
   }
   app::print("{}\n", options.output);
@@ -88,7 +91,7 @@ void add_forecast_show(CLI::App& forecast, int& exit_code) {
   command->add_option("--encounter", options->encounter, "Number of the encounter in it")
       ->required();
   command->add_option("--who", options->who, "car1, pedestrian2, ...")->required();
-  command->add_option("--at_s", options->at, "When [s]")->required();
+  command->add_option("--at-s", options->at, "When [s]")->required();
   command->add_option("-o,--output", options->output, "The picture (.svg)")->required();
   command->callback([options, &exit_code] { exit_code = show(*options); });
 }

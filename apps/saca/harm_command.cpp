@@ -3,6 +3,7 @@
 #include <string>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "saca/core/file.h"
@@ -68,7 +69,7 @@ int harm(const HarmOptions& options) {
                    {"speed_mps", speeds},
                    {"probability", table_json(risks)},
                    {"harm", table_json(harms)}};
-    app::print("{}\n", out.dump(1));
+    app::print_json(out);
   } else {
     app::print("From {}. Probabilities are what is due to the blow.\n", file.string());
     print_table("probability", risks, speeds);
@@ -77,11 +78,7 @@ int harm(const HarmOptions& options) {
   if (options.svg.empty()) {
     return success;
   }
-  if (const auto error = make_folder_of(options.svg)) {
-    complain(error->message);
-    return cannot_write;
-  }
-  if (const auto error = write_file(options.svg, report::harm_svg(model.value()))) {
+  if (const auto error = write_output(options.svg, report::harm_svg(model.value()))) {
     complain(error->message);
     return cannot_write;
   }

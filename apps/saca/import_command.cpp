@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
@@ -46,7 +47,7 @@ int import_hundred_car(const ImportOptions& options) {
     app::print("{}", text);
     return success;
   }
-  if (const auto problem = write_file(options.output, text)) {
+  if (const auto problem = write_output(options.output, text)) {
     complain(problem->message);
     return cannot_write;
   }
@@ -76,10 +77,7 @@ std::optional<Error> write_scenarios(const std::vector<sim::HundredCarOutcome>& 
   for (const sim::HundredCarOutcome& outcome : outcomes) {
     if (const sim::HundredCarImport* made = outcome.rebuilt()) {
       const fs::path file = folder / (made->scenario.name + ".toml");
-      if (auto problem = make_folder_of(file)) {
-        return problem;
-      }
-      if (auto problem = write_file(file, sim::write_scenario(made->scenario))) {
+      if (auto problem = write_output(file, sim::write_scenario(made->scenario))) {
         return problem;
       }
     }
@@ -120,7 +118,7 @@ void tell_all(const std::vector<sim::HundredCarOutcome>& outcomes, std::size_t n
                               {"rebuilt", num_rebuilt},
                               {"refused", reasons},
                               {"list", list}};
-    app::print("{}\n", told.dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
+    app::print_json(told);
     return;
   }
   app::print("{} events: {} rebuilt, {} refused\n", outcomes.size(), num_rebuilt,
@@ -131,6 +129,11 @@ void tell_all(const std::vector<sim::HundredCarOutcome>& outcomes, std::size_t n
 }
 
 int import_all_hundred_cars(const ImportOptions& options) {
+  const fs::path some_file =
+      options.output.empty() ? fs::path() : fs::path(options.output) / "x.toml";
+  if (const auto problem = why_outputs_unwritable({some_file})) {
+    return refused(*problem);
+  }
   const auto outcomes = all_hundred_cars(options);
   if (!outcomes.has_value()) {
     return interrupted() ? static_cast<int>(was_interrupted) : refused(outcomes.error());
@@ -220,12 +223,12 @@ int import_traffic(const TrafficOptions& options) {
     complain(again.error().message);
     return bad_input;
   }
-  if (const auto problem = write_file(options.output, text)) {
+  if (const auto problem = write_output(options.output, text)) {
     complain(problem->message);
     return cannot_write;
   }
   if (options.as_json) {
-    app::print("{}\n", traffic_json(imported.value(), options).dump(1));
+    app::print_json(traffic_json(imported.value(), options));
   } else {
     tell(imported.value(), options);
   }
@@ -241,13 +244,13 @@ void add_commonroad(CLI::App& command, int& exit_code) {
                       "Id of the obstacle whose place the ego takes; without it the ego begins at "
                       "the planning problem's start");
   traffic
-      ->add_option("--from_s", options->request.from,
+      ->add_option("--from-s", options->request.from,
                    "Where in the file's time the scenario begins; without it where the ego does")
       ->check(within(0.0, 1e6));
   traffic
-      ->add_option("--after_s", options->request.after,
+      ->add_option("--after-s", options->request.after,
                    "How long the scenario goes on after the recording, everybody straight on")
-      ->check(within(0.0, 60.0))
+      ->check(within(0.0, 60.0, "s"))
       ->capture_default_str();
   traffic->add_option("--output", options->output, "The scenario file")->required();
   traffic->add_flag("--json", options->as_json, "For programs");
@@ -271,11 +274,11 @@ void add_import(CLI::App& line, int& exit_code) {
   CLI::Option* const all =
       which->add_flag("--all", options->all, "Every event in or below the folder, with counts");
   which->require_option(1);
-  study->add_option("--before_s", options->request.before, "Kept before the conflict")
-      ->check(within(1.0, 60.0))
+  study->add_option("--before-s", options->request.before, "Kept before the conflict")
+      ->check(within(1.0, 60.0, "s"))
       ->capture_default_str();
-  study->add_option("--after_s", options->request.after, "Kept after the last evasive manoeuvre")
-      ->check(within(0.0, 60.0))
+  study->add_option("--after-s", options->request.after, "Kept after the last evasive manoeuvre")
+      ->check(within(0.0, 60.0, "s"))
       ->capture_default_str();
   study->add_option("--narrative", options->request.narrative, "The study's own words, quoted")
       ->excludes(all);

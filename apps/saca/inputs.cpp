@@ -9,28 +9,16 @@ namespace saca::app {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-Error no_scenario(const Places& places, const std::string& wanted) {
-  std::string names;
-  for (const fs::path& file : shipped_scenarios(places)) {
-    if (const std::string name = file.stem().string(); name.starts_with(wanted)) {
-      names += (names.empty() ? "" : ", ") + name;
-    }
-  }
-  return Error{Error::Code::unreadable,
-               wanted + ": want a scenario's file or the name of a shipped one, " +
-                   (names.empty() ? "as `saca scenarios` lists them" : "e.g. " + names)};
-}
-
-}  // namespace
-
 Result<Inputs> read_inputs(const std::string& car) {
   auto places = find_places();
   if (!places.has_value()) {
     return places.error();
   }
-  const fs::path file = find_car(places.value(), car);
+  const auto found = find_car(places.value(), car);
+  if (!found.has_value()) {
+    return found.error();
+  }
+  const fs::path& file = found.value();
   auto read = manoeuvre::read_car(file);
   if (!read.has_value()) {
     return read.error();
@@ -64,14 +52,17 @@ Result<ScenarioInputs> read_scenario_inputs(const std::string& scenario) {
   if (!places.has_value()) {
     return places.error();
   }
-  const fs::path file = find_scenario(places.value(), scenario);
-  std::error_code problem;
-  if (!fs::exists(file, problem)) {
-    return no_scenario(places.value(), scenario);
+  const auto found = find_scenario(places.value(), scenario);
+  if (!found.has_value()) {
+    return found.error();
   }
+  const fs::path& file = found.value();
   const auto first = sim::load_scenario(file);
   if (!first.has_value()) {
     return first.error();
+  }
+  if (const auto car = find_car(places.value(), first.value().car); !car.has_value()) {
+    return Error{car.error().code, file.string() + ": car: " + car.error().message};
   }
   auto inputs = read_inputs(first.value().car);
   if (!inputs.has_value()) {
@@ -89,11 +80,10 @@ Result<ScenarioInputs> read_scenario_inputs(const std::string& scenario) {
 }
 
 Result<sim::Family> read_family(const Places& places, const std::string& name) {
-  const fs::path own = name;
-  if (own.extension() == ".toml") {
-    return sim::load_family(own.parent_path(), own.stem().string());
-  }
-  return sim::load_family(places.root / "scenarios" / "families", name);
+  const auto file = find_family(places, name);
+  return file.has_value()
+             ? sim::load_family(file.value().parent_path(), file.value().stem().string())
+             : file.error();
 }
 
 Result<sim::Splits> read_splits(const Places& places) {

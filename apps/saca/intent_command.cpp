@@ -96,6 +96,9 @@ Result<SequenceSet> gathered(const ExamplesOptions& options) {
 }
 
 int make_examples(const ExamplesOptions& options) {
+  if (const auto problem = why_outputs_unwritable({options.output})) {
+    return refused(*problem);
+  }
   const auto all = gathered(options);
   if (!all.has_value()) {
     return refused(all.error());
@@ -103,6 +106,9 @@ int make_examples(const ExamplesOptions& options) {
   if (const auto rule = learn::broken_rule(all.value())) {
     complain(fmt::format("{}: {}", options.sets.front(), *rule));
     return bad_input;
+  }
+  if (const auto problem = make_folder_of(options.output)) {
+    return refused(*problem);
   }
   if (const auto problem = learn::write_sequences(options.output, all.value())) {
     return refused(*problem);

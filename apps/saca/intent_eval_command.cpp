@@ -9,6 +9,7 @@
 #include "apps/saca/commands.h"
 #include "apps/saca/intent_commands.h"
 #include "apps/saca/intent_figures.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "saca/core/file.h"
@@ -229,6 +230,9 @@ int evaluate(EvalOptions options) {
   if (!set.has_value()) {
     return refused(set.error());
   }
+  if (const auto problem = why_outputs_unwritable({options.svg})) {
+    return refused(*problem);
+  }
   const auto models = learn::read_models(options.models);
   if (!models.has_value()) {
     return refused(models.error());
@@ -242,7 +246,7 @@ int evaluate(EvalOptions options) {
     return refused(*problem);
   }
   if (!options.svg.empty()) {
-    if (const auto problem = write_file(options.svg, comparisons.front().confusion_svg())) {
+    if (const auto problem = write_output(options.svg, comparisons.front().confusion_svg())) {
       return refused(*problem);
     }
   }
@@ -265,7 +269,7 @@ int evaluate(EvalOptions options) {
   }
   if (options.as_json) {
     document["displacements"] = displacements_json(moved);
-    app::print("{}\n", document.dump(1));
+    app::print_json(document);
   } else {
     tell_displacements(moved);
   }

@@ -9,6 +9,7 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/intent_commands.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "saca/learn/examples.h"
@@ -87,7 +88,7 @@ int fit_motion(const MotionOptions& options) {
     }
   }
   if (options.as_json) {
-    app::print("{}\n", document.dump(1));
+    app::print_json(document);
   }
   return success;
 }

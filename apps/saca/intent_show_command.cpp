@@ -97,6 +97,9 @@ int show(const ShowOptions& options) {
   if (!set.has_value()) {
     return refused(set.error());
   }
+  if (const auto problem = why_outputs_unwritable({options.output})) {
+    return refused(*problem);
+  }
   const std::vector<std::size_t> chosen = drawn(set.value(), options);
   if (chosen.empty()) {
     complain(
@@ -128,7 +131,7 @@ int show(const ShowOptions& options) {
   const bool as_svg = fs::path(options.output).extension() == ".svg";
   const std::string text =
       as_svg ? report::intention_sample_svg(page.samples.front()) : report::intention_page(page);
-  if (const auto problem = write_file(options.output, text)) {
+  if (const auto problem = write_output(options.output, text)) {
     return refused(*problem);
   }
   app::print("{}: {} samples\n", options.output, as_svg ? 1 : page.samples.size());

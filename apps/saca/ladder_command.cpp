@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/suite_decisions.h"
 #include "apps/saca/suite_pages.h"
@@ -175,6 +176,9 @@ int run(LadderCommand options) {
   if (suite.output.empty()) {
     suite.output = fmt::format("runs/ladder-{}-{}.json", name, suite.split);
   }
+  if (const auto problem = why_outputs_unwritable({suite.output})) {
+    return refused(*problem);
+  }
   suite.no_twins = true;
   const std::vector<Rung> rungs = rungs_with(suite.thinking);
   const auto ran = run_suite(suite, "ladder", names_of(rungs));
@@ -191,11 +195,11 @@ int run(LadderCommand options) {
     return some_failed;
   }
   const json figures = json_of(*ran.value(), climbed, name);
-  const std::string text = figures.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
-  auto problem = write_file(suite.output, text);
+  const std::string text = json_text(figures) + "\n";
+  auto problem = write_output(suite.output, text);
   if (!problem) {
-    problem = write_file(fs::path(suite.output).replace_extension(".html"),
-                         report::suite_page(page_of(*ran.value(), climbed, name)));
+    problem = write_output(fs::path(suite.output).replace_extension(".html"),
+                           report::suite_page(page_of(*ran.value(), climbed, name)));
   }
   if (problem) {
     return refused(*problem);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -5,8 +6,11 @@
 #include <system_error>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/parsing.h"
 #include "apps/saca/places.h"
-#include "saca/core/printable.h"
+#include "apps/saca/printing.h"
+#include "apps/saca/settings.h"
+#include "apps/saca/version.h"
 #include "saca/core/standard_files.h"
 
 namespace {
@@ -35,8 +39,10 @@ int main(int argc, char** argv) {
   }
   try {
     CLI::App line{
-        "SACA chooses, in the last seconds before a crash, the manoeuvre that harms least."};
-    line.set_version_flag("--version", SACA_VERSION);
+        "SACA chooses, in the last seconds before a crash, the manoeuvre that harms least.",
+        "saca"};
+    line.set_version_flag("--version", "saca " + version_text());
+    add_settings(line);
     line.require_subcommand(1);
     int exit_code = success;
     add_run(line, exit_code);
@@ -68,13 +74,19 @@ int main(int argc, char** argv) {
     add_traffic(line, exit_code);
     add_vehicle(line, exit_code);
     add_bench(line, exit_code);
+    add_completion(line, exit_code);
+    add_man(line, exit_code);
+    std::vector<std::string> words = as_spelt(argc, argv);
+    std::reverse(words.begin(), words.end());  // CLI11 takes them from the end
     try {
-      line.parse(argc, argv);
+      line.parse(std::move(words));
     } catch (const CLI::ParseError& problem) {
       std::ostringstream told;
-      const bool asked_for_help = line.exit(problem, told, told) == 0;
-      std::fputs(saca::printable(told.str()).c_str(), asked_for_help ? stdout : stderr);
-      return asked_for_help ? success : wrong_command_line;
+      if (line.exit(problem, told, told) != 0) {
+        return refuse_line(line, problem);
+      }
+      saca::app::print("{}", told.str());  // the help that was asked for
+      return success;
     }
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
       complain("the output cannot be written");

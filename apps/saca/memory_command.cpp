@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "saca/memory/scene_json.h"
@@ -63,7 +64,7 @@ int list_cases(const MemoryOptions& options) {
     }
   }
   if (options.as_json) {
-    app::print("{}\n", list.dump(1));
+    app::print_json(list);
   } else if (cases.value().empty()) {
     app::print("{}: no cases yet\n", options.file);
   }
@@ -88,7 +89,7 @@ int show_case(const MemoryOptions& options) {
   }
   json out = case_json(*found.value());
   out["scene"] = memory::to_json(found.value()->scene);
-  app::print("{}\n", out.dump(1));
+  app::print("{}\n", out.dump(1));  // a scene comes back to the last bit
   return success;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/saca/json_output.h"
 #include "apps/saca/model.h"
 #include "apps/saca/model_commands.h"
 #include "apps/saca/printing.h"
@@ -101,7 +102,7 @@ class BenchFigures {
       for (const auto& [name, text] : texts_) {
         document[name] = text;
       }
-      app::print("{}\n", document.dump());
+      app::print_json(document);
       return;
     }
     for (const auto& [name, text] : texts_) {
@@ -195,12 +196,12 @@ int model_bench(const ModelBenchOptions& options) {
   for (int run = 0; run < options.runs; ++run) {
     one.push_back(ask_about({scenes[0]}, without_haste));
     if (one.back().error) {
-      return refused(*one.back().error);
+      return unanswered(*one.back().error);
     }
     three.push_back(ask_about(scenes, preview_time));
   }
   if (of(three, &Asked::whole).empty()) {
-    return refused(three.back().error.value_or(
+    return unanswered(three.back().error.value_or(
         Error{Error::Code::too_late, fmt::format("three questions at a time never had all their "
                                                  "answers within {} s",
                                                  preview_time)}));

@@ -1,7 +1,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/model.h"
 #include "apps/saca/model_commands.h"
 #include "apps/saca/places.h"
@@ -22,7 +24,7 @@ int model_info(bool as_json) {
   }
   const auto info = model.value()->info(clock.now() + std::chrono::seconds(30));
   if (!info.has_value()) {
-    return refused(info.error());
+    return unanswered(info.error());
   }
   constexpr double mebi = 1024.0 * 1024.0;
   const nlohmann::json out{
@@ -34,7 +36,9 @@ int model_info(bool as_json) {
       {"load_s", model.value()->figures().load_time},
       {"system_tokens", model.value()->figures().system_tokens}};
   if (as_json) {
-    app::print("{}\n", out.dump(1));
+    nlohmann::json all = out;
+    all["schema"] = "saca.model_info/1";
+    app::print_json(std::move(all));
     return success;
   }
   for (const auto& [key, value] : out.items()) {

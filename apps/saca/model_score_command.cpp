@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/saca/json_output.h"
 #include "apps/saca/model_commands.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/suite_pages.h"
@@ -150,7 +151,7 @@ int model_score(const ScoreOptions& options) {
   const ModelScore score = eval::model_score(rows, suite.seed);
   const json document = document_of(score, options, *ran.value());
   if (options.as_json) {
-    app::print("{}\n", document.dump(1, ' ', false, json::error_handler_t::replace));
+    app::print_json(document);
   } else {
     print(score, document);
   }

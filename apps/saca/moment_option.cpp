@@ -8,27 +8,27 @@
 namespace saca::app {
 
 void add_at(CLI::App& command, std::optional<double>& at) {
-  command.add_option("--at_s", at, "When they begin (default: at the trigger)")
-      ->check(within(0.0, 600.0));
+  command.add_option("--at-s", at, "When they begin (default: at the trigger)")
+      ->check(within(0.0, 600.0, "s"));
 }
 
-Result<double> decision_time(const ScenarioInputs& inputs, const std::optional<double>& at) {
+Result<std::optional<double>> decision_time(const ScenarioInputs& inputs,
+                                            const std::optional<double>& at) {
   if (at) {
     if (*at > inputs.scenario.duration) {
       return Error{Error::Code::out_of_range,
-                   fmt::format("--at_s {}: {} ends at {} s", *at, inputs.scenario.name,
+                   fmt::format("--at-s {}: {} ends at {} s", *at, inputs.scenario.name,
                                inputs.scenario.duration)};
     }
-    return *at;
+    return at;
   }
   const auto trigger = eval::trigger_time(inputs.scenario, inputs.car);
   if (!trigger) {
-    return Error{Error::Code::out_of_range,
-                 inputs.scenario.name +
-                     ": nothing comes within T1 of a conflict, so nothing is to be decided; say "
-                     "when with --at_s"};
+    complain(inputs.scenario.name +
+             ": nothing comes within T1 of a conflict, so nothing is to be decided; say when with "
+             "--at-s");
   }
-  return *trigger;
+  return trigger;
 }
 
 }  // namespace saca::app

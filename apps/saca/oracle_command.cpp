@@ -7,6 +7,7 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/inputs.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/moment_option.h"
 #include "apps/saca/pictures.h"
 #include "apps/saca/printing.h"
@@ -71,28 +72,27 @@ json json_of(const eval::Verdict& verdict, const world::Scene& scene) {
 std::string row_of(const eval::Verdict& verdict, const world::Scene& scene) {
   const preview::PolicyFacts& facts = verdict.written.facts;
   const outcome::Expected& expected = verdict.expected;
-  return fmt::format("{} {:7}  {:.4f} ({:.4f} to {:.4f})  {:5.2f}  {:3.0f} %   {}",
-                     manoeuvre::index(facts.plan.policy), name(facts.plan.policy),
-                     expected.harm.value, expected.harm.low, expected.harm.high,
-                     expected.collision_loss.value, 100.0 * expected.contact.share,
-                     describe(facts.outcome(), scene));
+  return fmt::format("{:26}  {:.4f} ({:.4f} to {:.4f})  {:5.2f}  {:3.0f} %   {}",
+                     manoeuvre::plan_text(facts.plan), expected.harm.value, expected.harm.low,
+                     expected.harm.high, expected.collision_loss.value,
+                     100.0 * expected.contact.share, describe(facts.outcome(), scene));
 }
 
 void print(const eval::Oracle& oracle, const OracleCommand& options) {
   app::print("At {:.2f} s, {:.1f} m/s; {} draws of what nobody knows, seed {}.\n\n",
              oracle.scene.time, norm(oracle.scene.ego.v_B), options.draws, options.seed);
-  app::print("policy     expected harm (95 %)       loss   hit     as written\n");
+  app::print("best plan of each policy    expected harm (95 %)       loss   hit     as written\n");
   for (const manoeuvre::PolicyId policy : oracle.ranking) {
     app::print("{}\n", row_of(oracle.of(policy), oracle.scene));
   }
   for (const eval::Verdict& verdict : oracle.verdicts) {
     if (!verdict.written.facts.drivable()) {
-      app::print("{} {:7}  {}\n", manoeuvre::index(verdict.written.facts.plan.policy),
+      app::print("{} {:24}  {}\n", manoeuvre::index(verdict.written.facts.plan.policy),
                  name(verdict.written.facts.plan.policy), verdict.written.facts.refusal());
     }
   }
   const eval::Margin margin = margin_of_best(oracle);
-  app::print("\nBest: {}", name(oracle.best()));
+  app::print("\nBest: {}", plan_name(oracle.of(oracle.best()).written.facts.plan));
   app::print("{} (by {:.4f} harm, at least {:.4f}).\n",
              margin.low > 0.0 ? ", alone" : ", not clearly alone", margin.mean, margin.low);
 }
@@ -109,19 +109,21 @@ int run(const OracleCommand& options) {
   }
   const auto time = decision_time(inputs.value(), options.at);
   if (!time.has_value()) {
-    complain(time.error().message);
-    return bad_input;
+    return refused(time.error());
+  }
+  if (!time.value()) {
+    return nothing_to_decide;
+  }
+  if (const auto problem = why_outputs_unwritable({options.svg})) {
+    return refused(*problem);
   }
   const sim::Scenario& scenario = inputs.value().scenario;
   const eval::Oracle oracle =
       eval::oracle(scenario, inputs.value().car, inputs.value().harm,
-                   {time.value(), options.draws, options.seed, options.threads});
+                   {*time.value(), options.draws, options.seed, options.threads});
   if (!options.svg.empty()) {
     const std::string sheet = report::contact_sheet(sheet_of(oracle, scenario));
-    auto problem = make_folder_of(options.svg);
-    if (!problem) {
-      problem = write_file(options.svg, sheet);
-    }
+    auto problem = write_output(options.svg, sheet);
     if (problem) {
       complain(problem->message);
       return cannot_write;
@@ -143,7 +145,7 @@ int run(const OracleCommand& options) {
   }
   const eval::Margin margin = margin_of_best(oracle);
   all["margin"] = {{"mean", margin.mean}, {"low", margin.low}};
-  app::print("{}\n", all.dump(1, ' ', false, json::error_handler_t::replace));
+  app::print_json(all);
   return success;
 }
 
@@ -152,7 +154,8 @@ int run(const OracleCommand& options) {
 void add_oracle(CLI::App& line, int& exit_code) {
   CLI::App* const command = line.add_subcommand(
       "oracle",
-      "Try all eight policies at the trigger, knowing what the others will do, and rank them");
+      "Try every plan of all eight policies at the trigger, knowing what the others will do, and "
+      "rank the policies");
   const auto options = std::make_shared<OracleCommand>();
   command
       ->add_option("scenario", options->scenario, "A scenario file, or the name of a shipped one")
@@ -167,7 +170,7 @@ void add_oracle(CLI::App& line, int& exit_code) {
   command->add_option("--threads", options->threads, "They do not change the result")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  command->add_option("--svg", options->svg, "Draw all eight, as written");
+  command->add_option("--svg", options->svg, "Draw the best plan of each policy, as written");
   command->add_flag("--json", options->as_json, "For programs");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

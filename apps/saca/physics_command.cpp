@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "saca/core/parallel.h"
@@ -107,7 +108,11 @@ int physics(const PhysicsOptions& options) {
     complain(places.error().message);
     return bad_input;
   }
-  const auto car = manoeuvre::read_car(find_car(places.value(), "compact_rwd_ev"));
+  const auto usual = find_car(places.value(), "compact_rwd_ev");
+  if (!usual.has_value()) {
+    return refused(usual.error());
+  }
+  const auto car = manoeuvre::read_car(usual.value());
   if (!car.has_value()) {
     complain(car.error().message);
     return bad_input;
@@ -123,19 +128,22 @@ int physics(const PhysicsOptions& options) {
   for (const std::string& name :
        options.drift_draws > 0 ? options.cars : decltype(options.cars){}) {
     const auto file = find_car(places.value(), name);
-    const auto one = manoeuvre::read_car(file);
+    if (!file.has_value()) {
+      return refused(file.error());
+    }
+    const auto one = manoeuvre::read_car(file.value());
     if (!one.has_value()) {
       complain(one.error().message);
       return bad_input;
     }
-    add_drifts(file.stem().string(), one.value(), options, figures);
+    add_drifts(file.value().stem().string(), one.value(), options, figures);
   }
   if (options.as_json) {
     if (options.drift_draws > 0) {
       figures["t_drift.n"] = options.drift_draws;
       figures["t_drift.seed"] = options.seed;
     }
-    app::print("{}\n", figures.dump(1));
+    app::print_json(figures);
   }
   return success;
 }

@@ -3,13 +3,17 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <string_view>
 #include <vector>
 
+#include "apps/saca/settings.h"
 #include "saca/config/json_text.h"
 #include "saca/core/file.h"
 #include "saca/core/printable.h"
+#include "saca/core/suggestion.h"
 
 namespace saca::app {
 
@@ -53,38 +57,88 @@ std::optional<fs::path> find_weights(const Places& places) {
 
 namespace {
 
-fs::path find_shipped(const fs::path& folder, const std::string& name) {
-  std::error_code problem;
-  if (fs::is_regular_file(name, problem)) {
-    return name;
-  }
-  const bool plain = !fs::path(name).has_extension() && !fs::path(name).has_parent_path();
-  return plain ? folder / (name + ".toml") : fs::path(name);
-}
+/// What is found by name, and how it is told.
+struct Shipped {
+  const char* what;
+  const char* folder;                      ///< below the root
+  std::array<std::string_view, 2> others;  ///< files of the folder that are something else
+  const char* listed_by;  ///< the command that lists them; nullptr: the names are few
+};
 
-}  // namespace
+constexpr Shipped of_scenarios{"scenario", "scenarios", {"splits"}, "saca scenarios"};
+constexpr Shipped of_families{"family", "scenarios/families", {"suites", "surroundings"}, nullptr};
+constexpr Shipped of_cars{"car", "data/vehicles", {}, nullptr};
+constexpr Shipped of_reach_cases{"case", "data/reach", {}, nullptr};
 
-fs::path find_scenario(const Places& places, const std::string& name) {
-  return find_shipped(places.root / "scenarios", name);
-}
-
-fs::path find_reach_case(const Places& places, const std::string& name) {
-  return find_shipped(places.root / "data" / "reach", name);
-}
-
-fs::path find_car(const Places& places, const std::string& name) {
-  return find_shipped(places.root / "data" / "vehicles", name);
-}
-
-std::vector<fs::path> shipped_scenarios(const Places& places) {
+std::vector<fs::path> files_of(const Places& places, const Shipped& shipped) {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(places.root / "scenarios")) {
-    if (entry.path().extension() == ".toml" && entry.path().filename() != "splits.toml") {
+  for (const auto& entry : fs::directory_iterator(places.root / shipped.folder)) {
+    const std::string stem = entry.path().stem().string();
+    const bool other =
+        std::find(shipped.others.begin(), shipped.others.end(), stem) != shipped.others.end();
+    if (entry.path().extension() == ".toml" && stem.find('.') == stem.npos && !other) {
       files.push_back(entry.path());
     }
   }
   std::sort(files.begin(), files.end());
   return files;
+}
+
+Error not_there(const Places& places, const Shipped& shipped, const std::string& name) {
+  std::vector<std::string> names;
+  std::vector<std::string> begin_so;
+  for (const fs::path& file : files_of(places, shipped)) {
+    names.push_back(file.stem().string());
+    if (names.back().starts_with(name)) {
+      begin_so.push_back(names.back());
+    }
+  }
+  const std::string typed = fs::path(name).stem().string();
+  const std::string other =
+      likely_meant(typed, names) || shipped.listed_by == nullptr ? suggestion(typed, names)
+      : begin_so.empty() ? fmt::format("`{}` lists those that are shipped", shipped.listed_by)
+                         : suggestion(typed, begin_so);
+  return {Error::Code::unreadable,
+          fmt::format("{}: no {} is there, neither a file nor the name of a shipped one; {}", name,
+                      shipped.what, other)};
+}
+
+Result<fs::path> find_shipped(const Places& places, const Shipped& shipped,
+                              const std::string& name) {
+  std::error_code problem;
+  if (fs::exists(name, problem) && !fs::is_directory(name, problem)) {
+    return fs::path(name);  // also what is no file, which its reader refuses
+  }
+  const bool plain = !fs::path(name).has_extension() && !fs::path(name).has_parent_path();
+  const fs::path file = places.root / shipped.folder / (name + ".toml");
+  const bool other =
+      std::find(shipped.others.begin(), shipped.others.end(), name) != shipped.others.end();
+  if (plain && !name.empty() && !other && fs::exists(file, problem)) {
+    return file;
+  }
+  return not_there(places, shipped, name);
+}
+
+}  // namespace
+
+Result<fs::path> find_scenario(const Places& places, const std::string& name) {
+  return find_shipped(places, of_scenarios, name);
+}
+
+Result<fs::path> find_reach_case(const Places& places, const std::string& name) {
+  return find_shipped(places, of_reach_cases, name);
+}
+
+Result<fs::path> find_car(const Places& places, const std::string& name) {
+  return find_shipped(places, of_cars, name);
+}
+
+Result<fs::path> find_family(const Places& places, const std::string& name) {
+  return find_shipped(places, of_families, name);
+}
+
+std::vector<fs::path> shipped_scenarios(const Places& places) {
+  return files_of(places, of_scenarios);
 }
 
 namespace {
@@ -94,6 +148,9 @@ fs::path kept_place(const Places& places, const fs::path& file) {
   std::error_code problem;
   if (fs::exists(places.root / file, problem)) {
     return places.root / file;
+  }
+  if (!settings().cache.empty()) {
+    return fs::path(settings().cache) / file;
   }
   if (const char* const cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != 0) {
     return fs::path(cache) / "saca" / file;
@@ -121,6 +178,20 @@ bool is_png_or_html(const std::string& output) {
   return false;
 }
 
+std::optional<Error> why_outputs_unwritable(std::initializer_list<fs::path> files) {
+  for (const fs::path& file : files) {
+    if (auto problem = file.empty() ? std::nullopt : why_unwritable(file)) {
+      return problem;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> write_output(const fs::path& file, std::string_view text) {
+  auto problem = make_folder_of(file);
+  return problem ? problem : write_file(file, text);
+}
+
 std::optional<Error> make_folder_of(const fs::path& file) {
   std::error_code problem;
   if (file.has_parent_path()) {
@@ -142,6 +213,11 @@ void complain(const std::string& message) {
 int refused(const Error& problem) {
   complain(problem.message);
   return problem.code == Error::Code::unwritable ? cannot_write : bad_input;
+}
+
+int unanswered(const Error& problem) {
+  const int code = refused(problem);
+  return problem.code == Error::Code::too_late ? static_cast<int>(too_slow) : code;
 }
 
 }  // namespace saca::app

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "saca/core/result.h"
@@ -18,6 +20,8 @@ enum ExitCode : int {
   cannot_write = 4,
   some_failed = 5,        ///< of many encounters, some could not be played or a method failed
   not_the_same = 6,       ///< something came out otherwise than it was recorded
+  nothing_to_decide = 7,  ///< nothing threatens in the scenario: there is nothing to tell
+  too_slow = 8,           ///< the machine, or the model, did not answer in the time it had
   was_interrupted = 130,  ///< as shells say it: 128 + SIGINT
 };
 
@@ -35,25 +39,42 @@ struct Places {
 [[nodiscard]] std::optional<std::filesystem::path> find_weights(const Places& places);
 
 /// A scenario by its path, or by the name of a shipped one.
-[[nodiscard]] std::filesystem::path find_scenario(const Places& places, const std::string& name);
+/// @return  Error::Code::unreadable where there is neither, with the name that was likely meant
+[[nodiscard]] Result<std::filesystem::path> find_scenario(const Places& places,
+                                                          const std::string& name);
 
 /// A case of `data/reach` likewise.
-[[nodiscard]] std::filesystem::path find_reach_case(const Places& places, const std::string& name);
+[[nodiscard]] Result<std::filesystem::path> find_reach_case(const Places& places,
+                                                            const std::string& name);
 
-/// A car's file by its path, or by the name of a shipped one.
-[[nodiscard]] std::filesystem::path find_car(const Places& places, const std::string& name);
+/// A car's file likewise.
+[[nodiscard]] Result<std::filesystem::path> find_car(const Places& places, const std::string& name);
+
+/// A family likewise: a shipped one, or a file of the user's own (*.toml).
+[[nodiscard]] Result<std::filesystem::path> find_family(const Places& places,
+                                                        const std::string& name);
 
 /// The shipped ones' files, by name.
 [[nodiscard]] std::vector<std::filesystem::path> shipped_scenarios(const Places& places);
 
-/// Where the atlas of a car is looked for, and built: in the user's cache ($XDG_CACHE_HOME/saca or
-/// ~/.cache/saca), unless one was installed with the program's own files.
+/// Where the atlas of a car is looked for, and built: in the cache (`--cache`, else
+/// $XDG_CACHE_HOME/saca, else ~/.cache/saca), unless one was installed with the program's own
+/// files.
 /// @param car  its name
 [[nodiscard]] std::filesystem::path atlas_place(const Places& places, const std::string& car);
 
 /// Likewise one of its tables of danger.
 [[nodiscard]] std::filesystem::path danger_place(const Places& places, const std::string& car,
                                                  const std::string& table);
+
+/// Before long work: why one of the files that it is to leave could not be written
+/// (`why_unwritable`). An empty name is none.
+[[nodiscard]] std::optional<Error> why_outputs_unwritable(
+    std::initializer_list<std::filesystem::path> files);
+
+/// `write_file`, with the folder made that the file is to lie in.
+[[nodiscard]] std::optional<Error> write_output(const std::filesystem::path& file,
+                                                std::string_view text);
 
 /// Makes the folder that `file` is to lie in.
 [[nodiscard]] std::optional<Error> make_folder_of(const std::filesystem::path& file);
@@ -66,5 +87,8 @@ void complain(const std::string& message);
 
 /// Says it; the exit code that goes with it.
 [[nodiscard]] int refused(const Error& problem);
+
+/// Likewise of a question to a model: what came too late is no wrong input, but `too_slow`.
+[[nodiscard]] int unanswered(const Error& problem);
 
 }  // namespace saca::app

@@ -5,6 +5,7 @@
 
 #include <csignal>
 
+#include "apps/saca/settings.h"
 #include "saca/core/printable.h"
 
 namespace saca::app {
@@ -42,6 +43,9 @@ ProgressLine::ProgressLine(std::string_view what, int all, Clock& clock)
       terminal_(isatty(STDERR_FILENO) != 0) {}
 
 ProgressLine::~ProgressLine() {
+  if (settings().quiet) {
+    return;
+  }
   if (terminal_) {
     fmt::print(stderr, "\n");
   } else if (shown_) {
@@ -55,7 +59,7 @@ void ProgressLine::show(int done, int remembered, const std::string& more) {
   more_ = more;
   shown_ = true;
   const Clock::Time now = clock_.now();
-  if (!terminal_ || (done != all_ && to_seconds(now - last_) < 0.2)) {
+  if (settings().quiet || !terminal_ || (done != all_ && to_seconds(now - last_) < 0.2)) {
     return;
   }
   last_ = now;

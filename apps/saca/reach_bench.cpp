@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "apps/saca/printing.h"
+#include "apps/saca/settings.h"
 #include "saca/config/json_text.h"
 #include "saca/core/file.h"
 #include "saca/core/parallel.h"
@@ -36,7 +37,9 @@ constexpr double bytes_per_mib = 1024.0 * 1024.0;
 constexpr double dry_grip = 0.9;  // dry: the tables' and that of the figures
 
 void note_progress(const std::string& what) {
-  app::print(stderr, "bench reach: {}\n", what);
+  if (!settings().quiet) {
+    app::print(stderr, "bench reach: {}\n", what);
+  }
 }
 
 // --- air3D ---------------------------------------------------------------------------------------

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/reach_commands.h"
@@ -66,6 +67,9 @@ std::string convergence_picture(const std::vector<Refinement>& all) {
 }
 
 int check(const CheckOptions& options) {
+  if (const auto problem = why_outputs_unwritable({options.picture})) {
+    return refused(*problem);
+  }
   const std::vector<Refinement> all = reach::refinements(options.grids, usual_threads());
   nlohmann::json figures;
   for (const Refinement& one : all) {
@@ -79,15 +83,12 @@ int check(const CheckOptions& options) {
     }
   }
   if (options.as_json) {
-    app::print("{}\n", figures.dump(1));
+    app::print_json(figures);
   }
   if (options.picture.empty()) {
     return success;
   }
-  auto problem = make_folder_of(options.picture);
-  if (!problem) {
-    problem = write_file(options.picture, convergence_picture(all));
-  }
+  auto problem = write_output(options.picture, convergence_picture(all));
   return problem ? refused(*problem) : success;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/reach_commands.h"
@@ -126,6 +127,9 @@ int compare_values(const CompareOptions& options) {
   if (const auto problem = not_comparable(options.file, solved.value())) {
     return refused(*problem);
   }
+  if (const auto problem = why_outputs_unwritable({options.output})) {
+    return refused(*problem);
+  }
   const auto network = reach::read_authors_network(options.network);
   if (!network.has_value()) {
     return refused(network.error());
@@ -146,15 +150,12 @@ int compare_values(const CompareOptions& options) {
   if (!made.has_value()) {
     return refused(made.error());
   }
-  auto problem = make_folder_of(options.output);
-  if (!problem) {
-    problem = write_file(options.output, made.value());
-  }
+  auto problem = write_output(options.output, made.value());
   if (problem) {
     return refused(*problem);
   }
   if (options.as_json) {
-    app::print("{}\n", agreement_figures(found).dump(1));
+    app::print_json(agreement_figures(found));
     return success;
   }
   tell_agreement(found);

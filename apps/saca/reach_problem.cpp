@@ -13,12 +13,14 @@ Result<reach::Problem> find_problem(const Places& places, const std::string& nam
   if (name == "air3d") {
     return reach::air3d_problem(reach::air3d_grid(101, 79, 100));
   }
-  const fs::path path = find_reach_case(places, name);
+  const auto found_file = find_reach_case(places, name);
+  if (!found_file.has_value()) {
+    return Error{found_file.error().code, found_file.error().message + ", or air3d"};
+  }
+  const fs::path& path = found_file.value();
   const auto text = read_file(path);
   if (!text.has_value()) {
-    return Error{Error::Code::unreadable,
-                 name + ": wanted `air3d`, the name of a case in data/reach, or a file; " +
-                     text.error().message};
+    return text.error();
   }
   const auto found = reach::parse_avoidance_case(text.value(), path.string());
   if (!found.has_value()) {

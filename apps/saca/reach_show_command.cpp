@@ -231,6 +231,9 @@ int show(const ReachShowOptions& options) {
   if (!read.has_value()) {
     return refused(read.error());
   }
+  if (const auto problem = why_outputs_unwritable({options.output})) {
+    return refused(*problem);
+  }
   const Solved& solved = read.value();
   if (solved.grid.axes.size() < 2) {
     complain(fmt::format("{}: want a grid of at least two axes to show, got one", options.file));
@@ -253,10 +256,7 @@ int show(const ReachShowOptions& options) {
   if (!made.has_value()) {
     return refused(made.error());
   }
-  if (const auto problem = make_folder_of(options.output)) {
-    return refused(*problem);
-  }
-  if (const auto problem = write_file(options.output, made.value())) {
+  if (const auto problem = write_output(options.output, made.value())) {
     return refused(*problem);
   }
   app::print("{}: {}\n", options.output, what_is_shown(solved, view));

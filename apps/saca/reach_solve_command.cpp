@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
@@ -92,12 +93,10 @@ void tell(const SolveOptions& options, const Solved& solved, double seconds) {
       std::count_if(values.begin(), values.end(), [](float v) { return v >= 0.0F; });
   const double share = static_cast<double>(unsafe) / static_cast<double>(values.size());
   if (options.as_json) {
-    const nlohmann::json all{{"file", options.output},
-                             {"cells", values.size()},
-                             {"times_s", solved.times},
-                             {"unsafe_share", share},
-                             {"seconds", seconds}};
-    app::print("{}\n", all.dump(1));
+    const nlohmann::json all{{"schema", "saca.reach_solve/1"}, {"file", options.output},
+                             {"cells", values.size()},         {"times_s", solved.times},
+                             {"unsafe_share", share},          {"seconds", seconds}};
+    app::print_json(all);
     return;
   }
   app::print("{}: {} cells, to {:g} s, {:.2f} % of them unsafe; {:.1f} s\n", options.output,
@@ -120,6 +119,9 @@ int solve_case(const SolveOptions& options) {
   auto before = begun(part);
   if (!before.has_value()) {
     return refused(before.error());
+  }
+  if (const auto wrong = why_outputs_unwritable({options.output})) {
+    return refused(*wrong);
   }
   if (auto wrong = make_folder_of(options.output)) {
     return refused(*wrong);
@@ -164,8 +166,8 @@ int solve_case(const SolveOptions& options) {
   return success;
 }
 
-CLI::IsMember one_of(std::span<const std::string_view> names) {
-  return CLI::IsMember(std::vector<std::string>(names.begin(), names.end()));
+std::vector<std::string> texts_of(std::span<const std::string_view> names) {
+  return {names.begin(), names.end()};
 }
 
 }  // namespace
@@ -177,10 +179,10 @@ void add_reach_solve(CLI::App& reach, int& exit_code) {
   command->add_option("case", options->name, "air3d, a name in data/reach, or a file")->required();
   command->add_option("--output", options->output, "HDF5 file; default: reach/CASE.h5");
   command->add_option("--differences", options->differences, "upwind1, eno2, eno3 or weno5")
-      ->check(one_of(reach::difference_names))
+      ->check(one_of(texts_of(reach::difference_names)))
       ->capture_default_str();
   command->add_option("--steps", options->steps, "Runge-Kutta: euler, rk2 or rk3")
-      ->check(one_of(reach::step_names))
+      ->check(one_of(texts_of(reach::step_names)))
       ->capture_default_str();
   command->add_option("--cfl", options->scheme.cfl, "Share of the longest stable step")
       ->check(within(0.01, 1.0))

@@ -8,6 +8,7 @@
 
 #include "apps/saca/danger_making.h"
 #include "apps/saca/inputs.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/reach_commands.h"
 
@@ -90,7 +91,7 @@ int make_tables(TablesOptions options) {
     }
   }
   if (options.as_json) {
-    app::print("{}\n", list.dump(1));
+    app::print_json(list);
   }
   return success;
 }

@@ -13,6 +13,7 @@
 #include "apps/saca/danger_making.h"
 #include "apps/saca/first_question.h"
 #include "apps/saca/inputs.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/model.h"
 #include "apps/saca/printing.h"
 #include "saca/decide/check.h"
@@ -214,7 +215,7 @@ int reason_about(const ReasonOptions& options) {
   if (!previews.empty()) {
     auto replies = ask(*model.value(), previews, options, clock);
     if (!replies.has_value()) {
-      return refused(replies.error());
+      return unanswered(replies.error());
     }
     std::vector<Reply> said = std::move(replies).value();
     for (std::size_t i = 0; i < said.size(); ++i) {
@@ -238,7 +239,7 @@ int reason_about(const ReasonOptions& options) {
     for (const Considered& one : all) {
       document["forecasts"].push_back(considered_json(one));
     }
-    app::print("{}\n", document.dump(1));
+    app::print_json(document);
     return success;
   }
   for (std::size_t i = 0; i < all.size(); ++i) {

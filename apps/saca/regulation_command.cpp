@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "apps/saca/json_output.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/regulation_page.h"
 #include "apps/saca/suite_running.h"
@@ -136,6 +137,9 @@ int run_regulation(RegulationOptions options) {
     complain("--output: want a name that ends in .html, got \"" + options.output + "\"");
     return wrong_command_line;
   }
+  if (const auto problem = why_outputs_unwritable({options.output})) {
+    return refused(*problem);
+  }
   const auto ran = run_cells(options, methods.value());
   if (!ran.has_value()) {
     return refused(ran.error());
@@ -145,13 +149,10 @@ int run_regulation(RegulationOptions options) {
     return was_interrupted;
   }
   const RegulationRun& run = *ran.value();
-  const std::string text = json_of(run).dump(1, ' ', false, json::error_handler_t::replace) + "\n";
-  auto problem = make_folder_of(options.output);
+  const std::string text = json_text(json_of(run)) + "\n";
+  auto problem = write_output(options.output, report::suite_page(page_of(run)));
   if (!problem) {
-    problem = write_file(options.output, report::suite_page(page_of(run)));
-  }
-  if (!problem) {
-    problem = write_file(fs::path(options.output).replace_extension(".json"), text);
+    problem = write_output(fs::path(options.output).replace_extension(".json"), text);
   }
   if (problem) {
     return refused(*problem);

@@ -10,6 +10,7 @@
 #include "apps/saca/planes_making.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/suite_running.h"
+#include "saca/core/suggestion.h"
 #include "saca/eval/suite.h"
 #include "saca/manoeuvre/ego.h"
 
@@ -35,9 +36,9 @@ std::optional<Error> choose_rows(Regulation& regulation, const std::string& list
   if (list.empty()) {
     return std::nullopt;
   }
-  std::string known;
+  std::vector<std::string> known;
   for (const eval::RegulationRow& row : regulation.rows) {
-    known += (known.empty() ? "" : ", ") + row.name;
+    known.push_back(row.name);
   }
   std::vector<eval::RegulationRow> chosen;
   for (const std::string& word : words_of(list)) {
@@ -45,7 +46,7 @@ std::optional<Error> choose_rows(Regulation& regulation, const std::string& list
                                     [&](const auto& row) { return row.name == word; });
     if (found == regulation.rows.end()) {
       return Error{Error::Code::out_of_range,
-                   fmt::format("--rows: want some of {}; got \"{}\"", known, word)};
+                   fmt::format("--rows: no row is called {}; {}", word, suggestion(word, known))};
     }
     chosen.push_back(*found);
   }

@@ -28,11 +28,7 @@ int render(const ReportOptions& options) {
   const std::filesystem::path file =
       options.output.empty() ? std::filesystem::path(options.record).replace_filename("report.html")
                              : std::filesystem::path(options.output);
-  auto problem = make_folder_of(file);
-  if (!problem) {
-    problem = write_file(file, page.value());
-  }
-  if (problem) {
+  if (const auto problem = write_output(file, page.value())) {
     return refused(*problem);
   }
   app::print("Report: {}\n", std::filesystem::absolute(file).string());

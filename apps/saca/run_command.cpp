@@ -15,8 +15,10 @@
 #include "apps/saca/model.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
+#include "apps/saca/settings.h"
 #include "apps/saca/story.h"
 #include "apps/saca/thinking_options.h"
+#include "apps/saca/version.h"
 #include "apps/saca/within.h"
 #include "saca/core/file.h"
 #include "saca/core/fnv.h"
@@ -40,7 +42,8 @@ struct RunOptions {
   std::string pace = "real";
   ThinkingOptions thinking{.model = "local"};
   std::string record_replies;
-  std::optional<int> policy;
+  std::optional<manoeuvre::PolicyId> policy;
+  std::optional<double> target_speed;
   std::optional<double> strength;
   std::optional<std::uint64_t> seed;
   std::string atlas;
@@ -85,7 +88,7 @@ Result<std::shared_ptr<memory::Store>> open_memory(const RunOptions& options) {
   if (file.empty() || options.no_memory) {
     return std::shared_ptr<memory::Store>();
   }
-  if (const auto problem = make_folder_of(file)) {
+  if (const auto problem = options.no_learning ? std::nullopt : make_folder_of(file)) {
     return *problem;
   }
   auto opened = options.no_learning ? memory::Store::snapshot(file) : memory::Store::open(file);
@@ -116,13 +119,16 @@ std::optional<Error> write_outputs(const std::string& record, const fs::path& fo
 
 /// Of a record that this command makes now.
 Result<loop::Provenance> provenance_of(const ScenarioInputs& inputs, const std::string& scenario) {
+  const auto file = find_scenario(inputs.places, scenario);
+  if (!file.has_value()) {
+    return file.error();
+  }
   Fnv hash;
-  if (auto problem = read_file(find_scenario(inputs.places, scenario),
-                               [&](std::string_view bytes) { hash.add(bytes); })) {
+  if (auto problem = read_file(file.value(), [&](std::string_view bytes) { hash.add(bytes); })) {
     return *std::move(problem);
   }
   return loop::Provenance{.program = "saca " SACA_VERSION,
-                          .commit = "",
+                          .commit = built_from(),
                           .date = now_in_utc(),
                           .command = invocation(),
                           .file = scenario,
@@ -163,20 +169,32 @@ std::optional<Error> write_tape(const fs::path& file, const runtime::TapeFile& t
 
 /// nullopt: what SACA decides is carried out.
 Result<std::optional<manoeuvre::Plan>> forced_plan(const RunOptions& options) {
-  if (options.strength && options.policy != manoeuvre::index(manoeuvre::PolicyId::aeb)) {
+  if (options.strength && !(options.policy && manoeuvre::takes_strength(*options.policy))) {
     return Error{Error::Code::out_of_range, "--strength: only of --policy 0"};
+  }
+  if (options.target_speed && !(options.policy && manoeuvre::brakes_to_speed(*options.policy))) {
+    return Error{Error::Code::out_of_range, "--target-speed: only of --policy 3 and 4"};
   }
   if (!options.policy) {
     return std::optional<manoeuvre::Plan>();
   }
-  return std::optional(
-      manoeuvre::Plan{*manoeuvre::policy_from(*options.policy), std::nullopt, options.strength});
+  return std::optional(manoeuvre::Plan{*options.policy, options.target_speed, options.strength});
+}
+
+/// Before anything is played.
+std::optional<Error> why_unwritable(const RunOptions& options, const std::string& scenario) {
+  return why_outputs_unwritable({fs::path(options.output) / scenario / "record.json",
+                                 options.report, options.trace, options.tape,
+                                 options.record_replies});
 }
 
 int run(const RunOptions& options) {
   const auto inputs = read_scenario_inputs(options.scenario);
   if (!inputs.has_value()) {
     return refused(inputs.error());
+  }
+  if (const auto problem = why_unwritable(options, inputs.value().scenario.name)) {
+    return refused(*problem);
   }
   const auto costs = read_costs(inputs.value().places);
   if (!costs.has_value()) {
@@ -222,8 +240,8 @@ int run(const RunOptions& options) {
                           .tapes = !options.tape.empty(),
                           .clock = &clock};
   std::signal(SIGPIPE, [](int) {});  // nobody need listen for the encounter to be played
-  Story story(options.as_json ? std::nullopt : std::optional(STDOUT_FILENO),
-              isatty(STDOUT_FILENO) != 0);
+  const bool silent = options.as_json || settings().quiet;
+  Story story(silent ? std::nullopt : std::optional(STDOUT_FILENO), wants_colours(STDOUT_FILENO));
   story.headline(inputs.value().scenario, setup);
   auto played = loop::run(setup, story);
   if (!played.has_value()) {
@@ -290,19 +308,21 @@ void add_run(CLI::App& line, int& exit_code) {
   command
       ->add_option("--pace", options->pace,
                    "real: the world goes on while SACA thinks; lockstep: fast and repeatable")
-      ->check(CLI::IsMember({"real", "lockstep"}))
+      ->check(one_of({"real", "lockstep"}))
       ->capture_default_str();
   add_thinking_options(*command, options->thinking);
   command->add_option("--record-replies", options->record_replies,
                       "Write the model's replies to a file for --llm replay:FILE");
+  add_policy(*command, options->policy,
+             "Carry out this policy (0-7, or its name) at the trigger, whatever was thought");
   command
-      ->add_option("--policy", options->policy,
-                   "Carry out this policy (0-7) at the trigger, whatever was thought")
-      ->check(CLI::Range(0, 7));
+      ->add_option("--target-speed", options->target_speed,
+                   "Of policies 3 and 4 [m/s] (default: half the speed)")
+      ->check(within(0.0, 100.0, "m/s"));
   command
       ->add_option("--strength", options->strength,
                    "Of policy 0: share of the grip that the brakes are asked for (default: all)")
-      ->check(within(manoeuvre::least_strength, 1.0));
+      ->check(within(manoeuvre::least_strength, 1.0, "-"));
   command->add_option("--seed", options->seed,
                       "Draw what is left to chance (default: as the scenario is written)");
   command->add_option("--atlas", options->atlas,
@@ -311,7 +331,7 @@ void add_run(CLI::App& line, int& exit_code) {
   command
       ->add_option("--danger", options->danger,
                    "off: risks by a few evasions (default: solved tables, made when needed)")
-      ->check(CLI::IsMember({"off"}));
+      ->check(one_of({"off"}));
   command->add_flag("--no-memory", options->no_memory, "As without --memory")->group("");
   command->add_flag("--review", options->review,
                     "Have the language model look back when all is over: half a minute");

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "saca/sim/scenario.h"
@@ -34,7 +35,7 @@ int list_scenarios(bool as_json) {
     }
   }
   if (as_json) {
-    app::print("{}\n", list.dump(1));
+    app::print_json(list);
   }
   return code;
 }

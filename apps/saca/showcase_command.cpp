@@ -7,6 +7,7 @@
 #include <string>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/pictures.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
@@ -81,8 +82,11 @@ Result<std::optional<std::vector<Shown>>> shown(const DrawnSuite& suite,
     }
     const sim::Scenario& scenario = sample.value().scenario;
     Shown one{scenario, eval::oracle(scenario, suite.inputs.car, suite.inputs.harm,
-                                     {*all[i].time, options.rule.draws, options.seed,
-                                      options.survey.threads})};
+                                     {.time = *all[i].time,
+                                      .draws = options.rule.draws,
+                                      .seed = options.seed,
+                                      .threads = options.survey.threads,
+                                      .only_defaults = true})};
     if (convinces(one.oracle, policy, options.rule)) {
       good += one.contact_share() <= hardly_ever ? 1 : 0;
       found.push_back(std::move(one));
@@ -102,20 +106,20 @@ Result<std::optional<std::vector<Shown>>> shown(const DrawnSuite& suite,
 
 std::optional<Error> write(const Shown& one, const std::string& output) {
   const fs::path file = fs::path(output) / (one.scenario.name + ".toml");
-  if (auto problem = make_folder_of(file)) {
+  if (auto problem = write_output(file, sim::write_scenario(one.scenario))) {
     return problem;
   }
-  if (auto problem = write_file(file, sim::write_scenario(one.scenario))) {
-    return problem;
-  }
-  return write_file(fs::path(output) / (one.scenario.name + ".svg"),
-                    report::contact_sheet(sheet_of(one.oracle, one.scenario)));
+  return write_output(fs::path(output) / (one.scenario.name + ".svg"),
+                      report::contact_sheet(sheet_of(one.oracle, one.scenario)));
 }
 
 int run(const ShowcaseCommand& options) {
   const auto source = open_suite(options.survey, "search-showcase");
   if (!source.has_value()) {
     return refused(source.error());
+  }
+  if (const auto problem = why_outputs_unwritable({fs::path(options.output) / "x.toml"})) {
+    return refused(*problem);
   }
   const auto findings = survey(source.value(), options.survey);
   if (!findings.has_value()) {
@@ -157,9 +161,7 @@ int run(const ShowcaseCommand& options) {
     return was_interrupted;
   }
   if (options.as_json) {
-    app::print("{}\n",
-               json{{"schema", "saca.showcase/1"}, {"missing", missing}, {"found", list}}.dump(
-                   1, ' ', false, json::error_handler_t::replace));
+    app::print_json(json{{"schema", "saca.showcase/1"}, {"missing", missing}, {"found", list}});
   } else if (missing > 0) {
     app::print("{} scenes are missing: try more encounters (--count) or candidates (--tries)\n",
                missing);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/regulation_command.h"
 #include "apps/saca/suite_decisions.h"
@@ -178,12 +179,11 @@ std::optional<Error> write(const SuiteRun& run, const SuiteResult& result, const
     return problem;
   }
   fs::path beside = options.output;
-  if (auto problem = write_file(beside.replace_extension(".html"),
-                                report::suite_page(page_of(run, result, options)))) {
+  if (auto problem = write_output(beside.replace_extension(".html"),
+                                  report::suite_page(page_of(run, result, options)))) {
     return problem;
   }
-  return write_file(beside.replace_extension(".json"),
-                    figures.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+  return write_output(beside.replace_extension(".json"), json_text(figures) + "\n");
 }
 
 int watch(const SuiteCommand& options) {
@@ -283,6 +283,9 @@ int run(const CLI::App& line, SuiteCommand options) {
     suite.output =
         fmt::format("runs/suite-{}-{}.h5", fs::path(suite.name).filename().string(), suite.split);
   }
+  if (const auto problem = why_outputs_unwritable({suite.output})) {
+    return refused(*problem);
+  }
   const auto ran = run_suite(suite, "suite", methods.value());
   if (!ran.has_value()) {
     return refused(ran.error());
@@ -298,7 +301,7 @@ int run(const CLI::App& line, SuiteCommand options) {
     return refused(*problem);
   }
   if (options.as_json) {
-    app::print("{}\n", figures.dump(1, ' ', false, json::error_handler_t::replace));
+    app::print_json(figures);
   } else {
     print(done, result, suite);
     app::print("page: {}, rows: {}\n", fs::path(suite.output).replace_extension(".html").string(),

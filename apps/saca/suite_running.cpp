@@ -14,6 +14,7 @@
 #include "saca/core/csv.h"
 #include "saca/core/file.h"
 #include "saca/core/journal.h"
+#include "saca/core/suggestion.h"
 
 namespace saca::app {
 namespace {
@@ -119,9 +120,9 @@ std::optional<std::size_t> index_of(const std::vector<std::string>& methods,
 Result<std::vector<std::string>> methods_from(const std::string& list,
                                               const ThinkingOptions& thinking) {
   std::vector<std::string> names;
-  std::string known;
+  std::vector<std::string> known;
   for (const eval::MethodInfo& info : eval::methods()) {
-    known += (known.empty() ? "" : ", ") + std::string(info.name);
+    known.emplace_back(info.name);
     if (list.empty() && missing_for(info, thinking) == nullptr) {
       names.emplace_back(info.name);
     }
@@ -132,8 +133,8 @@ Result<std::vector<std::string>> methods_from(const std::string& list,
   for (const std::string_view word : fields_of(list, ',')) {
     const eval::MethodInfo* const info = eval::find_method(word);
     if (info == nullptr) {
-      return Error{Error::Code::out_of_range,
-                   fmt::format("--methods: want some of {}; got \"{}\"", known, word)};
+      return Error{Error::Code::out_of_range, fmt::format("--methods: no method is called {}; {}",
+                                                          word, suggestion(word, known))};
     }
     if (const char* const missing = missing_for(*info, thinking)) {
       return Error{Error::Code::out_of_range,
@@ -257,11 +258,8 @@ Result<std::string> write_encounter(const SuiteCommandOptions& options, std::uin
   const fs::path file =
       fs::path("runs") / fmt::format("{}-{}-{}.toml", fs::path(options.name).filename().string(),
                                      options.split, number);
-  if (auto problem = make_folder_of(file)) {
-    return *problem;
-  }
-  if (auto problem =
-          write_file(file, sim::write_scenario(eval::as_played(encounter.value().scenario, how)))) {
+  if (auto problem = write_output(
+          file, sim::write_scenario(eval::as_played(encounter.value().scenario, how)))) {
     return *problem;
   }
   const ThinkingOptions& thinking = options.thinking;

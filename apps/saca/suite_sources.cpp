@@ -111,6 +111,18 @@ Result<SuiteEncounters> open_folder(const SuiteCommandOptions& options, Inputs i
                    fmt::format("folder {} ({:016x})", options.name, hash.value()));
 }
 
+/// What `saca suite` takes beside suites and families.
+std::vector<std::string> names_beside_suites() {
+  std::vector<std::string> names{"100car", "traffic"};
+  if (const auto places = find_places(); places.has_value()) {
+    for (const auto& entry : fs::directory_iterator(places.value().root / "data" / "protocols")) {
+      names.push_back(entry.path().stem().string());
+    }
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 }  // namespace
 
 Result<SuiteEncounters> open_encounters(const SuiteCommandOptions& options,
@@ -127,7 +139,8 @@ Result<SuiteEncounters> open_encounters(const SuiteCommandOptions& options,
                                  .car = options.car,
                                  .count = options.count,
                                  .split = options.split,
-                                 .test_log = options.test_log},
+                                 .test_log = options.test_log,
+                                 .other_names = names_beside_suites()},
                                 command);
   if (!suite.has_value()) {
     return suite.error();

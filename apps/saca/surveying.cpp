@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "apps/saca/progress.h"
+#include "apps/saca/within.h"
 #include "saca/core/file.h"
 #include "saca/core/fnv.h"
 #include "saca/manoeuvre/ego.h"
@@ -19,8 +20,12 @@ using eval::Finding;
 
 /// Of everything that changes what is found: the files, and the program itself.
 std::optional<Error> add_files(const Places& places, const std::string& car, Fnv& hash) {
+  const auto car_file = find_car(places, car);
+  if (!car_file.has_value()) {
+    return car_file.error();
+  }
   std::vector<fs::path> files{
-      find_car(places, car), "/proc/self/exe", places.root / "data" / "harm.toml",
+      car_file.value(), "/proc/self/exe", places.root / "data" / "harm.toml",
       places.root / "data" / "thinking_costs.toml", places.root / "scenarios" / "splits.toml"};
   files.push_back(manoeuvre::tuning_path(files.front()));
   for (const auto& entry : fs::directory_iterator(places.root / "scenarios" / "families")) {
@@ -64,7 +69,8 @@ Result<DrawnSuite> open_suite(const SurveyOptions& options, const std::string& c
                                          .split = *sim::split_from(options.split),
                                          .test_log = std::move(log),
                                          .car = inputs.value().car_name,
-                                         .footprint = manoeuvre::footprint(inputs.value().car)});
+                                         .footprint = manoeuvre::footprint(inputs.value().car),
+                                         .other_names = options.other_names});
   if (!source.has_value()) {
     return source.error();
   }
@@ -103,7 +109,7 @@ void add_draw_options(CLI::App& command, int& count, std::string& split, std::st
       ->check(CLI::Range(1, 10'000'000))
       ->capture_default_str();
   command.add_option("--split", split, "Whose seed is used")
-      ->check(CLI::IsMember({"tuning", "calibration", "test"}))
+      ->check(one_of({"tuning", "calibration", "test"}))
       ->capture_default_str();
   command.add_option("--test-log", test_log,
                      "Where a use of the test split is noted; needed for it");

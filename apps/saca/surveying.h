@@ -20,6 +20,7 @@ struct SurveyOptions {
   std::string test_log;
   std::string journal;  ///< empty: runs/survey-<suite>-<split>.journal
   int threads = usual_threads();
+  std::vector<std::string> other_names = {};  ///< as eval::SuiteDraw has them
 };
 
 /// --count, --split, --test-log and --car: which encounters are drawn, and for which car.

@@ -10,10 +10,12 @@
 #include <vector>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/planes_making.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/suite_pages.h"
+#include "apps/saca/within.h"
 #include "saca/core/file.h"
 #include "saca/eval/whatif.h"
 #include "saca/manoeuvre/ego.h"
@@ -88,7 +90,9 @@ struct TablesCommand {
 };
 
 Result<sim::Scenario> shipped(const Inputs& inputs, const std::string& name) {
-  return sim::load_scenario(find_scenario(inputs.places, name), manoeuvre::footprint(inputs.car));
+  const auto file = find_scenario(inputs.places, name);
+  return file.has_value() ? sim::load_scenario(file.value(), manoeuvre::footprint(inputs.car))
+                          : file.error();
 }
 
 /// The scene of the paper at several speeds of the ego, everything else at `at` where it is.
@@ -274,7 +278,7 @@ int run(const TablesCommand& options) {
     }
   }
   if (options.as_json) {
-    app::print("{}\n", out.dump(1, ' ', false, json::error_handler_t::replace));
+    app::print_json(out);
   } else {
     app::print(
         "Published: arXiv 2504.00115, Tables II and III (its text gives 1.54 for SACA's Collision "
@@ -300,7 +304,7 @@ void add_tables(CLI::App& line, int& exit_code) {
                  [](const TableSpec& table) { return table.number; });
   command->add_option("--table", options->only, "Only these: 2, 2_late, 3; all unless given")
       ->delimiter(',')
-      ->check(CLI::IsMember(numbers));
+      ->check(one_of(numbers));
   command->add_option("--seed", options->seed, "Of all that is drawn")->capture_default_str();
   command->add_option("--threads", options->threads, "They do not change the result")
       ->check(CLI::Range(1, 256))

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
@@ -87,6 +88,9 @@ int pack(const PackSource& source, const TrafficPackOptions& options) {
     complain(fmt::format("{}: want files *{}, got none", options.places.front(), source.ending));
     return bad_input;
   }
+  if (const auto problem = why_outputs_unwritable({options.output})) {
+    return refused(*problem);
+  }
   watch_for_interrupt();
   SteadyClock clock;
   ProgressLine line("traffic " + source.name, static_cast<int>(files.value().size()), clock);
@@ -100,11 +104,14 @@ int pack(const PackSource& source, const TrafficPackOptions& options) {
   for (const std::string& message : packed.value().refused) {
     complain(message);
   }
+  if (const auto problem = make_folder_of(options.output)) {
+    return refused(*problem);
+  }
   if (const auto problem = traffic::write_set(options.output, packed.value().set)) {
     return refused(*problem);
   }
   if (options.as_json) {
-    app::print("{}\n", set_json(packed.value().set).dump(1));
+    app::print_json(set_json(packed.value().set));
   } else {
     tell_set(packed.value().set);
   }
@@ -127,7 +134,7 @@ int show_info(const std::string& file, bool as_json) {
     return refused(set.error());
   }
   if (as_json) {
-    app::print("{}\n", set_json(set.value()).dump(1));
+    app::print_json(set_json(set.value()));
   } else {
     tell_set(set.value());
   }

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "apps/saca/json_output.h"
 #include "apps/saca/printing.h"
 #include "saca/core/file.h"
 #include "saca/report/suite_page.h"
@@ -312,6 +313,9 @@ report::SuitePage traffic_page(const WatchedTraffic& traffic, const json& figure
 }  // namespace
 
 int run_traffic_suite(const TrafficWatch& options, bool as_json) {
+  if (const auto problem = why_outputs_unwritable({options.output})) {
+    return refused(*problem);
+  }
   const auto watched = watch_traffic(options);
   if (!watched.has_value()) {
     return refused(watched.error());
@@ -329,15 +333,15 @@ int run_traffic_suite(const TrafficWatch& options, bool as_json) {
     return bad_input;
   }
   const json figures = traffic_figures(traffic, options);
-  const std::string text = figures.dump(1, ' ', false, json::error_handler_t::replace);
+  const std::string text = json_text(figures);
   fs::path page = options.output;
   page.replace_extension(".html");
   fs::path beside = options.output;
   beside.replace_extension(".json");
-  if (auto problem = write_file(page, report::suite_page(traffic_page(traffic, figures)))) {
+  if (auto problem = write_output(page, report::suite_page(traffic_page(traffic, figures)))) {
     return refused(*problem);
   }
-  if (auto problem = write_file(beside, text + "\n")) {
+  if (auto problem = write_output(beside, text + "\n")) {
     return refused(*problem);
   }
   if (as_json) {

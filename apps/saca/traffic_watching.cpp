@@ -93,7 +93,7 @@ std::optional<Error> find_commonroad(const std::vector<fs::path>& files, Finding
           {.source = recording.site,
            .name = fmt::format("{}, obstacle {} from {:.1f} s", recording.name, vehicle.id,
                                vehicle.start),
-           .command = fmt::format("saca import commonroad {} --ego {} --from_s {:.1f} --output "
+           .command = fmt::format("saca import commonroad {} --ego {} --from-s {:.1f} --output "
                                   "scenario.toml",
                                   file.string(), vehicle.id, vehicle.start),
            .open = [file, request, seconds]() -> Result<RecordedEgo> {
@@ -181,7 +181,7 @@ std::optional<Error> find_hundred_cars(const fs::path& folder, Findings& found) 
     found.drives.push_back(
         {.source = "100car",
          .name = fmt::format("event {}", event),
-         .command = fmt::format("saca import 100car {} --event {} --before_s {} --output "
+         .command = fmt::format("saca import 100car {} --event {} --before-s {} --output "
                                 "scenario.toml",
                                 folder.string(), event, one.before),
          .open = [made]() -> Result<RecordedEgo> {

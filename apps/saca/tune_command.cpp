@@ -8,9 +8,11 @@
 #include <string>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
+#include "apps/saca/settings.h"
 #include "saca/core/file.h"
 #include "saca/core/fnv.h"
 #include "saca/core/parallel.h"
@@ -131,16 +133,27 @@ int tune_car(TuneOptions options) {
   if (!places.has_value()) {
     return refused(places.error());
   }
-  const fs::path car_file = find_car(places.value(), options.car);
+  const auto found = find_car(places.value(), options.car);
+  if (!found.has_value()) {
+    return refused(found.error());
+  }
+  const fs::path& car_file = found.value();
   if (options.from.empty()) {
     const bool tuned = fs::exists(manoeuvre::tuning_path(car_file));
     options.from = tuned ? options.car : TuneOptions{}.car;
   }
   const fs::path output =
       options.output.empty() ? manoeuvre::tuning_path(car_file) : fs::path(options.output);
-  auto start = read_start(car_file, manoeuvre::tuning_path(find_car(places.value(), options.from)));
+  const auto from = find_car(places.value(), options.from);
+  if (!from.has_value()) {
+    return refused(from.error());
+  }
+  auto start = read_start(car_file, manoeuvre::tuning_path(from.value()));
   if (!start.has_value()) {
     return refused(start.error());
+  }
+  if (const auto problem = why_outputs_unwritable({output})) {
+    return refused(*problem);
   }
   Car car = start.value();
   watch_for_interrupt();
@@ -159,7 +172,9 @@ int tune_car(TuneOptions options) {
   if (!drift.has_value() || !drift.value()) {
     return not_tuned(drift, output);
   }
-  app::print(stderr, "domain of the T-drift: {} draws at each speed and grip\n", options.draws);
+  if (!settings().quiet) {
+    app::print(stderr, "domain of the T-drift: {} draws at each speed and grip\n", options.draws);
+  }
   const auto domain = tune::find_domain(car, options.draws, options.seed + 1, options.threads,
                                         [] { return !interrupted(); });
   if (!domain) {
@@ -170,19 +185,19 @@ int tune_car(TuneOptions options) {
   const std::string comment =
       fmt::format("Made by: {}\nCosts: lane change {:.4f}, T-drift {:.4f} (saca/tune/trials.h).",
                   command_line(options), *swerve.value(), *drift.value());
-  if (auto problem = write_file(output, manoeuvre::tuning_text(car.tuning, comment))) {
+  if (auto problem = write_output(output, manoeuvre::tuning_text(car.tuning, comment))) {
     return refused(*problem);
   }
   fs::remove(swerve_journal);
   fs::remove(drift_journal);
   if (options.as_json) {
-    app::print("{}\n", nlohmann::json{{"output", output.string()},
-                                      {"swerve_cost", *swerve.value()},
-                                      {"drift_cost", *drift.value()},
-                                      {"drift_grip", manoeuvre::DriftDomain::grips},
-                                      {"drift_slowest_mps", car.tuning.domain.slowest},
-                                      {"drift_fastest_mps", car.tuning.domain.fastest}}
-                           .dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
+    app::print_json(nlohmann::json{{"schema", "saca.tune/1"},
+                                   {"output", output.string()},
+                                   {"swerve_cost", *swerve.value()},
+                                   {"drift_cost", *drift.value()},
+                                   {"drift_grip", manoeuvre::DriftDomain::grips},
+                                   {"drift_slowest_mps", car.tuning.domain.slowest},
+                                   {"drift_fastest_mps", car.tuning.domain.fastest}});
   } else {
     app::print("{}: lane change {:.4f}, T-drift {:.4f}\n", output.string(), *swerve.value(),
                *drift.value());

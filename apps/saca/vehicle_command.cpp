@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/within.h"
@@ -102,7 +103,11 @@ int fit_car(const FitOptions& options) {
   if (!places.has_value()) {
     return refuse(places.error().message, bad_input);
   }
-  const fs::path base = find_car(places.value(), options.car);
+  const auto found = find_car(places.value(), options.car);
+  if (!found.has_value()) {
+    return refused(found.error());
+  }
+  const fs::path& base = found.value();
   if (is_same_file(options.output, base) && !options.force) {
     return refuse(fmt::format("--output: {} is the base itself; want another name, or --force",
                               options.output),
@@ -134,16 +139,19 @@ int fit_car(const FitOptions& options) {
     names += (names.empty() ? "" : ", ") + fs::path(name).filename().string();
   }
 
+  if (const auto problem = why_outputs_unwritable({options.output})) {
+    return refused(*problem);
+  }
   const tune::VehicleFit fit = tune::fit_vehicle(car.value(), options.grip, logs);
   const auto fitted = tune::fitted_car_file(text.value(), base.string(), names, fit);
   if (!fitted.has_value()) {
     return refuse(fitted.error().message, bad_input);
   }
-  if (const auto problem = write_file(options.output, fitted.value())) {
+  if (const auto problem = write_output(options.output, fitted.value())) {
     return refuse(problem->message, cannot_write);
   }
   if (options.as_json) {
-    app::print("{}\n", fit_json(options, fit).dump(1, ' ', false, json::error_handler_t::replace));
+    app::print_json(fit_json(options, fit));
   } else {
     print_fit(options, fit);
   }
@@ -158,7 +166,11 @@ int drive_test(const TestDriveOptions& options) {
   if (!places.has_value()) {
     return refuse(places.error().message, bad_input);
   }
-  const auto car = vehicle::read_vehicle(find_car(places.value(), options.car));
+  const auto file = find_car(places.value(), options.car);
+  if (!file.has_value()) {
+    return refused(file.error());
+  }
+  const auto car = vehicle::read_vehicle(file.value());
   if (!car.has_value()) {
     return refuse(car.error().message, bad_input);
   }
@@ -166,7 +178,7 @@ int drive_test(const TestDriveOptions& options) {
   drive.kind = options.kind == "brake" ? tune::TestKind::brake : tune::TestKind::steer;
   drive.steering = from_degrees(options.steering_deg);
   const tune::Log log = tune::drive_test(car.value(), drive);
-  if (const auto problem = write_file(options.output, tune::write_log(log))) {
+  if (const auto problem = write_output(options.output, tune::write_log(log))) {
     return refuse(problem->message, cannot_write);
   }
   app::print("{}: {} of {} rows\n", options.output, name_of(log.kind, tune::kind_names),
@@ -184,7 +196,7 @@ void add_fit(CLI::App& command, int& exit_code) {
       ->required();
   fit->add_option("--output", options->output, "The fitted car's file")->required();
   fit->add_option("--grip", options->grip, "Of the road, as far as known; it is fitted too")
-      ->check(within(0.1, 1.2))
+      ->check(within(0.1, 1.2, "-"))
       ->capture_default_str();
   fit->add_flag("--force", options->force, "Write over the base");
   fit->add_flag("--json", options->as_json, "For programs");
@@ -197,18 +209,20 @@ void add_test_drive(CLI::App& command, int& exit_code) {
   const auto options = std::make_shared<TestDriveOptions>();
   drive->add_option("kind", options->kind, "brake or steer")
       ->required()
-      ->check(CLI::IsMember({"brake", "steer"}));
+      ->check(one_of({"brake", "steer"}));
   drive->add_option("--car", options->car, "A file, or a shipped car's name")
       ->capture_default_str();
   drive->add_option("--output", options->output, "The log, a CSV file")->required();
-  drive->add_option("--speed_mps", options->drive.speed)
-      ->check(within(6.0, 60.0))
+  drive->add_option("--speed-mps", options->drive.speed)
+      ->check(within(6.0, 60.0, "m/s"))
       ->capture_default_str();
-  drive->add_option("--grip", options->drive.grip)->check(within(0.1, 1.2))->capture_default_str();
-  drive->add_option("--deceleration_mps2", options->drive.deceleration, "Wanted of a brake test")
+  drive->add_option("--grip", options->drive.grip)
+      ->check(within(0.1, 1.2, "-"))
+      ->capture_default_str();
+  drive->add_option("--deceleration-mps2", options->drive.deceleration, "Wanted of a brake test")
       ->check(within(1.0, 20.0))
       ->capture_default_str();
-  drive->add_option("--steering_deg", options->steering_deg, "A step steer's, > 0 to the left")
+  drive->add_option("--steering-deg", options->steering_deg, "A step steer's, > 0 to the left")
       ->check(within(-15.0, 15.0))
       ->capture_default_str();
   drive->add_option("--noise", options->drive.noise, "Over that of usual sensors")

@@ -7,6 +7,7 @@
 #include "apps/saca/atlas_making.h"
 #include "apps/saca/commands.h"
 #include "apps/saca/inputs.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/printing.h"
 #include "saca/config/json_text.h"
 #include "saca/core/file.h"
@@ -52,9 +53,12 @@ Result<std::vector<Compared>> compared(const json& made) {
   }
   for (Compared& one : all) {
     if (one.what == "scenario") {
+      const auto file = find_scenario(places.value(), one.name);
       Fnv hash;
-      const auto problem = read_file(find_scenario(places.value(), one.name),
-                                     [&](std::string_view bytes) { hash.add(bytes); });
+      const auto problem =
+          file.has_value()
+              ? read_file(file.value(), [&](std::string_view bytes) { hash.add(bytes); })
+              : std::optional(file.error());
       one.lacks = problem ? problem->message : "";
       one.here = problem ? json(nullptr) : json(runtime::digest_text(hash));
     }
@@ -131,15 +135,14 @@ int verify(const VerifyOptions& options) {
                         {"same", one.recorded == one.here}});
     }
     if (options.as_json) {
-      app::print("{}\n", json{{"schema", "saca.verification/1"},
-                              {"program", made.at("program")},
-                              {"commit", made.at("commit")},
-                              {"date", made.at("date")},
-                              {"command", made.at("command")},
-                              {"content", {{"recorded", recorded}, {"here", content}}},
-                              {"inputs", inputs},
-                              {"same", same}}
-                             .dump(1));
+      print_json(json{{"schema", "saca.verification/1"},
+                      {"program", made.at("program")},
+                      {"commit", made.at("commit")},
+                      {"date", made.at("date")},
+                      {"command", made.at("command")},
+                      {"content", {{"recorded", recorded}, {"here", content}}},
+                      {"inputs", inputs},
+                      {"same", same}});
       return same ? success : not_the_same;
     }
     const auto words = [&](const char* key) {

@@ -1,12 +1,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "apps/saca/commands.h"
 #include "apps/saca/inputs.h"
+#include "apps/saca/json_output.h"
 #include "apps/saca/moment_option.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
@@ -98,6 +100,14 @@ Result<std::optional<std::vector<Cell>>> try_all(const ScenarioInputs& inputs, d
   return std::optional(cells);
 }
 
+std::array<bool, manoeuvre::num_policies> refused_in(const Cell& cell) {
+  std::array<bool, manoeuvre::num_policies> refused{};
+  for (std::size_t i = 0; i < refused.size(); ++i) {
+    refused.at(i) = !cell.harms.at(i).has_value();
+  }
+  return refused;
+}
+
 report::MapCell drawn(const Cell& cell) {
   if (!cell.possible) {
     return {.verdict = report::MapVerdict::unplayable};
@@ -106,18 +116,29 @@ report::MapCell drawn(const Cell& cell) {
       *cell.harms[manoeuvre::index(manoeuvre::PolicyId::no_intervention)] < 0.5 * outcome::harm_tie;
   return {.verdict = no_risk ? report::MapVerdict::no_risk : report::MapVerdict::decided,
           .best = cell.best,
-          .margin = cell.margin};
+          .margin = cell.margin,
+          .refused = refused_in(cell)};
 }
 
 report::MapAxis drawn(const Axis& axis, const std::optional<double>& nominal) {
-  const std::size_t unit = axis.key.rfind('_');
-  const std::string name = axis.what.substr(0, axis.what.rfind('_'));
-  return {.name = unit == std::string::npos ? axis.what : name,
-          .unit = unit == std::string::npos       ? "-"
-                  : axis.key.substr(unit) == "_m" ? "m"
-                                                  : "m/s",
-          .values = axis.values,
-          .nominal = nominal};
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 9> units{{{"_m", "m"},
+                                                                                {"_mps", "m/s"},
+                                                                                {"_mps2", "m/s2"},
+                                                                                {"_s", "s"},
+                                                                                {"_deg", "deg"},
+                                                                                {"_degps", "deg/s"},
+                                                                                {"_kg", "kg"},
+                                                                                {"_1pm", "1/m"},
+                                                                                {"", "-"}}};
+  const auto unit = std::find_if(units.begin(), units.end(),
+                                 [&](const auto& one) { return axis.key.ends_with(one.first); });
+  std::string name = axis.what;
+  if (const auto at = name.rfind(axis.key);
+      at != std::string::npos) {  // a place in a list may follow
+    name.erase(at + axis.key.size() - unit->first.size(), unit->first.size());
+  }
+  return {
+      .name = name, .unit = std::string(unit->second), .values = axis.values, .nominal = nominal};
 }
 
 std::string picture(const ScenarioInputs& inputs, double time, const std::vector<Axis>& axes,
@@ -180,6 +201,14 @@ void print_counts(const std::vector<Cell>& cells) {
                  100.0 * counts[manoeuvre::index(policy)] / static_cast<double>(cells.size()));
     }
   }
+  for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
+    const auto refused = std::count_if(cells.begin(), cells.end(), [&](const Cell& cell) {
+      return cell.possible && !cell.harms.at(manoeuvre::index(policy));
+    });
+    if (refused > 0) {
+      app::print("  {:6} cannot be driven in {} of {}\n", name(policy), refused, cells.size());
+    }
+  }
   if (impossible > 0) {
     app::print("  {} of {} cannot be: bodies would overlap, or a value is out of range\n",
                impossible, cells.size());
@@ -211,7 +240,14 @@ int run(const WhatifCommand& options) {
   if (!time.has_value()) {
     return refused(time.error());
   }
-  const auto cells = try_all(inputs.value(), time.value(), axes, options.threads);
+  if (!time.value()) {
+    return nothing_to_decide;
+  }
+  const double begin = *time.value();
+  if (const auto problem = why_outputs_unwritable({options.svg})) {
+    return refused(*problem);
+  }
+  const auto cells = try_all(inputs.value(), begin, axes, options.threads);
   if (!cells.has_value()) {
     return refused(cells.error());
   }
@@ -219,23 +255,20 @@ int run(const WhatifCommand& options) {
     complain("interrupted; nothing was written");
     return was_interrupted;
   }
-  auto problem = make_folder_of(options.svg);
-  if (!problem) {
-    problem = write_file(options.svg, picture(inputs.value(), time.value(), axes, *cells.value()));
-  }
+  auto problem = write_output(options.svg, picture(inputs.value(), begin, axes, *cells.value()));
   if (problem) {
     return refused(*problem);
   }
   if (!options.as_json) {
     app::print("{}, {} scenes, from {:.2f} s on\n", inputs.value().scenario.title,
-               cells.value()->size(), time.value());
+               cells.value()->size(), begin);
     print_counts(*cells.value());
     app::print("Map: {}\n", std::filesystem::absolute(options.svg).string());
     return success;
   }
   json all{{"schema", "saca.whatif/1"},
            {"scenario", inputs.value().scenario.name},
-           {"time_s", time.value()},
+           {"time_s", begin},
            {"axes", json::array()},
            {"cells", json::array()}};
   for (const Axis& axis : axes) {
@@ -244,7 +277,7 @@ int run(const WhatifCommand& options) {
   for (const Cell& cell : *cells.value()) {
     all["cells"].push_back(json_of(cell));
   }
-  app::print("{}\n", all.dump(1, ' ', false, json::error_handler_t::replace));
+  app::print_json(all);
   return success;
 }
 
@@ -259,9 +292,11 @@ void add_whatif(CLI::App& line, int& exit_code) {
       ->required();
   command
       ->add_option("--vary", options->vary,
-                   "BODY.KEY=FROM:TO:STEP, once or twice, as it is when the policies begin: "
+                   "NUMBER=FROM:TO:STEP, once or twice. As it is when the policies begin: "
                    "ego.speed_mps, ego.offset_m, truck1.distance_m, truck1.offset_m, "
-                   "truck1.speed_mps, grip")
+                   "truck1.speed_mps, grip; as it stands in the scenario: any other number, by its "
+                   "keys and places in lists, as road.left_edge_m, truck1.start.brake_at_s, "
+                   "actors.0.mass_kg")
       ->required()
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)

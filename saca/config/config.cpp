@@ -3,12 +3,15 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <sstream>
 #include <utility>
 
 #include "saca/config/toml_bounds.h"
+#include "saca/core/other_unit.h"
 #include "saca/core/printable.h"
+#include "saca/core/suggestion.h"
 
 namespace saca::config {
 
@@ -17,7 +20,16 @@ struct DocumentState {
   std::string source;
   toml::table root;
   std::set<const toml::node*> read;
+  std::map<const void*, std::vector<std::string>> asked;  ///< keys, by their tables
   std::optional<Error> error;
+  const toml::table* lacking = nullptr;  ///< whose missing key is the error
+
+  void ask(const void* table, std::string_view key) {
+    std::vector<std::string>& keys = asked[table];
+    if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+      keys.emplace_back(key);
+    }
+  }
 
   void fail(Error::Code code, const toml::source_region& where, std::string_view key,
             std::string_view message) {
@@ -63,26 +75,66 @@ std::string kind(const toml::node& node) {
   return text.str();
 }
 
+/// The unit that a key carries, as far as people mistake it for another.
+std::string_view unit_of(std::string_view key, const Range& range) {
+  for (const auto& [end, unit] :
+       {std::pair<std::string_view, std::string_view>{"_mps", "m/s"}, {"_s", "s"}, {"_kg", "kg"}}) {
+    if (key.ends_with(end)) {
+      return unit;
+    }
+  }
+  constexpr double most_of_a_share = 1.5;  // the largest coefficients of friction are below
+  return range.min >= 0.0 && range.max <= most_of_a_share && key.find("_m") == key.npos ? "-" : "";
+}
+
 double clamped_zero(const Range& range) {
   return std::min(std::max(0.0, range.min), range.max);
 }
 
-/// The length of `key` up to its unit: "speed" of "speed_mps".
-std::size_t stem(std::string_view key) {
-  const auto mark = key.rfind('_');
-  return mark == std::string_view::npos ? key.size() : mark;
+/// The key of a table that was likely meant by one that nobody asked for. One that is there is not
+/// meant by another.
+std::optional<std::string> meant_key(const DocumentState& state, const toml::table& table,
+                                     std::string_view typed) {
+  const auto asked = state.asked.find(&table);
+  if (asked == state.asked.end()) {
+    return std::nullopt;
+  }
+  std::vector<std::string> absent;
+  std::copy_if(asked->second.begin(), asked->second.end(), std::back_inserter(absent),
+               [&](const std::string& key) { return !table.contains(key); });
+  return likely_meant(typed, absent);
 }
 
-/// A key of the table that differs from `wanted` in nothing but its unit, for the message.
-std::string near_miss(const toml::table& table, std::string_view wanted) {
-  for (const auto& [key, node] : table) {
-    const std::string_view name = key.str();
-    if (stem(name) == stem(wanted) &&
-        name.substr(0, stem(name)) == wanted.substr(0, stem(wanted))) {
-      return "; is `" + std::string(name) + "` meant, in another unit?";
+std::string unknown_key(const DocumentState& state, const toml::table& table,
+                        std::string_view typed) {
+  if (const auto meant = meant_key(state, table, typed)) {
+    return "unknown key; did you mean '" + *meant + "'?";
+  }
+  const auto asked = state.asked.find(&table);
+  std::string list;
+  if (asked != state.asked.end()) {
+    for (const std::string& key : asked->second) {
+      list += (list.empty() ? "; here stand " : ", ") + key;
     }
   }
-  return "";
+  return "unknown key" + list;
+}
+
+/// A misspelt key leaves another one missing: then that is what is wrong.
+void blame_misspelt(DocumentState& state) {
+  if (state.lacking == nullptr) {
+    return;
+  }
+  const toml::table& table = *state.lacking;
+  state.lacking = nullptr;
+  for (const auto& [key, node] : table) {
+    if (!state.read.contains(&node) && meant_key(state, table, key.str())) {
+      state.error.reset();
+      state.fail(Error::Code::malformed, node.source(), key.str(),
+                 unknown_key(state, table, key.str()));
+      return;
+    }
+  }
 }
 
 /// Depth first, in the order of the file: the first entry that nobody asked for.
@@ -97,7 +149,7 @@ void find_unread(const toml::table& table, DocumentState& state) {
     }
   }
   if (first != nullptr) {
-    state.fail(Error::Code::malformed, first->source(), name, "unknown key");
+    state.fail(Error::Code::malformed, first->source(), name, unknown_key(state, table, name));
     return;
   }
   for (const auto& [key, node] : table) {
@@ -116,12 +168,13 @@ void find_unread(const toml::table& table, DocumentState& state) {
 /// Marks the entry as read. nullptr, and an error if it is required, when there is none.
 const toml::node* entry(DocumentState& state, const void* table, std::string_view key,
                         bool required) {
+  state.ask(table, key);
   const toml::node* const found = table_of(table).get(key);
   if (found != nullptr) {
     state.read.insert(found);
-  } else if (required) {
-    state.fail(Error::Code::malformed, table_of(table).source(), key,
-               "missing" + near_miss(table_of(table), key));
+  } else if (required && !state.error) {
+    state.fail(Error::Code::malformed, table_of(table).source(), key, "missing");
+    state.lacking = &table_of(table);
   }
   return found;
 }
@@ -136,7 +189,8 @@ double checked_number(DocumentState& state, const toml::node& node, std::string_
   }
   if (!(*number >= range.min && *number <= range.max)) {  // so NaN is refused too
     state.fail(Error::Code::out_of_range, node.source(), key,
-               "want " + shown(range) + ", got " + shown(*number));
+               "want " + shown(range) + ", got " + shown(*number) +
+                   other_unit_hint(*number, range.min, range.max, unit_of(key, range)));
     return clamped_zero(range);
   }
   return *number;
@@ -296,6 +350,7 @@ std::vector<Table> Table::tables(std::string_view key) {
 }
 
 bool Table::has(std::string_view key) const {
+  document_->ask(node_, key);
   return table_of(node_).contains(key);
 }
 
@@ -330,6 +385,7 @@ std::optional<Error> Document::error() const {
   if (!state_->error) {
     find_unread(state_->root, *state_);
   }
+  blame_misspelt(*state_);
   return state_->error;
 }
 

@@ -75,6 +75,9 @@ class Document {
 
   /// What was wrong first: a key that was missing, of the wrong type, out of range, or (once all is
   /// read) one that nobody asked for. Call it last. nullopt when all is well.
+  ///
+  /// Of a key that nobody asked for it tells which was likely meant (core/suggestion.h), else which
+  /// there are; so it does where that key leaves another one missing.
   [[nodiscard]] std::optional<Error> error() const;
 
  private:

@@ -75,13 +75,52 @@ TEST(Config, RefusesNaNAndInfinity) {
 TEST(Config, RefusesAnUnknownKeyAtAnyDepth) {
   const auto read = [](Table& t) { (void)t.table("road").number("width_m"); };
   EXPECT_EQ(problem("[road]\nwidth_m = 3\nlenght_m = 2\n", read),
-            "car.toml:3: lenght_m: unknown key");
-  EXPECT_EQ(problem("typo = 1\n[road]\nwidth_m = 3\n", read), "car.toml:1: typo: unknown key");
+            "car.toml:3: lenght_m: unknown key; here stand width_m");
+  EXPECT_EQ(problem("typo = 1\n[road]\nwidth_m = 3\n", read),
+            "car.toml:1: typo: unknown key; here stand road");
 }
 
-TEST(Config, SuspectsAnotherUnit) {
-  EXPECT_THAT(problem("speed_kmh = 50", [](Table& t) { (void)t.number("speed_mps"); }),
-              HasSubstr("speed_mps: missing; is `speed_kmh` meant, in another unit?"));
+TEST(Config, AsksWhetherAnotherKeyWasMeant) {
+  const auto read = [](Table& t) {
+    (void)t.number("speed_mps");
+    (void)t.optional_text("driver");
+    (void)t.optional_number("x_m");
+    (void)t.optional_number("y_m");
+  };
+  EXPECT_EQ(problem("speed_mps = 1\ndriven = \"me\"", read),
+            "car.toml:2: driven: unknown key; did you mean 'driver'?");
+  EXPECT_EQ(problem("speed_mps = 1\nz_m = 1\ny_m = 1", read),
+            "car.toml:2: z_m: unknown key; did you mean 'x_m'?");  // y_m is there already
+}
+
+// Which is wrong: the key that is there, not the one that it leaves missing.
+TEST(Config, BlamesTheMisspeltKeyRatherThanTheOneThatIsMissing) {
+  const auto read = [](Table& t) {
+    (void)t.text("name");
+    Table start = t.table("start");
+    (void)start.text("behaviour");
+    (void)start.number("speed_mps");
+  };
+  EXPECT_EQ(problem("name = \"a\"\n[start]\nspeed_mps = 1\nbehavior = \"brake\"", read),
+            "car.toml:4: behavior: unknown key; did you mean 'behaviour'?");
+  EXPECT_EQ(problem("name = \"a\"\n[strat]\nspeed_mps = 1\nbehaviour = \"brake\"", read),
+            "car.toml:2: strat: unknown key; did you mean 'start'?");
+  EXPECT_EQ(problem("name = \"a\"\n[start]\nspeed_kmh = 1\nbehaviour = \"brake\"", read),
+            "car.toml:3: speed_kmh: unknown key; did you mean 'speed_mps'?");
+  EXPECT_EQ(problem("name = \"a\"\ncolour = 1\n[start]\nspeed_mps = 1", read),
+            "car.toml:3: behaviour: missing");  // nothing here looks like it
+}
+
+TEST(Config, AsksWhetherANumberIsInAnotherUnit) {
+  const auto wrong = [](const std::string& key, Range range, const std::string& text) {
+    return problem(key + " = " + text, [&](Table& t) { (void)t.number(key, range); });
+  };
+  EXPECT_EQ(wrong("speed_mps", {0.0, 100.0}, "130"),
+            "car.toml:1: speed_mps: want 0 to 100, got 130 (did you mean km/h? that would be 36.1 "
+            "m/s)");
+  EXPECT_EQ(wrong("grip", {0.05, 1.2}, "90"),
+            "car.toml:1: grip: want 0.05 to 1.2, got 90 (did you mean %? that would be 0.9)");
+  EXPECT_EQ(wrong("width_m", {0.0, 1.0}, "90"), "car.toml:1: width_m: want 0 to 1, got 90");
 }
 
 TEST(Config, RefusesTheWrongType) {

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace saca {
 namespace {
@@ -169,6 +170,54 @@ std::optional<Error> write_file(const std::filesystem::path& path,
   }
   ::unlink(draft.c_str());
   return Error{Error::Code::unwritable, path.string() + ": cannot be written: " + why};
+}
+
+std::optional<Error> why_unwritable(const std::filesystem::path& path) {
+  namespace fs = std::filesystem;
+  struct stat about {};
+  const bool there = ::stat(path.c_str(), &about) == 0;
+  if (there && S_ISCHR(about.st_mode)) {
+    const Descriptor device(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY));
+    return device.number() >= 0
+               ? std::nullopt
+               : std::optional(Error{Error::Code::unwritable,
+                                     path.string() + ": cannot be written: " + reason()});
+  }
+  const std::string_view kind = there ? other_kind(about.st_mode) : "";
+  if (!kind.empty()) {
+    return Error{Error::Code::unwritable,
+                 path.string() + ": is " + std::string(kind) + ", want a file"};
+  }
+  std::error_code problem;
+  const fs::path target =
+      fs::is_symlink(path, problem) ? fs::weakly_canonical(path, problem) : path;
+  std::vector<fs::path> made;  // the innermost first
+  for (fs::path folder = target.parent_path();
+       !folder.empty() && !fs::exists(folder, problem) && folder != folder.parent_path();
+       folder = folder.parent_path()) {
+    made.push_back(folder);
+  }
+  problem.clear();
+  if (!made.empty()) {
+    fs::create_directories(made.front(), problem);
+  }
+  std::optional<Error> found;
+  if (problem) {
+    found = Error{Error::Code::unwritable,
+                  target.parent_path().string() + ": cannot be made: " + problem.message()};
+  } else {
+    std::string draft = target.string() + ".XXXXXX";
+    const Descriptor file(::mkstemp(draft.data()));
+    if (file.number() < 0) {
+      found = Error{Error::Code::unwritable, path.string() + ": cannot be created: " + reason()};
+    } else {
+      ::unlink(draft.c_str());
+    }
+  }
+  for (const fs::path& folder : made) {
+    fs::remove(folder, problem);  // but what somebody else has put something into meanwhile
+  }
+  return found;
 }
 
 }  // namespace saca

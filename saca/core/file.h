@@ -41,4 +41,10 @@ constexpr std::uintmax_t many_bytes = std::uintmax_t{4} << 30U;
 [[nodiscard]] std::optional<Error> write_file(const std::filesystem::path& path,
                                               std::initializer_list<std::string_view> parts);
 
+/// Whether `write_file` could put a file at `path` once the folders on the way there are made: to
+/// be asked before work whose result is to lie there. It is tried, and nothing is left of it.
+///
+/// @return  nullopt when it could, else the error (Error::Code::unwritable)
+[[nodiscard]] std::optional<Error> why_unwritable(const std::filesystem::path& path);
+
 }  // namespace saca

@@ -135,5 +135,31 @@ TEST_F(File, IsHandedOnInParts) {
   EXPECT_TRUE(read_file(folder_ / "y", take).has_value());
 }
 
+TEST_F(File, CouldBeWrittenWhereFoldersCanBeMadeAndNothingIsLeft) {
+  for (const char* path : {"x", "a/b/c/x"}) {
+    EXPECT_EQ(why_unwritable(folder_ / path), std::nullopt) << path;
+  }
+  EXPECT_EQ(why_unwritable("/dev/null"), std::nullopt);
+  EXPECT_TRUE(fs::is_empty(folder_));
+  ASSERT_EQ(write_file(folder_ / "x", "old"), std::nullopt);
+  EXPECT_EQ(why_unwritable(folder_ / "x"), std::nullopt);
+  EXPECT_EQ(read_file(folder_ / "x").value(), "old");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator{}), 1);
+}
+
+TEST_F(File, CouldNotBeWrittenBelowAFileOrInPlaceOfAFolder) {
+  ASSERT_EQ(write_file(folder_ / "x", "old"), std::nullopt);
+  fs::create_directories(folder_ / "there");
+  for (const fs::path& path : {folder_ / "x" / "y", folder_ / "x" / "y" / "z", folder_ / "there",
+                               fs::path("/proc/no/x"), fs::path("/proc/x")}) {
+    const auto problem = why_unwritable(path);
+    ASSERT_TRUE(problem.has_value()) << path;
+    EXPECT_EQ(problem->code, Error::Code::unwritable);
+    EXPECT_THAT(problem->message, HasSubstr(path.parent_path().string()));
+    EXPECT_TRUE(write_file(path, "text").has_value()) << path;
+  }
+  EXPECT_EQ(read_file(folder_ / "x").value(), "old");
+}
+
 }  // namespace
 }  // namespace saca::file_test

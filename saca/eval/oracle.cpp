@@ -1,6 +1,8 @@
 #include "saca/eval/oracle.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "saca/core/contract.h"
 #include "saca/core/parallel.h"
@@ -11,10 +13,24 @@ namespace {
 
 using manoeuvre::num_policies;
 using manoeuvre::PolicyId;
-using Tried = std::array<outcome::Outcome, num_policies>;  // meaningless where refused
+using Tried = std::vector<outcome::Outcome>;  // one a plan; meaningless where refused
 
-Tried outcomes_of(const loop::Hindsights& tried) {
-  Tried outcomes;
+std::vector<std::vector<loop::Hindsight>> tried_of(std::span<const Moment> moments,
+                                                   const manoeuvre::Car& car,
+                                                   const outcome::HarmModel& harm,
+                                                   const OracleOptions& options) {
+  if (!options.only_defaults) {
+    return loop::all_plans_tried(moments, car, harm, options.threads);
+  }
+  std::vector<std::vector<loop::Hindsight>> all;
+  for (loop::Hindsights& tried : hindsights(moments, car, harm, options.threads)) {
+    all.emplace_back(std::move_iterator(tried.begin()), std::move_iterator(tried.end()));
+  }
+  return all;
+}
+
+Tried outcomes_of(const std::vector<loop::Hindsight>& tried) {
+  Tried outcomes(tried.size());
   std::transform(tried.begin(), tried.end(), outcomes.begin(), [](const loop::Hindsight& one) {
     return one.facts.drivable() ? one.facts.outcome() : outcome::Outcome{};
   });
@@ -34,7 +50,7 @@ std::vector<Tried> all_draws(const sim::Scenario& scenario, const manoeuvre::Car
       const sim::Chance chance = sim::draw_chance(options.seed, draws.size() + k, options.time);
       moments[k] = moment_at(scenario, car, options.time, chance);
     });
-    for (const loop::Hindsights& tried : hindsights(moments, car, harm, options.threads)) {
+    for (const auto& tried : tried_of(moments, car, harm, options)) {
       draws.push_back(outcomes_of(tried));
     }
   }
@@ -70,33 +86,50 @@ Oracle oracle(const sim::Scenario& scenario, const manoeuvre::Car& car,
   Oracle told;
   const Moment moment = moment_at(scenario, car, options.time);
   told.scene = moment.scene;
-  const loop::Hindsights written = hindsight(moment, car, harm);
+  const std::vector<loop::Hindsight> written =
+      std::move(tried_of({&moment, 1}, car, harm, options).front());
   const Tried as_written = outcomes_of(written);
   const std::vector<Tried> draws = all_draws(scenario, car, harm, options);
-  std::array<std::vector<outcome::Outcome>, num_policies> outcomes;
-  std::array<outcome::Outcome, num_policies> average;
-  for (std::size_t i = 0; i < num_policies; ++i) {
-    told.verdicts[i].written = written[i];
+  std::vector<std::vector<outcome::Outcome>> outcomes(written.size());  // of a plan, by draws
+  Tried average = as_written;
+  std::array<std::optional<std::size_t>, num_policies> stands;  // which plan for its policy
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    std::optional<std::size_t>& of_policy = stands[manoeuvre::index(written[i].facts.plan.policy)];
     if (!written[i].facts.drivable()) {
+      of_policy = of_policy.value_or(i);
       continue;
     }
     for (const Tried& draw : draws) {
       outcomes[i].push_back(draw[i]);
     }
-    told.verdicts[i].expected =
-        draws.empty() ? sure(as_written[i]) : outcome::expected(outcomes[i]);
-    average[i] = draws.empty() ? as_written[i] : on_average(outcomes[i]);
-    told.ranking.push_back(manoeuvre::all_policies[i]);
+    if (!draws.empty()) {
+      average[i] = on_average(outcomes[i]);
+    }
+    if (!of_policy || !written[*of_policy].facts.drivable() ||
+        outcome::harm_class(average[i].harm) < outcome::harm_class(average[*of_policy].harm)) {
+      of_policy = i;
+    }
+  }
+  const auto plan_of = [&](PolicyId policy) { return *stands[manoeuvre::index(policy)]; };
+  for (const PolicyId policy : manoeuvre::all_policies) {
+    const std::size_t plan = plan_of(policy);
+    Verdict& verdict = told.verdicts[manoeuvre::index(policy)];
+    verdict.written = written[plan];
+    if (verdict.written.facts.drivable()) {
+      verdict.expected = draws.empty() ? sure(as_written[plan]) : outcome::expected(outcomes[plan]);
+      told.ranking.push_back(policy);
+    }
   }
   std::sort(told.ranking.begin(), told.ranking.end(), [&](PolicyId a, PolicyId b) {
-    return outcome::better(average[manoeuvre::index(a)], a, average[manoeuvre::index(b)], b);
+    return outcome::better(average[plan_of(a)], a, average[plan_of(b)], b);
   });
-  const std::size_t best = manoeuvre::index(told.best());
+  const std::size_t best = plan_of(told.best());
   for (const PolicyId policy : told.ranking) {
-    const std::size_t i = manoeuvre::index(policy);
-    const double more = average[i].harm - average[best].harm;
-    told.verdicts[i].behind = draws.empty() ? outcome::Mean{more, more, more}
-                                            : outcome::harm_difference(outcomes[i], outcomes[best]);
+    const std::size_t plan = plan_of(policy);
+    const double more = average[plan].harm - average[best].harm;
+    told.verdicts[manoeuvre::index(policy)].behind =
+        draws.empty() ? outcome::Mean{more, more, more}
+                      : outcome::harm_difference(outcomes[plan], outcomes[best]);
   }
   return told;
 }

@@ -15,17 +15,19 @@ struct OracleOptions {
   double time = 0.0;  ///< when they begin [s]
   int draws = 0;      ///< of what is left to chance, two at least; 0: the scenario as written
   std::uint64_t seed = 1;
-  int threads = 1;  ///< they do not change the result
+  int threads = 1;             ///< they do not change the result
+  bool only_defaults = false;  ///< one plan a policy, manoeuvre::default_plan, as the paper has it
 };
 
-/// What one policy ends in.
+/// What one policy ends in, by the plan `written.facts.plan`.
 struct Verdict {
   loop::Hindsight written;     ///< with nothing left to chance
   outcome::Expected expected;  ///< over the draws; without draws that of `written` alone
   outcome::Mean behind;        ///< harm above that of the best, draw by draw [-]
 };
 
-/// All eight, and their order.
+/// All eight, each with the plan of its own that is best (all target speeds, all strengths), and
+/// their order.
 struct Oracle {
   world::Scene scene;  ///< when they begin
   std::array<Verdict, manoeuvre::num_policies> verdicts;
@@ -39,7 +41,9 @@ struct Oracle {
   }
 };
 
-/// Knows what the others will do, tries all eight, and ranks them.
+/// Knows what the others will do, tries every plan that can be chosen (preview::all_plans), and
+/// ranks the policies by the plan of each whose expected harm is least; of those in one class
+/// (outcome::harm_class) the first, which is the default (manoeuvre::default_plan).
 ///
 /// Common random numbers: draw k is the same world for every policy. Refusals are those of the
 /// scene as written.

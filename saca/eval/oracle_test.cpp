@@ -6,6 +6,7 @@
 #include <set>
 
 #include "saca/eval/scenes_for_test.h"
+#include "saca/outcome/ordering.h"
 
 namespace saca::eval::oracle_test {
 namespace {
@@ -70,6 +71,39 @@ TEST(Oracle, ThreadsAndRepetitionChangeNothing) {
   }
   EXPECT_NE(one.of(PolicyId::no_intervention).expected.harm.value,
             other.of(PolicyId::no_intervention).expected.harm.value);
+}
+
+// A wet road between barriers, the car ahead too near to stop behind: of each policy that has
+// several plans, that stands which harms least, and it harms no more than the default.
+TEST(Oracle, OfEachPolicyTheBestOfAllTargetSpeedsAndStrengthsStands) {
+  sim::Scenario scenario = standing_car(19.0, 60.0);
+  scenario.road.left_edge = 1.9;
+  scenario.road.right_edge = -1.9;
+  scenario.road.left_beyond = world::Beyond::barrier;
+  scenario.road.right_beyond = world::Beyond::barrier;
+  const double time = 40.0 / 19.0;
+  const Oracle told = oracle(scenario, default_car(), shipped_harm(), {.time = time});
+  const Moment moment = moment_at(scenario, default_car(), time);
+  const auto all = loop::all_plans_tried({&moment, 1}, default_car(), shipped_harm());
+  for (const loop::Hindsight& one : all.front()) {
+    ASSERT_TRUE(one.facts.drivable());
+    EXPECT_LE(told.of(one.facts.plan.policy).written.facts.outcome().harm,
+              one.facts.outcome().harm + outcome::harm_tie);
+  }
+  const loop::Hindsights by_default =
+      loop::hindsight(moment_at(scenario, default_car(), time), default_car(), shipped_harm());
+  const auto gain = [&](PolicyId policy) {
+    return by_default[manoeuvre::index(policy)].facts.outcome().harm -
+           told.of(policy).written.facts.outcome().harm;
+  };
+  EXPECT_GT(gain(PolicyId::es_b_left), outcome::harm_tie);  // braking to rest meets it more slowly
+  EXPECT_EQ(gain(PolicyId::aes_left), 0.0);
+  const Oracle paper =
+      oracle(scenario, default_car(), shipped_harm(), {.time = time, .only_defaults = true});
+  for (const PolicyId policy : manoeuvre::all_policies) {
+    EXPECT_EQ(paper.of(policy).written.facts.outcome().harm,
+              by_default[manoeuvre::index(policy)].facts.outcome().harm);
+  }
 }
 
 }  // namespace

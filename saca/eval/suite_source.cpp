@@ -2,38 +2,51 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
+#include "saca/core/suggestion.h"
+
 namespace saca::eval {
 namespace {
 
 namespace fs = std::filesystem;
 
 /// A suite of that name, or a family as a suite of itself.
-Result<sim::Suite> find_suite(const fs::path& folder, const std::string& wanted) {
+Result<sim::Suite> find_suite(const fs::path& folder, const std::string& wanted,
+                              const std::vector<std::string>& other_names) {
   const auto suites = sim::load_suites(folder / "suites.toml");
   if (!suites.has_value()) {
     return suites.error();
   }
-  std::string names;
+  std::vector<std::string> names;
   for (const sim::Suite& suite : suites.value()) {
     if (suite.name == wanted) {
       return suite;
     }
-    names += (names.empty() ? "" : ", ") + suite.name;
+    names.push_back(suite.name);
   }
   const bool is_plain = wanted.find('/') == std::string::npos && wanted != "surroundings";
   if (is_plain && !wanted.empty() && fs::is_regular_file(folder / (wanted + ".toml"))) {
     return sim::Suite{.name = wanted, .why = {}, .members = {{wanted, 1.0, {}}}};
   }
-  return Error{Error::Code::out_of_range,
-               fmt::format("{}: want one of {}, or a family, got \"{}\"",
-                           (folder / "suites.toml").string(), names, wanted)};
+  names.insert(names.end(), other_names.begin(), other_names.end());
+  const auto num_suites = static_cast<std::ptrdiff_t>(names.size());
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().stem().string();
+    if (entry.path().extension() == ".toml" && name != "suites" && name != "surroundings") {
+      names.push_back(name);
+    }
+  }
+  std::sort(names.begin() + num_suites, names.end());
+  return Error{Error::Code::out_of_range, fmt::format("{}: no suite or family is called so; {}",
+                                                      wanted, suggestion(wanted, names))};
 }
 
 }  // namespace
 
 Result<SuiteSource> SuiteSource::open(const SuiteDraw& draw) {
   const fs::path folder = draw.scenarios / "families";
-  auto suite = find_suite(folder, draw.suite);
+  auto suite = find_suite(folder, draw.suite, draw.other_names);
   if (!suite.has_value()) {
     return suite.error();
   }

@@ -20,12 +20,14 @@ struct SuiteDraw {
   std::optional<sim::TestLog> test_log;  ///< needed for the test split
   std::string car;                       ///< its name
   world::Footprint footprint;            ///< of the car
+  std::vector<std::string> other_names;  ///< that could have been asked for, to be suggested
 };
 
 /// The families of a suite, ready to be drawn from.
 class SuiteSource {
  public:
-  /// @return  out_of_range where there is no such suite or family, naming all suites; else what
+  /// @return  out_of_range where there is no such suite or family, with what was likely meant; else
+  /// what
   ///          cannot be read, or why the split may not be used
   [[nodiscard]] static Result<SuiteSource> open(const SuiteDraw& draw);
 

@@ -3,12 +3,15 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "saca/config/toml_number.h"
 #include "saca/core/csv.h"
 #include "saca/core/parallel.h"
+#include "saca/core/short_number.h"
 #include "saca/eval/survey.h"
 #include "saca/manoeuvre/ego.h"
 
@@ -193,6 +196,72 @@ bool overlaps(const world::Scene& scene) {
   });
 }
 
+/// Of a text like "actors.0.start.s_m": which actor is meant, by name or by place, and how many
+/// parts say so.
+struct NamedActor {
+  std::size_t actor;
+  std::size_t num_parts;
+};
+std::optional<NamedActor> named_actor(const Scenario& scenario,
+                                      const std::vector<std::string_view>& parts) {
+  if (const auto actor = actor_called(scenario, parts[0])) {
+    return NamedActor{*actor, 1};
+  }
+  if (parts[0] == "actors" && parts.size() > 1) {
+    const auto place = finite_number(parts[1]);
+    for (std::size_t i = 0; place && i < scenario.actors.size(); ++i) {
+      if (static_cast<double>(i) == *place) {
+        return NamedActor{i, 2};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+std::string joined(const std::vector<std::string_view>& parts, std::size_t from) {
+  std::string text;
+  for (std::size_t i = from; i < parts.size(); ++i) {
+    text.append(".").append(parts[i]);
+  }
+  return text;
+}
+
+/// The last part that is no place in a list: what the number is, and its unit.
+std::string key_of(const std::vector<std::string_view>& parts) {
+  const auto key = std::find_if(parts.rbegin(), parts.rend(),
+                                [](std::string_view part) { return !finite_number(part); });
+  return key == parts.rend() ? "" : std::string(*key);
+}
+
+/// Which number of the file is meant; nullopt: none that is there. What stands deeper, or in a
+/// table that may be missing, is left to the file's reader, who knows what there may be.
+/// @param parts  of the text before "=", at least one
+std::optional<Axis> number_of_file(const Scenario& scenario,
+                                   const std::vector<std::string_view>& parts) {
+  constexpr std::array<std::string_view, 4> tables{"road", "ego", "perception", "provenance"};
+  const std::string file = sim::write_scenario(scenario);
+  const auto actor = named_actor(scenario, parts);
+  const std::size_t rest = actor ? actor->num_parts : 1;
+  const std::string head = actor ? fmt::format("actors.{}", actor->actor) : std::string(parts[0]);
+  const std::string path = head + joined(parts, rest);
+  const std::string in_start = head + ".start" + joined(parts, rest);
+  const bool is_there = config::number_at(file, path).has_value();
+  const bool of_body = actor || parts[0] == "ego";
+  const bool of_table = std::find(tables.begin(), tables.end(), parts[0]) != tables.end();
+  const bool left_to_reader = of_body ? parts.size() > rest + 1 : of_table && parts.size() > rest;
+  Axis axis{
+      .what = (actor ? actor_name(scenario.actors[actor->actor]) : head) + joined(parts, rest),
+      .body = "",
+      .key = key_of(parts),
+      .path = path,
+      .values = {}};
+  if (!is_there && of_body && config::number_at(file, in_start)) {
+    axis.path = in_start;
+    return axis;
+  }
+  return is_there || left_to_reader ? std::optional(axis) : std::nullopt;
+}
+
 Cell cell_of(const Finding& finding) {
   const std::size_t best = manoeuvre::index(finding.best);
   return {.best = finding.best,
@@ -200,6 +269,33 @@ Cell cell_of(const Finding& finding) {
           .margin = margin_over(finding, best),
           .contact = finding.contact[best],
           .harms = finding.harm};
+}
+
+/// Which number a text before "=" names; an error whose message is what was wanted.
+Result<Axis> named_number(std::string_view text, const Scenario& scenario) {
+  const std::vector<std::string_view> parts = fields_of(text, '.');
+  const auto actor = named_actor(scenario, parts);
+  const std::size_t rest = actor ? actor->num_parts : 1;
+  const std::string body =
+      actor ? actor_name(scenario.actors[actor->actor]) : std::string(parts[0]);
+  if (text == "grip") {
+    return Axis{.what = "grip", .body = "", .key = "grip", .path = "", .values = {}};
+  }
+  const bool of_body = actor || body == "ego";
+  const std::string key(parts.back());
+  if (of_body && parts.size() == rest + 1 && is_key(body, key)) {
+    return Axis{.what = body + "." + key, .body = body, .key = key, .path = "", .values = {}};
+  }
+  if (const auto of_file = number_of_file(scenario, parts)) {
+    return *of_file;
+  }
+  const std::string among = of_body ? (body == "ego" ? "speed_mps or offset_m of the ego"
+                                                     : "distance_m, offset_m or speed_mps")
+                                    : "one of " + wanted_bodies(scenario);
+  return Error{Error::Code::malformed,
+               fmt::format("{}, or a number of the scenario's file, e.g. road.left_edge_m, got "
+                           "\"{}\"",
+                           among, of_body ? key : body)};
 }
 
 }  // namespace
@@ -210,29 +306,11 @@ Result<Axis> parse_axis(std::string_view text, const Scenario& scenario) {
   if (sides.size() != 2) {
     return malformed(text, form);
   }
-  Axis axis;
-  const std::vector<std::string_view> names = fields_of(sides[0], '.');
-  if (sides[0] == "grip") {
-    axis.key = "grip";
-  } else if (names.size() == 2) {
-    axis.body = names[0];
-    axis.key = names[1];
-    if (axis.body != "ego") {
-      const auto actor = actor_called(scenario, axis.body);
-      if (!actor) {
-        return malformed(text, "one of " + wanted_bodies(scenario) + ", got \"" + axis.body + "\"");
-      }
-      axis.body = actor_name(scenario.actors[*actor]);
-    }
-    if (!is_key(axis.body, axis.key)) {
-      return malformed(text, (axis.body == "ego" ? "speed_mps or offset_m of the ego, got \""
-                                                 : "distance_m, offset_m or speed_mps, got \"") +
-                                 axis.key + "\"");
-    }
-  } else {
-    return malformed(text, form);
+  const auto named = named_number(sides[0], scenario);
+  if (!named.has_value()) {
+    return malformed(text, named.error().message);
   }
-  axis.what = axis.body.empty() ? axis.key : axis.body + "." + axis.key;
+  Axis axis = named.value();
   const std::vector<std::string_view> numbers = fields_of(sides[1], ':');
   std::vector<double> range;
   range.reserve(numbers.size());
@@ -248,13 +326,22 @@ Result<Axis> parse_axis(std::string_view text, const Scenario& scenario) {
     return malformed(text, fmt::format("at most {} values, got {:.0f}", most_values, count));
   }
   for (int k = 0; k < static_cast<int>(count); ++k) {
-    axis.values.push_back(range[0] + k * range[2]);
+    axis.values.push_back(short_number(range[0] + k * range[2]));
   }
   return axis;
 }
 
 Result<Scenario> varied(const Scenario& scenario, const manoeuvre::Car& car, double time,
                         const Axis& axis, double value) {
+  const world::Footprint ego = manoeuvre::footprint(car);
+  if (!axis.path.empty()) {
+    const auto text = config::with_number(sim::write_scenario(scenario), axis.path, value);
+    if (!text.has_value()) {
+      return impossible(axis, value, text.error().message);
+    }
+    auto read = sim::read_scenario(text.value(), "as varied", ego);
+    return read.has_value() ? read : impossible(axis, value, read.error().message);
+  }
   PlacesThen wanted = places_at(scenario, car, time);
   if (axis.key == "offset_m" && axis.body == "ego") {
     wanted.ego.d = value;
@@ -274,7 +361,6 @@ Result<Scenario> varied(const Scenario& scenario, const manoeuvre::Car& car, dou
     return *problem;
   }
   // Before anybody moves: a number out of range, a lane change that nobody drives.
-  const world::Footprint ego = manoeuvre::footprint(car);
   const auto is_refused = [&](const Scenario& it) -> std::optional<Error> {
     const auto read = sim::read_scenario(sim::write_scenario(it), "as varied", ego);
     return read.has_value() ? std::nullopt
@@ -296,6 +382,9 @@ Result<Scenario> varied(const Scenario& scenario, const manoeuvre::Car& car, dou
 
 std::optional<double> nominal(const Scenario& scenario, const manoeuvre::Car& car, double time,
                               const Axis& axis) {
+  if (!axis.path.empty()) {
+    return config::number_at(sim::write_scenario(scenario), axis.path);
+  }
   if (axis.key == "grip") {
     return scenario.grip;
   }

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "saca/core/units.h"
 #include "saca/eval/scenes_for_test.h"
 
 namespace saca::eval::whatif_test {
@@ -49,6 +50,9 @@ TEST_F(Whatif, AnAxisThatCannotBeMeantIsRefused) {
               AllOf(HasSubstr("truck1"), HasSubstr("pedestrian1"), HasSubstr("got \"tram\"")));
   EXPECT_THAT(complaint("truck.colour=1:2:1"), HasSubstr("distance_m, offset_m or speed_mps"));
   EXPECT_THAT(complaint("ego.distance_m=1:2:1"), HasSubstr("of the ego"));
+  EXPECT_THAT(complaint("actors.7.distance_m=1:2:1"), HasSubstr("one of grip, ego"));
+  EXPECT_THAT(complaint("title=1:2:1"), HasSubstr("got \"title\""));
+  EXPECT_THAT(complaint("truck1=1:2:1"), HasSubstr("distance_m, offset_m or speed_mps"));
   EXPECT_THAT(complaint("grip=0.9:0.3:0.1"), HasSubstr("TO >= FROM"));
   EXPECT_THAT(complaint("grip=0.3:0.9:0"), HasSubstr("STEP > 0"));
   EXPECT_THAT(complaint("grip=0.3:nan:0.1"), HasSubstr("FROM:TO:STEP"));
@@ -88,6 +92,54 @@ TEST_F(Whatif, OnlyWhatIsVariedChangesAtTheMoment) {
   EXPECT_EQ(scene_with("grip=0.4:0.4:1").grip, 0.4);
 }
 
+TEST_F(Whatif, AnyNumberOfTheFileCanBeVaried) {
+  const auto varied_to = [&](const std::string& text) {
+    const Axis changed = axis(text);
+    return varied(scenario_, default_car(), t1, changed, changed.values.front()).value();
+  };
+  EXPECT_EQ(varied_to("road.left_edge_m=4:4:1").road.left_edge, 4.0);
+  EXPECT_EQ(varied_to("duration_s=11:11:1").duration, 11.0);
+  EXPECT_EQ(varied_to("perception.latency_s=0.2:0.2:1").perception.latency,
+            0.2);  // not written there
+  EXPECT_EQ(varied_to("truck1.mass_kg=9000:9000:1").actors[0].mass, 9'000.0);
+  EXPECT_EQ(varied_to("pedestrian.length_m=0.6:0.6:1").actors[1].footprint.length, 0.6);
+  const auto start_of = [](const sim::Scenario& scenario, std::size_t actor) {
+    return std::get<sim::Script>(scenario.actors[actor].motion).start;
+  };
+  for (const char* text :
+       {"actors.0.s_m=18:18:1", "actors.0.start.s_m=18:18:1", "truck.s_m=18:18:1"}) {
+    EXPECT_EQ(axis(text).what.substr(0, 7), "truck1.") << text;
+    EXPECT_EQ(start_of(varied_to(text), 0).s, 18.0) << text;
+    EXPECT_EQ(start_of(varied_to(text), 1).s, start_of(scenario_, 1).s) << text;
+  }
+  EXPECT_EQ(std::get<sim::EgoStart>(varied_to("ego.start.speed_mps=9:9:1").ego).speed, 9.0);
+  // By its place an actor has the same numbers as by its name.
+  EXPECT_EQ(axis("actors.0.distance_m=1:2:1").what, "truck1.distance_m");
+  EXPECT_EQ(axis("actors.0.distance_m=1:2:1").path, "");
+  EXPECT_EQ(nominal(scenario_, default_car(), t1, axis("truck1.mass_kg=1:2:1")), 12'000.0);
+  EXPECT_EQ(nominal(scenario_, default_car(), t1, axis("perception.latency_s=0:1:1")),
+            std::nullopt);
+}
+
+TEST(WhatifOfARecording, ANumberInAListCanBeVaried) {
+  const sim::Scenario scenario = shipped_scenario("100car_9018");
+  const Axis axis = parse_axis("ego.recording.yaw_rate_degps.12=3:3:1", scenario).value();
+  EXPECT_EQ(axis.key, "yaw_rate_degps");
+  const auto changed = varied(scenario, default_car(), 1.0, axis, 3.0);
+  ASSERT_TRUE(changed.has_value()) << changed.error().message;
+  const auto& was = std::get<sim::Recording>(scenario.ego);
+  const auto& is = std::get<sim::Recording>(changed.value().ego);
+  for (std::size_t k = 0; k < was.size(); ++k) {
+    EXPECT_EQ(is[k].speed, was[k].speed);
+    EXPECT_NEAR(is[k].yaw_rate, k == 12 ? from_degrees(3.0) : was[k].yaw_rate, 1e-12);
+  }
+}
+
+// As a person would write them, not 0.30000000000000004.
+TEST_F(Whatif, ValuesAreShortNumbers) {
+  EXPECT_THAT(axis("grip=0.1:0.7:0.1").values, ElementsAre(0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7));
+}
+
 TEST_F(Whatif, ValuesThatCannotBeAreRefused) {
   const auto refused = [&](std::string_view text) {
     const Axis changed = axis(text);
@@ -97,6 +149,9 @@ TEST_F(Whatif, ValuesThatCannotBeAreRefused) {
   EXPECT_THAT(refused("ego.speed_mps=-1:0:1"), HasSubstr("speed_mps"));
   EXPECT_THAT(refused("grip=2:2:1"), HasSubstr("grip"));
   EXPECT_THAT(refused("pedestrian.speed_mps=1:1:1"), HasSubstr("no speed of its own"));
+  EXPECT_THAT(refused("perception.latncy_s=1:1:1"), HasSubstr("did you mean 'latency_s'?"));
+  EXPECT_THAT(refused("road.left_edge_m=-1:-1:1"), HasSubstr("left_edge_m: want 0.5 to 100"));
+  EXPECT_THAT(refused("actors.0.start.s_m.x=1:1:1"), HasSubstr("no number can stand there"));
 }
 
 // The follower reacts to the ego on the way; still it is where it was.

@@ -1,7 +1,9 @@
 #include "saca/loop/hindsight.h"
 
+#include <iterator>
 #include <utility>
 
+#include "saca/outcome/ordering.h"
 #include "saca/outcome/roll_out.h"
 
 namespace saca::loop {
@@ -22,6 +24,57 @@ std::vector<Hindsights> hindsights(std::span<const Moment> moments, const manoeu
   std::vector<Hindsights> all(moments.size());
   for (std::size_t k = 0; k < tried.size(); ++k) {
     all[k / manoeuvre::num_policies][k % manoeuvre::num_policies] = std::move(tried[k]);
+  }
+  return all;
+}
+
+std::vector<std::vector<Hindsight>> all_plans_tried(std::span<const Moment> moments,
+                                                    const manoeuvre::Car& car,
+                                                    const outcome::HarmModel& harm, int threads) {
+  std::vector<outcome::Attempt> attempts;
+  std::vector<std::size_t> num_plans;
+  for (const Moment& moment : moments) {
+    const preview::Plans plans = preview::all_plans(norm(moment.scene.ego.v_B));
+    bool carried_out_stands = !moment.carried_out;
+    for (const manoeuvre::Plan& plan : plans) {
+      const bool first = !carried_out_stands && moment.carried_out->policy == plan.policy;
+      carried_out_stands = carried_out_stands || first;
+      attempts.push_back({first ? *moment.carried_out : plan, &moment.scene, &moment.others,
+                          moment.grip, moment.unknown});
+    }
+    num_plans.push_back(plans.size());
+  }
+  std::vector<Hindsight> tried = preview::tried(car, attempts, harm, threads);
+  std::vector<std::vector<Hindsight>> all;
+  auto next = tried.begin();
+  for (const std::size_t count : num_plans) {
+    const auto end = next + static_cast<std::ptrdiff_t>(count);
+    all.emplace_back(std::move_iterator(next), std::move_iterator(end));
+    next = end;
+  }
+  return all;
+}
+
+Hindsights hindsight_of_all_plans(const Moment& moment, const manoeuvre::Car& car,
+                                  const outcome::HarmModel& harm) {
+  std::vector<Hindsight> tried = std::move(all_plans_tried({&moment, 1}, car, harm).front());
+  std::array<std::optional<std::size_t>, manoeuvre::num_policies> best;
+  for (std::size_t i = 0; i < tried.size(); ++i) {
+    std::optional<std::size_t>& of_policy = best[manoeuvre::index(tried[i].facts.plan.policy)];
+    const auto harm_of = [&](std::size_t one) {
+      return outcome::harm_class(tried[one].facts.outcome().harm);
+    };
+    if (of_policy && manoeuvre::takes_strength(tried[i].facts.plan.policy)) {
+      continue;  // full braking is what everything else is held against
+    }
+    if (!of_policy || (tried[i].facts.drivable() &&
+                       (!tried[*of_policy].facts.drivable() || harm_of(i) < harm_of(*of_policy)))) {
+      of_policy = i;
+    }
+  }
+  Hindsights all;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i] = std::move(tried[*best[i]]);
   }
   return all;
 }

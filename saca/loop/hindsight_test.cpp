@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "saca/loop/wreck_for_test.h"
 #include "saca/manoeuvre/default_car.h"
+#include "saca/outcome/ordering.h"
 #include "saca/runtime/wreck_for_test.h"
 
 namespace saca::loop::hindsight_test {
@@ -58,6 +61,52 @@ TEST(Hindsight, KnowsWhatEachPolicyWouldHaveDone) {
   const Hindsight& drift = slippery[manoeuvre::index(PolicyId::t_drift_left)];
   EXPECT_TRUE(drift.course.ego.track.X_WA.empty());
   EXPECT_FALSE(drift.facts.drivable());
+}
+
+// The same wreck between barriers: whatever is done, something is met.
+TEST(Hindsight, OfEachPolicyThePlanStandsThatHarmsLeast) {
+  const auto car = manoeuvre::default_car();
+  const auto harm = outcome::read_harm("data/harm.toml").value();
+  world::Scene scene = runtime::wreck_ahead(car, 32.5);
+  scene.road.left_edge = 1.9;
+  scene.road.right_edge = -1.9;
+  scene.road.left_beyond = world::Beyond::barrier;
+  scene.road.right_beyond = world::Beyond::barrier;
+  scene.grip = 0.5;
+  const outcome::Others stands = [&](const manoeuvre::EgoMotion&) {
+    return std::vector<world::Track>{{.X_WA = {scene.actors[0].X_WA}}};
+  };
+  const Moment moment{.scene = scene, .others = stands, .grip = 0.5, .unknown = {}};
+  const auto all = all_plans_tried({&moment, 1}, car, harm).front();
+  EXPECT_EQ(all.size(), preview::all_plans(norm(scene.ego.v_B)).size());
+  const Hindsights best = hindsight_of_all_plans(moment, car, harm);
+  bool other_than_default = false;
+  for (const Hindsight& one : all) {
+    const Hindsight& of_policy = best[manoeuvre::index(one.facts.plan.policy)];
+    EXPECT_EQ(of_policy.facts.plan.policy, one.facts.plan.policy);
+    if (one.facts.drivable() && !manoeuvre::takes_strength(one.facts.plan.policy)) {
+      EXPECT_LE(of_policy.facts.outcome().harm, one.facts.outcome().harm + outcome::harm_tie);
+    }
+    other_than_default =
+        other_than_default ||
+        of_policy.facts.plan != manoeuvre::default_plan(one.facts.plan.policy, norm(scene.ego.v_B));
+  }
+  EXPECT_EQ(best[manoeuvre::index(PolicyId::aeb)].facts.plan,
+            (manoeuvre::Plan{PolicyId::aeb, std::nullopt}));
+  EXPECT_TRUE(other_than_default);  // a barrier is met more slowly at another target speed
+  // What was carried out is one of them, and stays where nothing harms less.
+  const manoeuvre::Plan lone{PolicyId::no_intervention, std::nullopt};
+  EXPECT_EQ(best[manoeuvre::index(PolicyId::no_intervention)].facts.plan, lone);
+  const Moment slowly{.scene = scene,
+                      .others = stands,
+                      .grip = 0.5,
+                      .unknown = {},
+                      .carried_out = manoeuvre::Plan{PolicyId::aeb, std::nullopt, 0.93}};
+  const auto with_it = all_plans_tried({&slowly, 1}, car, harm).front();
+  EXPECT_EQ(with_it.size(), all.size());
+  EXPECT_EQ(std::count_if(with_it.begin(), with_it.end(),
+                          [](const Hindsight& one) { return one.facts.plan.strength == 0.93; }),
+            1);
 }
 
 }  // namespace

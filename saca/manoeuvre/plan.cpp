@@ -1,5 +1,6 @@
 #include "saca/manoeuvre/plan.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace saca::manoeuvre {
@@ -15,6 +16,23 @@ std::optional<PolicyId> policy_from(int id) {
     return std::nullopt;
   }
   return static_cast<PolicyId>(id);
+}
+
+std::optional<PolicyId> policy_named(std::string_view text) {
+  const auto plain = [](char letter) {
+    return letter == '_'                    ? '-'
+           : letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A')
+                                            : letter;
+  };
+  for (const PolicyId policy : all_policies) {
+    const std::string_view known = name(policy);
+    if (text == std::to_string(index(policy)) ||
+        std::equal(known.begin(), known.end(), text.begin(), text.end(),
+                   [&](char a, char b) { return a == plain(b); })) {
+      return policy;
+    }
+  }
+  return std::nullopt;
 }
 
 std::string plan_name(const Plan& plan) {

@@ -64,6 +64,9 @@ constexpr bool drifts(PolicyId policy) {
 /// @param id  0 to 7; nullopt for any other number
 [[nodiscard]] std::optional<PolicyId> policy_from(int id);
 
+/// A policy as people type it: its number, or its short name in any case, `_` for `-`.
+[[nodiscard]] std::optional<PolicyId> policy_named(std::string_view text);
+
 /// The gentlest braking of policy 0 that can be asked for, as a share of the grip [-]: below it a
 /// stop takes minutes, and slowing is no answer to an emergency. An assumption.
 constexpr double least_strength = 0.2;

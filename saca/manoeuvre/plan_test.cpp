@@ -83,5 +83,17 @@ TEST(Plan, IsToldWithItsSpeedOrStrength) {
   EXPECT_EQ(plan_text(doing_nothing), "7 NI");
 }
 
+TEST(Plan, APolicyIsNamedByItsNumberOrItsShortNameInAnyCase) {
+  for (const PolicyId policy : all_policies) {
+    EXPECT_EQ(policy_named(std::to_string(index(policy))), policy);
+    EXPECT_EQ(policy_named(name(policy)), policy);
+  }
+  EXPECT_EQ(policy_named("aeb"), PolicyId::aeb);
+  EXPECT_EQ(policy_named("es_b-L"), PolicyId::es_b_left);
+  for (const char* wrong : {"", "8", "-1", "00", "AE", "AEBS", "left", "1.0"}) {
+    EXPECT_EQ(policy_named(wrong), std::nullopt) << wrong;
+  }
+}
+
 }  // namespace
 }  // namespace saca::manoeuvre::plan_test

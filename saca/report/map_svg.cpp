@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <span>
 
 #include "saca/core/contract.h"
@@ -23,6 +24,7 @@ constexpr double row_height = 19.0;     // of the legend [px]
 constexpr SvgSize map_size{560.0, 420.0};
 constexpr SvgSize strip_size{560.0, 300.0};
 constexpr double band_height = 26.0;  // of a strip's cells [px]
+constexpr double refusal_row = 12.0;  // below it, for each policy that is refused somewhere [px]
 
 /// Where cells begin and end: half-way between the values; as far beyond the outermost.
 std::vector<double> bounds(const MapAxis& axis) {
@@ -58,6 +60,32 @@ int area_key(const MapCell& cell) {
          : cell.verdict == MapVerdict::no_risk ? 8
                                                : 9;
 }
+
+bool refuses(const MapCell& cell, PolicyId policy) {
+  return cell.verdict != MapVerdict::unplayable && cell.refused.at(manoeuvre::index(policy));
+}
+
+bool refuses_any(const MapCell& cell, std::span<const PolicyId> policies) {
+  return std::any_of(policies.begin(), policies.end(),
+                     [&](PolicyId policy) { return refuses(cell, policy); });
+}
+
+/// Those that are refused in some cell.
+std::vector<PolicyId> refused_somewhere(std::span<const MapCell> cells) {
+  std::vector<PolicyId> found;
+  std::copy_if(manoeuvre::all_policies.begin(), manoeuvre::all_policies.end(),
+               std::back_inserter(found), [&](PolicyId policy) {
+                 return std::any_of(cells.begin(), cells.end(),
+                                    [&](const MapCell& cell) { return refuses(cell, policy); });
+               });
+  return found;
+}
+
+/// What only these pictures have: red lines, sparse, so that what lies below is seen.
+constexpr std::string_view refused_look =
+    "<defs><pattern id=\"saca-refused\" width=\"9\" height=\"9\" patternUnits=\"userSpaceOnUse\" "
+    "patternTransform=\"rotate(-45)\"><rect width=\"1.2\" height=\"9\" fill=\"#c00036\"/></pattern>"
+    "<style>.saca .refused{fill:url(#saca-refused)}</style></defs>\n";
 
 std::string cell_class(const MapCell& cell) {
   switch (cell.verdict) {
@@ -103,6 +131,21 @@ class CellGrid {
       }
     }
     return out + stripes + "</g>\n";
+  }
+
+  /// Over cells in which a policy of these is refused.
+  [[nodiscard]] std::string refusals(std::span<const PolicyId> policies) const {
+    std::string out;
+    for (std::size_t row = 0; row < rows(); ++row) {
+      for (std::size_t from = 0, to = 0; from < columns(); from = to) {
+        const bool refused = refuses_any(at(row, from), policies);
+        while (to < columns() && refuses_any(at(row, to), policies) == refused) {
+          ++to;
+        }
+        out += refused ? block("refused", row, from, to) : "";
+      }
+    }
+    return out.empty() ? "" : "<g shape-rendering=\"crispEdges\">\n" + out + "</g>\n";
   }
 
   /// Lines between areas.
@@ -272,6 +315,22 @@ void add_verdicts(Legend& legend, std::span<const MapCell> cells) {
   }
 }
 
+void add_refusals(Legend& legend, std::span<const MapCell> cells) {
+  const std::vector<PolicyId> refused = refused_somewhere(cells);
+  if (refused.empty()) {
+    return;
+  }
+  legend.gap();
+  legend.heading("refused from there, cells");
+  for (const PolicyId policy : refused) {
+    const auto count = std::count_if(cells.begin(), cells.end(),
+                                     [&](const MapCell& cell) { return refuses(cell, policy); });
+    legend.swatch("refused", false,
+                  fmt::format("{} {}", manoeuvre::index(policy), manoeuvre::name(policy)),
+                  count_words(count, cells.size()));
+  }
+}
+
 void add_margins(Legend& legend) {
   legend.heading("margin in harm over the next");
   const std::array words{fmt::format("below {:g}", margin_steps[0]),
@@ -305,6 +364,12 @@ std::string whole(SvgSize size, std::string_view title, const std::vector<std::s
   return svg_document(size, title,
                       svg_rect("card", {0.5, 0.5}, {size.width - 1.0, size.height - 1.0}) +
                           map_head(title, lines, size.width) + body);
+}
+
+/// Is the scenario as it is among the values that are drawn?
+bool shows_nominal(const MapAxis& axis) {
+  const std::vector<double> edges = bounds(axis);
+  return axis.nominal && *axis.nominal >= edges.front() && *axis.nominal <= edges.back();
 }
 
 /// Where the plot's right neighbour begins.
@@ -361,6 +426,21 @@ double most_harm(const PolicyStrip& strip) {
   return most;
 }
 
+/// Below the band a row for each policy that is refused somewhere, with a bar where it is.
+std::string refusal_rows(const PolicyStrip& strip, const PlotArea& band,
+                         std::span<const PolicyId> refused) {
+  std::string out(refused.empty() ? "" : refused_look);
+  double y = band.at.y + band_height + 2.0;
+  for (const PolicyId& policy : refused) {
+    const PlotArea row{{band.at.x, y}, {band.size.width, refusal_row - 2.0}, band.x, {}};
+    out += CellGrid(strip.cells, row, strip.x, {0.0, 1.0}).refusals({&policy, 1});
+    out += svg_text("soft", {band.at.x - 6.0, y + refusal_row - 3.0}, manoeuvre::name(policy),
+                    Anchor::end);
+    y += refusal_row;
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string map_svg(const PolicyMap& map) {
@@ -372,9 +452,12 @@ std::string map_svg(const PolicyMap& map) {
   add_verdicts(legend, map.cells);
   legend.gap();
   add_margins(legend);
-  std::string body = grid.areas() + grid.outlines() + grid.names();
+  add_refusals(legend, map.cells);
+  const std::vector<PolicyId> refused = refused_somewhere(map.cells);
+  std::string body = (refused.empty() ? "" : std::string(refused_look)) + grid.areas() +
+                     grid.refusals(refused) + grid.outlines() + grid.names();
   body += svg_rect("frame", area.at, area.size) + plot_x_axis(area) + plot_y_axis(area);
-  if (map.x.nominal && map.y.nominal) {
+  if (shows_nominal(map.x) && shows_nominal(map.y)) {
     body += nominal_mark(area.px(*map.x.nominal, *map.y.nominal));
     legend.gap();
     legend.sign(nominal_mark(legend.at() + Vec2{9.0, 0.0}), "the scenario as it is");
@@ -391,14 +474,18 @@ std::string strip_svg(const PolicyStrip& strip) {
                 plot_axis(strip.x),
                 {}};
   const CellGrid grid(strip.cells, band, strip.x, {0.0, 1.0});
-  const PlotArea area{{band.at.x, top + band_height + 10.0},
+  const std::vector<PolicyId> refused = refused_somewhere(strip.cells);
+  const double rows_height = refusal_row * static_cast<double>(refused.size());
+  const PlotArea area{{band.at.x, top + band_height + rows_height + 10.0},
                       strip_size,
                       band.x,
                       {"expected harm", "", 0.0, 1.05 * most_harm(strip)}};
   std::string body = grid.areas() + grid.outlines() + grid.names() +
                      svg_rect("frame", band.at, band.size) + plot_grid(area);
+  body += refusal_rows(strip, band, refused);
   Legend legend({legend_left(area), top + 8.0});
   add_verdicts(legend, strip.cells);
+  add_refusals(legend, strip.cells);
   legend.gap();
   legend.heading("expected harm");
   for (const HarmCurve& one : strip.curves) {
@@ -408,7 +495,7 @@ std::string strip_svg(const PolicyStrip& strip) {
                 fmt::format("{} {}", manoeuvre::index(one.policy), manoeuvre::name(one.policy)));
   }
   body += plot_x_axis(area) + plot_y_axis(area);
-  if (strip.x.nominal) {
+  if (shows_nominal(strip.x)) {
     const double x = area.x_px(*strip.x.nominal);
     body += svg_line("nominal", {x, top - 4.0}, {x, area.at.y + area.size.height});
     const Vec2 at = legend.at() + Vec2{9.0, 0.0};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -14,7 +15,7 @@ struct MapAxis {
   std::string name;
   std::string unit;
   std::vector<double> values;     ///< increasing, at least one
-  std::optional<double> nominal;  ///< where the scenario as it is lies
+  std::optional<double> nominal;  ///< where the scenario as it is lies; drawn where that is inside
 };
 
 /// What is to be said of one combination of parameters.
@@ -28,6 +29,7 @@ struct MapCell {
   MapVerdict verdict = MapVerdict::decided;
   manoeuvre::PolicyId best = manoeuvre::PolicyId::aeb;  ///< of `decided`
   double margin = 0.0;  ///< harm of the second best minus that of the best [-], >= 0
+  std::array<bool, manoeuvre::num_policies> refused{};  ///< cannot be driven from where the car is
 };
 
 /// Margins below which a colour is paler: a step each.
@@ -42,8 +44,8 @@ struct PolicyMap {
   std::vector<MapCell> cells;  ///< (y.values x x.values), row-major
 };
 
-/// Areas in the policies' colours with their names, paler where the margin is small; axes, the
-/// scenario as it is, and a legend with counts.
+/// Areas in the policies' colours with their names, paler where the margin is small; red lines
+/// over cells in which a policy is refused; axes, the scenario as it is, and a legend with counts.
 ///
 /// A cell reaches half-way to its neighbours.
 /// @throws ContractViolation  unless there is one cell for each combination, values increase, and
@@ -67,6 +69,7 @@ struct PolicyStrip {
   std::vector<HarmCurve> curves;
 };
 
+/// Where a policy is refused its curve breaks, and a red bar in a row of its own says so.
 /// @throws ContractViolation  as map_svg, and unless each curve has one number per value
 [[nodiscard]] std::string strip_svg(const PolicyStrip& strip);
 

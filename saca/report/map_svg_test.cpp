@@ -137,6 +137,45 @@ TEST(MapSvg, RefusesWhatDoesNotBelongTogether) {
   EXPECT_THROW((void)map_svg(map), ContractViolation);
 }
 
+// The drifts cannot be driven in the two left columns: 6 of 12 cells each, 1 of them empty.
+TEST(MapSvg, RefusedPoliciesAreDrawnAndCounted) {
+  PolicyMap map = example();
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 2; ++column) {
+      map.cells[4 * row + column].refused[manoeuvre::index(PolicyId::t_drift_left)] = true;
+    }
+  }
+  map.cells[0].refused[manoeuvre::index(PolicyId::t_drift_right)] = true;
+  map.cells[4].verdict = MapVerdict::unplayable;  // where nothing can be said of it
+  const auto all = xml_elements(map_svg(map));
+  double whole = 0.0;
+  for (const XmlElement& one : with_class(all, "rect", "frame")) {
+    whole = std::max(whole, xml_number(one, "width") * xml_number(one, "height"));
+  }
+  const double swatches = 2.0 * 18.0 * 12.0;
+  EXPECT_NEAR((area_of(with_class(all, "rect", "refused")) - swatches) / whole, 5.0 / 12.0, 1e-3);
+  EXPECT_TRUE(says(all, "refused from there, cells"));
+  EXPECT_TRUE(says(all, "5 T-D-L"));
+  EXPECT_TRUE(says(all, "5  (41.7 %)"));
+  EXPECT_TRUE(says(all, "6 T-D-R"));
+  EXPECT_FALSE(says(xml_elements(map_svg(example())), "refused from there, cells"));
+}
+
+// Cells reach half a step beyond the outermost values: x from 9 to 17 m, y from 7.5 to 10.5 m/s.
+TEST(MapSvg, TheMarkIsLeftOutWhereTheScenarioIsOutside) {
+  const auto num_marks = [](double x, double y) {
+    PolicyMap map = example();
+    map.x.nominal = x;
+    map.y.nominal = y;
+    return with_class(xml_elements(map_svg(map)), "circle", "nominal").size();
+  };
+  EXPECT_EQ(num_marks(9.1, 10.4), 2U);
+  EXPECT_EQ(num_marks(8.9, 9.0), 0U);
+  EXPECT_EQ(num_marks(17.1, 9.0), 0U);
+  EXPECT_EQ(num_marks(12.0, 7.4), 0U);
+  EXPECT_EQ(num_marks(12.0, 10.6), 0U);
+}
+
 PolicyStrip strip() {
   PolicyStrip one;
   one.title = "one parameter";
@@ -158,6 +197,18 @@ TEST(StripSvg, CurvesAreInProportionAndBreakWhereRefused) {
   EXPECT_EQ(with_class(all, "polygon", "band p0").size(), 1U);
   EXPECT_EQ(with_class(all, "polyline", "curve l6").size(), 1U);
   EXPECT_EQ(with_class(all, "circle", "dot p6").size(), 1U) << "one value alone is a dot";
+}
+
+TEST(StripSvg, ARefusedPolicyHasABarWhereItIsRefused) {
+  PolicyStrip one = strip();
+  one.cells[1].refused[manoeuvre::index(PolicyId::t_drift_right)] = true;
+  one.x.nominal = 20.0;  // outside 9.5 to 13.5
+  const auto all = xml_elements(strip_svg(one));
+  const auto bars = with_class(all, "rect", "refused");
+  ASSERT_EQ(bars.size(), 2U) << "in its row and in the legend";
+  EXPECT_NEAR(xml_number(bars[0], "width"), 140.0, 0.02);  // one cell of four in 560 px
+  EXPECT_TRUE(says(all, "6 T-D-R"));
+  EXPECT_FALSE(says(all, "the scenario as it is"));
 }
 
 TEST(StripSvg, RefusesWhatDoesNotBelongTogether) {

@@ -20,7 +20,7 @@ def own_car(tmp_path):
     truth = tmp_path / "truth.toml"
     truth.write_text(text.replace("lag_s = 0.06 ", "lag_s = 0.09 ", 1).replace("stiffness = 18.0", "stiffness = 21.0"))
     for kind, speed in ("brake", 12), ("steer", 20):
-        run = saca("vehicle", "test-drive", kind, "--car", truth, "--speed_mps", speed, "--output",
+        run = saca("vehicle", "test-drive", kind, "--car", truth, "--speed-mps", speed, "--output",
                    tmp_path / f"{kind}.csv", cwd=tmp_path)
         assert run.returncode == SUCCESS, run.stderr
     shutil.copy(CAR, tmp_path / "base.toml")
@@ -58,7 +58,7 @@ def test_a_fit_writes_over_its_base_only_by_force_and_over_a_log_never(own_car):
 
 
 def test_a_fitted_car_that_cannot_be_written_leaves_nothing(own_car):
-    assert "nowhere" in one_error(fit("brake.csv", output="nowhere/mine.toml", cwd=own_car), CANNOT_WRITE)
+    assert "brake.csv/mine.toml" in one_error(fit("brake.csv", output="brake.csv/mine.toml", cwd=own_car), CANNOT_WRITE)
 
 
 @pytest.mark.parametrize("spoil, words", [

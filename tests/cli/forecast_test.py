@@ -39,7 +39,7 @@ def test_the_figures_go_into_a_file_too(tmp_path):
 
 
 @pytest.mark.parametrize("arguments, code, words", [
-    (["nosuch"], BAD_INPUT, 'got "nosuch"'),
+    (["nosuch"], BAD_INPUT, "nosuch: no suite or family is called so"),
     (["100car"], BAD_INPUT, "--data: want the folder of the 100-Car study's release"),
     (["head_on", "--split", "test"], BAD_INPUT, "test"),
     (["head_on", "--count", "2", "--output", "/nosuch/f.json"], CANNOT_WRITE, "/nosuch/f.json"),
@@ -53,7 +53,7 @@ def show(tmp_path, *arguments):
 
 
 def test_a_fan_is_drawn_over_what_happened(tmp_path):
-    assert show(tmp_path, "--encounter", "3", "--who", "van1", "--at_s", "4.5").returncode == SUCCESS
+    assert show(tmp_path, "--encounter", "3", "--who", "van1", "--at-s", "4.5").returncode == SUCCESS
     picture = xml.etree.ElementTree.parse(tmp_path / "fan.svg")
     classes = [element.get("class") for element in picture.iter()]
     ways, places = classes.count("fan"), classes.count("fan-place")
@@ -62,8 +62,8 @@ def test_a_fan_is_drawn_over_what_happened(tmp_path):
 
 
 @pytest.mark.parametrize("arguments, words", [
-    (("--encounter", "3", "--who", "tram1", "--at_s", "4.5"), 'head_on 3: want somebody who is perceived at 4.5 s: van1'),
-    (("--encounter", "3", "--who", "van1", "--at_s", "99"), "got 99 s"),
+    (("--encounter", "3", "--who", "tram1", "--at-s", "4.5"), 'head_on 3: want somebody who is perceived at 4.5 s: van1'),
+    (("--encounter", "3", "--who", "van1", "--at-s", "99"), "got 99 s"),
 ])
 def test_a_fan_of_nobody_is_refused(tmp_path, arguments, words):
     assert words in one_error(show(tmp_path, *arguments), BAD_INPUT)

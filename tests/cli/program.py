@@ -8,7 +8,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = str(pathlib.Path(os.environ.get("SACA_PROGRAM", ROOT / "build/release/saca")).resolve())
-SUCCESS, WRONG_COMMAND_LINE, BAD_INPUT, CANNOT_WRITE, NOT_THE_SAME, INTERRUPTED = 0, 2, 3, 4, 6, 130
+SUCCESS, WRONG_COMMAND_LINE, BAD_INPUT, CANNOT_WRITE, NOT_THE_SAME, NOTHING_TO_DECIDE, TOO_SLOW, INTERRUPTED = 0, 2, 3, 4, 6, 7, 8, 130
 
 
 def saca(*arguments, cwd, **options):

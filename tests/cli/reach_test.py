@@ -159,7 +159,7 @@ def test_what_cannot_be_solved_is_said(tiny, tmp_path):
     folder, told = tiny
     name = case(tmp_path, "tiny.toml")
     error = one_error(saca("reach", "solve", "batmobile", cwd=tmp_path), BAD_INPUT)
-    assert "batmobile" in error and "data/reach" in error
+    assert "batmobile" in error and "no case is there" in error
     # Said before it starts.
     error = one_error(saca("reach", "solve", name, "--memory-mib", 0.1, cwd=tmp_path), BAD_INPUT)
     assert f"{NUM_CELLS} cells" in error and "--memory-mib allows" in error
@@ -393,7 +393,7 @@ def test_a_stopped_or_foreign_solution_is_not_compared(tiny, tmp_path):
     ["compare", "a.h5", "--network", "n.npz", "--speed-mps", "nan"], ["solve", "air3d", "--cfl", "0.5x"]])
 def test_what_is_no_number_is_refused(arguments, tmp_path):
     run = saca("reach", *arguments, *(["--output", "a.png"] if arguments[0] == "show" else []), cwd=tmp_path)
-    assert run.returncode == WRONG_COMMAND_LINE and "want a number in [" in run.stderr
+    assert run.returncode == WRONG_COMMAND_LINE and ": want " in run.stderr
     assert list(tmp_path.iterdir()) == []
 
 

@@ -12,7 +12,7 @@ import urllib.request
 import pytest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from program import BAD_INPUT, ROOT, SUCCESS, one_error, saca
+from program import BAD_INPUT, ROOT, SUCCESS, TOO_SLOW, one_error, saca
 
 KEY = "sk-of-this-test"
 # What an untrained model would not keep to by itself: our form of a reply.
@@ -66,7 +66,7 @@ def test_it_answers_in_our_form(server, tmp_path):
 
 def test_no_time_is_no_answer(server, tmp_path):
     run = ask(server, "--deadline-ms", 100, folder=tmp_path)
-    assert "deadline" in one_error(run, BAD_INPUT)
+    assert "deadline" in one_error(run, TOO_SLOW)
 
 
 def test_a_wrong_key_is_told(server, tmp_path):

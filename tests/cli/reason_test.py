@@ -8,7 +8,7 @@ import pytest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from chat_server import server  # noqa: F401, a fixture
-from program import BAD_INPUT, ROOT, SUCCESS, WRONG_COMMAND_LINE, one_error, saca
+from program import BAD_INPUT, ROOT, SUCCESS, TOO_SLOW, WRONG_COMMAND_LINE, one_error, saca
 
 
 def key_of(prompt):
@@ -72,7 +72,7 @@ def test_what_cannot_be_asked_is_refused(replies, tmp_path):
     assert "want a language model to ask, got `off`" in one_error(off, BAD_INPUT)
     assert saca("reason", "intersection_t1", "--deadline-ms", 0, cwd=tmp_path).returncode == WRONG_COMMAND_LINE
     late = saca("reason", "intersection_t1", "--llm", f"replay:{replies}", "--deadline-ms", 20, cwd=tmp_path)
-    assert "replay" in one_error(late, BAD_INPUT)
+    assert "replay" in one_error(late, TOO_SLOW)
 
 
 def test_a_server_can_be_asked(server, tmp_path):

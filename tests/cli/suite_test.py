@@ -100,7 +100,7 @@ def test_a_journal_of_other_work_is_refused(tmp_path):
 
 
 @pytest.mark.parametrize("arguments, code, wanted", [
-    (["suite", "balanced", "--methods", "magic"], WRONG_COMMAND_LINE, 'got "magic"'),
+    (["suite", "balanced", "--methods", "magic"], WRONG_COMMAND_LINE, "no method is called magic"),
     (["suite", "balanced", "--methods", "aeb,aeb"], WRONG_COMMAND_LINE, '"aeb" twice'),
     (["suite", "no_such"], BAD_INPUT, "want one of natural, balanced"),
     (["suite", "cyclist"], BAD_INPUT, "test"),

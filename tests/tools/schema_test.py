@@ -2,6 +2,7 @@
 import copy
 import json
 import pathlib
+import re
 import tomllib
 
 import jsonschema
@@ -121,3 +122,48 @@ def test_a_recording_needs_every_column(column):
     scenario = recorded()
     del scenario["ego"]["recording"][column]
     assert problems(scenario)
+
+
+def kinds_of(schema):
+    """The kind of a value and what it may be, as docs/formats.md writes them."""
+    if "const" in schema or isinstance(schema.get("enum", [0])[0], str):
+        words = schema.get("enum", [schema.get("const")])
+        if isinstance(words[0], str):
+            return "text", ", ".join(f"`{word}`" for word in words)
+        return "number", str(words[0])
+    if "enum" in schema:
+        return "number", ", ".join(map(str, schema["enum"]))
+    if schema["type"] == "array":
+        kind, allowed = kinds_of(schema["items"])
+        return f"list of {kind}s", allowed
+    if schema["type"] == "string":
+        return "text", "lower-case letters, digits, `_`" if "pattern" in schema else "any"
+    if schema["type"] == "boolean":
+        return "boolean", "`true`, `false`"
+    low = f"more than {schema['exclusiveMinimum']}" if "exclusiveMinimum" in schema else f"{schema['minimum']}"
+    return schema["type"], f"{low} to {schema['maximum']}"
+
+
+def keys_of(table, path=""):
+    """Each key with its schema, and whether it may be missing."""
+    for key, schema in table["properties"].items():
+        if schema.get("type") == "object":
+            yield from keys_of(schema, f"{path}{key}.")
+        elif key not in ("actors", "start", "behaviour"):
+            yield f"{path}{key}", schema, key not in table["required"]
+
+
+def test_the_formats_tell_kind_and_range_of_every_key():
+    section = (ROOT / "docs/formats.md").read_text().partition("## Scenario (TOML")[2].partition("\n## ")[0]
+    told = {}
+    for key, behaviours, kind, allowed, meaning in re.findall(r"^\| `([\w.]+)`(?: of ([^|]+))? \| ([^|]+) \| ([^|]+) \| ([^|]*) \|$", section, re.M):
+        for behaviour in re.findall(r"`(\w+)`", behaviours) or ([behaviours] if behaviours else [""]):
+            told[key, behaviour] = kind, allowed, meaning.startswith("may be missing")
+    wanted = {(key, ""): (*kinds_of(schema), may) for key, schema, may in
+              [*keys_of(SCHEMA), *keys_of(SCHEMA["$defs"]["actor"], "actors.")]}
+    for behaviour in ("hold", "constant_velocity", "accelerate", "brake", "lane_change", "follow", "walk"):
+        for key, schema, may in keys_of(SCHEMA["$defs"][behaviour], "actors.start."):
+            everywhere = (key, "all") in told
+            wanted[key, "all" if everywhere else behaviour] = (*kinds_of(schema), may)
+    assert told == wanted
+    assert len(wanted) > 80
