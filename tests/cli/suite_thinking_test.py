@@ -29,7 +29,7 @@ def test_memory_is_asked_and_not_taught(tmp_path):
     told = figures(saca("suite", "balanced", *few, "--threads", 1, "--output", "a.h5", cwd=tmp_path))
     assert memory.read_bytes() == before
     place = "suite.balanced.saca."
-    assert told[place + "memory_hits"] > 0 and told[place + "memory_hit_rate"] == told[place + "memory_hits"] / told[place + "forecasts"]
+    assert told[place + "memory_hits"] > 0 and told[place + "memory_hit_rate"] == pytest.approx(told[place + "memory_hits"] / told[place + "forecasts"])
     assert told[place + "cache_hit_rate"] == told.get(place + "source.memory", 0) / 4
     assert told["suite.balanced.saca_no_memory.memory_hits"] == 0
     assert told["suite.balanced.saca_no_memory.cache_hit_rate"] == 0 and told["suite.balanced.saca_no_memory.source.arbiter"] > 0
