@@ -13,6 +13,7 @@
 #include "saca/core/names.h"
 #include "saca/intent/likely_motions.h"
 #include "saca/intent/line.h"
+#include "saca/sim/motion.h"
 
 namespace saca::eval {
 namespace {
@@ -24,7 +25,8 @@ using world::Scene;
 constexpr std::array<std::string_view, motion_models.size()> model_names{
     "constant_velocity", "constant_turn", "lane_following", "law", "shipped"};
 
-constexpr double least_sd = 0.1;  // [m]: no place is known better, and no density is endless
+constexpr double rounding = 1e-6;  // [s]: times are sums of steps
+constexpr double least_sd = 0.1;   // [m]: no place is known better, and no density is endless
 
 double course_of(const Actor& actor) {
   return std::atan2(actor.v_W.y, actor.v_W.x);
@@ -93,6 +95,24 @@ struct Look {
   intent::Beliefs beliefs;
   Scene truth;
 };
+
+/// Is where it goes known, from the note before to what is forecast, and on the scenario's road?
+bool counts(const loop::Stage& stage, const ForecastWindow& window, const Actor& actor,
+            Vec2 truly_now, double before, double now) {
+  const double s = world::to_lane(stage.scenario->road, {truly_now, 0.0}).s;
+  if (s < -window.lane_behind || s > window.lane_ahead) {
+    return false;
+  }
+  const std::size_t index = actor_index(*stage.scenario, actor);
+  const sim::ScenarioActor& recorded = stage.scenario->actors[index];
+  const auto settled = [&](double time, const Settling& settling) {
+    const double own = sim::own_time(time, stage.chance.actors[index], stage.chance.from);
+    return is_settled(recorded, own, settling);
+  };
+  return settled(before + rounding, {.after_start = 0.0, .before_end = 0.0}) &&
+         settled(now + rounding, window.settling) &&
+         settled(now + forecast_times.back() - rounding, window.settling);
+}
 
 ForecastSample sample_of(const Look& look, std::size_t i,
                          const std::array<Vec2, forecast_times.size()>& truth, Vec2 truly_now,
@@ -190,7 +210,8 @@ double least_mean_miss(const LikelyPlaces& places,
   return least;
 }
 
-Result<std::vector<ForecastSample>> forecast_samples(const loop::Stage& stage) {
+Result<std::vector<ForecastSample>> forecast_samples(const loop::Stage& stage,
+                                                     const ForecastWindow& window) {
   constexpr int looks_per_note = 50;  // 0.5 s
   std::vector<Look> looks;
   loop::ClosedLoop loop(stage);
@@ -208,12 +229,16 @@ Result<std::vector<ForecastSample>> forecast_samples(const loop::Stage& stage) {
   constexpr std::array<std::size_t, forecast_times.size()> after{1, 2, 4, 6};
   for (std::size_t n = 1; n + after.back() < looks.size(); ++n) {
     const Look& look = looks[n];
+    if (look.seen.time < window.from - rounding || look.seen.time > window.until + rounding) {
+      continue;
+    }
     for (std::size_t i = 0; i < look.seen.actors.size(); ++i) {
       const Actor& actor = look.seen.actors[i];
       const auto now = place_of(look.truth, actor);
       const auto before = place_of(looks[n - 1].truth, actor);
       if (actor.kind == world::ActorKind::obstacle || !now || !before ||
-          norm(actor.v_W) < intent::rest_speed) {
+          norm(actor.v_W) < intent::rest_speed ||
+          !counts(stage, window, actor, *now, looks[n - 1].seen.time, look.seen.time)) {
         continue;
       }
       std::array<Vec2, forecast_times.size()> truth{};

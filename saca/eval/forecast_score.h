@@ -2,12 +2,14 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "saca/core/result.h"
+#include "saca/eval/shadow_judge.h"
 #include "saca/intent/observer.h"
 #include "saca/loop/closed_loop.h"
 #include "saca/world/scene.h"
@@ -72,10 +74,23 @@ struct ForecastSample {
   std::array<double, motion_models.size()> mean_miss_of_12{};
 };
 
+/// Which forecasts of an encounter count. As it stands, all.
+struct ForecastWindow {
+  double from = 0.0;                                       ///< when they are made [s]
+  double until = std::numeric_limits<double>::infinity();  ///< likewise, the last [s]
+  /// How far the road of the scenario is the road that was there, behind and ahead of its origin
+  /// along the lane [m]: road users beyond do not count.
+  double lane_behind = std::numeric_limits<double>::infinity();
+  double lane_ahead = std::numeric_limits<double>::infinity();
+  Settling settling{.after_start = 0.0, .before_end = 0.0};  ///< of recorded road users
+};
+
 /// Plays an encounter in which the ego does nothing, and holds forecasts every 0.5 s against what
 /// happens: of each vehicle, cyclist and pedestrian that is perceived, moves, and is there 3 s
-/// later. Forecasts are made from what is perceived and believed, as SACA's are.
+/// later, where it is recorded by its recording. Forecasts are made from what is perceived and
+/// believed, as SACA's are.
 /// @return  what is wrong with the encounter's scenes
-[[nodiscard]] Result<std::vector<ForecastSample>> forecast_samples(const loop::Stage& stage);
+[[nodiscard]] Result<std::vector<ForecastSample>> forecast_samples(
+    const loop::Stage& stage, const ForecastWindow& window = {});
 
 }  // namespace saca::eval

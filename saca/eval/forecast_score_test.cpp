@@ -125,5 +125,41 @@ TEST(ForecastSamples, OfWhoBrakesAct) {
   }
 }
 
+/// The car ahead, recorded for so long at 20 m/s.
+sim::Scenario recorded_for(double seconds) {
+  sim::Scenario scenario = standing_car(20.0, 60.0);
+  scenario.duration = 9.0;
+  sim::Recording samples;
+  for (int k = 0; k <= std::lround(10.0 * seconds); ++k) {
+    samples.push_back({0.1 * k, {{60.0 + 2.0 * k, 0.0}, 0.0}, 20.0, 0.0});
+  }
+  scenario.actors[0].motion = samples;
+  return scenario;
+}
+
+// Beyond a recording's end everybody goes straight on, which nobody has seen: 3 s before it and
+// later nothing is forecast.
+TEST(ForecastSamples, OfWhoIsRecordedEndWithTheRecording) {
+  const sim::Scenario scenario = recorded_for(5.0);
+  const manoeuvre::Car car = manoeuvre::default_car();
+  const outcome::HarmModel harm = shipped_harm();
+  const loop::Stage stage{&scenario, &car, &harm, &intent::shipped_model(), {}, {}};
+  EXPECT_EQ(forecast_samples(stage).value().size(), 4U);  // 0.5 to 2 s
+}
+
+TEST(ForecastSamples, CountWithinTheirWindow) {
+  const sim::Scenario scenario = recorded_for(8.0);
+  const manoeuvre::Car car = manoeuvre::default_car();
+  const outcome::HarmModel harm = shipped_harm();
+  const loop::Stage stage{&scenario, &car, &harm, &intent::shipped_model(), {}, {}};
+  const auto num = [&](const ForecastWindow& window) {
+    return forecast_samples(stage, window).value().size();
+  };
+  EXPECT_EQ(num({}), 10U);                                // 0.5 to 5 s
+  EXPECT_EQ(num({.from = 1.0, .until = 2.0}), 3U);        // 1, 1.5, 2 s
+  EXPECT_EQ(num({.settling = {.before_end = 1.0}}), 8U);  // 0.5 to 4 s
+  EXPECT_EQ(num({.lane_ahead = 60.0 + 2.0 * 15.0}), 3U);  // where it is at 0.5, 1, 1.5 s
+}
+
 }  // namespace
 }  // namespace saca::eval::forecast_score_test
