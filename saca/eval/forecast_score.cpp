@@ -1,15 +1,10 @@
 #include "saca/eval/forecast_score.h"
 
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
-#include <limits>
-#include <numbers>
-#include <numeric>
 #include <optional>
 #include <utility>
 
-#include "saca/core/contract.h"
 #include "saca/core/names.h"
 #include "saca/intent/likely_motions.h"
 #include "saca/intent/line.h"
@@ -26,35 +21,30 @@ constexpr std::array<std::string_view, motion_models.size()> model_names{
     "constant_velocity", "constant_turn", "lane_following", "law", "shipped"};
 
 constexpr double rounding = 1e-6;  // [s]: times are sums of steps
-constexpr double least_sd = 0.1;   // [m]: no place is known better, and no density is endless
 
 double course_of(const Actor& actor) {
   return std::atan2(actor.v_W.y, actor.v_W.x);
 }
 
-/// Where the measured motion leads, and how sure that is.
-LikelyPlace going_on(const Actor& actor, double after, bool turns) {
-  constexpr double unknown_acceleration = 1.0;  // [m/s^2]
-  const double sd = std::hypot(actor.position_sd, actor.velocity_sd * after,
-                               0.5 * unknown_acceleration * after * after);
-  LikelyPlace place{
-      .p_W = actor.X_WA.p + after * actor.v_W, .course = course_of(actor), .spread = {sd, sd}};
-  if (!turns) {
-    return place;
-  }
-  constexpr int num_steps = 50;
-  const double h = after / num_steps;
+/// On along the measured arc, with the measured acceleration until rest.
+LikelyPlaces going_on_the_arc(const Actor& actor) {
+  LikelyPlaces places = going_straight(actor);
   const double speed = norm(actor.v_W);
   const double acceleration = dot(actor.a_W, actor.v_W) / speed;
-  place.p_W = actor.X_WA.p;
-  for (int k = 0; k < num_steps; ++k) {
-    const double t = (k + 0.5) * h;
-    const double course = course_of(actor) + actor.yaw_rate * t;
-    const double now = std::max(0.0, speed + acceleration * t);
-    place.p_W = place.p_W + h * now * Vec2{std::cos(course), std::sin(course)};
+  for (std::size_t i = 0; i < forecast_times.size(); ++i) {
+    constexpr int num_steps = 50;
+    const double h = forecast_times[i] / num_steps;
+    LikelyPlace& place = places[i].front();
+    place.p_W = actor.X_WA.p;
+    for (int k = 0; k < num_steps; ++k) {
+      const double t = (k + 0.5) * h;
+      const double course = course_of(actor) + actor.yaw_rate * t;
+      const double now = std::max(0.0, speed + acceleration * t);
+      place.p_W = place.p_W + h * now * Vec2{std::cos(course), std::sin(course)};
+    }
+    place.course += actor.yaw_rate * forecast_times[i];
   }
-  place.course += actor.yaw_rate * after;
-  return place;
+  return places;
 }
 
 void add(LikelyPlaces& places, const intent::LikelyMotion& motion, const Scene& scene,
@@ -69,15 +59,6 @@ void add(LikelyPlaces& places, const intent::LikelyMotion& motion, const Scene& 
                          norm(way) > 1e-4 ? std::atan2(way.y, way.x) : course_of(actor),
                          spread_at(forecast.spread, time)});
   }
-}
-
-std::vector<std::size_t> likeliest_first(std::span<const LikelyPlace> places) {
-  std::vector<std::size_t> order(places.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return places[a].probability > places[b].probability;
-  });
-  return order;
 }
 
 std::optional<Vec2> place_of(const Scene& scene, const Actor& actor) {
@@ -148,11 +129,9 @@ LikelyPlaces places_of(MotionModel model, const Scene& scene, const Actor& actor
   LikelyPlaces places;
   switch (model) {
     case MotionModel::constant_velocity:
+      return going_straight(actor);
     case MotionModel::constant_turn:
-      for (std::size_t i = 0; i < forecast_times.size(); ++i) {
-        places[i] = {going_on(actor, forecast_times[i], model == MotionModel::constant_turn)};
-      }
-      return places;
+      return going_on_the_arc(actor);
     case MotionModel::lane_following:
       add(places, {1.0, Intention::maintain, std::nullopt}, scene, actor);
       return places;
@@ -170,44 +149,6 @@ LikelyPlaces places_of(MotionModel model, const Scene& scene, const Actor& actor
     add(places, one, scene, actor);
   }
   return places;
-}
-
-PlaceScore score(std::span<const LikelyPlace> places, Vec2 truth) {
-  expects(!places.empty(), "at least one place");
-  const boost::math::normal standard;
-  PlaceScore told{.miss = std::numeric_limits<double>::infinity()};
-  double density = 0.0;
-  for (const LikelyPlace& one : places) {
-    const Vec2 off = rotated(truth - one.p_W, -one.course);
-    const double along_sd = std::max(least_sd, one.spread.along_sd);
-    const double across_sd = std::max(least_sd, one.spread.across_sd);
-    const Vec2 z{off.x / along_sd, off.y / across_sd};
-    density += one.probability * std::exp(-0.5 * dot(z, z)) /
-               (2.0 * std::numbers::pi * along_sd * across_sd);
-    told.pit_along += one.probability * cdf(standard, z.x);
-    told.pit_across += one.probability * cdf(standard, z.y);
-  }
-  told.nll = -std::log(std::max(density, std::numeric_limits<double>::min()));
-  constexpr std::size_t most = 6;
-  const auto order = likeliest_first(places);
-  for (std::size_t k = 0; k < std::min(most, order.size()); ++k) {
-    told.miss = std::min(told.miss, norm(places[order[k]].p_W - truth));
-  }
-  return told;
-}
-
-double least_mean_miss(const LikelyPlaces& places,
-                       const std::array<Vec2, forecast_times.size()>& truth, std::size_t most) {
-  const auto order = likeliest_first(places.front());
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < std::min(most, order.size()); ++k) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < forecast_times.size(); ++i) {
-      sum += norm(places[i][order[k]].p_W - truth[i]);
-    }
-    least = std::min(least, sum / static_cast<double>(forecast_times.size()));
-  }
-  return least;
 }
 
 Result<std::vector<ForecastSample>> forecast_samples(const loop::Stage& stage,

@@ -3,17 +3,16 @@
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "saca/core/result.h"
+#include "saca/eval/likely_places.h"
 #include "saca/eval/shadow_judge.h"
 #include "saca/intent/observer.h"
 #include "saca/loop/closed_loop.h"
 #include "saca/world/scene.h"
-#include "saca/world/track.h"
 
 namespace saca::eval {
 
@@ -30,38 +29,10 @@ constexpr std::array<MotionModel, 5> motion_models{
     MotionModel::law, MotionModel::shipped};
 [[nodiscard]] std::string_view name(MotionModel model);
 
-/// After which places are held against what happened [s].
-constexpr std::array<double, 4> forecast_times{0.5, 1.0, 2.0, 3.0};
-
-/// Somebody is there with this probability, but for a normal error along its course and across.
-struct LikelyPlace {
-  double probability = 1.0;
-  Vec2 p_W;             ///< [m]
-  double course = 0.0;  ///< [rad]
-  world::Spread spread;
-};
-/// At each of forecast_times; the same way on has the same index in each.
-using LikelyPlaces = std::array<std::vector<LikelyPlace>, forecast_times.size()>;
-
-/// What a model says of an actor of the scene. Constant velocity and turn have an error that grows
-/// as 0.5 a t^2, a = 1 m/s^2 along and across, beside that of perception; no error is below 0.1 m.
+/// What a model says of an actor of the scene. Constant turn has the error of constant velocity
+/// (going_straight).
 [[nodiscard]] LikelyPlaces places_of(MotionModel model, const world::Scene& scene,
                                      const world::Actor& actor, const intent::Belief& belief);
-
-/// How well a forecast of one time predicted a place.
-struct PlaceScore {
-  double nll = 0.0;         ///< negative logarithm of the density there [ln m^2]
-  double miss = 0.0;        ///< to the nearest of the six likeliest [m]
-  double pit_along = 0.0;   ///< probability of less far along the course, in [0, 1]
-  double pit_across = 0.0;  ///< of less far to the left of it
-};
-/// @param places  at least one; their probabilities sum to 1
-[[nodiscard]] PlaceScore score(std::span<const LikelyPlace> places, Vec2 truth);
-
-/// Mean distance over forecast_times of the nearest of the `most` likeliest ways on [m].
-[[nodiscard]] double least_mean_miss(const LikelyPlaces& places,
-                                     const std::array<Vec2, forecast_times.size()>& truth,
-                                     std::size_t most);
 
 /// One road user at one instant, and how well each model predicted where it went.
 struct ForecastSample {
