@@ -210,7 +210,9 @@ Result<AllHeard> heard_in_suite(const SuiteCommandOptions& options) {
       return;
     }
     all[i].family = found.value().family;
-    keep(eval::forecast_samples(found.value().stage(encounters.value().inputs)), all[i]);
+    keep(eval::forecast_samples(found.value().stage(encounters.value().inputs),
+                                eval::encounter_seed(options.seed, i)),
+         all[i]);
   });
   return AllHeard{std::move(all), {}};
 }
@@ -256,7 +258,9 @@ Heard heard_in_drive(const eval::TrafficDrive& drive, std::uint64_t number, cons
       .intent = &model,
       .thresholds = {},
       .chance = {.perception = options.exact ? 0 : eval::encounter_seed(options.seed, number)}};
-  keep(eval::forecast_samples(stage, made.value().window), heard);
+  keep(eval::forecast_samples(stage, eval::encounter_seed(options.seed, number),
+                              made.value().window),
+       heard);
   return heard;
 }
 

@@ -5,7 +5,9 @@
 #include <optional>
 #include <utility>
 
+#include "saca/core/contract.h"
 #include "saca/core/names.h"
+#include "saca/eval/particle_filter.h"
 #include "saca/intent/likely_motions.h"
 #include "saca/intent/line.h"
 #include "saca/sim/motion.h"
@@ -18,7 +20,7 @@ using world::Actor;
 using world::Scene;
 
 constexpr std::array<std::string_view, motion_models.size()> model_names{
-    "constant_velocity", "constant_turn", "lane_following", "law", "shipped"};
+    "constant_velocity", "constant_turn", "lane_following", "law", "particle_filter", "shipped"};
 
 constexpr double rounding = 1e-6;  // [s]: times are sums of steps
 
@@ -74,8 +76,18 @@ std::optional<Vec2> place_of(const Scene& scene, const Actor& actor) {
 struct Look {
   Scene seen;
   intent::Beliefs beliefs;
+  std::vector<LikelyPlaces> filtered;  ///< by the particle filter, one per actor of `seen`
   Scene truth;
 };
+
+/// What a model that watches says of everybody.
+std::vector<LikelyPlaces> places_by(const ParticleFilter& filter, const Scene& seen) {
+  std::vector<LikelyPlaces> all;
+  for (const Actor& actor : seen.actors) {
+    all.push_back(filter.places_of(seen, actor));
+  }
+  return all;
+}
 
 /// Is where it goes known, from the note before to what is forecast, and on the scenario's road?
 bool counts(const loop::Stage& stage, const ForecastWindow& window, const Actor& actor,
@@ -107,7 +119,9 @@ ForecastSample sample_of(const Look& look, std::size_t i,
                         .aside = !intent::is_walker(actor.kind) &&
                                  std::abs(intent::line_of(look.seen, actor).lateral) > 0.5};
   for (const MotionModel model : motion_models) {
-    const LikelyPlaces places = places_of(model, look.seen, actor, look.beliefs[i]);
+    const LikelyPlaces places = model == MotionModel::particle_filter
+                                    ? look.filtered[i]
+                                    : places_of(model, look.seen, actor, look.beliefs[i]);
     const auto m = static_cast<std::size_t>(model);
     for (std::size_t k = 0; k < forecast_times.size(); ++k) {
       sample.scores[m][k] = score(places[k], truth[k]);
@@ -142,6 +156,9 @@ LikelyPlaces places_of(MotionModel model, const Scene& scene, const Actor& actor
       }
       return places;
     }
+    case MotionModel::particle_filter:
+      expects(false, "a model that needs one scene only");
+      break;
     case MotionModel::shipped:
       break;
   }
@@ -151,17 +168,20 @@ LikelyPlaces places_of(MotionModel model, const Scene& scene, const Actor& actor
   return places;
 }
 
-Result<std::vector<ForecastSample>> forecast_samples(const loop::Stage& stage,
+Result<std::vector<ForecastSample>> forecast_samples(const loop::Stage& stage, std::uint64_t seed,
                                                      const ForecastWindow& window) {
   constexpr int looks_per_note = 50;  // 0.5 s
   std::vector<Look> looks;
   loop::ClosedLoop loop(stage);
+  ParticleFilter filter(stage.scenario->perception, seed);
   for (int k = 0; !loop.truth().over(); ++k) {
     if (auto problem = loop.look()) {
       return *std::move(problem);
     }
+    filter.look(loop.seen());
     if (k % looks_per_note == 0) {
-      looks.push_back({loop.seen(), loop.beliefs(), loop.truth().whole_scene()});
+      looks.push_back({loop.seen(), loop.beliefs(), places_by(filter, loop.seen()),
+                       loop.truth().whole_scene()});
     }
     loop.advance();
   }

@@ -22,15 +22,18 @@ enum class MotionModel : std::uint8_t {
   constant_turn,      ///< on along the measured arc, with the measured acceleration until rest
   lane_following,     ///< maintaining as intent::motion_under has it
   law,                ///< the intentions that are believed, each as the law has it
+  particle_filter,    ///< drivers who follow others and change lanes (ParticleFilter)
   shipped,            ///< intent::likely_motions: what the forecaster draws from
 };
-constexpr std::array<MotionModel, 5> motion_models{
-    MotionModel::constant_velocity, MotionModel::constant_turn, MotionModel::lane_following,
-    MotionModel::law, MotionModel::shipped};
+constexpr std::array<MotionModel, 6> motion_models{
+    MotionModel::constant_velocity, MotionModel::constant_turn,
+    MotionModel::lane_following,    MotionModel::law,
+    MotionModel::particle_filter,   MotionModel::shipped};
 [[nodiscard]] std::string_view name(MotionModel model);
 
 /// What a model says of an actor of the scene. Constant turn has the error of constant velocity
 /// (going_straight).
+/// @throws ContractViolation  if the model watches road users over time (particle_filter)
 [[nodiscard]] LikelyPlaces places_of(MotionModel model, const world::Scene& scene,
                                      const world::Actor& actor, const intent::Belief& belief);
 
@@ -59,9 +62,10 @@ struct ForecastWindow {
 /// Plays an encounter in which the ego does nothing, and holds forecasts every 0.5 s against what
 /// happens: of each vehicle, cyclist and pedestrian that is perceived, moves, and is there 3 s
 /// later, where it is recorded by its recording. Forecasts are made from what is perceived and
-/// believed, as SACA's are.
+/// believed, as SACA's are; models that watch road users do so from their first appearance on.
+/// @param seed  of what models draw
 /// @return  what is wrong with the encounter's scenes
 [[nodiscard]] Result<std::vector<ForecastSample>> forecast_samples(
-    const loop::Stage& stage, const ForecastWindow& window = {});
+    const loop::Stage& stage, std::uint64_t seed, const ForecastWindow& window = {});
 
 }  // namespace saca::eval

@@ -25,7 +25,7 @@ def test_each_model_has_every_figure_with_its_interval():
     told = figures()
     assert told["forecast.head_on.num_encounters"] == 6 and told["forecast.head_on.num_failed"] == 0
     assert 0 < told["forecast.head_on.num_acting"] < told["forecast.head_on.num_forecasts"]
-    for model in ("constant_velocity", "constant_turn", "lane_following", "law", "shipped"):
+    for model in ("constant_velocity", "constant_turn", "lane_following", "law", "particle_filter", "shipped"):
         for time in ("500ms", "1000ms", "2000ms", "3000ms"):
             place = f"forecast.head_on.all.nll.{time}.{model}"
             assert told[place + ".lo"] <= told[place] <= told[place + ".hi"]
