@@ -63,15 +63,6 @@ void add(LikelyPlaces& places, const intent::LikelyMotion& motion, const Scene& 
   }
 }
 
-std::optional<Vec2> place_of(const Scene& scene, const Actor& actor) {
-  for (const Actor& one : scene.actors) {
-    if (one.kind == actor.kind && one.id == actor.id) {
-      return one.X_WA.p;
-    }
-  }
-  return std::nullopt;
-}
-
 /// What was perceived and believed at one instant.
 struct Look {
   Scene seen;
@@ -87,24 +78,6 @@ std::vector<LikelyPlaces> places_by(const ParticleFilter& filter, const Scene& s
     all.push_back(filter.places_of(seen, actor));
   }
   return all;
-}
-
-/// Is where it goes known, from the note before to what is forecast, and on the scenario's road?
-bool counts(const loop::Stage& stage, const ForecastWindow& window, const Actor& actor,
-            Vec2 truly_now, double before, double now) {
-  const double s = world::to_lane(stage.scenario->road, {truly_now, 0.0}).s;
-  if (s < -window.lane_behind || s > window.lane_ahead) {
-    return false;
-  }
-  const std::size_t index = actor_index(*stage.scenario, actor);
-  const sim::ScenarioActor& recorded = stage.scenario->actors[index];
-  const auto settled = [&](double time, const Settling& settling) {
-    const double own = sim::own_time(time, stage.chance.actors[index], stage.chance.from);
-    return is_settled(recorded, own, settling);
-  };
-  return settled(before + rounding, {.after_start = 0.0, .before_end = 0.0}) &&
-         settled(now + rounding, window.settling) &&
-         settled(now + forecast_times.back() - rounding, window.settling);
 }
 
 ForecastSample sample_of(const Look& look, std::size_t i,
@@ -168,6 +141,35 @@ LikelyPlaces places_of(MotionModel model, const Scene& scene, const Actor& actor
   return places;
 }
 
+std::optional<Vec2> true_place(const Scene& scene, const Actor& actor) {
+  for (const Actor& one : scene.actors) {
+    if (one.kind == actor.kind && one.id == actor.id) {
+      return one.X_WA.p;
+    }
+  }
+  return std::nullopt;
+}
+
+bool can_be_judged(const loop::Stage& stage, const ForecastWindow& window, const Actor& actor,
+                   Vec2 truly_now, double before, double now) {
+  if (now < window.from - rounding || now > window.until + rounding) {
+    return false;
+  }
+  const double s = world::to_lane(stage.scenario->road, {truly_now, 0.0}).s;
+  if (s < -window.lane_behind || s > window.lane_ahead) {
+    return false;
+  }
+  const std::size_t index = actor_index(*stage.scenario, actor);
+  const sim::ScenarioActor& recorded = stage.scenario->actors[index];
+  const auto settled = [&](double time, const Settling& settling) {
+    const double own = sim::own_time(time, stage.chance.actors[index], stage.chance.from);
+    return is_settled(recorded, own, settling);
+  };
+  return settled(before + rounding, {.after_start = 0.0, .before_end = 0.0}) &&
+         settled(now + rounding, window.settling) &&
+         settled(now + forecast_times.back() - rounding, window.settling);
+}
+
 Result<std::vector<ForecastSample>> forecast_samples(const loop::Stage& stage, std::uint64_t seed,
                                                      const ForecastWindow& window) {
   constexpr int looks_per_note = 50;  // 0.5 s
@@ -190,22 +192,19 @@ Result<std::vector<ForecastSample>> forecast_samples(const loop::Stage& stage, s
   constexpr std::array<std::size_t, forecast_times.size()> after{1, 2, 4, 6};
   for (std::size_t n = 1; n + after.back() < looks.size(); ++n) {
     const Look& look = looks[n];
-    if (look.seen.time < window.from - rounding || look.seen.time > window.until + rounding) {
-      continue;
-    }
     for (std::size_t i = 0; i < look.seen.actors.size(); ++i) {
       const Actor& actor = look.seen.actors[i];
-      const auto now = place_of(look.truth, actor);
-      const auto before = place_of(looks[n - 1].truth, actor);
+      const auto now = true_place(look.truth, actor);
+      const auto before = true_place(looks[n - 1].truth, actor);
       if (actor.kind == world::ActorKind::obstacle || !now || !before ||
           norm(actor.v_W) < intent::rest_speed ||
-          !counts(stage, window, actor, *now, looks[n - 1].seen.time, look.seen.time)) {
+          !can_be_judged(stage, window, actor, *now, looks[n - 1].seen.time, look.seen.time)) {
         continue;
       }
       std::array<Vec2, forecast_times.size()> truth{};
       bool stays = true;
       for (std::size_t k = 0; k < after.size(); ++k) {
-        const auto then = place_of(looks[n + after[k]].truth, actor);
+        const auto then = true_place(looks[n + after[k]].truth, actor);
         stays = stays && then.has_value();
         truth[k] = then.value_or(Vec2{});
       }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -58,6 +59,18 @@ struct ForecastWindow {
   double lane_ahead = std::numeric_limits<double>::infinity();
   Settling settling{.after_start = 0.0, .before_end = 0.0};  ///< of recorded road users
 };
+
+/// Where a perceived actor truly is; nullopt: it is not there.
+[[nodiscard]] std::optional<Vec2> true_place(const world::Scene& truth, const world::Actor& actor);
+
+/// Whether a forecast that is made now counts: within the window, of who is on its road, and whose
+/// way from a little before to forecast_times from now is known.
+/// @param truly_now  where it is [m]
+/// @param before     from when on its way must be known [s]
+/// @param now        [s]
+[[nodiscard]] bool can_be_judged(const loop::Stage& stage, const ForecastWindow& window,
+                                 const world::Actor& actor, Vec2 truly_now, double before,
+                                 double now);
 
 /// Plays an encounter in which the ego does nothing, and holds forecasts every 0.5 s against what
 /// happens: of each vehicle, cyclist and pedestrian that is perceived, moves, and is there 3 s
