@@ -194,10 +194,19 @@ void keep(Result<std::vector<ForecastSample>> samples, Heard& heard) {
   }
 }
 
+/// What was learnt of where vehicles go.
+Result<eval::MixtureModel> read_mixture(const Places& places, const std::string& name) {
+  return eval::MixtureModel::read(places.root / "models" / "places" / (name + ".safetensors"));
+}
+
 Result<AllHeard> heard_in_suite(const SuiteCommandOptions& options) {
   const auto encounters = open_encounters(options, "forecast eval");
   if (!encounters.has_value()) {
     return encounters.error();
+  }
+  const auto mixture = read_mixture(encounters.value().inputs.places, "model");
+  if (!mixture.has_value()) {
+    return mixture.error();
   }
   std::vector<Heard> all(static_cast<std::size_t>(encounters.value().count));
   in_parallel(all.size(), options.threads, [&](std::size_t i) {
@@ -210,8 +219,9 @@ Result<AllHeard> heard_in_suite(const SuiteCommandOptions& options) {
       return;
     }
     all[i].family = found.value().family;
-    keep(eval::forecast_samples(found.value().stage(encounters.value().inputs),
-                                eval::encounter_seed(options.seed, i)),
+    keep(eval::forecast_samples(
+             found.value().stage(encounters.value().inputs),
+             {.mixture = &mixture.value(), .seed = eval::encounter_seed(options.seed, i)}),
          all[i]);
   });
   return AllHeard{std::move(all), {}};
@@ -221,28 +231,38 @@ Result<AllHeard> heard_in_suite(const SuiteCommandOptions& options) {
 
 constexpr std::string_view traffic_name = "traffic";
 
-/// The weights of intentions that have not seen a site, by its name.
-using ModelsBySite = std::map<std::string, intent::Model>;
+/// Weights that have not seen a site.
+struct ModelsWithout {
+  intent::Model intent;
+  eval::MixtureModel mixture;
+};
+using ModelsBySite = std::map<std::string, ModelsWithout>;  ///< by its name
 
 Result<ModelsBySite> models_without(const std::vector<eval::TrafficDrive>& drives,
                                     const Places& places) {
   ModelsBySite models;
   for (const eval::TrafficDrive& drive : drives) {
-    if (!models.contains(drive.site)) {
-      auto model = intent::read_model(places.root / "models" / "intent" /
-                                      fmt::format("without_{}.safetensors", drive.site));
-      if (!model.has_value()) {
-        return model.error();
-      }
-      models.emplace(drive.site, std::move(model).value());
+    if (models.contains(drive.site)) {
+      continue;
     }
+    const std::string name = "without_" + drive.site;
+    auto intent = intent::read_model(places.root / "models" / "intent" / (name + ".safetensors"));
+    if (!intent.has_value()) {
+      return intent.error();
+    }
+    auto mixture = read_mixture(places, name);
+    if (!mixture.has_value()) {
+      return mixture.error();
+    }
+    models.emplace(drive.site,
+                   ModelsWithout{std::move(intent).value(), std::move(mixture).value()});
   }
   return models;
 }
 
 /// What a drive tells with nothing left to chance but what perception gets wrong.
 Heard heard_in_drive(const eval::TrafficDrive& drive, std::uint64_t number, const Inputs& inputs,
-                     const intent::Model& model, const SuiteCommandOptions& options) {
+                     const ModelsWithout& models, const SuiteCommandOptions& options) {
   Heard heard{.family = drive.site, .problem = {}, .samples = {}};
   const auto made = eval::played_drive(drive);
   if (!made.has_value()) {
@@ -255,11 +275,12 @@ Heard heard_in_drive(const eval::TrafficDrive& drive, std::uint64_t number, cons
       .scenario = &world,
       .car = &inputs.car,
       .harm = &inputs.harm,
-      .intent = &model,
+      .intent = &models.intent,
       .thresholds = {},
       .chance = {.perception = options.exact ? 0 : eval::encounter_seed(options.seed, number)}};
-  keep(eval::forecast_samples(stage, eval::encounter_seed(options.seed, number),
-                              made.value().window),
+  keep(eval::forecast_samples(
+           stage, {.mixture = &models.mixture, .seed = eval::encounter_seed(options.seed, number)},
+           made.value().window),
        heard);
   return heard;
 }

@@ -20,7 +20,8 @@ using world::Actor;
 using world::Scene;
 
 constexpr std::array<std::string_view, motion_models.size()> model_names{
-    "constant_velocity", "constant_turn", "lane_following", "law", "particle_filter", "shipped"};
+    "constant_velocity", "constant_turn", "lane_following", "law",
+    "particle_filter",   "mixture_lstm",  "shipped"};
 
 constexpr double rounding = 1e-6;  // [s]: times are sums of steps
 
@@ -68,16 +69,28 @@ struct Look {
   Scene seen;
   intent::Beliefs beliefs;
   std::vector<LikelyPlaces> filtered;  ///< by the particle filter, one per actor of `seen`
+  std::vector<LikelyPlaces> learnt;    ///< by the mixture, likewise
   Scene truth;
 };
 
 /// What a model that watches says of everybody.
-std::vector<LikelyPlaces> places_by(const ParticleFilter& filter, const Scene& seen) {
-  std::vector<LikelyPlaces> all;
-  for (const Actor& actor : seen.actors) {
-    all.push_back(filter.places_of(seen, actor));
-  }
+template <class Watcher>
+std::vector<LikelyPlaces> places_by(const Watcher& watcher, const Scene& seen) {
+  std::vector<LikelyPlaces> all(seen.actors.size());
+  std::transform(seen.actors.begin(), seen.actors.end(), all.begin(),
+                 [&](const Actor& actor) { return watcher.places_of(seen, actor); });
   return all;
+}
+
+LikelyPlaces places_in(const Look& look, std::size_t actor, MotionModel model) {
+  switch (model) {
+    case MotionModel::particle_filter:
+      return look.filtered[actor];
+    case MotionModel::mixture_lstm:
+      return look.learnt[actor];
+    default:
+      return places_of(model, look.seen, look.seen.actors[actor], look.beliefs[actor]);
+  }
 }
 
 ForecastSample sample_of(const Look& look, std::size_t i,
@@ -92,9 +105,7 @@ ForecastSample sample_of(const Look& look, std::size_t i,
                         .aside = !intent::is_walker(actor.kind) &&
                                  std::abs(intent::line_of(look.seen, actor).lateral) > 0.5};
   for (const MotionModel model : motion_models) {
-    const LikelyPlaces places = model == MotionModel::particle_filter
-                                    ? look.filtered[i]
-                                    : places_of(model, look.seen, actor, look.beliefs[i]);
+    const LikelyPlaces places = places_in(look, i, model);
     const auto m = static_cast<std::size_t>(model);
     for (std::size_t k = 0; k < forecast_times.size(); ++k) {
       sample.scores[m][k] = score(places[k], truth[k]);
@@ -130,6 +141,7 @@ LikelyPlaces places_of(MotionModel model, const Scene& scene, const Actor& actor
       return places;
     }
     case MotionModel::particle_filter:
+    case MotionModel::mixture_lstm:
       expects(false, "a model that needs one scene only");
       break;
     case MotionModel::shipped:
@@ -170,20 +182,24 @@ bool can_be_judged(const loop::Stage& stage, const ForecastWindow& window, const
          settled(now + forecast_times.back() - rounding, window.settling);
 }
 
-Result<std::vector<ForecastSample>> forecast_samples(const loop::Stage& stage, std::uint64_t seed,
+Result<std::vector<ForecastSample>> forecast_samples(const loop::Stage& stage,
+                                                     const WatchingModels& models,
                                                      const ForecastWindow& window) {
+  expects(models.mixture != nullptr, "a mixture model");
   constexpr int looks_per_note = 50;  // 0.5 s
   std::vector<Look> looks;
   loop::ClosedLoop loop(stage);
-  ParticleFilter filter(stage.scenario->perception, seed);
+  ParticleFilter filter(stage.scenario->perception, models.seed);
+  MixturePredictor learnt(*models.mixture);
   for (int k = 0; !loop.truth().over(); ++k) {
     if (auto problem = loop.look()) {
       return *std::move(problem);
     }
     filter.look(loop.seen());
+    learnt.look(loop.seen());
     if (k % looks_per_note == 0) {
       looks.push_back({loop.seen(), loop.beliefs(), places_by(filter, loop.seen()),
-                       loop.truth().whole_scene()});
+                       places_by(learnt, loop.seen()), loop.truth().whole_scene()});
     }
     loop.advance();
   }

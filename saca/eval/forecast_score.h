@@ -10,6 +10,7 @@
 
 #include "saca/core/result.h"
 #include "saca/eval/likely_places.h"
+#include "saca/eval/mixture_lstm.h"
 #include "saca/eval/shadow_judge.h"
 #include "saca/intent/observer.h"
 #include "saca/loop/closed_loop.h"
@@ -24,17 +25,22 @@ enum class MotionModel : std::uint8_t {
   lane_following,     ///< maintaining as intent::motion_under has it
   law,                ///< the intentions that are believed, each as the law has it
   particle_filter,    ///< drivers who follow others and change lanes (ParticleFilter)
+  mixture_lstm,       ///< what was learnt of where vehicles go (MixtureModel)
   shipped,            ///< intent::likely_motions: what the forecaster draws from
 };
-constexpr std::array<MotionModel, 6> motion_models{
-    MotionModel::constant_velocity, MotionModel::constant_turn,
-    MotionModel::lane_following,    MotionModel::law,
-    MotionModel::particle_filter,   MotionModel::shipped};
+constexpr std::array<MotionModel, 7> motion_models{MotionModel::constant_velocity,
+                                                   MotionModel::constant_turn,
+                                                   MotionModel::lane_following,
+                                                   MotionModel::law,
+                                                   MotionModel::particle_filter,
+                                                   MotionModel::mixture_lstm,
+                                                   MotionModel::shipped};
 [[nodiscard]] std::string_view name(MotionModel model);
 
 /// What a model says of an actor of the scene. Constant turn has the error of constant velocity
 /// (going_straight).
-/// @throws ContractViolation  if the model watches road users over time (particle_filter)
+/// @throws ContractViolation  if the model watches road users over time (particle_filter,
+///                            mixture_lstm)
 [[nodiscard]] LikelyPlaces places_of(MotionModel model, const world::Scene& scene,
                                      const world::Actor& actor, const intent::Belief& belief);
 
@@ -60,6 +66,12 @@ struct ForecastWindow {
   Settling settling{.after_start = 0.0, .before_end = 0.0};  ///< of recorded road users
 };
 
+/// What models that watch road users over time need.
+struct WatchingModels {
+  const MixtureModel* mixture = nullptr;  ///< outlives what uses it
+  std::uint64_t seed = 1;                 ///< of what the particle filter draws
+};
+
 /// Where a perceived actor truly is; nullopt: it is not there.
 [[nodiscard]] std::optional<Vec2> true_place(const world::Scene& truth, const world::Actor& actor);
 
@@ -76,9 +88,9 @@ struct ForecastWindow {
 /// happens: of each vehicle, cyclist and pedestrian that is perceived, moves, and is there 3 s
 /// later, where it is recorded by its recording. Forecasts are made from what is perceived and
 /// believed, as SACA's are; models that watch road users do so from their first appearance on.
-/// @param seed  of what models draw
 /// @return  what is wrong with the encounter's scenes
+/// @throws ContractViolation  if there is no mixture model
 [[nodiscard]] Result<std::vector<ForecastSample>> forecast_samples(
-    const loop::Stage& stage, std::uint64_t seed, const ForecastWindow& window = {});
+    const loop::Stage& stage, const WatchingModels& models, const ForecastWindow& window = {});
 
 }  // namespace saca::eval

@@ -42,16 +42,18 @@ TEST(ForecastSamples, OfWhoGoesOnAreForetoldByAll) {
   const manoeuvre::Car car = manoeuvre::default_car();
   const outcome::HarmModel harm = shipped_harm();
   const loop::Stage stage{&scenario, &car, &harm, &intent::shipped_model(), {}, {}};
-  const auto samples = forecast_samples(stage, 1).value();
+  const auto samples = forecast_samples(stage, shipped_models()).value();
   ASSERT_EQ(samples.size(), 5U);  // 0.5, 1.0, ... 2.5 s; 3 s later it is still there
   for (const ForecastSample& one : samples) {
     EXPECT_EQ(one.who, "car1");
     EXPECT_FALSE(one.acts);
     for (const MotionModel model : motion_models) {
       const PlaceScore& last = one.scores[static_cast<std::size_t>(model)].back();
-      const bool draws = model == MotionModel::particle_filter;
-      EXPECT_LT(last.miss, draws ? 1.0 : 0.1) << name(model);
-      EXPECT_NEAR(last.pit_along, 0.5, draws ? 0.3 : 0.1) << name(model);
+      // What was drawn or learnt is right but for some of what people do within 3 s.
+      const bool is_rough =
+          model == MotionModel::particle_filter || model == MotionModel::mixture_lstm;
+      EXPECT_LT(last.miss, is_rough ? 1.5 : 0.1) << name(model);
+      EXPECT_NEAR(last.pit_along, 0.5, is_rough ? 0.4 : 0.1) << name(model);
     }
   }
 }
@@ -62,7 +64,7 @@ TEST(ForecastSamples, OfWhoBrakesAct) {
   const manoeuvre::Car car = manoeuvre::default_car();
   const outcome::HarmModel harm = shipped_harm();
   const loop::Stage stage{&scenario, &car, &harm, &intent::shipped_model(), {}, {}};
-  for (const ForecastSample& one : forecast_samples(stage, 1).value()) {
+  for (const ForecastSample& one : forecast_samples(stage, shipped_models()).value()) {
     EXPECT_EQ(one.acts, one.time > 0.8) << one.time;
   }
 }
@@ -86,7 +88,7 @@ TEST(ForecastSamples, OfWhoIsRecordedEndWithTheRecording) {
   const manoeuvre::Car car = manoeuvre::default_car();
   const outcome::HarmModel harm = shipped_harm();
   const loop::Stage stage{&scenario, &car, &harm, &intent::shipped_model(), {}, {}};
-  EXPECT_EQ(forecast_samples(stage, 1).value().size(), 4U);  // 0.5 to 2 s
+  EXPECT_EQ(forecast_samples(stage, shipped_models()).value().size(), 4U);  // 0.5 to 2 s
 }
 
 TEST(ForecastSamples, CountWithinTheirWindow) {
@@ -95,7 +97,7 @@ TEST(ForecastSamples, CountWithinTheirWindow) {
   const outcome::HarmModel harm = shipped_harm();
   const loop::Stage stage{&scenario, &car, &harm, &intent::shipped_model(), {}, {}};
   const auto num = [&](const ForecastWindow& window) {
-    return forecast_samples(stage, 1, window).value().size();
+    return forecast_samples(stage, shipped_models(), window).value().size();
   };
   EXPECT_EQ(num({}), 10U);                                // 0.5 to 5 s
   EXPECT_EQ(num({.from = 1.0, .until = 2.0}), 3U);        // 1, 1.5, 2 s

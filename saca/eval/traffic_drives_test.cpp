@@ -124,7 +124,7 @@ TEST_F(TrafficDrives, GiveForecastsOfTheOthersWhereTheyAreKnown) {
     const manoeuvre::Car ego = manoeuvre::default_car();
     const outcome::HarmModel harm = shipped_harm();
     const loop::Stage stage{&played.scenario, &ego, &harm, &intent::shipped_model(), {}, {}};
-    const auto samples = forecast_samples(stage, 1, played.window).value();
+    const auto samples = forecast_samples(stage, shipped_models(), played.window).value();
     ASSERT_EQ(samples.size(), 6U);
     EXPECT_NEAR(samples.front().time, 2.0, 1e-9);
     for (const ForecastSample& one : samples) {

@@ -25,7 +25,7 @@ def test_each_model_has_every_figure_with_its_interval():
     told = figures()
     assert told["forecast.head_on.num_encounters"] == 6 and told["forecast.head_on.num_failed"] == 0
     assert 0 < told["forecast.head_on.num_acting"] < told["forecast.head_on.num_forecasts"]
-    for model in ("constant_velocity", "constant_turn", "lane_following", "law", "particle_filter", "shipped"):
+    for model in ("constant_velocity", "constant_turn", "lane_following", "law", "particle_filter", "mixture_lstm", "shipped"):
         for time in ("500ms", "1000ms", "2000ms", "3000ms"):
             place = f"forecast.head_on.all.nll.{time}.{model}"
             assert told[place + ".lo"] <= told[place] <= told[place + ".hi"]
@@ -42,9 +42,9 @@ def test_the_figures_go_into_a_file_too(tmp_path):
     (["nosuch"], BAD_INPUT, 'got "nosuch"'),
     (["100car"], BAD_INPUT, "--data: want the folder of the 100-Car study's release"),
     (["traffic"], BAD_INPUT, "--data: want folders with CommonRoad files"),
-    (["traffic", "--data", "/nosuch"], BAD_INPUT, "/nosuch"),
+    (["traffic", "--data", "no/such/folder"], BAD_INPUT, "no/such/folder"),
     (["head_on", "--split", "test"], BAD_INPUT, "test"),
-    (["head_on", "--count", "2", "--output", "/nosuch/f.json"], CANNOT_WRITE, "/nosuch/f.json"),
+    (["head_on", "--count", "2", "--output", "no/such/folder/f.json"], CANNOT_WRITE, "no/such/folder/f.json"),
 ])
 def test_bad_input_is_refused_in_one_line(arguments, code, words):
     assert words in one_error(saca("forecast", "eval", *arguments, cwd=ROOT), code)
