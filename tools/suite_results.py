@@ -155,7 +155,8 @@ def tables_section(figures):
     return "\n".join(text)
 
 
-MODELS = ("constant_velocity", "constant_turn", "lane_following", "law", "shipped")  # as saca/eval/forecast_score.cpp has them
+MODELS = ("constant_velocity", "constant_turn", "lane_following", "law", "particle_filter", "mixture_lstm", "shipped")  # as saca/eval/forecast_score.cpp has them
+TIMES = (500, 1000, 2000, 3000)
 GROUPS = (("all", "All road users that move"), ("acting", "Those that act: after 2 s more than 1 m from where they would be, straight on"),
           ("aside", "Vehicles that are seen to move aside by more than 0.5 m/s"))
 SCORES = (("nll", "negative log likelihood, ln m2", 1.0), ("miss_of_6", "least miss of 6, m", 1.0), ("missed", "more than 2 m off, %", 100.0),
@@ -163,28 +164,41 @@ SCORES = (("nll", "negative log likelihood, ln m2", 1.0), ("miss_of_6", "least m
           ("within_50_along", "in the 50 % region along, %", 100.0), ("within_50_across", "likewise across, %", 100.0))
 
 
+def above_shipped(figures, place, models):
+    """By how much the likelihood of each baseline is worse than that of what ships, paired, and whether it is worse than of all of them."""
+    baselines = [model for model in models if f"{place}{TIMES[0]}ms.{model}.above_shipped.lo" in figures]
+    if not baselines:
+        return []
+    lines = []
+    for time in TIMES:
+        keys = [f"{place}{time}ms.{model}.above_shipped" for model in baselines]
+        left = [model for model, key in zip(baselines, keys) if figures[key + ".lo"] <= 0.0]
+        lines.append([f"{time / 1000:g} s", *(interval(figures, key, 3) for key in keys), "yes" if not left else "not than " + ", ".join(f"`{model}`" for model in left)])
+    return ["\nNegative log likelihood above that of `shipped`, paired (above 0: `shipped` is better):\n",
+            table(["", *(f"`{model}`" for model in baselines), "`shipped` is better with intervals that exclude 0"], lines)]
+
+
 def forecast_section(figures, name):
     head = f"forecast.{name}."
     text = [f"## Forecasts `{name}`\n",
             f"{figures[head + 'num_encounters']} encounters, {figures[head + 'num_failed']} could not be played; {figures[head + 'num_forecasts']} forecasts, "
             f"{figures[head + 'num_acting']} of them of road users that act. Means over encounters."]
+    models = [model for model in MODELS if f"{head}all.nll.{TIMES[0]}ms.{model}" in figures]
     for group, words in GROUPS:
         lines = []
         for score, what, factor in SCORES:
-            for time in (500, 1000, 2000, 3000):
-                values = [figures.get(f"{head}{group}.{score}.{time}ms.{model}") for model in MODELS]
-                if None not in values:
-                    digits = 3 if factor == 1.0 else 1
-                    lines.append([f"{what}, {time / 1000:g} s", *(f"{factor * value:.{digits}f}" for value in values),
-                                  interval(figures, f"{head}{group}.{score}.{time}ms.law.above_shipped", 3)])
+            for time in TIMES:
+                keys = [f"{head}{group}.{score}.{time}ms.{model}" for model in models]
+                if all(key in figures for key in keys):
+                    lines.append([f"{what}, {time / 1000:g} s", *(f"{factor * figures[key]:.{3 if factor == 1.0 else 1}f}" for key in keys)])
         if lines:
-            text += [f"\n{words}:\n", table(["", *(f"`{model}`" for model in MODELS), "`law` above `shipped`, paired"], lines)]
+            text += [f"\n{words}:\n", table(["", *(f"`{model}`" for model in models)], lines), *above_shipped(figures, f"{head}{group}.nll.", models)]
     families = sorted({key[len(head):].split(".")[0] for key in figures if key.startswith(head) and ".nll.2000ms." in key} - {group for group, _ in GROUPS})
+    families = [family for family in families if f"{head}{family}.nll.2000ms.shipped" in figures]
     if families:
         text += ["\nNegative log likelihood after 2 s of those that act, by family:\n",
-                 table(["family", *(f"`{model}`" for model in MODELS)],
-                       [[family.removesuffix("_acting"), *(f"{figures[f'{head}{family}.nll.2000ms.{model}']:.3f}" for model in MODELS)] for family in families
-                        if f"{head}{family}.nll.2000ms.{MODELS[0]}" in figures])]
+                 table(["family", *(f"`{model}`" for model in models)],
+                       [[family.removesuffix("_acting"), *(f"{figures[f'{head}{family}.nll.2000ms.{model}']:.3f}" for model in models)] for family in families])]
     return "\n".join(text)
 
 

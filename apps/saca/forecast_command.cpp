@@ -21,6 +21,7 @@
 #include "saca/core/parallel.h"
 #include "saca/eval/forecast_score.h"
 #include "saca/eval/suite_figures.h"
+#include "saca/eval/traffic_drives.h"
 
 namespace saca::app {
 namespace {
@@ -31,11 +32,17 @@ using eval::ForecastSample;
 using eval::MotionModel;
 using nlohmann::json;
 
-/// What an encounter had to say.
+/// What an encounter had to say, or of recorded traffic all drives that share road users.
 struct Heard {
   std::string family;
   std::string problem;
   std::vector<ForecastSample> samples;
+};
+
+/// Of all encounters.
+struct AllHeard {
+  std::vector<Heard> encounters;
+  std::vector<std::string> notes;  ///< on where they come from, in sentences
 };
 
 using Value = double (*)(const ForecastSample& sample, std::size_t model, std::size_t time);
@@ -180,43 +187,175 @@ struct ForecastCommand {
   bool as_json = false;
 };
 
-std::vector<Heard> heard_in(const SuiteEncounters& encounters, const SuiteCommandOptions& options) {
-  std::vector<Heard> all(static_cast<std::size_t>(encounters.count));
+void keep(Result<std::vector<ForecastSample>> samples, Heard& heard) {
+  if (samples.has_value()) {
+    heard.samples = std::move(samples).value();
+  } else {
+    heard.problem = samples.error().message;
+  }
+}
+
+/// What was learnt of where vehicles go.
+Result<eval::MixtureModel> read_mixture(const Places& places, const std::string& name) {
+  return eval::MixtureModel::read(places.root / "models" / "places" / (name + ".safetensors"));
+}
+
+Result<AllHeard> heard_in_suite(const SuiteCommandOptions& options) {
+  const auto encounters = open_encounters(options, "forecast eval");
+  if (!encounters.has_value()) {
+    return encounters.error();
+  }
+  const auto mixture = read_mixture(encounters.value().inputs.places, "model");
+  if (!mixture.has_value()) {
+    return mixture.error();
+  }
+  std::vector<Heard> all(static_cast<std::size_t>(encounters.value().count));
   in_parallel(all.size(), options.threads, [&](std::size_t i) {
     if (interrupted()) {
       return;
     }
-    const auto found = played_encounter(encounters, options, i);
+    const auto found = played_encounter(encounters.value(), options, i);
     if (!found.has_value()) {
       all[i].problem = found.error().message;
       return;
     }
     all[i].family = found.value().family;
-    auto samples = eval::forecast_samples(found.value().stage(encounters.inputs));
-    if (samples.has_value()) {
-      all[i].samples = std::move(samples).value();
-    } else {
-      all[i].problem = samples.error().message;
+    keep(eval::forecast_samples(
+             found.value().stage(encounters.value().inputs),
+             {.mixture = &mixture.value(), .seed = eval::encounter_seed(options.seed, i)}),
+         all[i]);
+  });
+  return AllHeard{std::move(all), {}};
+}
+
+// --- recorded traffic
+
+constexpr std::string_view traffic_name = "traffic";
+
+/// Weights that have not seen a site.
+struct ModelsWithout {
+  intent::Model intent;
+  eval::MixtureModel mixture;
+};
+using ModelsBySite = std::map<std::string, ModelsWithout>;  ///< by its name
+
+Result<ModelsBySite> models_without(const std::vector<eval::TrafficDrive>& drives,
+                                    const Places& places) {
+  ModelsBySite models;
+  for (const eval::TrafficDrive& drive : drives) {
+    if (models.contains(drive.site)) {
+      continue;
+    }
+    const std::string name = "without_" + drive.site;
+    auto intent = intent::read_model(places.root / "models" / "intent" / (name + ".safetensors"));
+    if (!intent.has_value()) {
+      return intent.error();
+    }
+    auto mixture = read_mixture(places, name);
+    if (!mixture.has_value()) {
+      return mixture.error();
+    }
+    models.emplace(drive.site,
+                   ModelsWithout{std::move(intent).value(), std::move(mixture).value()});
+  }
+  return models;
+}
+
+/// What a drive tells with nothing left to chance but what perception gets wrong.
+Heard heard_in_drive(const eval::TrafficDrive& drive, std::uint64_t number, const Inputs& inputs,
+                     const ModelsWithout& models, const SuiteCommandOptions& options) {
+  Heard heard{.family = drive.site, .problem = {}, .samples = {}};
+  const auto made = eval::played_drive(drive);
+  if (!made.has_value()) {
+    heard.problem = made.error().message;
+    return heard;
+  }
+  const eval::SuiteOptions as_suite{.methods = {}, .seed = options.seed, .exact = options.exact};
+  const sim::Scenario world = eval::as_played(made.value().scenario, as_suite);
+  const loop::Stage stage{
+      .scenario = &world,
+      .car = &inputs.car,
+      .harm = &inputs.harm,
+      .intent = &models.intent,
+      .thresholds = {},
+      .chance = {.perception = options.exact ? 0 : eval::encounter_seed(options.seed, number)}};
+  keep(eval::forecast_samples(
+           stage, {.mixture = &models.mixture, .seed = eval::encounter_seed(options.seed, number)},
+           made.value().window),
+       heard);
+  return heard;
+}
+
+/// Drives of one group have road users in common: they count as one encounter.
+AllHeard by_group(const eval::FoundDrives& found, std::vector<Heard> drives) {
+  std::map<std::pair<std::string, std::string>, Heard> groups;
+  std::size_t num_left_out = 0;
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    if (drives[i].samples.empty()) {
+      ++num_left_out;
+      continue;
+    }
+    Heard& group = groups[{drives[i].family, found.drives[i].group}];
+    group.family = drives[i].family;
+    std::move(drives[i].samples.begin(), drives[i].samples.end(),
+              std::back_inserter(group.samples));
+  }
+  AllHeard all{.encounters = {}, .notes = found.notes};
+  for (auto& [key, group] : groups) {
+    all.encounters.push_back(std::move(group));
+  }
+  all.notes.push_back(fmt::format(
+      "{} drives in {} groups that share no road user; {} more gave nothing to hold a forecast "
+      "against.",
+      drives.size() - num_left_out, groups.size(), num_left_out));
+  return all;
+}
+
+Result<AllHeard> heard_in_traffic(const SuiteCommandOptions& options) {
+  if (options.data.empty()) {
+    return Error{Error::Code::out_of_range,
+                 "--data: want folders with CommonRoad files (*.xml), got none"};
+  }
+  const auto inputs = read_inputs(options.car);
+  if (!inputs.has_value()) {
+    return inputs.error();
+  }
+  const auto found = eval::traffic_drives({options.data.begin(), options.data.end()},
+                                          static_cast<std::size_t>(options.count), options.seed,
+                                          [] { return !interrupted(); });
+  if (!found.has_value()) {
+    return found.error();
+  }
+  const std::vector<eval::TrafficDrive>& drives = found.value().drives;
+  const auto models = models_without(drives, inputs.value().places);
+  if (!models.has_value()) {
+    return models.error();
+  }
+  std::vector<Heard> all(drives.size());
+  in_parallel(all.size(), options.threads, [&](std::size_t i) {
+    if (!interrupted()) {
+      all[i] =
+          heard_in_drive(drives[i], i, inputs.value(), models.value().at(drives[i].site), options);
     }
   });
-  return all;
+  return by_group(found.value(), std::move(all));
 }
 
 int run(const ForecastCommand& options) {
   const SuiteCommandOptions& from = options.from;
-  const auto encounters = open_encounters(from, "forecast eval");
-  if (!encounters.has_value()) {
-    return refused(encounters.error());
-  }
   if (const auto problem = why_outputs_unwritable({from.output})) {
     return refused(*problem);
   }
   watch_for_interrupt();
-  const std::vector<Heard> all = heard_in(encounters.value(), from);
+  const auto found = from.name == traffic_name ? heard_in_traffic(from) : heard_in_suite(from);
   if (interrupted()) {
     complain("interrupted; nothing was kept: the same command begins anew");
     return was_interrupted;
   }
+  if (!found.has_value()) {
+    return refused(found.error());
+  }
+  const std::vector<Heard>& all = found.value().encounters;
   std::map<std::string, int> families;
   std::size_t num_samples = 0;
   std::size_t num_acting = 0;
@@ -257,6 +396,9 @@ int run(const ForecastCommand& options) {
   if (!options.as_json) {
     app::print("{}: {} encounters, {} forecasts, {} of them of road users that act\n", from.name,
                all.size(), num_samples, num_acting);
+    for (const std::string& note : found.value().notes) {
+      app::print("{}\n", note);
+    }
   }
   for (const Group& group : groups) {
     const auto lines = lines_of(all, group, from.seed);
@@ -283,6 +425,12 @@ void add_forecast_eval(CLI::App& forecast, int& exit_code) {
   const auto options = std::make_shared<ForecastCommand>();
   SuiteCommandOptions& from = options->from;
   add_encounter_options(*command, from);
+  command->get_option("name")->description(
+      "A suite (natural, balanced), a family, a folder of scenarios, 100car, or traffic: others "
+      "around recorded cars, judged by intentions that have not seen the site");
+  command->get_option("--data")->description(
+      "Of 100car the folder of the study's release; of traffic folders with CommonRoad files, of "
+      "each site at most --count drives");
   command->add_option("--output", from.output, "The figures as JSON, besides");
   command->add_option("--threads", from.threads, "They do not change the result")
       ->check(CLI::Range(1, 256))

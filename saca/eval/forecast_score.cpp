@@ -1,18 +1,16 @@
 #include "saca/eval/forecast_score.h"
 
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
-#include <limits>
-#include <numbers>
-#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "saca/core/contract.h"
 #include "saca/core/names.h"
+#include "saca/eval/particle_filter.h"
 #include "saca/intent/likely_motions.h"
 #include "saca/intent/line.h"
+#include "saca/sim/motion.h"
 
 namespace saca::eval {
 namespace {
@@ -22,37 +20,34 @@ using world::Actor;
 using world::Scene;
 
 constexpr std::array<std::string_view, motion_models.size()> model_names{
-    "constant_velocity", "constant_turn", "lane_following", "law", "shipped"};
+    "constant_velocity", "constant_turn", "lane_following", "law",
+    "particle_filter",   "mixture_lstm",  "shipped"};
 
-constexpr double least_sd = 0.1;  // [m]: no place is known better, and no density is endless
+constexpr double rounding = 1e-6;  // [s]: times are sums of steps
 
 double course_of(const Actor& actor) {
   return std::atan2(actor.v_W.y, actor.v_W.x);
 }
 
-/// Where the measured motion leads, and how sure that is.
-LikelyPlace going_on(const Actor& actor, double after, bool turns) {
-  constexpr double unknown_acceleration = 1.0;  // [m/s^2]
-  const double sd = std::hypot(actor.position_sd, actor.velocity_sd * after,
-                               0.5 * unknown_acceleration * after * after);
-  LikelyPlace place{
-      .p_W = actor.X_WA.p + after * actor.v_W, .course = course_of(actor), .spread = {sd, sd}};
-  if (!turns) {
-    return place;
-  }
-  constexpr int num_steps = 50;
-  const double h = after / num_steps;
+/// On along the measured arc, with the measured acceleration until rest.
+LikelyPlaces going_on_the_arc(const Actor& actor) {
+  LikelyPlaces places = going_straight(actor);
   const double speed = norm(actor.v_W);
   const double acceleration = dot(actor.a_W, actor.v_W) / speed;
-  place.p_W = actor.X_WA.p;
-  for (int k = 0; k < num_steps; ++k) {
-    const double t = (k + 0.5) * h;
-    const double course = course_of(actor) + actor.yaw_rate * t;
-    const double now = std::max(0.0, speed + acceleration * t);
-    place.p_W = place.p_W + h * now * Vec2{std::cos(course), std::sin(course)};
+  for (std::size_t i = 0; i < forecast_times.size(); ++i) {
+    constexpr int num_steps = 50;
+    const double h = forecast_times[i] / num_steps;
+    LikelyPlace& place = places[i].front();
+    place.p_W = actor.X_WA.p;
+    for (int k = 0; k < num_steps; ++k) {
+      const double t = (k + 0.5) * h;
+      const double course = course_of(actor) + actor.yaw_rate * t;
+      const double now = std::max(0.0, speed + acceleration * t);
+      place.p_W = place.p_W + h * now * Vec2{std::cos(course), std::sin(course)};
+    }
+    place.course += actor.yaw_rate * forecast_times[i];
   }
-  place.course += actor.yaw_rate * after;
-  return place;
+  return places;
 }
 
 void add(LikelyPlaces& places, const intent::LikelyMotion& motion, const Scene& scene,
@@ -69,30 +64,34 @@ void add(LikelyPlaces& places, const intent::LikelyMotion& motion, const Scene& 
   }
 }
 
-std::vector<std::size_t> likeliest_first(std::span<const LikelyPlace> places) {
-  std::vector<std::size_t> order(places.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return places[a].probability > places[b].probability;
-  });
-  return order;
-}
-
-std::optional<Vec2> place_of(const Scene& scene, const Actor& actor) {
-  for (const Actor& one : scene.actors) {
-    if (one.kind == actor.kind && one.id == actor.id) {
-      return one.X_WA.p;
-    }
-  }
-  return std::nullopt;
-}
-
 /// What was perceived and believed at one instant.
 struct Look {
   Scene seen;
   intent::Beliefs beliefs;
+  std::vector<LikelyPlaces> filtered;  ///< by the particle filter, one per actor of `seen`
+  std::vector<LikelyPlaces> learnt;    ///< by the mixture, likewise
   Scene truth;
 };
+
+/// What a model that watches says of everybody.
+template <class Watcher>
+std::vector<LikelyPlaces> places_by(const Watcher& watcher, const Scene& seen) {
+  std::vector<LikelyPlaces> all(seen.actors.size());
+  std::transform(seen.actors.begin(), seen.actors.end(), all.begin(),
+                 [&](const Actor& actor) { return watcher.places_of(seen, actor); });
+  return all;
+}
+
+LikelyPlaces places_in(const Look& look, std::size_t actor, MotionModel model) {
+  switch (model) {
+    case MotionModel::particle_filter:
+      return look.filtered[actor];
+    case MotionModel::mixture_lstm:
+      return look.learnt[actor];
+    default:
+      return places_of(model, look.seen, look.seen.actors[actor], look.beliefs[actor]);
+  }
+}
 
 ForecastSample sample_of(const Look& look, std::size_t i,
                          const std::array<Vec2, forecast_times.size()>& truth, Vec2 truly_now,
@@ -106,7 +105,7 @@ ForecastSample sample_of(const Look& look, std::size_t i,
                         .aside = !intent::is_walker(actor.kind) &&
                                  std::abs(intent::line_of(look.seen, actor).lateral) > 0.5};
   for (const MotionModel model : motion_models) {
-    const LikelyPlaces places = places_of(model, look.seen, actor, look.beliefs[i]);
+    const LikelyPlaces places = places_in(look, i, model);
     const auto m = static_cast<std::size_t>(model);
     for (std::size_t k = 0; k < forecast_times.size(); ++k) {
       sample.scores[m][k] = score(places[k], truth[k]);
@@ -128,11 +127,9 @@ LikelyPlaces places_of(MotionModel model, const Scene& scene, const Actor& actor
   LikelyPlaces places;
   switch (model) {
     case MotionModel::constant_velocity:
+      return going_straight(actor);
     case MotionModel::constant_turn:
-      for (std::size_t i = 0; i < forecast_times.size(); ++i) {
-        places[i] = {going_on(actor, forecast_times[i], model == MotionModel::constant_turn)};
-      }
-      return places;
+      return going_on_the_arc(actor);
     case MotionModel::lane_following:
       add(places, {1.0, Intention::maintain, std::nullopt}, scene, actor);
       return places;
@@ -143,6 +140,10 @@ LikelyPlaces places_of(MotionModel model, const Scene& scene, const Actor& actor
       }
       return places;
     }
+    case MotionModel::particle_filter:
+    case MotionModel::mixture_lstm:
+      expects(false, "a model that needs one scene only");
+      break;
     case MotionModel::shipped:
       break;
   }
@@ -152,54 +153,53 @@ LikelyPlaces places_of(MotionModel model, const Scene& scene, const Actor& actor
   return places;
 }
 
-PlaceScore score(std::span<const LikelyPlace> places, Vec2 truth) {
-  expects(!places.empty(), "at least one place");
-  const boost::math::normal standard;
-  PlaceScore told{.miss = std::numeric_limits<double>::infinity()};
-  double density = 0.0;
-  for (const LikelyPlace& one : places) {
-    const Vec2 off = rotated(truth - one.p_W, -one.course);
-    const double along_sd = std::max(least_sd, one.spread.along_sd);
-    const double across_sd = std::max(least_sd, one.spread.across_sd);
-    const Vec2 z{off.x / along_sd, off.y / across_sd};
-    density += one.probability * std::exp(-0.5 * dot(z, z)) /
-               (2.0 * std::numbers::pi * along_sd * across_sd);
-    told.pit_along += one.probability * cdf(standard, z.x);
-    told.pit_across += one.probability * cdf(standard, z.y);
-  }
-  told.nll = -std::log(std::max(density, std::numeric_limits<double>::min()));
-  constexpr std::size_t most = 6;
-  const auto order = likeliest_first(places);
-  for (std::size_t k = 0; k < std::min(most, order.size()); ++k) {
-    told.miss = std::min(told.miss, norm(places[order[k]].p_W - truth));
-  }
-  return told;
-}
-
-double least_mean_miss(const LikelyPlaces& places,
-                       const std::array<Vec2, forecast_times.size()>& truth, std::size_t most) {
-  const auto order = likeliest_first(places.front());
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < std::min(most, order.size()); ++k) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < forecast_times.size(); ++i) {
-      sum += norm(places[i][order[k]].p_W - truth[i]);
+std::optional<Vec2> true_place(const Scene& scene, const Actor& actor) {
+  for (const Actor& one : scene.actors) {
+    if (one.kind == actor.kind && one.id == actor.id) {
+      return one.X_WA.p;
     }
-    least = std::min(least, sum / static_cast<double>(forecast_times.size()));
   }
-  return least;
+  return std::nullopt;
 }
 
-Result<std::vector<ForecastSample>> forecast_samples(const loop::Stage& stage) {
+bool can_be_judged(const loop::Stage& stage, const ForecastWindow& window, const Actor& actor,
+                   Vec2 truly_now, double before, double now) {
+  if (now < window.from - rounding || now > window.until + rounding) {
+    return false;
+  }
+  const double s = world::to_lane(stage.scenario->road, {truly_now, 0.0}).s;
+  if (s < -window.lane_behind || s > window.lane_ahead) {
+    return false;
+  }
+  const std::size_t index = actor_index(*stage.scenario, actor);
+  const sim::ScenarioActor& recorded = stage.scenario->actors[index];
+  const auto settled = [&](double time, const Settling& settling) {
+    const double own = sim::own_time(time, stage.chance.actors[index], stage.chance.from);
+    return is_settled(recorded, own, settling);
+  };
+  return settled(before + rounding, {.after_start = 0.0, .before_end = 0.0}) &&
+         settled(now + rounding, window.settling) &&
+         settled(now + forecast_times.back() - rounding, window.settling);
+}
+
+Result<std::vector<ForecastSample>> forecast_samples(const loop::Stage& stage,
+                                                     const WatchingModels& models,
+                                                     const ForecastWindow& window) {
+  expects(models.mixture != nullptr, "a mixture model");
   constexpr int looks_per_note = 50;  // 0.5 s
   std::vector<Look> looks;
   loop::ClosedLoop loop(stage);
+  ParticleFilter filter(stage.scenario->perception, models.seed);
+  MixturePredictor learnt(*models.mixture);
   for (int k = 0; !loop.truth().over(); ++k) {
     if (auto problem = loop.look()) {
       return *std::move(problem);
     }
+    filter.look(loop.seen());
+    learnt.look(loop.seen());
     if (k % looks_per_note == 0) {
-      looks.push_back({loop.seen(), loop.beliefs(), loop.truth().whole_scene()});
+      looks.push_back({loop.seen(), loop.beliefs(), places_by(filter, loop.seen()),
+                       places_by(learnt, loop.seen()), loop.truth().whole_scene()});
     }
     loop.advance();
   }
@@ -210,16 +210,17 @@ Result<std::vector<ForecastSample>> forecast_samples(const loop::Stage& stage) {
     const Look& look = looks[n];
     for (std::size_t i = 0; i < look.seen.actors.size(); ++i) {
       const Actor& actor = look.seen.actors[i];
-      const auto now = place_of(look.truth, actor);
-      const auto before = place_of(looks[n - 1].truth, actor);
+      const auto now = true_place(look.truth, actor);
+      const auto before = true_place(looks[n - 1].truth, actor);
       if (actor.kind == world::ActorKind::obstacle || !now || !before ||
-          norm(actor.v_W) < intent::rest_speed) {
+          norm(actor.v_W) < intent::rest_speed ||
+          !can_be_judged(stage, window, actor, *now, looks[n - 1].seen.time, look.seen.time)) {
         continue;
       }
       std::array<Vec2, forecast_times.size()> truth{};
       bool stays = true;
       for (std::size_t k = 0; k < after.size(); ++k) {
-        const auto then = place_of(looks[n + after[k]].truth, actor);
+        const auto then = true_place(looks[n + after[k]].truth, actor);
         stays = stays && then.has_value();
         truth[k] = then.value_or(Vec2{});
       }

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "saca/eval/forecast_score.h"
 #include "saca/intent/shipped_model.h"
 #include "saca/loop/method.h"
 #include "saca/manoeuvre/default_car.h"
@@ -18,6 +19,12 @@ inline outcome::HarmModel shipped_harm() {
 
 inline sim::Scenario shipped_scenario(const std::string& name) {
   return sim::load_scenario("scenarios/" + name + ".toml").value();
+}
+
+/// With the weights that are shipped.
+inline WatchingModels shipped_models() {
+  static const MixtureModel mixture = MixtureModel::read("models/places/model.safetensors").value();
+  return {.mixture = &mixture, .seed = 1};
 }
 
 /// A wide straight road, dry, with a car standing `distance` ahead of the ego's front.

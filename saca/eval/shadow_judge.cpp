@@ -179,16 +179,6 @@ Nearest nearest_of(const sim::Scenario& scenario, const Judged& judged, double t
   return nearest;
 }
 
-bool is_settled(const sim::ScenarioActor& actor, double time, const Settling& settling) {
-  const auto* recording = std::get_if<sim::Recording>(&actor.motion);
-  if (recording == nullptr) {
-    return true;
-  }
-  const double first = recording->front().time;
-  return (first <= 0.0 || time - first >= settling.after_start) &&
-         recording->back().time - time >= settling.before_end;
-}
-
 ShadowReason reason_of_judgement(const ShadowJudgement& told, bool settled, bool crash) {
   if (told.driver_deceleration >= hard_braking) {
     return ShadowReason::driver_braked;
@@ -211,6 +201,16 @@ ShadowReason reason_of_judgement(const ShadowJudgement& told, bool settled, bool
 }
 
 }  // namespace
+
+bool is_settled(const sim::ScenarioActor& actor, double time, const Settling& settling) {
+  const auto* recording = std::get_if<sim::Recording>(&actor.motion);
+  if (recording == nullptr) {
+    return true;
+  }
+  const double first = recording->front().time;
+  return (first <= 0.0 || time - first >= settling.after_start) &&
+         recording->back().time - time >= settling.before_end;
+}
 
 std::string_view name(ShadowReason reason) {
   return words_of(reason).name;

@@ -20,6 +20,12 @@ struct Settling {
   double before_end = 1.2;  ///< until the last [s], >= 0
 };
 
+/// Is what an actor does at this instant known so well? Who has no recording always is; who is
+/// recorded from the scenario's beginning on was recorded before it.
+/// @param time  of the actor's own [s] (sim::own_time)
+[[nodiscard]] bool is_settled(const sim::ScenarioActor& actor, double time,
+                              const Settling& settling);
+
 /// Which part of a recorded drive counts.
 struct ShadowWindow {
   double from = 0.0;            ///< [s]; before, SACA looks on but nothing counts

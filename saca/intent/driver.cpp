@@ -16,16 +16,6 @@ constexpr double slope_time = 0.2;          // [s], assumption: to see that some
 constexpr double most_deceleration = 10.0;  // [m/s^2]: no vehicle brakes harder
 constexpr double least_counted_gap = 0.01;  // [m]: nearer is as near
 
-/// The model's acceleration [m/s^2].
-double wanted_acceleration(const DriverLaw& law, double speed, const Ahead& ahead) {
-  const double braking_way =
-      speed * (speed - ahead.speed) / (2.0 * std::sqrt(law.acceleration * law.comfortable));
-  const double wanted_gap = law.least_gap + std::max(0.0, speed * law.time_gap + braking_way);
-  const double share = wanted_gap / std::max(ahead.gap, least_counted_gap);
-  return law.acceleration *
-         (1.0 - std::pow(speed / law.desired_speed, acceleration_exponent) - share * share);
-}
-
 bool is_valid(const DriverLaw& law) {
   return std::isfinite(law.desired_speed) && law.desired_speed > 0.0 &&
          std::isfinite(law.time_gap) && law.time_gap >= 0.0 && std::isfinite(law.least_gap) &&
@@ -35,6 +25,15 @@ bool is_valid(const DriverLaw& law) {
 }
 
 }  // namespace
+
+double idm_acceleration(const DriverLaw& law, double speed, const Ahead& ahead) {
+  const double braking_way =
+      speed * (speed - ahead.speed) / (2.0 * std::sqrt(law.acceleration * law.comfortable));
+  const double wanted_gap = law.least_gap + std::max(0.0, speed * law.time_gap + braking_way);
+  const double share = wanted_gap / std::max(ahead.gap, least_counted_gap);
+  return law.acceleration *
+         (1.0 - std::pow(speed / law.desired_speed, acceleration_exponent) - share * share);
+}
 
 DriverLaw content_with(DriverLaw law, double speed, double gap) {
   expects(speed >= 0.0, "speed >= 0");
@@ -86,8 +85,8 @@ double Driver::advance(const Ahead& ahead) {
     return speed_ * step_;
   }
   const double most = from_g(grip_);
-  const double acceleration = std::clamp(wanted_acceleration(law_, speed_, remembered()),
-                                         -std::min(law_.hardest, most), most);
+  const double acceleration =
+      std::clamp(idm_acceleration(law_, speed_, remembered()), -std::min(law_.hardest, most), most);
   const double before = speed_;
   speed_ = std::max(0.0, before + acceleration * step_);
   const double way = speed_ > 0.0 || acceleration >= 0.0 ? 0.5 * (before + speed_) * step_

@@ -58,6 +58,11 @@ struct Ahead {
   double speed = 0.0;                                    ///< along the driver's lane [m/s]
 };
 
+/// The model's acceleration of who acts at once on what is ahead [m/s^2]: eq. (3) of the source
+/// above. Neither grip nor `hardest` bounds it.
+/// @param speed  [m/s], >= 0
+[[nodiscard]] double idm_acceleration(const DriverLaw& law, double speed, const Ahead& ahead);
+
 /// One driver along a line: speed and memory of what it saw.
 ///
 /// It knows its own motion now, and the others' as they were `reaction` ago, carried on: the

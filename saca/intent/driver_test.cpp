@@ -49,6 +49,20 @@ TEST(Driver, SettlesAtTheEquilibriumGap) {
   }
 }
 
+TEST(Driver, ModelAcceleratesAsItsEquationHasIt) {
+  const DriverLaw law = usual_driver(20.0);
+  EXPECT_NEAR(idm_acceleration(law, 0.0, {}), law.acceleration, 1e-12);   // from rest
+  EXPECT_NEAR(idm_acceleration(law, law.desired_speed, {}), 0.0, 1e-12);  // free road
+  const double gap = equilibrium_gap(law, 20.0);
+  EXPECT_NEAR(idm_acceleration(law, 20.0, {gap, 20.0}), 0.0, 1e-12);
+  // Towards who stands, far too near: the term v dv / (2 sqrt(a b)) of the wanted gap prevails.
+  const double wanted = law.least_gap + 20.0 * law.time_gap +
+                        400.0 / (2.0 * std::sqrt(law.acceleration * law.comfortable));
+  const double free = law.acceleration * (1.0 - std::pow(20.0 / law.desired_speed, 4.0));
+  EXPECT_NEAR(idm_acceleration(law, 20.0, {30.0, 0.0}),
+              free - law.acceleration * std::pow(wanted / 30.0, 2.0), 1e-12);
+}
+
 TEST(Driver, ReachesItsDesiredSpeedOnAFreeRoad) {
   const DriverLaw law = usual_driver(20.0);
   Driver driver(law, 20.0, dry, step);

@@ -14,7 +14,7 @@ constexpr double largest_score = 20.0;  // of an emission: no class is ever excl
 
 using Pack = xsimd::batch<float>;
 
-static_assert(Network::width % Pack::size == 0);
+static_assert(Encoder::width % Pack::size == 0);
 
 template <class Function, std::size_t size>
 void for_each_pack(std::array<float, size>& x, Function&& function) {
@@ -33,9 +33,9 @@ Scores mirrored(const Scores& scores) {
   return {scores[0], scores[2], scores[1], scores[3], scores[5], scores[4]};
 }
 
-Result<Network::Layer> Network::layer(const config::Tensors& tensors, const std::string& name,
-                                      std::size_t rows, std::size_t columns,
-                                      std::string_view source) {
+Result<DenseLayer> DenseLayer::from(const config::Tensors& tensors, const std::string& name,
+                                    std::size_t rows, std::size_t columns,
+                                    std::string_view source) {
   const auto weight = config::take(tensors, name + ".weight", {rows, columns}, source);
   if (!weight.has_value()) {
     return weight.error();
@@ -44,7 +44,7 @@ Result<Network::Layer> Network::layer(const config::Tensors& tensors, const std:
   if (!bias.has_value()) {
     return bias.error();
   }
-  Layer result{.num_columns = columns, .weight = {}, .bias = std::move(bias).value()};
+  DenseLayer result{.num_columns = columns, .weight = {}, .bias = std::move(bias).value()};
   const std::size_t num_tiles = (rows + tile - 1) / tile;
   result.bias.resize(num_tiles * tile);
   result.weight.resize(num_tiles * tile * columns);
@@ -57,36 +57,50 @@ Result<Network::Layer> Network::layer(const config::Tensors& tensors, const std:
   return result;
 }
 
-Result<Network> Network::from(const config::Tensors& tensors, const std::string& prefix,
+Result<Encoder> Encoder::from(const config::Tensors& tensors, const std::string& prefix,
                               std::string_view source) {
-  auto input = layer(tensors, prefix + "input", width, num_features, source);
-  auto lstm = layer(tensors, prefix + "lstm", 4 * width, 2 * width, source);
-  auto output = layer(tensors, prefix + "output", num_emissions, 2 * width, source);
-  for (const auto* each : {&input, &lstm, &output}) {
+  auto input = DenseLayer::from(tensors, prefix + "input", width, num_features, source);
+  auto lstm = DenseLayer::from(tensors, prefix + "lstm", 4 * width, 2 * width, source);
+  for (const auto* each : {&input, &lstm}) {
     if (!each->has_value()) {
       return each->error();
     }
   }
+  Encoder encoder;
+  encoder.input_ = std::move(input).value();
+  encoder.lstm_ = std::move(lstm).value();
+  return encoder;
+}
+
+Result<Network> Network::from(const config::Tensors& tensors, const std::string& prefix,
+                              std::string_view source) {
+  auto encoder = Encoder::from(tensors, prefix, source);
+  if (!encoder.has_value()) {
+    return encoder.error();
+  }
+  auto output = DenseLayer::from(tensors, prefix + "output", num_emissions, 2 * width, source);
+  if (!output.has_value()) {
+    return output.error();
+  }
   Network network;
-  network.input_ = std::move(input).value();
-  network.lstm_ = std::move(lstm).value();
+  network.encoder_ = std::move(encoder).value();
   network.output_ = std::move(output).value();
   return network;
 }
 
-void Network::add_to(Fnv& hash) const {
-  for (const Layer* layer : {&input_, &lstm_, &output_}) {
-    for (const std::vector<float>* numbers : {&layer->weight, &layer->bias}) {
-      for (const float number : *numbers) {
-        hash.add(std::bit_cast<std::uint32_t>(number));
-      }
+namespace {
+
+void add_layer(const DenseLayer& layer, Fnv& hash) {
+  for (const std::vector<float>* numbers : {&layer.weight, &layer.bias}) {
+    for (const float number : *numbers) {
+      hash.add(std::bit_cast<std::uint32_t>(number));
     }
   }
 }
 
 template <std::size_t rows, std::size_t columns>
-void Network::apply(const Layer& layer, const std::array<std::array<float, columns>, 2>& in,
-                    std::array<std::array<float, rows>, 2>& out) {
+void apply(const DenseLayer& layer, const std::array<std::array<float, columns>, 2>& in,
+           std::array<std::array<float, rows>, 2>& out) {
   for (std::size_t first = 0; first < rows; first += tile) {
     std::array<std::array<float, tile>, 2> sum;
     std::copy_n(&layer.bias[first], tile, sum[0].begin());
@@ -105,7 +119,19 @@ void Network::apply(const Layer& layer, const std::array<std::array<float, colum
   }
 }
 
-Emissions Network::step(const Features& features, State& state) const {
+}  // namespace
+
+void Encoder::add_to(Fnv& hash) const {
+  add_layer(input_, hash);
+  add_layer(lstm_, hash);
+}
+
+void Network::add_to(Fnv& hash) const {
+  encoder_.add_to(hash);
+  add_layer(output_, hash);
+}
+
+Encoder::Encoded Encoder::step(const Features& features, State& state) const {
   const std::array<Features, 2> seen{features, intent::mirrored(features)};
   std::array<std::array<float, width>, 2> u;
   apply(input_, seen, u);
@@ -131,8 +157,12 @@ Emissions Network::step(const Features& features, State& state) const {
     std::copy(state.hidden[side].begin(), state.hidden[side].end(), in[side].begin());
     std::copy(u[side].begin(), u[side].end(), in[side].begin() + width);
   }
+  return in;
+}
+
+Emissions Network::step(const Features& features, State& state) const {
   std::array<std::array<float, num_emissions>, 2> out;
-  apply(output_, in, out);
+  apply(output_, encoder_.step(features, state), out);
   Emissions emissions;
   for (std::size_t h = 0; h < num_horizons; ++h) {
     std::array<Scores, 2> told;

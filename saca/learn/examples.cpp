@@ -185,6 +185,10 @@ TrueMotion true_motion(const RecordedVehicle& vehicle, double step) {
   return motion;
 }
 
+std::string group_of(const traffic::Recording& recording, const RecordedVehicle& vehicle) {
+  return fmt::format("{}/{}", recording.group, vehicle.id / ids_per_group);
+}
+
 std::vector<Sequence> examples_of(const traffic::RecordedSet& set) {
   std::vector<Sequence> sequences;
   for (const traffic::Recording& recording : set.recordings) {
@@ -197,7 +201,7 @@ std::vector<Sequence> examples_of(const traffic::RecordedSet& set) {
       Sequence sequence{
           .name = fmt::format("{}/{}@{:.1f}", recording.name, vehicle.id, vehicle.start),
           .site = recording.site,
-          .group = fmt::format("{}/{}", recording.group, vehicle.id / ids_per_group),
+          .group = group_of(recording, vehicle),
           .observations = observations_of(vehicle, recording.step),
           .labels = std::move(labels.classes),
           .scored = std::move(labels.scored),

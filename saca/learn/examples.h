@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "saca/learn/labels.h"
@@ -22,9 +23,13 @@ namespace saca::learn {
 /// Shorter tracks tell too little.
 constexpr std::size_t fewest_frames = 20;
 
+/// What a recorded vehicle is split by: its recording's group and a block of a hundred vehicle ids.
+/// No vehicle is in two of them.
+[[nodiscard]] std::string group_of(const traffic::Recording& recording,
+                                   const traffic::RecordedVehicle& vehicle);
+
 /// Every recorded vehicle of at least `fewest_frames` samples as a sequence; labels by `labels_of`
-/// on its true motion. A group is a recording's group and a block of a hundred vehicle ids: no
-/// vehicle is in two of them.
+/// on its true motion, groups by `group_of`.
 /// @throws ContractViolation  if a recording has another step than frame_step
 [[nodiscard]] std::vector<Sequence> examples_of(const traffic::RecordedSet& set);
 

@@ -127,11 +127,6 @@ Pose scripted_pose(const world::Road& road, const Script& script, double time,
   return {X_WA * Vec2{made, 0.0}, X_WA.yaw};
 }
 
-/// An actor's own time: it runs through its motion faster or slower from `from` on.
-double own_time(double time, const ActorChance& chance, double from) {
-  return time <= from ? time : from + (time - from) * chance.speed;
-}
-
 Pose recorded_pose(const Recording& recording, double time) {
   const Sample& last = recording.back();
   if (time >= last.time) {
@@ -169,6 +164,10 @@ world::EgoState recorded_ego(const Recording& recording, double time) {
 }
 
 }  // namespace
+
+double own_time(double time, const ActorChance& chance, double from) {
+  return time <= from ? time : from + (time - from) * chance.speed;
+}
 
 bool reacts(const ScenarioActor& actor) {
   const auto* script = std::get_if<Script>(&actor.motion);

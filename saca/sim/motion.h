@@ -18,6 +18,9 @@ namespace saca::sim {
 /// When an actor appears: 0, or the time of its first sample. Before, it is not there [s].
 [[nodiscard]] double appears_at(const Scenario& scenario, std::size_t actor, const Chance& chance);
 
+/// An actor's own time: it runs through its motion faster or slower from `from` on [s].
+[[nodiscard]] double own_time(double time, const ActorChance& chance, double from);
+
 /// Where an actor that does not react is, under one draw of chance.
 ///
 /// @param time  [s], >= 0; before it appears it stands where it will

@@ -48,17 +48,6 @@ torch::Tensor structural_mask() {
   return mask;
 }
 
-config::Tensor plain(const torch::Tensor& tensor) {
-  const torch::Tensor flat = tensor.detach().to(torch::kFloat32).contiguous();
-  config::Tensor result;
-  for (const std::int64_t extent : flat.sizes()) {
-    result.shape.push_back(static_cast<std::size_t>(extent));
-  }
-  const auto* const data = flat.data_ptr<float>();
-  result.values.assign(data, data + flat.numel());
-  return result;
-}
-
 }  // namespace
 
 LstmCrfImpl::LstmCrfImpl(double dropout, bool with_chain)

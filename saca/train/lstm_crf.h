@@ -8,17 +8,10 @@
 
 #include "saca/config/tensors.h"
 #include "saca/intent/crf.h"
+#include "saca/train/task.h"
 
 /// Training of networks with libtorch: optional at build time, never on the product's path.
 namespace saca::train {
-
-/// Sequences of one length, filled up at the end.   (B sequences, T frames, H horizons, K classes)
-struct Batch {
-  torch::Tensor features;  ///< (B x T x num_features)
-  torch::Tensor present;   ///< (B x T), bool: false where filled up
-  torch::Tensor labels;    ///< (B x T x H), int64; 0 where not known
-  torch::Tensor known;     ///< (B x T x H), bool: the label is not in doubt
-};
 
 /// How much a label of each class counts.
 using ClassWeights = std::array<double, intent::num_classes>;

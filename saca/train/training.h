@@ -3,13 +3,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "saca/core/result.h"
 #include "saca/learn/sequence.h"
 #include "saca/train/lstm_crf.h"
+#include "saca/train/task.h"
 
 namespace saca::train {
 
@@ -31,37 +31,12 @@ struct TrainingPlan {
   double pedals_loss = 0.5;  ///< likewise of what the vehicle shares
 };
 
-/// One epoch of the curve.
-struct Epoch {
-  int number = 0;
-  double loss = 0.0;               ///< per label, over the epoch
-  std::optional<double> held_out;  ///< filtered loss per label on the sequences held out
-  double seconds = 0.0;            ///< that it took
-};
-
-/// A piece of a sequence, as the network sees it.
-struct Piece {
-  torch::Tensor features;  ///< (T x num_features)
-  torch::Tensor labels;    ///< (T x H), int64
-  torch::Tensor known;     ///< (T x H), bool
-};
-
 /// Pieces of at most `longest` frames, each as a stream sees it that begins there. Labels of a
 /// horizon are those so many frames later; unknown where they are in doubt or after the end.
 /// @param with_late  also of each piece what comes after its first quarter, half or three quarters:
 ///                   somebody may come into view in the middle of anything
 [[nodiscard]] std::vector<Piece> pieces_of(const std::vector<learn::Sequence>& sequences,
                                            int longest, bool with_late);
-
-/// Pieces in batches of at most `frames` frames, or of one piece. Neighbours of like length come
-/// together, so that little is filled up; the order is otherwise kept.
-/// @param order  indices into `pieces`
-[[nodiscard]] std::vector<std::vector<std::size_t>> batches_of(const std::vector<Piece>& pieces,
-                                                               std::vector<std::size_t> order,
-                                                               int frames);
-
-/// Pieces side by side, filled up to the longest.
-[[nodiscard]] Batch batch_of(const std::vector<const Piece*>& pieces);
 
 /// Trains one network, or goes on where an earlier run of the same plan on the same data was
 /// stopped.

@@ -93,32 +93,6 @@ TEST(Training, WillNotGoOnWithAnother) {
               testing::HasSubstr("want the state of a training"));
 }
 
-TEST(Batches, HoldEachPieceOnceAndLittleThatIsFilledUp) {
-  std::vector<Piece> pieces(3'000);
-  std::vector<std::size_t> order;
-  std::int64_t known = 0;
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    pieces[i].features = torch::zeros({static_cast<std::int64_t>(1 + i * 37 % 100), 1});
-    known += pieces[i].features.size(0);
-    order.push_back(pieces.size() - 1 - i);
-  }
-  std::vector<int> met(pieces.size());
-  std::int64_t filled = 0;
-  for (const auto& batch : batches_of(pieces, order, 900)) {
-    std::int64_t longest = 0;
-    for (const std::size_t i : batch) {
-      ++met[i];
-      longest = std::max(longest, pieces[i].features.size(0));
-    }
-    EXPECT_LE(longest * static_cast<std::int64_t>(batch.size()), 900);
-    filled += longest * static_cast<std::int64_t>(batch.size());
-  }
-  EXPECT_THAT(met, testing::Each(1));
-  EXPECT_LT(filled, known + known / 10);
-  EXPECT_EQ(batches_of(pieces, {99, 0}, 1).size(), 2U);  // longer than a batch: by itself
-  EXPECT_TRUE(batches_of(pieces, {}, 900).empty());
-}
-
 TEST(Pieces, LabelsAreThoseOfLater) {
   learn::Sequence sequence;
   for (int t = 0; t < 25; ++t) {

@@ -45,16 +45,34 @@ def test_verdicts_stand_beside_what_happened():
     assert "knowingly" not in suite_results.suite_section({key: value for key, value in figures.items() if "expected" not in key}, "x")
 
 
-def test_forecasts_show_each_model_beside_what_ships():
+def forecasts_of(models):
     figures = {f"forecast.x.{part}": 3 for part in ("num_encounters", "num_failed", "num_forecasts", "num_acting")}
-    for k, model in enumerate(suite_results.MODELS):
-        figures[f"forecast.x.all.nll.1000ms.{model}"] = 1.0 + k
+    for k, model in enumerate(models):
+        for time in suite_results.TIMES:
+            figures[f"forecast.x.all.nll.{time}ms.{model}"] = 1.0 + k
+            if model != "shipped":
+                figures |= {f"forecast.x.all.nll.{time}ms.{model}.above_shipped" + end: value
+                            for end, value in (("", 0.5), (".lo", 0.25 if time < 2000 else -0.25), (".hi", 0.75))}
         figures[f"forecast.x.head_on_acting.nll.2000ms.{model}"] = 2.0 + k
-    figures |= {"forecast.x.all.nll.1000ms.law.above_shipped" + end: value for end, value in (("", 0.5), (".lo", 0.25), (".hi", 0.75))}
-    text = suite_results.forecast_section(figures, "x")
-    assert "| negative log likelihood, ln m2, 1 s | 1.000 | 2.000 | 3.000 | 4.000 | 5.000 | 0.500 (0.250 to 0.750) |" in text
-    assert "| head_on | 2.000 | 3.000 | 4.000 | 5.000 | 6.000 |" in text
-    assert "forecast.x.all.nll.1000ms.law.above_shipped.lo" in suite_results.trimmed(figures)
+    return figures
+
+
+def test_forecasts_show_each_model_beside_what_ships():
+    text = suite_results.forecast_section(forecasts_of(suite_results.MODELS), "x")
+    assert "| negative log likelihood, ln m2, 1 s | 1.000 | 2.000 | 3.000 | 4.000 | 5.000 | 6.000 | 7.000 |" in text
+    assert "| head_on | 2.000 | 3.000 | 4.000 | 5.000 | 6.000 | 7.000 | 8.000 |" in text
+    assert "forecast.x.all.nll.1000ms.law.above_shipped.lo" in suite_results.trimmed(forecasts_of(suite_results.MODELS))
+
+
+def test_forecasts_say_whether_what_ships_is_better_than_every_baseline():
+    text = suite_results.forecast_section(forecasts_of(("law", "particle_filter", "shipped")), "x")
+    assert "| 1 s | 0.500 (0.250 to 0.750) | 0.500 (0.250 to 0.750) | yes |" in text
+    assert "| 2 s | 0.500 (-0.250 to 0.750) | 0.500 (-0.250 to 0.750) | not than `law`, `particle_filter` |" in text
+
+
+def test_forecasts_made_before_a_model_was_there_do_without_it():
+    text = suite_results.forecast_section(forecasts_of(("constant_velocity", "shipped")), "x")
+    assert "| negative log likelihood, ln m2, 1 s | 1.000 | 2.000 |" in text and "particle_filter" not in text
 
 
 def test_single_families_keep_their_regret_only():

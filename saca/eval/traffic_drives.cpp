@@ -1,0 +1,119 @@
+#include "saca/eval/traffic_drives.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <random>
+#include <utility>
+#include <variant>
+
+#include "saca/core/contract.h"
+#include "saca/core/fnv.h"
+#include "saca/learn/examples.h"
+#include "saca/sim/chance.h"
+#include "saca/sim/traffic_recording.h"
+#include "saca/traffic/pack.h"
+
+namespace saca::eval {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The first `most` of a site in an order that the seed and the site's name give.
+std::vector<TrafficDrive> some_of(std::vector<TrafficDrive> drives, std::size_t most,
+                                  std::uint64_t seed, const std::string& site) {
+  Fnv salt;
+  salt.add(site);
+  std::mt19937_64 rng = sim::generator(seed, salt.value());
+  for (std::size_t k = drives.size(); k > 1; --k) {  // std::shuffle's is not the same everywhere
+    std::swap(drives[k - 1], drives[rng() % k]);
+  }
+  drives.resize(std::min(drives.size(), most));
+  return drives;
+}
+
+}  // namespace
+
+Result<FoundDrives> traffic_drives(const std::vector<fs::path>& folders, std::size_t most,
+                                   std::uint64_t seed, const std::function<bool()>& goes_on) {
+  expects(most >= 1, "most >= 1");
+  const auto files = traffic::files_in(folders, ".xml");
+  if (!files.has_value()) {
+    return files.error();
+  }
+  std::map<std::string, fs::path> places;
+  for (const fs::path& file : files.value()) {
+    const auto [place, is_new] = places.emplace(file.filename().string(), file);
+    if (!is_new) {
+      return Error{Error::Code::malformed,
+                   fmt::format("{}: want each file once, got another of this name: {}",
+                               file.string(), place->second.string())};
+    }
+  }
+  const auto packed =
+      traffic::pack_commonroad(files.value(), [&](std::size_t, std::size_t) { return goes_on(); });
+  if (!packed.has_value()) {
+    return packed.error();
+  }
+  if (!packed.value().refused.empty()) {
+    return Error{Error::Code::malformed, packed.value().refused.front()};
+  }
+  FoundDrives found;
+  for (const auto& [reason, count] : packed.value().set.skipped) {
+    found.notes.push_back(fmt::format("Passed over: {} x {}.", count, reason));
+  }
+  std::map<std::string, std::vector<TrafficDrive>> sites;
+  for (const traffic::Recording& recording : packed.value().set.recordings) {
+    for (const traffic::RecordedVehicle& vehicle : recording.vehicles) {
+      if (vehicle.type == "car") {
+        sites[recording.site].push_back(
+            {.site = recording.site,
+             .group = learn::group_of(recording, vehicle),
+             .file = places.at(recording.name),
+             .obstacle = vehicle.id,
+             .from = vehicle.start,
+             .seconds = recording.step * static_cast<double>(vehicle.samples.size() - 1)});
+      }
+    }
+  }
+  for (auto& [site, drives] : sites) {
+    auto some = some_of(std::move(drives), most, seed, site);
+    std::move(some.begin(), some.end(), std::back_inserter(found.drives));
+  }
+  if (found.drives.empty()) {
+    return Error{Error::Code::malformed,
+                 fmt::format("{}: want a car's recording, got none",
+                             folders.empty() ? "" : folders.front().string())};
+  }
+  return found;
+}
+
+Result<PlayedDrive> played_drive(const TrafficDrive& drive) {
+  auto made = sim::import_commonroad(drive.file, {.ego = drive.obstacle, .from = drive.from});
+  if (!made.has_value()) {
+    return made.error();
+  }
+  sim::TrafficImport import = std::move(made).value();
+  constexpr Settling settling;
+  const double recorded = std::get<sim::Recording>(import.scenario.ego).back().time;
+  const ForecastWindow window{.from = settling.after_start,
+                              .until = std::min(drive.seconds, recorded),
+                              .lane_behind = import.report.lane.behind,
+                              .lane_ahead = import.report.lane.ahead,
+                              .settling = settling};
+  const double last_sample = import.scenario.duration;
+  if (window.from > window.until ||
+      window.from + forecast_times.back() + settling.before_end > last_sample) {
+    return Error{
+        Error::Code::out_of_range,
+        fmt::format("{}, ego {}: want {:.1f} s, got {:.1f} s: recorded for too short to "
+                    "hold a forecast against",
+                    drive.file.string(), drive.obstacle,
+                    window.from + forecast_times.back() + settling.before_end, last_sample)};
+  }
+  return PlayedDrive{std::move(import.scenario), window};
+}
+
+}  // namespace saca::eval
