@@ -2,6 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "saca/config/short_numbers.h"
 #include "saca/core/units.h"
 #include "saca/loop/encounter.h"
 #include "saca/loop/provenance.h"
@@ -410,6 +411,7 @@ std::string record_json(const Setup& setup, const Record& record, const Provenan
              {"first_answer_s", after_t2(record, decide::EventKind::first_answer)},
              {"answer_s", after_t2(record, decide::EventKind::answer)},
              {"deadline_misses", record.deadline_misses}}}};
+  out = config::with_short_numbers(std::move(out));
   if (provenance != nullptr) {
     out["made"] = made_json(setup, *provenance);
     out["made"]["content"] = content_digest(out);

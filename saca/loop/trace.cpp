@@ -6,6 +6,7 @@
 #include <iterator>
 #include <string_view>
 
+#include "saca/config/short_numbers.h"
 #include "saca/core/units.h"
 #include "saca/loop/state_json.h"
 #include "saca/manoeuvre/ego.h"
@@ -86,7 +87,8 @@ json trace_event_json(const decide::Event& event) {
 }
 
 std::string json_line(const json& object) {
-  return object.dump(-1, ' ', false, json::error_handler_t::replace) + '\n';
+  return config::with_short_numbers(object).dump(-1, ' ', false, json::error_handler_t::replace) +
+         '\n';
 }
 
 /// A body as a row sees it.
@@ -100,9 +102,11 @@ struct TracedBody {
 
 std::string csv_row(double time, const TracedBody& body, bool is_perceived) {
   const Vec2 centre_W = body.X_WB * Vec2{body.footprint.centre_x, 0.0};
-  return fmt::format("{},{},{},{},{},{},{},{},{},{}\n", time, body.id, body.kind, centre_W.x,
-                     centre_W.y, to_degrees(body.X_WB.yaw), body.speed, body.footprint.length,
-                     body.footprint.width, is_perceived ? 1 : 0);
+  return fmt::format("{},{},{},{},{},{},{},{},{},{}\n", short_number(time), body.id, body.kind,
+                     short_number(centre_W.x), short_number(centre_W.y),
+                     short_number(to_degrees(body.X_WB.yaw)), short_number(body.speed),
+                     short_number(body.footprint.length), short_number(body.footprint.width),
+                     is_perceived ? 1 : 0);
 }
 
 std::string actor_rows(const world::Scene& scene, bool is_perceived) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "saca/config/short_numbers.h"
 #include "saca/core/percentile.h"
 #include "saca/core/proportion.h"
 #include "saca/core/units.h"
@@ -187,7 +188,8 @@ std::string drive_json(const DriveRecord& record) {
        })},
       {"wheels", wheels},
       {"draws", record.draws ? draws_json(record, *record.draws) : json()}};
-  return document.dump(-1, ' ', false, json::error_handler_t::replace);
+  return config::with_short_numbers(json(document))
+      .dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
 }  // namespace saca::report

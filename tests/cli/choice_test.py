@@ -55,12 +55,13 @@ def test_for_each_policy_stands_the_best_of_its_target_speeds_and_strengths(tmp_
     harms = {}
     for strength in (1, 0.8, 0.6, 0.45, 0.3):
         record = json.loads(saca("run", "showcase_3", "--policy", "AEB", "--strength", strength, "--llm", "off", "--pace", "lockstep",
-                                 "--no-memory", "--json", cwd=tmp_path).stdout)
+                                 "--json", cwd=tmp_path).stdout)
         assert record["decision"]["time_s"] == pytest.approx(at, abs=0.05)
         harms[strength] = record["result"]["harm"]
-        # and hindsight knows the best of all plans, too
-        assert all(record["hindsight"][0]["harm"] <= harm + 2e-4 for harm in harms.values())
-        assert record["hindsight"][record["best"]]["harm"] <= min(harms.values()) + 1e-4
+        # What was carried out stands in hindsight for its policy; of 3 and 4 the best of all target speeds.
+        assert (record["hindsight"][0]["strength"] or 1) == strength
+        assert record["hindsight"][4]["target_speed_mps"] == 0
+        assert record["hindsight"][record["best"]]["harm"] <= harms[strength] + 1e-4
     assert min(harms, key=harms.get) in (0.6, 0.45)
 
 

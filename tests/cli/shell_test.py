@@ -76,10 +76,11 @@ def test_what_json_prints_is_told_of_every_command_that_has_it(tmp_path):
     ("suite", "r152", "--methods", "aeb"), ("ladder", "crossing", "--count", 1), ("atlas", "info"), ("atlas", "check", "--scenes", 3),
     ("reach", "solve", "road_edge", "--without-error"), ("reach", "tables", "one_way"), 
     ("import", "commonroad", ROOT / "saca/traffic/testdata/commonroad_small.xml", "--output", "a.toml"), ("explain", "runs/one_way/record.json"),
+    ("verify", "runs/one_way/record.json"),
 ], ids=lambda arguments: " ".join(map(str, arguments[:2])))
 def test_what_json_prints_has_the_schema_that_is_told(arguments, tmp_path):
-    if arguments[0] in ("memory", "explain"):
-        assert saca("run", "one_way", "--llm", "off", "--pace", "lockstep", cwd=tmp_path).returncode == SUCCESS
+    if arguments[0] in ("memory", "explain", "verify"):
+        assert saca("run", "one_way", "--llm", "off", "--pace", "lockstep", "--memory", "runs/memory.sqlite", cwd=tmp_path).returncode == SUCCESS
     document = figures(saca(*arguments, "--json", cwd=tmp_path))
     table = json_table()
     name = next(" ".join(arguments[:count]) for count in (3, 2, 1) if " ".join(map(str, arguments[:count])) in table)

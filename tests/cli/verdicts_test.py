@@ -18,7 +18,16 @@ def played(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp("verdicts")
     run = saca("run", *request.param, "--llm", "off", "--danger", "off", "--tape", "a.tape", "--json", cwd=folder)
     assert run.returncode == SUCCESS, run.stderr
-    return json.loads(run.stdout), [one for one in map(json.loads, (folder / "a.tape").read_text().splitlines()) if one["type"] == "step"]
+    return json.loads(run.stdout), [as_in_records(one) for one in map(json.loads, (folder / "a.tape").read_text().splitlines()) if one["type"] == "step"]
+
+
+def as_in_records(value):
+    """A tape's numbers come back to the last bit, a record's have twelve digits."""
+    if isinstance(value, dict):
+        return {key: as_in_records(one) for key, one in value.items()}
+    if isinstance(value, list):
+        return [as_in_records(one) for one in value]
+    return (0.0 if abs(value) < 1e-12 else float(f"{value:.12g}")) if isinstance(value, float) else value
 
 
 def until_its_encounter_is_over(record, steps):
@@ -64,7 +73,7 @@ def test_the_admissible_set_is_that_of_its_definition(played):
     for one in played[0]["verdicts"]["in_hand"]:
         harms = [plan["harm"] for plan in one["plans"] if plan["harm"] is not None]
         braking = next(plan["harm"] for plan in one["plans"] if plan["policy"] == 0)
-        assert one["admissible_harm"] == pytest.approx(min(harms) + max(0.002, 0.03 * (braking - min(harms))), rel=1e-12)
+        assert one["admissible_harm"] == pytest.approx(min(harms) + max(0.002, 0.03 * (braking - min(harms))), rel=1e-9)
 
 
 def test_hypotheses_begin_where_the_others_were_perceived(played):
@@ -73,7 +82,7 @@ def test_hypotheses_begin_where_the_others_were_perceived(played):
     for given in record["hypotheses"]:
         step = next(one for one in steps if one["scene"] and one["scene"]["time_s"] == given["scene_s"])
         seen = {f"{actor['kind']}{actor['id']}": actor for actor in step["scene"]["actors"]}
-        assert sum(motion["probability"] for motion in given["motions"]) == pytest.approx(1.0, abs=1e-12)
+        assert sum(motion["probability"] for motion in given["motions"]) == pytest.approx(1.0, abs=1e-9)
         for motion in given["motions"]:
             assert {path["id"] for path in motion["paths"]} | set(given["reacting"]) == set(seen)
             for path in motion["paths"]:
