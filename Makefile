@@ -12,6 +12,7 @@
 SCENARIO ?= 100car_8456
 
 run: build model
+	@mkdir -p runs
 	build/release/saca run $(SCENARIO) --memory runs/memory.sqlite
 
 setup:

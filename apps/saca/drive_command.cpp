@@ -65,6 +65,15 @@ std::string command_line(const DriveOptions& options) {
   return line;
 }
 
+/// A size with its side in words, e.g. "1.48 m to the right".
+/// @param left  > 0 to the left
+std::string sided(double left, int digits, const char* unit) {
+  const std::string size = fmt::format("{:.{}f} {}", std::abs(left), digits, unit);
+  const bool is_none =
+      fmt::format("{:.{}f}", std::abs(left), digits) == fmt::format("{:.{}f}", 0.0, digits);
+  return is_none ? size : size + (left > 0.0 ? " to the left" : " to the right");
+}
+
 /// For people: what the record says of the end, and of the draws.
 void tell(const json& record) {
   const json& end = record["end"];
@@ -73,16 +82,15 @@ void tell(const json& record) {
              record["start"]["speed_mps"].get<double>(), record["road"]["grip"].get<double>(),
              record["car"]["name"].get<std::string>(), end["state"].get<std::string>(),
              end["time_s"].get<double>());
-  app::print(
-      "  centre of mass {:.2f} m forward, {:.2f} m to the left; heading {:.1f} deg, "
-      "{:.1f} m/s\n",
-      end["forward_m"].get<double>(), end["sideways_m"].get<double>(),
-      end["heading_deg"].get<double>(), end["speed_mps"].get<double>());
+  app::print("  centre of mass {:.2f} m forward, {}; heading {}, {:.1f} m/s\n",
+             end["forward_m"].get<double>(), sided(end["sideways_m"].get<double>(), 2, "m"),
+             sided(end["heading_deg"].get<double>(), 1, "deg"), end["speed_mps"].get<double>());
   const json& draws = record["draws"];
   if (draws.is_null()) {
     return;
   }
-  app::print("  {} draws of what the controller does not know:\n", draws["count"].get<int>());
+  app::print("  {} draws of what the controller does not know (left is positive):\n",
+             draws["count"].get<int>());
   if (const json& across = draws["within_10_deg"]; !across.is_null()) {
     app::print("    within 10 deg of across the lane: {:.1f} % (95 % interval {:.1f} to {:.1f})\n",
                100.0 * across["share"].get<double>(), 100.0 * across["low"].get<double>(),
@@ -90,7 +98,7 @@ void tell(const json& record) {
   }
   for (const auto& [key, what] : {std::pair{"time_s", "time, s"},
                                   {"forward_m", "forward, m"},
-                                  {"sideways_m", "to the left, m"},
+                                  {"sideways_m", "aside, m"},
                                   {"heading_deg", "heading, deg"}}) {
     const json& spread = draws[key];
     app::print("    {:16} p05 {:8.2f}   p50 {:8.2f}   p95 {:8.2f}\n", what,

@@ -1,5 +1,7 @@
 #include <unistd.h>
 
+#include <fmt/core.h>
+
 #include <csignal>
 #include <filesystem>
 #include <memory>
@@ -88,8 +90,12 @@ Result<std::shared_ptr<memory::Store>> open_memory(const RunOptions& options) {
   if (file.empty() || options.no_memory) {
     return std::shared_ptr<memory::Store>();
   }
-  if (const auto problem = options.no_learning ? std::nullopt : make_folder_of(file)) {
-    return *problem;
+  const fs::path folder = fs::path(file).parent_path();
+  std::error_code problem;
+  if (!options.no_learning && !folder.empty() && !fs::is_directory(folder, problem)) {
+    return Error{
+        Error::Code::unreadable,
+        fmt::format("--memory {}: want a folder that is there, got {}", file, folder.string())};
   }
   auto opened = options.no_learning ? memory::Store::snapshot(file) : memory::Store::open(file);
   if (!opened.has_value()) {

@@ -69,6 +69,8 @@ def test_memory_learns_and_is_shown(tmp_path):
     assert quick("100car_8676", cwd=tmp_path).returncode == SUCCESS
     assert not list(tmp_path.rglob("*.sqlite")), "memory is used where it is asked for"
     assert quick("100car_8676", "--memory", "runs/memory.sqlite", cwd=tmp_path).returncode == SUCCESS
+    assert "want a folder that is there, got rnus" in one_error(quick("100car_8676", "--memory", "rnus/memory.sqlite", cwd=tmp_path), BAD_INPUT)
+    assert not (tmp_path / "rnus").exists()
     cases = json.loads(saca("memory", "list", "--json", cwd=tmp_path).stdout)
     assert [case["source"] for case in cases] == ["100car_8676"]
     shown = json.loads(saca("memory", "show", 1, cwd=tmp_path).stdout)

@@ -49,6 +49,15 @@ def test_a_drift_is_told_in_figures_and_shown(tmp_path):
     assert "saca.drive/1" in (tmp_path / "out/drift.html").read_text()
 
 
+def test_sides_are_told_in_words(tmp_path):
+    """Mirror images in the same figures; nothing is ever a negative distance to the left."""
+    told = [saca("drive", "--policy", policy, "--speed", 15, cwd=tmp_path).stdout for policy in ("AES-L", "AES-R")]
+    aside = [re.search(r"forward, (\d+\.\d\d) m to the (left|right); heading \d+\.\d deg", one).groups() for one in told]
+    assert [side for _, side in aside] == ["left", "right"] and aside[0][0] == aside[1][0]
+    braked = saca("drive", "--policy", 0, "--speed", 15, cwd=tmp_path).stdout
+    assert "forward, 0.00 m; heading 0.0 deg, 0.0 m/s" in braked and "-" not in braked.splitlines()[1]
+
+
 def test_the_record_is_physical(tmp_path):
     record = json.loads(saca("drive", "--policy", 4, "--speed", 17, "--grip", 0.6, "--target-speed", 8, "--json",
                              cwd=tmp_path).stdout)

@@ -78,6 +78,7 @@ def test_with_closed_standard_files_nothing_else_is_written_to(closed, more, tmp
             os.close(file)
 
     (tmp_path / "usual").mkdir()
+    (tmp_path / "runs").mkdir()
     run = subprocess.run([PROGRAM, "run", "one_way", "--llm", "off", "--pace", "lockstep", "--memory", "runs/memory.sqlite", *more],
                          cwd=tmp_path, stderr=subprocess.PIPE, preexec_fn=close, text=True, timeout=1500)
     assert run.returncode == CANNOT_WRITE

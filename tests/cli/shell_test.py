@@ -80,6 +80,7 @@ def test_what_json_prints_is_told_of_every_command_that_has_it(tmp_path):
 ], ids=lambda arguments: " ".join(map(str, arguments[:2])))
 def test_what_json_prints_has_the_schema_that_is_told(arguments, tmp_path):
     if arguments[0] in ("memory", "explain", "verify"):
+        (tmp_path / "runs").mkdir()
         assert saca("run", "one_way", "--llm", "off", "--pace", "lockstep", "--memory", "runs/memory.sqlite", cwd=tmp_path).returncode == SUCCESS
     document = figures(saca(*arguments, "--json", cwd=tmp_path))
     table = json_table()
