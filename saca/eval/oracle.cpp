@@ -20,7 +20,8 @@ std::vector<std::vector<loop::Hindsight>> tried_of(std::span<const Moment> momen
                                                    const outcome::HarmModel& harm,
                                                    const OracleOptions& options) {
   if (!options.only_defaults) {
-    return loop::all_plans_tried(moments, car, harm, options.threads);
+    return loop::all_plans_tried(moments, car, harm, preview::Braking::any_strength,
+                                 options.threads);
   }
   std::vector<std::vector<loop::Hindsight>> all;
   for (loop::Hindsights& tried : hindsights(moments, car, harm, options.threads)) {

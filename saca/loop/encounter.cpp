@@ -278,7 +278,7 @@ void Encounter::conclude() {
     Moment trigger{*record_.at_trigger, others_at_trigger_, record_.grip,
                    loop_.truth().unknown_from_now(), record_.decision->plan};
     trigger.scene.grip = seen_at_trigger_.grip;
-    record_.hindsight = hindsight_of_all_plans(trigger, *setup_.car, *setup_.harm);
+    record_.hindsight = hindsight_of_all_speeds(trigger, *setup_.car, *setup_.harm);
     preview::AllFacts facts;
     std::transform(record_.hindsight->begin(), record_.hindsight->end(), facts.begin(),
                    [](const Hindsight& one) { return one.facts; });

@@ -30,11 +30,12 @@ std::vector<Hindsights> hindsights(std::span<const Moment> moments, const manoeu
 
 std::vector<std::vector<Hindsight>> all_plans_tried(std::span<const Moment> moments,
                                                     const manoeuvre::Car& car,
-                                                    const outcome::HarmModel& harm, int threads) {
+                                                    const outcome::HarmModel& harm,
+                                                    preview::Braking braking, int threads) {
   std::vector<outcome::Attempt> attempts;
   std::vector<std::size_t> num_plans;
   for (const Moment& moment : moments) {
-    const preview::Plans plans = preview::all_plans(norm(moment.scene.ego.v_B));
+    const preview::Plans plans = preview::all_plans(norm(moment.scene.ego.v_B), braking);
     bool carried_out_stands = !moment.carried_out;
     for (const manoeuvre::Plan& plan : plans) {
       const bool first = !carried_out_stands && moment.carried_out->policy == plan.policy;
@@ -55,18 +56,16 @@ std::vector<std::vector<Hindsight>> all_plans_tried(std::span<const Moment> mome
   return all;
 }
 
-Hindsights hindsight_of_all_plans(const Moment& moment, const manoeuvre::Car& car,
-                                  const outcome::HarmModel& harm) {
-  std::vector<Hindsight> tried = std::move(all_plans_tried({&moment, 1}, car, harm).front());
+Hindsights hindsight_of_all_speeds(const Moment& moment, const manoeuvre::Car& car,
+                                   const outcome::HarmModel& harm) {
+  std::vector<Hindsight> tried =
+      std::move(all_plans_tried({&moment, 1}, car, harm, preview::Braking::full).front());
   std::array<std::optional<std::size_t>, manoeuvre::num_policies> best;
   for (std::size_t i = 0; i < tried.size(); ++i) {
     std::optional<std::size_t>& of_policy = best[manoeuvre::index(tried[i].facts.plan.policy)];
     const auto harm_of = [&](std::size_t one) {
       return outcome::harm_class(tried[one].facts.outcome().harm);
     };
-    if (of_policy && manoeuvre::takes_strength(tried[i].facts.plan.policy)) {
-      continue;  // full braking is what everything else is held against
-    }
     if (!of_policy || (tried[i].facts.drivable() &&
                        (!tried[*of_policy].facts.drivable() || harm_of(i) < harm_of(*of_policy)))) {
       of_policy = i;

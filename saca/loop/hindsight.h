@@ -40,15 +40,14 @@ using Hindsights = std::array<Hindsight, manoeuvre::num_policies>;  ///< by Poli
 /// Likewise every plan that can be chosen (preview::all_plans), and what was carried out in the
 /// place of its policy's default plan: it stands first among those of its policy.
 /// @return  for each moment, in the order of preview::all_plans of its ego's speed
-[[nodiscard]] std::vector<std::vector<Hindsight>> all_plans_tried(std::span<const Moment> moments,
-                                                                  const manoeuvre::Car& car,
-                                                                  const outcome::HarmModel& harm,
-                                                                  int threads = 1);
+[[nodiscard]] std::vector<std::vector<Hindsight>> all_plans_tried(
+    std::span<const Moment> moments, const manoeuvre::Car& car, const outcome::HarmModel& harm,
+    preview::Braking braking = preview::Braking::any_strength, int threads = 1);
 
 /// Of each policy the plan that would have harmed least, of all target speeds; of those in one
 /// class of harm (outcome::harm_class) the first: what was carried out, else the default. Policy 0
 /// stands for what was carried out, else for full braking: that is what people compare with.
-[[nodiscard]] Hindsights hindsight_of_all_plans(const Moment& moment, const manoeuvre::Car& car,
-                                                const outcome::HarmModel& harm);
+[[nodiscard]] Hindsights hindsight_of_all_speeds(const Moment& moment, const manoeuvre::Car& car,
+                                                 const outcome::HarmModel& harm);
 
 }  // namespace saca::loop

@@ -79,7 +79,7 @@ TEST(Hindsight, OfEachPolicyThePlanStandsThatHarmsLeast) {
   const Moment moment{.scene = scene, .others = stands, .grip = 0.5, .unknown = {}};
   const auto all = all_plans_tried({&moment, 1}, car, harm).front();
   EXPECT_EQ(all.size(), preview::all_plans(norm(scene.ego.v_B)).size());
-  const Hindsights best = hindsight_of_all_plans(moment, car, harm);
+  const Hindsights best = hindsight_of_all_speeds(moment, car, harm);
   bool other_than_default = false;
   for (const Hindsight& one : all) {
     const Hindsight& of_policy = best[manoeuvre::index(one.facts.plan.policy)];
