@@ -300,7 +300,10 @@ AllHeard by_group(const eval::FoundDrives& found, std::vector<Heard> drives) {
     std::move(drives[i].samples.begin(), drives[i].samples.end(),
               std::back_inserter(group.samples));
   }
-  AllHeard all{.encounters = {}, .notes = found.notes};
+  AllHeard all;
+  for (const auto& [reason, count] : found.skipped) {
+    all.notes.push_back(fmt::format("Passed over: {} x {}.", count, reason));
+  }
   for (auto& [key, group] : groups) {
     all.encounters.push_back(std::move(group));
   }

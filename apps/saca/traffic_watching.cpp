@@ -8,7 +8,6 @@
 #include <iterator>
 #include <map>
 #include <memory>
-#include <random>
 #include <utility>
 
 #include "apps/saca/progress.h"
@@ -16,7 +15,7 @@
 #include "saca/core/fnv.h"
 #include "saca/core/journal.h"
 #include "saca/core/parallel.h"
-#include "saca/sim/chance.h"
+#include "saca/eval/traffic_drives.h"
 #include "saca/sim/hundred_car_release.h"
 #include "saca/sim/traffic_recording.h"
 #include "saca/traffic/hundred_car_file.h"
@@ -58,68 +57,47 @@ std::optional<Error> hash_files(const std::vector<fs::path>& files, Fnv& hash) {
 
 // --- CommonRoad
 
-/// Every car of the files, each instant of it once.
+Result<RecordedEgo> recorded_ego(const eval::TrafficDrive& drive) {
+  auto made = sim::import_commonroad(drive.file, {.ego = drive.obstacle, .from = drive.from});
+  if (!made.has_value()) {
+    return made.error();
+  }
+  sim::TrafficImport import = std::move(made).value();
+  constexpr eval::Settling settling;
+  const double recorded = std::get<sim::Recording>(import.scenario.ego).back().time;
+  const double until = std::min(drive.seconds, recorded - settling.before_end);
+  if (until <= settling.after_start) {
+    return Error{Error::Code::out_of_range,
+                 "recorded for too short to be smoothed with samples on both sides"};
+  }
+  return RecordedEgo{std::move(import.scenario),
+                     {.from = settling.after_start,
+                      .until = until,
+                      .lane_ahead = import.report.lane.ahead,
+                      .settling = settling}};
+}
+
 std::optional<Error> find_commonroad(const std::vector<fs::path>& files, Findings& found) {
-  std::map<std::string, fs::path> places;
-  for (const fs::path& file : files) {
-    if (!places.emplace(file.filename().string(), file).second) {
-      return Error{Error::Code::malformed, file.string() +
-                                               ": want each file once, got another of this name: " +
-                                               places.at(file.filename().string()).string()};
-    }
+  const auto there = eval::drives_in(files, [] { return !interrupted(); });
+  if (!there.has_value()) {
+    return there.error();
   }
-  const auto packed =
-      traffic::pack_commonroad(files, [](std::size_t, std::size_t) { return !interrupted(); });
-  if (!packed.has_value()) {
-    return packed.error();
-  }
-  if (!packed.value().refused.empty()) {
-    return Error{Error::Code::malformed, packed.value().refused.front()};
-  }
-  for (const auto& [reason, count] : packed.value().set.skipped) {
+  for (const auto& [reason, count] : there.value().skipped) {
     found.notes.push_back(fmt::format("CommonRoad, passed over: {} x {}", count, reason));
   }
-  std::size_t others = 0;
-  for (const traffic::Recording& recording : packed.value().set.recordings) {
-    for (const traffic::RecordedVehicle& vehicle : recording.vehicles) {
-      if (vehicle.type != "car") {
-        ++others;
-        continue;
-      }
-      const fs::path& file = places.at(recording.name);
-      const sim::TrafficRequest request{.ego = vehicle.id, .from = vehicle.start};
-      const double seconds = recording.step * static_cast<double>(vehicle.samples.size() - 1);
-      found.drives.push_back(
-          {.source = recording.site,
-           .name = fmt::format("{}, obstacle {} from {:.1f} s", recording.name, vehicle.id,
-                               vehicle.start),
-           .command = fmt::format("saca import commonroad {} --ego {} --from-s {:.1f} --output "
-                                  "scenario.toml",
-                                  file.string(), vehicle.id, vehicle.start),
-           .open = [file, request, seconds]() -> Result<RecordedEgo> {
-             auto made = sim::import_commonroad(file, request);
-             if (!made.has_value()) {
-               return made.error();
-             }
-             sim::TrafficImport import = std::move(made).value();
-             constexpr eval::Settling settling;
-             const double recorded = std::get<sim::Recording>(import.scenario.ego).back().time;
-             const double until = std::min(seconds, recorded - settling.before_end);
-             if (until <= settling.after_start) {
-               return Error{Error::Code::out_of_range,
-                            "recorded for too short to be smoothed with samples on both sides"};
-             }
-             return RecordedEgo{std::move(import.scenario),
-                                {.from = settling.after_start,
-                                 .until = until,
-                                 .lane_ahead = import.report.lane.ahead,
-                                 .settling = settling}};
-           }});
-    }
+  for (const eval::TrafficDrive& drive : there.value().drives) {
+    found.drives.push_back(
+        {.source = drive.site,
+         .name = fmt::format("{}, obstacle {} from {:.1f} s", drive.file.filename().string(),
+                             drive.obstacle, drive.from),
+         .command = fmt::format("saca import commonroad {} --ego {} --from-s {:.1f} --output "
+                                "scenario.toml",
+                                drive.file.string(), drive.obstacle, drive.from),
+         .open = [drive] { return recorded_ego(drive); }});
   }
-  if (others > 0) {
-    found.notes.push_back(
-        fmt::format("CommonRoad: {} tracks of other than cars are no egos", others));
+  if (there.value().num_others > 0) {
+    found.notes.push_back(fmt::format("CommonRoad: {} tracks of other than cars are no egos",
+                                      there.value().num_others));
   }
   return std::nullopt;
 }
@@ -244,15 +222,9 @@ std::vector<DriveToWatch> drawn_drives(std::vector<DriveToWatch> all, const Traf
   }
   std::vector<DriveToWatch> chosen;
   for (auto& [source, drives] : sources) {
-    Fnv salt;
-    salt.add(source);
-    std::mt19937_64 rng = sim::generator(options.seed, salt.value());
-    for (std::size_t k = drives.size(); k > 1; --k) {  // Fisher and Yates; std::shuffle's is not
-                                                       // the same everywhere
-      std::swap(drives[k - 1], drives[rng() % k]);
-    }
-    drives.resize(std::min(drives.size(), static_cast<std::size_t>(options.count)));
-    std::move(drives.begin(), drives.end(), std::back_inserter(chosen));
+    auto some = eval::some_of(std::move(drives), static_cast<std::size_t>(options.count),
+                              options.seed, source);
+    std::move(some.begin(), some.end(), std::back_inserter(chosen));
   }
   return chosen;
 }

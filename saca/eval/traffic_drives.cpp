@@ -4,47 +4,21 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
-#include <random>
 #include <utility>
 #include <variant>
 
 #include "saca/core/contract.h"
-#include "saca/core/fnv.h"
 #include "saca/learn/examples.h"
-#include "saca/sim/chance.h"
 #include "saca/sim/traffic_recording.h"
 #include "saca/traffic/pack.h"
 
 namespace saca::eval {
-namespace {
-
 namespace fs = std::filesystem;
 
-/// The first `most` of a site in an order that the seed and the site's name give.
-std::vector<TrafficDrive> some_of(std::vector<TrafficDrive> drives, std::size_t most,
-                                  std::uint64_t seed, const std::string& site) {
-  Fnv salt;
-  salt.add(site);
-  std::mt19937_64 rng = sim::generator(seed, salt.value());
-  for (std::size_t k = drives.size(); k > 1; --k) {  // std::shuffle's is not the same everywhere
-    std::swap(drives[k - 1], drives[rng() % k]);
-  }
-  drives.resize(std::min(drives.size(), most));
-  return drives;
-}
-
-}  // namespace
-
-Result<FoundDrives> traffic_drives(const std::vector<fs::path>& folders, std::size_t most,
-                                   std::uint64_t seed, const std::function<bool()>& goes_on) {
-  expects(most >= 1, "most >= 1");
-  const auto files = traffic::files_in(folders, ".xml");
-  if (!files.has_value()) {
-    return files.error();
-  }
+Result<FoundDrives> drives_in(const std::vector<fs::path>& files,
+                              const std::function<bool()>& goes_on) {
   std::map<std::string, fs::path> places;
-  for (const fs::path& file : files.value()) {
+  for (const fs::path& file : files) {
     const auto [place, is_new] = places.emplace(file.filename().string(), file);
     if (!is_new) {
       return Error{Error::Code::malformed,
@@ -53,7 +27,7 @@ Result<FoundDrives> traffic_drives(const std::vector<fs::path>& folders, std::si
     }
   }
   const auto packed =
-      traffic::pack_commonroad(files.value(), [&](std::size_t, std::size_t) { return goes_on(); });
+      traffic::pack_commonroad(files, [&](std::size_t, std::size_t) { return goes_on(); });
   if (!packed.has_value()) {
     return packed.error();
   }
@@ -61,23 +35,42 @@ Result<FoundDrives> traffic_drives(const std::vector<fs::path>& folders, std::si
     return Error{Error::Code::malformed, packed.value().refused.front()};
   }
   FoundDrives found;
-  for (const auto& [reason, count] : packed.value().set.skipped) {
-    found.notes.push_back(fmt::format("Passed over: {} x {}.", count, reason));
-  }
-  std::map<std::string, std::vector<TrafficDrive>> sites;
+  found.skipped = packed.value().set.skipped;
   for (const traffic::Recording& recording : packed.value().set.recordings) {
     for (const traffic::RecordedVehicle& vehicle : recording.vehicles) {
-      if (vehicle.type == "car") {
-        sites[recording.site].push_back(
-            {.site = recording.site,
-             .group = learn::group_of(recording, vehicle),
-             .file = places.at(recording.name),
-             .obstacle = vehicle.id,
-             .from = vehicle.start,
-             .seconds = recording.step * static_cast<double>(vehicle.samples.size() - 1)});
+      if (vehicle.type != "car") {
+        ++found.num_others;
+        continue;
       }
+      found.drives.push_back(
+          {.site = recording.site,
+           .group = learn::group_of(recording, vehicle),
+           .file = places.at(recording.name),
+           .obstacle = vehicle.id,
+           .from = vehicle.start,
+           .seconds = recording.step * static_cast<double>(vehicle.samples.size() - 1)});
     }
   }
+  return found;
+}
+
+Result<FoundDrives> traffic_drives(const std::vector<fs::path>& folders, std::size_t most,
+                                   std::uint64_t seed, const std::function<bool()>& goes_on) {
+  expects(most >= 1, "most >= 1");
+  const auto files = traffic::files_in(folders, ".xml");
+  if (!files.has_value()) {
+    return files.error();
+  }
+  auto all = drives_in(files.value(), goes_on);
+  if (!all.has_value()) {
+    return all;
+  }
+  FoundDrives found = std::move(all).value();
+  std::map<std::string, std::vector<TrafficDrive>> sites;
+  for (TrafficDrive& drive : found.drives) {
+    sites[drive.site].push_back(std::move(drive));
+  }
+  found.drives.clear();
   for (auto& [site, drives] : sites) {
     auto some = some_of(std::move(drives), most, seed, site);
     std::move(some.begin(), some.end(), std::back_inserter(found.drives));

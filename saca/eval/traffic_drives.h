@@ -3,11 +3,17 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
+#include <random>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "saca/core/fnv.h"
 #include "saca/core/result.h"
 #include "saca/eval/forecast_score.h"
+#include "saca/sim/chance.h"
 #include "saca/sim/scenario.h"
 
 namespace saca::eval {
@@ -23,20 +29,44 @@ struct TrafficDrive {
   double seconds = 0.0;        ///< for which it was recorded, > 0
 };
 
-/// What folders hold.
+/// What files hold.
 struct FoundDrives {
-  std::vector<TrafficDrive> drives;  ///< ordered by site; within a site shuffled by the seed
-  std::vector<std::string> notes;    ///< what was passed over, in sentences
+  std::vector<TrafficDrive> drives;
+  std::map<std::string, std::size_t> skipped;  ///< what was passed over, by its reason
+  std::size_t num_others = 0;                  ///< tracks of other than cars, which are no egos
 };
 
-/// Every car of the CommonRoad files in the folders or below them, each instant of it once however
-/// many files hold it; of each site the first `most` as the seed has shuffled them.
+/// Every car of CommonRoad files, each instant of it once however many files hold it, in the order
+/// of the files.
+///
+/// @param goes_on  asked after each file; false: stop
+/// @return  Error::Code::malformed, naming the file, where one cannot be read or two have one name;
+///          too_late when stopped
+[[nodiscard]] Result<FoundDrives> drives_in(const std::vector<std::filesystem::path>& files,
+                                            const std::function<bool()>& goes_on);
+
+/// The first `most` in an order that the seed and a name give, the same everywhere.
+template <class Drive>
+[[nodiscard]] std::vector<Drive> some_of(std::vector<Drive> drives, std::size_t most,
+                                         std::uint64_t seed, std::string_view name) {
+  Fnv salt;
+  salt.add(name);
+  std::mt19937_64 rng = sim::generator(seed, salt.value());
+  for (std::size_t k = drives.size(); k > 1; --k) {  // std::shuffle's is not the same everywhere
+    std::swap(drives[k - 1], drives[rng() % k]);
+  }
+  if (drives.size() > most) {
+    drives.erase(drives.begin() + static_cast<std::ptrdiff_t>(most), drives.end());
+  }
+  return drives;
+}
+
+/// The drives in the CommonRoad files in the folders or below them, ordered by site; of each site
+/// the first `most` as the seed has shuffled them.
 ///
 /// @param most  of a site, >= 1
-/// @param goes_on  asked after each file; false: stop
-/// @return  Error::Code::malformed, naming file or folder, where a file cannot be read, two have
-///          one name, or there is no car; unreadable where there is no such folder; too_late when
-///          stopped
+/// @return  as `drives_in`; malformed, naming the folder, also where there is no car; unreadable
+///          where there is no such folder
 [[nodiscard]] Result<FoundDrives> traffic_drives(const std::vector<std::filesystem::path>& folders,
                                                  std::size_t most, std::uint64_t seed,
                                                  const std::function<bool()>& goes_on);
