@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/invocation.h"
 #include "apps/saca/line_description.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
@@ -38,13 +39,12 @@ std::vector<std::string> option_names(const DescribedCommand& command) {
   return names;
 }
 
-/// A text as a shell takes it literally, between single quotes.
-std::string in_quotes(std::string_view text) {
-  std::string out = "'";
-  for (const char letter : text) {
-    out += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
-  }
-  return out + "'";
+/// What a command does that may be typed after another.
+const std::string& about(const Commands& commands, const DescribedCommand& outer,
+                         const std::string& name) {
+  return std::find_if(commands.begin(), commands.end(),
+                      [&](const auto& each) { return each.name == outer.name + " " + name; })
+      ->about;
 }
 
 /// "saca run --pace" and so on, for each name of an option.
@@ -69,7 +69,7 @@ bool wants_scenario(const DescribedCommand& command) {
 }
 
 constexpr std::string_view scenario_names =
-    "$(saca scenarios 2>/dev/null | cut -d\" \" -f1)";  // asked for only when it is needed
+    "(saca scenarios 2>/dev/null | cut -d\" \" -f1)";  // asked for only when it is needed
 
 std::string bash(const Commands& commands) {
   std::string values;
@@ -89,7 +89,7 @@ std::string bash(const Commands& commands) {
     other.insert(other.end(), first.begin(), first.end());
     words += fmt::format("    \"{}\")\n      options=\"{}\"\n      words=\"{}{}\" ;;\n", one.name,
                          fmt::join(option_names(one), " "), fmt::join(other, " "),
-                         wants_scenario(one) ? scenario_names : "");
+                         wants_scenario(one) ? fmt::format("${}", scenario_names) : "");
   }
   return fmt::format(R"(# bash completion of saca, made by `saca completion bash`
 _saca() {{
@@ -151,17 +151,14 @@ std::string zsh(const Commands& commands) {
     }
     std::string inner;
     for (const std::string& name : one.commands) {
-      const auto found = std::find_if(commands.begin(), commands.end(), [&](const auto& each) {
-        return each.name == one.name + " " + name;
-      });
-      inner += " " + described_word(name, found->about);
+      inner += " " + described_word(name, about(commands, one, name));
     }
     for (const std::string& word : first_words(one)) {
       inner += " " + in_quotes(word);
     }
     words += fmt::format("    (\"{}\")\n      options=({} )\n      words_there=({} {}) ;;\n",
                          one.name, options, inner,
-                         wants_scenario(one) ? fmt::format("${{(f)\"{}\"}}", scenario_names) : "");
+                         wants_scenario(one) ? fmt::format("${{(f)\"${}\"}}", scenario_names) : "");
   }
   return fmt::format(R"(#compdef saca
 # zsh completion of saca, made by `saca completion zsh`
@@ -196,16 +193,14 @@ std::string fish(const Commands& commands) {
     const std::string here =
         fmt::format("complete -c saca -n 'test (__saca_command) = \"{}\"'", one.name);
     for (const std::string& name : one.commands) {
-      const auto found = std::find_if(commands.begin(), commands.end(), [&](const auto& each) {
-        return each.name == one.name + " " + name;
-      });
-      lines += fmt::format("{} -f -a {} -d {}\n", here, name, in_quotes(found->about));
+      lines +=
+          fmt::format("{} -f -a {} -d {}\n", here, name, in_quotes(about(commands, one, name)));
     }
     if (!first_words(one).empty()) {
       lines += fmt::format("{} -f -a '{}'\n", here, fmt::join(first_words(one), " "));
     }
     if (wants_scenario(one)) {
-      lines += fmt::format("{} -a '(saca scenarios 2>/dev/null | cut -d\" \" -f1)'\n", here);
+      lines += fmt::format("{} -a '{}'\n", here, scenario_names);
     }
     for (const DescribedOption& option : one.options) {
       lines += here;

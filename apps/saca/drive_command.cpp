@@ -68,10 +68,9 @@ std::string command_line(const DriveOptions& options) {
 /// A size with its side in words, e.g. "1.48 m to the right".
 /// @param left  > 0 to the left
 std::string sided(double left, int digits, const char* unit) {
-  const std::string size = fmt::format("{:.{}f} {}", std::abs(left), digits, unit);
-  const bool is_none =
-      fmt::format("{:.{}f}", std::abs(left), digits) == fmt::format("{:.{}f}", 0.0, digits);
-  return is_none ? size : size + (left > 0.0 ? " to the left" : " to the right");
+  const std::string size = fmt::format("{:.{}f}", std::abs(left), digits);
+  const bool is_none = size.find_first_not_of("0.") == std::string::npos;
+  return size + " " + unit + (is_none ? "" : left > 0.0 ? " to the left" : " to the right");
 }
 
 /// For people: what the record says of the end, and of the draws.
@@ -185,10 +184,7 @@ void add_drive(CLI::App& line, int& exit_code) {
   command->add_option("--grip", options->grip, "Friction coefficient of the road")
       ->check(within(0.01, 1.2, "-"))
       ->capture_default_str();
-  command
-      ->add_option("--target-speed", options->target_speed,
-                   "Of policies 3 and 4 [m/s] (default: half the speed)")
-      ->check(within(0.0, 100.0, "m/s"));
+  add_target_speed(*command, options->target_speed);
   command
       ->add_option("--strength", options->strength,
                    "Of policy 0: share of the grip that the brakes are asked for, 0.2 to 1 "

@@ -3,7 +3,9 @@
 #include <utility>
 
 #include "saca/core/file.h"
+#include "saca/core/fnv.h"
 #include "saca/manoeuvre/ego.h"
+#include "saca/runtime/tape_header.h"
 
 namespace saca::app {
 
@@ -77,6 +79,18 @@ Result<ScenarioInputs> read_scenario_inputs(const std::string& scenario) {
   static_cast<Inputs&>(all) = inputs.value();
   all.scenario = read.value();
   return all;
+}
+
+Result<std::string> scenario_digest(const Places& places, const std::string& scenario) {
+  const auto file = find_scenario(places, scenario);
+  if (!file.has_value()) {
+    return file.error();
+  }
+  Fnv hash;
+  if (auto problem = read_file(file.value(), [&](std::string_view bytes) { hash.add(bytes); })) {
+    return *std::move(problem);
+  }
+  return runtime::digest_text(hash);
 }
 
 Result<sim::Family> read_family(const Places& places, const std::string& name) {

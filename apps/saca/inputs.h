@@ -35,6 +35,11 @@ struct ScenarioInputs : Inputs {
 /// @param scenario  its file, or the name of a shipped one; it names the car
 [[nodiscard]] Result<ScenarioInputs> read_scenario_inputs(const std::string& scenario);
 
+/// Names the bytes of a scenario's file: FNV-1a, 16 hexadecimal digits.
+/// @param scenario  as above
+[[nodiscard]] Result<std::string> scenario_digest(const Places& places,
+                                                  const std::string& scenario);
+
 /// One shipped family, or one of the user's own folder.
 [[nodiscard]] Result<sim::Family> read_family(const Places& places, const std::string& name);
 [[nodiscard]] Result<sim::Splits> read_splits(const Places& places);

@@ -18,17 +18,18 @@ std::string quoted(const std::string& word) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
            std::string("_-./=:,@+%").find(c) != std::string::npos;
   });
-  if (plain) {
-    return word;
-  }
-  std::string text = "'";
-  for (const char c : word) {
-    text += c == '\'' ? "'\\''" : std::string(1, c);
-  }
-  return text + "'";
+  return plain ? word : in_quotes(word);
 }
 
 }  // namespace
+
+std::string in_quotes(std::string_view text) {
+  std::string out = "'";
+  for (const char letter : text) {
+    out += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+  }
+  return out + "'";
+}
 
 std::string invocation() {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);  // words that end in 0

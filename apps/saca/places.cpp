@@ -70,13 +70,16 @@ constexpr Shipped of_families{"family", "scenarios/families", {"suites", "surrou
 constexpr Shipped of_cars{"car", "data/vehicles", {}, nullptr};
 constexpr Shipped of_reach_cases{"case", "data/reach", {}, nullptr};
 
+bool is_other(const Shipped& shipped, std::string_view name) {
+  return std::find(shipped.others.begin(), shipped.others.end(), name) != shipped.others.end();
+}
+
 std::vector<fs::path> files_of(const Places& places, const Shipped& shipped) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(places.root / shipped.folder)) {
     const std::string stem = entry.path().stem().string();
-    const bool other =
-        std::find(shipped.others.begin(), shipped.others.end(), stem) != shipped.others.end();
-    if (entry.path().extension() == ".toml" && stem.find('.') == stem.npos && !other) {
+    if (entry.path().extension() == ".toml" && stem.find('.') == stem.npos &&
+        !is_other(shipped, stem)) {
       files.push_back(entry.path());
     }
   }
@@ -111,9 +114,7 @@ Result<fs::path> find_shipped(const Places& places, const Shipped& shipped,
   }
   const bool plain = !fs::path(name).has_extension() && !fs::path(name).has_parent_path();
   const fs::path file = places.root / shipped.folder / (name + ".toml");
-  const bool other =
-      std::find(shipped.others.begin(), shipped.others.end(), name) != shipped.others.end();
-  if (plain && !name.empty() && !other && fs::exists(file, problem)) {
+  if (plain && !name.empty() && !is_other(shipped, name) && fs::exists(file, problem)) {
     return file;
   }
   return not_there(places, shipped, name);

@@ -22,8 +22,6 @@
 #include "apps/saca/thinking_options.h"
 #include "apps/saca/version.h"
 #include "apps/saca/within.h"
-#include "saca/core/file.h"
-#include "saca/core/fnv.h"
 #include "saca/loop/encounter.h"
 #include "saca/loop/provenance.h"
 #include "saca/loop/review.h"
@@ -32,7 +30,6 @@
 #include "saca/memory/store.h"
 #include "saca/report/explanation.h"
 #include "saca/report/html_report.h"
-#include "saca/runtime/tape_header.h"
 
 namespace saca::app {
 namespace {
@@ -108,37 +105,25 @@ Result<std::shared_ptr<memory::Store>> open_memory(const RunOptions& options) {
 
 std::optional<Error> write_outputs(const std::string& record, const fs::path& folder,
                                    const fs::path& report) {
-  for (const fs::path& file : {folder / "record.json", report}) {
-    if (auto problem = make_folder_of(file)) {
-      return problem;
-    }
-  }
-  if (auto problem = write_file(folder / "record.json", record)) {
+  if (auto problem = write_output(folder / "record.json", record)) {
     return problem;
   }
   const auto page = report::html_report(record);
-  if (!page.has_value()) {
-    return page.error();
-  }
-  return write_file(report, page.value());
+  return page.has_value() ? write_output(report, page.value()) : page.error();
 }
 
 /// Of a record that this command makes now.
 Result<loop::Provenance> provenance_of(const ScenarioInputs& inputs, const std::string& scenario) {
-  const auto file = find_scenario(inputs.places, scenario);
-  if (!file.has_value()) {
-    return file.error();
-  }
-  Fnv hash;
-  if (auto problem = read_file(file.value(), [&](std::string_view bytes) { hash.add(bytes); })) {
-    return *std::move(problem);
+  const auto digest = scenario_digest(inputs.places, scenario);
+  if (!digest.has_value()) {
+    return digest.error();
   }
   return loop::Provenance{.program = "saca " SACA_VERSION,
                           .commit = built_from(),
                           .date = now_in_utc(),
                           .command = invocation(),
                           .file = scenario,
-                          .digest = runtime::digest_text(hash)};
+                          .digest = digest.value()};
 }
 
 /// What came, what was weighed and why this was done.
@@ -157,20 +142,14 @@ std::string wrong_trace_name(const std::string& name) {
 
 std::optional<Error> write_trace(const fs::path& file, const loop::Setup& setup,
                                  const loop::Record& record) {
-  if (auto problem = make_folder_of(file)) {
-    return problem;
-  }
-  return write_file(file, file.extension() == ".csv" ? loop::trace_csv(setup, record)
-                                                     : loop::trace_jsonl(setup, record));
+  return write_output(file, file.extension() == ".csv" ? loop::trace_csv(setup, record)
+                                                       : loop::trace_jsonl(setup, record));
 }
 
 std::optional<Error> write_tape(const fs::path& file, const runtime::TapeFile& tape) {
-  if (auto problem = make_folder_of(file)) {
-    return problem;
-  }
   runtime::TapeFile by_this_program = tape;
   by_this_program.header.program = SACA_VERSION;
-  return write_file(file, runtime::tape_text(by_this_program));
+  return write_output(file, runtime::tape_text(by_this_program));
 }
 
 /// nullopt: what SACA decides is carried out.
@@ -201,6 +180,10 @@ int run(const RunOptions& options) {
   }
   if (const auto problem = why_unwritable(options, inputs.value().scenario.name)) {
     return refused(*problem);
+  }
+  const auto provenance = provenance_of(inputs.value(), options.scenario);
+  if (!provenance.has_value()) {
+    return refused(provenance.error());
   }
   const auto costs = read_costs(inputs.value().places);
   if (!costs.has_value()) {
@@ -254,10 +237,6 @@ int run(const RunOptions& options) {
     return refused(played.error());
   }
   loop::Record record = std::move(played).value();
-  const auto provenance = provenance_of(inputs.value(), options.scenario);
-  if (!provenance.has_value()) {
-    return refused(provenance.error());
-  }
   std::string text = loop::record_json(setup, record, &provenance.value());
   story.ending(inputs.value().scenario, record, in_short(text));
   // What was played is written down even if nobody wants to wait for the review.
@@ -321,10 +300,7 @@ void add_run(CLI::App& line, int& exit_code) {
                       "Write the model's replies to a file for --llm replay:FILE");
   add_policy(*command, options->policy,
              "Carry out this policy (0-7, or its name) at the trigger, whatever was thought");
-  command
-      ->add_option("--target-speed", options->target_speed,
-                   "Of policies 3 and 4 [m/s] (default: half the speed)")
-      ->check(within(0.0, 100.0, "m/s"));
+  add_target_speed(*command, options->target_speed);
   command
       ->add_option("--strength", options->strength,
                    "Of policy 0: share of the grip that the brakes are asked for (default: all)")

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/saca/atlas_making.h"
@@ -11,11 +13,9 @@
 #include "apps/saca/printing.h"
 #include "saca/config/json_text.h"
 #include "saca/core/file.h"
-#include "saca/core/fnv.h"
 #include "saca/core/printable.h"
 #include "saca/loop/provenance.h"
 #include "saca/report/explanation.h"
-#include "saca/runtime/tape_header.h"
 
 namespace saca::app {
 namespace {
@@ -36,66 +36,54 @@ struct Compared {
   std::string lacks;  ///< why not
 };
 
-/// What the command would read now.
+/// What the same run would read now; an error that says what of it is not here.
+Result<json> read_now(const std::string& car, bool with_atlas) {
+  const auto inputs = read_inputs(car);
+  if (!inputs.has_value()) {
+    return inputs.error();
+  }
+  std::optional<manoeuvre::Atlas> atlas;
+  if (with_atlas) {
+    atlas = usual_atlas(inputs.value());
+  }
+  return loop::inputs_json({&inputs.value().car, &inputs.value().harm, atlas ? &*atlas : nullptr},
+                           inputs.value().intent, car);
+}
+
+/// One of a list of inputs; nullptr: there is none.
+const json* input_called(const json& inputs, std::string_view what) {
+  const auto found = std::find_if(inputs.begin(), inputs.end(),
+                                  [&](const json& one) { return one.at("what") == what; });
+  return found == inputs.end() ? nullptr : &*found;
+}
+
 /// @param made  of a record
 Result<std::vector<Compared>> compared(const json& made) {
-  std::vector<Compared> all;
-  for (const json& one : made.at("inputs")) {
-    all.push_back({.what = one.at("what").get<std::string>(),
-                   .name = one.at("name").get<std::string>(),
-                   .recorded = one.at("digest"),
-                   .here = nullptr,
-                   .lacks = ""});
-  }
   const auto places = find_places();
   if (!places.has_value()) {
     return places.error();
   }
-  for (Compared& one : all) {
-    if (one.what == "scenario") {
-      const auto file = find_scenario(places.value(), one.name);
-      Fnv hash;
-      const auto problem =
-          file.has_value()
-              ? read_file(file.value(), [&](std::string_view bytes) { hash.add(bytes); })
-              : std::optional(file.error());
-      one.lacks = problem ? problem->message : "";
-      one.here = problem ? json(nullptr) : json(runtime::digest_text(hash));
+  const json& inputs = made.at("inputs");
+  const json* const car = input_called(inputs, "car");
+  const json* const atlas = input_called(inputs, "atlas");
+  const auto now = read_now(car == nullptr ? "" : car->at("name").get<std::string>(),
+                            atlas != nullptr && !atlas->at("digest").is_null());
+  std::vector<Compared> all;
+  for (const json& one : inputs) {
+    Compared& told = all.emplace_back(Compared{.what = one.at("what").get<std::string>(),
+                                               .name = one.at("name").get<std::string>(),
+                                               .recorded = one.at("digest"),
+                                               .here = nullptr,
+                                               .lacks = ""});
+    if (told.what == "scenario") {
+      const auto digest = scenario_digest(places.value(), told.name);
+      told.here = digest.has_value() ? json(digest.value()) : json(nullptr);
+      told.lacks = digest.has_value() ? "" : digest.error().message;
+    } else if (!now.has_value()) {
+      told.lacks = now.error().message;
+    } else if (const json* const same = input_called(now.value(), told.what)) {
+      told.here = same->at("digest");
     }
-  }
-  const auto of = [&](std::string_view what) -> Compared* {
-    const auto found =
-        std::find_if(all.begin(), all.end(), [&](const Compared& one) { return one.what == what; });
-    return found == all.end() ? nullptr : &*found;
-  };
-  const Compared* const car = of("car");
-  if (car == nullptr) {
-    return all;
-  }
-  const auto inputs = read_inputs(car->name);
-  const Compared* const told_atlas = of("atlas");
-  const bool with_atlas = told_atlas != nullptr && !told_atlas->recorded.is_null();
-  std::optional<manoeuvre::Atlas> atlas;
-  std::optional<runtime::TapeHeader> here;
-  if (inputs.has_value()) {
-    if (with_atlas) {
-      atlas = usual_atlas(inputs.value());
-    }
-    here = runtime::tape_header(
-        {.forecast = {&inputs.value().car, &inputs.value().harm, atlas ? &*atlas : nullptr}},
-        inputs.value().intent);
-  }
-  const auto note = [&](std::string_view what, const auto& digest) {
-    if (Compared* const one = of(what)) {
-      one->here = here ? json(digest(*here)) : json(nullptr);
-      one->lacks = here ? "" : inputs.error().message;
-    }
-  };
-  note("car", [](const runtime::TapeHeader& header) { return header.car_digest; });
-  note("harm", [](const runtime::TapeHeader& header) { return header.harm_digest; });
-  note("intentions", [](const runtime::TapeHeader& header) { return header.intent_digest; });
-  if (with_atlas) {
-    note("atlas", [](const runtime::TapeHeader& header) { return header.atlas.value_or(""); });
   }
   return all;
 }

@@ -59,4 +59,10 @@ CLI::Option* add_policy(CLI::App& command, std::optional<manoeuvre::PolicyId>& p
       ->type_name(fmt::format("POLICY:{{{}}}", fmt::join(names, ",")));
 }
 
+void add_target_speed(CLI::App& command, std::optional<double>& speed) {
+  command
+      .add_option("--target-speed", speed, "Of policies 3 and 4 [m/s] (default: half the speed)")
+      ->check(within(0.0, 100.0, "m/s"));
+}
+
 }  // namespace saca::app

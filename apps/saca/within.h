@@ -23,4 +23,7 @@ namespace saca::app {
 CLI::Option* add_policy(CLI::App& command, std::optional<manoeuvre::PolicyId>& policy,
                         const std::string& what);
 
+/// The option `--target-speed` [m/s] that goes with it.
+void add_target_speed(CLI::App& command, std::optional<double>& speed);
+
 }  // namespace saca::app

@@ -3,31 +3,42 @@
 #include <nlohmann/json.hpp>
 
 #include "saca/core/fnv.h"
+#include "saca/core/level.h"
 #include "saca/runtime/tape_header.h"
 
 namespace saca::loop {
 
 using nlohmann::json;
 
-json made_json(const Setup& setup, const Provenance& provenance) {
-  const runtime::TapeHeader digests =
-      runtime::tape_header({.forecast = {setup.car, setup.harm, setup.atlas}}, *setup.intent);
-  const auto input = [](const char* what, const std::string& name, const json& digest) {
-    return json{{"what", what}, {"name", name}, {"digest", digest}};
-  };
+namespace {
+
+json input_json(const char* what, const std::string& name, const json& digest) {
+  return {{"what", what}, {"name", name}, {"digest", digest}};
+}
+
+}  // namespace
+
+json inputs_json(const preview::ForecastTools& tools, const intent::Model& intent,
+                 const std::string& car) {
+  const runtime::TapeHeader digests = runtime::tape_header({.forecast = tools}, intent);
   const json atlas = digests.atlas ? json(*digests.atlas) : json(nullptr);
+  return {input_json("car", car, digests.car_digest),
+          input_json("harm", "data/harm.toml", digests.harm_digest),
+          input_json("intentions", "models/intent/model.safetensors", digests.intent_digest),
+          input_json("atlas", car, atlas)};
+}
+
+json made_json(const Setup& setup, const Provenance& provenance) {
+  json inputs =
+      inputs_json({setup.car, setup.harm, setup.atlas}, *setup.intent, setup.scenario->car);
+  inputs.insert(inputs.begin(), input_json("scenario", provenance.file, provenance.digest));
   return {{"program", provenance.program},
           {"commit", provenance.commit},
-          {"level", digests.level},
+          {"level", name(best_level())},
           {"date", provenance.date},
           {"command", provenance.command},
           {"seed", setup.seed ? json(*setup.seed) : json(nullptr)},
-          {"inputs",
-           {input("scenario", provenance.file, provenance.digest),
-            input("car", setup.scenario->car, digests.car_digest),
-            input("harm", "data/harm.toml", digests.harm_digest),
-            input("intentions", "models/intent/model.safetensors", digests.intent_digest),
-            input("atlas", setup.scenario->car, atlas)}}};
+          {"inputs", inputs}};
 }
 
 std::string content_digest(const json& record) {

@@ -17,6 +17,12 @@ struct Provenance {
   std::string digest;   ///< of that file: FNV-1a, 16 hexadecimal digits
 };
 
+/// What a run reads besides its scenario: a list of { "what", "name", "digest": or null, there is
+/// none }.
+/// @param car  its name or file
+[[nodiscard]] nlohmann::json inputs_json(const preview::ForecastTools& tools,
+                                         const intent::Model& intent, const std::string& car);
+
 /// As a record's `made` holds it, but for its `content`: with the seed and digests of everything
 /// that was read.
 [[nodiscard]] nlohmann::json made_json(const Setup& setup, const Provenance& provenance);

@@ -96,11 +96,8 @@ json nearest_json(const outcome::Outcome& outcome, std::span<const world::Actor>
   if (!outcome.nearest) {
     return nullptr;
   }
-  const outcome::Nearest& nearest = *outcome.nearest;
-  const char* const edge =
-      nearest.edge == outcome::Side::left ? "the road's left edge" : "the road's right edge";
-  return {{"to", nearest.actor ? actor_name(actors[*nearest.actor]) : edge},
-          {"time_s", nearest.time}};
+  return {{"to", outcome::nearest_name(*outcome.nearest, actors)},
+          {"time_s", outcome.nearest->time}};
 }
 
 std::span<const world::Actor> actors_of(const world::Scene& scene) {

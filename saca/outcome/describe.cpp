@@ -28,14 +28,17 @@ std::string staying_clear(const Outcome& outcome, std::span<const world::Actor> 
   if (!outcome.nearest) {
     return by;
   }
-  const Nearest& nearest = *outcome.nearest;
-  const std::string whom = nearest.actor                 ? called(*nearest.actor, actors)
-                           : *nearest.edge == Side::left ? "the road's left edge"
-                                                         : "the road's right edge";
-  return fmt::format("{} (nearest: {} at {:.1f} s)", by, whom, nearest.time);
+  return fmt::format("{} (nearest: {} at {:.1f} s)", by, nearest_name(*outcome.nearest, actors),
+                     outcome.nearest->time);
 }
 
 }  // namespace
+
+std::string nearest_name(const Nearest& nearest, std::span<const world::Actor> actors) {
+  return nearest.actor                 ? called(*nearest.actor, actors)
+         : *nearest.edge == Side::left ? "the road's left edge"
+                                       : "the road's right edge";
+}
 
 std::string describe(const Outcome& outcome, std::span<const world::Actor> actors) {
   if (!outcome.contact) {
