@@ -203,20 +203,27 @@ double apart_bodies(const Footprint& a, const Pose& X_WA, const Footprint& b, co
   return apart;
 }
 
+const Track& checked(const Track& track) {
+  expects(!track.X_WA.empty(), "a track has at least one pose");
+  expects(track.step > 0.0 && std::isfinite(track.start), "step > 0 and start is finite");
+  for (const Pose& pose : track.X_WA) {
+    expects(is_finite(pose), "every pose is finite");
+  }
+  return track;
+}
+
 }  // namespace
 
 Mover::Mover(const Footprint& footprint, const Track& X_WA)
-    : footprint_(&footprint), track_(&X_WA), reach_(bounding_radius(footprint)) {
-  expects(!X_WA.X_WA.empty(), "a track has at least one pose");
-  expects(X_WA.step > 0.0 && std::isfinite(X_WA.start), "step > 0 and start is finite");
+    : footprint_(&footprint),
+      track_(&X_WA),
+      reach_(bounding_radius(footprint)),
+      boxes_(footprint, checked(X_WA)) {
   const auto& poses = X_WA.X_WA;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    expects(is_finite(poses[i]), "every pose is finite");
-    if (i > 0) {
-      const double turn = std::abs(wrap_angle(poses[i].yaw - poses[i - 1].yaw));
-      const double way = norm(poses[i].p - poses[i - 1].p) + turn * reach_;
-      top_speed_ = std::max(top_speed_, way / X_WA.step);
-    }
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const double turn = std::abs(wrap_angle(poses[i].yaw - poses[i - 1].yaw));
+    const double way = norm(poses[i].p - poses[i - 1].p) + turn * reach_;
+    top_speed_ = std::max(top_speed_, way / X_WA.step);
   }
 }
 
@@ -232,6 +239,9 @@ Approach approach(const Mover& a, const Mover& b, double start, double end, doub
   expects(of_interest >= 0.0, "of_interest >= 0");
   const double top_speed = a.top_speed() + b.top_speed();
   Approach found{.distance = of_interest};
+  if (!may_come_near(a.boxes(), b.boxes(), start, end, std::max(of_interest, touching))) {
+    return found;
+  }
   Moment now = moment(a, b, start);
   while (true) {
     const double distance = now.gap.distance;
