@@ -13,7 +13,7 @@ namespace {
 using manoeuvre::atlas_samples;
 using manoeuvre::AtlasInstant;
 
-constexpr double goes_on_for = 2.0;  // as in play_out.cpp [s]
+constexpr double goes_on_for = 2.0;  // as in prepared_motion.cpp [s]
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include "saca/outcome/approach.h"
 #include "saca/outcome/blow.h"
 #include "saca/outcome/joined.h"
+#include "saca/outcome/prepared_motion.h"
 #include "saca/outcome/slide.h"
 #include "saca/outcome/toll.h"
 
@@ -19,11 +20,6 @@ using world::Track;
 
 // Slower than this, a body stands [m/s].
 constexpr double at_rest = 0.05;
-
-// How long an ego that has recovered its lane is followed along it [s]. An assumption: enough to
-// pass what it went around and to see what comes towards it; what is farther off is another
-// encounter.
-constexpr double goes_on = 2.0;
 
 // How long a collision lasts: bodies that crumple into each other for so long have met once. An
 // assumption; crash pulses of cars take about a tenth of a second [s].
@@ -47,21 +43,6 @@ bool moves_at_end(const Track& track) {
   const auto& poses = track.X_WA;
   return poses.size() > 1 &&
          norm(poses.back().p - poses[poses.size() - 2].p) > at_rest * track.step;
-}
-
-// The motion, followed by going on along the lane at the speed and offset of its end.
-EgoMotion carried_on(EgoMotion motion, const world::Road& road) {
-  const world::LanePose last = to_lane(road, motion.track.X_WA.back());
-  const double speed = norm(motion.v_B.back());
-  const double along = speed / (1.0 - road.curvature * last.d);  // what s gains per second
-  const int num_steps = static_cast<int>(std::ceil(goes_on / motion.track.step));
-  for (int k = 1; k <= num_steps; ++k) {
-    const double s = last.s + along * (k * motion.track.step);
-    motion.track.X_WA.push_back(from_lane(road, {s, last.d, last.heading}));
-    motion.v_B.push_back(rotated({speed, 0.0}, -last.heading));
-    motion.yaw_rate.push_back(along * road.curvature);
-  }
-  return motion;
 }
 
 // What comes next.
@@ -109,36 +90,41 @@ constexpr Detail only_contacts{.clearance = 0.0, .slides = coarse_slide, .look_a
 class Story {
  public:
   /// @param detail  what else than contacts is told, and how finely
-  Story(const EgoMotion& motion, const Scene& scene, const HarmModel& harm, double grip,
-        const Detail& detail = {})
-      : scene_(scene),
+  Story(PreparedMotion& motion, const HarmModel& harm, double grip, const Detail& detail = {})
+      : motion_(motion),
+        scene_(motion.scene()),
         harm_(harm),
         grip_(grip),
-        given_(motion),
-        goes_on_(motion.ended && moves_at_end(motion)),
-        carried_on_(goes_on_ ? carried_on(motion, scene.road) : EgoMotion{}),
-        since_(motion.track.start),
+        since_(motion.given().track.start),
         clearance_(detail.clearance),
         steps_(detail.slides),
         look_again_(detail.look_again),
-        dealings_(scene.actors.size()),
-        slides_(scene.actors.size()),
-        movers_(scene.actors.size()) {}
+        others_(motion.scene().actors.size()) {}
 
   // The ego's motion so far, and as it will be if nothing more happens.
   [[nodiscard]] EgoMotion ego() const {
-    EgoMotion all = intended();
+    EgoMotion all = motion_.intended();
     for (const EgoMotion& slide : ego_slides_) {
       all = joined(all, slide);
     }
     return all;
   }
+  // The same without velocities.
+  [[nodiscard]] const Track& ego_track() {
+    for (; num_joined_ < ego_slides_.size(); ++num_joined_) {
+      const Track& slide = ego_slides_[num_joined_].track;
+      joined_ = joined(num_joined_ == 0 ? motion_.in_steps_of(slide.step) : joined_, slide);
+    }
+    return num_joined_ == 0 ? motion_.intended().track : joined_;
+  }
 
   // Now the others move so, as long as they are not struck.
-  void expect(std::span<const Track> tracks) {
-    expects(tracks.size() == scene_.actors.size(), "one track per actor");
-    tracks_ = tracks;
-    std::fill(movers_.begin(), movers_.end(), std::nullopt);
+  // @param all  one per actor; what they refer to lasts until the next call
+  void expect(std::span<const Mover* const> all) {
+    expects(all.size() == others_.size(), "one track per actor");
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      others_[i].expected = all[i];
+    }
   }
 
   // The next thing that happens, if any.
@@ -151,37 +137,67 @@ class Story {
   [[nodiscard]] Outcome outcome() const;
 
   [[nodiscard]] std::vector<Track> others() const {
-    std::vector<Track> all(tracks_.begin(), tracks_.end());
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      for (const EgoMotion& slide : slides_[i]) {
-        all[i] = joined(all[i], slide.track);
+    std::vector<Track> all;
+    for (const Other& other : others_) {
+      all.push_back(other.expected->track());
+      for (const EgoMotion& slide : other.slides) {
+        all.back() = joined(all.back(), slide.track);
       }
+    }
+    return all;
+  }
+  /// Of each actor: does it no longer move as was expected?
+  [[nodiscard]] StaticVector<bool, world::max_actors> struck() const {
+    StaticVector<bool, world::max_actors> all;
+    for (const Other& other : others_) {
+      all.push_back(!other.slides.empty());
     }
     return all;
   }
 
  private:
-  [[nodiscard]] const EgoMotion& intended() const { return goes_on_ ? carried_on_ : given_; }
+  struct Other {
+    Dealings dealings;
+    const Mover* expected = nullptr;
+    std::vector<EgoMotion> slides;
+    std::optional<Mover> slides_on;  ///< the last of them; none: not needed yet
+
+    [[nodiscard]] const Track& track() const {
+      return slides.empty() ? expected->track() : slides.back().track;
+    }
+  };
+
   [[nodiscard]] const EgoMotion& now() const {
-    return ego_slides_.empty() ? intended() : ego_slides_.back();
+    return ego_slides_.empty() ? motion_.intended() : ego_slides_.back();
   }
   [[nodiscard]] bool was_struck() const { return !ego_slides_.empty(); }
-  [[nodiscard]] const Track& track(std::size_t i) const {
-    return slides_[i].empty() ? tracks_[i] : slides_[i].back().track;
-  }
+  [[nodiscard]] const Track& track(std::size_t i) const { return others_[i].track(); }
   /// A slide ends at rest, whatever its last step was like.
   [[nodiscard]] bool other_moves_at_end(std::size_t i) const {
-    return slides_[i].empty() ? moves_at_end(tracks_[i]) : moves_at_end(slides_[i].back());
+    const Other& other = others_[i];
+    return other.slides.empty() ? moves_at_end(other.track()) : moves_at_end(other.slides.back());
   }
   [[nodiscard]] Instant other_at(std::size_t i, double time) const {
-    return slides_[i].empty() ? instant_at(tracks_[i], time) : instant_at(slides_[i].back(), time);
+    const Other& other = others_[i];
+    return other.slides.empty() ? instant_at(other.track(), time)
+                                : instant_at(other.slides.back(), time);
   }
   /// Made once for each track: that looks at all of its poses.
   [[nodiscard]] const Mover& ego_mover() {
-    return ego_mover_ ? *ego_mover_ : ego_mover_.emplace(scene_.ego_footprint, now().track);
+    if (!was_struck()) {
+      return motion_.mover();
+    }
+    return ego_slides_on_ ? *ego_slides_on_
+                          : ego_slides_on_.emplace(scene_.ego_footprint, now().track);
   }
   [[nodiscard]] const Mover& mover(std::size_t i) {
-    return movers_[i] ? *movers_[i] : movers_[i].emplace(scene_.actors[i].footprint, track(i));
+    Other& other = others_[i];
+    if (other.slides.empty()) {
+      return *other.expected;
+    }
+    return other.slides_on
+               ? *other.slides_on
+               : other.slides_on.emplace(scene_.actors[i].footprint, other.slides.back().track);
   }
   [[nodiscard]] Dealings& dealings(Side side) { return edges_[static_cast<std::size_t>(side)]; }
 
@@ -198,33 +214,30 @@ class Story {
   [[nodiscard]] EgoMotion slide_of(const world::Footprint& footprint, double mass,
                                    const Instant& after, double time) const;
 
+  PreparedMotion& motion_;
   const Scene& scene_;
   const HarmModel& harm_;
   double grip_;
-  const EgoMotion& given_;
-  bool goes_on_;
-  EgoMotion carried_on_;
-  std::span<const Track> tracks_;
   double since_;  ///< when the last event happened [s]
   double clearance_;
   std::optional<Nearest> nearest_;
   SlideSteps steps_;
   double look_again_;
-  std::vector<Dealings> dealings_;  ///< with each actor
-  std::array<Dealings, 2> edges_;   ///< by Side
+  std::vector<Other> others_;      ///< one per actor
+  std::array<Dealings, 2> edges_;  ///< by Side
   std::vector<EgoMotion> ego_slides_;
-  std::vector<std::vector<EgoMotion>> slides_;  ///< of each actor
-  std::optional<Mover> ego_mover_;              ///< of `now`; none: not needed yet
-  std::vector<std::optional<Mover>> movers_;    ///< of each actor's `track`, likewise
-  std::vector<Blow> blows_;                     ///< in order of time
-  std::optional<std::size_t> first_;            ///< of them: the first that struck the ego
+  std::optional<Mover> ego_slides_on_;  ///< the last of them; none: not needed yet
+  Track joined_;                        ///< the ego's way with the first `num_joined_` slides
+  std::size_t num_joined_ = 0;
+  std::vector<Blow> blows_;           ///< in order of time
+  std::optional<std::size_t> first_;  ///< of them: the first that struck the ego
 };
 
 double Story::last_time() const {
   const EgoMotion& ego = now();
   double time = end_time(ego.track);
   if (ego.ended && !moves_at_end(ego)) {
-    for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    for (std::size_t i = 0; i < others_.size(); ++i) {
       time = std::max(time, end_time(track(i)));
     }
   }
@@ -247,6 +260,9 @@ std::optional<Event> Story::next_at(Side side) {
         std::max(since_, *before.last_blow + blow_lasts), end_time(track), look_again_, first_touch,
         [&](double time) { return closing_speed(scene_, side, instant_at(now(), time), harm_); });
   }
+  if (interest == 0.0 && !was_struck() && since_ == track.start) {
+    return at(motion_.crossing(side));
+  }
   const EdgeApproach edge =
       edge_approach(scene_.road, side, scene_.ego_footprint, track, interest, since_);
   if (what != Beyond::unmarked) {
@@ -257,7 +273,7 @@ std::optional<Event> Story::next_at(Side side) {
 
 // @param first  nothing is known yet that ends the search before `until`
 std::optional<Event> Story::next_with(std::size_t i, double until, bool first) {
-  const Dealings& before = dealings_[i];
+  const Dealings& before = others_[i].dealings;
   const double from = std::max(since_, track(i).start);
   const double known = other_moves_at_end(i) ? std::min(until, end_time(track(i))) : until;
   if (before.over || known < from) {
@@ -300,7 +316,7 @@ std::optional<Event> Story::next() {
     }
     consider(event);
   }
-  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+  for (std::size_t i = 0; i < others_.size(); ++i) {
     std::optional<Event> event = next_with(i, until, !stops);
     if (event) {
       event->actor = i;
@@ -339,10 +355,11 @@ bool Story::happen(const Event& event) {
     const world::Actor& actor = scene_.actors[i];
     blow = meet(scene_, i, ego, other_at(i, event.time), event.time, harm_);
     if (actor.kind != world::ActorKind::obstacle) {
-      slides_[i].push_back(slide_of(actor.footprint, actor.mass, blow.other_after, event.time));
-      movers_[i].reset();
+      others_[i].slides_on.reset();
+      others_[i].slides.push_back(
+          slide_of(actor.footprint, actor.mass, blow.other_after, event.time));
     }
-    dealings_[i] = {event.time, unprotected(actor.kind)};
+    others_[i].dealings = {event.time, unprotected(actor.kind)};
   } else {
     const Beyond what = beyond(scene_.road, *event.edge);
     blow = leave(scene_, *event.edge, ego, event.time, harm_);
@@ -350,9 +367,9 @@ bool Story::happen(const Event& event) {
     dealings(*event.edge) = {event.time, what != Beyond::barrier};
   }
   if (strikes) {
+    ego_slides_on_.reset();
     ego_slides_.push_back(
         slide_of(scene_.ego_footprint, scene_.ego_mass, blow.ego_after, event.time));
-    ego_mover_.reset();
     first_ = first_.value_or(blows_.size());
   }
   note(blow, event);
@@ -363,7 +380,7 @@ Outcome Story::outcome() const {
   Outcome outcome;
   outcome.harm = toll(blows_, scene_, harm_);
   outcome.clearance = 0.0;
-  outcome.end_time = end_time(was_struck() ? now().track : given_.track);
+  outcome.end_time = end_time(was_struck() ? now().track : motion_.given().track);
   if (blows_.empty()) {
     outcome.clearance = clearance_;
     outcome.nearest = nearest_;
@@ -380,55 +397,63 @@ Outcome Story::outcome() const {
 }
 
 /// Tells a story to its end.
-/// @return  the others' tracks, as long as they were not struck: the story refers to them
-std::vector<Track> tell(Story& story, const Others& others) {
-  std::vector<Track> tracks = others(story.ego());
-  story.expect(tracks);
+/// @param again  called whenever anybody has begun to move otherwise
+template <class Again>
+void tell(Story& story, Again&& again) {
   for (std::size_t i = 0; i < most_blows; ++i) {
     const std::optional<Event> event = story.next();
     if (!event) {
       break;
     }
     if (story.happen(*event)) {
-      tracks = others(story.ego());
-      story.expect(tracks);
+      again();
     }
-  }
-  return tracks;
-}
-void tell(Story& story, std::span<const Track> tracks) {
-  story.expect(tracks);
-  for (std::size_t i = 0; i < most_blows; ++i) {
-    const std::optional<Event> event = story.next();
-    if (!event) {
-      break;
-    }
-    story.happen(*event);
   }
 }
 
-void check(const EgoMotion& motion) {
-  expects(!motion.track.X_WA.empty(), "the motion has at least one pose");
-  expects(motion.v_B.size() == motion.track.X_WA.size() &&
-              motion.yaw_rate.size() == motion.track.X_WA.size(),
-          "one velocity and one yaw rate per pose");
+std::vector<const Mover*> each_of(std::span<const Mover> movers) {
+  std::vector<const Mover*> all;
+  all.reserve(movers.size());
+  for (const Mover& mover : movers) {
+    all.push_back(&mover);
+  }
+  return all;
+}
+
+/// The others' tracks, as long as they were not struck. A story refers to them.
+struct Told {
+  std::vector<Track> tracks;
+  std::vector<Mover> movers;
+};
+Told tell(Story& story, const Scene& scene, const Others& others) {
+  Told told;
+  const auto ask = [&] {
+    told.tracks = others(story.ego());
+    told.movers = movers_of(scene, told.tracks);
+    story.expect(each_of(told.movers));
+  };
+  ask();
+  tell(story, ask);
+  return told;
 }
 
 }  // namespace
 
 Course play_out(const EgoMotion& motion, const Scene& scene, const Others& others,
                 const HarmModel& harm, double grip) {
-  check(motion);
-  Story story(motion, scene, harm, grip);
-  const std::vector<Track> tracks = tell(story, others);
+  PreparedMotion prepared(motion, scene);
+  Story story(prepared, harm, grip);
+  const Told told = tell(story, scene, others);
   return {story.outcome(), story.ego(), story.others()};
 }
 
 Outcome judge(const EgoMotion& motion, const Scene& scene, std::span<const Track> tracks,
               const HarmModel& harm, double grip) {
-  check(motion);
-  Story story(motion, scene, harm, grip);
-  tell(story, tracks);
+  PreparedMotion prepared(motion, scene);
+  const std::vector<Mover> movers = movers_of(scene, tracks);
+  Story story(prepared, harm, grip);
+  story.expect(each_of(movers));
+  tell(story, [] {});
   return story.outcome();
 }
 
@@ -438,17 +463,31 @@ bool moves_at_end(const EgoMotion& motion) {
 
 Outcome judge_contacts(const EgoMotion& motion, const Scene& scene, const Others& others,
                        const HarmModel& harm) {
-  check(motion);
-  Story story(motion, scene, harm, scene.grip, only_contacts);
-  const std::vector<Track> tracks = tell(story, others);
+  PreparedMotion prepared(motion, scene);
+  Story story(prepared, harm, scene.grip, only_contacts);
+  const Told told = tell(story, scene, others);
   return story.outcome();
 }
 
 Outcome judge_contacts(const EgoMotion& motion, const Scene& scene, std::span<const Track> tracks,
                        const HarmModel& harm) {
-  check(motion);
-  Story story(motion, scene, harm, scene.grip, only_contacts);
-  tell(story, tracks);
+  PreparedMotion prepared(motion, scene);
+  return judge_contacts(prepared, movers_of(scene, tracks), harm);
+}
+
+Outcome judge_contacts(PreparedMotion& motion, std::span<const Mover> others, const HarmModel& harm,
+                       const Reaction& reaction) {
+  Story story(motion, harm, motion.scene().grip, only_contacts);
+  std::vector<const Mover*> all = each_of(others);
+  const auto react = [&] {
+    if (reaction) {
+      const auto struck = story.struck();
+      reaction(story.ego_track(), {struck.begin(), struck.size()}, all);
+    }
+    story.expect(all);
+  };
+  react();
+  tell(story, react);
   return story.outcome();
 }
 
