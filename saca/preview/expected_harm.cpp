@@ -8,7 +8,8 @@
 #include "saca/intent/joint.h"
 #include "saca/manoeuvre/batch.h"
 #include "saca/outcome/ordering.h"
-#include "saca/preview/followers.h"
+#include "saca/outcome/prepared_motion.h"
+#include "saca/preview/follower_answers.h"
 #include "saca/world/time_to_conflict.h"
 
 namespace saca::preview {
@@ -16,6 +17,7 @@ namespace {
 
 using manoeuvre::EgoMotion;
 using manoeuvre::PolicyId;
+using outcome::Mover;
 using world::Scene;
 using world::Track;
 
@@ -61,68 +63,105 @@ EgoMotion thinned(const EgoMotion& motion) {
   return thin;
 }
 
-bool same(const Pose& a, const Pose& b) {
-  return a.p.x == b.p.x && a.p.y == b.p.y && a.yaw == b.yaw;
-}
-
 /// One way of the ego, held against one joint motion after the other. Who follows reacts to the ego
 /// alone, so it does the same in all of them until the ego is struck.
 class HeldWay {
  public:
-  HeldWay(const Scene& scene, const EgoMotion& way, const ForecastTools& tools)
-      : scene_(scene), way_(thinned(way)), tools_(tools), followers_(followers_of(scene)) {}
-
-  [[nodiscard]] outcome::Outcome against(const JointMotion& motion) {
-    if (followers_.empty()) {
-      return outcome::judge_contacts(way_, scene_, motion.tracks, *tools_.harm);
+  HeldWay(const Scene& scene, const EgoMotion& way, const outcome::HarmModel& harm)
+      : scene_(scene),
+        harm_(harm),
+        way_(thinned(way)),
+        motion_(way_, scene),
+        answers_(scene, scene.time + motion_horizon, reacting_step),
+        answered_(answers_.followers().size()) {
+    if (!answered_.empty()) {
+      answers_.remember(motion_.intended().track);
     }
-    const auto others = [&](const EgoMotion& ego) { return moved(motion.tracks, ego.track); };
-    return outcome::judge_contacts(way_, scene_, others, *tools_.harm);
+  }
+
+  /// @param others  the motion's tracks
+  [[nodiscard]] outcome::Outcome against(std::span<const Mover> others) {
+    if (answered_.empty()) {
+      return outcome::judge_contacts(motion_, others, harm_);
+    }
+    return outcome::judge_contacts(
+        motion_, others, harm_,
+        [&](const Track& X_WB, std::span<const bool> struck, std::span<const Mover*> movers) {
+          react(X_WB, struck, others, movers);
+        });
   }
 
  private:
-  /// What the followers reacted to, and what they did: one track per actor, of the others nothing.
-  struct Answers {
-    Track X_WB;
-    std::vector<Track> tracks;
+  static constexpr double reacting_step = 1.0 / 16.0;  // [s]
+
+  /// A follower where it is drawn to be.
+  struct Answered {
+    Track X_WA;
+    std::optional<Mover> mover;
   };
 
-  [[nodiscard]] std::vector<Track> moved(const std::vector<Track>& planned, const Track& X_WB) {
-    std::vector<Track> tracks = planned;
-    const std::vector<Track>& answers = answers_to(X_WB);
-    for (const std::size_t i : followers_) {
-      const Vec2 off = planned[i].X_WA.front().p - scene_.actors[i].X_WA.p;  // as it is drawn
-      tracks[i] = answers[i];
-      for (Pose& pose : tracks[i].X_WA) {
+  /// @param drawn  those who react in it, too
+  void react(const Track& X_WB, std::span<const bool> struck, std::span<const Mover> drawn,
+             std::span<const Mover*> movers) {
+    const Followers& followers = answers_.followers();
+    std::size_t num = followers.size();
+    while (num > 0 && struck[followers[num - 1]]) {
+      --num;  // nobody looks at it any more
+    }
+    const Track& meant = motion_.intended().track;
+    if (&X_WB != &meant && !has_steps_) {
+      has_steps_ = true;
+      answers_.remember(motion_.in_steps_of(X_WB.step));
+    }
+    const std::span<const Track> tracks = answers_.to(X_WB, num);
+    for (std::size_t k = 0; k < num; ++k) {
+      const std::size_t i = followers[k];
+      if (struck[i]) {
+        continue;
+      }
+      const Vec2 off = drawn[i].track().X_WA.front().p - scene_.actors[i].X_WA.p;
+      Answered& answered = answered_[k];
+      answered.X_WA = tracks[k];
+      for (Pose& pose : answered.X_WA.X_WA) {
         pose.p = pose.p + off;
       }
+      movers[i] = &answered.mover.emplace(scene_.actors[i].footprint, answered.X_WA);
     }
-    return tracks;
-  }
-
-  /// What the followers do when the ego moves so. In every draw it first moves as it is meant to.
-  [[nodiscard]] const std::vector<Track>& answers_to(const Track& X_WB) {
-    for (const Answers* one : {&meant_, &struck_}) {
-      if (std::equal(one->X_WB.X_WA.begin(), one->X_WB.X_WA.end(), X_WB.X_WA.begin(),
-                     X_WB.X_WA.end(), same)) {
-        return one->tracks;
-      }
-    }
-    constexpr double step = 1.0 / 16.0;  // [s] of who reacts
-    Answers& answers = meant_.tracks.empty() ? meant_ : struck_;
-    answers.X_WB = X_WB;
-    answers.tracks.resize(scene_.actors.size());
-    let_react(scene_, followers_, X_WB, scene_.time + motion_horizon, step, answers.tracks);
-    return answers.tracks;
   }
 
   const Scene& scene_;
+  const outcome::HarmModel& harm_;
   EgoMotion way_;
-  const ForecastTools& tools_;
-  Followers followers_;
-  Answers meant_;   ///< to the ego's motion while nobody is struck
-  Answers struck_;  ///< to the last one else
+  outcome::PreparedMotion motion_;
+  FollowerAnswers answers_;
+  std::vector<Answered> answered_;
+  bool has_steps_ = false;  ///< remembered is also what answers the steps of a struck ego
 };
+
+/// All tracks of each joint motion.
+std::vector<std::vector<Mover>> movers_of_each(const Scene& scene,
+                                               std::span<const JointMotion> motions) {
+  std::vector<std::vector<Mover>> all;
+  all.reserve(motions.size());
+  for (const JointMotion& motion : motions) {
+    all.push_back(outcome::movers_of(scene, motion.tracks));
+  }
+  return all;
+}
+
+/// @param movers  of the motions
+ExpectedHarm harm_of(const EgoMotion& way, const Scene& scene, std::span<const JointMotion> motions,
+                     std::span<const std::vector<Mover>> movers, const outcome::HarmModel& harm) {
+  HeldWay held(scene, way, harm);
+  ExpectedHarm expected;
+  const double sum = weight_of(motions);
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    const outcome::Outcome outcome = held.against(movers[k]);
+    expected.harm += motions[k].probability / sum * outcome.harm;
+    expected.contact += outcome.contact ? motions[k].probability / sum : 0.0;
+  }
+  return expected;
+}
 
 /// Ways of the ego that can be driven, no longer than the others' motions; in the order of `plans`.
 std::vector<std::optional<EgoMotion>> ways_of(const Scene& scene,
@@ -218,9 +257,10 @@ std::vector<ExpectedHarm> expected_harms(const Scene& scene, std::span<const Joi
   }
   if (!all) {
     all.emplace();
+    const std::vector<std::vector<Mover>> movers = movers_of_each(scene, motions);
     for (const auto& way : ways_of(scene, plans, tools)) {
       const manoeuvre::Plan& plan = plans[all->size()];
-      all->push_back(way ? expected_harm(*way, scene, motions, tools)
+      all->push_back(way ? harm_of(*way, scene, motions, movers, *tools.harm)
                          : ExpectedHarm{.plan = plan,
                                         .refusal = *manoeuvre::refusal(*tools.car, plan, scene)});
     }
@@ -234,15 +274,7 @@ std::vector<ExpectedHarm> expected_harms(const Scene& scene, std::span<const Joi
 ExpectedHarm expected_harm(const EgoMotion& way, const Scene& scene,
                            std::span<const JointMotion> motions, const ForecastTools& tools) {
   expects(tools.harm != nullptr, "harm is given");
-  HeldWay held(scene, way, tools);
-  ExpectedHarm expected;
-  const double sum = weight_of(motions);
-  for (const JointMotion& motion : motions) {
-    const outcome::Outcome outcome = held.against(motion);
-    expected.harm += motion.probability / sum * outcome.harm;
-    expected.contact += outcome.contact ? motion.probability / sum : 0.0;
-  }
-  return expected;
+  return harm_of(way, scene, motions, movers_of_each(scene, motions), *tools.harm);
 }
 
 void ExpectedHarm::add(const PolicyFacts& facts, double share) {
