@@ -49,6 +49,8 @@ SweptBoxes::SweptBoxes(const Footprint& footprint, const world::Track& X_WA)
   const auto& poses = X_WA.X_WA;
   const std::size_t last = poses.size() - 1;
   const double reach = bounding_radius(footprint);
+  all_.low.fill(endless);
+  all_.high.fill(-endless);
   parts_.reserve(last / segments_per_part + 1);
   double yaw = poses.front().yaw;
   Extent body = extent(footprint, yaw);
@@ -78,6 +80,8 @@ SweptBoxes::SweptBoxes(const Footprint& footprint, const world::Track& X_WA)
     for (std::size_t k = 0; k < 4; ++k) {
       low[k] -= more;
       high[k] += more;
+      all_.low[k] = std::min(all_.low[k], low[k]);
+      all_.high[k] = std::max(all_.high[k], high[k]);
     }
     parts_.push_back({low, high});
   }
@@ -104,6 +108,9 @@ double SweptBoxes::end_of(std::size_t part) const {
 
 bool may_come_near(const SweptBoxes& a, const SweptBoxes& b, double start, double end,
                    double distance) {
+  if (!SweptBoxes::are_near(a.all_, b.all_, distance)) {
+    return false;
+  }
   std::size_t i = a.part_at(start);
   std::size_t j = b.part_at(start);
   while (!SweptBoxes::are_near(a.parts_[i], b.parts_[j], distance)) {

@@ -42,6 +42,7 @@ class SweptBoxes {
   double start_;                ///< of the first part [s]
   double span_;                 ///< of each part [s]
   std::vector<Octagon> parts_;  ///< in order of time; the first and the last have no end
+  Octagon all_;                 ///< holds them
 };
 
 [[nodiscard]] bool may_come_near(const SweptBoxes& a, const SweptBoxes& b, double start, double end,
