@@ -1,0 +1,309 @@
+#include "saca/outcome/story.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "saca/core/contract.h"
+#include "saca/outcome/approach.h"
+#include "saca/outcome/joined.h"
+#include "saca/outcome/toll.h"
+
+namespace saca::outcome {
+namespace {
+
+using manoeuvre::EgoMotion;
+using world::Beyond;
+using world::Scene;
+using world::Track;
+
+// Slower than this, a body stands [m/s].
+constexpr double at_rest = 0.05;
+
+// How long a collision lasts: bodies that crumple into each other for so long have met once. An
+// assumption; crash pulses of cars take about a tenth of a second [s].
+constexpr double blow_lasts = 0.1;
+
+// Bodies that have met and stay together press on each other; slower than this they do not meet
+// anew [m/s].
+constexpr double least_closing = 0.1;
+
+using outcome::moves_at_end;
+bool moves_at_end(const Track& track) {
+  const auto& poses = track.X_WA;
+  return poses.size() > 1 &&
+         norm(poses.back().p - poses[poses.size() - 2].p) > at_rest * track.step;
+}
+
+std::optional<Event> at(std::optional<double> time) {
+  return time ? std::optional(Event{.time = *time}) : std::nullopt;
+}
+
+// The first time that two who have met meet again, or press on.
+// @param look_again   between two looks at bodies that stay together [s]
+// @param first_touch  when they first touch at or after a time, if they do
+// @param closing      how fast they approach where they touch, at a time
+template <class FirstTouch, class Closing>
+std::optional<Event> meet_again(double from, double until, double look_again,
+                                FirstTouch&& first_touch, Closing&& closing) {
+  bool together = true;
+  double time = from;
+  while (time <= until) {
+    const std::optional<double> contact = first_touch(time);
+    if (!contact) {
+      return std::nullopt;
+    }
+    together = together && *contact <= time + 1e-9;
+    if (closing(*contact) > least_closing) {
+      return Event{.time = *contact, .presses_on = together};
+    }
+    time = *contact + look_again;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Story::Story(PreparedMotion& motion, const HarmModel& harm, double grip, const StoryDetail& detail)
+    : motion_(motion),
+      scene_(motion.scene()),
+      harm_(harm),
+      grip_(grip),
+      since_(motion.given().track.start),
+      clearance_(detail.clearance),
+      steps_(detail.slides),
+      look_again_(detail.look_again),
+      others_(motion.scene().actors.size()) {}
+
+EgoMotion Story::ego() const {
+  EgoMotion all = motion_.intended();
+  for (const EgoMotion& slide : ego_slides_) {
+    all = joined(all, slide);
+  }
+  return all;
+}
+
+const Track& Story::ego_track() {
+  for (; num_joined_ < ego_slides_.size(); ++num_joined_) {
+    const Track& slide = ego_slides_[num_joined_].track;
+    joined_ = joined(num_joined_ == 0 ? motion_.in_steps_of(slide.step) : joined_, slide);
+  }
+  return num_joined_ == 0 ? motion_.intended().track : joined_;
+}
+
+void Story::expect(std::span<const Mover* const> all) {
+  expects(all.size() == others_.size(), "one track per actor");
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    others_[i].expected = all[i];
+  }
+}
+
+std::vector<Track> Story::others() const {
+  std::vector<Track> all;
+  for (const Other& other : others_) {
+    all.push_back(other.expected->track());
+    for (const EgoMotion& slide : other.slides) {
+      all.back() = joined(all.back(), slide.track);
+    }
+  }
+  return all;
+}
+
+StaticVector<bool, world::max_actors> Story::struck() const {
+  StaticVector<bool, world::max_actors> all;
+  for (const Other& other : others_) {
+    all.push_back(!other.slides.empty());
+  }
+  return all;
+}
+
+const Mover& Story::ego_mover() {
+  if (!was_struck()) {
+    return motion_.mover();
+  }
+  return ego_slides_on_ ? *ego_slides_on_
+                        : ego_slides_on_.emplace(scene_.ego_footprint, now().track);
+}
+
+const Mover& Story::mover(std::size_t i) {
+  Other& other = others_[i];
+  if (other.slides.empty()) {
+    return *other.expected;
+  }
+  return other.slides_on
+             ? *other.slides_on
+             : other.slides_on.emplace(scene_.actors[i].footprint, other.slides.back().track);
+}
+
+bool Story::other_moves_at_end(std::size_t i) const {
+  const Other& other = others_[i];
+  return other.slides.empty() ? moves_at_end(other.track()) : moves_at_end(other.slides.back());
+}
+
+double Story::last_time() const {
+  const EgoMotion& ego = now();
+  double time = end_time(ego.track);
+  if (ego.ended && !moves_at_end(ego)) {
+    for (std::size_t i = 0; i < others_.size(); ++i) {
+      time = std::max(time, end_time(track(i)));
+    }
+  }
+  return time;
+}
+
+std::optional<Event> Story::next_at(Side side) {
+  const Beyond what = beyond(scene_.road, side);
+  const Dealings& before = dealings(side);
+  if (before.over) {
+    return std::nullopt;
+  }
+  const Track& track = now().track;
+  const double interest = was_struck() || what == Beyond::unmarked ? 0.0 : clearance_;
+  const auto first_touch = [&](double time) {
+    return edge_approach(scene_.road, side, scene_.ego_footprint, track, interest, time).crossing;
+  };
+  if (before.last_blow) {
+    return meet_again(
+        std::max(since_, *before.last_blow + blow_lasts), end_time(track), look_again_, first_touch,
+        [&](double time) { return closing_speed(scene_, side, instant_at(now(), time), harm_); });
+  }
+  if (interest == 0.0 && !was_struck() && since_ == track.start) {
+    return at(motion_.crossing(side));
+  }
+  const EdgeApproach edge =
+      edge_approach(scene_.road, side, scene_.ego_footprint, track, interest, since_);
+  if (what != Beyond::unmarked) {
+    pass(std::max(0.0, edge.room), {.edge = side, .time = edge.nearest_at});
+  }
+  return at(edge.crossing);
+}
+
+// @param first  nothing is known yet that ends the search before `until`
+std::optional<Event> Story::next_with(std::size_t i, double until, bool first) {
+  const Dealings& before = others_[i].dealings;
+  const double from = std::max(since_, track(i).start);
+  const double known = other_moves_at_end(i) ? std::min(until, end_time(track(i))) : until;
+  if (before.over || known < from) {
+    return std::nullopt;
+  }
+  const Mover& ego = ego_mover();
+  const Mover& other = mover(i);
+  if (before.last_blow) {
+    const double rest = std::max(end_time(now().track), end_time(track(i)));
+    return meet_again(
+        std::max(since_, *before.last_blow + blow_lasts), std::min(known, rest), look_again_,
+        [&](double time) { return approach(ego, other, time, known, 0.0).contact; },
+        [&](double time) {
+          return closing_speed(scene_, i, instant_at(now(), time), other_at(i, time), harm_);
+        });
+  }
+  const double interest = first && !was_struck() ? clearance_ : 0.0;
+  const Approach found = approach(ego, other, from, known, interest);
+  if (interest > 0.0) {
+    pass(found.distance, {.actor = i, .time = found.nearest_at});
+  }
+  return at(found.contact);
+}
+
+std::optional<Event> Story::next() {
+  std::optional<Event> soonest;
+  double until = last_time();
+  bool stops = false;
+  const auto consider = [&](std::optional<Event> event) {
+    if (event && event->time <= until && (!soonest || event->time < until)) {
+      until = event->time;
+      soonest = event;
+      stops = event->actor || stops_the_ego(beyond(scene_.road, *event->edge));
+    }
+  };
+  for (const Side side : {Side::left, Side::right}) {
+    std::optional<Event> event = next_at(side);
+    if (event) {
+      event->edge = side;
+    }
+    consider(event);
+  }
+  for (std::size_t i = 0; i < others_.size(); ++i) {
+    std::optional<Event> event = next_with(i, until, !stops);
+    if (event) {
+      event->actor = i;
+    }
+    consider(event);
+  }
+  return soonest;
+}
+
+EgoMotion Story::slide_of(const world::Footprint& footprint, double mass, const Instant& after,
+                          double time) const {
+  ImpactBody body = free_body(mass, footprint);
+  body.v_W = after.v_W;
+  body.yaw_rate = after.yaw_rate;
+  return slide(footprint, body, after.X_WB, time, grip_, steps_);
+}
+
+void Story::note(const Blow& blow, const Event& event) {
+  if (event.presses_on) {
+    const auto last = std::find_if(blows_.rbegin(), blows_.rend(), [&](const Blow& one) {
+      return one.contact.actor == event.actor && one.contact.edge == event.edge;
+    });
+    *last = pressed_on(*last, blow, harm_);
+    return;
+  }
+  blows_.push_back(blow);
+}
+
+bool Story::happen(const Event& event) {
+  const Instant ego = instant_at(now(), event.time);
+  since_ = event.time;
+  Blow blow;
+  bool strikes = true;
+  if (event.actor) {
+    const std::size_t i = *event.actor;
+    const world::Actor& actor = scene_.actors[i];
+    blow = meet(scene_, i, ego, other_at(i, event.time), event.time, harm_);
+    if (actor.kind != world::ActorKind::obstacle) {
+      others_[i].slides_on.reset();
+      others_[i].slides.push_back(
+          slide_of(actor.footprint, actor.mass, blow.other_after, event.time));
+    }
+    others_[i].dealings = {event.time, unprotected(actor.kind)};
+  } else {
+    const Beyond what = beyond(scene_.road, *event.edge);
+    blow = leave(scene_, *event.edge, ego, event.time, harm_);
+    strikes = stops_the_ego(what);
+    dealings(*event.edge) = {event.time, what != Beyond::barrier};
+  }
+  if (strikes) {
+    ego_slides_on_.reset();
+    ego_slides_.push_back(
+        slide_of(scene_.ego_footprint, scene_.ego_mass, blow.ego_after, event.time));
+    first_ = first_.value_or(blows_.size());
+  }
+  note(blow, event);
+  return strikes;
+}
+
+Outcome Story::outcome() const {
+  Outcome outcome;
+  outcome.harm = toll(blows_, scene_, harm_);
+  outcome.clearance = 0.0;
+  outcome.end_time = end_time(was_struck() ? now().track : motion_.given().track);
+  if (blows_.empty()) {
+    outcome.clearance = clearance_;
+    outcome.nearest = nearest_;
+    return outcome;
+  }
+  const std::size_t first = first_.value_or(0);
+  outcome.contact = blows_[first].contact;
+  outcome.collision_loss = blows_[first].loss;
+  for (std::size_t i = first + 1; i < blows_.size() && !outcome.later.full(); ++i) {
+    outcome.later.push_back(blows_[i].contact);
+  }
+  outcome.end_time = std::max(outcome.end_time, blows_[first].contact.time);
+  return outcome;
+}
+
+bool moves_at_end(const EgoMotion& motion) {
+  return norm(motion.v_B.back()) > at_rest;
+}
+
+}  // namespace saca::outcome
