@@ -13,7 +13,6 @@ namespace {
 
 using manoeuvre::EgoMotion;
 using world::Beyond;
-using world::Scene;
 using world::Track;
 
 // Slower than this, a body stands [m/s].
@@ -27,7 +26,6 @@ constexpr double blow_lasts = 0.1;
 // anew [m/s].
 constexpr double least_closing = 0.1;
 
-using outcome::moves_at_end;
 bool moves_at_end(const Track& track) {
   const auto& poses = track.X_WA;
   return poses.size() > 1 &&
