@@ -14,7 +14,7 @@ namespace saca::outcome {
 ///
 /// Nothing of the body ever lies outside, also between poses, where it moves straight and turns
 /// evenly, and outside the track's times, where it rests at its first and last pose. So where the
-/// octagons of two bodies are apart at all times, the bodies never meet, which takes a fiftieth of
+/// octagons of two bodies are apart at all times, the bodies never meet, which takes a fraction of
 /// the time that the exact search (approach.h) takes to find out.
 class SweptBoxes {
  public:

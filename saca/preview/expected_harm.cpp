@@ -108,6 +108,9 @@ class HeldWay {
     while (num > 0 && struck[followers[num - 1]]) {
       --num;  // nobody looks at it any more
     }
+    if (num == 0) {
+      return;
+    }
     const Track& meant = motion_.intended().track;
     if (&X_WB != &meant && !has_steps_) {
       has_steps_ = true;
