@@ -37,7 +37,7 @@ struct Encounters {
     const auto splits = sim::load_splits("scenarios/splits.toml").value();
     std::vector<sim::Family> families;
     for (const char* const name : {"crossing", "cut_in", "cut_out", "cyclist", "head_on",
-                                   "lead_brakes", "merge", "one_way", "pedestrian"}) {
+                                   "lead_brakes", "merge", "one_way", "pedestrian", "dart_out"}) {
       const bool test_only = std::find(splits.test_only.begin(), splits.test_only.end(), name) !=
                              splits.test_only.end();
       if (!test_only) {

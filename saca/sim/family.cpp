@@ -16,7 +16,7 @@ using Keys = std::span<const std::string_view>;
 
 constexpr std::array<std::string_view, num_family_kinds> kind_names{
     "crossing",   "one_way", "lead_brakes", "cut_in", "cut_out",
-    "pedestrian", "cyclist", "head_on",     "merge"};
+    "pedestrian", "cyclist", "head_on",     "merge",  "dart_out"};
 
 // Every share is a probability.
 constexpr std::array surroundings_list = std::to_array<std::string_view>(
@@ -52,6 +52,9 @@ constexpr std::array head_on_list =
 constexpr std::array merge_list =
     std::to_array<std::string_view>({"ego_speed_mps", "speed_share", "ahead_m", "takes_s",
                                      "deceleration_mps2", "van_share", "truck_share"});
+constexpr std::array dart_out_list =
+    std::to_array<std::string_view>({"ego_speed_mps", "run_mps", "acceleration_mps2", "overlap",
+                                     "from_left_share", "parked_row_m", "parked_gap_m"});
 
 bool is_share(std::string_view key) {
   return key.ends_with("_share") && key.find("speed") == key.npos;
@@ -82,7 +85,7 @@ config::Range bounds(std::string_view key) {
   }
   if (key.ends_with("takes_s") || key.ends_with("length_m") || key.ends_with("width_m") ||
       key.ends_with("size_m") || key.ends_with("speed_mps") || key.ends_with("speed_share") ||
-      key.ends_with("deceleration_mps2") || key == "gap_s" || key == "walk_mps" ||
+      key.ends_with("celeration_mps2") || key == "gap_s" || key == "walk_mps" ||
       key == "ride_mps" || key == "run_mps") {
     return {0.05, 100.0};  // nothing that is divided by, and no body without a size
   }
@@ -137,9 +140,9 @@ std::optional<FamilyKind> family_kind_from(std::string_view name) {
 
 Keys own_keys(FamilyKind kind) {
   static constexpr std::array<Keys, num_family_kinds> keys{
-      Keys(crossing_list), Keys(one_way_list), Keys(lead_brakes_list),
-      Keys(cut_in_list),   Keys(cut_out_list), Keys(pedestrian_list),
-      Keys(cyclist_list),  Keys(head_on_list), Keys(merge_list)};
+      Keys(crossing_list), Keys(one_way_list),    Keys(lead_brakes_list), Keys(cut_in_list),
+      Keys(cut_out_list),  Keys(pedestrian_list), Keys(cyclist_list),     Keys(head_on_list),
+      Keys(merge_list),    Keys(dart_out_list)};
   return keys[static_cast<std::size_t>(kind)];
 }
 

@@ -23,9 +23,10 @@ enum class FamilyKind : std::uint8_t {
   cyclist,      ///< somebody on a bicycle crosses, or swerves in from the roadside
   head_on,      ///< oncoming traffic drifts over
   merge,        ///< a vehicle beside runs out of its lane
+  dart_out,     ///< somebody runs out from between parked cars
 };
 
-constexpr std::size_t num_family_kinds = 9;
+constexpr std::size_t num_family_kinds = 10;
 [[nodiscard]] std::string_view name(FamilyKind kind);
 [[nodiscard]] std::optional<FamilyKind> family_kind_from(std::string_view name);
 

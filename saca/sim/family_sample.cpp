@@ -55,11 +55,16 @@ void want_lane(Stage& stage, double side) {
   }
 }
 
-/// Parked beside the outermost lane of that side; its front `ahead` of the place `s`.
+/// How far from the middle of our lane cars are parked on a side: beside its outermost lane.
+double parked_aside(const Stage& stage, double side) {
+  const double lanes = (side > 0.0 ? stage.left_lane : stage.right_lane) ? 1.5 : 0.5;
+  return lanes * stage.lane() + 0.6 + 0.5 * Stage::width_of(ActorKind::car);
+}
+
+/// Parked on that side; its front `ahead` of the place `s`.
 void park(Stage& stage, double s, double ahead, double side) {
   const double length = Stage::length_of(ActorKind::car);
-  const double lanes = (side > 0.0 ? stage.left_lane : stage.right_lane) ? 1.5 : 0.5;
-  const double d = lanes * stage.lane() + 0.6 + 0.5 * Stage::width_of(ActorKind::car);
+  const double d = parked_aside(stage, side);
   stage.add(ActorKind::car,
             {.start = {s + ahead - 0.5 * length, side * d, 0.0}, .behaviour = Behaviour::hold});
   widen(stage, side, d + Stage::width_of(ActorKind::car));
@@ -283,6 +288,41 @@ Harmless merge(Stage& stage) {
   return waits;
 }
 
+/// How long who stands needs for a way, until it has that pace.
+double running_time(double way, double acceleration, double pace) {
+  const double way_until_pace = 0.5 * pace * pace / acceleration;
+  return way < way_until_pace ? std::sqrt(2.0 * way / acceleration)
+                              : pace / acceleration + (way - way_until_pace) / pace;
+}
+
+Harmless dart_out(Stage& stage) {
+  constexpr double between = 1.0;  // [m] from one parked car to the next: assumption
+  Dice& dice = stage.dice;
+  const double side = dice.side("from_left_share");
+  const double pace = dice.in("run_mps");
+  const double acceleration = dice.in("acceleration_mps2");
+  const double gap = dice.in("parked_gap_m");
+  const double row = dice.in("parked_row_m");
+  const double s = stage.head() + 0.5 * Stage::width_of(ActorKind::pedestrian);
+  const double stands = parked_aside(stage, side);
+  const double way = stands - side * struck_at(stage, side, dice.in("overlap"));
+  const Script waits{.start = {s, side * stands, -side * right_angle},
+                     .behaviour = Behaviour::hold};
+  Script runs = waits;
+  runs.behaviour = Behaviour::accelerate;
+  runs.acceleration = acceleration;
+  runs.until_speed = pace;
+  runs.from = Stage::approach - running_time(way, acceleration, pace);
+  stage.add(ActorKind::pedestrian, runs);
+  const double length = Stage::length_of(ActorKind::car);
+  park(stage, s, 0.5 * gap + length, side);
+  for (double behind = 0.5 * gap; behind < row; behind += length + between) {
+    park(stage, s, -behind, side);
+  }
+  stage.decision = Stage::approach - trigger;
+  return waits;
+}
+
 Harmless play(FamilyKind kind, Stage& stage) {
   switch (kind) {
     case FamilyKind::crossing:
@@ -302,9 +342,11 @@ Harmless play(FamilyKind kind, Stage& stage) {
     case FamilyKind::head_on:
       return head_on(stage);
     case FamilyKind::merge:
+      return merge(stage);
+    case FamilyKind::dart_out:
       break;
   }
-  return merge(stage);
+  return dart_out(stage);
 }
 
 void label(const Family& family, std::uint64_t seed, std::uint64_t number, std::string_view car,

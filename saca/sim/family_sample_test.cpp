@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "saca/sim/family.h"
+#include "saca/sim/line_of_sight.h"
 #include "saca/sim/motion.h"
 #include "saca/sim/traffic.h"
 #include "saca/world/footprint.h"
@@ -77,7 +78,7 @@ INSTANTIATE_TEST_SUITE_P(All, EveryFamily,
                                          FamilyKind::lead_brakes, FamilyKind::cut_in,
                                          FamilyKind::cut_out, FamilyKind::pedestrian,
                                          FamilyKind::cyclist, FamilyKind::head_on,
-                                         FamilyKind::merge),
+                                         FamilyKind::merge, FamilyKind::dart_out),
                          [](const auto& one) { return std::string(name(one.param)); });
 
 // Who only stands by stands beside our lane: half a metre at least from it.
@@ -98,6 +99,33 @@ TEST(FamilySample, BystandersStandBesideTheLane) {
   }
   EXPECT_GT(to_the_left, 2);
   EXPECT_LT(to_the_left, 18);
+}
+
+// Who comes from between parked cars is hidden while there is time to think, and seen before he is
+// struck.
+TEST(FamilySample, WhoDartsOutIsMostlySeenAfterT1) {
+  const Family family = shipped(FamilyKind::dart_out);
+  constexpr double approach = 6.5;
+  constexpr int count = 12;
+  int seen_at_t1 = 0;
+  for (std::uint64_t number = 0; number < count; ++number) {
+    const Scenario drawn =
+        sample(family, 5, number, "compact_rwd_ev", standard_ego).value().scenario;
+    const auto is_seen = [&](double time) {
+      Traffic traffic(drawn);
+      while (traffic.time() < time) {
+        const world::EgoState state = ego_at(drawn, traffic.time());
+        traffic.advance(state.X_WB, rotated(state.v_B, state.X_WB.yaw), standard_ego);
+      }
+      const auto actors = traffic.actors();
+      return in_sight(ego_at(drawn, time).X_WB, standard_ego, actors[0],
+                      {actors.begin(), actors.size()});
+    };
+    EXPECT_FALSE(is_seen(approach - 4.0)) << number;
+    EXPECT_TRUE(is_seen(approach - 0.1)) << number;
+    seen_at_t1 += is_seen(approach - 1.3) ? 1 : 0;
+  }
+  EXPECT_LE(seen_at_t1, count / 2);
 }
 
 TEST(FamilySample, SaysWhenItsRangesGiveNoSensibleEncounter) {
