@@ -45,8 +45,14 @@ const Preview* find_preview(std::span<const Preview> previews, std::int32_t numb
   return found == previews.end() || found->number != number ? nullptr : &*found;
 }
 
-std::string trigger_text(const world::Actor& actor, double time) {
-  return fmt::format("T1: {:.2f} s to the conflict with {}", time, actor_name(actor));
+std::string trigger_text(const world::Actor& actor, double time,
+                         const std::optional<double>& waiting_cost) {
+  const std::string conflict =
+      fmt::format("{:.2f} s to the conflict with {}", time, actor_name(actor));
+  return waiting_cost
+             ? fmt::format("before T1, {}: to wait for {:g} s is expected to harm {:.4f} more",
+                           conflict, look_ahead, *waiting_cost)
+             : "T1: " + conflict;
 }
 
 std::string decision_text(const Decision& decision) {

@@ -77,9 +77,10 @@ struct Preview {
 [[nodiscard]] const Preview* find_preview(std::span<const Preview> previews,
                                           std::int32_t number) noexcept;
 
-/// Who set off the trigger.
+/// Who set off the trigger, and why before T1 where it was.
 /// @param time  to the conflict [s]
-[[nodiscard]] std::string trigger_text(const world::Actor& actor, double time);
+[[nodiscard]] std::string trigger_text(const world::Actor& actor, double time,
+                                       const std::optional<double>& waiting_cost);
 /// Why this was decided, in one line.
 [[nodiscard]] std::string decision_text(const Decision& decision);
 /// What is carried out.

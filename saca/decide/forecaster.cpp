@@ -65,6 +65,27 @@ preview::Plans not_much_gentler(const manoeuvre::Plan& plan, double speed) {
   return braking;
 }
 
+/// Full braking, and the few plans that harm least now: one of them is the best a moment later.
+preview::Plans candidates_for_later(const Verdict& verdict) {
+  constexpr std::size_t most = 5;
+  std::vector<JudgedPlan> by_harm;
+  for (const JudgedPlan& one : verdict.plans) {
+    if (one.drivable && one.plan != manoeuvre::full_braking) {
+      by_harm.push_back(one);
+    }
+  }
+  std::stable_sort(by_harm.begin(), by_harm.end(),
+                   [](const JudgedPlan& a, const JudgedPlan& b) { return a.harm < b.harm; });
+  preview::Plans plans;
+  plans.push_back(manoeuvre::full_braking);
+  for (const JudgedPlan& one : by_harm) {
+    if (plans.size() < most) {
+      plans.push_back(one.plan);
+    }
+  }
+  return plans;
+}
+
 JudgedPlan judged(const preview::ExpectedHarm& one) {
   return {
       .plan = one.plan, .drivable = one.refusal.empty(), .harm = one.harm, .contact = one.contact};
@@ -81,6 +102,24 @@ Forecaster::Forecaster(const preview::ForecastTools& tools, std::size_t num_draw
     : tools_(tools), num_draws_(num_draws) {
   expects(tools.car != nullptr && tools.harm != nullptr, "car and harm are given");
   expects(num_draws >= 1, "at least one draw");
+}
+
+std::optional<double> Forecaster::least_harm_later(const Scene& scene,
+                                                   std::span<const preview::JointMotion> motions,
+                                                   const Verdict& verdict) const {
+  const JudgedPlan* const nothing = find_plan(verdict, manoeuvre::doing_nothing);
+  if (nothing != nullptr && nothing->drivable && nothing->harm == 0.0) {
+    return 0.0;  // as a moment later
+  }
+  const preview::Plans plans = candidates_for_later(verdict);
+  std::optional<double> least;
+  for (const preview::ExpectedHarm& one : preview::expected_harms_later(
+           scene, look_ahead, motions, tools_, {plans.begin(), plans.size()})) {
+    if (one.refusal.empty()) {
+      least = std::min(one.harm, least.value_or(one.harm));
+    }
+  }
+  return least;
 }
 
 Verdict Forecaster::judge(const Scene& scene, const intent::Beliefs& beliefs,
@@ -106,6 +145,9 @@ Verdict Forecaster::judge(const Scene& scene, const intent::Beliefs& beliefs,
   const preview::Plans plans = preview::all_plans(scene.ego.v_B.x, tools_.braking);
   judge_plans({plans.begin(), plans.size()});
   spread_over_strengths(verdict);
+  if (!under_way) {
+    verdict.later = least_harm_later(scene, motions, verdict);
+  }
   if (under_way && has_past(under_way->plan)) {
     preview::ExpectedHarm rest =
         preview::expected_harm(rest_of(*under_way, scene, *tools_.car), scene, motions, tools_);

@@ -70,6 +70,34 @@ TEST_F(ForecasterTest, TellsOfContactsThatCannotBeAvoided) {
   EXPECT_GT(of(verdict, PolicyId::no_intervention).harm, of(verdict, PolicyId::aeb).harm);
 }
 
+// A wreck in a lane without room beside it. From 15 m/s the brakes need some 14 m on grip 0.9, and
+// a look later 1.5 m more: with 20 m waiting costs nothing, with half a metre more than they need
+// it costs the difference between a stop and a blow, and where both hit, the harm of being faster.
+TEST_F(ForecasterTest, ToWaitCostsWhereBrakingHasToBeginNow) {
+  const auto cost = [&](double gap) {
+    Scene scene = wreck_ahead();
+    scene.road.left_edge = 1.75;
+    const double front = scene.ego_footprint.centre_x + 0.5 * scene.ego_footprint.length;
+    scene.actors[0].X_WA.p.x =
+        front + gap + 0.5 * scene.actors[0].footprint.length - scene.actors[0].footprint.centre_x;
+    return cost_of_waiting(judge(scene)).value();
+  };
+  EXPECT_EQ(cost(60.0), 0.0);
+  EXPECT_EQ(cost(20.0), 0.0);
+  double least = 14.0;  // with which braking now still stops
+  while (least < 18.0 && cost(least) > cost(least + 0.5)) {
+    least += 0.5;
+  }
+  EXPECT_GT(cost(10.0), 0.0);
+  EXPECT_LT(least, 18.0);
+}
+
+TEST_F(ForecasterTest, WhileAPlanIsUnderWayNothingWaits) {
+  const Scene scene = wreck_ahead();
+  EXPECT_EQ(judge(scene, braking_in(scene, manoeuvre::full_braking)).later, std::nullopt);
+  EXPECT_EQ(judge(road()).later, 0.0);
+}
+
 TEST_F(ForecasterTest, WhatCannotBeDrivenSaysSo) {
   Scene slow = road();
   slow.ego.v_B = {3.0, 0.0};

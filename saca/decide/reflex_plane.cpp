@@ -93,6 +93,30 @@ void ReflexPlane::begin(const Plan& plan, const Scene& scene) noexcept {
       .plan = plan, .begun = scene.time, .ego = scene.ego, .road = scene.road, .grip = scene.grip};
 }
 
+bool ReflexPlane::is_watched(const Scene& scene) const noexcept {
+  constexpr double rounding = 1e-9;  // [s]
+  return supervises() && tools_.thresholds.waiting_cost &&
+         scene.time >= watched_at_ + look_ahead - rounding;
+}
+
+std::optional<preview::Threat> ReflexPlane::foreseen(
+    const Scene& scene, const TrackConfirmation& tracks) const noexcept {
+  preview::Thresholds within_t2 = tools_.thresholds;
+  within_t2.trigger = within_t2.preview;
+  return preview::triggering_threat(scene, within_t2, tracks.confirmed());
+}
+
+std::optional<Decision> ReflexPlane::decide_early(const Scene& scene) noexcept {
+  watched_at_ = scene.time;
+  const auto cost = is_fresh(verdict_, scene) ? cost_of_waiting(*verdict_) : std::nullopt;
+  if (!cost || *cost <= *tools_.thresholds.waiting_cost) {
+    return std::nullopt;
+  }
+  Decision decision = decide(scene);
+  decision.waiting_cost = cost;
+  return decision.plan == manoeuvre::doing_nothing ? std::nullopt : std::optional(decision);
+}
+
 bool ReflexPlane::needs_verdict(const Scene& scene, bool finished) const noexcept {
   if (!supervises() || world::broken_rule(scene)) {
     return false;
@@ -101,7 +125,10 @@ bool ReflexPlane::needs_verdict(const Scene& scene, bool finished) const noexcep
   tracks.look(scene);
   const bool triggers =
       preview::triggering_threat(scene, tools_.thresholds, tracks.confirmed()).has_value();
-  return under_way_ ? supervisor_.is_due(scene, *under_way_, triggers, finished) : triggers;
+  if (under_way_) {
+    return supervisor_.is_due(scene, *under_way_, triggers, finished);
+  }
+  return triggers || (is_watched(scene) && foreseen(scene, tracks));
 }
 
 Reflex ReflexPlane::step(const Scene& scene, bool finished) noexcept {
@@ -120,6 +147,13 @@ Reflex ReflexPlane::step(const Scene& scene, bool finished) noexcept {
                                                     tools_.thresholds.trigger_tolerance);
   if (!decision_ && trigger) {
     decision_ = decide(scene);
+  } else if (!decision_ && is_watched(scene)) {
+    if (const auto threat = foreseen(scene, tracks_)) {
+      decision_ = decide_early(scene);
+      reflex.threat = decision_ ? threat : reflex.threat;
+    }
+  }
+  if (decision_ && !under_way_) {
     begin(decision_->plan, scene);
     supervisor_.begin(scene);
     reflex.plan = decision_->plan;

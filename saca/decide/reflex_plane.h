@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -44,6 +45,7 @@ struct Decision {
   bool by_atlas = false;           ///< that is the reflex plane's own: the forecaster's was too old
   std::optional<RefusedPlan> refused;  ///< decided on first; emergency braking took its place
   double time = 0.0;                   ///< of the trigger [s], in the scene's time
+  std::optional<double> waiting_cost;  ///< of harm, expected: why it acts before T1; nullopt: at T1
 };
 
 /// What the reflex plane says to one scene.
@@ -73,7 +75,10 @@ struct ReflexTools {
 /// The plane that is always in time: a scene in, a plan out. One thread; no lock, no allocation, no
 /// system call.
 ///
-/// Only who is confirmed (TrackConfirmation) sets off the trigger.
+/// Only who is confirmed (TrackConfirmation) sets off the trigger: by a conflict within T1 or,
+/// while a conflict comes within T2, as soon as a verdict says that waiting costs more than
+/// Thresholds::waiting_cost and speaks for doing something. So T1 is when it acts at the latest.
+/// Guard::none and a forced plan wait for T1.
 ///
 /// At the trigger, in this order: the cached plan whose situation this is, where the verdict finds
 /// it admissible (of a cached policy 0: the best braking; without a verdict full braking); else
@@ -101,6 +106,7 @@ class ReflexPlane {
     verdict_.reset();
     decision_.reset();
     under_way_.reset();
+    watched_at_ = never;
   }
 
   /// Does it decide and watch by verdicts? Not as Algorithm 1, nor where the plan is given.
@@ -116,11 +122,20 @@ class ReflexPlane {
   [[nodiscard]] const std::optional<UnderWay>& under_way() const noexcept { return under_way_; }
 
  private:
+  static constexpr double never = -std::numeric_limits<double>::infinity();
+
   [[nodiscard]] Decision decide(const world::Scene& scene) noexcept;
   [[nodiscard]] Decision as_asked_for(const world::Scene& scene) const noexcept;
   /// From cache and verdict, whether or not it can be driven.
   [[nodiscard]] Decision chosen(const world::Scene& scene) noexcept;
   void begin(const manoeuvre::Plan& plan, const world::Scene& scene) noexcept;
+  /// Whether verdicts are looked at before T1, and the last was a while ago.
+  [[nodiscard]] bool is_watched(const world::Scene& scene) const noexcept;
+  /// Who comes into conflict within T2.
+  [[nodiscard]] std::optional<preview::Threat> foreseen(
+      const world::Scene& scene, const TrackConfirmation& tracks) const noexcept;
+  /// What is decided before T1; nullopt: to wait.
+  [[nodiscard]] std::optional<Decision> decide_early(const world::Scene& scene) noexcept;
 
   ReflexTools tools_;
   PlanCache plans_;
@@ -129,6 +144,7 @@ class ReflexPlane {
   std::optional<UnderWay> under_way_;
   Supervisor supervisor_;
   TrackConfirmation tracks_;
+  double watched_at_ = never;  ///< a verdict was looked at before T1 [s]
 };
 
 }  // namespace saca::decide

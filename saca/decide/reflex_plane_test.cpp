@@ -116,6 +116,69 @@ TEST(ReflexPlane, ABrokenSceneIsNoLook) {
   EXPECT_TRUE(plane.step(appeared(0.02)).triggered);
 }
 
+/// Braking now harms nobody, a look later by so much.
+Verdict waiting_costs(double time, double harm) {
+  Verdict verdict = verdict_of(time, {{PolicyId::aeb, 0.0}, {PolicyId::no_intervention, 0.3}});
+  verdict.later = harm;
+  return verdict;
+}
+
+TEST(ReflexPlane, ActsBeforeT1WhereWaitingCostsTooMuch) {
+  const auto step = [](double cost, double time, ReflexTools tools) {
+    const bool watches = tools.thresholds.waiting_cost && time < 5.5;
+    ReflexPlane plane(std::move(tools));
+    const Scene scene = wreck_in(time);
+    EXPECT_EQ(plane.needs_verdict(scene, false), plane.supervises() && watches);
+    plane.receive(waiting_costs(scene.time, cost));
+    const Reflex reflex = plane.step(scene);
+    EXPECT_EQ(reflex.triggered, plane.decision().has_value());
+    EXPECT_EQ(reflex.plan.policy == PolicyId::aeb, reflex.triggered);
+    return plane.decision();
+  };
+  const auto early = step(0.02, 2.4, {});
+  ASSERT_TRUE(early.has_value());
+  EXPECT_EQ(early->waiting_cost, 0.02);
+  EXPECT_EQ(early->source, Source::arbiter);
+  EXPECT_THAT(trigger_text(wreck_in(2.4).actors[0], 2.4, early->waiting_cost),
+              testing::AllOf(testing::HasSubstr("before T1"), testing::HasSubstr("0.0200 more")));
+  EXPECT_FALSE(step(0.005, 2.4, {})) << "so much is not worth it";
+  EXPECT_FALSE(step(0.02, 6.0, {})) << "beyond T2";
+  const auto last = step(0.02, 1.28, {});
+  EXPECT_EQ(last->waiting_cost, std::nullopt) << "at T1 it acts whatever waiting costs";
+  EXPECT_FALSE(step(0.02, 2.4, {.thresholds = {.waiting_cost = std::nullopt}}));
+  EXPECT_FALSE(step(0.02, 2.4, {.guard = Guard::none})) << "Algorithm 1 waits for T1";
+  EXPECT_FALSE(step(0.02, 2.4, {.forced = manoeuvre::full_braking}));
+}
+
+TEST(ReflexPlane, BeforeT1NothingStandsForNothingAndStaleVerdictsDoNotCount) {
+  const Scene scene = wreck_in(2.4);
+  ReflexPlane idle{ReflexTools{}};
+  Verdict nothing = waiting_costs(scene.time, 0.5);
+  nothing.plans[0].harm = 0.4;  // going on is the least
+  idle.receive(nothing);
+  EXPECT_FALSE(idle.step(scene).triggered);
+  ReflexPlane plane{ReflexTools{}};
+  EXPECT_FALSE(plane.step(scene).triggered) << "without a verdict";
+  Scene next = scene;
+  next.time += 0.1;
+  plane.receive(waiting_costs(next.time - 2.0 * verdict_expiry, 0.02));
+  EXPECT_FALSE(plane.step(next).triggered);
+  next.time += 0.1;
+  plane.receive(waiting_costs(next.time, 0.02));
+  EXPECT_TRUE(plane.step(next).triggered);
+}
+
+// Ten times a second at most: in between nobody has to make a verdict.
+TEST(ReflexPlane, LooksAtVerdictsBeforeT1EveryTenthOfASecond) {
+  ReflexPlane plane{ReflexTools{}};
+  Scene scene = wreck_in(2.4);
+  (void)plane.step(scene);
+  scene.time += 0.05;
+  EXPECT_FALSE(plane.needs_verdict(scene, false));
+  scene.time += 0.05;
+  EXPECT_TRUE(plane.needs_verdict(scene, false));
+}
+
 TEST(ReflexPlane, BrakesWhenNothingWasThought) {
   ReflexPlane plane{ReflexTools{}};
   const Reflex reflex = plane.step(wreck_in(1.28));

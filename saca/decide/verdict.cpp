@@ -68,6 +68,12 @@ const JudgedPlan* least_harmful(const Verdict& verdict) noexcept {
   return least;
 }
 
+std::optional<double> cost_of_waiting(const Verdict& verdict) noexcept {
+  const JudgedPlan* const least = least_harmful(verdict);
+  return verdict.later && least != nullptr ? std::optional(*verdict.later - least->harm)
+                                           : std::nullopt;
+}
+
 std::optional<double> admissible_harm(const Verdict& verdict) noexcept {
   const JudgedPlan* const least = least_harmful(verdict);
   if (least == nullptr) {

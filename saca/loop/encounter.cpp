@@ -27,8 +27,9 @@ using world::Scene;
 
 constexpr std::array<std::string_view, 3> phase_names{"recorded", "driving", "manoeuvre"};
 
-constexpr int looks_per_frame = 2;       // 50 Hz
-constexpr int looks_per_judgement = 10;  // 10 Hz, as intent::Observer judges
+constexpr int looks_per_frame = 2;            // 50 Hz
+constexpr std::uint32_t first_encounter = 1;  // of the avoider: its first step begins it
+constexpr int looks_per_judgement = 10;       // 10 Hz, as intent::Observer judges
 
 /// One encounter under way.
 class Encounter {
@@ -88,7 +89,7 @@ class Encounter {
   int looks_ = 0;
   std::optional<double> woke_;              ///< when SACA took the wheel [s]
   std::optional<std::uint32_t> encounter_;  ///< the avoider's, in which the decision was made
-  std::uint32_t judged_ = 0;                ///< the one that the record's verdicts are of
+  std::uint32_t judged_ = first_encounter;  ///< the one that the record's verdicts are of
   bool ended_ = false;                      ///< the manoeuvre is finished
   Scene seen_at_trigger_;                   ///< what SACA perceived then
   outcome::Others others_at_trigger_;
@@ -172,7 +173,7 @@ std::optional<Error> Encounter::look() {
     return problem;
   }
   wake();
-  const std::uint32_t encounter = avoider_.planes().encounter();
+  const std::uint32_t encounter = std::max(first_encounter, avoider_.planes().encounter());
   const Answer answer = avoider_.step(loop_.seen(), start_ + from_seconds(loop_.time()));
   if (looks_ % looks_per_judgement == 0) {
     loop::note(avoider_.scene(), avoider_.beliefs(), record_.intentions);

@@ -94,6 +94,23 @@ TEST_F(EncounterTest, WithoutModelAndMemoryTheVerdictDecides) {
   EXPECT_FALSE(record.result.contact.has_value());
 }
 
+// 90 m to a wreck, and no room beside it: what stops from 20 m/s on grip 0.5 needs some 43 m, and
+// at T1 there are 26. Who sees it coming brakes in time, and no sooner than it costs to wait.
+TEST_F(EncounterTest, ItBrakesBeforeT1WhereThatIsTooLate) {
+  sim::Scenario scenario = wreck_on_wet_road();
+  scenario.road.left_edge = 1.75;
+  scenario.road.right_edge = -1.75;
+  const Record record = play(scenario).value();
+  ASSERT_TRUE(record.decision.has_value());
+  EXPECT_TRUE(record.decision->waiting_cost.has_value());
+  EXPECT_EQ(record.decision->plan.policy, PolicyId::aeb);
+  // 85.5 m are there at first; 43 to 48 m when it brakes
+  EXPECT_GT(record.decision->time, (85.5 - 48.0) / 20.0);
+  EXPECT_LT(record.decision->time, (85.5 - 42.0) / 20.0);
+  EXPECT_FALSE(record.result.contact.has_value());
+  EXPECT_EQ(record.result.harm, 0.0);
+}
+
 // What is decided by is replayed in runtime/replay_test.cpp.
 TEST_F(EncounterTest, TheTapeHoldsEveryLookFromTheFirstOn) {
   const auto scenario = wreck_on_wet_road(150.0);  // nothing threatens within T2 yet

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -57,9 +59,15 @@ TEST(RecordJson, HoldsWhatTheFormatPromises) {
   // Every verdict with every plan, and what those were made by by which something was begun.
   ASSERT_EQ(out["verdicts"]["in_hand"].size(), record.verdicts.verdicts().size());
   EXPECT_EQ(out["verdicts"]["left_out"], 0);
-  EXPECT_EQ(out["verdicts"]["in_hand"][0]["plans"], out["decision"]["verdict"]["plans"]);
-  EXPECT_TRUE(out["verdicts"]["in_hand"][0]["under_way"].is_null());
-  EXPECT_EQ(out["verdicts"]["in_hand"][1]["under_way"]["name"], out["decision"]["name"]);
+  const json& in_hand = out["verdicts"]["in_hand"];
+  const auto decisive = std::find_if(in_hand.begin(), in_hand.end(), [&](const json& one) {
+    return one["t_s"] == out["decision"]["verdict"]["t_s"];
+  });
+  ASSERT_NE(decisive, in_hand.end());
+  EXPECT_EQ((*decisive)["plans"], out["decision"]["verdict"]["plans"]);
+  EXPECT_TRUE((*decisive)["under_way"].is_null());
+  ASSERT_NE(std::next(decisive), in_hand.end());
+  EXPECT_EQ((*std::next(decisive))["under_way"]["name"], out["decision"]["name"]);
   ASSERT_EQ(out["hypotheses"].size(), 1U + out["switches"].size());
   EXPECT_EQ(out["hypotheses"][0]["t_s"], out["decision"]["time_s"]);
   EXPECT_EQ(out["hypotheses"][0]["scene_s"], out["decision"]["verdict"]["t_s"]);

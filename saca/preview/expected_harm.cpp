@@ -1,6 +1,7 @@
 #include "saca/preview/expected_harm.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -186,6 +187,38 @@ std::vector<std::optional<EgoMotion>> ways_of(const Scene& scene,
   return ways;
 }
 
+/// A way that begins where another has come to after some samples.
+EgoMotion continued(const EgoMotion& before, std::size_t count, const EgoMotion& after) {
+  const auto end = static_cast<std::ptrdiff_t>(count);
+  EgoMotion whole{.track = {.start = before.track.start, .step = before.track.step, .X_WA = {}},
+                  .ended = after.ended};
+  const auto join = [&](auto& into, const auto& first, const auto& second) {
+    into.assign(first.begin(), first.begin() + end);
+    into.insert(into.end(), second.begin(), second.end());
+  };
+  join(whole.track.X_WA, before.track.X_WA, after.track.X_WA);
+  join(whole.v_B, before.v_B, after.v_B);
+  join(whole.yaw_rate, before.yaw_rate, after.yaw_rate);
+  return whole;
+}
+
+/// The expected harms of ways, one per plan; `from` is where they begin.
+std::vector<ExpectedHarm> harms_of(const std::vector<std::optional<EgoMotion>>& ways,
+                                   std::span<const manoeuvre::Plan> plans, const Scene& from,
+                                   const Scene& scene, std::span<const JointMotion> motions,
+                                   const ForecastTools& tools) {
+  const std::vector<std::vector<Mover>> movers = movers_of_each(scene, motions);
+  std::vector<ExpectedHarm> all;
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    all.push_back(ways[i]
+                      ? harm_of(*ways[i], scene, motions, movers, *tools.harm)
+                      : ExpectedHarm{.plan = plans[i],
+                                     .refusal = *manoeuvre::refusal(*tools.car, plans[i], from)});
+    all.back().plan = plans[i];
+  }
+  return all;
+}
+
 /// nullopt: the atlas does not hold all that can be driven.
 std::optional<std::vector<ExpectedHarm>> read(const Scene& scene,
                                               std::span<const JointMotion> motions,
@@ -200,6 +233,9 @@ std::optional<std::vector<ExpectedHarm>> read(const Scene& scene,
     for (std::size_t i = 0; i < plans.size(); ++i) {
       all[i].add((*facts)[i], motion.probability / sum);
     }
+  }
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    all[i].plan = plans[i];
   }
   return all;
 }
@@ -254,24 +290,42 @@ std::vector<ExpectedHarm> expected_harms(const Scene& scene, std::span<const Joi
                                          const ForecastTools& tools, Physics physics,
                                          std::span<const manoeuvre::Plan> plans) {
   expects(tools.car != nullptr && tools.harm != nullptr, "car and harm are given");
-  std::optional<std::vector<ExpectedHarm>> all;
   if (physics == Physics::atlas) {
-    all = read(scene, motions, plans, weight_of(motions), tools);
-  }
-  if (!all) {
-    all.emplace();
-    const std::vector<std::vector<Mover>> movers = movers_of_each(scene, motions);
-    for (const auto& way : ways_of(scene, plans, tools)) {
-      const manoeuvre::Plan& plan = plans[all->size()];
-      all->push_back(way ? harm_of(*way, scene, motions, movers, *tools.harm)
-                         : ExpectedHarm{.plan = plan,
-                                        .refusal = *manoeuvre::refusal(*tools.car, plan, scene)});
+    if (auto all = read(scene, motions, plans, weight_of(motions), tools)) {
+      return *std::move(all);
     }
   }
-  for (std::size_t i = 0; i < plans.size(); ++i) {
-    (*all)[i].plan = plans[i];
+  return harms_of(ways_of(scene, plans, tools), plans, scene, scene, motions, tools);
+}
+
+std::vector<ExpectedHarm> expected_harms_later(const Scene& scene, double delay,
+                                               std::span<const JointMotion> motions,
+                                               const ForecastTools& tools,
+                                               std::span<const manoeuvre::Plan> plans) {
+  expects(tools.car != nullptr && tools.harm != nullptr, "car and harm are given");
+  expects(delay >= 0.0 && delay < motion_horizon, "a delay within the others' motions");
+  const auto going_on = ways_of(scene, {&manoeuvre::doing_nothing, 1}, tools).front();
+  if (!going_on) {
+    const auto why = manoeuvre::refusal(*tools.car, manoeuvre::doing_nothing, scene);
+    std::vector<ExpectedHarm> refused;
+    for (const manoeuvre::Plan& plan : plans) {
+      refused.push_back({.plan = plan, .refusal = *why});
+    }
+    return refused;
   }
-  return *all;
+  const Track& track = going_on->track;
+  const auto count =
+      std::min(static_cast<std::size_t>(std::lround(delay / track.step)), track.X_WA.size() - 1);
+  Scene later = scene;
+  later.time += static_cast<double>(count) * track.step;
+  later.ego.X_WB = track.X_WA[count];
+  later.ego.v_B = going_on->v_B[count];
+  later.ego.yaw_rate = going_on->yaw_rate[count];
+  std::vector<std::optional<EgoMotion>> ways = ways_of(later, plans, tools);
+  for (std::optional<EgoMotion>& way : ways) {
+    way = way ? std::optional(continued(*going_on, count, *way)) : std::nullopt;
+  }
+  return harms_of(ways, plans, later, scene, motions, tools);
 }
 
 ExpectedHarm expected_harm(const EgoMotion& way, const Scene& scene,

@@ -70,6 +70,14 @@ enum class Physics : std::uint8_t {
                                                        const ForecastTools& tools, Physics physics,
                                                        std::span<const manoeuvre::Plan> plans);
 
+/// The same, rolled out, of plans that begin only after the ego has gone on for a while.
+/// @param delay  for which it goes on [s], >= 0, below motion_horizon; told to 10 ms
+/// @return       in the order of `plans`; refused where it cannot be driven from there
+/// @throws ContractViolation  if the delay is out of range
+[[nodiscard]] std::vector<ExpectedHarm> expected_harms_later(
+    const world::Scene& scene, double delay, std::span<const JointMotion> motions,
+    const ForecastTools& tools, std::span<const manoeuvre::Plan> plans);
+
 /// The same of one way of the ego, whatever it came from: full dynamics of what follows a contact.
 /// @param way  from scene.time on
 /// @return     `plan` is left as it is

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <cmath>
 
 #include "saca/core/contract.h"
 #include "saca/intent/shipped_model.h"
@@ -79,6 +80,43 @@ TEST(ExpectedHarm, AStopEndsWhereItEnds) {
       const auto told = expected_harms(scene, {&stands, 1}, rolling(), Physics::rolled_out, brakes);
       EXPECT_EQ(told[0].contact, more < 0.0 ? 1.0 : 0.0) << speed << " " << more;
     }
+  }
+}
+
+// Begun 0.2 s later a stop ends 0.2 s of the speed further on.
+TEST(ExpectedHarm, AStopThatBeginsLaterEndsLater) {
+  const std::array brakes{manoeuvre::full_braking};
+  const Scene far = behind_a_car(40.0, 0.0);
+  const auto stop = rolled_out(far, all_going_on(far).tracks, brakes, rolling());
+  const double way = 40.0 - stop[0].outcome().clearance + 0.2 * far.ego.v_B.x;
+  for (const double more : {-0.05, 0.05}) {
+    const Scene scene = behind_a_car(way + more, 0.0);
+    const JointMotion stands = all_going_on(scene);
+    const auto told = expected_harms_later(scene, 0.2, {&stands, 1}, rolling(), brakes);
+    EXPECT_EQ(told[0].contact, more < 0.0 ? 1.0 : 0.0) << more;
+    EXPECT_EQ(told[0].harm > 0.0, more < 0.0) << more;
+    EXPECT_EQ(told[0].plan, manoeuvre::full_braking);
+  }
+}
+
+TEST(ExpectedHarm, WithoutADelayWhatBeginsLaterBeginsNow) {
+  const Scene scene = behind_a_car(14.0, 4.0);
+  const JointMotion motion = all_going_on(scene);
+  const Plans plans = all_plans(scene.ego.v_B.x);
+  const auto now = expected_harms(scene, {&motion, 1}, rolling(), Physics::rolled_out);
+  const auto later =
+      expected_harms_later(scene, 0.0, {&motion, 1}, rolling(), {plans.begin(), plans.size()});
+  ASSERT_EQ(later.size(), now.size());
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    EXPECT_EQ(later[i].plan, now[i].plan);
+    EXPECT_EQ(later[i].refusal, now[i].refusal);
+    EXPECT_EQ(later[i].harm, now[i].harm);
+    EXPECT_EQ(later[i].contact, now[i].contact);
+  }
+  for (const double never : {-0.1, motion_horizon, std::nan("")}) {
+    EXPECT_THROW((void)expected_harms_later(scene, never, {&motion, 1}, rolling(),
+                                            {plans.begin(), plans.size()}),
+                 ContractViolation);
   }
 }
 

@@ -79,7 +79,8 @@ void EventLog::add_events_of(const Notice& notice) {
     add(EventKind::switched, fmt::format("{}: {}", name(change->reason), switch_text(*change)));
   } else {
     const auto& trigger = std::get<Triggered>(notice.what);
-    add(EventKind::trigger, decide::trigger_text(trigger.by, trigger.left));
+    add(EventKind::trigger,
+        decide::trigger_text(trigger.by, trigger.left, trigger.decision.waiting_cost));
     add(trigger.decision.refused ? EventKind::fault : EventKind::match,
         decision_text(trigger.decision));
     add(EventKind::execute, execution_text(trigger.decision.plan, trigger.decision.source));

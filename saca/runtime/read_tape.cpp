@@ -74,6 +74,7 @@ decide::JudgedPlan read_judged(JsonReader from) {
 decide::Verdict read_verdict_keys(JsonReader& from) {
   decide::Verdict verdict{.time = from.number("t_s")};
   read_list(from, "plans", verdict.plans, read_judged);
+  verdict.later = read_number(from, "later");
   verdict.under_way = read_optional(from, "under_way", read_judged);
   return verdict;
 }
@@ -199,6 +200,7 @@ decide::Decision read_decision(JsonReader from) {
   decision.by_atlas = from.flag("by_atlas");
   decision.refused = read_optional(from, "refused", read_refused);
   decision.time = from.number("t_s");
+  decision.waiting_cost = read_number(from, "waiting_cost");
   from.refuse_others();
   return decision;
 }
@@ -266,7 +268,8 @@ preview::Thresholds read_thresholds(JsonReader from) {
                                        .preview = from.number("preview_s"),
                                        .trigger_tolerance = from.number("trigger_tolerance_s"),
                                        .preview_tolerance = from.number("preview_tolerance_s"),
-                                       .least_posterior = from.number("least_posterior")};
+                                       .least_posterior = from.number("least_posterior"),
+                                       .waiting_cost = read_number(from, "waiting_cost")};
   from.refuse_others();
   return thresholds;
 }
@@ -347,7 +350,7 @@ class TapeReader {
 
 Result<TapeFile> TapeReader::read(std::string_view text) {
   if (text.empty()) {
-    return error("want a tape (saca.tape/2), got an empty file");
+    return error("want a tape (saca.tape/3), got an empty file");
   }
   while (!text.empty()) {
     ++line_;
@@ -375,7 +378,7 @@ Result<TapeFile> TapeReader::read(std::string_view text) {
 std::optional<Error> TapeReader::read_line(std::string_view line) {
   const auto node = config::parse_json(line);
   if (!node.has_value()) {
-    return error("want one JSON object of a tape (saca.tape/2), got " + shown(line));
+    return error("want one JSON object of a tape (saca.tape/3), got " + shown(line));
   }
   std::optional<Error> problem;
   JsonReader from(node.value(), "", problem, "line");
@@ -389,7 +392,7 @@ void TapeReader::read_object(JsonReader& from) {
     const std::string_view wanted = line_ == 1 ? "header" : "before";
     if (type != wanted) {
       from.reject("type",
-                  fmt::format("want \"{}\" of a tape (saca.tape/2), got {}", wanted, shown(type)));
+                  fmt::format("want \"{}\" of a tape (saca.tape/3), got {}", wanted, shown(type)));
     } else if (line_ == 1) {
       tape_.header = read_header(from);
     } else {

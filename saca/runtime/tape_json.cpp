@@ -135,7 +135,8 @@ json header_json(const TapeHeader& header) {
             {"preview_s", header.thresholds.preview},
             {"trigger_tolerance_s", header.thresholds.trigger_tolerance},
             {"preview_tolerance_s", header.thresholds.preview_tolerance},
-            {"least_posterior", header.thresholds.least_posterior}}},
+            {"least_posterior", header.thresholds.least_posterior},
+            {"waiting_cost", or_null(header.thresholds.waiting_cost, itself)}}},
           {"pace", name(header.pace)},
           {"costs",
            {{"preview_s", header.costs.preview},
@@ -155,6 +156,7 @@ std::string line_of(const json& object) {
 json verdict_json(const decide::Verdict& verdict) {
   return {{"t_s", verdict.time},
           {"plans", list_json(verdict.plans, judged_json)},
+          {"later", or_null(verdict.later, itself)},
           {"under_way", or_null(verdict.under_way, judged_json)}};
 }
 
@@ -186,7 +188,8 @@ json decision_json(const decide::Decision& decision) {
           {"verdict", or_null(decision.verdict, verdict_json)},
           {"by_atlas", decision.by_atlas},
           {"refused", or_null(decision.refused, refused_json)},
-          {"t_s", decision.time}};
+          {"t_s", decision.time},
+          {"waiting_cost", or_null(decision.waiting_cost, itself)}};
 }
 
 json beliefs_json(const intent::Beliefs& beliefs) {
