@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that building and testing need; silent when all are there.
-# usage: tools/setup.sh [train]    train: also what saca-train needs, libtorch (120 MB)
+# usage: tools/setup.sh [train]    train: also what saca-train needs, libtorch (120 MB) and
+#                                  OpenBLAS: with the reference BLAS a training takes several times as long
 set -euo pipefail
 
 packages=(
@@ -12,7 +13,7 @@ packages=(
   python3 python3-venv python3-pytest python3-jsonschema
   chromium
 )
-[ "${1:-}" != train ] || packages+=(libtorch-dev)
+[ "${1:-}" != train ] || packages+=(libtorch-dev libopenblas0-serial)
 
 missing=()
 for package in "${packages[@]}"; do

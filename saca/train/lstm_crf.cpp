@@ -5,13 +5,14 @@
 
 #include "saca/intent/features.h"
 #include "saca/intent/model.h"
+#include "saca/train/forward_pass.h"
 
 namespace saca::train {
 namespace {
 
 using intent::num_classes;
-using intent::num_features;
 using intent::num_horizons;
+using intent::num_features;
 
 constexpr auto width = static_cast<std::int64_t>(intent::Network::width);
 constexpr auto classes = static_cast<std::int64_t>(num_classes);
@@ -92,41 +93,15 @@ torch::Tensor LstmCrfImpl::transition() const {
   return 0.5 * (transition_ + transition_.index_select(-1, swapped_).index_select(-2, swapped_));
 }
 
-std::vector<torch::Tensor> LstmCrfImpl::forward_scores(const torch::Tensor& emissions,
-                                                       const torch::Tensor& present) const {
-  const torch::Tensor chain = (transition() + mask_).unsqueeze(0);  // 1 x H x K x K
-  std::vector<torch::Tensor> scores{start().unsqueeze(0) + emissions.select(1, 0)};
-  for (std::int64_t t = 1; t < emissions.size(1); ++t) {
-    const torch::Tensor next =
-        torch::logsumexp(scores.back().unsqueeze(-1) + chain, -2) + emissions.select(1, t);
-    const torch::Tensor here = present.select(1, t).view({-1, 1, 1});
-    scores.push_back(torch::where(here, next, scores.back()));
-  }
-  return scores;
-}
-
-Loss LstmCrfImpl::loss(const torch::Tensor& emissions, const Batch& batch,
-                       const ClassWeights& weights) {
-  const torch::Tensor one_hot = torch::one_hot(batch.labels, classes).to(torch::kFloat32);
-  const torch::Tensor outside =
-      excluded * (1.0 - one_hot) * batch.known.unsqueeze(-1).to(torch::kFloat32);
-  // The free chain and the one that keeps to the labels side by side: half as many steps.
-  const std::int64_t num = emissions.size(0);
-  const torch::Tensor scores =
-      torch::stack(forward_scores(torch::cat({emissions, emissions + outside}),
-                                  torch::cat({batch.present, batch.present})),
-                   1);
-  const torch::Tensor free = scores.narrow(0, 0, num);
-  const torch::Tensor last = torch::logsumexp(scores.select(1, scores.size(1) - 1), -1);
-  const torch::Tensor num_known = batch.known.sum().clamp_min(1).to(torch::kFloat32);
-  const torch::Tensor log_likelihood = last.narrow(0, num, num) - last.narrow(0, 0, num);
-  const torch::Tensor filtered = torch::log_softmax(free, -1);
+torch::Tensor LstmCrfImpl::loss(const torch::Tensor& emissions, const Batch& batch,
+                                const ClassWeights& weights) {
+  const torch::Tensor filtered =
+      torch::log_softmax(forward_pass(emissions, start(), transition() + mask_, batch.present), -1);
   const torch::Tensor of_label = filtered.gather(-1, batch.labels.unsqueeze(-1)).squeeze(-1);
   const torch::Tensor counts =
       torch::tensor(at::ArrayRef<double>(weights), torch::kFloat32).index({batch.labels}) *
       batch.known.to(torch::kFloat32);
-  return {-log_likelihood.sum() / num_known,
-          -(counts * of_label).sum() / counts.sum().clamp_min(1e-6)};
+  return -(counts * of_label).sum() / counts.sum().clamp_min(1e-6);
 }
 
 void LstmCrfImpl::add_network(config::Tensors& tensors, const std::string& prefix) const {

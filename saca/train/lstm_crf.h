@@ -4,7 +4,6 @@
 
 #include <array>
 #include <string>
-#include <vector>
 
 #include "saca/config/tensors.h"
 #include "saca/intent/crf.h"
@@ -17,13 +16,6 @@ namespace saca::train {
 using ClassWeights = std::array<double, intent::num_classes>;
 constexpr ClassWeights all_alike{1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
 
-/// What a batch's labels are worth under the network.
-struct Loss {
-  torch::Tensor sequence;  ///< -log p(known labels | features), per known label, over all horizons
-  torch::Tensor filtered;  ///< -log p(label | features so far), weighted mean over known labels:
-                           ///< what a stream is told
-};
-
 /// The network of intent/network.h with its chains, in a form that can be trained.
 class LstmCrfImpl : public torch::nn::Module {
  public:
@@ -34,10 +26,11 @@ class LstmCrfImpl : public torch::nn::Module {
   /// Mean emissions of the world and of its mirror image.   (B x T x H x K)
   torch::Tensor emissions(const torch::Tensor& features);
 
-  /// Exact: forward recursions over the free chain and over the one that keeps to the labels.
-  /// @param weights  of labels in the filtered loss
-  Loss loss(const torch::Tensor& emissions, const Batch& batch,
-            const ClassWeights& weights = all_alike);
+  /// -log p(label | what was seen so far) by the forward pass of the chain, exactly as a stream
+  /// tells it; weighted mean over known labels of all horizons.
+  /// @param weights  of labels
+  torch::Tensor loss(const torch::Tensor& emissions, const Batch& batch,
+                     const ClassWeights& weights = all_alike);
 
   /// Weights under the names of intent/network.h.
   void add_network(config::Tensors& tensors, const std::string& prefix) const;
@@ -46,11 +39,6 @@ class LstmCrfImpl : public torch::nn::Module {
   [[nodiscard]] torch::Tensor transition() const;
 
  private:
-  /// log of the sum over all paths up to each frame, by their last class; where nothing is present
-  /// it stays.   (T of B x H x K)
-  std::vector<torch::Tensor> forward_scores(const torch::Tensor& emissions,
-                                            const torch::Tensor& present) const;
-
   torch::nn::Linear input_;
   torch::nn::LSTM lstm_;
   torch::nn::Linear output_;

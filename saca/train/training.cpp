@@ -77,13 +77,9 @@ void hide_some(Batch& batch, const TrainingPlan& plan, std::mt19937_64& random) 
   }
 }
 
-torch::Tensor total(const Loss& loss, const TrainingPlan& plan) {
-  return (1.0 - plan.filtered_share) * loss.sequence + plan.filtered_share * loss.filtered;
-}
-
 /// What of a plan a schedule does not say.
 std::string words_of(const TrainingPlan& plan) {
-  return fmt::format("{} {} {} {} {} {} {} {}", plan.longest, plan.dropout, plan.filtered_share,
+  return fmt::format("{} {} {} {} {} {} {}", plan.longest, plan.dropout,
                      fmt::join(plan.label_weights, ","), plan.with_chain, plan.lane_loss,
                      plan.ahead_loss, plan.pedals_loss);
 }
@@ -121,19 +117,18 @@ Result<LstmCrf> trained(const std::vector<Sequence>& sequences,
   expects(!sequences.empty() && plan.epochs > 0 && plan.batch > 0, "something to train with");
   torch::manual_seed(plan.seed);
   LstmCrf network(plan.dropout, plan.with_chain);
-  const Task task{
-      .network = network.ptr(),
-      .loss =
-          [&](Batch& batch, std::mt19937_64& random) {
-            hide_some(batch, plan, random);
-            return total(
-                network->loss(network->emissions(batch.features), batch, plan.label_weights), plan);
-          },
-      .held_out_loss =
-          [&](const Batch& batch) {
-            return network->loss(network->emissions(batch.features), batch).filtered;
-          },
-      .words = words_of(plan)};
+  const Task task{.network = network.ptr(),
+                  .loss =
+                      [&](Batch& batch, std::mt19937_64& random) {
+                        hide_some(batch, plan, random);
+                        return network->loss(network->emissions(batch.features), batch,
+                                             plan.label_weights);
+                      },
+                  .held_out_loss =
+                      [&](const Batch& batch) {
+                        return network->loss(network->emissions(batch.features), batch);
+                      },
+                  .words = words_of(plan)};
   const Schedule schedule{.seed = plan.seed,
                           .epochs = plan.epochs,
                           .batch = plan.batch,

@@ -22,8 +22,7 @@ struct TrainingPlan {
   double step = 3e-3;   ///< largest step of the optimiser (AdamW, falling as a cosine)
   double decay = 1e-2;  ///< of weights
   double dropout = 0.3;
-  double filtered_share = 0.5;  ///< of the loss of what a stream is told, beside the sequence's
-  /// Of labels in that loss: nine frames of ten are M, and what is rare is what matters.
+  /// Of labels in the loss: nine frames of ten are M, and what is rare is what matters.
   ClassWeights label_weights{1.0, 2.5, 2.5, 2.0, 2.5, 2.5};
   bool with_chain = true;    ///< false: each frame is trained for itself
   double lane_loss = 0.1;    ///< share of pieces whose lane is hidden: somebody off the map
