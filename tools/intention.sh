@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# From recordings to the weights of the intention model, and to its figures beside all baselines. One hour on two cores.
+# From recordings to the weights of the intention model, and to its figures beside all baselines. Less than one hour on two cores.
 # usage: tools/intention.sh all|train|eval DATA
 #   all    train, then eval
-#   train  packs what DATA holds, labels it, trains the model, those that leave something out, and the LSTM without CRF
+#   train  packs what DATA holds, labels it, trains the model, those that leave something out, and the LSTM without CRF;
+#          calibrates all models on what those say that have not seen it
 #   eval   trains the boosted trees and scores everything: build/intention/eval.txt and eval.json
 # DATA: a folder with the CommonRoad NGSIM files (*.xml) and the 100-Car study's release, unpacked (data/README.md).
 # Weights go to models/intent. What was done before is not done again; remove build/intention to begin anew.
@@ -44,6 +45,10 @@ if [ "$what" != eval ]; then
   train_one() {  # FILE OPTION...
     [ -e "$1" ] || "$train" "$work/sequences.h5" --output "$@" >> "$1.log" 2>&1
   }
+  calibrate() {
+    "$train" "$work/sequences.h5" --calibrate "$work/models"
+    touch "$work/models/calibrated"
+  }
   export -f train_one
   export train work
   {
@@ -56,6 +61,7 @@ if [ "$what" != eval ]; then
       echo "$work/models/without_$site.safetensors --leave-out $site"
     done
   } | xargs -P 2 -L 1 bash -c 'train_one "$@"' train_one  # two at a time, one core each
+  made "$work/models/calibrated" calibrate
   cp "$work"/models/*.safetensors "$work"/models/*.curve.csv models/intent/
 fi
 

@@ -15,6 +15,7 @@
 #include "saca/core/file.h"
 #include "saca/core/parallel.h"
 #include "saca/learn/baselines.h"
+#include "saca/learn/calibration.h"
 #include "saca/learn/displacement.h"
 #include "saca/learn/evaluation.h"
 #include "saca/learn/forecast_file.h"
@@ -69,12 +70,17 @@ class Comparison {
   void add(const std::string& method, std::vector<Forecasts> forecasts) {
     Row row{.method = method,
             .figures = learn::figures_of(scored_.sequences, forecasts, classes_, seed_),
-            .behind_ours = std::nullopt};
+            .macro_f1_difference = {},
+            .log_loss_difference = {}};
     if (rows_.empty()) {
       ours_ = std::move(forecasts);
     } else {
-      row.behind_ours =
-          learn::macro_f1_difference(scored_.sequences, ours_, forecasts, 0, classes_, seed_);
+      for (std::size_t head = 0; head < learn::num_heads; ++head) {
+        row.macro_f1_difference[head] =
+            learn::macro_f1_difference(scored_.sequences, ours_, forecasts, head, classes_, seed_);
+        row.log_loss_difference[head] =
+            learn::log_loss_difference(scored_.sequences, ours_, forecasts, head, seed_);
+      }
     }
     rows_.push_back(std::move(row));
   }
@@ -84,10 +90,7 @@ class Comparison {
     tell_confusion(rows_.front());
     tell_acts(rows_.front());
     for (const Row& row : rows_) {
-      if (row.behind_ours) {
-        app::print("ours less {}: macro F1 now {:+.3f} [{:+.3f}, {:+.3f}]\n", row.method,
-                   row.behind_ours->value, row.behind_ours->low, row.behind_ours->high);
-      }
+      tell_difference(row);
     }
   }
   /// Where our own forecasts say that vehicles will be.
@@ -166,10 +169,13 @@ std::optional<Error> compare_recorded(const EvalOptions& options, const ModelsBy
     if (!plain.has_value()) {
       return plain.error();
     }
-    if (auto problem =
-            add_unseen(comparison, "LSTM without CRF", without_chains(plain.value()), scored)) {
-      return problem;
+    const auto forecasts = learn::foretold_unseen(without_chains(plain.value()), scored.sequences,
+                                                  scored.splits, usual_threads());
+    if (!forecasts.has_value()) {
+      return forecasts.error();
     }
+    comparison.add("LSTM without CRF",
+                   learn::cross_calibrated(scored.sequences, scored.splits, forecasts.value()));
   }
   const auto by = [&](auto&& foretell) {
     std::vector<Forecasts> all;
@@ -191,7 +197,9 @@ std::optional<Error> compare_recorded(const EvalOptions& options, const ModelsBy
     if (!forecasts.has_value()) {
       return forecasts.error();
     }
-    comparison.add(set.value().model, std::move(forecasts).value());
+    comparison.add(set.value().model, forecasts.value());
+    comparison.add(set.value().model + ", calibrated as ours",
+                   learn::cross_calibrated(scored.sequences, scored.splits, forecasts.value()));
   }
   return std::nullopt;
 }
@@ -287,7 +295,7 @@ void add_intent_eval(CLI::App& intent, int& exit_code) {
   command->add_option("--models", options->models,
                       "Folder of weights, one per part left out; default: the shipped ones");
   command->add_option("--plain-models", options->plain_models,
-                      "Likewise, trained without the CRF, for comparison");
+                      "Likewise, trained without the CRF and not calibrated, for comparison");
   command->add_option("--forecasts", options->forecasts,
                       "Forecasts of other models (saca.forecasts/1), for comparison");
   command->add_option("--svg", options->svg, "A picture of the confusion of recorded vehicles");

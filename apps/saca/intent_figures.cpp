@@ -78,6 +78,8 @@ json row_json(const Row& row) {
                      {"classwise_calibration_error", number(tally.classwise_calibration_error())},
                      {"log_loss", number(tally.mean_log_loss())},
                      {"brier", number(tally.mean_brier())},
+                     {"macro_f1_ours_less_this", interval_json(row.macro_f1_difference[head])},
+                     {"log_loss_ours_less_this", interval_json(row.log_loss_difference[head])},
                      {"classes", classes},
                      {"confusion", tally.confusion.counts}});
   }
@@ -89,13 +91,14 @@ json row_json(const Row& row) {
           {"hours", row.figures.alarms.hours},
           {"acts", acts_json(row.figures.acts)},
           {"illegal_steps", row.figures.illegal_steps},
-          {"ours_less_this", interval_json(row.behind_ours)}};
+          {"ours_less_this", interval_json(row.macro_f1_difference[0])}};
 }
 
 void tell_table(const std::string& title, const std::vector<Row>& rows) {
   app::print("\n{}\n", title);
-  app::print("{:24} {:>22} {:>8} {:>8} {:>7} {:>12} {:>12} {:>8} {:>8}\n", "", "macro F1 now",
-             "0.5 s", "1 s", "ECE", "line [s]", "brake [s]", "alarm/h", "illegal");
+  app::print("{:24} {:>22} {:>8} {:>8} {:>7} {:>22} {:>12} {:>12} {:>8} {:>8}\n", "",
+             "macro F1 now", "0.5 s", "1 s", "ECE", "log loss now, 0.5, 1 s", "line [s]",
+             "brake [s]", "alarm/h", "illegal");
   for (const Row& row : rows) {
     const Figures& f = row.figures;
     const auto& now = f.macro_f1[0];
@@ -103,9 +106,11 @@ void tell_table(const std::string& title, const std::vector<Row>& rows) {
       return f.macro_f1[head] ? std::optional(f.macro_f1[head]->value) : std::nullopt;
     };
     app::print(
-        "{:24} {:>22} {:>8} {:>8} {:>7} {:>12} {:>12} {:>8} {:>8}\n", row.method,
+        "{:24} {:>22} {:>8} {:>8} {:>7} {:>22} {:>12} {:>12} {:>8} {:>8}\n", row.method,
         now ? fmt::format("{:.3f} [{:.3f}, {:.3f}]", now->value, now->low, now->high) : "-",
         cell(value(1)), cell(value(2)), cell(f.tallies[0].top_calibration_error()),
+        cell(f.tallies[0].mean_log_loss()) + ", " + cell(f.tallies[1].mean_log_loss()) + ", " +
+            cell(f.tallies[2].mean_log_loss()),
         cell(f.lane_changes.quantile(0.5), 1) + " of " + std::to_string(f.lane_changes.events()),
         cell(f.brakings.quantile(0.5), 1) + " of " + std::to_string(f.brakings.events()),
         cell(f.alarms.per_hour(), 0), f.illegal_steps);
@@ -128,6 +133,20 @@ void tell_confusion(const Row& row) {
       }
       app::print("{:>8} {:>9} {:>6}\n", cell(confusion.recall(k), 2),
                  cell(confusion.precision(k), 2), cell(confusion.f1(k), 2));
+    }
+  }
+}
+
+void tell_difference(const Row& row) {
+  for (std::size_t head = 0; head < learn::num_heads; ++head) {
+    const auto& f1 = row.macro_f1_difference[head];
+    const auto& loss = row.log_loss_difference[head];
+    if (f1 && loss) {
+      app::print(
+          "ours less {}, {:.1f} s ahead: macro F1 {:+.3f} [{:+.3f}, {:+.3f}], log loss {:+.4f} "
+          "[{:+.4f}, {:+.4f}]\n",
+          row.method, intent::horizons[head], f1->value, f1->low, f1->high, loss->value, loss->low,
+          loss->high);
     }
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -16,7 +17,9 @@ namespace saca::app {
 struct Row {
   std::string method;
   learn::Figures figures;
-  std::optional<learn::Interval> behind_ours;  ///< our macro F1 now less its
+  /// Our macro F1 less its, and our logarithmic loss less its.
+  std::array<std::optional<learn::Interval>, learn::num_heads> macro_f1_difference;
+  std::array<std::optional<learn::Interval>, learn::num_heads> log_loss_difference;
 };
 
 void tell_table(const std::string& title, const std::vector<Row>& rows);
@@ -24,6 +27,8 @@ void tell_table(const std::string& title, const std::vector<Row>& rows);
 void tell_confusion(const Row& row);
 /// What of each act it finds, and when.
 void tell_acts(const Row& row);
+/// Ours less it, at each horizon.
+void tell_difference(const Row& row);
 void tell_displacements(const learn::Displacements& found);
 
 [[nodiscard]] nlohmann::json row_json(const Row& row);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,9 +18,9 @@
 #include "saca/core/parallel.h"
 #include "saca/core/standard_files.h"
 #include "saca/intent/model.h"
-#include "saca/learn/foretell.h"
+#include "saca/learn/calibration.h"
+#include "saca/learn/evaluation.h"
 #include "saca/learn/sequence_file.h"
-#include "saca/learn/split.h"
 #include "saca/train/training.h"
 
 namespace {
@@ -33,18 +34,17 @@ volatile std::sig_atomic_t was_told_to_stop = 0;
 struct Options {
   std::string sequences;
   std::string output;
+  std::string calibrate;
   std::string leave_out;
   int networks = 1;
   train::TrainingPlan plan;
 };
 
-/// What a model may see, and what it is calibrated on.
+/// What a model may see, and what it is judged on while it learns.
 struct Data {
   std::vector<Sequence> training;
-  std::vector<Sequence> calibration;
+  std::vector<Sequence> held_out;
 };
-
-constexpr int calibration_share = 8;  // one group in so many of those recorded
 
 Result<Data> read_data(const Options& options) {
   auto read = learn::read_sequences(options.sequences);
@@ -52,32 +52,27 @@ Result<Data> read_data(const Options& options) {
     return read.error();
   }
   learn::SequenceSet set = std::move(read).value();
-  std::vector<Sequence> recorded;
   Data data;
-  std::size_t num_left_out = 0;
+  std::vector<Sequence> simulated_test;
   for (std::size_t i = 0; i < set.sequences.size(); ++i) {
     Sequence& sequence = set.sequences[i];
-    if (set.splits[i] == "test" || set.splits[i] == options.leave_out ||
-        sequence.site == options.leave_out) {
-      ++num_left_out;
+    if (set.splits[i] == options.leave_out || sequence.site == options.leave_out) {
+      data.held_out.push_back(std::move(sequence));
     } else {
-      (sequence.simulated ? data.training : recorded).push_back(std::move(sequence));
+      (set.splits[i] == "test" ? simulated_test : data.training).push_back(std::move(sequence));
     }
   }
-  if (!options.leave_out.empty() && num_left_out == 0) {
+  if (!options.leave_out.empty() && data.held_out.empty()) {
     return Error{Error::Code::out_of_range,
                  fmt::format("{}: --leave-out: want a split or a site of "
                              "the file, got {}",
                              options.sequences, options.leave_out)};
   }
-  learn::Split split = learn::split_off(std::move(recorded), 0, calibration_share);
-  data.calibration = std::move(split.part);
-  for (Sequence& each : split.rest) {
-    data.training.push_back(std::move(each));
+  if (data.training.empty()) {
+    return Error{Error::Code::out_of_range, options.sequences + ": want sequences to train with"};
   }
-  if (data.training.empty() || data.calibration.empty()) {
-    return Error{Error::Code::out_of_range,
-                 options.sequences + ": want recorded sequences of several groups to train with"};
+  if (options.leave_out.empty()) {
+    data.held_out = std::move(simulated_test);
   }
   return data;
 }
@@ -89,20 +84,8 @@ int fail(const Error& error) {
   return error.code == Error::Code::unwritable ? cannot_write : bad_input;
 }
 
-/// The tensors with the sharpness that suits the calibration's labels, and words on where they come
-/// from.
-Result<config::Tensors> calibrated(const Options& options, const Data& data,
-                                   const std::vector<train::LstmCrf>& networks) {
-  config::Tensors tensors = train::model_tensors(networks);
-  const auto model = intent::model_from(tensors, options.output);
-  if (!model.has_value()) {
-    return model.error();
-  }
-  const auto forecasts = learn::foretold(model.value(), data.calibration, usual_threads());
-  const auto sharpness = learn::best_sharpness(data.calibration, forecasts);
-  for (std::size_t h = 0; h < sharpness.size(); ++h) {
-    tensors.tensors["sharpness"].values[h] = static_cast<float>(sharpness[h]);
-  }
+/// The tensors, with words on where they come from.
+config::Tensors described(const Options& options, config::Tensors tensors) {
   const auto bytes = read_file(options.sequences, many_bytes);
   Fnv digest;
   digest.add(bytes.has_value() ? std::string_view(bytes.value()) : std::string_view());
@@ -113,28 +96,118 @@ Result<config::Tensors> calibrated(const Options& options, const Data& data,
   return tensors;
 }
 
+/// A model's file.
+struct ModelFile {
+  fs::path path;
+  config::Tensors tensors;
+  std::string left_out;
+};
+
+Result<std::vector<ModelFile>> read_model_files(const fs::path& folder) {
+  std::vector<ModelFile> files;
+  std::error_code problem;
+  for (const auto& entry : fs::directory_iterator(folder, problem)) {
+    if (entry.path().extension() != ".safetensors") {
+      continue;
+    }
+    const auto bytes = read_file(entry.path(), many_bytes);
+    if (!bytes.has_value()) {
+      return bytes.error();
+    }
+    auto tensors = config::read_tensors(bytes.value(), entry.path().string());
+    if (!tensors.has_value()) {
+      return tensors.error();
+    }
+    ModelFile file{.path = entry.path(), .tensors = std::move(tensors).value(), .left_out = {}};
+    file.left_out = file.tensors.words["left_out"];
+    files.push_back(std::move(file));
+  }
+  if (files.empty()) {
+    return Error{Error::Code::unreadable, folder.string() + ": want a folder with models"};
+  }
+  return files;
+}
+
+/// Of the recorded sequences, what models without calibration foretell that have not seen them.
+Result<std::vector<learn::Forecasts>> unseen_forecasts(std::vector<ModelFile> files,
+                                                       std::span<const Sequence> recorded,
+                                                       std::span<const std::string> splits) {
+  learn::ModelsByLeftOut models;
+  for (ModelFile& file : files) {
+    train::set_calibrations(file.tensors, {});
+    auto model = intent::model_from(file.tensors, file.path.string());
+    if (!model.has_value()) {
+      return model.error();
+    }
+    models.emplace(file.left_out, std::move(model).value());
+  }
+  return learn::foretold_unseen(models, recorded, splits, usual_threads());
+}
+
+/// Calibrates each model of a folder on what models that had left a split out foretell of it: on
+/// all splits but the one, or sequences of all sites but the one, that it has left out itself.
+int calibrate_models(const Options& options) {
+  const auto set = learn::read_sequences(options.sequences);
+  if (!set.has_value()) {
+    return fail(set.error());
+  }
+  std::vector<Sequence> recorded;
+  std::vector<std::string> splits;
+  for (std::size_t i = 0; i < set.value().sequences.size(); ++i) {
+    if (!set.value().sequences[i].simulated) {
+      recorded.push_back(set.value().sequences[i]);
+      splits.push_back(set.value().splits[i]);
+    }
+  }
+  auto read = read_model_files(options.calibrate);
+  if (!read.has_value()) {
+    return fail(read.error());
+  }
+  std::vector<ModelFile> files = std::move(read).value();
+  const auto forecasts = unseen_forecasts(files, recorded, splits);
+  if (!forecasts.has_value()) {
+    return fail(forecasts.error());
+  }
+  for (ModelFile& file : files) {
+    std::vector<Sequence> sequences;
+    std::vector<learn::Forecasts> of_them;
+    for (std::size_t i = 0; i < recorded.size(); ++i) {
+      if (splits[i] != file.left_out && recorded[i].site != file.left_out) {
+        sequences.push_back(recorded[i]);
+        of_them.push_back(forecasts.value()[i]);
+      }
+    }
+    train::set_calibrations(file.tensors, learn::best_calibrations(sequences, of_them));
+    if (const auto problem = write_file(file.path, config::tensor_bytes(file.tensors))) {
+      return fail(*problem);
+    }
+    fmt::print("{}: calibrated on {} sequences\n", file.path.filename().string(), sequences.size());
+  }
+  return 0;
+}
+
 int train_model(const Options& options) {
   auto read = read_data(options);
   if (!read.has_value()) {
     return fail(read.error());
   }
   const Data data = std::move(read).value();
-  fmt::print("{} sequences to train with, {} to calibrate with\n", data.training.size(),
-             data.calibration.size());
+  fmt::print("{} sequences to train with, {} held out\n", data.training.size(),
+             data.held_out.size());
   std::vector<train::LstmCrf> networks;
-  std::string curve = "network,epoch,training_loss,calibration_loss,seconds\n";
+  std::string curve = "network,epoch,training_loss,held_out_loss,seconds\n";
   for (int i = 0; i < options.networks; ++i) {
     train::TrainingPlan plan = options.plan;
     plan.seed = options.plan.seed + static_cast<std::uint64_t>(i);
     const fs::path state = fmt::format("{}.network{}.state", options.output, i);
     auto network =
-        train::trained(data.training, data.calibration, plan, state, [&](const train::Epoch& now) {
+        train::trained(data.training, data.held_out, plan, state, [&](const train::Epoch& now) {
           const double held_out = now.held_out.value_or(std::nan(""));
           curve += fmt::format("{},{},{:.5f},{:.5f},{:.1f}\n", i, now.number, now.loss, held_out,
                                now.seconds);
-          fmt::print(
-              "network {} of {}, epoch {} of {}: loss {:.4f}, calibration {:.4f}, {:.1f} s\n",
-              i + 1, options.networks, now.number, plan.epochs, now.loss, held_out, now.seconds);
+          fmt::print("network {} of {}, epoch {} of {}: loss {:.4f}, held out {:.4f}, {:.1f} s\n",
+                     i + 1, options.networks, now.number, plan.epochs, now.loss, held_out,
+                     now.seconds);
           std::fflush(stdout);
           return was_told_to_stop == 0;
         });
@@ -148,11 +221,8 @@ int train_model(const Options& options) {
     }
     networks.push_back(network.value());
   }
-  const auto tensors = calibrated(options, data, networks);
-  if (!tensors.has_value()) {
-    return fail(tensors.error());
-  }
-  if (const auto problem = write_file(options.output, config::tensor_bytes(tensors.value()))) {
+  const config::Tensors tensors = described(options, train::model_tensors(networks));
+  if (const auto problem = write_file(options.output, config::tensor_bytes(tensors))) {
     return fail(*problem);
   }
   if (const auto problem = write_file(options.output + ".curve.csv", curve)) {
@@ -171,7 +241,12 @@ int main(int argc, char** argv) {
   CLI::App app("Trains the model of intentions: an LSTM-CRF, with libtorch");
   Options options;
   app.add_option("sequences", options.sequences, "HDF5 file of `saca intent examples`")->required();
-  app.add_option("--output", options.output, "safetensors file of the weights")->required();
+  CLI::Option* const output =
+      app.add_option("--output", options.output, "safetensors file of the weights");
+  CLI::Option* const calibrate = app.add_option("--calibrate", options.calibrate,
+                                                "Train nothing, but calibrate all models of this "
+                                                "folder, one of which has left out each split");
+  output->excludes(calibrate);
   app.add_option("--leave-out", options.leave_out,
                  "A split or a site of the file that is not to be seen");
   app.add_option("--networks", options.networks, "Trained from seeds one after the other")
@@ -186,5 +261,11 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   std::signal(SIGINT, [](int) { was_told_to_stop = 1; });
   torch::set_num_threads(1);  // the same bytes each time; two trainings side by side use both cores
+  if (!options.calibrate.empty()) {
+    return calibrate_models(options);
+  }
+  if (options.output.empty()) {
+    return fail({Error::Code::out_of_range, "want --output or --calibrate"});
+  }
   return train_model(options);
 }

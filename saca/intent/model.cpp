@@ -39,7 +39,60 @@ Crf chain(const std::vector<float>& start, const std::vector<float>& transition,
   return crf;
 }
 
+/// The calibrations, each checked.
+Result<std::array<Calibration, num_horizons>> calibrations_from(const config::Tensors& tensors,
+                                                                std::string_view source) {
+  const auto sharpness = config::take(tensors, "sharpness", {num_horizons}, source);
+  const auto bias = config::take(tensors, "bias", {num_horizons, num_classes}, source);
+  const auto naming = config::take(tensors, "naming", {num_horizons, num_classes}, source);
+  for (const auto* each : {&sharpness, &bias, &naming}) {
+    if (!each->has_value()) {
+      return each->error();
+    }
+  }
+  const auto positive = [](double x) { return x > 0.0; };
+  std::array<Calibration, num_horizons> calibrations;
+  for (std::size_t h = 0; h < num_horizons; ++h) {
+    Calibration& one = calibrations[h];
+    one.sharpness = static_cast<double>(sharpness.value()[h]);
+    if (!positive(one.sharpness)) {
+      return not_a_model(source, fmt::format("tensor sharpness: want > 0, got {}", one.sharpness));
+    }
+    for (std::size_t k = 0; k < num_classes; ++k) {
+      one.bias[k] = limited(bias.value()[h * num_classes + k]);
+      one.naming[k] = static_cast<double>(naming.value()[h * num_classes + k]);
+      if (!positive(one.naming[k])) {
+        return not_a_model(source, fmt::format("tensor naming: want > 0, got {}", one.naming[k]));
+      }
+    }
+  }
+  return calibrations;
+}
+
 }  // namespace
+
+Scores calibrated(const Calibration& calibration, const Scores& probabilities) {
+  Scores honest;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < num_classes; ++k) {
+    honest[k] = std::pow(probabilities[k], calibration.sharpness) * std::exp(calibration.bias[k]);
+    sum += honest[k];
+  }
+  for (double& each : honest) {
+    each /= sum;
+  }
+  return honest;
+}
+
+std::size_t named_class(const Scores& naming, const Scores& probabilities) {
+  std::size_t named = 0;
+  for (std::size_t k = 1; k < num_classes; ++k) {
+    if (naming[k] * probabilities[k] > naming[named] * probabilities[named]) {
+      named = k;
+    }
+  }
+  return named;
+}
 
 Result<Model> model_from(const config::Tensors& tensors, std::string_view source) {
   const auto num = config::take(tensors, "networks", {1}, source);
@@ -62,20 +115,19 @@ Result<Model> model_from(const config::Tensors& tensors, std::string_view source
   const auto start = config::take(tensors, "chain.start", {num_horizons, num_classes}, source);
   const auto transition =
       config::take(tensors, "chain.transition", {num_horizons, num_classes, num_classes}, source);
-  const auto sharpness = config::take(tensors, "sharpness", {num_horizons}, source);
-  for (const auto* each : {&start, &transition, &sharpness}) {
+  for (const auto* each : {&start, &transition}) {
     if (!each->has_value()) {
       return each->error();
     }
   }
   for (std::size_t h = 0; h < num_horizons; ++h) {
     model.chains[h] = chain(start.value(), transition.value(), h);
-    model.sharpness[h] = static_cast<double>(sharpness.value()[h]);
-    if (!(model.sharpness[h] > 0.0)) {
-      return not_a_model(source,
-                         fmt::format("tensor sharpness: want > 0, got {}", model.sharpness[h]));
-    }
   }
+  const auto calibrations = calibrations_from(tensors, source);
+  if (!calibrations.has_value()) {
+    return calibrations.error();
+  }
+  model.calibrations = calibrations.value();
   return model;
 }
 
@@ -85,7 +137,7 @@ std::uint64_t digest(const Model& model) {
     network.add_to(hash);
   }
   hash.add_doubles(model.chains);
-  hash.add_doubles(model.sharpness);
+  hash.add_doubles(model.calibrations);
   return hash.value();
 }
 
@@ -118,15 +170,7 @@ Told Stream::step(const Model& model, const Observation& observation) {
   }
   Told told;
   for (std::size_t h = 0; h < num_horizons; ++h) {
-    const Scores& now = filters_[h].step(model.chains[h], mean[h]);
-    double sum = 0.0;
-    for (std::size_t k = 0; k < num_classes; ++k) {
-      told[h][k] = std::pow(now[k], model.sharpness[h]);
-      sum += told[h][k];
-    }
-    for (double& each : told[h]) {
-      each /= sum;
-    }
+    told[h] = calibrated(model.calibrations[h], filters_[h].step(model.chains[h], mean[h]));
   }
   return told;
 }

@@ -21,6 +21,28 @@ namespace saca::intent {
   return side[from] * side[to] >= 0;
 }
 
+/// How the probabilities of one horizon are made honest, and which of them is named.
+///
+///   p'(k) ~ p(k)^sharpness exp(bias(k))
+///
+/// Classes that count more in training are told too often by the network: bias takes that back.
+/// Sources: Guo et al., On calibration of modern neural networks, ICML 2017 (temperature and vector
+/// scaling); Lipton, Elkan, Naryanaswamy, Optimal thresholding of classifiers to maximize F1
+/// measure, ECML 2014 (F1 is greatest where a class is named from a probability of half that F1 on,
+/// not from 0.5 on).
+struct Calibration {
+  double sharpness = 1.0;  ///< > 0
+  Scores bias{};           ///< of logarithms
+  /// What each probability counts when the class is named; > 0.
+  Scores naming{1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+};
+
+/// Honest probabilities, which sum to 1.
+[[nodiscard]] Scores calibrated(const Calibration& calibration, const Scores& probabilities);
+
+/// The class of the greatest product of naming and honest probability; among equals the first.
+[[nodiscard]] std::size_t named_class(const Scores& naming, const Scores& probabilities);
+
 /// What was learnt about vehicles: an LSTM-CRF for each horizon, with common LSTMs.
 ///
 /// Several networks are asked, and their emissions averaged: they were trained from different
@@ -30,14 +52,14 @@ struct Model {
 
   std::vector<Network> networks;         ///< 1 to max_networks
   std::array<Crf, num_horizons> chains;  ///< structurally masked by may_follow
-  /// Calibration: probabilities to this power, normalised; > 0.
-  std::array<double, num_horizons> sharpness{1.0, 1.0, 1.0};
+  std::array<Calibration, num_horizons> calibrations;
 };
 
 /// From the tensors of training: "networks" (how many), "K.input.weight" and so on for network K
 /// from 0 on (network.h), "chain.start" (num_horizons x num_classes), "chain.transition"
 /// (num_horizons x num_classes x num_classes, from x to; what is forbidden is not looked at),
-/// "sharpness" (num_horizons).
+/// and of the calibrations "sharpness" (num_horizons), "bias" and "naming" (num_horizons x
+/// num_classes).
 /// @return  Error::Code::malformed, naming source, tensor, wanted and got
 [[nodiscard]] Result<Model> model_from(const config::Tensors& tensors, std::string_view source);
 

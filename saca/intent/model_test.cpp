@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <type_traits>
 
@@ -17,6 +18,15 @@ namespace {
 using testing::HasSubstr;
 
 static_assert(std::is_trivially_copyable_v<Stream>);
+
+/// The same numbers for each horizon.
+config::Tensor symmetric(std::array<float, num_classes> numbers) {
+  config::Tensor tensor{{num_horizons, num_classes}, {}};
+  for (std::size_t h = 0; h < num_horizons; ++h) {
+    tensor.values.insert(tensor.values.end(), numbers.begin(), numbers.end());
+  }
+  return tensor;
+}
 
 config::Tensors random_tensors(std::uint32_t seed, int num_networks) {
   config::Tensors tensors;
@@ -38,6 +48,8 @@ config::Tensors random_tensors(std::uint32_t seed, int num_networks) {
   tensors.tensors["chain.start"] = start;
   tensors.tensors["chain.transition"] = transition;
   tensors.tensors["sharpness"] = {{num_horizons}, {1.0F, 0.8F, 0.6F}};
+  tensors.tensors["bias"] = symmetric({0.0F, -0.5F, -0.5F, 0.3F, 0.1F, 0.1F});
+  tensors.tensors["naming"] = symmetric({1.0F, 2.0F, 2.0F, 0.7F, 1.4F, 1.4F});
   return tensors;
 }
 
@@ -80,12 +92,14 @@ TEST(Stream, TellsTheSharpenedMarginalOfTheMeanEmissionsSoFar) {
       emissions[h].push_back(mean);
       const Scores expected = marginals(model.value().chains[h], emissions[h]).back();
       const double power = static_cast<double>(tensors.tensors.at("sharpness").values[h]);
-      double sum = 0.0;
-      for (const double each : expected) {
-        sum += std::pow(each, power);
-      }
+      const std::vector<float>& bias = tensors.tensors.at("bias").values;
+      Scores honest;
       for (std::size_t k = 0; k < num_classes; ++k) {
-        EXPECT_NEAR(told[h][k], std::pow(expected[k], power) / sum, 1e-9);
+        honest[k] = std::pow(expected[k], power) * std::exp(static_cast<double>(bias[k]));
+      }
+      const double sum = std::accumulate(honest.begin(), honest.end(), 0.0);
+      for (std::size_t k = 0; k < num_classes; ++k) {
+        EXPECT_NEAR(told[h][k], honest[k] / sum, 1e-9);
       }
     }
   }
@@ -147,6 +161,12 @@ TEST(Stream, OfAMirroredDriveTellsTheMirrorImage) {
   }
 }
 
+TEST(NamedClass, IsThatOfTheGreatestProduct) {
+  EXPECT_EQ(named_class({1.0, 1.0, 1.0, 1.0, 1.0, 1.0}, {0.1, 0.3, 0.1, 0.3, 0.1, 0.1}), 1U);
+  EXPECT_EQ(named_class({1.0, 1.0, 1.0, 1.0, 1.0, 1.0}, {0.5, 0.3, 0.0, 0.2, 0.0, 0.0}), 0U);
+  EXPECT_EQ(named_class({1.0, 1.5, 1.5, 3.0, 1.0, 1.0}, {0.5, 0.3, 0.0, 0.2, 0.0, 0.0}), 3U);
+}
+
 TEST(Model, NobodyChangesSidesAtOnce) {
   const auto model = model_from(random_tensors(2, 1), "w");
   ASSERT_TRUE(model.has_value());
@@ -185,6 +205,9 @@ TEST(Model, RefusesFilesThatAreNone) {
   tensors = random_tensors(1, 1);
   tensors.tensors["sharpness"].values[1] = 0.0F;
   EXPECT_THAT(model_from(tensors, "f").error().message, HasSubstr("sharpness: want > 0, got 0"));
+  tensors = random_tensors(1, 1);
+  tensors.tensors["naming"].values[4] = 0.0F;
+  EXPECT_THAT(model_from(tensors, "f").error().message, HasSubstr("naming: want > 0, got 0"));
   tensors.tensors.erase("chain.start");
   EXPECT_THAT(model_from(tensors, "f").error().message, HasSubstr("want a tensor chain.start"));
   EXPECT_THAT(read_model("no/such/file").error().message, HasSubstr("no/such/file"));

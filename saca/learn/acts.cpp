@@ -52,7 +52,7 @@ ActsFound acts_found(const Sequence& sequence, const Forecasts& forecasts) {
     std::size_t t = first;
     for (; t < labels.size() && labels[t] == act; ++t) {
       if (act != 0 && sequence.scored[t]) {
-        const bool is_right = likeliest_class(forecasts.at[0][t]) == act;
+        const bool is_right = forecasts.named(0, t) == act;
         count(found.of[act].frames[age_of(t - first)], is_right);
         is_scored = true;
         is_found = is_found || is_right;

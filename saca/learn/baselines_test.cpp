@@ -28,7 +28,7 @@ Sequence moving(const std::vector<double>& acceleration, const std::vector<doubl
 }
 
 std::vector<std::uint8_t> named(const Forecasts& forecasts, std::size_t head = 0) {
-  return likeliest_classes(forecasts.at.at(head));
+  return forecasts.named(head);
 }
 
 std::vector<std::uint8_t> letters(std::string_view text) {
@@ -40,9 +40,9 @@ const std::vector<double> nothing(8, 0.0);
 TEST(ConstantMotion, AlwaysMaintains) {
   const Forecasts forecasts = constant_motion(moving(nothing, nothing));
   EXPECT_NO_THROW(expect_forecasts_of(moving(nothing, nothing), forecasts));
-  for (const auto& of_head : forecasts.at) {
-    EXPECT_THAT(likeliest_classes(of_head), ElementsAreArray(letters("MMMMMMMM")));
-    EXPECT_EQ(of_head[3][0], 1.0);
+  for (std::size_t head = 0; head < num_heads; ++head) {
+    EXPECT_THAT(forecasts.named(head), ElementsAreArray(letters("MMMMMMMM")));
+    EXPECT_EQ(forecasts.at[head][3][0], 1.0);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <functional>
 #include <set>
 #include <utility>
 
@@ -18,14 +19,34 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t num_draws = 1'000;
 
-std::optional<double> macro_f1_of(const std::vector<Tally>& tallies,
-                                  std::span<const std::size_t> groups,
-                                  std::span<const std::size_t> classes) {
+/// A figure of tallies that are summed over groups.
+using TallyFigure = std::function<std::optional<double>(const Tally&)>;
+
+Tally sum_of(const std::vector<Tally>& tallies, std::span<const std::size_t> groups) {
   Tally sum;
   for (const std::size_t group : groups) {
     sum += tallies[group];
   }
-  return sum.confusion.macro_f1(classes);
+  return sum;
+}
+
+std::optional<Interval> difference(std::span<const Sequence> sequences,
+                                   std::span<const Forecasts> first,
+                                   std::span<const Forecasts> second, std::size_t head,
+                                   const TallyFigure& figure, std::uint64_t seed) {
+  const std::vector<Tally> a = group_tallies(sequences, first, head);
+  const std::vector<Tally> b = group_tallies(sequences, second, head);
+  return bootstrap(
+      a.size(),
+      [&](std::span<const std::size_t> groups) -> std::optional<double> {
+        const auto of_a = figure(sum_of(a, groups));
+        const auto of_b = figure(sum_of(b, groups));
+        if (!of_a || !of_b) {
+          return std::nullopt;
+        }
+        return *of_a - *of_b;
+      },
+      num_draws, seed);
 }
 
 }  // namespace
@@ -50,7 +71,9 @@ Figures figures_of(std::span<const Sequence> sequences, std::span<const Forecast
     }
     figures.macro_f1[head] = bootstrap(
         tallies.size(),
-        [&](std::span<const std::size_t> groups) { return macro_f1_of(tallies, groups, classes); },
+        [&](std::span<const std::size_t> groups) {
+          return sum_of(tallies, groups).confusion.macro_f1(classes);
+        },
         num_draws, seed);
   }
   for (std::size_t i = 0; i < sequences.size(); ++i) {
@@ -58,8 +81,7 @@ Figures figures_of(std::span<const Sequence> sequences, std::span<const Forecast
     figures.lane_changes.add(lane_change_warnings(sequences[i], forecasts[i]));
     figures.brakings.add(braking_warnings(sequences[i], forecasts[i]));
     figures.alarms += false_alarms(sequences[i], forecasts[i]);
-    figures.illegal_steps +=
-        illegal_steps(likeliest_classes(forecasts[i].at[0]), structurally_forbidden());
+    figures.illegal_steps += illegal_steps(forecasts[i].named(0), structurally_forbidden());
   }
   return figures;
 }
@@ -69,19 +91,18 @@ std::optional<Interval> macro_f1_difference(std::span<const Sequence> sequences,
                                             std::span<const Forecasts> second, std::size_t head,
                                             std::span<const std::size_t> classes,
                                             std::uint64_t seed) {
-  const std::vector<Tally> a = group_tallies(sequences, first, head);
-  const std::vector<Tally> b = group_tallies(sequences, second, head);
-  return bootstrap(
-      a.size(),
-      [&](std::span<const std::size_t> groups) -> std::optional<double> {
-        const auto of_a = macro_f1_of(a, groups, classes);
-        const auto of_b = macro_f1_of(b, groups, classes);
-        if (!of_a || !of_b) {
-          return std::nullopt;
-        }
-        return *of_a - *of_b;
-      },
-      num_draws, seed);
+  return difference(
+      sequences, first, second, head,
+      [&](const Tally& tally) { return tally.confusion.macro_f1(classes); }, seed);
+}
+
+std::optional<Interval> log_loss_difference(std::span<const Sequence> sequences,
+                                            std::span<const Forecasts> first,
+                                            std::span<const Forecasts> second, std::size_t head,
+                                            std::uint64_t seed) {
+  return difference(
+      sequences, first, second, head, [](const Tally& tally) { return tally.mean_log_loss(); },
+      seed);
 }
 
 Result<ModelsByLeftOut> read_models(const fs::path& folder) {

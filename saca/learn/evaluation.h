@@ -27,7 +27,7 @@ struct Figures {
   Warnings lane_changes;
   Warnings brakings;
   FalseAlarms alarms;
-  std::size_t illegal_steps = 0;  ///< of the likeliest classes of the head for now
+  std::size_t illegal_steps = 0;  ///< of what the head for now names
 };
 
 /// @param classes  over which macro F1 is taken
@@ -43,6 +43,12 @@ struct Figures {
                                                           std::size_t head,
                                                           std::span<const std::size_t> classes,
                                                           std::uint64_t seed);
+
+/// Likewise the mean logarithmic loss of the first way less that of the second.
+[[nodiscard]] std::optional<Interval> log_loss_difference(std::span<const Sequence> sequences,
+                                                          std::span<const Forecasts> first,
+                                                          std::span<const Forecasts> second,
+                                                          std::size_t head, std::uint64_t seed);
 
 /// Steps that intent::may_follow forbids.
 [[nodiscard]] ForbiddenSteps structurally_forbidden();

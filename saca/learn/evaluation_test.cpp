@@ -3,11 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "saca/core/file.h"
 #include "saca/intent/network_for_test.h"
 #include "saca/learn/foretell.h"
+#include "saca/learn/sequences_for_test.h"
 
 namespace saca::learn::evaluation_test {
 namespace {
@@ -61,6 +63,28 @@ TEST(Figures, OfAPerfectForecastArePerfect) {
   EXPECT_GT(*figures.brakings.quantile(0.5), 0.9);  // told 1 s ahead
 }
 
+TEST(Differences, OfLogLossAreThoseCountedByHand) {
+  const auto sequences = six();
+  std::vector<Forecasts> sure;
+  std::vector<Forecasts> doubtful;
+  for (const Sequence& sequence : sequences) {
+    Forecasts at_09;
+    Forecasts at_05;
+    for (std::size_t head = 0; head < num_heads; ++head) {
+      for (const std::uint8_t label : sequence.labels) {
+        at_09.at[head].push_back(mostly(label, 0.9));
+        at_05.at[head].push_back(mostly(label, 0.5));
+      }
+    }
+    sure.push_back(at_09);
+    doubtful.push_back(at_05);
+  }
+  const auto difference = log_loss_difference(sequences, sure, doubtful, 0, 1);
+  ASSERT_TRUE(difference.has_value());
+  EXPECT_NEAR(difference->value, std::log(0.5) - std::log(0.9), 1e-12);
+  EXPECT_NEAR(difference->low, difference->high, 1e-12);  // all groups alike
+}
+
 TEST(Figures, OfALateForecastAreThoseCountedByHand) {
   const auto sequences = six();
   const Figures figures = figures_of(sequences, late_by(sequences, 4), recorded_classes, 1);
@@ -98,6 +122,8 @@ class Models : public testing::Test {
     tensors.tensors["chain.start"] = {{3, 6}, std::vector<float>(18, 0.0F)};
     tensors.tensors["chain.transition"] = {{3, 6, 6}, std::vector<float>(108, 0.0F)};
     tensors.tensors["sharpness"] = {{3}, {1.0F, 1.0F, 1.0F}};
+    tensors.tensors["bias"] = {{3, 6}, std::vector<float>(18, 0.0F)};
+    tensors.tensors["naming"] = {{3, 6}, std::vector<float>(18, 1.0F)};
     if (!left_out.empty()) {
       tensors.words["left_out"] = left_out;
     }

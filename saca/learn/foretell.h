@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -14,12 +13,5 @@ namespace saca::learn {
 /// @param threads  >= 1; the result is the same for any number
 [[nodiscard]] std::vector<Forecasts> foretold(const intent::Model& model,
                                               std::span<const Sequence> sequences, int threads);
-
-/// The sharpness of each horizon under which the labels are likeliest: temperature scaling.
-/// Source: Guo et al., On calibration of modern neural networks, ICML 2017.
-/// @param forecasts  of a model with sharpness 1, one per sequence
-/// @return           between 1/8 and 8
-[[nodiscard]] std::array<double, intent::num_horizons> best_sharpness(
-    std::span<const Sequence> sequences, std::span<const Forecasts> forecasts);
 
 }  // namespace saca::learn

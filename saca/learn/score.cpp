@@ -39,9 +39,9 @@ void add(Reliability& bins, const Reliability& other) {
   }
 }
 
-void add(Tally& tally, const ClassProbabilities& foretold, std::size_t truth) {
+void add(Tally& tally, const ClassProbabilities& foretold, std::size_t named, std::size_t truth) {
   const std::size_t top = likeliest_class(foretold);
-  ++tally.confusion.counts.at(truth).at(top);
+  ++tally.confusion.counts.at(truth).at(named);
   add(tally.top, foretold.at(top), top == truth);
   for (std::size_t c = 0; c < num_vehicle_classes; ++c) {
     const double is_so = c == truth ? 1.0 : 0.0;
@@ -56,7 +56,7 @@ void add(Tally& tally, const Sequence& sequence, const Forecasts& forecasts, std
   const std::size_t ahead = frames_ahead.at(head);
   for (std::size_t t = 0; t + ahead < sequence.labels.size(); ++t) {
     if (sequence.scored[t] && sequence.scored[t + ahead]) {
-      add(tally, forecasts.at.at(head)[t], sequence.labels[t + ahead]);
+      add(tally, forecasts.at.at(head)[t], forecasts.named(head, t), sequence.labels[t + ahead]);
     }
   }
 }
@@ -83,11 +83,11 @@ std::size_t likeliest_class(const ClassProbabilities& probabilities) {
                                   probabilities.begin());
 }
 
-std::vector<std::uint8_t> likeliest_classes(std::span<const ClassProbabilities> probabilities) {
+std::vector<std::uint8_t> Forecasts::named(std::size_t head) const {
   std::vector<std::uint8_t> classes;
-  classes.reserve(probabilities.size());
-  for (const ClassProbabilities& one : probabilities) {
-    classes.push_back(static_cast<std::uint8_t>(likeliest_class(one)));
+  classes.reserve(at.at(head).size());
+  for (const ClassProbabilities& one : at.at(head)) {
+    classes.push_back(static_cast<std::uint8_t>(intent::named_class(naming.at(head), one)));
   }
   return classes;
 }

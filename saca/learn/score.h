@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "saca/intent/network.h"
+#include "saca/intent/model.h"
 #include "saca/learn/sequence.h"
 
 namespace saca::learn {
@@ -31,6 +31,21 @@ using ClassProbabilities = std::array<double, num_vehicle_classes>;
 /// t + frames_ahead[head].   (num_heads x frames)
 struct Forecasts {
   std::array<std::vector<ClassProbabilities>, num_heads> at;
+  /// What each probability counts when a class is named (intent::Calibration); 1: the likeliest is.
+  std::array<ClassProbabilities, num_heads> naming = [] {
+    std::array<ClassProbabilities, num_heads> alike{};
+    for (ClassProbabilities& each : alike) {
+      each.fill(1.0);
+    }
+    return alike;
+  }();
+
+  /// The class that is named at frame t.
+  [[nodiscard]] std::size_t named(std::size_t head, std::size_t t) const {
+    return intent::named_class(naming.at(head), at.at(head)[t]);
+  }
+  /// Likewise at each frame.
+  [[nodiscard]] std::vector<std::uint8_t> named(std::size_t head) const;
 };
 
 /// Whether all are in [0, 1] and sum to 1, but for the rounding of single precision.
@@ -38,9 +53,6 @@ struct Forecasts {
 
 /// The likeliest class; among equals the first.
 [[nodiscard]] std::size_t likeliest_class(const ClassProbabilities& probabilities);
-/// Likewise of each frame.
-[[nodiscard]] std::vector<std::uint8_t> likeliest_classes(
-    std::span<const ClassProbabilities> probabilities);
 
 /// Throws unless the sequence's parts fit together and its labels are classes of vehicles.
 void expect_whole(const Sequence& sequence);
@@ -87,8 +99,8 @@ using Reliability = std::array<ReliabilityBin, num_bins>;
 
 /// All that scores are made of, summed over judged frames: tallies of parts add up.
 struct Tally {
-  Confusion confusion;
-  Reliability top{};  ///< of the likeliest class
+  Confusion confusion;  ///< of what is named
+  Reliability top{};    ///< of the likeliest class
   std::array<Reliability, num_vehicle_classes> of_class{};
   double log_loss = 0.0;  ///< sum of -ln of what the truth was given
   double brier = 0.0;     ///< sum over frames and classes of squared errors

@@ -31,12 +31,11 @@ bool names(std::size_t of, Kind kind) {
   return false;
 }
 
-/// Whether any of these heads' likeliest class is of the kind.
+/// Whether what any of these heads names is of the kind.
 bool foretold(const Forecasts& forecasts, std::span<const std::size_t> heads, std::size_t frame,
               Kind kind) {
-  return std::any_of(heads.begin(), heads.end(), [&](std::size_t head) {
-    return names(likeliest_class(forecasts.at.at(head)[frame]), kind);
-  });
+  return std::any_of(heads.begin(), heads.end(),
+                     [&](std::size_t head) { return names(forecasts.named(head, frame), kind); });
 }
 
 /// The last frame at or before an instant; nullopt: the instant is outside the sequence.

@@ -31,7 +31,7 @@ struct Warnings {
 /// Time from when a lane change is foretold until the centre crosses the lane's bound.
 ///
 /// To which side a crossing goes is what the label says at the last frame before it. It is foretold
-/// at a frame if the likeliest class of the head for now or of that for 1 s ahead changes to this
+/// at a frame if what the head for now or that for 1 s ahead names changes to this
 /// side, braking or not; it counts from the first frame from which that has lasted until the
 /// crossing, no farther back than the crossing before.
 ///

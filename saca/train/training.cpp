@@ -142,6 +142,22 @@ Result<LstmCrf> trained(const std::vector<Sequence>& sequences,
   return network;
 }
 
+void set_calibrations(config::Tensors& tensors, const learn::Calibrations& calibrations) {
+  config::Tensor sharpness{{intent::num_horizons}, {}};
+  config::Tensor bias{{intent::num_horizons, intent::num_classes}, {}};
+  config::Tensor naming = bias;
+  for (const intent::Calibration& each : calibrations) {
+    sharpness.values.push_back(static_cast<float>(each.sharpness));
+    for (std::size_t k = 0; k < intent::num_classes; ++k) {
+      bias.values.push_back(static_cast<float>(each.bias[k]));
+      naming.values.push_back(static_cast<float>(each.naming[k]));
+    }
+  }
+  tensors.tensors["sharpness"] = std::move(sharpness);
+  tensors.tensors["bias"] = std::move(bias);
+  tensors.tensors["naming"] = std::move(naming);
+}
+
 config::Tensors model_tensors(const std::vector<LstmCrf>& networks) {
   expects(!networks.empty(), "at least one network");
   config::Tensors tensors;
@@ -156,8 +172,8 @@ config::Tensors model_tensors(const std::vector<LstmCrf>& networks) {
   tensors.tensors["chain.start"] = plain(start);
   tensors.tensors["chain.transition"] = plain(transition);
   tensors.tensors["networks"] = {{1}, {static_cast<float>(networks.size())}};
-  tensors.tensors["sharpness"] = {{intent::num_horizons},
-                                  std::vector<float>(intent::num_horizons, 1.0F)};
+  const intent::Calibration none;
+  set_calibrations(tensors, {none, none, none});
   return tensors;
 }
 

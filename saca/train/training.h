@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "saca/core/result.h"
+#include "saca/learn/calibration.h"
 #include "saca/learn/sequence.h"
 #include "saca/train/lstm_crf.h"
 #include "saca/train/task.h"
@@ -52,7 +53,10 @@ struct TrainingPlan {
                                       const std::function<bool(const Epoch&)>& on_epoch);
 
 /// The tensors of intent/model.h: networks trained from several seeds, and the mean of their
-/// chains.
+/// chains; not calibrated.
 [[nodiscard]] config::Tensors model_tensors(const std::vector<LstmCrf>& networks);
+
+/// Puts calibrations into a model's tensors, in the place of those that are there.
+void set_calibrations(config::Tensors& tensors, const learn::Calibrations& calibrations);
 
 }  // namespace saca::train

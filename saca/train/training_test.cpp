@@ -93,6 +93,21 @@ TEST(Training, WillNotGoOnWithAnother) {
               testing::HasSubstr("want the state of a training"));
 }
 
+TEST(Training, CalibrationsTakeThePlaceOfThoseThatAreThere) {
+  config::Tensors tensors = model_tensors({LstmCrf(0.0)});
+  learn::Calibrations calibrations;
+  calibrations[1] = {.sharpness = 0.5,
+                     .bias = {0.0, -0.5, -0.5, 0.25, 0.125, 0.125},
+                     .naming = {1.0, 2.0, 2.0, 0.5, 1.0, 1.0}};
+  set_calibrations(tensors, calibrations);
+  const auto model = intent::model_from(tensors, "model");
+  ASSERT_TRUE(model.has_value()) << model.error().message;
+  EXPECT_EQ(model.value().calibrations[0].sharpness, 1.0);
+  EXPECT_EQ(model.value().calibrations[1].sharpness, 0.5);
+  EXPECT_EQ(model.value().calibrations[1].bias, calibrations[1].bias);
+  EXPECT_EQ(model.value().calibrations[1].naming, calibrations[1].naming);
+}
+
 TEST(Pieces, LabelsAreThoseOfLater) {
   learn::Sequence sequence;
   for (int t = 0; t < 25; ++t) {
