@@ -246,10 +246,10 @@ def intentions_section(runs):
             table(["recorded vehicles: M, LC, RC, FB", "macro F1 now", "0.5 s ahead", "1 s ahead", "calibration error", "log loss now, 0.5, 1 s",
                    "before the line, median, s",
                    "false alarms per vehicle-hour", "illegal steps", "LSTM-CRF less this, macro F1 now"], lines), "",
-            "Aims: 0.85 now, 0.75 at 0.5 s, calibration error 0.03, 1.0 s before the line, no illegal steps (what is named is the likeliest class "
-            "of each frame; the likeliest path of the chain takes none). The rule is that of the labels as the motion comes in.", "",
-            "Gradient-boosted trees on the same windows find acts sooner and are better now; the LSTM without its chain is as good (decisions/0015; "
-            "`tools/intention.sh` measures both).", "",
+            "Aims: 0.85 now, 0.75 at 0.5 s, calibration error 0.03, 1.0 s before the line, no illegal steps (what is named is judged for "
+            "each frame by itself; the likeliest path of the chain takes none). The rule is that of the labels as the motion comes in.", "",
+            "Gradient-boosted trees on the same windows find acts sooner and have a higher macro F1, with more false alarms; the LSTM without its chain "
+            "is as good (decisions/0015; `tools/intention.sh` measures both).", "",
             "![Who was what, and what was foretold](intention/confusion.svg)", "",
             table(["now", "acts found", "recall of their frames: first 0.3 s", "to 0.6 s", "to 1 s", "to 2 s", "later"], found), "",
             "Labels know the end of an act at its first frame, a stream does not: what is missed are mostly the first 0.6 s.", "",
