@@ -11,8 +11,8 @@ namespace saca::train {
 namespace {
 
 using intent::num_classes;
-using intent::num_horizons;
 using intent::num_features;
+using intent::num_horizons;
 
 constexpr auto width = static_cast<std::int64_t>(intent::Network::width);
 constexpr auto classes = static_cast<std::int64_t>(num_classes);

@@ -12,8 +12,8 @@ namespace saca::train::lstm_crf_test {
 namespace {
 
 using intent::num_classes;
-using intent::num_horizons;
 using intent::num_features;
+using intent::num_horizons;
 
 constexpr std::int64_t frames = 12;
 
