@@ -39,6 +39,7 @@ namespace fs = std::filesystem;
 struct RunOptions {
   std::string scenario;
   std::string pace = "real";
+  std::string trigger = "value";
   ThinkingOptions thinking{.model = "local"};
   std::string record_replies;
   std::optional<manoeuvre::PolicyId> policy;
@@ -56,6 +57,14 @@ struct RunOptions {
   std::string tape;
   bool as_json = false;
 };
+
+preview::Thresholds thresholds_of(const RunOptions& options) {
+  preview::Thresholds thresholds;
+  if (options.trigger == "t1") {
+    thresholds.waiting_cost.reset();
+  }
+  return thresholds;
+}
 
 /// nullopt: none is wanted.
 Result<std::optional<manoeuvre::Atlas>> open_atlas(const RunOptions& options,
@@ -219,6 +228,7 @@ int run(const RunOptions& options) {
                           .intent = &inputs.value().intent,
                           .atlas = atlas.value() ? &*atlas.value() : nullptr,
                           .danger = danger.value() ? &*danger.value() : nullptr,
+                          .thresholds = thresholds_of(options),
                           .pace = pace,
                           .costs = costs.value(),
                           .model = model.value().get(),
@@ -294,6 +304,12 @@ void add_run(CLI::App& line, int& exit_code) {
       ->add_option("--pace", options->pace,
                    "real: the world goes on while SACA thinks; lockstep: fast and repeatable")
       ->check(one_of({"real", "lockstep"}))
+      ->capture_default_str();
+  command
+      ->add_option("--trigger", options->trigger,
+                   "value: SACA acts at T1, or before where waiting is expected to cost harm; t1: "
+                   "never before")
+      ->check(one_of({"value", "t1"}))
       ->capture_default_str();
   add_thinking_options(*command, options->thinking);
   command->add_option("--record-replies", options->record_replies,

@@ -29,7 +29,7 @@ using manoeuvre::PolicyId;
 using preview::JointMotion;
 using preview::Physics;
 
-constexpr std::array<MethodInfo, 28> infos{{
+constexpr std::array<MethodInfo, 29> infos{{
     {"saca", "SACA",
      "The shipped planes: a cached plan that matches and is admissible, else what the verdict "
      "speaks "
@@ -38,6 +38,8 @@ constexpr std::array<MethodInfo, 28> infos{{
      Needs::memory},
     {"saca_no_model", "SACA without model", "As SACA; the language model is not asked.", false,
      Needs::model},
+    {"saca_at_t1", "SACA, never before T1",
+     "As SACA; it waits for T1 even where waiting is expected to cost harm."},
     {"saca_full_braking", "SACA, braking with one strength",
      "As SACA; who brakes does so with all the grip."},
     {"saca_paper", "SACA, as in the paper",
@@ -244,6 +246,9 @@ runtime::PlanesSetup planes_of(std::string_view name, runtime::PlanesSetup plane
                    .reasoning = !name.ends_with("_at_once")};
   if (name == "saca_full_braking") {
     planes.forecast.braking = preview::Braking::full;
+  }
+  if (name == "saca_at_t1") {
+    planes.thresholds.waiting_cost.reset();
   }
   planes.memory = name == "saca_no_memory" ? nullptr : planes.memory;
   planes.model = name == "saca_no_model" ? nullptr : planes.model;

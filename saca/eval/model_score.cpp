@@ -12,7 +12,7 @@ namespace {
 constexpr std::array<ScoredChoice, 8> choices{
     {{"facts_at_once", "the model, at once", "saca_paper_at_once"},
      {"facts_reasoned", "the model, after reasoning", "saca_paper"},
-     {"facts_checked", "the same, checked as SACA does", "saca"},
+     {"facts_checked", "the same, checked as SACA does", "saca_at_t1"},
      {"no_facts_at_once", "without our facts, at once", "saca_paper_no_facts_at_once"},
      {"no_facts_reasoned", "without our facts, after reasoning", "saca_paper_no_facts"},
      {"best_by_forecast", "the best forecast", "newest_forecast"},

@@ -209,6 +209,7 @@ json decision_json(const Record& record) {
   out["not_admissible"] = decision.not_admissible;
   out["verdict"] = decision.verdict ? verdict_json(*decision.verdict, std::nullopt) : json(nullptr);
   out["by_atlas"] = decision.by_atlas;
+  out["waiting_cost"] = number_or_null(decision.waiting_cost);
   out["text"] = decision_text(decision);
   return out;
 }
@@ -371,6 +372,7 @@ std::string record_json(const Setup& setup, const Record& record, const Provenan
            {"thresholds",
             {{"trigger_s", setup.thresholds.trigger},
              {"preview_s", setup.thresholds.preview},
+             {"waiting_cost", number_or_null(setup.thresholds.waiting_cost)},
              {"material_harm", decide::material_harm}}},
            {"road", road_json(scenario.road)},
            {"ego",
