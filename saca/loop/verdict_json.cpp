@@ -95,11 +95,13 @@ json verdict_json(const decide::Verdict& verdict, const std::optional<manoeuvre:
   const decide::JudgedPlan* const rest =
       under_way ? decide::going_on(verdict, *under_way) : nullptr;
   const auto admissible = decide::admissible_harm(verdict);
+  const auto waiting = decide::cost_of_waiting(verdict);
   return {{"t_s", verdict.time},
           {"plans", plans},
           {"speaks_for", plan_json(decide::plan_of(verdict))},
           {"under_way", rest == nullptr ? json(nullptr) : judged_json(*rest)},
-          {"admissible_harm", admissible ? json(*admissible) : json(nullptr)}};
+          {"admissible_harm", admissible ? json(*admissible) : json(nullptr)},
+          {"waiting_cost", waiting ? json(*waiting) : json(nullptr)}};
 }
 
 json verdicts_json(const VerdictLog& log, std::size_t most) {

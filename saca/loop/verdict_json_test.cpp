@@ -36,6 +36,7 @@ TEST(VerdictJson, TellsEveryPlanAndWhatIsAdmissible) {
   const json out = verdict_json(verdict_at(2.0), std::nullopt);
   EXPECT_EQ(out["t_s"], 2.0);
   // 0.01 and 3 % of the 0.29 that braking has above it.
+  EXPECT_TRUE(out["waiting_cost"].is_null());
   EXPECT_DOUBLE_EQ(out["admissible_harm"].get<double>(), 0.01 + 0.03 * 0.29);
   ASSERT_EQ(out["plans"].size(), 3U);
   EXPECT_EQ(out["plans"][1], (json{{"policy", 3},

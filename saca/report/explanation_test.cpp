@@ -107,6 +107,16 @@ TEST(Explanation, TellsInShortWhatCameWhatWasWeighedAndWhy) {
   EXPECT_THAT(told(other, "In short"), HasSubstr("nothing had to be decided"));
 }
 
+TEST(Explanation, TellsWhyItActedBeforeT1) {
+  json early = record();
+  EXPECT_THAT(told(early, "What threatened"), testing::Not(HasSubstr("another look")));
+  early["decision"]["waiting_cost"] = 0.0341;
+  early["thresholds"]["waiting_cost"] = 0.01;
+  EXPECT_THAT(told(early, "What threatened"),
+              HasSubstr("before where to wait for another look is expected to harm by more than "
+                        "0.0100 more; the ego drove at 17.3 m/s."));
+}
+
 TEST(Explanation, TellsTheRuleByWhichWasChosen) {
   const std::string about = "What was chosen, and by which rule";
   EXPECT_THAT(told(record(), about), HasSubstr("the mildest of the admissible plans"));
