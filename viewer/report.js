@@ -126,7 +126,7 @@ function show_legend() {
 function show_short_words() {
   const { thresholds } = record, at = (s) => (is_number(s) ? ` (${num(s, 1, "s")} to a conflict)` : "");
   const intentions = Object.entries(intention_words).filter(([letters]) => letters === letters.toUpperCase());
-  by_id("short-words").textContent = `T2${at(thresholds.preview_s)}: SACA takes the wheel and previews. T1${at(thresholds.trigger_s)}: it acts. Match: the plan that was made ahead for a situation like this one. Intentions: ${
+  by_id("short-words").textContent = `T2${at(thresholds.preview_s)}: SACA takes the wheel and previews. T1${at(thresholds.trigger_s)}: it acts${is_number(thresholds.waiting_cost) ? ", or before where waiting would cost harm" : ""}. Match: the plan that was made ahead for a situation like this one. Intentions: ${
     intentions.map(([letters, words]) => `${letters} ${words}`).join(", ")}. Policies: ${record.hindsight.map((row) => `${row.name} ${policy_words[row.policy]}`).join(", ") || "none was judged"}.`;
 }
 
