@@ -58,8 +58,9 @@ TEST(TapeJson, AVerdictHasTheHarmOfEachPlan) {
                            .drivable = true,
                            .harm = 1.0 / 3.0,
                            .contact = 0.25});
-  EXPECT_EQ(verdict_json(verdict),
-            json::parse(R"({"t_s": 1.5, "later": null, "under_way": null, "plans": [{"drivable": true,
+  EXPECT_EQ(
+      verdict_json(verdict),
+      json::parse(R"({"t_s": 1.5, "later": null, "under_way": null, "plans": [{"drivable": true,
               "harm": 0.3333333333333333, "contact": 0.25,
               "plan": {"policy": 3, "target_speed_mps": 7.5, "strength": null}}]})"));
 }
