@@ -85,8 +85,8 @@ config::Range bounds(std::string_view key) {
   }
   if (key.ends_with("takes_s") || key.ends_with("length_m") || key.ends_with("width_m") ||
       key.ends_with("size_m") || key.ends_with("speed_mps") || key.ends_with("speed_share") ||
-      key.ends_with("celeration_mps2") || key == "gap_s" || key == "walk_mps" ||
-      key == "ride_mps" || key == "run_mps") {
+      key.ends_with("acceleration_mps2") || key.ends_with("deceleration_mps2") || key == "gap_s" ||
+      key == "walk_mps" || key == "ride_mps" || key == "run_mps") {
     return {0.05, 100.0};  // nothing that is divided by, and no body without a size
   }
   const bool signed_place = key.ends_with("offset_m") || key.ends_with("ahead_m") ||

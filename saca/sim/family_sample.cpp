@@ -316,8 +316,10 @@ Harmless dart_out(Stage& stage) {
   stage.add(ActorKind::pedestrian, runs);
   const double length = Stage::length_of(ActorKind::car);
   park(stage, s, 0.5 * gap + length, side);
-  for (double behind = 0.5 * gap; behind < row; behind += length + between) {
-    park(stage, s, -behind, side);
+  const double pitch = length + between;
+  const int num_behind = static_cast<int>(std::ceil((row - 0.5 * gap) / pitch));
+  for (int k = 0; k < num_behind; ++k) {
+    park(stage, s, -0.5 * gap - k * pitch, side);
   }
   stage.decision = Stage::approach - trigger;
   return waits;
