@@ -86,6 +86,24 @@ preview::Plans candidates_for_later(const Verdict& verdict) {
   return plans;
 }
 
+/// Verdict::later.
+std::optional<double> least_harm_later(const Verdict& verdict,
+                                       const preview::PreparedMotions& motions) {
+  const JudgedPlan* const nothing = find_plan(verdict, manoeuvre::doing_nothing);
+  if (nothing != nullptr && nothing->drivable && nothing->harm == 0.0) {
+    return 0.0;  // as a moment later
+  }
+  const preview::Plans plans = candidates_for_later(verdict);
+  std::optional<double> least;
+  for (const preview::ExpectedHarm& one :
+       motions.harms_later(look_ahead, {plans.begin(), plans.size()})) {
+    if (one.refusal.empty()) {
+      least = std::min(one.harm, least.value_or(one.harm));
+    }
+  }
+  return least;
+}
+
 JudgedPlan judged(const preview::ExpectedHarm& one) {
   return {
       .plan = one.plan, .drivable = one.refusal.empty(), .harm = one.harm, .contact = one.contact};
@@ -104,31 +122,13 @@ Forecaster::Forecaster(const preview::ForecastTools& tools, std::size_t num_draw
   expects(num_draws >= 1, "at least one draw");
 }
 
-std::optional<double> Forecaster::least_harm_later(const Scene& scene,
-                                                   std::span<const preview::JointMotion> motions,
-                                                   const Verdict& verdict) const {
-  const JudgedPlan* const nothing = find_plan(verdict, manoeuvre::doing_nothing);
-  if (nothing != nullptr && nothing->drivable && nothing->harm == 0.0) {
-    return 0.0;  // as a moment later
-  }
-  const preview::Plans plans = candidates_for_later(verdict);
-  std::optional<double> least;
-  for (const preview::ExpectedHarm& one : preview::expected_harms_later(
-           scene, look_ahead, motions, tools_, {plans.begin(), plans.size()})) {
-    if (one.refusal.empty()) {
-      least = std::min(one.harm, least.value_or(one.harm));
-    }
-  }
-  return least;
-}
-
 Verdict Forecaster::judge(const Scene& scene, const intent::Beliefs& beliefs,
                           const std::optional<UnderWay>& under_way) const {
-  const auto motions = draws_of(scene, beliefs, num_draws_);
+  const auto draws = draws_of(scene, beliefs, num_draws_);
+  const preview::PreparedMotions motions(scene, draws, tools_);
   Verdict verdict{.time = scene.time};
   const auto judge_plans = [&](std::span<const manoeuvre::Plan> plans) {
-    for (const preview::ExpectedHarm& one :
-         preview::expected_harms(scene, motions, tools_, preview::Physics::rolled_out, plans)) {
+    for (const preview::ExpectedHarm& one : motions.harms(plans)) {
       verdict.plans.push_back(judged(one));
     }
   };
@@ -146,11 +146,10 @@ Verdict Forecaster::judge(const Scene& scene, const intent::Beliefs& beliefs,
   judge_plans({plans.begin(), plans.size()});
   spread_over_strengths(verdict);
   if (!under_way) {
-    verdict.later = least_harm_later(scene, motions, verdict);
+    verdict.later = least_harm_later(verdict, motions);
   }
   if (under_way && has_past(under_way->plan)) {
-    preview::ExpectedHarm rest =
-        preview::expected_harm(rest_of(*under_way, scene, *tools_.car), scene, motions, tools_);
+    preview::ExpectedHarm rest = motions.harm(rest_of(*under_way, scene, *tools_.car));
     rest.plan = under_way->plan;
     verdict.under_way = judged(rest);
   }

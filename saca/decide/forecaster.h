@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "saca/decide/verdict.h"
@@ -71,11 +70,6 @@ class Forecaster {
                               const std::optional<UnderWay>& under_way = std::nullopt) const;
 
  private:
-  /// Verdict::later.
-  [[nodiscard]] std::optional<double> least_harm_later(
-      const world::Scene& scene, std::span<const preview::JointMotion> motions,
-      const Verdict& verdict) const;
-
   preview::ForecastTools tools_;
   std::size_t num_draws_;
 };

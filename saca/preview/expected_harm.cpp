@@ -142,31 +142,6 @@ class HeldWay {
   bool has_steps_ = false;  ///< remembered is also what answers the steps of a struck ego
 };
 
-/// All tracks of each joint motion.
-std::vector<std::vector<Mover>> movers_of_each(const Scene& scene,
-                                               std::span<const JointMotion> motions) {
-  std::vector<std::vector<Mover>> all;
-  all.reserve(motions.size());
-  for (const JointMotion& motion : motions) {
-    all.push_back(outcome::movers_of(scene, motion.tracks));
-  }
-  return all;
-}
-
-/// @param movers  of the motions
-ExpectedHarm harm_of(const EgoMotion& way, const Scene& scene, std::span<const JointMotion> motions,
-                     std::span<const std::vector<Mover>> movers, const outcome::HarmModel& harm) {
-  HeldWay held(scene, way, harm);
-  ExpectedHarm expected;
-  const double sum = weight_of(motions);
-  for (std::size_t k = 0; k < motions.size(); ++k) {
-    const outcome::Outcome outcome = held.against(movers[k]);
-    expected.harm += motions[k].probability / sum * outcome.harm;
-    expected.contact += outcome.contact ? motions[k].probability / sum : 0.0;
-  }
-  return expected;
-}
-
 /// Ways of the ego that can be driven, no longer than the others' motions; in the order of `plans`.
 std::vector<std::optional<EgoMotion>> ways_of(const Scene& scene,
                                               std::span<const manoeuvre::Plan> plans,
@@ -200,23 +175,6 @@ EgoMotion continued(const EgoMotion& before, std::size_t count, const EgoMotion&
   join(whole.v_B, before.v_B, after.v_B);
   join(whole.yaw_rate, before.yaw_rate, after.yaw_rate);
   return whole;
-}
-
-/// The expected harms of ways, one per plan; `from` is where they begin.
-std::vector<ExpectedHarm> harms_of(const std::vector<std::optional<EgoMotion>>& ways,
-                                   std::span<const manoeuvre::Plan> plans, const Scene& from,
-                                   const Scene& scene, std::span<const JointMotion> motions,
-                                   const ForecastTools& tools) {
-  const std::vector<std::vector<Mover>> movers = movers_of_each(scene, motions);
-  std::vector<ExpectedHarm> all;
-  for (std::size_t i = 0; i < plans.size(); ++i) {
-    all.push_back(ways[i]
-                      ? harm_of(*ways[i], scene, motions, movers, *tools.harm)
-                      : ExpectedHarm{.plan = plans[i],
-                                     .refusal = *manoeuvre::refusal(*tools.car, plans[i], from)});
-    all.back().plan = plans[i];
-  }
-  return all;
 }
 
 /// nullopt: the atlas does not hold all that can be driven.
@@ -295,18 +253,29 @@ std::vector<ExpectedHarm> expected_harms(const Scene& scene, std::span<const Joi
       return *std::move(all);
     }
   }
-  return harms_of(ways_of(scene, plans, tools), plans, scene, scene, motions, tools);
+  return PreparedMotions(scene, motions, tools).harms(plans);
 }
 
-std::vector<ExpectedHarm> expected_harms_later(const Scene& scene, double delay,
-                                               std::span<const JointMotion> motions,
-                                               const ForecastTools& tools,
-                                               std::span<const manoeuvre::Plan> plans) {
+PreparedMotions::PreparedMotions(const Scene& scene, std::span<const JointMotion> motions,
+                                 const ForecastTools& tools)
+    : scene_(scene), motions_(motions), tools_(tools) {
   expects(tools.car != nullptr && tools.harm != nullptr, "car and harm are given");
+  movers_.reserve(motions.size());
+  for (const JointMotion& motion : motions) {
+    movers_.push_back(outcome::movers_of(scene, motion.tracks));
+  }
+}
+
+std::vector<ExpectedHarm> PreparedMotions::harms(std::span<const manoeuvre::Plan> plans) const {
+  return harms_of(ways_of(scene_, plans, tools_), plans, scene_);
+}
+
+std::vector<ExpectedHarm> PreparedMotions::harms_later(
+    double delay, std::span<const manoeuvre::Plan> plans) const {
   expects(delay >= 0.0 && delay < motion_horizon, "a delay within the others' motions");
-  const auto going_on = ways_of(scene, {&manoeuvre::doing_nothing, 1}, tools).front();
+  const auto going_on = ways_of(scene_, {&manoeuvre::doing_nothing, 1}, tools_).front();
   if (!going_on) {
-    const auto why = manoeuvre::refusal(*tools.car, manoeuvre::doing_nothing, scene);
+    const auto why = manoeuvre::refusal(*tools_.car, manoeuvre::doing_nothing, scene_);
     std::vector<ExpectedHarm> refused;
     for (const manoeuvre::Plan& plan : plans) {
       refused.push_back({.plan = plan, .refusal = *why});
@@ -316,22 +285,43 @@ std::vector<ExpectedHarm> expected_harms_later(const Scene& scene, double delay,
   const Track& track = going_on->track;
   const auto count =
       std::min(static_cast<std::size_t>(std::lround(delay / track.step)), track.X_WA.size() - 1);
-  Scene later = scene;
+  Scene later = scene_;
   later.time += static_cast<double>(count) * track.step;
   later.ego.X_WB = track.X_WA[count];
   later.ego.v_B = going_on->v_B[count];
   later.ego.yaw_rate = going_on->yaw_rate[count];
-  std::vector<std::optional<EgoMotion>> ways = ways_of(later, plans, tools);
+  std::vector<std::optional<EgoMotion>> ways = ways_of(later, plans, tools_);
   for (std::optional<EgoMotion>& way : ways) {
     way = way ? std::optional(continued(*going_on, count, *way)) : std::nullopt;
   }
-  return harms_of(ways, plans, later, scene, motions, tools);
+  return harms_of(ways, plans, later);
 }
 
-ExpectedHarm expected_harm(const EgoMotion& way, const Scene& scene,
-                           std::span<const JointMotion> motions, const ForecastTools& tools) {
-  expects(tools.harm != nullptr, "harm is given");
-  return harm_of(way, scene, motions, movers_of_each(scene, motions), *tools.harm);
+ExpectedHarm PreparedMotions::harm(const EgoMotion& way) const {
+  HeldWay held(scene_, way, *tools_.harm);
+  ExpectedHarm expected;
+  const double sum = weight_of(motions_);
+  for (std::size_t k = 0; k < motions_.size(); ++k) {
+    const outcome::Outcome outcome = held.against(movers_[k]);
+    expected.harm += motions_[k].probability / sum * outcome.harm;
+    expected.contact += outcome.contact ? motions_[k].probability / sum : 0.0;
+  }
+  return expected;
+}
+
+/// @param from  where the ways begin
+std::vector<ExpectedHarm> PreparedMotions::harms_of(
+    const std::vector<std::optional<EgoMotion>>& ways, std::span<const manoeuvre::Plan> plans,
+    const Scene& from) const {
+  std::vector<ExpectedHarm> all;
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    all.push_back(ways[i]
+                      ? harm(*ways[i])
+                      : ExpectedHarm{.plan = plans[i],
+                                     .refusal = *manoeuvre::refusal(*tools_.car, plans[i], from)});
+    all.back().plan = plans[i];
+  }
+  return all;
 }
 
 void ExpectedHarm::add(const PolicyFacts& facts, double share) {

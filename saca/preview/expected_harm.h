@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "saca/intent/observer.h"
 #include "saca/manoeuvre/drive.h"
 #include "saca/manoeuvre/plan.h"
+#include "saca/outcome/approach.h"
 #include "saca/preview/policy_facts.h"
 #include "saca/world/scene.h"
 #include "saca/world/track.h"
@@ -70,20 +72,39 @@ enum class Physics : std::uint8_t {
                                                        const ForecastTools& tools, Physics physics,
                                                        std::span<const manoeuvre::Plan> plans);
 
-/// The same, rolled out, of plans that begin only after the ego has gone on for a while.
-/// @param delay  for which it goes on [s], >= 0, below motion_horizon; told to 10 ms
-/// @return       in the order of `plans`; refused where it cannot be driven from there
-/// @throws ContractViolation  if the delay is out of range
-[[nodiscard]] std::vector<ExpectedHarm> expected_harms_later(
-    const world::Scene& scene, double delay, std::span<const JointMotion> motions,
-    const ForecastTools& tools, std::span<const manoeuvre::Plan> plans);
+/// Joint motions from a scene, with what is worked out of their tracks once, however much is held
+/// against them: full dynamics and everything that follows a contact. Refers to scene and motions.
+class PreparedMotions {
+ public:
+  /// @param motions  as in expected_harms
+  PreparedMotions(const world::Scene& scene, std::span<const JointMotion> motions,
+                  const ForecastTools& tools);
+  PreparedMotions(const PreparedMotions&) = delete;  // parts of it refer to one another
+  PreparedMotions& operator=(const PreparedMotions&) = delete;
 
-/// The same of one way of the ego, whatever it came from: full dynamics of what follows a contact.
-/// @param way  from scene.time on
-/// @return     `plan` is left as it is
-[[nodiscard]] ExpectedHarm expected_harm(const manoeuvre::EgoMotion& way, const world::Scene& scene,
-                                         std::span<const JointMotion> motions,
-                                         const ForecastTools& tools);
+  /// As expected_harms.
+  [[nodiscard]] std::vector<ExpectedHarm> harms(std::span<const manoeuvre::Plan> plans) const;
+  /// The same of plans that begin only after the ego has gone on for a while.
+  /// @param delay  for which it goes on [s], >= 0, below motion_horizon; told to 10 ms
+  /// @return       in the order of `plans`; refused where it cannot be driven from there
+  /// @throws ContractViolation  if the delay is out of range
+  [[nodiscard]] std::vector<ExpectedHarm> harms_later(double delay,
+                                                      std::span<const manoeuvre::Plan> plans) const;
+  /// The same of one way of the ego, whatever it came from.
+  /// @param way  from scene.time on
+  /// @return     `plan` is left as it is
+  [[nodiscard]] ExpectedHarm harm(const manoeuvre::EgoMotion& way) const;
+
+ private:
+  [[nodiscard]] std::vector<ExpectedHarm> harms_of(
+      const std::vector<std::optional<manoeuvre::EgoMotion>>& ways,
+      std::span<const manoeuvre::Plan> plans, const world::Scene& from) const;
+
+  const world::Scene& scene_;
+  std::span<const JointMotion> motions_;
+  ForecastTools tools_;
+  std::vector<std::vector<outcome::Mover>> movers_;  ///< of each motion, one per actor
+};
 
 /// The plan of the least expected harm by the one ordering (outcome/ordering.h): equal classes of
 /// harm go to the milder policy, and of one policy to the plan that all_plans has first: of braking

@@ -92,7 +92,7 @@ TEST(ExpectedHarm, AStopThatBeginsLaterEndsLater) {
   for (const double more : {-0.05, 0.05}) {
     const Scene scene = behind_a_car(way + more, 0.0);
     const JointMotion stands = all_going_on(scene);
-    const auto told = expected_harms_later(scene, 0.2, {&stands, 1}, rolling(), brakes);
+    const auto told = PreparedMotions(scene, {&stands, 1}, rolling()).harms_later(0.2, brakes);
     EXPECT_EQ(told[0].contact, more < 0.0 ? 1.0 : 0.0) << more;
     EXPECT_EQ(told[0].harm > 0.0, more < 0.0) << more;
     EXPECT_EQ(told[0].plan, manoeuvre::full_braking);
@@ -104,8 +104,8 @@ TEST(ExpectedHarm, WithoutADelayWhatBeginsLaterBeginsNow) {
   const JointMotion motion = all_going_on(scene);
   const Plans plans = all_plans(scene.ego.v_B.x);
   const auto now = expected_harms(scene, {&motion, 1}, rolling(), Physics::rolled_out);
-  const auto later =
-      expected_harms_later(scene, 0.0, {&motion, 1}, rolling(), {plans.begin(), plans.size()});
+  const PreparedMotions prepared(scene, {&motion, 1}, rolling());
+  const auto later = prepared.harms_later(0.0, {plans.begin(), plans.size()});
   ASSERT_EQ(later.size(), now.size());
   for (std::size_t i = 0; i < now.size(); ++i) {
     EXPECT_EQ(later[i].plan, now[i].plan);
@@ -114,8 +114,7 @@ TEST(ExpectedHarm, WithoutADelayWhatBeginsLaterBeginsNow) {
     EXPECT_EQ(later[i].contact, now[i].contact);
   }
   for (const double never : {-0.1, motion_horizon, std::nan("")}) {
-    EXPECT_THROW((void)expected_harms_later(scene, never, {&motion, 1}, rolling(),
-                                            {plans.begin(), plans.size()}),
+    EXPECT_THROW((void)prepared.harms_later(never, {plans.begin(), plans.size()}),
                  ContractViolation);
   }
 }
