@@ -34,18 +34,13 @@ std::vector<Frame> scored_frames(std::span<const Sequence> sequences,
                                  std::span<const Forecasts> forecasts, std::size_t head) {
   std::vector<Frame> frames;
   for (std::size_t i = 0; i < sequences.size(); ++i) {
-    const Sequence& sequence = sequences[i];
-    for (std::size_t t = 0; t + frames_ahead[head] < sequence.labels.size(); ++t) {
-      const std::size_t later = t + frames_ahead[head];
-      if (!sequence.scored[t] || !sequence.scored[later]) {
-        continue;
-      }
-      Frame frame{.log = {}, .label = sequence.labels[later]};
+    each_judged_frame(sequences[i], head, [&](std::size_t t, std::size_t later) {
+      Frame frame{.log = {}, .label = sequences[i].labels[later]};
       for (std::size_t k = 0; k < num_classes; ++k) {
         frame.log[k] = std::max(std::log(forecasts[i].at[head][t][k]), least_log);
       }
       frames.push_back(frame);
-    }
+    });
   }
   return frames;
 }

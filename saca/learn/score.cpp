@@ -53,12 +53,9 @@ void add(Tally& tally, const ClassProbabilities& foretold, std::size_t named, st
 
 /// One head's, without asking whether all is whole.
 void add(Tally& tally, const Sequence& sequence, const Forecasts& forecasts, std::size_t head) {
-  const std::size_t ahead = frames_ahead.at(head);
-  for (std::size_t t = 0; t + ahead < sequence.labels.size(); ++t) {
-    if (sequence.scored[t] && sequence.scored[t + ahead]) {
-      add(tally, forecasts.at.at(head)[t], forecasts.named(head, t), sequence.labels[t + ahead]);
-    }
-  }
+  each_judged_frame(sequence, head, [&](std::size_t t, std::size_t later) {
+    add(tally, forecasts.at.at(head)[t], forecasts.named(head, t), sequence.labels[later]);
+  });
 }
 
 std::optional<double> mean(double sum, std::size_t count) {

@@ -54,6 +54,19 @@ struct Forecasts {
 /// The likeliest class; among equals the first.
 [[nodiscard]] std::size_t likeliest_class(const ClassProbabilities& probabilities);
 
+/// Visits each frame t of which a head is judged, with the frame that it foretells: both are
+/// scored.
+/// @param visit  is called with t and that frame
+template <class Visit>
+void each_judged_frame(const Sequence& sequence, std::size_t head, Visit&& visit) {
+  const std::size_t ahead = frames_ahead.at(head);
+  for (std::size_t t = 0; t + ahead < sequence.labels.size(); ++t) {
+    if (sequence.scored[t] && sequence.scored[t + ahead]) {
+      visit(t, t + ahead);
+    }
+  }
+}
+
 /// Throws unless the sequence's parts fit together and its labels are classes of vehicles.
 void expect_whole(const Sequence& sequence);
 /// Throws unless there is a forecast for each frame by each head, and it is a distribution.
