@@ -10,6 +10,7 @@ namespace saca {
 struct Pose {
   Vec2 p;            ///< origin of the inner frame, expressed in the outer one [m]
   double yaw = 0.0;  ///< of the inner x axis, counter-clockwise from the outer one [rad]
+  friend constexpr bool operator==(const Pose&, const Pose&) = default;
 };
 
 inline Vec2 operator*(const Pose& X_WB, Vec2 p_B) {

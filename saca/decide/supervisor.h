@@ -60,8 +60,8 @@ struct SupervisedScene {
 /// Trivially copyable; allocates nothing.
 class Supervisor {
  public:
-  static constexpr double period = 0.1;      ///< between two verdicts that are looked at [s]
-  static constexpr double clear_time = 0.5;  ///< [s]
+  static constexpr double period = look_ahead;  ///< between two verdicts that are looked at [s]
+  static constexpr double clear_time = 0.5;     ///< [s]
 
   /// Whether another verdict is looked at: the last was looked at `period` ago, the ego moves, and
   /// where nothing is under way, the trigger's rule fires.

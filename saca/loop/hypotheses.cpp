@@ -19,18 +19,9 @@ double rounded(double value, double resolution) {
   return resolution * std::round(value / resolution);
 }
 
-bool same(const Pose& a, const Pose& b) {
-  return a.p.x == b.p.x && a.p.y == b.p.y && a.yaw == b.yaw;
-}
-
-bool same(const HypotheticalPath& a, const HypotheticalPath& b) {
-  return std::equal(a.X_WA.begin(), a.X_WA.end(), b.X_WA.begin(), b.X_WA.end(),
-                    [](const Pose& one, const Pose& other) { return same(one, other); });
-}
-
 bool same(const HypotheticalMotion& a, const HypotheticalMotion& b) {
   return std::equal(a.paths.begin(), a.paths.end(), b.paths.begin(), b.paths.end(),
-                    [](const auto& one, const auto& other) { return same(one, other); });
+                    [](const auto& one, const auto& other) { return one.X_WA == other.X_WA; });
 }
 
 /// What stands in the end stands there once.
@@ -43,7 +34,7 @@ HypotheticalPath thinned(const world::Actor& actor, const world::Track& track, d
         {{rounded(X.p.x, Hypotheses::resolution), rounded(X.p.y, Hypotheses::resolution)},
          from_degrees(rounded(to_degrees(X.yaw), heading_resolution))});
   }
-  while (path.X_WA.size() > 1 && same(path.X_WA.back(), path.X_WA[path.X_WA.size() - 2])) {
+  while (path.X_WA.size() > 1 && path.X_WA.back() == path.X_WA[path.X_WA.size() - 2]) {
     path.X_WA.pop_back();
   }
   return path;

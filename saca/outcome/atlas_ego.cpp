@@ -6,14 +6,13 @@
 #include <numbers>
 
 #include "saca/outcome/gap.h"
+#include "saca/outcome/prepared_motion.h"
 
 namespace saca::outcome {
 namespace {
 
 using manoeuvre::atlas_samples;
 using manoeuvre::AtlasInstant;
-
-constexpr double goes_on_for = 2.0;  // as in prepared_motion.cpp [s]
 
 }  // namespace
 
@@ -29,7 +28,7 @@ AtlasEgo::AtlasEgo(const manoeuvre::AtlasPath& path, const world::Scene& scene) 
       along_{std::cos(scene.road.X_WL.yaw), std::sin(scene.road.X_WL.yaw)},
       at_end_(manoeuvre::at(path, std::nextafter(path.end, 1e9))) {
   last_look_ = path.rests   ? std::numeric_limits<double>::infinity()
-               : path.ended ? path.end + goes_on_for
+               : path.ended ? path.end + carried_on_for
                             : path.end;
   fill_directions();
   fill_looks();

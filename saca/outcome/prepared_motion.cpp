@@ -12,11 +12,6 @@ using manoeuvre::EgoMotion;
 using world::Scene;
 using world::Track;
 
-// How long an ego that has recovered its lane is followed along it [s]. An assumption: enough to
-// pass what it went around and to see what comes towards it; what is farther off is another
-// encounter.
-constexpr double carried_on_for = 2.0;
-
 // The motion, followed by going on along the lane at the speed and offset of its end.
 EgoMotion carried_on(EgoMotion motion, const world::Road& road) {
   const world::LanePose last = to_lane(road, motion.track.X_WA.back());

@@ -10,6 +10,11 @@
 
 namespace saca::outcome {
 
+/// How long an ego that has recovered its lane is followed along it [s]. An assumption: enough to
+/// pass what it went around and to see what comes towards it; what is farther off is another
+/// encounter.
+constexpr double carried_on_for = 2.0;
+
 /// A motion of the ego in a scene, with all that is worked out of it once, however many motions of
 /// the others it is held against. Refers to both.
 class PreparedMotion {
@@ -22,7 +27,7 @@ class PreparedMotion {
   [[nodiscard]] const world::Scene& scene() const { return scene_; }
   [[nodiscard]] const manoeuvre::EgoMotion& given() const { return given_; }
   /// As given; one that has ended and still moves goes on along the lane at the speed and offset of
-  /// its end for 2 s.
+  /// its end for `carried_on_for`.
   [[nodiscard]] const manoeuvre::EgoMotion& intended() const {
     return goes_on_ ? carried_on_ : given_;
   }

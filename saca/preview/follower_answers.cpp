@@ -16,17 +16,13 @@ using world::Actor;
 using world::Scene;
 using world::Track;
 
-bool same(const Pose& a, const Pose& b) {
-  return a.p.x == b.p.x && a.p.y == b.p.y && a.yaw == b.yaw;
-}
-
 /// Do the first `num` rest from the step before this one to the step after it?
 bool stand_at(std::span<const Track> tracks, std::size_t num, std::size_t step) {
-  return std::all_of(
-      tracks.begin(), tracks.begin() + static_cast<std::ptrdiff_t>(num), [&](const Track& track) {
-        const auto& poses = track.X_WA;
-        return same(poses[step - 1], poses[step]) && same(poses[step], poses[step + 1]);
-      });
+  return std::all_of(tracks.begin(), tracks.begin() + static_cast<std::ptrdiff_t>(num),
+                     [&](const Track& track) {
+                       const auto& poses = track.X_WA;
+                       return poses[step - 1] == poses[step] && poses[step] == poses[step + 1];
+                     });
 }
 
 /// At each follower's begin, as let_react has it: content with the gap to whom it looks at.
@@ -38,14 +34,9 @@ std::vector<LaneDriver> drivers_of(const Scene& scene, const Followers& follower
   std::vector<LaneDriver> drivers;
   for (const std::size_t follower : followers) {
     const Actor& actor = scene.actors[follower];
-    const double speed = norm(actor.v_W);
-    const auto driver = [&](const intent::DriverLaw& law) {
-      return LaneDriver(scene.road, actor.footprint, actor.X_WA,
-                        intent::Driver(law, speed, scene.grip, step));
-    };
-    const intent::DriverLaw usual = intent::usual_driver(speed);
-    const double gap = driver(usual).ahead({now.data(), num}).gap;
-    drivers.push_back(driver(content_with(usual, speed, gap)));
+    const intent::DriverLaw law = content_follower(scene, actor, {now.data(), num}, step);
+    drivers.emplace_back(scene.road, actor.footprint, actor.X_WA,
+                         intent::Driver(law, norm(actor.v_W), scene.grip, step));
     now[num++] = intent::present(scene.road, actor.footprint, actor.X_WA, actor.v_W);
   }
   return drivers;
@@ -66,7 +57,7 @@ std::size_t FollowerAnswers::same_steps(const Track& a, const Track& b) const {
   if (a.start != b.start || a.step != b.step) {
     return 0;
   }
-  const auto end = std::mismatch(a.X_WA.begin(), a.X_WA.end(), b.X_WA.begin(), b.X_WA.end(), same);
+  const auto end = std::mismatch(a.X_WA.begin(), a.X_WA.end(), b.X_WA.begin(), b.X_WA.end());
   if (end.first == a.X_WA.end() && end.second == b.X_WA.end()) {
     return num_steps_;
   }

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "saca/core/contract.h"
-#include "saca/intent/driver.h"
 #include "saca/world/time_to_conflict.h"
 
 namespace saca::preview {
@@ -31,13 +30,9 @@ void let_one_react(const Scene& scene, std::size_t follower, const Followers& se
     now[others.size()] = intent::present(scene.road, other.footprint, other.X_WA, other.v_W);
     others.push_back({&other.footprint, &tracks[i]});
   }
-  const double speed = norm(actor.v_W);
-  const intent::DriverLaw usual = intent::usual_driver(speed);
-  const intent::LaneDriver here(scene.road, actor.footprint, actor.X_WA,
-                                intent::Driver(usual, speed, scene.grip, step));
-  const double gap = here.ahead({now.data(), others.size()}).gap;
-  reacting_track(scene.road, actor, content_with(usual, speed, gap), {others.begin(), others.end()},
-                 scene.time, std::max(0.0, until - scene.time), step, scene.grip, tracks[follower]);
+  const intent::DriverLaw law = content_follower(scene, actor, {now.data(), others.size()}, step);
+  reacting_track(scene.road, actor, law, {others.begin(), others.end()}, scene.time,
+                 std::max(0.0, until - scene.time), step, scene.grip, tracks[follower]);
 }
 
 }  // namespace
@@ -57,6 +52,15 @@ Followers followers_of(const Scene& scene) {
     return std::pair(behind(a), a) < std::pair(behind(b), b);
   });
   return followers;
+}
+
+intent::DriverLaw content_follower(const Scene& scene, const Actor& actor,
+                                   std::span<const intent::Present> seen, double step) {
+  const double speed = norm(actor.v_W);
+  const intent::DriverLaw usual = intent::usual_driver(speed);
+  const intent::LaneDriver here(scene.road, actor.footprint, actor.X_WA,
+                                intent::Driver(usual, speed, scene.grip, step));
+  return content_with(usual, speed, here.ahead(seen).gap);
 }
 
 void let_react(const Scene& scene, const Followers& followers, const Track& X_WB, double until,

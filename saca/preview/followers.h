@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "saca/core/static_vector.h"
+#include "saca/intent/driver.h"
 #include "saca/outcome/outcome.h"
 #include "saca/world/scene.h"
 #include "saca/world/track.h"
@@ -18,6 +19,14 @@ constexpr double watched_after = 3.0;
 /// nearest to the ego first.
 using Followers = StaticVector<std::size_t, world::max_actors>;
 [[nodiscard]] Followers followers_of(const world::Scene& scene);
+
+/// Who drives a follower: a usual driver, content with the gap that there is now.
+/// @param seen  whom it looks at
+/// @param step  of its driving [s], > 0
+[[nodiscard]] intent::DriverLaw content_follower(const world::Scene& scene,
+                                                 const world::Actor& actor,
+                                                 std::span<const intent::Present> seen,
+                                                 double step);
 
 /// How the followers move when the ego moves so: they are usual drivers, content with the gap that
 /// they have, and react to the ego and to one another. What is ahead of the ego, they do not look

@@ -176,18 +176,19 @@ Story::Sentences Story::threatened() const {
   told.push_back(event("trigger", "reflex"));
   if (const json* const frame = last_frame()) {
     const json& thresholds = record_.at("thresholds");
-    const double t1 = thresholds.at("trigger_s").get<double>();
-    const double speed = frame->at("ego").at("speed_mps").get<double>();
     const bool is_early =
         decision_.contains("waiting_cost") && decision_["waiting_cost"].is_number();
-    told.push_back(
-        is_early ? fmt::format("The trigger fires where a conflict is at most {:.1f} s away, or "
-                               "before where to wait for another look is expected to harm by more "
-                               "than {:.4f} more; the ego drove at {:.1f} m/s.",
-                               t1, thresholds.at("waiting_cost").get<double>(), speed)
-                 : fmt::format("The trigger fires where a conflict is at most {:.1f} s away; the "
-                               "ego drove at {:.1f} m/s.",
-                               t1, speed));
+    const std::string or_before =
+        is_early ? fmt::format(
+                       ", or before where to wait for another look is expected to harm by "
+                       "more than {:.4f} more",
+                       thresholds.at("waiting_cost").get<double>())
+                 : "";
+    told.push_back(fmt::format(
+        "The trigger fires where a conflict is at most {:.1f} s away{}; the ego drove at {:.1f} "
+        "m/s.",
+        thresholds.at("trigger_s").get<double>(), or_before,
+        frame->at("ego").at("speed_mps").get<double>()));
   }
   return told;
 }
