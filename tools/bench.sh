@@ -19,10 +19,10 @@ start                start_time.py saca 100car_9018
 physics              saca physics --drift-draws 400 --json
 balance_balanced     saca balance --suite balanced --count 4000 --json
 balance_natural      saca balance --suite natural --count 4000 --json
-oracle_t1            saca oracle intersection_t1 --at_s 5 --draws 100 --json
+oracle_t1            saca oracle intersection_t1 --at-s 5 --draws 100 --json
 oracle_t1_trigger    saca oracle intersection_t1 --draws 100 --json
-oracle_late_truck    saca oracle intersection_late_truck --at_s 5 --draws 100 --json
-oracle_one_way       saca oracle one_way --at_s 4.2 --draws 100 --json
+oracle_late_truck    saca oracle intersection_late_truck --at-s 5 --draws 100 --json
+oracle_one_way       saca oracle one_way --at-s 4.2 --draws 100 --json
 oracle_follower      saca oracle lead_brakes_follower --draws 100 --json
 run_9018             saca run 100car_9018 --llm off --pace lockstep --no-memory --json
 run_8911             saca run 100car_8911 --llm off --pace lockstep --no-memory --json

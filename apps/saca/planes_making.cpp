@@ -6,7 +6,8 @@
 
 namespace saca::app {
 
-Result<std::unique_ptr<const PlanesOfCar>> open_planes(Inputs inputs) {
+Result<std::unique_ptr<const PlanesOfCar>> open_planes(Inputs inputs,
+                                                       const preview::Thresholds& thresholds) {
   const auto costs = read_costs(inputs.places);
   if (!costs.has_value()) {
     return costs.error();
@@ -15,17 +16,19 @@ Result<std::unique_ptr<const PlanesOfCar>> open_planes(Inputs inputs) {
   std::unique_ptr<PlanesOfCar> planes(new PlanesOfCar{
       .inputs = std::move(inputs), .atlas = std::move(atlas), .clock = {}, .setup = {}});
   planes->setup = {.forecast = {&planes->inputs.car, &planes->inputs.harm, &planes->atlas},
+                   .thresholds = thresholds,
                    .costs = costs.value(),
                    .clock = &planes->clock};
   return std::unique_ptr<const PlanesOfCar>(std::move(planes));
 }
 
-Result<std::unique_ptr<const PlanesOfCar>> open_planes(const std::string& car) {
+Result<std::unique_ptr<const PlanesOfCar>> open_planes(const std::string& car,
+                                                       const preview::Thresholds& thresholds) {
   auto inputs = read_inputs(car);
   if (!inputs.has_value()) {
     return inputs.error();
   }
-  return open_planes(std::move(inputs).value());
+  return open_planes(std::move(inputs).value(), thresholds);
 }
 
 }  // namespace saca::app

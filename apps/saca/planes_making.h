@@ -18,8 +18,10 @@ struct PlanesOfCar {
   runtime::PlanesSetup setup;
 };
 
-[[nodiscard]] Result<std::unique_ptr<const PlanesOfCar>> open_planes(Inputs inputs);
+[[nodiscard]] Result<std::unique_ptr<const PlanesOfCar>> open_planes(
+    Inputs inputs, const preview::Thresholds& thresholds = {});
 /// @param car  its file, or the name of a shipped one
-[[nodiscard]] Result<std::unique_ptr<const PlanesOfCar>> open_planes(const std::string& car);
+[[nodiscard]] Result<std::unique_ptr<const PlanesOfCar>> open_planes(
+    const std::string& car, const preview::Thresholds& thresholds = {});
 
 }  // namespace saca::app

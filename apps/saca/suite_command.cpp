@@ -194,6 +194,7 @@ int watch(const SuiteCommand& options) {
        .count = suite.count,
        .seed = suite.seed,
        .car = suite.car,
+       .thresholds = suite.thresholds,
        .output = suite.output.empty() ? "runs/suite-traffic.html" : suite.output,
        .threads = suite.threads},
       options.as_json);
@@ -213,10 +214,10 @@ std::string usual_with(const ThinkingOptions& thinking) {
 
 /// The tests of a regulation: nothing is drawn in them, and what is said of drawing is refused.
 int run_as_regulation(const CLI::App& line, const SuiteCommand& options) {
-  for (const char* const name :
-       {"--count", "--split", "--test-log", "--seed", "--exact", "--no-twins", "--replay"}) {
+  for (const char* const name : {"--count", "--split", "--test-log", "--seed", "--exact",
+                                 "--no-twins", "--replay", "--t1-s", "--waiting-cost"}) {
     if (line.count(name) > 0) {
-      complain(fmt::format("{}: {} is a regulation, of which nothing is drawn", name,
+      complain(fmt::format("{}: {} is a regulation, which is run as it stands", name,
                            options.suite.name));
       return wrong_command_line;
     }
@@ -258,7 +259,7 @@ int run(const CLI::App& line, SuiteCommand options) {
     return wrong_command_line;
   }
   if (suite.name == traffic_suite && thinks(line)) {
-    complain("--memory, --llm: SACA watches the suite traffic, and decides nothing in it");
+    complain("--memory, --llm: SACA watches the suite traffic with the verdict alone");
     return wrong_command_line;
   }
   if (suite.name == traffic_suite) {

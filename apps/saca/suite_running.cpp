@@ -11,6 +11,7 @@
 #include "apps/saca/suite_sources.h"
 #include "apps/saca/suite_thinking.h"
 #include "apps/saca/surveying.h"
+#include "apps/saca/thresholds_options.h"
 #include "saca/core/csv.h"
 #include "saca/core/file.h"
 #include "saca/core/journal.h"
@@ -57,7 +58,7 @@ Result<std::shared_ptr<Bench>> open_bench(const SuiteCommandOptions& options,
     return source.error();
   }
   SuiteEncounters opened = std::move(source).value();
-  auto planes = open_planes(std::move(opened.inputs));
+  auto planes = open_planes(std::move(opened.inputs), options.thresholds);
   if (!planes.has_value()) {
     return planes.error();
   }
@@ -90,8 +91,9 @@ std::string work_of(const Bench& bench, const SuiteCommandOptions& options) {
   const auto part = [](const char* name, const std::optional<std::string>& text) {
     return text ? fmt::format(", {}: {}", name, *text) : std::string();
   };
-  return fmt::format("{}, {}, seed {}{}{}{}: {}", bench.source.what, options.car, options.seed,
-                     options.exact ? ", exact" : "", part("memory", bench.thinking->memory_text()),
+  return fmt::format("{}, {}, seed {}{}{}{}{}: {}", bench.source.what, options.car, options.seed,
+                     options.exact ? ", exact" : "", thresholds_arguments(options.thresholds),
+                     part("memory", bench.thinking->memory_text()),
                      part("model", bench.thinking->model_text()), joined(bench.how.methods));
 }
 
@@ -224,18 +226,19 @@ Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
   }
   done.worked = static_cast<int>(count) - before;
   done.seconds = to_seconds(clock.now() - start);
-  done.meta = {{"meta.command",
-                fmt::format("saca {} {} --methods {} --count {} --split {} --car {} --seed {}{}{}",
-                            command, options.name, joined(methods), options.count, options.split,
-                            options.car, options.seed, options.exact ? " --exact" : "",
-                            thinking_text(options.thinking) +
-                                (options.no_twins ? std::string(" --no-twins") : std::string()) +
-                                (options.data.empty() ? "" : " --data FOLDER"))},
-               {"meta.seed", std::to_string(options.seed)},
-               {"meta.n", std::to_string(count)},
-               {"meta.split", options.split},
-               {"meta.car", options.car},
-               {"meta.version", SACA_VERSION}};
+  done.meta = {
+      {"meta.command",
+       fmt::format("saca {} {} --methods {} --count {} --split {} --car {} --seed {}{}{}", command,
+                   options.name, joined(methods), options.count, options.split, options.car,
+                   options.seed, options.exact ? " --exact" : "",
+                   thinking_text(options.thinking) + thresholds_arguments(options.thresholds) +
+                       (options.no_twins ? std::string(" --no-twins") : std::string()) +
+                       (options.data.empty() ? "" : " --data FOLDER"))},
+      {"meta.seed", std::to_string(options.seed)},
+      {"meta.n", std::to_string(count)},
+      {"meta.split", options.split},
+      {"meta.car", options.car},
+      {"meta.version", SACA_VERSION}};
   if (const auto& memory = thinking.memory_text()) {
     done.meta["meta.memory"] = *memory;
   }
@@ -282,6 +285,7 @@ void add_suite_options(CLI::App& command, SuiteCommandOptions& options) {
                      "folders with CommonRoad files or that release");
   add_draw_options(command, options.count, options.split, options.test_log, options.car);
   add_thinking_options(command, options.thinking);
+  add_thresholds_options(command, options.thresholds);
   command.add_option("--seed", options.seed, "Of all that is drawn: same seed, same rows")
       ->capture_default_str();
   command.add_flag("--exact", options.exact,

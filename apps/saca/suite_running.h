@@ -12,6 +12,7 @@
 #include "saca/core/parallel.h"
 #include "saca/eval/suite.h"
 #include "saca/manoeuvre/atlas.h"
+#include "saca/preview/threat.h"
 
 namespace saca::app {
 
@@ -25,6 +26,7 @@ struct SuiteCommandOptions {
   std::string test_log;
   std::string car = "compact_rwd_ev";
   ThinkingOptions thinking;
+  preview::Thresholds thresholds;
   std::uint64_t seed = 1;
   bool exact = false;
   bool no_twins = false;

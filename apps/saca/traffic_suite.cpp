@@ -11,6 +11,7 @@
 
 #include "apps/saca/json_output.h"
 #include "apps/saca/printing.h"
+#include "apps/saca/thresholds_options.h"
 #include "saca/core/file.h"
 #include "saca/report/suite_page.h"
 
@@ -19,6 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using eval::Rate;
+using eval::ShadowCounts;
 using eval::ShadowFigures;
 using eval::ShadowReason;
 using eval::ShadowRow;
@@ -44,27 +46,40 @@ void add_rate(json& out, const std::string& name, const Rate& rate) {
   out[name + ".hi"] = rate.high;
 }
 
+/// @param many  what is counted: "triggers"
+void add_counts(json& out, const std::string& place, const std::string& many,
+                const ShadowFigures& all, const ShadowCounts& counts) {
+  out[place + many] = counts.per_hour.count;
+  out[place + many + "_at_rest"] = counts.at_rest;
+  out[place + "false_" + many] = counts.false_per_hour.count;
+  if (all.hours > 0.0) {
+    add_rate(out, place + many + "_per_hour", counts.per_hour);
+    add_rate(out, place + "false_" + many + "_per_hour", counts.false_per_hour);
+  }
+  if (all.kilometres > 0.0) {
+    add_rate(out, place + many + "_per_1000km", counts.per_1000km);
+    add_rate(out, place + "false_" + many + "_per_1000km", counts.false_per_1000km);
+  }
+}
+
 void add_shadow_figures(json& out, const std::string& place, const ShadowFigures& one) {
   out[place + "drives"] = one.drives;
   out[place + "left_out"] = one.left_out;
   out[place + "exposure_h"] = one.hours;
   out[place + "exposure_km"] = one.kilometres;
   out[place + "previews"] = one.previews_per_hour.count;
-  out[place + "triggers"] = one.triggers_per_hour.count;
-  out[place + "danger"] = one.danger;
-  out[place + "triggers_at_rest"] = one.at_rest;
-  out[place + "false_triggers"] = one.false_per_hour.count;
   if (one.hours > 0.0) {
     add_rate(out, place + "previews_per_hour", one.previews_per_hour);
-    add_rate(out, place + "triggers_per_hour", one.triggers_per_hour);
-    add_rate(out, place + "false_triggers_per_hour", one.false_per_hour);
   }
   if (one.kilometres > 0.0) {
     add_rate(out, place + "previews_per_1000km", one.previews_per_1000km);
-    add_rate(out, place + "triggers_per_1000km", one.triggers_per_1000km);
-    add_rate(out, place + "false_triggers_per_1000km", one.false_per_1000km);
   }
-  for (const auto& [reason, times] : one.reasons) {
+  add_counts(out, place, "triggers", one, one.triggers);
+  add_counts(out, place, "interventions", one, one.interventions);
+  out[place + "danger"] = one.triggers.danger;
+  out[place + "interventions_in_danger"] = one.interventions.danger;
+  out[place + "early_interventions"] = one.early;
+  for (const auto& [reason, times] : one.triggers.reasons) {
     out[place + "reason." + std::string(name(reason))] = times;
   }
 }
@@ -74,12 +89,14 @@ json traffic_figures(const WatchedTraffic& traffic, const TrafficWatch& options)
   for (const std::string& folder : options.folders) {
     folders += " " + folder;
   }
-  json out{{"meta.command", fmt::format("saca suite traffic --data{} --count {} --seed {} --car {}",
-                                        folders, options.count, options.seed, options.car)},
-           {"meta.seed", std::to_string(options.seed)},
-           {"meta.n", std::to_string(traffic.rows.size())},
-           {"meta.car", options.car},
-           {"meta.version", SACA_VERSION}};
+  json out{
+      {"meta.command", fmt::format("saca suite traffic --data{} --count {} --seed {} --car {}{}",
+                                   folders, options.count, options.seed, options.car,
+                                   thresholds_arguments(options.thresholds))},
+      {"meta.seed", std::to_string(options.seed)},
+      {"meta.n", std::to_string(traffic.rows.size())},
+      {"meta.car", options.car},
+      {"meta.version", SACA_VERSION}};
   add_shadow_figures(out, "traffic.", eval::shadow_figures(traffic.rows, ""));
   for (const std::string& source : traffic_sources(traffic)) {
     add_shadow_figures(out, "traffic." + source + ".", eval::shadow_figures(traffic.rows, source));
@@ -94,26 +111,32 @@ std::string with_bounds(const Rate& rate) {
 }
 
 void print_line(const std::string& source, const ShadowFigures& one) {
-  app::print("{:12} {:6} {:8.3f} {:9.2f} {:8} {:8} {:6} {:6}  {:24} {:26}\n", source, one.drives,
-             one.hours, one.kilometres, one.previews_per_hour.count, one.triggers_per_hour.count,
-             one.danger, one.false_per_hour.count, with_bounds(one.triggers_per_hour),
-             with_bounds(one.false_per_1000km));
+  app::print("{:12} {:6} {:8.3f} {:9.2f} {:8} {:8} {:6} {:24} {:8} {:6} {:24}\n", source,
+             one.drives, one.hours, one.kilometres, one.previews_per_hour.count,
+             one.triggers.per_hour.count, one.triggers.false_per_hour.count,
+             with_bounds(one.triggers.false_per_hour), one.interventions.per_hour.count,
+             one.interventions.false_per_hour.count, with_bounds(one.interventions.false_per_hour));
 }
 
 void print_traffic(const WatchedTraffic& traffic, const ShadowFigures& all) {
   app::print("SACA in shadow: {} of {} recorded drives; rates with exact 95 % intervals\n\n",
              traffic.rows.size(), traffic.found);
-  app::print("{:12} {:>6} {:>8} {:>9} {:>8} {:>8} {:>6} {:>6}  {:24} {:26}\n", "source", "drives",
-             "h", "km", "previews", "triggers", "danger", "false", "triggers per h",
-             "false per 1,000 km");
+  app::print("{:12} {:>6} {:>8} {:>9} {:>8} {:>8} {:>6} {:24} {:>8} {:>6} {:24}\n", "source",
+             "drives", "h", "km", "previews", "triggers", "false", "per h", "SACA acts", "false",
+             "per h");
   for (const std::string& source : traffic_sources(traffic)) {
     print_line(source, eval::shadow_figures(traffic.rows, source));
   }
   print_line("all", all);
-  app::print("\n");
-  for (const auto& [reason, times] : all.reasons) {
-    app::print("{:6} {:6} {}\n", times, is_danger(reason) ? "danger" : "false", meaning(reason));
-  }
+  app::print("\n{} of the times that SACA acts come before T1.\n", all.early);
+  const auto print_reasons = [](const char* what, const ShadowCounts& counts) {
+    app::print("\n{}:\n", what);
+    for (const auto& [reason, times] : counts.reasons) {
+      app::print("{:6} {:6} {}\n", times, is_danger(reason) ? "danger" : "false", meaning(reason));
+    }
+  };
+  print_reasons("Triggers", all.triggers);
+  print_reasons("SACA acts", all.interventions);
   if (all.left_out > 0) {
     app::print("{:6} drives could not be watched: the page tells why\n", all.left_out);
   }
@@ -123,17 +146,30 @@ std::string needed_text(const std::optional<double>& deceleration) {
   return deceleration ? fmt::format("{:.1f}", *deceleration) : "more than 12";
 }
 
+/// A trigger, or SACA begins to act.
 struct Triggered {
   const ShadowTrigger* trigger = nullptr;
+  const eval::ShadowIntervention* begun = nullptr;  ///< nullptr: a trigger alone
   const DriveToWatch* drive = nullptr;
+
+  /// "T1 has come", "SACA begins AEB before T1".
+  [[nodiscard]] std::string what() const {
+    return begun == nullptr ? "T1 has come"
+                            : "SACA begins " + begun->plan + (begun->early ? " before T1" : "");
+  }
 };
 
-/// Those that count against SACA first.
+/// Those that count against SACA first, and of these its own actions.
 std::vector<Triggered> triggers_of(const WatchedTraffic& traffic) {
   std::vector<Triggered> all;
   for (std::size_t k = 0; k < traffic.rows.size(); ++k) {
+    for (const eval::ShadowIntervention& begun : traffic.rows[k].watched.interventions) {
+      all.push_back({&begun.trigger, &begun, &traffic.drives[k]});
+    }
+  }
+  for (std::size_t k = 0; k < traffic.rows.size(); ++k) {
     for (const ShadowTrigger& trigger : traffic.rows[k].watched.triggers) {
-      all.push_back({&trigger, &traffic.drives[k]});
+      all.push_back({&trigger, nullptr, &traffic.drives[k]});
     }
   }
   std::stable_sort(all.begin(), all.end(), [](const Triggered& a, const Triggered& b) {
@@ -163,10 +199,10 @@ report::PageTable figures_table(const WatchedTraffic& traffic) {
   report::PageTable table{
       .heading = "Rates",
       .lines = {"95 % intervals, exact (Garwood) for events that come independently of each "
-                "other. A trigger that is not danger is false."},
+                "other. A trigger, or an action of SACA, that is not danger is false."},
       .columns = {"drives", "hours", "km", "previews", "previews per h", "triggers",
-                  "triggers per h", "triggers per 1,000 km", "danger", "false", "false per h",
-                  "false per 1,000 km"},
+                  "triggers per h", "danger", "false", "false per h", "false per 1,000 km",
+                  "SACA acts", "danger", "false", "false per h", "false per 1,000 km"},
       .rows = {}};
   const auto add = [&](const std::string& source, const ShadowFigures& one) {
     table.rows.push_back(
@@ -175,10 +211,16 @@ report::PageTable figures_table(const WatchedTraffic& traffic) {
          .cells = {std::to_string(one.drives), fmt::format("{:.3f}", one.hours),
                    fmt::format("{:.2f}", one.kilometres),
                    std::to_string(one.previews_per_hour.count), with_bounds(one.previews_per_hour),
-                   std::to_string(one.triggers_per_hour.count), with_bounds(one.triggers_per_hour),
-                   with_bounds(one.triggers_per_1000km), std::to_string(one.danger),
-                   std::to_string(one.false_per_hour.count), with_bounds(one.false_per_hour),
-                   with_bounds(one.false_per_1000km)},
+                   std::to_string(one.triggers.per_hour.count), with_bounds(one.triggers.per_hour),
+                   std::to_string(one.triggers.danger),
+                   std::to_string(one.triggers.false_per_hour.count),
+                   with_bounds(one.triggers.false_per_hour),
+                   with_bounds(one.triggers.false_per_1000km),
+                   std::to_string(one.interventions.per_hour.count),
+                   std::to_string(one.interventions.danger),
+                   std::to_string(one.interventions.false_per_hour.count),
+                   with_bounds(one.interventions.false_per_hour),
+                   with_bounds(one.interventions.false_per_1000km)},
          .shades = {}});
   };
   for (const std::string& source : traffic_sources(traffic)) {
@@ -189,9 +231,9 @@ report::PageTable figures_table(const WatchedTraffic& traffic) {
 }
 
 report::PageTable triggers_table(const std::vector<Triggered>& triggers) {
-  report::PageTable table{.heading = "Every trigger",
+  report::PageTable table{.heading = "Every trigger, and every time that SACA acts",
                           .lines = {},
-                          .columns = {"at, s", "threat", "time to conflict, s", "ego, m/s",
+                          .columns = {"what", "at, s", "threat", "time to conflict, s", "ego, m/s",
                                       "judged", "driver braked, m/s^2", "other braked, m/s^2",
                                       "driver steered, m/s^2", "needed, m/s^2", "least gap, m"},
                           .rows = {}};
@@ -201,7 +243,7 @@ report::PageTable triggers_table(const std::vector<Triggered>& triggers) {
     table.rows.push_back(
         {.name = one.drive->source + ": " + one.drive->name,
          .explanation = {},
-         .cells = {fmt::format("{:.2f}", trigger.time), trigger.who,
+         .cells = {one.what(), fmt::format("{:.2f}", trigger.time), trigger.who,
                    fmt::format("{:.2f}", trigger.time_to_conflict),
                    fmt::format("{:.1f}", trigger.speed), in_short(told.reason),
                    fmt::format("{:.1f}", told.driver_deceleration),
@@ -222,11 +264,11 @@ std::optional<report::GalleryCard> card_of_trigger(const Triggered& one, const I
   const ShadowTrigger& trigger = *one.trigger;
   const eval::ShadowJudgement& told = trigger.judgement;
   const eval::ShadowPicture picture = eval::shadow_picture(
-      ego.value().scenario, {.car = &inputs.car, .intent = &inputs.intent, .thresholds = {}},
-      trigger);
+      ego.value().scenario,
+      {.car = &inputs.car, .intent = &inputs.intent, .thresholds = {}, .saca = nullptr}, trigger);
   report::GalleryCard card{
-      .title = fmt::format("{}: {}, at {:.2f} s: {}", one.drive->source, one.drive->name,
-                           trigger.time, judged_text(trigger)),
+      .title = fmt::format("{}: {}, at {:.2f} s: {}; {}", one.drive->source, one.drive->name,
+                           trigger.time, one.what(), judged_text(trigger)),
       .lines = {fmt::format(
           "{} would be met in {:.2f} s, at {:.1f} m/s. Then the driver braked with {:.1f} and "
           "steered with {:.1f} m/s^2, {} braked with {:.1f} m/s^2; {} m/s^2 was needed; the least "
@@ -254,11 +296,15 @@ std::string rate_sentence(const WatchedTraffic& traffic) {
   const ShadowFigures all = eval::shadow_figures(traffic.rows, "");
   return fmt::format(
       "SACA watched {:.2f} hours and {:.1f} km of recorded driving ({} drives) without taking the "
-      "wheel. It would have acted {} times; {} times there was danger by the rule below, {} times "
-      "there was none: {} false triggers per 1,000 km, {} per hour. {} times it stood.",
-      all.hours, all.kilometres, all.drives, all.triggers_per_hour.count, all.danger,
-      all.false_per_hour.count, with_bounds(all.false_per_1000km), with_bounds(all.false_per_hour),
-      all.at_rest);
+      "wheel. {} times a conflict came within T1: {} times there was danger by the rule below, {} "
+      "times there was none; {} times it stood. It would have acted {} times, {} of them before "
+      "T1; {} times there was danger, {} times there was none: {} false actions per 1,000 km, {} "
+      "per hour.",
+      all.hours, all.kilometres, all.drives, all.triggers.per_hour.count, all.triggers.danger,
+      all.triggers.false_per_hour.count, all.triggers.at_rest, all.interventions.per_hour.count,
+      all.early, all.interventions.danger, all.interventions.false_per_hour.count,
+      with_bounds(all.interventions.false_per_1000km),
+      with_bounds(all.interventions.false_per_hour));
 }
 
 report::SuitePage traffic_page(const WatchedTraffic& traffic, const json& figures) {
@@ -274,15 +320,15 @@ report::SuitePage traffic_page(const WatchedTraffic& traffic, const json& figure
       "follows. Else it is false; so is one that errors of the recording set off: bodies that "
       "overlap, a threat whose track has only begun or is about to end."};
   page.tables = {figures_table(traffic), triggers_table(triggers)};
-  page.gallery_heading = triggers.size() > most_cards
-                             ? fmt::format("The first {} of {} triggers, false ones first",
-                                           most_cards, triggers.size())
-                             : "The triggers, false ones first";
+  page.gallery_heading =
+      triggers.size() > most_cards
+          ? fmt::format("The first {} of {}, false ones first", most_cards, triggers.size())
+          : "Each of them, false ones first";
   for (const Triggered& one : triggers) {
     if (page.gallery.size() == most_cards) {
       break;
     }
-    if (auto card = card_of_trigger(one, *traffic.inputs)) {
+    if (auto card = card_of_trigger(one, traffic.planes->inputs)) {
       page.gallery.push_back(std::move(*card));
     }
   }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "apps/saca/progress.h"
+#include "apps/saca/thresholds_options.h"
 #include "saca/core/file.h"
 #include "saca/core/fnv.h"
 #include "saca/core/journal.h"
@@ -230,7 +231,8 @@ std::vector<DriveToWatch> drawn_drives(std::vector<DriveToWatch> all, const Traf
 }
 
 /// A row, whatever happens.
-ShadowRow watched_row(const DriveToWatch& drive, const Inputs& inputs) {
+ShadowRow watched_row(const DriveToWatch& drive, const PlanesOfCar& planes,
+                      const preview::Thresholds& thresholds) {
   ShadowRow row{.source = drive.source, .drive = drive.name, .left_out = {}, .watched = {}};
   try {
     const auto ego = drive.open();
@@ -238,9 +240,12 @@ ShadowRow watched_row(const DriveToWatch& drive, const Inputs& inputs) {
       row.left_out = ego.error().message;
       return row;
     }
-    auto watched = eval::shadow_drive(
-        ego.value().scenario, {.car = &inputs.car, .intent = &inputs.intent, .thresholds = {}},
-        ego.value().window);
+    auto watched = eval::shadow_drive(ego.value().scenario,
+                                      {.car = &planes.inputs.car,
+                                       .intent = &planes.inputs.intent,
+                                       .thresholds = thresholds,
+                                       .saca = &planes.setup},
+                                      ego.value().window);
     if (watched.has_value()) {
       row.watched = std::move(watched).value();
     } else {
@@ -274,9 +279,9 @@ std::optional<Error> take_up(const Journal& journal, const std::string& path,
 }  // namespace
 
 Result<std::optional<WatchedTraffic>> watch_traffic(const TrafficWatch& options) {
-  auto inputs = read_inputs(options.car);
-  if (!inputs.has_value()) {
-    return inputs.error();
+  auto planes = open_planes(options.car, options.thresholds);
+  if (!planes.has_value()) {
+    return planes.error();
   }
   watch_for_interrupt();
   Findings found;
@@ -287,7 +292,7 @@ Result<std::optional<WatchedTraffic>> watch_traffic(const TrafficWatch& options)
     }
   }
   WatchedTraffic traffic;
-  traffic.inputs = std::make_shared<const Inputs>(std::move(inputs).value());
+  traffic.planes = std::move(planes).value();
   traffic.found = found.drives.size();
   traffic.notes = found.notes;
   traffic.drives = drawn_drives(std::move(found.drives), options);
@@ -301,11 +306,11 @@ Result<std::optional<WatchedTraffic>> watch_traffic(const TrafficWatch& options)
   }
   const auto journal = Journal::open(
       path,
-      fmt::format("saca {} suite traffic, {}, seed {}, count {}, T1 {} s, T2 {} s, danger from {} "
-                  "and {} m/s^2 on, data {:016x}",
+      fmt::format("saca {} suite traffic, {}, seed {}, count {}, {}, danger from {} and {} m/s^2 "
+                  "on, data {:016x}",
                   SACA_VERSION, options.car, options.seed, options.count,
-                  preview::Thresholds{}.trigger, preview::Thresholds{}.preview, eval::hard_braking,
-                  eval::hard_steering, found.hash.value()));
+                  thresholds_text(options.thresholds), eval::hard_braking, eval::hard_steering,
+                  found.hash.value()));
   if (!journal.has_value()) {
     return journal.error();
   }
@@ -324,7 +329,7 @@ Result<std::optional<WatchedTraffic>> watch_traffic(const TrafficWatch& options)
     std::vector<ShadowRow> next(
         std::min(drives_per_thread * static_cast<std::size_t>(options.threads), count - first));
     in_parallel(next.size(), options.threads, [&](std::size_t i) {
-      next[i] = watched_row(traffic.drives[first + i], *traffic.inputs);
+      next[i] = watched_row(traffic.drives[first + i], *traffic.planes, options.thresholds);
     });
     for (ShadowRow& row : next) {
       if (!journal.value().add(eval::line_of(row))) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/saca/inputs.h"
+#include "apps/saca/planes_making.h"
 #include "saca/eval/shadow_rows.h"
 
 namespace saca::app {
@@ -18,6 +18,7 @@ struct TrafficWatch {
   int count = 1'000;                 ///< of each source, drawn by `seed`
   std::uint64_t seed = 1;
   std::string car = "compact_rwd_ev";
+  preview::Thresholds thresholds;
   std::string output;  ///< page and figures; the journal lies beside
   int threads = 1;
 };
@@ -38,7 +39,7 @@ struct DriveToWatch {
 
 /// What was watched.
 struct WatchedTraffic {
-  std::shared_ptr<const Inputs> inputs;
+  std::shared_ptr<const PlanesOfCar> planes;
   std::vector<DriveToWatch> drives;   ///< as many as rows
   std::vector<eval::ShadowRow> rows;  ///< in the order of the drives
   std::size_t found = 0;              ///< drives that there were to draw from

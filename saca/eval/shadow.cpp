@@ -13,6 +13,7 @@
 #include "saca/loop/closed_loop.h"
 #include "saca/manoeuvre/ego.h"
 #include "saca/preview/caution.h"
+#include "saca/runtime/avoider.h"
 #include "saca/sim/motion.h"
 #include "saca/sim/stepper.h"
 #include "saca/world/time_to_conflict.h"
@@ -117,8 +118,54 @@ void advance_to_next_look(sim::Stepper& stepper) {
 
 const ShadowSetup& complete_shadow(const ShadowSetup& setup) {
   expects(setup.car != nullptr && setup.intent != nullptr, "car and intent are given");
+  expects(setup.saca == nullptr || setup.saca->forecast.car == setup.car,
+          "who decides is of the same car");
   return setup;
 }
+
+/// SACA as it ships, whose wheel is never its own.
+class Decider {
+ public:
+  Decider(const ShadowSetup& setup)
+      : avoider_({.planes = planes_of(setup), .intent = setup.intent}) {}
+
+  /// @return  what it begins in this very look, its judgement still missing; nullopt: nothing
+  std::optional<ShadowIntervention> look(const world::Scene& seen) {
+    const Answer answer = avoider_.step(seen, from_seconds(seen.time));
+    const world::Scene& scene = avoider_.scene();
+    if (answer.threat) {
+      feared_ = scene.actors[answer.threat->actor];
+      time_to_conflict_ = answer.threat->time;
+    }
+    if (!answer.begins || !answer.plan || !feared_) {
+      return std::nullopt;
+    }
+    const auto& decision = avoider_.decision();
+    ShadowIntervention begun{
+        .trigger = {.time = seen.time,
+                    .who = actor_name(*feared_),
+                    .time_to_conflict = time_to_conflict_,
+                    .speed = norm(seen.ego.v_B),
+                    .judgement = {}},
+        .plan = manoeuvre::plan_name(*answer.plan),
+        .early = answer.triggered && decision && decision->waiting_cost.has_value()};
+    avoider_.stand_down();
+    return begun;
+  }
+  /// For whom it acted last.
+  [[nodiscard]] const world::Actor& feared() const { return *feared_; }
+
+ private:
+  static runtime::PlanesSetup planes_of(const ShadowSetup& setup) {
+    runtime::PlanesSetup planes = *setup.saca;
+    planes.thresholds = setup.thresholds;
+    return planes;
+  }
+
+  Avoider avoider_;
+  std::optional<world::Actor> feared_;
+  double time_to_conflict_ = 0.0;
+};
 
 world::Track track_to(double from, double to, const auto& pose) {
   world::Track track{.start = from, .step = shown_step, .X_WA = {}};
@@ -150,6 +197,11 @@ Result<ShadowDrive> shadow_drive(const sim::Scenario& scenario, const ShadowSetu
   ShadowDrive drive;
   Arming preview;
   Arming trigger;
+  Arming intervention;
+  std::optional<Decider> decider;
+  if (setup.saca != nullptr) {
+    decider.emplace(setup);
+  }
   std::optional<Vec2> last_p_W;  // at the look before, if it counts
   int num_steps = 0;
   for (int k = 0; k <= num_looks; ++k) {
@@ -161,6 +213,7 @@ Result<ShadowDrive> shadow_drive(const sim::Scenario& scenario, const ShadowSetu
     }
     const intent::Beliefs& beliefs = observer.look(seen);
     tracks.look(seen);
+    auto begun = decider ? decider->look(seen) : std::nullopt;
     if (seen.time < window.from - nearly_now) {
       advance_to_next_look(stepper);
       continue;
@@ -181,6 +234,11 @@ Result<ShadowDrive> shadow_drive(const sim::Scenario& scenario, const ShadowSetu
       drive.triggers.push_back({seen.time, actor_name(who), threat->time, norm(seen.ego.v_B),
                                 judged(world, manoeuvre::footprint(*setup.car),
                                        actor_index(world, who), seen.time, window)});
+    }
+    if (intervention.look(seen.time, begun.has_value())) {
+      begun->trigger.judgement = judged(world, manoeuvre::footprint(*setup.car),
+                                        actor_index(world, decider->feared()), seen.time, window);
+      drive.interventions.push_back(*std::move(begun));
     }
     if (last_p_W) {
       drive.metres += norm(seen.ego.X_WB.p - *last_p_W);

@@ -9,6 +9,7 @@
 #include "saca/intent/model.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/preview/threat.h"
+#include "saca/runtime/planes.h"
 #include "saca/sim/scenario.h"
 #include "saca/world/scene.h"
 #include "saca/world/track.h"
@@ -24,9 +25,12 @@ struct ShadowSetup {
   const manoeuvre::Car* car = nullptr;  ///< whose body the ego has
   const intent::Model* intent = nullptr;
   preview::Thresholds thresholds;
+  /// Decides, as it ships, of the same car and by the same thresholds; nullptr: nobody does, and
+  /// there are no interventions.
+  const runtime::PlanesSetup* saca = nullptr;
 };
 
-/// Two previews, or two triggers, that lie no farther apart are one [s].
+/// Two previews, triggers or interventions that lie no farther apart are one [s].
 constexpr double rearmed_after = 2.0;
 
 /// Somebody threatens within T2 under a likely intention (preview::previewed_threat): SACA thinks.
@@ -36,8 +40,8 @@ struct ShadowPreview {
   std::string who;    ///< threatens at first
 };
 
-/// Somebody who is confirmed threatens within T1 if all go on as they do: SACA would
-/// have acted.
+/// Somebody who is confirmed threatens within T1 if all go on as they do: a system that always
+/// acts then, as full braking at T1, would have acted.
 struct ShadowTrigger {
   double time = 0.0;  ///< [s]
   std::string who;
@@ -46,12 +50,21 @@ struct ShadowTrigger {
   ShadowJudgement judgement;
 };
 
+/// SACA itself would have taken the wheel: at T1, before where waiting would cost harm, or later
+/// where it had decided to do nothing and the scene got worse.
+struct ShadowIntervention {
+  ShadowTrigger trigger;  ///< when, and for whom; judged by the same rule
+  std::string plan;       ///< "AEB": what it would have begun with
+  bool early = false;     ///< before T1
+};
+
 /// What there was to see in one drive.
 struct ShadowDrive {
   double seconds = 0.0;  ///< watched
   double metres = 0.0;   ///< driven meanwhile
   std::vector<ShadowPreview> previews;
   std::vector<ShadowTrigger> triggers;
+  std::vector<ShadowIntervention> interventions;
 };
 
 /// Plays a recorded drive from its start to its end and watches, every 10 ms, as loop::ClosedLoop
@@ -62,12 +75,14 @@ struct ShadowDrive {
 /// trigger that rests on one would be neither right nor wrong. The ego's body is the car's,
 /// whatever was recorded.
 ///
-/// Triggers are judged by the rule of `judged` (shadow_judge.h).
+/// Triggers and interventions are judged by the rule of `judged` (shadow_judge.h). SACA is told at
+/// once that the driver keeps the wheel (Avoider::stand_down), and watches on.
 ///
 /// @return  Error::Code::out_of_range, naming the scenario, when the ego has no recording of 1 s or
 ///          more from 0 on, when a time or pose of anybody's recording is not finite or times do
 ///          not grow, or when a scene breaks a rule of `world::broken_rule`
-/// @throws ContractViolation  if car or intent is missing, or the window is not 0 <= from < until
+/// @throws ContractViolation  if car or intent is missing, `saca` is of another car, or the window
+///                            is not 0 <= from < until
 [[nodiscard]] Result<ShadowDrive> shadow_drive(const sim::Scenario& scenario,
                                                const ShadowSetup& setup,
                                                const ShadowWindow& window = {});

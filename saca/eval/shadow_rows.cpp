@@ -43,6 +43,24 @@ ShadowTrigger trigger_from(const nlohmann::json& in) {
   return trigger;
 }
 
+Rate rate_of(int count, double exposure) {
+  return exposure > 0.0 ? poisson_rate(count, exposure) : Rate{.count = count};
+}
+
+void count(const ShadowTrigger& trigger, ShadowCounts& counts) {
+  constexpr double rest_speed = 0.5;  // [m/s]
+  ++counts.reasons[trigger.judgement.reason];
+  counts.at_rest += trigger.speed < rest_speed ? 1 : 0;
+  counts.danger += is_danger(trigger.judgement.reason) ? 1 : 0;
+}
+
+void add_rates(int number, double hours, double thousands, ShadowCounts& counts) {
+  counts.per_hour = rate_of(number, hours);
+  counts.per_1000km = rate_of(number, thousands);
+  counts.false_per_hour = rate_of(number - counts.danger, hours);
+  counts.false_per_1000km = rate_of(number - counts.danger, thousands);
+}
+
 }  // namespace
 
 std::string line_of(const ShadowRow& row) {
@@ -59,6 +77,11 @@ std::string line_of(const ShadowRow& row) {
     line["triggers"] = nlohmann::json::array();
     for (const ShadowTrigger& trigger : row.watched.triggers) {
       line["triggers"].push_back(json_of_trigger(trigger));
+    }
+    line["interventions"] = nlohmann::json::array();
+    for (const ShadowIntervention& begun : row.watched.interventions) {
+      line["interventions"].push_back(
+          nlohmann::json::array({json_of_trigger(begun.trigger), begun.plan, begun.early}));
     }
   }
   return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -85,6 +108,10 @@ Result<ShadowRow> shadow_row_from(std::string_view line) {
       for (const auto& trigger : in.at("triggers")) {
         row.watched.triggers.push_back(trigger_from(trigger));
       }
+      for (const auto& begun : in.at("interventions")) {
+        row.watched.interventions.push_back(
+            {trigger_from(begun.at(0)), begun.at(1).get<std::string>(), begun.at(2).get<bool>()});
+      }
     }
     return row;
   } catch (const std::exception& problem) {
@@ -97,6 +124,7 @@ ShadowFigures shadow_figures(std::span<const ShadowRow> rows, std::string_view s
   ShadowFigures figures;
   int previews = 0;
   int triggers = 0;
+  int interventions = 0;
   for (const ShadowRow& row : rows) {
     if (!source.empty() && row.source != source) {
       continue;
@@ -110,23 +138,20 @@ ShadowFigures shadow_figures(std::span<const ShadowRow> rows, std::string_view s
     figures.kilometres += row.watched.metres / 1000.0;
     previews += static_cast<int>(row.watched.previews.size());
     triggers += static_cast<int>(row.watched.triggers.size());
+    interventions += static_cast<int>(row.watched.interventions.size());
     for (const ShadowTrigger& trigger : row.watched.triggers) {
-      ++figures.reasons[trigger.judgement.reason];
-      constexpr double rest_speed = 0.5;  // [m/s]
-      figures.at_rest += trigger.speed < rest_speed ? 1 : 0;
-      figures.danger += is_danger(trigger.judgement.reason) ? 1 : 0;
+      count(trigger, figures.triggers);
+    }
+    for (const ShadowIntervention& begun : row.watched.interventions) {
+      count(begun.trigger, figures.interventions);
+      figures.early += begun.early ? 1 : 0;
     }
   }
-  const auto rate = [](int count, double exposure) {
-    return exposure > 0.0 ? poisson_rate(count, exposure) : Rate{.count = count};
-  };
   const double thousands = figures.kilometres / 1000.0;
-  figures.previews_per_hour = rate(previews, figures.hours);
-  figures.previews_per_1000km = rate(previews, thousands);
-  figures.triggers_per_hour = rate(triggers, figures.hours);
-  figures.triggers_per_1000km = rate(triggers, thousands);
-  figures.false_per_hour = rate(triggers - figures.danger, figures.hours);
-  figures.false_per_1000km = rate(triggers - figures.danger, thousands);
+  figures.previews_per_hour = rate_of(previews, figures.hours);
+  figures.previews_per_1000km = rate_of(previews, thousands);
+  add_rates(triggers, figures.hours, thousands, figures.triggers);
+  add_rates(interventions, figures.hours, thousands, figures.interventions);
   return figures;
 }
 

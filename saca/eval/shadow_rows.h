@@ -26,6 +26,17 @@ struct ShadowRow {
 /// @return  Error::Code::malformed
 [[nodiscard]] Result<ShadowRow> shadow_row_from(std::string_view line);
 
+/// How often one thing was seen, and how often without need.
+struct ShadowCounts {
+  Rate per_hour;
+  Rate per_1000km;
+  Rate false_per_hour;
+  Rate false_per_1000km;
+  int danger = 0;
+  int at_rest = 0;  ///< of an ego slower than 0.5 m/s, which could do nothing
+  std::map<ShadowReason, int> reasons;
+};
+
 /// Many drives together. Rates are per hour watched and per 1,000 km driven.
 struct ShadowFigures {
   int drives = 0;
@@ -34,13 +45,9 @@ struct ShadowFigures {
   double kilometres = 0.0;
   Rate previews_per_hour;
   Rate previews_per_1000km;
-  Rate triggers_per_hour;
-  Rate triggers_per_1000km;
-  Rate false_per_hour;
-  Rate false_per_1000km;
-  int danger = 0;   ///< triggers
-  int at_rest = 0;  ///< likewise, of an ego slower than 0.5 m/s, which could do nothing
-  std::map<ShadowReason, int> reasons;  ///< of the triggers
+  ShadowCounts triggers;
+  ShadowCounts interventions;
+  int early = 0;  ///< of the interventions, before T1
 };
 
 /// @param source  empty: all. Without exposure all rates are 0.

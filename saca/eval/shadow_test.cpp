@@ -216,6 +216,59 @@ TEST_F(Shadow, APictureShowsWhatWasAndWhatWasSupposed) {
   ASSERT_EQ(picture.supposed_others.size(), 1U);
 }
 
+/// Likewise, SACA deciding.
+class ShadowOfSaca : public Shadow {
+ protected:
+  ShadowOfSaca() { setup_.saca = &planes_; }
+
+  outcome::HarmModel harm_ = shipped_harm();
+  SteadyClock clock_;
+  runtime::PlanesSetup planes_{.forecast = {&car_, &harm_}, .clock = &clock_};
+};
+
+// At 25 m/s full braking on a grip of 0.9 takes 35 m and more, and 32.5 m are left at T1: SACA must
+// act before. The driver brakes with 8 m/s^2 1.5 s before he is there: that takes 39 m, and 37.5 m
+// are left.
+TEST_F(ShadowOfSaca, ActsBeforeT1WhereThatIsTooLate) {
+  scenario_.road.left_edge = 1.75;
+  scenario_.road.right_edge = -1.75;
+  scenario_.road.left_beyond = scenario_.road.right_beyond = world::Beyond::barrier;
+  drive({.speed = 25.0, .brakes_at = 4.9, .deceleration = 8.0}, 10.0);
+  add(25.0 * 6.4 + front, {}, 0.0, 10.0);
+  const ShadowDrive seen = watched();
+  ASSERT_EQ(seen.triggers.size(), 1U);
+  ASSERT_GE(seen.interventions.size(), 1U);
+  const ShadowIntervention& first = seen.interventions[0];
+  EXPECT_TRUE(first.early);
+  EXPECT_THAT(first.plan, HasSubstr("AEB"));
+  EXPECT_EQ(first.trigger.who, "car1");
+  EXPECT_GT(first.trigger.time_to_conflict, 1.3);
+  EXPECT_LT(first.trigger.time_to_conflict, 2.5);
+  EXPECT_NEAR(first.trigger.time + first.trigger.time_to_conflict, 6.4, 0.05);
+  EXPECT_LT(first.trigger.time, seen.triggers[0].time);
+  EXPECT_TRUE(is_danger(first.trigger.judgement.reason));
+}
+
+// Who drives on in the next lane threatens nobody.
+TEST_F(ShadowOfSaca, DoesNothingBesideWhoKeepsHisLane) {
+  drive({.speed = 25.0}, 6.0);
+  Way beside{.x = 30.0, .speed = 20.0};
+  sim::Recording recording = beside.recording(0.0, 6.0);
+  for (sim::Sample& sample : recording) {
+    sample.X_WA.p.y = 3.5;
+  }
+  scenario_.actors.push_back(
+      {.id = 1, .footprint = {.length = 4.5, .width = 1.8}, .mass = 1500.0, .motion = recording});
+  EXPECT_TRUE(watched().interventions.empty());
+}
+
+TEST_F(ShadowOfSaca, IsOfTheSameCar) {
+  drive({.speed = 10.0}, 3.0);
+  const manoeuvre::Car other = manoeuvre::default_car();
+  planes_.forecast.car = &other;
+  EXPECT_THROW((void)shadow_drive(scenario_, setup_), ContractViolation);
+}
+
 TEST_F(Shadow, WhatCannotBeWatchedIsRefused) {
   scenario_.ego = sim::EgoStart{};
   EXPECT_THAT(refusal(), HasSubstr("made: ego: want a recording"));

@@ -101,9 +101,19 @@ void Avoider::look_for_the_end(const world::Scene& scene, const Answer& answer) 
   }
   quiet_ = quiet_.value_or(scene.time);
   if (scene.time >= *quiet_ + quiet_time) {
-    begin_anew(runtime::Forgotten::encounter);
-    ++num_encounters_;
-    events_.remark(scene.time, runtime::Remark::encounter_over);
+    end_encounter();
+  }
+}
+
+void Avoider::end_encounter() {
+  begin_anew(runtime::Forgotten::encounter);
+  ++num_encounters_;
+  events_.remark(intake_.scene().time, runtime::Remark::encounter_over);
+}
+
+void Avoider::stand_down() {
+  if (meets_somebody_) {
+    end_encounter();
   }
 }
 

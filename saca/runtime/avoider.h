@@ -65,6 +65,10 @@ class Avoider {
   /// None came until `now` [s], in the scenes' time.
   Answer step(double now, Clock::Time at = Clock::Time{0});
 
+  /// The driver or the stack has taken the wheel: what is under way is dropped, and this encounter
+  /// forgotten. It goes on watching, and acts again where somebody still threatens.
+  void stand_down();
+
   /// What to tell the car: carries the plan of the last answer out.
   /// @param state  as measured now
   /// @param dt     since the last call [s], > 0
@@ -117,6 +121,7 @@ class Avoider {
   void begin(const manoeuvre::Plan& plan, const world::Scene& scene);
   void begin_anew(runtime::Forgotten forgotten);
   void look_for_the_end(const world::Scene& scene, const Answer& answer);
+  void end_encounter();
 
   AvoiderSetup setup_;
   runtime::Intake intake_;

@@ -192,6 +192,29 @@ TEST(Avoider, DecidesAnewInTheNextEncounter) {
   EXPECT_EQ(replay.beliefs_not_compared + replay.verdicts_not_compared, 0U);
 }
 
+TEST(Avoider, StandsDownForADriverAndActsAgainWhereSomebodyStillThreatens) {
+  Drive drive(14.0);
+  drive.scene().actors.push_back(test::car(1, {60.0, 0.0}));
+  drive.avoider().stand_down();
+  EXPECT_EQ(drive.avoider().num_encounters(), 0U) << "there was none";
+  const auto begins_within = [&](int num_steps) {
+    bool begun = false;
+    for (int k = 0; k < num_steps && !begun; ++k) {
+      begun = drive.step().begins;
+    }
+    return begun;
+  };
+  ASSERT_TRUE(begins_within(400));
+  for (std::size_t encounter = 1; encounter <= 2; ++encounter) {
+    drive.avoider().stand_down();
+    EXPECT_EQ(drive.avoider().plan(), std::nullopt);
+    EXPECT_EQ(drive.avoider().decision(), std::nullopt);
+    EXPECT_EQ(drive.avoider().num_encounters(), encounter);
+    EXPECT_EQ(begins_within(30), encounter == 1U) << "14 m/s, and 18 m to go; then nobody";
+    drive.scene().actors.clear();
+  }
+}
+
 // Perception drops out 0.3 s before T1 and stays away: everything is carried on, and it triggers.
 TEST(Avoider, TriggersWithoutAScene) {
   Drive drive(12.0);
