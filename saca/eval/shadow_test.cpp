@@ -226,15 +226,15 @@ class ShadowOfSaca : public Shadow {
   runtime::PlanesSetup planes_{.forecast = {&car_, &harm_}, .clock = &clock_};
 };
 
-// At 25 m/s full braking on a grip of 0.9 takes 35 m and more, and 32.5 m are left at T1: SACA must
-// act before. The driver brakes with 8 m/s^2 1.5 s before he is there: that takes 39 m, and 37.5 m
-// are left.
+// At 35 m/s full braking on a grip of 0.9 takes 69 m and what the brakes' lag adds, and 45.5 m are
+// left at T1: SACA must act 2 s before. The driver brakes with 8 m/s^2 1.5 s before he is there:
+// that takes 77 m, and 52.5 m are left.
 TEST_F(ShadowOfSaca, ActsBeforeT1WhereThatIsTooLate) {
   scenario_.road.left_edge = 1.75;
   scenario_.road.right_edge = -1.75;
   scenario_.road.left_beyond = scenario_.road.right_beyond = world::Beyond::barrier;
-  drive({.speed = 25.0, .brakes_at = 4.9, .deceleration = 8.0}, 10.0);
-  add(25.0 * 6.4 + front, {}, 0.0, 10.0);
+  drive({.speed = 35.0, .brakes_at = 4.9, .deceleration = 8.0}, 10.0);
+  add(35.0 * 6.4 + front, {}, 0.0, 10.0);
   const ShadowDrive seen = watched();
   ASSERT_EQ(seen.triggers.size(), 1U);
   ASSERT_GE(seen.interventions.size(), 1U);
@@ -242,7 +242,7 @@ TEST_F(ShadowOfSaca, ActsBeforeT1WhereThatIsTooLate) {
   EXPECT_TRUE(first.early);
   EXPECT_THAT(first.plan, HasSubstr("AEB"));
   EXPECT_EQ(first.trigger.who, "car1");
-  EXPECT_GT(first.trigger.time_to_conflict, 1.3);
+  EXPECT_GT(first.trigger.time_to_conflict, 1.5);
   EXPECT_LT(first.trigger.time_to_conflict, 2.5);
   EXPECT_NEAR(first.trigger.time + first.trigger.time_to_conflict, 6.4, 0.05);
   EXPECT_LT(first.trigger.time, seen.triggers[0].time);
