@@ -80,12 +80,14 @@ json json_of(const SuiteRun& run, const SuiteResult& result, const SuiteCommandO
     add_estimate(out, place + "right", one.right);
     add_estimate(out, place + "materially_worse_than_aeb", one.worse_than_aeb);
     add_estimate(out, place + "needless", one.needless);
+    add_estimate(out, place + "switches", one.switches);
     if (one.expected) {
       add_estimate(out, place + "expected", one.expected->expected);
       add_estimate(out, place + "expected.happened", one.expected->happened);
       add_estimate(out, place + "expected.braking", one.expected->braking_expected);
       add_estimate(out, place + "expected.braking_happened", one.expected->braking_happened);
       add_estimate(out, place + "expected.knowingly_worse", one.expected->knowingly_worse);
+      add_estimate(out, place + "expected.several_admissible", one.expected->several);
     }
     if (one.false_trigger_loss) {
       add_estimate(out, place + "false_trigger_loss", *one.false_trigger_loss);

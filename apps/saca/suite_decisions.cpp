@@ -118,9 +118,11 @@ std::string expectations_text(const MethodFigures& figures) {
   return fmt::format(
       "At T1 the verdict expected {:.4f} harm of what was decided on, and {:.4f} of full braking; "
       "tried with full knowledge they harm {:.4f} and {:.4f} ({} decisions). {:.1f} % were "
-      "knowingly worse than braking.",
+      "knowingly worse than braking. In {:.1f} % of all decisions by a verdict more than one plan "
+      "was admissible; plans were switched {:.2f} times in an encounter.",
       one.expected.value, one.braking_expected.value, one.happened.value,
-      one.braking_happened.value, one.expected.n, 100.0 * one.knowingly_worse.value);
+      one.braking_happened.value, one.expected.n, 100.0 * one.knowingly_worse.value,
+      100.0 * one.several.value, figures.switches.value);
 }
 
 std::string decisions_text(const MethodFigures& figures) {

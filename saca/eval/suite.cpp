@@ -111,14 +111,15 @@ Plan plan_from(const json& in) {
 }
 
 json json_of(const loop::ExpectedAtDecision& one) {
-  return json::array({one.time, json_of(one.plan), one.harm, one.braking_harm});
+  return json::array({one.time, json_of(one.plan), one.harm, one.braking_harm, one.num_admissible});
 }
 
 loop::ExpectedAtDecision expected_from(const json& in) {
   return {.time = in.at(0).get<double>(),
           .plan = plan_from(in.at(1)),
           .harm = in.at(2).get<double>(),
-          .braking_harm = in.at(3).get<double>()};
+          .braking_harm = in.at(3).get<double>(),
+          .num_admissible = in.at(4).get<int>()};
 }
 
 json json_of(const loop::ThinkingFigures& one) {

@@ -114,6 +114,14 @@ const loop::ExpectedAtDecision* expected_at_trigger(const SuiteRow& row, std::si
   return counts ? &*thinking->expected : nullptr;
 }
 
+/// Whether there was more than one plan to choose from.
+std::optional<double> had_several(const SuiteRow& row, std::size_t method,
+                                  std::optional<std::size_t> /*aeb*/) {
+  const auto& thinking = run_of(row, method).thinking;
+  return thinking && thinking->expected ? flag(thinking->expected->num_admissible > 1)
+                                        : std::nullopt;
+}
+
 /// One of its figures, where it counts.
 template <double loop::ExpectedAtDecision::*harm>
 std::optional<double> expectation(const SuiteRow& row, std::size_t method,
@@ -165,6 +173,9 @@ MethodFigures figures_of(std::span<const SuiteRow* const> rows, const std::strin
   figures.needless = mean([](Row row, std::size_t m, Aeb) {
     return is_quiet(row.risk) ? flag(run_of(row, m).intervened()) : std::nullopt;
   });
+  figures.switches = mean([](Row row, std::size_t m, Aeb) {
+    return std::optional(static_cast<double>(run_of(row, m).switches));
+  });
   const bool decides = std::any_of(rows.begin(), rows.end(), [&](const SuiteRow* row) {
     return expected_at_trigger(*row, method) != nullptr;
   });
@@ -184,6 +195,7 @@ MethodFigures figures_of(std::span<const SuiteRow* const> rows, const std::strin
       const auto* const told = expected_at_trigger(row, m);
       return told != nullptr ? flag(told->harm > told->braking_harm + material) : std::nullopt;
     });
+    figures.expected->several = mean(had_several);
   }
   const bool twins = std::any_of(rows.begin(), rows.end(),
                                  [](const SuiteRow* row) { return row->twin.has_value(); });

@@ -33,6 +33,8 @@ struct ExpectedFigures {
   Estimate braking_happened;
   Estimate knowingly_worse;  ///< share decided on although expected to harm more than full braking
                              ///< by more than `material`
+  Estimate several;          ///< share of all that a verdict decided, before T1 too, in which more
+                             ///< than one plan was admissible
 };
 
 /// Figures of one method over some encounters.
@@ -49,6 +51,7 @@ struct MethodFigures {
   Estimate worse_than_aeb;    ///< share whose harm is more than `material` above AEB's
   Estimate
       needless;  ///< share of encounters in which doing nothing harms nobody, where it intervened
+  Estimate switches;  ///< how often another plan was begun later, in an encounter
   std::optional<Estimate> false_trigger_loss;     ///< the paper's, over the twins
   std::optional<Estimate> false_triggers;         ///< share of the twins with an intervention
   std::map<std::string, int> sources;             ///< of decisions, how often

@@ -81,9 +81,9 @@ TEST(SuiteFigures, HoldWhatWasExpectedAgainstWhatHappened) {
                       {drift, 0.4, true}};
     row.risk.runs[1].thinking.emplace();
   }
-  rows[0].risk.runs[1].thinking->expected = {2.0, drift, 0.1, 0.3};
-  rows[1].risk.runs[1].thinking->expected = {2.0, swerve, 0.5, 0.3};
-  rows[2].risk.runs[1].thinking->expected = {2.5, drift, 0.7, 0.7};
+  rows[0].risk.runs[1].thinking->expected = {2.0, drift, 0.1, 0.3, 1};
+  rows[1].risk.runs[1].thinking->expected = {2.0, swerve, 0.5, 0.3, 2};
+  rows[2].risk.runs[1].thinking->expected = {2.5, drift, 0.7, 0.7, 3};
   const auto told = figures(rows, {"aeb", "saca"});
   EXPECT_FALSE(told[0].expected.has_value());
   const ExpectedFigures& saca = told[1].expected.value();
@@ -91,6 +91,8 @@ TEST(SuiteFigures, HoldWhatWasExpectedAgainstWhatHappened) {
   EXPECT_NEAR(saca.expected.value, 0.5 * (0.1 + 0.5), 1e-12);
   EXPECT_NEAR(saca.happened.value, 0.5 * (0.4 + 0.6), 1e-12);
   EXPECT_NEAR(saca.braking_expected.value, 0.3, 1e-12);
+  EXPECT_EQ(saca.several.n, 3);
+  EXPECT_NEAR(saca.several.value, 2.0 / 3.0, 1e-12);
   EXPECT_NEAR(saca.braking_happened.value, 0.2, 1e-12);
   EXPECT_EQ(saca.knowingly_worse.value, 0.5);
 }

@@ -43,7 +43,8 @@ std::optional<ExpectedAtDecision> expected_at(const decide::Decision& decision) 
   if (plan == nullptr || !plan->drivable || braking == nullptr || !braking->drivable) {
     return std::nullopt;
   }
-  return ExpectedAtDecision{decision.time, decision.plan, plan->harm, braking->harm};
+  return ExpectedAtDecision{decision.time, decision.plan, plan->harm, braking->harm,
+                            static_cast<int>(num_admissible(*decision.verdict))};
 }
 
 }  // namespace

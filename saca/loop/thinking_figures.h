@@ -15,6 +15,7 @@ struct ExpectedAtDecision {
   manoeuvre::Plan plan;       ///< what was decided on
   double harm = 0.0;          ///< expected of it
   double braking_harm = 0.0;  ///< of full braking
+  int num_admissible = 0;     ///< how many plans were
 
   bool operator==(const ExpectedAtDecision&) const = default;
 };

@@ -54,7 +54,9 @@ TEST(ThinkingFigures, KeepWhatTheVerdictExpected) {
   verdict.plans.push_back({.plan = manoeuvre::full_braking, .drivable = true, .harm = 0.3});
   verdict.plans.push_back({.plan = left, .drivable = true, .harm = 0.1});
   decide::Decision decision{.plan = left, .verdict = verdict, .time = 4.5};
-  EXPECT_EQ(thinking_figures({}, decision).expected, (ExpectedAtDecision{4.5, left, 0.1, 0.3}));
+  EXPECT_EQ(thinking_figures({}, decision).expected, (ExpectedAtDecision{4.5, left, 0.1, 0.3, 1}));
+  decision.verdict->plans[0].harm = 0.101;  // as good
+  EXPECT_EQ(thinking_figures({}, decision).expected->num_admissible, 2);
   decision.plan.policy = PolicyId::t_drift_left;  // nothing is said of it
   EXPECT_EQ(thinking_figures({}, decision).expected, std::nullopt);
   decision.verdict.reset();
