@@ -4,6 +4,7 @@
 
 #include "saca/core/names.h"
 #include "saca/manoeuvre/drive.h"
+#include "saca/outcome/ordering.h"
 
 namespace saca::decide {
 namespace {
@@ -106,7 +107,8 @@ std::optional<preview::Threat> ReflexPlane::foreseen(
   return preview::triggering_threat(scene, within_t2, tracks.confirmed());
 }
 
-std::optional<Decision> ReflexPlane::decide_early(const Scene& scene) noexcept {
+std::optional<Decision> ReflexPlane::decide_early(const Scene& scene,
+                                                  const preview::Threat& threat) noexcept {
   watched_at_ = scene.time;
   const auto cost = is_fresh(verdict_, scene) ? cost_of_waiting(*verdict_) : std::nullopt;
   if (!cost || *cost <= *tools_.thresholds.waiting_cost) {
@@ -114,7 +116,10 @@ std::optional<Decision> ReflexPlane::decide_early(const Scene& scene) noexcept {
   }
   Decision decision = decide(scene);
   decision.waiting_cost = cost;
-  return decision.plan == manoeuvre::doing_nothing ? std::nullopt : std::optional(decision);
+  const bool leaves_lane = outcome::milder(manoeuvre::PolicyId::aeb, decision.plan.policy);
+  const bool is_too_early = leaves_lane && threat.time > tools_.thresholds.earliest_swerve;
+  return decision.plan == manoeuvre::doing_nothing || is_too_early ? std::nullopt
+                                                                   : std::optional(decision);
 }
 
 bool ReflexPlane::needs_verdict(const Scene& scene, bool finished) const noexcept {
@@ -149,7 +154,7 @@ Reflex ReflexPlane::step(const Scene& scene, bool finished) noexcept {
     decision_ = decide(scene);
   } else if (!decision_ && is_watched(scene)) {
     if (const auto threat = foreseen(scene, tracks_)) {
-      decision_ = decide_early(scene);
+      decision_ = decide_early(scene, *threat);
       reflex.threat = decision_ ? threat : reflex.threat;
     }
   }

@@ -77,8 +77,9 @@ struct ReflexTools {
 ///
 /// Only who is confirmed (TrackConfirmation) sets off the trigger: by a conflict within T1 or,
 /// while a conflict comes within T2, as soon as a verdict says that waiting costs more than
-/// Thresholds::waiting_cost and speaks for doing something. So T1 is when it acts at the latest.
-/// Guard::none and a forced plan wait for T1.
+/// Thresholds::waiting_cost and speaks for doing something, for leaving the lane not before
+/// Thresholds::earliest_swerve. So T1 is when it acts at the latest. Guard::none and a forced plan
+/// wait for T1.
 ///
 /// At the trigger, in this order: the cached plan whose situation this is, where the verdict finds
 /// it admissible (of a cached policy 0: the best braking; without a verdict full braking); else
@@ -135,7 +136,8 @@ class ReflexPlane {
   [[nodiscard]] std::optional<preview::Threat> foreseen(
       const world::Scene& scene, const TrackConfirmation& tracks) const noexcept;
   /// What is decided before T1; nullopt: to wait.
-  [[nodiscard]] std::optional<Decision> decide_early(const world::Scene& scene) noexcept;
+  [[nodiscard]] std::optional<Decision> decide_early(const world::Scene& scene,
+                                                     const preview::Threat& threat) noexcept;
 
   ReflexTools tools_;
   PlanCache plans_;

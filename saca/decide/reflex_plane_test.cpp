@@ -150,6 +150,24 @@ TEST(ReflexPlane, ActsBeforeT1WhereWaitingCostsTooMuch) {
   EXPECT_FALSE(step(0.02, 2.4, {.forced = manoeuvre::full_braking}));
 }
 
+// Braking harms 0.2 however early it begins.
+TEST(ReflexPlane, LeavesTheLaneLaterThanItBrakes) {
+  const auto begun = [](double time_to_conflict, double braking_harm) {
+    ReflexPlane plane{ReflexTools{}};
+    const Scene scene = wreck_in(time_to_conflict);
+    Verdict verdict = verdict_of(scene.time, {{PolicyId::aeb, braking_harm},
+                                              {PolicyId::aes_left, 0.0},
+                                              {PolicyId::no_intervention, 0.3}});
+    verdict.later = 0.1;
+    plane.receive(verdict);
+    const Reflex reflex = plane.step(scene);
+    return reflex.triggered ? std::optional(reflex.plan.policy) : std::nullopt;
+  };
+  EXPECT_EQ(begun(2.4, 0.2), PolicyId::aes_left);
+  EXPECT_EQ(begun(2.6, 0.2), std::nullopt) << "it may still become another scene";
+  EXPECT_EQ(begun(2.6, 0.0), PolicyId::aeb) << "braking can be taken back";
+}
+
 TEST(ReflexPlane, BeforeT1NothingStandsForNothingAndStaleVerdictsDoNotCount) {
   const Scene scene = wreck_in(2.4);
   ReflexPlane idle{ReflexTools{}};

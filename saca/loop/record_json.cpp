@@ -373,6 +373,7 @@ std::string record_json(const Setup& setup, const Record& record, const Provenan
             {{"trigger_s", setup.thresholds.trigger},
              {"preview_s", setup.thresholds.preview},
              {"waiting_cost", number_or_null(setup.thresholds.waiting_cost)},
+             {"earliest_swerve_s", setup.thresholds.earliest_swerve},
              {"material_harm", decide::material_harm}}},
            {"road", road_json(scenario.road)},
            {"ego",

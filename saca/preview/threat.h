@@ -22,6 +22,9 @@ struct Thresholds {
   /// Before T1, SACA acts as soon as it is expected to cost more harm than this to wait for one
   /// more look. Fitted (docs/decisions/0025). nullopt: never before T1, as in the paper.
   std::optional<double> waiting_cost = 0.01;
+  /// So long before a conflict, and no earlier, it leaves the lane before T1 [s]: who comes over
+  /// may still go back, and braking can be taken back. Fitted (docs/decisions/0026).
+  double earliest_swerve = 2.5;
 };
 
 /// An actor that the ego is in conflict with.

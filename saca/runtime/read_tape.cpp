@@ -269,7 +269,8 @@ preview::Thresholds read_thresholds(JsonReader from) {
                                        .trigger_tolerance = from.number("trigger_tolerance_s"),
                                        .preview_tolerance = from.number("preview_tolerance_s"),
                                        .least_posterior = from.number("least_posterior"),
-                                       .waiting_cost = read_number(from, "waiting_cost")};
+                                       .waiting_cost = read_number(from, "waiting_cost"),
+                                       .earliest_swerve = from.number("earliest_swerve_s")};
   from.refuse_others();
   return thresholds;
 }
@@ -350,7 +351,7 @@ class TapeReader {
 
 Result<TapeFile> TapeReader::read(std::string_view text) {
   if (text.empty()) {
-    return error("want a tape (saca.tape/3), got an empty file");
+    return error("want a tape (saca.tape/4), got an empty file");
   }
   while (!text.empty()) {
     ++line_;
@@ -378,7 +379,7 @@ Result<TapeFile> TapeReader::read(std::string_view text) {
 std::optional<Error> TapeReader::read_line(std::string_view line) {
   const auto node = config::parse_json(line);
   if (!node.has_value()) {
-    return error("want one JSON object of a tape (saca.tape/3), got " + shown(line));
+    return error("want one JSON object of a tape (saca.tape/4), got " + shown(line));
   }
   std::optional<Error> problem;
   JsonReader from(node.value(), "", problem, "line");
@@ -392,7 +393,7 @@ void TapeReader::read_object(JsonReader& from) {
     const std::string_view wanted = line_ == 1 ? "header" : "before";
     if (type != wanted) {
       from.reject("type",
-                  fmt::format("want \"{}\" of a tape (saca.tape/3), got {}", wanted, shown(type)));
+                  fmt::format("want \"{}\" of a tape (saca.tape/4), got {}", wanted, shown(type)));
     } else if (line_ == 1) {
       tape_.header = read_header(from);
     } else {
