@@ -10,6 +10,7 @@
 #include "saca/core/contract.h"
 #include "saca/intent/features.h"
 #include "saca/learn/score.h"
+#include "saca/train/speed_noise.h"
 
 namespace saca::train {
 namespace {
@@ -52,6 +53,17 @@ void hide(torch::Tensor& features, std::int64_t piece, std::initializer_list<Fea
   }
 }
 
+/// Lets each piece be seen as by another site's tracker.
+void add_noise(Batch& batch, const TrainingPlan& plan, std::mt19937_64& random) {
+  if (plan.speed_noise == 0.0) {
+    return;
+  }
+  for (std::int64_t i = 0; i < batch.features.size(0); ++i) {
+    const auto num_frames = static_cast<std::size_t>(batch.present[i].sum().item<std::int64_t>());
+    add_speed_noise(batch.features[i], drawn_speed_noise(num_frames, plan.speed_noise, random));
+  }
+}
+
 /// Hides now and then what is not known everywhere.
 void hide_some(Batch& batch, const TrainingPlan& plan, std::mt19937_64& random) {
   std::uniform_real_distribution<double> share(0.0, 1.0);
@@ -79,9 +91,9 @@ void hide_some(Batch& batch, const TrainingPlan& plan, std::mt19937_64& random) 
 
 /// What of a plan a schedule does not say.
 std::string words_of(const TrainingPlan& plan) {
-  return fmt::format("{} {} {} {} {} {} {}", plan.longest, plan.dropout,
+  return fmt::format("{} {} {} {} {} {} {} {}", plan.longest, plan.dropout,
                      fmt::join(plan.label_weights, ","), plan.with_chain, plan.lane_loss,
-                     plan.ahead_loss, plan.pedals_loss);
+                     plan.ahead_loss, plan.pedals_loss, plan.speed_noise);
 }
 
 }  // namespace
@@ -120,6 +132,7 @@ Result<LstmCrf> trained(const std::vector<Sequence>& sequences,
   const Task task{.network = network.ptr(),
                   .loss =
                       [&](Batch& batch, std::mt19937_64& random) {
+                        add_noise(batch, plan, random);
                         hide_some(batch, plan, random);
                         return network->loss(network->emissions(batch.features), batch,
                                              plan.label_weights);

@@ -29,6 +29,8 @@ struct TrainingPlan {
   double lane_loss = 0.1;    ///< share of pieces whose lane is hidden: somebody off the map
   double ahead_loss = 0.1;   ///< likewise of what is ahead
   double pedals_loss = 0.5;  ///< likewise of what the vehicle shares
+  /// Root mean square of noise that each piece's speed is given anew [m/s], >= 0 (speed_noise.h).
+  double speed_noise = 0.4;
 };
 
 /// Pieces of at most `longest` frames, each as a stream sees it that begins there. Labels of a

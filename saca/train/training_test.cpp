@@ -88,6 +88,10 @@ TEST(Training, WillNotGoOnWithAnother) {
   other_weights.label_weights = all_alike;
   EXPECT_THAT(trained(sequences, {}, other_weights, state, all_epochs).error().message,
               testing::HasSubstr("is of another training"));
+  TrainingPlan other_noise = short_plan();
+  other_noise.speed_noise = 0.0;
+  EXPECT_THAT(trained(sequences, {}, other_noise, state, all_epochs).error().message,
+              testing::HasSubstr("is of another training"));
   ASSERT_FALSE(write_file(state, "damaged").has_value());
   EXPECT_THAT(trained(sequences, {}, short_plan(), state, all_epochs).error().message,
               testing::HasSubstr("want the state of a training"));
