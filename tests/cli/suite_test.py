@@ -115,7 +115,10 @@ def test_a_journal_of_other_work_is_refused(tmp_path):
     (["ladder", "balanced", "--memory", "no_such.sqlite"], BAD_INPUT, "no_such.sqlite: there is no such memory bank"),
     (["suite", "balanced", "--llm", "no_such"], BAD_INPUT, "want local, off, replay:FILE or MODEL@URL"),
     (["suite", "fmvss127", "--memory", "m.sqlite"], WRONG_COMMAND_LINE, "SACA as it ships"),
-    (["suite", "traffic", "--data", ".", "--llm", "local"], WRONG_COMMAND_LINE, "decides nothing"),
+    (["suite", "traffic", "--data", ".", "--llm", "local"], WRONG_COMMAND_LINE, "the verdict alone"),
+    (["suite", "fmvss127", "--t1-s", "2"], WRONG_COMMAND_LINE, "run as it stands"),
+    (["suite", "balanced", "--t1-s", "9"], WRONG_COMMAND_LINE, "--t1-s"),
+    (["suite", "balanced", "--waiting-cost", "-1"], WRONG_COMMAND_LINE, "--waiting-cost"),
 ])
 def test_what_cannot_be_run_is_refused(tmp_path, arguments, code, wanted):
     run = saca(*arguments, cwd=tmp_path)
