@@ -93,6 +93,9 @@ config::Tensors described(const Options& options, config::Tensors tensors) {
                    {"sequences", fmt::format("{:016x}", digest.value())},
                    {"seed", std::to_string(options.plan.seed)},
                    {"epochs", std::to_string(options.plan.epochs)}};
+  if (options.plan.speed_noise > 0.0) {
+    tensors.words["speed_noise_mps"] = fmt::format("{}", options.plan.speed_noise);
+  }
   return tensors;
 }
 
@@ -255,6 +258,10 @@ int main(int argc, char** argv) {
   app.add_option("--seed", options.plan.seed)->capture_default_str();
   app.add_option("--epochs", options.plan.epochs)
       ->check(CLI::Range(1, 1'000))
+      ->capture_default_str();
+  app.add_option("--speed-noise-mps", options.plan.speed_noise,
+                 "Noise that each piece's speed is given, root mean square, for sites never seen")
+      ->check(CLI::Range(0.0, 5.0))
       ->capture_default_str();
   app.add_flag("!--without-chain", options.plan.with_chain,
                "Train each frame for itself: the LSTM without the CRF, for comparison");

@@ -30,7 +30,8 @@ struct TrainingPlan {
   double ahead_loss = 0.1;   ///< likewise of what is ahead
   double pedals_loss = 0.5;  ///< likewise of what the vehicle shares
   /// Root mean square of noise that each piece's speed is given anew [m/s], >= 0 (speed_noise.h).
-  double speed_noise = 0.4;
+  /// With 0.4 what is learnt transfers better to sites never seen (docs/decisions/0015).
+  double speed_noise = 0.0;
 };
 
 /// Pieces of at most `longest` frames, each as a stream sees it that begins there. Labels of a

@@ -89,7 +89,7 @@ TEST(Training, WillNotGoOnWithAnother) {
   EXPECT_THAT(trained(sequences, {}, other_weights, state, all_epochs).error().message,
               testing::HasSubstr("is of another training"));
   TrainingPlan other_noise = short_plan();
-  other_noise.speed_noise = 0.0;
+  other_noise.speed_noise = 0.4;
   EXPECT_THAT(trained(sequences, {}, other_noise, state, all_epochs).error().message,
               testing::HasSubstr("is of another training"));
   ASSERT_FALSE(write_file(state, "damaged").has_value());
