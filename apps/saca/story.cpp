@@ -113,8 +113,7 @@ void Story::headline(const sim::Scenario& scenario, const loop::Setup& setup) {
       "T2: {:.1f} s to a conflict, SACA takes the wheel and previews. T1: {:.1f} s, it acts{}. "
       "AEB emergency braking,\nAES-L/-R a lane change to the left or right, ES-B-L/-R the same "
       "while braking, T-D-L/-R a drift to a stop facing\nleft or right, NI nothing. Intentions: M "
-      "goes "
-      "on, FB brakes, LC/RC changes to the left or right, LB/RB brakes too.\n\n",
+      "goes on, FB brakes, LC/RC changes to the left or right, LB/RB brakes too.\n\n",
       setup.thresholds.preview, setup.thresholds.trigger,
       setup.thresholds.waiting_cost ? ", or before where waiting would cost harm" : "");
   write_waiting(0);
