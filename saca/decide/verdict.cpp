@@ -16,10 +16,6 @@ using manoeuvre::PolicyId;
 constexpr double least_tolerance = 0.002;  // of harm: what forecasts cannot tell apart
 constexpr double tolerance_share = 0.03;   // of what braking has above the best
 
-bool harms_nobody(const JudgedPlan* plan) {
-  return plan != nullptr && plan->drivable && plan->contact == 0.0 && plan->harm == 0.0;
-}
-
 /// The judged braking that is next to this strength, on the harder side or the gentler one.
 const JudgedPlan* next_to(const Verdict& verdict, const Plan& plan, bool harder) {
   const JudgedPlan* next = nullptr;
@@ -120,7 +116,7 @@ const JudgedPlan* best_braking(const Verdict& verdict) noexcept {
 }
 
 Plan plan_of(const Verdict& verdict) noexcept {
-  if (harms_nobody(find_plan(verdict, doing_nothing))) {
+  if (admits(verdict, doing_nothing)) {
     return doing_nothing;
   }
   const auto most = admissible_harm(verdict);
@@ -142,11 +138,6 @@ Plan plan_of(const Verdict& verdict) noexcept {
   if (braking != nullptr &&
       (mildest == nullptr || braking->harm <= mildest->harm + outcome::harm_tie)) {
     return braking->plan;
-  }
-  if (admits(verdict, doing_nothing) &&
-      (mildest == nullptr ||
-       find_plan(verdict, doing_nothing)->harm < mildest->harm - outcome::harm_tie)) {
-    return doing_nothing;  // nobody leaves the lane for more harm than that has
   }
   return mildest == nullptr ? full_braking : mildest->plan;
 }

@@ -76,15 +76,16 @@ void spread_over_strengths(Verdict& verdict) noexcept;
 /// gentler is in the expected harm: they react in every draw.
 [[nodiscard]] const JudgedPlan* best_braking(const Verdict& verdict) noexcept;
 
-/// The plan that a verdict speaks for. In this order: doing nothing, where no hypothesis has
-/// contact then; the best braking, where full braking is admissible; where only gentler braking
-/// is, the best braking or the mildest admissible lane change or drift (of equally mild ones the
-/// least harmful), whichever is expected to harm less, braking where they harm alike
-/// (outcome::harm_tie); doing nothing, where only that is admissible or it is expected to harm less
-/// than leaving the lane; full braking, where nothing can be driven.
+/// The plan that a verdict speaks for. In this order: doing nothing, where that is admissible; the
+/// best braking, where full braking is admissible; where only gentler braking is, the best braking
+/// or the mildest admissible lane change or drift (of equally mild ones the least harmful),
+/// whichever is expected to harm less, braking where they harm alike (outcome::harm_tie); full
+/// braking, where nothing can be driven.
 ///
-/// Full braking is admissible or worse than all that is: so nothing is knowingly worse than full
-/// braking. It comes first because it stands on no forecast; gentler braking does as a swerve does.
+/// Nobody takes the wheel for what forecasts cannot tell apart: doing nothing is looked at again
+/// verdict by verdict, and may become anything (Supervisor). Full braking comes next because it
+/// stands on no forecast; gentler braking does as a swerve does. Full braking is admissible or
+/// worse than all that is: so nothing that is begun is knowingly worse than full braking.
 [[nodiscard]] manoeuvre::Plan plan_of(const Verdict& verdict) noexcept;
 
 /// The plan that a choice of memory or model stands for now: of policy 0, which they choose without
