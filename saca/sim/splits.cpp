@@ -1,14 +1,18 @@
 #include "saca/sim/splits.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <set>
+#include <sstream>
 
 #include "saca/config/config.h"
 #include "saca/core/contract.h"
 #include "saca/core/file.h"
 #include "saca/core/names.h"
+#include "saca/core/printable.h"
 
 namespace saca::sim {
 namespace {
@@ -17,8 +21,37 @@ using config::Table;
 
 constexpr std::array<std::string_view, 3> split_names{"tuning", "calibration", "test"};
 
+constexpr std::string_view before_family = ": family ";  // in each line of a log
+
+/// Why lines are not appended to a file that is there.
+std::optional<Error> not_a_log(const std::filesystem::path& path) {
+  std::error_code problem;
+  if (!std::filesystem::is_regular_file(path, problem)) {
+    return std::nullopt;
+  }
+  const auto text = read_file(path);
+  if (!text.has_value()) {
+    return text.error();
+  }
+  std::istringstream lines(text.value());
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (line.find(before_family) == std::string::npos) {
+      return Error{Error::Code::malformed,
+                   fmt::format("{}:{}: want a log of the test split, \"PURPOSE{}NAME\" in each "
+                               "line, got \"{}\": nothing was written",
+                               path.string(), number, before_family, one_line(line, 60))};
+    }
+  }
+  return std::nullopt;
+}
+
 /// One line at the end of the log, with its folder made where it is missing.
 std::optional<Error> note(const TestLog& log, const std::string& line) {
+  if (auto other = not_a_log(log.path)) {
+    return other;
+  }
   std::error_code problem;
   if (log.path.has_parent_path()) {
     std::filesystem::create_directories(log.path.parent_path(), problem);
@@ -107,7 +140,8 @@ Result<std::uint64_t> seed_for(const Splits& splits, Split split, std::string_vi
       return Error{Error::Code::out_of_range,
                    "the test split is drawn only when its use is noted: name a log"};
     }
-    if (auto problem = note(*log, log->purpose + ": family " + std::string(family))) {
+    if (auto problem = note(
+            *log, fmt::format("{}{}{}", one_line(log->purpose, 1'000), before_family, family))) {
       return *problem;
     }
   }

@@ -32,7 +32,7 @@ struct Splits {
 [[nodiscard]] Result<Splits> read_splits(std::string_view text, std::string_view source);
 [[nodiscard]] Result<Splits> load_splits(const std::filesystem::path& path);
 
-/// Where every use of the test split is noted, one line each, for good.
+/// Where every use of the test split is noted, one line each, for good: "PURPOSE: family NAME".
 struct TestLog {
   std::filesystem::path path;
   std::string purpose;  ///< who draws, and what for
@@ -42,7 +42,8 @@ struct TestLog {
 ///
 /// @param log  needed for the test split, which is noted there before the seed is given
 /// @return     Error::Code::out_of_range: a test-only family outside the test split, or the test
-///             split without a log; unwritable: the log
+///             split without a log; unwritable: the log; malformed, naming the line: a file that
+///             is no such log, which stays as it was
 [[nodiscard]] Result<std::uint64_t> seed_for(const Splits& splits, Split split,
                                              std::string_view family,
                                              const std::optional<TestLog>& log);

@@ -58,6 +58,23 @@ TEST_F(Splitting, ALogThatCannotBeWrittenStopsTheDraw) {
   EXPECT_EQ(refused.error().code, Error::Code::unwritable);
 }
 
+TEST_F(Splitting, AFileThatIsNoLogStaysAsItWas) {
+  const std::string text = "a: family b\n[seeds]\n";
+  std::filesystem::create_directories(log_.path.parent_path());
+  ASSERT_EQ(write_file(log_.path, text), std::nullopt);
+  const auto refused = seed_for(splits_, Split::test, "crossing", log_);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().code, Error::Code::malformed);
+  EXPECT_THAT(refused.error().message, AllOf(HasSubstr("test.log:2: want"), HasSubstr("[seeds]")));
+  EXPECT_EQ(read_file(log_.path).value(), text);
+}
+
+TEST_F(Splitting, APurposeIsOneLine) {
+  log_.purpose = "table 2\nand 3";
+  EXPECT_EQ(seed_for(splits_, Split::test, "crossing", log_).value(), 13U);
+  EXPECT_EQ(seed_for(splits_, Split::test, "crossing", log_).value(), 13U);
+}
+
 TEST_F(Splitting, SomeFamiliesAreForTheTestAlone) {
   const auto refused = seed_for(splits_, Split::tuning, "merge", {});
   ASSERT_FALSE(refused.has_value());
