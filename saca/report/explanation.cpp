@@ -285,8 +285,9 @@ std::string Story::because() const {
   if (decision_.at("name") == "NI") {
     return nothing_harms_nobody() ? "no draw of what the others may do has contact where nothing "
                                     "is done"
-                                  : "braking is not admissible, and nothing that is admissible is "
-                                    "expected to harm less than doing nothing";
+                                  : "it is admissible: no plan is expected to harm so much less "
+                                    "that the forecasts could tell it from doing nothing, which "
+                                    "every later verdict looks at again";
   }
   if (decision_.at("name") == "AEB" && !is_choice_admissible()) {
     return "doing nothing may end in contact and no other plan is admissible; emergency braking "
@@ -398,7 +399,9 @@ std::string Story::why_not(const Judged& plan) const {
     return fmt::format("{}: admissible, but not needed.", plan.name);
   }
   if (decision_.at("name") == "NI") {
-    return fmt::format("{}: admissible, but expected to harm more than doing nothing.", plan.name);
+    return fmt::format(
+        "{}: admissible, but the forecasts cannot tell it from doing nothing, which comes first.",
+        plan.name);
   }
   if (plan.name == "NI") {
     return fmt::format("NI: admissible, but it may end in contact ({}), and something can be done.",

@@ -131,8 +131,7 @@ TEST(Explanation, TellsTheRuleByWhichWasChosen) {
   }
 }
 
-// Where only doing nothing is admissible and may end in contact, a verdict speaks for braking all
-// the same: then braking is not called admissible.
+// Of a record in which braking was begun although only doing nothing is admissible.
 TEST(Explanation, DoesNotCallBrakingAdmissibleWhereItIsNot) {
   const std::string about = "What was chosen, and by which rule";
   json other = record();
@@ -151,10 +150,10 @@ TEST(Explanation, TellsWhyNothingIsDoneThoughItMayHarm) {
   while (other["hindsight"].size() < 8) {
     other["hindsight"].push_back(lived(7, "NI", 0.0));
   }
-  EXPECT_THAT(told(other, "In short"), HasSubstr("NI, doing nothing, was begun because braking is "
-                                                 "not admissible, and nothing that is admissible"));
+  EXPECT_THAT(told(other, "In short"), HasSubstr("NI, doing nothing, was begun because it is "
+                                                 "admissible: no plan is expected to harm so"));
   EXPECT_THAT(told(other, "Why not the others"),
-              HasSubstr("AES-R: admissible, but expected to harm more than doing nothing."));
+              HasSubstr("AES-R: admissible, but the forecasts cannot tell it from doing nothing"));
 }
 
 TEST(Explanation, TellsHowHardWasBrakedAndWhyNotHarder) {
