@@ -191,14 +191,18 @@ def traffic_section(runs):
     figures = runs["traffic"]
     lines = []
     for name, place in [(source, f"traffic.{source}.") for source, in parts(figures, r"traffic\.([^.]+)\.drives")] + [("all", "traffic.")]:
-        rates = [interval(figures, f"{place}false_triggers_per_{unit}", 1 if unit == "hour" else 0) for unit in ("hour", "1000km")]
         lines.append([name, number(figures, place + "drives", 0), number(figures, place + "exposure_h", 3), number(figures, place + "exposure_km"),
-                      *(number(figures, place + what, 0) for what in ("previews", "triggers", "danger", "false_triggers")), *rates])
+                      *(number(figures, place + what, 0) for what in ("previews", "triggers", "false_triggers")),
+                      interval(figures, f"{place}false_triggers_per_hour", 1),
+                      *(number(figures, place + what, 0) for what in ("interventions", "early_interventions", "false_interventions")),
+                      interval(figures, f"{place}false_interventions_per_hour", 1), interval(figures, f"{place}false_interventions_per_1000km", 0)])
     return ["Deterministic; perception is exact and SACA never drives; exact 95 % intervals. CommonRoad's files of US-101 and Lankershim, each "
             "instant of a car once, and those events of the 100-Car study that are rebuilt with more than 1 s before their conflict. "
             f"{figures['traffic.left_out']} drives are left out, nearly all because the track is too short to be smoothed with samples on both sides.", "",
-            table(["source", "drives", "h", "km", "previews", "triggers", "danger", "false", "false per h", "false per 1,000 km"], lines), "",
-            "This is far too often for a road, and so few hours say no more than the order of magnitude. Nearly all false triggers are one kind: a "
+            table(["source", "drives", "h", "km", "previews", "triggers", "false", "false per h", "SACA acts", "before T1", "false", "false per h",
+                   "false per 1,000 km"], lines), "",
+            "A trigger is a conflict that comes within T1, where full braking at T1 would act; SACA acts by what it expects, or not at all. This is "
+            "far too often for a road, and so few hours say no more than the order of magnitude. Nearly all false triggers are one kind: a "
             "neighbour who changes lanes, sways in its lane or turns beside the ego is carried on along the arc that it drives at that moment, into "
             "the ego; nobody needed to brake (decisions/0020). Rates are rather too high than too low: errors of the recording (a track that ends, "
             "bodies that touch) count as false, and so do conflicts that hold already at the first look of a short drive. Of the 100-Car study only "
