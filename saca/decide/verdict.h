@@ -82,10 +82,11 @@ void spread_over_strengths(Verdict& verdict) noexcept;
 /// whichever is expected to harm less, braking where they harm alike (outcome::harm_tie); full
 /// braking, where nothing can be driven.
 ///
-/// Nobody takes the wheel for what forecasts cannot tell apart: doing nothing is looked at again
-/// verdict by verdict, and may become anything (Supervisor). Full braking comes next because it
-/// stands on no forecast; gentler braking does as a swerve does. Full braking is admissible or
-/// worse than all that is: so nothing that is begun is knowingly worse than full braking.
+/// Nobody takes the wheel for what forecasts cannot tell apart: doing nothing is looked at again as
+/// long as the trigger's rule fires, and may become anything (Supervisor). Full braking comes next
+/// because it stands on no forecast; gentler braking does as a swerve does. Full braking is
+/// admissible or worse than all that is: so nothing that is begun is knowingly worse than full
+/// braking.
 [[nodiscard]] manoeuvre::Plan plan_of(const Verdict& verdict) noexcept;
 
 /// The plan that a choice of memory or model stands for now: of policy 0, which they choose without

@@ -287,7 +287,7 @@ std::string Story::because() const {
                                     "is done"
                                   : "it is admissible: no plan is expected to harm so much less "
                                     "that the forecasts could tell it from doing nothing, which "
-                                    "every later verdict looks at again";
+                                    "is looked at again as long as a conflict is within T1";
   }
   if (decision_.at("name") == "AEB" && !is_choice_admissible()) {
     return "doing nothing may end in contact and no other plan is admissible; emergency braking "
