@@ -58,9 +58,10 @@ void add_noise(Batch& batch, const TrainingPlan& plan, std::mt19937_64& random) 
   if (plan.speed_noise == 0.0) {
     return;
   }
+  std::uniform_real_distribution<double> sd(0.0, plan.speed_noise);
   for (std::int64_t i = 0; i < batch.features.size(0); ++i) {
     const auto num_frames = static_cast<std::size_t>(batch.present[i].sum().item<std::int64_t>());
-    add_speed_noise(batch.features[i], drawn_speed_noise(num_frames, plan.speed_noise, random));
+    add_speed_noise(batch.features[i], drawn_speed_noise(num_frames, sd(random), random));
   }
 }
 

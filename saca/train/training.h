@@ -29,9 +29,10 @@ struct TrainingPlan {
   double lane_loss = 0.1;    ///< share of pieces whose lane is hidden: somebody off the map
   double ahead_loss = 0.1;   ///< likewise of what is ahead
   double pedals_loss = 0.5;  ///< likewise of what the vehicle shares
-  /// Root mean square of noise that each piece's speed is given anew [m/s], >= 0 (speed_noise.h).
-  /// With 0.4 what is learnt transfers better to sites never seen (docs/decisions/0015).
-  double speed_noise = 0.0;
+  /// The most noise that a piece's speed is given, root mean square [m/s], >= 0 (speed_noise.h):
+  /// each piece has its own between 0 and this, as each site has its own tracker. What is learnt
+  /// transfers better to sites never seen (docs/decisions/0015).
+  double speed_noise = 0.6;
 };
 
 /// Pieces of at most `longest` frames, each as a stream sees it that begins there. Labels of a
