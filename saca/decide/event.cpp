@@ -51,7 +51,7 @@ std::string trigger_text(const world::Actor& actor, double time,
       fmt::format("{:.2f} s to the conflict with {}", time, actor_name(actor));
   return waiting_cost
              ? fmt::format("before T1, {}: to wait for {:g} s is expected to harm {:.4f} more",
-                           conflict, look_ahead, *waiting_cost)
+                           conflict, waited, *waiting_cost)
              : "T1: " + conflict;
 }
 

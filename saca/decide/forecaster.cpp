@@ -96,7 +96,7 @@ std::optional<double> least_harm_later(const Verdict& verdict,
   const preview::Plans plans = candidates_for_later(verdict);
   std::optional<double> least;
   for (const preview::ExpectedHarm& one :
-       motions.harms_later(look_ahead, {plans.begin(), plans.size()})) {
+       motions.harms_later(waited, {plans.begin(), plans.size()})) {
     if (one.refusal.empty()) {
       least = std::min(one.harm, least.value_or(one.harm));
     }

@@ -71,7 +71,7 @@ TEST_F(ForecasterTest, TellsOfContactsThatCannotBeAvoided) {
 }
 
 // A wreck in a lane between barriers. From 15 m/s the brakes need 15^2 / (2 * 0.9 * 9.81) =
-// 12.7 m and what passes until they grip, some 1.5 m; begun a look later they need 1.5 m more.
+// 12.7 m and what passes until they grip, some 1.5 m; begun two looks later they need 3 m more.
 TEST_F(ForecasterTest, ToWaitCostsWhereBrakingHasToBeginNow) {
   const auto cost = [&](double gap) {
     Scene scene = wreck_ahead();
@@ -83,9 +83,9 @@ TEST_F(ForecasterTest, ToWaitCostsWhereBrakingHasToBeginNow) {
     return cost_of_waiting(judge(scene)).value();
   };
   EXPECT_EQ(cost(60.0), 0.0) << "there is time";
-  EXPECT_EQ(cost(18.0), 0.0) << "the brakes stop a look later, too";
+  EXPECT_EQ(cost(20.0), 0.0) << "the brakes stop two looks later, too";
   EXPECT_GT(cost(14.5), 0.0) << "they stop now at best";
-  EXPECT_GT(cost(10.0), 0.0) << "they hit, and faster a look later";
+  EXPECT_GT(cost(10.0), 0.0) << "they hit, and faster two looks later";
 }
 
 TEST_F(ForecasterTest, WhileAPlanIsUnderWayNothingWaits) {

@@ -1,6 +1,7 @@
 #include "saca/decide/reflex_plane.h"
 
 #include <array>
+#include <utility>
 
 #include "saca/core/names.h"
 #include "saca/manoeuvre/drive.h"
@@ -107,11 +108,17 @@ std::optional<preview::Threat> ReflexPlane::foreseen(
   return preview::triggering_threat(scene, within_t2, tracks.confirmed());
 }
 
+bool ReflexPlane::agrees_with_last() noexcept {
+  constexpr double rounding = 1e-9;  // [s]
+  const double last = std::exchange(costly_at_, verdict_->time);
+  return last < verdict_->time && verdict_->time <= last + look_ahead + verdict_expiry + rounding;
+}
+
 std::optional<Decision> ReflexPlane::decide_early(const Scene& scene,
                                                   const preview::Threat& threat) noexcept {
   watched_at_ = scene.time;
   const auto cost = is_fresh(verdict_, scene) ? cost_of_waiting(*verdict_) : std::nullopt;
-  if (!cost || *cost <= *tools_.thresholds.waiting_cost) {
+  if (!cost || *cost <= *tools_.thresholds.waiting_cost || !agrees_with_last()) {
     return std::nullopt;
   }
   Decision decision = decide(scene);

@@ -76,10 +76,10 @@ struct ReflexTools {
 /// system call.
 ///
 /// Only who is confirmed (TrackConfirmation) sets off the trigger: by a conflict within T1 or,
-/// while a conflict comes within T2, as soon as a verdict says that waiting costs more than
-/// Thresholds::waiting_cost and speaks for doing something, for leaving the lane not before
-/// Thresholds::earliest_swerve. So T1 is when it acts at the latest. Guard::none and a forced plan
-/// wait for T1.
+/// while a conflict comes within T2, as soon as two verdicts running say that waiting costs more
+/// than Thresholds::waiting_cost and the later one speaks for doing something, for leaving the lane
+/// not before Thresholds::earliest_swerve. So T1 is when it acts at the latest. Guard::none and a
+/// forced plan wait for T1.
 ///
 /// At the trigger, in this order: the cached plan whose situation this is, where the verdict finds
 /// it admissible (of a cached policy 0: the best braking; without a verdict full braking); else
@@ -108,6 +108,7 @@ class ReflexPlane {
     decision_.reset();
     under_way_.reset();
     watched_at_ = never;
+    costly_at_ = never;
   }
 
   /// Does it decide and watch by verdicts? Not as Algorithm 1, nor where the plan is given.
@@ -135,6 +136,8 @@ class ReflexPlane {
   /// Who comes into conflict within T2.
   [[nodiscard]] std::optional<preview::Threat> foreseen(
       const world::Scene& scene, const TrackConfirmation& tracks) const noexcept;
+  /// Has the verdict before said, too, that waiting costs too much?
+  [[nodiscard]] bool agrees_with_last() noexcept;
   /// What is decided before T1; nullopt: to wait.
   [[nodiscard]] std::optional<Decision> decide_early(const world::Scene& scene,
                                                      const preview::Threat& threat) noexcept;
@@ -147,6 +150,7 @@ class ReflexPlane {
   Supervisor supervisor_;
   TrackConfirmation tracks_;
   double watched_at_ = never;  ///< a verdict was looked at before T1 [s]
+  double costly_at_ = never;   ///< time of the verdict that said last that waiting costs much [s]
 };
 
 }  // namespace saca::decide

@@ -123,14 +123,25 @@ Verdict waiting_costs(double time, double harm) {
   return verdict;
 }
 
+/// A tenth of a second after a look at the same scene with the same verdict.
+Reflex step_again(ReflexPlane& plane, const Scene& scene, const Verdict& verdict) {
+  Scene before = scene;
+  before.time -= look_ahead;
+  Verdict first = verdict;
+  first.time -= look_ahead;
+  plane.receive(first);
+  EXPECT_FALSE(plane.step(before).triggered) << "one verdict may err";
+  plane.receive(verdict);
+  return plane.step(scene);
+}
+
 TEST(ReflexPlane, ActsBeforeT1WhereWaitingCostsTooMuch) {
   const auto step = [](double cost, double time, ReflexTools tools) {
     const bool watches = tools.thresholds.waiting_cost && time < 5.5;
     ReflexPlane plane(std::move(tools));
     const Scene scene = wreck_in(time);
     EXPECT_EQ(plane.needs_verdict(scene, false), plane.supervises() && watches);
-    plane.receive(waiting_costs(scene.time, cost));
-    const Reflex reflex = plane.step(scene);
+    const Reflex reflex = step_again(plane, scene, waiting_costs(scene.time, cost));
     EXPECT_EQ(reflex.triggered, plane.decision().has_value());
     EXPECT_EQ(reflex.plan.policy == PolicyId::aeb, reflex.triggered);
     return plane.decision();
@@ -143,8 +154,11 @@ TEST(ReflexPlane, ActsBeforeT1WhereWaitingCostsTooMuch) {
               testing::AllOf(testing::HasSubstr("before T1"), testing::HasSubstr("0.0200 more")));
   EXPECT_FALSE(step(0.005, 2.4, {})) << "so much is not worth it";
   EXPECT_FALSE(step(0.02, 6.0, {})) << "beyond T2";
-  const auto last = step(0.02, 1.28, {});
-  EXPECT_EQ(last->waiting_cost, std::nullopt) << "at T1 it acts whatever waiting costs";
+  ReflexPlane late{ReflexTools{}};
+  late.receive(waiting_costs(0.0, 0.02));
+  EXPECT_TRUE(late.step(wreck_in(1.28)).triggered);
+  EXPECT_EQ(late.decision()->waiting_cost, std::nullopt)
+      << "at T1 it acts whatever waiting costs, and at once";
   EXPECT_FALSE(step(0.02, 2.4, {.thresholds = {.waiting_cost = std::nullopt}}));
   EXPECT_FALSE(step(0.02, 2.4, {.guard = Guard::none})) << "Algorithm 1 waits for T1";
   EXPECT_FALSE(step(0.02, 2.4, {.forced = manoeuvre::full_braking}));
@@ -159,8 +173,7 @@ TEST(ReflexPlane, LeavesTheLaneLaterThanItBrakes) {
                                               {PolicyId::aes_left, 0.0},
                                               {PolicyId::no_intervention, 0.3}});
     verdict.later = 0.1;
-    plane.receive(verdict);
-    const Reflex reflex = plane.step(scene);
+    const Reflex reflex = step_again(plane, scene, verdict);
     return reflex.triggered ? std::optional(reflex.plan.policy) : std::nullopt;
   };
   EXPECT_EQ(begun(2.4, 0.2), PolicyId::aes_left);
@@ -173,17 +186,32 @@ TEST(ReflexPlane, BeforeT1NothingStandsForNothingAndStaleVerdictsDoNotCount) {
   ReflexPlane idle{ReflexTools{}};
   Verdict nothing = waiting_costs(scene.time, 0.5);
   nothing.plans[0].harm = 0.4;  // going on is the least
-  idle.receive(nothing);
-  EXPECT_FALSE(idle.step(scene).triggered);
+  EXPECT_FALSE(step_again(idle, scene, nothing).triggered);
   ReflexPlane plane{ReflexTools{}};
   EXPECT_FALSE(plane.step(scene).triggered) << "without a verdict";
   Scene next = scene;
   next.time += 0.1;
   plane.receive(waiting_costs(next.time - 2.0 * verdict_expiry, 0.02));
   EXPECT_FALSE(plane.step(next).triggered);
-  next.time += 0.1;
-  plane.receive(waiting_costs(next.time, 0.02));
-  EXPECT_TRUE(plane.step(next).triggered);
+  next.time += 0.2;
+  EXPECT_TRUE(step_again(plane, next, waiting_costs(next.time, 0.02)).triggered);
+}
+
+// The same verdict looked at twice is no second opinion, and what was said a second ago is past.
+TEST(ReflexPlane, BeforeT1TwoVerdictsRunningHaveToAgree) {
+  const auto acts = [](double second_verdict, double second_look) {
+    ReflexPlane plane{ReflexTools{}};
+    Scene scene = wreck_in(2.4);
+    plane.receive(waiting_costs(scene.time, 0.02));
+    EXPECT_FALSE(plane.step(scene).triggered);
+    scene.time = second_look;
+    plane.receive(waiting_costs(second_verdict, 0.02));
+    return plane.step(scene).triggered;
+  };
+  EXPECT_TRUE(acts(0.1, 0.1));
+  EXPECT_TRUE(acts(0.1, 0.2));
+  EXPECT_FALSE(acts(0.0, 0.1));
+  EXPECT_FALSE(acts(1.0, 1.0));
 }
 
 // Ten times a second at most: in between nobody has to make a verdict.

@@ -23,8 +23,8 @@ struct JudgedPlan {
 struct Verdict {
   double time = 0.0;  ///< of the scene that was judged [s]
   StaticVector<JudgedPlan, preview::Plans::capacity()> plans;
-  std::optional<double> later;  ///< the least expected harm of what begins `look_ahead` later, the
-                                ///< ego going on until then; nullopt: not worked out
+  std::optional<double> later;  ///< the least expected harm of what begins `waited` later, the ego
+                                ///< going on until then; nullopt: not worked out
   std::optional<JudgedPlan> under_way;  ///< the rest of a plan under way that has a past (has_past)
 };
 
@@ -34,6 +34,10 @@ constexpr double material_harm = 0.01;
 
 /// How much later another verdict could be acted by [s]: as often as one is looked at.
 constexpr double look_ahead = 0.1;
+
+/// How long is waited at least where a verdict does not act yet [s]: until another says that
+/// waiting costs too much, and the one after it agrees.
+constexpr double waited = 2.0 * look_ahead;
 
 /// How old a verdict may be to be decided by [s].
 constexpr double verdict_expiry = 0.1;
@@ -51,7 +55,7 @@ void spread_over_strengths(Verdict& verdict) noexcept;
 /// The plan of the least expected harm among those that can be driven. nullptr: none can.
 [[nodiscard]] const JudgedPlan* least_harmful(const Verdict& verdict) noexcept;
 
-/// What it is expected to cost to wait for `look_ahead`: by how much more harm the best plan ends
+/// What it is expected to cost to wait for so long: by how much more harm the best plan ends
 /// in that begins then. Nothing is learnt meanwhile in this figure: it is what waiting costs at
 /// most. nullopt: the verdict does not say.
 [[nodiscard]] std::optional<double> cost_of_waiting(const Verdict& verdict) noexcept;

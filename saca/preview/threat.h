@@ -19,8 +19,9 @@ struct Thresholds {
   double trigger_tolerance = 0.5;  ///< of crossing traffic at the trigger [s]
   double preview_tolerance = 2.0;  ///< of crossing traffic at the preview [s]
   double least_posterior = 0.05;   ///< intentions below this do not start a preview [-]
-  /// Before T1, SACA acts as soon as it is expected to cost more harm than this to wait for one
-  /// more look. Fitted (docs/decisions/0025). nullopt: never before T1, as in the paper.
+  /// Before T1, SACA acts as soon as it is expected to cost more harm than this to wait for two
+  /// more looks, by two verdicts running. Fitted (docs/decisions/0025). nullopt: never before T1,
+  /// as in the paper.
   std::optional<double> waiting_cost = 0.01;
   /// So long before a conflict, and no earlier, it leaves the lane before T1 [s]: who comes over
   /// may still go back, and braking can be taken back. Fitted (docs/decisions/0026).

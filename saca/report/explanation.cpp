@@ -180,7 +180,7 @@ Story::Sentences Story::threatened() const {
         decision_.contains("waiting_cost") && decision_["waiting_cost"].is_number();
     const std::string or_before =
         is_early ? fmt::format(
-                       ", or before where to wait for another look is expected to harm by "
+                       ", or before where to wait for two more looks is expected to harm by "
                        "more than {:.4f} more",
                        thresholds.at("waiting_cost").get<double>())
                  : "";

@@ -109,11 +109,11 @@ TEST(Explanation, TellsInShortWhatCameWhatWasWeighedAndWhy) {
 
 TEST(Explanation, TellsWhyItActedBeforeT1) {
   json early = record();
-  EXPECT_THAT(told(early, "What threatened"), testing::Not(HasSubstr("another look")));
+  EXPECT_THAT(told(early, "What threatened"), testing::Not(HasSubstr("more looks")));
   early["decision"]["waiting_cost"] = 0.0341;
   early["thresholds"]["waiting_cost"] = 0.01;
   EXPECT_THAT(told(early, "What threatened"),
-              HasSubstr("before where to wait for another look is expected to harm by more than "
+              HasSubstr("before where to wait for two more looks is expected to harm by more than "
                         "0.0100 more; the ego drove at 17.3 m/s."));
 }
 
