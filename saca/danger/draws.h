@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <random>
+
+#include "saca/danger/state.h"
+#include "saca/manoeuvre/car.h"
+#include "saca/reach/danger.h"
+#include "saca/vehicle/vehicle.h"
+#include "saca/world/footprint.h"
+
+namespace saca::danger {
+
+/// V_h of a meeting of two, by whatever knows it about: says where starts lie near the boundary
+/// between what can be evaded and what cannot.
+using MeetingValue = std::function<double(const reach::Meeting&)>;
+
+/// Where and how the ego of a data set starts: at 0 to 40 m/s, after up to a second of any demands,
+/// so that it already turns, slides, brakes.
+/// @param grip  of the road [-], in [0.2, 1.0]
+[[nodiscard]] vehicle::VehicleState drawn_start(const manoeuvre::Car& car, double grip,
+                                                std::mt19937_64& random);
+
+/// What of a body and its motion does not depend on the ego: a pedestrian, cyclist, car, truck or
+/// articulated truck, some 10 % larger or smaller; three of ten stand; some brake, speed up or turn
+/// as much as such a body may. At the world's origin.
+[[nodiscard]] Obstacle drawn_obstacle(std::mt19937_64& random);
+
+/// Puts the obstacle anywhere within 100 m, mostly ahead; it does not touch the ego.
+/// @param body  of the ego
+[[nodiscard]] Obstacle placed_anywhere(const world::Footprint& body, const State& state,
+                                       Obstacle obstacle, std::mt19937_64& random);
+
+/// Puts it within 2 m of the boundary: where the value of the meeting is a number drawn between -2
+/// and 2 m.
+/// @return  nullopt: at the bearing and on the course that were drawn there is no such place
+[[nodiscard]] std::optional<Obstacle> placed_near_boundary(const world::Footprint& body,
+                                                           const State& state, Obstacle obstacle,
+                                                           const MeetingValue& value,
+                                                           std::mt19937_64& random);
+
+}  // namespace saca::danger

@@ -1,0 +1,122 @@
+#include "saca/danger/state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "saca/core/angle.h"
+#include "saca/reach/intrusion.h"
+
+namespace saca::danger {
+namespace {
+
+Pose mirrored(const Pose& X) {
+  return {{X.p.x, -X.p.y}, -X.yaw};
+}
+
+Obstacle mirrored(Obstacle obstacle) {
+  obstacle.X_WO = mirrored(obstacle.X_WO);
+  obstacle.curvature = -obstacle.curvature;
+  return obstacle;
+}
+
+/// The ego after it has gone straight on at its velocity.
+Pose straight_on(const Ego& ego, double time) {
+  return {ego.X_WB.p + time * rotated(ego.v_B, ego.X_WB.yaw), ego.X_WB.yaw};
+}
+
+}  // namespace
+
+State mirrored(const State& state) {
+  State other = state;
+  other.ego.X_WB = mirrored(state.ego.X_WB);
+  other.ego.v_B.y = -state.ego.v_B.y;
+  other.ego.a_B.y = -state.ego.a_B.y;
+  other.ego.yaw_rate = -state.ego.yaw_rate;
+  other.ego.steering = -state.ego.steering;
+  for (Obstacle& obstacle : other.obstacles) {
+    obstacle = mirrored(obstacle);
+  }
+  return other;
+}
+
+double intrusion(const world::Footprint& body, const State& state) {
+  double deepest = -std::numeric_limits<double>::infinity();
+  for (const Obstacle& obstacle : state.obstacles) {
+    deepest =
+        std::max(deepest, reach::intrusion(body, state.ego.X_WB, obstacle.body, obstacle.X_WO));
+  }
+  return deepest;
+}
+
+bool is_settled(const world::Footprint& body, const State& state) {
+  constexpr double step = 0.25;  // [s]
+  constexpr int steps = 20;      // later nobody goes on as now
+  for (const Obstacle& obstacle : state.obstacles) {
+    double before = reach::intrusion(body, state.ego.X_WB, obstacle.body, obstacle.X_WO);
+    if (before > 0.0) {
+      return false;
+    }
+    for (int i = 1; i <= steps; ++i) {
+      const double time = step * i;
+      const double then = reach::intrusion(body, straight_on(state.ego, time), obstacle.body,
+                                           after(obstacle, time).X_WO);
+      if (then > before) {
+        return false;
+      }
+      before = then;
+    }
+  }
+  return true;
+}
+
+reach::Meeting meeting_of(const world::Footprint& body, const State& state,
+                          const Obstacle& obstacle) {
+  const Vec2 p_O = inverse(obstacle.X_WO) * state.ego.X_WB.p;
+  const double speed = norm(state.ego.v_B);
+  const double sideslip = speed > 0.0 ? std::atan2(state.ego.v_B.y, state.ego.v_B.x) : 0.0;
+  const double course = state.ego.X_WB.yaw + sideslip - obstacle.X_WO.yaw;
+  return {.ego = body,
+          .obstacle = obstacle.body,
+          .grip = state.grip,
+          .obstacle_speed = obstacle.speed,
+          .state = {p_O.x, p_O.y, wrap_angle(course), speed}};
+}
+
+Observation observation(const State& state) {
+  Observation seen{};
+  std::size_t next = 0;
+  const auto add = [&](double number) { seen[next++] = static_cast<float>(number); };
+  const Ego& ego = state.ego;
+  for (const double number : {ego.v_B.x, ego.v_B.y, ego.yaw_rate, ego.a_B.x, ego.a_B.y,
+                              ego.steering, ego.braking, ego.driving, state.grip}) {
+    add(number);
+  }
+  const Pose X_BW = inverse(ego.X_WB);
+  for (const Obstacle& obstacle : state.obstacles) {
+    const Pose X_BO = X_BW * obstacle.X_WO;
+    for (const double number :
+         {1.0, X_BO.p.x, X_BO.p.y, std::cos(X_BO.yaw), std::sin(X_BO.yaw), obstacle.speed,
+          obstacle.acceleration, obstacle.curvature, obstacle.body.length, obstacle.body.width}) {
+      add(number);
+    }
+  }
+  return seen;
+}
+
+const std::vector<std::string>& feature_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all{"v_x",      "v_y",     "yaw_rate", "a_x", "a_y",
+                                 "steering", "braking", "driving",  "grip"};
+    for (std::size_t k = 0; k < most_obstacles; ++k) {
+      for (const char* what : {"there", "x", "y", "cos_yaw", "sin_yaw", "speed", "acceleration",
+                               "curvature", "length", "width"}) {
+        all.push_back("obstacle" + std::to_string(k) + "." + what);
+      }
+    }
+    return all;
+  }();
+  return names;
+}
+
+}  // namespace saca::danger

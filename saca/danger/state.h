@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "saca/core/static_vector.h"
+#include "saca/danger/ego.h"
+#include "saca/danger/obstacle.h"
+#include "saca/reach/danger.h"
+#include "saca/world/footprint.h"
+
+namespace saca::danger {
+
+constexpr std::size_t most_obstacles = 3;
+
+/// x of the paper's equations 1 to 3: a car that moves on a road, and what it is to miss.
+struct State {
+  Ego ego;
+  double grip = 0.9;  ///< of the road [-]
+  StaticVector<Obstacle, most_obstacles> obstacles;
+};
+
+/// The same seen in a mirror.
+[[nodiscard]] State mirrored(const State& state);
+
+/// h: how deep the ego stands in the obstacle that it stands in deepest; less than 0: minus the
+/// distance from the nearest [m]. Minus infinity without obstacles.
+/// @param body  of the ego, about its centre of mass
+[[nodiscard]] double intrusion(const world::Footprint& body, const State& state);
+
+/// Whether nothing can happen any more: at rest beside obstacles that stand or lead away, or apart
+/// from all, and only getting farther where all go on, the ego straight. V is then h.
+[[nodiscard]] bool is_settled(const world::Footprint& body, const State& state);
+
+/// Ego and one obstacle as the avoidance problem with constant velocities has them
+/// (reach/danger.h): the ego's course for its heading, the obstacle's present speed for all time.
+[[nodiscard]] reach::Meeting meeting_of(const world::Footprint& body, const State& state,
+                                        const Obstacle& obstacle);
+
+constexpr std::size_t num_ego_features = 9;
+constexpr std::size_t num_obstacle_features = 10;
+constexpr std::size_t num_features = num_ego_features + most_obstacles * num_obstacle_features;
+
+/// A state as numbers, in SI units and radians, seen from the ego: nothing of it depends on where
+/// in the world it is. An obstacle that is not there is all 0.
+using Observation = std::array<float, num_features>;
+[[nodiscard]] Observation observation(const State& state);
+/// "v_x", ..., "obstacle0.x", ...: one for each number.
+[[nodiscard]] const std::vector<std::string>& feature_names();
+
+}  // namespace saca::danger

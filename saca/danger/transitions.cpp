@@ -1,0 +1,190 @@
+#include "saca/danger/transitions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "saca/core/contract.h"
+#include "saca/reach/avoidance.h"
+#include "saca/reach/car_limits.h"
+#include "saca/reach/follow.h"
+#include "saca/reach/intrusion.h"
+
+namespace saca::danger {
+namespace {
+
+using manoeuvre::Demand;
+using Random = std::mt19937_64;
+using Obstacles = StaticVector<Obstacle, most_obstacles>;
+
+/// The ego's drive, look by look; demands and poses lead from each look to the next.
+struct Drive {
+  double grip = 0.0;
+  std::vector<Ego> looks;
+  std::vector<Demand> demands;
+  std::vector<PosesOnTheWay> ways;
+};
+
+class Maker {
+ public:
+  Maker(const manoeuvre::Car& car, const world::Footprint& body, const reach::DangerModel& model,
+        const Mixture& mixture, std::uint64_t seed)
+      : car_(car), body_(body), model_(model), mixture_(mixture), random_(seed) {}
+
+  void add_drive() {
+    const double grip = uniform(0.2, 1.0);
+    Driven driven(car_, drawn_start(car_, grip, random_), grip);
+    const State start{.ego = driven.ego(), .grip = grip};
+    const Obstacles first = drawn_obstacles(start);
+    const Drive drive = driven_by(drawn_behaviour(), driven, grip, first);
+    add_situation(drive, 0, first);
+    for (int i = 1; i < mixture_.situations; ++i) {
+      constexpr int fewest = 5;  // looks that are left of the drive
+      const int from =
+          std::uniform_int_distribution<int>(0, std::max(0, mixture_.looks - fewest))(random_);
+      const State seen{.ego = drive.looks[static_cast<std::size_t>(from)], .grip = grip};
+      add_situation(drive, static_cast<std::size_t>(from), drawn_obstacles(seen));
+    }
+    ++made_.drives;
+  }
+
+  [[nodiscard]] Transitions take() { return std::move(made_); }
+
+ private:
+  double uniform(double least, double most) {
+    return std::uniform_real_distribution<double>(least, most)(random_);
+  }
+
+  Behaviour drawn_behaviour() {
+    std::discrete_distribution<int> which(mixture_.behaviours.begin(), mixture_.behaviours.end());
+    return static_cast<Behaviour>(which(random_));
+  }
+
+  /// Half of the situations have one obstacle, three of ten two.
+  Obstacles drawn_obstacles(const State& state) {
+    std::discrete_distribution<int> more({0.5, 0.3, 0.2});
+    const int count = 1 + more(random_);
+    const bool near = uniform(0.0, 1.0) < mixture_.near_share;
+    Obstacles obstacles;
+    bool is_near = false;
+    for (int i = 0; i < count; ++i) {
+      std::optional<Obstacle> placed;
+      constexpr int tries = 20;
+      for (int k = 0; near && !placed && k < tries; ++k) {
+        placed = placed_near_boundary(
+            body_, state, drawn_obstacle(random_),
+            [this](const reach::Meeting& meeting) { return model_.danger(meeting).value; },
+            random_);
+      }
+      is_near = is_near || placed.has_value();
+      obstacles.push_back(placed ? *placed
+                                 : placed_anywhere(body_, state, drawn_obstacle(random_), random_));
+    }
+    made_.near += is_near ? 1 : 0;
+    return obstacles;
+  }
+
+  /// What drives the point mass away from the first obstacle, by the model's value.
+  [[nodiscard]] Driver::Evasion evasion_from(Obstacle obstacle, double grip) const {
+    return [this, obstacle, grip, time = 0.0](const Ego& ego) mutable {
+      constexpr double ahead = 0.2;  // [s]
+      const Obstacle now = after(obstacle, time);
+      time += look_step;
+      const reach::Meeting meeting = meeting_of(body_, State{.ego = ego, .grip = grip}, now);
+      reach::Avoidance system = reach::avoidance_of(car_, grip);
+      system.obstacle_speed = meeting.obstacle_speed;
+      const auto value = [&](const reach::State& state) {
+        reach::Meeting later = meeting;
+        later.state = state;
+        return model_.danger(later).value;
+      };
+      const reach::Acceleration best = reach::by_look_ahead(system, value, ahead)(meeting.state);
+      const double most = grip * vehicle::gravity;
+      return manoeuvre::admissible({best.along / most, best.across / most});
+    };
+  }
+
+  Drive driven_by(Behaviour behaviour, Driven driven, double grip, const Obstacles& obstacles) {
+    Driver driver(behaviour, random_(), evasion_from(obstacles[0], grip));
+    Drive drive{.grip = grip};
+    drive.looks.push_back(driven.ego());
+    for (int i = 0; i < mixture_.looks; ++i) {
+      drive.demands.push_back(driver.next(drive.looks.back()));
+      drive.ways.push_back(driven.hold(drive.demands.back()));
+      drive.looks.push_back(driven.ego());
+    }
+    return drive;
+  }
+
+  /// h over the way from one look to the next, both included.
+  [[nodiscard]] double deepest_on_the_way(const PosesOnTheWay& way, State state) const {
+    double deepest = intrusion(body_, state);
+    constexpr double between = look_step / static_cast<double>(poses_per_look);
+    for (const Pose& pose : way) {
+      for (Obstacle& obstacle : state.obstacles) {
+        obstacle = after(obstacle, between);
+      }
+      state.ego.X_WB = pose;
+      deepest = std::max(deepest, intrusion(body_, state));
+    }
+    return deepest;
+  }
+
+  void add_situation(const Drive& drive, std::size_t from, const Obstacles& obstacles) {
+    State now{.ego = drive.looks[from], .grip = drive.grip, .obstacles = obstacles};
+    ++made_.situations;
+    bool is_settled = danger::is_settled(body_, now);
+    for (std::size_t i = from; i < drive.demands.size() && !is_settled; ++i) {
+      State next{.ego = drive.looks[i + 1], .grip = drive.grip, .obstacles = now.obstacles};
+      for (Obstacle& obstacle : next.obstacles) {
+        obstacle = after(obstacle, look_step);
+      }
+      is_settled = danger::is_settled(body_, next);
+      add(made_.observations, observation(now));
+      add(made_.next_observations, observation(next));
+      made_.actions.push_back(static_cast<float>(drive.demands[i].along));
+      made_.actions.push_back(static_cast<float>(drive.demands[i].across));
+      made_.h.push_back(static_cast<float>(deepest_on_the_way(drive.ways[i], now)));
+      made_.next_h.push_back(static_cast<float>(intrusion(body_, next)));
+      made_.settled.push_back(is_settled ? 1.0F : 0.0F);
+      const bool is_last = i + 1 == drive.demands.size();
+      made_.cut_off.push_back(is_last && !is_settled ? 1.0F : 0.0F);
+      made_.drive.push_back(static_cast<float>(made_.drives));
+      now = next;
+    }
+  }
+
+  static void add(std::vector<float>& rows, const Observation& row) {
+    rows.insert(rows.end(), row.begin(), row.end());
+  }
+
+  const manoeuvre::Car& car_;
+  const world::Footprint& body_;
+  const reach::DangerModel& model_;
+  const Mixture& mixture_;
+  Random random_;
+  Transitions made_;
+};
+
+}  // namespace
+
+Transitions made_transitions(const manoeuvre::Car& car, const world::Footprint& body,
+                             const reach::DangerModel& model, const Mixture& mixture, int drives,
+                             std::uint64_t seed) {
+  expects(drives >= 1 && mixture.looks >= 1 && mixture.situations >= 1,
+          "at least one drive, look and situation");
+  expects(mixture.near_share >= 0.0 && mixture.near_share <= 1.0, "a share in [0, 1]");
+  expects(std::all_of(mixture.behaviours.begin(), mixture.behaviours.end(),
+                      [](double share) { return share >= 0.0; }) &&
+              std::accumulate(mixture.behaviours.begin(), mixture.behaviours.end(), 0.0) > 0.0,
+          "shares of behaviours, not all 0");
+  Maker maker(car, body, model, mixture, seed);
+  for (int i = 0; i < drives; ++i) {
+    maker.add_drive();
+  }
+  return maker.take();
+}
+
+}  // namespace saca::danger
