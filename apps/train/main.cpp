@@ -259,8 +259,9 @@ int main(int argc, char** argv) {
   app.add_option("--epochs", options.plan.epochs)
       ->check(CLI::Range(1, 1'000))
       ->capture_default_str();
-  app.add_option("--speed-noise-mps", options.plan.speed_noise,
-                 "The most noise that a piece's speed is given, root mean square, for sites never seen")
+  app.add_option(
+         "--speed-noise-mps", options.plan.speed_noise,
+         "The most noise that a piece's speed is given, root mean square, for sites never seen")
       ->check(CLI::Range(0.0, 5.0))
       ->capture_default_str();
   app.add_flag("!--without-chain", options.plan.with_chain,
