@@ -31,6 +31,7 @@ void add_suite(CLI::App& line, int& exit_code);
 void add_search_showcase(CLI::App& line, int& exit_code);
 void add_tune(CLI::App& line, int& exit_code);
 void add_atlas(CLI::App& line, int& exit_code);
+void add_danger(CLI::App& line, int& exit_code);
 void add_reach(CLI::App& line, int& exit_code);
 void add_intent(CLI::App& line, int& exit_code);
 void add_traffic(CLI::App& line, int& exit_code);

@@ -110,15 +110,19 @@ Result<Solved> solved_now(const reach::DangerCase& wanted) {
 
 }  // namespace
 
-Result<std::vector<reach::DangerCase>> needed_tables(const ScenarioInputs& inputs) {
-  const world::Footprint ego = manoeuvre::footprint(inputs.car);
-  auto cases =
-      reach::danger_cases(reach::avoidance_of(inputs.car, table_grip), ego,
-                          sim::believed_grip(inputs.scenario), to_be_judged(inputs.scenario, ego));
+Result<std::vector<reach::DangerCase>> tables_for(const Inputs& inputs, double grip,
+                                                  const std::vector<reach::ToBeJudged>& bodies) {
+  auto cases = reach::danger_cases(reach::avoidance_of(inputs.car, table_grip),
+                                   manoeuvre::footprint(inputs.car), grip, bodies);
   if (!cases.has_value()) {
     return Error{cases.error().code, inputs.car_name + ": " + cases.error().message};
   }
   return cases;
+}
+
+Result<std::vector<reach::DangerCase>> needed_tables(const ScenarioInputs& inputs) {
+  return tables_for(inputs, sim::believed_grip(inputs.scenario),
+                    to_be_judged(inputs.scenario, manoeuvre::footprint(inputs.car)));
 }
 
 Result<ReadyTable> ready_table(const Inputs& inputs, const reach::DangerCase& wanted) {
@@ -142,13 +146,10 @@ Result<ReadyTable> ready_table(const Inputs& inputs, const reach::DangerCase& wa
       .table = std::move(solved).value(), .file = file, .not_kept = std::move(not_kept)};
 }
 
-Result<reach::DangerModel> usual_danger(const ScenarioInputs& inputs) {
-  const auto needed = needed_tables(inputs);
-  if (!needed.has_value()) {
-    return needed.error();
-  }
+Result<reach::DangerModel> danger_by(const Inputs& inputs,
+                                     const std::vector<reach::DangerCase>& cases) {
   std::vector<reach::DangerTable> tables;
-  for (const reach::DangerCase& wanted : needed.value()) {
+  for (const reach::DangerCase& wanted : cases) {
     const auto ready = ready_table(inputs, wanted);
     if (!ready.has_value()) {
       return ready.error();
@@ -163,6 +164,12 @@ Result<reach::DangerModel> usual_danger(const ScenarioInputs& inputs) {
   }
   return reach::DangerModel(reach::avoidance_of(inputs.car, table_grip),
                             manoeuvre::footprint(inputs.car), std::move(tables));
+}
+
+Result<reach::DangerModel> usual_danger(const ScenarioInputs& inputs) {
+  const auto needed = needed_tables(inputs);
+  return needed.has_value() ? danger_by(inputs, needed.value())
+                            : Result<reach::DangerModel>(needed.error());
 }
 
 }  // namespace saca::app

@@ -12,6 +12,11 @@
 
 namespace saca::app {
 
+/// The tables that these bodies need on this grip or more.
+/// @return  an error naming the car where it is beyond what a table may hold
+[[nodiscard]] Result<std::vector<reach::DangerCase>> tables_for(
+    const Inputs& inputs, double grip, const std::vector<reach::ToBeJudged>& bodies);
+
 /// The tables that the scenario's actors need.
 /// @return  an error naming the car where it is beyond what a table may hold
 [[nodiscard]] Result<std::vector<reach::DangerCase>> needed_tables(const ScenarioInputs& inputs);
@@ -27,6 +32,11 @@ struct ReadyTable {
 /// A program that already makes tables of this car is waited for.
 /// @return  an error where a car's limits are beyond what can be solved
 [[nodiscard]] Result<ReadyTable> ready_table(const Inputs& inputs, const reach::DangerCase& wanted);
+
+/// With these tables, made ready.
+/// @return  likewise
+[[nodiscard]] Result<reach::DangerModel> danger_by(const Inputs& inputs,
+                                                   const std::vector<reach::DangerCase>& cases);
 
 /// With all tables that the scenario's actors need.
 /// @return  likewise

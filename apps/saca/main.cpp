@@ -69,6 +69,7 @@ int main(int argc, char** argv) {
     add_search_showcase(line, exit_code);
     add_tune(line, exit_code);
     add_atlas(line, exit_code);
+    add_danger(line, exit_code);
     add_reach(line, exit_code);
     add_intent(line, exit_code);
     add_traffic(line, exit_code);

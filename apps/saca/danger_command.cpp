@@ -1,0 +1,307 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/saca/commands.h"
+#include "apps/saca/danger_making.h"
+#include "apps/saca/inputs.h"
+#include "apps/saca/json_output.h"
+#include "apps/saca/places.h"
+#include "apps/saca/printing.h"
+#include "apps/saca/progress.h"
+#include "saca/core/clock.h"
+#include "saca/core/file.h"
+#include "saca/core/fnv.h"
+#include "saca/core/journal.h"
+#include "saca/core/parallel.h"
+#include "saca/danger/transition_file.h"
+#include "saca/manoeuvre/ego.h"
+
+namespace saca::app {
+namespace {
+
+namespace fs = std::filesystem;
+using danger::Part;
+using nlohmann::json;
+
+struct DatasetOptions {
+  std::string folder;
+  std::string car = "compact_rwd_ev";
+  std::int64_t transitions = 31'000'000;
+  std::uint64_t seed = 1;
+  int drives_per_part = 500;
+  bool no_tables = false;
+  int threads = usual_threads();
+  bool as_json = false;
+};
+
+/// What the journal remembers of a part.
+struct PartLine {
+  std::int64_t transitions = 0;
+  std::int64_t drives = 0;
+  std::int64_t situations = 0;
+  std::int64_t near = 0;
+  std::int64_t bytes = 0;
+};
+
+std::string line_of(std::size_t part, const PartLine& one) {
+  return fmt::format("{} {} {} {} {} {}", part, one.transitions, one.drives, one.situations,
+                     one.near, one.bytes);
+}
+
+std::optional<std::pair<std::size_t, PartLine>> parsed(const std::string& line) {
+  std::array<std::int64_t, 6> numbers{};
+  const char* at = line.data();
+  const char* const end = line.data() + line.size();
+  for (std::int64_t& number : numbers) {
+    const auto read = std::from_chars(at, end, number);
+    if (read.ec != std::errc() || number < 0) {
+      return std::nullopt;
+    }
+    at = read.ptr == end ? end : read.ptr + 1;
+  }
+  const auto [part, transitions, drives, situations, near, bytes] = numbers;
+  return std::pair{static_cast<std::size_t>(part),
+                   PartLine{transitions, drives, situations, near, bytes}};
+}
+
+fs::path file_of(const DatasetOptions& options, std::size_t part) {
+  return fs::path(options.folder) / fmt::format("part_{:05}.h5", part);
+}
+
+/// Bodies of the obstacles that are drawn (danger/draws.h), with the speeds that tables reach.
+std::vector<reach::ToBeJudged> drawn_bodies() {
+  const auto box = [](double length, double width) {
+    return world::Footprint{.length = length, .width = width};
+  };
+  return {
+      {box(0.5, 0.5), 4.0}, {box(4.5, 1.8), 30.0}, {box(9.0, 2.5), 25.0}, {box(16.5, 2.55), 25.0}};
+}
+
+std::string card(const DatasetOptions& options, const PartLine& all) {
+  return fmt::format(
+      "# Transitions of a simulated car\n\n"
+      "Nothing here was driven by anybody: all of it is simulated by `saca danger dataset` "
+      "(car {}, seed {}), the car by a double track with combined slip, load transfer, actuators "
+      "with lag and an anti-lock brake, its obstacles as bodies that hold their acceleration and "
+      "curvature. Roads, edges and reactions of others are not in it.\n\n"
+      "{} transitions of 0.1 s in {} situations, {} of which start within 2 m of the boundary "
+      "between what a point mass can evade and what it cannot, beside {} different drives of the "
+      "car; the other situations are the same drives beside other obstacles. {} bytes.\n\n"
+      "Each `part_*.h5` is HDF5 in the layout of DSRL: observations, next_observations, actions, "
+      "rewards, costs, terminals, timeouts; and h, next_h (signed, in metres) and drives. The text "
+      "`features` names the numbers of an observation, in SI units and radians.\n",
+      options.car, options.seed, all.transitions, all.situations, all.near, all.drives, all.bytes);
+}
+
+/// Parts, one after another, until there are enough transitions; those of the journal are kept.
+class Making {
+ public:
+  Making(const DatasetOptions& options, const Inputs& inputs, const reach::DangerModel& model,
+         Journal journal)
+      : options_(options), inputs_(inputs), model_(model), journal_(std::move(journal)) {
+    for (const std::string& line : journal_.lines()) {
+      const auto one = parsed(line);
+      if (one && fs::exists(file_of(options, one->first))) {
+        made_[one->first] = one->second;
+      }
+    }
+  }
+
+  /// @return  the reason why it stopped before the end; nullopt: all are there
+  std::optional<Error> run(SteadyClock& clock) {
+    const auto thousands = [](std::int64_t n) { return static_cast<int>(n / 1'000); };
+    ProgressLine line("danger dataset", std::max(1, thousands(options_.transitions)), clock);
+    const int remembered = thousands(all().transitions);
+    for (std::size_t first = 0; all_until(first).transitions < options_.transitions;
+         first += static_cast<std::size_t>(options_.threads)) {
+      if (interrupted()) {
+        return Error{Error::Code::too_late, "interrupted; the same command goes on"};
+      }
+      if (auto problem = make_some(first)) {
+        return problem;
+      }
+      line.show(std::min(thousands(options_.transitions), thousands(all().transitions)), remembered,
+                " thousand transitions");
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] PartLine all() const { return all_until(made_.size() + most_ahead); }
+
+ private:
+  static constexpr std::size_t most_ahead = 1'000'000;
+
+  [[nodiscard]] PartLine all_until(std::size_t end) const {
+    PartLine sum;
+    for (const auto& [part, one] : made_) {
+      if (part < end) {
+        sum.transitions += one.transitions;
+        sum.drives += one.drives;
+        sum.situations += one.situations;
+        sum.near += one.near;
+        sum.bytes += one.bytes;
+      }
+    }
+    return sum;
+  }
+
+  std::optional<Error> make_some(std::size_t first) {
+    std::vector<std::size_t> missing;
+    for (std::size_t k = first; k < first + static_cast<std::size_t>(options_.threads); ++k) {
+      if (made_.count(k) == 0) {
+        missing.push_back(k);
+      }
+    }
+    std::vector<Part> parts(missing.size());
+    in_parallel(missing.size(), options_.threads, [&](std::size_t i) {
+      Part& part = parts[i];
+      part.car = inputs_.car_name;
+      Fnv seed;
+      seed.add(fmt::format("{} {}", options_.seed, missing[i]));
+      part.seed = seed.value();
+      part.transitions =
+          danger::made_transitions(inputs_.car, manoeuvre::footprint(inputs_.car), model_,
+                                   part.mixture, options_.drives_per_part, part.seed);
+    });
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (all_until(missing[i]).transitions >= options_.transitions) {
+        break;  // how many are made at a time is nothing to whoever reads them
+      }
+      const fs::path file = file_of(options_, missing[i]);
+      if (auto problem = danger::write_part(file, parts[i])) {
+        return problem;
+      }
+      const danger::Transitions& all = parts[i].transitions;
+      const PartLine one{
+          static_cast<std::int64_t>(all.size()), static_cast<std::int64_t>(all.drives),
+          static_cast<std::int64_t>(all.situations), static_cast<std::int64_t>(all.near),
+          static_cast<std::int64_t>(fs::file_size(file))};
+      if (!journal_.add(line_of(missing[i], one))) {
+        return Error{Error::Code::unwritable, options_.folder + ": the journal cannot be written"};
+      }
+      made_[missing[i]] = one;
+    }
+    return std::nullopt;
+  }
+
+  const DatasetOptions& options_;
+  const Inputs& inputs_;
+  const reach::DangerModel& model_;
+  Journal journal_;
+  std::map<std::size_t, PartLine> made_;
+};
+
+void tell(const DatasetOptions& options, const PartLine& all, double seconds) {
+  if (options.as_json) {
+    print_json(json{{"danger.dataset.transitions", all.transitions},
+                    {"danger.dataset.drives", all.drives},
+                    {"danger.dataset.situations", all.situations},
+                    {"danger.dataset.near_boundary", all.near},
+                    {"danger.dataset.bytes", all.bytes},
+                    {"danger.dataset.seconds", seconds},
+                    {"meta.car", options.car},
+                    {"meta.seed", std::to_string(options.seed)},
+                    {"meta.threads", options.threads}});
+    return;
+  }
+  app::print("{} transitions in {} situations, {} of which start near the boundary, of {} drives\n",
+             all.transitions, all.situations, all.near, all.drives);
+  app::print("{:.2f} GB in {}\n", 1e-9 * static_cast<double>(all.bytes), options.folder);
+}
+
+int failed(const Error& error) {
+  complain(error.message);
+  switch (error.code) {
+    case Error::Code::too_late:
+      return was_interrupted;
+    case Error::Code::unwritable:
+      return cannot_write;
+    default:
+      return bad_input;
+  }
+}
+
+int make_dataset(const DatasetOptions& options) {
+  watch_for_interrupt();
+  const auto inputs = read_inputs(options.car);
+  if (!inputs.has_value()) {
+    return failed(inputs.error());
+  }
+  std::error_code problem;
+  fs::create_directories(options.folder, problem);
+  const fs::path folder(options.folder);
+  auto journal = Journal::open(
+      folder / "journal.txt",
+      fmt::format("saca.transitions/1, car {}, seed {}, {} drives a part, {} features{}",
+                  inputs.value().car_name, options.seed, options.drives_per_part,
+                  danger::num_features, options.no_tables ? ", no tables" : ""));
+  if (!journal.has_value()) {
+    return failed(journal.error());
+  }
+  constexpr double most_grip = 0.9;
+  const auto cases =
+      tables_for(inputs.value(), most_grip,
+                 options.no_tables ? std::vector<reach::ToBeJudged>{} : drawn_bodies());
+  if (!cases.has_value()) {
+    return failed(cases.error());
+  }
+  const auto model = danger_by(inputs.value(), cases.value());
+  if (!model.has_value()) {
+    return failed(model.error());
+  }
+  SteadyClock clock;
+  const auto start = clock.now();
+  Making making(options, inputs.value(), model.value(), std::move(journal).value());
+  if (const auto stopped = making.run(clock)) {
+    return failed(*stopped);
+  }
+  if (const auto unwritten = write_file(folder / "README.md", card(options, making.all()))) {
+    return failed(*unwritten);
+  }
+  tell(options, making.all(), std::chrono::duration<double>(clock.now() - start).count());
+  return success;
+}
+
+}  // namespace
+
+void add_danger(CLI::App& line, int& exit_code) {
+  CLI::App* const command =
+      line.add_subcommand("danger", "V_h and Q_h, learnt: what they are to be learnt from");
+  command->require_subcommand(1);
+  const auto options = std::make_shared<DatasetOptions>();
+  CLI::App* const dataset = command->add_subcommand(
+      "dataset", "Simulate transitions of the full vehicle beside obstacles; can be interrupted");
+  dataset->add_option("FOLDER", options->folder, "Of the parts; made if it is not there")
+      ->required();
+  dataset->add_option("--transitions", options->transitions, "At least so many")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}))
+      ->capture_default_str();
+  dataset->add_option("--car", options->car, "A car's file, or the name of a shipped one")
+      ->capture_default_str();
+  dataset->add_option("--seed", options->seed)->capture_default_str();
+  dataset->add_option("--part-drives", options->drives_per_part, "Drives of the ego in a part")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  dataset->add_flag("--no-tables", options->no_tables,
+                    "Look for the boundary by a few evasions, not by solved tables of danger");
+  dataset->add_option("--threads", options->threads, "They do not change what is made")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  dataset->add_flag("--json", options->as_json, "For programs");
+  dataset->callback([options, &exit_code] { exit_code = make_dataset(*options); });
+}
+
+}  // namespace saca::app
