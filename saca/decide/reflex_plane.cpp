@@ -96,7 +96,6 @@ void ReflexPlane::begin(const Plan& plan, const Scene& scene) noexcept {
 }
 
 bool ReflexPlane::is_watched(const Scene& scene) const noexcept {
-  constexpr double rounding = 1e-9;  // [s]
   return supervises() && tools_.thresholds.waiting_cost &&
          scene.time >= watched_at_ + look_ahead - rounding;
 }
@@ -109,7 +108,6 @@ std::optional<preview::Threat> ReflexPlane::foreseen(
 }
 
 bool ReflexPlane::agrees_with_last() noexcept {
-  constexpr double rounding = 1e-9;  // [s]
   const double last = std::exchange(costly_at_, verdict_->time);
   return last < verdict_->time && verdict_->time <= last + look_ahead + verdict_expiry + rounding;
 }

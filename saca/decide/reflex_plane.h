@@ -125,6 +125,7 @@ class ReflexPlane {
 
  private:
   static constexpr double never = -std::numeric_limits<double>::infinity();
+  static constexpr double rounding = 1e-9;  ///< of times [s]
 
   [[nodiscard]] Decision decide(const world::Scene& scene) noexcept;
   [[nodiscard]] Decision as_asked_for(const world::Scene& scene) const noexcept;

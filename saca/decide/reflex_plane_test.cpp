@@ -116,7 +116,7 @@ TEST(ReflexPlane, ABrokenSceneIsNoLook) {
   EXPECT_TRUE(plane.step(appeared(0.02)).triggered);
 }
 
-/// Braking now harms nobody, a look later by so much.
+/// Braking now harms nobody, begun later by so much.
 Verdict waiting_costs(double time, double harm) {
   Verdict verdict = verdict_of(time, {{PolicyId::aeb, 0.0}, {PolicyId::no_intervention, 0.3}});
   verdict.later = harm;
