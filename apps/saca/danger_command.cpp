@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -139,11 +140,9 @@ class Making {
     return std::nullopt;
   }
 
-  [[nodiscard]] PartLine all() const { return all_until(made_.size() + most_ahead); }
+  [[nodiscard]] PartLine all() const { return all_until(std::numeric_limits<std::size_t>::max()); }
 
  private:
-  static constexpr std::size_t most_ahead = 1'000'000;
-
   [[nodiscard]] PartLine all_until(std::size_t end) const {
     PartLine sum;
     for (const auto& [part, one] : made_) {
@@ -222,54 +221,45 @@ void tell(const DatasetOptions& options, const PartLine& all, double seconds) {
   app::print("{:.2f} GB in {}\n", 1e-9 * static_cast<double>(all.bytes), options.folder);
 }
 
-int failed(const Error& error) {
-  complain(error.message);
-  switch (error.code) {
-    case Error::Code::too_late:
-      return was_interrupted;
-    case Error::Code::unwritable:
-      return cannot_write;
-    default:
-      return bad_input;
-  }
-}
-
 int make_dataset(const DatasetOptions& options) {
   watch_for_interrupt();
   const auto inputs = read_inputs(options.car);
   if (!inputs.has_value()) {
-    return failed(inputs.error());
+    return refused(inputs.error());
   }
-  std::error_code problem;
-  fs::create_directories(options.folder, problem);
   const fs::path folder(options.folder);
+  const fs::path journal_file = folder / "journal.txt";
+  if (const auto problem = make_folder_of(journal_file)) {
+    return refused(*problem);
+  }
   auto journal = Journal::open(
-      folder / "journal.txt",
+      journal_file,
       fmt::format("saca.transitions/1, car {}, seed {}, {} drives a part, {} features{}",
                   inputs.value().car_name, options.seed, options.drives_per_part,
                   danger::num_features, options.no_tables ? ", no tables" : ""));
   if (!journal.has_value()) {
-    return failed(journal.error());
+    return refused(journal.error());
   }
   constexpr double most_grip = 0.9;
   const auto cases =
       tables_for(inputs.value(), most_grip,
                  options.no_tables ? std::vector<reach::ToBeJudged>{} : drawn_bodies());
   if (!cases.has_value()) {
-    return failed(cases.error());
+    return refused(cases.error());
   }
   const auto model = danger_by(inputs.value(), cases.value());
   if (!model.has_value()) {
-    return failed(model.error());
+    return refused(model.error());
   }
   SteadyClock clock;
   const auto start = clock.now();
   Making making(options, inputs.value(), model.value(), std::move(journal).value());
   if (const auto stopped = making.run(clock)) {
-    return failed(*stopped);
+    const int code = refused(*stopped);
+    return stopped->code == Error::Code::too_late ? static_cast<int>(was_interrupted) : code;
   }
   if (const auto unwritten = write_file(folder / "README.md", card(options, making.all()))) {
-    return failed(*unwritten);
+    return refused(*unwritten);
   }
   tell(options, making.all(), std::chrono::duration<double>(clock.now() - start).count());
   return success;

@@ -1,7 +1,9 @@
 #include "saca/danger/behaviour.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <utility>
 
 #include "saca/core/contract.h"
@@ -37,13 +39,9 @@ Driver::Driver(Behaviour behaviour, std::uint64_t seed, Evasion evasion)
   }
 }
 
-double Driver::uniform(double least, double most) {
-  return std::uniform_real_distribution<double>(least, most)(random_);
-}
-
 Demand Driver::any_demand() {
-  const double angle = uniform(-std::numbers::pi, std::numbers::pi);
-  return towards(angle, in(1.0 / 3.0) ? 1.0 : std::sqrt(uniform(0.0, 1.0)));
+  const double angle = uniform(random_, -std::numbers::pi, std::numbers::pi);
+  return towards(angle, happens(random_, 1.0 / 3.0) ? 1.0 : std::sqrt(uniform(random_, 0.0, 1.0)));
 }
 
 Demand Driver::full_demand() {
@@ -55,21 +53,21 @@ Demand Driver::full_demand() {
 void Driver::begin_manoeuvre() {
   manoeuvre_ = {};
   looks_since_ = 0;
-  const bool brakes = in(2.0 / 3.0);
-  const bool swerves = !brakes || in(0.5);
+  const bool brakes = happens(random_, 2.0 / 3.0);
+  const bool swerves = !brakes || happens(random_, 0.5);
   if (brakes) {
-    manoeuvre_.braking = uniform(0.3, 1.0);
+    manoeuvre_.braking = uniform(random_, 0.3, 1.0);
   }
   if (swerves) {
-    manoeuvre_.across = uniform(0.3, 1.0) * (in(0.5) ? 1.0 : -1.0);
-    manoeuvre_.looks_across = looks_of(uniform(0.3, 1.2));
+    manoeuvre_.across = uniform(random_, 0.3, 1.0) * (happens(random_, 0.5) ? 1.0 : -1.0);
+    manoeuvre_.looks_across = looks_of(uniform(random_, 0.3, 1.2));
   }
 }
 
 Demand Driver::of_manoeuvre() {
   constexpr double change_rate = 1.0 / 3.0;  // [1/s]
   constexpr double jitter = 0.05;
-  if (looks_since_ >= looks_of(0.5) && in(change_rate * look_step)) {
+  if (looks_since_ >= looks_of(0.5) && happens(random_, change_rate * look_step)) {
     begin_manoeuvre();
   }
   const double side = looks_since_ < manoeuvre_.looks_across       ? 1.0
@@ -93,14 +91,14 @@ Demand Driver::next(const Ego& ego) {
   switch (behaviour_) {
     case Behaviour::held:
       held_ = any_demand();
-      looks_left_ = looks_of(uniform(0.2, 1.0)) - 1;
+      looks_left_ = looks_of(uniform(random_, 0.2, 1.0)) - 1;
       return held_;
     case Behaviour::bang_bang:
       held_ = full_demand();
-      looks_left_ = looks_of(uniform(0.1, 0.8)) - 1;
+      looks_left_ = looks_of(uniform(random_, 0.1, 0.8)) - 1;
       return held_;
     case Behaviour::evasion:
-      if (in(else_in)) {
+      if (happens(random_, else_in)) {
         held_ = any_demand();
         looks_left_ = looks_of(0.3) - 1;
         return held_;

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
-#include <random>
 #include <string_view>
 
 #include "saca/danger/ego.h"
+#include "saca/danger/random.h"
 #include "saca/manoeuvre/demand.h"
 
 namespace saca::danger {
@@ -37,8 +36,6 @@ class Driver {
   [[nodiscard]] manoeuvre::Demand next(const Ego& ego);
 
  private:
-  [[nodiscard]] double uniform(double least, double most);
-  [[nodiscard]] bool in(double probability) { return uniform(0.0, 1.0) < probability; }
   [[nodiscard]] manoeuvre::Demand any_demand();
   [[nodiscard]] manoeuvre::Demand full_demand();
   void begin_manoeuvre();
@@ -52,7 +49,7 @@ class Driver {
   };
 
   Behaviour behaviour_;
-  std::mt19937_64 random_;
+  Random random_;
   Evasion evasion_;
   manoeuvre::Demand held_;
   int looks_left_ = 0;  ///< for which `held_` stays

@@ -15,23 +15,13 @@
 namespace saca::danger {
 namespace {
 
-using Random = std::mt19937_64;
-
-double uniform(Random& random, double least, double most) {
-  return std::uniform_real_distribution<double>(least, most)(random);
-}
-
-bool happens(Random& random, double probability) {
-  return uniform(random, 0.0, 1.0) < probability;
-}
-
 struct Kind {
   double share;  ///< of the obstacles
   double length;
-  double width;           ///< [m]
-  double top_speed;       ///< [m/s]
-  double sideways;        ///< most acceleration across its way [m/s^2]
-  double tightest = 0.0;  ///< [1/m]
+  double width;      ///< [m]
+  double top_speed;  ///< [m/s]
+  double sideways;   ///< most acceleration across its way [m/s^2]
+  double tightest;   ///< [1/m]
 };
 constexpr std::array<Kind, 5> kinds{{{0.15, 0.5, 0.5, 4.0, 2.0, 0.5},
                                      {0.10, 1.8, 0.6, 12.0, 3.0, 0.2},

@@ -2,8 +2,8 @@
 
 #include <functional>
 #include <optional>
-#include <random>
 
+#include "saca/danger/random.h"
 #include "saca/danger/state.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/reach/danger.h"
@@ -20,17 +20,17 @@ using MeetingValue = std::function<double(const reach::Meeting&)>;
 /// so that it already turns, slides, brakes.
 /// @param grip  of the road [-], in [0.2, 1.0]
 [[nodiscard]] vehicle::VehicleState drawn_start(const manoeuvre::Car& car, double grip,
-                                                std::mt19937_64& random);
+                                                Random& random);
 
 /// What of a body and its motion does not depend on the ego: a pedestrian, cyclist, car, truck or
 /// articulated truck, some 10 % larger or smaller; three of ten stand; some brake, speed up or turn
 /// as much as such a body may. At the world's origin.
-[[nodiscard]] Obstacle drawn_obstacle(std::mt19937_64& random);
+[[nodiscard]] Obstacle drawn_obstacle(Random& random);
 
 /// Puts the obstacle anywhere within 100 m, mostly ahead; it does not touch the ego.
 /// @param body  of the ego
 [[nodiscard]] Obstacle placed_anywhere(const world::Footprint& body, const State& state,
-                                       Obstacle obstacle, std::mt19937_64& random);
+                                       Obstacle obstacle, Random& random);
 
 /// Puts it within 2 m of the boundary: where the value of the meeting is a number drawn between -2
 /// and 2 m.
@@ -38,6 +38,6 @@ using MeetingValue = std::function<double(const reach::Meeting&)>;
 [[nodiscard]] std::optional<Obstacle> placed_near_boundary(const world::Footprint& body,
                                                            const State& state, Obstacle obstacle,
                                                            const MeetingValue& value,
-                                                           std::mt19937_64& random);
+                                                           Random& random);
 
 }  // namespace saca::danger

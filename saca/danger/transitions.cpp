@@ -1,12 +1,15 @@
 #include "saca/danger/transitions.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
+#include <random>
+#include <span>
 #include <utility>
 
 #include "saca/core/contract.h"
+#include "saca/danger/random.h"
 #include "saca/reach/avoidance.h"
 #include "saca/reach/car_limits.h"
 #include "saca/reach/follow.h"
@@ -16,7 +19,6 @@ namespace saca::danger {
 namespace {
 
 using manoeuvre::Demand;
-using Random = std::mt19937_64;
 using Obstacles = StaticVector<Obstacle, most_obstacles>;
 
 /// The ego's drive, look by look; demands and poses lead from each look to the next.
@@ -34,7 +36,7 @@ class Maker {
       : car_(car), body_(body), model_(model), mixture_(mixture), random_(seed) {}
 
   void add_drive() {
-    const double grip = uniform(0.2, 1.0);
+    const double grip = uniform(random_, 0.2, 1.0);
     Driven driven(car_, drawn_start(car_, grip, random_), grip);
     const State start{.ego = driven.ego(), .grip = grip};
     const Obstacles first = drawn_obstacles(start);
@@ -53,10 +55,6 @@ class Maker {
   [[nodiscard]] Transitions take() { return std::move(made_); }
 
  private:
-  double uniform(double least, double most) {
-    return std::uniform_real_distribution<double>(least, most)(random_);
-  }
-
   Behaviour drawn_behaviour() {
     std::discrete_distribution<int> which(mixture_.behaviours.begin(), mixture_.behaviours.end());
     return static_cast<Behaviour>(which(random_));
@@ -66,7 +64,7 @@ class Maker {
   Obstacles drawn_obstacles(const State& state) {
     std::discrete_distribution<int> more({0.5, 0.3, 0.2});
     const int count = 1 + more(random_);
-    const bool near = uniform(0.0, 1.0) < mixture_.near_share;
+    const bool near = happens(random_, mixture_.near_share);
     Obstacles obstacles;
     bool is_near = false;
     for (int i = 0; i < count; ++i) {
@@ -118,11 +116,11 @@ class Maker {
     return drive;
   }
 
-  /// h over the way from one look to the next, both included.
-  [[nodiscard]] double deepest_on_the_way(const PosesOnTheWay& way, State state) const {
-    double deepest = intrusion(body_, state);
+  /// h between one look and the next, neither included.
+  [[nodiscard]] double deepest_between(const PosesOnTheWay& way, State state) const {
+    double deepest = -std::numeric_limits<double>::infinity();
     constexpr double between = look_step / static_cast<double>(poses_per_look);
-    for (const Pose& pose : way) {
+    for (const Pose& pose : std::span(way).first<poses_per_look - 1>()) {
       for (Obstacle& obstacle : state.obstacles) {
         obstacle = after(obstacle, between);
       }
@@ -136,6 +134,7 @@ class Maker {
     State now{.ego = drive.looks[from], .grip = drive.grip, .obstacles = obstacles};
     ++made_.situations;
     bool is_settled = danger::is_settled(body_, now);
+    double h_now = intrusion(body_, now);
     for (std::size_t i = from; i < drive.demands.size() && !is_settled; ++i) {
       State next{.ego = drive.looks[i + 1], .grip = drive.grip, .obstacles = now.obstacles};
       for (Obstacle& obstacle : next.obstacles) {
@@ -146,13 +145,16 @@ class Maker {
       add(made_.next_observations, observation(next));
       made_.actions.push_back(static_cast<float>(drive.demands[i].along));
       made_.actions.push_back(static_cast<float>(drive.demands[i].across));
-      made_.h.push_back(static_cast<float>(deepest_on_the_way(drive.ways[i], now)));
-      made_.next_h.push_back(static_cast<float>(intrusion(body_, next)));
+      const double h_next = intrusion(body_, next);
+      const double deepest = std::max({h_now, deepest_between(drive.ways[i], now), h_next});
+      made_.h.push_back(static_cast<float>(deepest));
+      made_.next_h.push_back(static_cast<float>(h_next));
       made_.settled.push_back(is_settled ? 1.0F : 0.0F);
       const bool is_last = i + 1 == drive.demands.size();
       made_.cut_off.push_back(is_last && !is_settled ? 1.0F : 0.0F);
       made_.drive.push_back(static_cast<float>(made_.drives));
       now = next;
+      h_now = h_next;
     }
   }
 
