@@ -286,7 +286,7 @@ void add_danger(CLI::App& line, int& exit_code) {
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();
   dataset->add_flag("--no-tables", options->no_tables,
-                    "Look for the boundary by a few evasions, not by solved tables of danger");
+                    "Look for the boundary and the way out by arcs, not by solved tables of danger");
   dataset->add_option("--threads", options->threads, "They do not change what is made")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();

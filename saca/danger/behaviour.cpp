@@ -81,6 +81,7 @@ Demand Driver::of_manoeuvre() {
 Demand Driver::next(const Ego& ego) {
   constexpr double noise_of_evasion = 0.15;
   constexpr double else_in = 0.05;
+  const double time = look_step * looks_++;
   if (behaviour_ == Behaviour::manoeuvre) {
     return manoeuvre::admissible(of_manoeuvre());
   }
@@ -107,7 +108,7 @@ Demand Driver::next(const Ego& ego) {
     case Behaviour::manoeuvre:
       break;
   }
-  const Demand told = evasion_(ego);
+  const Demand told = evasion_(ego, time);
   std::normal_distribution<double> noise(0.0, noise_of_evasion);
   return manoeuvre::admissible({told.along + noise(random_), told.across + noise(random_)});
 }

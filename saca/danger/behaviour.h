@@ -27,8 +27,9 @@ constexpr std::size_t num_behaviours = 4;
 /// How a behaviour goes on, look by look (`look_step`).
 class Driver {
  public:
-  /// What an evasion demands at a look; used by Behaviour::evasion alone.
-  using Evasion = std::function<manoeuvre::Demand(const Ego&)>;
+  /// What an evasion demands at a look, `time` [s] after the first; used by Behaviour::evasion
+  /// alone.
+  using Evasion = std::function<manoeuvre::Demand(const Ego&, double time)>;
 
   Driver(Behaviour behaviour, std::uint64_t seed, Evasion evasion = {});
 
@@ -52,6 +53,7 @@ class Driver {
   Random random_;
   Evasion evasion_;
   manoeuvre::Demand held_;
+  int looks_ = 0;       ///< so far
   int looks_left_ = 0;  ///< for which `held_` stays
   Manoeuvre manoeuvre_;
   int looks_since_ = 0;  ///< since the manoeuvre began

@@ -47,7 +47,7 @@ std::vector<int> runs(const std::vector<Demand>& all) {
   return lengths;
 }
 
-Demand braking(const Ego& /*ego*/) {
+Demand braking(const Ego& /*ego*/, double /*time*/) {
   return {-1.0, 0.0};
 }
 
@@ -122,6 +122,22 @@ TEST(Behaviour, AnEvasionIsFollowedWithNoise) {
   EXPECT_GT(elsewhere, 300) << "what is around it is there, too";
   EXPECT_LT(elsewhere, 1'500);
   EXPECT_THROW(std::ignore = Driver(Behaviour::evasion, 1), ContractViolation);
+}
+
+// While something else is held, time goes on: the obstacle is where it is then.
+TEST(Behaviour, AnEvasionIsToldTheTime) {
+  std::vector<double> times;
+  int look = 0;
+  Driver driver(Behaviour::evasion, 2, [&](const Ego& /*ego*/, double time) {
+    EXPECT_NEAR(time, look_step * look, 1e-9);
+    times.push_back(time);
+    return Demand{};
+  });
+  for (; look < 1'000; ++look) {
+    std::ignore = driver.next({});
+  }
+  EXPECT_GT(times.size(), 700U);
+  EXPECT_LT(times.size(), 950U) << "something else is held now and then";
 }
 
 }  // namespace

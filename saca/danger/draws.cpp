@@ -119,35 +119,29 @@ Obstacle placed_anywhere(const world::Footprint& body, const State& state, Obsta
 }
 
 std::optional<Obstacle> placed_near_boundary(const world::Footprint& body, const State& state,
-                                             Obstacle obstacle, const MeetingValue& value,
+                                             Obstacle obstacle, const CanStayBelow& can_stay_below,
                                              Random& random) {
   constexpr double band = 2.0;     // [m]
-  constexpr double good_to = 0.1;  // [m]
-  constexpr int most_halvings = 14;
+  constexpr double good_to = 0.1;  // [m], of the distance
   const double bearing = drawn_bearing(random);
   const double course = drawn_course(random);
   const double wanted = uniform(random, -band, band);
-  const auto value_at = [&](double distance) {
-    const Obstacle there = at(state, obstacle, bearing, course, distance);
-    return value(meeting_of(body, state, there));
+  const auto there = [&](double distance) {
+    return at(state, obstacle, bearing, course, distance);
   };
   double near = 0.0;
   double far = farthest;
-  if (value_at(far) > wanted) {
+  if (!can_stay_below(wanted, there(far))) {
     return std::nullopt;
   }
-  for (int i = 0; i < most_halvings; ++i) {
+  while (far - near > good_to) {
     const double middle = 0.5 * (near + far);
-    const double there = value_at(middle);
-    if (std::abs(there - wanted) <= good_to) {
-      far = middle;
-      break;
-    }
-    (there > wanted ? near : far) = middle;
+    (can_stay_below(wanted, there(middle)) ? far : near) = middle;
   }
-  const Obstacle placed = at(state, obstacle, bearing, course, far);
+  const Obstacle placed = there(far);
   const bool apart = reach::intrusion(body, state.ego.X_WB, placed.body, placed.X_WO) < 0.0;
-  const bool near_enough = std::abs(value_at(far)) <= band + good_to;
+  // Where the ego may pass on either side, the room jumps.
+  const bool near_enough = !can_stay_below(-band - good_to, placed);
   return apart && near_enough ? std::optional(placed) : std::nullopt;
 }
 

@@ -6,15 +6,14 @@
 #include "saca/danger/random.h"
 #include "saca/danger/state.h"
 #include "saca/manoeuvre/car.h"
-#include "saca/reach/danger.h"
 #include "saca/vehicle/vehicle.h"
 #include "saca/world/footprint.h"
 
 namespace saca::danger {
 
-/// V_h of a meeting of two, by whatever knows it about: says where starts lie near the boundary
-/// between what can be evaded and what cannot.
-using MeetingValue = std::function<double(const reach::Meeting&)>;
+/// Whether the ego can keep h at or below a level [m] beside an obstacle, by whatever knows it
+/// about: says where starts lie near the boundary between what can be evaded and what cannot.
+using CanStayBelow = std::function<bool(double level, const Obstacle& obstacle)>;
 
 /// Where and how the ego of a data set starts: at 0 to 40 m/s, after up to a second of any demands,
 /// so that it already turns, slides, brakes.
@@ -32,12 +31,12 @@ using MeetingValue = std::function<double(const reach::Meeting&)>;
 [[nodiscard]] Obstacle placed_anywhere(const world::Footprint& body, const State& state,
                                        Obstacle obstacle, Random& random);
 
-/// Puts it within 2 m of the boundary: where the value of the meeting is a number drawn between -2
-/// and 2 m.
+/// Puts it within 2 m of the boundary: as near as leaves the ego a way to keep h at or below a
+/// number drawn between -2 and 2 m.
 /// @return  nullopt: at the bearing and on the course that were drawn there is no such place
 [[nodiscard]] std::optional<Obstacle> placed_near_boundary(const world::Footprint& body,
                                                            const State& state, Obstacle obstacle,
-                                                           const MeetingValue& value,
+                                                           const CanStayBelow& can_stay_below,
                                                            Random& random);
 
 }  // namespace saca::danger

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "saca/core/contract.h"
+#include "saca/danger/arc_evasions.h"
 #include "saca/danger/random.h"
 #include "saca/reach/avoidance.h"
 #include "saca/reach/car_limits.h"
@@ -33,7 +34,12 @@ class Maker {
  public:
   Maker(const manoeuvre::Car& car, const world::Footprint& body, const reach::DangerModel& model,
         const Mixture& mixture, std::uint64_t seed)
-      : car_(car), body_(body), model_(model), mixture_(mixture), random_(seed) {}
+      : car_(car),
+        limits_(reach::avoidance_of(car, 1.0)),
+        body_(body),
+        model_(model),
+        mixture_(mixture),
+        random_(seed) {}
 
   void add_drive() {
     const double grip = uniform(random_, 0.2, 1.0);
@@ -62,6 +68,11 @@ class Maker {
 
   /// Half of the situations have one obstacle, three of ten two.
   Obstacles drawn_obstacles(const State& state) {
+    const ArcEvasions arcs(limits_, body_, state);
+    const auto can_stay_below = [&](double level, const Obstacle& obstacle) {
+      const auto known = exact(state, obstacle);
+      return known ? *known <= level : arcs.stay_below(level, obstacle);
+    };
     std::discrete_distribution<int> more({0.5, 0.3, 0.2});
     const int count = 1 + more(random_);
     const bool near = happens(random_, mixture_.near_share);
@@ -71,10 +82,8 @@ class Maker {
       std::optional<Obstacle> placed;
       constexpr int tries = 20;
       for (int k = 0; near && !placed && k < tries; ++k) {
-        placed = placed_near_boundary(
-            body_, state, drawn_obstacle(random_),
-            [this](const reach::Meeting& meeting) { return model_.danger(meeting).value; },
-            random_);
+        placed =
+            placed_near_boundary(body_, state, drawn_obstacle(random_), can_stay_below, random_);
       }
       is_near = is_near || placed.has_value();
       obstacles.push_back(placed ? *placed
@@ -84,23 +93,36 @@ class Maker {
     return obstacles;
   }
 
-  /// What drives the point mass away from the first obstacle, by the model's value.
-  [[nodiscard]] Driver::Evasion evasion_from(Obstacle obstacle, double grip) const {
-    return [this, obstacle, grip, time = 0.0](const Ego& ego) mutable {
-      constexpr double ahead = 0.2;  // [s]
-      const Obstacle now = after(obstacle, time);
-      time += look_step;
-      const reach::Meeting meeting = meeting_of(body_, State{.ego = ego, .grip = grip}, now);
-      reach::Avoidance system = reach::avoidance_of(car_, grip);
-      system.obstacle_speed = meeting.obstacle_speed;
-      const auto value = [&](const reach::State& state) {
-        reach::Meeting later = meeting;
-        later.state = state;
-        return model_.danger(later).value;
-      };
-      const reach::Acceleration best = reach::by_look_ahead(system, value, ahead)(meeting.state);
-      const double most = grip * vehicle::gravity;
-      return manoeuvre::admissible({best.along / most, best.across / most});
+  /// V_h beside what keeps its velocity, where a table has it.
+  [[nodiscard]] std::optional<double> exact(const State& state, const Obstacle& obstacle) const {
+    const bool keeps_on = obstacle.acceleration == 0.0 && obstacle.curvature == 0.0;
+    return keeps_on ? model_.exact(meeting_of(body_, state, obstacle)) : std::nullopt;
+  }
+
+  /// What drives the point mass away from an obstacle: after what the table's value is least, and
+  /// where there is none the best arc.
+  [[nodiscard]] Demand evading(const State& state, const Obstacle& obstacle) const {
+    constexpr double ahead = 0.2;  // [s]
+    if (!exact(state, obstacle)) {
+      return ArcEvasions(limits_, body_, state).best(obstacle).demand;
+    }
+    const reach::Meeting meeting = meeting_of(body_, state, obstacle);
+    reach::Avoidance system = limits_;
+    system.grip = state.grip;
+    system.obstacle_speed = meeting.obstacle_speed;
+    const auto value = [&](const reach::State& at) {
+      reach::Meeting later = meeting;
+      later.state = at;
+      return model_.exact(later).value_or(std::numeric_limits<double>::infinity());
+    };
+    const reach::Acceleration best = reach::by_look_ahead(system, value, ahead)(meeting.state);
+    const double most = state.grip * vehicle::gravity;
+    return manoeuvre::admissible({best.along / most, best.across / most});
+  }
+
+  [[nodiscard]] Driver::Evasion evasion_from(const Obstacle& obstacle, double grip) const {
+    return [this, obstacle, grip](const Ego& ego, double time) {
+      return evading(State{.ego = ego, .grip = grip}, after(obstacle, time));
     };
   }
 
@@ -163,6 +185,7 @@ class Maker {
   }
 
   const manoeuvre::Car& car_;
+  reach::Avoidance limits_;
   const world::Footprint& body_;
   const reach::DangerModel& model_;
   const Mixture& mixture_;
