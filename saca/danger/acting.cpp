@@ -1,0 +1,97 @@
+#include "saca/danger/acting.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "saca/core/contract.h"
+#include "saca/core/static_vector.h"
+
+namespace saca::danger {
+namespace {
+
+using manoeuvre::Demand;
+
+/// All around the disc's edge, six at half of it, and none.
+constexpr std::size_t num_around = 24;
+constexpr std::size_t num_half = 6;
+using Candidates = std::array<Demand, num_around + num_half + 1>;
+
+Candidates candidates() {
+  Candidates all{};
+  std::size_t next = 0;
+  const auto add_circle = [&](std::size_t count, double size) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const double angle =
+          2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(count);
+      all[next++] = {size * std::cos(angle), size * std::sin(angle)};
+    }
+  };
+  add_circle(num_around, 1.0);
+  add_circle(num_half, 0.5);
+  return all;
+}
+
+void move_on(State& state, double time) {
+  for (Obstacle& obstacle : state.obstacles) {
+    obstacle = after(obstacle, time);
+  }
+}
+
+}  // namespace
+
+Demand least_q(const Network& network, const world::Footprint& body, const State& state) {
+  expects(!state.obstacles.empty(), "an obstacle to act for");
+  static const Candidates all = candidates();
+  const Observation seen = observation(state);
+  std::array<double, all.size()> highest;
+  highest.fill(-std::numeric_limits<double>::infinity());
+  for (std::size_t k = 0; k < state.obstacles.size(); ++k) {
+    std::array<double, all.size()> q;
+    network.values_of(seen_by_net(body, seen, k), all, q);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      highest[i] = std::max(highest[i], q[i]);
+    }
+  }
+  return all[static_cast<std::size_t>(std::min_element(highest.begin(), highest.end()) -
+                                      highest.begin())];
+}
+
+double highest_v(const Network& network, const world::Footprint& body, const State& state) {
+  const Observation seen = observation(state);
+  double highest = -std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < state.obstacles.size(); ++k) {
+    const SeenByNet one = seen_by_net(body, seen, k);
+    std::array<double, 1> v{};
+    network.values({&one, 1}, v);
+    highest = std::max(highest, v[0]);
+  }
+  return highest;
+}
+
+State state_of(const manoeuvre::Car& car, const Situation& situation) {
+  return {
+      .ego = ego_of(car, situation.car), .grip = situation.grip, .obstacles = situation.obstacles};
+}
+
+double highest_h(const manoeuvre::Car& car, const world::Footprint& body,
+                 const Situation& situation, const Policy& policy) {
+  constexpr int most_looks = 120;
+  constexpr double between = look_step / static_cast<double>(poses_per_look);
+  Driven driven(car, situation.car, situation.grip);
+  State state = state_of(car, situation);
+  double highest = intrusion(body, state);
+  for (int look = 0; look < most_looks && !is_settled(body, state); ++look) {
+    for (const Pose& pose : driven.hold(policy(state, look_step * look))) {
+      move_on(state, between);
+      state.ego.X_WB = pose;
+      highest = std::max(highest, intrusion(body, state));
+    }
+    state.ego = driven.ego();
+  }
+  return highest;
+}
+
+}  // namespace saca::danger

@@ -1,0 +1,91 @@
+#include "saca/danger/acting.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "saca/core/contract.h"
+#include "saca/manoeuvre/default_car.h"
+#include "saca/manoeuvre/ego.h"
+#include "saca/world/scene.h"
+
+namespace saca::danger::acting_test {
+namespace {
+
+using manoeuvre::Demand;
+
+const world::Footprint body{.length = 4.3, .width = 1.8, .centre_x = 0.1};
+
+/// A network whose Q falls with one of the two numbers of a demand, and whose V adds `v` to h.
+Network preferring(std::size_t number, double sign) {
+  config::Tensors all;
+  for (const std::string name : {"v.", "q1.", "q2."}) {
+    const std::size_t inputs = num_net_inputs + (name == "v." ? 0 : 2);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t rows = k < 3 ? Network::width : 1;
+      const std::size_t columns = k > 0 ? Network::width : inputs;
+      config::Tensor weight{{rows, columns}, std::vector<float>(rows * columns, 0.0F)};
+      if (k > 0) {
+        weight.values[0] = 1.0F;
+      } else if (name != "v.") {
+        weight.values[num_net_inputs + number] = static_cast<float>(sign);
+      }
+      config::Tensor bias{{rows}, std::vector<float>(rows, 0.0F)};
+      bias.values[0] = k == 0 ? 2.0F : 0.0F;
+      all.tensors[name + std::to_string(k) + ".weight"] = weight;
+      all.tensors[name + std::to_string(k) + ".bias"] = bias;
+    }
+  }
+  return Network::from(all, "weights").value();
+}
+
+class Acting : public testing::Test {
+ protected:
+  /// At a speed, so far from the rear of a car that stands ahead.
+  [[nodiscard]] Situation before_a_car(double speed, double gap) const {
+    Situation situation;
+    situation.grip = 0.9;
+    situation.car =
+        manoeuvre::rolling_state(car_, world::EgoState{.v_B = {speed, 0.0}}, situation.grip);
+    Obstacle ahead;
+    ahead.body = {.length = 4.5, .width = 1.8};
+    ahead.X_WO = situation.car.X_WB * Pose{{0.1 + 2.15 + gap + 2.25, 0.0}, 0.0};
+    situation.obstacles.push_back(ahead);
+    return situation;
+  }
+
+  const manoeuvre::Car car_ = manoeuvre::default_car();
+};
+
+TEST_F(Acting, TakesTheDemandOfLeastQ) {
+  const State state = state_of(car_, before_a_car(20.0, 30.0));
+  const Demand braking = least_q(preferring(0, 1.0), body, state);
+  EXPECT_NEAR(braking.along, -1.0, 1e-12);
+  EXPECT_NEAR(braking.across, 0.0, 1e-12);
+  EXPECT_NEAR(least_q(preferring(1, -1.0), body, state).across, 1.0, 1e-12);
+  EXPECT_THROW(std::ignore = least_q(preferring(0, 1.0), body, State{}), ContractViolation);
+}
+
+// All layers hand on 2: V adds log(1 + e^2) to h, of the nearer obstacle.
+TEST_F(Acting, TellsTheHighestOfTheObstacles) {
+  State state = state_of(car_, before_a_car(20.0, 10.0));
+  state.obstacles.push_back(state_of(car_, before_a_car(20.0, 4.0)).obstacles[0]);
+  EXPECT_NEAR(highest_v(preferring(0, 1.0), body, state), -4.0 + std::log1p(std::exp(2.0)), 1e-3);
+  EXPECT_TRUE(std::isinf(highest_v(preferring(0, 1.0), body, State{})));
+}
+
+// Full braking from 15 m/s on grip 0.9 takes some 13 to 16 m; a car that only rolls hits.
+TEST_F(Acting, DrivesTheFullVehicleToTheEnd) {
+  const Policy braking = [](const State& /*state*/, double /*time*/) { return Demand{-1.0, 0.0}; };
+  const Policy rolling = [](const State& /*state*/, double /*time*/) { return Demand{}; };
+  const double stopped = highest_h(car_, body, before_a_car(15.0, 20.0), braking);
+  EXPECT_GT(stopped, -7.5);
+  EXPECT_LT(stopped, -3.0);
+  EXPECT_NEAR(highest_h(car_, body, before_a_car(15.0, 25.0), braking), stopped - 5.0, 1e-3);
+  EXPECT_GT(highest_h(car_, body, before_a_car(15.0, 20.0), rolling), 0.8);
+  EXPECT_GT(highest_h(car_, body, before_a_car(15.0, 8.0), braking), 0.0);
+}
+
+}  // namespace
+}  // namespace saca::danger::acting_test

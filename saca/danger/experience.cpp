@@ -1,0 +1,66 @@
+#include "saca/danger/experience.h"
+
+#include <algorithm>
+#include <array>
+
+namespace saca::danger {
+namespace {
+
+Observation row_of(const std::vector<float>& rows, std::size_t i) {
+  Observation one{};
+  std::copy_n(rows.begin() + static_cast<std::ptrdiff_t>(i * num_features), num_features,
+              one.begin());
+  return one;
+}
+
+bool has_one_obstacle(const Observation& seen) {
+  return seen[num_ego_features] != 0.0F && seen[num_ego_features + num_obstacle_features] == 0.0F;
+}
+
+float told_of(float h) {
+  return static_cast<float>(told(static_cast<double>(h)));
+}
+
+void add_state(Experience& all, const Observation& seen, const world::Footprint& body) {
+  const SeenByNet one = seen_by_net(body, seen, 0);
+  all.inputs.insert(all.inputs.end(), one.inputs.begin(), one.inputs.end());
+  all.h_at.push_back(static_cast<float>(told(one.h)));
+}
+
+/// Transitions from `first` until before `last`, which are one situation.
+void add_situation(Experience& all, const Transitions& from, std::size_t first, std::size_t last,
+                   const world::Footprint& body) {
+  const std::size_t start = all.size();
+  for (std::size_t i = first; i < last; ++i) {
+    all.row.push_back(static_cast<std::uint32_t>(all.num_states()));
+    add_state(all, row_of(from.observations, i), body);
+    all.actions.insert(all.actions.end(), {from.actions[2 * i], from.actions[2 * i + 1]});
+    all.h.push_back(told_of(from.h[i]));
+    all.settled.push_back(from.settled[i]);
+  }
+  add_state(all, row_of(from.next_observations, last - 1), body);
+  all.reached.resize(all.size());
+  float reached =
+      from.settled[last - 1] != 0.0F ? told_of(from.next_h[last - 1]) : Experience::end_not_seen;
+  for (std::size_t i = all.size(); i-- > start;) {
+    reached = std::max(reached, all.h[i]);
+    all.reached[i] = reached;
+  }
+}
+
+}  // namespace
+
+void add_experience(Experience& all, const Transitions& transitions, const world::Footprint& body) {
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < transitions.size(); ++i) {
+    if (transitions.settled[i] == 0.0F && transitions.cut_off[i] == 0.0F) {
+      continue;
+    }
+    if (has_one_obstacle(row_of(transitions.observations, first))) {
+      add_situation(all, transitions, first, i + 1, body);
+    }
+    first = i + 1;
+  }
+}
+
+}  // namespace saca::danger

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "saca/danger/net_inputs.h"
+#include "saca/danger/transitions.h"
+#include "saca/world/footprint.h"
+
+namespace saca::danger {
+
+/// Transitions beside one obstacle as the networks see them: what V_h and Q_h are learnt from.
+/// All of h is as it is told (net_inputs.h).
+struct Experience {
+  /// Of states, rows of num_net_inputs: those of a situation follow one another, the last is the
+  /// state that it ended in.
+  std::vector<float> inputs;
+  std::vector<float> h_at;  ///< h at each of these states [m]
+
+  /// Of each transition: the row of x; that of x' is the next.
+  std::vector<std::uint32_t> row;
+  std::vector<float> actions;  ///< rows of 2
+  std::vector<float> h;        ///< deepest from x to x' [m]
+  std::vector<float> settled;  ///< 1: nothing can happen after x' any more
+  /// The deepest from x to the end of the situation, as it was driven [m]: V(x) and Q(x, u) are at
+  /// most that. Infinity where the end was not seen.
+  std::vector<float> reached;
+
+  static constexpr float end_not_seen = std::numeric_limits<float>::infinity();
+  [[nodiscard]] std::size_t size() const { return row.size(); }
+  [[nodiscard]] std::size_t num_states() const { return h_at.size(); }
+};
+
+/// Adds the transitions of situations with one obstacle.
+/// @param body  of the ego, about its centre of mass
+void add_experience(Experience& all, const Transitions& transitions, const world::Footprint& body);
+
+}  // namespace saca::danger

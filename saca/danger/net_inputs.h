@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "saca/danger/state.h"
+#include "saca/world/footprint.h"
+
+namespace saca::danger {
+
+/// Who is farther is told as so far: neither V nor h need be known beyond [m].
+constexpr double farthest_told = 15.0;
+
+/// h or V as the networks learn it: not below -farthest_told [m].
+[[nodiscard]] inline double told(double value) {
+  return value > -farthest_told ? value : -farthest_told;
+}
+
+constexpr std::size_t num_net_inputs = 32;
+/// What the networks read of the ego and one obstacle: numbers about as large as 1.
+using NetInputs = std::array<float, num_net_inputs>;
+
+/// The ego and one obstacle of an observation: its motion in the ego's frame, h now and where it
+/// leads in half a second, one and two if the ego keeps its velocity and the obstacle goes on, when
+/// and by how much they then pass, and what of the grip stopping before it takes.
+struct SeenByNet {
+  NetInputs inputs;
+  double h = 0.0;  ///< of this obstacle alone [m]
+};
+/// @param body      of the ego, about its centre of mass
+/// @param obstacle  of the observation, one that is there
+[[nodiscard]] SeenByNet seen_by_net(const world::Footprint& body, const Observation& seen,
+                                    std::size_t obstacle);
+
+/// The same seen in a mirror: these change their sign.
+[[nodiscard]] const std::vector<std::size_t>& mirrored_inputs();
+
+}  // namespace saca::danger

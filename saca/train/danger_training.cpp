@@ -1,0 +1,422 @@
+#include "saca/train/danger_training.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "saca/core/contract.h"
+#include "saca/core/file.h"
+#include "saca/core/fnv.h"
+#include "saca/core/parallel.h"
+#include "saca/train/task.h"
+
+namespace saca::train {
+namespace {
+
+using danger::Experience;
+using torch::Tensor;
+
+constexpr auto num_inputs = static_cast<std::int64_t>(danger::num_net_inputs);
+constexpr std::int64_t num_actions = 2;
+constexpr int curve_step = 500;
+constexpr std::size_t num_halves = 2;
+
+/// Transitions side by side, some seen in a mirror.
+struct Sample {
+  Tensor inputs;  ///< (B x inputs)
+  Tensor next_inputs;
+  Tensor actions;  ///< (B x 2)
+  Tensor h_at;     ///< (B), like all that follow
+  Tensor next_h_at;
+  Tensor h;
+  Tensor settled;
+  Tensor reached;
+};
+
+/// -1 where a mirror changes the sign.
+std::vector<float> signs_of_inputs() {
+  std::vector<float> signs(danger::num_net_inputs, 1.0F);
+  for (const std::size_t i : danger::mirrored_inputs()) {
+    signs[i] = -1.0F;
+  }
+  return signs;
+}
+
+/// Any transitions, each second one seen in a mirror.
+Sample drawn(const Experience& all, int count, std::mt19937_64& random) {
+  static const std::vector<float> signs = signs_of_inputs();
+  const auto n = static_cast<std::int64_t>(count);
+  Sample sample{.inputs = torch::empty({n, num_inputs}),
+                .next_inputs = torch::empty({n, num_inputs}),
+                .actions = torch::empty({n, num_actions}),
+                .h_at = torch::empty({n}),
+                .next_h_at = torch::empty({n}),
+                .h = torch::empty({n}),
+                .settled = torch::empty({n}),
+                .reached = torch::empty({n})};
+  const auto at = [](Tensor& tensor) { return tensor.data_ptr<float>(); };
+  std::uniform_int_distribution<std::size_t> any(0, all.size() - 1);
+  for (std::int64_t k = 0; k < n; ++k) {
+    const std::size_t i = any(random);
+    const std::size_t row = all.row[i];
+    const bool is_mirrored = k % 2 == 1;
+    const auto copy = [&](std::size_t from, float* to) {
+      const float* const numbers = &all.inputs[from * danger::num_net_inputs];
+      for (std::size_t j = 0; j < danger::num_net_inputs; ++j) {
+        to[j] = is_mirrored ? signs[j] * numbers[j] : numbers[j];
+      }
+    };
+    copy(row, at(sample.inputs) + k * num_inputs);
+    copy(row + 1, at(sample.next_inputs) + k * num_inputs);
+    at(sample.actions)[2 * k] = all.actions[2 * i];
+    at(sample.actions)[2 * k + 1] = (is_mirrored ? -1.0F : 1.0F) * all.actions[2 * i + 1];
+    at(sample.h_at)[k] = all.h_at[row];
+    at(sample.next_h_at)[k] = all.h_at[row + 1];
+    at(sample.h)[k] = all.h[i];
+    at(sample.settled)[k] = all.settled[i];
+    at(sample.reached)[k] = all.reached[i];
+  }
+  return sample;
+}
+
+/// Losses of a sample, and what the curve tells of it.
+struct Losses {
+  Tensor v;
+  Tensor q;
+  double mean_v = 0.0;
+  double above = 0.0;
+};
+
+/// What changes during a training.
+struct Annealed {
+  double expectile;
+  double discount;
+  double step;
+};
+
+Annealed annealed(const DangerPlan& plan, int step) {
+  const double done = static_cast<double>(step) / plan.steps;
+  const double share = std::min(1.0, done / plan.annealed);
+  // The distance from 1 falls by equal factors, down to a last one that is 0.
+  const auto towards = [&](double first, double last) { return first + share * (last - first); };
+  return {.expectile = towards(plan.expectile_first, plan.expectile),
+          .discount = towards(plan.discount_first, plan.discount),
+          .step = plan.step * 0.5 * (1.0 + std::cos(std::numbers::pi * done))};
+}
+
+/// How much a state counts: what is near the boundary the most. By V alone, so that no input is
+/// preferred to another.
+Tensor weight_of(const Tensor& v) {
+  constexpr double near = 3.0;  // [m]
+  const Tensor share = v / near;
+  return 0.05 + 1.0 / (1.0 + share * share);
+}
+
+Losses losses_of(DangerNets& nets, const Sample& sample, const Annealed& now) {
+  const Tensor state_and_action = torch::cat({sample.inputs, sample.actions}, 1);
+  Tensor target_q;
+  Tensor least_q;  // of the two slow ones the larger
+  {
+    const torch::NoGradGuard none;
+    const Tensor ahead = torch::where(sample.settled > 0.5, sample.next_h_at,
+                                      nets->v(sample.next_inputs, sample.next_h_at));
+    const Tensor undiscounted = torch::maximum(sample.h, ahead);
+    target_q = torch::minimum(sample.reached, sample.h + now.discount * (undiscounted - sample.h));
+    least_q = torch::minimum(sample.reached,
+                             torch::maximum(nets->slow_q1(state_and_action, sample.h_at),
+                                            nets->slow_q2(state_and_action, sample.h_at)));
+  }
+  const Tensor v = nets->v(sample.inputs, sample.h_at);
+  const Tensor weight = weight_of(v.detach());
+  const Tensor over = least_q - v;  // of Q above V
+  const Tensor side = torch::where(over < 0.0, torch::full_like(over, now.expectile),
+                                   torch::full_like(over, 1.0 - now.expectile));
+  const auto q_loss = [&](DangerNet& q) {
+    const Tensor off = q(state_and_action, sample.h_at) - target_q;
+    return (weight * off * off).mean();
+  };
+  Losses losses{.v = (weight * side * over * over).mean(),
+                .q = q_loss(nets->q1) + q_loss(nets->q2)};
+  const torch::NoGradGuard none;
+  const Tensor matters = (v > -danger::farthest_told + 0.1).to(torch::kFloat32);
+  losses.mean_v = ((v * matters).sum() / matters.sum().clamp_min(1.0)).item<double>();
+  losses.above = (v > sample.reached + 0.2).to(torch::kFloat32).mean().item<double>();
+  return losses;
+}
+
+void follow(DangerNet& slow, DangerNet& fast, double share) {
+  const torch::NoGradGuard none;
+  const auto to = slow->parameters();
+  const auto from = fast->parameters();
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    to[i].lerp_(from[i], share);
+  }
+}
+
+std::string danger_fingerprint(const Experience& all, const DangerPlan& plan) {
+  Fnv hash;
+  hash.add(fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {}", plan.seed, plan.steps, plan.batch,
+                       plan.step, plan.polyak, plan.expectile_first, plan.expectile,
+                       plan.discount_first, plan.discount, plan.annealed, plan.width, all.size(),
+                       all.num_states()));
+  for (std::size_t i = 0; i < all.size(); i += 1'009) {
+    hash.add(fmt::format("{} {}", all.h[i], all.reached[i]));
+  }
+  return fmt::format("{:016x}", hash.value());
+}
+
+class DangerTraining {
+ public:
+  DangerTraining(const Experience& experience, const DangerPlan& plan, int threads,
+                 std::filesystem::path state)
+      : experience_(experience),
+        plan_(plan),
+        threads_(threads),
+        state_(std::move(state)),
+        fingerprint_(danger_fingerprint(experience, plan)),
+        nets_(plan.width),
+        optimiser_(learnt(), torch::optim::AdamOptions(plan.step)) {}
+
+  std::optional<Error> run(const std::function<bool(const DangerProgress&)>& on_point) {
+    if (auto problem = resume()) {
+      return problem;
+    }
+    for (const DangerProgress& point : curve_) {
+      if (!on_point(point)) {
+        return std::nullopt;
+      }
+    }
+    while (done_ < plan_.steps) {
+      curve_.push_back(next_point());
+      if (auto problem = keep()) {
+        return problem;
+      }
+      if (!on_point(curve_.back())) {
+        break;
+      }
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] DangerNets nets() const { return nets_; }
+
+ private:
+  [[nodiscard]] std::vector<Tensor> learnt() const {
+    std::vector<Tensor> all;
+    for (const auto* net : {&nets_->v, &nets_->q1, &nets_->q2}) {
+      const auto some = (*net)->parameters();
+      all.insert(all.end(), some.begin(), some.end());
+    }
+    return all;
+  }
+
+  DangerProgress next_point() {
+    const auto begin = std::chrono::steady_clock::now();
+    const int last = std::min(plan_.steps, done_ + curve_step);
+    const double share = 1.0 / (last - done_);
+    DangerProgress point;
+    for (; done_ < last; ++done_) {
+      const DangerProgress one = one_step();
+      point.v_loss += share * one.v_loss;
+      point.q_loss += share * one.q_loss;
+      point.mean_v += share * one.mean_v;
+      point.above += share * one.above;
+    }
+    point.step = done_;
+    point.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return point;
+  }
+
+  /// The halves of a batch by themselves: their gradients are added in a fixed order.
+  DangerProgress one_step() {
+    const Annealed now = annealed(plan_, done_);
+    for (auto& group : optimiser_.param_groups()) {
+      static_cast<torch::optim::AdamOptions&>(group.options()).lr(now.step);
+    }
+    const std::vector<Tensor> parameters = learnt();
+    std::array<std::vector<Tensor>, num_halves> gradients;
+    std::array<DangerProgress, num_halves> told;
+    in_parallel(num_halves, threads_, [&](std::size_t half) {
+      std::seed_seq words{plan_.seed, static_cast<std::uint64_t>(done_),
+                          static_cast<std::uint64_t>(half)};
+      std::mt19937_64 random(words);
+      const Sample sample = drawn(experience_, plan_.batch / static_cast<int>(num_halves), random);
+      const Losses losses = losses_of(nets_, sample, now);
+      gradients[half] = torch::autograd::grad({losses.v + losses.q}, parameters);
+      told[half] = {.v_loss = losses.v.item<double>(),
+                    .q_loss = losses.q.item<double>(),
+                    .mean_v = losses.mean_v,
+                    .above = losses.above};
+    });
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      Tensor parameter = parameters[i];
+      parameter.mutable_grad() = 0.5 * (gradients[0][i] + gradients[1][i]);
+    }
+    constexpr double gradient_limit = 10.0;
+    torch::nn::utils::clip_grad_norm_(parameters, gradient_limit);
+    optimiser_.step();
+    follow(nets_->slow_q1, nets_->q1, plan_.polyak);
+    follow(nets_->slow_q2, nets_->q2, plan_.polyak);
+    return {.v_loss = 0.5 * (told[0].v_loss + told[1].v_loss),
+            .q_loss = 0.5 * (told[0].q_loss + told[1].q_loss),
+            .mean_v = 0.5 * (told[0].mean_v + told[1].mean_v),
+            .above = 0.5 * (told[0].above + told[1].above)};
+  }
+
+  std::optional<Error> keep() {
+    if (state_.empty()) {
+      return std::nullopt;
+    }
+    torch::serialize::OutputArchive archive;
+    torch::serialize::OutputArchive nets;
+    torch::serialize::OutputArchive optimiser;
+    nets_->save(nets);
+    optimiser_.save(optimiser);
+    Tensor curve = torch::empty({static_cast<std::int64_t>(curve_.size()), 6}, torch::kFloat64);
+    for (std::size_t i = 0; i < curve_.size(); ++i) {
+      const DangerProgress& point = curve_[i];
+      const auto row = curve[static_cast<std::int64_t>(i)];
+      row[0] = point.step;
+      row[1] = point.v_loss;
+      row[2] = point.q_loss;
+      row[3] = point.mean_v;
+      row[4] = point.above;
+      row[5] = point.seconds;
+    }
+    archive.write("of", c10::IValue(fingerprint_));
+    archive.write("curve", curve);
+    archive.write("nets", nets);
+    archive.write("optimiser", optimiser);
+    std::ostringstream bytes;
+    archive.save_to(bytes);
+    return write_file(state_, bytes.str());
+  }
+
+  std::optional<Error> resume() {
+    if (state_.empty() || !std::filesystem::exists(state_)) {
+      return std::nullopt;
+    }
+    const auto bytes = read_file(state_, many_bytes);
+    if (!bytes.has_value()) {
+      return bytes.error();
+    }
+    try {
+      std::istringstream stream(bytes.value());
+      torch::serialize::InputArchive archive;
+      archive.load_from(stream);
+      c10::IValue of;
+      archive.read("of", of);
+      if (of.toStringRef() != fingerprint_) {
+        return Error{Error::Code::malformed,
+                     state_.string() + ": is of another training: remove it to begin anew"};
+      }
+      Tensor curve;
+      archive.read("curve", curve);
+      torch::serialize::InputArchive nets;
+      torch::serialize::InputArchive optimiser;
+      archive.read("nets", nets);
+      archive.read("optimiser", optimiser);
+      nets_->load(nets);
+      optimiser_.load(optimiser);
+      for (std::int64_t i = 0; i < curve.size(0); ++i) {
+        const auto number = [&](std::int64_t k) { return curve[i][k].item<double>(); };
+        curve_.push_back({.step = static_cast<int>(number(0)),
+                          .v_loss = number(1),
+                          .q_loss = number(2),
+                          .mean_v = number(3),
+                          .above = number(4),
+                          .seconds = number(5)});
+      }
+      done_ = curve_.empty() ? 0 : curve_.back().step;
+    } catch (const c10::Error& problem) {
+      return Error{Error::Code::malformed, state_.string() +
+                                               ": want the state of a training, got " +
+                                               problem.what_without_backtrace()};
+    }
+    return std::nullopt;
+  }
+
+  const Experience& experience_;
+  const DangerPlan& plan_;
+  int threads_;
+  std::filesystem::path state_;
+  std::string fingerprint_;
+  DangerNets nets_;
+  torch::optim::Adam optimiser_;
+  std::vector<DangerProgress> curve_;
+  int done_ = 0;  ///< steps
+};
+
+}  // namespace
+
+DangerNetImpl::DangerNetImpl(std::int64_t inputs, std::int64_t width)
+    : first_(inputs, width), second_(width, width), third_(width, width), last_(width, 1) {
+  register_module("first", first_);
+  register_module("second", second_);
+  register_module("third", third_);
+  register_module("last", last_);
+}
+
+Tensor DangerNetImpl::forward(const Tensor& inputs, const Tensor& h) {
+  Tensor x = torch::relu(first_(inputs));
+  x = torch::relu(second_(x));
+  x = torch::relu(third_(x));
+  return h + torch::softplus(last_(x).squeeze(1));
+}
+
+void DangerNetImpl::add_to(config::Tensors& tensors, const std::string& prefix) const {
+  int number = 0;
+  for (const auto* layer : {&first_, &second_, &third_, &last_}) {
+    const std::string name = prefix + std::to_string(number++);
+    tensors.tensors[name + ".weight"] = plain((*layer)->weight);
+    tensors.tensors[name + ".bias"] = plain((*layer)->bias);
+  }
+}
+
+DangerNetsImpl::DangerNetsImpl(std::int64_t width)
+    : v(num_inputs, width),
+      q1(num_inputs + num_actions, width),
+      q2(num_inputs + num_actions, width),
+      slow_q1(num_inputs + num_actions, width),
+      slow_q2(num_inputs + num_actions, width) {
+  register_module("v", v);
+  register_module("q1", q1);
+  register_module("q2", q2);
+  register_module("slow_q1", slow_q1);
+  register_module("slow_q2", slow_q2);
+  follow(slow_q1, q1, 1.0);
+  follow(slow_q2, q2, 1.0);
+}
+
+config::Tensors DangerNetsImpl::tensors() const {
+  config::Tensors all;
+  v->add_to(all, "v.");
+  q1->add_to(all, "q1.");
+  q2->add_to(all, "q2.");
+  return all;
+}
+
+Result<DangerNets> trained_danger(const Experience& experience, const DangerPlan& plan, int threads,
+                                  const std::filesystem::path& state,
+                                  const std::function<bool(const DangerProgress&)>& on_point) {
+  expects(experience.size() > 0, "something to learn from");
+  expects(plan.steps > 0 && plan.batch >= static_cast<int>(num_halves) && plan.width > 0,
+          "steps, a batch and a width > 0");
+  torch::manual_seed(plan.seed);
+  DangerTraining training(experience, plan, threads, state);
+  if (const auto problem = training.run(on_point)) {
+    return *problem;
+  }
+  return training.nets();
+}
+
+}  // namespace saca::train

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <torch/torch.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "saca/config/tensors.h"
+#include "saca/core/result.h"
+#include "saca/danger/experience.h"
+#include "saca/danger/network.h"
+
+namespace saca::train {
+
+/// How V_h and Q_h are learnt from a data set alone. All randomness comes from the seed.
+///
+/// Source: Zheng and co-workers, Safe Offline Reinforcement Learning with Feasibility-Guided
+/// Diffusion Model (FISOR), ICLR 2024: V by a reversed expectile, two Q of which the larger is
+/// taken, targets that follow slowly (Polyak). Besides, whatever a drive reached bounds its V and Q
+/// from above: that is taken as well.
+struct DangerPlan {
+  std::uint64_t seed = 1;
+  int steps = 40'000;
+  int batch = 4'096;
+  double step = 1e-3;  ///< largest of the optimiser (Adam, falling as a cosine)
+  double polyak = 0.005;
+  /// Of the reversed expectile, from the first step on and from `annealed` of all steps on: less
+  /// than 1 takes a mean between the least and the average of what inputs lead to, too high.
+  double expectile_first = 0.9;
+  double expectile = 0.99;
+  /// Per look of 0.1 s, likewise: less than 1 forgets what is far ahead, too low.
+  double discount_first = 0.99;
+  double discount = 1.0;
+  double annealed = 0.5;
+  std::int64_t width = danger::Network::width;  ///< of the three hidden layers
+};
+
+/// Rectified layers, and what their one output adds to h: at least 0.
+class DangerNetImpl : public torch::nn::Module {
+ public:
+  DangerNetImpl(std::int64_t inputs, std::int64_t width);
+  /// @param inputs  (B x inputs)
+  /// @param h       (B), [m]
+  /// @return        (B), >= h [m]
+  torch::Tensor forward(const torch::Tensor& inputs, const torch::Tensor& h);
+  /// Adds its weights as `prefix` + "0.weight", "0.bias", ... "3.bias".
+  void add_to(config::Tensors& tensors, const std::string& prefix) const;
+
+ private:
+  torch::nn::Linear first_;
+  torch::nn::Linear second_;
+  torch::nn::Linear third_;
+  torch::nn::Linear last_;
+};
+TORCH_MODULE(DangerNet);
+
+/// V_h, and the two Q_h with their slow copies.
+class DangerNetsImpl : public torch::nn::Module {
+ public:
+  explicit DangerNetsImpl(std::int64_t width);
+
+  DangerNet v;
+  DangerNet q1;
+  DangerNet q2;
+  DangerNet slow_q1;
+  DangerNet slow_q2;
+
+  /// The shipped weights: v and both q.
+  [[nodiscard]] config::Tensors tensors() const;
+};
+TORCH_MODULE(DangerNets);
+
+/// One point of the curve: means since the one before.
+struct DangerProgress {
+  int step = 0;  ///< so many are done
+  double v_loss = 0.0;
+  double q_loss = 0.0;
+  double mean_v = 0.0;   ///< [m], of what V is above -farthest_told
+  double above = 0.0;    ///< share of states whose V lies 0.2 m or more above what was reached
+  double seconds = 0.0;  ///< that it took
+};
+
+/// Trains, or goes on where an earlier run of the same plan on the same data was stopped.
+/// @param threads   1 or 2: halves of a batch; they do not change the result
+/// @param state     file of what is needed to go on; empty: none
+/// @param on_point  hears of each point of the curve, also of those of an earlier run; false: stop
+/// @return          the networks; Error::Code::malformed, naming the file, if the state is of
+///                  another plan or data. When it was stopped they are as they are then.
+[[nodiscard]] Result<DangerNets> trained_danger(
+    const danger::Experience& experience, const DangerPlan& plan, int threads,
+    const std::filesystem::path& state, const std::function<bool(const DangerProgress&)>& on_point);
+
+}  // namespace saca::train
