@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/danger_check.h"
 #include "apps/saca/danger_making.h"
 #include "apps/saca/inputs.h"
 #include "apps/saca/json_output.h"
@@ -44,6 +45,7 @@ struct DatasetOptions {
   std::uint64_t seed = 1;
   int drives_per_part = 500;
   bool no_tables = false;
+  std::string by;  ///< weights; empty: none
   int threads = usual_threads();
   bool as_json = false;
 };
@@ -111,8 +113,12 @@ std::string card(const DatasetOptions& options, const PartLine& all) {
 class Making {
  public:
   Making(const DatasetOptions& options, const Inputs& inputs, const reach::DangerModel& model,
-         Journal journal)
-      : options_(options), inputs_(inputs), model_(model), journal_(std::move(journal)) {
+         const danger::Network* network, Journal journal)
+      : options_(options),
+        inputs_(inputs),
+        model_(model),
+        network_(network),
+        journal_(std::move(journal)) {
     for (const std::string& line : journal_.lines()) {
       const auto one = parsed(line);
       if (one && fs::exists(file_of(options, one->first))) {
@@ -173,7 +179,7 @@ class Making {
       part.seed = seed.value();
       part.transitions =
           danger::made_transitions(inputs_.car, manoeuvre::footprint(inputs_.car), model_,
-                                   part.mixture, options_.drives_per_part, part.seed);
+                                   part.mixture, options_.drives_per_part, part.seed, network_);
     });
     for (std::size_t i = 0; i < parts.size(); ++i) {
       if (all_until(missing[i]).transitions >= options_.transitions) {
@@ -199,6 +205,7 @@ class Making {
   const DatasetOptions& options_;
   const Inputs& inputs_;
   const reach::DangerModel& model_;
+  const danger::Network* network_;
   Journal journal_;
   std::map<std::size_t, PartLine> made_;
 };
@@ -227,6 +234,14 @@ int make_dataset(const DatasetOptions& options) {
   if (!inputs.has_value()) {
     return refused(inputs.error());
   }
+  std::optional<danger::Network> network;
+  if (!options.by.empty()) {
+    auto read = read_danger_network(options.by);
+    if (!read.has_value()) {
+      return refused(read.error());
+    }
+    network = std::move(read).value();
+  }
   const fs::path folder(options.folder);
   const fs::path journal_file = folder / "journal.txt";
   if (const auto problem = make_folder_of(journal_file)) {
@@ -236,7 +251,8 @@ int make_dataset(const DatasetOptions& options) {
       journal_file,
       fmt::format("saca.transitions/1, car {}, seed {}, {} drives a part, {} features{}",
                   inputs.value().car_name, options.seed, options.drives_per_part,
-                  danger::num_features, options.no_tables ? ", no tables" : ""));
+                  danger::num_features, options.no_tables ? ", no tables" : "") +
+          (network ? fmt::format(", by {:016x}", network->digest()) : ""));
   if (!journal.has_value()) {
     return refused(journal.error());
   }
@@ -253,7 +269,8 @@ int make_dataset(const DatasetOptions& options) {
   }
   SteadyClock clock;
   const auto start = clock.now();
-  Making making(options, inputs.value(), model.value(), std::move(journal).value());
+  Making making(options, inputs.value(), model.value(), network ? &*network : nullptr,
+                std::move(journal).value());
   if (const auto stopped = making.run(clock)) {
     const int code = refused(*stopped);
     return stopped->code == Error::Code::too_late ? static_cast<int>(was_interrupted) : code;
@@ -268,8 +285,8 @@ int make_dataset(const DatasetOptions& options) {
 }  // namespace
 
 void add_danger(CLI::App& line, int& exit_code) {
-  CLI::App* const command =
-      line.add_subcommand("danger", "V_h and Q_h, learnt: what they are to be learnt from");
+  CLI::App* const command = line.add_subcommand(
+      "danger", "V_h and Q_h, learnt: what they are learnt from, and what they are worth");
   command->require_subcommand(1);
   const auto options = std::make_shared<DatasetOptions>();
   CLI::App* const dataset = command->add_subcommand(
@@ -285,13 +302,17 @@ void add_danger(CLI::App& line, int& exit_code) {
   dataset->add_option("--part-drives", options->drives_per_part, "Drives of the ego in a part")
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();
-  dataset->add_flag("--no-tables", options->no_tables,
-                    "Look for the boundary and the way out by arcs, not by solved tables of danger");
+  dataset->add_flag(
+      "--no-tables", options->no_tables,
+      "Look for the boundary and the way out by arcs, not by solved tables of danger");
+  dataset->add_option("--by", options->by,
+                      "Weights of saca-train-danger: evasions are driven by their Q");
   dataset->add_option("--threads", options->threads, "They do not change what is made")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   dataset->add_flag("--json", options->as_json, "For programs");
   dataset->callback([options, &exit_code] { exit_code = make_dataset(*options); });
+  add_danger_check(*command, exit_code);
 }
 
 }  // namespace saca::app

@@ -2,10 +2,12 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
 #include "saca/core/contract.h"
+#include "saca/core/fnv.h"
 
 namespace saca::danger {
 namespace {
@@ -62,6 +64,20 @@ Result<Network> Network::from(const config::Tensors& tensors, std::string_view s
   network.q_ = {std::move(q1).value(), std::move(q2).value()};
   network.words_ = tensors.words;
   return network;
+}
+
+std::uint64_t Network::digest() const {
+  Fnv hash;
+  for (const Layers* layers : {&v_, &q_[0], &q_[1]}) {
+    for (const Layer& layer : *layers) {
+      for (const std::vector<float>* numbers : {&layer.weight, &layer.bias}) {
+        for (const float number : *numbers) {
+          hash.add(std::bit_cast<std::uint32_t>(number));
+        }
+      }
+    }
+  }
+  return hash.value();
 }
 
 void Network::run(const Layers& layers, const float* inputs, std::size_t count, float* out) {

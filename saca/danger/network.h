@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <span>
 #include <string>
@@ -37,6 +38,9 @@ class Network {
   /// @param q        as many
   void values_of(const SeenByNet& seen, std::span<const manoeuvre::Demand> demands,
                  std::span<double> q) const;
+
+  /// Names the weights.
+  [[nodiscard]] std::uint64_t digest() const;
 
   /// What the file says of itself: car, transitions, drives, seed, ...
   [[nodiscard]] const std::map<std::string, std::string>& words() const { return words_; }

@@ -124,6 +124,13 @@ TEST_F(NetworkTest, AllocatesNothing) {
   EXPECT_EQ(num_allocations, before);
 }
 
+TEST_F(NetworkTest, IsNamedByItsWeights) {
+  EXPECT_EQ(network_.digest(), Network::from(tensors_, "again").value().digest());
+  config::Tensors other = tensors_;
+  other.tensors["q2.3.bias"].values[0] += 1e-3F;
+  EXPECT_NE(network_.digest(), Network::from(other, "other").value().digest());
+}
+
 TEST_F(NetworkTest, RefusesWhatIsNotItsWeights) {
   for (const std::string name : {"v.0.weight", "q1.2.bias", "q2.3.weight"}) {
     config::Tensors other = tensors_;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "saca/core/contract.h"
+#include "saca/danger/acting.h"
 #include "saca/danger/arc_evasions.h"
 #include "saca/danger/random.h"
 #include "saca/reach/avoidance.h"
@@ -33,12 +34,13 @@ struct Drive {
 class Maker {
  public:
   Maker(const manoeuvre::Car& car, const world::Footprint& body, const reach::DangerModel& model,
-        const Mixture& mixture, std::uint64_t seed)
+        const Mixture& mixture, std::uint64_t seed, const Network* network)
       : car_(car),
         limits_(reach::avoidance_of(car, 1.0)),
         body_(body),
         model_(model),
         mixture_(mixture),
+        network_(network),
         random_(seed) {}
 
   void add_drive() {
@@ -120,14 +122,18 @@ class Maker {
     return manoeuvre::admissible({best.along / most, best.across / most});
   }
 
-  [[nodiscard]] Driver::Evasion evasion_from(const Obstacle& obstacle, double grip) const {
-    return [this, obstacle, grip](const Ego& ego, double time) {
-      return evading(State{.ego = ego, .grip = grip}, after(obstacle, time));
+  [[nodiscard]] Driver::Evasion evasion_from(const Obstacles& obstacles, double grip) const {
+    return [this, obstacles, grip](const Ego& ego, double time) {
+      State now{.ego = ego, .grip = grip, .obstacles = {}};
+      for (const Obstacle& obstacle : obstacles) {
+        now.obstacles.push_back(after(obstacle, time));
+      }
+      return network_ != nullptr ? least_q(*network_, body_, now) : evading(now, now.obstacles[0]);
     };
   }
 
   Drive driven_by(Behaviour behaviour, Driven driven, double grip, const Obstacles& obstacles) {
-    Driver driver(behaviour, random_(), evasion_from(obstacles[0], grip));
+    Driver driver(behaviour, random_(), evasion_from(obstacles, grip));
     Drive drive{.grip = grip};
     drive.looks.push_back(driven.ego());
     for (int i = 0; i < mixture_.looks; ++i) {
@@ -189,6 +195,7 @@ class Maker {
   const world::Footprint& body_;
   const reach::DangerModel& model_;
   const Mixture& mixture_;
+  const Network* network_;
   Random random_;
   Transitions made_;
 };
@@ -197,7 +204,7 @@ class Maker {
 
 Transitions made_transitions(const manoeuvre::Car& car, const world::Footprint& body,
                              const reach::DangerModel& model, const Mixture& mixture, int drives,
-                             std::uint64_t seed) {
+                             std::uint64_t seed, const Network* network) {
   expects(drives >= 1 && mixture.looks >= 1 && mixture.situations >= 1,
           "at least one drive, look and situation");
   expects(mixture.near_share >= 0.0 && mixture.near_share <= 1.0, "a share in [0, 1]");
@@ -205,7 +212,7 @@ Transitions made_transitions(const manoeuvre::Car& car, const world::Footprint& 
                       [](double share) { return share >= 0.0; }) &&
               std::accumulate(mixture.behaviours.begin(), mixture.behaviours.end(), 0.0) > 0.0,
           "shares of behaviours, not all 0");
-  Maker maker(car, body, model, mixture, seed);
+  Maker maker(car, body, model, mixture, seed, network);
   for (int i = 0; i < drives; ++i) {
     maker.add_drive();
   }

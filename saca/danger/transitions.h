@@ -7,6 +7,7 @@
 
 #include "saca/danger/behaviour.h"
 #include "saca/danger/draws.h"
+#include "saca/danger/network.h"
 #include "saca/danger/state.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/reach/danger.h"
@@ -47,14 +48,17 @@ struct Transitions {
 ///
 /// A drive: grip between 0.2 and 1, a drawn start, one to three obstacles, a behaviour. Where it is
 /// told how to evade (Behaviour::evasion), it looks for the demand after which the first obstacle's
-/// `model` value is least (reach::by_look_ahead). Beside each other situation the drive is seen
-/// from one of its looks on. A situation ends when it is settled, or with the drive.
+/// `model` value is least (reach::by_look_ahead), by the best arc where no table has it, and by the
+/// least Q where there is a network. Beside each other situation the drive is seen from one of its
+/// looks on. A situation ends when it is settled, or with the drive.
 /// @param body   of the ego, about its centre of mass
 /// @param model  of the car, of any tables
+/// @param network  learnt from an earlier data set; nullptr: none
 /// @param drives  >= 1
 /// @throws ContractViolation  if a number of the mixture is out of range
 [[nodiscard]] Transitions made_transitions(const manoeuvre::Car& car, const world::Footprint& body,
                                            const reach::DangerModel& model, const Mixture& mixture,
-                                           int drives, std::uint64_t seed);
+                                           int drives, std::uint64_t seed,
+                                           const Network* network = nullptr);
 
 }  // namespace saca::danger

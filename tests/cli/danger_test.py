@@ -1,8 +1,9 @@
-"""`saca danger dataset`."""
+"""`saca danger dataset` and `saca danger check`."""
 
 import hashlib
 import json
 import pathlib
+import struct
 import sys
 
 import pytest
@@ -58,3 +59,56 @@ def test_a_folder_that_cannot_be_made_is_named(tmp_path):
     (tmp_path / "file").write_text("no folder")
     result = saca("danger", "dataset", tmp_path / "file" / "a", *SMALL, cwd=tmp_path)
     assert "file/a" in one_error(result, CANNOT_WRITE)
+
+
+def weights(path, without="", **words):
+    """Networks whose layers are 0: each value is h + log 2."""
+    header, numbers = {"__metadata__": {"car": "compact_rwd_ev"} | words}, 0
+    for net, inputs in (("v", 32), ("q1", 34), ("q2", 34)):
+        for layer in range(4):
+            rows, columns = 96 if layer < 3 else 1, 96 if layer else inputs
+            for name, shape in ((f"{net}.{layer}.weight", [rows, columns]), (f"{net}.{layer}.bias", [rows])):
+                if name == without:
+                    continue
+                count = shape[0] * (shape[1] if len(shape) > 1 else 1)
+                header[name] = {"dtype": "F32", "shape": shape, "data_offsets": [4 * numbers, 4 * (numbers + count)]}
+                numbers += count
+    text = json.dumps(header).encode()
+    path.write_bytes(struct.pack("<Q", len(text)) + text + bytes(4 * numbers))
+    return path
+
+
+def test_check_tells_how_often_networks_are_wrong(tmp_path):
+    # Who tells h + log 2 sees what comes within 0.7 m at most, and drives on with full power: it must be found out.
+    path = weights(tmp_path / "blind.safetensors")
+    arguments = ("danger", "check", path, "--situations", "120")
+    result = saca(*arguments, "--json", cwd=tmp_path)
+    assert result.returncode == SUCCESS, result.stderr
+    told = json.loads(result.stdout)
+    assert told["danger.net.plain.hit_given_told_safe"] > 0.1
+    assert told["danger.net.plain.told_safe_given_hit"] > 0.7
+    assert told["danger.net.plain.hit_given_told_safe.hi"] > told["danger.net.plain.hit_given_told_safe"]
+    assert told["danger.net.hit_given_told_safe"] < told["danger.net.plain.hit_given_told_safe"]
+    assert told["danger.net.false_alarm"] > told["danger.net.plain.false_alarm"]
+    again = json.loads(saca(*arguments, "--threads", "1", "--json", cwd=tmp_path).stdout)
+    same = [key for key in told if key != "danger.net.us_batch32"]
+    assert [told[key] for key in same] == [again[key] for key in same]
+    plain = saca(*arguments, cwd=tmp_path)
+    assert plain.returncode == SUCCESS and "all, each with its margin" in plain.stdout
+
+
+def test_check_refuses_what_are_no_weights(tmp_path):
+    assert "q1.2.bias" in one_error(saca("danger", "check", weights(tmp_path / "a", without="q1.2.bias"), cwd=tmp_path), BAD_INPUT)
+    assert "no_such" in one_error(saca("danger", "check", tmp_path / "no_such", cwd=tmp_path), BAD_INPUT)
+    assert "no_such_car" in one_error(saca("danger", "check", weights(tmp_path / "b", car="no_such_car"), cwd=tmp_path), BAD_INPUT)
+    (tmp_path / "c").write_text("no weights")
+    one_error(saca("danger", "check", tmp_path / "c", cwd=tmp_path), BAD_INPUT)
+
+
+def test_a_data_set_by_a_network_is_another(tmp_path):
+    path = weights(tmp_path / "blind.safetensors")
+    plain = saca("danger", "dataset", tmp_path / "a", *SMALL, cwd=tmp_path)
+    by_it = saca("danger", "dataset", tmp_path / "b", *SMALL, "--by", path, cwd=tmp_path)
+    assert plain.returncode == SUCCESS and by_it.returncode == SUCCESS, by_it.stderr
+    assert digests(tmp_path / "a") != digests(tmp_path / "b")
+    assert "journal.txt" in one_error(saca("danger", "dataset", tmp_path / "a", *SMALL, "--by", path, cwd=tmp_path), BAD_INPUT)
