@@ -106,7 +106,6 @@ struct Annealed {
 Annealed annealed(const DangerPlan& plan, int step) {
   const double done = static_cast<double>(step) / plan.steps;
   const double share = std::min(1.0, done / plan.annealed);
-  // The distance from 1 falls by equal factors, down to a last one that is 0.
   const auto towards = [&](double first, double last) { return first + share * (last - first); };
   return {.expectile = towards(plan.expectile_first, plan.expectile),
           .discount = towards(plan.discount_first, plan.discount),
@@ -124,20 +123,20 @@ Tensor weight_of(const Tensor& v) {
 Losses losses_of(DangerNets& nets, const Sample& sample, const Annealed& now) {
   const Tensor state_and_action = torch::cat({sample.inputs, sample.actions}, 1);
   Tensor target_q;
-  Tensor least_q;  // of the two slow ones the larger
+  Tensor slow_q;  // the larger of two
   {
     const torch::NoGradGuard none;
     const Tensor ahead = torch::where(sample.settled > 0.5, sample.next_h_at,
                                       nets->v(sample.next_inputs, sample.next_h_at));
     const Tensor undiscounted = torch::maximum(sample.h, ahead);
     target_q = torch::minimum(sample.reached, sample.h + now.discount * (undiscounted - sample.h));
-    least_q = torch::minimum(sample.reached,
-                             torch::maximum(nets->slow_q1(state_and_action, sample.h_at),
-                                            nets->slow_q2(state_and_action, sample.h_at)));
+    slow_q = torch::minimum(sample.reached,
+                            torch::maximum(nets->slow_q1(state_and_action, sample.h_at),
+                                           nets->slow_q2(state_and_action, sample.h_at)));
   }
   const Tensor v = nets->v(sample.inputs, sample.h_at);
   const Tensor weight = weight_of(v.detach());
-  const Tensor over = least_q - v;  // of Q above V
+  const Tensor over = slow_q - v;  // of Q above V
   const Tensor side = torch::where(over < 0.0, torch::full_like(over, now.expectile),
                                    torch::full_like(over, 1.0 - now.expectile));
   const auto q_loss = [&](DangerNet& q) {
