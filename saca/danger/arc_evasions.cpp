@@ -45,15 +45,13 @@ double highest_on_the_way(const world::Footprint& body, const Obstacle& ego,
 ArcEvasions::ArcEvasions(const reach::Avoidance& limits, const world::Footprint& body,
                          const State& state)
     : body_(body) {
-  const Vec2 v_B = state.ego.v_B;
-  const double speed = norm(v_B);
-  const double sideslip = speed > 0.0 ? std::atan2(v_B.y, v_B.x) : 0.0;
+  const double speed = norm(state.ego.v_B);
   reach::Avoidance car = limits;
   car.grip = state.grip;
   const reach::Limits most = reach::limits_at(car, speed);
   const auto add = [&](double along, double across) {
     Arc arc;
-    arc.motion.X_WO = {state.ego.X_WB.p, state.ego.X_WB.yaw + sideslip};
+    arc.motion.X_WO = {state.ego.X_WB.p, course(state.ego)};
     arc.motion.speed = speed;
     if (speed > 0.0) {
       arc.demand = {along / most.disc, across / most.disc};

@@ -7,6 +7,11 @@
 
 namespace saca::danger {
 
+double course(const Ego& ego) {
+  const bool moves = norm(ego.v_B) > 0.0;
+  return ego.X_WB.yaw + (moves ? std::atan2(ego.v_B.y, ego.v_B.x) : 0.0);
+}
+
 Ego ego_of(const vehicle::Vehicle& car, const vehicle::VehicleState& state) {
   const double per_torque = 1.0 / (car.wheel_radius * car.mass);
   const double brakes = std::accumulate(state.brake_torque.begin(), state.brake_torque.end(), 0.0);

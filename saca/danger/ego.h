@@ -29,6 +29,9 @@ struct Ego {
   double driving = 0.0;   ///< the motor's torque likewise [m/s^2]
 };
 
+/// Where its centre of mass moves: its yaw where it stands [rad], not wrapped.
+[[nodiscard]] double course(const Ego& ego);
+
 [[nodiscard]] Ego ego_of(const vehicle::Vehicle& car, const vehicle::VehicleState& state);
 
 /// A car that is driven by one demand after another. Grip is known to whoever drives.

@@ -74,13 +74,11 @@ reach::Meeting meeting_of(const world::Footprint& body, const State& state,
                           const Obstacle& obstacle) {
   const Vec2 p_O = inverse(obstacle.X_WO) * state.ego.X_WB.p;
   const double speed = norm(state.ego.v_B);
-  const double sideslip = speed > 0.0 ? std::atan2(state.ego.v_B.y, state.ego.v_B.x) : 0.0;
-  const double course = state.ego.X_WB.yaw + sideslip - obstacle.X_WO.yaw;
   return {.ego = body,
           .obstacle = obstacle.body,
           .grip = state.grip,
           .obstacle_speed = obstacle.speed,
-          .state = {p_O.x, p_O.y, wrap_angle(course), speed}};
+          .state = {p_O.x, p_O.y, wrap_angle(course(state.ego) - obstacle.X_WO.yaw), speed}};
 }
 
 Observation observation(const State& state) {

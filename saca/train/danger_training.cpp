@@ -8,13 +8,11 @@
 #include <cmath>
 #include <numbers>
 #include <random>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "saca/core/contract.h"
-#include "saca/core/file.h"
 #include "saca/core/fnv.h"
 #include "saca/core/parallel.h"
 #include "saca/train/task.h"
@@ -180,8 +178,7 @@ class DangerTraining {
       : experience_(experience),
         plan_(plan),
         threads_(threads),
-        state_(std::move(state)),
-        fingerprint_(danger_fingerprint(experience, plan)),
+        state_{std::move(state), danger_fingerprint(experience, plan)},
         nets_(plan.width),
         optimiser_(learnt(), torch::optim::AdamOptions(plan.step)) {}
 
@@ -272,14 +269,6 @@ class DangerTraining {
   }
 
   std::optional<Error> keep() {
-    if (state_.empty()) {
-      return std::nullopt;
-    }
-    torch::serialize::OutputArchive archive;
-    torch::serialize::OutputArchive nets;
-    torch::serialize::OutputArchive optimiser;
-    nets_->save(nets);
-    optimiser_.save(optimiser);
     Tensor curve = torch::empty({static_cast<std::int64_t>(curve_.size()), 6}, torch::kFloat64);
     for (std::size_t i = 0; i < curve_.size(); ++i) {
       const DangerProgress& point = curve_[i];
@@ -291,64 +280,35 @@ class DangerTraining {
       row[4] = point.above;
       row[5] = point.seconds;
     }
-    archive.write("of", c10::IValue(fingerprint_));
-    archive.write("curve", curve);
-    archive.write("nets", nets);
-    archive.write("optimiser", optimiser);
-    std::ostringstream bytes;
-    archive.save_to(bytes);
-    return write_file(state_, bytes.str());
+    return train::keep(state_, *nets_, optimiser_, curve);
   }
 
   std::optional<Error> resume() {
-    if (state_.empty() || !std::filesystem::exists(state_)) {
+    const auto kept = train::resume(state_, *nets_, optimiser_);
+    if (!kept.has_value()) {
+      return kept.error();
+    }
+    if (!kept.value()) {
       return std::nullopt;
     }
-    const auto bytes = read_file(state_, many_bytes);
-    if (!bytes.has_value()) {
-      return bytes.error();
+    const Tensor& curve = *kept.value();
+    for (std::int64_t i = 0; i < curve.size(0); ++i) {
+      const auto number = [&](std::int64_t k) { return curve[i][k].item<double>(); };
+      curve_.push_back({.step = static_cast<int>(number(0)),
+                        .v_loss = number(1),
+                        .q_loss = number(2),
+                        .mean_v = number(3),
+                        .above = number(4),
+                        .seconds = number(5)});
     }
-    try {
-      std::istringstream stream(bytes.value());
-      torch::serialize::InputArchive archive;
-      archive.load_from(stream);
-      c10::IValue of;
-      archive.read("of", of);
-      if (of.toStringRef() != fingerprint_) {
-        return Error{Error::Code::malformed,
-                     state_.string() + ": is of another training: remove it to begin anew"};
-      }
-      Tensor curve;
-      archive.read("curve", curve);
-      torch::serialize::InputArchive nets;
-      torch::serialize::InputArchive optimiser;
-      archive.read("nets", nets);
-      archive.read("optimiser", optimiser);
-      nets_->load(nets);
-      optimiser_.load(optimiser);
-      for (std::int64_t i = 0; i < curve.size(0); ++i) {
-        const auto number = [&](std::int64_t k) { return curve[i][k].item<double>(); };
-        curve_.push_back({.step = static_cast<int>(number(0)),
-                          .v_loss = number(1),
-                          .q_loss = number(2),
-                          .mean_v = number(3),
-                          .above = number(4),
-                          .seconds = number(5)});
-      }
-      done_ = curve_.empty() ? 0 : curve_.back().step;
-    } catch (const c10::Error& problem) {
-      return Error{Error::Code::malformed, state_.string() +
-                                               ": want the state of a training, got " +
-                                               problem.what_without_backtrace()};
-    }
+    done_ = curve_.empty() ? 0 : curve_.back().step;
     return std::nullopt;
   }
 
   const Experience& experience_;
   const DangerPlan& plan_;
   int threads_;
-  std::filesystem::path state_;
-  std::string fingerprint_;
+  TrainingState state_;
   DangerNets nets_;
   torch::optim::Adam optimiser_;
   std::vector<DangerProgress> curve_;

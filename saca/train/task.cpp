@@ -81,8 +81,7 @@ class Training {
         pieces_(pieces),
         held_out_(held_out),
         plan_(plan),
-        state_(std::move(state)),
-        fingerprint_(fingerprint(pieces, plan, task.words)),
+        state_{std::move(state), fingerprint(pieces, plan, task.words)},
         optimiser_(task.network->parameters(),
                    torch::optim::AdamWOptions(plan.step).weight_decay(plan.decay)) {}
 
@@ -116,8 +115,7 @@ class Training {
   const std::vector<Piece>& pieces_;
   const std::vector<Piece>& held_out_;
   Schedule plan_;
-  std::filesystem::path state_;
-  std::string fingerprint_;
+  TrainingState state_;
   torch::optim::AdamW optimiser_;
   std::vector<Epoch> curve_;
 };
@@ -166,15 +164,6 @@ Epoch Training::epoch(int number) {
 }
 
 std::optional<Error> Training::keep() {
-  if (state_.empty()) {
-    return std::nullopt;
-  }
-  torch::serialize::OutputArchive archive;
-  torch::serialize::OutputArchive network;
-  torch::serialize::OutputArchive optimiser;
-  task_.network->save(network);
-  optimiser_.save(optimiser);
-  archive.write("of", c10::IValue(fingerprint_));
   torch::Tensor curve =
       torch::empty({static_cast<std::int64_t>(curve_.size()), 3}, torch::kFloat64);
   for (std::size_t i = 0; i < curve_.size(); ++i) {
@@ -183,50 +172,24 @@ std::optional<Error> Training::keep() {
     curve[row][1] = curve_[i].held_out.value_or(std::nan(""));
     curve[row][2] = curve_[i].seconds;
   }
-  archive.write("curve", curve);
-  archive.write("network", network);
-  archive.write("optimiser", optimiser);
-  std::ostringstream bytes;
-  archive.save_to(bytes);
-  return write_file(state_, bytes.str());
+  return train::keep(state_, *task_.network, optimiser_, curve);
 }
 
 std::optional<Error> Training::resume() {
-  if (state_.empty() || !std::filesystem::exists(state_)) {
+  const auto kept = train::resume(state_, *task_.network, optimiser_);
+  if (!kept.has_value()) {
+    return kept.error();
+  }
+  if (!kept.value()) {
     return std::nullopt;
   }
-  const auto bytes = read_file(state_, many_bytes);
-  if (!bytes.has_value()) {
-    return bytes.error();
-  }
-  try {
-    std::istringstream stream(bytes.value());
-    torch::serialize::InputArchive archive;
-    archive.load_from(stream);
-    c10::IValue of;
-    archive.read("of", of);
-    if (of.toStringRef() != fingerprint_) {
-      return Error{Error::Code::malformed,
-                   state_.string() + ": is of another training: remove it to begin anew"};
-    }
-    torch::Tensor curve;
-    archive.read("curve", curve);
-    torch::serialize::InputArchive network;
-    torch::serialize::InputArchive optimiser;
-    archive.read("network", network);
-    archive.read("optimiser", optimiser);
-    task_.network->load(network);
-    optimiser_.load(optimiser);
-    for (std::int64_t i = 0; i < curve.size(0); ++i) {
-      const double held_out = curve[i][1].item<double>();
-      curve_.push_back({.number = static_cast<int>(i) + 1,
-                        .loss = curve[i][0].item<double>(),
-                        .held_out = std::isnan(held_out) ? std::nullopt : std::optional(held_out),
-                        .seconds = curve[i][2].item<double>()});
-    }
-  } catch (const c10::Error& problem) {
-    return Error{Error::Code::malformed, state_.string() + ": want the state of a training, got " +
-                                             problem.what_without_backtrace()};
+  const torch::Tensor& curve = *kept.value();
+  for (std::int64_t i = 0; i < curve.size(0); ++i) {
+    const double held_out = curve[i][1].item<double>();
+    curve_.push_back({.number = static_cast<int>(i) + 1,
+                      .loss = curve[i][0].item<double>(),
+                      .held_out = std::isnan(held_out) ? std::nullopt : std::optional(held_out),
+                      .seconds = curve[i][2].item<double>()});
   }
   return std::nullopt;
 }
@@ -287,6 +250,60 @@ std::optional<Error> train(const Task& task, const std::vector<Piece>& pieces,
                            const std::function<bool(const Epoch&)>& on_epoch) {
   expects(!pieces.empty() && schedule.epochs > 0 && schedule.batch > 0, "something to train with");
   return Training(task, pieces, held_out, schedule, state).run(on_epoch);
+}
+
+std::optional<Error> keep(const TrainingState& state, const torch::nn::Module& network,
+                          const torch::optim::Optimizer& optimiser, const torch::Tensor& curve) {
+  if (state.file.empty()) {
+    return std::nullopt;
+  }
+  torch::serialize::OutputArchive archive;
+  torch::serialize::OutputArchive of_network;
+  torch::serialize::OutputArchive of_optimiser;
+  network.save(of_network);
+  optimiser.save(of_optimiser);
+  archive.write("of", c10::IValue(state.fingerprint));
+  archive.write("curve", curve);
+  archive.write("network", of_network);
+  archive.write("optimiser", of_optimiser);
+  std::ostringstream bytes;
+  archive.save_to(bytes);
+  return write_file(state.file, bytes.str());
+}
+
+Result<std::optional<torch::Tensor>> resume(const TrainingState& state, torch::nn::Module& network,
+                                            torch::optim::Optimizer& optimiser) {
+  if (state.file.empty() || !std::filesystem::exists(state.file)) {
+    return std::optional<torch::Tensor>();
+  }
+  const auto bytes = read_file(state.file, many_bytes);
+  if (!bytes.has_value()) {
+    return bytes.error();
+  }
+  try {
+    std::istringstream stream(bytes.value());
+    torch::serialize::InputArchive archive;
+    archive.load_from(stream);
+    c10::IValue of;
+    archive.read("of", of);
+    if (of.toStringRef() != state.fingerprint) {
+      return Error{Error::Code::malformed,
+                   state.file.string() + ": is of another training: remove it to begin anew"};
+    }
+    torch::Tensor curve;
+    archive.read("curve", curve);
+    torch::serialize::InputArchive of_network;
+    torch::serialize::InputArchive of_optimiser;
+    archive.read("network", of_network);
+    archive.read("optimiser", of_optimiser);
+    network.load(of_network);
+    optimiser.load(of_optimiser);
+    return std::optional(curve);
+  } catch (const c10::Error& problem) {
+    return Error{Error::Code::malformed, state.file.string() +
+                                             ": want the state of a training, got " +
+                                             problem.what_without_backtrace()};
+  }
 }
 
 config::Tensor plain(const torch::Tensor& tensor) {

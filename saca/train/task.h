@@ -81,6 +81,27 @@ struct Task {
                                          const std::filesystem::path& state,
                                          const std::function<bool(const Epoch&)>& on_epoch);
 
+/// What is needed to go on with a training that was stopped.
+struct TrainingState {
+  std::filesystem::path file;  ///< empty: none is kept
+  std::string fingerprint;     ///< of plan and data: another one cannot be gone on with
+};
+
+/// Writes network, optimiser and curve.
+/// @param curve  a row for each point, double precision
+/// @return       nullopt, else the reason why it cannot be written
+[[nodiscard]] std::optional<Error> keep(const TrainingState& state,
+                                        const torch::nn::Module& network,
+                                        const torch::optim::Optimizer& optimiser,
+                                        const torch::Tensor& curve);
+
+/// Reads back what was kept.
+/// @return  the curve; nullopt: nothing is kept yet; Error::Code::malformed, naming the file, if it
+///          is of another plan or data, or no state of a training
+[[nodiscard]] Result<std::optional<torch::Tensor>> resume(const TrainingState& state,
+                                                          torch::nn::Module& network,
+                                                          torch::optim::Optimizer& optimiser);
+
 /// A tensor's numbers, for files.
 [[nodiscard]] config::Tensor plain(const torch::Tensor& tensor);
 
