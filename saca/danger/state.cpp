@@ -50,18 +50,22 @@ double intrusion(const world::Footprint& body, const State& state) {
 }
 
 bool is_settled(const world::Footprint& body, const State& state) {
-  constexpr double step = 0.25;  // [s]
-  constexpr int steps = 20;      // later nobody goes on as now
+  // Convex shapes on straight ways, once they get farther, get farther for good; arcs may come
+  // back. The first step is short, or they could pass one another within it.
+  constexpr double first_step = 0.005;  // [s]
+  constexpr double step = 0.05;
+  constexpr int steps = 100;         // later nobody goes on as now
+  constexpr double rounding = 1e-6;  // [m]
   for (const Obstacle& obstacle : state.obstacles) {
     double before = reach::intrusion(body, state.ego.X_WB, obstacle.body, obstacle.X_WO);
     if (before > 0.0) {
       return false;
     }
-    for (int i = 1; i <= steps; ++i) {
-      const double time = step * i;
+    for (int i = 0; i <= steps; ++i) {
+      const double time = i == 0 ? first_step : step * i;
       const double then = reach::intrusion(body, straight_on(state.ego, time), obstacle.body,
                                            after(obstacle, time).X_WO);
-      if (then > before) {
+      if (then > before + rounding) {
         return false;
       }
       before = then;

@@ -83,6 +83,19 @@ TEST(State, IsObservedFromTheEgo) {
   EXPECT_EQ(of("obstacle2.length"), 0.0F);
 }
 
+// A pedestrian just before a fast car: a quarter of a second later it has passed.
+TEST(State, IsNotSettledBeforeAShortBodyIsRunOver) {
+  State state = driving(30.0);
+  Obstacle pedestrian = car_at({2.25 + 0.5, 0.0}, 0.5 * std::numbers::pi, 0.0);
+  pedestrian.body = {.length = 0.5, .width = 0.5};
+  state.obstacles.push_back(pedestrian);
+  EXPECT_FALSE(is_settled(body, state));
+  state.obstacles[0].X_WO.p = {-3.0, 0.0};
+  EXPECT_TRUE(is_settled(body, state)) << "behind";
+  state.obstacles[0].X_WO.p = {0.0, 2.0};
+  EXPECT_TRUE(is_settled(body, state)) << "beside: as far for a while, then farther";
+}
+
 TEST(State, TheMirrorTurnsSidesAround) {
   State state = driving(12.0);
   state.ego.X_WB = {{3.0, 4.0}, 0.3};
