@@ -21,24 +21,25 @@ float told_of(float h) {
   return static_cast<float>(told(static_cast<double>(h)));
 }
 
-void add_state(Experience& all, const Observation& seen, const world::Footprint& body) {
-  const SeenByNet one = seen_by_net(body, seen, 0);
+void add_state(Experience& all, const Observation& seen, const world::Footprint& body,
+               world::Shape shape) {
+  const SeenByNet one = seen_by_net(body, seen, 0, shape);
   all.inputs.insert(all.inputs.end(), one.inputs.begin(), one.inputs.end());
   all.h_at.push_back(static_cast<float>(told(one.h)));
 }
 
 /// Transitions from `first` until before `last`, which are one situation.
 void add_situation(Experience& all, const Transitions& from, std::size_t first, std::size_t last,
-                   const world::Footprint& body) {
+                   const world::Footprint& body, world::Shape shape) {
   const std::size_t start = all.size();
   for (std::size_t i = first; i < last; ++i) {
     all.row.push_back(static_cast<std::uint32_t>(all.num_states()));
-    add_state(all, row_of(from.observations, i), body);
+    add_state(all, row_of(from.observations, i), body, shape);
     all.actions.insert(all.actions.end(), {from.actions[2 * i], from.actions[2 * i + 1]});
     all.h.push_back(told_of(from.h[i]));
     all.settled.push_back(from.settled[i]);
   }
-  add_state(all, row_of(from.next_observations, last - 1), body);
+  add_state(all, row_of(from.next_observations, last - 1), body, shape);
   all.reached.resize(all.size());
   float reached =
       from.settled[last - 1] != 0.0F ? told_of(from.next_h[last - 1]) : Experience::end_not_seen;
@@ -50,14 +51,15 @@ void add_situation(Experience& all, const Transitions& from, std::size_t first, 
 
 }  // namespace
 
-void add_experience(Experience& all, const Transitions& transitions, const world::Footprint& body) {
+void add_experience(Experience& all, const Transitions& transitions, const world::Footprint& body,
+                    world::Shape shape) {
   std::size_t first = 0;
   for (std::size_t i = 0; i < transitions.size(); ++i) {
     if (transitions.settled[i] == 0.0F && transitions.cut_off[i] == 0.0F) {
       continue;
     }
     if (has_one_obstacle(row_of(transitions.observations, first))) {
-      add_situation(all, transitions, first, i + 1, body);
+      add_situation(all, transitions, first, i + 1, body, shape);
     }
     first = i + 1;
   }

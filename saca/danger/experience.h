@@ -34,7 +34,9 @@ struct Experience {
 };
 
 /// Adds the transitions of situations with one obstacle.
-/// @param body  of the ego, about its centre of mass
-void add_experience(Experience& all, const Transitions& transitions, const world::Footprint& body);
+/// @param body   of the ego, about its centre of mass
+/// @param shape  of the obstacles
+void add_experience(Experience& all, const Transitions& transitions, const world::Footprint& body,
+                    world::Shape shape = world::Shape::box);
 
 }  // namespace saca::danger

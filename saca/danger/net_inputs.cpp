@@ -39,7 +39,8 @@ Passing passing(const Vec2& p, const Vec2& v_rel) {
 
 }  // namespace
 
-SeenByNet seen_by_net(const world::Footprint& body, const Observation& seen, std::size_t obstacle) {
+SeenByNet seen_by_net(const world::Footprint& body, const Observation& seen, std::size_t obstacle,
+                      world::Shape shape) {
   expects(obstacle < most_obstacles, "an obstacle of the observation");
   const auto number = [&](std::size_t i) { return static_cast<double>(seen[i]); };
   const Vec2 v_B{number(0), number(1)};
@@ -52,7 +53,7 @@ SeenByNet seen_by_net(const world::Footprint& body, const Observation& seen, std
   other.speed = number(first + 5);
   other.acceleration = number(first + 6);
   other.curvature = number(first + 7);
-  other.body = {.length = number(first + 8), .width = number(first + 9)};
+  other.body = {.shape = shape, .length = number(first + 8), .width = number(first + 9)};
   const Vec2 p = other.X_WO.p;
   const Vec2 v_rel = other.speed * heading - v_B;
   const double h = reach::intrusion(body, Pose{}, other.body, other.X_WO);

@@ -30,8 +30,9 @@ struct SeenByNet {
 };
 /// @param body      of the ego, about its centre of mass
 /// @param obstacle  of the observation, one that is there
+/// @param shape     that it has, which an observation does not say
 [[nodiscard]] SeenByNet seen_by_net(const world::Footprint& body, const Observation& seen,
-                                    std::size_t obstacle);
+                                    std::size_t obstacle, world::Shape shape = world::Shape::box);
 
 /// The same seen in a mirror: these change their sign.
 [[nodiscard]] const std::vector<std::size_t>& mirrored_inputs();

@@ -48,12 +48,14 @@ double Agreement::false_alarm_share() const {
   return share(false_alarm, states - unsafe, 0.0);
 }
 
-AuthorsComparison compare_with_authors(const ValueAt& solved, const AuthorsNetwork& network) {
+AuthorsComparison compare_with_authors(
+    const ValueAt& solved,
+    const std::function<std::vector<double>(std::span<const AuthorsState>)>& network) {
   AuthorsComparison all;
   for (int speed = 0; speed <= 18; ++speed) {
     AuthorsComparison::AtSpeed here{.speed = static_cast<double>(speed)};
     const std::vector<AuthorsState> states = lattice_at(here.speed);
-    const std::vector<double> values = network.values(states);
+    const std::vector<double> values = network(states);
     for (std::size_t i = 0; i < states.size(); ++i) {
       const Looked found = solved({states[i].x, states[i].y, states[i].yaw, states[i].speed});
       if (!found.inside) {
@@ -72,6 +74,11 @@ AuthorsComparison compare_with_authors(const ValueAt& solved, const AuthorsNetwo
     }
   }
   return all;
+}
+
+AuthorsComparison compare_with_authors(const ValueAt& solved, const AuthorsNetwork& network) {
+  return compare_with_authors(
+      solved, [&](std::span<const AuthorsState> states) { return network.values(states); });
 }
 
 }  // namespace saca::reach

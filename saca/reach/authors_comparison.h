@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "saca/reach/authors_network.h"
@@ -36,8 +38,12 @@ struct AuthorsComparison {
 /// Over all states of `in_authors_range` on an even lattice: each metre in x and y, each 5 deg of
 /// yaw to either side, each m/s.
 ///
-/// @param solved  of x [m], y [m], course [rad], speed [m/s] relative to an obstacle at rest; the
-///                course stands for the yaw, as the solved car does not slip
+/// @param solved   of x [m], y [m], course [rad], speed [m/s] relative to an obstacle at rest; the
+///                 course stands for the yaw, as the solved car does not slip
+/// @param network  values of such states [m]: the authors', or any other that is to stand beside it
+[[nodiscard]] AuthorsComparison compare_with_authors(
+    const ValueAt& solved,
+    const std::function<std::vector<double>(std::span<const AuthorsState>)>& network);
 [[nodiscard]] AuthorsComparison compare_with_authors(const ValueAt& solved,
                                                      const AuthorsNetwork& network);
 

@@ -6,9 +6,11 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <random>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -49,9 +51,17 @@ std::vector<float> signs_of_inputs() {
   return signs;
 }
 
+/// A row of numbers that the networks see.
+void copy_inputs(const std::vector<float>& rows, std::size_t row, bool is_mirrored, float* to) {
+  static const std::vector<float> signs = signs_of_inputs();
+  const float* const numbers = &rows[row * danger::num_net_inputs];
+  for (std::size_t j = 0; j < danger::num_net_inputs; ++j) {
+    to[j] = is_mirrored ? signs[j] * numbers[j] : numbers[j];
+  }
+}
+
 /// Any transitions, each second one seen in a mirror.
 Sample drawn(const Experience& all, int count, std::mt19937_64& random) {
-  static const std::vector<float> signs = signs_of_inputs();
   const auto n = static_cast<std::int64_t>(count);
   Sample sample{.inputs = torch::empty({n, num_inputs}),
                 .next_inputs = torch::empty({n, num_inputs}),
@@ -67,14 +77,8 @@ Sample drawn(const Experience& all, int count, std::mt19937_64& random) {
     const std::size_t i = any(random);
     const std::size_t row = all.row[i];
     const bool is_mirrored = k % 2 == 1;
-    const auto copy = [&](std::size_t from, float* to) {
-      const float* const numbers = &all.inputs[from * danger::num_net_inputs];
-      for (std::size_t j = 0; j < danger::num_net_inputs; ++j) {
-        to[j] = is_mirrored ? signs[j] * numbers[j] : numbers[j];
-      }
-    };
-    copy(row, at(sample.inputs) + k * num_inputs);
-    copy(row + 1, at(sample.next_inputs) + k * num_inputs);
+    copy_inputs(all.inputs, row, is_mirrored, at(sample.inputs) + k * num_inputs);
+    copy_inputs(all.inputs, row + 1, is_mirrored, at(sample.next_inputs) + k * num_inputs);
     at(sample.actions)[2 * k] = all.actions[2 * i];
     at(sample.actions)[2 * k + 1] = (is_mirrored ? -1.0F : 1.0F) * all.actions[2 * i + 1];
     at(sample.h_at)[k] = all.h_at[row];
@@ -86,12 +90,48 @@ Sample drawn(const Experience& all, int count, std::mt19937_64& random) {
   return sample;
 }
 
-/// Losses of a sample, and what the curve tells of it.
+/// States side by side, and what A inputs lead to.
+struct SampleOfOutcomes {
+  Tensor inputs;       ///< (B x inputs)
+  Tensor h_at;         ///< (B)
+  Tensor next_inputs;  ///< (B A x inputs)
+  Tensor next_h_at;    ///< (B A), like all that follow
+  Tensor h;
+  Tensor settled;
+};
+
+/// Any states, each second one seen in a mirror.
+SampleOfOutcomes drawn(const danger::Outcomes& all, int count, std::mt19937_64& random) {
+  const auto n = static_cast<std::int64_t>(count);
+  const auto num_outcomes = n * static_cast<std::int64_t>(all.num_inputs);
+  SampleOfOutcomes sample{.inputs = torch::empty({n, num_inputs}),
+                          .h_at = torch::empty({n}),
+                          .next_inputs = torch::empty({num_outcomes, num_inputs}),
+                          .next_h_at = torch::empty({num_outcomes}),
+                          .h = torch::empty({num_outcomes}),
+                          .settled = torch::empty({num_outcomes})};
+  const auto at = [](Tensor& tensor) { return tensor.data_ptr<float>(); };
+  std::uniform_int_distribution<std::size_t> any(0, all.num_states() - 1);
+  std::int64_t to = 0;
+  for (std::int64_t k = 0; k < n; ++k) {
+    const std::size_t row = any(random);
+    const bool is_mirrored = k % 2 == 1;
+    copy_inputs(all.states, row, is_mirrored, at(sample.inputs) + k * num_inputs);
+    at(sample.h_at)[k] = all.h_at[row];
+    for (std::size_t i = row * all.num_inputs; i < (row + 1) * all.num_inputs; ++i, ++to) {
+      copy_inputs(all.next_states, i, is_mirrored, at(sample.next_inputs) + to * num_inputs);
+      at(sample.next_h_at)[to] = all.next_h[i];
+      at(sample.h)[to] = all.h[i];
+      at(sample.settled)[to] = all.settled[i];
+    }
+  }
+  return sample;
+}
+
+/// What is to be made small over a sample, and what the curve tells of it.
 struct Losses {
-  Tensor v;
-  Tensor q;
-  double mean_v = 0.0;
-  double above = 0.0;
+  Tensor sum;
+  DangerProgress told;
 };
 
 /// What changes during a training.
@@ -118,6 +158,12 @@ Tensor weight_of(const Tensor& v) {
   return 0.05 + 1.0 / (1.0 + share * share);
 }
 
+/// Of what V is above -farthest_told [m].
+double mean_that_matters(const Tensor& v) {
+  const Tensor matters = (v > -danger::farthest_told + 0.1).to(torch::kFloat32);
+  return ((v * matters).sum() / matters.sum().clamp_min(1.0)).item<double>();
+}
+
 Losses losses_of(DangerNets& nets, const Sample& sample, const Annealed& now) {
   const Tensor state_and_action = torch::cat({sample.inputs, sample.actions}, 1);
   Tensor target_q;
@@ -141,13 +187,31 @@ Losses losses_of(DangerNets& nets, const Sample& sample, const Annealed& now) {
     const Tensor off = q(state_and_action, sample.h_at) - target_q;
     return (weight * off * off).mean();
   };
-  Losses losses{.v = (weight * side * over * over).mean(),
-                .q = q_loss(nets->q1) + q_loss(nets->q2)};
+  const Tensor of_v = (weight * side * over * over).mean();
+  const Tensor of_q = q_loss(nets->q1) + q_loss(nets->q2);
   const torch::NoGradGuard none;
-  const Tensor matters = (v > -danger::farthest_told + 0.1).to(torch::kFloat32);
-  losses.mean_v = ((v * matters).sum() / matters.sum().clamp_min(1.0)).item<double>();
-  losses.above = (v > sample.reached + 0.2).to(torch::kFloat32).mean().item<double>();
-  return losses;
+  return {of_v + of_q,
+          {.v_loss = of_v.item<double>(),
+           .q_loss = of_q.item<double>(),
+           .mean_v = mean_that_matters(v),
+           .above = (v > sample.reached + 0.2).to(torch::kFloat32).mean().item<double>()}};
+}
+
+Losses fitted_losses(FittedNets& nets, const SampleOfOutcomes& sample, const Annealed& now) {
+  Tensor target;
+  {
+    const torch::NoGradGuard none;
+    const Tensor ahead = torch::where(sample.settled > 0.5, sample.next_h_at,
+                                      nets->slow_v(sample.next_inputs, sample.next_h_at));
+    const Tensor undiscounted = torch::maximum(sample.h, ahead);
+    const Tensor of_each = sample.h + now.discount * (undiscounted - sample.h);
+    target = std::get<0>(of_each.view({sample.h_at.size(0), -1}).min(1));
+  }
+  const Tensor v = nets->v(sample.inputs, sample.h_at);
+  const Tensor off = v - target;
+  const Tensor loss = (weight_of(v.detach()) * off * off).mean();
+  const torch::NoGradGuard none;
+  return {loss, {.v_loss = loss.item<double>(), .mean_v = mean_that_matters(v)}};
 }
 
 void follow(DangerNet& slow, DangerNet& fast, double share) {
@@ -159,28 +223,41 @@ void follow(DangerNet& slow, DangerNet& fast, double share) {
   }
 }
 
-std::string danger_fingerprint(const Experience& all, const DangerPlan& plan) {
+std::string fingerprint_of(const DangerPlan& plan, std::size_t transitions, std::size_t states,
+                           const std::vector<float>& some) {
   Fnv hash;
   hash.add(fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {}", plan.seed, plan.steps, plan.batch,
                        plan.step, plan.polyak, plan.expectile_first, plan.expectile,
-                       plan.discount_first, plan.discount, plan.annealed, plan.width, all.size(),
-                       all.num_states()));
-  for (std::size_t i = 0; i < all.size(); i += 1'009) {
-    hash.add(fmt::format("{} {}", all.h[i], all.reached[i]));
+                       plan.discount_first, plan.discount, plan.annealed, plan.width, transitions,
+                       states));
+  for (std::size_t i = 0; i < some.size(); i += 1'009) {
+    hash.add(fmt::format("{}", some[i]));
   }
   return fmt::format("{:016x}", hash.value());
 }
 
+void expects_sound(const DangerPlan& plan) {
+  expects(plan.steps > 0 && plan.batch >= static_cast<int>(num_halves) && plan.width > 0,
+          "steps, a batch and a width > 0");
+}
+
+/// What is trained.
+struct Learner {
+  std::shared_ptr<torch::nn::Module> networks;  ///< those that only follow included
+  std::vector<Tensor> parameters;               ///< of those that are learnt
+  std::function<Losses(int count, std::mt19937_64& random, const Annealed& now)> losses;
+  std::function<void()> after_step;
+  std::string fingerprint;  ///< of plan and data
+};
+
 class DangerTraining {
  public:
-  DangerTraining(const Experience& experience, const DangerPlan& plan, int threads,
-                 std::filesystem::path state)
-      : experience_(experience),
+  DangerTraining(Learner learner, const DangerPlan& plan, int threads, std::filesystem::path state)
+      : learner_(std::move(learner)),
         plan_(plan),
         threads_(threads),
-        state_{std::move(state), danger_fingerprint(experience, plan)},
-        nets_(plan.width),
-        optimiser_(learnt(), torch::optim::AdamOptions(plan.step)) {}
+        state_{std::move(state), learner_.fingerprint},
+        optimiser_(learner_.parameters, torch::optim::AdamOptions(plan.step)) {}
 
   std::optional<Error> run(const std::function<bool(const DangerProgress&)>& on_point) {
     if (auto problem = resume()) {
@@ -203,18 +280,7 @@ class DangerTraining {
     return std::nullopt;
   }
 
-  [[nodiscard]] DangerNets nets() const { return nets_; }
-
  private:
-  [[nodiscard]] std::vector<Tensor> learnt() const {
-    std::vector<Tensor> all;
-    for (const auto* net : {&nets_->v, &nets_->q1, &nets_->q2}) {
-      const auto some = (*net)->parameters();
-      all.insert(all.end(), some.begin(), some.end());
-    }
-    return all;
-  }
-
   DangerProgress next_point() {
     const auto begin = std::chrono::steady_clock::now();
     const int last = std::min(plan_.steps, done_ + curve_step);
@@ -238,30 +304,24 @@ class DangerTraining {
     for (auto& group : optimiser_.param_groups()) {
       static_cast<torch::optim::AdamOptions&>(group.options()).lr(now.step);
     }
-    const std::vector<Tensor> parameters = learnt();
     std::array<std::vector<Tensor>, num_halves> gradients;
     std::array<DangerProgress, num_halves> told;
     in_parallel(num_halves, threads_, [&](std::size_t half) {
       std::seed_seq words{plan_.seed, static_cast<std::uint64_t>(done_),
                           static_cast<std::uint64_t>(half)};
       std::mt19937_64 random(words);
-      const Sample sample = drawn(experience_, plan_.batch / static_cast<int>(num_halves), random);
-      const Losses losses = losses_of(nets_, sample, now);
-      gradients[half] = torch::autograd::grad({losses.v + losses.q}, parameters);
-      told[half] = {.v_loss = losses.v.item<double>(),
-                    .q_loss = losses.q.item<double>(),
-                    .mean_v = losses.mean_v,
-                    .above = losses.above};
+      const Losses losses =
+          learner_.losses(plan_.batch / static_cast<int>(num_halves), random, now);
+      gradients[half] = torch::autograd::grad({losses.sum}, learner_.parameters);
+      told[half] = losses.told;
     });
-    for (std::size_t i = 0; i < parameters.size(); ++i) {
-      Tensor parameter = parameters[i];
-      parameter.mutable_grad() = 0.5 * (gradients[0][i] + gradients[1][i]);
+    for (std::size_t i = 0; i < learner_.parameters.size(); ++i) {
+      learner_.parameters[i].mutable_grad() = 0.5 * (gradients[0][i] + gradients[1][i]);
     }
     constexpr double gradient_limit = 10.0;
-    torch::nn::utils::clip_grad_norm_(parameters, gradient_limit);
+    torch::nn::utils::clip_grad_norm_(learner_.parameters, gradient_limit);
     optimiser_.step();
-    follow(nets_->slow_q1, nets_->q1, plan_.polyak);
-    follow(nets_->slow_q2, nets_->q2, plan_.polyak);
+    learner_.after_step();
     return {.v_loss = 0.5 * (told[0].v_loss + told[1].v_loss),
             .q_loss = 0.5 * (told[0].q_loss + told[1].q_loss),
             .mean_v = 0.5 * (told[0].mean_v + told[1].mean_v),
@@ -280,11 +340,11 @@ class DangerTraining {
       row[4] = point.above;
       row[5] = point.seconds;
     }
-    return train::keep(state_, *nets_, optimiser_, curve);
+    return train::keep(state_, *learner_.networks, optimiser_, curve);
   }
 
   std::optional<Error> resume() {
-    const auto kept = train::resume(state_, *nets_, optimiser_);
+    const auto kept = train::resume(state_, *learner_.networks, optimiser_);
     if (!kept.has_value()) {
       return kept.error();
     }
@@ -305,11 +365,10 @@ class DangerTraining {
     return std::nullopt;
   }
 
-  const Experience& experience_;
+  Learner learner_;
   const DangerPlan& plan_;
   int threads_;
   TrainingState state_;
-  DangerNets nets_;
   torch::optim::Adam optimiser_;
   std::vector<DangerProgress> curve_;
   int done_ = 0;  ///< steps
@@ -356,6 +415,13 @@ DangerNetsImpl::DangerNetsImpl(std::int64_t width)
   follow(slow_q2, q2, 1.0);
 }
 
+FittedNetsImpl::FittedNetsImpl(std::int64_t width)
+    : v(num_inputs, width), slow_v(num_inputs, width) {
+  register_module("v", v);
+  register_module("slow_v", slow_v);
+  follow(slow_v, v, 1.0);
+}
+
 config::Tensors DangerNetsImpl::tensors() const {
   config::Tensors all;
   v->add_to(all, "v.");
@@ -368,14 +434,65 @@ Result<DangerNets> trained_danger(const Experience& experience, const DangerPlan
                                   const std::filesystem::path& state,
                                   const std::function<bool(const DangerProgress&)>& on_point) {
   expects(experience.size() > 0, "something to learn from");
-  expects(plan.steps > 0 && plan.batch >= static_cast<int>(num_halves) && plan.width > 0,
-          "steps, a batch and a width > 0");
+  expects_sound(plan);
   torch::manual_seed(plan.seed);
-  DangerTraining training(experience, plan, threads, state);
-  if (const auto problem = training.run(on_point)) {
+  DangerNets nets(plan.width);
+  Learner learner{.networks = nets.ptr(),
+                  .losses =
+                      [&](int count, std::mt19937_64& random, const Annealed& now) {
+                        return losses_of(nets, drawn(experience, count, random), now);
+                      },
+                  .after_step =
+                      [&] {
+                        follow(nets->slow_q1, nets->q1, plan.polyak);
+                        follow(nets->slow_q2, nets->q2, plan.polyak);
+                      },
+                  .fingerprint = fingerprint_of(plan, experience.size(), experience.num_states(),
+                                                experience.reached)};
+  for (const auto* net : {&nets->v, &nets->q1, &nets->q2}) {
+    const auto some = (*net)->parameters();
+    learner.parameters.insert(learner.parameters.end(), some.begin(), some.end());
+  }
+  if (const auto problem = DangerTraining(learner, plan, threads, state).run(on_point)) {
     return *problem;
   }
-  return training.nets();
+  return nets;
+}
+
+Result<DangerNet> fitted_values(const danger::Outcomes& outcomes, const DangerPlan& plan,
+                                int threads, const std::filesystem::path& state,
+                                const std::function<bool(const DangerProgress&)>& on_point) {
+  expects(outcomes.num_states() > 0, "something to learn from");
+  expects_sound(plan);
+  torch::manual_seed(plan.seed);
+  FittedNets nets(plan.width);
+  const Learner learner{
+      .networks = nets.ptr(),
+      .parameters = nets->v->parameters(),
+      .losses =
+          [&](int count, std::mt19937_64& random, const Annealed& now) {
+            return fitted_losses(nets, drawn(outcomes, count, random), now);
+          },
+      .after_step = [&] { follow(nets->slow_v, nets->v, plan.polyak); },
+      .fingerprint = fingerprint_of(plan, outcomes.h.size(), outcomes.num_states(), outcomes.h_at)};
+  if (const auto problem = DangerTraining(learner, plan, threads, state).run(on_point)) {
+    return *problem;
+  }
+  return nets->v;
+}
+
+std::vector<double> values_of(DangerNet& v, std::span<const danger::SeenByNet> seen) {
+  const auto n = static_cast<std::int64_t>(seen.size());
+  Tensor inputs = torch::empty({n, num_inputs});
+  Tensor h = torch::empty({n});
+  for (std::int64_t i = 0; i < n; ++i) {
+    const danger::SeenByNet& one = seen[static_cast<std::size_t>(i)];
+    std::copy(one.inputs.begin(), one.inputs.end(), inputs.data_ptr<float>() + i * num_inputs);
+    h.data_ptr<float>()[i] = static_cast<float>(danger::told(one.h));
+  }
+  const torch::NoGradGuard none;
+  const Tensor values = v(inputs, h).contiguous();
+  return {values.data_ptr<float>(), values.data_ptr<float>() + n};
 }
 
 }  // namespace saca::train

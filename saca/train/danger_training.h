@@ -6,11 +6,16 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "saca/config/tensors.h"
 #include "saca/core/result.h"
 #include "saca/danger/experience.h"
+#include "saca/danger/net_inputs.h"
 #include "saca/danger/network.h"
+#include "saca/danger/point_mass.h"
 
 namespace saca::train {
 
@@ -72,6 +77,16 @@ class DangerNetsImpl : public torch::nn::Module {
 };
 TORCH_MODULE(DangerNets);
 
+/// V_h alone, and its slow copy.
+class FittedNetsImpl : public torch::nn::Module {
+ public:
+  explicit FittedNetsImpl(std::int64_t width);
+
+  DangerNet v;
+  DangerNet slow_v;
+};
+TORCH_MODULE(FittedNets);
+
 /// One point of the curve: means since the one before.
 struct DangerProgress {
   int step = 0;  ///< so many are done
@@ -91,5 +106,16 @@ struct DangerProgress {
 [[nodiscard]] Result<DangerNets> trained_danger(
     const danger::Experience& experience, const DangerPlan& plan, int threads,
     const std::filesystem::path& state, const std::function<bool(const DangerProgress&)>& on_point);
+
+/// V_h by fitted iteration instead, where it is known what each input leads to: its least over all
+/// of them, no expectile, no Q. What is wrong with it is that a network stands for V, and that it
+/// is learnt from its own values; nothing comes from what data lack.
+/// @param plan  its expectiles are not used
+[[nodiscard]] Result<DangerNet> fitted_values(
+    const danger::Outcomes& outcomes, const DangerPlan& plan, int threads,
+    const std::filesystem::path& state, const std::function<bool(const DangerProgress&)>& on_point);
+
+/// V of each [m].
+[[nodiscard]] std::vector<double> values_of(DangerNet& v, std::span<const danger::SeenByNet> seen);
 
 }  // namespace saca::train

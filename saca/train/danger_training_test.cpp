@@ -7,12 +7,15 @@
 #include <cmath>
 #include <filesystem>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "saca/core/contract.h"
 #include "saca/core/file.h"
+#include "saca/danger/disc_for_test.h"
 #include "saca/danger/network.h"
+#include "saca/danger/point_mass.h"
 
 namespace saca::train::danger_training_test {
 namespace {
@@ -184,6 +187,31 @@ TEST(DangerTraining, GoesOnWhereItWasStopped) {
   ASSERT_FALSE(broken.has_value());
   EXPECT_NE(broken.error().message.find("danger_training_state"), std::string::npos);
   fs::remove(state);
+}
+
+// Where it is known what inputs lead to, a small network finds the closed form.
+TEST(DangerTraining, FittedIterationFindsTheValue) {
+  torch::set_num_threads(1);
+  const danger::DiscBeforeDisc discs;
+  const danger::Outcomes outcomes =
+      danger::point_mass_outcomes(discs.problem, discs.exact(), 6'000, 2);
+  DangerPlan plan = quick();
+  plan.steps = 2'000;
+  plan.batch = 128;
+  auto v = fitted_values(outcomes, plan, 2, {}, every_point);
+  ASSERT_TRUE(v.has_value());
+  DangerNet learnt = v.value();
+  const auto told = [&](std::span<const reach::State> states) {
+    std::vector<danger::SeenByNet> seen;
+    for (const reach::State& at : states) {
+      seen.push_back(seen_by_net(discs.problem, at));
+    }
+    return values_of(learnt, seen);
+  };
+  const danger::ValueErrors errors =
+      danger::value_errors(discs.problem, discs.exact(), told, 25.0, 2'000, 8);
+  EXPECT_LT(errors.mean_size, 0.25);
+  EXPECT_GT(errors.same_sign, 0.93);
 }
 
 // What the product works out from the weights is what was trained.

@@ -1,0 +1,236 @@
+#include "saca/danger/point_mass.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <utility>
+
+#include "saca/core/contract.h"
+#include "saca/danger/behaviour.h"
+#include "saca/danger/random.h"
+#include "saca/danger/state.h"
+#include "saca/manoeuvre/demand.h"
+#include "saca/reach/follow.h"
+#include "saca/reach/intrusion.h"
+#include "saca/vehicle/vehicle.h"
+
+namespace saca::danger {
+namespace {
+
+using manoeuvre::Demand;
+
+constexpr double near_boundary = 2.0;  // [m]
+
+/// The same as a state of the full vehicle that neither turns nor accelerates yet.
+State as_seen(const PointMass& problem, const reach::State& at) {
+  State state;
+  state.ego.X_WB = {{at[0], at[1]}, at[2]};
+  state.ego.v_B = {at[3], 0.0};
+  state.grip = problem.system.grip;
+  state.obstacles.push_back({.body = problem.obstacle});
+  return state;
+}
+
+double intrusion_at(const PointMass& problem, const reach::State& at) {
+  return reach::intrusion(problem.ego, {{at[0], at[1]}, at[2]}, problem.obstacle, Pose{});
+}
+
+reach::Acceleration acceleration_of(const PointMass& problem, const Demand& demand) {
+  const double most = problem.system.grip * vehicle::gravity;
+  return {most * demand.along, most * demand.across};
+}
+
+/// One look: where it ends, and how deep on the way.
+struct Look {
+  reach::State end{};
+  double deepest = 0.0;  ///< both ends included [m]
+};
+
+Look driven_look(const PointMass& problem, const reach::State& from, const Demand& demand) {
+  constexpr double between = look_step / static_cast<double>(poses_per_look);
+  Look look{.end = from, .deepest = intrusion_at(problem, from)};
+  const reach::Acceleration input = acceleration_of(problem, demand);
+  for (std::size_t i = 0; i < poses_per_look; ++i) {
+    look.end = reach::driven(problem.system, look.end, input, between);
+    look.deepest = std::max(look.deepest, intrusion_at(problem, look.end));
+  }
+  return look;
+}
+
+/// Any state apart from the obstacle whose value is known.
+reach::State drawn_state(const PointMass& problem, const reach::ValueAt& exact, double fastest,
+                         Random& random) {
+  constexpr double most_distant = 60.0;  // [m]
+  for (;;) {
+    const double distance = uniform(random, 0.0, most_distant);
+    const double bearing = uniform(random, -std::numbers::pi, std::numbers::pi);
+    const double aside = uniform(random, -1.0, 1.0);  // of the course from the way to the obstacle
+    const double course =
+        wrap_angle(bearing + std::numbers::pi + std::numbers::pi * aside * std::abs(aside));
+    const reach::State at{distance * std::cos(bearing), distance * std::sin(bearing), course,
+                          uniform(random, 0.0, fastest)};
+    if (exact(at).inside && intrusion_at(problem, at) < 0.0) {
+      return at;
+    }
+  }
+}
+
+reach::State drawn_near_boundary(const PointMass& problem, const reach::ValueAt& exact,
+                                 double fastest, Random& random) {
+  for (;;) {
+    const reach::State at = drawn_state(problem, exact, fastest, random);
+    if (std::abs(exact(at).value) < near_boundary) {
+      return at;
+    }
+  }
+}
+
+class PointMassDrives {
+ public:
+  PointMassDrives(const PointMass& problem, const reach::ValueAt& exact, std::uint64_t seed)
+      : problem_(problem),
+        random_(seed),
+        exact_(exact),
+        best_(reach::by_look_ahead(
+            problem.system, [&exact](const reach::State& at) { return exact(at).value; }, 0.2)) {}
+
+  void add_drive() {
+    constexpr double fastest = 30.0;  // [m/s]
+    const bool is_near = happens(random_, mixture_.near_share);
+    reach::State now = is_near ? drawn_near_boundary(problem_, exact_, fastest, random_)
+                               : drawn_state(problem_, exact_, fastest, random_);
+    std::discrete_distribution<int> which(mixture_.behaviours.begin(), mixture_.behaviours.end());
+    Driver driver(static_cast<Behaviour>(which(random_)), random_(),
+                  [this](const Ego& ego, double /*time*/) { return evading(ego); });
+    made_.situations += 1;
+    made_.near += is_near ? 1 : 0;
+    State seen = as_seen(problem_, now);
+    bool is_over = is_settled(problem_.ego, seen);
+    for (int i = 0; i < mixture_.looks && !is_over; ++i) {
+      const Demand demand = driver.next(seen.ego);
+      const Look look = driven_look(problem_, now, demand);
+      const State next = as_seen(problem_, look.end);
+      is_over = is_settled(problem_.ego, next);
+      add(made_.observations, observation(seen));
+      add(made_.next_observations, observation(next));
+      made_.actions.insert(made_.actions.end(),
+                           {static_cast<float>(demand.along), static_cast<float>(demand.across)});
+      made_.h.push_back(static_cast<float>(look.deepest));
+      made_.next_h.push_back(static_cast<float>(intrusion_at(problem_, look.end)));
+      made_.settled.push_back(is_over ? 1.0F : 0.0F);
+      made_.cut_off.push_back(!is_over && i + 1 == mixture_.looks ? 1.0F : 0.0F);
+      made_.drive.push_back(static_cast<float>(made_.drives));
+      states_.push_back(now);
+      now = look.end;
+      seen = next;
+    }
+    ++made_.drives;
+  }
+
+  [[nodiscard]] Transitions take() { return std::move(made_); }
+  /// x of each transition.
+  [[nodiscard]] const std::vector<reach::State>& states() const { return states_; }
+
+ private:
+  [[nodiscard]] Demand evading(const Ego& ego) const {
+    const reach::Acceleration best = best_({ego.X_WB.p.x, ego.X_WB.p.y, ego.X_WB.yaw, ego.v_B.x});
+    const double most = problem_.system.grip * vehicle::gravity;
+    return manoeuvre::admissible({best.along / most, best.across / most});
+  }
+
+  static void add(std::vector<float>& rows, const Observation& row) {
+    rows.insert(rows.end(), row.begin(), row.end());
+  }
+
+  const PointMass& problem_;
+  Random random_;
+  const reach::ValueAt& exact_;
+  reach::Steering best_;
+  Mixture mixture_;
+  Transitions made_;
+  std::vector<reach::State> states_;
+};
+
+std::vector<Demand> all_around() {
+  constexpr int directions = 16;
+  std::vector<Demand> all{{}};
+  for (int i = 0; i < directions; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / directions;
+    all.push_back({std::cos(angle), std::sin(angle)});
+  }
+  return all;
+}
+
+}  // namespace
+
+SeenByNet seen_by_net(const PointMass& problem, const reach::State& at) {
+  return seen_by_net(problem.ego, observation(as_seen(problem, at)), 0, problem.obstacle.shape);
+}
+
+Transitions point_mass_transitions(const PointMass& problem, const reach::ValueAt& exact,
+                                   int drives, std::uint64_t seed) {
+  expects(drives >= 1, "at least one drive");
+  expects(problem.system.obstacle_speed == 0.0, "an obstacle at rest");
+  PointMassDrives all(problem, exact, seed);
+  for (int i = 0; i < drives; ++i) {
+    all.add_drive();
+  }
+  return all.take();
+}
+
+Outcomes point_mass_outcomes(const PointMass& problem, const reach::ValueAt& exact, int states,
+                             std::uint64_t seed) {
+  expects(states >= 1, "at least one state");
+  constexpr int looks_apart = 3;  // neighbours on a drive tell little more than one of them
+  PointMassDrives drives(problem, exact, seed);
+  while (drives.states().size() <
+         static_cast<std::size_t>(looks_apart) * static_cast<std::size_t>(states)) {
+    drives.add_drive();
+  }
+  const std::vector<Demand> inputs = all_around();
+  Outcomes all{.num_inputs = inputs.size()};
+  const auto add = [](std::vector<float>& rows, std::vector<float>& h, const SeenByNet& seen) {
+    rows.insert(rows.end(), seen.inputs.begin(), seen.inputs.end());
+    h.push_back(static_cast<float>(told(seen.h)));
+  };
+  for (int i = 0; i < states; ++i) {
+    const reach::State& at = drives.states()[static_cast<std::size_t>(looks_apart * i)];
+    add(all.states, all.h_at, seen_by_net(problem, at));
+    for (const Demand& input : inputs) {
+      const Look look = driven_look(problem, at, input);
+      add(all.next_states, all.next_h, seen_by_net(problem, look.end));
+      all.h.push_back(static_cast<float>(told(look.deepest)));
+      all.settled.push_back(is_settled(problem.ego, as_seen(problem, look.end)) ? 1.0F : 0.0F);
+    }
+  }
+  return all;
+}
+
+ValueErrors value_errors(const PointMass& problem, const reach::ValueAt& exact,
+                         const Values& values, double fastest, int states, std::uint64_t seed) {
+  expects(states >= 1, "at least one state");
+  Random random(seed);
+  std::vector<reach::State> at;
+  for (int i = 0; i < states; ++i) {
+    at.push_back(drawn_near_boundary(problem, exact, fastest, random));
+  }
+  const std::vector<double> told = values(at);
+  std::vector<double> sizes;
+  ValueErrors errors{.states = at.size()};
+  const double share = 1.0 / states;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const double truth = exact(at[i]).value;
+    const double off = told[i] - truth;
+    sizes.push_back(std::abs(off));
+    errors.bias += share * off;
+    errors.mean_size += share * sizes.back();
+    errors.same_sign += (told[i] >= 0.0) == (truth >= 0.0) ? share : 0.0;
+  }
+  std::sort(sizes.begin(), sizes.end());
+  errors.p99_size = sizes[static_cast<std::size_t>(0.99 * (states - 1))];
+  return errors;
+}
+
+}  // namespace saca::danger
