@@ -183,10 +183,10 @@ Transitions point_mass_transitions(const PointMass& problem, const reach::ValueA
 Outcomes point_mass_outcomes(const PointMass& problem, const reach::ValueAt& exact, int states,
                              std::uint64_t seed) {
   expects(states >= 1, "at least one state");
-  constexpr int looks_apart = 3;  // neighbours on a drive tell little more than one of them
+  constexpr std::size_t looks_apart = 3;  // neighbours on a drive tell little more than one of them
   PointMassDrives drives(problem, exact, seed);
-  while (drives.states().size() <
-         static_cast<std::size_t>(looks_apart) * static_cast<std::size_t>(states)) {
+  const std::size_t looks = looks_apart * static_cast<std::size_t>(states);
+  while (drives.states().size() < looks) {
     drives.add_drive();
   }
   const std::vector<Demand> inputs = all_around();
@@ -195,8 +195,8 @@ Outcomes point_mass_outcomes(const PointMass& problem, const reach::ValueAt& exa
     rows.insert(rows.end(), seen.inputs.begin(), seen.inputs.end());
     h.push_back(static_cast<float>(told(seen.h)));
   };
-  for (int i = 0; i < states; ++i) {
-    const reach::State& at = drives.states()[static_cast<std::size_t>(looks_apart * i)];
+  for (std::size_t i = 0; i < looks; i += looks_apart) {
+    const reach::State& at = drives.states()[i];
     add(all.states, all.h_at, seen_by_net(problem, at));
     for (const Demand& input : inputs) {
       const Look look = driven_look(problem, at, input);
@@ -212,10 +212,9 @@ ValueErrors value_errors(const PointMass& problem, const reach::ValueAt& exact,
                          const Values& values, double fastest, int states, std::uint64_t seed) {
   expects(states >= 1, "at least one state");
   Random random(seed);
-  std::vector<reach::State> at;
-  for (int i = 0; i < states; ++i) {
-    at.push_back(drawn_near_boundary(problem, exact, fastest, random));
-  }
+  std::vector<reach::State> at(static_cast<std::size_t>(states));
+  std::generate(at.begin(), at.end(),
+                [&] { return drawn_near_boundary(problem, exact, fastest, random); });
   const std::vector<double> told = values(at);
   std::vector<double> sizes;
   ValueErrors errors{.states = at.size()};

@@ -189,8 +189,9 @@ Losses losses_of(DangerNets& nets, const Sample& sample, const Annealed& now) {
   };
   const Tensor of_v = (weight * side * over * over).mean();
   const Tensor of_q = q_loss(nets->q1) + q_loss(nets->q2);
+  const Tensor sum = of_v + of_q;
   const torch::NoGradGuard none;
-  return {of_v + of_q,
+  return {sum,
           {.v_loss = of_v.item<double>(),
            .q_loss = of_q.item<double>(),
            .mean_v = mean_that_matters(v),

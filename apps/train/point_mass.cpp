@@ -1,0 +1,257 @@
+// saca-train-point-mass: how far learning gets where V_h is known: beside an exact table, fitted
+// iteration with known dynamics, and learning from data alone, as saca-train-danger does it.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "saca/core/file.h"
+#include "saca/core/parallel.h"
+#include "saca/core/standard_files.h"
+#include "saca/danger/experience.h"
+#include "saca/danger/point_mass.h"
+#include "saca/reach/authors_comparison.h"
+#include "saca/reach/avoidance_case.h"
+#include "saca/reach/obstacle_frame.h"
+#include "saca/reach/value_file.h"
+#include "saca/reach/value_table.h"
+#include "saca/train/danger_training.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace saca;
+using nlohmann::json;
+
+volatile std::sig_atomic_t is_to_end = 0;
+
+struct Options {
+  std::string table;
+  std::string output;
+  int drives = 200'000;
+  int states = 300'000;
+  int threads = usual_threads();
+  train::DangerPlan plan;
+};
+
+int give_up(const Error& error) {
+  fmt::print(stderr, "saca-train-point-mass: error: {}\n", error.message);
+  constexpr int bad_input = 3;
+  constexpr int cannot_write = 4;
+  return error.code == Error::Code::unwritable ? cannot_write : bad_input;
+}
+
+constexpr int interrupted = 130;
+int stopped() {
+  fmt::print(stderr, "saca-train-point-mass: stopped; the same command goes on from here\n");
+  return interrupted;
+}
+
+/// The solved table, and whose it is.
+struct Exact {
+  danger::PointMass problem;
+  reach::View view;
+  reach::ValueTable table;
+};
+
+Result<Exact> read_exact(const std::string& path) {
+  const auto solved = reach::read_solved(path);
+  if (!solved.has_value()) {
+    return solved.error();
+  }
+  const auto text = reach::parse_avoidance_case(solved.value().problem, path);
+  if (!text.has_value()) {
+    return text.error();
+  }
+  const reach::AvoidanceCase& problem = text.value();
+  if (!problem.obstacle || problem.system.obstacle_speed != 0.0 || !solved.value().complete) {
+    return Error{Error::Code::out_of_range,
+                 path + ": want a whole solution of an obstacle at rest, got another"};
+  }
+  return Exact{
+      .problem = {problem.system, problem.ego, *problem.obstacle},
+      .view = problem.view,
+      .table = {solved.value().grid, snapshot(solved.value(), solved.value().times.size() - 1)}};
+}
+
+/// Prints the points of a curve, and keeps them as a table.
+class Curve {
+ public:
+  Curve(std::string name, int steps) : name_(std::move(name)), steps_(steps) {}
+
+  bool add(const train::DangerProgress& now) {
+    seconds_ += now.seconds;
+    text_ += fmt::format("{},{:.5f},{:.5f},{:.4f},{:.1f}\n", now.step, now.v_loss, now.q_loss,
+                         now.mean_v, now.seconds);
+    fmt::print("{}: step {} of {}: losses {:.4f} and {:.4f}, mean V {:.3f} m, {:.0f} s\n", name_,
+               now.step, steps_, now.v_loss, now.q_loss, now.mean_v, seconds_);
+    std::fflush(stdout);
+    return is_to_end == 0;
+  }
+  [[nodiscard]] double seconds() const { return seconds_; }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::string name_;
+  int steps_;
+  double seconds_ = 0.0;
+  std::string text_ = "step,v_loss,q_loss,mean_v_m,seconds\n";
+};
+
+/// What can be told of values beside the exact ones.
+json figures_of(const Exact& exact, const reach::ValueAt& value, const danger::Values& values) {
+  json all;
+  constexpr int states = 100'000;
+  for (const double fastest : {18.0, 30.0}) {
+    const danger::ValueErrors errors =
+        danger::value_errors(exact.problem, value, values, fastest, states, 1);
+    all[fmt::format("up_to_{:g}mps", fastest)] = {{"states", errors.states},
+                                                  {"mean_error_m", errors.mean_size},
+                                                  {"p99_error_m", errors.p99_size},
+                                                  {"bias_m", errors.bias},
+                                                  {"same_sign", errors.same_sign}};
+  }
+  return all;
+}
+
+json lattice_figures(const reach::AuthorsComparison& found) {
+  const auto of = [](const reach::Agreement& agreement) {
+    return json{{"states", agreement.states},
+                {"same_sign", agreement.sign_agreement()},
+                {"false_safe", agreement.false_safe_share()},
+                {"false_alarm", agreement.false_alarm_share()}};
+  };
+  return {{"all", of(found.all)}, {"at_18mps", of(found.by_speed.back().agreement)}};
+}
+
+std::vector<reach::State> states_of(std::span<const reach::AuthorsState> some) {
+  std::vector<reach::State> all;
+  all.reserve(some.size());
+  for (const reach::AuthorsState& one : some) {
+    all.push_back({one.x, one.y, one.yaw, one.speed});
+  }
+  return all;
+}
+
+json rung_figures(const Exact& exact, const reach::ValueAt& value, train::DangerNet v) {
+  const auto values = [&](std::span<const reach::State> states) {
+    std::vector<danger::SeenByNet> seen;
+    seen.reserve(states.size());
+    for (const reach::State& at : states) {
+      seen.push_back(danger::seen_by_net(exact.problem, at));
+    }
+    return train::values_of(v, seen);
+  };
+  json all = figures_of(exact, value, values);
+  all["authors_lattice"] = lattice_figures(reach::compare_with_authors(
+      value, [&](std::span<const reach::AuthorsState> some) { return values(states_of(some)); }));
+  return all;
+}
+
+int train_point_mass(const Options& options) {
+  const auto read = read_exact(options.table);
+  if (!read.has_value()) {
+    return give_up(read.error());
+  }
+  const Exact& exact = read.value();
+  const reach::ValueAt value = reach::in_obstacle_frame(exact.table, exact.view);
+  json figures;
+  const fs::path folder = options.output;
+  std::error_code problem;
+  fs::create_directories(folder, problem);
+
+  Curve of_fitted("fitted iteration", options.plan.steps);
+  config::Tensors fitted_weights;
+  {
+    const danger::Outcomes outcomes =
+        danger::point_mass_outcomes(exact.problem, value, options.states, options.plan.seed);
+    const auto fitted =
+        train::fitted_values(outcomes, options.plan, options.threads, folder / "fitted.state",
+                             [&](const train::DangerProgress& now) { return of_fitted.add(now); });
+    if (!fitted.has_value()) {
+      return give_up(fitted.error());
+    }
+    if (is_to_end != 0) {
+      return stopped();
+    }
+    fitted.value()->add_to(fitted_weights, "v.");
+    figures["fitted_iteration"] = rung_figures(exact, value, fitted.value());
+    figures["fitted_iteration"]["seconds"] = of_fitted.seconds();
+    fmt::print("{}\n", figures["fitted_iteration"].dump());
+  }
+  danger::Experience experience;
+  const danger::Transitions made =
+      danger::point_mass_transitions(exact.problem, value, options.drives, options.plan.seed + 1);
+  danger::add_experience(experience, made, exact.problem.ego, exact.problem.obstacle.shape);
+  fmt::print("{} transitions\n", experience.size());
+  Curve of_offline("from data", options.plan.steps);
+  const auto nets =
+      train::trained_danger(experience, options.plan, options.threads, folder / "offline.state",
+                            [&](const train::DangerProgress& now) { return of_offline.add(now); });
+  if (!nets.has_value()) {
+    return give_up(nets.error());
+  }
+  if (is_to_end != 0) {
+    return stopped();
+  }
+  figures["from_data"] = rung_figures(exact, value, nets.value()->v);
+  figures["from_data"]["seconds"] = of_offline.seconds();
+  figures["from_data"]["transitions"] = experience.size();
+  fmt::print("{}\n", figures["from_data"].dump());
+  for (const auto& [name, text] : std::vector<std::pair<std::string, std::string>>{
+           {"fitted.safetensors", config::tensor_bytes(fitted_weights)},
+           {"fitted.curve.csv", of_fitted.text()},
+           {"from_data.safetensors", config::tensor_bytes(nets.value()->tensors())},
+           {"from_data.curve.csv", of_offline.text()},
+           {"figures.json", figures.dump(2) + "\n"}}) {
+    if (const auto unwritable = write_file(folder / name, text)) {
+      return give_up(*unwritable);
+    }
+  }
+  fs::remove(folder / "fitted.state");
+  fs::remove(folder / "offline.state");
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  saca::occupy_standard_files();
+  CLI::App app("Learns V_h of a point mass in two ways, and holds them against the exact table");
+  Options options;
+  app.add_option("TABLE", options.table, "Of `saca reach solve`, of an obstacle at rest")
+      ->required();
+  app.add_option("--output", options.output, "Folder of weights, curves and figures.json")
+      ->required();
+  app.add_option("--drives", options.drives, "Of the data")
+      ->check(CLI::Range(1, 100'000'000))
+      ->capture_default_str();
+  app.add_option("--states", options.states, "Of fitted iteration")
+      ->check(CLI::Range(1, 10'000'000))
+      ->capture_default_str();
+  app.add_option("--seed", options.plan.seed)->capture_default_str();
+  app.add_option("--steps", options.plan.steps)
+      ->check(CLI::Range(1, 10'000'000))
+      ->capture_default_str();
+  app.add_option("--batch", options.plan.batch, "States or transitions in a step")
+      ->check(CLI::Range(2, 1'000'000))
+      ->capture_default_str();
+  app.add_option("--expectile", options.plan.expectile, "Of V at the end, in (0.5, 1)")
+      ->check(CLI::Range(0.5, 0.9999))
+      ->capture_default_str();
+  app.add_option("--threads", options.threads, "They do not change the result")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  std::signal(SIGINT, [](int) { is_to_end = 1; });
+  torch::set_num_threads(1);  // each half of a batch by itself: the same bytes each time
+  return train_point_mass(options);
+}
