@@ -7,7 +7,9 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -36,7 +38,8 @@ struct Options {
 
 /// What was read, and what the weights' file says of it.
 struct Data {
-  danger::Experience experience;
+  danger::Experience singles{.num_obstacles = 1};
+  danger::Experience pairs{.num_obstacles = 2};
   std::string car;
   std::size_t transitions = 0;  ///< in the files
   std::size_t drives = 0;
@@ -58,6 +61,10 @@ Result<std::vector<fs::path>> parts_in(const fs::path& folder) {
                      "danger dataset` makes them"};
   }
   return parts;
+}
+
+std::string_view words_for(const danger::Experience& experience) {
+  return experience.num_obstacles == 1 ? "one obstacle" : "two obstacles";
 }
 
 Result<Data> read_data(const Options& options) {
@@ -86,16 +93,20 @@ Result<Data> read_data(const Options& options) {
                    fmt::format("{}: car: want {} as in the other parts, got {}", path.string(),
                                data.car, part.value().car)};
     }
-    danger::add_experience(data.experience, part.value().transitions, body);
+    for (danger::Experience* all : {&data.singles, &data.pairs}) {
+      danger::add_experience(*all, part.value().transitions, body);
+    }
     data.transitions += part.value().transitions.size();
     data.drives += part.value().transitions.drives;
     if (is_to_end != 0) {
       break;
     }
   }
-  if (data.experience.size() == 0) {
-    return Error{Error::Code::out_of_range,
-                 options.folder + ": want situations with one obstacle, got none"};
+  for (const danger::Experience* all : {&data.singles, &data.pairs}) {
+    if (all->size() == 0) {
+      return Error{Error::Code::out_of_range, fmt::format("{}: want situations with {}, got none",
+                                                          options.folder, words_for(*all))};
+    }
   }
   return data;
 }
@@ -107,55 +118,88 @@ int give_up(const Error& error) {
   return error.code == Error::Code::unwritable ? cannot_write : bad_input;
 }
 
-int train_danger(const Options& options) {
-  auto data = read_data(options);
-  if (!data.has_value()) {
-    return give_up(data.error());
+/// Tells of a training, and keeps its curve.
+class Curve {
+ public:
+  explicit Curve(const train::DangerPlan& plan) : plan_(plan) {}
+
+  std::function<bool(const train::DangerProgress&)> of(const danger::Experience& experience) {
+    fmt::print("{} transitions beside {}\n", experience.size(), words_for(experience));
+    std::fflush(stdout);
+    return [this, obstacles = experience.num_obstacles](const train::DangerProgress& now) {
+      text_ += fmt::format("{},{},{:.5f},{:.5f},{:.4f},{:.5f},{:.1f}\n", obstacles, now.step,
+                           now.v_loss, now.q_loss, now.mean_v, now.above, now.seconds);
+      seconds_ += now.seconds;
+      fmt::print(
+          "step {} of {}: losses {:.4f} and {:.4f}, mean V {:.3f} m, above what was "
+          "reached {:.2f} %, {:.0f} s\n",
+          now.step, plan_.steps, now.v_loss, now.q_loss, now.mean_v, 100.0 * now.above, seconds_);
+      std::fflush(stdout);
+      return is_to_end == 0;
+    };
   }
-  const danger::Experience& experience = data.value().experience;
-  fmt::print("{} transitions beside one obstacle, of {}\n", experience.size(),
-             data.value().transitions);
-  std::fflush(stdout);
-  std::string curve = "step,v_loss,q_loss,mean_v_m,above_reached,seconds\n";
-  double seconds = 0.0;
-  const std::string state = options.output + ".state";
-  const auto nets = train::trained_danger(
-      experience, options.plan, options.threads, state, [&](const train::DangerProgress& now) {
-        curve += fmt::format("{},{:.5f},{:.5f},{:.4f},{:.5f},{:.1f}\n", now.step, now.v_loss,
-                             now.q_loss, now.mean_v, now.above, now.seconds);
-        seconds += now.seconds;
-        fmt::print(
-            "step {} of {}: losses {:.4f} and {:.4f}, mean V {:.3f} m, above what was "
-            "reached {:.2f} %, {:.0f} s\n",
-            now.step, options.plan.steps, now.v_loss, now.q_loss, now.mean_v, 100.0 * now.above,
-            seconds);
-        std::fflush(stdout);
-        return is_to_end == 0;
-      });
-  if (!nets.has_value()) {
-    return give_up(nets.error());
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  const train::DangerPlan& plan_;
+  std::string text_ = "obstacles,step,v_loss,q_loss,mean_v_m,above_reached,seconds\n";
+  double seconds_ = 0.0;
+};
+
+int stopped() {
+  fmt::print(stderr, "saca-train-danger: stopped; the same command goes on from here\n");
+  constexpr int interrupted = 130;
+  return interrupted;
+}
+
+int train_danger(const Options& options) {
+  const auto read = read_data(options);
+  if (!read.has_value()) {
+    return give_up(read.error());
   }
   if (is_to_end != 0) {
-    fmt::print(stderr, "saca-train-danger: stopped; the same command goes on from here\n");
-    constexpr int interrupted = 130;
-    return interrupted;
+    return stopped();
   }
-  config::Tensors tensors = nets.value()->tensors();
-  tensors.words = {{"car", data.value().car},
-                   {"transitions", std::to_string(data.value().transitions)},
-                   {"drives", std::to_string(data.value().drives)},
+  const Data& data = read.value();
+  Curve curve(options.plan);
+  const std::string state = options.output + ".state";
+  const std::string pairs_state = options.output + ".pairs.state";
+  auto singles = train::trained_danger(data.singles, options.plan, options.threads, state,
+                                       curve.of(data.singles));
+  if (!singles.has_value()) {
+    return give_up(singles.error());
+  }
+  if (is_to_end != 0) {
+    return stopped();
+  }
+  train::DangerNets nets = singles.value();
+  const auto pairs = train::trained_pairs(data.pairs, nets, options.plan, options.threads,
+                                          pairs_state, curve.of(data.pairs));
+  if (!pairs.has_value()) {
+    return give_up(pairs.error());
+  }
+  if (is_to_end != 0) {
+    return stopped();
+  }
+  config::Tensors tensors;
+  nets->add_to(tensors, "");
+  pairs.value()->add_to(tensors, "pair_");
+  tensors.words = {{"car", data.car},
+                   {"transitions", std::to_string(data.transitions)},
+                   {"drives", std::to_string(data.drives)},
                    {"seed", std::to_string(options.plan.seed)},
                    {"steps", std::to_string(options.plan.steps)},
                    {"batch", std::to_string(options.plan.batch)},
                    {"expectile", fmt::format("{}", options.plan.expectile)},
                    {"discount", fmt::format("{}", options.plan.discount)}};
   for (const auto& [path, text] : {std::pair{options.output, config::tensor_bytes(tensors)},
-                                   std::pair{options.output + ".curve.csv", curve}}) {
+                                   std::pair{options.output + ".curve.csv", curve.text()}}) {
     if (const auto problem = write_file(path, text)) {
       return give_up(*problem);
     }
   }
   fs::remove(state);
+  fs::remove(pairs_state);
   return 0;
 }
 

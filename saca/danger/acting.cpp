@@ -34,6 +34,15 @@ Candidates candidates() {
   return all;
 }
 
+StaticVector<SeenByNet, most_obstacles> all_seen(const world::Footprint& body, const State& state) {
+  const Observation seen = observation(state);
+  StaticVector<SeenByNet, most_obstacles> all;
+  for (std::size_t k = 0; k < state.obstacles.size(); ++k) {
+    all.push_back(seen_by_net(body, seen, k));
+  }
+  return all;
+}
+
 void move_on(State& state, double time) {
   for (Obstacle& obstacle : state.obstacles) {
     obstacle = after(obstacle, time);
@@ -45,30 +54,21 @@ void move_on(State& state, double time) {
 Demand least_q(const Network& network, const world::Footprint& body, const State& state) {
   expects(!state.obstacles.empty(), "an obstacle to act for");
   static const Candidates all = candidates();
-  const Observation seen = observation(state);
-  std::array<double, all.size()> highest;
-  highest.fill(-std::numeric_limits<double>::infinity());
-  for (std::size_t k = 0; k < state.obstacles.size(); ++k) {
-    std::array<double, all.size()> q;
-    network.values_of(seen_by_net(body, seen, k), all, q);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      highest[i] = std::max(highest[i], q[i]);
-    }
-  }
-  return all[static_cast<std::size_t>(std::min_element(highest.begin(), highest.end()) -
-                                      highest.begin())];
+  std::array<double, all.size()> q;
+  network.joint_values_of(all_seen(body, state), all, q);
+  return all[static_cast<std::size_t>(std::min_element(q.begin(), q.end()) - q.begin())];
 }
 
-double highest_v(const Network& network, const world::Footprint& body, const State& state) {
-  const Observation seen = observation(state);
-  double highest = -std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < state.obstacles.size(); ++k) {
-    const SeenByNet one = seen_by_net(body, seen, k);
-    std::array<double, 1> v{};
-    network.values({&one, 1}, v);
-    highest = std::max(highest, v[0]);
-  }
-  return highest;
+double joint_v(const Network& network, const world::Footprint& body, const State& state) {
+  return network.joint_value(all_seen(body, state));
+}
+
+double highest_single_v(const Network& network, const world::Footprint& body, const State& state) {
+  const auto seen = all_seen(body, state);
+  std::array<double, most_obstacles> v{};
+  const auto values = std::span(v).first(seen.size());
+  network.values(seen, values);
+  return *std::max_element(values.begin(), values.end());
 }
 
 State state_of(const manoeuvre::Car& car, const Situation& situation) {

@@ -14,15 +14,18 @@ namespace saca::danger {
 /// What is demanded at a look, `time` [s] after the first.
 using Policy = std::function<manoeuvre::Demand(const State&, double time)>;
 
-/// The demand, all around the grip, half of it or none, after which the highest Q_h of the
-/// obstacles is least.
+/// The demand, all around the grip, half of it or none, after which Q_h beside all obstacles is
+/// least.
 /// @param state  with one obstacle or more
 [[nodiscard]] manoeuvre::Demand least_q(const Network& network, const world::Footprint& body,
                                         const State& state);
 
+/// V_h beside all obstacles [m].
+[[nodiscard]] double joint_v(const Network& network, const world::Footprint& body,
+                             const State& state);
 /// The highest V_h of the obstacles, each by itself [m].
-[[nodiscard]] double highest_v(const Network& network, const world::Footprint& body,
-                               const State& state);
+[[nodiscard]] double highest_single_v(const Network& network, const world::Footprint& body,
+                                      const State& state);
 
 /// Where a situation starts: the car, exactly, and what it is to miss.
 struct Situation {

@@ -71,8 +71,9 @@ TEST_F(Acting, TakesTheDemandOfLeastQ) {
 TEST_F(Acting, TellsTheHighestOfTheObstacles) {
   State state = state_of(car_, before_a_car(20.0, 10.0));
   state.obstacles.push_back(state_of(car_, before_a_car(20.0, 4.0)).obstacles[0]);
-  EXPECT_NEAR(highest_v(preferring(0, 1.0), body, state), -4.0 + std::log1p(std::exp(2.0)), 1e-3);
-  EXPECT_TRUE(std::isinf(highest_v(preferring(0, 1.0), body, State{})));
+  EXPECT_NEAR(joint_v(preferring(0, 1.0), body, state), -4.0 + std::log1p(std::exp(2.0)), 1e-3);
+  EXPECT_EQ(highest_single_v(preferring(0, 1.0), body, state),
+            joint_v(preferring(0, 1.0), body, state));
 }
 
 // Full braking from 15 m/s on grip 0.9 takes some 13 to 16 m; a car that only rolls hits.

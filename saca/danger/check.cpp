@@ -75,7 +75,7 @@ Checked checked(const manoeuvre::Car& car, const world::Footprint& body, const N
   const Situation situation = drawn_situation(car, body, random);
   const State state = state_of(car, situation);
   Checked result{.speed = norm(state.ego.v_B), .grip = situation.grip};
-  result.told = highest_v(network, body, state);
+  result.told = joint_v(network, body, state);
   const auto by = [&](const Policy& policy) { return highest_h(car, body, situation, policy); };
   result.acted = by([&](const State& now, double) { return least_q(network, body, now); });
   result.best = std::min(result.acted, by(best_arc(car, body)));

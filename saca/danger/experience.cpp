@@ -13,8 +13,12 @@ Observation row_of(const std::vector<float>& rows, std::size_t i) {
   return one;
 }
 
-bool has_one_obstacle(const Observation& seen) {
-  return seen[num_ego_features] != 0.0F && seen[num_ego_features + num_obstacle_features] == 0.0F;
+std::size_t num_obstacles_of(const Observation& seen) {
+  std::size_t count = 0;
+  while (count < most_obstacles && seen[num_ego_features + count * num_obstacle_features] != 0.0F) {
+    ++count;
+  }
+  return count;
 }
 
 float told_of(float h) {
@@ -23,9 +27,11 @@ float told_of(float h) {
 
 void add_state(Experience& all, const Observation& seen, const world::Footprint& body,
                world::Shape shape) {
-  const SeenByNet one = seen_by_net(body, seen, 0, shape);
-  all.inputs.insert(all.inputs.end(), one.inputs.begin(), one.inputs.end());
-  all.h_at.push_back(static_cast<float>(told(one.h)));
+  for (std::size_t k = 0; k < all.num_obstacles; ++k) {
+    const SeenByNet one = seen_by_net(body, seen, k, shape);
+    all.inputs.insert(all.inputs.end(), one.inputs.begin(), one.inputs.end());
+    all.h_at.push_back(static_cast<float>(told(one.h)));
+  }
 }
 
 /// Transitions from `first` until before `last`, which are one situation.
@@ -58,7 +64,7 @@ void add_experience(Experience& all, const Transitions& transitions, const world
     if (transitions.settled[i] == 0.0F && transitions.cut_off[i] == 0.0F) {
       continue;
     }
-    if (has_one_obstacle(row_of(transitions.observations, first))) {
+    if (num_obstacles_of(row_of(transitions.observations, first)) == all.num_obstacles) {
       add_situation(all, transitions, first, i + 1, body, shape);
     }
     first = i + 1;

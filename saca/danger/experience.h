@@ -11,13 +11,14 @@
 
 namespace saca::danger {
 
-/// Transitions beside one obstacle as the networks see them: what V_h and Q_h are learnt from.
+/// Transitions beside so many obstacles as the networks see them: what V_h and Q_h are learnt from.
 /// All of h is as it is told (net_inputs.h).
 struct Experience {
-  /// Of states, rows of num_net_inputs: those of a situation follow one another, the last is the
-  /// state that it ended in.
+  std::size_t num_obstacles = 1;
+  /// Of states, rows of num_obstacles x num_net_inputs: those of a situation follow one another,
+  /// the last is the state that it ended in.
   std::vector<float> inputs;
-  std::vector<float> h_at;  ///< h at each of these states [m]
+  std::vector<float> h_at;  ///< of each obstacle at these states: rows of num_obstacles [m]
 
   /// Of each transition: the row of x; that of x' is the next.
   std::vector<std::uint32_t> row;
@@ -30,10 +31,10 @@ struct Experience {
 
   static constexpr float end_not_seen = std::numeric_limits<float>::infinity();
   [[nodiscard]] std::size_t size() const { return row.size(); }
-  [[nodiscard]] std::size_t num_states() const { return h_at.size(); }
+  [[nodiscard]] std::size_t num_states() const { return h_at.size() / num_obstacles; }
 };
 
-/// Adds the transitions of situations with one obstacle.
+/// Adds the transitions of situations with as many obstacles as `all` is of.
 /// @param body   of the ego, about its centre of mass
 /// @param shape  of the obstacles
 void add_experience(Experience& all, const Transitions& transitions, const world::Footprint& body,

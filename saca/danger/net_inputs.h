@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -36,5 +37,17 @@ struct SeenByNet {
 
 /// The same seen in a mirror: these change their sign.
 [[nodiscard]] const std::vector<std::size_t>& mirrored_inputs();
+
+/// What the networks read of two obstacles: the inputs of that whose V_h is higher, those of the
+/// other, and both V_h.
+constexpr std::size_t num_pair_inputs = 2 * num_net_inputs + 2;
+constexpr float pair_value_scale = 0.2F;  ///< of V_h among them [1/m]
+
+/// How much of what is learnt of a pair counts: nothing where the one that is less dangerous can be
+/// passed at 10 m or more, all from 5 m on.
+/// @param v  the lower of both V_h [m]
+[[nodiscard]] inline double pair_share(double v) {
+  return std::clamp(0.2 * (v + 10.0), 0.0, 1.0);
+}
 
 }  // namespace saca::danger

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "saca/core/contract.h"
@@ -50,32 +51,54 @@ Result<Network::Layers> Network::layers_from(const config::Tensors& tensors,
   return layers;
 }
 
-Result<Network> Network::from(const config::Tensors& tensors, std::string_view source) {
-  Network network;
-  auto v = layers_from(tensors, "v.", num_net_inputs, source);
-  auto q1 = layers_from(tensors, "q1.", num_net_inputs + num_actions, source);
-  auto q2 = layers_from(tensors, "q2.", num_net_inputs + num_actions, source);
+Result<Network::Three> Network::three_from(const config::Tensors& tensors,
+                                           const std::string& prefix, std::size_t inputs,
+                                           std::string_view source) {
+  auto v = layers_from(tensors, prefix + "v.", inputs, source);
+  auto q1 = layers_from(tensors, prefix + "q1.", inputs + num_actions, source);
+  auto q2 = layers_from(tensors, prefix + "q2.", inputs + num_actions, source);
   for (const auto* each : {&v, &q1, &q2}) {
     if (!each->has_value()) {
       return each->error();
     }
   }
-  network.v_ = std::move(v).value();
-  network.q_ = {std::move(q1).value(), std::move(q2).value()};
+  return Three{std::move(v).value(), {std::move(q1).value(), std::move(q2).value()}};
+}
+
+Result<Network> Network::from(const config::Tensors& tensors, std::string_view source) {
+  Network network;
+  auto single = three_from(tensors, "", num_net_inputs, source);
+  if (!single.has_value()) {
+    return single.error();
+  }
+  network.single_ = std::move(single).value();
+  if (tensors.tensors.contains("pair_v.0.weight")) {
+    auto pairs = three_from(tensors, "pair_", num_pair_inputs, source);
+    if (!pairs.has_value()) {
+      return pairs.error();
+    }
+    network.pairs_ = std::move(pairs).value();
+  }
   network.words_ = tensors.words;
   return network;
 }
 
 std::uint64_t Network::digest() const {
   Fnv hash;
-  for (const Layers* layers : {&v_, &q_[0], &q_[1]}) {
-    for (const Layer& layer : *layers) {
-      for (const std::vector<float>* numbers : {&layer.weight, &layer.bias}) {
-        for (const float number : *numbers) {
-          hash.add(std::bit_cast<std::uint32_t>(number));
+  const auto add = [&](const Three& three) {
+    for (const Layers* layers : {&three.v, &three.q[0], &three.q[1]}) {
+      for (const Layer& layer : *layers) {
+        for (const std::vector<float>* numbers : {&layer.weight, &layer.bias}) {
+          for (const float number : *numbers) {
+            hash.add(std::bit_cast<std::uint32_t>(number));
+          }
         }
       }
     }
+  };
+  add(single_);
+  if (pairs_) {
+    add(*pairs_);
   }
   return hash.value();
 }
@@ -97,7 +120,27 @@ void Network::run(const Layers& layers, const float* inputs, std::size_t count, 
     }
     std::swap(x, y);
   }
-  std::copy_n(x.data(), count, out);
+  std::transform(x.data(), x.data() + count, out, softplus);
+}
+
+void Network::run_q(const std::array<Layers, 2>& q, std::span<const float> inputs,
+                    std::span<const manoeuvre::Demand> demands, float* out) {
+  std::array<float, (num_pair_inputs + num_actions) * at_once> columns;
+  std::array<float, at_once> other;
+  for (std::size_t first = 0; first < demands.size(); first += at_once) {
+    const std::size_t count = std::min(at_once, demands.size() - first);
+    float* next = columns.data();
+    for (const manoeuvre::Demand& demand : demands.subspan(first, count)) {
+      next = std::copy(inputs.begin(), inputs.end(), next);
+      *next++ = static_cast<float>(demand.along);
+      *next++ = static_cast<float>(demand.across);
+    }
+    run(q[0], columns.data(), count, out + first);
+    run(q[1], columns.data(), count, other.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      out[first + i] = std::max(out[first + i], other[i]);
+    }
+  }
 }
 
 void Network::values(std::span<const SeenByNet> seen, std::span<double> v) const {
@@ -110,34 +153,76 @@ void Network::values(std::span<const SeenByNet> seen, std::span<double> v) const
       std::copy(seen[first + i].inputs.begin(), seen[first + i].inputs.end(),
                 &inputs[i * num_net_inputs]);
     }
-    run(v_, inputs.data(), count, added.data());
+    run(single_.v, inputs.data(), count, added.data());
     for (std::size_t i = 0; i < count; ++i) {
-      v[first + i] = told(seen[first + i].h) + static_cast<double>(softplus(added[i]));
+      v[first + i] = told(seen[first + i].h) + static_cast<double>(added[i]);
     }
   }
 }
 
-void Network::values_of(const SeenByNet& seen, std::span<const manoeuvre::Demand> demands,
-                        std::span<double> q) const {
-  expects(demands.size() == q.size(), "room for as many values");
-  constexpr std::size_t num_inputs = num_net_inputs + num_actions;
-  std::array<float, num_inputs * at_once> inputs;
-  std::array<std::array<float, at_once>, 2> added;
-  for (std::size_t first = 0; first < demands.size(); first += at_once) {
-    const std::size_t count = std::min(at_once, demands.size() - first);
-    for (std::size_t i = 0; i < count; ++i) {
-      float* const one = std::copy(seen.inputs.begin(), seen.inputs.end(), &inputs[i * num_inputs]);
-      one[0] = static_cast<float>(demands[first + i].along);
-      one[1] = static_cast<float>(demands[first + i].across);
-    }
-    for (std::size_t k = 0; k < q_.size(); ++k) {
-      run(q_[k], inputs.data(), count, added[k].data());
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      const float most = softplus(std::max(added[0][i], added[1][i]));
-      q[first + i] = told(seen.h) + static_cast<double>(most);
+/// Each two of which what they add counts.
+template <class Use>
+void Network::for_pairs(std::span<const SeenByNet> seen,
+                        const std::array<double, most_obstacles>& v, const Use& use) const {
+  for (std::size_t i = 0; pairs_ && i < seen.size(); ++i) {
+    for (std::size_t k = i + 1; k < seen.size(); ++k) {
+      const std::size_t one = v[i] >= v[k] ? i : k;  // the more dangerous one
+      const std::size_t other = v[i] >= v[k] ? k : i;
+      Pair pair{.one = one, .other = other, .value = v[one], .share = pair_share(v[other])};
+      if (pair.share == 0.0) {
+        continue;
+      }
+      float* next = pair.inputs.data();
+      for (const std::size_t which : {one, other}) {
+        next = std::copy(seen[which].inputs.begin(), seen[which].inputs.end(), next);
+      }
+      *next++ = pair_value_scale * static_cast<float>(v[one]);
+      *next++ = pair_value_scale * static_cast<float>(v[other]);
+      use(pair);
     }
   }
+}
+
+double Network::joint_value(std::span<const SeenByNet> seen) const {
+  expects(!seen.empty() && seen.size() <= most_obstacles, "one to three obstacles");
+  std::array<double, most_obstacles> v{};
+  values(seen, std::span(v).first(seen.size()));
+  double highest =
+      *std::max_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(seen.size()));
+  for_pairs(seen, v, [&](const Pair& pair) {
+    float added = 0.0F;
+    run(pairs_->v, pair.inputs.data(), 1, &added);
+    highest = std::max(highest, pair.value + pair.share * static_cast<double>(added));
+  });
+  return highest;
+}
+
+void Network::joint_values_of(std::span<const SeenByNet> seen,
+                              std::span<const manoeuvre::Demand> demands,
+                              std::span<double> q) const {
+  expects(!seen.empty() && seen.size() <= most_obstacles, "one to three obstacles");
+  expects(demands.size() == q.size() && demands.size() <= most_demands, "room for as many values");
+  std::array<float, most_demands> added;
+  std::array<std::array<double, most_demands>, most_obstacles> single;
+  std::fill(q.begin(), q.end(), -std::numeric_limits<double>::infinity());
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    run_q(single_.q, seen[k].inputs, demands, added.data());
+    for (std::size_t i = 0; i < demands.size(); ++i) {
+      single[k][i] = told(seen[k].h) + static_cast<double>(added[i]);
+      q[i] = std::max(q[i], single[k][i]);
+    }
+  }
+  std::array<double, most_obstacles> v{};
+  if (pairs_ && seen.size() > 1) {
+    values(seen, std::span(v).first(seen.size()));
+  }
+  for_pairs(seen, v, [&](const Pair& pair) {
+    run_q(pairs_->q, pair.inputs, demands, added.data());
+    for (std::size_t i = 0; i < demands.size(); ++i) {
+      const double higher = std::max(single[pair.one][i], single[pair.other][i]);
+      q[i] = std::max(q[i], higher + pair.share * static_cast<double>(added[i]));
+    }
+  });
 }
 
 }  // namespace saca::danger

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
+#include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "saca/danger/random.h"
@@ -38,6 +41,9 @@ config::Tensors drawn_tensors(Random& random) {
   add("v.", num_net_inputs);
   add("q1.", num_net_inputs + 2);
   add("q2.", num_net_inputs + 2);
+  add("pair_v.", num_pair_inputs);
+  add("pair_q1.", num_pair_inputs + 2);
+  add("pair_q2.", num_pair_inputs + 2);
   all.words["car"] = "any";
   return all;
 }
@@ -101,7 +107,7 @@ TEST_F(NetworkTest, TakesTheLargerOfTwoQ) {
     demand = {uniform(random_, -0.7, 0.7), uniform(random_, -0.7, 0.7)};
   }
   std::vector<double> q(demands.size());
-  network_.values_of(seen, demands, q);
+  network_.joint_values_of({&seen, 1}, demands, q);
   int second = 0;
   for (std::size_t i = 0; i < demands.size(); ++i) {
     std::vector<double> inputs = inputs_of(seen);
@@ -114,13 +120,78 @@ TEST_F(NetworkTest, TakesTheLargerOfTwoQ) {
   EXPECT_EQ(Network::from(tensors_, "weights").value().words().at("car"), "any");
 }
 
+/// V of each by itself, then of two by the definition of a pair.
+double pair_value(const config::Tensors& tensors, const SeenByNet& a, const SeenByNet& b) {
+  const auto single = [&](const SeenByNet& one) {
+    return std::max(-15.0, one.h) + added(tensors, "v.", inputs_of(one));
+  };
+  const SeenByNet& one = single(a) >= single(b) ? a : b;
+  const SeenByNet& other = single(a) >= single(b) ? b : a;
+  std::vector<double> inputs = inputs_of(one);
+  const std::vector<double> more = inputs_of(other);
+  inputs.insert(inputs.end(), more.begin(), more.end());
+  inputs.insert(inputs.end(), {single(one) / 5.0, single(other) / 5.0});
+  const double share = std::clamp((single(other) + 10.0) / 5.0, 0.0, 1.0);
+  return single(one) + share * added(tensors, "pair_v.", inputs);
+}
+
+TEST_F(NetworkTest, AddsWhatTwoObstaclesAre) {
+  std::array<SeenByNet, 3> seen{drawn_seen(random_), drawn_seen(random_), drawn_seen(random_)};
+  seen[0].h = -3.0;
+  seen[1].h = -6.0;
+  seen[2].h = -14.9;
+  EXPECT_NEAR(network_.joint_value(std::span(seen).first(2)),
+              pair_value(tensors_, seen[0], seen[1]), 1e-4);
+  const double all = network_.joint_value(seen);
+  EXPECT_NEAR(
+      all,
+      std::max({pair_value(tensors_, seen[0], seen[1]), pair_value(tensors_, seen[0], seen[2]),
+                pair_value(tensors_, seen[1], seen[2])}),
+      1e-4);
+  std::reverse(seen.begin(), seen.end());
+  EXPECT_EQ(network_.joint_value(seen), all);
+
+  config::Tensors no_pairs;
+  for (const auto& [name, tensor] : tensors_.tensors) {
+    if (name.find("pair_") == std::string::npos) {
+      no_pairs.tensors[name] = tensor;
+    }
+  }
+  const Network alone = Network::from(no_pairs, "weights").value();
+  EXPECT_FALSE(alone.knows_pairs());
+  std::array<double, 3> v{};
+  alone.values(seen, v);
+  EXPECT_EQ(alone.joint_value(seen), *std::max_element(v.begin(), v.end()));
+}
+
+TEST_F(NetworkTest, QOfTwoObstaclesIsAtLeastThatOfEach) {
+  std::array<SeenByNet, 2> seen{drawn_seen(random_), drawn_seen(random_)};
+  seen[0].h = -3.0;
+  const std::array<Demand, 3> demands{{{-1.0, 0.0}, {0.0, 1.0}, {0.2, -0.3}}};
+  const auto q_of = [&](std::span<const SeenByNet> some) {
+    std::array<double, 3> q{};
+    network_.joint_values_of(some, demands, q);
+    return q;
+  };
+  for (const double h : {-5.0, -14.9}) {
+    seen[1].h = h;
+    const auto one = q_of(std::span(seen).first(1));
+    const auto other = q_of(std::span(seen).last(1));
+    const auto both = q_of(seen);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_GE(both[i], std::max(one[i], other[i]));
+    }
+  }
+}
+
 TEST_F(NetworkTest, AllocatesNothing) {
   std::vector<SeenByNet> seen(32, drawn_seen(random_));
   std::vector<double> v(32);
   const std::vector<Demand> demands(32);
   const std::size_t before = num_allocations;
   network_.values(seen, v);
-  network_.values_of(seen[0], demands, v);
+  network_.joint_values_of(std::span(seen).first(3), demands, v);
+  std::ignore = network_.joint_value(std::span(seen).first(3));
   EXPECT_EQ(num_allocations, before);
 }
 
@@ -132,7 +203,8 @@ TEST_F(NetworkTest, IsNamedByItsWeights) {
 }
 
 TEST_F(NetworkTest, RefusesWhatIsNotItsWeights) {
-  for (const std::string name : {"v.0.weight", "q1.2.bias", "q2.3.weight"}) {
+  for (const std::string name :
+       {"v.0.weight", "q1.2.bias", "q2.3.weight", "pair_v.3.bias", "pair_q2.0.weight"}) {
     config::Tensors other = tensors_;
     other.tensors.erase(name);
     const auto network = Network::from(other, "some.safetensors");

@@ -30,14 +30,14 @@ constexpr std::int64_t num_actions = 2;
 constexpr int curve_step = 500;
 constexpr std::size_t num_halves = 2;
 
-/// Transitions side by side, some seen in a mirror.
+/// Transitions side by side beside K obstacles, some seen in a mirror.
 struct Sample {
-  Tensor inputs;  ///< (B x inputs)
+  Tensor inputs;  ///< (B K x inputs), those of a transition in sequence
   Tensor next_inputs;
   Tensor actions;  ///< (B x 2)
-  Tensor h_at;     ///< (B), like all that follow
+  Tensor h_at;     ///< (B K)
   Tensor next_h_at;
-  Tensor h;
+  Tensor h;  ///< (B), like all that follow
   Tensor settled;
   Tensor reached;
 };
@@ -63,26 +63,31 @@ void copy_inputs(const std::vector<float>& rows, std::size_t row, bool is_mirror
 /// Any transitions, each second one seen in a mirror.
 Sample drawn(const Experience& all, int count, std::mt19937_64& random) {
   const auto n = static_cast<std::int64_t>(count);
-  Sample sample{.inputs = torch::empty({n, num_inputs}),
-                .next_inputs = torch::empty({n, num_inputs}),
+  const auto rows = n * static_cast<std::int64_t>(all.num_obstacles);
+  Sample sample{.inputs = torch::empty({rows, num_inputs}),
+                .next_inputs = torch::empty({rows, num_inputs}),
                 .actions = torch::empty({n, num_actions}),
-                .h_at = torch::empty({n}),
-                .next_h_at = torch::empty({n}),
+                .h_at = torch::empty({rows}),
+                .next_h_at = torch::empty({rows}),
                 .h = torch::empty({n}),
                 .settled = torch::empty({n}),
                 .reached = torch::empty({n})};
   const auto at = [](Tensor& tensor) { return tensor.data_ptr<float>(); };
   std::uniform_int_distribution<std::size_t> any(0, all.size() - 1);
+  std::int64_t to = 0;
   for (std::int64_t k = 0; k < n; ++k) {
     const std::size_t i = any(random);
-    const std::size_t row = all.row[i];
     const bool is_mirrored = k % 2 == 1;
-    copy_inputs(all.inputs, row, is_mirrored, at(sample.inputs) + k * num_inputs);
-    copy_inputs(all.inputs, row + 1, is_mirrored, at(sample.next_inputs) + k * num_inputs);
+    std::size_t from = all.row[i] * all.num_obstacles;
+    for (std::size_t one = 0; one < all.num_obstacles; ++one, ++from, ++to) {
+      const std::size_t next = from + all.num_obstacles;
+      copy_inputs(all.inputs, from, is_mirrored, at(sample.inputs) + to * num_inputs);
+      copy_inputs(all.inputs, next, is_mirrored, at(sample.next_inputs) + to * num_inputs);
+      at(sample.h_at)[to] = all.h_at[from];
+      at(sample.next_h_at)[to] = all.h_at[next];
+    }
     at(sample.actions)[2 * k] = all.actions[2 * i];
     at(sample.actions)[2 * k + 1] = (is_mirrored ? -1.0F : 1.0F) * all.actions[2 * i + 1];
-    at(sample.h_at)[k] = all.h_at[row];
-    at(sample.next_h_at)[k] = all.h_at[row + 1];
     at(sample.h)[k] = all.h[i];
     at(sample.settled)[k] = all.settled[i];
     at(sample.reached)[k] = all.reached[i];
@@ -164,31 +169,36 @@ double mean_that_matters(const Tensor& v) {
   return ((v * matters).sum() / matters.sum().clamp_min(1.0)).item<double>();
 }
 
-Losses losses_of(DangerNets& nets, const Sample& sample, const Annealed& now) {
-  const Tensor state_and_action = torch::cat({sample.inputs, sample.actions}, 1);
+/// What networks say of a sample; but for `v` and `q` without slopes.
+struct Said {
+  Tensor v;                 ///< (B), like all
+  std::array<Tensor, 2> q;  ///< of what was done
+  Tensor slow_q;            ///< of two the larger
+  Tensor next_v;
+  Tensor next_h;  ///< at x', of the nearest obstacle
+};
+
+Losses losses_of(const Said& said, const Sample& sample, const Annealed& now) {
   Tensor target_q;
-  Tensor slow_q;  // the larger of two
+  Tensor slow_q;
   {
     const torch::NoGradGuard none;
-    const Tensor ahead = torch::where(sample.settled > 0.5, sample.next_h_at,
-                                      nets->v(sample.next_inputs, sample.next_h_at));
+    const Tensor ahead = torch::where(sample.settled > 0.5, said.next_h, said.next_v);
     const Tensor undiscounted = torch::maximum(sample.h, ahead);
     target_q = torch::minimum(sample.reached, sample.h + now.discount * (undiscounted - sample.h));
-    slow_q = torch::minimum(sample.reached,
-                            torch::maximum(nets->slow_q1(state_and_action, sample.h_at),
-                                           nets->slow_q2(state_and_action, sample.h_at)));
+    slow_q = torch::minimum(sample.reached, said.slow_q);
   }
-  const Tensor v = nets->v(sample.inputs, sample.h_at);
+  const Tensor& v = said.v;
   const Tensor weight = weight_of(v.detach());
   const Tensor over = slow_q - v;  // of Q above V
   const Tensor side = torch::where(over < 0.0, torch::full_like(over, now.expectile),
                                    torch::full_like(over, 1.0 - now.expectile));
-  const auto q_loss = [&](DangerNet& q) {
-    const Tensor off = q(state_and_action, sample.h_at) - target_q;
+  const auto q_loss = [&](const Tensor& q) {
+    const Tensor off = q - target_q;
     return (weight * off * off).mean();
   };
   const Tensor of_v = (weight * side * over * over).mean();
-  const Tensor of_q = q_loss(nets->q1) + q_loss(nets->q2);
+  const Tensor of_q = q_loss(said.q[0]) + q_loss(said.q[1]);
   const Tensor sum = of_v + of_q;
   const torch::NoGradGuard none;
   return {sum,
@@ -196,6 +206,63 @@ Losses losses_of(DangerNets& nets, const Sample& sample, const Annealed& now) {
            .q_loss = of_q.item<double>(),
            .mean_v = mean_that_matters(v),
            .above = (v > sample.reached + 0.2).to(torch::kFloat32).mean().item<double>()}};
+}
+
+/// Of one obstacle.
+Said said_by(DangerNets& nets, const Sample& sample) {
+  const Tensor with_action = torch::cat({sample.inputs, sample.actions}, 1);
+  Said said{.v = nets->v(sample.inputs, sample.h_at),
+            .q = {nets->q1(with_action, sample.h_at), nets->q2(with_action, sample.h_at)},
+            .next_h = sample.next_h_at};
+  const torch::NoGradGuard none;
+  said.slow_q = torch::maximum(nets->slow_q1(with_action, sample.h_at),
+                               nets->slow_q2(with_action, sample.h_at));
+  said.next_v = nets->v(sample.next_inputs, sample.next_h_at);
+  return said;
+}
+
+/// What two obstacles look like to the networks of pairs, and what they are by themselves.
+struct PairSeen {
+  Tensor inputs;  ///< (B x num_pair_inputs)
+  Tensor v;       ///< (B), the higher one [m]
+  Tensor share;   ///< (B), pair_share
+};
+
+PairSeen seen_as_pair(DangerNets& singles, const Tensor& inputs, const Tensor& h_at) {
+  const torch::NoGradGuard none;
+  const Tensor both = singles->v(inputs, h_at).view({-1, 2});
+  const Tensor first_is_other = both.select(1, 0) < both.select(1, 1);
+  const Tensor rows = inputs.view({-1, 2, num_inputs});
+  const Tensor swapped = torch::where(first_is_other.view({-1, 1, 1}), rows.flip(1), rows);
+  const Tensor higher = std::get<0>(both.max(1));
+  const Tensor lower = std::get<0>(both.min(1));
+  const Tensor scaled = danger::pair_value_scale * torch::stack({higher, lower}, 1);
+  return {.inputs = torch::cat({swapped.reshape({-1, 2 * num_inputs}), scaled}, 1),
+          .v = higher,
+          .share = (0.2 * (lower + 10.0)).clamp(0.0, 1.0)};
+}
+
+/// Of two obstacles: what they are by themselves, and what the networks of pairs add.
+Said said_by(DangerNets& pairs, DangerNets& singles, const Sample& sample) {
+  const PairSeen now = seen_as_pair(singles, sample.inputs, sample.h_at);
+  const Tensor with_action = torch::cat({now.inputs, sample.actions}, 1);
+  Tensor single_q;
+  Said said;
+  {
+    const torch::NoGradGuard none;
+    const Tensor each = torch::cat({sample.inputs, sample.actions.repeat_interleave(2, 0)}, 1);
+    const Tensor q = torch::maximum(singles->q1(each, sample.h_at), singles->q2(each, sample.h_at));
+    single_q = std::get<0>(q.view({-1, 2}).max(1));
+    said.next_h = std::get<0>(sample.next_h_at.view({-1, 2}).max(1));
+    const PairSeen next = seen_as_pair(singles, sample.next_inputs, sample.next_h_at);
+    said.next_v = next.v + next.share * pairs->v->added(next.inputs);
+    said.slow_q = single_q + now.share * torch::maximum(pairs->slow_q1->added(with_action),
+                                                        pairs->slow_q2->added(with_action));
+  }
+  said.v = now.v + now.share * pairs->v->added(now.inputs);
+  said.q = {single_q + now.share * pairs->q1->added(with_action),
+            single_q + now.share * pairs->q2->added(with_action)};
+  return said;
 }
 
 Losses fitted_losses(FittedNets& nets, const SampleOfOutcomes& sample, const Annealed& now) {
@@ -385,11 +452,15 @@ DangerNetImpl::DangerNetImpl(std::int64_t inputs, std::int64_t width)
   register_module("last", last_);
 }
 
-Tensor DangerNetImpl::forward(const Tensor& inputs, const Tensor& h) {
+Tensor DangerNetImpl::added(const Tensor& inputs) {
   Tensor x = torch::relu(first_(inputs));
   x = torch::relu(second_(x));
   x = torch::relu(third_(x));
-  return h + torch::softplus(last_(x).squeeze(1));
+  return torch::softplus(last_(x).squeeze(1));
+}
+
+Tensor DangerNetImpl::forward(const Tensor& inputs, const Tensor& h) {
+  return h + added(inputs);
 }
 
 void DangerNetImpl::add_to(config::Tensors& tensors, const std::string& prefix) const {
@@ -401,12 +472,12 @@ void DangerNetImpl::add_to(config::Tensors& tensors, const std::string& prefix) 
   }
 }
 
-DangerNetsImpl::DangerNetsImpl(std::int64_t width)
-    : v(num_inputs, width),
-      q1(num_inputs + num_actions, width),
-      q2(num_inputs + num_actions, width),
-      slow_q1(num_inputs + num_actions, width),
-      slow_q2(num_inputs + num_actions, width) {
+DangerNetsImpl::DangerNetsImpl(std::int64_t inputs, std::int64_t width)
+    : v(inputs, width),
+      q1(inputs + num_actions, width),
+      q2(inputs + num_actions, width),
+      slow_q1(inputs + num_actions, width),
+      slow_q2(inputs + num_actions, width) {
   register_module("v", v);
   register_module("q1", q1);
   register_module("q2", q2);
@@ -423,25 +494,24 @@ FittedNetsImpl::FittedNetsImpl(std::int64_t width)
   follow(slow_v, v, 1.0);
 }
 
-config::Tensors DangerNetsImpl::tensors() const {
-  config::Tensors all;
-  v->add_to(all, "v.");
-  q1->add_to(all, "q1.");
-  q2->add_to(all, "q2.");
-  return all;
+void DangerNetsImpl::add_to(config::Tensors& tensors, const std::string& prefix) const {
+  v->add_to(tensors, prefix + "v.");
+  q1->add_to(tensors, prefix + "q1.");
+  q2->add_to(tensors, prefix + "q2.");
 }
 
-Result<DangerNets> trained_danger(const Experience& experience, const DangerPlan& plan, int threads,
-                                  const std::filesystem::path& state,
-                                  const std::function<bool(const DangerProgress&)>& on_point) {
-  expects(experience.size() > 0, "something to learn from");
-  expects_sound(plan);
-  torch::manual_seed(plan.seed);
-  DangerNets nets(plan.width);
+namespace {
+
+/// Trains V and two Q on what they say of a sample.
+Result<DangerNets> trained_on(const Experience& experience, DangerNets nets, const DangerPlan& plan,
+                              int threads, const std::filesystem::path& state,
+                              const std::function<Said(DangerNets&, const Sample&)>& said,
+                              const std::function<bool(const DangerProgress&)>& on_point) {
   Learner learner{.networks = nets.ptr(),
                   .losses =
                       [&](int count, std::mt19937_64& random, const Annealed& now) {
-                        return losses_of(nets, drawn(experience, count, random), now);
+                        const Sample sample = drawn(experience, count, random);
+                        return losses_of(said(nets, sample), sample, now);
                       },
                   .after_step =
                       [&] {
@@ -458,6 +528,41 @@ Result<DangerNets> trained_danger(const Experience& experience, const DangerPlan
     return *problem;
   }
   return nets;
+}
+
+}  // namespace
+
+Result<DangerNets> trained_danger(const Experience& experience, const DangerPlan& plan, int threads,
+                                  const std::filesystem::path& state,
+                                  const std::function<bool(const DangerProgress&)>& on_point) {
+  expects(experience.size() > 0 && experience.num_obstacles == 1,
+          "transitions beside one obstacle");
+  expects_sound(plan);
+  torch::manual_seed(plan.seed);
+  return trained_on(
+      experience, DangerNets(num_inputs, plan.width), plan, threads, state,
+      [](DangerNets& nets, const Sample& sample) { return said_by(nets, sample); }, on_point);
+}
+
+Result<DangerNets> trained_pairs(const Experience& experience, DangerNets& singles,
+                                 const DangerPlan& plan, int threads,
+                                 const std::filesystem::path& state,
+                                 const std::function<bool(const DangerProgress&)>& on_point) {
+  expects(experience.size() > 0 && experience.num_obstacles == 2,
+          "transitions beside two obstacles");
+  expects_sound(plan);
+  torch::manual_seed(plan.seed);
+  return trained_on(
+      experience, DangerNets(static_cast<std::int64_t>(danger::num_pair_inputs), plan.width), plan,
+      threads, state,
+      [&](DangerNets& nets, const Sample& sample) { return said_by(nets, singles, sample); },
+      on_point);
+}
+
+double joint_value(DangerNets& singles, DangerNets pairs, const Tensor& inputs, const Tensor& h) {
+  const torch::NoGradGuard none;
+  const PairSeen seen = seen_as_pair(singles, inputs, h);
+  return (seen.v + seen.share * pairs->v->added(seen.inputs)).item<double>();
 }
 
 Result<DangerNet> fitted_values(const danger::Outcomes& outcomes, const DangerPlan& plan,

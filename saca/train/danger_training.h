@@ -50,6 +50,8 @@ class DangerNetImpl : public torch::nn::Module {
   /// @param h       (B), [m]
   /// @return        (B), >= h [m]
   torch::Tensor forward(const torch::Tensor& inputs, const torch::Tensor& h);
+  /// Without h: (B), >= 0.
+  torch::Tensor added(const torch::Tensor& inputs);
   /// Adds its weights as `prefix` + "0.weight", "0.bias", ... "3.bias".
   void add_to(config::Tensors& tensors, const std::string& prefix) const;
 
@@ -64,7 +66,8 @@ TORCH_MODULE(DangerNet);
 /// V_h, and the two Q_h with their slow copies.
 class DangerNetsImpl : public torch::nn::Module {
  public:
-  explicit DangerNetsImpl(std::int64_t width);
+  /// @param inputs  of V; Q reads the action besides
+  DangerNetsImpl(std::int64_t inputs, std::int64_t width);
 
   DangerNet v;
   DangerNet q1;
@@ -72,8 +75,8 @@ class DangerNetsImpl : public torch::nn::Module {
   DangerNet slow_q1;
   DangerNet slow_q2;
 
-  /// The shipped weights: v and both q.
-  [[nodiscard]] config::Tensors tensors() const;
+  /// Adds what is shipped: `prefix` + "v.0.weight", ..., and both q.
+  void add_to(config::Tensors& tensors, const std::string& prefix) const;
 };
 TORCH_MODULE(DangerNets);
 
@@ -106,6 +109,18 @@ struct DangerProgress {
 [[nodiscard]] Result<DangerNets> trained_danger(
     const danger::Experience& experience, const DangerPlan& plan, int threads,
     const std::filesystem::path& state, const std::function<bool(const DangerProgress&)>& on_point);
+
+/// What two obstacles add, likewise: the networks of single ones stay as they are.
+/// @param experience  beside two obstacles
+[[nodiscard]] Result<DangerNets> trained_pairs(
+    const danger::Experience& experience, DangerNets& singles, const DangerPlan& plan, int threads,
+    const std::filesystem::path& state, const std::function<bool(const DangerProgress&)>& on_point);
+
+/// V_h beside two obstacles [m].
+/// @param inputs  (2 x num_net_inputs)
+/// @param h       (2), of each [m]
+[[nodiscard]] double joint_value(DangerNets& singles, DangerNets pairs, const torch::Tensor& inputs,
+                                 const torch::Tensor& h);
 
 /// V_h by fitted iteration instead, where it is known what each input leads to: its least over all
 /// of them, no expectile, no Q. What is wrong with it is that a network stands for V, and that it

@@ -88,6 +88,12 @@ class Wall {
   Experience all_;
 };
 
+config::Tensors tensors_of(const DangerNets& nets) {
+  config::Tensors all;
+  nets->add_to(all, "");
+  return all;
+}
+
 DangerPlan quick() {
   DangerPlan plan;
   plan.steps = 3'000;
@@ -145,7 +151,7 @@ TEST(DangerTraining, IsTheSeedsWhateverTheThreads) {
   plan.steps = 40;
   const auto bytes = [&](int threads) {
     return config::tensor_bytes(
-        trained_danger(wall.experience(), plan, threads, {}, every_point).value()->tensors());
+        tensors_of(trained_danger(wall.experience(), plan, threads, {}, every_point).value()));
   };
   const std::string one = bytes(1);
   EXPECT_EQ(one, bytes(2));
@@ -175,8 +181,8 @@ TEST(DangerTraining, GoesOnWhereItWasStopped) {
       });
   ASSERT_TRUE(rest.has_value());
   EXPECT_EQ(steps, (std::vector<int>{500, 1'000, 1'200}));
-  EXPECT_EQ(config::tensor_bytes(rest.value()->tensors()),
-            config::tensor_bytes(whole.value()->tensors()));
+  EXPECT_EQ(config::tensor_bytes(tensors_of(rest.value())),
+            config::tensor_bytes(tensors_of(whole.value())));
 
   plan.expectile = 0.95;
   const auto other = trained_danger(wall.experience(), plan, 1, state, every_point);
@@ -214,27 +220,114 @@ TEST(DangerTraining, FittedIterationFindsTheValue) {
   EXPECT_GT(errors.same_sign, 0.93);
 }
 
+constexpr std::size_t side_input = 9;
+constexpr std::size_t there_input = 22;
+
+/// Somebody who comes from a side (1 or -1): after one look h is 1 if the ego moved to that side,
+/// -1 if to the other; -14 whatever it does where he is far.
+struct FromASide {
+  float side;
+  bool is_far = false;
+
+  [[nodiscard]] danger::NetInputs inputs() const {
+    danger::NetInputs all{};
+    all[side_input] = side;
+    all[there_input] = is_far ? 0.0F : 1.0F;
+    return all;
+  }
+  [[nodiscard]] float h_at() const { return is_far ? -14.0F : -1.5F; }
+  [[nodiscard]] float h_after(float moved) const { return is_far ? -14.0F : side * moved; }
+};
+
+/// Single looks beside these.
+void add_look(Experience& all, const std::vector<FromASide>& obstacles, float moved) {
+  all.row.push_back(static_cast<std::uint32_t>(all.num_states()));
+  float h = -15.0F;
+  for (int state = 0; state < 2; ++state) {
+    for (const FromASide& one : obstacles) {
+      const danger::NetInputs inputs = one.inputs();
+      all.inputs.insert(all.inputs.end(), inputs.begin(), inputs.end());
+      all.h_at.push_back(state == 0 ? one.h_at() : one.h_after(moved));
+      h = std::max(h, one.h_after(moved));
+    }
+  }
+  all.actions.insert(all.actions.end(), {0.0F, moved});
+  all.h.push_back(h);
+  all.settled.push_back(1.0F);
+  all.reached.push_back(h);
+}
+
+// Each can be evaded by itself, both together cannot; where one is far he adds nothing.
+TEST(DangerTraining, LearnsThatTwoObstaclesMayBeMoreThanEach) {
+  torch::set_num_threads(1);
+  Experience singles{.num_obstacles = 1};
+  Experience pairs{.num_obstacles = 2};
+  for (int i = 0; i < 50; ++i) {
+    for (const float moved : {-1.0F, 1.0F}) {
+      for (const float side : {-1.0F, 1.0F}) {
+        for (const bool is_far : {false, true}) {
+          add_look(singles, {{side, is_far}}, moved);
+          add_look(pairs, {{side}, {-side, is_far}}, moved);
+          add_look(pairs, {{side}, {side, is_far}}, moved);
+        }
+      }
+    }
+  }
+  DangerPlan plan = quick();
+  plan.steps = 1'500;
+  plan.batch = 64;
+  DangerNets single = trained_danger(singles, plan, 1, {}, every_point).value();
+  const auto pair = trained_pairs(pairs, single, plan, 1, {}, every_point);
+  ASSERT_TRUE(pair.has_value());
+  const auto value = [&](const std::vector<FromASide>& obstacles) {
+    std::vector<float> inputs;
+    std::vector<float> h;
+    for (const FromASide& one : obstacles) {
+      const danger::NetInputs row = one.inputs();
+      inputs.insert(inputs.end(), row.begin(), row.end());
+      h.push_back(one.h_at());
+    }
+    return joint_value(single, pair.value(),
+                       torch::tensor(inputs).view({static_cast<std::int64_t>(h.size()), -1}),
+                       torch::tensor(h));
+  };
+  EXPECT_NEAR(value({{1.0F}, {1.0F}}), -1.0, 0.3) << "from one side";
+  EXPECT_NEAR(value({{1.0F}, {-1.0F}}), 1.0, 0.3) << "from both";
+  EXPECT_NEAR(value({{-1.0F}, {1.0F}}), 1.0, 0.3);
+  EXPECT_NEAR(value({{1.0F}, {-1.0F, true}}), -1.0, 0.3) << "he is far";
+}
+
 // What the product works out from the weights is what was trained.
 TEST(DangerTraining, IsTheNetworkThatTheProductRuns) {
   torch::manual_seed(4);
-  DangerNets nets(static_cast<std::int64_t>(danger::Network::width));
-  const auto network = danger::Network::from(nets->tensors(), "weights");
+  constexpr auto width = static_cast<std::int64_t>(danger::Network::width);
+  DangerNets nets(static_cast<std::int64_t>(danger::num_net_inputs), width);
+  DangerNets pairs(static_cast<std::int64_t>(danger::num_pair_inputs), width);
+  config::Tensors tensors = tensors_of(nets);
+  pairs->add_to(tensors, "pair_");
+  const auto network = danger::Network::from(tensors, "weights");
   ASSERT_TRUE(network.has_value()) << network.error().message;
-  danger::SeenByNet seen;
-  seen.h = -3.0;
-  seen.inputs.fill(0.3F);
-  std::array<double, 1> v{};
-  network.value().values({&seen, 1}, v);
-  std::array<double, 1> q{};
+  ASSERT_TRUE(network.value().knows_pairs());
+  std::array<danger::SeenByNet, 2> seen;
+  seen[0].h = -3.0;
+  seen[0].inputs.fill(0.3F);
+  seen[1].h = -2.5;
+  seen[1].inputs.fill(-0.2F);
   const manoeuvre::Demand demand{-0.5, 0.2};
-  network.value().values_of(seen, {&demand, 1}, q);
+  std::array<double, 1> q{};
+  network.value().joint_values_of(std::span(seen).first(1), {&demand, 1}, q);
   const torch::NoGradGuard none;
   const torch::Tensor inputs =
       torch::full({1, static_cast<std::int64_t>(danger::num_net_inputs)}, 0.3);
   const torch::Tensor h = torch::full({1}, -3.0);
-  EXPECT_NEAR(v[0], nets->v(inputs, h).item<double>(), 1e-4);
+  EXPECT_NEAR(network.value().joint_value(std::span(seen).first(1)),
+              nets->v(inputs, h).item<double>(), 1e-4);
   const torch::Tensor both = torch::cat({inputs, torch::tensor({{-0.5F, 0.2F}})}, 1);
   EXPECT_NEAR(q[0], torch::maximum(nets->q1(both, h), nets->q2(both, h)).item<double>(), 1e-4);
+
+  const torch::Tensor rows = torch::cat({inputs, torch::full_like(inputs, -0.2)}, 0);
+  const torch::Tensor h_of_both = torch::tensor({-3.0F, -2.5F});
+  EXPECT_NEAR(network.value().joint_value(seen), joint_value(nets, pairs, rows, h_of_both), 1e-4);
 }
 
 TEST(DangerTraining, WantsSomethingToLearnFrom) {
