@@ -1,18 +1,41 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
 #include <string>
+#include <vector>
 
+#include "apps/saca/inputs.h"
+#include "saca/config/tensors.h"
 #include "saca/core/result.h"
+#include "saca/danger/check.h"
 #include "saca/danger/network.h"
+#include "saca/world/footprint.h"
 
 namespace saca::app {
 
-/// @param path  of the weights
-/// @return      an error naming file, tensor, wanted and got
-[[nodiscard]] Result<danger::Network> read_danger_network(const std::string& path);
+/// What a file of weights says, and the car that it is of.
+struct DangerWeights {
+  config::Tensors tensors;
+  danger::Network network;
+  std::string car_name;
+  Inputs inputs;
+  world::Footprint body;  ///< of the car, about its centre of mass
+};
+
+/// @return  an error naming file, tensor or word, wanted and got
+[[nodiscard]] Result<DangerWeights> read_danger_weights(const std::string& path);
+
+/// So many situations from one on, in parallel; each has the seed of its number.
+/// @param name  what they are for: others are others
+[[nodiscard]] std::vector<danger::Checked> checked_situations(
+    const std::string& name, int first, int count, int threads, std::uint64_t seed,
+    const std::function<danger::Checked(std::uint64_t seed)>& check);
 
 /// `saca danger check`.
 void add_danger_check(CLI::App& danger, int& exit_code);
+/// `saca danger margins`.
+void add_danger_margins(CLI::App& danger, int& exit_code);
 
 }  // namespace saca::app

@@ -1,10 +1,12 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
-#include <limits>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -12,19 +14,15 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/danger_check.h"
-#include "apps/saca/inputs.h"
 #include "apps/saca/json_output.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
-#include "saca/config/tensors.h"
 #include "saca/core/clock.h"
-#include "saca/core/file.h"
-#include "saca/core/fnv.h"
 #include "saca/core/parallel.h"
 #include "saca/danger/check.h"
+#include "saca/danger/margins.h"
 #include "saca/danger/network.h"
-#include "saca/manoeuvre/ego.h"
 
 namespace saca::app {
 namespace {
@@ -42,44 +40,11 @@ struct DangerCheckOptions {
   bool as_json = false;
 };
 
-constexpr double confidence = 1.0 - 1e-6;
-
-/// Situations of like speed and grip.
-struct SpeedAndGrip {
-  std::string name;
-  double slowest;  ///< [m/s]
-  double fastest;
-  double least_grip;
-  double most_grip;
-
-  [[nodiscard]] bool holds(const Checked& one) const {
-    return one.speed >= slowest && one.speed < fastest && one.grip >= least_grip &&
-           one.grip < most_grip;
-  }
-};
-
-std::vector<SpeedAndGrip> bins() {
-  constexpr double any = std::numeric_limits<double>::infinity();
-  std::vector<SpeedAndGrip> all;
-  for (const auto& [slow, fast, speeds] : {std::tuple{0.0, 10.0, "below_10"},
-                                           {10.0, 20.0, "10_to_20"},
-                                           {20.0, 30.0, "20_to_30"},
-                                           {30.0, any, "from_30"}}) {
-    for (const auto& [low, high, grips] :
-         {std::tuple{0.0, 0.5, "slippery"}, {0.5, any, "good_grip"}}) {
-      all.push_back({fmt::format("{}_mps.{}", speeds, grips), slow, fast, low, high});
-    }
-  }
-  return all;
-}
-
-std::vector<Checked> in_bin(const std::vector<Checked>& all, const SpeedAndGrip& bin) {
+std::vector<Checked> in_bin(const std::vector<Checked>& all, std::size_t bin) {
   std::vector<Checked> some;
-  for (const Checked& one : all) {
-    if (bin.holds(one)) {
-      some.push_back(one);
-    }
-  }
+  std::copy_if(all.begin(), all.end(), std::back_inserter(some), [&](const Checked& one) {
+    return danger::bin_of(one.speed, one.grip, one.num_obstacles) == bin;
+  });
   return some;
 }
 
@@ -97,7 +62,7 @@ double microseconds_of_value(const danger::Network& network, SteadyClock& clock)
   return taken.count() / (times * static_cast<double>(count));
 }
 
-/// The figures of all, and of each bin, under their names.
+/// The figures of all, or of a bin, under their names.
 json figures_json(const std::string& place, const CheckFigures& figures) {
   json all;
   const auto add = [&](const char* name, const Share& share) {
@@ -106,7 +71,8 @@ json figures_json(const std::string& place, const CheckFigures& figures) {
   };
   add("hit_given_told_safe", figures.hit_given_told_safe);
   all[place + "hit_given_told_safe.hi"] =
-      danger::upper_bound(figures.hit_given_told_safe, confidence);
+      danger::upper_bound(figures.hit_given_told_safe, danger::margin_confidence);
+  add("hit_given_just_safe", figures.hit_given_just_safe);
   add("told_safe_given_hit", figures.told_safe_given_hit);
   add("false_alarm", figures.false_alarms);
   add("sign_agreement", figures.agreeing_near);
@@ -114,117 +80,125 @@ json figures_json(const std::string& place, const CheckFigures& figures) {
   all[place + "bias_m"] = figures.bias_near;
   all[place + "p99_error_m"] = figures.p99_error_near;
   all[place + "lost_by_acting_m"] = figures.lost_near;
+  add("pincer", figures.pincers);
+  add("pincer_told", figures.told_of_pincers);
+  add("pincer_told_alone", figures.told_alone_of_pincers);
   return all;
 }
 
-void tell_danger_row(const std::string& name, double margin, const CheckFigures& figures) {
-  app::print("{:28} {:7.2f} {:9.3f} {:9.3f} {:9.2f} {:9.2f} {:9.2f} {:8.3f} {:8.3f} {:8.3f}\n",
-             name, margin, 100.0 * figures.hit_given_told_safe.value(),
-             100.0 * danger::upper_bound(figures.hit_given_told_safe, confidence),
-             100.0 * figures.told_safe_given_hit.value(), 100.0 * figures.false_alarms.value(),
-             100.0 * figures.agreeing_near.value(), figures.mean_error_near, figures.bias_near,
-             figures.lost_near);
+void tell_danger_row(const std::string& name, const std::string& margin,
+                     const CheckFigures& figures) {
+  app::print(
+      "{:32} {:>7} {:9.3f} {:9.3f} {:9.3f} {:9.2f} {:9.2f} {:9.2f} {:8.3f} {:8.3f} {:8.3f}\n", name,
+      margin, 100.0 * figures.hit_given_told_safe.value(),
+      100.0 * danger::upper_bound(figures.hit_given_told_safe, danger::margin_confidence),
+      100.0 * figures.hit_given_just_safe.value(), 100.0 * figures.told_safe_given_hit.value(),
+      100.0 * figures.false_alarms.value(), 100.0 * figures.agreeing_near.value(),
+      figures.mean_error_near, figures.bias_near, figures.lost_near);
 }
 
-void tell(const std::vector<Checked>& fitted, const std::vector<Checked>& others, bool as_json,
-          json all) {
+void tell_head() {
+  app::print("{:32} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8}\n", "", "margin",
+             "hit|safe", "at most", "hit|just", "safe|hit", "false", "sign", "error", "bias",
+             "lost");
+  app::print("{:32} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8}\n", "", "[m]",
+             "[%]", "[%]", "[%]", "[%]", "[%]", "[%]", "[m]", "[m]", "[m]");
+}
+
+void tell(const std::vector<Checked>& situations, const std::optional<danger::Margins>& margins,
+          bool as_json, json all) {
   if (!as_json) {
-    app::print("{} situations for the margins, {} others for the figures\n\n", fitted.size(),
-               others.size());
-    app::print("{:28} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8}\n", "", "margin",
-               "hit|safe", "at most", "safe|hit", "false", "sign", "error", "bias", "lost");
-    app::print("{:28} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8}\n", "", "[m]", "[%]",
-               "[%]", "[%]", "[%]", "[%]", "[m]", "[m]", "[m]");
+    tell_head();
   }
-  const auto add = [&](const std::string& name, const std::string& place, double margin,
-                       const std::vector<Checked>& some) {
-    const CheckFigures figures = danger::figures_of(some, margin);
-    all[place + "margin_m"] = margin;
+  const auto margin_of = [&](const Checked& one) {
+    return margins ? margins->at(one.speed, one.grip, one.num_obstacles) : 0.0;
+  };
+  const auto add = [&](const std::string& name, const std::string& place, const std::string& margin,
+                       const CheckFigures& figures) {
     all.update(figures_json(place, figures));
     if (!as_json) {
       tell_danger_row(name, margin, figures);
     }
+    return figures;
   };
-  add("all, no margin", "danger.net.plain.", 0.0, others);
-  // What is told with the margin of its own bin is told with a margin of 0.
-  std::vector<Checked> with_margins;
-  for (const SpeedAndGrip& bin : bins()) {
-    const double margin = danger::margin_of(in_bin(fitted, bin));
-    const std::vector<Checked> some = in_bin(others, bin);
-    add(bin.name, "danger.net." + bin.name + ".", margin, some);
-    for (Checked one : some) {
-      one.told += margin;
-      with_margins.push_back(one);
+  add("all, no margin", "danger.net.plain.", "0",
+      danger::figures_of(situations, [](const Checked&) { return 0.0; }));
+  if (margins) {
+    for (std::size_t bin = 0; bin < danger::num_bins; ++bin) {
+      const std::vector<Checked> some = in_bin(situations, bin);
+      const std::string& name = danger::bin_names()[bin];
+      const double margin = margins->metres()[bin];
+      all["danger.net." + name + ".margin_m"] = margin;
+      add(name, "danger.net." + name + ".",
+          margin < danger::Margins::none ? fmt::format("{:.2f}", margin) : "none",
+          danger::figures_of(some, margin_of));
     }
+    add("all, each with its margin", "danger.net.", "", danger::figures_of(situations, margin_of));
   }
-  add("all, each with its margin", "danger.net.", 0.0, with_margins);
+  for (const auto& [name, place, is_one] :
+       {std::tuple{"one obstacle", "one", true}, {"several obstacles", "several", false}}) {
+    std::vector<Checked> some;
+    std::copy_if(situations.begin(), situations.end(), std::back_inserter(some),
+                 [one = is_one](const Checked& each) { return (each.num_obstacles == 1) == one; });
+    add(name, fmt::format("danger.net.{}.", place), "", danger::figures_of(some, margin_of));
+  }
   if (as_json) {
     print_json(all);
+    return;
   }
+  const CheckFigures figures = danger::figures_of(situations, margin_of);
+  app::print(
+      "\npincers, which each obstacle alone leaves a way out of: {} of {} situations with several "
+      "obstacles; told unsafe {}, by the highest single value {}\n",
+      figures.pincers.count, figures.pincers.of, figures.told_of_pincers.count,
+      figures.told_alone_of_pincers.count);
 }
 
 int check_danger(const DangerCheckOptions& options) {
+  constexpr int situations_at_once = 200;
   watch_for_interrupt();
-  const auto network = read_danger_network(options.weights);
-  if (!network.has_value()) {
-    return refused(network.error());
+  const auto read = read_danger_weights(options.weights);
+  if (!read.has_value()) {
+    return refused(read.error());
   }
-  const auto& words = network.value().words();
-  const auto car = words.find("car");
-  if (car == words.end()) {
-    return refused({Error::Code::malformed, options.weights + ": want a word `car`, got none"});
-  }
-  const auto inputs = read_inputs(car->second);
-  if (!inputs.has_value()) {
-    return refused(inputs.error());
+  const DangerWeights& weights = read.value();
+  const auto margins = danger::Margins::from(weights.network.words(), options.weights);
+  if (!margins.has_value()) {
+    return refused(margins.error());
   }
   SteadyClock clock;
-  const world::Footprint body = manoeuvre::footprint(inputs.value().car);
-  std::vector<Checked> all(static_cast<std::size_t>(options.situations));
-  constexpr std::size_t at_once = 200;
+  std::vector<Checked> all;
   {
     ProgressLine line("danger check", options.situations, clock);
-    for (std::size_t first = 0; first < all.size(); first += at_once) {
-      const std::size_t count = std::min(at_once, all.size() - first);
-      in_parallel(count, options.threads, [&](std::size_t i) {
-        Fnv seed;
-        seed.add(fmt::format("check {} {}", options.seed, first + i));
-        all[first + i] = danger::checked(inputs.value().car, body, network.value(), seed.value());
-      });
-      line.show(static_cast<int>(first + count), 0, " situations");
+    while (std::ssize(all) < options.situations) {
+      const int done = static_cast<int>(all.size());
+      const auto more = checked_situations(
+          "check", done, std::min(situations_at_once, options.situations - done), options.threads,
+          options.seed, [&](std::uint64_t seed) {
+            return danger::checked(weights.inputs.car, weights.body, weights.network, seed);
+          });
+      all.insert(all.end(), more.begin(), more.end());
+      line.show(static_cast<int>(all.size()), 0, " situations");
       if (interrupted()) {
         complain("interrupted; nothing was kept: the same command begins anew");
         return was_interrupted;
       }
     }
   }
-  const auto half = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-  json figures{{"danger.net.us_batch32", microseconds_of_value(network.value(), clock)},
+  json figures{{"danger.net.us_batch32", microseconds_of_value(weights.network, clock)},
                {"meta.weights", options.weights},
-               {"meta.car", car->second},
+               {"meta.car", weights.car_name},
                {"meta.situations", options.situations},
                {"meta.seed", std::to_string(options.seed)}};
   if (!options.as_json) {
     app::print("a value takes {:.2f} us, 32 at once\n",
                figures["danger.net.us_batch32"].get<double>());
   }
-  tell({all.begin(), half}, {half, all.end()}, options.as_json, std::move(figures));
+  tell(all, margins.value(), options.as_json, std::move(figures));
   return success;
 }
 
 }  // namespace
-
-Result<danger::Network> read_danger_network(const std::string& path) {
-  const auto bytes = read_file(path, many_bytes);
-  if (!bytes.has_value()) {
-    return bytes.error();
-  }
-  const auto tensors = config::read_tensors(bytes.value(), path);
-  if (!tensors.has_value()) {
-    return tensors.error();
-  }
-  return danger::Network::from(tensors.value(), path);
-}
 
 void add_danger_check(CLI::App& danger, int& exit_code) {
   const auto options = std::make_shared<DangerCheckOptions>();
@@ -232,9 +206,7 @@ void add_danger_check(CLI::App& danger, int& exit_code) {
       "check", "Drive the full vehicle by learnt V_h and Q_h, and tell how often they are wrong");
   command->add_option("WEIGHTS", options->weights, "safetensors file of saca-train-danger")
       ->required();
-  command
-      ->add_option("--situations", options->situations,
-                   "Half of them set the margins, the others make the figures")
+  command->add_option("--situations", options->situations)
       ->check(CLI::Range(2, 10'000'000))
       ->capture_default_str();
   command->add_option("--seed", options->seed)->capture_default_str();

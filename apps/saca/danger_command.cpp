@@ -236,11 +236,16 @@ int make_dataset(const DatasetOptions& options) {
   }
   std::optional<danger::Network> network;
   if (!options.by.empty()) {
-    auto read = read_danger_network(options.by);
+    auto read = read_danger_weights(options.by);
     if (!read.has_value()) {
       return refused(read.error());
     }
-    network = std::move(read).value();
+    if (read.value().car_name != inputs.value().car_name) {
+      return refused({Error::Code::malformed,
+                      fmt::format("{}: want weights of the car {}, got of {}", options.by,
+                                  inputs.value().car_name, read.value().car_name)});
+    }
+    network = std::move(read.value().network);
   }
   const fs::path folder(options.folder);
   const fs::path journal_file = folder / "journal.txt";
@@ -313,6 +318,7 @@ void add_danger(CLI::App& line, int& exit_code) {
   dataset->add_flag("--json", options->as_json, "For programs");
   dataset->callback([options, &exit_code] { exit_code = make_dataset(*options); });
   add_danger_check(*command, exit_code);
+  add_danger_margins(*command, exit_code);
 }
 
 }  // namespace saca::app

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/binomial.hpp>
 #include <cmath>
-#include <optional>
+#include <limits>
 
 #include "saca/core/percentile.h"
 #include "saca/danger/arc_evasions.h"
@@ -17,19 +16,18 @@ namespace {
 using manoeuvre::Demand;
 
 Situation drawn_situation(const manoeuvre::Car& car, const world::Footprint& body, Random& random) {
+  constexpr double near_share = 0.5;
   Situation situation;
   situation.grip = uniform(random, 0.2, 1.0);
   situation.car = drawn_start(car, situation.grip, random);
   const State state = state_of(car, situation);
-  const Obstacle obstacle = drawn_obstacle(random);
-  std::optional<Obstacle> placed;
-  if (happens(random, 0.5)) {
-    const ArcEvasions arcs(reach::avoidance_of(car, 1.0), body, state);
-    placed = placed_near_boundary(
-        body, state, obstacle,
-        [&](double level, const Obstacle& there) { return arcs.stay_below(level, there); }, random);
-  }
-  situation.obstacles.push_back(placed ? *placed : placed_anywhere(body, state, obstacle, random));
+  const ArcEvasions arcs(reach::avoidance_of(car, 1.0), body, state);
+  situation.obstacles =
+      drawn_obstacles(
+          body, state,
+          [&](double level, const Obstacle& there) { return arcs.stay_below(level, there); },
+          near_share, random)
+          .obstacles;
   return situation;
 }
 
@@ -61,10 +59,63 @@ Policy held(const std::array<Step, 3>& steps) {
   };
 }
 
-Policy best_arc(const manoeuvre::Car& car, const world::Footprint& body) {
-  return [limits = reach::avoidance_of(car, 1.0), body](const State& state, double /*time*/) {
-    return ArcEvasions(limits, body, state).best(state.obstacles[0]).demand;
+/// For one of the obstacles, whatever the others do.
+Policy best_arc(const manoeuvre::Car& car, const world::Footprint& body, std::size_t obstacle) {
+  return [limits = reach::avoidance_of(car, 1.0), body, obstacle](const State& state, double) {
+    return ArcEvasions(limits, body, state).best(state.obstacles[obstacle]).demand;
   };
+}
+
+/// Drives one situation by this and that.
+class Trials {
+ public:
+  Trials(const manoeuvre::Car& car, const world::Footprint& body, const Network& network,
+         const Situation& situation)
+      : car_(car), body_(body), network_(network), situation_(situation) {}
+
+  [[nodiscard]] double by_q() const {
+    return by([this](const State& now, double) { return least_q(network_, body_, now); });
+  }
+  /// Without Q.
+  [[nodiscard]] double best_of_all() const {
+    double best = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < situation_.obstacles.size(); ++k) {
+      best = std::min(best, by(best_arc(car_, body_, k)));
+    }
+    for (const auto& steps : sequences) {
+      best = std::min(best, by(held(steps)));
+    }
+    return best;
+  }
+  /// Whether some drive evades each obstacle as if it were alone.
+  [[nodiscard]] bool each_alone_is_evaded() const {
+    return std::all_of(situation_.obstacles.begin(), situation_.obstacles.end(),
+                       [this](const Obstacle& obstacle) {
+                         Situation alone = situation_;
+                         alone.obstacles.clear();
+                         alone.obstacles.push_back(obstacle);
+                         const Trials trials(car_, body_, network_, alone);
+                         return trials.best_of_all() < 0.0 || trials.by_q() < 0.0;
+                       });
+  }
+
+ private:
+  [[nodiscard]] double by(const Policy& policy) const {
+    return highest_h(car_, body_, situation_, policy);
+  }
+
+  const manoeuvre::Car& car_;
+  const world::Footprint& body_;
+  const Network& network_;
+  const Situation& situation_;
+};
+
+Checked told_of(const Network& network, const world::Footprint& body, const State& state) {
+  return {.speed = norm(state.ego.v_B),
+          .grip = state.grip,
+          .num_obstacles = state.obstacles.size(),
+          .told = joint_v(network, body, state),
+          .told_alone = highest_single_v(network, body, state)};
 }
 
 }  // namespace
@@ -73,39 +124,30 @@ Checked checked(const manoeuvre::Car& car, const world::Footprint& body, const N
                 std::uint64_t seed) {
   Random random(seed);
   const Situation situation = drawn_situation(car, body, random);
-  const State state = state_of(car, situation);
-  Checked result{.speed = norm(state.ego.v_B), .grip = situation.grip};
-  result.told = joint_v(network, body, state);
-  const auto by = [&](const Policy& policy) { return highest_h(car, body, situation, policy); };
-  result.acted = by([&](const State& now, double) { return least_q(network, body, now); });
-  result.best = std::min(result.acted, by(best_arc(car, body)));
-  for (const auto& steps : sequences) {
-    result.best = std::min(result.best, by(held(steps)));
+  const Trials trials(car, body, network, situation);
+  Checked result = told_of(network, body, state_of(car, situation));
+  result.acted = trials.by_q();
+  result.best = std::min(result.acted, trials.best_of_all());
+  result.is_pincer =
+      result.num_obstacles > 1 && result.best >= 0.0 && trials.each_alone_is_evaded();
+  return result;
+}
+
+Checked checked_by_q_alone(const manoeuvre::Car& car, const world::Footprint& body,
+                           const Network& network, std::uint64_t seed) {
+  Random random(seed);
+  const Situation situation = drawn_situation(car, body, random);
+  Checked result = told_of(network, body, state_of(car, situation));
+  if (result.told < 0.0) {
+    result.acted = Trials(car, body, network, situation).by_q();
   }
   return result;
 }
 
-double upper_bound(const Share& share, double confidence) {
-  if (share.count >= share.of) {
-    return 1.0;
-  }
-  using Binomial = boost::math::binomial_distribution<double>;
-  return Binomial::find_upper_bound_on_p(share.of, share.count, 1.0 - confidence);
-}
-
-double margin_of(const std::vector<Checked>& all) {
-  constexpr double beyond = 0.01;  // [m]
-  double margin = 0.0;
-  for (const Checked& one : all) {
-    if (one.acted >= 0.0) {
-      margin = std::max(margin, beyond - one.told);
-    }
-  }
-  return margin;
-}
-
-CheckFigures figures_of(const std::vector<Checked>& all, double margin) {
-  constexpr double near = 2.0;  // [m]
+CheckFigures figures_of(const std::vector<Checked>& all,
+                        const std::function<double(const Checked&)>& margin) {
+  constexpr double near = 2.0;       // [m]
+  constexpr double just_safe = 1.0;  // [m]
   CheckFigures figures;
   std::vector<double> errors;
   const auto add = [](Share& share, bool counts) {
@@ -113,10 +155,14 @@ CheckFigures figures_of(const std::vector<Checked>& all, double margin) {
     share.count += counts ? 1 : 0;
   };
   for (const Checked& one : all) {
-    const bool told_safe = one.told + margin < 0.0;
+    const double told = one.told + margin(one);
+    const bool told_safe = told < 0.0;
     const bool is_safe = one.best < 0.0;
     if (told_safe) {
       add(figures.hit_given_told_safe, one.acted >= 0.0);
+    }
+    if (told_safe && told >= -just_safe) {
+      add(figures.hit_given_just_safe, one.acted >= 0.0);
     }
     if (is_safe) {
       add(figures.false_alarms, !told_safe);
@@ -125,11 +171,18 @@ CheckFigures figures_of(const std::vector<Checked>& all, double margin) {
     }
     if (std::abs(one.best) < near) {
       add(figures.agreeing_near, told_safe == is_safe);
-      const double error = one.told - one.best;
+      const double error = told - one.best;
       errors.push_back(std::abs(error));
       figures.mean_error_near += std::abs(error);
       figures.bias_near += error;
       figures.lost_near += one.acted - one.best;
+    }
+    if (one.num_obstacles > 1) {
+      add(figures.pincers, one.is_pincer);
+    }
+    if (one.is_pincer) {
+      add(figures.told_of_pincers, !told_safe);
+      add(figures.told_alone_of_pincers, one.told_alone + margin(one) >= 0.0);
     }
   }
   const double num_near = std::max(1.0, static_cast<double>(errors.size()));

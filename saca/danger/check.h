@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "saca/danger/acting.h"
+#include "saca/danger/margins.h"
 #include "saca/danger/network.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/world/footprint.h"
@@ -14,37 +17,33 @@ namespace saca::danger {
 struct Checked {
   double speed = 0.0;  ///< of the ego at the start [m/s]
   double grip = 0.0;
-  double told = 0.0;   ///< V_h at the start, by the network [m]
-  double acted = 0.0;  ///< highest h when driven by the network's own Q [m]
-  double best = 0.0;   ///< least of the highest h of all drives that were tried, that one included:
-                       ///< V is at most that [m]
+  std::size_t num_obstacles = 1;
+  double told = 0.0;        ///< V_h at the start, by the network [m]
+  double told_alone = 0.0;  ///< the highest of the obstacles, each by itself [m]
+  double acted = 0.0;       ///< highest h when driven by the network's own Q [m]
+  double best = 0.0;        ///< least of the highest h of all drives that were tried, that one
+                            ///< included: V is at most that [m]
+  /// Each obstacle by itself is evaded by some drive, all together by none.
+  bool is_pincer = false;
 };
 
 /// A situation that no data set has, and what comes of it: the full vehicle is driven by Q, by the
-/// best arc looked for anew at each look, and by ten demands and sequences of them that drivers and
-/// controllers give. One in two starts within 2 m of the boundary as arcs see it.
+/// best arc looked for anew at each look, for each obstacle, and by ten demands and sequences of
+/// them that drivers and controllers give. One in two starts within 2 m of the boundary as arcs see
+/// it.
 /// @param body  of the ego, about its centre of mass
 [[nodiscard]] Checked checked(const manoeuvre::Car& car, const world::Footprint& body,
                               const Network& network, std::uint64_t seed);
 
-/// So many of all.
-struct Share {
-  int count = 0;
-  int of = 0;
-  [[nodiscard]] double value() const { return of > 0 ? static_cast<double>(count) / of : 0.0; }
-};
+/// Likewise, for margins: driven by Q alone, and only if it is told safe (`acted` is 0 else).
+[[nodiscard]] Checked checked_by_q_alone(const manoeuvre::Car& car, const world::Footprint& body,
+                                         const Network& network, std::uint64_t seed);
 
-/// Most that a share may be in truth, by what was counted, with this confidence over the draw; 1 of
-/// nothing. Source: Clopper and Pearson, Biometrika 26 (1934).
-[[nodiscard]] double upper_bound(const Share& share, double confidence);
-
-/// The least margin [m], >= 0, with which nothing that is told safe was hit, driven by Q.
-[[nodiscard]] double margin_of(const std::vector<Checked>& all);
-
-/// What the network is worth where what V tells, with a margin [m] added, is taken for true: safe
-/// is less than 0.
+/// What the network is worth where what V tells, with each bin's margin added, is taken for true:
+/// safe is less than 0.
 struct CheckFigures {
   Share hit_given_told_safe;     ///< driven by Q, of what is told safe
+  Share hit_given_just_safe;     ///< likewise, of what is told safe by 1 m at most
   Share told_safe_given_hit;     ///< of what no drive evades
   Share false_alarms;            ///< told unsafe, of what some drive evades
   Share agreeing_near;           ///< sign, where the best is within 2 m of the boundary
@@ -52,7 +51,12 @@ struct CheckFigures {
   double bias_near = 0.0;        ///< with its sign: > 0 too careful [m]
   double p99_error_near = 0.0;   ///< size [m]
   double lost_near = 0.0;  ///< mean by which driving by Q comes nearer than the best, there [m]
+  Share pincers;           ///< of situations with several obstacles
+  Share told_of_pincers;   ///< told unsafe, of pincers
+  Share told_alone_of_pincers;  ///< likewise by the highest of single values
 };
-[[nodiscard]] CheckFigures figures_of(const std::vector<Checked>& all, double margin);
+/// @param margin  of a situation [m]
+[[nodiscard]] CheckFigures figures_of(const std::vector<Checked>& all,
+                                      const std::function<double(const Checked&)>& margin);
 
 }  // namespace saca::danger

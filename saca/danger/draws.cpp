@@ -145,4 +145,24 @@ std::optional<Obstacle> placed_near_boundary(const world::Footprint& body, const
   return apart && near_enough ? std::optional(placed) : std::nullopt;
 }
 
+DrawnObstacles drawn_obstacles(const world::Footprint& body, const State& state,
+                               const CanStayBelow& can_stay_below, double near_share,
+                               Random& random) {
+  std::discrete_distribution<int> more({0.5, 0.3, 0.2});
+  const int count = 1 + more(random);
+  const bool near = happens(random, near_share);
+  DrawnObstacles drawn;
+  for (int i = 0; i < count; ++i) {
+    std::optional<Obstacle> placed;
+    constexpr int tries = 20;
+    for (int k = 0; near && !placed && k < tries; ++k) {
+      placed = placed_near_boundary(body, state, drawn_obstacle(random), can_stay_below, random);
+    }
+    drawn.is_near = drawn.is_near || placed.has_value();
+    drawn.obstacles.push_back(
+        placed ? *placed : placed_anywhere(body, state, drawn_obstacle(random), random));
+  }
+  return drawn;
+}
+
 }  // namespace saca::danger

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 
+#include "saca/core/static_vector.h"
 #include "saca/danger/random.h"
 #include "saca/danger/state.h"
 #include "saca/manoeuvre/car.h"
@@ -38,5 +39,16 @@ using CanStayBelow = std::function<bool(double level, const Obstacle& obstacle)>
                                                            const State& state, Obstacle obstacle,
                                                            const CanStayBelow& can_stay_below,
                                                            Random& random);
+
+/// One to three obstacles: half of the draws have one, three of ten two.
+struct DrawnObstacles {
+  StaticVector<Obstacle, most_obstacles> obstacles;
+  bool is_near = false;  ///< one at least is within 2 m of the boundary
+};
+/// @param near_share  of the draws, whose obstacles are put near the boundary where that can be
+/// done
+[[nodiscard]] DrawnObstacles drawn_obstacles(const world::Footprint& body, const State& state,
+                                             const CanStayBelow& can_stay_below, double near_share,
+                                             Random& random);
 
 }  // namespace saca::danger

@@ -68,31 +68,16 @@ class Maker {
     return static_cast<Behaviour>(which(random_));
   }
 
-  /// Half of the situations have one obstacle, three of ten two.
   Obstacles drawn_obstacles(const State& state) {
     const ArcEvasions arcs(limits_, body_, state);
     const auto can_stay_below = [&](double level, const Obstacle& obstacle) {
       const auto known = exact(state, obstacle);
       return known ? *known <= level : arcs.stay_below(level, obstacle);
     };
-    std::discrete_distribution<int> more({0.5, 0.3, 0.2});
-    const int count = 1 + more(random_);
-    const bool near = happens(random_, mixture_.near_share);
-    Obstacles obstacles;
-    bool is_near = false;
-    for (int i = 0; i < count; ++i) {
-      std::optional<Obstacle> placed;
-      constexpr int tries = 20;
-      for (int k = 0; near && !placed && k < tries; ++k) {
-        placed =
-            placed_near_boundary(body_, state, drawn_obstacle(random_), can_stay_below, random_);
-      }
-      is_near = is_near || placed.has_value();
-      obstacles.push_back(placed ? *placed
-                                 : placed_anywhere(body_, state, drawn_obstacle(random_), random_));
-    }
-    made_.near += is_near ? 1 : 0;
-    return obstacles;
+    const DrawnObstacles drawn =
+        danger::drawn_obstacles(body_, state, can_stay_below, mixture_.near_share, random_);
+    made_.near += drawn.is_near ? 1 : 0;
+    return drawn.obstacles;
   }
 
   /// V_h beside what keeps its velocity, where a table has it.

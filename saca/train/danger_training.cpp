@@ -169,6 +169,14 @@ double mean_that_matters(const Tensor& v) {
   return ((v * matters).sum() / matters.sum().clamp_min(1.0)).item<double>();
 }
 
+/// Of a difference [m]: its square, beyond 2 m as its size. A few far ones would else tear the
+/// networks away.
+Tensor squared(const Tensor& off) {
+  constexpr double linear_from = 2.0;  // [m]
+  const Tensor size = off.abs();
+  return torch::where(size < linear_from, off * off, linear_from * (2.0 * size - linear_from));
+}
+
 /// What networks say of a sample; but for `v` and `q` without slopes.
 struct Said {
   Tensor v;                 ///< (B), like all
@@ -193,11 +201,8 @@ Losses losses_of(const Said& said, const Sample& sample, const Annealed& now) {
   const Tensor over = slow_q - v;  // of Q above V
   const Tensor side = torch::where(over < 0.0, torch::full_like(over, now.expectile),
                                    torch::full_like(over, 1.0 - now.expectile));
-  const auto q_loss = [&](const Tensor& q) {
-    const Tensor off = q - target_q;
-    return (weight * off * off).mean();
-  };
-  const Tensor of_v = (weight * side * over * over).mean();
+  const auto q_loss = [&](const Tensor& q) { return (weight * squared(q - target_q)).mean(); };
+  const Tensor of_v = (weight * side * squared(over)).mean();
   const Tensor of_q = q_loss(said.q[0]) + q_loss(said.q[1]);
   const Tensor sum = of_v + of_q;
   const torch::NoGradGuard none;
@@ -276,8 +281,7 @@ Losses fitted_losses(FittedNets& nets, const SampleOfOutcomes& sample, const Ann
     target = std::get<0>(of_each.view({sample.h_at.size(0), -1}).min(1));
   }
   const Tensor v = nets->v(sample.inputs, sample.h_at);
-  const Tensor off = v - target;
-  const Tensor loss = (weight_of(v.detach()) * off * off).mean();
+  const Tensor loss = (weight_of(v.detach()) * squared(v - target)).mean();
   const torch::NoGradGuard none;
   return {loss, {.v_loss = loss.item<double>(), .mean_v = mean_that_matters(v)}};
 }
@@ -386,7 +390,7 @@ class DangerTraining {
     for (std::size_t i = 0; i < learner_.parameters.size(); ++i) {
       learner_.parameters[i].mutable_grad() = 0.5 * (gradients[0][i] + gradients[1][i]);
     }
-    constexpr double gradient_limit = 10.0;
+    constexpr double gradient_limit = 1.0;
     torch::nn::utils::clip_grad_norm_(learner_.parameters, gradient_limit);
     optimiser_.step();
     learner_.after_step();

@@ -29,7 +29,7 @@ struct DangerPlan {
   std::uint64_t seed = 1;
   int steps = 40'000;
   int batch = 4'096;
-  double step = 1e-3;  ///< largest of the optimiser (Adam, falling as a cosine)
+  double step = 5e-4;  ///< largest of the optimiser (Adam, falling as a cosine)
   double polyak = 0.005;
   /// Of the reversed expectile, from the first step on and from `annealed` of all steps on: less
   /// than 1 takes a mean between the least and the average of what inputs lead to, too high.

@@ -1,15 +1,18 @@
-"""`saca danger dataset` and `saca danger check`."""
+"""`saca danger dataset`, `saca danger margins` and `saca danger check`."""
 
 import hashlib
 import json
 import pathlib
+import signal
 import struct
+import subprocess
 import sys
+import time
 
 import pytest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from program import BAD_INPUT, CANNOT_WRITE, SUCCESS, WRONG_COMMAND_LINE, one_error, saca
+from program import BAD_INPUT, CANNOT_WRITE, INTERRUPTED, PROGRAM, SUCCESS, WRONG_COMMAND_LINE, one_error, saca
 
 SMALL = ["--transitions", "2500", "--part-drives", "4", "--no-tables"]
 
@@ -88,13 +91,52 @@ def test_check_tells_how_often_networks_are_wrong(tmp_path):
     assert told["danger.net.plain.hit_given_told_safe"] > 0.1
     assert told["danger.net.plain.told_safe_given_hit"] > 0.7
     assert told["danger.net.plain.hit_given_told_safe.hi"] > told["danger.net.plain.hit_given_told_safe"]
-    assert told["danger.net.hit_given_told_safe"] < told["danger.net.plain.hit_given_told_safe"]
-    assert told["danger.net.false_alarm"] > told["danger.net.plain.false_alarm"]
+    assert told["danger.net.one.hit_given_told_safe.n"] + told["danger.net.several.hit_given_told_safe.n"] == told["danger.net.plain.hit_given_told_safe.n"]
+    assert told["danger.net.plain.pincer.n"] > 30
+    assert told["danger.net.several.lost_by_acting_m"] > 0.2
     again = json.loads(saca(*arguments, "--threads", "1", "--json", cwd=tmp_path).stdout)
     same = [key for key in told if key != "danger.net.us_batch32"]
     assert [told[key] for key in same] == [again[key] for key in same]
     plain = saca(*arguments, cwd=tmp_path)
-    assert plain.returncode == SUCCESS and "all, each with its margin" in plain.stdout
+    assert plain.returncode == SUCCESS and "all, no margin" in plain.stdout and "pincers" in plain.stdout
+
+
+def test_without_enough_situations_nothing_is_told_safe(tmp_path):
+    # Some 14,000 that are told safe and none of them hit would be needed in each bin.
+    path, careful = weights(tmp_path / "blind.safetensors"), tmp_path / "careful.safetensors"
+    result = saca("danger", "margins", path, "--output", careful, "--situations", "150", "--json", cwd=tmp_path)
+    assert result.returncode == SUCCESS, result.stderr
+    told = json.loads(result.stdout)
+    margins = [told[key] for key in told if key.endswith(".margin_m")]
+    assert len(margins) == 16 and min(margins) == 1000.0
+    assert sum(told[key] for key in told if key.endswith(".told_safe")) > 50
+    assert not list(tmp_path.glob("*.json")), "what was counted is not left behind"
+    checked = json.loads(saca("danger", "check", careful, "--situations", "60", "--json", cwd=tmp_path).stdout)
+    assert checked["danger.net.hit_given_told_safe.n"] == 0
+    assert checked["danger.net.false_alarm"] == 1.0
+    assert checked["danger.net.plain.false_alarm"] < 0.5
+    assert checked["danger.net.from_30_mps.good_grip.one.margin_m"] == 1000.0
+
+
+def test_an_interrupted_count_for_margins_goes_on(tmp_path):
+    path, output, state = weights(tmp_path / "blind.safetensors"), tmp_path / "a.safetensors", tmp_path / "a.safetensors.margins.json"
+    arguments = ("danger", "margins", path, "--output", output, "--situations", "9000000")
+    first = subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=tmp_path, stderr=subprocess.PIPE, text=True)
+    while not state.exists():
+        assert first.poll() is None, first.stderr.read()
+        time.sleep(0.05)
+    first.send_signal(signal.SIGINT)
+    _, said = first.communicate(timeout=100)
+    assert first.returncode == INTERRUPTED and "goes on from here" in said
+    counted = json.loads(state.read_text())["situations"]
+    assert counted >= 2000 and not output.exists()
+    assert "another seed" in one_error(saca(*arguments, "--seed", "2", cwd=tmp_path), BAD_INPUT)
+    rest = saca("danger", "margins", path, "--output", output, "--situations", counted, "--json", cwd=tmp_path)
+    assert rest.returncode == SUCCESS and json.loads(rest.stdout)["meta.situations"] == counted
+    state.write_text("no count")
+    assert "a.safetensors.margins.json" in one_error(saca(*arguments, cwd=tmp_path), BAD_INPUT)
+    state.unlink()
+    assert "no/folder" in one_error(saca("danger", "margins", path, "--output", "no/folder/x", cwd=tmp_path), CANNOT_WRITE)
 
 
 def test_check_refuses_what_are_no_weights(tmp_path):
@@ -103,6 +145,8 @@ def test_check_refuses_what_are_no_weights(tmp_path):
     assert "no_such_car" in one_error(saca("danger", "check", weights(tmp_path / "b", car="no_such_car"), cwd=tmp_path), BAD_INPUT)
     (tmp_path / "c").write_text("no weights")
     one_error(saca("danger", "check", tmp_path / "c", cwd=tmp_path), BAD_INPUT)
+    bad_margin = weights(tmp_path / "d", **{"margin.below_10_mps.slippery.one": "much"})
+    assert "margin.below_10_mps.slippery.one: want metres" in one_error(saca("danger", "check", bad_margin, cwd=tmp_path), BAD_INPUT)
 
 
 def test_a_data_set_by_a_network_is_another(tmp_path):
@@ -112,3 +156,5 @@ def test_a_data_set_by_a_network_is_another(tmp_path):
     assert plain.returncode == SUCCESS and by_it.returncode == SUCCESS, by_it.stderr
     assert digests(tmp_path / "a") != digests(tmp_path / "b")
     assert "journal.txt" in one_error(saca("danger", "dataset", tmp_path / "a", *SMALL, "--by", path, cwd=tmp_path), BAD_INPUT)
+    other = weights(tmp_path / "other", car="suv_awd")
+    assert "suv_awd" in one_error(saca("danger", "dataset", tmp_path / "c", *SMALL, "--by", other, cwd=tmp_path), BAD_INPUT)

@@ -1,0 +1,54 @@
+#include "apps/saca/danger_check.h"
+
+#include <fmt/core.h>
+
+#include <utility>
+
+#include "saca/core/file.h"
+#include "saca/core/fnv.h"
+#include "saca/core/parallel.h"
+#include "saca/manoeuvre/ego.h"
+
+namespace saca::app {
+
+Result<DangerWeights> read_danger_weights(const std::string& path) {
+  const auto bytes = read_file(path, many_bytes);
+  if (!bytes.has_value()) {
+    return bytes.error();
+  }
+  auto tensors = config::read_tensors(bytes.value(), path);
+  if (!tensors.has_value()) {
+    return tensors.error();
+  }
+  auto network = danger::Network::from(tensors.value(), path);
+  if (!network.has_value()) {
+    return network.error();
+  }
+  const auto& words = network.value().words();
+  const auto car = words.find("car");
+  if (car == words.end()) {
+    return Error{Error::Code::malformed, path + ": want a word `car`, got none"};
+  }
+  auto inputs = read_inputs(car->second);
+  if (!inputs.has_value()) {
+    return inputs.error();
+  }
+  const world::Footprint body = manoeuvre::footprint(inputs.value().car);
+  std::string car_name = car->second;
+  return DangerWeights{std::move(tensors).value(), std::move(network).value(), std::move(car_name),
+                       std::move(inputs).value(), body};
+}
+
+std::vector<danger::Checked> checked_situations(
+    const std::string& name, int first, int count, int threads, std::uint64_t seed,
+    const std::function<danger::Checked(std::uint64_t seed)>& check) {
+  std::vector<danger::Checked> all(static_cast<std::size_t>(count));
+  in_parallel(all.size(), threads, [&](std::size_t i) {
+    Fnv hash;
+    hash.add(fmt::format("{} {} {}", name, seed, static_cast<std::size_t>(first) + i));
+    all[i] = check(hash.value());
+  });
+  return all;
+}
+
+}  // namespace saca::app
