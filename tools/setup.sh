@@ -13,7 +13,7 @@ packages=(
   python3 python3-venv python3-pytest python3-jsonschema
   chromium
 )
-[ "${1:-}" != train ] || packages+=(libtorch-dev libopenblas0-serial)
+[ "${1:-}" != train ] || packages+=(libtorch-dev libopenblas0-pthread)
 
 missing=()
 for package in "${packages[@]}"; do

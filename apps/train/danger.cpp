@@ -19,6 +19,7 @@
 #include "saca/danger/experience.h"
 #include "saca/danger/transition_file.h"
 #include "saca/manoeuvre/ego.h"
+#include "saca/train/blas.h"
 #include "saca/train/danger_training.h"
 
 namespace {
@@ -206,6 +207,7 @@ int train_danger(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  saca::train::give_each_thread_its_own_products(argv);
   saca::occupy_standard_files();
   CLI::App app("Trains V_h and Q_h from transitions alone, with libtorch");
   Options options;

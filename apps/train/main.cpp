@@ -21,6 +21,7 @@
 #include "saca/learn/calibration.h"
 #include "saca/learn/evaluation.h"
 #include "saca/learn/sequence_file.h"
+#include "saca/train/blas.h"
 #include "saca/train/training.h"
 
 namespace {
@@ -240,6 +241,7 @@ int train_model(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  saca::train::give_each_thread_its_own_products(argv);
   saca::occupy_standard_files();
   CLI::App app("Trains the model of intentions: an LSTM-CRF, with libtorch");
   Options options;

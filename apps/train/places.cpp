@@ -23,6 +23,7 @@
 #include "saca/eval/suite_source.h"
 #include "saca/eval/traffic_drives.h"
 #include "saca/manoeuvre/ego.h"
+#include "saca/train/blas.h"
 #include "saca/train/place_mixture.h"
 
 namespace {
@@ -227,6 +228,7 @@ int train_places(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  saca::train::give_each_thread_its_own_products(argv);
   saca::occupy_standard_files();
   CLI::App app("Trains what foretells where vehicles go: a mixture density network, with libtorch");
   Options options;

@@ -23,6 +23,7 @@
 #include "saca/reach/obstacle_frame.h"
 #include "saca/reach/value_file.h"
 #include "saca/reach/value_table.h"
+#include "saca/train/blas.h"
 #include "saca/train/danger_training.h"
 
 namespace {
@@ -206,10 +207,12 @@ int train_point_mass(const Options& options) {
   figures["from_data"]["seconds"] = of_offline.seconds();
   figures["from_data"]["transitions"] = experience.size();
   fmt::print("{}\n", figures["from_data"].dump());
+  config::Tensors weights;
+  nets.value()->add_to(weights, "");
   for (const auto& [name, text] : std::vector<std::pair<std::string, std::string>>{
            {"fitted.safetensors", config::tensor_bytes(fitted_weights)},
            {"fitted.curve.csv", of_fitted.text()},
-           {"from_data.safetensors", config::tensor_bytes(nets.value()->tensors())},
+           {"from_data.safetensors", config::tensor_bytes(weights)},
            {"from_data.curve.csv", of_offline.text()},
            {"figures.json", figures.dump(2) + "\n"}}) {
     if (const auto unwritable = write_file(folder / name, text)) {
@@ -224,6 +227,7 @@ int train_point_mass(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  saca::train::give_each_thread_its_own_products(argv);
   saca::occupy_standard_files();
   CLI::App app("Learns V_h of a point mass in two ways, and holds them against the exact table");
   Options options;

@@ -14,7 +14,7 @@ constexpr std::array<double, 3> times_ahead{0.5, 1.0, 2.0};  // [s]
 
 /// h, the nearer the finer.
 double scaled(double h) {
-  return std::max(-6.0, 0.1 * h);
+  return 0.1 * h;
 }
 
 double finely(double h) {
@@ -66,7 +66,10 @@ SeenByNet seen_by_net(const world::Footprint& body, const Observation& seen, std
   SeenByNet result;
   result.h = h;
   std::size_t next = 0;
-  const auto add = [&](double x) { result.inputs[next++] = static_cast<float>(x); };
+  const auto add = [&](double x) {
+    constexpr double largest = 4.0;  // what is rarer than that tells nothing more by its size
+    result.inputs[next++] = static_cast<float>(std::clamp(x, -largest, largest));
+  };
   add(v_B.x / 20.0);
   add(v_B.y / 3.0);
   add(number(2) / 0.5);  // yaw rate
@@ -76,8 +79,8 @@ SeenByNet seen_by_net(const world::Footprint& body, const Observation& seen, std
   add(number(6) / 8.0);  // brakes
   add(number(7) / 4.0);  // motor
   add(grip);
-  add(std::clamp(p.x / 30.0, -4.0, 4.0));
-  add(std::clamp(p.y / 15.0, -4.0, 4.0));
+  add(p.x / 30.0);
+  add(p.y / 15.0);
   add(std::tanh(p.x / 5.0));
   add(std::tanh(p.y / 2.0));
   add(heading.x);
@@ -98,9 +101,9 @@ SeenByNet seen_by_net(const world::Footprint& body, const Observation& seen, std
   }
   add(pass.time / 3.0);
   add(std::clamp(pass.left / 5.0, -3.0, 3.0));
-  add(std::min(4.0, speed * speed / (2.0 * most) / 30.0));
+  add(speed * speed / (2.0 * most) / 30.0);
   add(std::min(3.0, needed));
-  add(std::min(4.0, closing / 10.0));
+  add(closing / 10.0);
   expects(next == num_net_inputs, "all inputs");
   return result;
 }

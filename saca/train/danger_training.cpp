@@ -390,7 +390,7 @@ class DangerTraining {
     for (std::size_t i = 0; i < learner_.parameters.size(); ++i) {
       learner_.parameters[i].mutable_grad() = 0.5 * (gradients[0][i] + gradients[1][i]);
     }
-    constexpr double gradient_limit = 1.0;
+    constexpr double gradient_limit = 10.0;
     torch::nn::utils::clip_grad_norm_(learner_.parameters, gradient_limit);
     optimiser_.step();
     learner_.after_step();
