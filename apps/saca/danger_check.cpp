@@ -7,16 +7,29 @@
 #include "saca/core/file.h"
 #include "saca/core/fnv.h"
 #include "saca/core/parallel.h"
+#include "saca/danger/learned.h"
 #include "saca/manoeuvre/ego.h"
 
 namespace saca::app {
 
-Result<DangerWeights> read_danger_weights(const std::string& path) {
+namespace {
+
+Result<config::Tensors> read_danger_tensors(const std::string& path) {
   const auto bytes = read_file(path, many_bytes);
-  if (!bytes.has_value()) {
-    return bytes.error();
-  }
-  auto tensors = config::read_tensors(bytes.value(), path);
+  return bytes.has_value() ? config::read_tensors(bytes.value(), path)
+                           : Result<config::Tensors>(bytes.error());
+}
+
+}  // namespace
+
+Result<danger::Network> read_danger_network(const std::string& path) {
+  const auto tensors = read_danger_tensors(path);
+  return tensors.has_value() ? danger::Network::from(tensors.value(), path)
+                             : Result<danger::Network>(tensors.error());
+}
+
+Result<DangerWeights> read_danger_weights(const std::string& path) {
+  auto tensors = read_danger_tensors(path);
   if (!tensors.has_value()) {
     return tensors.error();
   }
@@ -32,6 +45,14 @@ Result<DangerWeights> read_danger_weights(const std::string& path) {
   auto inputs = read_inputs(car->second);
   if (!inputs.has_value()) {
     return inputs.error();
+  }
+  const auto vehicle = words.find("vehicle");
+  const std::string own = danger::vehicle_word(inputs.value().car);
+  if (vehicle != words.end() && vehicle->second != own) {
+    return Error{Error::Code::malformed,
+                 fmt::format("{}: want weights of the car {} as its file is now ({}), got {}: its "
+                             "numbers were changed, and V_h is to be learnt anew",
+                             path, car->second, own, vehicle->second)};
   }
   const world::Footprint body = manoeuvre::footprint(inputs.value().car);
   std::string car_name = car->second;

@@ -33,9 +33,14 @@ struct DangerWeights {
     const std::string& name, int first, int count, int threads, std::uint64_t seed,
     const std::function<danger::Checked(std::uint64_t seed)>& check);
 
+/// Without a look at its car: weights of a point mass have none.
+[[nodiscard]] Result<danger::Network> read_danger_network(const std::string& path);
+
 /// `saca danger check`.
 void add_danger_check(CLI::App& danger, int& exit_code);
 /// `saca danger margins`.
 void add_danger_margins(CLI::App& danger, int& exit_code);
+/// `saca danger show`.
+void add_danger_show(CLI::App& danger, int& exit_code);
 
 }  // namespace saca::app

@@ -46,6 +46,7 @@ struct DatasetOptions {
   int drives_per_part = 500;
   bool no_tables = false;
   std::string by;  ///< weights; empty: none
+  bool outcomes = false;
   int threads = usual_threads();
   bool as_json = false;
 };
@@ -177,6 +178,9 @@ class Making {
       Fnv seed;
       seed.add(fmt::format("{} {}", options_.seed, missing[i]));
       part.seed = seed.value();
+      if (options_.outcomes) {
+        part.mixture = danger::mixture_of_outcomes();
+      }
       part.transitions =
           danger::made_transitions(inputs_.car, manoeuvre::footprint(inputs_.car), model_,
                                    part.mixture, options_.drives_per_part, part.seed, network_);
@@ -257,7 +261,8 @@ int make_dataset(const DatasetOptions& options) {
       fmt::format("saca.transitions/1, car {}, seed {}, {} drives a part, {} features{}",
                   inputs.value().car_name, options.seed, options.drives_per_part,
                   danger::num_features, options.no_tables ? ", no tables" : "") +
-          (network ? fmt::format(", by {:016x}", network->digest()) : ""));
+          (network ? fmt::format(", by {:016x}", network->digest()) : "") +
+          (options.outcomes ? ", outcomes" : ""));
   if (!journal.has_value()) {
     return refused(journal.error());
   }
@@ -312,6 +317,10 @@ void add_danger(CLI::App& line, int& exit_code) {
       "Look for the boundary and the way out by arcs, not by solved tables of danger");
   dataset->add_option("--by", options->by,
                       "Weights of saca-train-danger: evasions are driven by their Q");
+  dataset
+      ->add_flag("--outcomes", options->outcomes,
+                 "All drives by their Q to the end: what it comes to")
+      ->needs("--by");
   dataset->add_option("--threads", options->threads, "They do not change what is made")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
@@ -319,6 +328,7 @@ void add_danger(CLI::App& line, int& exit_code) {
   dataset->callback([options, &exit_code] { exit_code = make_dataset(*options); });
   add_danger_check(*command, exit_code);
   add_danger_margins(*command, exit_code);
+  add_danger_show(*command, exit_code);
 }
 
 }  // namespace saca::app

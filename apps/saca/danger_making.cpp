@@ -15,10 +15,14 @@
 #include <variant>
 #include <vector>
 
+#include "apps/saca/danger_check.h"
 #include "apps/saca/places.h"
 #include "apps/saca/progress.h"
 #include "saca/core/clock.h"
 #include "saca/core/parallel.h"
+#include "saca/danger/learned.h"
+#include "saca/danger/margins.h"
+#include "saca/danger/network.h"
 #include "saca/manoeuvre/ego.h"
 #include "saca/reach/car_limits.h"
 #include "saca/reach/danger_set.h"
@@ -146,8 +150,33 @@ Result<ReadyTable> ready_table(const Inputs& inputs, const reach::DangerCase& wa
       .table = std::move(solved).value(), .file = file, .not_kept = std::move(not_kept)};
 }
 
-Result<reach::DangerModel> danger_by(const Inputs& inputs,
-                                     const std::vector<reach::DangerCase>& cases) {
+Result<reach::LearnedValue> learned_danger(const Inputs& inputs) {
+  const fs::path file =
+      inputs.places.root / "models" / "danger" / (inputs.car_name + ".safetensors");
+  if (!fs::exists(file)) {
+    return reach::LearnedValue();
+  }
+  auto weights = read_danger_weights(file);
+  if (!weights.has_value()) {
+    return weights.error();
+  }
+  const auto margins = danger::Margins::from(weights.value().network.words(), file.string());
+  if (!margins.has_value()) {
+    return margins.error();
+  }
+  if (!margins.value()) {
+    return Error{Error::Code::malformed,
+                 file.string() + ": want margins (`saca danger margins`), got none"};
+  }
+  return danger::learned_value(
+      std::make_shared<const danger::Network>(std::move(weights.value().network)), *margins.value(),
+      inputs.car);
+}
+
+namespace {
+
+Result<std::vector<reach::DangerTable>> ready_tables(const Inputs& inputs,
+                                                     const std::vector<reach::DangerCase>& cases) {
   std::vector<reach::DangerTable> tables;
   for (const reach::DangerCase& wanted : cases) {
     const auto ready = ready_table(inputs, wanted);
@@ -162,14 +191,40 @@ Result<reach::DangerModel> danger_by(const Inputs& inputs,
                       std::make_shared<reach::ValueTable>(
                           solved.grid, snapshot(solved, solved.times.size() - 1), solved.error)});
   }
-  return reach::DangerModel(reach::avoidance_of(inputs.car, table_grip),
-                            manoeuvre::footprint(inputs.car), std::move(tables));
+  return tables;
 }
 
-Result<reach::DangerModel> usual_danger(const ScenarioInputs& inputs) {
+reach::DangerModel model_of(const Inputs& inputs, std::vector<reach::DangerTable> tables,
+                            reach::LearnedValue learned) {
+  return {reach::avoidance_of(inputs.car, table_grip), manoeuvre::footprint(inputs.car),
+          std::move(tables), std::move(learned)};
+}
+
+}  // namespace
+
+Result<reach::DangerModel> danger_by(const Inputs& inputs,
+                                     const std::vector<reach::DangerCase>& cases) {
+  auto tables = ready_tables(inputs, cases);
+  return tables.has_value() ? model_of(inputs, std::move(tables).value(), {})
+                            : Result<reach::DangerModel>(tables.error());
+}
+
+Result<reach::DangerModel> usual_danger(const ScenarioInputs& inputs, bool with_tables) {
+  auto learned = learned_danger(inputs);
+  if (!learned.has_value()) {
+    return learned.error();
+  }
+  if (!with_tables) {
+    return model_of(inputs, {}, std::move(learned).value());
+  }
   const auto needed = needed_tables(inputs);
-  return needed.has_value() ? danger_by(inputs, needed.value())
-                            : Result<reach::DangerModel>(needed.error());
+  if (!needed.has_value()) {
+    return needed.error();
+  }
+  auto tables = ready_tables(inputs, needed.value());
+  return tables.has_value()
+             ? model_of(inputs, std::move(tables).value(), std::move(learned).value())
+             : Result<reach::DangerModel>(tables.error());
 }
 
 }  // namespace saca::app

@@ -33,13 +33,19 @@ struct ReadyTable {
 /// @return  an error where a car's limits are beyond what can be solved
 [[nodiscard]] Result<ReadyTable> ready_table(const Inputs& inputs, const reach::DangerCase& wanted);
 
-/// With these tables, made ready.
+/// What was learnt of this car's danger and is shipped; none of other cars.
+/// @return  an error naming the file, what was wanted and what came
+[[nodiscard]] Result<reach::LearnedValue> learned_danger(const Inputs& inputs);
+
+/// With these tables, made ready, and nothing learnt.
 /// @return  likewise
 [[nodiscard]] Result<reach::DangerModel> danger_by(const Inputs& inputs,
                                                    const std::vector<reach::DangerCase>& cases);
 
-/// With all tables that the scenario's actors need.
+/// By what was learnt, and nothing that must be waited for; or with all tables that the scenario's
+/// actors need and what was learnt beyond their ends.
 /// @return  likewise
-[[nodiscard]] Result<reach::DangerModel> usual_danger(const ScenarioInputs& inputs);
+[[nodiscard]] Result<reach::DangerModel> usual_danger(const ScenarioInputs& inputs,
+                                                      bool with_tables);
 
 }  // namespace saca::app

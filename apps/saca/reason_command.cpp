@@ -195,7 +195,7 @@ int reason_about(const ReasonOptions& options) {
     return refused(model.error());
   }
   const manoeuvre::Atlas atlas = usual_atlas(inputs.value());
-  const auto danger = usual_danger(inputs.value());
+  const auto danger = usual_danger(inputs.value(), false);
   if (!danger.has_value()) {
     return refused(danger.error());
   }

@@ -80,13 +80,13 @@ Result<std::optional<manoeuvre::Atlas>> open_atlas(const RunOptions& options,
                            : atlas.error();
 }
 
-/// nullopt: no tables are wanted.
+/// nullopt: neither what was learnt nor tables are wanted.
 Result<std::optional<reach::DangerModel>> open_danger(const RunOptions& options,
                                                       const ScenarioInputs& inputs) {
   if (options.danger == "off") {
     return std::optional<reach::DangerModel>();
   }
-  auto model = usual_danger(inputs);
+  auto model = usual_danger(inputs, options.danger == "tables");
   return model.has_value() ? Result(std::optional(std::move(model).value())) : model.error();
 }
 
@@ -328,8 +328,9 @@ void add_run(CLI::App& line, int& exit_code) {
                       "out (default: it is built when needed)");
   command
       ->add_option("--danger", options->danger,
-                   "off: risks by a few evasions (default: solved tables, made when needed)")
-      ->check(one_of({"off"}));
+                   "tables: risks by solved tables, made when needed, seconds each; off: by a few "
+                   "evasions (default: by what was learnt of the car, else by a few evasions)")
+      ->check(one_of({"tables", "off"}));
   command->add_flag("--no-memory", options->no_memory, "As without --memory")->group("");
   command->add_flag("--review", options->review,
                     "Have the language model look back when all is over: half a minute");

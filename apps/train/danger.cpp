@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,6 +18,8 @@
 #include "saca/core/parallel.h"
 #include "saca/core/standard_files.h"
 #include "saca/danger/experience.h"
+#include "saca/danger/learned.h"
+#include "saca/danger/network.h"
 #include "saca/danger/transition_file.h"
 #include "saca/manoeuvre/ego.h"
 #include "saca/train/blas.h"
@@ -35,6 +38,8 @@ struct Options {
   std::string root = ".";
   int threads = usual_threads();
   train::DangerPlan plan;
+  int pair_steps = 20'000;
+  std::string outcomes;  ///< folder; empty: none
 };
 
 /// What was read, and what the weights' file says of it.
@@ -42,6 +47,7 @@ struct Data {
   danger::Experience singles{.num_obstacles = 1};
   danger::Experience pairs{.num_obstacles = 2};
   std::string car;
+  std::string vehicle;          ///< danger::vehicle_word
   std::size_t transitions = 0;  ///< in the files
   std::size_t drives = 0;
 };
@@ -68,8 +74,8 @@ std::string_view words_for(const danger::Experience& experience) {
   return experience.num_obstacles == 1 ? "one obstacle" : "two obstacles";
 }
 
-Result<Data> read_data(const Options& options) {
-  const auto parts = parts_in(options.folder);
+Result<Data> read_data(const std::string& folder, const std::string& root) {
+  const auto parts = parts_in(folder);
   if (!parts.has_value()) {
     return parts.error();
   }
@@ -82,12 +88,12 @@ Result<Data> read_data(const Options& options) {
     }
     if (data.car.empty()) {
       data.car = part.value().car;
-      const auto car =
-          manoeuvre::read_car(fs::path(options.root) / "data/vehicles" / (data.car + ".toml"));
+      const auto car = manoeuvre::read_car(fs::path(root) / "data/vehicles" / (data.car + ".toml"));
       if (!car.has_value()) {
         return car.error();
       }
       body = manoeuvre::footprint(car.value());
+      data.vehicle = danger::vehicle_word(car.value());
     }
     if (part.value().car != data.car) {
       return Error{Error::Code::malformed,
@@ -105,8 +111,8 @@ Result<Data> read_data(const Options& options) {
   }
   for (const danger::Experience* all : {&data.singles, &data.pairs}) {
     if (all->size() == 0) {
-      return Error{Error::Code::out_of_range, fmt::format("{}: want situations with {}, got none",
-                                                          options.folder, words_for(*all))};
+      return Error{Error::Code::out_of_range,
+                   fmt::format("{}: want situations with {}, got none", folder, words_for(*all))};
     }
   }
   return data;
@@ -122,19 +128,18 @@ int give_up(const Error& error) {
 /// Tells of a training, and keeps its curve.
 class Curve {
  public:
-  explicit Curve(const train::DangerPlan& plan) : plan_(plan) {}
-
-  std::function<bool(const train::DangerProgress&)> of(const danger::Experience& experience) {
+  std::function<bool(const train::DangerProgress&)> of(const danger::Experience& experience,
+                                                       int steps) {
     fmt::print("{} transitions beside {}\n", experience.size(), words_for(experience));
     std::fflush(stdout);
-    return [this, obstacles = experience.num_obstacles](const train::DangerProgress& now) {
+    return [this, steps, obstacles = experience.num_obstacles](const train::DangerProgress& now) {
       text_ += fmt::format("{},{},{:.5f},{:.5f},{:.4f},{:.5f},{:.1f}\n", obstacles, now.step,
                            now.v_loss, now.q_loss, now.mean_v, now.above, now.seconds);
       seconds_ += now.seconds;
       fmt::print(
           "step {} of {}: losses {:.4f} and {:.4f}, mean V {:.3f} m, above what was "
           "reached {:.2f} %, {:.0f} s\n",
-          now.step, plan_.steps, now.v_loss, now.q_loss, now.mean_v, 100.0 * now.above, seconds_);
+          now.step, steps, now.v_loss, now.q_loss, now.mean_v, 100.0 * now.above, seconds_);
       std::fflush(stdout);
       return is_to_end == 0;
     };
@@ -142,7 +147,6 @@ class Curve {
   [[nodiscard]] const std::string& text() const { return text_; }
 
  private:
-  const train::DangerPlan& plan_;
   std::string text_ = "obstacles,step,v_loss,q_loss,mean_v_m,above_reached,seconds\n";
   double seconds_ = 0.0;
 };
@@ -153,20 +157,73 @@ int stopped() {
   return interrupted;
 }
 
+/// Networks of one obstacle or two, by the data alone or from outcomes too.
+class Trainings {
+ public:
+  Trainings(const Options& options, const Data& data, const Data* outcomes)
+      : options_(options), data_(data), outcomes_(outcomes) {}
+
+  Result<train::DangerNets> singles() {
+    const auto hear = curve_.of(data_.singles, options_.plan.steps);
+    return outcomes_ == nullptr
+               ? train::trained_danger(data_.singles, options_.plan, options_.threads, state(),
+                                       hear)
+               : train::policy_round(outcomes_->singles, data_.singles, nullptr, options_.plan,
+                                     options_.threads, state(), hear);
+  }
+  Result<train::DangerNets> pairs(train::DangerNets& singles) {
+    train::DangerPlan plan = options_.plan;
+    plan.steps = options_.pair_steps;
+    const auto hear = curve_.of(data_.pairs, plan.steps);
+    return outcomes_ == nullptr ? train::trained_pairs(data_.pairs, singles, plan, options_.threads,
+                                                       pairs_state(), hear)
+                                : train::policy_round(outcomes_->pairs, data_.pairs, &singles, plan,
+                                                      options_.threads, pairs_state(), hear);
+  }
+  /// Where they were stopped, all is in there.
+  void remove_states() const {
+    for (const std::string& state : {state(), pairs_state()}) {
+      for (const char* const which : {"", ".v", ".q"}) {
+        fs::remove(state + which);
+      }
+    }
+  }
+  [[nodiscard]] const std::string& curve() const { return curve_.text(); }
+
+ private:
+  [[nodiscard]] std::string state() const { return options_.output + ".state"; }
+  [[nodiscard]] std::string pairs_state() const { return options_.output + ".pairs.state"; }
+
+  const Options& options_;
+  const Data& data_;
+  const Data* outcomes_;
+  Curve curve_;
+};
+
 int train_danger(const Options& options) {
-  const auto read = read_data(options);
+  const auto read = read_data(options.folder, options.root);
   if (!read.has_value()) {
     return give_up(read.error());
+  }
+  const Data& data = read.value();
+  std::optional<Data> outcomes;
+  if (!options.outcomes.empty()) {
+    auto driven = read_data(options.outcomes, options.root);
+    if (!driven.has_value()) {
+      return give_up(driven.error());
+    }
+    if (driven.value().vehicle != data.vehicle) {
+      return give_up(
+          {Error::Code::malformed, fmt::format("{}: want outcomes of the car {}, got of {}",
+                                               options.outcomes, data.car, driven.value().car)});
+    }
+    outcomes = std::move(driven).value();
   }
   if (is_to_end != 0) {
     return stopped();
   }
-  const Data& data = read.value();
-  Curve curve(options.plan);
-  const std::string state = options.output + ".state";
-  const std::string pairs_state = options.output + ".pairs.state";
-  auto singles = train::trained_danger(data.singles, options.plan, options.threads, state,
-                                       curve.of(data.singles));
+  Trainings trainings(options, data, outcomes ? &*outcomes : nullptr);
+  const auto singles = trainings.singles();
   if (!singles.has_value()) {
     return give_up(singles.error());
   }
@@ -174,33 +231,43 @@ int train_danger(const Options& options) {
     return stopped();
   }
   train::DangerNets nets = singles.value();
-  const auto pairs = train::trained_pairs(data.pairs, nets, options.plan, options.threads,
-                                          pairs_state, curve.of(data.pairs));
-  if (!pairs.has_value()) {
-    return give_up(pairs.error());
-  }
-  if (is_to_end != 0) {
-    return stopped();
-  }
   config::Tensors tensors;
   nets->add_to(tensors, "");
-  pairs.value()->add_to(tensors, "pair_");
+  if (options.pair_steps > 0) {
+    const auto pairs = trainings.pairs(nets);
+    if (!pairs.has_value()) {
+      return give_up(pairs.error());
+    }
+    if (is_to_end != 0) {
+      return stopped();
+    }
+    pairs.value()->add_to(tensors, "pair_");
+  }
+  const auto network = danger::Network::from(tensors, options.output);
+  if (!network.has_value()) {
+    return give_up(network.error());
+  }
   tensors.words = {{"car", data.car},
+                   {"vehicle", data.vehicle},
+                   {"digest", fmt::format("{:016x}", network.value().digest())},
                    {"transitions", std::to_string(data.transitions)},
                    {"drives", std::to_string(data.drives)},
+                   {"outcomes", std::to_string(outcomes ? outcomes->drives : 0)},
                    {"seed", std::to_string(options.plan.seed)},
                    {"steps", std::to_string(options.plan.steps)},
+                   {"pair_steps", std::to_string(options.pair_steps)},
                    {"batch", std::to_string(options.plan.batch)},
                    {"expectile", fmt::format("{}", options.plan.expectile)},
                    {"discount", fmt::format("{}", options.plan.discount)}};
   for (const auto& [path, text] : {std::pair{options.output, config::tensor_bytes(tensors)},
-                                   std::pair{options.output + ".curve.csv", curve.text()}}) {
+                                   std::pair{options.output + ".curve.csv", trainings.curve()}}) {
     if (const auto problem = write_file(path, text)) {
       return give_up(*problem);
     }
   }
-  fs::remove(state);
-  fs::remove(pairs_state);
+  if (options.pair_steps > 0) {  // else kept: pairs may yet be learnt on top
+    trainings.remove_states();
+  }
   return 0;
 }
 
@@ -214,10 +281,17 @@ int main(int argc, char** argv) {
   app.add_option("FOLDER", options.folder, "Of the parts that `saca danger dataset` made")
       ->required();
   app.add_option("--output", options.output, "safetensors file of the weights")->required();
+  app.add_option("--outcomes", options.outcomes,
+                 "Folder of `saca danger dataset --by EARLIER --outcomes`: V is what these drives "
+                 "came to, and Q what leads there");
   app.add_option("--root", options.root, "Holds data/")->capture_default_str();
   app.add_option("--seed", options.plan.seed)->capture_default_str();
   app.add_option("--steps", options.plan.steps)
       ->check(CLI::Range(1, 10'000'000))
+      ->capture_default_str();
+  app.add_option("--pair-steps", options.pair_steps,
+                 "Likewise, of what two obstacles add; 0: it is not learnt")
+      ->check(CLI::Range(0, 10'000'000))
       ->capture_default_str();
   app.add_option("--batch", options.plan.batch, "Transitions in a step")
       ->check(CLI::Range(2, 1'000'000))

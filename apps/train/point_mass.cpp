@@ -19,9 +19,6 @@
 #include "saca/danger/experience.h"
 #include "saca/danger/point_mass.h"
 #include "saca/reach/authors_comparison.h"
-#include "saca/reach/avoidance_case.h"
-#include "saca/reach/obstacle_frame.h"
-#include "saca/reach/value_file.h"
 #include "saca/reach/value_table.h"
 #include "saca/train/blas.h"
 #include "saca/train/danger_training.h"
@@ -56,33 +53,6 @@ int stopped() {
   return interrupted;
 }
 
-/// The solved table, and whose it is.
-struct Exact {
-  danger::PointMass problem;
-  reach::View view;
-  reach::ValueTable table;
-};
-
-Result<Exact> read_exact(const std::string& path) {
-  const auto solved = reach::read_solved(path);
-  if (!solved.has_value()) {
-    return solved.error();
-  }
-  const auto text = reach::parse_avoidance_case(solved.value().problem, path);
-  if (!text.has_value()) {
-    return text.error();
-  }
-  const reach::AvoidanceCase& problem = text.value();
-  if (!problem.obstacle || problem.system.obstacle_speed != 0.0 || !solved.value().complete) {
-    return Error{Error::Code::out_of_range,
-                 path + ": want a whole solution of an obstacle at rest, got another"};
-  }
-  return Exact{
-      .problem = {problem.system, problem.ego, *problem.obstacle},
-      .view = problem.view,
-      .table = {solved.value().grid, snapshot(solved.value(), solved.value().times.size() - 1)}};
-}
-
 /// Prints the points of a curve, and keeps them as a table.
 class Curve {
  public:
@@ -108,7 +78,8 @@ class Curve {
 };
 
 /// What can be told of values beside the exact ones.
-json figures_of(const Exact& exact, const reach::ValueAt& value, const danger::Values& values) {
+json figures_of(const danger::ExactPointMass& exact, const reach::ValueAt& value,
+                const danger::Values& values) {
   json all;
   constexpr int states = 100'000;
   for (const double fastest : {18.0, 30.0}) {
@@ -142,7 +113,8 @@ std::vector<reach::State> states_of(std::span<const reach::AuthorsState> some) {
   return all;
 }
 
-json rung_figures(const Exact& exact, const reach::ValueAt& value, train::DangerNet v) {
+json rung_figures(const danger::ExactPointMass& exact, const reach::ValueAt& value,
+                  train::DangerNet v) {
   const auto values = [&](std::span<const reach::State> states) {
     std::vector<danger::SeenByNet> seen;
     seen.reserve(states.size());
@@ -158,12 +130,12 @@ json rung_figures(const Exact& exact, const reach::ValueAt& value, train::Danger
 }
 
 int train_point_mass(const Options& options) {
-  const auto read = read_exact(options.table);
+  const auto read = danger::read_exact_point_mass(options.table);
   if (!read.has_value()) {
     return give_up(read.error());
   }
-  const Exact& exact = read.value();
-  const reach::ValueAt value = reach::in_obstacle_frame(exact.table, exact.view);
+  const danger::ExactPointMass& exact = read.value();
+  const reach::ValueAt value = exact.value();
   json figures;
   const fs::path folder = options.output;
   std::error_code problem;

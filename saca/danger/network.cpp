@@ -1,5 +1,7 @@
 #include "saca/danger/network.h"
 
+#include <fmt/core.h>
+
 #include <Eigen/Core>
 #include <algorithm>
 #include <bit>
@@ -80,6 +82,14 @@ Result<Network> Network::from(const config::Tensors& tensors, std::string_view s
     network.pairs_ = std::move(pairs).value();
   }
   network.words_ = tensors.words;
+  const auto digest = tensors.words.find("digest");
+  const std::string own = fmt::format("{:016x}", network.digest());
+  if (digest != tensors.words.end() && digest->second != own) {
+    return Error{Error::Code::malformed,
+                 fmt::format("{}: want the weights whose digest it names, {}, got {}: they were "
+                             "altered",
+                             source, digest->second, own)};
+  }
   return network;
 }
 

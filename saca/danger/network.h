@@ -30,6 +30,7 @@ class Network {
   /// `v.3.weight` (1 x width), `v.3.bias`, and `q1` and `q2`, whose inputs are two more. Of pairs
   /// likewise `pair_v`, `pair_q1` and `pair_q2`, from num_pair_inputs on; without them two
   /// obstacles are as dangerous as the more dangerous one.
+  /// Where there is a word `digest`, it must be that of the weights.
   /// @return  Error::Code::malformed, as config::take
   [[nodiscard]] static Result<Network> from(const config::Tensors& tensors,
                                             std::string_view source);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <random>
 #include <span>
 #include <string>
@@ -200,6 +201,20 @@ TEST_F(NetworkTest, IsNamedByItsWeights) {
   config::Tensors other = tensors_;
   other.tensors["q2.3.bias"].values[0] += 1e-3F;
   EXPECT_NE(network_.digest(), Network::from(other, "other").value().digest());
+}
+
+TEST_F(NetworkTest, RefusesWeightsThatWereAltered) {
+  config::Tensors tensors = tensors_;
+  char digest[17];
+  std::snprintf(digest, sizeof(digest), "%016llx",
+                static_cast<unsigned long long>(network_.digest()));
+  tensors.words["digest"] = digest;
+  EXPECT_TRUE(Network::from(tensors, "some.safetensors").has_value());
+  tensors.tensors["pair_q1.1.bias"].values[5] += 1e-3F;
+  const auto altered = Network::from(tensors, "some.safetensors");
+  ASSERT_FALSE(altered.has_value());
+  EXPECT_NE(altered.error().message.find("some.safetensors: want the weights whose digest"),
+            std::string::npos);
 }
 
 TEST_F(NetworkTest, RefusesWhatIsNotItsWeights) {

@@ -14,6 +14,7 @@
 #include "saca/manoeuvre/demand.h"
 #include "saca/reach/follow.h"
 #include "saca/reach/intrusion.h"
+#include "saca/reach/value_file.h"
 #include "saca/vehicle/vehicle.h"
 
 namespace saca::danger {
@@ -164,6 +165,27 @@ std::vector<Demand> all_around() {
 }
 
 }  // namespace
+
+Result<ExactPointMass> read_exact_point_mass(const std::filesystem::path& path) {
+  const auto solved = reach::read_solved(path);
+  if (!solved.has_value()) {
+    return solved.error();
+  }
+  const auto text = reach::parse_avoidance_case(solved.value().problem, path.string());
+  if (!text.has_value()) {
+    return text.error();
+  }
+  const reach::AvoidanceCase& problem = text.value();
+  if (!problem.obstacle || problem.system.obstacle_speed != 0.0 || !solved.value().complete) {
+    return Error{Error::Code::out_of_range,
+                 path.string() + ": want a whole solution of an obstacle at rest, got another"};
+  }
+  return ExactPointMass{
+      .problem = {problem.system, problem.ego, *problem.obstacle},
+      .text = solved.value().problem,
+      .view = problem.view,
+      .table = {solved.value().grid, snapshot(solved.value(), solved.value().times.size() - 1)}};
+}
 
 SeenByNet seen_by_net(const PointMass& problem, const reach::State& at) {
   return seen_by_net(problem.ego, observation(as_seen(problem, at)), 0, problem.obstacle.shape);

@@ -2,14 +2,19 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "saca/core/result.h"
 #include "saca/danger/net_inputs.h"
 #include "saca/danger/transitions.h"
 #include "saca/reach/avoidance.h"
+#include "saca/reach/avoidance_case.h"
 #include "saca/reach/grid.h"
+#include "saca/reach/obstacle_frame.h"
 #include "saca/reach/value_table.h"
 #include "saca/world/footprint.h"
 
@@ -23,6 +28,21 @@ struct PointMass {
   world::Footprint ego;     ///< about the centre of mass
   world::Footprint obstacle;
 };
+
+/// A solved table of it.
+struct ExactPointMass {
+  PointMass problem;
+  std::string text;  ///< the case's, as its file has it
+  reach::View view = reach::View::ego;
+  reach::ValueTable table;  ///< of the last snapshot
+
+  /// V_h of x, y [m], course [rad] and speed [m/s]. Must not outlive this.
+  [[nodiscard]] reach::ValueAt value() const { return reach::in_obstacle_frame(table, view); }
+};
+/// @return  Error::Code::unreadable, malformed or out_of_range, naming the file: no solved value,
+/// or
+///          not a whole one of an obstacle at rest
+[[nodiscard]] Result<ExactPointMass> read_exact_point_mass(const std::filesystem::path& path);
 
 /// What the networks see of it.
 /// @param at  x, y [m], course [rad], speed [m/s]

@@ -107,22 +107,32 @@ class Maker {
     return manoeuvre::admissible({best.along / most, best.across / most});
   }
 
+  static State at_look(const Ego& ego, double grip, const Obstacles& obstacles, double time) {
+    State now{.ego = ego, .grip = grip, .obstacles = {}};
+    for (const Obstacle& obstacle : obstacles) {
+      now.obstacles.push_back(after(obstacle, time));
+    }
+    return now;
+  }
+
   [[nodiscard]] Driver::Evasion evasion_from(const Obstacles& obstacles, double grip) const {
     return [this, obstacles, grip](const Ego& ego, double time) {
-      State now{.ego = ego, .grip = grip, .obstacles = {}};
-      for (const Obstacle& obstacle : obstacles) {
-        now.obstacles.push_back(after(obstacle, time));
-      }
+      const State now = at_look(ego, grip, obstacles, time);
       return network_ != nullptr ? least_q(*network_, body_, now) : evading(now, now.obstacles[0]);
     };
   }
 
   Drive driven_by(Behaviour behaviour, Driven driven, double grip, const Obstacles& obstacles) {
-    Driver driver(behaviour, random_(), evasion_from(obstacles, grip));
+    const Driver::Evasion evasion = evasion_from(obstacles, grip);
+    Driver driver(behaviour, random_(), evasion);
     Drive drive{.grip = grip};
     drive.looks.push_back(driven.ego());
     for (int i = 0; i < mixture_.looks; ++i) {
-      drive.demands.push_back(driver.next(drive.looks.back()));
+      const Ego& now = drive.looks.back();
+      if (mixture_.outcomes && is_settled(body_, at_look(now, grip, obstacles, look_step * i))) {
+        break;
+      }
+      drive.demands.push_back(mixture_.outcomes ? evasion(now, look_step * i) : driver.next(now));
       drive.ways.push_back(driven.hold(drive.demands.back()));
       drive.looks.push_back(driven.ego());
     }
@@ -197,6 +207,7 @@ Transitions made_transitions(const manoeuvre::Car& car, const world::Footprint& 
                       [](double share) { return share >= 0.0; }) &&
               std::accumulate(mixture.behaviours.begin(), mixture.behaviours.end(), 0.0) > 0.0,
           "shares of behaviours, not all 0");
+  expects(!mixture.outcomes || network != nullptr, "a network whose outcomes are wanted");
   Maker maker(car, body, model, mixture, seed, network);
   for (int i = 0; i < drives; ++i) {
     maker.add_drive();

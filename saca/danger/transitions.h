@@ -21,9 +21,17 @@ struct Mixture {
   int situations = 10;      ///< obstacles that a drive is seen beside: the first is driven for, the
                             ///< others are put there afterwards (relabelled)
   double near_share = 0.5;  ///< of the situations, that start within 2 m of the boundary
+  /// All drives by the network's Q, without noise, to the end: what its policy comes to (`reached`
+  /// of Experience). The behaviours do not count then.
+  bool outcomes = false;
   /// Of the drives, in the order of Behaviour.
   std::array<double, num_behaviours> behaviours{0.25, 0.2, 0.25, 0.3};
 };
+
+/// That of outcomes: drives of up to 12 s, one situation each.
+[[nodiscard]] inline Mixture mixture_of_outcomes() {
+  return {.looks = 120, .situations = 1, .outcomes = true};
+}
 
 /// Many transitions, one after another, those of a situation in sequence. Each array has a row for
 /// each.
@@ -55,7 +63,8 @@ struct Transitions {
 /// @param model  of the car, of any tables
 /// @param network  learnt from an earlier data set; nullptr: none
 /// @param drives  >= 1
-/// @throws ContractViolation  if a number of the mixture is out of range
+/// @throws ContractViolation  if a number of the mixture is out of range, or outcomes are wanted of
+///                            no network
 [[nodiscard]] Transitions made_transitions(const manoeuvre::Car& car, const world::Footprint& body,
                                            const reach::DangerModel& model, const Mixture& mixture,
                                            int drives, std::uint64_t seed,

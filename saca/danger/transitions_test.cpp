@@ -106,6 +106,49 @@ TEST_F(TransitionsTest, AreTheSeedsAndHalfStartNearTheBoundary) {
   EXPECT_EQ(made(4, 4, {.near_share = 0.0}).near, 0U);
 }
 
+/// A network that brakes whatever comes: of all demands, braking adds least to Q.
+Network braking_network() {
+  config::Tensors all;
+  for (const auto& [name, inputs] : {std::pair{"v.", num_net_inputs},
+                                     {"q1.", num_net_inputs + 2},
+                                     {"q2.", num_net_inputs + 2}}) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t rows = k < 3 ? Network::width : 1;
+      const std::size_t columns = k > 0 ? Network::width : inputs;
+      config::Tensor weight{{rows, columns}, std::vector<float>(rows * columns)};
+      config::Tensor bias{{rows}, std::vector<float>(rows)};
+      weight.values[k == 0 ? columns - 2 : 0] = 1.0F;
+      bias.values[0] = k == 0 ? 2.0F : 0.0F;
+      all.tensors[name + std::to_string(k) + ".weight"] = weight;
+      all.tensors[name + std::to_string(k) + ".bias"] = bias;
+    }
+  }
+  return Network::from(all, "weights").value();
+}
+
+// One situation each, driven by the network alone until it is settled.
+TEST_F(TransitionsTest, OutcomesAreThoseOfTheNetwork) {
+  const Network network = braking_network();
+  const Transitions all =
+      made_transitions(car_, body, model_, mixture_of_outcomes(), 40, 9, &network);
+  EXPECT_EQ(all.drives, 40U);
+  EXPECT_EQ(all.situations, 40U);
+  ASSERT_GT(all.size(), 200U);
+  std::size_t ends = 0;
+  std::size_t cut_off = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_NEAR(all.actions[2 * i], -1.0, 1e-6);
+    EXPECT_NEAR(all.actions[2 * i + 1], 0.0, 1e-6);
+    ends += all.settled[i] != 0.0F ? 1U : 0U;
+    cut_off += all.cut_off[i] != 0.0F ? 1U : 0U;
+  }
+  EXPECT_LE(cut_off, 8U) << "who brakes stands within 12 s; somebody slow may yet be on his way";
+  EXPECT_LE(ends, 40U);
+  EXPECT_GT(ends, 25U) << "some are settled at once";
+  EXPECT_THROW(std::ignore = made_transitions(car_, body, model_, mixture_of_outcomes(), 1, 1),
+               ContractViolation);
+}
+
 TEST_F(TransitionsTest, RefusesMixturesOfNothing) {
   EXPECT_THROW(std::ignore = made(0, 1), ContractViolation);
   EXPECT_THROW(std::ignore = made(1, 1, {.looks = 0}), ContractViolation);

@@ -102,7 +102,7 @@ std::vector<const Frame*> mapped_frames(const Record& record, std::string_view n
   for (const Frame& frame : record.frames) {
     const Actor* const actor = named(frame.scene, name);
     if (frame.phase != Phase::recorded && norm(frame.scene.ego.v_B) > crawl && actor != nullptr &&
-        model.exact(reach::meeting_of(frame.scene, *actor))) {
+        model.known(reach::meeting_of(frame.scene, *actor))) {
       frames.push_back(&frame);
     }
   }
@@ -130,7 +130,7 @@ DangerMaps maps_of(const std::vector<const Frame*>& frames, const std::string& n
 std::optional<DangerMap> danger_map(const Scene& scene, const Actor& actor,
                                     const reach::DangerModel& model) {
   reach::Meeting meeting = reach::meeting_of(scene, actor);
-  if (!model.exact(meeting)) {
+  if (!model.known(meeting)) {
     return std::nullopt;
   }
   const Pose X_WO = reach::obstacle_frame(actor);
@@ -151,7 +151,7 @@ std::optional<DangerMap> danger_map(const Scene& scene, const Actor& actor,
       const Vec2 p_O = X_OM * map.point(column, row);
       meeting.state[0] = p_O.x;
       meeting.state[1] = p_O.y;
-      map.values.push_back(model.exact(meeting));
+      map.values.push_back(model.known(meeting));
     }
   }
   return map;

@@ -27,7 +27,7 @@ struct DangerMap {
   int columns = 0;
   int rows = 0;
   std::vector<std::optional<double>> values;  ///< row by row from the lowest y, x runs first [m];
-                                              ///< nullopt: beyond the solved tables
+                                              ///< nullopt: beyond the tables, or what was learnt
 
   /// In M.
   [[nodiscard]] Vec2 point(int column, int row) const {
@@ -41,7 +41,7 @@ struct DangerMap {
 
 /// The map of one instant, on about 1200 points around the actor and the ego, and from where it is
 /// too late to swerve.
-/// @return  nullopt when no table holds the ego's own state
+/// @return  nullopt when neither a table nor what was learnt holds the ego's own state
 [[nodiscard]] std::optional<DangerMap> danger_map(const world::Scene& scene,
                                                   const world::Actor& actor,
                                                   const reach::DangerModel& model);
@@ -53,10 +53,10 @@ struct DangerMaps {
   std::vector<DangerMap> maps;  ///< by time, 1 to 16
 };
 
-/// Of the threat that set off the trigger; without one, or where no table has it, of the actor with
-/// the largest risk in the preview that the decision was made by, or else in the last one. From T2
-/// on, while the ego moves and tables hold its state. In the true scenes, on the true grip: a map
-/// tells what could be avoided, not what SACA took for avoidable.
+/// Of the threat that set off the trigger; without one, or where nothing is known of it, of the
+/// actor with the largest risk in the preview that the decision was made by, or else in the last
+/// one. From T2 on, while the ego moves and its state is known. In the true scenes, on the true
+/// grip: a map tells what could be avoided, not what SACA took for avoidable.
 /// @return  nullopt when there is no such actor or no such instant
 [[nodiscard]] std::optional<DangerMaps> danger_maps(const Record& record,
                                                     const reach::DangerModel& model);

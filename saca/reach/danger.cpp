@@ -192,8 +192,8 @@ double misfit(const Footprint& a, const Footprint& b) {
 }
 
 DangerModel::DangerModel(const Avoidance& car, const Footprint& ego,
-                         std::vector<DangerTable> tables)
-    : car_(car), ego_(ego) {
+                         std::vector<DangerTable> tables, LearnedValue learned)
+    : car_(car), ego_(ego), learned_(std::move(learned)) {
   static_cast<void>(limits_at(car, 0.0));  // the car's numbers are in range
   for (DangerTable& table : tables) {
     expects(table.values != nullptr && table.values->grid().axes.size() == 4,
@@ -227,13 +227,11 @@ const DangerModel::Family* DangerModel::family_for(const Footprint& obstacle) co
   return best;
 }
 
+/// Where the tables do not hold the ego itself.
 Danger DangerModel::by_tables(const Family& family, const Meeting& meeting) const {
   const auto values = look_up(family, car_, ego_, meeting);
   if (!values) {
     return by_few_evasions(meeting);
-  }
-  if (const auto here = values->at(meeting.state)) {
-    return {*here, true};
   }
   const Avoidance system = system_of(car_, meeting);
   double least = by_few_evasions(meeting).value;
@@ -256,10 +254,20 @@ Danger DangerModel::by_few_evasions(const Meeting& meeting) const {
   return {least, false};
 }
 
-Danger DangerModel::danger(const Meeting& meeting) const {
-  require(meeting);
+Danger DangerModel::danger(const Meeting& meeting, const Motion& motion) const {
+  if (const auto solved = exact(meeting)) {
+    return {*solved, true};
+  }
+  if (const auto known = learned_ ? learned_(meeting, motion) : std::nullopt) {
+    return {*known, false};
+  }
   const Family* const family = family_for(meeting.obstacle);
   return family != nullptr ? by_tables(*family, meeting) : by_few_evasions(meeting);
+}
+
+std::optional<double> DangerModel::known(const Meeting& meeting, const Motion& motion) const {
+  const auto solved = exact(meeting);
+  return solved || !learned_ ? solved : learned_(meeting, motion);
 }
 
 std::optional<double> DangerModel::exact(const Meeting& meeting) const {

@@ -223,6 +223,23 @@ TEST(Danger, ExactIsTheTablesOrNothing) {
   EXPECT_EQ(without().exact(ahead(14.0, 12.0)), std::nullopt);
 }
 
+// What was learnt answers where no table does, and evasions where it does not know either.
+TEST(Danger, LearntValuesFillWhereTablesEnd) {
+  const Meeting beyond = ahead(60.0, 18.0);
+  const auto told = [](const Meeting& meeting, const Motion& motion) {
+    return meeting.state[3] > 17.0 ? std::optional(-3.0 - motion.yaw_rate) : std::nullopt;
+  };
+  const DangerModel model(car, ego, {}, told);
+  EXPECT_EQ(model.danger(beyond, {.yaw_rate = 0.5}).value, -3.5);
+  EXPECT_FALSE(model.danger(beyond).exact);
+  EXPECT_EQ(model.known(beyond), -3.0);
+  EXPECT_EQ(model.exact(beyond), std::nullopt);
+  EXPECT_EQ(model.known(ahead(14.0, 12.0)), std::nullopt);
+  EXPECT_EQ(model.danger(ahead(14.0, 12.0)).value, without().danger(ahead(14.0, 12.0)).value);
+  EXPECT_EQ(with_tables().known(ahead(14.0, 12.0)), with_tables().exact(ahead(14.0, 12.0)));
+  EXPECT_EQ(with_tables().known(beyond), std::nullopt);
+}
+
 TEST(Danger, RefusesWhatIsNoMeeting) {
   Meeting meeting = ahead(14.0, 12.0);
   meeting.state[0] = std::numeric_limits<double>::quiet_NaN();

@@ -91,12 +91,23 @@ Meeting meeting_of(const world::Scene& scene, const Actor& actor) {
           .state = {p_O.x, p_O.y, wrap_angle(course - X_WO.yaw), norm(scene.ego.v_B)}};
 }
 
+Motion motion_of(const world::Scene& scene, const Actor& actor) {
+  constexpr double turns_from = 1.0;  // [m/s]: at a crawl a yaw rate is no curvature
+  const double speed = norm(actor.v_W);
+  const Vec2 ahead = rotated(Vec2{1.0, 0.0}, obstacle_frame(actor).yaw);
+  return {.sideslip = sideslip_of(scene.ego),
+          .yaw_rate = scene.ego.yaw_rate,
+          .a_B = scene.ego.a_B,
+          .obstacle_acceleration = speed > still ? dot(actor.a_W, ahead) : 0.0,
+          .obstacle_curvature = speed > turns_from ? actor.yaw_rate / speed : 0.0};
+}
+
 ObstacleRisk obstacle_risk(const world::Scene& scene, const Actor& actor,
                            const DangerModel& model) {
   if (world::is_behind(scene, actor)) {
     return {.risk = 0.0, .value = 0.0, .exact = false, .judged = false};
   }
-  const Danger danger = model.danger(meeting_of(scene, actor));
+  const Danger danger = model.danger(meeting_of(scene, actor), motion_of(scene, actor));
   const RiskScale scale = risk_scale(actor.kind);
   const double share = (danger.value - scale.lowest) / (scale.highest - scale.lowest);
   return {.risk = std::clamp(share, 0.0, 1.0),

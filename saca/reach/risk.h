@@ -35,6 +35,8 @@ struct ObstacleRisk {
 [[nodiscard]] ObstacleRisk obstacle_risk(const world::Scene& scene, const world::Actor& actor,
                                          const DangerModel& model);
 
+/// What the problem does not know of both, and what was learnt does.
+[[nodiscard]] Motion motion_of(const world::Scene& scene, const world::Actor& actor);
 /// The meeting of ego and actor, by the frame of `avoidance.h`.
 [[nodiscard]] Meeting meeting_of(const world::Scene& scene, const world::Actor& actor);
 /// The obstacle's frame in the world: where its x points, there it moves.

@@ -506,16 +506,33 @@ void DangerNetsImpl::add_to(config::Tensors& tensors, const std::string& prefix)
 
 namespace {
 
-/// Trains V and two Q on what they say of a sample.
-Result<DangerNets> trained_on(const Experience& experience, DangerNets nets, const DangerPlan& plan,
-                              int threads, const std::filesystem::path& state,
-                              const std::function<Said(DangerNets&, const Sample&)>& said,
-                              const std::function<bool(const DangerProgress&)>& on_point) {
+using SaidBy = std::function<Said(DangerNets&, const Sample&)>;
+
+/// @param singles  nullptr: of one obstacle
+SaidBy said_of(DangerNets* singles) {
+  return [singles](DangerNets& nets, const Sample& sample) {
+    return singles == nullptr ? said_by(nets, sample) : said_by(nets, *singles, sample);
+  };
+}
+
+DangerNets new_nets(const Experience& experience, const DangerPlan& plan) {
+  torch::manual_seed(plan.seed);
+  const std::size_t inputs =
+      experience.num_obstacles == 1 ? danger::num_net_inputs : danger::num_pair_inputs;
+  return DangerNets(static_cast<std::int64_t>(inputs), plan.width);
+}
+
+/// Trains some of the networks on what all of them say of a sample.
+std::optional<Error> train_on(
+    const Experience& experience, DangerNets& nets, const std::vector<DangerNet*>& learnt,
+    const DangerPlan& plan, int threads, const std::filesystem::path& state, const SaidBy& said,
+    const std::function<Losses(const Said&, const Sample&, const Annealed&)>& losses,
+    const std::function<bool(const DangerProgress&)>& on_point) {
   Learner learner{.networks = nets.ptr(),
                   .losses =
                       [&](int count, std::mt19937_64& random, const Annealed& now) {
                         const Sample sample = drawn(experience, count, random);
-                        return losses_of(said(nets, sample), sample, now);
+                        return losses(said(nets, sample), sample, now);
                       },
                   .after_step =
                       [&] {
@@ -524,14 +541,45 @@ Result<DangerNets> trained_on(const Experience& experience, DangerNets nets, con
                       },
                   .fingerprint = fingerprint_of(plan, experience.size(), experience.num_states(),
                                                 experience.reached)};
-  for (const auto* net : {&nets->v, &nets->q1, &nets->q2}) {
+  for (const DangerNet* net : learnt) {
     const auto some = (*net)->parameters();
     learner.parameters.insert(learner.parameters.end(), some.begin(), some.end());
   }
-  if (const auto problem = DangerTraining(learner, plan, threads, state).run(on_point)) {
-    return *problem;
-  }
-  return nets;
+  return DangerTraining(learner, plan, threads, state).run(on_point);
+}
+
+Result<DangerNets> trained_on(const Experience& experience, DangerNets* singles,
+                              const DangerPlan& plan, int threads,
+                              const std::filesystem::path& state,
+                              const std::function<bool(const DangerProgress&)>& on_point) {
+  expects_sound(plan);
+  DangerNets nets = new_nets(experience, plan);
+  const auto problem = train_on(experience, nets, {&nets->v, &nets->q1, &nets->q2}, plan, threads,
+                                state, said_of(singles), losses_of, on_point);
+  return problem ? Result<DangerNets>(*problem) : nets;
+}
+
+/// Of V from what was reached, wherever the end was seen.
+Losses outcome_losses(const Said& said, const Sample& sample, const Annealed& /*now*/) {
+  const Tensor is_seen = torch::isfinite(sample.reached);
+  const Tensor off = torch::where(is_seen, said.v - sample.reached, torch::zeros_like(said.v));
+  const Tensor loss = (weight_of(said.v.detach()) * squared(off)).mean();
+  const torch::NoGradGuard none;
+  return {loss,
+          {.v_loss = loss.item<double>(),
+           .mean_v = mean_that_matters(said.v),
+           .above = (said.v > sample.reached + 0.2).to(torch::kFloat32).mean().item<double>()}};
+}
+
+/// Of Q from V, which stays as it is.
+Losses one_look_losses(const Said& said, const Sample& sample, const Annealed& /*now*/) {
+  const Tensor target =
+      torch::maximum(sample.h, torch::where(sample.settled > 0.5, said.next_h, said.next_v));
+  const Tensor weight = weight_of(target);
+  const auto q_loss = [&](const Tensor& q) { return (weight * squared(q - target)).mean(); };
+  const Tensor sum = q_loss(said.q[0]) + q_loss(said.q[1]);
+  const torch::NoGradGuard none;
+  return {sum, {.q_loss = sum.item<double>(), .mean_v = mean_that_matters(said.v)}};
 }
 
 }  // namespace
@@ -541,11 +589,7 @@ Result<DangerNets> trained_danger(const Experience& experience, const DangerPlan
                                   const std::function<bool(const DangerProgress&)>& on_point) {
   expects(experience.size() > 0 && experience.num_obstacles == 1,
           "transitions beside one obstacle");
-  expects_sound(plan);
-  torch::manual_seed(plan.seed);
-  return trained_on(
-      experience, DangerNets(num_inputs, plan.width), plan, threads, state,
-      [](DangerNets& nets, const Sample& sample) { return said_by(nets, sample); }, on_point);
+  return trained_on(experience, nullptr, plan, threads, state, on_point);
 }
 
 Result<DangerNets> trained_pairs(const Experience& experience, DangerNets& singles,
@@ -554,13 +598,36 @@ Result<DangerNets> trained_pairs(const Experience& experience, DangerNets& singl
                                  const std::function<bool(const DangerProgress&)>& on_point) {
   expects(experience.size() > 0 && experience.num_obstacles == 2,
           "transitions beside two obstacles");
+  return trained_on(experience, &singles, plan, threads, state, on_point);
+}
+
+Result<DangerNets> policy_round(const Experience& outcomes, const Experience& data,
+                                DangerNets* singles, const DangerPlan& plan, int threads,
+                                const std::filesystem::path& state,
+                                const std::function<bool(const DangerProgress&)>& on_point) {
+  const std::size_t num_obstacles = singles == nullptr ? 1 : 2;
+  expects(outcomes.size() > 0 && outcomes.num_obstacles == num_obstacles && data.size() > 0 &&
+              data.num_obstacles == num_obstacles,
+          "drives beside as many obstacles");
   expects_sound(plan);
-  torch::manual_seed(plan.seed);
-  return trained_on(
-      experience, DangerNets(static_cast<std::int64_t>(danger::num_pair_inputs), plan.width), plan,
-      threads, state,
-      [&](DangerNets& nets, const Sample& sample) { return said_by(nets, singles, sample); },
-      on_point);
+  const auto file = [&](const char* which) {
+    return state.empty() ? state : std::filesystem::path(state.string() + which);
+  };
+  bool is_stopped = false;
+  const auto heard = [&](const DangerProgress& point) {
+    is_stopped = !on_point(point);
+    return !is_stopped;
+  };
+  DangerNets nets = new_nets(data, plan);
+  DangerPlan plan_of_v = plan;
+  plan_of_v.steps = (plan.steps + 1) / 2;
+  auto problem = train_on(outcomes, nets, {&nets->v}, plan_of_v, threads, file(".v"),
+                          said_of(singles), outcome_losses, heard);
+  if (!problem && !is_stopped) {
+    problem = train_on(data, nets, {&nets->q1, &nets->q2}, plan, threads, file(".q"),
+                       said_of(singles), one_look_losses, heard);
+  }
+  return problem ? Result<DangerNets>(*problem) : nets;
 }
 
 double joint_value(DangerNets& singles, DangerNets pairs, const Tensor& inputs, const Tensor& h) {

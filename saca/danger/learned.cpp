@@ -1,0 +1,95 @@
+#include "saca/danger/learned.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "saca/core/fnv.h"
+#include "saca/danger/net_inputs.h"
+#include "saca/danger/state.h"
+#include "saca/manoeuvre/ego.h"
+
+namespace saca::danger {
+namespace {
+
+constexpr double learnt_to_speed = 40.0;  // [m/s]
+constexpr double least_grip = 0.2;
+constexpr double most_grip = 1.0;
+constexpr double learnt_to_distance = 100.0;  // [m]
+constexpr double told_well_to = 14.0;         // [m]
+
+/// Lengths and widths of drawn bodies (draws.h).
+bool has_known_size(const world::Footprint& body) {
+  return body.length >= 0.4 && body.length <= 18.2 && body.width >= 0.4 && body.width <= 2.9;
+}
+
+bool moves_as_drawn(const Obstacle& obstacle) {
+  constexpr double strongest = 9.0;  // [m/s^2], braking
+  constexpr double drives = 4.0;
+  constexpr double sideways = 9.0;
+  return obstacle.speed <= learnt_to_speed && obstacle.acceleration >= -strongest &&
+         obstacle.acceleration <= drives &&
+         std::abs(obstacle.curvature) * obstacle.speed * obstacle.speed <= sideways;
+}
+
+/// The state, seen in the obstacle's frame, and the controls that lead to such a motion.
+State state_of(const manoeuvre::Car& car, const reach::Meeting& meeting,
+               const reach::Motion& motion) {
+  const auto& [x, y, course, speed] = meeting.state;
+  State state;
+  state.grip = std::min(meeting.grip, most_grip);
+  Ego& ego = state.ego;
+  ego.X_WB = {{x, y}, course - motion.sideslip};
+  ego.v_B = rotated(Vec2{speed, 0.0}, motion.sideslip);
+  ego.yaw_rate = motion.yaw_rate;
+  ego.a_B = motion.a_B;
+  constexpr double steers_from = 1.0;  // [m/s]
+  const double curvature = speed > steers_from ? motion.yaw_rate / speed : 0.0;
+  ego.steering = std::clamp(std::atan((car.front_arm + car.rear_arm) * curvature),
+                            -car.steering_limit, car.steering_limit);
+  ego.braking = std::max(0.0, -motion.a_B.x);
+  ego.driving = std::max(0.0, motion.a_B.x);
+  world::Footprint box = meeting.obstacle;
+  box.shape = world::Shape::box;
+  box.centre_x = 0.0;
+  state.obstacles.push_back({.body = box,
+                             .speed = meeting.obstacle_speed,
+                             .acceleration = motion.obstacle_acceleration,
+                             .curvature = motion.obstacle_curvature});
+  return state;
+}
+
+}  // namespace
+
+reach::LearnedValue learned_value(std::shared_ptr<const Network> network, const Margins& margins,
+                                  const manoeuvre::Car& car) {
+  return [network = std::move(network), margins, car, body = manoeuvre::footprint(car)](
+             const reach::Meeting& meeting, const reach::Motion& motion) -> std::optional<double> {
+    const State state = state_of(car, meeting, motion);
+    const Obstacle& obstacle = state.obstacles[0];
+    const double speed = meeting.state[3];
+    const double distance = std::hypot(meeting.state[0], meeting.state[1]);
+    if (!has_known_size(obstacle.body) || !moves_as_drawn(obstacle) || speed > learnt_to_speed ||
+        meeting.grip < least_grip || distance > learnt_to_distance) {
+      return std::nullopt;
+    }
+    const std::array<SeenByNet, 1> seen{seen_by_net(body, observation(state), 0)};
+    const double told = network->joint_value(seen);
+    if (told <= -told_well_to) {
+      return std::nullopt;
+    }
+    const double margin = margins.at(speed, state.grip, 1);
+    return margin < Margins::none ? std::optional(told + margin) : std::nullopt;
+  };
+}
+
+std::string vehicle_word(const vehicle::Vehicle& car) {
+  Fnv hash;
+  hash.add_doubles(car);
+  return fmt::format("{:016x}", hash.value());
+}
+
+}  // namespace saca::danger

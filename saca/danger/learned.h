@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "saca/danger/margins.h"
+#include "saca/danger/network.h"
+#include "saca/manoeuvre/car.h"
+#include "saca/reach/danger.h"
+#include "saca/vehicle/vehicle.h"
+
+namespace saca::danger {
+
+/// V_h by a network, its bin's margin added, for reach::DangerModel. About two microseconds.
+///
+/// It knows of meetings like those that it was trained and its margins were fitted on: a box of 0.4
+/// to 18.2 m times 0.4 to 2.9 m that moves at up to 40 m/s and turns and brakes as such bodies may,
+/// an ego at up to 40 m/s on grip from 0.2 to 1, a centre within 100 m; more grip is taken as 1. Of
+/// a body that is no box the box around it is taken. What it tells by 14 m or more it does not know
+/// well (net_inputs.h). A car's steering, brakes and motor are taken for those that its motion
+/// needs.
+/// @param margins  of this network
+[[nodiscard]] reach::LearnedValue learned_value(std::shared_ptr<const Network> network,
+                                                const Margins& margins, const manoeuvre::Car& car);
+
+/// Names the car's own numbers, without its tunings: what weights are of.
+[[nodiscard]] std::string vehicle_word(const vehicle::Vehicle& car);
+
+}  // namespace saca::danger

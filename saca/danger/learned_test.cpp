@@ -1,0 +1,141 @@
+#include "saca/danger/learned.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <string>
+
+#include "saca/config/tensors.h"
+#include "saca/danger/state.h"
+#include "saca/manoeuvre/default_car.h"
+#include "saca/manoeuvre/ego.h"
+
+namespace saca::danger::learned_test {
+namespace {
+
+/// Layers that hand on the first input, v_x / 20, and the sixth, the steering / 0.2: V = h +
+/// log(1 + exp(first + sixth)), as long as both are positive.
+config::Tensors handing_on() {
+  config::Tensors all;
+  for (const auto& [name, inputs] : {std::pair{"v.", num_net_inputs},
+                                     {"q1.", num_net_inputs + 2},
+                                     {"q2.", num_net_inputs + 2}}) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t rows = k < 3 ? Network::width : 1;
+      const std::size_t columns = k > 0 ? Network::width : inputs;
+      config::Tensor weight{{rows, columns}, std::vector<float>(rows * columns)};
+      weight.values[0] = 1.0F;
+      if (k == 0) {
+        weight.values[5] = 1.0F;
+      }
+      all.tensors[name + std::to_string(k) + ".weight"] = weight;
+      all.tensors[name + std::to_string(k) + ".bias"] = {{rows}, std::vector<float>(rows)};
+    }
+  }
+  return all;
+}
+
+class Learned : public testing::Test {
+ protected:
+  Learned() {
+    metres_.fill(0.25);
+    metres_[bin_of(15.0, 0.9, 1)] = 0.75;
+    metres_[bin_of(5.0, 0.9, 1)] = Margins::none;
+  }
+  [[nodiscard]] reach::LearnedValue value() const {
+    return learned_value(
+        std::make_shared<const Network>(Network::from(handing_on(), "weights").value()),
+        Margins(metres_), car_);
+  }
+  /// A standing car of 4.5 m, `gap` [m] before the ego's front.
+  [[nodiscard]] reach::Meeting ahead(double gap, double speed) const {
+    const world::Footprint body = manoeuvre::footprint(car_);
+    const double distance = body.centre_x + 0.5 * body.length + gap + 2.25;
+    return {.ego = body,
+            .obstacle = {.length = 4.5, .width = 1.8},
+            .grip = 0.9,
+            .state = {-distance, 0.0, 0.0, speed}};
+  }
+
+  const manoeuvre::Car car_ = manoeuvre::default_car();
+  std::array<double, num_bins> metres_{};
+};
+
+TEST_F(Learned, AddsTheMarginOfItsBin) {
+  EXPECT_NEAR(value()(ahead(6.0, 15.0), {}).value(), -6.0 + std::log1p(std::exp(0.75)) + 0.75,
+              1e-4);
+  EXPECT_NEAR(value()(ahead(6.0, 25.0), {}).value(), -6.0 + std::log1p(std::exp(1.25)) + 0.25,
+              1e-4);
+  EXPECT_FALSE(value()(ahead(6.0, 5.0), {}).has_value()) << "no margin is enough there";
+}
+
+TEST_F(Learned, SeesHowTheEgoTurns) {
+  // On a curve of 20 m the wheels are turned by atan(2.8 / 20).
+  const reach::Motion turning{.yaw_rate = 15.0 / 20.0};
+  const double steering = std::atan((car_.front_arm + car_.rear_arm) / 20.0) / 0.2;
+  EXPECT_NEAR(value()(ahead(6.0, 15.0), turning).value(),
+              -6.0 + std::log1p(std::exp(0.75 + steering)) + 0.75, 1e-4);
+  // Sliding at 60 degrees the body stands across its way: v_x is half of the speed.
+  reach::Meeting sliding = ahead(9.0, 20.0);
+  const reach::Motion slip{.sideslip = std::numbers::pi / 3.0};
+  const double told = value()(sliding, slip).value();
+  State state;
+  state.ego.X_WB = {{sliding.state[0], 0.0}, -std::numbers::pi / 3.0};
+  state.obstacles.push_back({.body = sliding.obstacle});
+  EXPECT_NEAR(told, intrusion(manoeuvre::footprint(car_), state) + std::log1p(std::exp(0.5)) + 0.25,
+              1e-4);
+}
+
+TEST_F(Learned, TakesTheBoxAroundWhatIsNoBox) {
+  reach::Meeting disc = ahead(6.0, 15.0);
+  disc.obstacle = {.shape = world::Shape::ellipse, .length = 4.5, .width = 1.8};
+  EXPECT_EQ(value()(disc, {}), value()(ahead(6.0, 15.0), {}));
+}
+
+TEST_F(Learned, DoesNotKnowWhatItHasNotLearnt) {
+  const auto knows = [&](const reach::Meeting& meeting, const reach::Motion& motion = {}) {
+    return value()(meeting, motion).has_value();
+  };
+  const reach::Meeting usual = ahead(6.0, 15.0);
+  ASSERT_TRUE(knows(usual));
+  reach::Meeting slow = ahead(6.0, 5.0);
+  slow.grip = 0.3;
+  EXPECT_TRUE(knows(slow));
+  slow.state[0] -= 24.0;
+  EXPECT_FALSE(knows(slow)) << "told by more than 14 m";
+  EXPECT_FALSE(knows(ahead(6.0, 40.5)));
+  reach::Meeting other = usual;
+  other.grip = 0.15;
+  EXPECT_FALSE(knows(other)) << "ice";
+  other = usual;
+  other.grip = 1.2;
+  EXPECT_EQ(value()(other, {}), [&] {
+    other.grip = 1.0;
+    return value()(other, {});
+  }()) << "more grip is no worse";
+  other = usual;
+  other.obstacle.length = 0.2;
+  EXPECT_FALSE(knows(other));
+  other = usual;
+  other.obstacle_speed = 41.0;
+  EXPECT_FALSE(knows(other));
+  EXPECT_TRUE(knows(usual, {.obstacle_acceleration = -8.0}));
+  EXPECT_FALSE(knows(usual, {.obstacle_acceleration = -10.0}));
+  other.obstacle_speed = 20.0;
+  EXPECT_FALSE(knows(other, {.obstacle_curvature = 0.1})) << "40 m/s2 across";
+}
+
+TEST_F(Learned, NamesTheCarByItsNumbers) {
+  manoeuvre::Car tuned = car_;
+  manoeuvre::Car heavier = car_;
+  heavier.mass += 1.0;
+  EXPECT_EQ(vehicle_word(tuned), vehicle_word(car_));
+  EXPECT_NE(vehicle_word(heavier), vehicle_word(car_));
+}
+
+}  // namespace
+}  // namespace saca::danger::learned_test
