@@ -156,11 +156,20 @@ Result<reach::LearnedValue> learned_danger(const Inputs& inputs) {
   if (!fs::exists(file)) {
     return reach::LearnedValue();
   }
-  auto weights = read_danger_weights(file);
-  if (!weights.has_value()) {
-    return weights.error();
+  auto network = read_danger_network(file);
+  if (!network.has_value()) {
+    return network.error();
   }
-  const auto margins = danger::Margins::from(weights.value().network.words(), file.string());
+  const auto& words = network.value().words();
+  const auto vehicle = words.find("vehicle");
+  if (vehicle == words.end() || vehicle->second != danger::vehicle_word(inputs.car)) {
+    complain(
+        fmt::format("{}: learnt of another {} than that of today; its risks are by a few "
+                    "evasions (tools/danger.sh learns V_h anew)",
+                    file.string(), inputs.car_name));
+    return reach::LearnedValue();
+  }
+  const auto margins = danger::Margins::from(words, file.string());
   if (!margins.has_value()) {
     return margins.error();
   }
@@ -168,9 +177,8 @@ Result<reach::LearnedValue> learned_danger(const Inputs& inputs) {
     return Error{Error::Code::malformed,
                  file.string() + ": want margins (`saca danger margins`), got none"};
   }
-  return danger::learned_value(
-      std::make_shared<const danger::Network>(std::move(weights.value().network)), *margins.value(),
-      inputs.car);
+  return danger::learned_value(std::make_shared<const danger::Network>(std::move(network).value()),
+                               *margins.value(), inputs.car);
 }
 
 namespace {

@@ -33,7 +33,8 @@ struct ReadyTable {
 /// @return  an error where a car's limits are beyond what can be solved
 [[nodiscard]] Result<ReadyTable> ready_table(const Inputs& inputs, const reach::DangerCase& wanted);
 
-/// What was learnt of this car's danger and is shipped; none of other cars.
+/// What was learnt of this car's danger and is shipped; none of other cars, nor of one whose
+/// numbers were changed since, which is said.
 /// @return  an error naming the file, what was wanted and what came
 [[nodiscard]] Result<reach::LearnedValue> learned_danger(const Inputs& inputs);
 

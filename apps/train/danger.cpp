@@ -8,12 +8,13 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
-#include <optional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "saca/config/tensors.h"
 #include "saca/core/file.h"
 #include "saca/core/parallel.h"
 #include "saca/core/standard_files.h"
@@ -39,7 +40,7 @@ struct Options {
   int threads = usual_threads();
   train::DangerPlan plan;
   int pair_steps = 20'000;
-  std::string outcomes;  ///< folder; empty: none
+  std::string values_of;  ///< weights; empty: none
 };
 
 /// What was read, and what the weights' file says of it.
@@ -128,18 +129,17 @@ int give_up(const Error& error) {
 /// Tells of a training, and keeps its curve.
 class Curve {
  public:
-  std::function<bool(const train::DangerProgress&)> of(const danger::Experience& experience,
-                                                       int steps) {
+  std::function<bool(const train::DangerProgress&)> of(const danger::Experience& experience) {
     fmt::print("{} transitions beside {}\n", experience.size(), words_for(experience));
     std::fflush(stdout);
-    return [this, steps, obstacles = experience.num_obstacles](const train::DangerProgress& now) {
+    return [this, obstacles = experience.num_obstacles](const train::DangerProgress& now) {
       text_ += fmt::format("{},{},{:.5f},{:.5f},{:.4f},{:.5f},{:.1f}\n", obstacles, now.step,
                            now.v_loss, now.q_loss, now.mean_v, now.above, now.seconds);
       seconds_ += now.seconds;
       fmt::print(
           "step {} of {}: losses {:.4f} and {:.4f}, mean V {:.3f} m, above what was "
           "reached {:.2f} %, {:.0f} s\n",
-          now.step, steps, now.v_loss, now.q_loss, now.mean_v, 100.0 * now.above, seconds_);
+          now.step, now.steps, now.v_loss, now.q_loss, now.mean_v, 100.0 * now.above, seconds_);
       std::fflush(stdout);
       return is_to_end == 0;
     };
@@ -157,48 +157,80 @@ int stopped() {
   return interrupted;
 }
 
-/// Networks of one obstacle or two, by the data alone or from outcomes too.
+/// Networks of one obstacle or two: V and Q by the data alone, or V from outcomes.
 class Trainings {
  public:
-  Trainings(const Options& options, const Data& data, const Data* outcomes)
-      : options_(options), data_(data), outcomes_(outcomes) {}
+  Trainings(const Options& options, const Data& data) : options_(options), data_(data) {}
 
   Result<train::DangerNets> singles() {
-    const auto hear = curve_.of(data_.singles, options_.plan.steps);
-    return outcomes_ == nullptr
-               ? train::trained_danger(data_.singles, options_.plan, options_.threads, state(),
-                                       hear)
-               : train::policy_round(outcomes_->singles, data_.singles, nullptr, options_.plan,
-                                     options_.threads, state(), hear);
+    const auto hear = curve_.of(data_.singles);
+    return from_outcomes() ? train::policy_values(data_.singles, nullptr, options_.plan,
+                                                  options_.threads, state(), hear)
+                           : train::trained_danger(data_.singles, options_.plan, options_.threads,
+                                                   state(), hear);
   }
   Result<train::DangerNets> pairs(train::DangerNets& singles) {
     train::DangerPlan plan = options_.plan;
     plan.steps = options_.pair_steps;
-    const auto hear = curve_.of(data_.pairs, plan.steps);
-    return outcomes_ == nullptr ? train::trained_pairs(data_.pairs, singles, plan, options_.threads,
-                                                       pairs_state(), hear)
-                                : train::policy_round(outcomes_->pairs, data_.pairs, &singles, plan,
-                                                      options_.threads, pairs_state(), hear);
+    const auto hear = curve_.of(data_.pairs);
+    return from_outcomes() ? train::policy_values(data_.pairs, &singles, plan, options_.threads,
+                                                  pairs_state(), hear)
+                           : train::trained_pairs(data_.pairs, singles, plan, options_.threads,
+                                                  pairs_state(), hear);
+  }
+  /// What is shipped of networks.
+  void add_to(config::Tensors& tensors, const train::DangerNets& nets,
+              const std::string& prefix) const {
+    if (from_outcomes()) {
+      nets->v->add_to(tensors, prefix + "v.");
+    } else {
+      nets->add_to(tensors, prefix);
+    }
   }
   /// Where they were stopped, all is in there.
   void remove_states() const {
-    for (const std::string& state : {state(), pairs_state()}) {
-      for (const char* const which : {"", ".v", ".q"}) {
-        fs::remove(state + which);
-      }
+    for (const std::string& each : {state(), pairs_state()}) {
+      fs::remove(each);
     }
   }
   [[nodiscard]] const std::string& curve() const { return curve_.text(); }
 
  private:
+  [[nodiscard]] bool from_outcomes() const { return !options_.values_of.empty(); }
   [[nodiscard]] std::string state() const { return options_.output + ".state"; }
   [[nodiscard]] std::string pairs_state() const { return options_.output + ".pairs.state"; }
 
   const Options& options_;
   const Data& data_;
-  const Data* outcomes_;
   Curve curve_;
 };
+
+/// The weights whose outcomes are in the folder; none where there are no such.
+Result<config::Tensors> earlier_weights(const Options& options, const Data& data) {
+  if (options.values_of.empty()) {
+    return config::Tensors{};
+  }
+  constexpr std::size_t most_bytes = std::size_t{1} << 30U;
+  const auto bytes = read_file(options.values_of, most_bytes);
+  if (!bytes.has_value()) {
+    return bytes.error();
+  }
+  auto tensors = config::read_tensors(bytes.value(), options.values_of);
+  if (!tensors.has_value()) {
+    return tensors.error();
+  }
+  const auto network = danger::Network::from(tensors.value(), options.values_of);
+  if (!network.has_value()) {
+    return network.error();
+  }
+  const auto vehicle = tensors.value().words.find("vehicle");
+  if (vehicle != tensors.value().words.end() && vehicle->second != data.vehicle) {
+    return Error{Error::Code::malformed,
+                 fmt::format("{}: want weights of the car {} of {}, got of another",
+                             options.values_of, data.car, options.folder)};
+  }
+  return tensors;
+}
 
 int train_danger(const Options& options) {
   const auto read = read_data(options.folder, options.root);
@@ -206,23 +238,14 @@ int train_danger(const Options& options) {
     return give_up(read.error());
   }
   const Data& data = read.value();
-  std::optional<Data> outcomes;
-  if (!options.outcomes.empty()) {
-    auto driven = read_data(options.outcomes, options.root);
-    if (!driven.has_value()) {
-      return give_up(driven.error());
-    }
-    if (driven.value().vehicle != data.vehicle) {
-      return give_up(
-          {Error::Code::malformed, fmt::format("{}: want outcomes of the car {}, got of {}",
-                                               options.outcomes, data.car, driven.value().car)});
-    }
-    outcomes = std::move(driven).value();
+  auto earlier = earlier_weights(options, data);
+  if (!earlier.has_value()) {
+    return give_up(earlier.error());
   }
   if (is_to_end != 0) {
     return stopped();
   }
-  Trainings trainings(options, data, outcomes ? &*outcomes : nullptr);
+  Trainings trainings(options, data);
   const auto singles = trainings.singles();
   if (!singles.has_value()) {
     return give_up(singles.error());
@@ -231,8 +254,12 @@ int train_danger(const Options& options) {
     return stopped();
   }
   train::DangerNets nets = singles.value();
-  config::Tensors tensors;
-  nets->add_to(tensors, "");
+  config::Tensors tensors = std::move(earlier).value();
+  const auto word = [&](const char* name) {
+    const auto found = tensors.words.find(name);
+    return found != tensors.words.end() ? found->second : std::string("0");
+  };
+  trainings.add_to(tensors, nets, "");
   if (options.pair_steps > 0) {
     const auto pairs = trainings.pairs(nets);
     if (!pairs.has_value()) {
@@ -241,24 +268,28 @@ int train_danger(const Options& options) {
     if (is_to_end != 0) {
       return stopped();
     }
-    pairs.value()->add_to(tensors, "pair_");
+    trainings.add_to(tensors, pairs.value(), "pair_");
   }
+  const bool by_outcomes = !options.values_of.empty();
+  std::map<std::string, std::string> words{
+      {"car", data.car},
+      {"vehicle", data.vehicle},
+      {"transitions", by_outcomes ? word("transitions") : std::to_string(data.transitions)},
+      {"drives", by_outcomes ? word("drives") : std::to_string(data.drives)},
+      {"outcomes", std::to_string(by_outcomes ? data.drives : 0)},
+      {"seed", std::to_string(options.plan.seed)},
+      {"steps", std::to_string(options.plan.steps)},
+      {"pair_steps", std::to_string(options.pair_steps)},
+      {"batch", std::to_string(options.plan.batch)},
+      {"expectile", by_outcomes ? word("expectile") : fmt::format("{}", options.plan.expectile)},
+      {"discount", fmt::format("{}", options.plan.discount)}};
+  tensors.words.clear();
   const auto network = danger::Network::from(tensors, options.output);
   if (!network.has_value()) {
     return give_up(network.error());
   }
-  tensors.words = {{"car", data.car},
-                   {"vehicle", data.vehicle},
-                   {"digest", fmt::format("{:016x}", network.value().digest())},
-                   {"transitions", std::to_string(data.transitions)},
-                   {"drives", std::to_string(data.drives)},
-                   {"outcomes", std::to_string(outcomes ? outcomes->drives : 0)},
-                   {"seed", std::to_string(options.plan.seed)},
-                   {"steps", std::to_string(options.plan.steps)},
-                   {"pair_steps", std::to_string(options.pair_steps)},
-                   {"batch", std::to_string(options.plan.batch)},
-                   {"expectile", fmt::format("{}", options.plan.expectile)},
-                   {"discount", fmt::format("{}", options.plan.discount)}};
+  words["digest"] = fmt::format("{:016x}", network.value().digest());
+  tensors.words = std::move(words);
   for (const auto& [path, text] : {std::pair{options.output, config::tensor_bytes(tensors)},
                                    std::pair{options.output + ".curve.csv", trainings.curve()}}) {
     if (const auto problem = write_file(path, text)) {
@@ -281,9 +312,9 @@ int main(int argc, char** argv) {
   app.add_option("FOLDER", options.folder, "Of the parts that `saca danger dataset` made")
       ->required();
   app.add_option("--output", options.output, "safetensors file of the weights")->required();
-  app.add_option("--outcomes", options.outcomes,
-                 "Folder of `saca danger dataset --by EARLIER --outcomes`: V is what these drives "
-                 "came to, and Q what leads there");
+  app.add_option("--values-of", options.values_of,
+                 "Earlier weights; FOLDER is of `saca danger dataset --by THESE --outcomes`, and V "
+                 "becomes what such drives came to");
   app.add_option("--root", options.root, "Holds data/")->capture_default_str();
   app.add_option("--seed", options.plan.seed)->capture_default_str();
   app.add_option("--steps", options.plan.steps)

@@ -56,14 +56,14 @@ int stopped() {
 /// Prints the points of a curve, and keeps them as a table.
 class Curve {
  public:
-  Curve(std::string name, int steps) : name_(std::move(name)), steps_(steps) {}
+  explicit Curve(std::string name) : name_(std::move(name)) {}
 
   bool add(const train::DangerProgress& now) {
     seconds_ += now.seconds;
     text_ += fmt::format("{},{:.5f},{:.5f},{:.4f},{:.1f}\n", now.step, now.v_loss, now.q_loss,
                          now.mean_v, now.seconds);
     fmt::print("{}: step {} of {}: losses {:.4f} and {:.4f}, mean V {:.3f} m, {:.0f} s\n", name_,
-               now.step, steps_, now.v_loss, now.q_loss, now.mean_v, seconds_);
+               now.step, now.steps, now.v_loss, now.q_loss, now.mean_v, seconds_);
     std::fflush(stdout);
     return is_to_end == 0;
   }
@@ -72,7 +72,6 @@ class Curve {
 
  private:
   std::string name_;
-  int steps_;
   double seconds_ = 0.0;
   std::string text_ = "step,v_loss,q_loss,mean_v_m,seconds\n";
 };
@@ -141,7 +140,7 @@ int train_point_mass(const Options& options) {
   std::error_code problem;
   fs::create_directories(folder, problem);
 
-  Curve of_fitted("fitted iteration", options.plan.steps);
+  Curve of_fitted("fitted iteration");
   config::Tensors fitted_weights;
   {
     const danger::Outcomes outcomes =
@@ -165,7 +164,7 @@ int train_point_mass(const Options& options) {
       danger::point_mass_transitions(exact.problem, value, options.drives, options.plan.seed + 1);
   danger::add_experience(experience, made, exact.problem.ego, exact.problem.obstacle.shape);
   fmt::print("{} transitions\n", experience.size());
-  Curve of_offline("from data", options.plan.steps);
+  Curve of_offline("from data");
   const auto nets =
       train::trained_danger(experience, options.plan, options.threads, folder / "offline.state",
                             [&](const train::DangerProgress& now) { return of_offline.add(now); });

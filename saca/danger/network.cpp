@@ -53,33 +53,43 @@ Result<Network::Layers> Network::layers_from(const config::Tensors& tensors,
   return layers;
 }
 
-Result<Network::Three> Network::three_from(const config::Tensors& tensors,
-                                           const std::string& prefix, std::size_t inputs,
-                                           std::string_view source) {
-  auto v = layers_from(tensors, prefix + "v.", inputs, source);
+Result<Network::TwoQ> Network::two_q_from(const config::Tensors& tensors, const std::string& prefix,
+                                          std::size_t inputs, std::string_view source) {
   auto q1 = layers_from(tensors, prefix + "q1.", inputs + num_actions, source);
   auto q2 = layers_from(tensors, prefix + "q2.", inputs + num_actions, source);
-  for (const auto* each : {&v, &q1, &q2}) {
+  for (const auto* each : {&q1, &q2}) {
     if (!each->has_value()) {
       return each->error();
     }
   }
-  return Three{std::move(v).value(), {std::move(q1).value(), std::move(q2).value()}};
+  return TwoQ{std::move(q1).value(), std::move(q2).value()};
 }
 
 Result<Network> Network::from(const config::Tensors& tensors, std::string_view source) {
   Network network;
-  auto single = three_from(tensors, "", num_net_inputs, source);
-  if (!single.has_value()) {
-    return single.error();
+  auto v = layers_from(tensors, "v.", num_net_inputs, source);
+  if (!v.has_value()) {
+    return v.error();
   }
-  network.single_ = std::move(single).value();
+  auto q = two_q_from(tensors, "", num_net_inputs, source);
+  if (!q.has_value()) {
+    return q.error();
+  }
+  network.v_ = std::move(v).value();
+  network.q_ = std::move(q).value();
   if (tensors.tensors.contains("pair_v.0.weight")) {
-    auto pairs = three_from(tensors, "pair_", num_pair_inputs, source);
-    if (!pairs.has_value()) {
-      return pairs.error();
+    auto pair_v = layers_from(tensors, "pair_v.", num_pair_inputs, source);
+    if (!pair_v.has_value()) {
+      return pair_v.error();
     }
-    network.pairs_ = std::move(pairs).value();
+    network.pair_v_ = std::move(pair_v).value();
+  }
+  if (tensors.tensors.contains("pair_q1.0.weight")) {
+    auto pair_q = two_q_from(tensors, "pair_", num_pair_inputs, source);
+    if (!pair_q.has_value()) {
+      return pair_q.error();
+    }
+    network.pair_q_ = std::move(pair_q).value();
   }
   network.words_ = tensors.words;
   const auto digest = tensors.words.find("digest");
@@ -95,20 +105,22 @@ Result<Network> Network::from(const config::Tensors& tensors, std::string_view s
 
 std::uint64_t Network::digest() const {
   Fnv hash;
-  const auto add = [&](const Three& three) {
-    for (const Layers* layers : {&three.v, &three.q[0], &three.q[1]}) {
-      for (const Layer& layer : *layers) {
-        for (const std::vector<float>* numbers : {&layer.weight, &layer.bias}) {
-          for (const float number : *numbers) {
-            hash.add(std::bit_cast<std::uint32_t>(number));
-          }
+  const auto add = [&](const Layers& layers) {
+    for (const Layer& layer : layers) {
+      for (const std::vector<float>* numbers : {&layer.weight, &layer.bias}) {
+        for (const float number : *numbers) {
+          hash.add(std::bit_cast<std::uint32_t>(number));
         }
       }
     }
   };
-  add(single_);
-  if (pairs_) {
-    add(*pairs_);
+  add(v_);
+  std::for_each(q_.begin(), q_.end(), add);
+  if (pair_v_) {
+    add(*pair_v_);
+  }
+  if (pair_q_) {
+    std::for_each(pair_q_->begin(), pair_q_->end(), add);
   }
   return hash.value();
 }
@@ -133,7 +145,7 @@ void Network::run(const Layers& layers, const float* inputs, std::size_t count, 
   std::transform(x.data(), x.data() + count, out, softplus);
 }
 
-void Network::run_q(const std::array<Layers, 2>& q, std::span<const float> inputs,
+void Network::run_q(const TwoQ& q, std::span<const float> inputs,
                     std::span<const manoeuvre::Demand> demands, float* out) {
   std::array<float, (num_pair_inputs + num_actions) * at_once> columns;
   std::array<float, at_once> other;
@@ -163,7 +175,7 @@ void Network::values(std::span<const SeenByNet> seen, std::span<double> v) const
       std::copy(seen[first + i].inputs.begin(), seen[first + i].inputs.end(),
                 &inputs[i * num_net_inputs]);
     }
-    run(single_.v, inputs.data(), count, added.data());
+    run(v_, inputs.data(), count, added.data());
     for (std::size_t i = 0; i < count; ++i) {
       v[first + i] = told(seen[first + i].h) + static_cast<double>(added[i]);
     }
@@ -174,7 +186,7 @@ void Network::values(std::span<const SeenByNet> seen, std::span<double> v) const
 template <class Use>
 void Network::for_pairs(std::span<const SeenByNet> seen,
                         const std::array<double, most_obstacles>& v, const Use& use) const {
-  for (std::size_t i = 0; pairs_ && i < seen.size(); ++i) {
+  for (std::size_t i = 0; i < seen.size(); ++i) {
     for (std::size_t k = i + 1; k < seen.size(); ++k) {
       const std::size_t one = v[i] >= v[k] ? i : k;  // the more dangerous one
       const std::size_t other = v[i] >= v[k] ? k : i;
@@ -199,9 +211,12 @@ double Network::joint_value(std::span<const SeenByNet> seen) const {
   values(seen, std::span(v).first(seen.size()));
   double highest =
       *std::max_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(seen.size()));
+  if (!pair_v_) {
+    return highest;
+  }
   for_pairs(seen, v, [&](const Pair& pair) {
     float added = 0.0F;
-    run(pairs_->v, pair.inputs.data(), 1, &added);
+    run(*pair_v_, pair.inputs.data(), 1, &added);
     highest = std::max(highest, pair.value + pair.share * static_cast<double>(added));
   });
   return highest;
@@ -216,18 +231,19 @@ void Network::joint_values_of(std::span<const SeenByNet> seen,
   std::array<std::array<double, most_demands>, most_obstacles> single;
   std::fill(q.begin(), q.end(), -std::numeric_limits<double>::infinity());
   for (std::size_t k = 0; k < seen.size(); ++k) {
-    run_q(single_.q, seen[k].inputs, demands, added.data());
+    run_q(q_, seen[k].inputs, demands, added.data());
     for (std::size_t i = 0; i < demands.size(); ++i) {
       single[k][i] = told(seen[k].h) + static_cast<double>(added[i]);
       q[i] = std::max(q[i], single[k][i]);
     }
   }
-  std::array<double, most_obstacles> v{};
-  if (pairs_ && seen.size() > 1) {
-    values(seen, std::span(v).first(seen.size()));
+  if (!pair_q_ || seen.size() < 2) {
+    return;
   }
+  std::array<double, most_obstacles> v{};
+  values(seen, std::span(v).first(seen.size()));
   for_pairs(seen, v, [&](const Pair& pair) {
-    run_q(pairs_->q, pair.inputs, demands, added.data());
+    run_q(*pair_q_, pair.inputs, demands, added.data());
     for (std::size_t i = 0; i < demands.size(); ++i) {
       const double higher = std::max(single[pair.one][i], single[pair.other][i]);
       q[i] = std::max(q[i], higher + pair.share * static_cast<double>(added[i]));

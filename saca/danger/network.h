@@ -50,8 +50,8 @@ class Network {
   void joint_values_of(std::span<const SeenByNet> seen, std::span<const manoeuvre::Demand> demands,
                        std::span<double> q) const;
 
-  /// Whether it has learnt what two obstacles add.
-  [[nodiscard]] bool knows_pairs() const { return pairs_.has_value(); }
+  /// Whether it has learnt what two obstacles add to V.
+  [[nodiscard]] bool knows_pairs() const { return pair_v_.has_value(); }
 
   /// Names the weights.
   [[nodiscard]] std::uint64_t digest() const;
@@ -67,18 +67,14 @@ class Network {
     std::vector<float> bias;
   };
   using Layers = std::array<Layer, 4>;
-  /// One V and two Q.
-  struct Three {
-    Layers v;
-    std::array<Layers, 2> q;
-  };
+  using TwoQ = std::array<Layers, 2>;
 
   [[nodiscard]] static Result<Layers> layers_from(const config::Tensors& tensors,
                                                   const std::string& prefix, std::size_t inputs,
                                                   std::string_view source);
-  [[nodiscard]] static Result<Three> three_from(const config::Tensors& tensors,
-                                                const std::string& prefix, std::size_t inputs,
-                                                std::string_view source);
+  [[nodiscard]] static Result<TwoQ> two_q_from(const config::Tensors& tensors,
+                                               const std::string& prefix, std::size_t inputs,
+                                               std::string_view source);
   /// Two obstacles, that one first whose V_h is higher.
   struct Pair {
     std::size_t one = 0, other = 0;
@@ -92,11 +88,13 @@ class Network {
   /// Columns of `inputs` to one number each, what they add [m].
   static void run(const Layers& layers, const float* inputs, std::size_t count, float* out);
   /// What each demand adds, of the larger of two: all columns begin with the same numbers.
-  static void run_q(const std::array<Layers, 2>& q, std::span<const float> inputs,
+  static void run_q(const TwoQ& q, std::span<const float> inputs,
                     std::span<const manoeuvre::Demand> demands, float* out);
 
-  Three single_;
-  std::optional<Three> pairs_;
+  Layers v_;
+  TwoQ q_;
+  std::optional<Layers> pair_v_;
+  std::optional<TwoQ> pair_q_;
   std::map<std::string, std::string> words_;
 };
 

@@ -366,6 +366,7 @@ class DangerTraining {
       point.above += share * one.above;
     }
     point.step = done_;
+    point.steps = plan_.steps;
     point.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return point;
   }
@@ -427,6 +428,7 @@ class DangerTraining {
     for (std::int64_t i = 0; i < curve.size(0); ++i) {
       const auto number = [&](std::int64_t k) { return curve[i][k].item<double>(); };
       curve_.push_back({.step = static_cast<int>(number(0)),
+                        .steps = plan_.steps,
                         .v_loss = number(1),
                         .q_loss = number(2),
                         .mean_v = number(3),
@@ -571,17 +573,6 @@ Losses outcome_losses(const Said& said, const Sample& sample, const Annealed& /*
            .above = (said.v > sample.reached + 0.2).to(torch::kFloat32).mean().item<double>()}};
 }
 
-/// Of Q from V, which stays as it is.
-Losses one_look_losses(const Said& said, const Sample& sample, const Annealed& /*now*/) {
-  const Tensor target =
-      torch::maximum(sample.h, torch::where(sample.settled > 0.5, said.next_h, said.next_v));
-  const Tensor weight = weight_of(target);
-  const auto q_loss = [&](const Tensor& q) { return (weight * squared(q - target)).mean(); };
-  const Tensor sum = q_loss(said.q[0]) + q_loss(said.q[1]);
-  const torch::NoGradGuard none;
-  return {sum, {.q_loss = sum.item<double>(), .mean_v = mean_that_matters(said.v)}};
-}
-
 }  // namespace
 
 Result<DangerNets> trained_danger(const Experience& experience, const DangerPlan& plan, int threads,
@@ -601,32 +592,16 @@ Result<DangerNets> trained_pairs(const Experience& experience, DangerNets& singl
   return trained_on(experience, &singles, plan, threads, state, on_point);
 }
 
-Result<DangerNets> policy_round(const Experience& outcomes, const Experience& data,
-                                DangerNets* singles, const DangerPlan& plan, int threads,
-                                const std::filesystem::path& state,
-                                const std::function<bool(const DangerProgress&)>& on_point) {
-  const std::size_t num_obstacles = singles == nullptr ? 1 : 2;
-  expects(outcomes.size() > 0 && outcomes.num_obstacles == num_obstacles && data.size() > 0 &&
-              data.num_obstacles == num_obstacles,
-          "drives beside as many obstacles");
+Result<DangerNets> policy_values(const Experience& outcomes, DangerNets* singles,
+                                 const DangerPlan& plan, int threads,
+                                 const std::filesystem::path& state,
+                                 const std::function<bool(const DangerProgress&)>& on_point) {
+  expects(outcomes.size() > 0 && outcomes.num_obstacles == (singles == nullptr ? 1U : 2U),
+          "drives beside one obstacle, or two where there are networks of one");
   expects_sound(plan);
-  const auto file = [&](const char* which) {
-    return state.empty() ? state : std::filesystem::path(state.string() + which);
-  };
-  bool is_stopped = false;
-  const auto heard = [&](const DangerProgress& point) {
-    is_stopped = !on_point(point);
-    return !is_stopped;
-  };
-  DangerNets nets = new_nets(data, plan);
-  DangerPlan plan_of_v = plan;
-  plan_of_v.steps = (plan.steps + 1) / 2;
-  auto problem = train_on(outcomes, nets, {&nets->v}, plan_of_v, threads, file(".v"),
-                          said_of(singles), outcome_losses, heard);
-  if (!problem && !is_stopped) {
-    problem = train_on(data, nets, {&nets->q1, &nets->q2}, plan, threads, file(".q"),
-                       said_of(singles), one_look_losses, heard);
-  }
+  DangerNets nets = new_nets(outcomes, plan);
+  const auto problem = train_on(outcomes, nets, {&nets->v}, plan, threads, state, said_of(singles),
+                                outcome_losses, on_point);
   return problem ? Result<DangerNets>(*problem) : nets;
 }
 

@@ -92,7 +92,8 @@ TORCH_MODULE(FittedNets);
 
 /// One point of the curve: means since the one before.
 struct DangerProgress {
-  int step = 0;  ///< so many are done
+  int step = 0;   ///< so many are done
+  int steps = 0;  ///< of so many
   double v_loss = 0.0;
   double q_loss = 0.0;
   double mean_v = 0.0;   ///< [m], of what V is above -farthest_told
@@ -116,19 +117,14 @@ struct DangerProgress {
     const danger::Experience& experience, DangerNets& singles, const DangerPlan& plan, int threads,
     const std::filesystem::path& state, const std::function<bool(const DangerProgress&)>& on_point);
 
-/// A round of policy iteration. V becomes that of driving by the Q whose outcomes these are: what
-/// such drives reached, learnt as it is, with no value of its own in it. Q becomes what one input
-/// leads to and that V after it. So V promises nothing that was not driven, and driving by the new
-/// Q is at least as good but for errors of approximation. Takes less steps of V than of Q: half.
+/// V of driving by the Q whose outcomes these are: what such drives reached is learnt as it is,
+/// with no value of its own in it. So V promises nothing that was not driven. Its q are not learnt.
 /// @param outcomes  drives by an earlier Q, to their ends
-/// @param data      any drives
 /// @param singles   nullptr: all is beside one obstacle; else beside two, and what they add is
 /// learnt
-/// @param state     two files begin with that; empty: none
-[[nodiscard]] Result<DangerNets> policy_round(
-    const danger::Experience& outcomes, const danger::Experience& data, DangerNets* singles,
-    const DangerPlan& plan, int threads, const std::filesystem::path& state,
-    const std::function<bool(const DangerProgress&)>& on_point);
+[[nodiscard]] Result<DangerNets> policy_values(
+    const danger::Experience& outcomes, DangerNets* singles, const DangerPlan& plan, int threads,
+    const std::filesystem::path& state, const std::function<bool(const DangerProgress&)>& on_point);
 
 /// V_h beside two obstacles [m].
 /// @param inputs  (2 x num_net_inputs)

@@ -12,7 +12,7 @@ import time
 import pytest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from program import BAD_INPUT, CANNOT_WRITE, INTERRUPTED, PROGRAM, SUCCESS, WRONG_COMMAND_LINE, one_error, saca
+from program import BAD_INPUT, CANNOT_WRITE, INTERRUPTED, PROGRAM, ROOT, SUCCESS, WRONG_COMMAND_LINE, one_error, saca
 
 SMALL = ["--transitions", "2500", "--part-drives", "4", "--no-tables"]
 
@@ -158,3 +158,29 @@ def test_a_data_set_by_a_network_is_another(tmp_path):
     assert "journal.txt" in one_error(saca("danger", "dataset", tmp_path / "a", *SMALL, "--by", path, cwd=tmp_path), BAD_INPUT)
     other = weights(tmp_path / "other", car="suv_awd")
     assert "suv_awd" in one_error(saca("danger", "dataset", tmp_path / "c", *SMALL, "--by", other, cwd=tmp_path), BAD_INPUT)
+
+
+def test_outcomes_are_the_networks_alone(tmp_path):
+    path = weights(tmp_path / "blind.safetensors")
+    arguments = ("danger", "dataset", tmp_path / "a", "--transitions", "400", "--part-drives", "20", "--no-tables", "--outcomes")
+    result = saca(*arguments, "--by", path, "--json", cwd=tmp_path)
+    assert result.returncode == SUCCESS, result.stderr
+    told = json.loads(result.stdout)
+    assert told["danger.dataset.situations"] == told["danger.dataset.drives"], "one situation a drive"
+    one_error(saca(*arguments, cwd=tmp_path), WRONG_COMMAND_LINE)
+    assert "journal.txt" in one_error(saca("danger", "dataset", tmp_path / "a", *SMALL, "--by", path, cwd=tmp_path), BAD_INPUT)
+
+
+def test_shows_values_beside_exact_ones(tmp_path):
+    path = weights(tmp_path / "blind.safetensors")
+    (tmp_path / "small.toml").write_text((ROOT / "data/reach/paper_ellipse.toml").read_text()
+                                         .replace("points = 56", "points = 14").replace("points = 24", "points = 8")
+                                         .replace("points = 36", "points = 12").replace("points = 16", "points = 6"))
+    assert saca("reach", "solve", "small.toml", "--output", "small.h5", "--without-error", cwd=tmp_path).returncode == SUCCESS
+    show = ("danger", "show", path, "--table", "small.h5")
+    shown = saca(*show, "--output", "a.png", "--speed-mps", "8", cwd=tmp_path)
+    assert shown.returncode == SUCCESS, shown.stderr
+    assert (tmp_path / "a.png").read_bytes()[1:4] == b"PNG"
+    one_error(saca(*show, "--output", "a.html", cwd=tmp_path), WRONG_COMMAND_LINE)
+    assert "no_such.h5" in one_error(saca("danger", "show", path, "--table", "no_such.h5", cwd=tmp_path), BAD_INPUT)
+    assert "no/folder" in one_error(saca(*show, "--output", "/proc/no/folder/a.png", cwd=tmp_path), CANNOT_WRITE)
