@@ -171,7 +171,7 @@ CheckFigures figures_of(const std::vector<Checked>& all,
     }
     if (std::abs(one.best) < near) {
       add(figures.agreeing_near, told_safe == is_safe);
-      const double error = told - one.best;
+      const double error = one.told - one.best;
       errors.push_back(std::abs(error));
       figures.mean_error_near += std::abs(error);
       figures.bias_near += error;

@@ -47,7 +47,7 @@ struct CheckFigures {
   Share told_safe_given_hit;     ///< of what no drive evades
   Share false_alarms;            ///< told unsafe, of what some drive evades
   Share agreeing_near;           ///< sign, where the best is within 2 m of the boundary
-  double mean_error_near = 0.0;  ///< of V from the best, there: size [m]
+  double mean_error_near = 0.0;  ///< of V without margin from the best, there: size [m]
   double bias_near = 0.0;        ///< with its sign: > 0 too careful [m]
   double p99_error_near = 0.0;   ///< size [m]
   double lost_near = 0.0;  ///< mean by which driving by Q comes nearer than the best, there [m]
