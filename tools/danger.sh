@@ -22,7 +22,7 @@ else
   parts=()
 fi
 tools/setup.sh train
-mkdir -p "$work"
+mkdir -p "$work" "$(dirname "$output")"
 cmake --preset release -DSACA_TRAIN=ON >/dev/null
 cmake --build --preset release --target saca-train-danger saca_program -- --quiet
 saca=build/release/saca

@@ -222,7 +222,7 @@ Result<reach::DangerModel> usual_danger(const ScenarioInputs& inputs, bool with_
   if (!learned.has_value()) {
     return learned.error();
   }
-  if (!with_tables) {
+  if (!with_tables && learned.value()) {
     return model_of(inputs, {}, std::move(learned).value());
   }
   const auto needed = needed_tables(inputs);

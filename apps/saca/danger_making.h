@@ -33,8 +33,8 @@ struct ReadyTable {
 /// @return  an error where a car's limits are beyond what can be solved
 [[nodiscard]] Result<ReadyTable> ready_table(const Inputs& inputs, const reach::DangerCase& wanted);
 
-/// What was learnt of this car's danger and is shipped; none of other cars, nor of one whose
-/// numbers were changed since, which is said.
+/// What was learnt of this car's danger, models/danger/CAR.safetensors; none where there is no such
+/// file, or it is of a car whose numbers were changed since, which is said.
 /// @return  an error naming the file, what was wanted and what came
 [[nodiscard]] Result<reach::LearnedValue> learned_danger(const Inputs& inputs);
 
@@ -43,8 +43,8 @@ struct ReadyTable {
 [[nodiscard]] Result<reach::DangerModel> danger_by(const Inputs& inputs,
                                                    const std::vector<reach::DangerCase>& cases);
 
-/// By what was learnt, and nothing that must be waited for; or with all tables that the scenario's
-/// actors need and what was learnt beyond their ends.
+/// By what was learnt of the car, and nothing that must be waited for; where nothing was, or tables
+/// are wanted, with all tables that the scenario's actors need.
 /// @return  likewise
 [[nodiscard]] Result<reach::DangerModel> usual_danger(const ScenarioInputs& inputs,
                                                       bool with_tables);

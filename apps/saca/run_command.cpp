@@ -329,7 +329,7 @@ void add_run(CLI::App& line, int& exit_code) {
   command
       ->add_option("--danger", options->danger,
                    "tables: risks by solved tables, made when needed, seconds each; off: by a few "
-                   "evasions (default: by what was learnt of the car, else by a few evasions)")
+                   "evasions (default: by what was learnt of the car, if anything, else by tables)")
       ->check(one_of({"tables", "off"}));
   command->add_flag("--no-memory", options->no_memory, "As without --memory")->group("");
   command->add_flag("--review", options->review,

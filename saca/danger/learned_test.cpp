@@ -44,7 +44,7 @@ class Learned : public testing::Test {
   Learned() {
     metres_.fill(0.25);
     metres_[bin_of(15.0, 0.9, 1)] = 0.75;
-    metres_[bin_of(5.0, 0.9, 1)] = Margins::none;
+    metres_[bin_of(25.0, 0.3, 1)] = Margins::none;
   }
   [[nodiscard]] reach::LearnedValue value() const {
     return learned_value(
@@ -70,7 +70,9 @@ TEST_F(Learned, AddsTheMarginOfItsBin) {
               1e-4);
   EXPECT_NEAR(value()(ahead(6.0, 25.0), {}).value(), -6.0 + std::log1p(std::exp(1.25)) + 0.25,
               1e-4);
-  EXPECT_FALSE(value()(ahead(6.0, 5.0), {}).has_value()) << "no margin is enough there";
+  reach::Meeting slippery = ahead(6.0, 25.0);
+  slippery.grip = 0.3;
+  EXPECT_FALSE(value()(slippery, {}).has_value()) << "no margin is enough there";
 }
 
 TEST_F(Learned, SeesHowTheEgoTurns) {

@@ -12,9 +12,7 @@
 namespace saca::danger {
 namespace {
 
-constexpr std::array<double, 3> speed_bounds{10.0, 20.0, 30.0};  // [m/s]
-constexpr std::array<std::string_view, 4> speed_names{"below_10_mps", "10_to_20_mps",
-                                                      "20_to_30_mps", "from_30_mps"};
+constexpr double fast = 20.0;  // [m/s]
 constexpr double good_grip = 0.5;
 
 std::string word_of(std::size_t bin) {
@@ -33,16 +31,14 @@ double upper_bound(const Share& share, double confidence) {
 
 std::size_t bin_of(double speed, double grip, std::size_t num_obstacles) {
   expects(num_obstacles > 0, "an obstacle");
-  const auto* const fast = std::upper_bound(speed_bounds.begin(), speed_bounds.end(), speed);
-  const auto of_speed = static_cast<std::size_t>(fast - speed_bounds.begin());
-  return 4 * of_speed + (grip >= good_grip ? 2U : 0U) + (num_obstacles > 1 ? 1U : 0U);
+  return (speed >= fast ? 4U : 0U) + (grip >= good_grip ? 2U : 0U) + (num_obstacles > 1 ? 1U : 0U);
 }
 
 const std::array<std::string, num_bins>& bin_names() {
   static const std::array<std::string, num_bins> names = [] {
     std::array<std::string, num_bins> all;
     std::size_t next = 0;
-    for (const std::string_view speed : speed_names) {
+    for (const std::string_view speed : {"below_20_mps", "from_20_mps"}) {
       for (const std::string_view grip : {"slippery", "good_grip"}) {
         for (const std::string_view obstacles : {"one", "several"}) {
           all[next++] = fmt::format("{}.{}.{}", speed, grip, obstacles);

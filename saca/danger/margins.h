@@ -28,11 +28,11 @@ struct Share {
 constexpr double most_hits = 1e-3;
 constexpr double margin_confidence = 1.0 - 1e-6;
 
-/// Situations alike enough to share a margin: four bins of the ego's speed, two of the grip, one
-/// obstacle or several.
-constexpr std::size_t num_bins = 16;
+/// Situations that share a margin: two bins of the ego's speed, two of the grip, one obstacle or
+/// several. More bins ask for more drives: each wants some 14,000 that stay safe with its margin.
+constexpr std::size_t num_bins = 8;
 [[nodiscard]] std::size_t bin_of(double speed, double grip, std::size_t num_obstacles);
-/// "below_10_mps.slippery.one", ...
+/// "below_20_mps.slippery.one", ...
 [[nodiscard]] const std::array<std::string, num_bins>& bin_names();
 
 /// How often situations that were told safe were hit, by how safe they were told to be. Enough to

@@ -108,14 +108,14 @@ def test_without_enough_situations_nothing_is_told_safe(tmp_path):
     assert result.returncode == SUCCESS, result.stderr
     told = json.loads(result.stdout)
     margins = [told[key] for key in told if key.endswith(".margin_m")]
-    assert len(margins) == 16 and min(margins) == 1000.0
+    assert len(margins) == 8 and min(margins) == 1000.0
     assert sum(told[key] for key in told if key.endswith(".told_safe")) > 50
     assert not list(tmp_path.glob("*.json")), "what was counted is not left behind"
     checked = json.loads(saca("danger", "check", careful, "--situations", "60", "--json", cwd=tmp_path).stdout)
     assert checked["danger.net.hit_given_told_safe.n"] == 0
     assert checked["danger.net.false_alarm"] == 1.0
     assert checked["danger.net.plain.false_alarm"] < 0.5
-    assert checked["danger.net.from_30_mps.good_grip.one.margin_m"] == 1000.0
+    assert checked["danger.net.from_20_mps.good_grip.one.margin_m"] == 1000.0
 
 
 def test_an_interrupted_count_for_margins_goes_on(tmp_path):
@@ -145,8 +145,8 @@ def test_check_refuses_what_are_no_weights(tmp_path):
     assert "no_such_car" in one_error(saca("danger", "check", weights(tmp_path / "b", car="no_such_car"), cwd=tmp_path), BAD_INPUT)
     (tmp_path / "c").write_text("no weights")
     one_error(saca("danger", "check", tmp_path / "c", cwd=tmp_path), BAD_INPUT)
-    bad_margin = weights(tmp_path / "d", **{"margin.below_10_mps.slippery.one": "much"})
-    assert "margin.below_10_mps.slippery.one: want metres" in one_error(saca("danger", "check", bad_margin, cwd=tmp_path), BAD_INPUT)
+    bad_margin = weights(tmp_path / "d", **{"margin.below_20_mps.slippery.one": "much"})
+    assert "margin.below_20_mps.slippery.one: want metres" in one_error(saca("danger", "check", bad_margin, cwd=tmp_path), BAD_INPUT)
 
 
 def test_a_data_set_by_a_network_is_another(tmp_path):
