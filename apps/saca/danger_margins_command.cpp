@@ -113,7 +113,7 @@ std::optional<Error> count_for_margins(const MarginOptions& options, const Dange
       }
     }
     count.situations += static_cast<int>(some.size());
-    if (const auto problem = write_file(state, count_json(count, what).dump())) {
+    if (auto problem = write_file(state, count_json(count, what).dump())) {
       return problem;
     }
     line.show(count.situations, remembered, " situations");
@@ -155,7 +155,7 @@ int fit_margins(const MarginOptions& options) {
     const std::string& name = danger::bin_names()[bin];
     const auto margin = count.told[bin].margin();
     metres[bin] = margin.value_or(danger::Margins::none);
-    const Share plain = count.told[bin].hits_with(0);
+    const danger::Share plain = count.told[bin].hits_with(0);
     all["danger.net." + name + ".margin_m"] = metres[bin];
     all["danger.net." + name + ".told_safe"] = plain.of;
     if (!options.as_json) {
