@@ -249,7 +249,7 @@ int make_dataset(const DatasetOptions& options) {
                       fmt::format("{}: want weights of the car {}, got of {}", options.by,
                                   inputs.value().car_name, read.value().car_name)});
     }
-    network = std::move(read.value().network);
+    network = std::move(read).value().network;
   }
   const fs::path folder(options.folder);
   const fs::path journal_file = folder / "journal.txt";
