@@ -12,24 +12,14 @@
 
 namespace saca::app {
 
-namespace {
-
-Result<config::Tensors> read_danger_tensors(const std::string& path) {
-  const auto bytes = read_file(path, many_bytes);
-  return bytes.has_value() ? config::read_tensors(bytes.value(), path)
-                           : Result<config::Tensors>(bytes.error());
-}
-
-}  // namespace
-
 Result<danger::Network> read_danger_network(const std::string& path) {
-  const auto tensors = read_danger_tensors(path);
+  const auto tensors = config::read_tensor_file(path, many_bytes);
   return tensors.has_value() ? danger::Network::from(tensors.value(), path)
                              : Result<danger::Network>(tensors.error());
 }
 
 Result<DangerWeights> read_danger_weights(const std::string& path) {
-  auto tensors = read_danger_tensors(path);
+  auto tensors = config::read_tensor_file(path, many_bytes);
   if (!tensors.has_value()) {
     return tensors.error();
   }

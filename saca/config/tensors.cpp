@@ -178,6 +178,12 @@ Result<Tensors> read_tensors(std::string_view bytes, std::string_view source) {
   return result;
 }
 
+Result<Tensors> read_tensor_file(const std::filesystem::path& path, std::uintmax_t most) {
+  const auto bytes = read_file(path, most);
+  return bytes.has_value() ? read_tensors(bytes.value(), path.string())
+                           : Result<Tensors>(bytes.error());
+}
+
 std::string tensor_bytes(const Tensors& tensors) {
   json header = json::object();
   if (!tensors.words.empty()) {

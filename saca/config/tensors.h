@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "saca/core/file.h"
 #include "saca/core/result.h"
 
 namespace saca::config {
@@ -31,6 +34,11 @@ struct Tensors {
 /// Source: Hugging Face, safetensors, README, section Format (little-endian: 8 bytes of size, JSON,
 /// numbers).
 [[nodiscard]] Result<Tensors> read_tensors(std::string_view bytes, std::string_view source);
+
+/// Those of a file of at most so many bytes.
+/// @return  likewise, or as read_file
+[[nodiscard]] Result<Tensors> read_tensor_file(const std::filesystem::path& path,
+                                               std::uintmax_t most = usual_bytes);
 
 /// The same tensors make the same bytes.
 /// @throws ContractViolation  if a tensor has not as many numbers as its shape says

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "saca/core/file.h"
 #include "saca/intent/line.h"
 #include "saca/intent/observed.h"
 #include "saca/intent/walkers.h"
@@ -52,11 +51,7 @@ Result<MixtureModel> MixtureModel::from(const config::Tensors& tensors, std::str
 }
 
 Result<MixtureModel> MixtureModel::read(const std::filesystem::path& path) {
-  const auto bytes = read_file(path);
-  if (!bytes.has_value()) {
-    return bytes.error();
-  }
-  const auto tensors = config::read_tensors(bytes.value(), path.string());
+  const auto tensors = config::read_tensor_file(path);
   return tensors.has_value() ? from(tensors.value(), path.string())
                              : Result<MixtureModel>(tensors.error());
 }

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "saca/core/contract.h"
-#include "saca/core/file.h"
 #include "saca/core/fnv.h"
 
 namespace saca::intent {
@@ -142,11 +141,7 @@ std::uint64_t digest(const Model& model) {
 }
 
 Result<Model> read_model(const std::filesystem::path& path) {
-  const auto bytes = read_file(path);
-  if (!bytes.has_value()) {
-    return bytes.error();
-  }
-  const auto tensors = config::read_tensors(bytes.value(), path.string());
+  const auto tensors = config::read_tensor_file(path);
   if (!tensors.has_value()) {
     return tensors.error();
   }

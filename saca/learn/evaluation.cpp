@@ -9,7 +9,6 @@
 
 #include "saca/config/tensors.h"
 #include "saca/core/contract.h"
-#include "saca/core/file.h"
 #include "saca/learn/foretell.h"
 
 namespace saca::learn {
@@ -119,11 +118,7 @@ Result<ModelsByLeftOut> read_models(const fs::path& folder) {
   }
   ModelsByLeftOut models;
   for (const fs::path& file : files) {
-    const auto bytes = read_file(file);
-    if (!bytes.has_value()) {
-      return bytes.error();
-    }
-    const auto tensors = config::read_tensors(bytes.value(), file.string());
+    const auto tensors = config::read_tensor_file(file);
     if (!tensors.has_value()) {
       return tensors.error();
     }
