@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -14,16 +13,15 @@
 #include <utility>
 #include <vector>
 
+#include "apps/train/program.h"
 #include "saca/config/tensors.h"
 #include "saca/core/file.h"
 #include "saca/core/parallel.h"
-#include "saca/core/standard_files.h"
 #include "saca/danger/experience.h"
 #include "saca/danger/learned.h"
 #include "saca/danger/network.h"
 #include "saca/danger/transition_file.h"
 #include "saca/manoeuvre/ego.h"
-#include "saca/train/blas.h"
 #include "saca/train/danger_training.h"
 
 namespace {
@@ -31,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace saca;
 
-volatile std::sig_atomic_t is_to_end = 0;
+constexpr std::string_view program = "saca-train-danger";
 
 struct Options {
   std::string folder;
@@ -106,7 +104,7 @@ Result<Data> read_data(const std::string& folder, const std::string& root) {
     }
     data.transitions += part.value().transitions.size();
     data.drives += part.value().transitions.drives;
-    if (is_to_end != 0) {
+    if (train_program::is_to_stop()) {
       break;
     }
   }
@@ -117,13 +115,6 @@ Result<Data> read_data(const std::string& folder, const std::string& root) {
     }
   }
   return data;
-}
-
-int give_up(const Error& error) {
-  fmt::print(stderr, "saca-train-danger: error: {}\n", error.message);
-  constexpr int bad_input = 3;
-  constexpr int cannot_write = 4;
-  return error.code == Error::Code::unwritable ? cannot_write : bad_input;
 }
 
 /// Tells of a training, and keeps its curve.
@@ -141,7 +132,7 @@ class Curve {
           "reached {:.2f} %, {:.0f} s\n",
           now.step, now.steps, now.v_loss, now.q_loss, now.mean_v, 100.0 * now.above, seconds_);
       std::fflush(stdout);
-      return is_to_end == 0;
+      return !train_program::is_to_stop();
     };
   }
   [[nodiscard]] const std::string& text() const { return text_; }
@@ -151,32 +142,18 @@ class Curve {
   double seconds_ = 0.0;
 };
 
-int stopped() {
-  fmt::print(stderr, "saca-train-danger: stopped; the same command goes on from here\n");
-  constexpr int interrupted = 130;
-  return interrupted;
-}
-
 /// Networks of one obstacle or two: V and Q by the data alone, or V from outcomes.
 class Trainings {
  public:
   Trainings(const Options& options, const Data& data) : options_(options), data_(data) {}
 
   Result<train::DangerNets> singles() {
-    const auto hear = curve_.of(data_.singles);
-    return from_outcomes() ? train::policy_values(data_.singles, nullptr, options_.plan,
-                                                  options_.threads, state(), hear)
-                           : train::trained_danger(data_.singles, options_.plan, options_.threads,
-                                                   state(), hear);
+    return trained(data_.singles, nullptr, options_.plan, state());
   }
   Result<train::DangerNets> pairs(train::DangerNets& singles) {
     train::DangerPlan plan = options_.plan;
     plan.steps = options_.pair_steps;
-    const auto hear = curve_.of(data_.pairs);
-    return from_outcomes() ? train::policy_values(data_.pairs, &singles, plan, options_.threads,
-                                                  pairs_state(), hear)
-                           : train::trained_pairs(data_.pairs, singles, plan, options_.threads,
-                                                  pairs_state(), hear);
+    return trained(data_.pairs, &singles, plan, pairs_state());
   }
   /// What is shipped of networks.
   void add_to(config::Tensors& tensors, const train::DangerNets& nets,
@@ -196,6 +173,12 @@ class Trainings {
   [[nodiscard]] const std::string& curve() const { return curve_.text(); }
 
  private:
+  Result<train::DangerNets> trained(const danger::Experience& experience,
+                                    train::DangerNets* singles, const train::DangerPlan& plan,
+                                    const std::string& state) {
+    const auto& learn = from_outcomes() ? train::policy_values : train::trained_danger;
+    return learn(experience, singles, plan, options_.threads, state, curve_.of(experience));
+  }
   [[nodiscard]] bool from_outcomes() const { return !options_.values_of.empty(); }
   [[nodiscard]] std::string state() const { return options_.output + ".state"; }
   [[nodiscard]] std::string pairs_state() const { return options_.output + ".pairs.state"; }
@@ -211,11 +194,7 @@ Result<config::Tensors> earlier_weights(const Options& options, const Data& data
     return config::Tensors{};
   }
   constexpr std::size_t most_bytes = std::size_t{1} << 30U;
-  const auto bytes = read_file(options.values_of, most_bytes);
-  if (!bytes.has_value()) {
-    return bytes.error();
-  }
-  auto tensors = config::read_tensors(bytes.value(), options.values_of);
+  auto tensors = config::read_tensor_file(options.values_of, most_bytes);
   if (!tensors.has_value()) {
     return tensors.error();
   }
@@ -235,23 +214,23 @@ Result<config::Tensors> earlier_weights(const Options& options, const Data& data
 int train_danger(const Options& options) {
   const auto read = read_data(options.folder, options.root);
   if (!read.has_value()) {
-    return give_up(read.error());
+    return train_program::failed(program, read.error());
   }
   const Data& data = read.value();
   auto earlier = earlier_weights(options, data);
   if (!earlier.has_value()) {
-    return give_up(earlier.error());
+    return train_program::failed(program, earlier.error());
   }
-  if (is_to_end != 0) {
-    return stopped();
+  if (train_program::is_to_stop()) {
+    return train_program::stopped(program);
   }
   Trainings trainings(options, data);
   const auto singles = trainings.singles();
   if (!singles.has_value()) {
-    return give_up(singles.error());
+    return train_program::failed(program, singles.error());
   }
-  if (is_to_end != 0) {
-    return stopped();
+  if (train_program::is_to_stop()) {
+    return train_program::stopped(program);
   }
   train::DangerNets nets = singles.value();
   config::Tensors tensors = std::move(earlier).value();
@@ -263,10 +242,10 @@ int train_danger(const Options& options) {
   if (options.pair_steps > 0) {
     const auto pairs = trainings.pairs(nets);
     if (!pairs.has_value()) {
-      return give_up(pairs.error());
+      return train_program::failed(program, pairs.error());
     }
-    if (is_to_end != 0) {
-      return stopped();
+    if (train_program::is_to_stop()) {
+      return train_program::stopped(program);
     }
     trainings.add_to(tensors, pairs.value(), "pair_");
   }
@@ -286,14 +265,14 @@ int train_danger(const Options& options) {
   tensors.words.clear();
   const auto network = danger::Network::from(tensors, options.output);
   if (!network.has_value()) {
-    return give_up(network.error());
+    return train_program::failed(program, network.error());
   }
   words["digest"] = fmt::format("{:016x}", network.value().digest());
   tensors.words = std::move(words);
   for (const auto& [path, text] : {std::pair{options.output, config::tensor_bytes(tensors)},
                                    std::pair{options.output + ".curve.csv", trainings.curve()}}) {
     if (const auto problem = write_file(path, text)) {
-      return give_up(*problem);
+      return train_program::failed(program, *problem);
     }
   }
   if (options.pair_steps > 0) {  // else kept: pairs may yet be learnt on top
@@ -305,8 +284,7 @@ int train_danger(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  saca::train::give_each_thread_its_own_products(argv);
-  saca::occupy_standard_files();
+  train_program::begin(argv);
   CLI::App app("Trains V_h and Q_h from transitions alone, with libtorch");
   Options options;
   app.add_option("FOLDER", options.folder, "Of the parts that `saca danger dataset` made")
@@ -334,7 +312,5 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  std::signal(SIGINT, [](int) { is_to_end = 1; });
-  torch::set_num_threads(1);  // each half of a batch by itself: the same bytes each time
   return train_danger(options);
 }

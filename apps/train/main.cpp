@@ -4,24 +4,23 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "apps/train/program.h"
 #include "saca/core/file.h"
 #include "saca/core/fnv.h"
 #include "saca/core/parallel.h"
-#include "saca/core/standard_files.h"
 #include "saca/intent/model.h"
 #include "saca/learn/calibration.h"
 #include "saca/learn/evaluation.h"
 #include "saca/learn/sequence_file.h"
-#include "saca/train/blas.h"
 #include "saca/train/training.h"
 
 namespace {
@@ -30,7 +29,7 @@ namespace fs = std::filesystem;
 using namespace saca;
 using learn::Sequence;
 
-volatile std::sig_atomic_t was_told_to_stop = 0;
+constexpr std::string_view program = "saca-train";
 
 struct Options {
   std::string sequences;
@@ -78,13 +77,6 @@ Result<Data> read_data(const Options& options) {
   return data;
 }
 
-int fail(const Error& error) {
-  fmt::print(stderr, "saca-train: error: {}\n", error.message);
-  constexpr int bad_input = 3;
-  constexpr int cannot_write = 4;
-  return error.code == Error::Code::unwritable ? cannot_write : bad_input;
-}
-
 /// The tensors, with words on where they come from.
 config::Tensors described(const Options& options, config::Tensors tensors) {
   const auto bytes = read_file(options.sequences, many_bytes);
@@ -114,11 +106,7 @@ Result<std::vector<ModelFile>> read_model_files(const fs::path& folder) {
     if (entry.path().extension() != ".safetensors") {
       continue;
     }
-    const auto bytes = read_file(entry.path(), many_bytes);
-    if (!bytes.has_value()) {
-      return bytes.error();
-    }
-    auto tensors = config::read_tensors(bytes.value(), entry.path().string());
+    auto tensors = config::read_tensor_file(entry.path(), many_bytes);
     if (!tensors.has_value()) {
       return tensors.error();
     }
@@ -153,7 +141,7 @@ Result<std::vector<learn::Forecasts>> unseen_forecasts(std::vector<ModelFile> fi
 int calibrate_models(const Options& options) {
   const auto set = learn::read_sequences(options.sequences);
   if (!set.has_value()) {
-    return fail(set.error());
+    return train_program::failed(program, set.error());
   }
   std::vector<Sequence> recorded;
   std::vector<std::string> splits;
@@ -165,12 +153,12 @@ int calibrate_models(const Options& options) {
   }
   auto read = read_model_files(options.calibrate);
   if (!read.has_value()) {
-    return fail(read.error());
+    return train_program::failed(program, read.error());
   }
   std::vector<ModelFile> files = std::move(read).value();
   const auto forecasts = unseen_forecasts(files, recorded, splits);
   if (!forecasts.has_value()) {
-    return fail(forecasts.error());
+    return train_program::failed(program, forecasts.error());
   }
   for (ModelFile& file : files) {
     std::vector<Sequence> sequences;
@@ -183,7 +171,7 @@ int calibrate_models(const Options& options) {
     }
     train::set_calibrations(file.tensors, learn::best_calibrations(sequences, of_them));
     if (const auto problem = write_file(file.path, config::tensor_bytes(file.tensors))) {
-      return fail(*problem);
+      return train_program::failed(program, *problem);
     }
     fmt::print("{}: calibrated on {} sequences\n", file.path.filename().string(), sequences.size());
   }
@@ -193,7 +181,7 @@ int calibrate_models(const Options& options) {
 int train_model(const Options& options) {
   auto read = read_data(options);
   if (!read.has_value()) {
-    return fail(read.error());
+    return train_program::failed(program, read.error());
   }
   const Data data = std::move(read).value();
   fmt::print("{} sequences to train with, {} held out\n", data.training.size(),
@@ -213,24 +201,22 @@ int train_model(const Options& options) {
                      i + 1, options.networks, now.number, plan.epochs, now.loss, held_out,
                      now.seconds);
           std::fflush(stdout);
-          return was_told_to_stop == 0;
+          return !train_program::is_to_stop();
         });
     if (!network.has_value()) {
-      return fail(network.error());
+      return train_program::failed(program, network.error());
     }
-    if (was_told_to_stop != 0) {
-      fmt::print(stderr, "saca-train: stopped; the same command goes on from here\n");
-      constexpr int interrupted = 130;
-      return interrupted;
+    if (train_program::is_to_stop()) {
+      return train_program::stopped(program);
     }
     networks.push_back(network.value());
   }
   const config::Tensors tensors = described(options, train::model_tensors(networks));
   if (const auto problem = write_file(options.output, config::tensor_bytes(tensors))) {
-    return fail(*problem);
+    return train_program::failed(program, *problem);
   }
   if (const auto problem = write_file(options.output + ".curve.csv", curve)) {
-    return fail(*problem);
+    return train_program::failed(program, *problem);
   }
   for (int i = 0; i < options.networks; ++i) {
     fs::remove(fmt::format("{}.network{}.state", options.output, i));
@@ -241,8 +227,7 @@ int train_model(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  saca::train::give_each_thread_its_own_products(argv);
-  saca::occupy_standard_files();
+  train_program::begin(argv);
   CLI::App app("Trains the model of intentions: an LSTM-CRF, with libtorch");
   Options options;
   app.add_option("sequences", options.sequences, "HDF5 file of `saca intent examples`")->required();
@@ -269,13 +254,12 @@ int main(int argc, char** argv) {
   app.add_flag("!--without-chain", options.plan.with_chain,
                "Train each frame for itself: the LSTM without the CRF, for comparison");
   CLI11_PARSE(app, argc, argv);
-  std::signal(SIGINT, [](int) { was_told_to_stop = 1; });
-  torch::set_num_threads(1);  // the same bytes each time; two trainings side by side use both cores
   if (!options.calibrate.empty()) {
     return calibrate_models(options);
   }
   if (options.output.empty()) {
-    return fail({Error::Code::out_of_range, "want --output or --calibrate"});
+    return train_program::failed(program,
+                                 {Error::Code::out_of_range, "want --output or --calibrate"});
   }
   return train_model(options);
 }

@@ -4,26 +4,25 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "apps/train/program.h"
 #include "saca/core/file.h"
 #include "saca/core/fnv.h"
 #include "saca/core/parallel.h"
-#include "saca/core/standard_files.h"
 #include "saca/eval/place_examples.h"
 #include "saca/eval/suite.h"
 #include "saca/eval/suite_source.h"
 #include "saca/eval/traffic_drives.h"
 #include "saca/manoeuvre/ego.h"
-#include "saca/train/blas.h"
 #include "saca/train/place_mixture.h"
 
 namespace {
@@ -32,7 +31,7 @@ namespace fs = std::filesystem;
 using namespace saca;
 using Sequences = std::vector<std::vector<eval::PlaceExample>>;
 
-volatile std::sig_atomic_t is_to_stop = 0;
+constexpr std::string_view program = "saca-train-places";
 
 struct Options {
   std::vector<std::string> data;
@@ -124,9 +123,9 @@ std::optional<Error> add_suite(const std::string& suite, const Options& options,
 
 /// Recorded drives of every site but the one that is left out.
 std::optional<Error> add_traffic(const Options& options, const World& world, Data& data) {
-  const auto found = eval::traffic_drives({options.data.begin(), options.data.end()},
-                                          static_cast<std::size_t>(options.drives),
-                                          options.schedule.seed, [] { return is_to_stop == 0; });
+  const auto found = eval::traffic_drives(
+      {options.data.begin(), options.data.end()}, static_cast<std::size_t>(options.drives),
+      options.schedule.seed, [] { return !train_program::is_to_stop(); });
   if (!found.has_value()) {
     return found.error();
   }
@@ -159,27 +158,20 @@ std::optional<Error> add_traffic(const Options& options, const World& world, Dat
   return std::nullopt;
 }
 
-int failed(const Error& error) {
-  fmt::print(stderr, "saca-train-places: error: {}\n", error.message);
-  constexpr int bad_input = 3;
-  constexpr int cannot_write = 4;
-  return error.code == Error::Code::unwritable ? cannot_write : bad_input;
-}
-
 int train_places(const Options& options) {
   const auto world = read_world(options.root);
   if (!world.has_value()) {
-    return failed(world.error());
+    return train_program::failed(program, world.error());
   }
   Data data;
   for (const char* const suite : {"balanced", "natural"}) {
     if (const auto problem = add_suite(suite, options, world.value(), data)) {
-      return failed(*problem);
+      return train_program::failed(program, *problem);
     }
   }
   if (!options.data.empty()) {
     if (const auto problem = add_traffic(options, world.value(), data)) {
-      return failed(*problem);
+      return train_program::failed(program, *problem);
     }
   }
   const auto pieces = train::place_pieces(data.training, options.longest);
@@ -187,8 +179,8 @@ int train_places(const Options& options) {
   fmt::print("{} pieces to train with, {} held out\n", pieces.size(), held_out.size());
   std::fflush(stdout);
   if (pieces.empty()) {
-    return failed(
-        {Error::Code::out_of_range, "--encounters, --data: want something to learn from"});
+    return train_program::failed(
+        program, {Error::Code::out_of_range, "--encounters, --data: want something to learn from"});
   }
   std::string curve = "epoch,training_loss,held_out_loss,seconds\n";
   const std::string state = options.output + ".state";
@@ -199,15 +191,13 @@ int train_places(const Options& options) {
         fmt::print("epoch {} of {}: loss {:.4f}, held out {:.4f}, {:.1f} s\n", now.number,
                    options.schedule.epochs, now.loss, other, now.seconds);
         std::fflush(stdout);
-        return is_to_stop == 0;
+        return !train_program::is_to_stop();
       });
   if (!network.has_value()) {
-    return failed(network.error());
+    return train_program::failed(program, network.error());
   }
-  if (is_to_stop != 0) {
-    fmt::print(stderr, "saca-train-places: stopped; the same command goes on from here\n");
-    constexpr int interrupted = 130;
-    return interrupted;
+  if (train_program::is_to_stop()) {
+    return train_program::stopped(program);
   }
   config::Tensors tensors = network.value()->tensors();
   tensors.words = {{"left_out", options.leave_out.empty() ? "nothing" : options.leave_out},
@@ -216,10 +206,10 @@ int train_places(const Options& options) {
                    {"encounters", std::to_string(options.encounters)},
                    {"drives", std::to_string(options.data.empty() ? 0 : options.drives)}};
   if (const auto problem = write_file(options.output, config::tensor_bytes(tensors))) {
-    return failed(*problem);
+    return train_program::failed(program, *problem);
   }
   if (const auto problem = write_file(options.output + ".curve.csv", curve)) {
-    return failed(*problem);
+    return train_program::failed(program, *problem);
   }
   fs::remove(state);
   return 0;
@@ -228,8 +218,7 @@ int train_places(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  saca::train::give_each_thread_its_own_products(argv);
-  saca::occupy_standard_files();
+  train_program::begin(argv);
   CLI::App app("Trains what foretells where vehicles go: a mixture density network, with libtorch");
   Options options;
   app.add_option("--output", options.output, "safetensors file of the weights")->required();
@@ -252,7 +241,5 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  std::signal(SIGINT, [](int) { is_to_stop = 1; });
-  torch::set_num_threads(1);  // the same bytes each time
   return train_places(options);
 }

@@ -4,23 +4,22 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "apps/train/program.h"
 #include "saca/core/file.h"
 #include "saca/core/parallel.h"
-#include "saca/core/standard_files.h"
 #include "saca/danger/experience.h"
 #include "saca/danger/point_mass.h"
 #include "saca/reach/authors_comparison.h"
 #include "saca/reach/value_table.h"
-#include "saca/train/blas.h"
 #include "saca/train/danger_training.h"
 
 namespace {
@@ -29,7 +28,7 @@ namespace fs = std::filesystem;
 using namespace saca;
 using nlohmann::json;
 
-volatile std::sig_atomic_t is_to_end = 0;
+constexpr std::string_view program = "saca-train-point-mass";
 
 struct Options {
   std::string table;
@@ -39,19 +38,6 @@ struct Options {
   int threads = usual_threads();
   train::DangerPlan plan;
 };
-
-int give_up(const Error& error) {
-  fmt::print(stderr, "saca-train-point-mass: error: {}\n", error.message);
-  constexpr int bad_input = 3;
-  constexpr int cannot_write = 4;
-  return error.code == Error::Code::unwritable ? cannot_write : bad_input;
-}
-
-constexpr int interrupted = 130;
-int stopped() {
-  fmt::print(stderr, "saca-train-point-mass: stopped; the same command goes on from here\n");
-  return interrupted;
-}
 
 /// Prints the points of a curve, and keeps them as a table.
 class Curve {
@@ -65,7 +51,7 @@ class Curve {
     fmt::print("{}: step {} of {}: losses {:.4f} and {:.4f}, mean V {:.3f} m, {:.0f} s\n", name_,
                now.step, now.steps, now.v_loss, now.q_loss, now.mean_v, seconds_);
     std::fflush(stdout);
-    return is_to_end == 0;
+    return !train_program::is_to_stop();
   }
   [[nodiscard]] double seconds() const { return seconds_; }
   [[nodiscard]] const std::string& text() const { return text_; }
@@ -131,7 +117,7 @@ json rung_figures(const danger::ExactPointMass& exact, const reach::ValueAt& val
 int train_point_mass(const Options& options) {
   const auto read = danger::read_exact_point_mass(options.table);
   if (!read.has_value()) {
-    return give_up(read.error());
+    return train_program::failed(program, read.error());
   }
   const danger::ExactPointMass& exact = read.value();
   const reach::ValueAt value = exact.value();
@@ -149,10 +135,10 @@ int train_point_mass(const Options& options) {
         train::fitted_values(outcomes, options.plan, options.threads, folder / "fitted.state",
                              [&](const train::DangerProgress& now) { return of_fitted.add(now); });
     if (!fitted.has_value()) {
-      return give_up(fitted.error());
+      return train_program::failed(program, fitted.error());
     }
-    if (is_to_end != 0) {
-      return stopped();
+    if (train_program::is_to_stop()) {
+      return train_program::stopped(program);
     }
     fitted.value()->add_to(fitted_weights, "v.");
     figures["fitted_iteration"] = rung_figures(exact, value, fitted.value());
@@ -165,14 +151,14 @@ int train_point_mass(const Options& options) {
   danger::add_experience(experience, made, exact.problem.ego, exact.problem.obstacle.shape);
   fmt::print("{} transitions\n", experience.size());
   Curve of_offline("from data");
-  const auto nets =
-      train::trained_danger(experience, options.plan, options.threads, folder / "offline.state",
-                            [&](const train::DangerProgress& now) { return of_offline.add(now); });
+  const auto nets = train::trained_danger(
+      experience, nullptr, options.plan, options.threads, folder / "offline.state",
+      [&](const train::DangerProgress& now) { return of_offline.add(now); });
   if (!nets.has_value()) {
-    return give_up(nets.error());
+    return train_program::failed(program, nets.error());
   }
-  if (is_to_end != 0) {
-    return stopped();
+  if (train_program::is_to_stop()) {
+    return train_program::stopped(program);
   }
   figures["from_data"] = rung_figures(exact, value, nets.value()->v);
   figures["from_data"]["seconds"] = of_offline.seconds();
@@ -187,7 +173,7 @@ int train_point_mass(const Options& options) {
            {"from_data.curve.csv", of_offline.text()},
            {"figures.json", figures.dump(2) + "\n"}}) {
     if (const auto unwritable = write_file(folder / name, text)) {
-      return give_up(*unwritable);
+      return train_program::failed(program, *unwritable);
     }
   }
   fs::remove(folder / "fitted.state");
@@ -198,8 +184,7 @@ int train_point_mass(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  saca::train::give_each_thread_its_own_products(argv);
-  saca::occupy_standard_files();
+  train_program::begin(argv);
   CLI::App app("Learns V_h of a point mass in two ways, and holds them against the exact table");
   Options options;
   app.add_option("TABLE", options.table, "Of `saca reach solve`, of an obstacle at rest")
@@ -226,7 +211,5 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  std::signal(SIGINT, [](int) { is_to_end = 1; });
-  torch::set_num_threads(1);  // each half of a batch by itself: the same bytes each time
   return train_point_mass(options);
 }

@@ -1,0 +1,43 @@
+#include "apps/train/program.h"
+
+#include <fmt/core.h>
+#include <torch/torch.h>
+
+#include <csignal>
+#include <cstdio>
+
+#include "saca/core/standard_files.h"
+#include "saca/train/blas.h"
+
+namespace saca::train_program {
+namespace {
+
+volatile std::sig_atomic_t was_told_to_stop = 0;
+
+}  // namespace
+
+void begin(char** argv) {
+  train::give_each_thread_its_own_products(argv);
+  occupy_standard_files();
+  torch::set_num_threads(1);
+  std::signal(SIGINT, [](int) { was_told_to_stop = 1; });
+}
+
+bool is_to_stop() {
+  return was_told_to_stop != 0;
+}
+
+int failed(std::string_view program, const Error& error) {
+  fmt::print(stderr, "{}: error: {}\n", program, error.message);
+  constexpr int bad_input = 3;
+  constexpr int cannot_write = 4;
+  return error.code == Error::Code::unwritable ? cannot_write : bad_input;
+}
+
+int stopped(std::string_view program) {
+  fmt::print(stderr, "{}: stopped; the same command goes on from here\n", program);
+  constexpr int interrupted = 130;
+  return interrupted;
+}
+
+}  // namespace saca::train_program
