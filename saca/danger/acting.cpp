@@ -43,12 +43,6 @@ StaticVector<SeenByNet, most_obstacles> all_seen(const world::Footprint& body, c
   return all;
 }
 
-void move_on(State& state, double time) {
-  for (Obstacle& obstacle : state.obstacles) {
-    obstacle = after(obstacle, time);
-  }
-}
-
 }  // namespace
 
 Demand least_q(const Network& network, const world::Footprint& body, const State& state) {
@@ -85,7 +79,7 @@ double highest_h(const manoeuvre::Car& car, const world::Footprint& body,
   double highest = intrusion(body, state);
   for (int look = 0; look < most_looks && !is_settled(body, state); ++look) {
     for (const Pose& pose : driven.hold(policy(state, look_step * look))) {
-      move_on(state, between);
+      move_obstacles(state, between);
       state.ego.X_WB = pose;
       highest = std::max(highest, intrusion(body, state));
     }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "saca/core/contract.h"
+#include "saca/danger/networks_for_test.h"
 #include "saca/manoeuvre/default_car.h"
 #include "saca/manoeuvre/ego.h"
 #include "saca/world/scene.h"
@@ -19,23 +20,12 @@ const world::Footprint body{.length = 4.3, .width = 1.8, .centre_x = 0.1};
 
 /// A network whose Q falls with one of the two numbers of a demand, and whose V adds `v` to h.
 Network preferring(std::size_t number, double sign) {
-  config::Tensors all;
+  config::Tensors all = networks_that_hand_on();
   for (const std::string name : {"v.", "q1.", "q2."}) {
-    const std::size_t inputs = num_net_inputs + (name == "v." ? 0 : 2);
-    for (std::size_t k = 0; k < 4; ++k) {
-      const std::size_t rows = k < 3 ? Network::width : 1;
-      const std::size_t columns = k > 0 ? Network::width : inputs;
-      config::Tensor weight{{rows, columns}, std::vector<float>(rows * columns, 0.0F)};
-      if (k > 0) {
-        weight.values[0] = 1.0F;
-      } else if (name != "v.") {
-        weight.values[num_net_inputs + number] = static_cast<float>(sign);
-      }
-      config::Tensor bias{{rows}, std::vector<float>(rows, 0.0F)};
-      bias.values[0] = k == 0 ? 2.0F : 0.0F;
-      all.tensors[name + std::to_string(k) + ".weight"] = weight;
-      all.tensors[name + std::to_string(k) + ".bias"] = bias;
+    if (name != "v.") {
+      all.tensors.at(name + "0.weight").values[num_net_inputs + number] = static_cast<float>(sign);
     }
+    all.tensors.at(name + "0.bias").values[0] = 2.0F;
   }
   return Network::from(all, "weights").value();
 }

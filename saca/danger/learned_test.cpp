@@ -10,6 +10,7 @@
 #include <string>
 
 #include "saca/config/tensors.h"
+#include "saca/danger/networks_for_test.h"
 #include "saca/danger/state.h"
 #include "saca/manoeuvre/default_car.h"
 #include "saca/manoeuvre/ego.h"
@@ -20,21 +21,11 @@ namespace {
 /// Layers that hand on the first input, v_x / 20, and the sixth, the steering / 0.2: V = h +
 /// log(1 + exp(first + sixth)), as long as both are positive.
 config::Tensors handing_on() {
-  config::Tensors all;
-  for (const auto& [name, inputs] : {std::pair{"v.", num_net_inputs},
-                                     {"q1.", num_net_inputs + 2},
-                                     {"q2.", num_net_inputs + 2}}) {
-    for (std::size_t k = 0; k < 4; ++k) {
-      const std::size_t rows = k < 3 ? Network::width : 1;
-      const std::size_t columns = k > 0 ? Network::width : inputs;
-      config::Tensor weight{{rows, columns}, std::vector<float>(rows * columns)};
-      weight.values[0] = 1.0F;
-      if (k == 0) {
-        weight.values[5] = 1.0F;
-      }
-      all.tensors[name + std::to_string(k) + ".weight"] = weight;
-      all.tensors[name + std::to_string(k) + ".bias"] = {{rows}, std::vector<float>(rows)};
-    }
+  config::Tensors all = networks_that_hand_on();
+  for (const char* const name : {"v.", "q1.", "q2."}) {
+    std::vector<float>& first = all.tensors.at(name + std::string("0.weight")).values;
+    first[0] = 1.0F;
+    first[5] = 1.0F;
   }
   return all;
 }

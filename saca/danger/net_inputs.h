@@ -43,11 +43,13 @@ struct SeenByNet {
 constexpr std::size_t num_pair_inputs = 2 * num_net_inputs + 2;
 constexpr float pair_value_scale = 0.2F;  ///< of V_h among them [1/m]
 
+constexpr double pair_counts_from = -10.0;  ///< [m]
+constexpr double pair_share_slope = 0.2;    ///< [1/m]
 /// How much of what is learnt of a pair counts: nothing where the one that is less dangerous can be
 /// passed at 10 m or more, all from 5 m on.
 /// @param v  the lower of both V_h [m]
 [[nodiscard]] inline double pair_share(double v) {
-  return std::clamp(0.2 * (v + 10.0), 0.0, 1.0);
+  return std::clamp(pair_share_slope * (v - pair_counts_from), 0.0, 1.0);
 }
 
 }  // namespace saca::danger

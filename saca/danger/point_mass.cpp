@@ -114,15 +114,13 @@ class PointMassDrives {
       const Look look = driven_look(problem_, now, demand);
       const State next = as_seen(problem_, look.end);
       is_over = is_settled(problem_.ego, next);
-      add(made_.observations, observation(seen));
-      add(made_.next_observations, observation(next));
-      made_.actions.insert(made_.actions.end(),
-                           {static_cast<float>(demand.along), static_cast<float>(demand.across)});
-      made_.h.push_back(static_cast<float>(look.deepest));
-      made_.next_h.push_back(static_cast<float>(intrusion_at(problem_, look.end)));
-      made_.settled.push_back(is_over ? 1.0F : 0.0F);
-      made_.cut_off.push_back(!is_over && i + 1 == mixture_.looks ? 1.0F : 0.0F);
-      made_.drive.push_back(static_cast<float>(made_.drives));
+      made_.add({.observation = observation(seen),
+                 .demand = demand,
+                 .h = look.deepest,
+                 .next_observation = observation(next),
+                 .next_h = intrusion_at(problem_, look.end),
+                 .is_settled = is_over,
+                 .is_cut_off = !is_over && i + 1 == mixture_.looks});
       states_.push_back(now);
       now = look.end;
       seen = next;
@@ -139,10 +137,6 @@ class PointMassDrives {
     const reach::Acceleration best = best_({ego.X_WB.p.x, ego.X_WB.p.y, ego.X_WB.yaw, ego.v_B.x});
     const double most = problem_.system.grip * vehicle::gravity;
     return manoeuvre::admissible({best.along / most, best.across / most});
-  }
-
-  static void add(std::vector<float>& rows, const Observation& row) {
-    rows.insert(rows.end(), row.begin(), row.end());
   }
 
   const PointMass& problem_;

@@ -40,6 +40,12 @@ State mirrored(const State& state) {
   return other;
 }
 
+void move_obstacles(State& state, double time) {
+  for (Obstacle& obstacle : state.obstacles) {
+    obstacle = after(obstacle, time);
+  }
+}
+
 double intrusion(const world::Footprint& body, const State& state) {
   double deepest = -std::numeric_limits<double>::infinity();
   for (const Obstacle& obstacle : state.obstacles) {

@@ -25,6 +25,10 @@ struct State {
 /// The same seen in a mirror.
 [[nodiscard]] State mirrored(const State& state);
 
+/// Its obstacles go on for a while (obstacle.h); the ego stays where it is.
+/// @param time  [s], >= 0
+void move_obstacles(State& state, double time);
+
 /// h: how deep the ego stands in the obstacle that it stands in deepest; less than 0: minus the
 /// distance from the nearest [m]. Minus infinity without obstacles.
 /// @param body  of the ego, about its centre of mass

@@ -108,10 +108,8 @@ class Maker {
   }
 
   static State at_look(const Ego& ego, double grip, const Obstacles& obstacles, double time) {
-    State now{.ego = ego, .grip = grip, .obstacles = {}};
-    for (const Obstacle& obstacle : obstacles) {
-      now.obstacles.push_back(after(obstacle, time));
-    }
+    State now{.ego = ego, .grip = grip, .obstacles = obstacles};
+    move_obstacles(now, time);
     return now;
   }
 
@@ -144,9 +142,7 @@ class Maker {
     double deepest = -std::numeric_limits<double>::infinity();
     constexpr double between = look_step / static_cast<double>(poses_per_look);
     for (const Pose& pose : std::span(way).first<poses_per_look - 1>()) {
-      for (Obstacle& obstacle : state.obstacles) {
-        obstacle = after(obstacle, between);
-      }
+      move_obstacles(state, between);
       state.ego.X_WB = pose;
       deepest = std::max(deepest, intrusion(body_, state));
     }
@@ -160,29 +156,19 @@ class Maker {
     double h_now = intrusion(body_, now);
     for (std::size_t i = from; i < drive.demands.size() && !is_settled; ++i) {
       State next{.ego = drive.looks[i + 1], .grip = drive.grip, .obstacles = now.obstacles};
-      for (Obstacle& obstacle : next.obstacles) {
-        obstacle = after(obstacle, look_step);
-      }
+      move_obstacles(next, look_step);
       is_settled = danger::is_settled(body_, next);
-      add(made_.observations, observation(now));
-      add(made_.next_observations, observation(next));
-      made_.actions.push_back(static_cast<float>(drive.demands[i].along));
-      made_.actions.push_back(static_cast<float>(drive.demands[i].across));
       const double h_next = intrusion(body_, next);
-      const double deepest = std::max({h_now, deepest_between(drive.ways[i], now), h_next});
-      made_.h.push_back(static_cast<float>(deepest));
-      made_.next_h.push_back(static_cast<float>(h_next));
-      made_.settled.push_back(is_settled ? 1.0F : 0.0F);
-      const bool is_last = i + 1 == drive.demands.size();
-      made_.cut_off.push_back(is_last && !is_settled ? 1.0F : 0.0F);
-      made_.drive.push_back(static_cast<float>(made_.drives));
+      made_.add({.observation = observation(now),
+                 .demand = drive.demands[i],
+                 .h = std::max({h_now, deepest_between(drive.ways[i], now), h_next}),
+                 .next_observation = observation(next),
+                 .next_h = h_next,
+                 .is_settled = is_settled,
+                 .is_cut_off = !is_settled && i + 1 == drive.demands.size()});
       now = next;
       h_now = h_next;
     }
-  }
-
-  static void add(std::vector<float>& rows, const Observation& row) {
-    rows.insert(rows.end(), row.begin(), row.end());
   }
 
   const manoeuvre::Car& car_;
@@ -196,6 +182,21 @@ class Maker {
 };
 
 }  // namespace
+
+void Transitions::add(const Transition& one) {
+  const auto append = [](std::vector<float>& rows, const Observation& row) {
+    rows.insert(rows.end(), row.begin(), row.end());
+  };
+  append(observations, one.observation);
+  append(next_observations, one.next_observation);
+  actions.insert(actions.end(),
+                 {static_cast<float>(one.demand.along), static_cast<float>(one.demand.across)});
+  h.push_back(static_cast<float>(one.h));
+  next_h.push_back(static_cast<float>(one.next_h));
+  settled.push_back(one.is_settled ? 1.0F : 0.0F);
+  cut_off.push_back(one.is_cut_off ? 1.0F : 0.0F);
+  drive.push_back(static_cast<float>(drives));
+}
 
 Transitions made_transitions(const manoeuvre::Car& car, const world::Footprint& body,
                              const reach::DangerModel& model, const Mixture& mixture, int drives,

@@ -10,6 +10,7 @@
 #include "saca/danger/network.h"
 #include "saca/danger/state.h"
 #include "saca/manoeuvre/car.h"
+#include "saca/manoeuvre/demand.h"
 #include "saca/reach/danger.h"
 #include "saca/world/footprint.h"
 
@@ -33,6 +34,17 @@ struct Mixture {
   return {.looks = 120, .situations = 1, .outcomes = true};
 }
 
+/// One look: x, u, h and x'.
+struct Transition {
+  Observation observation{};
+  manoeuvre::Demand demand;
+  double h = 0.0;
+  Observation next_observation{};
+  double next_h = 0.0;
+  bool is_settled = false;
+  bool is_cut_off = false;
+};
+
 /// Many transitions, one after another, those of a situation in sequence. Each array has a row for
 /// each.
 struct Transitions {
@@ -50,6 +62,8 @@ struct Transitions {
   std::size_t situations = 0;
 
   [[nodiscard]] std::size_t size() const { return h.size(); }
+  /// Adds a row to each array, of the drive with the number `drives`.
+  void add(const Transition& one);
 };
 
 /// Drives and what they meet, from a seed: a part of a data set. The same seed, the same bytes.

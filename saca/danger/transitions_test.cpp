@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <tuple>
 
 #include "saca/core/contract.h"
+#include "saca/danger/networks_for_test.h"
 #include "saca/manoeuvre/default_car.h"
 #include "saca/reach/car_limits.h"
 
@@ -108,20 +110,10 @@ TEST_F(TransitionsTest, AreTheSeedsAndHalfStartNearTheBoundary) {
 
 /// A network that brakes whatever comes: of all demands, braking adds least to Q.
 Network braking_network() {
-  config::Tensors all;
-  for (const auto& [name, inputs] : {std::pair{"v.", num_net_inputs},
-                                     {"q1.", num_net_inputs + 2},
-                                     {"q2.", num_net_inputs + 2}}) {
-    for (std::size_t k = 0; k < 4; ++k) {
-      const std::size_t rows = k < 3 ? Network::width : 1;
-      const std::size_t columns = k > 0 ? Network::width : inputs;
-      config::Tensor weight{{rows, columns}, std::vector<float>(rows * columns)};
-      config::Tensor bias{{rows}, std::vector<float>(rows)};
-      weight.values[k == 0 ? columns - 2 : 0] = 1.0F;
-      bias.values[0] = k == 0 ? 2.0F : 0.0F;
-      all.tensors[name + std::to_string(k) + ".weight"] = weight;
-      all.tensors[name + std::to_string(k) + ".bias"] = bias;
-    }
+  config::Tensors all = networks_that_hand_on();
+  for (const char* const name : {"q1.", "q2."}) {
+    all.tensors.at(name + std::string("0.weight")).values[num_net_inputs] = 1.0F;
+    all.tensors.at(name + std::string("0.bias")).values[0] = 2.0F;
   }
   return Network::from(all, "weights").value();
 }

@@ -227,21 +227,7 @@ const DangerModel::Family* DangerModel::family_for(const Footprint& obstacle) co
   return best;
 }
 
-/// Where the tables do not hold the ego itself.
-Danger DangerModel::by_tables(const Family& family, const Meeting& meeting) const {
-  const auto values = look_up(family, car_, ego_, meeting);
-  if (!values) {
-    return by_few_evasions(meeting);
-  }
-  const Avoidance system = system_of(car_, meeting);
-  double least = by_few_evasions(meeting).value;
-  for (const Acceleration& input : {straight_on, braked}) {
-    least = std::min(least, until_a_table(*values, system, meeting, input));
-  }
-  return {least, false};
-}
-
-Danger DangerModel::by_few_evasions(const Meeting& meeting) const {
+double DangerModel::by_few_evasions(const Meeting& meeting) const {
   const Avoidance system = system_of(car_, meeting);
   const double disc = limits_at(system, meeting.state[3]).disc;
   double least = std::numeric_limits<double>::infinity();
@@ -251,18 +237,27 @@ Danger DangerModel::by_few_evasions(const Meeting& meeting) const {
         i < 0 ? straight_on : Acceleration{disc * std::cos(angle), disc * std::sin(angle)};
     least = std::min(least, driven_by(system, meeting, meeting.state, input, look_ahead).highest);
   }
-  return {least, false};
+  return least;
 }
 
 Danger DangerModel::danger(const Meeting& meeting, const Motion& motion) const {
-  if (const auto solved = exact(meeting)) {
-    return {*solved, true};
+  require(meeting);
+  const Family* const family = family_for(meeting.obstacle);
+  const auto values = family != nullptr ? look_up(*family, car_, ego_, meeting) : std::nullopt;
+  if (const auto here = values ? values->at(meeting.state) : std::nullopt) {
+    return {*here, true};
   }
   if (const auto known = learned_ ? learned_(meeting, motion) : std::nullopt) {
     return {*known, false};
   }
-  const Family* const family = family_for(meeting.obstacle);
-  return family != nullptr ? by_tables(*family, meeting) : by_few_evasions(meeting);
+  double least = by_few_evasions(meeting);
+  if (values) {
+    const Avoidance system = system_of(car_, meeting);
+    for (const Acceleration& input : {straight_on, braked}) {
+      least = std::min(least, until_a_table(*values, system, meeting, input));
+    }
+  }
+  return {least, false};
 }
 
 std::optional<double> DangerModel::known(const Meeting& meeting, const Motion& motion) const {

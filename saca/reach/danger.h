@@ -88,8 +88,8 @@ class DangerModel {
   using Family = std::vector<DangerTable>;
 
   [[nodiscard]] const Family* family_for(const world::Footprint& obstacle) const;
-  [[nodiscard]] Danger by_tables(const Family& family, const Meeting& meeting) const;
-  [[nodiscard]] Danger by_few_evasions(const Meeting& meeting) const;
+  /// The highest h of the best of a few evasions [m].
+  [[nodiscard]] double by_few_evasions(const Meeting& meeting) const;
 
   Avoidance car_;
   world::Footprint ego_;

@@ -244,7 +244,7 @@ PairSeen seen_as_pair(DangerNets& singles, const Tensor& inputs, const Tensor& h
   const Tensor scaled = danger::pair_value_scale * torch::stack({higher, lower}, 1);
   return {.inputs = torch::cat({swapped.reshape({-1, 2 * num_inputs}), scaled}, 1),
           .v = higher,
-          .share = (0.2 * (lower + 10.0)).clamp(0.0, 1.0)};
+          .share = (danger::pair_share_slope * (lower - danger::pair_counts_from)).clamp(0.0, 1.0)};
 }
 
 /// Of two obstacles: what they are by themselves, and what the networks of pairs add.
@@ -550,17 +550,6 @@ std::optional<Error> train_on(
   return DangerTraining(learner, plan, threads, state).run(on_point);
 }
 
-Result<DangerNets> trained_on(const Experience& experience, DangerNets* singles,
-                              const DangerPlan& plan, int threads,
-                              const std::filesystem::path& state,
-                              const std::function<bool(const DangerProgress&)>& on_point) {
-  expects_sound(plan);
-  DangerNets nets = new_nets(experience, plan);
-  const auto problem = train_on(experience, nets, {&nets->v, &nets->q1, &nets->q2}, plan, threads,
-                                state, said_of(singles), losses_of, on_point);
-  return problem ? Result<DangerNets>(*problem) : nets;
-}
-
 /// Of V from what was reached, wherever the end was seen.
 Losses outcome_losses(const Said& said, const Sample& sample, const Annealed& /*now*/) {
   const Tensor is_seen = torch::isfinite(sample.reached);
@@ -573,36 +562,38 @@ Losses outcome_losses(const Said& said, const Sample& sample, const Annealed& /*
            .above = (said.v > sample.reached + 0.2).to(torch::kFloat32).mean().item<double>()}};
 }
 
-}  // namespace
-
-Result<DangerNets> trained_danger(const Experience& experience, const DangerPlan& plan, int threads,
-                                  const std::filesystem::path& state,
-                                  const std::function<bool(const DangerProgress&)>& on_point) {
-  expects(experience.size() > 0 && experience.num_obstacles == 1,
-          "transitions beside one obstacle");
-  return trained_on(experience, nullptr, plan, threads, state, on_point);
+/// @param by_outcomes  V alone, from what was reached; else V and Q from one another
+Result<DangerNets> learnt_from(const Experience& experience, DangerNets* singles, bool by_outcomes,
+                               const DangerPlan& plan, int threads,
+                               const std::filesystem::path& state,
+                               const std::function<bool(const DangerProgress&)>& on_point) {
+  expects(experience.size() > 0 && experience.num_obstacles == (singles == nullptr ? 1U : 2U),
+          "transitions beside one obstacle, or two where there are networks of one");
+  expects_sound(plan);
+  DangerNets nets = new_nets(experience, plan);
+  std::vector<DangerNet*> learnt{&nets->v};
+  if (!by_outcomes) {
+    learnt.insert(learnt.end(), {&nets->q1, &nets->q2});
+  }
+  const auto problem = train_on(experience, nets, learnt, plan, threads, state, said_of(singles),
+                                by_outcomes ? outcome_losses : losses_of, on_point);
+  return problem ? Result<DangerNets>(*problem) : nets;
 }
 
-Result<DangerNets> trained_pairs(const Experience& experience, DangerNets& singles,
-                                 const DangerPlan& plan, int threads,
-                                 const std::filesystem::path& state,
-                                 const std::function<bool(const DangerProgress&)>& on_point) {
-  expects(experience.size() > 0 && experience.num_obstacles == 2,
-          "transitions beside two obstacles");
-  return trained_on(experience, &singles, plan, threads, state, on_point);
+}  // namespace
+
+Result<DangerNets> trained_danger(const Experience& experience, DangerNets* singles,
+                                  const DangerPlan& plan, int threads,
+                                  const std::filesystem::path& state,
+                                  const std::function<bool(const DangerProgress&)>& on_point) {
+  return learnt_from(experience, singles, false, plan, threads, state, on_point);
 }
 
 Result<DangerNets> policy_values(const Experience& outcomes, DangerNets* singles,
                                  const DangerPlan& plan, int threads,
                                  const std::filesystem::path& state,
                                  const std::function<bool(const DangerProgress&)>& on_point) {
-  expects(outcomes.size() > 0 && outcomes.num_obstacles == (singles == nullptr ? 1U : 2U),
-          "drives beside one obstacle, or two where there are networks of one");
-  expects_sound(plan);
-  DangerNets nets = new_nets(outcomes, plan);
-  const auto problem = train_on(outcomes, nets, {&nets->v}, plan, threads, state, said_of(singles),
-                                outcome_losses, on_point);
-  return problem ? Result<DangerNets>(*problem) : nets;
+  return learnt_from(outcomes, singles, true, plan, threads, state, on_point);
 }
 
 double joint_value(DangerNets& singles, DangerNets pairs, const Tensor& inputs, const Tensor& h) {

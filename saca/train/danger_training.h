@@ -102,26 +102,20 @@ struct DangerProgress {
 };
 
 /// Trains, or goes on where an earlier run of the same plan on the same data was stopped.
+/// @param singles   nullptr: the transitions are beside one obstacle; else beside two, and what two
+///                  add is learnt: the networks of one stay as they are
 /// @param threads   1 or 2: halves of a batch; they do not change the result
 /// @param state     file of what is needed to go on; empty: none
 /// @param on_point  hears of each point of the curve, also of those of an earlier run; false: stop
 /// @return          the networks; Error::Code::malformed, naming the file, if the state is of
 ///                  another plan or data. When it was stopped they are as they are then.
 [[nodiscard]] Result<DangerNets> trained_danger(
-    const danger::Experience& experience, const DangerPlan& plan, int threads,
-    const std::filesystem::path& state, const std::function<bool(const DangerProgress&)>& on_point);
-
-/// What two obstacles add, likewise: the networks of single ones stay as they are.
-/// @param experience  beside two obstacles
-[[nodiscard]] Result<DangerNets> trained_pairs(
-    const danger::Experience& experience, DangerNets& singles, const DangerPlan& plan, int threads,
+    const danger::Experience& experience, DangerNets* singles, const DangerPlan& plan, int threads,
     const std::filesystem::path& state, const std::function<bool(const DangerProgress&)>& on_point);
 
 /// V of driving by the Q whose outcomes these are: what such drives reached is learnt as it is,
 /// with no value of its own in it. So V promises nothing that was not driven. Its q are not learnt.
 /// @param outcomes  drives by an earlier Q, to their ends
-/// @param singles   nullptr: all is beside one obstacle; else beside two, and what they add is
-/// learnt
 [[nodiscard]] Result<DangerNets> policy_values(
     const danger::Experience& outcomes, DangerNets* singles, const DangerPlan& plan, int threads,
     const std::filesystem::path& state, const std::function<bool(const DangerProgress&)>& on_point);

@@ -120,7 +120,7 @@ torch::Tensor h_at(double gap) {
 TEST(DangerTraining, FindsTheBestThatTheDataHolds) {
   torch::set_num_threads(1);
   const Wall wall(6'000);
-  auto nets = trained_danger(wall.experience(), quick(), 2, {}, every_point);
+  auto nets = trained_danger(wall.experience(), nullptr, quick(), 2, {}, every_point);
   ASSERT_TRUE(nets.has_value());
   DangerNets learnt = nets.value();
   const torch::NoGradGuard none;
@@ -150,8 +150,8 @@ TEST(DangerTraining, IsTheSeedsWhateverTheThreads) {
   DangerPlan plan = quick();
   plan.steps = 40;
   const auto bytes = [&](int threads) {
-    return config::tensor_bytes(
-        tensors_of(trained_danger(wall.experience(), plan, threads, {}, every_point).value()));
+    return config::tensor_bytes(tensors_of(
+        trained_danger(wall.experience(), nullptr, plan, threads, {}, every_point).value()));
   };
   const std::string one = bytes(1);
   EXPECT_EQ(one, bytes(2));
@@ -167,15 +167,15 @@ TEST(DangerTraining, GoesOnWhereItWasStopped) {
   plan.batch = 32;
   const fs::path state = fs::path(testing::TempDir()) / "danger_training_state";
   fs::remove(state);
-  const auto whole = trained_danger(wall.experience(), plan, 1, {}, every_point);
+  const auto whole = trained_danger(wall.experience(), nullptr, plan, 1, {}, every_point);
   int points = 0;
-  const auto part = trained_danger(wall.experience(), plan, 1, state,
+  const auto part = trained_danger(wall.experience(), nullptr, plan, 1, state,
                                    [&](const DangerProgress&) { return ++points < 1; });
   ASSERT_TRUE(part.has_value());
   EXPECT_EQ(points, 1);
   std::vector<int> steps;
   const auto rest =
-      trained_danger(wall.experience(), plan, 1, state, [&](const DangerProgress& point) {
+      trained_danger(wall.experience(), nullptr, plan, 1, state, [&](const DangerProgress& point) {
         steps.push_back(point.step);
         return true;
       });
@@ -185,11 +185,11 @@ TEST(DangerTraining, GoesOnWhereItWasStopped) {
             config::tensor_bytes(tensors_of(whole.value())));
 
   plan.expectile = 0.95;
-  const auto other = trained_danger(wall.experience(), plan, 1, state, every_point);
+  const auto other = trained_danger(wall.experience(), nullptr, plan, 1, state, every_point);
   ASSERT_FALSE(other.has_value());
   EXPECT_NE(other.error().message.find("another training"), std::string::npos);
   ASSERT_FALSE(write_file(state, "no archive").has_value());
-  const auto broken = trained_danger(wall.experience(), plan, 1, state, every_point);
+  const auto broken = trained_danger(wall.experience(), nullptr, plan, 1, state, every_point);
   ASSERT_FALSE(broken.has_value());
   EXPECT_NE(broken.error().message.find("danger_training_state"), std::string::npos);
   fs::remove(state);
@@ -276,8 +276,8 @@ TEST(DangerTraining, LearnsThatTwoObstaclesMayBeMoreThanEach) {
   DangerPlan plan = quick();
   plan.steps = 1'500;
   plan.batch = 64;
-  DangerNets single = trained_danger(singles, plan, 1, {}, every_point).value();
-  const auto pair = trained_pairs(pairs, single, plan, 1, {}, every_point);
+  DangerNets single = trained_danger(singles, nullptr, plan, 1, {}, every_point).value();
+  const auto pair = trained_danger(pairs, &single, plan, 1, {}, every_point);
   ASSERT_TRUE(pair.has_value());
   const auto value = [&](const std::vector<FromASide>& obstacles) {
     std::vector<float> inputs;
@@ -366,7 +366,8 @@ TEST(DangerTraining, IsTheNetworkThatTheProductRuns) {
 }
 
 TEST(DangerTraining, WantsSomethingToLearnFrom) {
-  EXPECT_THROW(std::ignore = trained_danger({}, quick(), 1, {}, every_point), ContractViolation);
+  EXPECT_THROW(std::ignore = trained_danger({}, nullptr, quick(), 1, {}, every_point),
+               ContractViolation);
 }
 
 }  // namespace
