@@ -39,6 +39,10 @@ struct Options {
   train::DangerPlan plan;
   int pair_steps = 20'000;
   std::string values_of;  ///< weights; empty: none
+  std::string q_of;       ///< likewise
+  int hold_looks = 5;     ///< that an input is held, with `q_of`
+  /// What is learnt on top of.
+  [[nodiscard]] const std::string& earlier() const { return q_of.empty() ? values_of : q_of; }
 };
 
 /// What was read, and what the weights' file says of it.
@@ -142,10 +146,12 @@ class Curve {
   double seconds_ = 0.0;
 };
 
-/// Networks of one obstacle or two: V and Q by the data alone, or V from outcomes.
+/// Networks of one obstacle or two: V and Q by the data alone, V from outcomes, or Q from V.
 class Trainings {
  public:
-  Trainings(const Options& options, const Data& data) : options_(options), data_(data) {}
+  /// @param earlier  weights that this is learnt on top of, if any
+  Trainings(const Options& options, const Data& data, const config::Tensors& earlier)
+      : options_(options), data_(data), earlier_(earlier) {}
 
   Result<train::DangerNets> singles() {
     return trained(data_.singles, nullptr, options_.plan, state());
@@ -158,10 +164,10 @@ class Trainings {
   /// What is shipped of networks.
   void add_to(config::Tensors& tensors, const train::DangerNets& nets,
               const std::string& prefix) const {
-    if (from_outcomes()) {
-      nets->v->add_to(tensors, prefix + "v.");
-    } else {
+    if (options_.values_of.empty()) {
       nets->add_to(tensors, prefix);
+    } else {
+      nets->v->add_to(tensors, prefix + "v.");
     }
   }
   /// Where they were stopped, all is in there.
@@ -176,55 +182,67 @@ class Trainings {
   Result<train::DangerNets> trained(const danger::Experience& experience,
                                     train::DangerNets* singles, const train::DangerPlan& plan,
                                     const std::string& state) {
-    const auto& learn = from_outcomes() ? train::policy_values : train::trained_danger;
+    if (!options_.q_of.empty()) {
+      return train::improved_q(experience, train::danger_net(earlier_, "v."), plan,
+                               options_.threads, state, curve_.of(experience));
+    }
+    const auto& learn = options_.values_of.empty() ? train::trained_danger : train::policy_values;
     return learn(experience, singles, plan, options_.threads, state, curve_.of(experience));
   }
-  [[nodiscard]] bool from_outcomes() const { return !options_.values_of.empty(); }
   [[nodiscard]] std::string state() const { return options_.output + ".state"; }
   [[nodiscard]] std::string pairs_state() const { return options_.output + ".pairs.state"; }
 
   const Options& options_;
   const Data& data_;
+  const config::Tensors& earlier_;
   Curve curve_;
 };
 
-/// The weights whose outcomes are in the folder; none where there are no such.
+/// The weights that are learnt on top of; none where there are no such.
 Result<config::Tensors> earlier_weights(const Options& options, const Data& data) {
-  if (options.values_of.empty()) {
+  const std::string& path = options.earlier();
+  if (path.empty()) {
     return config::Tensors{};
   }
   constexpr std::size_t most_bytes = std::size_t{1} << 30U;
-  auto tensors = config::read_tensor_file(options.values_of, most_bytes);
+  auto tensors = config::read_tensor_file(path, most_bytes);
   if (!tensors.has_value()) {
     return tensors.error();
   }
-  const auto network = danger::Network::from(tensors.value(), options.values_of);
+  const auto network = danger::Network::from(tensors.value(), path);
   if (!network.has_value()) {
     return network.error();
   }
   const auto vehicle = tensors.value().words.find("vehicle");
   if (vehicle != tensors.value().words.end() && vehicle->second != data.vehicle) {
     return Error{Error::Code::malformed,
-                 fmt::format("{}: want weights of the car {} of {}, got of another",
-                             options.values_of, data.car, options.folder)};
+                 fmt::format("{}: want weights of the car {} of {}, got of another", path, data.car,
+                             options.folder)};
   }
   return tensors;
 }
 
 int train_danger(const Options& options) {
-  const auto read = read_data(options.folder, options.root);
+  auto read = read_data(options.folder, options.root);
   if (!read.has_value()) {
     return train_program::failed(program, read.error());
   }
-  const Data& data = read.value();
-  auto earlier = earlier_weights(options, data);
+  Data data = std::move(read).value();
+  const auto earlier = earlier_weights(options, data);
   if (!earlier.has_value()) {
     return train_program::failed(program, earlier.error());
   }
   if (train_program::is_to_stop()) {
     return train_program::stopped(program);
   }
-  Trainings trainings(options, data);
+  const bool by_outcomes = !options.values_of.empty();
+  const bool improves = !options.q_of.empty();
+  const bool with_pairs = options.pair_steps > 0 && !improves;
+  if (improves) {
+    danger::keep_held(data.singles, options.hold_looks);
+  }
+  config::Tensors tensors = earlier.value();
+  Trainings trainings(options, data, earlier.value());
   const auto singles = trainings.singles();
   if (!singles.has_value()) {
     return train_program::failed(program, singles.error());
@@ -233,13 +251,12 @@ int train_danger(const Options& options) {
     return train_program::stopped(program);
   }
   train::DangerNets nets = singles.value();
-  config::Tensors tensors = std::move(earlier).value();
   const auto word = [&](const char* name) {
     const auto found = tensors.words.find(name);
     return found != tensors.words.end() ? found->second : std::string("0");
   };
   trainings.add_to(tensors, nets, "");
-  if (options.pair_steps > 0) {
+  if (with_pairs) {
     const auto pairs = trainings.pairs(nets);
     if (!pairs.has_value()) {
       return train_program::failed(program, pairs.error());
@@ -249,18 +266,20 @@ int train_danger(const Options& options) {
     }
     trainings.add_to(tensors, pairs.value(), "pair_");
   }
-  const bool by_outcomes = !options.values_of.empty();
   std::map<std::string, std::string> words{
       {"car", data.car},
       {"vehicle", data.vehicle},
       {"transitions", by_outcomes ? word("transitions") : std::to_string(data.transitions)},
       {"drives", by_outcomes ? word("drives") : std::to_string(data.drives)},
-      {"outcomes", std::to_string(by_outcomes ? data.drives : 0)},
+      {"outcomes", by_outcomes ? std::to_string(data.drives) : word("outcomes")},
+      {"hold_looks",
+       by_outcomes ? word("hold_looks") : std::to_string(improves ? options.hold_looks : 1)},
       {"seed", std::to_string(options.plan.seed)},
       {"steps", std::to_string(options.plan.steps)},
       {"pair_steps", std::to_string(options.pair_steps)},
       {"batch", std::to_string(options.plan.batch)},
-      {"expectile", by_outcomes ? word("expectile") : fmt::format("{}", options.plan.expectile)},
+      {"expectile",
+       options.earlier().empty() ? fmt::format("{}", options.plan.expectile) : word("expectile")},
       {"discount", fmt::format("{}", options.plan.discount)}};
   tensors.words.clear();
   const auto network = danger::Network::from(tensors, options.output);
@@ -275,7 +294,7 @@ int train_danger(const Options& options) {
       return train_program::failed(program, *problem);
     }
   }
-  if (options.pair_steps > 0) {  // else kept: pairs may yet be learnt on top
+  if (with_pairs || improves) {  // else kept: pairs may yet be learnt on top
     trainings.remove_states();
   }
   return 0;
@@ -293,13 +312,22 @@ int main(int argc, char** argv) {
   app.add_option("--values-of", options.values_of,
                  "Earlier weights; FOLDER is of `saca danger dataset --by THESE --outcomes`, and V "
                  "becomes what such drives came to");
+  app.add_option(
+         "--q-of", options.q_of,
+         "Earlier weights; Q becomes what an input that is held for a while and then their V come "
+         "to, from transitions of any drivers")
+      ->excludes("--values-of");
+  app.add_option("--hold-looks", options.hold_looks,
+                 "With --q-of: Q is of an input that is held for so many looks of 0.1 s")
+      ->check(CLI::Range(1, 20))
+      ->capture_default_str();
   app.add_option("--root", options.root, "Holds data/")->capture_default_str();
   app.add_option("--seed", options.plan.seed)->capture_default_str();
   app.add_option("--steps", options.plan.steps)
       ->check(CLI::Range(1, 10'000'000))
       ->capture_default_str();
   app.add_option("--pair-steps", options.pair_steps,
-                 "Likewise, of what two obstacles add; 0: it is not learnt")
+                 "Likewise, of what two obstacles add; 0, or with --q-of: it is not learnt")
       ->check(CLI::Range(0, 10'000'000))
       ->capture_default_str();
   app.add_option("--batch", options.plan.batch, "Transitions in a step")

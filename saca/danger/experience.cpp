@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "saca/core/contract.h"
+
 namespace saca::danger {
 namespace {
 
@@ -40,6 +42,7 @@ void add_situation(Experience& all, const Transitions& from, std::size_t first, 
   const std::size_t start = all.size();
   for (std::size_t i = first; i < last; ++i) {
     all.row.push_back(static_cast<std::uint32_t>(all.num_states()));
+    all.next_row.push_back(all.row.back() + 1);
     add_state(all, row_of(from.observations, i), body, shape);
     all.actions.insert(all.actions.end(), {from.actions[2 * i], from.actions[2 * i + 1]});
     all.h.push_back(told_of(from.h[i]));
@@ -68,6 +71,43 @@ void add_experience(Experience& all, const Transitions& transitions, const world
       add_situation(all, transitions, first, i + 1, body, shape);
     }
     first = i + 1;
+  }
+}
+
+void keep_held(Experience& all, int looks) {
+  expects(looks >= 1, "a look or more");
+  const std::size_t before = all.size();
+  const auto wanted = static_cast<std::size_t>(looks);
+  const auto goes_on = [&](std::size_t i) {
+    return i + 1 < before && all.row[i + 1] == all.next_row[i] &&
+           all.actions[2 * i + 2] == all.actions[2 * i] &&
+           all.actions[2 * i + 3] == all.actions[2 * i + 1];
+  };
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < before; ++i) {
+    std::size_t last = i;
+    float h = all.h[i];
+    while (last + 1 - i < wanted && goes_on(last)) {
+      h = std::max(h, all.h[++last]);
+    }
+    if (last + 1 - i < wanted && all.settled[last] == 0.0F) {
+      continue;
+    }
+    all.row[kept] = all.row[i];
+    all.next_row[kept] = all.next_row[last];
+    all.actions[2 * kept] = all.actions[2 * i];
+    all.actions[2 * kept + 1] = all.actions[2 * i + 1];
+    all.h[kept] = h;
+    all.settled[kept] = all.settled[last];
+    all.reached[kept] = all.reached[i];
+    ++kept;
+  }
+  all.actions.resize(2 * kept);
+  for (auto* each : {&all.row, &all.next_row}) {
+    each->resize(kept);
+  }
+  for (auto* each : {&all.h, &all.settled, &all.reached}) {
+    each->resize(kept);
   }
 }
 

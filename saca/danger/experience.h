@@ -20,8 +20,9 @@ struct Experience {
   std::vector<float> inputs;
   std::vector<float> h_at;  ///< of each obstacle at these states: rows of num_obstacles [m]
 
-  /// Of each transition: the row of x; that of x' is the next.
+  /// Of each transition: the rows of x and of x'.
   std::vector<std::uint32_t> row;
+  std::vector<std::uint32_t> next_row;
   std::vector<float> actions;  ///< rows of 2
   std::vector<float> h;        ///< deepest from x to x' [m]
   std::vector<float> settled;  ///< 1: nothing can happen after x' any more
@@ -39,5 +40,10 @@ struct Experience {
 /// @param shape  of the obstacles
 void add_experience(Experience& all, const Transitions& transitions, const world::Footprint& body,
                     world::Shape shape = world::Shape::box);
+
+/// Keeps what led on with one and the same input for so long, or until all was settled, as one
+/// transition: one begins at each look from which on that was so.
+/// @param looks  >= 1
+void keep_held(Experience& all, int looks);
 
 }  // namespace saca::danger

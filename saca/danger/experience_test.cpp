@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 #include "saca/manoeuvre/default_car.h"
 #include "saca/reach/car_limits.h"
@@ -57,6 +60,50 @@ TEST_F(ExperienceTest, IsOrderedInTime) {
       EXPECT_LE(all_.reached[i], all_.h[i] + 1e-4F);
     }
   }
+}
+
+/// Two situations, of four looks and of three: what is done in each look is a letter, and h rises
+/// by 1 from look to look. The first ends unsettled, the second settled.
+Experience two_situations(const std::string& first, const std::string& second) {
+  Experience all{.num_obstacles = 1};
+  for (const std::string* which : {&first, &second}) {
+    const std::string& letters = *which;
+    for (std::size_t i = 0; i < letters.size(); ++i) {
+      all.row.push_back(static_cast<std::uint32_t>(all.num_states()));
+      all.next_row.push_back(all.row.back() + 1);
+      all.inputs.insert(all.inputs.end(), num_net_inputs, 0.0F);
+      all.h_at.push_back(0.0F);
+      all.actions.insert(all.actions.end(), {static_cast<float>(letters[i]), 0.0F});
+      all.h.push_back(static_cast<float>(all.row.back()));
+      all.settled.push_back(which == &second && i + 1 == letters.size() ? 1.0F : 0.0F);
+      all.reached.push_back(99.0F);
+    }
+    all.inputs.insert(all.inputs.end(), num_net_inputs, 0.0F);
+    all.h_at.push_back(0.0F);
+  }
+  return all;
+}
+
+TEST(KeepHeld, LeadsFromWhereOneInputStaysToWhereItEnds) {
+  Experience all = two_situations("aaab", "bcc");
+  keep_held(all, 2);
+  // aa, aa of the first; of the second not bc, but cc, and the last c, after which all is settled.
+  EXPECT_EQ(all.row, (std::vector<std::uint32_t>{0, 1, 6, 7}));
+  EXPECT_EQ(all.next_row, (std::vector<std::uint32_t>{2, 3, 8, 8}));
+  EXPECT_EQ(all.h, (std::vector<float>{1.0F, 2.0F, 7.0F, 7.0F})) << "the deepest of both";
+  EXPECT_EQ(all.settled, (std::vector<float>{0.0F, 0.0F, 1.0F, 1.0F}));
+  EXPECT_EQ(all.actions, (std::vector<float>{'a', 0.0F, 'a', 0.0F, 'c', 0.0F, 'c', 0.0F}));
+  EXPECT_EQ(all.reached.size(), 4U);
+  EXPECT_EQ(all.num_states(), 9U) << "states stay";
+}
+
+TEST(KeepHeld, OfOneLookKeepsAll) {
+  Experience all = two_situations("ab", "cc");
+  const Experience before = all;
+  keep_held(all, 1);
+  EXPECT_EQ(all.row, before.row);
+  EXPECT_EQ(all.next_row, before.next_row);
+  EXPECT_EQ(all.h, before.h);
 }
 
 }  // namespace

@@ -79,8 +79,8 @@ Sample drawn(const Experience& all, int count, std::mt19937_64& random) {
     const std::size_t i = any(random);
     const bool is_mirrored = k % 2 == 1;
     std::size_t from = all.row[i] * all.num_obstacles;
-    for (std::size_t one = 0; one < all.num_obstacles; ++one, ++from, ++to) {
-      const std::size_t next = from + all.num_obstacles;
+    std::size_t next = all.next_row[i] * all.num_obstacles;
+    for (std::size_t one = 0; one < all.num_obstacles; ++one, ++from, ++next, ++to) {
       copy_inputs(all.inputs, from, is_mirrored, at(sample.inputs) + to * num_inputs);
       copy_inputs(all.inputs, next, is_mirrored, at(sample.next_inputs) + to * num_inputs);
       at(sample.h_at)[to] = all.h_at[from];
@@ -478,6 +478,29 @@ void DangerNetImpl::add_to(config::Tensors& tensors, const std::string& prefix) 
   }
 }
 
+void DangerNetImpl::take(const config::Tensors& tensors, const std::string& prefix) {
+  const torch::NoGradGuard none;
+  int number = 0;
+  const auto copy = [&](const Tensor& to, const std::string& name) {
+    const std::vector<float>& from = tensors.tensors.at(name).values;
+    expects(static_cast<std::int64_t>(from.size()) == to.numel(), "weights of that size");
+    std::copy(from.begin(), from.end(), to.data_ptr<float>());
+  };
+  for (const auto* layer : {&first_, &second_, &third_, &last_}) {
+    const std::string name = prefix + std::to_string(number++);
+    copy((*layer)->weight, name + ".weight");
+    copy((*layer)->bias, name + ".bias");
+  }
+}
+
+DangerNet danger_net(const config::Tensors& tensors, const std::string& prefix) {
+  const config::Tensor& first = tensors.tensors.at(prefix + "0.weight");
+  DangerNet net(static_cast<std::int64_t>(first.shape.at(1)),
+                static_cast<std::int64_t>(first.shape.at(0)));
+  net->take(tensors, prefix);
+  return net;
+}
+
 DangerNetsImpl::DangerNetsImpl(std::int64_t inputs, std::int64_t width)
     : v(inputs, width),
       q1(inputs + num_actions, width),
@@ -562,21 +585,55 @@ Losses outcome_losses(const Said& said, const Sample& sample, const Annealed& /*
            .above = (said.v > sample.reached + 0.2).to(torch::kFloat32).mean().item<double>()}};
 }
 
-/// @param by_outcomes  V alone, from what was reached; else V and Q from one another
-Result<DangerNets> learnt_from(const Experience& experience, DangerNets* singles, bool by_outcomes,
-                               const DangerPlan& plan, int threads,
-                               const std::filesystem::path& state,
+/// Of Q from what V has of x'.
+Losses improving_losses(const Said& said, const Sample& sample, const Annealed& /*now*/) {
+  Tensor target;
+  {
+    const torch::NoGradGuard none;
+    target = torch::maximum(sample.h, torch::where(sample.settled > 0.5, said.next_h, said.next_v));
+  }
+  const Tensor weight = weight_of(said.v.detach());
+  const auto q_loss = [&](const Tensor& q) { return (weight * squared(q - target)).mean(); };
+  const Tensor sum = q_loss(said.q[0]) + q_loss(said.q[1]);
+  const torch::NoGradGuard none;
+  return {sum,
+          {.q_loss = sum.item<double>(),
+           .mean_v = mean_that_matters(said.v),
+           .above = (said.v > sample.reached + 0.2).to(torch::kFloat32).mean().item<double>()}};
+}
+
+/// What is learnt, and from what.
+enum class Lesson {
+  v_and_q,      ///< from one another
+  v_of_drives,  ///< from what was reached
+  q_of_v,
+};
+
+/// @param v  not nullptr: to begin with
+Result<DangerNets> learnt_from(const Experience& experience, DangerNets* singles,
+                               const DangerNet* v, Lesson lesson, const DangerPlan& plan,
+                               int threads, const std::filesystem::path& state,
                                const std::function<bool(const DangerProgress&)>& on_point) {
   expects(experience.size() > 0 && experience.num_obstacles == (singles == nullptr ? 1U : 2U),
           "transitions beside one obstacle, or two where there are networks of one");
   expects_sound(plan);
   DangerNets nets = new_nets(experience, plan);
-  std::vector<DangerNet*> learnt{&nets->v};
-  if (!by_outcomes) {
+  if (v != nullptr) {
+    DangerNet earlier = *v;
+    follow(nets->v, earlier, 1.0);
+  }
+  std::vector<DangerNet*> learnt;
+  if (lesson != Lesson::q_of_v) {
+    learnt.push_back(&nets->v);
+  }
+  if (lesson != Lesson::v_of_drives) {
     learnt.insert(learnt.end(), {&nets->q1, &nets->q2});
   }
-  const auto problem = train_on(experience, nets, learnt, plan, threads, state, said_of(singles),
-                                by_outcomes ? outcome_losses : losses_of, on_point);
+  const auto losses = lesson == Lesson::v_and_q       ? losses_of
+                      : lesson == Lesson::v_of_drives ? outcome_losses
+                                                      : improving_losses;
+  const auto problem =
+      train_on(experience, nets, learnt, plan, threads, state, said_of(singles), losses, on_point);
   return problem ? Result<DangerNets>(*problem) : nets;
 }
 
@@ -586,14 +643,22 @@ Result<DangerNets> trained_danger(const Experience& experience, DangerNets* sing
                                   const DangerPlan& plan, int threads,
                                   const std::filesystem::path& state,
                                   const std::function<bool(const DangerProgress&)>& on_point) {
-  return learnt_from(experience, singles, false, plan, threads, state, on_point);
+  return learnt_from(experience, singles, nullptr, Lesson::v_and_q, plan, threads, state, on_point);
 }
 
 Result<DangerNets> policy_values(const Experience& outcomes, DangerNets* singles,
                                  const DangerPlan& plan, int threads,
                                  const std::filesystem::path& state,
                                  const std::function<bool(const DangerProgress&)>& on_point) {
-  return learnt_from(outcomes, singles, true, plan, threads, state, on_point);
+  return learnt_from(outcomes, singles, nullptr, Lesson::v_of_drives, plan, threads, state,
+                     on_point);
+}
+
+Result<DangerNets> improved_q(const Experience& experience, const DangerNet& v,
+                              const DangerPlan& plan, int threads,
+                              const std::filesystem::path& state,
+                              const std::function<bool(const DangerProgress&)>& on_point) {
+  return learnt_from(experience, nullptr, &v, Lesson::q_of_v, plan, threads, state, on_point);
 }
 
 double joint_value(DangerNets& singles, DangerNets pairs, const Tensor& inputs, const Tensor& h) {

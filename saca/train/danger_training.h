@@ -54,6 +54,8 @@ class DangerNetImpl : public torch::nn::Module {
   torch::Tensor added(const torch::Tensor& inputs);
   /// Adds its weights as `prefix` + "0.weight", "0.bias", ... "3.bias".
   void add_to(config::Tensors& tensors, const std::string& prefix) const;
+  /// Takes them.
+  void take(const config::Tensors& tensors, const std::string& prefix);
 
  private:
   torch::nn::Linear first_;
@@ -62,6 +64,10 @@ class DangerNetImpl : public torch::nn::Module {
   torch::nn::Linear last_;
 };
 TORCH_MODULE(DangerNet);
+
+/// What DangerNetImpl::add_to wrote.
+/// @param tensors  has them, as danger::Network checks
+[[nodiscard]] DangerNet danger_net(const config::Tensors& tensors, const std::string& prefix);
 
 /// V_h, and the two Q_h with their slow copies.
 class DangerNetsImpl : public torch::nn::Module {
@@ -118,6 +124,14 @@ struct DangerProgress {
 /// @param outcomes  drives by an earlier Q, to their ends
 [[nodiscard]] Result<DangerNets> policy_values(
     const danger::Experience& outcomes, DangerNets* singles, const DangerPlan& plan, int threads,
+    const std::filesystem::path& state, const std::function<bool(const DangerProgress&)>& on_point);
+
+/// Q of what an input leads to and then of what V is of, from transitions of any drivers
+/// (danger::keep_held says how long the input is held): the least of it is a step of policy
+/// iteration. V stays as it is.
+/// @param experience  beside one obstacle
+[[nodiscard]] Result<DangerNets> improved_q(
+    const danger::Experience& experience, const DangerNet& v, const DangerPlan& plan, int threads,
     const std::filesystem::path& state, const std::function<bool(const DangerProgress&)>& on_point);
 
 /// V_h beside two obstacles [m].

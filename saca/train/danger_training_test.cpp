@@ -68,6 +68,7 @@ class Wall {
     for (int look = 0; look < 12 && speed > 0.0 && gap > -6.0; ++look) {
       const double change = any_change(random_);
       all_.row.push_back(static_cast<std::uint32_t>(all_.num_states()));
+      all_.next_row.push_back(all_.row.back() + 1);
       add_state(gap, speed);
       all_.actions.insert(all_.actions.end(), {static_cast<float>(change), 0.0F});
       speed = std::min(5.0, speed + change);
@@ -242,6 +243,7 @@ struct FromASide {
 /// Single looks beside these.
 void add_look(Experience& all, const std::vector<FromASide>& obstacles, float moved) {
   all.row.push_back(static_cast<std::uint32_t>(all.num_states()));
+  all.next_row.push_back(all.row.back() + 1);
   float h = -15.0F;
   for (int state = 0; state < 2; ++state) {
     for (const FromASide& one : obstacles) {
@@ -307,6 +309,7 @@ TEST(DangerTraining, ValuesOfAPolicyAreWhatItsDrivesCameTo) {
     const double speed = std::uniform_int_distribution<int>(1, 2)(random);
     const double gap = std::uniform_real_distribution<double>(0.0, 20.0)(random);
     outcomes.row.push_back(static_cast<std::uint32_t>(outcomes.num_states()));
+    outcomes.next_row.push_back(outcomes.row.back() + 1);
     for (const double left : {gap, gap - speed}) {
       danger::NetInputs inputs{};
       inputs[speed_input] = static_cast<float>(0.2 * speed);
@@ -329,6 +332,41 @@ TEST(DangerTraining, ValuesOfAPolicyAreWhatItsDrivesCameTo) {
   const torch::NoGradGuard none;
   for (double gap = 6.0; gap <= 10.0; gap += 1.0) {
     EXPECT_NEAR(learnt->v(inputs_at(gap, 1.0), h_at(gap)).item<double>(), rolled(gap, 1.0), 0.5);
+  }
+}
+
+// Of drivers who always come a metre nearer than they are: one look by an input, then those.
+TEST(DangerTraining, QIsOneLookAndThenWhatVIsOf) {
+  torch::set_num_threads(1);
+  const Wall wall(2'000);
+  DangerPlan plan = quick();
+  plan.steps = 1'500;
+  DangerNet nearer(static_cast<std::int64_t>(danger::num_net_inputs), plan.width);
+  config::Tensors weights;
+  nearer->add_to(weights, "v.");
+  for (auto& [name, tensor] : weights.tensors) {
+    std::fill(tensor.values.begin(), tensor.values.end(), 0.0F);
+  }
+  weights.tensors["v.3.bias"].values[0] = std::log(std::exp(1.0F) - 1.0F);  // softplus of it is 1
+  nearer->take(weights, "v.");
+  auto nets = improved_q(wall.experience(), nearer, plan, 1, {}, every_point);
+  ASSERT_TRUE(nets.has_value());
+  DangerNets learnt = nets.value();
+  const torch::NoGradGuard none;
+  EXPECT_NEAR(learnt->v(inputs_at(5.0, 3.0), h_at(5.0)).item<double>(), -4.0, 1e-5) << "V stays";
+  for (int speed = 1; speed <= 4; ++speed) {
+    for (double gap = 4.0; gap <= 12.0; gap += 1.0) {
+      for (const int change : {-1, 1}) {
+        const torch::Tensor action =
+            torch::tensor({{static_cast<float>(change), 0.0F}}, torch::kFloat32);
+        const torch::Tensor q =
+            torch::maximum(learnt->q1(torch::cat({inputs_at(gap, speed), action}, 1), h_at(gap)),
+                           learnt->q2(torch::cat({inputs_at(gap, speed), action}, 1), h_at(gap)));
+        const int then = speed + change;
+        const double expected = then == 0 ? -gap : then - gap + 1.0;
+        EXPECT_NEAR(q.item<double>(), expected, 0.4) << gap << " m at " << speed << ", " << change;
+      }
+    }
   }
 }
 
