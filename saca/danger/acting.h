@@ -37,7 +37,7 @@ struct Situation {
 [[nodiscard]] State state_of(const manoeuvre::Car& car, const Situation& situation);
 
 /// The highest h [m] on the way when the full vehicle is driven by a policy until the situation is
-/// settled, at most 12 s, met every 20 ms.
+/// settled, at most to the horizon, met every 20 ms.
 [[nodiscard]] double highest_h(const manoeuvre::Car& car, const world::Footprint& body,
                                const Situation& situation, const Policy& policy);
 

@@ -50,11 +50,14 @@ void add_situation(Experience& all, const Transitions& from, std::size_t first, 
   }
   add_state(all, row_of(from.next_observations, last - 1), body, shape);
   all.reached.resize(all.size());
-  float reached =
+  const float after_last =
       from.settled[last - 1] != 0.0F ? told_of(from.next_h[last - 1]) : Experience::end_not_seen;
-  for (std::size_t i = all.size(); i-- > start;) {
-    reached = std::max(reached, all.h[i]);
-    all.reached[i] = reached;
+  constexpr auto horizon = static_cast<std::size_t>(horizon_looks);
+  for (std::size_t i = start; i < all.size(); ++i) {
+    const std::size_t until = std::min(all.size(), i + horizon);
+    const float deepest = *std::max_element(all.h.begin() + static_cast<std::ptrdiff_t>(i),
+                                            all.h.begin() + static_cast<std::ptrdiff_t>(until));
+    all.reached[i] = i + horizon > all.size() ? std::max(deepest, after_last) : deepest;
   }
 }
 

@@ -26,8 +26,8 @@ struct Experience {
   std::vector<float> actions;  ///< rows of 2
   std::vector<float> h;        ///< deepest from x to x' [m]
   std::vector<float> settled;  ///< 1: nothing can happen after x' any more
-  /// The deepest from x to the end of the situation, as it was driven [m]: V(x) and Q(x, u) are at
-  /// most that. Infinity where the end was not seen.
+  /// The deepest from x until the situation is settled, at most to the horizon, as it was driven
+  /// [m]: V(x) and Q(x, u) are at most that. Infinity where the drive ended before.
   std::vector<float> reached;
 
   static constexpr float end_not_seen = std::numeric_limits<float>::infinity();

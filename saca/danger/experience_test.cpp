@@ -62,6 +62,41 @@ TEST_F(ExperienceTest, IsOrderedInTime) {
   }
 }
 
+// A drive of 70 looks beside one obstacle that was cut off then: h is least at look 5 and deepest
+// at look 64.
+TEST(ReachedTest, LooksAheadToTheHorizon) {
+  Transitions drive;
+  constexpr int looks = horizon_looks + 10;
+  const auto h_at = [](int look) { return look == 64 ? -1.0 : look == 5 ? -9.0 : -5.0; };
+  Observation beside_one{};
+  beside_one[num_ego_features] = 1.0F;
+  beside_one[num_ego_features + 1] = 20.0F;
+  beside_one[num_ego_features + 3] = 1.0F;
+  beside_one[num_ego_features + 8] = 4.0F;
+  beside_one[num_ego_features + 9] = 2.0F;
+  for (int i = 0; i < looks; ++i) {
+    drive.add({.observation = beside_one,
+               .h = h_at(i),
+               .next_observation = beside_one,
+               .next_h = h_at(i),
+               .is_cut_off = i + 1 == looks});
+  }
+  Experience all{.num_obstacles = 1};
+  add_experience(all, drive, {.length = 4.0, .width = 2.0});
+  ASSERT_EQ(all.size(), static_cast<std::size_t>(looks));
+  EXPECT_EQ(all.reached[0], -5.0F);
+  EXPECT_EQ(all.reached[4], -5.0F) << "up to look 63";
+  EXPECT_EQ(all.reached[5], -1.0F) << "up to look 64";
+  EXPECT_EQ(all.reached[10], -1.0F) << "to the end, which is the horizon";
+  EXPECT_TRUE(std::isinf(all.reached[11])) << "the drive ended before";
+  drive.cut_off.back() = 0.0F;
+  drive.settled.back() = 1.0F;
+  Experience settled{.num_obstacles = 1};
+  add_experience(settled, drive, {.length = 4.0, .width = 2.0});
+  EXPECT_EQ(settled.reached[11], -1.0F);
+  EXPECT_EQ(settled.reached[65], -5.0F);
+}
+
 /// Two situations, of four looks and of three: what is done in each look is a letter, and h rises
 /// by 1 from look to look. The first ends unsettled, the second settled.
 Experience two_situations(const std::string& first, const std::string& second) {

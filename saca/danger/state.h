@@ -15,6 +15,10 @@ namespace saca::danger {
 
 constexpr std::size_t most_obstacles = 3;
 
+/// V_h and Q_h look so many looks ahead, 6 s: longer than previews (T2 = 5.5 s), and longer nobody
+/// turns or accelerates as he does now.
+constexpr int horizon_looks = 60;
+
 /// x of the paper's equations 1 to 3: a car that moves on a road, and what it is to miss.
 struct State {
   Ego ego;
