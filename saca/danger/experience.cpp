@@ -15,14 +15,6 @@ Observation row_of(const std::vector<float>& rows, std::size_t i) {
   return one;
 }
 
-std::size_t num_obstacles_of(const Observation& seen) {
-  std::size_t count = 0;
-  while (count < most_obstacles && seen[num_ego_features + count * num_obstacle_features] != 0.0F) {
-    ++count;
-  }
-  return count;
-}
-
 float told_of(float h) {
   return static_cast<float>(told(static_cast<double>(h)));
 }

@@ -41,19 +41,12 @@ Passing passing(const Vec2& p, const Vec2& v_rel) {
 
 SeenByNet seen_by_net(const world::Footprint& body, const Observation& seen, std::size_t obstacle,
                       world::Shape shape) {
-  expects(obstacle < most_obstacles, "an obstacle of the observation");
   const auto number = [&](std::size_t i) { return static_cast<double>(seen[i]); };
   const Vec2 v_B{number(0), number(1)};
   const double grip = number(8);
+  const Obstacle other = seen_obstacle(seen, obstacle, shape);
   const std::size_t first = num_ego_features + obstacle * num_obstacle_features;
-  expects(seen[first] != 0.0F, "an obstacle that is there");
-  Obstacle other;
   const Vec2 heading{number(first + 3), number(first + 4)};
-  other.X_WO = {{number(first + 1), number(first + 2)}, std::atan2(heading.y, heading.x)};
-  other.speed = number(first + 5);
-  other.acceleration = number(first + 6);
-  other.curvature = number(first + 7);
-  other.body = {.shape = shape, .length = number(first + 8), .width = number(first + 9)};
   const Vec2 p = other.X_WO.p;
   const Vec2 v_rel = other.speed * heading - v_B;
   const double h = reach::intrusion(body, Pose{}, other.body, other.X_WO);

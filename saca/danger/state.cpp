@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "saca/core/angle.h"
+#include "saca/core/contract.h"
 #include "saca/reach/intrusion.h"
 
 namespace saca::danger {
@@ -110,6 +111,42 @@ Observation observation(const State& state) {
     }
   }
   return seen;
+}
+
+std::size_t num_obstacles_of(const Observation& seen) {
+  std::size_t count = 0;
+  while (count < most_obstacles && seen[num_ego_features + count * num_obstacle_features] != 0.0F) {
+    ++count;
+  }
+  return count;
+}
+
+Obstacle seen_obstacle(const Observation& seen, std::size_t obstacle, world::Shape shape) {
+  const std::size_t first = num_ego_features + obstacle * num_obstacle_features;
+  expects(obstacle < most_obstacles && seen[first] != 0.0F, "an obstacle that is there");
+  const auto number = [&](std::size_t i) { return static_cast<double>(seen[first + i]); };
+  Obstacle other;
+  other.X_WO = {{number(1), number(2)}, std::atan2(number(4), number(3))};
+  other.speed = number(5);
+  other.acceleration = number(6);
+  other.curvature = number(7);
+  other.body = {.shape = shape, .length = number(8), .width = number(9)};
+  return other;
+}
+
+State seen_state(const Observation& seen, world::Shape shape) {
+  const auto number = [&](std::size_t i) { return static_cast<double>(seen[i]); };
+  State state{.ego = {.v_B = {number(0), number(1)},
+                      .yaw_rate = number(2),
+                      .a_B = {number(3), number(4)},
+                      .steering = number(5),
+                      .braking = number(6),
+                      .driving = number(7)},
+              .grip = number(8)};
+  for (std::size_t k = 0; k < num_obstacles_of(seen); ++k) {
+    state.obstacles.push_back(seen_obstacle(seen, k, shape));
+  }
+  return state;
 }
 
 const std::vector<std::string>& feature_names() {

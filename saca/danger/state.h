@@ -55,6 +55,13 @@ constexpr std::size_t num_features = num_ego_features + most_obstacles * num_obs
 /// in the world it is. An obstacle that is not there is all 0.
 using Observation = std::array<float, num_features>;
 [[nodiscard]] Observation observation(const State& state);
+/// How many obstacles are in there.
+[[nodiscard]] std::size_t num_obstacles_of(const Observation& seen);
+/// What an observation says of one of them; its shape it does not say. The ego is at the origin.
+[[nodiscard]] Obstacle seen_obstacle(const Observation& seen, std::size_t obstacle,
+                                     world::Shape shape = world::Shape::box);
+/// Everything that an observation says.
+[[nodiscard]] State seen_state(const Observation& seen, world::Shape shape = world::Shape::box);
 /// "v_x", ..., "obstacle0.x", ...: one for each number.
 [[nodiscard]] const std::vector<std::string>& feature_names();
 

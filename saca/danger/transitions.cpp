@@ -11,10 +11,10 @@
 #include "saca/core/contract.h"
 #include "saca/danger/acting.h"
 #include "saca/danger/arc_evasions.h"
+#include "saca/danger/exact.h"
 #include "saca/danger/random.h"
 #include "saca/reach/avoidance.h"
 #include "saca/reach/car_limits.h"
-#include "saca/reach/follow.h"
 #include "saca/reach/intrusion.h"
 
 namespace saca::danger {
@@ -71,7 +71,7 @@ class Maker {
   Obstacles drawn_obstacles(const State& state) {
     const ArcEvasions arcs(limits_, body_, state);
     const auto can_stay_below = [&](double level, const Obstacle& obstacle) {
-      const auto known = exact(state, obstacle);
+      const auto known = exact_value(model_, body_, state, obstacle);
       return known ? *known <= level : arcs.stay_below(level, obstacle);
     };
     const DrawnObstacles drawn =
@@ -80,31 +80,11 @@ class Maker {
     return drawn.obstacles;
   }
 
-  /// V_h beside what keeps its velocity, where a table has it.
-  [[nodiscard]] std::optional<double> exact(const State& state, const Obstacle& obstacle) const {
-    const bool keeps_on = obstacle.acceleration == 0.0 && obstacle.curvature == 0.0;
-    return keeps_on ? model_.exact(meeting_of(body_, state, obstacle)) : std::nullopt;
-  }
-
   /// What drives the point mass away from an obstacle: after what the table's value is least, and
   /// where there is none the best arc.
   [[nodiscard]] Demand evading(const State& state, const Obstacle& obstacle) const {
-    constexpr double ahead = 0.2;  // [s]
-    if (!exact(state, obstacle)) {
-      return ArcEvasions(limits_, body_, state).best(obstacle).demand;
-    }
-    const reach::Meeting meeting = meeting_of(body_, state, obstacle);
-    reach::Avoidance system = limits_;
-    system.grip = state.grip;
-    system.obstacle_speed = meeting.obstacle_speed;
-    const auto value = [&](const reach::State& at) {
-      reach::Meeting later = meeting;
-      later.state = at;
-      return model_.exact(later).value_or(std::numeric_limits<double>::infinity());
-    };
-    const reach::Acceleration best = reach::by_look_ahead(system, value, ahead)(meeting.state);
-    const double most = state.grip * vehicle::gravity;
-    return manoeuvre::admissible({best.along / most, best.across / most});
+    const auto known = exact_best(model_, limits_, body_, state, obstacle);
+    return known ? *known : ArcEvasions(limits_, body_, state).best(obstacle).demand;
   }
 
   static State at_look(const Ego& ego, double grip, const Obstacles& obstacles, double time) {
