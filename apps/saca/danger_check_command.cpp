@@ -43,7 +43,7 @@ struct DangerCheckOptions {
 std::vector<Checked> in_bin(const std::vector<Checked>& all, std::size_t bin) {
   std::vector<Checked> some;
   std::copy_if(all.begin(), all.end(), std::back_inserter(some), [&](const Checked& one) {
-    return danger::bin_of(one.speed, one.grip, one.num_obstacles) == bin;
+    return danger::bin_of(one.is_straight, one.speed, one.grip, one.num_obstacles) == bin;
   });
   return some;
 }
@@ -111,7 +111,7 @@ void tell(const std::vector<Checked>& situations, const std::optional<danger::Ma
     tell_head();
   }
   const auto margin_of = [&](const Checked& one) {
-    return margins ? margins->at(one.speed, one.grip, one.num_obstacles) : 0.0;
+    return margins ? margins->at(one.is_straight, one.speed, one.grip, one.num_obstacles) : 0.0;
   };
   const auto add = [&](const std::string& name, const std::string& place, const std::string& margin,
                        const CheckFigures& figures) {

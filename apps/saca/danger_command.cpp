@@ -85,15 +85,6 @@ fs::path file_of(const DatasetOptions& options, std::size_t part) {
   return fs::path(options.folder) / fmt::format("part_{:05}.h5", part);
 }
 
-/// Bodies of the obstacles that are drawn (danger/draws.h), with the speeds that tables reach.
-std::vector<reach::ToBeJudged> drawn_bodies() {
-  const auto box = [](double length, double width) {
-    return world::Footprint{.length = length, .width = width};
-  };
-  return {
-      {box(0.5, 0.5), 4.0}, {box(4.5, 1.8), 30.0}, {box(9.0, 2.5), 25.0}, {box(16.5, 2.55), 25.0}};
-}
-
 std::string card(const DatasetOptions& options, const PartLine& all) {
   return fmt::format(
       "# Transitions of a simulated car\n\n"
@@ -266,14 +257,7 @@ int make_dataset(const DatasetOptions& options) {
   if (!journal.has_value()) {
     return refused(journal.error());
   }
-  constexpr double most_grip = 0.9;
-  const auto cases =
-      tables_for(inputs.value(), most_grip,
-                 options.no_tables ? std::vector<reach::ToBeJudged>{} : drawn_bodies());
-  if (!cases.has_value()) {
-    return refused(cases.error());
-  }
-  const auto model = danger_by(inputs.value(), cases.value());
+  const auto model = danger_of_drawn(inputs.value(), !options.no_tables);
   if (!model.has_value()) {
     return refused(model.error());
   }
@@ -327,6 +311,7 @@ void add_danger(CLI::App& line, int& exit_code) {
   dataset->add_flag("--json", options->as_json, "For programs");
   dataset->callback([options, &exit_code] { exit_code = make_dataset(*options); });
   add_danger_check(*command, exit_code);
+  add_danger_coverage(*command, exit_code);
   add_danger_margins(*command, exit_code);
   add_danger_show(*command, exit_code);
 }

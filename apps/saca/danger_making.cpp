@@ -217,6 +217,23 @@ Result<reach::DangerModel> danger_by(const Inputs& inputs,
                             : Result<reach::DangerModel>(tables.error());
 }
 
+Result<reach::DangerModel> danger_of_drawn(const Inputs& inputs, bool with_tables) {
+  constexpr double most_grip = 0.9;
+  const auto box = [](double length, double width) {
+    return world::Footprint{.length = length, .width = width};
+  };
+  std::vector<reach::ToBeJudged> bodies;  // with the speeds that tables reach
+  if (with_tables) {
+    bodies = {{box(0.5, 0.5), 4.0},
+              {box(4.5, 1.8), 30.0},
+              {box(9.0, 2.5), 25.0},
+              {box(16.5, 2.55), 25.0}};
+  }
+  const auto cases = tables_for(inputs, most_grip, bodies);
+  return cases.has_value() ? danger_by(inputs, cases.value())
+                           : Result<reach::DangerModel>(cases.error());
+}
+
 Result<reach::DangerModel> usual_danger(const ScenarioInputs& inputs, bool with_tables) {
   auto learned = learned_danger(inputs);
   if (!learned.has_value()) {

@@ -43,6 +43,11 @@ struct ReadyTable {
 [[nodiscard]] Result<reach::DangerModel> danger_by(const Inputs& inputs,
                                                    const std::vector<reach::DangerCase>& cases);
 
+/// For the obstacles of data sets (danger/draws.h): with the tables of their bodies, made ready, or
+/// with none.
+/// @return  likewise
+[[nodiscard]] Result<reach::DangerModel> danger_of_drawn(const Inputs& inputs, bool with_tables);
+
 /// By what was learnt of the car, and nothing that must be waited for; where nothing was, or tables
 /// are wanted, with all tables that the scenario's actors need.
 /// @return  likewise

@@ -46,7 +46,7 @@ struct MarginCount {
 };
 
 json count_json(const MarginCount& count, const std::string& what) {
-  json all{{"schema", "saca.margins/1"}, {"of", what}, {"situations", count.situations}};
+  json all{{"schema", "saca.margins/2"}, {"of", what}, {"situations", count.situations}};
   for (std::size_t bin = 0; bin < danger::num_bins; ++bin) {
     all["told_safe"][danger::bin_names()[bin]] = count.told[bin].numbers();
   }
@@ -67,7 +67,7 @@ Result<MarginCount> read_count(const std::string& path, const std::string& what)
     return Error{Error::Code::malformed, path + ": want an unfinished count of margins of " + what +
                                              ", got " + why + "; delete it to begin anew"};
   };
-  if (!all.is_object() || all.value("schema", json()) != "saca.margins/1") {
+  if (!all.is_object() || all.value("schema", json()) != "saca.margins/2") {
     return refuse("something else");
   }
   if (all.value("of", json()) != what) {
@@ -103,13 +103,13 @@ std::optional<Error> count_for_margins(const MarginOptions& options, const Dange
         checked_situations("margins", count.situations,
                            std::min(at_once_for_margins, options.situations - count.situations),
                            options.threads, options.seed, [&](std::uint64_t seed) {
-                             return danger::checked_by_q_alone(weights.inputs.car, weights.body,
+                             return danger::checked_by_evasion(weights.inputs.car, weights.body,
                                                                weights.network, seed);
                            });
     for (const Checked& one : some) {
       if (one.told < 0.0) {
-        count.told[danger::bin_of(one.speed, one.grip, one.num_obstacles)].add(one.told,
-                                                                               one.acted >= 0.0);
+        count.told[danger::bin_of(one.is_straight, one.speed, one.grip, one.num_obstacles)].add(
+            one.told, one.acted >= 0.0);
       }
     }
     count.situations += static_cast<int>(some.size());
@@ -159,7 +159,7 @@ int fit_margins(const MarginOptions& options) {
     all["danger.net." + name + ".margin_m"] = metres[bin];
     all["danger.net." + name + ".told_safe"] = plain.of;
     if (!options.as_json) {
-      app::print("{:32} {:>7} of {:6} told safe {:5} were hit\n", name,
+      app::print("{:42} {:>7} of {:6} told safe {:5} were hit\n", name,
                  margin ? fmt::format("{:.2f} m", *margin) : "none", plain.of, plain.count);
     }
   }
@@ -184,7 +184,7 @@ void add_danger_margins(CLI::App& danger, int& exit_code) {
   command->add_option("WEIGHTS", options->weights, "safetensors file of saca-train-danger")
       ->required();
   command->add_option("--output", options->output, "The same weights with margins; else WEIGHTS");
-  command->add_option("--situations", options->situations, "Driven by Q where they are told safe")
+  command->add_option("--situations", options->situations, "Driven where they are told safe")
       ->check(CLI::Range(1, 100'000'000))
       ->capture_default_str();
   command->add_option("--seed", options->seed)->capture_default_str();

@@ -55,30 +55,12 @@ struct Data {
   std::size_t drives = 0;
 };
 
-Result<std::vector<fs::path>> parts_in(const fs::path& folder) {
-  std::vector<fs::path> parts;
-  std::error_code problem;
-  for (const auto& entry : fs::directory_iterator(folder, problem)) {
-    if (entry.path().extension() == ".h5") {
-      parts.push_back(entry.path());
-    }
-  }
-  std::sort(parts.begin(), parts.end());
-  if (parts.empty()) {
-    return Error{Error::Code::unreadable,
-                 folder.string() +
-                     ": want a folder with parts of a data set (*.h5), as `saca "
-                     "danger dataset` makes them"};
-  }
-  return parts;
-}
-
 std::string_view words_for(const danger::Experience& experience) {
   return experience.num_obstacles == 1 ? "one obstacle" : "two obstacles";
 }
 
 Result<Data> read_data(const std::string& folder, const std::string& root) {
-  const auto parts = parts_in(folder);
+  const auto parts = danger::part_files(folder);
   if (!parts.has_value()) {
     return parts.error();
   }

@@ -8,6 +8,7 @@
 
 #include "saca/core/contract.h"
 #include "saca/core/static_vector.h"
+#include "saca/danger/arc_evasions.h"
 
 namespace saca::danger {
 namespace {
@@ -51,6 +52,21 @@ Demand least_q(const Network& network, const world::Footprint& body, const State
   std::array<double, all.size()> q;
   network.joint_values_of(all_seen(body, state), all, q);
   return all[static_cast<std::size_t>(std::min_element(q.begin(), q.end()) - q.begin())];
+}
+
+std::optional<Demand> straight_evasion(const reach::Avoidance& limits, const world::Footprint& body,
+                                       const State& state) {
+  constexpr double least = 1.0;   // [m]
+  constexpr double driven = 0.2;  // [s]
+  const double clearance = least + driven * norm(state.ego.v_B);
+  return ArcEvasions(limits, body, state)
+      .straight_below(-clearance, {state.obstacles.begin(), state.obstacles.size()});
+}
+
+Demand evasion(const reach::Avoidance& limits, const Network& network, const world::Footprint& body,
+               const State& state) {
+  const auto straight = straight_evasion(limits, body, state);
+  return straight ? *straight : least_q(network, body, state);
 }
 
 double joint_v(const Network& network, const world::Footprint& body, const State& state) {

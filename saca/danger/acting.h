@@ -1,11 +1,13 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "saca/danger/network.h"
 #include "saca/danger/state.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/manoeuvre/demand.h"
+#include "saca/reach/avoidance.h"
 #include "saca/vehicle/vehicle.h"
 #include "saca/world/footprint.h"
 
@@ -19,6 +21,19 @@ using Policy = std::function<manoeuvre::Demand(const State&, double time)>;
 /// @param state  with one obstacle or more
 [[nodiscard]] manoeuvre::Demand least_q(const Network& network, const world::Footprint& body,
                                         const State& state);
+
+/// Going straight on, or else braking straight, where that leaves 1 m, and what is driven in 0.2 s,
+/// beside all obstacles: for that nothing need be learnt, and it hardly ever goes wrong, where all
+/// the grip across can end in a spin. nullopt: neither leaves as much.
+/// @param limits  of the car; the state's grip is taken
+[[nodiscard]] std::optional<manoeuvre::Demand> straight_evasion(const reach::Avoidance& limits,
+                                                                const world::Footprint& body,
+                                                                const State& state);
+
+/// How a car evades: straight where that is enough, else by the least Q_h.
+/// @param state  with one obstacle or more
+[[nodiscard]] manoeuvre::Demand evasion(const reach::Avoidance& limits, const Network& network,
+                                        const world::Footprint& body, const State& state);
 
 /// V_h beside all obstacles [m].
 [[nodiscard]] double joint_v(const Network& network, const world::Footprint& body,

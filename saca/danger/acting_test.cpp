@@ -9,6 +9,7 @@
 #include "saca/danger/networks_for_test.h"
 #include "saca/manoeuvre/default_car.h"
 #include "saca/manoeuvre/ego.h"
+#include "saca/reach/car_limits.h"
 #include "saca/world/scene.h"
 
 namespace saca::danger::acting_test {
@@ -64,6 +65,35 @@ TEST_F(Acting, TellsTheHighestOfTheObstacles) {
   EXPECT_NEAR(joint_v(preferring(0, 1.0), body, state), -4.0 + std::log1p(std::exp(2.0)), 1e-3);
   EXPECT_EQ(highest_single_v(preferring(0, 1.0), body, state),
             joint_v(preferring(0, 1.0), body, state));
+}
+
+// From 15 m/s on grip 0.9 a point mass stops within 12.74 m; 1 m and 0.2 s of the way are to be
+// left.
+TEST_F(Acting, EvadesStraightWhereThatLeavesRoom) {
+  const reach::Avoidance limits = reach::avoidance_of(car_, 1.0);
+  const Network to_the_left = preferring(1, -1.0);
+  const auto before = [&](double gap) { return state_of(car_, before_a_car(15.0, gap)); };
+  const auto braking = straight_evasion(limits, body, before(16.8));
+  ASSERT_TRUE(braking.has_value());
+  EXPECT_NEAR(braking->along, -1.0, 1e-9);
+  EXPECT_NEAR(braking->across, 0.0, 1e-9);
+  EXPECT_EQ(evasion(limits, to_the_left, body, before(16.8)).along, braking->along);
+  EXPECT_FALSE(straight_evasion(limits, body, before(16.6)).has_value());
+  EXPECT_NEAR(evasion(limits, to_the_left, body, before(16.6)).across, 1.0, 1e-12) << "by Q";
+
+  State aside = before(8.0);
+  aside.obstacles[0].X_WO.p.y += 1.8 + 4.05;
+  const auto going_on = straight_evasion(limits, body, aside);
+  ASSERT_TRUE(going_on.has_value());
+  EXPECT_EQ(going_on->along, 0.0);
+  EXPECT_EQ(going_on->across, 0.0);
+
+  State from_behind = before(16.8);
+  from_behind.obstacles.push_back(from_behind.obstacles[0]);
+  from_behind.obstacles[1].X_WO = {{-10.0, 0.0}, 0.0};
+  from_behind.obstacles[1].speed = 20.0;
+  EXPECT_FALSE(straight_evasion(limits, body, from_behind).has_value())
+      << "whoever brakes is run into";
 }
 
 // Full braking from 15 m/s on grip 0.9 takes some 13 to 16 m; a car that only rolls hits.

@@ -78,6 +78,21 @@ bool ArcEvasions::stay_below(double level, const Obstacle& obstacle) const {
   });
 }
 
+std::optional<manoeuvre::Demand> ArcEvasions::straight_below(
+    double level, std::span<const Obstacle> obstacles) const {
+  constexpr std::size_t going_on = 0;
+  constexpr std::size_t braking = 2 + num_turns / 2;  // of the turns the middle one
+  for (const std::size_t which : {going_on, braking}) {
+    if (which < arcs_.size() &&
+        std::all_of(obstacles.begin(), obstacles.end(), [&](const Obstacle& obstacle) {
+          return highest_on_the_way(body_, arcs_[which].motion, obstacle, level, level) <= level;
+        })) {
+      return arcs_[which].demand;
+    }
+  }
+  return std::nullopt;
+}
+
 ArcEvasions::Best ArcEvasions::best(const Obstacle& obstacle) const {
   Best best;
   for (const Arc& arc : arcs_) {

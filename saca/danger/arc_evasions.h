@@ -1,6 +1,8 @@
 #pragma once
 
 #include <limits>
+#include <optional>
+#include <span>
 
 #include "saca/core/static_vector.h"
 #include "saca/danger/obstacle.h"
@@ -23,6 +25,11 @@ class ArcEvasions {
 
   /// Whether h stays at or below a level [m] by one of them, the obstacle going on as it does.
   [[nodiscard]] bool stay_below(double level, const Obstacle& obstacle) const;
+
+  /// Going on if that keeps h at or below a level [m] beside all of them, else braking straight if
+  /// that does; nullopt: neither.
+  [[nodiscard]] std::optional<manoeuvre::Demand> straight_below(
+      double level, std::span<const Obstacle> obstacles) const;
 
   struct Best {
     manoeuvre::Demand demand;

@@ -73,10 +73,12 @@ class Trials {
          const Situation& situation)
       : car_(car), body_(body), network_(network), situation_(situation) {}
 
-  [[nodiscard]] double by_q() const {
-    return by([this](const State& now, double) { return least_q(network_, body_, now); });
+  [[nodiscard]] double by_evasion() const {
+    return by([this, limits = reach::avoidance_of(car_, 1.0)](const State& now, double) {
+      return evasion(limits, network_, body_, now);
+    });
   }
-  /// Without Q.
+  /// Without what was learnt.
   [[nodiscard]] double best_of_all() const {
     double best = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < situation_.obstacles.size(); ++k) {
@@ -95,7 +97,7 @@ class Trials {
                          alone.obstacles.clear();
                          alone.obstacles.push_back(obstacle);
                          const Trials trials(car_, body_, network_, alone);
-                         return trials.best_of_all() < 0.0 || trials.by_q() < 0.0;
+                         return trials.best_of_all() < 0.0 || trials.by_evasion() < 0.0;
                        });
   }
 
@@ -110,10 +112,12 @@ class Trials {
   const Situation& situation_;
 };
 
-Checked told_of(const Network& network, const world::Footprint& body, const State& state) {
+Checked told_of(const manoeuvre::Car& car, const Network& network, const world::Footprint& body,
+                const State& state) {
   return {.speed = norm(state.ego.v_B),
           .grip = state.grip,
           .num_obstacles = state.obstacles.size(),
+          .is_straight = straight_evasion(reach::avoidance_of(car, 1.0), body, state).has_value(),
           .told = joint_v(network, body, state),
           .told_alone = highest_single_v(network, body, state)};
 }
@@ -125,21 +129,21 @@ Checked checked(const manoeuvre::Car& car, const world::Footprint& body, const N
   Random random(seed);
   const Situation situation = drawn_situation(car, body, random);
   const Trials trials(car, body, network, situation);
-  Checked result = told_of(network, body, state_of(car, situation));
-  result.acted = trials.by_q();
+  Checked result = told_of(car, network, body, state_of(car, situation));
+  result.acted = trials.by_evasion();
   result.best = std::min(result.acted, trials.best_of_all());
   result.is_pincer =
       result.num_obstacles > 1 && result.best >= 0.0 && trials.each_alone_is_evaded();
   return result;
 }
 
-Checked checked_by_q_alone(const manoeuvre::Car& car, const world::Footprint& body,
+Checked checked_by_evasion(const manoeuvre::Car& car, const world::Footprint& body,
                            const Network& network, std::uint64_t seed) {
   Random random(seed);
   const Situation situation = drawn_situation(car, body, random);
-  Checked result = told_of(network, body, state_of(car, situation));
+  Checked result = told_of(car, network, body, state_of(car, situation));
   if (result.told < 0.0) {
-    result.acted = Trials(car, body, network, situation).by_q();
+    result.acted = Trials(car, body, network, situation).by_evasion();
   }
   return result;
 }

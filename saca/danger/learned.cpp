@@ -8,9 +8,11 @@
 #include <utility>
 
 #include "saca/core/fnv.h"
+#include "saca/danger/acting.h"
 #include "saca/danger/net_inputs.h"
 #include "saca/danger/state.h"
 #include "saca/manoeuvre/ego.h"
+#include "saca/reach/car_limits.h"
 
 namespace saca::danger {
 namespace {
@@ -66,7 +68,8 @@ State state_of(const manoeuvre::Car& car, const reach::Meeting& meeting,
 
 reach::LearnedValue learned_value(std::shared_ptr<const Network> network, const Margins& margins,
                                   const manoeuvre::Car& car) {
-  return [network = std::move(network), margins, car, body = manoeuvre::footprint(car)](
+  return [network = std::move(network), margins, car, body = manoeuvre::footprint(car),
+          limits = reach::avoidance_of(car, 1.0)](
              const reach::Meeting& meeting, const reach::Motion& motion) -> std::optional<double> {
     const State state = state_of(car, meeting, motion);
     const Obstacle& obstacle = state.obstacles[0];
@@ -81,7 +84,8 @@ reach::LearnedValue learned_value(std::shared_ptr<const Network> network, const 
     if (told <= -told_well_to) {
       return std::nullopt;
     }
-    const double margin = margins.at(speed, state.grip, 1);
+    const bool is_straight = straight_evasion(limits, body, state).has_value();
+    const double margin = margins.at(is_straight, speed, state.grip, 1);
     return margin < Margins::none ? std::optional(told + margin) : std::nullopt;
   };
 }

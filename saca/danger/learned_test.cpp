@@ -34,8 +34,9 @@ class Learned : public testing::Test {
  protected:
   Learned() {
     metres_.fill(0.25);
-    metres_[bin_of(15.0, 0.9, 1)] = 0.75;
-    metres_[bin_of(25.0, 0.3, 1)] = Margins::none;
+    metres_[bin_of(false, 15.0, 0.9, 1)] = 0.75;
+    metres_[bin_of(true, 0.5, 0.9, 1)] = 0.05;
+    metres_[bin_of(false, 25.0, 0.3, 1)] = Margins::none;
   }
   [[nodiscard]] reach::LearnedValue value() const {
     return learned_value(
@@ -61,6 +62,8 @@ TEST_F(Learned, AddsTheMarginOfItsBin) {
               1e-4);
   EXPECT_NEAR(value()(ahead(6.0, 25.0), {}).value(), -6.0 + std::log1p(std::exp(1.25)) + 0.25,
               1e-4);
+  EXPECT_NEAR(value()(ahead(6.0, 0.5), {}).value(), -6.0 + std::log1p(std::exp(0.025)) + 0.05, 1e-4)
+      << "braking straight is enough";
   reach::Meeting slippery = ahead(6.0, 25.0);
   slippery.grip = 0.3;
   EXPECT_FALSE(value()(slippery, {}).has_value()) << "no margin is enough there";

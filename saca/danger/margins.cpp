@@ -29,19 +29,22 @@ double upper_bound(const Share& share, double confidence) {
   return Binomial::find_upper_bound_on_p(share.of, share.count, 1.0 - confidence);
 }
 
-std::size_t bin_of(double speed, double grip, std::size_t num_obstacles) {
+std::size_t bin_of(bool is_straight, double speed, double grip, std::size_t num_obstacles) {
   expects(num_obstacles > 0, "an obstacle");
-  return (speed >= fast ? 4U : 0U) + (grip >= good_grip ? 2U : 0U) + (num_obstacles > 1 ? 1U : 0U);
+  return (is_straight ? 0U : 8U) + (speed >= fast ? 4U : 0U) + (grip >= good_grip ? 2U : 0U) +
+         (num_obstacles > 1 ? 1U : 0U);
 }
 
 const std::array<std::string, num_bins>& bin_names() {
   static const std::array<std::string, num_bins> names = [] {
     std::array<std::string, num_bins> all;
     std::size_t next = 0;
-    for (const std::string_view speed : {"below_20_mps", "from_20_mps"}) {
-      for (const std::string_view grip : {"slippery", "good_grip"}) {
-        for (const std::string_view obstacles : {"one", "several"}) {
-          all[next++] = fmt::format("{}.{}.{}", speed, grip, obstacles);
+    for (const std::string_view way : {"straight", "turning"}) {
+      for (const std::string_view speed : {"below_20_mps", "from_20_mps"}) {
+        for (const std::string_view grip : {"slippery", "good_grip"}) {
+          for (const std::string_view obstacles : {"one", "several"}) {
+            all[next++] = fmt::format("{}.{}.{}.{}", way, speed, grip, obstacles);
+          }
         }
       }
     }

@@ -28,11 +28,13 @@ struct Share {
 constexpr double most_hits = 1e-3;
 constexpr double margin_confidence = 1.0 - 1e-6;
 
-/// Situations that share a margin: two bins of the ego's speed, two of the grip, one obstacle or
-/// several. More bins ask for more drives: each wants some 14,000 that stay safe with its margin.
-constexpr std::size_t num_bins = 8;
-[[nodiscard]] std::size_t bin_of(double speed, double grip, std::size_t num_obstacles);
-/// "below_20_mps.slippery.one", ...
+/// Situations that share a margin: going or braking straight is enough (straight_evasion) or not,
+/// two bins of the ego's speed, two of the grip, one obstacle or several. More bins ask for more
+/// drives: each wants some 14,000 that stay safe with its margin.
+constexpr std::size_t num_bins = 16;
+[[nodiscard]] std::size_t bin_of(bool is_straight, double speed, double grip,
+                                 std::size_t num_obstacles);
+/// "straight.below_20_mps.slippery.one", ..., "turning.from_20_mps.good_grip.several".
 [[nodiscard]] const std::array<std::string, num_bins>& bin_names();
 
 /// How often situations that were told safe were hit, by how safe they were told to be. Enough to
@@ -74,8 +76,9 @@ class Margins {
       const std::map<std::string, std::string>& words, std::string_view source);
   void add_to(std::map<std::string, std::string>& words) const;
 
-  [[nodiscard]] double at(double speed, double grip, std::size_t num_obstacles) const {
-    return metres_[bin_of(speed, grip, num_obstacles)];
+  [[nodiscard]] double at(bool is_straight, double speed, double grip,
+                          std::size_t num_obstacles) const {
+    return metres_[bin_of(is_straight, speed, grip, num_obstacles)];
   }
   [[nodiscard]] const std::array<double, num_bins>& metres() const { return metres_; }
 

@@ -19,10 +19,10 @@ TEST(Margins, BoundIsExactForSharesThatWereCounted) {
 }
 
 TEST(Margins, BinsHaveNamesOfTheirOwn) {
-  EXPECT_EQ(bin_names()[bin_of(19.9, 0.3, 1)], "below_20_mps.slippery.one");
-  EXPECT_EQ(bin_names()[bin_of(20.0, 0.5, 2)], "from_20_mps.good_grip.several");
-  EXPECT_EQ(bin_names()[bin_of(29.9, 0.49, 3)], "from_20_mps.slippery.several");
-  EXPECT_EQ(bin_names()[bin_of(0.0, 1.0, 1)], "below_20_mps.good_grip.one");
+  EXPECT_EQ(bin_names()[bin_of(true, 19.9, 0.3, 1)], "straight.below_20_mps.slippery.one");
+  EXPECT_EQ(bin_names()[bin_of(false, 20.0, 0.5, 2)], "turning.from_20_mps.good_grip.several");
+  EXPECT_EQ(bin_names()[bin_of(true, 29.9, 0.49, 3)], "straight.from_20_mps.slippery.several");
+  EXPECT_EQ(bin_names()[bin_of(false, 0.0, 1.0, 1)], "turning.below_20_mps.good_grip.one");
   EXPECT_EQ(std::set<std::string>(bin_names().begin(), bin_names().end()).size(), num_bins);
 }
 
@@ -94,13 +94,14 @@ TEST(Margins, StandAmongTheWords) {
   Margins(metres).add_to(words);
   const auto back = Margins::from(words, "w");
   ASSERT_TRUE(back.has_value() && back.value().has_value());
-  EXPECT_NEAR(back.value()->at(35.0, 0.8, 2), 0.35, 1e-9);
-  EXPECT_EQ(back.value()->at(5.0, 0.8, 2), Margins::none);
+  EXPECT_NEAR(back.value()->at(true, 35.0, 0.8, 2), 0.35, 1e-9);
+  EXPECT_EQ(back.value()->at(true, 5.0, 0.8, 2), Margins::none);
 
-  words["margin.below_20_mps.slippery.one"] = "much";
-  EXPECT_NE(Margins::from(words, "some.file").error().message.find("some.file: margin.below_20"),
-            std::string::npos);
-  words.erase("margin.below_20_mps.slippery.one");
+  words["margin.straight.below_20_mps.slippery.one"] = "much";
+  EXPECT_NE(
+      Margins::from(words, "some.file").error().message.find("some.file: margin.straight.below_20"),
+      std::string::npos);
+  words.erase("margin.straight.below_20_mps.slippery.one");
   EXPECT_NE(Margins::from(words, "w").error().message.find("1 are missing"), std::string::npos);
 }
 

@@ -130,4 +130,22 @@ Result<Part> read_part(const std::filesystem::path& path) {
   return config::read_sealed_hdf5(path, part_format, read);
 }
 
+Result<std::vector<std::filesystem::path>> part_files(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> parts;
+  std::error_code problem;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, problem)) {
+    if (entry.path().extension() == ".h5") {
+      parts.push_back(entry.path());
+    }
+  }
+  std::sort(parts.begin(), parts.end());
+  if (parts.empty()) {
+    return Error{Error::Code::unreadable,
+                 folder.string() +
+                     ": want a folder with parts of a data set (*.h5), as `saca danger dataset` "
+                     "makes them"};
+  }
+  return parts;
+}
+
 }  // namespace saca::danger

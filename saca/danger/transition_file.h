@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "saca/core/result.h"
 #include "saca/danger/transitions.h"
@@ -29,5 +30,10 @@ struct Part {
 /// @return  Error::Code::unreadable or ::malformed, naming file, part and what is wanted, where the
 ///          seal does not hold or a number is not finite
 [[nodiscard]] Result<Part> read_part(const std::filesystem::path& path);
+
+/// The parts in a folder, by name.
+/// @return  Error::Code::unreadable where there are none
+[[nodiscard]] Result<std::vector<std::filesystem::path>> part_files(
+    const std::filesystem::path& folder);
 
 }  // namespace saca::danger
