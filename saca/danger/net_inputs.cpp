@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "saca/core/contract.h"
 #include "saca/reach/intrusion.h"
@@ -10,7 +11,8 @@
 namespace saca::danger {
 namespace {
 
-constexpr std::array<double, 3> times_ahead{0.5, 1.0, 2.0};  // [s]
+constexpr std::array<double, 3> times_ahead{0.5, 1.0, 2.0};        // [s]
+constexpr std::array<double, 3> times_of_evasions{0.8, 1.6, 2.6};  // [s]
 
 /// h, the nearer the finer.
 double scaled(double h) {
@@ -20,6 +22,34 @@ double scaled(double h) {
 double finely(double h) {
   return std::clamp(0.5 * h, -2.0, 2.0);
 }
+
+/// Where an arc leads that the ego begins now, as a point mass whose body points along its course.
+class Evasions {
+ public:
+  Evasions(const world::Footprint& body, const Vec2& v_B, double grip)
+      : body_(body),
+        speed_(norm(v_B)),
+        most_(grip * vehicle::gravity),
+        course_(speed_ > 0.0 ? std::atan2(v_B.y, v_B.x) : 0.0) {}
+
+  /// h then, towards the obstacle as it is then.
+  /// @param along, across  of the grip, > 0 ahead and to the left
+  [[nodiscard]] double h(double along, double across, double time, const Obstacle& then) const {
+    constexpr double tightest = 0.17;  // [1/m]
+    const double square = std::max(0.01, speed_ * speed_);
+    const Obstacle ego{.X_WO = {{}, course_},
+                       .speed = speed_,
+                       .acceleration = along * most_,
+                       .curvature = std::clamp(across * most_ / square, -tightest, tightest)};
+    return reach::intrusion(body_, after(ego, time).X_WO, then.body, then.X_WO);
+  }
+
+ private:
+  world::Footprint body_;
+  double speed_;
+  double most_;
+  double course_;
+};
 
 /// A straight line's passing by another's: when it is nearest [s], and how far then, to the left.
 struct Passing {
@@ -97,12 +127,25 @@ SeenByNet seen_by_net(const world::Footprint& body, const Observation& seen, std
   add(speed * speed / (2.0 * most) / 30.0);
   add(std::min(3.0, needed));
   add(closing / 10.0);
+  const Evasions evasions(body, v_B, grip);
+  for (const double time : times_of_evasions) {
+    const Obstacle then = after(other, time);
+    add(scaled(evasions.h(-1.0, 0.0, time, then)));
+    for (const double braking : {0.0, -std::numbers::sqrt2 / 2.0}) {
+      const double turning = std::sqrt(1.0 - braking * braking);
+      const double left = evasions.h(braking, turning, time, then);
+      const double right = evasions.h(braking, -turning, time, then);
+      add(scaled(0.5 * (left + right)));
+      add(finely(left - right));
+    }
+  }
   expects(next == num_net_inputs, "all inputs");
   return result;
 }
 
 const std::vector<std::size_t>& mirrored_inputs() {
-  static const std::vector<std::size_t> all{1, 2, 4, 5, 10, 12, 14, 16, 19, 28};
+  static const std::vector<std::size_t> all{1,  2,  4,  5,  10, 12, 14, 16,
+                                            19, 28, 34, 36, 39, 41, 44, 46};
   return all;
 }
 

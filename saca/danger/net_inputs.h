@@ -18,13 +18,14 @@ constexpr double farthest_told = 15.0;
   return value > -farthest_told ? value : -farthest_told;
 }
 
-constexpr std::size_t num_net_inputs = 32;
+constexpr std::size_t num_net_inputs = 47;
 /// What the networks read of the ego and one obstacle: numbers about as large as 1.
 using NetInputs = std::array<float, num_net_inputs>;
 
 /// The ego and one obstacle of an observation: its motion in the ego's frame, h now and where it
 /// leads in half a second, one and two if the ego keeps its velocity and the obstacle goes on, when
-/// and by how much they then pass, and what of the grip stopping before it takes.
+/// and by how much they then pass, what of the grip stopping before it takes, and where h leads if
+/// the ego brakes, turns or does both, with all the grip.
 struct SeenByNet {
   NetInputs inputs;
   double h = 0.0;  ///< of this obstacle alone [m]

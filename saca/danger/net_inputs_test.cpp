@@ -52,6 +52,10 @@ TEST(NetInputs, AreWhatTheySay) {
   EXPECT_NEAR(seen.inputs[28], 0.0, 1e-6);
   EXPECT_NEAR(seen.inputs[29], 400.0 / (2.0 * 0.5 * 9.80665) / 30.0, 1e-3);
   EXPECT_NEAR(seen.inputs[30], 100.0 / (2.0 * 20.0 * 0.5 * 9.80665), 1e-3);
+  const double gap = 20.0 - 10.0 * 0.8 + 0.5 * 0.5 * 9.80665 * 0.8 * 0.8;
+  EXPECT_NEAR(seen.inputs[32], -0.1 * gap, 1e-4) << "after braking for 0.8 s";
+  EXPECT_NEAR(seen.inputs[34], 0.0, 1e-5) << "left is as good as right";
+  EXPECT_NEAR(seen.inputs[36], 0.0, 1e-5);
 }
 
 TEST(NetInputs, ChangeTheirSignInAMirrorWhereTheySay) {

@@ -18,8 +18,9 @@ namespace {
 constexpr std::size_t num_actions = 2;
 
 /// One column for each that is looked at.
+constexpr std::size_t most_rows = std::max(Network::width, num_pair_inputs + num_actions);
 using Columns = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor,
-                              static_cast<int>(Network::width), static_cast<int>(Network::at_once)>;
+                              static_cast<int>(most_rows), static_cast<int>(Network::at_once)>;
 using Weights =
     Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 

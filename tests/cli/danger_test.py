@@ -58,6 +58,13 @@ def test_other_settings_are_another_data_set(tmp_path):
     assert "journal.txt" in one_error(result, BAD_INPUT)
 
 
+def test_coverage_wants_a_data_set(tmp_path):
+    assert "*.h5" in one_error(saca("danger", "coverage", tmp_path, cwd=tmp_path), BAD_INPUT)
+    (tmp_path / "part_00000.h5").write_text("nothing of the kind")
+    assert "part_00000.h5" in one_error(saca("danger", "coverage", tmp_path, cwd=tmp_path), BAD_INPUT)
+    assert "--among" in one_error(saca("danger", "coverage", tmp_path, "--among", "31", cwd=tmp_path), WRONG_COMMAND_LINE)
+
+
 def test_a_folder_that_cannot_be_made_is_named(tmp_path):
     (tmp_path / "file").write_text("no folder")
     result = saca("danger", "dataset", tmp_path / "file" / "a", *SMALL, cwd=tmp_path)
@@ -67,7 +74,7 @@ def test_a_folder_that_cannot_be_made_is_named(tmp_path):
 def weights(path, without="", **words):
     """Networks whose layers are 0: each value is h + log 2."""
     header, numbers = {"__metadata__": {"car": "compact_rwd_ev"} | words}, 0
-    for net, inputs in (("v", 32), ("q1", 34), ("q2", 34)):
+    for net, inputs in (("v", 47), ("q1", 49), ("q2", 49)):
         for layer in range(4):
             rows, columns = 96 if layer < 3 else 1, 96 if layer else inputs
             for name, shape in ((f"{net}.{layer}.weight", [rows, columns]), (f"{net}.{layer}.bias", [rows])):
@@ -108,14 +115,14 @@ def test_without_enough_situations_nothing_is_told_safe(tmp_path):
     assert result.returncode == SUCCESS, result.stderr
     told = json.loads(result.stdout)
     margins = [told[key] for key in told if key.endswith(".margin_m")]
-    assert len(margins) == 8 and min(margins) == 1000.0
+    assert len(margins) == 16 and min(margins) == 1000.0
     assert sum(told[key] for key in told if key.endswith(".told_safe")) > 50
     assert not list(tmp_path.glob("*.json")), "what was counted is not left behind"
     checked = json.loads(saca("danger", "check", careful, "--situations", "60", "--json", cwd=tmp_path).stdout)
     assert checked["danger.net.hit_given_told_safe.n"] == 0
     assert checked["danger.net.false_alarm"] == 1.0
     assert checked["danger.net.plain.false_alarm"] < 0.5
-    assert checked["danger.net.from_20_mps.good_grip.one.margin_m"] == 1000.0
+    assert checked["danger.net.turning.from_20_mps.good_grip.one.margin_m"] == 1000.0
 
 
 def test_an_interrupted_count_for_margins_goes_on(tmp_path):
@@ -145,8 +152,8 @@ def test_check_refuses_what_are_no_weights(tmp_path):
     assert "no_such_car" in one_error(saca("danger", "check", weights(tmp_path / "b", car="no_such_car"), cwd=tmp_path), BAD_INPUT)
     (tmp_path / "c").write_text("no weights")
     one_error(saca("danger", "check", tmp_path / "c", cwd=tmp_path), BAD_INPUT)
-    bad_margin = weights(tmp_path / "d", **{"margin.below_20_mps.slippery.one": "much"})
-    assert "margin.below_20_mps.slippery.one: want metres" in one_error(saca("danger", "check", bad_margin, cwd=tmp_path), BAD_INPUT)
+    bad_margin = weights(tmp_path / "d", **{"margin.straight.below_20_mps.slippery.one": "much"})
+    assert "margin.straight.below_20_mps.slippery.one: want metres" in one_error(saca("danger", "check", bad_margin, cwd=tmp_path), BAD_INPUT)
 
 
 def test_a_data_set_by_a_network_is_another(tmp_path):
