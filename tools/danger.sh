@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # From nothing to the weights of V_h and Q_h: transitions, Q of them alone, V of what driving by that Q comes to, a better Q, V of what
-# driving by that one comes to, margins, figures; 1.5 h on two cores, 6 GB.
+# driving by that one comes to, margins, figures; two hours on two cores, 6 GB.
 # usage: tools/danger.sh [CAR]
 # CAR: a shipped car's name (default: compact_rwd_ev). Makes models/danger/CAR.safetensors and prints the figures of `saca danger check`.
 # What is done is not done again: the same command goes on where it was stopped; remove build/danger to begin anew.
@@ -18,7 +18,7 @@ if [ -n "${SACA_DANGER_QUICK:-}" ]; then
   parts=(--part-drives 50 --no-tables)
 else
   work=build/danger/$car output=models/danger/$car.safetensors
-  transitions=31000000 outcomes=5300000 first_steps=12000 steps=10000 pair_steps=8000 batch=4096 situations=400000 checked=20000
+  transitions=31000000 outcomes=5300000 first_steps=12000 steps=10000 pair_steps=8000 batch=4096 situations=1000000 checked=20000
   parts=()
 fi
 tools/setup.sh train

@@ -3,6 +3,7 @@
 import hashlib
 import json
 import pathlib
+import resource
 import signal
 import struct
 import subprocess
@@ -69,6 +70,21 @@ def test_a_folder_that_cannot_be_made_is_named(tmp_path):
     (tmp_path / "file").write_text("no folder")
     result = saca("danger", "dataset", tmp_path / "file" / "a", *SMALL, cwd=tmp_path)
     assert "file/a" in one_error(result, CANNOT_WRITE)
+
+
+def test_a_full_disk_is_told_and_the_same_command_goes_on(tmp_path):
+    def small_files():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
+
+    arguments = ("danger", "dataset", tmp_path / "a", *SMALL)
+    full = saca(*arguments, cwd=tmp_path, preexec_fn=small_files)
+    assert full.returncode == CANNOT_WRITE
+    assert "part_00000.h5: cannot be written" in full.stderr
+    assert not digests(tmp_path / "a"), "no half part"
+    assert saca(*arguments, cwd=tmp_path).returncode == SUCCESS
+    assert saca("danger", "dataset", tmp_path / "b", *SMALL, cwd=tmp_path).returncode == SUCCESS
+    assert digests(tmp_path / "a") == digests(tmp_path / "b") != {}
 
 
 def weights(path, without="", **words):
