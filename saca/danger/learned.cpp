@@ -28,6 +28,11 @@ bool has_known_size(const world::Footprint& body) {
   return body.length >= 0.4 && body.length <= 18.2 && body.width >= 0.4 && body.width <= 2.9;
 }
 
+bool is_finite(const reach::Motion& motion) {
+  return std::isfinite(motion.yaw_rate) && std::isfinite(motion.sideslip) &&
+         std::isfinite(motion.a_B.x) && std::isfinite(motion.a_B.y);
+}
+
 bool moves_as_drawn(const Obstacle& obstacle) {
   constexpr double strongest = 9.0;  // [m/s^2], braking
   constexpr double drives = 4.0;
@@ -75,8 +80,8 @@ reach::LearnedValue learned_value(std::shared_ptr<const Network> network, const 
     const Obstacle& obstacle = state.obstacles[0];
     const double speed = meeting.state[3];
     const double distance = std::hypot(meeting.state[0], meeting.state[1]);
-    if (!has_known_size(obstacle.body) || !moves_as_drawn(obstacle) || speed > learnt_to_speed ||
-        meeting.grip < least_grip || distance > learnt_to_distance) {
+    if (!is_finite(motion) || !has_known_size(obstacle.body) || !moves_as_drawn(obstacle) ||
+        speed > learnt_to_speed || meeting.grip < least_grip || distance > learnt_to_distance) {
       return std::nullopt;
     }
     const std::array<SeenByNet, 1> seen{seen_by_net(body, observation(state), 0)};

@@ -121,6 +121,13 @@ TEST_F(Learned, DoesNotKnowWhatItHasNotLearnt) {
   EXPECT_FALSE(knows(other));
   EXPECT_TRUE(knows(usual, {.obstacle_acceleration = -8.0}));
   EXPECT_FALSE(knows(usual, {.obstacle_acceleration = -10.0}));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const reach::Motion& motion :
+       {reach::Motion{.yaw_rate = nan}, reach::Motion{.sideslip = nan},
+        reach::Motion{.a_B = {nan, 0.0}}, reach::Motion{.obstacle_acceleration = nan},
+        reach::Motion{.obstacle_curvature = nan}}) {
+    EXPECT_FALSE(knows(usual, motion));
+  }
   other.obstacle_speed = 20.0;
   EXPECT_FALSE(knows(other, {.obstacle_curvature = 0.1})) << "40 m/s2 across";
 }
