@@ -89,7 +89,7 @@ json figures_json(const std::string& place, const CheckFigures& figures) {
 void tell_danger_row(const std::string& name, const std::string& margin,
                      const CheckFigures& figures) {
   app::print(
-      "{:32} {:>7} {:9.3f} {:9.3f} {:9.3f} {:9.2f} {:9.2f} {:9.2f} {:8.3f} {:8.3f} {:8.3f}\n", name,
+      "{:42} {:>7} {:9.3f} {:9.3f} {:9.3f} {:9.2f} {:9.2f} {:9.2f} {:8.3f} {:8.3f} {:8.3f}\n", name,
       margin, 100.0 * figures.hit_given_told_safe.value(),
       100.0 * danger::upper_bound(figures.hit_given_told_safe, danger::margin_confidence),
       100.0 * figures.hit_given_just_safe.value(), 100.0 * figures.told_safe_given_hit.value(),
@@ -98,10 +98,10 @@ void tell_danger_row(const std::string& name, const std::string& margin,
 }
 
 void tell_head() {
-  app::print("{:32} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8}\n", "", "margin",
+  app::print("{:42} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8}\n", "", "margin",
              "hit|safe", "at most", "hit|just", "safe|hit", "false", "sign", "error", "bias",
              "lost");
-  app::print("{:32} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8}\n", "", "[m]",
+  app::print("{:42} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8}\n", "", "[m]",
              "[%]", "[%]", "[%]", "[%]", "[%]", "[%]", "[m]", "[m]", "[m]");
 }
 
