@@ -101,8 +101,10 @@ std::vector<Coverage> CoverageSurvey::figures(int threads) const {
     std::vector<double> apart(bin.asks.size());
     in_parallel(apart.size(), threads,
                 [&](std::size_t i) { apart[i] = nearest(bin.asks[i], bin.answers); });
-    const auto speed = static_cast<double>(k / grips);
-    const auto grip = static_cast<double>(k % grips);
+    const std::size_t of_speed = k / grips;
+    const std::size_t of_grip = k % grips;
+    const auto speed = static_cast<double>(of_speed);
+    const auto grip = static_cast<double>(of_grip);
     all.push_back({.slowest = speed_step * speed,
                    .fastest = speed_step * (speed + 1.0),
                    .least_grip = first_grip + grip_step * grip,
