@@ -4,12 +4,10 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 
 #include "saca/core/contract.h"
-#include "saca/reach/own_systems.h"
-#include "saca/reach/solve.h"
+#include "saca/reach/coarse_table_for_test.h"
 
 namespace saca::reach::danger_test {
 namespace {
@@ -17,40 +15,15 @@ namespace {
 using world::Footprint;
 using world::Shape;
 
-constexpr double pi = std::numbers::pi;
 constexpr Avoidance car{.grip = 0.9, .tightest_curvature = 0.235, .drive_share = 0.48};
 constexpr Footprint disc{.shape = Shape::ellipse, .length = 2.0, .width = 2.0};
 constexpr Footprint ego{.shape = Shape::ellipse, .length = 2.0, .width = 2.0};
 
 /// Two discs of radius 1: h = 2 - distance.
-AvoidanceCase discs(double obstacle_speed) {
-  AvoidanceCase asked;
-  asked.system = car;
-  asked.system.obstacle_speed = obstacle_speed;
-  asked.ego = ego;
-  asked.obstacle = disc;
-  asked.grid.axes = {
-      {.name = "x", .first = -40.0, .last = 40.0, .points = 33, .stretch = 6.0},
-      {.name = "y",
-       .first = 0.0,
-       .last = 40.0,
-       .points = 17,
-       .edge = Edge::mirrored,
-       .stretch = 6.0,
-       .turned = 2},
-      {.name = "course", .first = -pi, .last = pi, .points = 32, .edge = Edge::periodic},
-      {.name = "speed", .first = 0.0, .last = 20.0, .points = 9}};
-  asked.times = {3.0};
-  return asked;
-}
-
 DangerTable solved(double obstacle_speed) {
-  const Problem problem = avoidance_problem(discs(obstacle_speed));
-  const auto values = solve(problem, {.steps = Steps::tvd_rk2, .threads = 2}, std::nullopt, {});
-  EXPECT_TRUE(values.has_value());
-  return {disc, obstacle_speed, View::obstacle,
-          std::make_shared<ValueTable>(problem.grid, snapshot(values.value(), 0),
-                                       values.value().error)};
+  Avoidance system = car;
+  system.obstacle_speed = obstacle_speed;
+  return coarse_table(system, ego, disc);
 }
 
 const DangerTable& at_rest() {
