@@ -36,23 +36,19 @@ struct CoverageOptions {
   bool as_json = false;
 };
 
+/// The parts that follow the first one.
 /// @return  an error: a part cannot be used, or nobody wanted to wait
-std::optional<Error> read_into(CoverageSurvey& survey, const Inputs& inputs,
+std::optional<Error> read_rest(CoverageSurvey& survey, const std::string& car,
                                const std::vector<std::filesystem::path>& files) {
   SteadyClock clock;
   ProgressLine line("danger coverage", static_cast<int>(files.size()), clock);
-  for (std::size_t i = 0; i < files.size() && !survey.is_full(); ++i) {
+  for (std::size_t i = 1; i < files.size() && !survey.is_full(); ++i) {
     if (interrupted()) {
       return Error{Error::Code::too_late, "interrupted"};
     }
-    const auto part = danger::read_part(files[i]);
+    const auto part = danger::read_part_of(files[i], car);
     if (!part.has_value()) {
       return part.error();
-    }
-    if (part.value().car != inputs.car_name) {
-      return Error{Error::Code::malformed,
-                   fmt::format("{}: car: want {} as in the other parts, got {}", files[i].string(),
-                               inputs.car_name, part.value().car)};
     }
     survey.add(part.value().transitions);
     line.show(static_cast<int>(i) + 1, 0, " parts");
@@ -109,7 +105,8 @@ int tell_coverage(const CoverageOptions& options) {
                         manoeuvre::footprint(inputs.value().car), model.value(),
                         static_cast<std::size_t>(options.states),
                         static_cast<std::size_t>(options.others));
-  if (const auto problem = read_into(survey, inputs.value(), files.value())) {
+  survey.add(first.value().transitions);
+  if (const auto problem = read_rest(survey, first.value().car, files.value())) {
     const int code = refused(*problem);
     return problem->code == Error::Code::too_late ? static_cast<int>(was_interrupted) : code;
   }

@@ -67,7 +67,8 @@ Result<Data> read_data(const std::string& folder, const std::string& root) {
   Data data;
   world::Footprint body;
   for (const fs::path& path : parts.value()) {
-    const auto part = danger::read_part(path);
+    const auto part =
+        data.car.empty() ? danger::read_part(path) : danger::read_part_of(path, data.car);
     if (!part.has_value()) {
       return part.error();
     }
@@ -79,11 +80,6 @@ Result<Data> read_data(const std::string& folder, const std::string& root) {
       }
       body = manoeuvre::footprint(car.value());
       data.vehicle = danger::vehicle_word(car.value());
-    }
-    if (part.value().car != data.car) {
-      return Error{Error::Code::malformed,
-                   fmt::format("{}: car: want {} as in the other parts, got {}", path.string(),
-                               data.car, part.value().car)};
     }
     for (danger::Experience* all : {&data.singles, &data.pairs}) {
       danger::add_experience(*all, part.value().transitions, body);

@@ -1,5 +1,7 @@
 #include "saca/danger/transition_file.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -128,6 +130,16 @@ std::optional<Error> write_part(const std::filesystem::path& path, const Part& p
 
 Result<Part> read_part(const std::filesystem::path& path) {
   return config::read_sealed_hdf5(path, part_format, read);
+}
+
+Result<Part> read_part_of(const std::filesystem::path& path, const std::string& car) {
+  auto part = read_part(path);
+  if (part.has_value() && part.value().car != car) {
+    return Error{Error::Code::malformed,
+                 fmt::format("{}: car: want {} as in the other parts, got {}", path.string(), car,
+                             part.value().car)};
+  }
+  return part;
 }
 
 Result<std::vector<std::filesystem::path>> part_files(const std::filesystem::path& folder) {

@@ -31,6 +31,10 @@ struct Part {
 ///          seal does not hold or a number is not finite
 [[nodiscard]] Result<Part> read_part(const std::filesystem::path& path);
 
+/// Likewise, of this car: what other parts are of.
+/// @return  Error::Code::malformed as well where it is of another
+[[nodiscard]] Result<Part> read_part_of(const std::filesystem::path& path, const std::string& car);
+
 /// The parts in a folder, by name.
 /// @return  Error::Code::unreadable where there are none
 [[nodiscard]] Result<std::vector<std::filesystem::path>> part_files(
