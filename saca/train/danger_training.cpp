@@ -186,6 +186,19 @@ struct Said {
   Tensor next_h;  ///< at x', of the nearest obstacle
 };
 
+/// Of both Q from what they are to be.
+Tensor q_loss(const Said& said, const Tensor& target, const Tensor& weight) {
+  const auto of = [&](const Tensor& q) { return (weight * squared(q - target)).mean(); };
+  return of(said.q[0]) + of(said.q[1]);
+}
+
+/// What the curve tells of V.
+DangerProgress told_of_v(const Said& said, const Sample& sample) {
+  const torch::NoGradGuard none;
+  return {.mean_v = mean_that_matters(said.v),
+          .above = (said.v > sample.reached + 0.2).to(torch::kFloat32).mean().item<double>()};
+}
+
 Losses losses_of(const Said& said, const Sample& sample, const Annealed& now) {
   Tensor target_q;
   Tensor slow_q;
@@ -201,16 +214,12 @@ Losses losses_of(const Said& said, const Sample& sample, const Annealed& now) {
   const Tensor over = slow_q - v;  // of Q above V
   const Tensor side = torch::where(over < 0.0, torch::full_like(over, now.expectile),
                                    torch::full_like(over, 1.0 - now.expectile));
-  const auto q_loss = [&](const Tensor& q) { return (weight * squared(q - target_q)).mean(); };
   const Tensor of_v = (weight * side * squared(over)).mean();
-  const Tensor of_q = q_loss(said.q[0]) + q_loss(said.q[1]);
-  const Tensor sum = of_v + of_q;
-  const torch::NoGradGuard none;
-  return {sum,
-          {.v_loss = of_v.item<double>(),
-           .q_loss = of_q.item<double>(),
-           .mean_v = mean_that_matters(v),
-           .above = (v > sample.reached + 0.2).to(torch::kFloat32).mean().item<double>()}};
+  const Tensor of_q = q_loss(said, target_q, weight);
+  DangerProgress told = told_of_v(said, sample);
+  told.v_loss = of_v.item<double>();
+  told.q_loss = of_q.item<double>();
+  return {of_v + of_q, told};
 }
 
 /// Of one obstacle.
@@ -578,11 +587,9 @@ Losses outcome_losses(const Said& said, const Sample& sample, const Annealed& /*
   const Tensor is_seen = torch::isfinite(sample.reached);
   const Tensor off = torch::where(is_seen, said.v - sample.reached, torch::zeros_like(said.v));
   const Tensor loss = (weight_of(said.v.detach()) * squared(off)).mean();
-  const torch::NoGradGuard none;
-  return {loss,
-          {.v_loss = loss.item<double>(),
-           .mean_v = mean_that_matters(said.v),
-           .above = (said.v > sample.reached + 0.2).to(torch::kFloat32).mean().item<double>()}};
+  DangerProgress told = told_of_v(said, sample);
+  told.v_loss = loss.item<double>();
+  return {loss, told};
 }
 
 /// Of Q from what V has of x'.
@@ -592,14 +599,10 @@ Losses improving_losses(const Said& said, const Sample& sample, const Annealed& 
     const torch::NoGradGuard none;
     target = torch::maximum(sample.h, torch::where(sample.settled > 0.5, said.next_h, said.next_v));
   }
-  const Tensor weight = weight_of(said.v.detach());
-  const auto q_loss = [&](const Tensor& q) { return (weight * squared(q - target)).mean(); };
-  const Tensor sum = q_loss(said.q[0]) + q_loss(said.q[1]);
-  const torch::NoGradGuard none;
-  return {sum,
-          {.q_loss = sum.item<double>(),
-           .mean_v = mean_that_matters(said.v),
-           .above = (said.v > sample.reached + 0.2).to(torch::kFloat32).mean().item<double>()}};
+  const Tensor loss = q_loss(said, target, weight_of(said.v.detach()));
+  DangerProgress told = told_of_v(said, sample);
+  told.q_loss = loss.item<double>();
+  return {loss, told};
 }
 
 /// What is learnt, and from what.
