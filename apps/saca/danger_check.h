@@ -38,8 +38,9 @@ struct DangerWeights {
 
 /// `saca danger check`.
 void add_danger_check(CLI::App& danger, int& exit_code);
-/// `saca danger margins`.
+/// `saca danger coverage`.
 void add_danger_coverage(CLI::App& danger, int& exit_code);
+/// `saca danger margins`.
 void add_danger_margins(CLI::App& danger, int& exit_code);
 /// `saca danger show`.
 void add_danger_show(CLI::App& danger, int& exit_code);

@@ -17,8 +17,9 @@ namespace {
 
 constexpr std::size_t num_actions = 2;
 
-/// One column for each that is looked at.
+/// Of inputs or of units, whichever are more.
 constexpr std::size_t most_rows = std::max(Network::width, num_pair_inputs + num_actions);
+/// One column for each that is looked at.
 using Columns = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor,
                               static_cast<int>(most_rows), static_cast<int>(Network::at_once)>;
 using Weights =
