@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -304,9 +305,24 @@ void follow(DangerNet& slow, DangerNet& fast, double share) {
   }
 }
 
-std::string fingerprint_of(const DangerPlan& plan, std::size_t transitions, std::size_t states,
-                           const std::vector<float>& some) {
+/// Of networks that others are learnt from; empty: there are none.
+std::string digest_of(const std::vector<Tensor>& weights) {
   Fnv hash;
+  for (const Tensor& each : weights) {
+    const Tensor numbers = each.detach().contiguous();
+    const float* const first = numbers.data_ptr<float>();
+    for (std::int64_t i = 0; i < numbers.numel(); ++i) {
+      hash.add(std::bit_cast<std::uint32_t>(first[i]));
+    }
+  }
+  return weights.empty() ? "" : fmt::format("{:016x}", hash.value());
+}
+
+/// @param earlier  digest_of the networks that are learnt from
+std::string fingerprint_of(const DangerPlan& plan, std::size_t transitions, std::size_t states,
+                           const std::vector<float>& some, const std::string& earlier) {
+  Fnv hash;
+  hash.add(earlier);
   hash.add(fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {}", plan.seed, plan.steps, plan.batch,
                        plan.step, plan.polyak, plan.expectile_first, plan.expectile,
                        plan.discount_first, plan.discount, plan.annealed, plan.width, transitions,
@@ -328,7 +344,7 @@ struct Learner {
   std::vector<Tensor> parameters;               ///< of those that are learnt
   std::function<Losses(int count, std::mt19937_64& random, const Annealed& now)> losses;
   std::function<void()> after_step;
-  std::string fingerprint;  ///< of plan and data
+  std::string fingerprint;  ///< of plan, data and the networks that are learnt from
 };
 
 class DangerTraining {
@@ -557,9 +573,11 @@ DangerNets new_nets(const Experience& experience, const DangerPlan& plan) {
 }
 
 /// Trains some of the networks on what all of them say of a sample.
+/// @param earlier  digest_of the networks that are learnt from
 std::optional<Error> train_on(
     const Experience& experience, DangerNets& nets, const std::vector<DangerNet*>& learnt,
-    const DangerPlan& plan, int threads, const std::filesystem::path& state, const SaidBy& said,
+    const DangerPlan& plan, int threads, const std::filesystem::path& state,
+    const std::string& earlier, const SaidBy& said,
     const std::function<Losses(const Said&, const Sample&, const Annealed&)>& losses,
     const std::function<bool(const DangerProgress&)>& on_point) {
   Learner learner{.networks = nets.ptr(),
@@ -574,7 +592,7 @@ std::optional<Error> train_on(
                         follow(nets->slow_q2, nets->q2, plan.polyak);
                       },
                   .fingerprint = fingerprint_of(plan, experience.size(), experience.num_states(),
-                                                experience.reached)};
+                                                experience.reached, earlier)};
   for (const DangerNet* net : learnt) {
     const auto some = (*net)->parameters();
     learner.parameters.insert(learner.parameters.end(), some.begin(), some.end());
@@ -635,8 +653,11 @@ Result<DangerNets> learnt_from(const Experience& experience, DangerNets* singles
   const auto losses = lesson == Lesson::v_and_q       ? losses_of
                       : lesson == Lesson::v_of_drives ? outcome_losses
                                                       : improving_losses;
-  const auto problem =
-      train_on(experience, nets, learnt, plan, threads, state, said_of(singles), losses, on_point);
+  const std::string earlier = digest_of(v != nullptr         ? (*v)->parameters()
+                                        : singles != nullptr ? (*singles)->parameters()
+                                                             : std::vector<Tensor>());
+  const auto problem = train_on(experience, nets, learnt, plan, threads, state, earlier,
+                                said_of(singles), losses, on_point);
   return problem ? Result<DangerNets>(*problem) : nets;
 }
 
@@ -677,15 +698,15 @@ Result<DangerNet> fitted_values(const danger::Outcomes& outcomes, const DangerPl
   expects_sound(plan);
   torch::manual_seed(plan.seed);
   FittedNets nets(plan.width);
-  const Learner learner{
-      .networks = nets.ptr(),
-      .parameters = nets->v->parameters(),
-      .losses =
-          [&](int count, std::mt19937_64& random, const Annealed& now) {
-            return fitted_losses(nets, drawn(outcomes, count, random), now);
-          },
-      .after_step = [&] { follow(nets->slow_v, nets->v, plan.polyak); },
-      .fingerprint = fingerprint_of(plan, outcomes.h.size(), outcomes.num_states(), outcomes.h_at)};
+  const Learner learner{.networks = nets.ptr(),
+                        .parameters = nets->v->parameters(),
+                        .losses =
+                            [&](int count, std::mt19937_64& random, const Annealed& now) {
+                              return fitted_losses(nets, drawn(outcomes, count, random), now);
+                            },
+                        .after_step = [&] { follow(nets->slow_v, nets->v, plan.polyak); },
+                        .fingerprint = fingerprint_of(plan, outcomes.h.size(),
+                                                      outcomes.num_states(), outcomes.h_at, "")};
   if (const auto problem = DangerTraining(learner, plan, threads, state).run(on_point)) {
     return *problem;
   }

@@ -196,6 +196,32 @@ TEST(DangerTraining, GoesOnWhereItWasStopped) {
   fs::remove(state);
 }
 
+// A state is of the networks that are learnt from, too: with others nobody goes on from it.
+TEST(DangerTraining, DoesNotGoOnFromOtherNetworks) {
+  torch::set_num_threads(1);
+  const Wall wall(200);
+  DangerPlan plan = quick();
+  plan.steps = 1'000;
+  plan.batch = 32;
+  const fs::path state = fs::path(testing::TempDir()) / "danger_training_of_v_state";
+  fs::remove(state);
+  const danger::Experience experience = wall.experience();
+  const auto seeded = [](std::uint64_t seed) {
+    torch::manual_seed(seed);
+    return DangerNet(static_cast<std::int64_t>(danger::num_net_inputs), 8);
+  };
+  const DangerNet one = seeded(1);
+  plan.width = 8;
+  ASSERT_TRUE(improved_q(experience, one, plan, 1, state, [](const DangerProgress&) {
+                return false;
+              }).has_value());
+  const auto other = improved_q(experience, seeded(2), plan, 1, state, every_point);
+  ASSERT_FALSE(other.has_value());
+  EXPECT_NE(other.error().message.find("another training"), std::string::npos);
+  EXPECT_TRUE(improved_q(experience, one, plan, 1, state, every_point).has_value());
+  fs::remove(state);
+}
+
 // Where it is known what inputs lead to, a small network finds the closed form.
 TEST(DangerTraining, FittedIterationFindsTheValue) {
   torch::set_num_threads(1);
