@@ -149,15 +149,20 @@ function preview_actors(preview) {
     : el("p", { class: "soft", text: "No actors." });
 }
 
+/** Q_h as the room that the best evasion leaves; where none helps, how deep it still runs in. */
+function room_words(q) {
+  return is_number(q) ? (q < 0 ? num(-q, 1) : `none: hits ${num(q, 1)} deep`) : none;
+}
+
 function preview_facts(preview) {
   const rows = list(preview.facts).map((fact) => {
     const chosen = preview.plan && preview.plan.policy === fact.policy;
     const name = policy_cell(fact.policy, fact.name, chosen ? tag("planned", "strong") : null);
-    if (fact.refusal) return { class: "refused", cells: [name, `refused: ${fact.refusal}`, none, none] };
+    if (fact.refusal) return { class: "refused", cells: [name, `refused: ${fact.refusal}`, none, none, none] };
     return { class: chosen ? "chosen" : "", cells: [name, el("span", { class: fact.contact ? "hit" : "free" }, fact.contact ? "✕ " : "✓ ", fact.text || contact_words(fact.contact)),
-      { class: "n", content: num(fact.collision_loss, 2) }, { class: "n", content: num(fact.harm, 3) }] };
+      { class: "n", content: num(fact.collision_loss, 2) }, { class: "n", content: num(fact.harm, 3) }, { class: "n", content: room_words(fact.q_m) }] };
   });
-  return table("Forecast of each policy", ["Policy", "Forecast", "Loss", "Harm"], rows);
+  return table("Forecast of each policy", ["Policy", "Forecast", "Loss", "Harm", "Room left after 0.5 s of it, m"], rows);
 }
 
 function preview_answers(preview, record) {

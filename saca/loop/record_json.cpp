@@ -157,8 +157,9 @@ json preview_json(const decide::Preview& preview) {
          {"risk_text", explanation(situation.risks[i])}});
   }
   json facts = json::array();
-  for (const preview::PolicyFacts& fact : situation.facts) {
-    facts.push_back(facts_json(fact, scene, preview::rolled_out(situation.facts)));
+  for (std::size_t i = 0; i < situation.facts.size(); ++i) {
+    facts.push_back(facts_json(situation.facts[i], scene, preview::rolled_out(situation.facts)));
+    facts.back()["q_m"] = number_or_null(situation.dangers[i]);
   }
   json answers = json::array();
   std::transform(preview.reply.answers.begin(), preview.reply.answers.end(),

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -60,6 +61,10 @@ struct PolicyFacts {
 [[nodiscard]] bool better(const PolicyFacts& a, const PolicyFacts& b);
 
 using AllFacts = std::array<PolicyFacts, manoeuvre::num_policies>;  ///< by PolicyId
+
+/// Q_h of each policy (eq. 2; policy_danger.h) [m], by PolicyId; less than 0: minus the room that
+/// is left. nullopt: it cannot be driven, nobody is ahead, or V_h is not known.
+using PolicyDangers = std::array<std::optional<double>, manoeuvre::num_policies>;
 
 /// With full dynamics, all that can be driven.
 [[nodiscard]] bool rolled_out(const AllFacts& facts);

@@ -12,6 +12,8 @@
 #include "saca/intent/joint.h"
 #include "saca/intent/motion.h"
 #include "saca/preview/caution.h"
+#include "saca/preview/moved_along.h"
+#include "saca/preview/policy_danger.h"
 #include "saca/reach/car_limits.h"
 #include "saca/world/time_to_conflict.h"
 
@@ -22,7 +24,6 @@ using intent::Forecast;
 using intent::IntentPosterior;
 using world::Actor;
 using world::Scene;
-using world::Track;
 
 constexpr double after_trigger = 8.0;  // [s] of tracks beyond the trigger: any stop from 25 m/s
 constexpr std::size_t num_candidates = 24;  // hypotheses that are looked at for conflicts
@@ -145,23 +146,6 @@ world::SpreadOverTime as_perceived(const Actor& actor, double start) {
       .start = start, .step = intent::motion_step, .at = {{actor.position_sd, actor.position_sd}}};
 }
 
-/// The actor at a later time of its forecast, as surely perceived as now. Central differences: of
-/// places that lie on straight lines between poses one step apart, those over a step have no jumps.
-Actor moved_on(Actor actor, const Forecast& forecast, double time) {
-  const Track& track = forecast.track;
-  const double h = track.step;
-  actor.X_WA = world::pose_at(track, time);
-  if (time < track.start + h) {
-    return actor;  // velocity and turning are as perceived
-  }
-  const Pose before = world::pose_at(track, time - h);
-  const Pose after = world::pose_at(track, time + h);
-  actor.v_W = (0.5 / h) * (after.p - before.p);
-  actor.a_W = (1.0 / (h * h)) * ((after.p - actor.X_WA.p) - (actor.X_WA.p - before.p));
-  actor.yaw_rate = wrap_angle(after.yaw - before.yaw) / (2.0 * h);
-  return actor;
-}
-
 /// The scene `after` seconds later: the ego goes on as it does, the actors as forecast.
 Scene moved_on(const Scene& scene, const std::vector<Forecast>& forecasts, double after) {
   Scene later = scene;
@@ -172,7 +156,7 @@ Scene moved_on(const Scene& scene, const std::vector<Forecast>& forecasts, doubl
                .yaw_rate = speed * scene.road.curvature,
                .a_B = {}};
   for (std::size_t i = 0; i < later.actors.size(); ++i) {
-    later.actors[i] = moved_on(scene.actors[i], forecasts[i], later.time);
+    later.actors[i] = moved_along(scene.actors[i], forecasts[i].track, later.time);
   }
   return later;
 }
@@ -259,6 +243,10 @@ std::vector<Situation> situations(const Scene& scene, const intent::Beliefs& bel
     }
     situation.facts =
         policy_facts(situation.scene_at_trigger, situation.tracks, tools, situation.spreads);
+    if (tools.danger != nullptr) {
+      situation.dangers =
+          policy_dangers(situation.scene_at_trigger, situation.tracks, situation.facts, tools);
+    }
     found.push_back(std::move(situation));
     if (found.size() == max_situations) {
       break;

@@ -21,6 +21,7 @@ struct Situation {
   std::vector<world::SpreadOverTime> spreads;       ///< about the tracks, from the trigger on; of
                                                     ///< who reacts to the ego, as perceived
   AllFacts facts;
+  PolicyDangers dangers;  ///< where V_h is known at all
 };
 
 }  // namespace saca::preview

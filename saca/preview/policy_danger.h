@@ -1,0 +1,44 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "saca/manoeuvre/car.h"
+#include "saca/manoeuvre/plan.h"
+#include "saca/preview/plan_facts.h"
+#include "saca/preview/policy_facts.h"
+#include "saca/world/scene.h"
+#include "saca/world/track.h"
+
+namespace saca::preview {
+
+/// How long a policy is driven before whatever evades best from there on [s]: as long as an input
+/// of Q_h learnt is held (danger::keep_held). What less leads to hardly differs.
+constexpr double committed = 0.5;
+
+/// V_h [m] beside the actors of a scene, of whom there is one or more.
+using DangerOfScene = std::function<double(const world::Scene&)>;
+
+/// Q_h of a plan (eq. 2): it is driven for `committed` seconds with full dynamics, and then
+/// whatever evades best. How deep that still runs into those who are ahead now, or the plan has run
+/// by then [m]; less than 0: minus the room that is left.
+/// @param tracks  one per actor
+/// @param value   asked once, of the scene as it is then, with those who were ahead
+/// @return  nullopt: nobody is ahead
+/// @throws ContractViolation  if the plan cannot be driven, or tracks and actors differ in number
+[[nodiscard]] std::optional<double> plan_danger(const world::Scene& scene,
+                                                const std::vector<world::Track>& tracks,
+                                                const manoeuvre::Plan& plan,
+                                                const manoeuvre::Car& car,
+                                                const DangerOfScene& value);
+
+/// plan_danger of each policy, by the highest V_h of the actors, each by itself.
+/// @param facts  of the same scene: whose plans are driven
+/// @param tools  with car and danger
+/// @throws ContractViolation  if car or danger are missing, or tracks and actors differ in number
+[[nodiscard]] PolicyDangers policy_dangers(const world::Scene& scene,
+                                           const std::vector<world::Track>& tracks,
+                                           const AllFacts& facts, const ForecastTools& tools);
+
+}  // namespace saca::preview
