@@ -48,8 +48,18 @@ constexpr std::array<Rung, 12> usual_rungs{{
 /// Where there is a memory or a model; without either SACA always brakes.
 constexpr Rung saca_rung{"saca", "aeb", "what memory and model hold, in place of always braking"};
 
-std::vector<Rung> rungs_with(const ThinkingOptions& thinking) {
+/// Where there are weights of V_h.
+constexpr std::array<Rung, 3> danger_rungs{{
+    {"least_danger", "going_on_atlas", "how much room is left in place of harm"},
+    {"least_joint_danger", "least_danger", "V_h beside all in place of the highest single one"},
+    {"beliefs_and_danger", "beliefs_atlas", "what harms alike goes by V_h, not by mildness"},
+}};
+
+std::vector<Rung> rungs_with(const ThinkingOptions& thinking, bool danger) {
   std::vector<Rung> rungs(usual_rungs.begin(), usual_rungs.end());
+  if (danger) {
+    rungs.insert(rungs.end(), danger_rungs.begin(), danger_rungs.end());
+  }
   if (!thinking.memory.empty() || thinking.model != "off") {
     rungs.push_back(saca_rung);
   }
@@ -180,7 +190,7 @@ int run(LadderCommand options) {
     return refused(*problem);
   }
   suite.no_twins = true;
-  const std::vector<Rung> rungs = rungs_with(suite.thinking);
+  const std::vector<Rung> rungs = rungs_with(suite.thinking, !suite.danger.empty());
   const auto ran = run_suite(suite, "ladder", names_of(rungs));
   if (!ran.has_value()) {
     return refused(ran.error());

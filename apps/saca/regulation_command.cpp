@@ -125,7 +125,7 @@ void print(const RegulationRun& run) {
 }  // namespace
 
 int run_regulation(RegulationOptions options) {
-  const auto methods = methods_from(options.methods == "all" ? "" : options.methods, {});
+  const auto methods = methods_from(options.methods == "all" ? "" : options.methods, {}, "");
   if (!methods.has_value()) {
     complain(methods.error().message);
     return wrong_command_line;

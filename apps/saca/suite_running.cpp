@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "apps/saca/danger_check.h"
 #include "apps/saca/planes_making.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/suite_sources.h"
@@ -16,6 +17,7 @@
 #include "saca/core/file.h"
 #include "saca/core/journal.h"
 #include "saca/core/suggestion.h"
+#include "saca/danger/learned.h"
 
 namespace saca::app {
 namespace {
@@ -47,8 +49,29 @@ struct Bench {
   SuiteEncounters source;
   std::unique_ptr<const PlanesOfCar> planes;
   std::unique_ptr<SuiteThinking> thinking;
+  std::shared_ptr<const danger::Network> danger;  ///< nullptr: no method needs it
   eval::SuiteOptions how;
 };
+
+/// The weights that are named.
+/// @return  an error where they are of another car
+Result<std::shared_ptr<const danger::Network>> danger_of(const SuiteCommandOptions& options,
+                                                         const Inputs& inputs) {
+  if (options.danger.empty()) {
+    return std::shared_ptr<const danger::Network>();
+  }
+  auto weights = read_danger_weights(options.danger);
+  if (!weights.has_value()) {
+    return weights.error();
+  }
+  const std::string ours = danger::vehicle_word(inputs.car);
+  if (danger::vehicle_word(weights.value().inputs.car) != ours) {
+    return Error{Error::Code::malformed,
+                 fmt::format("{}: want weights of {}, got those of {}", options.danger,
+                             inputs.car_name, weights.value().car_name)};
+  }
+  return std::make_shared<const danger::Network>(std::move(weights).value().network);
+}
 
 Result<std::shared_ptr<Bench>> open_bench(const SuiteCommandOptions& options,
                                           const std::string& command,
@@ -67,8 +90,15 @@ Result<std::shared_ptr<Bench>> open_bench(const SuiteCommandOptions& options,
   if (!thinking.has_value()) {
     return thinking.error();
   }
+  auto danger = danger_of(options, planes.value()->inputs);
+  if (!danger.has_value()) {
+    return danger.error();
+  }
+  eval::SuiteOptions how = how_of(options, methods);
+  how.danger = danger.value().get();
   return std::make_shared<Bench>(Bench{std::move(opened), std::move(planes).value(),
-                                       std::move(thinking).value(), how_of(options, methods)});
+                                       std::move(thinking).value(), std::move(danger).value(),
+                                       std::move(how)});
 }
 
 /// A row, whatever happens: what cannot be drawn is a fault of that encounter.
@@ -91,19 +121,26 @@ std::string work_of(const Bench& bench, const SuiteCommandOptions& options) {
   const auto part = [](const char* name, const std::optional<std::string>& text) {
     return text ? fmt::format(", {}: {}", name, *text) : std::string();
   };
-  return fmt::format("{}, {}, seed {}{}{}{}{}: {}", bench.source.what, options.car, options.seed,
-                     options.exact ? ", exact" : "", thresholds_arguments(options.thresholds),
-                     part("memory", bench.thinking->memory_text()),
-                     part("model", bench.thinking->model_text()), joined(bench.how.methods));
+  return fmt::format(
+      "{}, {}, seed {}{}{}{}{}{}: {}", bench.source.what, options.car, options.seed,
+      options.exact ? ", exact" : "", thresholds_arguments(options.thresholds),
+      part("memory", bench.thinking->memory_text()), part("model", bench.thinking->model_text()),
+      part("danger", bench.danger == nullptr
+                         ? std::nullopt
+                         : std::optional(fmt::format("{:016x}", bench.danger->digest()))),
+      joined(bench.how.methods));
 }
 
-/// Why there is no such row with this memory and model; nullptr: there is.
-const char* missing_for(const eval::MethodInfo& info, const ThinkingOptions& thinking) {
+/// Why there is no such row with this memory, model and weights; nullptr: there is.
+const char* missing_for(const eval::MethodInfo& info, const ThinkingOptions& thinking,
+                        const std::string& danger) {
   switch (info.needs) {
     case eval::Needs::memory:
       return thinking.memory.empty() ? "--memory FILE" : nullptr;
     case eval::Needs::model:
       return thinking.model == "off" ? "--llm MODEL" : nullptr;
+    case eval::Needs::danger:
+      return danger.empty() ? "--danger WEIGHTS" : nullptr;
     case eval::Needs::nothing:
       return nullptr;
   }
@@ -120,12 +157,13 @@ std::optional<std::size_t> index_of(const std::vector<std::string>& methods,
 }
 
 Result<std::vector<std::string>> methods_from(const std::string& list,
-                                              const ThinkingOptions& thinking) {
+                                              const ThinkingOptions& thinking,
+                                              const std::string& danger) {
   std::vector<std::string> names;
   std::vector<std::string> known;
   for (const eval::MethodInfo& info : eval::methods()) {
     known.emplace_back(info.name);
-    if (list.empty() && missing_for(info, thinking) == nullptr) {
+    if (list.empty() && missing_for(info, thinking, danger) == nullptr) {
       names.emplace_back(info.name);
     }
   }
@@ -138,10 +176,11 @@ Result<std::vector<std::string>> methods_from(const std::string& list,
       return Error{Error::Code::out_of_range, fmt::format("--methods: no method is called {}; {}",
                                                           word, suggestion(word, known))};
     }
-    if (const char* const missing = missing_for(*info, thinking)) {
+    if (const char* const missing = missing_for(*info, thinking, danger)) {
       return Error{Error::Code::out_of_range,
-                   fmt::format("--methods: want {} with \"{}\", which is SACA with all but that",
-                               missing, word)};
+                   fmt::format("--methods: want {} with \"{}\", which {}", missing, word,
+                               info->needs == eval::Needs::danger ? "chooses by V_h"
+                                                                  : "is SACA with all but that")};
     }
     if (std::find(names.begin(), names.end(), word) != names.end()) {
       return Error{Error::Code::out_of_range,
@@ -232,6 +271,7 @@ Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
                    options.name, joined(methods), options.count, options.split, options.car,
                    options.seed, options.exact ? " --exact" : "",
                    thinking_text(options.thinking) + thresholds_arguments(options.thresholds) +
+                       (options.danger.empty() ? "" : " --danger " + options.danger) +
                        (options.no_twins ? std::string(" --no-twins") : std::string()) +
                        (options.data.empty() ? "" : " --data FOLDER"))},
       {"meta.seed", std::to_string(options.seed)},
@@ -286,6 +326,8 @@ void add_suite_options(CLI::App& command, SuiteCommandOptions& options) {
   add_draw_options(command, options.count, options.split, options.test_log, options.car);
   add_thinking_options(command, options.thinking);
   add_thresholds_options(command, options.thresholds);
+  command.add_option("--danger", options.danger,
+                     "Weights of V_h and Q_h (models/danger), for methods that choose by them");
   command.add_option("--seed", options.seed, "Of all that is drawn: same seed, same rows")
       ->capture_default_str();
   command.add_flag("--exact", options.exact,

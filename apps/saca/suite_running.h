@@ -27,6 +27,7 @@ struct SuiteCommandOptions {
   std::string car = "compact_rwd_ev";
   ThinkingOptions thinking;
   preview::Thresholds thresholds;
+  std::string danger;  ///< weights of V_h and Q_h; empty: no method needs them
   std::uint64_t seed = 1;
   bool exact = false;
   bool no_twins = false;
@@ -68,9 +69,12 @@ struct SuiteRun {
 [[nodiscard]] std::optional<std::size_t> index_of(const std::vector<std::string>& methods,
                                                   std::string_view method);
 
-/// The names of a list "a,b,c"; empty: all that there are with this memory and model.
-/// @return  an error where a name is none, comes twice, or leaves out what was not given
+/// The names of a list "a,b,c"; empty: all that there are with this memory, model and these
+/// weights.
+/// @param danger  file of weights, or empty
+/// @return  an error where a name is none, comes twice, or needs or leaves out what was not given
 [[nodiscard]] Result<std::vector<std::string>> methods_from(const std::string& list,
-                                                            const ThinkingOptions& thinking);
+                                                            const ThinkingOptions& thinking,
+                                                            const std::string& danger);
 
 }  // namespace saca::app

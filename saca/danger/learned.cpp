@@ -10,6 +10,7 @@
 #include "saca/core/fnv.h"
 #include "saca/danger/acting.h"
 #include "saca/danger/net_inputs.h"
+#include "saca/danger/perceived.h"
 #include "saca/danger/state.h"
 #include "saca/manoeuvre/ego.h"
 #include "saca/reach/car_limits.h"
@@ -42,30 +43,17 @@ bool moves_as_drawn(const Obstacle& obstacle) {
          std::abs(obstacle.curvature) * obstacle.speed * obstacle.speed <= sideways;
 }
 
-/// The state, seen in the obstacle's frame, and the controls that lead to such a motion.
+/// The state, seen in the obstacle's frame.
 State state_of(const manoeuvre::Car& car, const reach::Meeting& meeting,
                const reach::Motion& motion) {
   const auto& [x, y, course, speed] = meeting.state;
   State state;
   state.grip = std::min(meeting.grip, most_grip);
-  Ego& ego = state.ego;
-  ego.X_WB = {{x, y}, course - motion.sideslip};
-  ego.v_B = rotated(Vec2{speed, 0.0}, motion.sideslip);
-  ego.yaw_rate = motion.yaw_rate;
-  ego.a_B = motion.a_B;
-  constexpr double steers_from = 1.0;  // [m/s]
-  const double curvature = speed > steers_from ? motion.yaw_rate / speed : 0.0;
-  ego.steering = std::clamp(std::atan((car.front_arm + car.rear_arm) * curvature),
-                            -car.steering_limit, car.steering_limit);
-  ego.braking = std::max(0.0, -motion.a_B.x);
-  ego.driving = std::max(0.0, motion.a_B.x);
-  world::Footprint box = meeting.obstacle;
-  box.shape = world::Shape::box;
-  box.centre_x = 0.0;
-  state.obstacles.push_back({.body = box,
-                             .speed = meeting.obstacle_speed,
-                             .acceleration = motion.obstacle_acceleration,
-                             .curvature = motion.obstacle_curvature});
+  state.ego = perceived_ego(car, {.X_WB = {{x, y}, course - motion.sideslip},
+                                  .v_B = rotated(Vec2{speed, 0.0}, motion.sideslip),
+                                  .yaw_rate = motion.yaw_rate,
+                                  .a_B = motion.a_B});
+  state.obstacles.push_back(perceived_obstacle(meeting, motion, Pose{}));
   return state;
 }
 

@@ -8,6 +8,7 @@
 #include "saca/core/contract.h"
 #include "saca/decide/forecaster.h"
 #include "saca/eval/at_trigger.h"
+#include "saca/eval/danger_choice.h"
 #include "saca/eval/driver_models.h"
 #include "saca/eval/rss.h"
 #include "saca/loop/saca_method.h"
@@ -29,7 +30,7 @@ using manoeuvre::PolicyId;
 using preview::JointMotion;
 using preview::Physics;
 
-constexpr std::array<MethodInfo, 29> infos{{
+constexpr std::array<MethodInfo, 32> infos{{
     {"saca", "SACA",
      "The shipped planes: a cached plan that matches and is admissible, else what the verdict "
      "speaks "
@@ -84,6 +85,17 @@ constexpr std::array<MethodInfo, 29> infos{{
     {"beliefs_drawn", "Best of eight in expectation over draws",
      "The same over draws of what the others intend, how far they drift and how well they are "
      "seen."},
+    {"least_danger", "The least Q_h",
+     "At T1, the plan after half a second of which V_h, learnt, is least: the highest of all who "
+     "are "
+     "ahead, each by itself, going on as they do.",
+     false, Needs::danger},
+    {"least_joint_danger", "The least Q_h beside all",
+     "As least_danger, by V_h beside the three most dangerous together.", false, Needs::danger},
+    {"beliefs_and_danger", "Best of eight in expectation, ties by Q_h",
+     "As beliefs_atlas; of those that harm as little by all that forecasts can tell, the plan of "
+     "the least joint Q_h.",
+     false, Needs::danger},
     {"beliefs_and_grip", "The same, told the grip and the car",
      "As beliefs_rolled_out, told the true grip and how the real car differs.", true},
     {"beliefs_and_followers", "The same, told how followers react",
@@ -279,6 +291,24 @@ AtTrigger::Choose chooser(std::string_view name, const MethodTools& tools) {
       return least_expected(view.scene, believed(view), setup, physics);
     };
   }
+  if (name == "least_danger" || name == "least_joint_danger") {
+    const Beside beside = name == "least_danger" ? Beside::each : Beside::all;
+    return [setup, network = tools.danger, beside](const View& view) {
+      const manoeuvre::Car& car = *setup.forecast.car;
+      return Action{.plan = of_least_danger(view.scene, drivable_plans(car, view.scene), car,
+                                            *network, beside),
+                    .source = "danger"};
+    };
+  }
+  if (name == "beliefs_and_danger") {
+    return [setup, network = tools.danger](const View& view) {
+      const auto plans = admissible_plans(
+          preview::expected_harms(view.scene, believed(view), setup.forecast, Physics::atlas));
+      return Action{
+          .plan = of_least_danger(view.scene, plans, *setup.forecast.car, *network, Beside::all),
+          .source = "danger"};
+    };
+  }
   if (name == "beliefs_drawn") {
     return [setup](const View& view) {
       return least_expected(view.scene,
@@ -359,6 +389,8 @@ const MethodInfo* find_method(std::string_view name) {
 std::unique_ptr<Method> make_method(std::string_view name, const MethodTools& tools) {
   expects(find_method(name) != nullptr, "a method of methods()");
   expects(tools.hindsight != nullptr && tools.intent != nullptr, "hindsight and intent are given");
+  expects(find_method(name)->needs != Needs::danger || tools.danger != nullptr,
+          "V_h is given to who chooses by it");
   const runtime::PlanesSetup& setup = tools.saca;
   if (name.starts_with("saca")) {
     return std::make_unique<loop::SacaMethod>(planes_of(name, setup), *tools.intent);

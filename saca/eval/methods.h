@@ -5,6 +5,7 @@
 #include <span>
 #include <string_view>
 
+#include "saca/danger/network.h"
 #include "saca/eval/yardstick.h"
 #include "saca/loop/method.h"
 #include "saca/runtime/planes.h"
@@ -12,7 +13,7 @@
 namespace saca::eval {
 
 /// What a method leaves out or asks, so that without it there is no such row.
-enum class Needs : std::uint8_t { nothing, memory, model };
+enum class Needs : std::uint8_t { nothing, memory, model, danger };
 
 /// One row of a table: something that decides.
 struct MethodInfo {
@@ -34,10 +35,12 @@ struct MethodTools {
                                    ///< forecasts and thresholds are everybody's
   Hindsight* hindsight = nullptr;  ///< of this encounter
   const intent::Model* intent = nullptr;
-  std::uint64_t seed = 0;  ///< of who chooses at random, and of this encounter
+  const danger::Network* danger = nullptr;  ///< V_h learnt of the car; for who needs it
+  std::uint64_t seed = 0;                   ///< of who chooses at random, and of this encounter
 };
 
 /// @param name  of `methods()`
+/// @throws ContractViolation  if what it needs is not there
 [[nodiscard]] std::unique_ptr<loop::Method> make_method(std::string_view name,
                                                         const MethodTools& tools);
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "saca/core/contract.h"
+#include "saca/danger/networks_for_test.h"
 #include "saca/eval/comparison.h"
 #include "saca/eval/scenes_for_test.h"
 #include "saca/intent/shipped_model.h"
@@ -58,6 +59,16 @@ TEST(Methods, NamesAreDifferentAndFound) {
   }
   EXPECT_EQ(find_method("magic"), nullptr);
   EXPECT_THROW((void)make_method("magic", {}), ContractViolation);
+}
+
+TEST_F(MethodsTest, WhoChoosesByDangerNeedsIt) {
+  Hindsight hindsight(car_, harm_);
+  EXPECT_THROW((void)make_method("least_danger", tools(hindsight)), ContractViolation);
+  const danger::Network network =
+      danger::Network::from(danger::networks_that_hand_on(), "weights").value();
+  MethodTools with = tools(hindsight);
+  with.danger = &network;
+  EXPECT_NE(make_method("least_danger", with), nullptr);
 }
 
 TEST_F(MethodsTest, WhereOnlyALaneChangeHelpsThoseThatForecastFindIt) {

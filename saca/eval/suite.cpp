@@ -47,6 +47,7 @@ Played play(const sim::Scenario& scenario, std::uint64_t number, const SuiteOpti
       methods.push_back(make_method(name, {.saca = saca,
                                            .hindsight = &hindsight,
                                            .intent = &intent,
+                                           .danger = options.danger,
                                            .seed = encounter_seed(options.seed, number)}));
     }
     auto compared = compare(stage, methods, hindsight);

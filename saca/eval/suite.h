@@ -28,8 +28,9 @@ struct SuiteEncounter {
 
 /// How a suite is run.
 struct SuiteOptions {
-  std::vector<std::string> methods;  ///< names of eval::methods(), at least one
-  std::uint64_t seed = 1;            ///< of all that is drawn
+  std::vector<std::string> methods;         ///< names of eval::methods(), at least one
+  std::uint64_t seed = 1;                   ///< of all that is drawn
+  const danger::Network* danger = nullptr;  ///< as in MethodTools
   bool exact = false;  ///< nothing is left to chance and perception is as the scenarios have it
 };
 

@@ -1,0 +1,64 @@
+#include "saca/eval/danger_choice.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "saca/core/contract.h"
+#include "saca/danger/acting.h"
+#include "saca/danger/perceived.h"
+#include "saca/decide/verdict.h"
+#include "saca/manoeuvre/drive.h"
+#include "saca/preview/policy_danger.h"
+
+namespace saca::eval {
+
+using manoeuvre::Plan;
+using world::Scene;
+
+Plan of_least_danger(const Scene& scene, const std::vector<Plan>& plans, const manoeuvre::Car& car,
+                     const danger::Network& network, Beside beside) {
+  expects(!plans.empty(), "a plan to choose");
+  const std::vector<world::Track> tracks = preview::all_going_on(scene).tracks;
+  const preview::DangerOfScene value = [&](const Scene& then) {
+    const danger::State state = danger::most_dangerous(network, car, then);
+    return beside == Beside::all ? danger::joint_v(network, then.ego_footprint, state)
+                                 : danger::highest_single_v(network, then.ego_footprint, state);
+  };
+  Plan least = plans.front();
+  double least_q = std::numeric_limits<double>::infinity();
+  for (const Plan& plan : plans) {
+    const auto q = preview::plan_danger(scene, tracks, plan, car, value);
+    if (q && *q < least_q) {
+      least = plan;
+      least_q = *q;
+    }
+  }
+  return least;
+}
+
+std::vector<Plan> drivable_plans(const manoeuvre::Car& car, const Scene& scene) {
+  std::vector<Plan> plans;
+  for (const Plan& plan : preview::all_plans(scene.ego.v_B.x)) {
+    if (!manoeuvre::why_refused(car, plan, scene)) {
+      plans.push_back(plan);
+    }
+  }
+  return plans;
+}
+
+std::vector<Plan> admissible_plans(const std::vector<preview::ExpectedHarm>& all) {
+  decide::Verdict verdict;
+  for (const preview::ExpectedHarm& one : all) {
+    verdict.plans.push_back({one.plan, one.refusal.empty(), one.harm, one.contact});
+  }
+  const auto most = decide::admissible_harm(verdict);
+  std::vector<Plan> plans;
+  for (const decide::JudgedPlan& one : verdict.plans) {
+    if (most && one.drivable && one.harm <= *most) {
+      plans.push_back(one.plan);
+    }
+  }
+  return plans.empty() ? std::vector{manoeuvre::full_braking} : plans;
+}
+
+}  // namespace saca::eval
