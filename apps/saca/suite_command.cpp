@@ -278,7 +278,8 @@ int run(const CLI::App& line, SuiteCommand options) {
   if (line.count("--methods") == 0) {
     suite.methods = usual_with(suite.thinking);
   }
-  const auto methods = methods_from(suite.methods == "all" ? "" : suite.methods, suite.thinking, suite.danger);
+  const auto methods =
+      methods_from(suite.methods == "all" ? "" : suite.methods, suite.thinking, suite.danger);
   if (!methods.has_value()) {
     complain(methods.error().message);
     return wrong_command_line;
