@@ -79,7 +79,10 @@ reach::LearnedValue learned_value(std::shared_ptr<const Network> network, const 
     }
     const bool is_straight = straight_evasion(limits, body, state).has_value();
     const double margin = margins.at(is_straight, speed, state.grip, 1);
-    return margin < Margins::none ? std::optional(told + margin) : std::nullopt;
+    if (margin < Margins::none) {
+      return told + margin;
+    }
+    return told < 0.0 ? std::nullopt : std::optional(told);  // danger needs no margin
   };
 }
 

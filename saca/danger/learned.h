@@ -18,7 +18,8 @@ namespace saca::danger {
 /// to 18.2 m times 0.4 to 2.9 m that moves at up to 40 m/s and turns and brakes as such bodies may,
 /// an ego at up to 40 m/s on grip from 0.2 to 1, a centre within 100 m; more grip is taken as 1. Of
 /// a body that is no box the box around it is taken. What it tells by 14 m or more it does not know
-/// well (net_inputs.h).
+/// well (net_inputs.h). In a bin where no margin was shown to be enough it tells danger alone: what
+/// it takes there for safe is for others to judge.
 /// @param margins  of this network
 [[nodiscard]] reach::LearnedValue learned_value(std::shared_ptr<const Network> network,
                                                 const Margins& margins, const manoeuvre::Car& car);

@@ -67,6 +67,10 @@ TEST_F(Learned, AddsTheMarginOfItsBin) {
   reach::Meeting slippery = ahead(6.0, 25.0);
   slippery.grip = 0.3;
   EXPECT_FALSE(value()(slippery, {}).has_value()) << "no margin is enough there";
+  slippery = ahead(0.5, 25.0);
+  slippery.grip = 0.3;
+  EXPECT_NEAR(value()(slippery, {}).value(), -0.5 + std::log1p(std::exp(1.25)), 1e-4)
+      << "danger needs none";
 }
 
 TEST_F(Learned, SeesHowTheEgoTurns) {
