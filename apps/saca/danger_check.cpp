@@ -5,8 +5,6 @@
 #include <utility>
 
 #include "saca/core/file.h"
-#include "saca/core/fnv.h"
-#include "saca/core/parallel.h"
 #include "saca/danger/learned.h"
 #include "saca/manoeuvre/ego.h"
 
@@ -48,18 +46,6 @@ Result<DangerWeights> read_danger_weights(const std::string& path) {
   std::string car_name = car->second;
   return DangerWeights{std::move(tensors).value(), std::move(network).value(), std::move(car_name),
                        std::move(inputs).value(), body};
-}
-
-std::vector<danger::Checked> checked_situations(
-    const std::string& name, int first, int count, int threads, std::uint64_t seed,
-    const std::function<danger::Checked(std::uint64_t seed)>& check) {
-  std::vector<danger::Checked> all(static_cast<std::size_t>(count));
-  in_parallel(all.size(), threads, [&](std::size_t i) {
-    Fnv hash;
-    hash.add(fmt::format("{} {} {}", name, seed, static_cast<std::size_t>(first) + i));
-    all[i] = check(hash.value());
-  });
-  return all;
 }
 
 }  // namespace saca::app

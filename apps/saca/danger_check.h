@@ -1,6 +1,9 @@
 #pragma once
 
+#include <fmt/core.h>
 #include <CLI/CLI.hpp>
+
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -8,6 +11,8 @@
 
 #include "apps/saca/inputs.h"
 #include "saca/config/tensors.h"
+#include "saca/core/fnv.h"
+#include "saca/core/parallel.h"
 #include "saca/core/result.h"
 #include "saca/danger/check.h"
 #include "saca/danger/network.h"
@@ -29,9 +34,18 @@ struct DangerWeights {
 
 /// So many situations from one on, in parallel; each has the seed of its number.
 /// @param name  what they are for: others are others
-[[nodiscard]] std::vector<danger::Checked> checked_situations(
+template <class Checked>
+[[nodiscard]] std::vector<Checked> checked_situations(
     const std::string& name, int first, int count, int threads, std::uint64_t seed,
-    const std::function<danger::Checked(std::uint64_t seed)>& check);
+    const std::function<Checked(std::uint64_t seed)>& check) {
+  std::vector<Checked> all(static_cast<std::size_t>(count));
+  in_parallel(all.size(), threads, [&](std::size_t i) {
+    Fnv hash;
+    hash.add(fmt::format("{} {} {}", name, seed, static_cast<std::size_t>(first) + i));
+    all[i] = check(hash.value());
+  });
+  return all;
+}
 
 /// Without a look at its car: weights of a point mass have none.
 [[nodiscard]] Result<danger::Network> read_danger_network(const std::string& path);

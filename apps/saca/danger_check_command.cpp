@@ -172,7 +172,7 @@ int check_danger(const DangerCheckOptions& options) {
     ProgressLine line("danger check", options.situations, clock);
     while (std::ssize(all) < options.situations) {
       const int done = static_cast<int>(all.size());
-      const auto more = checked_situations(
+      const auto more = checked_situations<Checked>(
           "check", done, std::min(situations_at_once, options.situations - done), options.threads,
           options.seed, [&](std::uint64_t seed) {
             return danger::checked(weights.inputs.car, weights.body, weights.network, seed);

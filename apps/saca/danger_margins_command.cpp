@@ -27,7 +27,6 @@ namespace saca::app {
 namespace {
 
 namespace fs = std::filesystem;
-using danger::Checked;
 using nlohmann::json;
 
 struct MarginOptions {
@@ -99,17 +98,19 @@ std::optional<Error> count_for_margins(const MarginOptions& options, const Dange
   const int remembered = count.situations;
   ProgressLine line("danger margins", options.situations, clock);
   while (count.situations < options.situations && !interrupted()) {
-    const auto some =
-        checked_situations("margins", count.situations,
-                           std::min(at_once_for_margins, options.situations - count.situations),
-                           options.threads, options.seed, [&](std::uint64_t seed) {
-                             return danger::checked_by_evasion(weights.inputs.car, weights.body,
-                                                               weights.network, seed);
-                           });
-    for (const Checked& one : some) {
-      if (one.told < 0.0) {
-        count.told[danger::bin_of(one.is_straight, one.speed, one.grip, one.num_obstacles)].add(
-            one.told, one.acted >= 0.0);
+    std::array<bool, danger::num_bins> wanted{};
+    std::transform(count.told.begin(), count.told.end(), wanted.begin(),
+                   [](const danger::ToldSafe& told) { return told.may_have_margin(); });
+    const auto some = checked_situations<danger::ToldAndDriven>(
+        "margins", count.situations,
+        std::min(at_once_for_margins, options.situations - count.situations), options.threads,
+        options.seed, [&](std::uint64_t seed) {
+          return danger::driven_by_evasion(weights.inputs.car, weights.body, weights.network, seed,
+                                           wanted);
+        });
+    for (const danger::ToldAndDriven& one : some) {
+      if (one.acted) {
+        count.told[one.bin].add(one.told, *one.acted >= 0.0);
       }
     }
     count.situations += static_cast<int>(some.size());

@@ -137,12 +137,16 @@ Checked checked(const manoeuvre::Car& car, const world::Footprint& body, const N
   return result;
 }
 
-Checked checked_by_evasion(const manoeuvre::Car& car, const world::Footprint& body,
-                           const Network& network, std::uint64_t seed) {
+ToldAndDriven driven_by_evasion(const manoeuvre::Car& car, const world::Footprint& body,
+                                const Network& network, std::uint64_t seed,
+                                const std::array<bool, num_bins>& wanted) {
   Random random(seed);
   const Situation situation = drawn_situation(car, body, random);
-  Checked result = told_of(car, network, body, state_of(car, situation));
-  if (result.told < 0.0) {
+  const Checked told = told_of(car, network, body, state_of(car, situation));
+  ToldAndDriven result{.bin = bin_of(told.is_straight, told.speed, told.grip, told.num_obstacles),
+                       .told = told.told,
+                       .acted = std::nullopt};
+  if (result.told < 0.0 && wanted[result.bin]) {
     result.acted = Trials(car, body, network, situation).by_evasion();
   }
   return result;

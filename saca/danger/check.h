@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "saca/danger/acting.h"
@@ -36,10 +38,17 @@ struct Checked {
 [[nodiscard]] Checked checked(const manoeuvre::Car& car, const world::Footprint& body,
                               const Network& network, std::uint64_t seed);
 
-/// Likewise, for margins: driven by `evasion` alone, and only if it is told safe (`acted` is 0
-/// else).
-[[nodiscard]] Checked checked_by_evasion(const manoeuvre::Car& car, const world::Footprint& body,
-                                         const Network& network, std::uint64_t seed);
+/// Likewise, for margins: driven by `evasion` alone, and only if it is told safe and in a bin that
+/// is wanted (`acted` is nullopt else).
+struct ToldAndDriven {
+  std::size_t bin = 0;          ///< bin_of
+  double told = 0.0;            ///< V_h at the start, by the network [m]
+  std::optional<double> acted;  ///< highest h when driven [m]
+};
+[[nodiscard]] ToldAndDriven driven_by_evasion(const manoeuvre::Car& car,
+                                              const world::Footprint& body, const Network& network,
+                                              std::uint64_t seed,
+                                              const std::array<bool, num_bins>& wanted);
 
 /// What the network is worth where what V tells, with each bin's margin added, is taken for true:
 /// safe is less than 0.

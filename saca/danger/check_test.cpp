@@ -2,7 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
+
+#include "saca/danger/networks_for_test.h"
+#include "saca/manoeuvre/default_car.h"
+#include "saca/manoeuvre/ego.h"
 
 namespace saca::danger::check_test {
 namespace {
@@ -58,6 +64,25 @@ TEST(CheckFigures, CountPincers) {
   EXPECT_EQ(figures.told_of_pincers.count, 1);
   EXPECT_EQ(figures.told_of_pincers.of, 1);
   EXPECT_EQ(figures.told_alone_of_pincers.count, 0);
+}
+
+// What is not wanted, or told unsafe, is not driven; what is driven does not depend on the others.
+TEST(DrivenByEvasion, IsWhatIsToldSafeInABinThatIsWanted) {
+  const manoeuvre::Car car = manoeuvre::default_car();
+  const Network network = Network::from(networks_that_hand_on(), "weights").value();
+  std::array<bool, num_bins> all{};
+  all.fill(true);
+  int driven = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const auto one = driven_by_evasion(car, manoeuvre::footprint(car), network, seed, all);
+    const auto none = driven_by_evasion(car, manoeuvre::footprint(car), network, seed, {});
+    EXPECT_EQ(one.acted.has_value(), one.told < 0.0);
+    EXPECT_FALSE(none.acted.has_value());
+    EXPECT_EQ(one.bin, none.bin);
+    EXPECT_EQ(one.told, none.told);
+    driven += one.acted ? 1 : 0;
+  }
+  EXPECT_GT(driven, 0);
 }
 
 }  // namespace

@@ -81,6 +81,14 @@ std::optional<double> ToldSafe::margin() const {
   return margin;
 }
 
+bool ToldSafe::may_have_margin() const {
+  constexpr double confidence = 0.999;
+  const Share farthest = hits_with(num_levels - 1);
+  using Binomial = boost::math::binomial_distribution<double>;
+  return farthest.count == 0 || Binomial::find_lower_bound_on_p(farthest.of, farthest.count,
+                                                                1.0 - confidence) <= most_hits;
+}
+
 std::vector<int> ToldSafe::numbers() const {
   std::vector<int> all(of_.begin(), of_.end());
   all.insert(all.end(), hit_.begin(), hit_.end());

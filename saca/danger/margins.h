@@ -53,6 +53,10 @@ class ToldSafe {
   /// the confidence is that of a single trial (fixed sequence testing; Angelopoulos and co-workers,
   /// Learn then Test, 2021).
   [[nodiscard]] std::optional<double> margin() const;
+  /// Whether counting on may yet show a margin. False: of what is told safe by 5 m or more, more
+  /// are hit than most_hits, with confidence 99.9 %. To stop there is no risk: such a bin gets
+  /// none.
+  [[nodiscard]] bool may_have_margin() const;
 
   [[nodiscard]] std::vector<int> numbers() const;
   /// @return  nullopt: no such numbers

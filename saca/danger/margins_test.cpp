@@ -55,6 +55,21 @@ TEST(Margins, AreNoneWithoutEnoughTrials) {
   EXPECT_EQ(none_is_hit.margin(), 0.0);
 }
 
+// At 0.1 % four of 400 have a chance of 0.08 %, three one of 0.8 %.
+TEST(Margins, ABinWithTooManyHitsOfTheFarthestNeedNotBeCountedOn) {
+  const auto told = [](int hits, double metres) {
+    ToldSafe all;
+    for (int i = 0; i < 400; ++i) {
+      all.add(-metres, i < hits);
+    }
+    return all;
+  };
+  EXPECT_FALSE(told(4, 6.0).may_have_margin());
+  EXPECT_TRUE(told(3, 6.0).may_have_margin());
+  EXPECT_TRUE(told(400, 4.0).may_have_margin()) << "5 m may be enough";
+  EXPECT_TRUE(ToldSafe().may_have_margin());
+}
+
 // What a margin leaves out is told safe by it or less: no rounding lets a hit through.
 TEST(Margins, LeaveOutWhatTheyAreFittedTo) {
   for (const double told : {-0.05, -0.1, -0.15, -0.149999, -1.0, -2.35}) {
