@@ -234,13 +234,15 @@ Result<reach::DangerModel> danger_of_drawn(const Inputs& inputs, bool with_table
                            : Result<reach::DangerModel>(cases.error());
 }
 
-Result<reach::DangerModel> usual_danger(const ScenarioInputs& inputs, bool with_tables) {
+Result<std::optional<reach::DangerModel>> usual_danger(const ScenarioInputs& inputs,
+                                                       bool with_tables) {
+  using Model = std::optional<reach::DangerModel>;
   auto learned = learned_danger(inputs);
   if (!learned.has_value()) {
     return learned.error();
   }
-  if (!with_tables && learned.value()) {
-    return model_of(inputs, {}, std::move(learned).value());
+  if (!with_tables) {
+    return learned.value() ? Model(model_of(inputs, {}, std::move(learned).value())) : Model();
   }
   const auto needed = needed_tables(inputs);
   if (!needed.has_value()) {
@@ -248,8 +250,8 @@ Result<reach::DangerModel> usual_danger(const ScenarioInputs& inputs, bool with_
   }
   auto tables = ready_tables(inputs, needed.value());
   return tables.has_value()
-             ? model_of(inputs, std::move(tables).value(), std::move(learned).value())
-             : Result<reach::DangerModel>(tables.error());
+             ? Model(model_of(inputs, std::move(tables).value(), std::move(learned).value()))
+             : Result<Model>(tables.error());
 }
 
 }  // namespace saca::app

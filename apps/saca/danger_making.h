@@ -48,10 +48,10 @@ struct ReadyTable {
 /// @return  likewise
 [[nodiscard]] Result<reach::DangerModel> danger_of_drawn(const Inputs& inputs, bool with_tables);
 
-/// By what was learnt of the car, and nothing that must be waited for; where nothing was, or tables
-/// are wanted, with all tables that the scenario's actors need.
-/// @return  likewise
-[[nodiscard]] Result<reach::DangerModel> usual_danger(const ScenarioInputs& inputs,
-                                                      bool with_tables);
+/// By what was learnt of the car, and nothing that must be waited for; where tables are wanted, with
+/// all that the scenario's actors need.
+/// @return  likewise; nullopt: no tables are wanted, and nothing was learnt of the car
+[[nodiscard]] Result<std::optional<reach::DangerModel>> usual_danger(const ScenarioInputs& inputs,
+                                                                     bool with_tables);
 
 }  // namespace saca::app

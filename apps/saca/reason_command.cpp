@@ -200,7 +200,7 @@ int reason_about(const ReasonOptions& options) {
     return refused(danger.error());
   }
   const preview::ForecastTools tools{&inputs.value().car, &inputs.value().harm, &atlas,
-                                     &danger.value()};
+                                     danger.value() ? &*danger.value() : nullptr};
   const auto asked = first_question(inputs.value(), tools, clock);
   if (!asked.has_value()) {
     return refused(asked.error());

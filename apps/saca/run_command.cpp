@@ -80,14 +80,11 @@ Result<std::optional<manoeuvre::Atlas>> open_atlas(const RunOptions& options,
                            : atlas.error();
 }
 
-/// nullopt: neither what was learnt nor tables are wanted.
+/// nullopt: V_h is told by a few evasions.
 Result<std::optional<reach::DangerModel>> open_danger(const RunOptions& options,
                                                       const ScenarioInputs& inputs) {
-  if (options.danger == "off") {
-    return std::optional<reach::DangerModel>();
-  }
-  auto model = usual_danger(inputs, options.danger == "tables");
-  return model.has_value() ? Result(std::optional(std::move(model).value())) : model.error();
+  return options.danger == "off" ? Result(std::optional<reach::DangerModel>())
+                                 : usual_danger(inputs, options.danger == "tables");
 }
 
 /// nullptr: none is wanted.
@@ -329,7 +326,7 @@ void add_run(CLI::App& line, int& exit_code) {
   command
       ->add_option("--danger", options->danger,
                    "tables: risks by solved tables, made when needed, seconds each; off: by a few "
-                   "evasions (default: by what was learnt of the car, if anything, else by tables)")
+                   "evasions (default: by what was learnt of the car, if anything)")
       ->check(one_of({"tables", "off"}));
   command->add_flag("--no-memory", options->no_memory, "As without --memory")->group("");
   command->add_flag("--review", options->review,

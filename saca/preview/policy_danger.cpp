@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
 
@@ -46,6 +47,19 @@ double highest_h(const Scene& scene, const EgoMotion& way, const Actor& actor, c
   return highest;
 }
 
+/// Value of the third most dangerous; of the last where there are fewer.
+double third_highest(const std::vector<reach::ObstacleRisk>& risks) {
+  constexpr std::size_t most = 3;
+  std::vector<double> values;
+  for (const reach::ObstacleRisk& risk : risks) {
+    if (risk.judged) {
+      values.push_back(risk.value);
+    }
+  }
+  std::sort(values.begin(), values.end(), std::greater<>());
+  return values.empty() ? 0.0 : values[std::min(values.size(), most) - 1];
+}
+
 }  // namespace
 
 std::optional<double> plan_danger(const Scene& scene, const std::vector<Track>& tracks,
@@ -68,16 +82,28 @@ std::optional<double> plan_danger(const Scene& scene, const std::vector<Track>& 
 }
 
 PolicyDangers policy_dangers(const Scene& scene, const std::vector<Track>& tracks,
-                             const AllFacts& facts, const ForecastTools& tools) {
+                             const std::vector<reach::ObstacleRisk>& risks, const AllFacts& facts,
+                             const ForecastTools& tools) {
   expects(tools.car != nullptr && tools.danger != nullptr, "car and danger are given");
-  expects(tracks.size() == scene.actors.size(), "one track per actor");
+  expects(tracks.size() == scene.actors.size() && risks.size() == scene.actors.size(),
+          "one track and one risk per actor");
+  const double least = third_highest(risks);
+  const auto is_watched = [&](const Actor& actor) {
+    for (std::size_t i = 0; i < scene.actors.size(); ++i) {
+      if (scene.actors[i].kind == actor.kind && scene.actors[i].id == actor.id) {
+        return risks[i].value >= least;
+      }
+    }
+    return false;
+  };
   const DangerOfScene value = [&](const Scene& then) {
     double highest = -std::numeric_limits<double>::infinity();
     for (const Actor& actor : then.actors) {
-      highest = std::max(
-          highest,
-          tools.danger->danger(reach::meeting_of(then, actor), reach::motion_of(then, actor))
-              .value);
+      if (is_watched(actor)) {
+        const auto danger =
+            tools.danger->danger(reach::meeting_of(then, actor), reach::motion_of(then, actor));
+        highest = std::max(highest, danger.value);
+      }
     }
     return highest;
   };

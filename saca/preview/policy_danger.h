@@ -8,6 +8,7 @@
 #include "saca/manoeuvre/plan.h"
 #include "saca/preview/plan_facts.h"
 #include "saca/preview/policy_facts.h"
+#include "saca/reach/risk.h"
 #include "saca/world/scene.h"
 #include "saca/world/track.h"
 
@@ -33,12 +34,16 @@ using DangerOfScene = std::function<double(const world::Scene&)>;
                                                 const manoeuvre::Car& car,
                                                 const DangerOfScene& value);
 
-/// plan_danger of each policy, by the highest V_h of the actors, each by itself.
+/// plan_danger of each policy: whom it runs into on the way, and then the highest V_h of the three
+/// who are most dangerous in the scene, each by itself. More of them would cost milliseconds each.
+/// @param risks  one per actor of the scene
 /// @param facts  of the same scene: whose plans are driven
 /// @param tools  with car and danger
-/// @throws ContractViolation  if car or danger are missing, or tracks and actors differ in number
+/// @throws ContractViolation  if car or danger are missing, or tracks or risks differ from the
+///                            actors in number
 [[nodiscard]] PolicyDangers policy_dangers(const world::Scene& scene,
                                            const std::vector<world::Track>& tracks,
+                                           const std::vector<reach::ObstacleRisk>& risks,
                                            const AllFacts& facts, const ForecastTools& tools);
 
 }  // namespace saca::preview

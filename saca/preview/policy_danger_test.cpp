@@ -9,6 +9,7 @@
 #include "saca/manoeuvre/ego.h"
 #include "saca/preview/expected_harm.h"
 #include "saca/preview/forecast_for_test.h"
+#include "saca/preview/preview.h"
 #include "saca/reach/car_limits.h"
 #include "saca/vehicle/vehicle.h"
 #include "tests/support/scenes.h"
@@ -38,7 +39,8 @@ PolicyDangers dangers(const Scene& scene) {
   ForecastTools tools = rolling();
   tools.danger = &model;
   const auto tracks = all_going_on(scene).tracks;
-  return policy_dangers(scene, tracks, policy_facts(scene, tracks, tools), tools);
+  return policy_dangers(scene, tracks, obstacle_risks(scene, tools),
+                        policy_facts(scene, tracks, tools), tools);
 }
 
 double danger(const PolicyDangers& all, PolicyId policy) {
@@ -107,6 +109,20 @@ TEST(PolicyDangers, TheMostDangerousOfSeveralCounts) {
   EXPECT_EQ(danger(alone, PolicyId::aeb), danger(beside, PolicyId::aeb));
 }
 
+// Four who stand far apart: whoever is fourth is looked at on the way only.
+TEST(PolicyDangers, AreOfTheThreeMostDangerous) {
+  Scene scene = road(15.0);
+  for (const double x : {20.0, 40.0, 60.0}) {
+    scene.actors.push_back(test::car(static_cast<std::uint8_t>(scene.actors.size() + 1), {x, 0.0}));
+  }
+  const PolicyDangers three = dangers(scene);
+  scene.actors.push_back(test::car(4, {90.0, 0.0}));
+  const PolicyDangers four = dangers(scene);
+  for (std::size_t i = 0; i < three.size(); ++i) {
+    EXPECT_EQ(three[i], four[i]) << i;
+  }
+}
+
 TEST(PolicyDangers, NobodyAheadOrNoWayToDriveHasNone) {
   Scene scene = road(15.0);
   for (const auto& one : dangers(scene)) {
@@ -129,9 +145,10 @@ TEST(PolicyDangers, AnotherNumberOfTracksIsRefused) {
   ForecastTools tools = rolling();
   tools.danger = &model;
   const AllFacts facts = policy_facts(scene, {}, tools);
-  EXPECT_THROW((void)policy_dangers(scene, {world::Track{}}, facts, tools), ContractViolation);
+  EXPECT_THROW((void)policy_dangers(scene, {world::Track{}}, {}, facts, tools), ContractViolation);
+  EXPECT_THROW((void)policy_dangers(scene, {}, {{}}, facts, tools), ContractViolation);
   tools.danger = nullptr;
-  EXPECT_THROW((void)policy_dangers(scene, {}, facts, tools), ContractViolation);
+  EXPECT_THROW((void)policy_dangers(scene, {}, {}, facts, tools), ContractViolation);
 }
 
 }  // namespace

@@ -244,8 +244,8 @@ std::vector<Situation> situations(const Scene& scene, const intent::Beliefs& bel
     situation.facts =
         policy_facts(situation.scene_at_trigger, situation.tracks, tools, situation.spreads);
     if (tools.danger != nullptr) {
-      situation.dangers =
-          policy_dangers(situation.scene_at_trigger, situation.tracks, situation.facts, tools);
+      situation.dangers = policy_dangers(situation.scene_at_trigger, situation.tracks,
+                                         situation.risks, situation.facts, tools);
     }
     found.push_back(std::move(situation));
     if (found.size() == max_situations) {
