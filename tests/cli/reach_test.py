@@ -289,7 +289,7 @@ def test_errors_against_known_answers_fall_with_the_order_of_the_differences(tmp
 
 
 def test_the_papers_obstacle_has_the_papers_risk(tmp_path):
-    run = saca("run", "one_way", "--pace", "lockstep", "--llm", "off", "--json", cwd=tmp_path)
+    run = saca("run", "one_way", "--pace", "lockstep", "--llm", "off", "--danger", "tables", "--json", cwd=tmp_path)
     assert run.returncode == SUCCESS, run.stderr
     ahead = json.loads(run.stdout)["previews"][0]["actors"][0]
     assert ahead["id"] == "obstacle1" and ahead["value_exact"]
