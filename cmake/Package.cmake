@@ -12,5 +12,6 @@ install(FILES ${PROJECT_BINARY_DIR}/sacaConfig.cmake ${PROJECT_BINARY_DIR}/sacaC
   DESTINATION ${package})
 install(DIRECTORY data scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/saca)
 install(FILES models/intent/model.safetensors DESTINATION ${CMAKE_INSTALL_DATADIR}/saca/models/intent)
+install(FILES models/danger/compact_rwd_ev.safetensors DESTINATION ${CMAKE_INSTALL_DATADIR}/saca/models/danger)
 install(FILES models/places/model.safetensors DESTINATION ${CMAKE_INSTALL_DATADIR}/saca/models/places)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/saca)

@@ -18,7 +18,7 @@ if [ -n "${SACA_DANGER_QUICK:-}" ]; then
   parts=(--part-drives 50 --no-tables)
 else
   work=build/danger/$car output=models/danger/$car.safetensors
-  transitions=31000000 outcomes=5300000 first_steps=12000 steps=10000 pair_steps=8000 batch=4096 situations=1000000 checked=20000
+  transitions=31000000 outcomes=5300000 first_steps=12000 steps=10000 pair_steps=8000 batch=4096 situations=2000000 checked=20000
   parts=()
 fi
 tools/setup.sh train
