@@ -30,6 +30,12 @@ llama_options=(
   -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=OFF -DGGML_NATIVE=ON -DGGML_OPENMP=ON
   -DLLAMA_BUILD_COMMON=OFF -DLLAMA_BUILD_TESTS=OFF -DLLAMA_BUILD_EXAMPLES=OFF
   -DLLAMA_BUILD_TOOLS=OFF -DLLAMA_BUILD_SERVER=OFF -DLLAMA_BUILD_APP=OFF -DLLAMA_CURL=OFF)
+# GCC 12 takes `_tile_loadconfig` to read eight bytes of the 64 (amxtileintrin.h) and drops what was written to the
+# others: the processor refuses such tiles with a fault. Without tiles it computes with AVX-512.
+if grep -qE -m1 '^flags.* amx_tile' /proc/cpuinfo; then
+  no_tiles="-mno-amx-tile -mno-amx-int8 -mno-amx-bf16"
+  llama_options+=("-DCMAKE_C_FLAGS=$no_tiles" "-DCMAKE_CXX_FLAGS=$no_tiles")
+fi
 export GOMP_SPINCOUNT=10000
 
 say() { printf 'model: %s\n' "$*"; }
