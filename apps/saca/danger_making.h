@@ -48,8 +48,8 @@ struct ReadyTable {
 /// @return  likewise
 [[nodiscard]] Result<reach::DangerModel> danger_of_drawn(const Inputs& inputs, bool with_tables);
 
-/// By what was learnt of the car, and nothing that must be waited for; where tables are wanted, with
-/// all that the scenario's actors need.
+/// By what was learnt of the car, and nothing that must be waited for; where tables are wanted,
+/// with all that the scenario's actors need.
 /// @return  likewise; nullopt: no tables are wanted, and nothing was learnt of the car
 [[nodiscard]] Result<std::optional<reach::DangerModel>> usual_danger(const ScenarioInputs& inputs,
                                                                      bool with_tables);

@@ -114,7 +114,8 @@ struct DangerProgress {
 /// @param state     file of what is needed to go on; empty: none
 /// @param on_point  hears of each point of the curve, also of those of an earlier run; false: stop
 /// @return          the networks; Error::Code::malformed, naming the file, if the state is of
-///                  another plan, data or networks that are learnt from. When it was stopped they are as they are then.
+///                  another plan, data or networks that are learnt from. When it was stopped they
+///                  are as they are then.
 [[nodiscard]] Result<DangerNets> trained_danger(
     const danger::Experience& experience, DangerNets* singles, const DangerPlan& plan, int threads,
     const std::filesystem::path& state, const std::function<bool(const DangerProgress&)>& on_point);
