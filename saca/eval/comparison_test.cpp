@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "saca/danger/networks_for_test.h"
 #include "saca/eval/methods.h"
 #include "saca/eval/scenes_for_test.h"
 #include "saca/intent/shipped_model.h"
@@ -65,12 +66,15 @@ class ComparisonTest : public testing::Test {
     return make_method(name, {.saca = {.forecast = {&car_, &harm_}, .clock = &clock_},
                               .hindsight = &hindsight,
                               .intent = &intent::shipped_model(),
+                              .danger = &danger_,
                               .seed = 1});
   }
 
   SteadyClock clock_;
   manoeuvre::Car car_ = manoeuvre::default_car();
   outcome::HarmModel harm_ = shipped_harm();
+  danger::Network danger_ =
+      danger::Network::from(danger::networks_that_hand_on(), "weights").value();
   sim::Scenario scenario_;
   loop::Stage stage_;
 };
