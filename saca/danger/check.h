@@ -38,13 +38,15 @@ struct Checked {
 [[nodiscard]] Checked checked(const manoeuvre::Car& car, const world::Footprint& body,
                               const Network& network, std::uint64_t seed);
 
-/// Likewise, for margins: driven by `evasion` alone, and only if it is told safe and in a bin that
-/// is wanted (`acted` is nullopt else).
+/// What a margin is counted from: one situation, what V_h was told of it, and what came of it.
 struct ToldAndDriven {
   std::size_t bin = 0;          ///< bin_of
   double told = 0.0;            ///< V_h at the start, by the network [m]
-  std::optional<double> acted;  ///< highest h when driven [m]
+  std::optional<double> acted;  ///< highest h when driven by `evasion` [m]; nullopt: it was not
 };
+
+/// A situation as `checked` has them, driven by `evasion` alone, and only if it is told safe.
+/// @param wanted  by bin: what lies in others is not driven
 [[nodiscard]] ToldAndDriven driven_by_evasion(const manoeuvre::Car& car,
                                               const world::Footprint& body, const Network& network,
                                               std::uint64_t seed,

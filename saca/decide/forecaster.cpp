@@ -104,11 +104,6 @@ std::optional<double> least_harm_later(const Verdict& verdict,
   return least;
 }
 
-JudgedPlan judged(const preview::ExpectedHarm& one) {
-  return {
-      .plan = one.plan, .drivable = one.refusal.empty(), .harm = one.harm, .contact = one.contact};
-}
-
 }  // namespace
 
 std::vector<preview::JointMotion> draws_of(const Scene& scene, const intent::Beliefs& beliefs,

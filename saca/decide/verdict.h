@@ -5,6 +5,7 @@
 
 #include "saca/core/static_vector.h"
 #include "saca/manoeuvre/plan.h"
+#include "saca/preview/expected_harm.h"
 #include "saca/preview/policy_facts.h"
 
 namespace saca::decide {
@@ -17,6 +18,8 @@ struct JudgedPlan {
                           ///< below full strength see spread_over_strengths
   double contact = 0.0;   ///< probability, in [0, 1]
 };
+
+[[nodiscard]] JudgedPlan judged(const preview::ExpectedHarm& one);
 
 /// What every plan is expected to end in, from one scene on. Trivially copyable: it crosses from
 /// the forecaster to the reflex plane by value.

@@ -49,12 +49,11 @@ std::vector<Plan> drivable_plans(const manoeuvre::Car& car, const Scene& scene) 
 std::vector<Plan> admissible_plans(const std::vector<preview::ExpectedHarm>& all) {
   decide::Verdict verdict;
   for (const preview::ExpectedHarm& one : all) {
-    verdict.plans.push_back({one.plan, one.refusal.empty(), one.harm, one.contact});
+    verdict.plans.push_back(decide::judged(one));
   }
-  const auto most = decide::admissible_harm(verdict);
   std::vector<Plan> plans;
   for (const decide::JudgedPlan& one : verdict.plans) {
-    if (most && one.drivable && one.harm <= *most) {
+    if (decide::admits(verdict, one.plan)) {
       plans.push_back(one.plan);
     }
   }

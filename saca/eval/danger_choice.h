@@ -30,7 +30,7 @@ enum class Beside : std::uint8_t {
 [[nodiscard]] std::vector<manoeuvre::Plan> drivable_plans(const manoeuvre::Car& car,
                                                           const world::Scene& scene);
 
-/// Those whose expected harm forecasts cannot tell from the least (decide::admissible_harm).
+/// Those whose expected harm forecasts cannot tell from the least (decide::admits).
 /// Emergency braking, where none can be driven.
 [[nodiscard]] std::vector<manoeuvre::Plan> admissible_plans(
     const std::vector<preview::ExpectedHarm>& all);

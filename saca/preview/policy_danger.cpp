@@ -66,6 +66,10 @@ std::optional<double> plan_danger(const Scene& scene, const std::vector<Track>& 
                                   const manoeuvre::Plan& plan, const manoeuvre::Car& car,
                                   const DangerOfScene& value) {
   expects(tracks.size() == scene.actors.size(), "one track per actor");
+  if (std::all_of(scene.actors.begin(), scene.actors.end(),
+                  [&](const Actor& actor) { return world::is_behind(scene, actor); })) {
+    return std::nullopt;  // nobody for whom the plan would have to be driven
+  }
   const EgoMotion way = manoeuvre::drive(car, plan, scene, scene.grip, committed);
   Scene then = scene;
   then.ego = ego_at(way, way.track.X_WA.size() - 1);
@@ -78,7 +82,7 @@ std::optional<double> plan_danger(const Scene& scene, const std::vector<Track>& 
       then.actors.push_back(moved_along(scene.actors[i], tracks[i], then.time));
     }
   }
-  return then.actors.empty() ? std::nullopt : std::optional(std::max(highest, value(then)));
+  return std::max(highest, value(then));
 }
 
 PolicyDangers policy_dangers(const Scene& scene, const std::vector<Track>& tracks,

@@ -27,7 +27,8 @@ using DangerOfScene = std::function<double(const world::Scene&)>;
 /// @param tracks  one per actor
 /// @param value   asked once, of the scene as it is then, with those who were ahead
 /// @return  nullopt: nobody is ahead
-/// @throws ContractViolation  if the plan cannot be driven, or tracks and actors differ in number
+/// @throws ContractViolation  if tracks and actors differ in number, or somebody is ahead and the
+///                            plan cannot be driven
 [[nodiscard]] std::optional<double> plan_danger(const world::Scene& scene,
                                                 const std::vector<world::Track>& tracks,
                                                 const manoeuvre::Plan& plan,
