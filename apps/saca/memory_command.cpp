@@ -1,15 +1,21 @@
 #include <fmt/core.h>
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "apps/saca/commands.h"
 #include "apps/saca/json_output.h"
+#include "apps/saca/memory_commands.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "saca/memory/scene_json.h"
+#include "saca/core/file.h"
+#include "saca/memory/case_json.h"
 #include "saca/memory/store.h"
 
 namespace saca::app {
@@ -20,6 +26,8 @@ using nlohmann::json;
 struct MemoryOptions {
   std::string file = "runs/memory.sqlite";
   std::int64_t id = 0;
+  std::string cases;  ///< JSON Lines
+  bool keep_trust = false;
   bool as_json = false;
 };
 
@@ -31,7 +39,10 @@ json case_json(const memory::Case& one) {
           {"harm", one.harm},
           {"best_harm", one.best_harm},
           {"collision_loss", one.collision_loss},
-          {"review", one.review}};
+          {"review", one.review},
+          {"origin", name(one.origin)},
+          {"trust", name(one.trust)},
+          {"count", one.count}};
 }
 
 /// An existing file only: to look must not make one.
@@ -43,14 +54,18 @@ Result<memory::Store> open_existing(const std::string& file) {
   return memory::Store::open(file);
 }
 
-int list_cases(const MemoryOptions& options) {
-  auto store = open_existing(options.file);
+/// All cases of an existing bank.
+Result<std::vector<memory::Case>> all_of(const std::string& file) {
+  auto store = open_existing(file);
   if (!store.has_value()) {
-    complain(store.error().message);
-    return bad_input;
+    return store.error();
   }
   memory::Store memory = std::move(store).value();
-  const auto cases = memory.all();
+  return memory.all();
+}
+
+int list_cases(const MemoryOptions& options) {
+  const auto cases = all_of(options.file);
   if (!cases.has_value()) {
     complain(cases.error().message);
     return bad_input;
@@ -59,8 +74,10 @@ int list_cases(const MemoryOptions& options) {
   for (const memory::Case& one : cases.value()) {
     list.push_back(case_json(one));
     if (!options.as_json) {
-      app::print("{:5}  {:24} did {} best {}  {}\n", one.id, one.source,
-                 manoeuvre::index(one.plan.policy), manoeuvre::index(one.best), one.review);
+      const std::string mark =
+          one.trust == memory::Trust::trusted ? "" : fmt::format("  [{}]", name(one.trust));
+      app::print("{:5}  {:24} did {} best {}  {}{}\n", one.id, one.source,
+                 manoeuvre::index(one.plan.policy), manoeuvre::index(one.best), one.review, mark);
     }
   }
   if (options.as_json) {
@@ -87,9 +104,101 @@ int show_case(const MemoryOptions& options) {
     complain(fmt::format("{}: want an id of `saca memory list`, got {}", options.file, options.id));
     return bad_input;
   }
-  json out = case_json(*found.value());
-  out["scene"] = memory::to_json(found.value()->scene);
-  app::print("{}\n", out.dump(1));  // a scene comes back to the last bit
+  app::print("{}\n", memory::to_json(*found.value()).dump(1));  // it comes back to the last bit
+  return success;
+}
+
+int export_cases(const MemoryOptions& options) {
+  const auto cases = all_of(options.file);
+  if (!cases.has_value()) {
+    return refused(cases.error());
+  }
+  if (const auto problem = write_output(options.cases, memory::cases_text(cases.value()))) {
+    return refused(*problem);
+  }
+  app::print("{}: {} cases\n", options.cases, cases.value().size());
+  return success;
+}
+
+int import_cases(const MemoryOptions& options) {
+  const auto text = read_file(options.cases, many_bytes);
+  if (!text.has_value()) {
+    return refused(text.error());
+  }
+  auto read = memory::cases_from_text(text.value(), options.cases);
+  if (!read.has_value()) {
+    return refused(read.error());
+  }
+  std::vector<memory::Case> cases = std::move(read).value();
+  for (memory::Case& one : cases) {
+    if (!options.keep_trust && one.trust == memory::Trust::trusted) {
+      one.trust = memory::Trust::unchecked;
+    }
+  }
+  if (const auto problem = make_folder_of(options.file)) {
+    return refused(*problem);
+  }
+  auto store = memory::Store::open(options.file);
+  if (!store.has_value()) {
+    return refused(store.error());
+  }
+  memory::Store memory = std::move(store).value();
+  const auto ids = memory.add_all(cases);
+  if (!ids.has_value()) {
+    return refused(ids.error());
+  }
+  app::print(
+      "{}: {} cases taken over{}\n", options.file, cases.size(),
+      cases.empty() || options.keep_trust ? "" : ": each is used only where a rollout confirms it");
+  return success;
+}
+
+/// Reads everything in the bank.
+int verify_bank(const MemoryOptions& options) {
+  auto store = open_existing(options.file);
+  if (!store.has_value()) {
+    return refused(store.error());
+  }
+  memory::Store memory = std::move(store).value();
+  const auto cases = memory.all();
+  if (!cases.has_value()) {
+    return refused(cases.error());
+  }
+  const auto digest = memory.digest();
+  if (!digest.has_value()) {
+    return refused(digest.error());
+  }
+  const std::string digest_text = fmt::format("{:016x}", digest.value());
+  std::map<std::string_view, int> origins;
+  std::map<std::string_view, int> trusts;
+  std::map<std::string_view, int> best;
+  for (const memory::Case& one : cases.value()) {
+    ++origins[name(one.origin)];
+    ++trusts[name(one.trust)];
+    ++best[name(one.best)];
+  }
+  if (options.as_json) {
+    app::print_json(json{{"file", options.file},
+                         {"cases", cases.value().size()},
+                         {"digest", digest_text},
+                         {"origins", origins},
+                         {"trust", trusts},
+                         {"best", best}});
+    return success;
+  }
+  const auto counted = [](const std::map<std::string_view, int>& counts) {
+    std::string text;
+    for (const auto& [what, count] : counts) {
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
+    }
+    return text;
+  };
+  app::print("{}: {} cases, all whole; digest {}\n", options.file, cases.value().size(),
+             digest_text);
+  if (!cases.value().empty()) {
+    app::print("from   {}\ntrust  {}\nbest   {}\n", counted(origins), counted(trusts),
+               counted(best));
+  }
   return success;
 }
 
@@ -99,13 +208,35 @@ void add_memory(CLI::App& line, int& exit_code) {
   CLI::App* const command = line.add_subcommand("memory", "What was learnt");
   command->require_subcommand(1);
   const auto options = std::make_shared<MemoryOptions>();
-  command->add_option("--memory", options->file, "The memory bank")->capture_default_str();
+  const auto add_bank = [&options](CLI::App& to) {
+    to.add_option("--memory", options->file, "The memory bank")->capture_default_str();
+  };
+  add_bank(*command);
   CLI::App* const list = command->add_subcommand("list", "All cases");
   list->add_flag("--json", options->as_json, "For programs");
+  add_bank(*list);
   list->callback([options, &exit_code] { exit_code = list_cases(*options); });
   CLI::App* const show = command->add_subcommand("show", "One case, with its scene, as JSON");
   show->add_option("id", options->id)->required();
+  add_bank(*show);
   show->callback([options, &exit_code] { exit_code = show_case(*options); });
+  CLI::App* const taken = command->add_subcommand("import", "Takes over cases from JSON Lines");
+  taken->add_option("cases", options->cases, "What `export` or `build` wrote")->required();
+  taken->add_flag("--keep-trust", options->keep_trust,
+                  "As they were trusted there: for one's own. Else each is used only where a "
+                  "rollout confirms it");
+  add_bank(*taken);
+  taken->callback([options, &exit_code] { exit_code = import_cases(*options); });
+  CLI::App* const given = command->add_subcommand("export", "Writes all cases as JSON Lines");
+  given->add_option("cases", options->cases, "The file")->required();
+  add_bank(*given);
+  given->callback([options, &exit_code] { exit_code = export_cases(*options); });
+  CLI::App* const verify =
+      command->add_subcommand("verify", "Reads all of the bank, and counts what is in it");
+  verify->add_flag("--json", options->as_json, "For programs");
+  add_bank(*verify);
+  verify->callback([options, &exit_code] { exit_code = verify_bank(*options); });
+  add_memory_build(*command, exit_code);
 }
 
 }  // namespace saca::app

@@ -23,6 +23,7 @@
 #include "apps/saca/version.h"
 #include "apps/saca/within.h"
 #include "saca/loop/encounter.h"
+#include "saca/loop/learnt_case.h"
 #include "saca/loop/provenance.h"
 #include "saca/loop/review.h"
 #include "saca/loop/trace.h"
@@ -260,6 +261,9 @@ int run(const RunOptions& options) {
     record.review = review.value();
     story.on_truth(record.review->truth);
     text = loop::record_json(setup, record, &provenance.value());
+    if (record.stored) {
+      record.not_stored = loop::keep_lesson(*memory.value(), *record.stored, *record.review);
+    }
   }
   const fs::path folder = fs::path(options.output) / inputs.value().scenario.name;
   const fs::path report =

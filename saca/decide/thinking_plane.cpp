@@ -249,7 +249,7 @@ bool ThinkingPlane::consult_memory(const Round& round, Preview& preview) {
     return false;
   }
   preview.nearest = *nearest.value();
-  preview.gate = memory::gate(preview.nearest->similarity);
+  preview.gate = memory::gate(*preview.nearest);
   const PolicyId policy = preview.nearest->found.best;
   tell(round, EventKind::memory,
        fmt::format("case {} is {:.0f} % alike, best was {} {}", preview.nearest->found.id,

@@ -11,6 +11,7 @@
 #include "saca/core/names.h"
 #include "saca/loop/closed_loop.h"
 #include "saca/loop/dispatcher.h"
+#include "saca/loop/learnt_case.h"
 #include "saca/loop/recorded_driver.h"
 #include "saca/manoeuvre/drive.h"
 #include "saca/outcome/describe.h"
@@ -91,8 +92,7 @@ class Encounter {
   std::optional<std::uint32_t> encounter_;  ///< the avoider's, in which the decision was made
   std::uint32_t judged_ = first_encounter;  ///< the one that the record's verdicts are of
   bool ended_ = false;                      ///< the manoeuvre is finished
-  Scene seen_at_trigger_;                   ///< what SACA perceived then
-  outcome::Others others_at_trigger_;
+  std::optional<Trigger> trigger_;
 };
 
 Stage Encounter::stage_of(const Setup& setup) {
@@ -240,8 +240,11 @@ void Encounter::note_decision(const Answer& answer) {
   record_.verdicts.note(decision);
   record_.at_trigger = loop_.truth().whole_scene();
   record_.threat = actor_name(scene.actors[answer.threat->actor]);
-  seen_at_trigger_ = scene;
-  others_at_trigger_ = loop_.truth().others();
+  trigger_ = {.seen = scene,
+              .beliefs = avoider_.beliefs(),
+              .moment = {*record_.at_trigger, loop_.truth().others(), loop_.truth().grip(),
+                         loop_.truth().unknown_from_now(), decision.plan}};
+  trigger_->moment.scene.grip = scene.grip;
 }
 
 void Encounter::film(const Answer& answer) {
@@ -276,10 +279,7 @@ void Encounter::conclude() {
     tell(Plane::world, EventKind::contact, outcome::describe(record_.result, record_.met));
   }
   if (record_.decision) {
-    Moment trigger{*record_.at_trigger, others_at_trigger_, record_.grip,
-                   loop_.truth().unknown_from_now(), record_.decision->plan};
-    trigger.scene.grip = seen_at_trigger_.grip;
-    record_.hindsight = hindsight_of_all_speeds(trigger, *setup_.car, *setup_.harm);
+    record_.hindsight = hindsight_of_all_speeds(trigger_->moment, *setup_.car, *setup_.harm);
     preview::AllFacts facts;
     std::transform(record_.hindsight->begin(), record_.hindsight->end(), facts.begin(),
                    [](const Hindsight& one) { return one.facts; });
@@ -330,19 +330,7 @@ void Encounter::learn() {
   if (setup_.memory == nullptr || !setup_.learns || !record_.decision) {
     return;
   }
-  const preview::PolicyFacts& best = (*record_.hindsight)[manoeuvre::index(*record_.best)].facts;
-  const memory::Case learnt{
-      .scene = seen_at_trigger_,
-      .plan = record_.decision->plan,
-      .best = *record_.best,
-      .harm = record_.result.harm,
-      .best_harm = best.outcome().harm,
-      .collision_loss = record_.result.collision_loss,
-      .review = fmt::format("{}: {}; best {}: {}", name(record_.decision->plan.policy),
-                            outcome::describe(record_.result, record_.met), name(*record_.best),
-                            outcome::describe(best.outcome(), *record_.at_trigger)),
-      .source = setup_.scenario->name};
-  const auto id = setup_.memory->add(learnt);
+  const auto id = setup_.memory->add(learnt_case(setup_, record_, *trigger_));
   if (id.has_value()) {
     record_.stored = id.value();
     tell(Plane::thinking, EventKind::memory, fmt::format("stored as case {}", id.value()));

@@ -283,6 +283,21 @@ TEST_F(EncounterTest, MemoryLearnsWhatWouldHaveBeenBest) {
   const Record first = play(scenario, nullptr, &store).value();
   EXPECT_EQ(first.decision->source, Source::arbiter);
   ASSERT_TRUE(first.stored.has_value());
+  // What every policy was told to end in and did: braking hits the wreck, the best does not.
+  const memory::Case learnt = store.find(*first.stored).value().value();
+  for (const auto* harms : {&learnt.told, &learnt.happened}) {
+    ASSERT_TRUE(harms->has_value());
+    EXPECT_GT((*harms)->at(manoeuvre::index(PolicyId::aeb)).value(), 0.01);
+    EXPECT_EQ((*harms)->at(manoeuvre::index(*first.best)).value(), 0.0);
+  }
+  EXPECT_EQ(learnt.origin, memory::Origin::simulation);
+  EXPECT_EQ(learnt.scene.time, first.decision->time);
+  ASSERT_EQ(learnt.intentions.size(), 1U);
+  EXPECT_EQ(learnt.intentions[0][0], 1.0) << "a wreck maintains";
+  ASSERT_EQ(learnt.risks.size(), 1U);
+  EXPECT_GT(learnt.risks[0], 0.0);
+  ASSERT_FALSE(learnt.made_with.empty());
+  EXPECT_EQ(learnt.made_with[0].what, "car");
   const Record second = play(scenario, nullptr, &store).value();
   EXPECT_EQ(second.decision->source, Source::memory);
   EXPECT_EQ(second.decision->plan.policy, *first.best);

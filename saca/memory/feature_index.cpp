@@ -1,5 +1,6 @@
 #include "saca/memory/feature_index.h"
 
+#include <algorithm>
 #include <limits>
 #include <span>
 
@@ -15,6 +16,12 @@ void FeatureIndex::add(CaseId id, const world::Scene& scene) {
   egos_.push_back(known.ego);
   actors_.insert(actors_.end(), known.actors.begin(), known.actors.end());
   first_actor_.push_back(actors_.size());
+}
+
+void FeatureIndex::pass_over(CaseId id) {
+  const auto found = std::lower_bound(ids_.begin(), ids_.end(), id);
+  expects(found != ids_.end() && *found == id, "the id was added");
+  egos_[static_cast<std::size_t>(found - ids_.begin())].usable = false;  // it is like no other
 }
 
 std::optional<FeatureIndex::Hit> FeatureIndex::nearest(const Features& wanted) const noexcept {

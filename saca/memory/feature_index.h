@@ -21,6 +21,10 @@ class FeatureIndex {
   /// @param scene  breaks no rule of `world::broken_rule`
   void add(CaseId id, const world::Scene& scene);
 
+  /// From now on this one is not found.
+  /// @param id  of one that was added
+  void pass_over(CaseId id);
+
   /// The scene that differs least, the oldest of equals; nullopt when there is none.
   [[nodiscard]] std::optional<Hit> nearest(const Features& wanted) const noexcept;
 

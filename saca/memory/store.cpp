@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "saca/core/contract.h"
 #include "saca/core/fnv.h"
 #include "saca/core/printable.h"
+#include "saca/memory/case_json.h"
 #include "saca/memory/feature_index.h"
 #include "saca/memory/scene_json.h"
 #include "saca/memory/similarity.h"
@@ -22,8 +24,7 @@ namespace saca::memory {
 namespace {
 
 constexpr std::int64_t application_id = 0x53414341;  // "SACA"
-constexpr std::int64_t version = 2;
-constexpr std::int64_t version_without_strengths = 1;
+constexpr std::int64_t version = 3;
 
 // synchronous = EXTRA: with FULL, a power cut just after a commit may bring back the journal and
 // with it the state before. A rollback journal, not WAL: one file, readable where nothing may be
@@ -32,51 +33,73 @@ constexpr const char* set_up =
     "PRAGMA journal_mode = DELETE; PRAGMA synchronous = EXTRA;"
     "PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON;";
 
-// As SQLite keeps it, also of a table that got its last column later.
-std::string table_of_cases(bool with_strengths) {
-  return std::string(
-             "CREATE TABLE cases ("
-             " id INTEGER PRIMARY KEY AUTOINCREMENT,"
-             " policy INTEGER NOT NULL,"
-             " target_speed_mps REAL,"
-             " best_policy INTEGER NOT NULL,"
-             " harm REAL NOT NULL,"
-             " best_harm REAL NOT NULL,"
-             " collision_loss REAL NOT NULL,"
-             " review TEXT NOT NULL,"
-             " source TEXT NOT NULL,"
-             " scene TEXT NOT NULL") +
-         (with_strengths ? ", strength REAL" : "") + ") STRICT";
+// What each version added to the table of the version before, from version 2 on.
+constexpr std::array added_columns{"strength REAL", "details TEXT NOT NULL DEFAULT '{}'"};
+static_assert(added_columns.size() + 1 == version);
+
+// As SQLite keeps it, also of a table that got its last columns later.
+std::string table_of_cases(std::int64_t of_version) {
+  std::string columns =
+      "CREATE TABLE cases ("
+      " id INTEGER PRIMARY KEY AUTOINCREMENT,"
+      " policy INTEGER NOT NULL,"
+      " target_speed_mps REAL,"
+      " best_policy INTEGER NOT NULL,"
+      " harm REAL NOT NULL,"
+      " best_harm REAL NOT NULL,"
+      " collision_loss REAL NOT NULL,"
+      " review TEXT NOT NULL,"
+      " source TEXT NOT NULL,"
+      " scene TEXT NOT NULL";
+  for (std::size_t i = 0; i + 1 < static_cast<std::size_t>(of_version); ++i) {
+    columns += std::string(", ") + added_columns.at(i);
+  }
+  return columns + ") STRICT";
 }
 // SQLite's own, for AUTOINCREMENT.
 constexpr const char* table_of_ids = "CREATE TABLE sqlite_sequence(name,seq)";
 
-std::string create() {
-  return table_of_cases(true) +
-         ";PRAGMA application_id = 1396785985;"
-         "PRAGMA user_version = 2;";
+std::string set_version() {
+  return "PRAGMA user_version = " + std::to_string(version) + ";";
 }
 
-constexpr const char* add_strengths =
-    "ALTER TABLE cases ADD COLUMN strength REAL; PRAGMA user_version = 2;";
+std::string create() {
+  return table_of_cases(version) + ";PRAGMA application_id = 1396785985;" + set_version();
+}
+
+std::string upgrade_from(std::int64_t older) {
+  std::string sql;
+  for (auto i = static_cast<std::size_t>(older - 1); i < added_columns.size(); ++i) {
+    sql += std::string("ALTER TABLE cases ADD COLUMN ") + added_columns.at(i) + ";";
+  }
+  return sql + set_version();
+}
+
 // Before the table of the same name when a statement looks for one, in this connection only.
-constexpr const char* view_with_strengths =
-    "PRAGMA temp_store = MEMORY;"
-    "CREATE TEMP VIEW cases AS SELECT *, NULL AS strength FROM main.cases;";
+std::string view_of(std::int64_t older) {
+  return std::string("PRAGMA temp_store = MEMORY; CREATE TEMP VIEW cases AS SELECT *,") +
+         (older < 2 ? " NULL AS strength," : "") + " '{}' AS details FROM main.cases;";
+}
 
 constexpr const char* insert =
     "INSERT INTO cases (policy, target_speed_mps, best_policy, harm, best_harm, collision_loss,"
-    " review, source, scene, strength) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)";
+    " review, source, scene, strength, details, id)"
+    " VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12)";
+constexpr const char* rewrite =
+    "UPDATE cases SET policy = ?1, target_speed_mps = ?2, best_policy = ?3, harm = ?4,"
+    " best_harm = ?5, collision_loss = ?6, review = ?7, source = ?8, scene = ?9, strength = ?10,"
+    " details = ?11 WHERE id = ?12";
+constexpr int id_parameter = 12;  // of these two
 
 // In the order of `Column`.
 constexpr const char* select_after =
     "SELECT id, policy, target_speed_mps, best_policy, harm, best_harm, collision_loss, review,"
-    " source, scene, strength FROM cases WHERE id > ?1 ORDER BY id";
+    " source, scene, strength, details FROM cases WHERE id > ?1 ORDER BY id";
 constexpr const char* select_one =
     "SELECT id, policy, target_speed_mps, best_policy, harm, best_harm, collision_loss, review,"
-    " source, scene, strength FROM cases WHERE id = ?1";
+    " source, scene, strength, details FROM cases WHERE id = ?1";
 
-/// Also the number of its parameter in `insert`.
+/// Also the number of its parameter in `insert` and `rewrite`, but for the id.
 enum Column : int {
   id_column,
   policy_column,
@@ -89,12 +112,13 @@ enum Column : int {
   source_column,
   scene_column,
   strength_column,
+  details_column,
 };
 
 constexpr std::array all_columns{
     id_column,     policy_column,    target_speed_column,   best_policy_column,
     harm_column,   best_harm_column, collision_loss_column, review_column,
-    source_column, scene_column,     strength_column};
+    source_column, scene_column,     strength_column,       details_column};
 
 /// Reads the columns of the row at which a statement stands; the first thing wrong is kept.
 class Row {
@@ -148,11 +172,25 @@ class Row {
     return std::move(scene).value();
   }
 
-  void reject(Column column, const std::string& why) {
+  /// What version 2 did not know, and the rules of a whole case.
+  void read_details(Case& one) {
+    const auto parsed = config::parse_json(text(details_column));
+    if (!parsed.has_value()) {
+      reject(details_column, parsed.error().message);
+    } else if (const auto problem = memory::read_details(parsed.value(), one)) {
+      reject(details_column, problem->message);
+    }
+    if (const auto broken = broken_rule(one)) {
+      reject(broken->key, broken->why);
+    }
+  }
+
+  void reject(Column column, const std::string& why) { reject(statement_.name(column), why); }
+  void reject(const std::string& key, const std::string& why) {
     if (!problem_) {
       problem_ = Error{Error::Code::malformed, file_ + ": table cases, id " +
                                                    std::to_string(statement_.integer(id_column)) +
-                                                   ": " + statement_.name(column) + ": " + why};
+                                                   ": " + key + ": " + why};
     }
   }
 
@@ -163,10 +201,6 @@ class Row {
   const std::string& file_;
   std::optional<Error> problem_;
 };
-
-bool is_strength(const manoeuvre::Plan& plan) {
-  return manoeuvre::takes_strength(plan.policy) && *plan.strength > 0.0 && *plan.strength <= 1.0;
-}
 
 Result<Case> case_at(const Statement& statement, const std::string& file) {
   Row row(statement, file);
@@ -180,20 +214,11 @@ Result<Case> case_at(const Statement& statement, const std::string& file) {
            .collision_loss = row.amount(collision_loss_column),
            .review = row.text(review_column),
            .source = row.text(source_column)};
-  if (one.plan.target_speed && !manoeuvre::brakes_to_speed(one.plan.policy)) {
-    row.reject(target_speed_column, "only policies 3 and 4 have one");
-  }
-  if (one.plan.strength && !is_strength(one.plan)) {
-    row.reject(strength_column, "only policy 0 has one, of at most 1");
-  }
+  row.read_details(one);
   if (row.problem()) {
     return *row.problem();
   }
   return one;
-}
-
-bool is_amount(double number) {
-  return std::isfinite(number) && number >= 0.0;
 }
 
 }  // namespace
@@ -205,11 +230,16 @@ Gate gate(double similarity) noexcept {
   return similarity > 0.70 ? Gate::check : Gate::reason;
 }
 
+Gate gate(const Match& match) noexcept {
+  const Gate by_similarity = gate(match.similarity);
+  return match.found.trust == Trust::trusted ? by_similarity : std::max(by_similarity, Gate::check);
+}
+
 struct Store::State {
   Database database;
   std::string name;  ///< of the file, as the caller gave it
 
-  std::optional<Error> may_not_be_upgraded;  ///< why a file of the version before stays as it is
+  std::optional<Error> may_not_be_upgraded;  ///< why a file of an older version stays as it is
 
   FeatureIndex index;  ///< of the cases that were in the file when it was last looked at
 
@@ -299,18 +329,14 @@ struct Store::State {
     return run_where_needed(create().c_str(), [this] { return is_new(); });
   }
 
-  /// In one transaction, unless another process was faster and it is not needed any more.
-  template <class IsNeeded>
-  [[nodiscard]] std::optional<Error> run_where_needed(const char* statements,
-                                                      IsNeeded is_needed) const {
+  /// All that `work` does happens, or nothing of it.
+  /// @param work  returns what went wrong
+  template <class Work>
+  [[nodiscard]] std::optional<Error> in_one_transaction(Work work) const {
     if (auto error = run("BEGIN IMMEDIATE", Access::write)) {
       return error;
     }
-    const Result<bool> needed = is_needed();
-    auto error = needed.has_value() ? std::nullopt : std::optional(needed.error());
-    if (!error && needed.value()) {
-      error = run(statements, Access::write);
-    }
+    std::optional<Error> error = work();
     if (!error) {
       error = run("COMMIT", Access::write);
     }
@@ -320,10 +346,23 @@ struct Store::State {
     return error;
   }
 
+  /// In one transaction, unless another process was faster and it is not needed any more.
+  template <class IsNeeded>
+  [[nodiscard]] std::optional<Error> run_where_needed(const char* statements,
+                                                      IsNeeded is_needed) const {
+    return in_one_transaction([&]() -> std::optional<Error> {
+      const Result<bool> needed = is_needed();
+      if (!needed.has_value()) {
+        return needed.error();
+      }
+      return needed.value() ? run(statements, Access::write) : std::nullopt;
+    });
+  }
+
   /// The first thing in the schema that our statements do not make: a view, a trigger, an index or
   /// a rule of somebody else could change what ours do.
-  [[nodiscard]] std::optional<Error> foreign_schema(bool with_strengths) const {
-    std::vector<std::string> missing{table_of_cases(with_strengths), table_of_ids};
+  [[nodiscard]] std::optional<Error> foreign_schema(std::int64_t of_version) const {
+    std::vector<std::string> missing{table_of_cases(of_version), table_of_ids};
     Statement statement(database.get(), "SELECT type, name, sql FROM main.sqlite_schema");
     int code = statement.step();
     for (; code == SQLITE_ROW; code = statement.step()) {
@@ -355,11 +394,12 @@ struct Store::State {
       return Error{Error::Code::malformed,
                    name + ": want a memory bank, got a database of another program"};
     }
-    if (found.value() != version && found.value() != version_without_strengths) {
+    if (found.value() < 1 || found.value() > version) {
       return Error{Error::Code::malformed, name + ": want version " + std::to_string(version) +
-                                               ", got version " + std::to_string(found.value())};
+                                               " of a memory bank or an older one, got version " +
+                                               std::to_string(found.value())};
     }
-    if (auto foreign = foreign_schema(found.value() == version)) {
+    if (auto foreign = foreign_schema(found.value())) {
       return foreign;
     }
     Statement check(database.get(), "PRAGMA quick_check(1)");
@@ -372,27 +412,27 @@ struct Store::State {
     return std::nullopt;
   }
 
-  /// A file of the version before gets the column that it lacks; one that may only be read is read
-  /// as if it had it.
-  [[nodiscard]] std::optional<Error> learn_strengths() {
+  /// A file of an older version gets the columns that it lacks; one that may only be read is read
+  /// as if it had them.
+  [[nodiscard]] std::optional<Error> bring_up_to_date() {
     const auto found = integer("PRAGMA user_version");
     if (!found.has_value() || found.value() == version) {
       return found.has_value() ? std::nullopt : std::optional(found.error());
     }
-    auto error = upgrade();
+    auto error = upgrade(found.value());
     if (error && error->code == Error::Code::unwritable) {
-      may_not_be_upgraded = std::exchange(error, run(view_with_strengths, Access::read));
+      may_not_be_upgraded = std::exchange(error, run(view_of(found.value()).c_str(), Access::read));
     }
     return error;
   }
 
-  [[nodiscard]] std::optional<Error> upgrade() const {
-    return run_where_needed(add_strengths, [this]() -> Result<bool> {
+  [[nodiscard]] std::optional<Error> upgrade(std::int64_t older) const {
+    return run_where_needed(upgrade_from(older).c_str(), [this, older]() -> Result<bool> {
       const auto found = integer("PRAGMA user_version");
       if (!found.has_value()) {
         return found.error();
       }
-      return found.value() != version;
+      return found.value() == older;
     });
   }
 
@@ -435,7 +475,12 @@ struct Store::State {
 
   /// Learns the features of cases that it does not know yet.
   [[nodiscard]] std::optional<Error> catch_up() {
-    return each_after(index.last_id(), [this](const Case& one) { index.add(one.id, one.scene); });
+    return each_after(index.last_id(), [this](const Case& one) {
+      index.add(one.id, one.scene);
+      if (one.trust == Trust::quarantined) {
+        index.pass_over(one.id);
+      }
+    });
   }
 };
 
@@ -448,7 +493,7 @@ Result<Store> Store::open(const std::filesystem::path& path) {
   auto state = State::opened(
       path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE,
       {[](State& s) { return s.create_if_new(); }, [](State& s) { return s.wrong_kind(); },
-       [](State& s) { return s.learn_strengths(); }, [](State& s) { return s.catch_up(); }});
+       [](State& s) { return s.bring_up_to_date(); }, [](State& s) { return s.catch_up(); }});
   if (!state.has_value()) {
     return state.error();
   }
@@ -464,7 +509,7 @@ Result<Store> Store::snapshot(const std::filesystem::path& path) {
   auto state = State::opened(
       path, SQLITE_OPEN_READWRITE,
       {[](State& s) { return s.wrong_kind(); }, [](State& s) { return s.move_into_memory(); },
-       [](State& s) { return s.learn_strengths(); },
+       [](State& s) { return s.bring_up_to_date(); },
        [](State& s) { return s.run("PRAGMA query_only = ON", Access::read); },
        [](State& s) { return s.catch_up(); }});
   if (!state.has_value()) {
@@ -473,21 +518,19 @@ Result<Store> Store::snapshot(const std::filesystem::path& path) {
   return Store(std::move(state).value());
 }
 
-Result<CaseId> Store::add(const Case& one) {
-  expects(is_amount(one.harm), "harm is finite and >= 0");
-  expects(is_amount(one.best_harm), "best_harm is finite and >= 0");
-  expects(is_amount(one.collision_loss), "collision_loss is finite and >= 0");
-  expects(!one.plan.target_speed ||
-              (is_amount(*one.plan.target_speed) && manoeuvre::brakes_to_speed(one.plan.policy)),
-          "only policies 3 and 4 have a target_speed, finite and >= 0");
-  expects(!one.plan.strength || is_strength(one.plan),
-          "only policy 0 has a strength, of at most 1");
-  if (state_->may_not_be_upgraded) {
-    return *state_->may_not_be_upgraded;
-  }
-  const std::string scene = to_json(one.scene).dump();
+namespace {
 
-  Statement statement(state_->database.get(), insert);
+void check(const Case& one) {
+  const auto broken = broken_rule(one);
+  expects(!broken, broken ? broken->key + ": " + broken->why : "");
+}
+
+/// Runs `insert` or `rewrite`.
+/// @param id  nullopt: a new one
+int write(sqlite3* database, const char* sql, const Case& one, const std::optional<CaseId>& id) {
+  const std::string scene = to_json(one.scene).dump();
+  const std::string details = details_json(one).dump();
+  Statement statement(database, sql);
   statement.bind(policy_column, static_cast<std::int64_t>(one.plan.policy))
       .bind(best_policy_column, static_cast<std::int64_t>(one.best))
       .bind(harm_column, one.harm)
@@ -495,17 +538,81 @@ Result<CaseId> Store::add(const Case& one) {
       .bind(collision_loss_column, one.collision_loss)
       .bind(review_column, one.review)
       .bind(source_column, one.source)
-      .bind(scene_column, scene);
+      .bind(scene_column, scene)
+      .bind(details_column, details);
   if (one.plan.target_speed) {
     statement.bind(target_speed_column, *one.plan.target_speed);
   }
   if (one.plan.strength) {
     statement.bind(strength_column, *one.plan.strength);
   }
-  if (statement.step() != SQLITE_DONE) {
+  if (id) {
+    statement.bind(id_parameter, *id);
+  }
+  return statement.step();
+}
+
+}  // namespace
+
+Result<CaseId> Store::add(const Case& one) {
+  check(one);
+  if (state_->may_not_be_upgraded) {
+    return *state_->may_not_be_upgraded;
+  }
+  sqlite3* const database = state_->database.get();
+  if (write(database, insert, one, std::nullopt) != SQLITE_DONE) {
     return state_->problem(Access::write);
   }
-  return CaseId{sqlite3_last_insert_rowid(state_->database.get())};
+  return CaseId{sqlite3_last_insert_rowid(database)};
+}
+
+Result<std::vector<CaseId>> Store::add_all(std::span<const Case> cases) {
+  std::for_each(cases.begin(), cases.end(), check);
+  if (state_->may_not_be_upgraded) {
+    return *state_->may_not_be_upgraded;
+  }
+  sqlite3* const database = state_->database.get();
+  std::vector<CaseId> ids;
+  const auto add_in_turn = [&]() -> std::optional<Error> {
+    const auto present = state_->integer("SELECT count(*) FROM cases");
+    if (!present.has_value()) {
+      return present.error();
+    }
+    std::set<CaseId> own;
+    for (const Case& one : cases) {
+      own.insert(one.id);
+    }
+    const bool keeps_ids =
+        present.value() == 0 && own.size() == cases.size() && !own.empty() && *own.begin() > 0;
+    for (const Case& one : cases) {
+      const auto id = keeps_ids ? std::optional(one.id) : std::nullopt;
+      if (write(database, insert, one, id) != SQLITE_DONE) {
+        return state_->problem(Access::write);
+      }
+      ids.push_back(sqlite3_last_insert_rowid(database));
+    }
+    return std::nullopt;
+  };
+  if (auto error = state_->in_one_transaction(add_in_turn)) {
+    return *std::move(error);
+  }
+  return ids;
+}
+
+std::optional<Error> Store::update(const Case& one) {
+  check(one);
+  if (state_->may_not_be_upgraded) {
+    return *state_->may_not_be_upgraded;
+  }
+  sqlite3* const database = state_->database.get();
+  if (write(database, rewrite, one, one.id) != SQLITE_DONE) {
+    return state_->problem(Access::write);
+  }
+  if (sqlite3_changes(database) == 0) {
+    return Error{Error::Code::out_of_range,
+                 state_->name + ": there is no case " + std::to_string(one.id)};
+  }
+  return std::nullopt;
 }
 
 Result<std::vector<Case>> Store::all() {
@@ -567,10 +674,13 @@ Result<std::optional<Match>> Store::nearest(const world::Scene& scene) {
     if (!found.has_value()) {
       return found.error();
     }
-    if (found.value()) {
+    if (!found.value()) {
+      state_->index = {};  // somebody has deleted it: look again, at all
+    } else if (found.value()->trust == Trust::quarantined) {
+      state_->index.pass_over(best->id);  // since it was read
+    } else {
       return std::optional(Match{*std::move(found).value(), similarity_at(best->difference)});
     }
-    state_->index = {};  // somebody has deleted it: look again, at all
   }
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "saca/core/result.h"
@@ -27,6 +28,10 @@ struct Match {
   double similarity = 0.0;
 };
 
+/// The same of a case: one that is not trusted is used only if a rollout confirms it, however
+/// alike.
+[[nodiscard]] Gate gate(const Match& match) noexcept;
+
 /// The memory bank: one SQLite file, which several processes may have open.
 ///
 /// One thread at a time. It waits for the disk, and for another process (then: too_late) up to 5 s,
@@ -40,8 +45,8 @@ class Store {
   /// Opens the file, or makes it where there is none. Its features are read into memory, so a
   /// damaged row is told here.
   ///
-  /// A file of version 1, which knows no strengths, is brought to version 2. A file that may only
-  /// be read is opened for reading: `add` then returns unwritable.
+  /// A file of an older version is brought to the newest. A file that may only be read is opened
+  /// for reading: `add` then returns unwritable.
   /// @return  unreadable when it cannot be opened; malformed when it is damaged, is no memory bank,
   ///          has another version, or a row cannot be used
   [[nodiscard]] static Result<Store> open(const std::filesystem::path& path);
@@ -60,8 +65,18 @@ class Store {
   ///
   /// @param one  its `id` is not looked at
   /// @return     the id given to it; unwritable when the disk is full or the file read-only
-  /// @throws ContractViolation  if the scene breaks a rule or harm or loss is not finite and >= 0
+  /// @throws ContractViolation  if the case or its scene breaks a rule
   [[nodiscard]] Result<CaseId> add(const Case& one);
+
+  /// Puts all of them on the disk, or none: as `add`, in one step, under ids of their own where the
+  /// bank is empty and the ids are told apart, else under new ones.
+  /// @return  the ids given, in their order
+  [[nodiscard]] Result<std::vector<CaseId>> add_all(std::span<const Case> cases);
+
+  /// Writes a case again: what was learnt of it since. Its scene stays as it is.
+  /// @return  unwritable; out_of_range where there is no case of this id
+  /// @throws ContractViolation  as `add`
+  [[nodiscard]] std::optional<Error> update(const Case& one);
 
   /// All cases, oldest first.
   [[nodiscard]] Result<std::vector<Case>> all();
@@ -69,8 +84,8 @@ class Store {
   /// @return  nullopt when there is no case of this id
   [[nodiscard]] Result<std::optional<Case>> find(CaseId id);
 
-  /// The stored case whose scene is most alike, the oldest of equals; nullopt when the memory is
-  /// empty. Linear scan over features in memory, then one row is read.
+  /// The stored case whose scene is most alike, the oldest of equals; nullopt when there is none.
+  /// Who is quarantined is passed over. Linear scan over features in memory, then one row is read.
   /// @throws ContractViolation  if the scene breaks a rule of `world::broken_rule`
   [[nodiscard]] Result<std::optional<Match>> nearest(const world::Scene& scene);
 

@@ -20,6 +20,7 @@
 
 #include "saca/core/contract.h"
 #include "saca/core/file.h"
+#include "saca/memory/case_json.h"
 #include "saca/memory/example_scenes.h"
 #include "saca/memory/scene_json.h"
 #include "saca/memory/similarity.h"
@@ -42,6 +43,12 @@ Case example_case(std::uint32_t seed) {
   one.collision_loss = 1.0 / 3.0;
   one.review = "stopped 0.4 m later than forecast; \"wet\" – 'perhaps'";
   one.source = "case " + std::to_string(seed);
+  one.origin = Origin::simulation;
+  one.trust = seed % 2 == 0 ? Trust::trusted : Trust::unchecked;
+  one.count = static_cast<int>(seed) + 1;
+  one.worst_harm = 2.0 / 3.0;
+  one.told = PolicyHarms{0.1, 0.2, std::nullopt, 1.0 / 7.0};
+  one.lessons = {"braking alone was too late"};
   return one;
 }
 
@@ -54,6 +61,7 @@ void expect_same(const Case& a, const Case& b) {
   EXPECT_EQ(a.collision_loss, b.collision_loss);
   EXPECT_EQ(a.review, b.review);
   EXPECT_EQ(a.source, b.source);
+  EXPECT_EQ(details_json(a), details_json(b));
 }
 
 /// What somebody with the sqlite3 shell would do.
@@ -110,6 +118,17 @@ TEST(Gates, AreThoseOfThePaper) {
   EXPECT_EQ(gate(std::numeric_limits<double>::quiet_NaN()), Gate::reason);
 }
 
+TEST(Gates, LetNoUncheckedCaseThroughAsItIs) {
+  Match match{.found = {}, .similarity = 0.95};
+  EXPECT_EQ(gate(match), Gate::cache);
+  match.found.trust = Trust::unchecked;
+  EXPECT_EQ(gate(match), Gate::check);
+  match.similarity = 0.8;
+  EXPECT_EQ(gate(match), Gate::check);
+  match.similarity = 0.5;
+  EXPECT_EQ(gate(match), Gate::reason);
+}
+
 // ---- Coming back
 
 TEST_F(Memory, IsEmptyAtFirst) {
@@ -155,33 +174,54 @@ TEST_F(Memory, KeepsAStrength) {
   EXPECT_NE(store.digest().value(), with);
 }
 
-/// As the program before wrote it.
-void make_version_1(const fs::path& path) {
-  shell(path, "ALTER TABLE cases DROP COLUMN strength; PRAGMA user_version = 1");
+/// As an older program wrote it.
+void make_version(int version, const fs::path& path) {
+  shell(path, "ALTER TABLE cases DROP COLUMN details");
+  if (version == 1) {
+    shell(path, "ALTER TABLE cases DROP COLUMN strength");
+  }
+  shell(path, "PRAGMA user_version = " + std::to_string(version));
 }
 
-TEST_F(Memory, ReadsAFileOfTheVersionBeforeAndGoesOnWithIt) {
-  for (std::uint32_t i = 0; i < 4; ++i) {
-    ASSERT_TRUE(opened().add(example_case(i)).has_value());
+/// What version 2 knew of a case.
+Case without_details(const Case& one) {
+  return {.id = one.id,
+          .scene = one.scene,
+          .plan = one.plan,
+          .best = one.best,
+          .harm = one.harm,
+          .best_harm = one.best_harm,
+          .collision_loss = one.collision_loss,
+          .review = one.review,
+          .source = one.source};
+}
+
+TEST_F(Memory, ReadsAFileOfAnOlderVersionAndGoesOnWithIt) {
+  for (const int version : {1, 2}) {
+    fs::remove(path_);
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      ASSERT_TRUE(opened().add(example_case(i)).has_value());
+    }
+    make_version(version, path_);
+    {
+      Store copy = Store::snapshot(path_).value();
+      expect_same(copy.all().value().at(3), without_details(example_case(3)));
+      EXPECT_FALSE(copy.add(example_case(1)).has_value());
+    }
+    EXPECT_EQ(shell(path_, "PRAGMA user_version"), std::to_string(version))
+        << "a copy leaves the file alone";
+    Store store = opened();
+    Case gentle = example_case(4);
+    gentle.plan = {.policy = manoeuvre::PolicyId::aeb, .strength = 0.3};
+    ASSERT_TRUE(store.add(gentle).has_value());
+    const std::vector<Case> cases = opened().all().value();
+    ASSERT_EQ(cases.size(), 5U);
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      expect_same(cases[i], without_details(example_case(i)));
+    }
+    expect_same(cases[4], gentle);
+    EXPECT_EQ(integrity(), "ok");
   }
-  make_version_1(path_);
-  {
-    Store copy = Store::snapshot(path_).value();
-    expect_same(copy.all().value().at(3), example_case(3));
-    EXPECT_FALSE(copy.add(example_case(1)).has_value());
-  }
-  EXPECT_EQ(shell(path_, "PRAGMA user_version"), "1") << "a copy leaves the file alone";
-  Store store = opened();
-  Case gentle = example_case(4);
-  gentle.plan = {.policy = manoeuvre::PolicyId::aeb, .strength = 0.3};
-  ASSERT_TRUE(store.add(gentle).has_value());
-  const std::vector<Case> cases = opened().all().value();
-  ASSERT_EQ(cases.size(), 5U);
-  for (std::uint32_t i = 0; i < 4; ++i) {
-    expect_same(cases[i], example_case(i));
-  }
-  expect_same(cases[4], gentle);
-  EXPECT_EQ(integrity(), "ok");
 }
 
 TEST_F(Memory, IsReadableInTheShell) {
@@ -209,6 +249,84 @@ TEST_F(Memory, FindsTheNearestLikeALinearScan) {
     expect_same(match.found, *best);
   }
   EXPECT_EQ(store.nearest(cases[7].scene).value().value().similarity, 1.0);
+}
+
+// ---- Changing, and taking over
+
+TEST_F(Memory, WritesACaseAgain) {
+  Store store = opened();
+  const CaseId id = store.add(example_case(1)).value();
+  ASSERT_TRUE(store.add(example_case(2)).has_value());
+  Case changed = example_case(1);
+  changed.id = id;
+  changed.trust = Trust::quarantined;
+  changed.lessons.emplace_back("a truck was hidden");
+  changed.plan = {manoeuvre::PolicyId::no_intervention};
+  EXPECT_FALSE(store.update(changed).has_value());
+  expect_same(opened().find(id).value().value(), changed);
+  expect_same(opened().find(id + 1).value().value(), example_case(2));
+  changed.id = 99;
+  const auto problem = store.update(changed);
+  ASSERT_TRUE(problem.has_value());
+  EXPECT_EQ(problem->code, Error::Code::out_of_range);
+  EXPECT_THAT(problem->message, HasSubstr("bank.db: there is no case 99"));
+}
+
+TEST_F(Memory, PassesOverWhoIsQuarantined) {
+  Store asked = opened();
+  Store other = opened();
+  Case best = example_case(3);
+  best.id = other.add(best).value();
+  const CaseId second = other.add(example_case(4)).value();
+  EXPECT_EQ(asked.nearest(best.scene).value().value().found.id, best.id);
+  best.trust = Trust::quarantined;
+  EXPECT_FALSE(other.update(best).has_value());
+  EXPECT_EQ(asked.nearest(best.scene).value().value().found.id, second) << "another's change";
+  EXPECT_EQ(opened().nearest(best.scene).value().value().found.id, second);
+  Case last = example_case(4);
+  last.id = second;
+  last.trust = Trust::quarantined;
+  EXPECT_FALSE(other.update(last).has_value());
+  EXPECT_FALSE(asked.nearest(best.scene).value().has_value());
+}
+
+TEST_F(Memory, TakesManyCasesOrNone) {
+  std::vector<Case> cases;
+  for (std::uint32_t i = 1; i <= 5; ++i) {
+    cases.push_back(example_case(i));
+    cases.back().id = 10 * i;
+  }
+  Store store = opened();
+  EXPECT_THAT(store.add_all(cases).value(), testing::ElementsAre(10, 20, 30, 40, 50));
+  const auto again = store.add_all(cases).value();
+  EXPECT_THAT(again, testing::ElementsAre(51, 52, 53, 54, 55)) << "ids are never used twice";
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    expect_same(opened().find(again[i]).value().value(), cases[i]);
+  }
+  cases.back().harm = -1.0;
+  EXPECT_THROW((void)store.add_all(cases), ContractViolation);
+  EXPECT_EQ(opened().size(), 10U);
+  EXPECT_TRUE(store.add_all({}).value().empty());
+}
+
+TEST_F(Memory, TakesNoneWhereTheDiskTakesNotAll) {
+  Store store = opened();
+  ASSERT_TRUE(store.add(example_case(1)).has_value());
+  std::vector<Case> many(500, example_case(8));
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  auto* const handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit small = before;
+  small.rlim_cur = 200'000;
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const auto added = store.add_all(many);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, handler);
+  ASSERT_FALSE(added.has_value());
+  EXPECT_EQ(added.error().code, Error::Code::unwritable);
+  EXPECT_EQ(store.all().value().size(), 1U);
+  EXPECT_EQ(opened().size(), 1U);
+  EXPECT_EQ(integrity(), "ok");
 }
 
 TEST_F(Memory, RefusesWhatIsNoCase) {
@@ -258,9 +376,10 @@ TEST_F(Memory, RefusesADatabaseOfAnotherProgram) {
 
 TEST_F(Memory, RefusesAnUnknownVersion) {
   ASSERT_TRUE(opened().add(example_case(1)).has_value());
-  shell(path_, "PRAGMA user_version = 3");
+  shell(path_, "PRAGMA user_version = 4");
   EXPECT_EQ(error_of_opening().code, Error::Code::malformed);
-  EXPECT_THAT(error_of_opening().message, HasSubstr("want version 2, got version 3"));
+  EXPECT_THAT(error_of_opening().message,
+              HasSubstr("want version 3 of a memory bank or an older one, got version 4"));
 }
 
 TEST_F(Memory, RefusesAFileThatIsDamagedOrCutShort) {
@@ -325,6 +444,13 @@ TEST_F(Memory, NamesTheRowThatSomebodyEditedWrongly) {
       {"scene = json_set(scene, '$.actors[0].kind', 'tank')", "scene: actors[0].kind: want car"},
       {"scene = json_set(scene, '$.ego.mass_kg', -5)", "scene: scene: want that"},
       {"scene = json_set(scene, '$.x', 1)", "scene: x: is not known"},
+      {"details = ''", "details: want JSON"},
+      {"details = '{\"trust\": \"blind\"}'", "details: trust: want trusted, unchecked or"},
+      {"details = '{\"count\": 0}'", "id 2: count: want a whole number >= 1"},
+      {"details = '{\"told\": [1, 2]}'", "details: told: want one entry per policy, 8, got 2"},
+      {"details = '{\"happened\": [0, 0, 0, 0, 0, 0, 0, -1]}'", "id 2: happened: want 8 numbers"},
+      {"details = '{\"risks\": [0.5]}'", "id 2: risks: want one per actor"},
+      {"details = '{\"more\": 1}'", "details: more: is not known"},
   };
   for (const auto& [edit, message] : edits) {
     fs::remove(path_);
@@ -346,7 +472,8 @@ TEST_F(Memory, RefusesWhateverItsOwnStatementsDoNotMake) {
   const std::string endless =
       "WITH RECURSIVE r(id) AS (SELECT 1 UNION ALL SELECT id + 1 FROM r) SELECT id, 0 AS policy,"
       " NULL AS target_speed_mps, 0 AS best_policy, 0.0 AS harm, 0.0 AS best_harm,"
-      " 0.0 AS collision_loss, '' AS review, '' AS source, '{}' AS scene, NULL AS strength FROM r";
+      " 0.0 AS collision_loss, '' AS review, '' AS source, '{}' AS scene, NULL AS strength, '{}' "
+      "AS details FROM r";
   const std::vector<std::pair<std::string, const char*>> hidden{
       {"DROP TABLE cases; CREATE VIEW cases AS " + endless, "got the view cases: CREATE VIEW"},
       {"CREATE VIEW more AS " + endless, "got the view more"},
@@ -426,9 +553,9 @@ TEST_F(Memory, ASnapshotIsOfAMemoryThatIsThere) {
 TEST_F(Memory, TheDigestTellsEveryColumnApart) {
   ASSERT_TRUE(opened().add(example_case(3)).has_value());
   std::uint64_t before = opened().digest().value();
-  for (const char* const edit :
-       {"policy = 3", "target_speed_mps = 2.5", "best_policy = 2", "harm = 0.25",
-        "best_harm = 0.125", "collision_loss = 2.0", "review = 'r'", "source = 's'", "id = 7"}) {
+  for (const char* const edit : {"policy = 3", "target_speed_mps = 2.5", "best_policy = 2",
+                                 "harm = 0.25", "best_harm = 0.125", "collision_loss = 2.0",
+                                 "review = 'r'", "source = 's'", "id = 7", "details = '{}'"}) {
     shell(path_, "UPDATE cases SET " + std::string(edit));
     const std::uint64_t after = opened().digest().value();
     EXPECT_NE(after, before) << edit;
@@ -475,15 +602,16 @@ TEST_F(Memory, OpensAReadOnlyFileForReading) {
   fs::permissions(folder_, fs::perms(0755));
 }
 
-TEST_F(Memory, ReadsAFileOfTheVersionBeforeThatMayNotBeWritten) {
+TEST_F(Memory, ReadsAFileOfAnOlderVersionThatMayNotBeWritten) {
   ASSERT_TRUE(opened().add(example_case(5)).has_value());
-  make_version_1(path_);
+  make_version(1, path_);
   fs::permissions(path_, fs::perms(0444));
   fs::permissions(folder_, fs::perms(0555));
   {
     const AsNobody nobody;
     Store store = opened();
-    expect_same(store.nearest(example_case(5).scene).value().value().found, example_case(5));
+    expect_same(store.nearest(example_case(5).scene).value().value().found,
+                without_details(example_case(5)));
     const auto added = store.add(example_case(6));
     ASSERT_FALSE(added.has_value());
     EXPECT_EQ(added.error().code, Error::Code::unwritable);

@@ -1,0 +1,214 @@
+#include <fmt/core.h>
+
+#include <array>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/saca/commands.h"
+#include "apps/saca/forecast_commands.h"
+#include "apps/saca/json_output.h"
+#include "apps/saca/memory_commands.h"
+#include "apps/saca/places.h"
+#include "apps/saca/planes_making.h"
+#include "apps/saca/printing.h"
+#include "apps/saca/progress.h"
+#include "saca/config/json_text.h"
+#include "saca/core/journal.h"
+#include "saca/core/parallel.h"
+#include "saca/eval/trigger_case.h"
+#include "saca/memory/case_json.h"
+
+namespace saca::app {
+namespace {
+
+using nlohmann::json;
+
+struct BuildOptions {
+  SuiteCommandOptions from;  ///< which encounters; nobody acts in them
+  std::size_t draws = 64;
+  bool as_json = false;
+};
+
+/// What one encounter gave, as its line of the journal.
+struct Gained {
+  std::optional<memory::Case> one;  ///< nullopt: the trigger never fires, or it could not be played
+  std::string problem;              ///< why it could not
+};
+
+std::string line_of(const Gained& gained) {
+  return json{{"case", gained.one ? memory::to_json(*gained.one) : json(nullptr)},
+              {"problem", gained.problem}}
+      .dump();
+}
+
+std::optional<Gained> gained_from(const std::string& line) {
+  const auto parsed = config::parse_json(line);
+  if (!parsed.has_value() || !parsed.value().is_object() || !parsed.value().contains("case") ||
+      !parsed.value().contains("problem") || !parsed.value()["problem"].is_string()) {
+    return std::nullopt;
+  }
+  Gained gained{.one = std::nullopt, .problem = parsed.value()["problem"].get<std::string>()};
+  if (!parsed.value()["case"].is_null()) {
+    auto one = memory::case_from_json(parsed.value()["case"]);
+    if (!one.has_value()) {
+      return std::nullopt;
+    }
+    gained.one = std::move(one).value();
+  }
+  return gained;
+}
+
+/// All encounters, from where the journal ends on.
+/// @return  nullopt: interrupted
+Result<std::optional<std::vector<Gained>>> gather(const BuildOptions& options,
+                                                  const std::string& command) {
+  auto opened = open_encounters(options.from, command);
+  if (!opened.has_value()) {
+    return opened.error();
+  }
+  SuiteEncounters encounters = std::move(opened).value();
+  const auto planes = open_planes(std::move(encounters.inputs));
+  if (!planes.has_value()) {
+    return planes.error();
+  }
+  const std::string path =
+      options.from.journal.empty() ? options.from.output + ".journal" : options.from.journal;
+  if (auto problem = make_folder_of(path)) {
+    return *problem;
+  }
+  const auto journal =
+      Journal::open(path, fmt::format("saca {} {} of {}", SACA_VERSION, command, encounters.what));
+  if (!journal.has_value()) {
+    return journal.error();
+  }
+  std::vector<Gained> all;
+  for (const std::string& line : journal.value().lines()) {
+    auto gained = gained_from(line);
+    if (!gained) {
+      return Error{Error::Code::malformed,
+                   fmt::format("{}: line {}: want a case, or null", path, all.size() + 2)};
+    }
+    all.push_back(*std::move(gained));
+  }
+  const auto count = static_cast<std::size_t>(encounters.count);
+  all.resize(std::min(all.size(), count));
+  const auto before = static_cast<int>(all.size());
+  SteadyClock clock;
+  ProgressLine progress("memory of " + options.from.name, encounters.count, clock);
+  const Inputs& inputs = planes.value()->inputs;
+  while (all.size() < count) {
+    if (interrupted()) {
+      return std::optional<std::vector<Gained>>();
+    }
+    const std::size_t first = all.size();
+    constexpr std::size_t at_once = 32;
+    std::vector<Gained> next(std::min(at_once, count - first));
+    in_parallel(next.size(), options.from.threads, [&](std::size_t i) {
+      const auto played = played_encounter(encounters, options.from, first + i);
+      if (!played.has_value()) {
+        next[i].problem = played.error().message;
+        return;
+      }
+      auto one = eval::case_at_trigger(played.value().stage(inputs), planes.value()->setup.forecast,
+                                       options.draws);
+      if (one.has_value()) {
+        next[i].one = std::move(one).value();
+      } else {
+        next[i].problem = one.error().message;
+      }
+    });
+    for (Gained& gained : next) {
+      if (!journal.value().add(line_of(gained))) {
+        return Error{Error::Code::unwritable, path + ": cannot be added to"};
+      }
+      all.push_back(std::move(gained));
+    }
+    progress.show(static_cast<int>(all.size()), before, " encounters");
+  }
+  return std::optional(std::move(all));
+}
+
+int build(const BuildOptions& options) {
+  const SuiteCommandOptions& from = options.from;
+  if (const auto problem = why_outputs_unwritable({from.output})) {
+    return refused(*problem);
+  }
+  watch_for_interrupt();
+  const std::string command =
+      fmt::format("memory build {} --split {} --car {} --seed {} --draws {}{}", from.name,
+                  from.split, from.car, from.seed, options.draws, from.exact ? " --exact" : "");
+  auto gathered = gather(options, command);
+  if (!gathered.has_value()) {
+    return refused(gathered.error());
+  }
+  if (!gathered.value()) {
+    complain("interrupted: the same command goes on from here");
+    return was_interrupted;
+  }
+  std::vector<Gained> all = *std::move(gathered).value();
+  std::vector<memory::Case> cases;
+  int num_failed = 0;
+  std::array<int, manoeuvre::num_policies> best{};
+  for (Gained& gained : all) {
+    if (!gained.problem.empty()) {
+      ++num_failed;
+      complain(gained.problem);
+    }
+    if (gained.one) {
+      gained.one->id = static_cast<memory::CaseId>(cases.size() + 1);
+      ++best.at(manoeuvre::index(gained.one->best));
+      cases.push_back(*std::move(gained.one));
+    }
+  }
+  if (const auto problem = write_output(from.output, memory::cases_text(cases))) {
+    return refused(*problem);
+  }
+  if (options.as_json) {
+    json out{{"meta.command", "saca " + command},
+             {"meta.version", SACA_VERSION},
+             {"memory.num_encounters", all.size()},
+             {"memory.num_cases", cases.size()},
+             {"memory.num_failed", num_failed}};
+    for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
+      out[fmt::format("memory.best.{}", name(policy))] = best.at(manoeuvre::index(policy));
+    }
+    app::print("{}\n", json_text(out));
+  } else {
+    app::print("{}: {} cases of {} encounters; best", from.output, cases.size(),
+               all.size());
+    for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
+      app::print(" {} {}", name(policy), best.at(manoeuvre::index(policy)));
+    }
+    app::print("\n");
+  }
+  return num_failed == 0 ? success : some_failed;
+}
+
+}  // namespace
+
+void add_memory_build(CLI::App& memory, int& exit_code) {
+  CLI::App* const command = memory.add_subcommand(
+      "build", "Makes cases of the encounters of a suite, as JSON Lines for `import`");
+  const auto options = std::make_shared<BuildOptions>();
+  SuiteCommandOptions& from = options->from;
+  from.split = "tuning";
+  from.output = "runs/cases.jsonl";
+  add_encounter_options(*command, from);
+  command->add_option("--draws", options->draws, "That expected harm is the mean of")
+      ->check(CLI::Range(1, 1'000))
+      ->capture_default_str();
+  command->add_option("--output,-o", from.output, "Where the cases go")->capture_default_str();
+  command->add_option("--journal", from.journal,
+                      "What was found so far (default: beside the output)");
+  command->add_option("--threads", from.threads, "They do not change the result")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  command->add_flag("--json", options->as_json, "For programs");
+  command->callback([options, &exit_code] { exit_code = build(*options); });
+}
+
+}  // namespace saca::app

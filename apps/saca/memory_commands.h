@@ -1,0 +1,10 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace saca::app {
+
+/// `saca memory build`.
+void add_memory_build(CLI::App& memory, int& exit_code);
+
+}  // namespace saca::app

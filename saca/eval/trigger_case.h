@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "saca/core/result.h"
+#include "saca/loop/closed_loop.h"
+#include "saca/memory/case.h"
+#include "saca/preview/policy_facts.h"
+
+namespace saca::eval {
+
+/// What an encounter teaches memory: the scene as it is perceived when SACA's trigger first fires,
+/// nobody having acted; what every policy is expected to harm then, and what it truly would have.
+/// As carried out counts the best in hindsight.
+///
+/// @param stage  with perception and draws, as it is played
+/// @param tools  plans are held against draws with these
+/// @param draws  that the expectation is the mean of, >= 1
+/// @return       nullopt: the trigger never fires; out_of_range: the encounter cannot be played
+[[nodiscard]] Result<std::optional<memory::Case>> case_at_trigger(
+    const loop::Stage& stage, const preview::ForecastTools& tools, std::size_t draws);
+
+}  // namespace saca::eval

@@ -1,0 +1,104 @@
+#include "saca/loop/learnt_case.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "saca/core/contract.h"
+#include "saca/loop/provenance.h"
+#include "saca/outcome/describe.h"
+#include "saca/preview/preview.h"
+
+namespace saca::loop {
+namespace {
+
+void take_least(memory::PolicyHarms& harms, const manoeuvre::Plan& plan, double harm) {
+  std::optional<double>& least = harms.at(manoeuvre::index(plan.policy));
+  least = std::min(least.value_or(harm), harm);
+}
+
+std::vector<memory::MadeWith> made_with(const Setup& setup) {
+  std::vector<memory::MadeWith> inputs;
+  const nlohmann::json listed = inputs_json({setup.car, setup.harm, setup.atlas, setup.danger},
+                                            *setup.intent, setup.scenario->car);
+  for (const nlohmann::json& one : listed) {
+    const nlohmann::json& digest = one.at("digest");
+    inputs.push_back({one.at("what").get<std::string>(), one.at("name").get<std::string>(),
+                      digest.is_string() ? digest.get<std::string>() : ""});
+  }
+  return inputs;
+}
+
+}  // namespace
+
+memory::PolicyHarms told_harms(const decide::Verdict& verdict) {
+  memory::PolicyHarms harms;
+  for (const decide::JudgedPlan& one : verdict.plans) {
+    if (one.drivable) {
+      take_least(harms, one.plan, one.harm);
+    }
+  }
+  return harms;
+}
+
+memory::PolicyHarms happened_harms(std::span<const preview::RolledOut> tried) {
+  memory::PolicyHarms harms;
+  for (const preview::RolledOut& one : tried) {
+    if (one.facts.drivable()) {
+      take_least(harms, one.facts.plan, one.facts.outcome().harm);
+    }
+  }
+  return harms;
+}
+
+memory::Case learnt_case(const Setup& setup, const Record& record, const Trigger& trigger) {
+  expects(record.decision && record.hindsight && record.best, "something was decided");
+  const decide::Decision& decision = *record.decision;
+  const preview::PolicyFacts& best = (*record.hindsight)[manoeuvre::index(*record.best)].facts;
+  memory::Case one{
+      .scene = trigger.seen,
+      .plan = decision.plan,
+      .best = *record.best,
+      .harm = record.result.harm,
+      .best_harm = best.outcome().harm,
+      .collision_loss = record.result.collision_loss,
+      .review = fmt::format("{}: {}; best {}: {}", name(decision.plan.policy),
+                            outcome::describe(record.result, record.met), name(*record.best),
+                            outcome::describe(best.outcome(), trigger.moment.scene)),
+      .source = setup.scenario->name,
+      .origin = setup.scenario->provenance ? memory::Origin::recording : memory::Origin::simulation,
+      .happened =
+          happened_harms(all_plans_tried({&trigger.moment, 1}, *setup.car, *setup.harm).front()),
+      .made_with = made_with(setup)};
+  if (decision.verdict) {
+    one.told = told_harms(*decision.verdict);
+  }
+  for (const intent::Belief& belief : trigger.beliefs) {
+    one.intentions.push_back(belief.now());
+  }
+  for (const reach::ObstacleRisk& risk :
+       preview::obstacle_risks(trigger.seen, {setup.car, setup.harm, setup.atlas, setup.danger})) {
+    one.risks.push_back(risk.risk);
+  }
+  return one;
+}
+
+std::optional<Error> keep_lesson(memory::Store& memory, memory::CaseId id,
+                                 const reason::Review& review) {
+  if (review.truth.num_checked == 0 || !review.truth.wrong.empty()) {
+    return std::nullopt;
+  }
+  auto found = memory.find(id);
+  if (!found.has_value()) {
+    return found.error();
+  }
+  if (!found.value()) {
+    return std::nullopt;  // somebody has deleted it
+  }
+  memory::Case one = *std::move(found).value();
+  one.lessons.push_back(review.text);
+  return memory.update(one);
+}
+
+}  // namespace saca::loop

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "saca/core/result.h"
+#include "saca/decide/verdict.h"
+#include "saca/loop/encounter.h"
+#include "saca/loop/hindsight.h"
+#include "saca/memory/case.h"
+#include "saca/memory/store.h"
+#include "saca/reason/review.h"
+
+namespace saca::loop {
+
+/// Of each policy the plan that is expected to harm least.
+[[nodiscard]] memory::PolicyHarms told_harms(const decide::Verdict& verdict);
+
+/// Of each policy the plan that would have harmed least.
+[[nodiscard]] memory::PolicyHarms happened_harms(std::span<const preview::RolledOut> tried);
+
+/// The trigger of an encounter as SACA saw it, and what followed from it.
+struct Trigger {
+  world::Scene seen;
+  intent::Beliefs beliefs;  ///< one per actor of it
+  Moment moment;            ///< the truth
+};
+
+/// What memory keeps of an encounter in which something was decided.
+/// @param record  with a decision and its hindsight
+[[nodiscard]] memory::Case learnt_case(const Setup& setup, const Record& record,
+                                       const Trigger& trigger);
+
+/// Adds what a review says to the case that memory learnt, where everything in it that can be
+/// checked is true.
+/// @return  what memory could not do
+[[nodiscard]] std::optional<Error> keep_lesson(memory::Store& memory, memory::CaseId id,
+                                               const reason::Review& review);
+
+}  // namespace saca::loop

@@ -1,0 +1,106 @@
+"""`saca memory`."""
+import json
+import pathlib
+import sqlite3
+import sys
+
+import pytest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from program import BAD_INPUT, CANNOT_WRITE, SUCCESS, WRONG_COMMAND_LINE, one_error, saca
+
+COUNT = 6
+
+
+@pytest.fixture(scope="module")
+def cases(tmp_path_factory):
+    """Of the first encounters of a suite, as JSON Lines."""
+    folder = tmp_path_factory.mktemp("cases")
+    run = saca("memory", "build", "balanced", "--count", str(COUNT), "--draws", "4", "--output", "cases.jsonl", "--json", cwd=folder)
+    assert run.returncode == SUCCESS, run.stderr
+    told = json.loads(run.stdout)
+    assert told["memory.num_encounters"] == COUNT and told["memory.num_failed"] == 0
+    lines = (folder / "cases.jsonl").read_text().splitlines()
+    assert len(lines) == told["memory.num_cases"] + 1 > 1
+    return folder / "cases.jsonl"
+
+
+def documents(path):
+    return [json.loads(line) for line in path.read_text().splitlines()]
+
+
+def test_a_case_tells_what_was_told_and_what_happened(cases):
+    header, *found = documents(cases)
+    assert header == {"schema": "saca.cases/1", "cases": len(found)}
+    for one in found:
+        details = one["details"]
+        assert len(details["told"]) == len(details["happened"]) == 8
+        driven = [harm for harm in details["happened"] if harm is not None]
+        assert one["best_harm"] == details["happened"][one["best_policy"]] <= min(driven) + 0.005
+        assert details["happened"][0] is not None, "full braking can always be driven"
+        assert len(details["intentions"]) == len(one["scene"]["actors"])
+        for posterior in details["intentions"]:
+            assert sum(posterior) == pytest.approx(1.0)
+
+
+def test_building_goes_on_where_it_was_interrupted(cases, tmp_path):
+    journal = cases.parent / "cases.jsonl.journal"
+    lines = journal.read_text().splitlines(keepends=True)
+    (tmp_path / "again.jsonl.journal").write_text("".join(lines[:3]) + lines[3][:50])  # killed while it wrote
+    run = saca("memory", "build", "balanced", "--count", str(COUNT), "--draws", "4", "--output", "again.jsonl", cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    assert (tmp_path / "again.jsonl").read_bytes() == cases.read_bytes()
+    assert "--draws 4" in one_error(
+        saca("memory", "build", "balanced", "--count", str(COUNT), "--draws", "5", "--output", "again.jsonl", cwd=tmp_path), BAD_INPUT)
+
+
+def test_cases_go_in_and_come_out_without_loss(cases, tmp_path):
+    assert saca("memory", "--memory", "bank.db", "import", str(cases), "--keep-trust", cwd=tmp_path).returncode == SUCCESS
+    assert saca("memory", "--memory", "bank.db", "export", "out.jsonl", cwd=tmp_path).returncode == SUCCESS
+    assert (tmp_path / "out.jsonl").read_bytes() == cases.read_bytes()
+    shown = saca("memory", "--memory", "bank.db", "show", "1", cwd=tmp_path)
+    assert json.loads(shown.stdout) == documents(cases)[1]
+
+
+def test_what_comes_from_elsewhere_is_not_trusted(cases, tmp_path):
+    run = saca("memory", "--memory", "bank.db", "import", str(cases), cwd=tmp_path)
+    assert run.returncode == SUCCESS and "only where a rollout confirms it" in run.stdout
+    listed = json.loads(saca("memory", "--memory", "bank.db", "list", "--json", cwd=tmp_path).stdout)
+    assert {one["trust"] for one in listed} == {"unchecked"} and {one["origin"] for one in listed} == {"simulation"}
+    assert "[unchecked]" in saca("memory", "--memory", "bank.db", "list", cwd=tmp_path).stdout
+
+
+def test_a_bank_is_verified_and_counted(cases, tmp_path):
+    assert "there is no such memory bank" in one_error(saca("memory", "--memory", "bank.db", "verify", cwd=tmp_path), BAD_INPUT)
+    saca("memory", "--memory", "bank.db", "import", str(cases), cwd=tmp_path)
+    told = json.loads(saca("memory", "verify", "--memory", "bank.db", "--json", cwd=tmp_path).stdout)
+    count = len(documents(cases)) - 1
+    assert told["cases"] == count and told["trust"] == {"unchecked": count} and sum(told["best"].values()) == count
+    assert told["digest"] in saca("memory", "--memory", "bank.db", "verify", cwd=tmp_path).stdout
+    with sqlite3.connect(tmp_path / "bank.db") as bank:
+        bank.execute("UPDATE cases SET details = '{\"told\": [1]}' WHERE id = 2")
+    assert "id 2: details: told: want one entry per policy, 8, got 1" in one_error(
+        saca("memory", "--memory", "bank.db", "verify", cwd=tmp_path), BAD_INPUT)
+
+
+@pytest.mark.parametrize("spoil, message", [
+    (lambda text: "", "line 1: want cases, got nothing"),
+    (lambda text: text[:-20], "want JSON"),
+    (lambda text: "".join(text.splitlines(keepends=True)[:-1]), "as line 1 says, got"),
+    (lambda text: text.replace('"harm":', '"hurt":', 1), "line 2: harm: is missing"),
+    (lambda text: text.replace("saca.cases/1", "saca.cases/2"), "line 1: schema: want saca.cases/1"),
+    (lambda text: text.replace('"id":2,"policy"', '"id":1,"policy"'), "id: want each once, got 1 a second time"),
+])
+def test_what_is_no_export_is_refused_and_the_bank_left_alone(cases, tmp_path, spoil, message):
+    (tmp_path / "cases.jsonl").write_text(spoil(cases.read_text()))
+    said = one_error(saca("memory", "--memory", "bank.db", "import", "cases.jsonl", cwd=tmp_path), BAD_INPUT)
+    assert said.startswith("saca: cases.jsonl: line ") and message in said
+    assert not (tmp_path / "bank.db").exists()
+
+
+def test_what_cannot_be_read_or_written_is_told(cases, tmp_path):
+    assert "none.jsonl" in one_error(saca("memory", "import", "none.jsonl", cwd=tmp_path), BAD_INPUT)
+    saca("memory", "--memory", "bank.db", "import", str(cases), cwd=tmp_path)
+    assert "bank.db" in one_error(saca("memory", "--memory", "bank.db", "export", "bank.db/out.jsonl", cwd=tmp_path), CANNOT_WRITE)
+    assert saca("memory", "build", "balanced", "--draws", "0", cwd=tmp_path).returncode == WRONG_COMMAND_LINE
+    assert "balanced" in one_error(saca("memory", "build", "balancd", cwd=tmp_path), BAD_INPUT)
