@@ -453,6 +453,12 @@ loop::Stage PlayedEncounter::stage(const Inputs& inputs) const {
           .chance = chance};
 }
 
+loop::Stage PlayedEncounter::twin_stage(const Inputs& inputs) const {
+  loop::Stage as_twin = stage(inputs);
+  as_twin.scenario = &twin.value();
+  return as_twin;
+}
+
 Result<PlayedEncounter> played_encounter(const SuiteEncounters& encounters,
                                          const SuiteCommandOptions& options, std::uint64_t number) {
   const eval::SuiteOptions played{.methods = {}, .seed = options.seed, .exact = options.exact};
@@ -460,9 +466,13 @@ Result<PlayedEncounter> played_encounter(const SuiteEncounters& encounters,
   if (!found.has_value()) {
     return found.error();
   }
-  return PlayedEncounter{.family = found.value().family,
-                         .world = eval::as_played(found.value().scenario, played),
-                         .chance = eval::chance_of(played, number)};
+  const eval::SuiteEncounter& encounter = found.value();
+  return PlayedEncounter{.family = encounter.family,
+                         .world = eval::as_played(encounter.scenario, played),
+                         .chance = eval::chance_of(played, number),
+                         .twin = encounter.twin
+                                     ? std::optional(eval::as_played(*encounter.twin, played))
+                                     : std::nullopt};
 }
 
 void add_encounter_options(CLI::App& command, SuiteCommandOptions& from) {

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "apps/saca/inputs.h"
@@ -17,9 +18,11 @@ struct PlayedEncounter {
   std::string family;
   sim::Scenario world;
   sim::Chance chance;
+  std::optional<sim::Scenario> twin;  ///< the same without risk, where there is one
 
-  /// Refers to this and to the inputs.
+  /// Refer to this and to the inputs; the second to the twin, which must be there.
   [[nodiscard]] loop::Stage stage(const Inputs& inputs) const;
+  [[nodiscard]] loop::Stage twin_stage(const Inputs& inputs) const;
 };
 [[nodiscard]] Result<PlayedEncounter> played_encounter(const SuiteEncounters& encounters,
                                                        const SuiteCommandOptions& options,

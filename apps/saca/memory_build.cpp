@@ -16,6 +16,7 @@
 #include "apps/saca/planes_making.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
+#include "saca/config/json_reader.h"
 #include "saca/config/json_text.h"
 #include "saca/core/journal.h"
 #include "saca/core/parallel.h"
@@ -30,36 +31,55 @@ using nlohmann::json;
 struct BuildOptions {
   SuiteCommandOptions from;  ///< which encounters; nobody acts in them
   std::size_t draws = 64;
+  bool no_twins = false;
   bool as_json = false;
 };
 
-/// What one encounter gave, as its line of the journal.
+/// What one encounter gave, and its twin without risk; as a line of the journal.
 struct Gained {
-  std::optional<memory::Case> one;  ///< nullopt: the trigger never fires, or it could not be played
-  std::string problem;              ///< why it could not
+  std::vector<memory::Case> cases;  ///< none where the trigger never fires
+  std::string problem;              ///< why it could not be played; else empty
 };
 
 std::string line_of(const Gained& gained) {
-  return json{{"case", gained.one ? memory::to_json(*gained.one) : json(nullptr)},
-              {"problem", gained.problem}}
-      .dump();
+  json cases = json::array();
+  for (const memory::Case& one : gained.cases) {
+    cases.push_back(memory::to_json(one));
+  }
+  return json{{"cases", cases}, {"problem", gained.problem}}.dump();
 }
 
-std::optional<Gained> gained_from(const std::string& line) {
+Result<Gained> gained_from(const std::string& line) {
   const auto parsed = config::parse_json(line);
-  if (!parsed.has_value() || !parsed.value().is_object() || !parsed.value().contains("case") ||
-      !parsed.value().contains("problem") || !parsed.value()["problem"].is_string()) {
-    return std::nullopt;
+  if (!parsed.has_value()) {
+    return parsed.error();
   }
-  Gained gained{.one = std::nullopt, .problem = parsed.value()["problem"].get<std::string>()};
-  if (!parsed.value()["case"].is_null()) {
-    auto one = memory::case_from_json(parsed.value()["case"]);
+  std::optional<Error> problem;
+  config::JsonReader reader(parsed.value(), "", problem, "line");
+  Gained gained{.cases = {}, .problem = reader.text("problem")};
+  const json* const cases = reader.list("cases");
+  reader.refuse_others();
+  for (std::size_t i = 0; cases != nullptr && i < cases->size(); ++i) {
+    auto one = memory::case_from_json((*cases)[i]);
     if (!one.has_value()) {
-      return std::nullopt;
+      return one.error();
     }
-    gained.one = std::move(one).value();
+    gained.cases.push_back(std::move(one).value());
+  }
+  if (problem) {
+    return *problem;
   }
   return gained;
+}
+
+void gain(Gained& gained, const loop::Stage& stage, const preview::ForecastTools& tools,
+          std::size_t draws) {
+  auto one = eval::case_at_trigger(stage, tools, draws);
+  if (!one.has_value()) {
+    gained.problem = one.error().message;
+  } else if (one.value()) {
+    gained.cases.push_back(*std::move(one).value());
+  }
 }
 
 /// All encounters, from where the journal ends on.
@@ -88,11 +108,11 @@ Result<std::optional<std::vector<Gained>>> gather(const BuildOptions& options,
   std::vector<Gained> all;
   for (const std::string& line : journal.value().lines()) {
     auto gained = gained_from(line);
-    if (!gained) {
+    if (!gained.has_value()) {
       return Error{Error::Code::malformed,
-                   fmt::format("{}: line {}: want a case, or null", path, all.size() + 2)};
+                   fmt::format("{}: line {}: {}", path, all.size() + 2, gained.error().message)};
     }
-    all.push_back(*std::move(gained));
+    all.push_back(std::move(gained).value());
   }
   const auto count = static_cast<std::size_t>(encounters.count);
   all.resize(std::min(all.size(), count));
@@ -113,12 +133,10 @@ Result<std::optional<std::vector<Gained>>> gather(const BuildOptions& options,
         next[i].problem = played.error().message;
         return;
       }
-      auto one = eval::case_at_trigger(played.value().stage(inputs), planes.value()->setup.forecast,
-                                       options.draws);
-      if (one.has_value()) {
-        next[i].one = std::move(one).value();
-      } else {
-        next[i].problem = one.error().message;
+      const preview::ForecastTools& tools = planes.value()->setup.forecast;
+      gain(next[i], played.value().stage(inputs), tools, options.draws);
+      if (played.value().twin && !options.no_twins) {
+        gain(next[i], played.value().twin_stage(inputs), tools, options.draws);
       }
     });
     for (Gained& gained : next) {
@@ -139,8 +157,9 @@ int build(const BuildOptions& options) {
   }
   watch_for_interrupt();
   const std::string command =
-      fmt::format("memory build {} --split {} --car {} --seed {} --draws {}{}", from.name,
-                  from.split, from.car, from.seed, options.draws, from.exact ? " --exact" : "");
+      fmt::format("memory build {} --split {} --car {} --seed {} --draws {}{}{}", from.name,
+                  from.split, from.car, from.seed, options.draws, from.exact ? " --exact" : "",
+                  options.no_twins ? " --no-twins" : "");
   auto gathered = gather(options, command);
   if (!gathered.has_value()) {
     return refused(gathered.error());
@@ -158,10 +177,10 @@ int build(const BuildOptions& options) {
       ++num_failed;
       complain(gained.problem);
     }
-    if (gained.one) {
-      gained.one->id = static_cast<memory::CaseId>(cases.size() + 1);
-      ++best.at(manoeuvre::index(gained.one->best));
-      cases.push_back(*std::move(gained.one));
+    for (memory::Case& one : gained.cases) {
+      one.id = static_cast<memory::CaseId>(cases.size() + 1);
+      ++best.at(manoeuvre::index(one.best));
+      cases.push_back(std::move(one));
     }
   }
   if (const auto problem = write_output(from.output, memory::cases_text(cases))) {
@@ -178,8 +197,7 @@ int build(const BuildOptions& options) {
     }
     app::print("{}\n", json_text(out));
   } else {
-    app::print("{}: {} cases of {} encounters; best", from.output, cases.size(),
-               all.size());
+    app::print("{}: {} cases of {} encounters; best", from.output, cases.size(), all.size());
     for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
       app::print(" {} {}", name(policy), best.at(manoeuvre::index(policy)));
     }
@@ -201,6 +219,8 @@ void add_memory_build(CLI::App& memory, int& exit_code) {
   command->add_option("--draws", options->draws, "That expected harm is the mean of")
       ->check(CLI::Range(1, 1'000))
       ->capture_default_str();
+  command->add_flag("--no-twins", options->no_twins,
+                    "Without those without risk: a memory of accidents alone expects them");
   command->add_option("--output,-o", from.output, "Where the cases go")->capture_default_str();
   command->add_option("--journal", from.journal,
                       "What was found so far (default: beside the output)");

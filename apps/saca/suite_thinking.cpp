@@ -49,12 +49,18 @@ Result<std::unique_ptr<SuiteThinking>> SuiteThinking::open(const ThinkingOptions
     if (!copies.has_value()) {
       return copies.error();
     }
-    auto text = text_of(copies.value(), options.memory);
+    std::vector<memory::Store> stores = std::move(copies).value();
+    const auto cases = stores.front().all();
+    if (!cases.has_value()) {
+      return cases.error();
+    }
+    auto text = text_of(stores, options.memory);
     if (!text.has_value()) {
       return text.error();
     }
     thinking->memory_text_ = std::move(text).value();
-    thinking->memories_ = std::make_unique<LendingPool<memory::Store>>(std::move(copies).value());
+    thinking->memories_ = std::make_unique<LendingPool<memory::Store>>(std::move(stores));
+    thinking->experience_ = std::make_unique<const memory::Experience>(cases.value());
   }
   if (options.model != "off") {
     auto model = open_needed_model(places, options.model, runtime::Pace::lockstep, clock);
@@ -74,6 +80,7 @@ SuiteThinking::Loan SuiteThinking::lend(runtime::PlanesSetup setup) {
   Loan loan{.memory = memories_ ? memories_->lend() : LendingPool<memory::Store>::Loan(),
             .setup = std::move(setup)};
   loan.setup.memory = loan.memory.get();
+  loan.setup.experience = experience_.get();
   loan.setup.model = shared_.get();
   return loan;
 }

@@ -8,6 +8,7 @@
 #include "apps/saca/progress.h"
 #include "apps/saca/thinking_options.h"
 #include "saca/core/lending_pool.h"
+#include "saca/memory/experience.h"
 #include "saca/memory/store.h"
 #include "saca/reason/shared_model.h"
 #include "saca/runtime/planes.h"
@@ -48,6 +49,7 @@ class SuiteThinking {
   SuiteThinking() = default;
 
   std::unique_ptr<LendingPool<memory::Store>> memories_;
+  std::unique_ptr<const memory::Experience> experience_;
   std::optional<std::string> memory_text_;
   std::unique_ptr<InterruptStop> interrupt_;
   std::unique_ptr<reason::LanguageModel> model_;

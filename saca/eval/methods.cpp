@@ -30,13 +30,15 @@ using manoeuvre::PolicyId;
 using preview::JointMotion;
 using preview::Physics;
 
-constexpr std::array<MethodInfo, 32> infos{{
+constexpr std::array<MethodInfo, 33> infos{{
     {"saca", "SACA",
      "The shipped planes: a cached plan that matches and is admissible, else what the verdict "
      "speaks "
      "for; supervised to the end."},
     {"saca_no_memory", "SACA without memory", "As SACA; no stored case is asked.", false,
      Needs::memory},
+    {"saca_no_experience", "SACA without experience",
+     "As SACA; what happened in stored cases corrects no expectation.", false, Needs::memory},
     {"saca_no_model", "SACA without model", "As SACA; the language model is not asked.", false,
      Needs::model},
     {"saca_at_t1", "SACA, never before T1",
@@ -263,6 +265,8 @@ runtime::PlanesSetup planes_of(std::string_view name, runtime::PlanesSetup plane
     planes.thresholds.waiting_cost.reset();
   }
   planes.memory = name == "saca_no_memory" ? nullptr : planes.memory;
+  planes.experience =
+      name == "saca_no_memory" || name == "saca_no_experience" ? nullptr : planes.experience;
   planes.model = name == "saca_no_model" ? nullptr : planes.model;
   return planes;
 }

@@ -24,19 +24,48 @@ void FeatureIndex::pass_over(CaseId id) {
   egos_[static_cast<std::size_t>(found - ids_.begin())].usable = false;  // it is like no other
 }
 
-std::optional<FeatureIndex::Hit> FeatureIndex::nearest(const Features& wanted) const noexcept {
+template <class Limit, class Take>
+void FeatureIndex::scan(const Features& wanted, const Limit& limit,
+                        const Take& take) const noexcept {
   const std::span wanted_actors(wanted.actors.begin(), wanted.actors.size());
-  std::optional<Hit> best;
-  double limit = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < ids_.size(); ++i) {
     const std::span actors(actors_.data() + first_actor_[i], first_actor_[i + 1] - first_actor_[i]);
-    const double apart = difference(wanted.ego, wanted_actors, egos_[i], actors, limit);
-    if (apart < limit) {
-      limit = apart;
-      best = {ids_[i], apart};
+    const double apart = difference(wanted.ego, wanted_actors, egos_[i], actors, limit());
+    if (apart < limit()) {
+      take(Hit{ids_[i], apart});
     }
   }
+}
+
+std::optional<FeatureIndex::Hit> FeatureIndex::nearest(const Features& wanted) const noexcept {
+  std::optional<Hit> best;
+  scan(
+      wanted, [&] { return best ? best->difference : std::numeric_limits<double>::infinity(); },
+      [&](const Hit& hit) { best = hit; });
   return best;
+}
+
+std::size_t FeatureIndex::nearest(const Features& wanted, std::span<Hit> hits) const noexcept {
+  const auto nearer = [](const Hit& a, const Hit& b) { return a.difference < b.difference; };
+  std::size_t found = 0;  // a heap, the farthest first
+  scan(
+      wanted,
+      [&] {
+        return hits.empty()          ? 0.0
+               : found < hits.size() ? std::numeric_limits<double>::infinity()
+                                     : hits.front().difference;
+      },
+      [&](const Hit& hit) {
+        if (found == hits.size()) {
+          std::pop_heap(hits.begin(), hits.end(), nearer);
+          hits.back() = hit;
+        } else {
+          hits[found++] = hit;
+        }
+        std::push_heap(hits.begin(), hits.begin() + static_cast<std::ptrdiff_t>(found), nearer);
+      });
+  std::sort_heap(hits.begin(), hits.begin() + static_cast<std::ptrdiff_t>(found), nearer);
+  return found;
 }
 
 }  // namespace saca::memory

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "saca/memory/case.h"
@@ -27,12 +28,20 @@ class FeatureIndex {
 
   /// The scene that differs least, the oldest of equals; nullopt when there is none.
   [[nodiscard]] std::optional<Hit> nearest(const Features& wanted) const noexcept;
+  /// As many of those that differ least as there is room for, the nearest first; who is like no
+  /// other is left out.
+  /// @return  how many were found
+  std::size_t nearest(const Features& wanted, std::span<Hit> hits) const noexcept;
 
   [[nodiscard]] std::size_t size() const noexcept { return ids_.size(); }
   /// 0 when there is none.
   [[nodiscard]] CaseId last_id() const noexcept { return ids_.empty() ? 0 : ids_.back(); }
 
  private:
+  /// Calls take(hit) with each that differs by less than `limit()`.
+  template <class Limit, class Take>
+  void scan(const Features& wanted, const Limit& limit, const Take& take) const noexcept;
+
   std::vector<CaseId> ids_;
   std::vector<EgoFeatures> egos_;
   std::vector<ActorFeatures> actors_;        ///< scene after scene

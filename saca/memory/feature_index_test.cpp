@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <span>
+
 #include "saca/core/contract.h"
 #include "saca/memory/example_scenes.h"
 
@@ -36,6 +40,30 @@ TEST(FeatureIndex, FindsWhatComparingAllScenesFinds) {
     EXPECT_EQ(hit.id, 10 + static_cast<CaseId>(best));
     EXPECT_DOUBLE_EQ(similarity_at(hit.difference), similarity(wanted, scenes[best]));
   }
+}
+
+TEST(FeatureIndex, FindsAsManyOfTheNearestAsThereIsRoomFor) {
+  std::mt19937 rng(2);
+  FeatureIndex index;
+  std::vector<std::pair<double, CaseId>> all;
+  const world::Scene wanted = random_scene(rng, 3);
+  for (CaseId id = 1; id <= 100; ++id) {
+    const world::Scene scene = random_scene(rng, 3);
+    index.add(id, scene);
+    all.emplace_back(-similarity(wanted, scene), id);
+  }
+  index.pass_over(std::min_element(all.begin(), all.end())->second);
+  all.erase(std::min_element(all.begin(), all.end()));
+  std::sort(all.begin(), all.end());
+  std::array<FeatureIndex::Hit, 7> some;
+  ASSERT_EQ(index.nearest(features(wanted), some), 7U);
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    EXPECT_EQ(some[i].id, all[i].second);
+    EXPECT_DOUBLE_EQ(similarity_at(some[i].difference), -all[i].first);
+  }
+  std::array<FeatureIndex::Hit, 200> many;
+  EXPECT_EQ(index.nearest(features(wanted), many), 99U);
+  EXPECT_EQ(index.nearest(features(wanted), std::span<FeatureIndex::Hit>()), 0U);
 }
 
 TEST(FeatureIndex, PrefersTheOldestOfEquals) {
