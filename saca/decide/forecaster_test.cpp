@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "saca/core/contract.h"
 #include "saca/intent/shipped_model.h"
 #include "saca/manoeuvre/batch.h"
@@ -204,6 +206,54 @@ TEST_F(ForecasterTest, SameSceneSameVerdict) {
   for (std::size_t i = 0; i < a.plans.size(); ++i) {
     EXPECT_EQ(a.plans[i].harm, b.plans[i].harm);
   }
+}
+
+void expect_usable(const Verdict& verdict) {
+  for (const JudgedPlan& one : verdict.plans) {
+    EXPECT_TRUE(std::isfinite(one.harm) && one.harm >= 0.0);
+    EXPECT_TRUE(one.contact >= 0.0 && one.contact <= 1.0);
+  }
+}
+
+// A tracker that says it knows everything, and one that knows nothing: 100 m and 100 m/s.
+TEST_F(ForecasterTest, JudgesWithAllErrorsNoneOrHuge) {
+  Scene scene = wreck_ahead();
+  scene.actors.push_back(test::car(2, {30.0, 3.5}, {10.0, 0.3}));
+  scene.actors.push_back(test::car(3, {-20.0, 0.0}, {16.0, 0.0}));
+  for (const double sd : {0.0, 100.0}) {
+    for (world::Actor& actor : scene.actors) {
+      actor.position_sd = sd;
+      actor.velocity_sd = sd;
+    }
+    scene.grip_sd = sd > 0.0 ? 0.5 : 0.0;
+    expect_usable(judge(scene));
+  }
+}
+
+// 32 cars about, each as likely to do one thing as another: still so many draws, not so many
+// combinations.
+TEST_F(ForecasterTest, JudgesAllWhoMayDoAnything) {
+  Scene scene = test::ego_at(15.0);
+  scene.road.left_edge = 12.0;
+  scene.road.right_edge = -12.0;
+  intent::Beliefs beliefs;
+  intent::Belief anything;
+  for (intent::IntentPosterior& posterior : anything.at) {
+    posterior.fill(0.0);
+    for (const intent::Intention one : intent::vehicle_intentions) {
+      posterior[static_cast<std::size_t>(one)] = 1.0 / intent::vehicle_intentions.size();
+    }
+  }
+  for (std::size_t i = 0; i < world::max_actors; ++i) {
+    const double ahead = -40.0 + 12.0 * static_cast<double>(i / 4);
+    const double left = -7.0 + 4.0 * static_cast<double>(i % 4);
+    scene.actors.push_back(test::car(static_cast<std::uint8_t>(i + 1), {ahead, left}, {14.0, 0.2}));
+    beliefs.push_back(anything);
+  }
+  const Verdict verdict = forecaster_.judge(scene, beliefs);
+  expect_usable(verdict);
+  EXPECT_GT(of(verdict, PolicyId::no_intervention).contact, 0.0);
+  EXPECT_EQ(draws_of(scene, beliefs).size(), usual_draws);
 }
 
 TEST_F(ForecasterTest, RefusesBeliefsAboutOthers) {
