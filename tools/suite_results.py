@@ -25,10 +25,10 @@ NUMBERS = ("harm", "regret", "harm_over_aeb", "contact", "right", "materially_wo
            "false_triggers", "regret_over_aeb", "cache_hit_rate", "memory_hit_rate", "agrees_with_driver")
 
 
-ORDER = ("saca", "saca_at_t1", "saca_no_memory", "saca_no_experience", "saca_no_model", "saca_paper", "saca_paper_at_once", "saca_paper_no_facts",
+ORDER = ("saca", "saca_at_t1", "saca_no_memory", "saca_no_model", "saca_paper", "saca_paper_at_once", "saca_paper_no_facts",
          "saca_paper_no_facts_at_once", "aeb", "r157", "cc_driver", "fsm", "rss", "rss_steering", "random", "nothing", "first_forecast",
          "newest_forecast", "going_on_atlas", "least_danger", "least_joint_danger", "beliefs_atlas", "beliefs_rolled_out", "beliefs_drawn",
-         "beliefs_and_danger", "beliefs_and_grip", "beliefs_and_followers",
+         "beliefs_and_danger", "beliefs_and_experience", "beliefs_and_grip", "beliefs_and_followers",
          "beliefs_and_hidden", "true_atlas", "true_rolled_out", "oracle")  # as saca/eval/methods.cpp has them
 
 

@@ -191,7 +191,7 @@ function preview_steps(preview, record) {
   const step = (name, state, ...content) => el("li", { class: `step ${state}` }, el("h4", { text: name }), ...content);
   const case_words = memory?.case === null || memory?.case === undefined ? "no case" : `case ${memory.case}`;
   return el("ol", { class: "steps" },
-    step("Memory", "done", memory ? el("p", {}, bar(memory.similarity, `${percent(memory.similarity)} · ${case_words}`), el("small", { text: gate_words[gate] ?? gate ?? "" })) : el("p", { class: "soft", text: "not asked" })),
+    step("Memory", "done", memory ? el("p", {}, bar(memory.confidence ?? memory.similarity, `${percent(memory.confidence ?? memory.similarity)} · ${case_words}`), el("small", { text: gate_words[gate] ?? gate ?? "" })) : el("p", { class: "soft", text: "not asked" })),
     step("Language model", list(preview.answers).length ? "done" : "skipped", preview_answers(preview, record),
       preview.reasoning ? el("pre", { class: "reasoning", text: preview.reasoning }) : null,
       truth_check(preview.truth),

@@ -48,6 +48,12 @@ constexpr std::array<Rung, 12> usual_rungs{{
 /// Where there is a memory or a model; without either SACA always brakes.
 constexpr Rung saca_rung{"saca", "aeb", "what memory and model hold, in place of always braking"};
 
+/// Where there is a memory.
+constexpr std::array<Rung, 2> experience_rungs{{
+    {"beliefs_drawn", "beliefs_rolled_out", "over draws of all that is not known of the others"},
+    {"beliefs_and_experience", "beliefs_drawn", "corrected by what happened in like cases"},
+}};
+
 /// Where there are weights of V_h.
 constexpr std::array<Rung, 3> danger_rungs{{
     {"least_danger", "going_on_atlas", "how much room is left in place of harm"},
@@ -59,6 +65,9 @@ std::vector<Rung> rungs_with(const ThinkingOptions& thinking, bool danger) {
   std::vector<Rung> rungs(usual_rungs.begin(), usual_rungs.end());
   if (danger) {
     rungs.insert(rungs.end(), danger_rungs.begin(), danger_rungs.end());
+  }
+  if (!thinking.memory.empty()) {
+    rungs.insert(rungs.end(), experience_rungs.begin(), experience_rungs.end());
   }
   if (!thinking.memory.empty() || thinking.model != "off") {
     rungs.push_back(saca_rung);

@@ -178,7 +178,8 @@ int verify_bank(const MemoryOptions& options) {
     ++best[name(one.best)];
   }
   if (options.as_json) {
-    app::print_json(json{{"file", options.file},
+    app::print_json(json{{"schema", "saca.memory_bank/1"},
+                         {"file", options.file},
                          {"cases", cases.value().size()},
                          {"digest", digest_text},
                          {"origins", origins},
@@ -237,6 +238,7 @@ void add_memory(CLI::App& line, int& exit_code) {
   add_bank(*verify);
   verify->callback([options, &exit_code] { exit_code = verify_bank(*options); });
   add_memory_build(*command, exit_code);
+  add_memory_calibrate(*command, exit_code);
 }
 
 }  // namespace saca::app

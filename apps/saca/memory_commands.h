@@ -7,4 +7,7 @@ namespace saca::app {
 /// `saca memory build`.
 void add_memory_build(CLI::App& memory, int& exit_code);
 
+/// `saca memory calibrate`.
+void add_memory_calibrate(CLI::App& memory, int& exit_code);
+
 }  // namespace saca::app

@@ -28,7 +28,7 @@ struct Counted {
 constexpr std::array<Counted, 10> thinking_counts{
     {{"forecasts", "forecasts for which a plan was sought", &ThinkingFigures::forecasts,
       &ThinkingFigures::forecasts},
-     {"memory_hits", "of these, with a case in memory above 70 % alike", &ThinkingFigures::recalled,
+     {"memory_hits", "of these, where memory is at least 70 % sure", &ThinkingFigures::recalled,
       &ThinkingFigures::forecasts},
      {"plans_from_memory", "of these, with a plan from memory", &ThinkingFigures::from_memory,
       &ThinkingFigures::forecasts},

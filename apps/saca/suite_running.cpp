@@ -96,6 +96,7 @@ Result<std::shared_ptr<Bench>> open_bench(const SuiteCommandOptions& options,
   }
   eval::SuiteOptions how = how_of(options, methods);
   how.danger = danger.value().get();
+  how.experience = thinking.value()->experience();
   return std::make_shared<Bench>(Bench{std::move(opened), std::move(planes).value(),
                                        std::move(thinking).value(), std::move(danger).value(),
                                        std::move(how)});

@@ -80,7 +80,6 @@ SuiteThinking::Loan SuiteThinking::lend(runtime::PlanesSetup setup) {
   Loan loan{.memory = memories_ ? memories_->lend() : LendingPool<memory::Store>::Loan(),
             .setup = std::move(setup)};
   loan.setup.memory = loan.memory.get();
-  loan.setup.experience = experience_.get();
   loan.setup.model = shared_.get();
   return loan;
 }

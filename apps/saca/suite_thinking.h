@@ -36,6 +36,9 @@ class SuiteThinking {
   };
   [[nodiscard]] Loan lend(runtime::PlanesSetup setup);
 
+  /// Of the memory bank; nullptr: without.
+  [[nodiscard]] const memory::Experience* experience() const { return experience_.get(); }
+
   [[nodiscard]] bool has_model() const { return shared_ != nullptr; }
   /// Why the model cannot be asked any more: rows that were being run are then worth nothing.
   [[nodiscard]] std::optional<Error> failure() const;

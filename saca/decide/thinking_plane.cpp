@@ -239,7 +239,7 @@ bool ThinkingPlane::consult_memory(const Round& round, Preview& preview) {
   if (tools_.memory == nullptr) {
     return false;
   }
-  const auto nearest = tools_.memory->nearest(preview.situation.scene_at_trigger);
+  const auto nearest = tools_.memory->recall(preview.situation.scene_at_trigger);
   if (!nearest.has_value()) {
     tell(round, EventKind::fault, "memory: " + nearest.error().message);
     return false;
@@ -250,10 +250,11 @@ bool ThinkingPlane::consult_memory(const Round& round, Preview& preview) {
   }
   preview.nearest = *nearest.value();
   preview.gate = memory::gate(*preview.nearest);
-  const PolicyId policy = preview.nearest->found.best;
+  const PolicyId policy = preview.nearest->policy;
   tell(round, EventKind::memory,
-       fmt::format("case {} is {:.0f} % alike, best was {} {}", preview.nearest->found.id,
-                   100.0 * preview.nearest->similarity, manoeuvre::index(policy), name(policy)));
+       fmt::format("cases like {}, which is {:.0f} % alike, speak for {} {}: confidence {:.0f} %",
+                   preview.nearest->found.id, 100.0 * preview.nearest->similarity,
+                   manoeuvre::index(policy), name(policy), 100.0 * preview.nearest->confidence));
   return preview.gate != memory::Gate::reason &&
          settle(preview, policy, Source::memory, round.now(), preview.gate == memory::Gate::check);
 }

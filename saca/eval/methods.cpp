@@ -37,8 +37,6 @@ constexpr std::array<MethodInfo, 33> infos{{
      "for; supervised to the end."},
     {"saca_no_memory", "SACA without memory", "As SACA; no stored case is asked.", false,
      Needs::memory},
-    {"saca_no_experience", "SACA without experience",
-     "As SACA; what happened in stored cases corrects no expectation.", false, Needs::memory},
     {"saca_no_model", "SACA without model", "As SACA; the language model is not asked.", false,
      Needs::model},
     {"saca_at_t1", "SACA, never before T1",
@@ -98,6 +96,10 @@ constexpr std::array<MethodInfo, 33> infos{{
      "As beliefs_atlas; of those that harm as little by all that forecasts can tell, the plan of "
      "the least joint Q_h.",
      false, Needs::danger},
+    {"beliefs_and_experience", "The same, corrected by what was met",
+     "As beliefs_drawn; what happened in like cases, minus what had been expected of them, is "
+     "added.",
+     false, Needs::memory},
     {"beliefs_and_grip", "The same, told the grip and the car",
      "As beliefs_rolled_out, told the true grip and how the real car differs.", true},
     {"beliefs_and_followers", "The same, told how followers react",
@@ -265,8 +267,6 @@ runtime::PlanesSetup planes_of(std::string_view name, runtime::PlanesSetup plane
     planes.thresholds.waiting_cost.reset();
   }
   planes.memory = name == "saca_no_memory" ? nullptr : planes.memory;
-  planes.experience =
-      name == "saca_no_memory" || name == "saca_no_experience" ? nullptr : planes.experience;
   planes.model = name == "saca_no_model" ? nullptr : planes.model;
   return planes;
 }
@@ -319,6 +319,18 @@ AtTrigger::Choose chooser(std::string_view name, const MethodTools& tools) {
                             preview::drawn_motions(view.scene, view.beliefs, intent::MotionLaw{},
                                                    decide::usual_draws),
                             setup, Physics::rolled_out);
+    };
+  }
+  if (name == "beliefs_and_experience") {
+    return [setup, experience = tools.experience](const View& view) {
+      const auto draws = preview::drawn_motions(view.scene, view.beliefs, intent::MotionLaw{},
+                                                decide::usual_draws);
+      auto all = preview::expected_harms(view.scene, draws, setup.forecast, Physics::rolled_out);
+      const memory::Corrections corrections = experience->corrections(view.scene);
+      for (preview::ExpectedHarm& one : all) {
+        one.harm = std::max(0.0, one.harm + corrections[manoeuvre::index(one.plan.policy)]);
+      }
+      return Action{.plan = preview::least_harmful(all), .source = "forecast"};
     };
   }
   if (name == "beliefs_and_grip") {
@@ -395,6 +407,8 @@ std::unique_ptr<Method> make_method(std::string_view name, const MethodTools& to
   expects(tools.hindsight != nullptr && tools.intent != nullptr, "hindsight and intent are given");
   expects(find_method(name)->needs != Needs::danger || tools.danger != nullptr,
           "V_h is given to who chooses by it");
+  expects(name != "beliefs_and_experience" || tools.experience != nullptr,
+          "experience is given to who is corrected by it");
   const runtime::PlanesSetup& setup = tools.saca;
   if (name.starts_with("saca")) {
     return std::make_unique<loop::SacaMethod>(planes_of(name, setup), *tools.intent);

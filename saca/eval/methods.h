@@ -8,6 +8,7 @@
 #include "saca/danger/network.h"
 #include "saca/eval/yardstick.h"
 #include "saca/loop/method.h"
+#include "saca/memory/experience.h"
 #include "saca/runtime/planes.h"
 
 namespace saca::eval {
@@ -35,8 +36,9 @@ struct MethodTools {
                                    ///< forecasts and thresholds are everybody's
   Hindsight* hindsight = nullptr;  ///< of this encounter
   const intent::Model* intent = nullptr;
-  const danger::Network* danger = nullptr;  ///< V_h learnt of the car; for who needs it
-  std::uint64_t seed = 0;                   ///< of who chooses at random, and of this encounter
+  const danger::Network* danger = nullptr;         ///< V_h learnt of the car; for who needs it
+  const memory::Experience* experience = nullptr;  ///< of the memory; for who needs it
+  std::uint64_t seed = 0;  ///< of who chooses at random, and of this encounter
 };
 
 /// @param name  of `methods()`

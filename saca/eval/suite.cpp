@@ -48,6 +48,7 @@ Played play(const sim::Scenario& scenario, std::uint64_t number, const SuiteOpti
                                            .hindsight = &hindsight,
                                            .intent = &intent,
                                            .danger = options.danger,
+                                           .experience = options.experience,
                                            .seed = encounter_seed(options.seed, number)}));
     }
     auto compared = compare(stage, methods, hindsight);

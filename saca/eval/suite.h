@@ -28,9 +28,10 @@ struct SuiteEncounter {
 
 /// How a suite is run.
 struct SuiteOptions {
-  std::vector<std::string> methods;         ///< names of eval::methods(), at least one
-  std::uint64_t seed = 1;                   ///< of all that is drawn
-  const danger::Network* danger = nullptr;  ///< as in MethodTools
+  std::vector<std::string> methods;                ///< names of eval::methods(), at least one
+  std::uint64_t seed = 1;                          ///< of all that is drawn
+  const danger::Network* danger = nullptr;         ///< as in MethodTools
+  const memory::Experience* experience = nullptr;  ///< likewise
   bool exact = false;  ///< nothing is left to chance and perception is as the scenarios have it
 };
 

@@ -8,6 +8,7 @@
 #include "saca/core/parallel.h"
 #include "saca/eval/moment.h"
 #include "saca/eval/scenes_for_test.h"
+#include "saca/eval/trigger_case.h"
 #include "saca/intent/shipped_model.h"
 #include "saca/reason/scripted_model.h"
 #include "saca/reason/shared_model.h"
@@ -118,6 +119,29 @@ TEST_F(ThinkingTest, ARowIsSacaWithWhatItWasGiven) {
   const SuiteRow back = suite_row_from(line_of(row), 4).value();
   EXPECT_EQ(line_of(back), line_of(row));
   EXPECT_EQ(back.risk.runs[1].thinking, runs[1].thinking);
+}
+
+// In 200 cases like this one, going left was told to harm nobody and did.
+TEST_F(ThinkingTest, ExperienceCorrectsWhatIsExpectedOfOneDecision) {
+  const sim::Scenario scenario = only_left_helps();
+  memory::Case one = case_at_trigger({&scenario, &car_, &harm_, &intent::shipped_model(), {}, {}},
+                                     {&car_, &harm_}, 16)
+                         .value()
+                         .value();
+  for (const PolicyId left : {PolicyId::aes_left, PolicyId::es_b_left, PolicyId::t_drift_left}) {
+    one.told->at(manoeuvre::index(left)) = 0.0;
+    one.happened->at(manoeuvre::index(left)) = 5.0;
+  }
+  const std::vector<memory::Case> cases(200, one);
+  const memory::Experience experience(cases);
+  const SuiteRow row =
+      run_encounter({.number = 0, .family = "f", .scenario = scenario, .twin = {}},
+                    {.methods = {"beliefs_drawn", "beliefs_and_experience"},
+                     .experience = &experience,
+                     .exact = true},
+                    {.forecast = {&car_, &harm_}, .clock = &clock_}, intent::shipped_model());
+  EXPECT_EQ(manoeuvre::side(row.risk.runs[0].plan->policy), 1);
+  EXPECT_NE(manoeuvre::side(row.risk.runs[1].plan->policy), 1);
 }
 
 TEST_F(ThinkingTest, WithoutEitherTheVerdictDecides) {

@@ -134,6 +134,7 @@ json memory_json(const decide::Preview& preview) {
   constexpr std::array<std::string_view, 3> gates{"cache", "check", "reason"};
   return {{"case", preview.nearest ? json(preview.nearest->found.id) : json(nullptr)},
           {"similarity", preview.nearest ? preview.nearest->similarity : 0.0},
+          {"confidence", preview.nearest ? preview.nearest->confidence : 0.0},
           {"gate", gates[static_cast<std::size_t>(preview.gate)]}};
 }
 

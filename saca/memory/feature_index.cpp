@@ -32,7 +32,7 @@ void FeatureIndex::scan(const Features& wanted, const Limit& limit,
     const std::span actors(actors_.data() + first_actor_[i], first_actor_[i + 1] - first_actor_[i]);
     const double apart = difference(wanted.ego, wanted_actors, egos_[i], actors, limit());
     if (apart < limit()) {
-      take(Hit{ids_[i], apart});
+      take(Hit{ids_[i], apart, i});
     }
   }
 }

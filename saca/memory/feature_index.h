@@ -16,6 +16,7 @@ class FeatureIndex {
   struct Hit {
     CaseId id = 0;
     double difference = 0.0;
+    std::size_t place = 0;  ///< how many were added before it
   };
 
   /// @param id     greater than all before

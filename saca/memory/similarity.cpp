@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
+#include <limits>
+#include <numeric>
 
 #include "saca/core/angle.h"
 
@@ -15,23 +15,38 @@ namespace {
 using world::ActorKind;
 using world::Beyond;
 
-// Every scale is the difference that, alone, brings the similarity to 0.9. They are judgements, not
-// measurements; docs/decisions/0003-similarity.md has the reasons.
-constexpr double metres = 1.0;
-constexpr double metres_per_second = 1.0;
-constexpr double heading_scale = 0.2;   // [rad]
-constexpr double yaw_rate_scale = 0.3;  // [rad/s]
-constexpr double log_grip_scale = 0.1;  // of stopping distance
-constexpr double curve_scale = 2.0;     // [m/s^2]
-constexpr double ample_room = 7.0;      // [m]
-constexpr double other_ground = 3.0;    // soft instead of hard beyond an edge that is at hand
-constexpr double other_marking = 1.5;   // oncoming traffic or not
-constexpr double other_topology = 2.0;
-constexpr double other_kind = 1.0;   // of the same group
-constexpr double other_group = 4.0;  // as much as a missing one
+// Scales: what, alone, makes a difference of 1. Fitted, but for those marked assumed: in the
+// encounters that they were fitted to, these hardly differ (docs/decisions/0029-experience.md).
+constexpr double speed_scale = 0.7;      // of the ego, along [m/s]
+constexpr double sideways_scale = 1.0;   // of the ego, across [m/s], assumed
+constexpr double offset_scale = 1.0;     // of the ego in its lane [m], assumed
+constexpr double heading_scale = 0.2;    // [rad], assumed
+constexpr double yaw_rate_scale = 0.3;   // [rad/s], assumed
+constexpr double ego_size_scale = 2.0;   // [m], assumed
+constexpr double log_grip_scale = 0.15;  // of stopping distance
+constexpr double lane_scale = 1.0;       // its width [m], assumed
+constexpr double curve_scale = 2.0;      // [m/s^2], assumed
+constexpr double room_scale = 3.0;       // [m]
+constexpr double ample_room = 7.0;       // [m]
+constexpr double other_ground = 2.0;     // soft instead of hard beyond an edge that is at hand
+constexpr double other_marking = 1.25;   // oncoming traffic or not
+constexpr double other_topology = 4.0;
+// Of an actor. Where it will be across the lane in 1 s counts most: it hits or misses.
+constexpr double along_now_scale = 6.0;      // [m]
+constexpr double across_now_scale = 4.0;     // [m]
+constexpr double across_then_scale = 0.7;    // in 1 s, at constant velocity [m]
+constexpr double along_then_scale = 8.0;     // in 2 s, likewise [m]
+constexpr double speed_along_scale = 3.5;    // [m/s]
+constexpr double speed_across_scale = 4.5;   // [m/s]
+constexpr double acceleration_scale = 1.25;  // across the lane [m/s^2]
+constexpr double edge_scale = 0.6;           // of half its length or width [m]
+constexpr double turned_scale = 4.0;         // of the ends of its body [m]
+constexpr double other_kind = 0.4;           // of the same group
+constexpr double other_group = 1.0;
+constexpr double absence_share = 0.75;  // of its threat, which is at most 4
 
-// An actor's absence counts `full_threat` where it touches ground that the ego can reach, and 1
-// where it stays a lane's width away from it.
+// An actor's absence is a `full_threat` where it touches ground that the ego can reach, and 1 where
+// it stays a lane's width away from it.
 constexpr double full_threat = 4.0;
 constexpr double lane = 3.5;              // [m]
 constexpr double gravity = 9.80665;       // [m/s^2]
@@ -142,6 +157,7 @@ ActorFeatures actor_features(const world::Actor& actor, const world::Road& road,
   const Vec2 v_L = rotated(actor.v_W, pose.heading - actor.X_WA.yaw);
   return {.p_rel_L = {pose.s - ego.s, pose.d - ego.d},
           .v_rel_L = v_L - ego_v_L,
+          .sideways = rotated(actor.a_W, pose.heading - actor.X_WA.yaw).y,
           .forward_L = {std::cos(pose.heading), std::sin(pose.heading)},
           .length = actor.footprint.length,
           .width = actor.footprint.width,
@@ -153,19 +169,19 @@ double edge_difference2(double room_a, double room_b, Beyond a, Beyond b) {
   const double nearness =
       std::clamp((ample_room - 0.5 * (room_a + room_b)) / (ample_room - lane), 0.0, 1.0);
   const double ground = is_hard(a) != is_hard(b) ? other_ground * nearness : 0.0;
-  return square((room_a - room_b) / metres) + square(ground);
+  return square((room_a - room_b) / room_scale) + square(ground);
 }
 
 double ego_difference2(const EgoFeatures& a, const EgoFeatures& b) {
   const Vec2 v = a.v_L - b.v_L;
-  double sum = dot(v, v) / square(metres_per_second);
-  sum += square((a.offset - b.offset) / metres);
+  double sum = square(v.x / speed_scale) + square(v.y / sideways_scale);
+  sum += square((a.offset - b.offset) / offset_scale);
   sum += square(wrap_angle(a.heading - b.heading) / heading_scale);
   sum += square((a.yaw_rate - b.yaw_rate) / yaw_rate_scale);
-  sum += square(0.5 * (a.length - b.length) / metres);
-  sum += square(0.5 * (a.width - b.width) / metres);
+  sum += square((a.length - b.length) / ego_size_scale);
+  sum += square((a.width - b.width) / ego_size_scale);
   sum += square((a.log_grip - b.log_grip) / log_grip_scale);
-  sum += square((a.lane_width - b.lane_width) / metres);
+  sum += square((a.lane_width - b.lane_width) / lane_scale);
   sum += square((a.curve - b.curve) / curve_scale);
   sum += edge_difference2(a.room_left, b.room_left, a.left_beyond, b.left_beyond);
   sum += edge_difference2(a.room_right, b.room_right, a.right_beyond, b.right_beyond);
@@ -178,146 +194,138 @@ double ego_difference2(const EgoFeatures& a, const EgoFeatures& b) {
 double actor_difference2(const ActorFeatures& a, const ActorFeatures& b) {
   const Vec2 p = a.p_rel_L - b.p_rel_L;
   const Vec2 v = a.v_rel_L - b.v_rel_L;
-  double sum = dot(p, p) / square(metres) + dot(v, v) / square(metres_per_second);
-  sum += square(0.5 * (a.length - b.length) / metres);
-  sum += square(0.5 * (a.width - b.width) / metres);
+  double sum = square(p.x / along_now_scale) + square(p.y / across_now_scale);
+  sum += square((p.y + v.y) / across_then_scale) + square((p.x + 2.0 * v.x) / along_then_scale);
+  sum += square(v.x / speed_along_scale) + square(v.y / speed_across_scale);
+  sum += square((a.sideways - b.sideways) / acceleration_scale);
+  sum += square(0.5 * (a.length - b.length) / edge_scale);
+  sum += square(0.5 * (a.width - b.width) / edge_scale);
   // Turning moves the ends of a long body, not those of a disc; front and rear are alike.
   const double arm = 0.25 * (std::abs(a.length - a.width) + std::abs(b.length - b.width));
   const double sine = a.forward_L.x * b.forward_L.y - a.forward_L.y * b.forward_L.x;
-  sum += square(arm * sine / metres);
+  sum += square(arm * sine / turned_scale);
   if (a.kind != b.kind) {
     sum += square(group(a.kind) == group(b.kind) ? other_kind : other_group);
   }
   return sum;
 }
 
-/// Assignment that keeps the worst difference of any actor smallest, exactly.
-///
-/// Under a bound t, an actor whose absence counts more than t must be matched to one that differs
-/// by at most t. A matching that covers the must-haves of both sides exists when one that covers
-/// those of the first side and one that covers those of the second exist (Mendelsohn and Dulmage,
-/// Some generalizations of the problem of distinct representatives, 1958), so the sides are looked
-/// at one by one.
+double absence2(const ActorFeatures& actor) {
+  return square(absence_share * actor.threat);
+}
+
+/// The assignment of which the sum of squared differences is smallest, exactly: the Hungarian
+/// method, one row after the other by shortest augmenting paths (R. Jonker, A. Volgenant, A
+/// shortest augmenting path algorithm for dense and sparse linear assignment problems, Computing
+/// 38, 1987). To match two actors saves what their absences count above their difference; nobody
+/// is matched where that saves nothing.
 class Assignment {
  public:
   using Actors = std::span<const ActorFeatures>;
 
-  Assignment(Actors a, Actors b) : a_(a), b_(b) {
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      for (std::size_t j = 0; j < b.size(); ++j) {
-        pair2_[i][j] = actor_difference2(a[i], b[j]);
+  /// @param rows  not more than `columns`
+  Assignment(Actors rows, Actors columns) : rows_(rows), columns_(columns) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      for (std::size_t j = 0; j < columns.size(); ++j) {
+        pair2_[i][j] = actor_difference2(rows[i], columns[j]);
       }
+      assign(i);
     }
   }
 
-  /// Square of the smallest worst difference.
-  [[nodiscard]] double worst2() const {
-    const double low = lower_bound2();
-    if (fits(low)) {
-      return low;
-    }
-    // Leaving all unmatched always fits; the answer is one of the differences on the way there.
-    const double high = std::max(largest_threat2(a_), largest_threat2(b_));
-    std::array<double, world::max_actors*(world::max_actors + 2)> bounds;
+  /// Sum of squares over the pairs and the unmatched: from the smallest on, so that it does not
+  /// depend on their order, nor on which scene comes first.
+  [[nodiscard]] double sum2() const {
+    std::array<double, 2 * world::max_actors> parts;
     std::size_t size = 0;
-    const auto offer = [&](double bound) {
-      if (bound > low && bound <= high) {
-        bounds[size++] = bound;
+    std::array<bool, world::max_actors> is_matched{};
+    for (std::size_t j = 0; j < columns_.size(); ++j) {
+      const std::size_t row = row_of_[j];
+      if (row != none && saving2(row, j) > 0.0) {
+        parts[size++] = pair2_[row][j];
+        is_matched[row] = true;
+      } else {
+        parts[size++] = absence2(columns_[j]);
       }
-    };
-    for (std::size_t i = 0; i < a_.size(); ++i) {
-      offer(square(a_[i].threat));
-      std::for_each_n(pair2_[i].begin(), b_.size(), offer);
     }
-    for (const ActorFeatures& actor : b_) {
-      offer(square(actor.threat));
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      if (!is_matched[i]) {
+        parts[size++] = absence2(rows_[i]);
+      }
     }
-    std::sort(bounds.data(), bounds.data() + size);
-    return *std::partition_point(bounds.data(), bounds.data() + size - 1,
-                                 [this](double bound) { return !fits(bound); });
+    std::sort(parts.data(), parts.data() + size);
+    return std::accumulate(parts.data(), parts.data() + size, 0.0);
   }
 
  private:
-  using Mask = std::uint32_t;
-  static_assert(world::max_actors <= 32);
+  static constexpr std::size_t none = world::max_actors;
 
-  static double largest_threat2(Actors actors) {
-    double largest = 0.0;
-    for (const ActorFeatures& actor : actors) {
-      largest = std::max(largest, square(actor.threat));
-    }
-    return largest;
+  [[nodiscard]] double saving2(std::size_t i, std::size_t j) const {
+    return absence2(rows_[i]) + absence2(columns_[j]) - pair2_[i][j];
+  }
+  [[nodiscard]] double cost(std::size_t i, std::size_t j) const {
+    return -std::max(saving2(i, j), 0.0);
   }
 
-  /// Nobody can do better than its best partner or its absence.
-  [[nodiscard]] double lower_bound2() const {
-    double bound = 0.0;
-    std::array<double, world::max_actors> best_of_b;
-    for (std::size_t j = 0; j < b_.size(); ++j) {
-      best_of_b[j] = square(b_[j].threat);
-    }
-    for (std::size_t i = 0; i < a_.size(); ++i) {
-      double best = square(a_[i].threat);
-      for (std::size_t j = 0; j < b_.size(); ++j) {
-        best = std::min(best, pair2_[i][j]);
-        best_of_b[j] = std::min(best_of_b[j], pair2_[i][j]);
+  /// Finds a column for a row, moving the rows before where that is cheaper.
+  void assign(std::size_t row) {
+    constexpr double far = std::numeric_limits<double>::infinity();
+    std::array<double, world::max_actors> shortest;       // reduced cost of the way to each column
+    std::array<std::size_t, world::max_actors> before{};  // column on that way
+    std::array<bool, world::max_actors> done{};
+    shortest.fill(far);
+    std::size_t column = none;  // where the way has come to
+    std::size_t from = row;     // the row that is without a column there
+    double length = 0.0;
+    while (true) {
+      std::size_t next = none;
+      for (std::size_t j = 0; j < columns_.size(); ++j) {
+        if (done[j]) {
+          continue;
+        }
+        const double way = length + cost(from, j) - row_price_[from] - column_price_[j];
+        if (way < shortest[j]) {
+          shortest[j] = way;
+          before[j] = column;
+        }
+        if (next == none || shortest[j] < shortest[next]) {
+          next = j;
+        }
       }
-      bound = std::max(bound, best);
-    }
-    for (std::size_t j = 0; j < b_.size(); ++j) {
-      bound = std::max(bound, best_of_b[j]);
-    }
-    return bound;
-  }
-
-  [[nodiscard]] bool fits(double bound2) const {
-    std::array<Mask, world::max_actors> partners_of_a{};
-    std::array<Mask, world::max_actors> partners_of_b{};
-    for (std::size_t i = 0; i < a_.size(); ++i) {
-      for (std::size_t j = 0; j < b_.size(); ++j) {
-        const Mask near = pair2_[i][j] <= bound2 ? 1U : 0U;
-        partners_of_a[i] |= near << j;
-        partners_of_b[j] |= near << i;
+      column = next;
+      length = shortest[column];
+      if (row_of_[column] == none) {
+        break;
       }
+      done[column] = true;
+      from = row_of_[column];
     }
-    return covers(a_, partners_of_a, bound2) && covers(b_, partners_of_b, bound2);
-  }
-
-  /// Can all actors that must be matched find partners of their own?
-  static bool covers(Actors actors, const std::array<Mask, world::max_actors>& partners,
-                     double bound2) {
-    std::array<std::size_t, world::max_actors> taken_by{};
-    Mask taken = 0;
-    for (std::size_t i = 0; i < actors.size(); ++i) {
-      Mask open = ~Mask{0};
-      if (square(actors[i].threat) > bound2 && !settle(i, partners, taken_by, taken, open)) {
-        return false;
+    row_price_[row] += length;
+    for (std::size_t j = 0; j < columns_.size(); ++j) {
+      if (done[j]) {
+        row_price_[row_of_[j]] += length - shortest[j];
+        column_price_[j] -= length - shortest[j];
       }
     }
-    return true;
-  }
-
-  /// Finds a partner for `actor`, moving others to their second choice where needed (Kuhn's
-  /// augmenting paths; `open` are the partners not yet tried, so it recurses at most 32 deep).
-  static bool settle(std::size_t actor, const std::array<Mask, world::max_actors>& partners,
-                     std::array<std::size_t, world::max_actors>& taken_by, Mask& taken,
-                     Mask& open) {  // NOLINT(misc-no-recursion)
-    while ((partners[actor] & open) != 0) {
-      const auto partner = static_cast<std::size_t>(std::countr_zero(partners[actor] & open));
-      const Mask bit = Mask{1} << partner;
-      open &= ~bit;
-      if ((taken & bit) == 0 || settle(taken_by[partner], partners, taken_by, taken, open)) {
-        taken |= bit;
-        taken_by[partner] = actor;
-        return true;
-      }
+    while (before[column] != none) {
+      row_of_[column] = row_of_[before[column]];
+      column = before[column];
     }
-    return false;
+    row_of_[column] = row;
   }
 
-  Actors a_;
-  Actors b_;
+  static constexpr std::array<std::size_t, world::max_actors> nobody() {
+    std::array<std::size_t, world::max_actors> all{};
+    all.fill(none);
+    return all;
+  }
+
+  Actors rows_;
+  Actors columns_;
   std::array<std::array<double, world::max_actors>, world::max_actors> pair2_;
+  std::array<std::size_t, world::max_actors> row_of_ = nobody();
+  std::array<double, world::max_actors> row_price_{};
+  std::array<double, world::max_actors> column_price_{};
 };
 
 }  // namespace
@@ -348,7 +356,9 @@ double difference(const EgoFeatures& ego_a, std::span<const ActorFeatures> actor
   if (ego2 >= square(limit)) {
     return std::sqrt(ego2);
   }
-  return std::sqrt(ego2 + Assignment(actors_a, actors_b).worst2());
+  const bool fewer = actors_a.size() <= actors_b.size();
+  return std::sqrt(ego2 +
+                   Assignment(fewer ? actors_a : actors_b, fewer ? actors_b : actors_a).sum2());
 }
 
 double similarity_at(double difference) noexcept {

@@ -10,7 +10,7 @@
 namespace saca::memory {
 
 // What of a scene matters to the choice of a manoeuvre, seen from the ego along its lane: s ahead,
-// d to the left. Formula and scales, with their reasons: docs/decisions/0003-similarity.md.
+// d to the left. Formula and scales, and how they were fitted: docs/decisions/0029-experience.md.
 
 /// The ego and its road.
 struct EgoFeatures {
@@ -35,9 +35,10 @@ struct EgoFeatures {
 
 /// One actor.
 struct ActorFeatures {
-  Vec2 p_rel_L;    ///< (s, d) along the lane, minus the ego's [m]
-  Vec2 v_rel_L;    ///< likewise [m/s]
-  Vec2 forward_L;  ///< unit vector of its heading
+  Vec2 p_rel_L;           ///< (s, d) along the lane, minus the ego's [m]
+  Vec2 v_rel_L;           ///< likewise [m/s]
+  double sideways = 0.0;  ///< its acceleration across the lane [m/s^2]
+  Vec2 forward_L;         ///< unit vector of its heading
   double length = 0.0;
   double width = 0.0;
   double threat = 0.0;  ///< the difference that its absence makes, in [0, 4]
@@ -52,9 +53,12 @@ struct Features {
 /// Allocates nothing.
 [[nodiscard]] Features features(const world::Scene& scene) noexcept;
 
-/// How far apart two scenes are, in units of what a stored plan may bear unchecked: sums of squares
-/// over the ego and its road, and, of all actors, the one that differs most under the best
-/// assignment of one scene's actors to the other's, which may leave any of them unmatched.
+/// How far apart two scenes are: the root of a sum of squares over the ego, its road and the
+/// actors, under the assignment of one scene's actors to the other's that makes it smallest. Who
+/// stays unmatched counts by the threat that it is.
+///
+/// The scales are such that what policies are expected to harm in like scenes, weighted by
+/// exp(-difference^2 / 2), foretells best what they are expected to harm in this one.
 ///
 /// @param limit  where the caller stops caring: any number >= limit may come back instead of a
 ///               larger one
@@ -69,8 +73,9 @@ struct Features {
 [[nodiscard]] double similarity_at(double difference) noexcept;
 
 /// How alike two scenes are for the choice of a manoeuvre, in [0, 1]; 1 for the same scene seen
-/// from any world frame. Not calibrated. 0 when either breaks a rule of `world::broken_rule`.
-/// Allocates nothing; whoever compares one scene with many keeps its features.
+/// from any world frame. How often a plan transfers is told by Experience::recall. 0 when either
+/// breaks a rule of `world::broken_rule`. Allocates nothing; whoever compares one scene with many
+/// keeps its features.
 [[nodiscard]] double similarity(const Features& a, const Features& b) noexcept;
 [[nodiscard]] double similarity(const world::Scene& a, const world::Scene& b) noexcept;
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <numbers>
 #include <vector>
@@ -45,45 +46,66 @@ Scene mirrored(const Scene& scene) {
 
 // ---- By hand
 
-TEST(Similarity, FallsByATenthForOneMetrePerSecondOfEgoSpeed) {
+TEST(Similarity, FallsByATenthForSevenTenthsOfAMetrePerSecondOfEgoSpeed) {
   Scene faster = empty_road();
-  faster.ego.v_B.x += 2.0;
+  faster.ego.v_B.x += 1.4;
   EXPECT_NEAR(similarity(empty_road(), faster), 0.9 * 0.9, 1e-12);
 }
 
-TEST(Similarity, FallsByATenthForTenPercentOfStoppingDistance) {
+TEST(Similarity, FallsByATenthForFifteenPercentOfStoppingDistance) {
   Scene wetter = empty_road();
-  wetter.grip *= std::exp(-0.1);
+  wetter.grip *= std::exp(-0.15);
   EXPECT_NEAR(similarity(empty_road(), wetter), 0.9, 1e-12);
 }
 
-TEST(Similarity, FallsByATenthForOneMetreOfAnActorsPosition) {
+/// 0.9 to the power of the root of these squares.
+double alike(std::initializer_list<double> differences) {
+  double sum = 0.0;
+  for (const double one : differences) {
+    sum += one * one;
+  }
+  return std::pow(0.9, std::sqrt(sum));
+}
+
+TEST(Similarity, FallsWithWhereAnActorIsAndWillBe) {
   Scene scene = empty_road();
   scene.actors.push_back(pedestrian(1, {15.0, 0.0}));
   Scene other = scene;
-  other.actors[0].X_WA.p = {15.6, 0.8};  // 0.6 and 0.8 make 1
-  EXPECT_NEAR(similarity(scene, other), 0.9, 1e-12);
+  other.actors[0].X_WA.p = {15.6, 0.8};  // now, in 1 s across, in 2 s along
+  EXPECT_NEAR(similarity(scene, other), alike({0.6 / 6.0, 0.8 / 4.0, 0.8 / 0.7, 0.6 / 8.0}), 1e-12);
+  other = scene;
+  other.actors[0].v_W = {0.5, -0.7};
+  EXPECT_NEAR(similarity(scene, other), alike({0.5 / 3.5, 0.7 / 4.5, 0.7 / 0.7, 1.0 / 8.0}), 1e-12);
+  other.actors[0].X_WA.p = {14.0, 0.7};  // who moves there will be there: nothing is left then
+  EXPECT_NEAR(similarity(scene, other),
+              alike({1.0 / 6.0, 0.7 / 4.0, 0.0, 0.0, 0.5 / 3.5, 0.7 / 4.5}), 1e-12);
+  other = scene;
+  other.actors[0].a_W = {-6.0, 1.0};  // its braking is not looked at
+  EXPECT_NEAR(similarity(scene, other), alike({1.0 / 1.25}), 1e-12);
 }
 
-TEST(Similarity, FallsByATenthForSomebodyALanesWidthOutOfReach) {
+TEST(Similarity, FallsForSomebodyALanesWidthOutOfReach) {
   Scene standing = empty_road();
   standing.ego.v_B = {0.0, 0.0};  // reaches nothing but where it is
   Scene with = standing;
   with.actors.push_back(pedestrian(1, {0.0, 3.5 + 0.5 * 1.9 + 0.3}));
-  EXPECT_NEAR(similarity(standing, with), 0.9, 1e-12);
+  EXPECT_NEAR(similarity(standing, with), alike({0.75}), 1e-12);
 }
 
-TEST(Similarity, FallsByFourTenthsForSomebodyUnexpectedInTheWay) {
+TEST(Similarity, FallsMoreForSomebodyUnexpectedInTheWay) {
   Scene with = empty_road();
   with.actors.push_back(pedestrian(1, {15.0, 0.0}));
-  EXPECT_NEAR(similarity(empty_road(), with), std::pow(0.9, 4.0), 1e-12);
+  EXPECT_NEAR(similarity(empty_road(), with), alike({3.0}), 1e-12);
   with.actors[0].existence = 0.5;  // perhaps not there at all
-  EXPECT_NEAR(similarity(empty_road(), with), std::pow(0.9, 2.0), 1e-12);
+  EXPECT_NEAR(similarity(empty_road(), with), alike({1.5}), 1e-12);
+  with.actors[0].existence = 1.0;
+  with.actors.push_back(pedestrian(2, {18.0, 0.0}));
+  EXPECT_NEAR(similarity(empty_road(), with), alike({3.0, 3.0}), 1e-12);
 }
 
 // ---- What a user of the gates expects
 
-TEST(Similarity, OfASceneAndItsForecastIsAboveNineTenths) {
+TEST(Similarity, OfASceneAndItsForecastIsAboveTheLowerGate) {
   std::mt19937 rng(1);
   std::uniform_real_distribution<double> any(-std::numbers::pi, std::numbers::pi);
   for (int i = 0; i < 300; ++i) {
@@ -94,14 +116,14 @@ TEST(Similarity, OfASceneAndItsForecastIsAboveNineTenths) {
       actor.X_WA.p = actor.X_WA.p + rotated({0.3, 0.0}, any(rng));
       actor.v_W = actor.v_W + rotated({0.3, 0.0}, any(rng));
     }
-    EXPECT_GT(similarity(scene, forecast), 0.9) << "scene " << i;
+    EXPECT_GT(similarity(scene, forecast), 0.7) << "scene " << i;
   }
 }
 
 TEST(Similarity, OfASecondPedestrianInTheEscapePathIsBelowTheGate) {
   Scene scene = crossing_truck();
   scene.actors.push_back(pedestrian(2, {14.0, 3.5}));
-  EXPECT_LT(similarity(crossing_truck(), scene), 0.9);
+  EXPECT_LT(similarity(crossing_truck(), scene), 0.8);
 }
 
 TEST(Similarity, OfTheSameLayoutAtEightAndFourteenIsBelowBothGates) {
@@ -228,7 +250,7 @@ TEST(Similarity, FallsWhenKindsOfThingsDiffer) {
   for (std::size_t i = 0; i < changes.size(); ++i) {
     Scene other = crossing_truck();
     changes[i](other);
-    EXPECT_LT(similarity(crossing_truck(), other), 0.9) << "change " << i;
+    EXPECT_LT(similarity(crossing_truck(), other), 0.91) << "change " << i;
   }
 }
 
@@ -244,21 +266,21 @@ TEST(Similarity, FallsTheMoreTheNearerTheUnexpectedComes) {
 }
 
 // Oracle: all ways to pair some of one side with some of the other.
-double best_worst(const std::vector<std::vector<double>>& pair, const std::vector<double>& alone_a,
-                  const std::vector<double>& alone_b, std::size_t i, std::vector<bool> used) {
-  if (i == alone_a.size()) {
-    double worst = 0.0;
-    for (std::size_t j = 0; j < alone_b.size(); ++j) {
-      worst = used[j] ? worst : std::max(worst, alone_b[j]);
+double least_sum(const std::vector<std::vector<double>>& pair2, const std::vector<double>& alone2_a,
+                 const std::vector<double>& alone2_b, std::size_t i, std::vector<bool> used) {
+  if (i == alone2_a.size()) {
+    double sum = 0.0;
+    for (std::size_t j = 0; j < alone2_b.size(); ++j) {
+      sum += used[j] ? 0.0 : alone2_b[j];
     }
-    return worst;
+    return sum;
   }
-  double best = std::max(alone_a[i], best_worst(pair, alone_a, alone_b, i + 1, used));
-  for (std::size_t j = 0; j < alone_b.size(); ++j) {
+  double best = alone2_a[i] + least_sum(pair2, alone2_a, alone2_b, i + 1, used);
+  for (std::size_t j = 0; j < alone2_b.size(); ++j) {
     if (!used[j]) {
       std::vector<bool> next = used;
       next[j] = true;
-      best = std::min(best, std::max(pair[i][j], best_worst(pair, alone_a, alone_b, i + 1, next)));
+      best = std::min(best, pair2[i][j] + least_sum(pair2, alone2_a, alone2_b, i + 1, next));
     }
   }
   return best;
@@ -281,7 +303,7 @@ TEST(Difference, TakesTheBestOfAllAssignments) {
         actor.p_rel_L = 0.05 * actor.p_rel_L;
         actor.v_rel_L = 0.05 * actor.v_rel_L;
         actor.threat = threat(rng);
-        alone->push_back(actor.threat);
+        alone->push_back(0.75 * actor.threat * 0.75 * actor.threat);
       }
     }
     std::vector<std::vector<double>> pair(alone_a.size(), std::vector<double>(alone_b.size()));
@@ -290,14 +312,15 @@ TEST(Difference, TakesTheBestOfAllAssignments) {
         ActorFeatures one = a.actors[j];
         ActorFeatures other = b.actors[k];
         one.threat = other.threat = 1e6;  // must be paired
-        pair[j][k] = difference(ego, {&one, 1}, ego, {&other, 1});
+        const double apart = difference(ego, {&one, 1}, ego, {&other, 1});
+        pair[j][k] = apart * apart;
       }
     }
     const double expected =
-        best_worst(pair, alone_a, alone_b, 0, std::vector<bool>(alone_b.size(), false));
+        std::sqrt(least_sum(pair, alone_a, alone_b, 0, std::vector<bool>(alone_b.size(), false)));
     EXPECT_NEAR(difference(ego, {a.actors.begin(), a.actors.size()}, ego,
                            {b.actors.begin(), b.actors.size()}),
-                expected, 1e-12);
+                expected, 1e-9);
     num_searched += expected > 0.0 ? 1 : 0;
   }
   EXPECT_GT(num_searched, 300);
@@ -306,7 +329,7 @@ TEST(Difference, TakesTheBestOfAllAssignments) {
 TEST(Difference, StopsAtTheLimit) {
   const Features a = features(empty_road());
   Scene faster = empty_road();
-  faster.ego.v_B.x += 5.0;
+  faster.ego.v_B.x += 3.5;
   const Features b = features(faster);
   EXPECT_GE(difference(a.ego, {}, b.ego, {}, 2.0), 2.0);
   EXPECT_DOUBLE_EQ(difference(a.ego, {}, b.ego, {}, 6.0), 5.0);

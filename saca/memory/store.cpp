@@ -15,7 +15,7 @@
 #include "saca/core/fnv.h"
 #include "saca/core/printable.h"
 #include "saca/memory/case_json.h"
-#include "saca/memory/feature_index.h"
+#include "saca/memory/experience.h"
 #include "saca/memory/scene_json.h"
 #include "saca/memory/similarity.h"
 #include "saca/memory/sqlite.h"
@@ -223,16 +223,17 @@ Result<Case> case_at(const Statement& statement, const std::string& file) {
 
 }  // namespace
 
-Gate gate(double similarity) noexcept {
-  if (similarity > 0.90) {
+Gate gate(double confidence) noexcept {
+  if (confidence > 0.90) {
     return Gate::cache;
   }
-  return similarity > 0.70 ? Gate::check : Gate::reason;
+  return confidence > 0.70 ? Gate::check : Gate::reason;
 }
 
 Gate gate(const Match& match) noexcept {
-  const Gate by_similarity = gate(match.similarity);
-  return match.found.trust == Trust::trusted ? by_similarity : std::max(by_similarity, Gate::check);
+  return gate(match.trusted_confidence) == Gate::cache
+             ? Gate::cache
+             : std::max(gate(match.confidence), Gate::check);
 }
 
 struct Store::State {
@@ -241,7 +242,7 @@ struct Store::State {
 
   std::optional<Error> may_not_be_upgraded;  ///< why a file of an older version stays as it is
 
-  FeatureIndex index;  ///< of the cases that were in the file when it was last looked at
+  Experience experience;  ///< of the cases that were in the file when it was last looked at
 
   [[nodiscard]] Error problem(Access access) const {
     return sqlite_problem(database.get(), name, access);
@@ -475,12 +476,7 @@ struct Store::State {
 
   /// Learns the features of cases that it does not know yet.
   [[nodiscard]] std::optional<Error> catch_up() {
-    return each_after(index.last_id(), [this](const Case& one) {
-      index.add(one.id, one.scene);
-      if (one.trust == Trust::quarantined) {
-        index.pass_over(one.id);
-      }
-    });
+    return each_after(experience.last_id(), [this](const Case& one) { experience.add(one); });
   }
 };
 
@@ -658,7 +654,7 @@ class ShortPatience {
 
 }  // namespace
 
-Result<std::optional<Match>> Store::nearest(const world::Scene& scene) {
+Result<std::optional<Match>> Store::recall(const world::Scene& scene) {
   const Features wanted = features(scene);
   expects(wanted.ego.usable, "the scene breaks no rule");
   const ShortPatience while_asking(state_->database.get());
@@ -666,20 +662,24 @@ Result<std::optional<Match>> Store::nearest(const world::Scene& scene) {
     if (auto error = state_->catch_up()) {
       return *error;
     }
-    const auto best = state_->index.nearest(wanted);
-    if (!best) {
+    const auto recalled = state_->experience.recall(wanted);
+    if (!recalled) {
       return std::optional<Match>();
     }
-    Result<std::optional<Case>> found = find(best->id);
+    Result<std::optional<Case>> found = find(recalled->nearest);
     if (!found.has_value()) {
       return found.error();
     }
     if (!found.value()) {
-      state_->index = {};  // somebody has deleted it: look again, at all
+      state_->experience = {};  // somebody has deleted it: look again, at all
     } else if (found.value()->trust == Trust::quarantined) {
-      state_->index.pass_over(best->id);  // since it was read
+      state_->experience.pass_over(recalled->nearest);  // since it was read
     } else {
-      return std::optional(Match{*std::move(found).value(), similarity_at(best->difference)});
+      return std::optional(Match{.found = *std::move(found).value(),
+                                 .similarity = recalled->similarity,
+                                 .policy = recalled->policy,
+                                 .confidence = confidence_at(recalled->share),
+                                 .trusted_confidence = confidence_at(recalled->trusted_share)});
     }
   }
 }
@@ -699,7 +699,7 @@ Result<std::uint64_t> Store::digest() const {
 }
 
 std::size_t Store::size() const noexcept {
-  return state_->index.size();
+  return state_->experience.size();
 }
 
 }  // namespace saca::memory

@@ -20,16 +20,18 @@ enum class Gate : std::uint8_t {
   reason,  ///< the language model is asked
 };
 
-[[nodiscard]] Gate gate(double similarity) noexcept;
+[[nodiscard]] Gate gate(double confidence) noexcept;
 
-/// A stored case and how alike its scene is, in [0, 1].
+/// What the stored cases speak for in a scene.
 struct Match {
-  Case found;
-  double similarity = 0.0;
+  Case found;               ///< the most alike in which the policy was as good as the best
+  double similarity = 0.0;  ///< of its scene, in [0, 1]
+  manoeuvre::PolicyId policy = manoeuvre::PolicyId::aeb;  ///< that they speak for
+  double confidence = 0.0;          ///< how far it can be relied on, in [0, 1] (confidence_at)
+  double trusted_confidence = 0.0;  ///< by trusted cases alone
 };
 
-/// The same of a case: one that is not trusted is used only if a rollout confirms it, however
-/// alike.
+/// The gate of its confidence; what trusted cases alone do not support is not used unchecked.
 [[nodiscard]] Gate gate(const Match& match) noexcept;
 
 /// The memory bank: one SQLite file, which several processes may have open.
@@ -84,10 +86,10 @@ class Store {
   /// @return  nullopt when there is no case of this id
   [[nodiscard]] Result<std::optional<Case>> find(CaseId id);
 
-  /// The stored case whose scene is most alike, the oldest of equals; nullopt when there is none.
-  /// Who is quarantined is passed over. Linear scan over features in memory, then one row is read.
+  /// What cases like this scene speak for (Experience::recall); nullopt when there is none. Who is
+  /// quarantined is passed over. A scan over features in memory, then one row is read.
   /// @throws ContractViolation  if the scene breaks a rule of `world::broken_rule`
-  [[nodiscard]] Result<std::optional<Match>> nearest(const world::Scene& scene);
+  [[nodiscard]] Result<std::optional<Match>> recall(const world::Scene& scene);
 
   /// Of all cases, to the last bit: two memories with the same digest answer alike.
   [[nodiscard]] Result<std::uint64_t> digest() const;

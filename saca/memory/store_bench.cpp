@@ -57,7 +57,7 @@ void nearest_of(benchmark::State& state) {
   }
   for (auto _ : state) {
     const world::Scene scene = random_scene(rng, static_cast<int>(rng() % 9));
-    benchmark::DoNotOptimize(store.nearest(scene).has_value());
+    benchmark::DoNotOptimize(store.recall(scene).has_value());
   }
 }
 BENCHMARK(nearest_of)->Arg(100)->Unit(benchmark::kMicrosecond);

@@ -118,15 +118,15 @@ TEST(Gates, AreThoseOfThePaper) {
   EXPECT_EQ(gate(std::numeric_limits<double>::quiet_NaN()), Gate::reason);
 }
 
-TEST(Gates, LetNoUncheckedCaseThroughAsItIs) {
-  Match match{.found = {}, .similarity = 0.95};
-  EXPECT_EQ(gate(match), Gate::cache);
-  match.found.trust = Trust::unchecked;
-  EXPECT_EQ(gate(match), Gate::check);
-  match.similarity = 0.8;
-  EXPECT_EQ(gate(match), Gate::check);
-  match.similarity = 0.5;
-  EXPECT_EQ(gate(match), Gate::reason);
+TEST(Gates, LetNothingThroughAsItIsThatTrustedCasesAloneDoNotSupport) {
+  const auto gate_at = [](double confidence, double trusted) {
+    return gate(Match{.found = {}, .confidence = confidence, .trusted_confidence = trusted});
+  };
+  EXPECT_EQ(gate_at(0.95, 0.95), Gate::cache);
+  EXPECT_EQ(gate_at(0.95, 0.91), Gate::cache);
+  EXPECT_EQ(gate_at(0.95, 0.0), Gate::check);
+  EXPECT_EQ(gate_at(0.8, 0.8), Gate::check);
+  EXPECT_EQ(gate_at(0.5, 0.5), Gate::reason);
 }
 
 // ---- Coming back
@@ -135,7 +135,7 @@ TEST_F(Memory, IsEmptyAtFirst) {
   Store store = opened();
   EXPECT_TRUE(store.all().value().empty());
   EXPECT_EQ(store.find(1).value().has_value(), false);
-  EXPECT_EQ(store.nearest(crossing_truck()).value().has_value(), false);
+  EXPECT_EQ(store.recall(crossing_truck()).value().has_value(), false);
 }
 
 TEST_F(Memory, GivesBackEveryCaseToTheLastBit) {
@@ -243,12 +243,12 @@ TEST_F(Memory, FindsTheNearestLikeALinearScan) {
     for (const Case& one : cases) {
       best = similarity(one.scene, scene) > similarity(best->scene, scene) ? &one : best;
     }
-    const Match match = store.nearest(scene).value().value();
+    const Match match = store.recall(scene).value().value();
     EXPECT_EQ(match.found.id, best->id);
     EXPECT_DOUBLE_EQ(match.similarity, similarity(best->scene, scene));
     expect_same(match.found, *best);
   }
-  EXPECT_EQ(store.nearest(cases[7].scene).value().value().similarity, 1.0);
+  EXPECT_EQ(store.recall(cases[7].scene).value().value().similarity, 1.0);
 }
 
 // ---- Changing, and taking over
@@ -278,16 +278,16 @@ TEST_F(Memory, PassesOverWhoIsQuarantined) {
   Case best = example_case(3);
   best.id = other.add(best).value();
   const CaseId second = other.add(example_case(4)).value();
-  EXPECT_EQ(asked.nearest(best.scene).value().value().found.id, best.id);
+  EXPECT_EQ(asked.recall(best.scene).value().value().found.id, best.id);
   best.trust = Trust::quarantined;
   EXPECT_FALSE(other.update(best).has_value());
-  EXPECT_EQ(asked.nearest(best.scene).value().value().found.id, second) << "another's change";
-  EXPECT_EQ(opened().nearest(best.scene).value().value().found.id, second);
+  EXPECT_EQ(asked.recall(best.scene).value().value().found.id, second) << "another's change";
+  EXPECT_EQ(opened().recall(best.scene).value().value().found.id, second);
   Case last = example_case(4);
   last.id = second;
   last.trust = Trust::quarantined;
   EXPECT_FALSE(other.update(last).has_value());
-  EXPECT_FALSE(asked.nearest(best.scene).value().has_value());
+  EXPECT_FALSE(asked.recall(best.scene).value().has_value());
 }
 
 TEST_F(Memory, TakesManyCasesOrNone) {
@@ -337,7 +337,7 @@ TEST_F(Memory, RefusesWhatIsNoCase) {
   bad = example_case(1);
   bad.scene.grip = 0.0;
   EXPECT_THROW((void)store.add(bad), ContractViolation);
-  EXPECT_THROW((void)store.nearest(bad.scene), ContractViolation);
+  EXPECT_THROW((void)store.recall(bad.scene), ContractViolation);
   bad = example_case(1);
   bad.plan.policy = manoeuvre::PolicyId::aeb;
   EXPECT_THROW((void)store.add(bad), ContractViolation);
@@ -523,7 +523,7 @@ TEST_F(Memory, ASnapshotStaysAsItWas) {
   const auto before = snapshot.digest().value();
   EXPECT_EQ(before, store.digest().value());
   ASSERT_TRUE(store.add(example_case(4)).has_value());
-  expect_same(snapshot.nearest(example_case(4).scene).value().value().found, example_case(3));
+  expect_same(snapshot.recall(example_case(4).scene).value().value().found, example_case(3));
   EXPECT_EQ(snapshot.all().value().size(), 1U);
   EXPECT_EQ(snapshot.digest().value(), before);
   EXPECT_NE(store.digest().value(), before);
@@ -591,7 +591,7 @@ TEST_F(Memory, OpensAReadOnlyFileForReading) {
   {
     const AsNobody nobody;
     Store store = opened();
-    expect_same(store.nearest(example_case(5).scene).value().value().found, example_case(5));
+    expect_same(store.recall(example_case(5).scene).value().value().found, example_case(5));
     const auto added = store.add(example_case(6));
     ASSERT_FALSE(added.has_value());
     EXPECT_EQ(added.error().code, Error::Code::unwritable);
@@ -610,7 +610,7 @@ TEST_F(Memory, ReadsAFileOfAnOlderVersionThatMayNotBeWritten) {
   {
     const AsNobody nobody;
     Store store = opened();
-    expect_same(store.nearest(example_case(5).scene).value().value().found,
+    expect_same(store.recall(example_case(5).scene).value().value().found,
                 without_details(example_case(5)));
     const auto added = store.add(example_case(6));
     ASSERT_FALSE(added.has_value());
@@ -726,10 +726,10 @@ class Adder {
 TEST_F(Memory, SeesWhatAnotherProcessAdds) {
   Store store = opened();
   ASSERT_TRUE(store.add(example_case(50)).has_value());
-  ASSERT_EQ(store.nearest(example_case(4).scene).value().value().found.id, 1);
+  ASSERT_EQ(store.recall(example_case(4).scene).value().value().found.id, 1);
   Adder other(path_, 5);
   EXPECT_EQ(other.wait(), 0);
-  const Match match = store.nearest(example_case(4).scene).value().value();
+  const Match match = store.recall(example_case(4).scene).value().value();
   EXPECT_EQ(match.similarity, 1.0);
   expect_same(match.found, example_case(4));
 }
@@ -738,11 +738,11 @@ TEST_F(Memory, ForgetsWhatAnotherProcessDeletes) {
   Store store = opened();
   ASSERT_TRUE(store.add(example_case(1)).has_value());
   ASSERT_TRUE(store.add(example_case(2)).has_value());
-  ASSERT_EQ(store.nearest(example_case(1).scene).value().value().found.id, 1);
+  ASSERT_EQ(store.recall(example_case(1).scene).value().value().found.id, 1);
   shell(path_, "DELETE FROM cases WHERE id = 1");
-  EXPECT_EQ(store.nearest(example_case(1).scene).value().value().found.id, 2);
+  EXPECT_EQ(store.recall(example_case(1).scene).value().value().found.id, 2);
   shell(path_, "DELETE FROM cases");
-  EXPECT_FALSE(store.nearest(example_case(1).scene).value().has_value());
+  EXPECT_FALSE(store.recall(example_case(1).scene).value().has_value());
 }
 
 // Who holds the file is told, and when it is free again the store answers as before.
@@ -752,13 +752,13 @@ TEST_F(Memory, AnswersAgainWhenAnotherProcessLetsTheFileGo) {
   sqlite3* other = nullptr;
   ASSERT_EQ(sqlite3_open(path_.c_str(), &other), SQLITE_OK);
   ASSERT_EQ(sqlite3_exec(other, "BEGIN EXCLUSIVE", nullptr, nullptr, nullptr), SQLITE_OK);
-  const auto held = store.nearest(example_case(1).scene);
+  const auto held = store.recall(example_case(1).scene);
   ASSERT_FALSE(held.has_value());
   EXPECT_EQ(held.error().code, Error::Code::too_late);
   EXPECT_THAT(held.error().message, HasSubstr("bank.db"));
   EXPECT_THAT(held.error().message, HasSubstr("another process"));
   sqlite3_close(other);
-  EXPECT_EQ(store.nearest(example_case(1).scene).value().value().similarity, 1.0);
+  EXPECT_EQ(store.recall(example_case(1).scene).value().value().similarity, 1.0);
   EXPECT_TRUE(store.add(example_case(2)).has_value());
 }
 
@@ -767,7 +767,7 @@ TEST_F(Memory, TellsThatItsFileHasVanished) {
   Store store = opened();
   ASSERT_TRUE(store.add(example_case(1)).has_value());
   fs::remove(path_);
-  EXPECT_EQ(store.nearest(example_case(1).scene).value().value().found.id, 1);
+  EXPECT_EQ(store.recall(example_case(1).scene).value().value().found.id, 1);
   const auto added = store.add(example_case(2));
   ASSERT_FALSE(added.has_value());
   EXPECT_EQ(added.error().code, Error::Code::unwritable);

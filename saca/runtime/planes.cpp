@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "saca/core/names.h"
-#include "saca/decide/corrected_verdict.h"
 
 namespace saca::runtime {
 namespace {
@@ -18,14 +17,6 @@ PlanesSetup with_judge(PlanesSetup setup) {
   if (!setup.judge) {
     setup.judge = [forecaster = decide::Forecaster(setup.forecast)](const auto&... seen) {
       return forecaster.judge(seen...);
-    };
-  }
-  if (setup.experience != nullptr) {
-    setup.judge = [judge = std::move(setup.judge), experience = setup.experience](
-                      const world::Scene& scene, const auto&... seen) {
-      decide::Verdict verdict = judge(scene, seen...);
-      decide::correct(verdict, experience->corrections(scene));
-      return verdict;
     };
   }
   return setup;

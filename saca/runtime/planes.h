@@ -15,7 +15,6 @@
 #include "saca/decide/forecaster.h"
 #include "saca/decide/reflex_plane.h"
 #include "saca/decide/thinking_plane.h"
-#include "saca/memory/experience.h"
 #include "saca/runtime/charged_forecasts.h"
 #include "saca/runtime/charged_model.h"
 #include "saca/runtime/charged_thinking.h"
@@ -36,10 +35,9 @@ struct PlanesSetup {
   preview::ForecastTools forecast;
   preview::Thresholds thresholds;
   Pace pace = Pace::lockstep;
-  ThinkingCosts costs;                             ///< for lockstep
-  reason::LanguageModel* model = nullptr;          ///< nullptr: without; deadlines on `clock`
-  memory::Store* memory = nullptr;                 ///< nullptr: without
-  const memory::Experience* experience = nullptr;  ///< corrects verdicts; nullptr: nothing does
+  ThinkingCosts costs;                     ///< for lockstep
+  reason::LanguageModel* model = nullptr;  ///< nullptr: without; deadlines on `clock`
+  memory::Store* memory = nullptr;         ///< nullptr: without
   decide::Guard guard = decide::Guard::never_worse_than_braking;
   decide::Asking asking;
   decide::Judge judge;  ///< makes the verdicts, on a thread of its own at pace `real`; empty: a

@@ -410,7 +410,7 @@ TEST_F(PlanesTest, TheModelIsBusyUntilItHasAnsweredWhateverItsAnswerIsWorth) {
   for (int k = 0; k < 150; ++k) {
     world::Scene scene = at(0.01 * k);
     if (k >= 30) {
-      scene.actors[0].X_WA.p.x += 10.0;  // another forecast
+      scene.actors[0].X_WA.p = scene.actors[0].X_WA.p + Vec2{10.0, 1.0};  // another forecast
       scene.actors[0].kind = world::ActorKind::truck;
     }
     step(scene);

@@ -119,6 +119,7 @@ memory::ActorFeatures read_actor_features(JsonReader from) {
   memory::ActorFeatures actor;
   actor.p_rel_L = {from.number("ahead_m"), from.number("left_m")};
   actor.v_rel_L = {from.number("along_mps"), from.number("across_mps")};
+  actor.sideways = from.number("sideways_mps2");
   actor.forward_L = {from.number("forward_s"), from.number("forward_d")};
   actor.length = from.number("length_m");
   actor.width = from.number("width_m");

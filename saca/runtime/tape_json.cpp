@@ -61,11 +61,12 @@ json ego_features_json(const memory::EgoFeatures& ego) {
 }
 
 json actor_features_json(const memory::ActorFeatures& actor) {
-  return {{"ahead_m", actor.p_rel_L.x},     {"left_m", actor.p_rel_L.y},
-          {"along_mps", actor.v_rel_L.x},   {"across_mps", actor.v_rel_L.y},
-          {"forward_s", actor.forward_L.x}, {"forward_d", actor.forward_L.y},
-          {"length_m", actor.length},       {"width_m", actor.width},
-          {"threat", actor.threat},         {"kind", world::name(actor.kind)}};
+  return {{"ahead_m", actor.p_rel_L.x},      {"left_m", actor.p_rel_L.y},
+          {"along_mps", actor.v_rel_L.x},    {"across_mps", actor.v_rel_L.y},
+          {"sideways_mps2", actor.sideways}, {"forward_s", actor.forward_L.x},
+          {"forward_d", actor.forward_L.y},  {"length_m", actor.length},
+          {"width_m", actor.width},          {"threat", actor.threat},
+          {"kind", world::name(actor.kind)}};
 }
 
 json cached_json(const decide::CachedPlan& cached) {

@@ -104,3 +104,21 @@ def test_what_cannot_be_read_or_written_is_told(cases, tmp_path):
     assert "bank.db" in one_error(saca("memory", "--memory", "bank.db", "export", "bank.db/out.jsonl", cwd=tmp_path), CANNOT_WRITE)
     assert saca("memory", "build", "balanced", "--draws", "0", cwd=tmp_path).returncode == WRONG_COMMAND_LINE
     assert "balanced" in one_error(saca("memory", "build", "balancd", cwd=tmp_path), BAD_INPUT)
+
+
+def test_calibrating_tells_how_often_recalls_hold(cases, tmp_path):
+    run = saca("memory", "calibrate", str(cases), "--check", str(cases), "--svg", "out/curve.svg", "--json", cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    told = json.loads(run.stdout)
+    assert told["memory.transfer.cases"] == len(documents(cases)) - 1
+    for place in ("memory.transfer.within", "memory.transfer.check"):
+        coverage = [told[f"{place}.{range}.coverage"] for range in ("above_0.9", "0.7_to_0.9", "below_0.7")]
+        assert told[f"{place}.queries"] > 0 and sum(coverage) == pytest.approx(1.0)
+    assert "0.9" in saca("memory", "calibrate", str(cases), cwd=tmp_path).stdout
+    assert "<svg" in (tmp_path / "out/curve.svg").read_text()
+
+
+def test_calibrating_wants_cases(tmp_path):
+    (tmp_path / "empty.jsonl").write_text('{"schema": "saca.cases/1", "cases": 0}\n')
+    assert "want cases, got none" in one_error(saca("memory", "calibrate", "empty.jsonl", cwd=tmp_path), BAD_INPUT)
+    assert "none.jsonl" in one_error(saca("memory", "calibrate", "none.jsonl", cwd=tmp_path), BAD_INPUT)

@@ -35,7 +35,7 @@ def test_memory_is_asked_and_not_taught(tmp_path):
     assert told["suite.balanced.saca_no_memory.cache_hit_rate"] == 0 and told["suite.balanced.saca_no_memory.source.arbiter"] > 0
     assert re.fullmatch(r"4 cases \([0-9a-f]{16}\)", told["meta.memory"]) and "--memory m.sqlite" in told["meta.command"]
     page = (tmp_path / "a.html").read_text()
-    assert "Where the decisions of SACA without memory came from" in page and "with a case in memory above 70 % alike" in page
+    assert "Where the decisions of SACA without memory came from" in page and "where memory is at least 70 % sure" in page
 
     assert saca("suite", "balanced", *few, "--threads", 2, "--output", "b.h5", cwd=tmp_path).returncode == SUCCESS
     journal = tmp_path / "a.h5.journal"
