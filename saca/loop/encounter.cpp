@@ -326,17 +326,34 @@ void Encounter::compare_with_driver() {
   }
 }
 
+std::string learnt_text(const memory::Learnt& learnt,
+                        const std::optional<memory::CaseId>& refuted) {
+  using How = memory::Learnt::How;
+  const std::string doubt = refuted ? fmt::format("; case {} is asked no more", *refuted) : "";
+  switch (learnt.how) {
+    case How::added:
+      break;
+    case How::merged:
+      return fmt::format("merged into case {}", learnt.id) + doubt;
+    case How::contradicted:
+      return fmt::format("stored as case {}, which contradicts case {}", learnt.id, learnt.other) +
+             doubt;
+  }
+  return fmt::format("stored as case {}", learnt.id) + doubt;
+}
+
 void Encounter::learn() {
   if (setup_.memory == nullptr || !setup_.learns || !record_.decision) {
     return;
   }
-  const auto id = setup_.memory->add(learnt_case(setup_, record_, *trigger_));
-  if (id.has_value()) {
-    record_.stored = id.value();
-    tell(Plane::thinking, EventKind::memory, fmt::format("stored as case {}", id.value()));
+  const auto refuted = refuted_case(record_);
+  const auto learnt = loop::learn(*setup_.memory, learnt_case(setup_, record_, *trigger_), refuted);
+  if (learnt.has_value()) {
+    record_.stored = learnt.value().id;
+    tell(Plane::thinking, EventKind::memory, learnt_text(learnt.value(), refuted));
   } else {
-    record_.not_stored = id.error();
-    tell(Plane::thinking, EventKind::fault, "memory: " + id.error().message);
+    record_.not_stored = learnt.error();
+    tell(Plane::thinking, EventKind::fault, "memory: " + learnt.error().message);
   }
 }
 

@@ -84,6 +84,39 @@ memory::Case learnt_case(const Setup& setup, const Record& record, const Trigger
   return one;
 }
 
+std::optional<memory::CaseId> refuted_case(const Record& record) {
+  expects(record.decision && record.hindsight, "something was decided");
+  const decide::Decision& decision = *record.decision;
+  if (decision.source != decide::Source::memory || !decision.preview) {
+    return std::nullopt;
+  }
+  const decide::Preview* const preview = decide::find_preview(record.previews, *decision.preview);
+  const outcome::Outcome& braking =
+      (*record.hindsight)[manoeuvre::index(manoeuvre::PolicyId::aeb)].facts.outcome();
+  return preview != nullptr && preview->nearest &&
+                 record.result.harm > braking.harm + decide::material_harm
+             ? std::optional(preview->nearest->found.id)
+             : std::nullopt;
+}
+
+Result<memory::Learnt> learn(memory::Store& memory, const memory::Case& one,
+                             const std::optional<memory::CaseId>& refuted) {
+  if (refuted) {
+    auto found = memory.find(*refuted);
+    if (!found.has_value()) {
+      return found.error();
+    }
+    if (found.value()) {  // else somebody has deleted it
+      memory::Case wrong = *std::move(found).value();
+      wrong.trust = memory::Trust::quarantined;
+      if (auto error = memory.update(wrong)) {
+        return *std::move(error);
+      }
+    }
+  }
+  return memory.learn(one);
+}
+
 std::optional<Error> keep_lesson(memory::Store& memory, memory::CaseId id,
                                  const reason::Review& review) {
   if (review.truth.num_checked == 0 || !review.truth.wrong.empty()) {

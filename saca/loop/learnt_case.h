@@ -31,6 +31,17 @@ struct Trigger {
 [[nodiscard]] memory::Case learnt_case(const Setup& setup, const Record& record,
                                        const Trigger& trigger);
 
+/// The case whose policy was carried out by memory's word and did materially more harm than full
+/// braking would have; nullopt: there is none.
+/// @param record  with a decision and its hindsight
+[[nodiscard]] std::optional<memory::CaseId> refuted_case(const Record& record);
+
+/// Memory learns an encounter: its case is added or merged, and a case that it refutes is
+/// quarantined.
+/// @return  what it came to, or what memory could not do
+[[nodiscard]] Result<memory::Learnt> learn(memory::Store& memory, const memory::Case& one,
+                                           const std::optional<memory::CaseId>& refuted);
+
 /// Adds what a review says to the case that memory learnt, where everything in it that can be
 /// checked is true.
 /// @return  what memory could not do

@@ -26,6 +26,56 @@ TEST(PolicyHarms, AreThoseOfThePlanThatHarmsLeast) {
   EXPECT_FALSE(harms[7].has_value());
 }
 
+/// Memory's word was followed, by this case, and harmed so much; full braking would have so much.
+Record followed(memory::CaseId id, double harm, double of_braking) {
+  Record record;
+  decide::Preview preview{.number = 3};
+  preview.nearest.emplace();
+  preview.nearest->found.id = id;
+  record.previews.push_back(preview);
+  record.decision = decide::Decision{
+      .plan = {PolicyId::aes_left}, .source = decide::Source::memory, .preview = 3};
+  record.result.harm = harm;
+  record.hindsight.emplace();
+  for (Hindsight& one : *record.hindsight) {
+    one.facts.end = preview::RolledOutcome{{.harm = of_braking}};
+  }
+  return record;
+}
+
+TEST(ARefutedCase, IsTheOneThatDidMateriallyMoreHarmThanBraking) {
+  EXPECT_EQ(refuted_case(followed(7, 0.30, 0.10)), 7);
+  EXPECT_FALSE(refuted_case(followed(7, 0.105, 0.10)).has_value());
+  EXPECT_FALSE(refuted_case(followed(7, 0.10, 0.30)).has_value());
+  Record by_verdict = followed(7, 0.3, 0.1);
+  by_verdict.decision->source = decide::Source::arbiter;
+  EXPECT_FALSE(refuted_case(by_verdict).has_value());
+  Record forgotten = followed(7, 0.3, 0.1);
+  forgotten.previews.clear();
+  EXPECT_FALSE(refuted_case(forgotten).has_value());
+}
+
+// What was believed is asked no more, and what was learnt instead is.
+TEST(Learning, QuarantinesWhatItRefutes) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "saca_refuted.sqlite";
+  std::filesystem::remove(file);
+  memory::Store memory = memory::Store::open(file).value();
+  memory::Case wrong;
+  wrong.scene = memory::empty_road();
+  wrong.happened = memory::PolicyHarms{0.5, 0.0};
+  const memory::CaseId id = memory.add(wrong).value();
+  memory::Case right = wrong;
+  right.happened = memory::PolicyHarms{0.0, 0.5};
+  const memory::Learnt learnt = learn(memory, right, id).value();
+  EXPECT_EQ(learnt.how, memory::Learnt::How::added) << "nobody is left to contradict";
+  EXPECT_EQ(memory.find(id).value().value().trust, memory::Trust::quarantined);
+  const memory::Match match = memory.recall(right.scene).value().value();
+  EXPECT_EQ(match.found.id, learnt.id);
+  EXPECT_EQ(match.policy, PolicyId::aeb);
+  EXPECT_TRUE(learn(memory, right, 99).has_value()) << "whoever deleted it need not be told";
+  std::filesystem::remove(file);
+}
+
 TEST(Lessons, AreKeptWhereAllThatCanBeCheckedIsTrue) {
   const auto file = std::filesystem::path(testing::TempDir()) / "saca_lessons.sqlite";
   std::filesystem::remove(file);

@@ -50,6 +50,7 @@ std::optional<Trust> trust_from(std::string_view name) {
 std::optional<CaseProblem> broken_rule(const Case& one) {
   constexpr const char* amount = "want a finite number >= 0";
   constexpr const char* harms = "want 8 numbers >= 0, or null where a policy cannot be driven";
+  constexpr const char* few = "want at most 100";
   constexpr const char* shares = "want shares from 0 to 1";
   constexpr const char* per_actor = "want one per actor of the scene, or none";
   const std::size_t actors = one.scene.actors.size();
@@ -76,6 +77,8 @@ std::optional<CaseProblem> broken_rule(const Case& one) {
        shares},
       {per_actor_or_none(one.risks.size()), "risks", per_actor},
       {std::all_of(one.risks.begin(), one.risks.end(), is_share), "risks", shares},
+      {one.lessons.size() <= most_texts, "lessons", few},
+      {one.made_with.size() <= most_texts, "made_with", few},
       {are_harms(one.told), "told", harms},
       {are_harms(one.happened), "happened", harms},
   };

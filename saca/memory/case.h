@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -47,6 +48,9 @@ struct MadeWith {
   bool operator==(const MadeWith&) const = default;
 };
 
+/// Of a case: lessons, or inputs.
+constexpr std::size_t most_texts = 100;
+
 /// What memory keeps of an encounter: the scene at the trigger, what was foretold, what was done,
 /// what came of it.
 struct Case {
@@ -80,7 +84,8 @@ struct CaseProblem {
 };
 
 /// @return  the first rule that is broken: harms finite and >= 0, a target speed only where the
-///          policy has one, one intention and risk per actor; nullopt when it can be kept. The
+///          policy has one, one intention and risk per actor, few
+///          texts; nullopt when it can be kept. The
 ///          scene's own rules are those of world::broken_rule.
 [[nodiscard]] std::optional<CaseProblem> broken_rule(const Case& one);
 

@@ -17,7 +17,6 @@ using Reader = config::JsonReader;
 
 constexpr std::string_view case_schema = "saca.case/1";
 constexpr std::string_view file_schema = "saca.cases/1";
-constexpr std::size_t most_texts = 100;  // lessons, or inputs, of one case
 constexpr auto most_counted = static_cast<std::uint64_t>(std::numeric_limits<int>::max());
 
 template <class Value>

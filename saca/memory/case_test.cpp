@@ -50,6 +50,8 @@ TEST(ACase, NamesWhatCannotBeKept) {
               c.intentions[1][3] = 1.5;
             }),
             "intentions");
+  EXPECT_EQ(key_of([&](Case& c) { c.lessons.resize(101); }), "lessons");
+  EXPECT_EQ(key_of([&](Case& c) { c.made_with.resize(101); }), "made_with");
   EXPECT_EQ(key_of([&](Case& c) { c.told = PolicyHarms{0.0, nan}; }), "told");
   EXPECT_EQ(key_of([&](Case& c) { c.happened = PolicyHarms{-1.0}; }), "happened");
   EXPECT_EQ(key_of([&](Case& c) { c.happened = PolicyHarms{std::nullopt, 0.0}; }), "nothing");

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "saca/memory/learning.h"
+
 namespace saca::memory {
 namespace {
 
@@ -67,7 +69,7 @@ Experience::Experience(std::span<const Case> cases) {
   }
 }
 
-void Experience::add(const Case& one) {
+Experience::Lesson Experience::lesson_of(const Case& one) {
   Lesson lesson{.good = as_good_as_best(one),
                 .best = one.best,
                 .errors = {},
@@ -81,11 +83,28 @@ void Experience::add(const Case& one) {
       }
     }
   }
+  return lesson;
+}
+
+void Experience::add(const Case& one) {
   index_.add(one.id, one.scene);
-  lessons_.push_back(lesson);
+  lessons_.push_back(lesson_of(one));
   if (one.trust == Trust::quarantined) {
     pass_over(one.id);
   }
+}
+
+void Experience::relearn(const Case& one) {
+  lessons_[index_.place_of(one.id)] = lesson_of(one);
+  if (one.trust == Trust::quarantined) {
+    pass_over(one.id);
+  }
+}
+
+std::optional<CaseId> Experience::same_encounter_as(const Features& scene) const noexcept {
+  const auto nearest = index_.nearest(scene);
+  return nearest && nearest->difference < same_encounter ? std::optional(nearest->id)
+                                                         : std::nullopt;
 }
 
 std::optional<Recall> Experience::recall(const Features& scene,

@@ -67,6 +67,9 @@ class Experience {
   /// @param one  its id is greater than all before; its scene breaks no rule of
   ///             `world::broken_rule`. Who is quarantined is never asked
   void add(const Case& one);
+  /// From now on it speaks for what this says. Its scene stays as it was.
+  /// @param one  of an id that was added
+  void relearn(const Case& one);
   /// From now on this one is not asked.
   /// @param id  of one that was added
   void pass_over(CaseId id) { index_.pass_over(id); }
@@ -74,6 +77,9 @@ class Experience {
   [[nodiscard]] std::size_t size() const noexcept { return index_.size(); }
   /// 0 when there is none.
   [[nodiscard]] CaseId last_id() const noexcept { return index_.last_id(); }
+
+  /// The nearest case that differs by less than memory::same_encounter; nullopt: none does.
+  [[nodiscard]] std::optional<CaseId> same_encounter_as(const Features& scene) const noexcept;
 
   /// Each policy's share of the weight of the cases that differ least, in which it was as good as
   /// the best; a case weighs exp(-d^2 / 2 r^2) for its difference d, and `doubt` is added to the
@@ -100,6 +106,8 @@ class Experience {
     Errors errors;
     bool trusted = false;
   };
+
+  [[nodiscard]] static Lesson lesson_of(const Case& one);
 
   FeatureIndex index_;
   std::vector<Lesson> lessons_;  ///< in its order

@@ -18,10 +18,14 @@ void FeatureIndex::add(CaseId id, const world::Scene& scene) {
   first_actor_.push_back(actors_.size());
 }
 
-void FeatureIndex::pass_over(CaseId id) {
+std::size_t FeatureIndex::place_of(CaseId id) const {
   const auto found = std::lower_bound(ids_.begin(), ids_.end(), id);
   expects(found != ids_.end() && *found == id, "the id was added");
-  egos_[static_cast<std::size_t>(found - ids_.begin())].usable = false;  // it is like no other
+  return static_cast<std::size_t>(found - ids_.begin());
+}
+
+void FeatureIndex::pass_over(CaseId id) {
+  egos_[place_of(id)].usable = false;  // it is like no other
 }
 
 template <class Limit, class Take>

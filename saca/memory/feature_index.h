@@ -27,6 +27,10 @@ class FeatureIndex {
   /// @param id  of one that was added
   void pass_over(CaseId id);
 
+  /// How many were added before it.
+  /// @param id  of one that was added
+  [[nodiscard]] std::size_t place_of(CaseId id) const;
+
   /// The scene that differs least, the oldest of equals; nullopt when there is none.
   [[nodiscard]] std::optional<Hit> nearest(const Features& wanted) const noexcept;
   /// As many of those that differ least as there is room for, the nearest first; who is like no

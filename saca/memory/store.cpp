@@ -595,6 +595,41 @@ Result<std::vector<CaseId>> Store::add_all(std::span<const Case> cases) {
   return ids;
 }
 
+Result<Learnt> Store::learn(const Case& one) {
+  check(one);
+  if (auto error = state_->catch_up()) {
+    return *std::move(error);
+  }
+  std::optional<Case> same;
+  if (const auto id = state_->experience.same_encounter_as(features(one.scene))) {
+    auto found = find(*id);
+    if (!found.has_value()) {
+      return found.error();
+    }
+    same = std::move(found).value();  // unless somebody has deleted it
+  }
+  if (same && !contradict(*same, one)) {
+    if (auto error = update(merged(*same, one))) {
+      return *std::move(error);
+    }
+    return Learnt{Learnt::How::merged, same->id, same->id};
+  }
+  Case doubtful = one;
+  if (same) {
+    doubtful.trust = std::max(doubtful.trust, Trust::unchecked);
+    same->trust = std::max(same->trust, Trust::unchecked);
+    if (auto error = update(*same)) {
+      return *std::move(error);
+    }
+  }
+  const auto id = add(doubtful);
+  if (!id.has_value()) {
+    return id.error();
+  }
+  return same ? Learnt{Learnt::How::contradicted, id.value(), same->id}
+              : Learnt{Learnt::How::added, id.value(), 0};
+}
+
 std::optional<Error> Store::update(const Case& one) {
   check(one);
   if (state_->may_not_be_upgraded) {
@@ -607,6 +642,9 @@ std::optional<Error> Store::update(const Case& one) {
   if (sqlite3_changes(database) == 0) {
     return Error{Error::Code::out_of_range,
                  state_->name + ": there is no case " + std::to_string(one.id)};
+  }
+  if (one.id <= state_->experience.last_id()) {
+    state_->experience.relearn(one);
   }
   return std::nullopt;
 }

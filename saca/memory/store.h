@@ -9,6 +9,7 @@
 
 #include "saca/core/result.h"
 #include "saca/memory/case.h"
+#include "saca/memory/learning.h"
 #include "saca/world/scene.h"
 
 namespace saca::memory {
@@ -69,6 +70,11 @@ class Store {
   /// @return     the id given to it; unwritable when the disk is full or the file read-only
   /// @throws ContractViolation  if the case or its scene breaks a rule
   [[nodiscard]] Result<CaseId> add(const Case& one);
+
+  /// Adds what was met, as `add`, or merges it into the stored case that is the same encounter
+  /// (`merged`), one that may not be used left out. Of another that contradicts it, it keeps both
+  /// and marks them unchecked.
+  [[nodiscard]] Result<Learnt> learn(const Case& one);
 
   /// Puts all of them on the disk, or none: as `add`, in one step, under ids of their own where the
   /// bank is empty and the ids are told apart, else under new ones.

@@ -272,6 +272,51 @@ TEST_F(Memory, WritesACaseAgain) {
   EXPECT_THAT(problem->message, HasSubstr("bank.db: there is no case 99"));
 }
 
+/// In this scene one policy harms nobody, and all others do.
+Case best_is(manoeuvre::PolicyId policy, double speed) {
+  Case one;
+  one.scene = empty_road();
+  one.scene.ego.v_B.x = speed;
+  one.best = policy;
+  one.happened.emplace();
+  for (std::optional<double>& harm : *one.happened) {
+    harm = 0.25;
+  }
+  one.happened->at(manoeuvre::index(policy)) = 0.0;
+  return one;
+}
+
+TEST_F(Memory, MergesWhatItMeetsAgain) {
+  Store store = opened();
+  const Learnt first = store.learn(best_is(manoeuvre::PolicyId::aeb, 14.0)).value();
+  EXPECT_EQ(first.how, Learnt::How::added);
+  EXPECT_EQ(store.learn(best_is(manoeuvre::PolicyId::aeb, 16.0)).value().how, Learnt::How::added);
+  Case again = best_is(manoeuvre::PolicyId::aeb, 14.1);
+  again.harm = 0.5;
+  const Learnt second = store.learn(again).value();
+  EXPECT_EQ(second.how, Learnt::How::merged);
+  EXPECT_EQ(second.id, first.id);
+  const Case kept = opened().find(first.id).value().value();
+  EXPECT_EQ(kept.count, 2);
+  EXPECT_EQ(kept.harm, 0.25);
+  EXPECT_EQ(kept.worst_harm, 0.5);
+  EXPECT_EQ(opened().size(), 2U);
+}
+
+TEST_F(Memory, KeepsWhatContradictsAndTrustsNeither) {
+  Store store = opened();
+  const CaseId old = store.learn(best_is(manoeuvre::PolicyId::aeb, 14.0)).value().id;
+  const Learnt other = store.learn(best_is(manoeuvre::PolicyId::aes_left, 14.1)).value();
+  EXPECT_EQ(other.how, Learnt::How::contradicted);
+  EXPECT_EQ(other.other, old);
+  for (const CaseId id : {old, other.id}) {
+    EXPECT_EQ(opened().find(id).value().value().trust, Trust::unchecked);
+  }
+  const Match match = store.recall(best_is(manoeuvre::PolicyId::aeb, 14.0).scene).value().value();
+  EXPECT_EQ(gate(match), Gate::reason) << "they disagree: " << match.confidence;
+  EXPECT_EQ(match.trusted_confidence, 0.0) << "also where the bank has been open all the time";
+}
+
 TEST_F(Memory, PassesOverWhoIsQuarantined) {
   Store asked = opened();
   Store other = opened();

@@ -1,0 +1,71 @@
+#include "saca/memory/learning.h"
+
+#include <algorithm>
+
+#include "saca/memory/experience.h"
+
+namespace saca::memory {
+namespace {
+
+/// Of two means of so many each.
+double mean_of(double older, int of_older, double newer, int of_newer) {
+  return (older * of_older + newer * of_newer) / (of_older + of_newer);
+}
+
+std::optional<PolicyHarms> mean_of(const std::optional<PolicyHarms>& older, int of_older,
+                                   const std::optional<PolicyHarms>& newer, int of_newer) {
+  if (!older || !newer) {
+    return older ? older : newer;
+  }
+  PolicyHarms mean;
+  for (std::size_t p = 0; p < mean.size(); ++p) {
+    const auto& a = (*older)[p];
+    const auto& b = (*newer)[p];
+    mean[p] = a && b ? std::optional(mean_of(*a, of_older, *b, of_newer)) : a ? a : b;
+  }
+  return mean;
+}
+
+}  // namespace
+
+bool contradict(const Case& a, const Case& b) noexcept {
+  const Policies of_a = as_good_as_best(a);
+  const Policies of_b = as_good_as_best(b);
+  return of_a.any() && of_b.any() && (of_a & of_b).none();
+}
+
+Case merged(const Case& older, const Case& newer) {
+  Case one = older;
+  const auto mean = [&](double Case::*harm) {
+    return mean_of(older.*harm, older.count, newer.*harm, newer.count);
+  };
+  one.harm = mean(&Case::harm);
+  one.best_harm = mean(&Case::best_harm);
+  one.collision_loss = mean(&Case::collision_loss);
+  one.worst_harm =
+      std::max(older.worst_harm.value_or(older.harm), newer.worst_harm.value_or(newer.harm));
+  one.told = mean_of(older.told, older.count, newer.told, newer.count);
+  one.happened = mean_of(older.happened, older.count, newer.happened, newer.count);
+  one.count = older.count + newer.count;
+  one.lessons.insert(one.lessons.end(), newer.lessons.begin(), newer.lessons.end());
+  if (one.lessons.size() > most_texts) {  // the newest are kept
+    one.lessons.erase(one.lessons.begin(), one.lessons.end() - most_texts);
+  }
+  if (one.happened) {
+    const Policies good = as_good_as_best(*one.happened);
+    const auto does = [&](manoeuvre::PolicyId policy) {
+      return good.test(manoeuvre::index(policy));
+    };
+    // Of those as good as each other the one that either encounter had as its best.
+    if (!does(one.best)) {
+      const auto* const first =
+          std::find_if(manoeuvre::all_policies.begin(), manoeuvre::all_policies.end(), does);
+      one.best = does(newer.best)                         ? newer.best
+                 : first != manoeuvre::all_policies.end() ? *first
+                                                          : one.best;
+    }
+  }
+  return one;
+}
+
+}  // namespace saca::memory

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+
+#include "saca/memory/case.h"
+
+namespace saca::memory {
+
+/// Scenes that differ by less (memory::difference) are the same encounter met again.
+constexpr double same_encounter = 0.25;
+
+/// Do they speak for policies, and for none in common?
+[[nodiscard]] bool contradict(const Case& a, const Case& b) noexcept;
+
+/// Two cases of one encounter as one. Counts add up; harms are means of as many encounters as each
+/// stands for, and the largest is kept beside them; the best in hindsight is that of the least mean
+/// harm, as long as each policy's is known. All else is the older's: its id, its scene, how far it
+/// is trusted; but lessons are those of both.
+[[nodiscard]] Case merged(const Case& older, const Case& newer);
+
+/// What learning a case came to.
+struct Learnt {
+  enum class How : std::uint8_t {
+    added,         ///< nothing stored was the same encounter
+    merged,        ///< into the case `id`, which was
+    contradicted,  ///< added, and the case `other`, which was the same encounter, speaks for
+                   ///< others: neither is used unchecked from now on
+  };
+  How how = How::added;
+  CaseId id = 0;
+  CaseId other = 0;
+};
+
+}  // namespace saca::memory
