@@ -80,9 +80,9 @@ TEST(Transfers, AreOfWhatIsKnownAndMatters) {
 }
 
 std::vector<Transfer> falling() {
-  std::vector<Transfer> all;
+  std::vector<Transfer> all(10);
   for (int i = 0; i < 10; ++i) {  // by share: good, good, good, good, bad, good, bad, bad, bad, bad
-    all.push_back({.share = 1.0 - 0.1 * i, .in_truth = i < 4 || i == 5});
+    all[static_cast<std::size_t>(i)] = {.share = 1.0 - 0.1 * i, .in_truth = i < 4 || i == 5};
   }
   return all;
 }

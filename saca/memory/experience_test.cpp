@@ -213,6 +213,7 @@ TEST(Confidence, RisesFromNothingToOne) {
 TEST(Experience, AllocatesNothingWhenAsked) {
   std::mt19937 rng(2);
   std::vector<Case> cases;
+  cases.reserve(300);
   for (int i = 0; i < 300; ++i) {
     cases.push_back(wrong_by(random_scene(rng, 4), 0.1));
   }

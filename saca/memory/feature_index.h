@@ -36,7 +36,7 @@ class FeatureIndex {
   /// As many of those that differ least as there is room for, the nearest first; who is like no
   /// other is left out.
   /// @return  how many were found
-  std::size_t nearest(const Features& wanted, std::span<Hit> hits) const noexcept;
+  [[nodiscard]] std::size_t nearest(const Features& wanted, std::span<Hit> hits) const noexcept;
 
   [[nodiscard]] std::size_t size() const noexcept { return ids_.size(); }
   /// 0 when there is none.

@@ -339,7 +339,7 @@ TEST_F(Memory, TakesManyCasesOrNone) {
   std::vector<Case> cases;
   for (std::uint32_t i = 1; i <= 5; ++i) {
     cases.push_back(example_case(i));
-    cases.back().id = 10 * i;
+    cases.back().id = CaseId{10} * i;
   }
   Store store = opened();
   EXPECT_THAT(store.add_all(cases).value(), testing::ElementsAre(10, 20, 30, 40, 50));
@@ -745,19 +745,19 @@ class Adder {
   Adder& operator=(const Adder&) = delete;
 
   /// The next id; nullopt when the process has ended.
-  std::optional<CaseId> next() {
+  [[nodiscard]] std::optional<CaseId> next() const {
     CaseId id = 0;
     return ::read(report_, &id, sizeof(id)) == sizeof(id) ? std::optional(id) : std::nullopt;
   }
 
-  void kill_after(std::chrono::microseconds delay) {
+  void kill_after(std::chrono::microseconds delay) const {
     const timespec pause{0, std::chrono::nanoseconds(delay).count()};
     ::nanosleep(&pause, nullptr);
     ::kill(process_, SIGKILL);
   }
 
   /// @return  its exit status; -1 when it was killed
-  int wait() {
+  [[nodiscard]] int wait() const {
     int status = 0;
     ::waitpid(process_, &status, 0);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
