@@ -12,6 +12,7 @@
 #include "apps/saca/commands.h"
 #include "apps/saca/json_output.h"
 #include "apps/saca/memory_commands.h"
+#include "apps/saca/memory_picture.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "saca/core/file.h"
@@ -27,6 +28,7 @@ struct MemoryOptions {
   std::string file = "runs/memory.sqlite";
   std::int64_t id = 0;
   std::string cases;  ///< JSON Lines
+  std::string svg;
   bool keep_trust = false;
   bool as_json = false;
 };
@@ -103,6 +105,15 @@ int show_case(const MemoryOptions& options) {
   if (!found.value()) {
     complain(fmt::format("{}: want an id of `saca memory list`, got {}", options.file, options.id));
     return bad_input;
+  }
+  if (!options.svg.empty()) {
+    const auto all = memory.all();
+    if (!all.has_value()) {
+      return refused(all.error());
+    }
+    if (const auto problem = write_output(options.svg, case_picture(*found.value(), all.value()))) {
+      return refused(*problem);
+    }
   }
   app::print("{}\n", memory::to_json(*found.value()).dump(1));  // it comes back to the last bit
   return success;
@@ -219,6 +230,7 @@ void add_memory(CLI::App& line, int& exit_code) {
   list->callback([options, &exit_code] { exit_code = list_cases(*options); });
   CLI::App* const show = command->add_subcommand("show", "One case, with its scene, as JSON");
   show->add_option("id", options->id)->required();
+  show->add_option("--svg", options->svg, "It and those most like it as a picture, besides");
   add_bank(*show);
   show->callback([options, &exit_code] { exit_code = show_case(*options); });
   CLI::App* const taken = command->add_subcommand("import", "Takes over cases from JSON Lines");

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "saca/core/angle.h"
+#include "saca/core/contract.h"
 
 namespace saca::memory {
 namespace {
@@ -164,6 +165,13 @@ ActorFeatures actor_features(const world::Actor& actor, const world::Road& road,
           .kind = actor.kind};
 }
 
+/// One part of what the ego and its road differ in.
+struct EgoPart {
+  const char* what;
+  double squared;
+};
+constexpr std::size_t num_ego_parts = 12;
+
 double edge_difference2(double room_a, double room_b, Beyond a, Beyond b) {
   // What lies beyond matters fully within a lane's width and not at all where room is ample.
   const double nearness =
@@ -172,22 +180,34 @@ double edge_difference2(double room_a, double room_b, Beyond a, Beyond b) {
   return square((room_a - room_b) / room_scale) + square(ground);
 }
 
-double ego_difference2(const EgoFeatures& a, const EgoFeatures& b) {
+std::array<EgoPart, num_ego_parts> ego_parts(const EgoFeatures& a, const EgoFeatures& b) {
   const Vec2 v = a.v_L - b.v_L;
-  double sum = square(v.x / speed_scale) + square(v.y / sideways_scale);
-  sum += square((a.offset - b.offset) / offset_scale);
-  sum += square(wrap_angle(a.heading - b.heading) / heading_scale);
-  sum += square((a.yaw_rate - b.yaw_rate) / yaw_rate_scale);
-  sum += square((a.length - b.length) / ego_size_scale);
-  sum += square((a.width - b.width) / ego_size_scale);
-  sum += square((a.log_grip - b.log_grip) / log_grip_scale);
-  sum += square((a.lane_width - b.lane_width) / lane_scale);
-  sum += square((a.curve - b.curve) / curve_scale);
-  sum += edge_difference2(a.room_left, b.room_left, a.left_beyond, b.left_beyond);
-  sum += edge_difference2(a.room_right, b.room_right, a.right_beyond, b.right_beyond);
-  sum += a.oncoming_left != b.oncoming_left ? square(other_marking) : 0.0;
-  sum += a.oncoming_right != b.oncoming_right ? square(other_marking) : 0.0;
-  sum += a.topology != b.topology ? square(other_topology) : 0.0;
+  const auto marking = [](bool one, bool other) {
+    return one != other ? square(other_marking) : 0.0;
+  };
+  return {{{"speed", square(v.x / speed_scale) + square(v.y / sideways_scale)},
+           {"place in the lane", square((a.offset - b.offset) / offset_scale)},
+           {"heading", square(wrap_angle(a.heading - b.heading) / heading_scale)},
+           {"yaw rate", square((a.yaw_rate - b.yaw_rate) / yaw_rate_scale)},
+           {"body", square((a.length - b.length) / ego_size_scale) +
+                        square((a.width - b.width) / ego_size_scale)},
+           {"grip", square((a.log_grip - b.log_grip) / log_grip_scale)},
+           {"width of the lane", square((a.lane_width - b.lane_width) / lane_scale)},
+           {"curve", square((a.curve - b.curve) / curve_scale)},
+           {"room to the left",
+            edge_difference2(a.room_left, b.room_left, a.left_beyond, b.left_beyond)},
+           {"room to the right",
+            edge_difference2(a.room_right, b.room_right, a.right_beyond, b.right_beyond)},
+           {"oncoming lane", marking(a.oncoming_left, b.oncoming_left) +
+                                 marking(a.oncoming_right, b.oncoming_right)},
+           {"kind of road", a.topology != b.topology ? square(other_topology) : 0.0}}};
+}
+
+double ego_difference2(const EgoFeatures& a, const EgoFeatures& b) {
+  double sum = 0.0;
+  for (const EgoPart& part : ego_parts(a, b)) {
+    sum += part.squared;
+  }
   return sum;
 }
 
@@ -233,33 +253,40 @@ class Assignment {
     }
   }
 
+  /// Calls take(row, column, squared difference) for each pair, and for who is unmatched with
+  /// `none` in the other's place.
+  template <class Take>
+  void each(const Take& take) const {
+    std::array<bool, world::max_actors> is_matched{};
+    for (std::size_t j = 0; j < columns_.size(); ++j) {
+      const std::size_t row = row_of_[j];
+      if (row != none && saving2(row, j) > 0.0) {
+        take(row, j, pair2_[row][j]);
+        is_matched[row] = true;
+      } else {
+        take(none, j, absence2(columns_[j]));
+      }
+    }
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      if (!is_matched[i]) {
+        take(i, none, absence2(rows_[i]));
+      }
+    }
+  }
+
   /// Sum of squares over the pairs and the unmatched: from the smallest on, so that it does not
   /// depend on their order, nor on which scene comes first.
   [[nodiscard]] double sum2() const {
     std::array<double, 2 * world::max_actors> parts;
     std::size_t size = 0;
-    std::array<bool, world::max_actors> is_matched{};
-    for (std::size_t j = 0; j < columns_.size(); ++j) {
-      const std::size_t row = row_of_[j];
-      if (row != none && saving2(row, j) > 0.0) {
-        parts[size++] = pair2_[row][j];
-        is_matched[row] = true;
-      } else {
-        parts[size++] = absence2(columns_[j]);
-      }
-    }
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      if (!is_matched[i]) {
-        parts[size++] = absence2(rows_[i]);
-      }
-    }
+    each([&](std::size_t, std::size_t, double squared) { parts[size++] = squared; });
     std::sort(parts.data(), parts.data() + size);
     return std::accumulate(parts.data(), parts.data() + size, 0.0);
   }
 
- private:
   static constexpr std::size_t none = world::max_actors;
 
+ private:
   [[nodiscard]] double saving2(std::size_t i, std::size_t j) const {
     return absence2(rows_[i]) + absence2(columns_[j]) - pair2_[i][j];
   }
@@ -359,6 +386,35 @@ double difference(const EgoFeatures& ego_a, std::span<const ActorFeatures> actor
   const bool fewer = actors_a.size() <= actors_b.size();
   return std::sqrt(ego2 +
                    Assignment(fewer ? actors_a : actors_b, fewer ? actors_b : actors_a).sum2());
+}
+
+std::vector<DifferencePart> difference_parts(const world::Scene& a, const world::Scene& b) {
+  const Features of_a = features(a);
+  const Features of_b = features(b);
+  expects(of_a.ego.usable && of_b.ego.usable, "neither scene breaks a rule");
+  std::vector<DifferencePart> parts;
+  for (const EgoPart& part : ego_parts(of_a.ego, of_b.ego)) {
+    parts.push_back({part.what, std::sqrt(part.squared)});
+  }
+  const bool fewer = of_a.actors.size() <= of_b.actors.size();
+  const world::Scene& rows = fewer ? a : b;
+  const world::Scene& columns = fewer ? b : a;
+  const auto span_of = [](const Features& one) {
+    return std::span(one.actors.begin(), one.actors.size());
+  };
+  const Assignment assignment(span_of(fewer ? of_a : of_b), span_of(fewer ? of_b : of_a));
+  assignment.each([&](std::size_t row, std::size_t column, double squared) {
+    constexpr std::size_t none = Assignment::none;
+    const std::string of_row = row == none ? "nobody" : actor_name(rows.actors[row]);
+    const std::string of_column = column == none ? "nobody" : actor_name(columns.actors[column]);
+    parts.push_back({(fewer ? of_row : of_column) + " for " + (fewer ? of_column : of_row),
+                     std::sqrt(squared)});
+  });
+  std::erase_if(parts, [](const DifferencePart& one) { return one.size == 0.0; });
+  std::stable_sort(
+      parts.begin(), parts.end(),
+      [](const DifferencePart& one, const DifferencePart& other) { return one.size > other.size; });
+  return parts;
 }
 
 double similarity_at(double difference) noexcept {

@@ -2,6 +2,8 @@
 
 #include <limits>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "saca/core/static_vector.h"
 #include "saca/core/vec2.h"
@@ -68,6 +70,17 @@ struct Features {
 [[nodiscard]] double difference(const EgoFeatures& ego_a, std::span<const ActorFeatures> actors_a,
                                 const EgoFeatures& ego_b, std::span<const ActorFeatures> actors_b,
                                 double limit = std::numeric_limits<double>::infinity()) noexcept;
+
+/// A part of a difference.
+struct DifferencePart {
+  std::string what;   ///< "speed", "grip", "car1 for van2", "nobody for pedestrian1"
+  double size = 0.0;  ///< > 0; the root of the sum of their squares is the difference
+};
+
+/// What two scenes differ in, the largest first: for people.
+/// @throws ContractViolation  if one of them breaks a rule of `world::broken_rule`
+[[nodiscard]] std::vector<DifferencePart> difference_parts(const world::Scene& a,
+                                                           const world::Scene& b);
 
 /// 0.9 to the power of the difference: 1 at 0, 0.9 at 1, 0.7 at 3.4.
 [[nodiscard]] double similarity_at(double difference) noexcept;

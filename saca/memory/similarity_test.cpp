@@ -326,6 +326,42 @@ TEST(Difference, TakesTheBestOfAllAssignments) {
   EXPECT_GT(num_searched, 300);
 }
 
+TEST(Difference, IsMadeOfItsParts) {
+  std::mt19937 rng(8);
+  for (int i = 0; i < 100; ++i) {
+    const Scene a = random_scene(rng, i % 5);
+    const Scene b = random_scene(rng, i / 5 % 6);
+    double sum = 0.0;
+    double before = std::numeric_limits<double>::infinity();
+    for (const DifferencePart& part : difference_parts(a, b)) {
+      EXPECT_LE(part.size, before);
+      before = part.size;
+      sum += part.size * part.size;
+    }
+    EXPECT_NEAR(std::pow(0.9, std::sqrt(sum)), similarity(a, b), 1e-12);
+  }
+}
+
+TEST(Difference, NamesItsParts) {
+  Scene scene = empty_road();
+  scene.actors.push_back(pedestrian(1, {15.0, 0.0}));
+  Scene other = scene;
+  other.grip *= std::exp(-0.15);
+  other.actors[0].id = 7;
+  other.actors[0].X_WA.p.y = 0.7;
+  other.actors.push_back(pedestrian(2, {15.0, -3.0}));
+  const auto parts = difference_parts(scene, other);
+  ASSERT_EQ(parts.size(), 3U);
+  EXPECT_EQ(parts[0].what, "nobody for pedestrian2");
+  EXPECT_NEAR(parts[0].size, 3.0, 1e-12);
+  EXPECT_EQ(parts[1].what, "pedestrian1 for pedestrian7");
+  EXPECT_NEAR(parts[1].size, std::hypot(1.0, 0.7 / 4.0), 1e-12);
+  EXPECT_EQ(parts[2].what, "grip");
+  EXPECT_NEAR(parts[2].size, 1.0, 1e-12);
+  EXPECT_EQ(difference_parts(other, scene)[0].what, "pedestrian2 for nobody");
+  EXPECT_TRUE(difference_parts(scene, scene).empty());
+}
+
 TEST(Difference, StopsAtTheLimit) {
   const Features a = features(empty_road());
   Scene faster = empty_road();

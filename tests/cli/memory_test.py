@@ -3,6 +3,7 @@ import json
 import pathlib
 import sqlite3
 import sys
+import xml.etree.ElementTree as ElementTree
 
 import pytest
 
@@ -60,6 +61,17 @@ def test_cases_go_in_and_come_out_without_loss(cases, tmp_path):
     assert (tmp_path / "out.jsonl").read_bytes() == cases.read_bytes()
     shown = saca("memory", "--memory", "bank.db", "show", "1", cwd=tmp_path)
     assert json.loads(shown.stdout) == documents(cases)[1]
+
+
+def test_a_case_is_drawn_with_those_most_like_it(cases, tmp_path):
+    saca("memory", "import", str(cases), "--memory", "bank.db", cwd=tmp_path)
+    run = saca("memory", "show", "2", "--svg", "out/case.svg", "--memory", "bank.db", cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    picture = ElementTree.parse(tmp_path / "out/case.svg").getroot()
+    texts = ["".join(text.itertext()) for text in picture.iter("{http://www.w3.org/2000/svg}text")]
+    assert sum(text.startswith("differs: ") or text == "the same scene" for text in texts) == 5
+    assert any(text.startswith("told: ") for text in texts) and any(text.startswith("in truth: ") for text in texts)
+    assert "bank.db" in one_error(saca("memory", "show", "2", "--svg", "bank.db/case.svg", "--memory", "bank.db", cwd=tmp_path), CANNOT_WRITE)
 
 
 def test_what_comes_from_elsewhere_is_not_trusted(cases, tmp_path):

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "saca/memory/case.h"
+
+namespace saca::app {
+
+/// A case and those most like it, as one SVG: the scenes, what every policy was expected to harm
+/// and did, and in what they differ.
+/// @param all  of the bank; `one` may be among them
+[[nodiscard]] std::string case_picture(const memory::Case& one, std::span<const memory::Case> all);
+
+}  // namespace saca::app
