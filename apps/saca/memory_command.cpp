@@ -249,6 +249,7 @@ void add_memory(CLI::App& line, int& exit_code) {
   verify->add_flag("--json", options->as_json, "For programs");
   add_bank(*verify);
   verify->callback([options, &exit_code] { exit_code = verify_bank(*options); });
+  add_memory_add(*command, exit_code);
   add_memory_build(*command, exit_code);
   add_memory_calibrate(*command, exit_code);
 }

@@ -4,6 +4,9 @@
 
 namespace saca::app {
 
+/// `saca memory add`.
+void add_memory_add(CLI::App& memory, int& exit_code);
+
 /// `saca memory build`.
 void add_memory_build(CLI::App& memory, int& exit_code);
 

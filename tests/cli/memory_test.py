@@ -74,6 +74,26 @@ def test_a_case_is_drawn_with_those_most_like_it(cases, tmp_path):
     assert "bank.db" in one_error(saca("memory", "show", "2", "--svg", "bank.db/case.svg", "--memory", "bank.db", cwd=tmp_path), CANNOT_WRITE)
 
 
+def test_an_expert_adds_what_is_then_found_and_looked_at(tmp_path):
+    added = saca("memory", "add", "intersection_t1", "--policy", "ES-B-R", "--why", "the truck is slow", "--memory", "bank.db", cwd=tmp_path)
+    assert added.returncode == SUCCESS and "case 1; it is used where a rollout confirms it" in added.stdout, added.stderr
+    case = json.loads(saca("memory", "show", "1", "--memory", "bank.db", cwd=tmp_path).stdout)
+    assert case["best_policy"] == 4 and case["review"] == "the truck is slow" and case["source"] == "intersection_t1"
+    assert case["details"] == {"origin": "expert", "trust": "unchecked"}
+    again = saca("memory", "add", "intersection_t1", "--policy", "4", "--memory", "bank.db", cwd=tmp_path)
+    assert "case 1 stands for it already" in again.stdout
+    other = saca("memory", "add", "intersection_t1", "--policy", "0", "--memory", "bank.db", cwd=tmp_path)
+    assert "case 2, which contradicts case 1" in other.stdout
+
+
+def test_what_cannot_be_added_is_told(tmp_path):
+    assert "intersection" in one_error(saca("memory", "add", "intersectoin_t1", "--policy", "4", cwd=tmp_path), BAD_INPUT)
+    assert saca("memory", "add", "intersection_t1", "--policy", "9", cwd=tmp_path).returncode == WRONG_COMMAND_LINE
+    assert saca("memory", "add", "intersection_t1", cwd=tmp_path).returncode == WRONG_COMMAND_LINE
+    assert "--at-s" in one_error(saca("memory", "add", "intersection_t1", "--policy", "4", "--at-s", "100", cwd=tmp_path), BAD_INPUT)
+    assert not (tmp_path / "runs").exists()
+
+
 def test_what_comes_from_elsewhere_is_not_trusted(cases, tmp_path):
     run = saca("memory", "--memory", "bank.db", "import", str(cases), cwd=tmp_path)
     assert run.returncode == SUCCESS and "only where a rollout confirms it" in run.stdout

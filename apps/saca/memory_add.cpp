@@ -1,0 +1,86 @@
+#include <fmt/core.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "apps/saca/inputs.h"
+#include "apps/saca/memory_commands.h"
+#include "apps/saca/moment_option.h"
+#include "apps/saca/places.h"
+#include "apps/saca/printing.h"
+#include "apps/saca/within.h"
+#include "saca/eval/moment.h"
+#include "saca/memory/store.h"
+
+namespace saca::app {
+namespace {
+
+struct AddOptions {
+  std::string scenario;
+  std::string file = "runs/memory.sqlite";
+  std::string why;
+  std::optional<manoeuvre::PolicyId> policy;
+  std::optional<double> at;
+};
+
+int add_case(const AddOptions& options) {
+  const auto inputs = read_scenario_inputs(options.scenario);
+  if (!inputs.has_value()) {
+    return refused(inputs.error());
+  }
+  const auto time = decision_time(inputs.value(), options.at);
+  if (!time.has_value()) {
+    return refused(time.error());
+  }
+  if (!time.value()) {
+    return nothing_to_decide;
+  }
+  const sim::Scenario& scenario = inputs.value().scenario;
+  memory::Case one{.scene = eval::scene_at(scenario, inputs.value().car, *time.value()),
+                   .best = *options.policy,
+                   .review = options.why,
+                   .source = scenario.name,
+                   .origin = memory::Origin::expert,
+                   .trust = memory::Trust::unchecked};
+  one.plan = manoeuvre::default_plan(*options.policy, one.scene.ego.v_B.x);
+  if (const auto problem = make_folder_of(options.file)) {
+    return refused(*problem);
+  }
+  auto store = memory::Store::open(options.file);
+  if (!store.has_value()) {
+    return refused(store.error());
+  }
+  memory::Store memory = std::move(store).value();
+  const auto learnt = memory.learn(one);
+  if (!learnt.has_value()) {
+    return refused(learnt.error());
+  }
+  using How = memory::Learnt::How;
+  const memory::Learnt& how = learnt.value();
+  app::print("{}: case {}{}; it is used where a rollout confirms it\n", options.file, how.id,
+             how.how == How::merged         ? " stands for it already"
+             : how.how == How::contradicted ? fmt::format(", which contradicts case {}", how.other)
+                                            : "");
+  return success;
+}
+
+}  // namespace
+
+void add_memory_add(CLI::App& memory, int& exit_code) {
+  CLI::App* const command =
+      memory.add_subcommand("add", "Adds what somebody knows: this scenario wants that policy");
+  const auto options = std::make_shared<AddOptions>();
+  command
+      ->add_option("scenario", options->scenario, "A scenario file, or the name of a shipped one")
+      ->required();
+  add_policy(*command, options->policy, "What is best there: a number, 0 to 7, or a name")
+      ->required();
+  command->add_option("--why", options->why, "The reason, in a line");
+  add_at(*command, options->at);
+  command->add_option("--memory", options->file, "The memory bank")->capture_default_str();
+  command->callback([options, &exit_code] { exit_code = add_case(*options); });
+}
+
+}  // namespace saca::app
