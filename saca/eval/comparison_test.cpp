@@ -67,12 +67,14 @@ class ComparisonTest : public testing::Test {
                               .hindsight = &hindsight,
                               .intent = &intent::shipped_model(),
                               .danger = &danger_,
+                              .experience = &experience_,
                               .seed = 1});
   }
 
   SteadyClock clock_;
   manoeuvre::Car car_ = manoeuvre::default_car();
   outcome::HarmModel harm_ = shipped_harm();
+  memory::Experience experience_;
   danger::Network danger_ =
       danger::Network::from(danger::networks_that_hand_on(), "weights").value();
   sim::Scenario scenario_;

@@ -69,6 +69,10 @@ TEST_F(MethodsTest, WhoChoosesByDangerNeedsIt) {
   MethodTools with = tools(hindsight);
   with.danger = &network;
   EXPECT_NE(make_method("least_danger", with), nullptr);
+  EXPECT_THROW((void)make_method("beliefs_and_experience", with), ContractViolation);
+  const memory::Experience experience;
+  with.experience = &experience;
+  EXPECT_NE(make_method("beliefs_and_experience", with), nullptr);
 }
 
 TEST_F(MethodsTest, WhereOnlyALaneChangeHelpsThoseThatForecastFindIt) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 
 #include "saca/core/contract.h"
@@ -66,11 +67,58 @@ TEST(FeatureIndex, FindsAsManyOfTheNearestAsThereIsRoomFor) {
   EXPECT_EQ(index.nearest(features(wanted), std::span<FeatureIndex::Hit>()), 0U);
 }
 
+// Cells and their bounds: scenes at all speeds, grips and kinds of road, asked at their edges too.
+TEST(FeatureIndex, MissesNothingAtTheEdgesOfItsCells) {
+  std::mt19937 rng(3);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  const auto somewhere = [&] {
+    world::Scene scene = random_scene(rng, static_cast<int>(rng() % 3));
+    scene.ego.v_B.x =
+        -20.0 + 0.7 * static_cast<double>(rng() % 140) + (rng() % 2 == 0 ? 0.0 : share(rng));
+    scene.grip = std::exp(-3.2 + 0.15 * static_cast<double>(rng() % 22) + 0.1 * share(rng));
+    scene.grip = std::clamp(scene.grip, 0.04, 1.2);
+    scene.road.topology = static_cast<world::Topology>(rng() % 3);
+    scene.road.oncoming_left = rng() % 2 == 0;
+    scene.road.oncoming_right = rng() % 4 == 0;
+    return scene;
+  };
+  FeatureIndex index;
+  std::vector<Features> all;
+  for (CaseId id = 1; id <= 1500; ++id) {
+    const world::Scene scene = somewhere();
+    index.add(id, scene);
+    all.push_back(features(scene));
+  }
+  const auto span_of = [](const Features& one) {
+    return std::span(one.actors.begin(), one.actors.size());
+  };
+  for (int i = 0; i < 200; ++i) {
+    const Features wanted = features(somewhere());
+    std::vector<std::pair<double, CaseId>> sorted;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      sorted.emplace_back(difference(wanted.ego, span_of(wanted), all[k].ego, span_of(all[k])),
+                          static_cast<CaseId>(k + 1));
+    }
+    std::sort(sorted.begin(), sorted.end());
+    std::array<FeatureIndex::Hit, 5> hits;
+    ASSERT_EQ(index.nearest(wanted, hits), 5U);
+    for (std::size_t k = 0; k < hits.size(); ++k) {
+      EXPECT_EQ(hits[k].id, sorted[k].second) << i << ", " << k;
+      EXPECT_DOUBLE_EQ(hits[k].difference, sorted[k].first);
+    }
+  }
+}
+
 TEST(FeatureIndex, PrefersTheOldestOfEquals) {
   FeatureIndex index;
   index.add(3, crossing_truck());
   index.add(4, crossing_truck());
+  index.add(5, crossing_truck());
   EXPECT_EQ(index.nearest(features(crossing_truck())).value().id, 3);
+  std::array<FeatureIndex::Hit, 2> two;
+  ASSERT_EQ(index.nearest(features(crossing_truck()), two), 2U);
+  EXPECT_EQ(two[0].id, 3);
+  EXPECT_EQ(two[1].id, 4);
 }
 
 TEST(FeatureIndex, RefusesWhatIsOutOfOrderOrNoScene) {

@@ -18,19 +18,17 @@ using world::Beyond;
 
 // Scales: what, alone, makes a difference of 1. Fitted, but for those marked assumed: in the
 // encounters that they were fitted to, these hardly differ (docs/decisions/0029-experience.md).
-constexpr double speed_scale = 0.7;      // of the ego, along [m/s]
-constexpr double sideways_scale = 1.0;   // of the ego, across [m/s], assumed
-constexpr double offset_scale = 1.0;     // of the ego in its lane [m], assumed
-constexpr double heading_scale = 0.2;    // [rad], assumed
-constexpr double yaw_rate_scale = 0.3;   // [rad/s], assumed
-constexpr double ego_size_scale = 2.0;   // [m], assumed
-constexpr double log_grip_scale = 0.15;  // of stopping distance
-constexpr double lane_scale = 1.0;       // its width [m], assumed
-constexpr double curve_scale = 2.0;      // [m/s^2], assumed
-constexpr double room_scale = 3.0;       // [m]
-constexpr double ample_room = 7.0;       // [m]
-constexpr double other_ground = 2.0;     // soft instead of hard beyond an edge that is at hand
-constexpr double other_marking = 1.25;   // oncoming traffic or not
+constexpr double sideways_scale = 1.0;  // of the ego, across [m/s], assumed
+constexpr double offset_scale = 1.0;    // of the ego in its lane [m], assumed
+constexpr double heading_scale = 0.2;   // [rad], assumed
+constexpr double yaw_rate_scale = 0.3;  // [rad/s], assumed
+constexpr double ego_size_scale = 2.0;  // [m], assumed
+constexpr double lane_scale = 1.0;      // its width [m], assumed
+constexpr double curve_scale = 2.0;     // [m/s^2], assumed
+constexpr double room_scale = 3.0;      // [m]
+constexpr double ample_room = 7.0;      // [m]
+constexpr double other_ground = 2.0;    // soft instead of hard beyond an edge that is at hand
+constexpr double other_marking = 1.25;  // oncoming traffic or not
 constexpr double other_topology = 4.0;
 // Of an actor. Where it will be across the lane in 1 s counts most: it hits or misses.
 constexpr double along_now_scale = 6.0;      // [m]
@@ -165,6 +163,15 @@ ActorFeatures actor_features(const world::Actor& actor, const world::Road& road,
           .kind = actor.kind};
 }
 
+double marking_difference2(const EgoFeatures& a, const EgoFeatures& b) {
+  return (a.oncoming_left != b.oncoming_left ? square(other_marking) : 0.0) +
+         (a.oncoming_right != b.oncoming_right ? square(other_marking) : 0.0);
+}
+
+double topology_difference2(const EgoFeatures& a, const EgoFeatures& b) {
+  return a.topology != b.topology ? square(other_topology) : 0.0;
+}
+
 /// One part of what the ego and its road differ in.
 struct EgoPart {
   const char* what;
@@ -182,9 +189,6 @@ double edge_difference2(double room_a, double room_b, Beyond a, Beyond b) {
 
 std::array<EgoPart, num_ego_parts> ego_parts(const EgoFeatures& a, const EgoFeatures& b) {
   const Vec2 v = a.v_L - b.v_L;
-  const auto marking = [](bool one, bool other) {
-    return one != other ? square(other_marking) : 0.0;
-  };
   return {{{"speed", square(v.x / speed_scale) + square(v.y / sideways_scale)},
            {"place in the lane", square((a.offset - b.offset) / offset_scale)},
            {"heading", square(wrap_angle(a.heading - b.heading) / heading_scale)},
@@ -198,9 +202,8 @@ std::array<EgoPart, num_ego_parts> ego_parts(const EgoFeatures& a, const EgoFeat
             edge_difference2(a.room_left, b.room_left, a.left_beyond, b.left_beyond)},
            {"room to the right",
             edge_difference2(a.room_right, b.room_right, a.right_beyond, b.right_beyond)},
-           {"oncoming lane", marking(a.oncoming_left, b.oncoming_left) +
-                                 marking(a.oncoming_right, b.oncoming_right)},
-           {"kind of road", a.topology != b.topology ? square(other_topology) : 0.0}}};
+           {"markings", marking_difference2(a, b)},
+           {"kind of road", topology_difference2(a, b)}}};
 }
 
 double ego_difference2(const EgoFeatures& a, const EgoFeatures& b) {
@@ -371,6 +374,10 @@ Features features(const world::Scene& scene) noexcept {
     result.actors.push_back(one);
   }
   return result;
+}
+
+double road_difference2(const EgoFeatures& a, const EgoFeatures& b) noexcept {
+  return marking_difference2(a, b) + topology_difference2(a, b);
 }
 
 double difference(const EgoFeatures& ego_a, std::span<const ActorFeatures> actors_a,

@@ -35,6 +35,11 @@ struct EgoFeatures {
   bool oncoming_right = false;
 };
 
+/// What, alone, makes a difference of 1: of the ego's speed along the lane [m/s], and of the
+/// logarithm of the grip. All others stand in similarity.cpp.
+constexpr double speed_scale = 0.7;
+constexpr double log_grip_scale = 0.15;
+
 /// One actor.
 struct ActorFeatures {
   Vec2 p_rel_L;           ///< (s, d) along the lane, minus the ego's [m]
@@ -54,6 +59,9 @@ struct Features {
 
 /// Allocates nothing.
 [[nodiscard]] Features features(const world::Scene& scene) noexcept;
+
+/// The part of the square of a difference that is due to another kind of road or other markings.
+[[nodiscard]] double road_difference2(const EgoFeatures& a, const EgoFeatures& b) noexcept;
 
 /// How far apart two scenes are: the root of a sum of squares over the ego, its road and the
 /// actors, under the assignment of one scene's actors to the other's that makes it smallest. Who
