@@ -352,7 +352,7 @@ class TapeReader {
 
 Result<TapeFile> TapeReader::read(std::string_view text) {
   if (text.empty()) {
-    return error("want a tape (saca.tape/4), got an empty file");
+    return error("want a tape (saca.tape/5), got an empty file");
   }
   while (!text.empty()) {
     ++line_;
@@ -380,7 +380,7 @@ Result<TapeFile> TapeReader::read(std::string_view text) {
 std::optional<Error> TapeReader::read_line(std::string_view line) {
   const auto node = config::parse_json(line);
   if (!node.has_value()) {
-    return error("want one JSON object of a tape (saca.tape/4), got " + shown(line));
+    return error("want one JSON object of a tape (saca.tape/5), got " + shown(line));
   }
   std::optional<Error> problem;
   JsonReader from(node.value(), "", problem, "line");
@@ -394,7 +394,7 @@ void TapeReader::read_object(JsonReader& from) {
     const std::string_view wanted = line_ == 1 ? "header" : "before";
     if (type != wanted) {
       from.reject("type",
-                  fmt::format("want \"{}\" of a tape (saca.tape/4), got {}", wanted, shown(type)));
+                  fmt::format("want \"{}\" of a tape (saca.tape/5), got {}", wanted, shown(type)));
     } else if (line_ == 1) {
       tape_.header = read_header(from);
     } else {

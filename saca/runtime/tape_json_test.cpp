@@ -28,7 +28,7 @@ TEST(TapeJson, IsAHeaderWhatWasBeforeTheStepsAndAnEnd) {
   const auto lines = lines_of(tape_text({tape_header(setup, intent::shipped_model()), content}));
   ASSERT_EQ(lines.size(), 60U + 3U);
   EXPECT_EQ(lines[0]["type"], "header");
-  EXPECT_EQ(lines[0]["schema"], "saca.tape/4");
+  EXPECT_EQ(lines[0]["schema"], "saca.tape/5");
   EXPECT_EQ(lines[1]["type"], "before");
   EXPECT_EQ(lines[2]["forgotten"], "drive");
   for (std::size_t k = 0; k < 60; ++k) {
