@@ -253,7 +253,7 @@ def intentions_section(runs):
             "Aims: 0.85 now, 0.75 at 0.5 s, calibration error 0.03, 1.0 s before the line, no illegal steps (what is named is judged for "
             "each frame by itself; the likeliest path of the chain takes none). The rule is that of the labels as the motion comes in.", "",
             "Gradient-boosted trees on the same windows find acts sooner and have a higher macro F1, with more false alarms; the LSTM without its chain "
-            "is as good (decisions/0015; `tools/intention.sh` measures both).", "",
+            "has a little more of both (decisions/0015; `tools/intention.sh` measures both).", "",
             "![Who was what, and what was foretold](intention/confusion.svg)", "",
             table(["now", "acts found", "recall of their frames: first 0.3 s", "to 0.6 s", "to 1 s", "to 2 s", "later"], found), "",
             "Labels know the end of an act at its first frame, a stream does not: what is missed are mostly the first 0.6 s.", "",
