@@ -597,37 +597,44 @@ Result<std::vector<CaseId>> Store::add_all(std::span<const Case> cases) {
 
 Result<Learnt> Store::learn(const Case& one) {
   check(one);
-  if (auto error = state_->catch_up()) {
+  Learnt learnt;
+  const auto learn_now = [&]() -> std::optional<Error> {
+    if (auto error = state_->catch_up()) {
+      return error;
+    }
+    std::optional<Case> same;
+    if (const auto id = state_->experience.same_encounter_as(features(one.scene))) {
+      auto found = find(*id);
+      if (!found.has_value()) {
+        return found.error();
+      }
+      same = std::move(found).value();  // unless somebody has deleted it
+    }
+    if (same && !contradict(*same, one)) {
+      learnt = {.how = Learnt::How::merged, .id = same->id, .other = same->id};
+      return update(merged(*same, one));
+    }
+    Case doubtful = one;
+    if (same) {
+      doubtful.trust = std::max(doubtful.trust, Trust::unchecked);
+      same->trust = std::max(same->trust, Trust::unchecked);
+      if (auto error = update(*same)) {
+        return error;
+      }
+    }
+    const auto id = add(doubtful);
+    if (!id.has_value()) {
+      return id.error();
+    }
+    learnt = same ? Learnt{Learnt::How::contradicted, id.value(), same->id}
+                  : Learnt{Learnt::How::added, id.value(), 0};
+    return std::nullopt;
+  };
+  if (auto error = state_->in_one_transaction(learn_now)) {
+    state_->experience = {};  // it may know of what did not happen
     return *std::move(error);
   }
-  std::optional<Case> same;
-  if (const auto id = state_->experience.same_encounter_as(features(one.scene))) {
-    auto found = find(*id);
-    if (!found.has_value()) {
-      return found.error();
-    }
-    same = std::move(found).value();  // unless somebody has deleted it
-  }
-  if (same && !contradict(*same, one)) {
-    if (auto error = update(merged(*same, one))) {
-      return *std::move(error);
-    }
-    return Learnt{Learnt::How::merged, same->id, same->id};
-  }
-  Case doubtful = one;
-  if (same) {
-    doubtful.trust = std::max(doubtful.trust, Trust::unchecked);
-    same->trust = std::max(same->trust, Trust::unchecked);
-    if (auto error = update(*same)) {
-      return *std::move(error);
-    }
-  }
-  const auto id = add(doubtful);
-  if (!id.has_value()) {
-    return id.error();
-  }
-  return same ? Learnt{Learnt::How::contradicted, id.value(), same->id}
-              : Learnt{Learnt::How::added, id.value(), 0};
+  return learnt;
 }
 
 std::optional<Error> Store::update(const Case& one) {

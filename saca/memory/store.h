@@ -14,7 +14,7 @@
 
 namespace saca::memory {
 
-/// What the paper's Algorithm 1 does with the nearest stored case.
+/// What the paper's Algorithm 1 does with what memory speaks for.
 enum class Gate : std::uint8_t {
   cache,   ///< above 0.90: its plan is used as it is
   check,   ///< above 0.70: its plan is used if a rollout confirms it
@@ -38,9 +38,8 @@ struct Match {
 /// The memory bank: one SQLite file, which several processes may have open.
 ///
 /// One thread at a time. It waits for the disk, and for another process (then: too_late) up to 5 s,
-/// `nearest` some tenths of a second,
-/// so it belongs to the thinking plane. What other processes add is seen by the next call. Movable,
-/// not copyable. Table and versions: docs/formats.md.
+/// `recall` some tenths of a second, so it belongs to the thinking plane. What other processes add
+/// is seen by the next call. Movable, not copyable. Table and versions: docs/formats.md.
 ///
 /// Every error names the file and, where one row is at fault, table, id and key.
 class Store {
@@ -72,12 +71,12 @@ class Store {
   [[nodiscard]] Result<CaseId> add(const Case& one);
 
   /// Adds what was met, as `add`, or merges it into the stored case that is the same encounter
-  /// (`merged`), one that may not be used left out. Of another that contradicts it, it keeps both
-  /// and marks them unchecked.
+  /// (`merged`). Where the two contradict each other it keeps both and marks them unchecked. All of
+  /// it happens or nothing; who is quarantined is the same as nothing.
   [[nodiscard]] Result<Learnt> learn(const Case& one);
 
-  /// Puts all of them on the disk, or none: as `add`, in one step, under ids of their own where the
-  /// bank is empty and the ids are told apart, else under new ones.
+  /// Puts all of them on the disk, as `add`, or none. Where the bank is empty they keep their ids,
+  /// if these are positive and each comes once; else they get new ones.
   /// @return  the ids given, in their order
   [[nodiscard]] Result<std::vector<CaseId>> add_all(std::span<const Case> cases);
 
@@ -93,7 +92,7 @@ class Store {
   [[nodiscard]] Result<std::optional<Case>> find(CaseId id);
 
   /// What cases like this scene speak for (Experience::recall); nullopt when there is none. Who is
-  /// quarantined is passed over. A scan over features in memory, then one row is read.
+  /// quarantined is passed over. A search in memory, then one row is read.
   /// @throws ContractViolation  if the scene breaks a rule of `world::broken_rule`
   [[nodiscard]] Result<std::optional<Match>> recall(const world::Scene& scene);
 

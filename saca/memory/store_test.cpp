@@ -303,6 +303,29 @@ TEST_F(Memory, MergesWhatItMeetsAgain) {
   EXPECT_EQ(opened().size(), 2U);
 }
 
+// Nobody's encounter is lost, though all are the same one.
+TEST_F(Memory, MergesForTwoProcessesAtOnce) {
+  constexpr int times = 40;
+  ASSERT_TRUE(opened().learn(best_is(manoeuvre::PolicyId::aeb, 14.0)).has_value());
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  bool learnt = true;
+  {
+    Store store = opened();
+    for (int i = 0; i < times; ++i) {
+      learnt = learnt && store.learn(best_is(manoeuvre::PolicyId::aeb, 14.0)).has_value();
+    }
+  }
+  if (child == 0) {
+    ::_exit(learnt ? 0 : 1);
+  }
+  int status = 1;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(learnt && WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  EXPECT_EQ(opened().find(1).value().value().count, 2 * times + 1);
+  EXPECT_EQ(opened().size(), 1U);
+}
+
 TEST_F(Memory, KeepsWhatContradictsAndTrustsNeither) {
   Store store = opened();
   const CaseId old = store.learn(best_is(manoeuvre::PolicyId::aeb, 14.0)).value().id;
