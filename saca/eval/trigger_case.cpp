@@ -24,7 +24,8 @@ memory::Case case_now(const loop::ClosedLoop& now, const loop::Stage& stage,
       .source = stage.scenario->name,
       .origin = stage.scenario->provenance ? memory::Origin::recording : memory::Origin::simulation,
       .told = loop::told_harms(decide::Forecaster(tools, draws).judge(now.seen(), now.beliefs())),
-      .happened = loop::happened_harms(tried)};
+      .happened = loop::happened_harms(tried),
+      .made_with = loop::made_with(tools, *stage.intent, stage.scenario->car)};
   for (const intent::Belief& belief : now.beliefs()) {
     one.intentions.push_back(belief.now());
   }

@@ -29,6 +29,9 @@ TEST_F(TriggerCase, TellsWhatEveryPolicyHarmsWhereOneSideAloneIsFree) {
   EXPECT_FALSE(memory::broken_rule(one).has_value());
   EXPECT_EQ(one.origin, memory::Origin::simulation);
   EXPECT_EQ(one.source, "standing_car");
+  ASSERT_FALSE(one.made_with.empty());
+  EXPECT_EQ(one.made_with[0].what, "car");
+  EXPECT_EQ(one.made_with[0].digest.size(), 16U);
   // 28.6 m from front to rear at 22 m/s is 1.3 s.
   const world::Scene& scene = one.scene;
   ASSERT_EQ(scene.actors.size(), 1U);

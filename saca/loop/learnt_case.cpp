@@ -18,19 +18,18 @@ void take_least(memory::PolicyHarms& harms, const manoeuvre::Plan& plan, double 
   least = std::min(least.value_or(harm), harm);
 }
 
-std::vector<memory::MadeWith> made_with(const Setup& setup) {
+}  // namespace
+
+std::vector<memory::MadeWith> made_with(const preview::ForecastTools& tools,
+                                        const intent::Model& intent, const std::string& car) {
   std::vector<memory::MadeWith> inputs;
-  const nlohmann::json listed = inputs_json({setup.car, setup.harm, setup.atlas, setup.danger},
-                                            *setup.intent, setup.scenario->car);
-  for (const nlohmann::json& one : listed) {
+  for (const nlohmann::json& one : inputs_json(tools, intent, car)) {
     const nlohmann::json& digest = one.at("digest");
     inputs.push_back({one.at("what").get<std::string>(), one.at("name").get<std::string>(),
                       digest.is_string() ? digest.get<std::string>() : ""});
   }
   return inputs;
 }
-
-}  // namespace
 
 memory::PolicyHarms told_harms(const decide::Verdict& verdict) {
   memory::PolicyHarms harms;
@@ -70,7 +69,8 @@ memory::Case learnt_case(const Setup& setup, const Record& record, const Trigger
       .origin = setup.scenario->provenance ? memory::Origin::recording : memory::Origin::simulation,
       .happened =
           happened_harms(all_plans_tried({&trigger.moment, 1}, *setup.car, *setup.harm).front()),
-      .made_with = made_with(setup)};
+      .made_with = made_with({setup.car, setup.harm, setup.atlas, setup.danger}, *setup.intent,
+                             setup.scenario->car)};
   if (decision.verdict) {
     one.told = told_harms(*decision.verdict);
   }

@@ -2,6 +2,8 @@
 
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "saca/core/result.h"
 #include "saca/decide/verdict.h"
@@ -12,6 +14,12 @@
 #include "saca/reason/review.h"
 
 namespace saca::loop {
+
+/// The inputs that a case was worked out with: car, harm, intentions, atlas.
+/// @param car  its name or file
+[[nodiscard]] std::vector<memory::MadeWith> made_with(const preview::ForecastTools& tools,
+                                                      const intent::Model& intent,
+                                                      const std::string& car);
 
 /// Of each policy the plan that is expected to harm least.
 [[nodiscard]] memory::PolicyHarms told_harms(const decide::Verdict& verdict);
