@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,6 +18,7 @@
 #include "apps/saca/printing.h"
 #include "saca/core/file.h"
 #include "saca/memory/case_json.h"
+#include "saca/memory/scene_json.h"
 #include "saca/memory/store.h"
 
 namespace saca::app {
@@ -131,6 +133,23 @@ int export_cases(const MemoryOptions& options) {
   return success;
 }
 
+/// The same scene of the same source: it is the same case, whatever else is said of it.
+std::string name_of_case(const memory::Case& one) {
+  return one.source + '\n' + memory::to_json(one.scene).dump();
+}
+
+/// Leaves out what the bank has already, and what comes twice.
+/// @return  how many
+std::size_t leave_out_known(std::vector<memory::Case>& cases,
+                            const std::vector<memory::Case>& known) {
+  std::set<std::string> keys;
+  for (const memory::Case& one : known) {
+    keys.insert(name_of_case(one));
+  }
+  return std::erase_if(
+      cases, [&](const memory::Case& one) { return !keys.insert(name_of_case(one)).second; });
+}
+
 int import_cases(const MemoryOptions& options) {
   const auto text = read_file(options.cases, many_bytes);
   if (!text.has_value()) {
@@ -154,12 +173,18 @@ int import_cases(const MemoryOptions& options) {
     return refused(store.error());
   }
   memory::Store memory = std::move(store).value();
+  const auto known = memory.all();
+  if (!known.has_value()) {
+    return refused(known.error());
+  }
+  const std::size_t left_out = leave_out_known(cases, known.value());
   const auto ids = memory.add_all(cases);
   if (!ids.has_value()) {
     return refused(ids.error());
   }
   app::print(
-      "{}: {} cases taken over{}\n", options.file, cases.size(),
+      "{}: {} cases taken over{}{}\n", options.file, cases.size(),
+      left_out > 0 ? fmt::format(", {} were there already", left_out) : "",
       cases.empty() || options.keep_trust ? "" : ": each is used only where a rollout confirms it");
   return success;
 }

@@ -99,6 +99,9 @@ def test_what_comes_from_elsewhere_is_not_trusted(cases, tmp_path):
     assert run.returncode == SUCCESS and "only where a rollout confirms it" in run.stdout
     listed = json.loads(saca("memory", "--memory", "bank.db", "list", "--json", cwd=tmp_path).stdout)
     assert {one["trust"] for one in listed} == {"unchecked"} and {one["origin"] for one in listed} == {"simulation"}
+    again = saca("memory", "--memory", "bank.db", "import", str(cases), cwd=tmp_path)
+    assert again.returncode == SUCCESS and f"0 cases taken over, {len(listed)} were there already" in again.stdout
+    assert len(json.loads(saca("memory", "--memory", "bank.db", "list", "--json", cwd=tmp_path).stdout)) == len(listed)
     assert "[unchecked]" in saca("memory", "--memory", "bank.db", "list", cwd=tmp_path).stdout
 
 
