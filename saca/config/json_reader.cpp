@@ -132,6 +132,14 @@ const json& JsonReader::any(std::string_view key) {
   return value == nullptr ? nothing : *value;
 }
 
+void JsonReader::schema(std::string_view wanted) {
+  constexpr std::string_view key = "schema";
+  const json* value = find(key);
+  if (value != nullptr && *value != wanted) {
+    reject(key, "want " + std::string(wanted) + ", got " + shown(*value));
+  }
+}
+
 void JsonReader::reject(std::string_view key, const std::string& why) {
   if (!problem_) {
     const std::string name = one_line(name_of(key));

@@ -57,6 +57,9 @@ class JsonReader {
     return found.value_or(Value{});
   }
 
+  /// The key "schema", which must be this word: what follows is read by its rules.
+  void schema(std::string_view wanted);
+
   /// The object under `key`.
   [[nodiscard]] JsonReader object(std::string_view key);
 

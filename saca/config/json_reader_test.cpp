@@ -72,6 +72,18 @@ TEST(JsonReader, NamesKeyWantedAndGot) {
             "b: is missing");
 }
 
+TEST(JsonReader, WantsTheSchemaByWhichItReads) {
+  const auto read = [](JsonReader& r) {
+    r.schema("saca.scene/1");
+    r.refuse_others();
+  };
+  EXPECT_EQ(problem_of(R"({"schema": "saca.scene/1"})", read), "");
+  EXPECT_EQ(problem_of(R"({"schema": "saca.scene/2"})", read),
+            "schema: want saca.scene/1, got \"saca.scene/2\"");
+  EXPECT_EQ(problem_of(R"({"schema": 1})", read), "schema: want saca.scene/1, got 1");
+  EXPECT_EQ(problem_of("{}", read), "schema: is missing");
+}
+
 TEST(JsonReader, RefusesWhatNobodyAskedFor) {
   EXPECT_EQ(problem_of(R"({"a": 1, "b": 2})",
                        [](JsonReader& r) {

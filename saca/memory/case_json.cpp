@@ -145,14 +145,6 @@ std::optional<double> read_optional(Reader& reader, const char* key) {
   return reader.has_value(key) ? std::optional(reader.number(key)) : std::nullopt;
 }
 
-std::optional<std::string_view> case_schema_from(std::string_view name) {
-  return name == case_schema ? std::optional(case_schema) : std::nullopt;
-}
-
-std::optional<std::string_view> file_schema_from(std::string_view name) {
-  return name == file_schema ? std::optional(file_schema) : std::nullopt;
-}
-
 Error at_line(const std::string& name, std::size_t line, const std::string& why) {
   return {Error::Code::malformed, name + ": line " + std::to_string(line) + ": " + why};
 }
@@ -224,7 +216,7 @@ Result<Case> case_from_json(const json& document) {
   std::optional<Error> problem;
   Reader reader(document, "", problem, "case");
   Case one;
-  (void)reader.word("schema", case_schema_from, case_schema);
+  reader.schema(case_schema);
   one.id = static_cast<CaseId>(
       reader.integer("id", static_cast<std::uint64_t>(std::numeric_limits<CaseId>::max())));
   one.plan.policy = read_policy(reader, "policy");
@@ -283,7 +275,7 @@ Result<std::vector<Case>> cases_from_text(std::string_view text, const std::stri
     if (line == 1) {
       std::optional<Error> problem;
       Reader header(parsed.value(), "", problem, "first line");
-      (void)header.word("schema", file_schema_from, file_schema);
+      header.schema(file_schema);
       wanted = header.integer("cases");
       header.refuse_others();
       if (problem) {

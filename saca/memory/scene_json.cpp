@@ -159,10 +159,6 @@ Road read_road(Reader reader) {
   return road;
 }
 
-std::optional<std::string_view> schema_from(std::string_view name) {
-  return name == schema ? std::optional(schema) : std::nullopt;
-}
-
 void read_actors(Reader& reader, Scene& scene) {
   const json* actors = reader.list("actors", world::max_actors);
   for (std::size_t i = 0; actors != nullptr && i < actors->size(); ++i) {
@@ -192,7 +188,7 @@ Result<Scene> scene_from_json(const json& document) {
   std::optional<Error> problem;
   Reader reader(document, "", problem, "scene");
   Scene scene;
-  (void)reader.word("schema", schema_from, schema);
+  reader.schema(schema);
   scene.time = reader.number("time_s");
   scene.grip = reader.number("grip");
   scene.grip_sd = reader.number("grip_sd");

@@ -285,14 +285,10 @@ ThinkingCosts read_costs(JsonReader from) {
   return costs;
 }
 
-std::optional<std::string_view> schema_from(std::string_view name) {
-  return name == tape_schema ? std::optional(tape_schema) : std::nullopt;
-}
-
 TapeHeader read_header(JsonReader& from) {
   constexpr std::uint64_t most_draws = 4'096;
   TapeHeader header;
-  (void)from.word("schema", schema_from, tape_schema);
+  from.schema(tape_schema);
   header.program = from.text("program");
   header.level = from.text("level");
   header.car = from.text("car");
