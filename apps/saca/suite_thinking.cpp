@@ -50,17 +50,13 @@ Result<std::unique_ptr<SuiteThinking>> SuiteThinking::open(const ThinkingOptions
       return copies.error();
     }
     std::vector<memory::Store> stores = std::move(copies).value();
-    const auto cases = stores.front().all();
-    if (!cases.has_value()) {
-      return cases.error();
-    }
     auto text = text_of(stores, options.memory);
     if (!text.has_value()) {
       return text.error();
     }
     thinking->memory_text_ = std::move(text).value();
+    thinking->experience_ = std::make_unique<const memory::Experience>(stores.front().experience());
     thinking->memories_ = std::make_unique<LendingPool<memory::Store>>(std::move(stores));
-    thinking->experience_ = std::make_unique<const memory::Experience>(cases.value());
   }
   if (options.model != "off") {
     auto model = open_needed_model(places, options.model, runtime::Pace::lockstep, clock);

@@ -743,6 +743,10 @@ Result<std::uint64_t> Store::digest() const {
   return code == SQLITE_DONE ? Result(hash.value()) : state_->problem(Access::read);
 }
 
+const Experience& Store::experience() const noexcept {
+  return state_->experience;
+}
+
 std::size_t Store::size() const noexcept {
   return state_->experience.size();
 }

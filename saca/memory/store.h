@@ -9,6 +9,7 @@
 
 #include "saca/core/result.h"
 #include "saca/memory/case.h"
+#include "saca/memory/experience.h"
 #include "saca/memory/learning.h"
 #include "saca/world/scene.h"
 
@@ -95,6 +96,9 @@ class Store {
   /// quarantined is passed over. A search in memory, then one row is read.
   /// @throws ContractViolation  if the scene breaks a rule of `world::broken_rule`
   [[nodiscard]] Result<std::optional<Match>> recall(const world::Scene& scene);
+
+  /// What was met, as of when the file was last looked at; changes with the next call.
+  [[nodiscard]] const Experience& experience() const noexcept;
 
   /// Of all cases, to the last bit: two memories with the same digest answer alike.
   [[nodiscard]] Result<std::uint64_t> digest() const;
