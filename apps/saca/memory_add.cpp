@@ -45,10 +45,7 @@ int add_case(const AddOptions& options) {
                    .origin = memory::Origin::expert,
                    .trust = memory::Trust::unchecked};
   one.plan = manoeuvre::default_plan(*options.policy, one.scene.ego.v_B.x);
-  if (const auto problem = make_folder_of(options.file)) {
-    return refused(*problem);
-  }
-  auto store = memory::Store::open(options.file);
+  auto store = open_to_add(options.file);
   if (!store.has_value()) {
     return refused(store.error());
   }

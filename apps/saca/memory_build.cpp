@@ -21,6 +21,7 @@
 #include "saca/core/journal.h"
 #include "saca/core/parallel.h"
 #include "saca/eval/trigger_case.h"
+#include "saca/loop/learnt_case.h"
 #include "saca/memory/case_json.h"
 
 namespace saca::app {
@@ -73,8 +74,8 @@ Result<Gained> gained_from(const std::string& line) {
 }
 
 void gain(Gained& gained, const loop::Stage& stage, const preview::ForecastTools& tools,
-          std::size_t draws) {
-  auto one = eval::case_at_trigger(stage, tools, draws);
+          std::size_t draws, const std::vector<memory::MadeWith>& made_with) {
+  auto one = eval::case_at_trigger(stage, tools, draws, made_with);
   if (!one.has_value()) {
     gained.problem = one.error().message;
   } else if (one.value()) {
@@ -120,6 +121,8 @@ Result<std::optional<std::vector<Gained>>> gather(const BuildOptions& options,
   SteadyClock clock;
   ProgressLine progress("memory of " + options.from.name, encounters.count, clock);
   const Inputs& inputs = planes.value()->inputs;
+  const preview::ForecastTools& tools = planes.value()->setup.forecast;
+  const auto made_with = loop::made_with(tools, inputs.intent, inputs.car_name);
   while (all.size() < count) {
     if (interrupted()) {
       return std::optional<std::vector<Gained>>();
@@ -133,10 +136,9 @@ Result<std::optional<std::vector<Gained>>> gather(const BuildOptions& options,
         next[i].problem = played.error().message;
         return;
       }
-      const preview::ForecastTools& tools = planes.value()->setup.forecast;
-      gain(next[i], played.value().stage(inputs), tools, options.draws);
+      gain(next[i], played.value().stage(inputs), tools, options.draws, made_with);
       if (played.value().twin && !options.no_twins) {
-        gain(next[i], played.value().twin_stage(inputs), tools, options.draws);
+        gain(next[i], played.value().twin_stage(inputs), tools, options.draws, made_with);
       }
     });
     for (Gained& gained : next) {

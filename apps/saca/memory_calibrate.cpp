@@ -13,10 +13,8 @@
 #include "apps/saca/memory_commands.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
-#include "saca/core/file.h"
 #include "saca/core/parallel.h"
 #include "saca/eval/transfer.h"
-#include "saca/memory/case_json.h"
 #include "saca/report/chart_svg.h"
 
 namespace saca::app {
@@ -34,14 +32,6 @@ struct CalibrateOptions {
   int threads = usual_threads();
   bool as_json = false;
 };
-
-Result<std::vector<memory::Case>> read_cases(const std::string& file) {
-  const auto text = read_file(file, many_bytes);
-  if (!text.has_value()) {
-    return text.error();
-  }
-  return memory::cases_from_text(text.value(), file);
-}
 
 struct Range {
   const char* key;

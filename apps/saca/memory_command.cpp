@@ -151,11 +151,7 @@ std::size_t leave_out_known(std::vector<memory::Case>& cases,
 }
 
 int import_cases(const MemoryOptions& options) {
-  const auto text = read_file(options.cases, many_bytes);
-  if (!text.has_value()) {
-    return refused(text.error());
-  }
-  auto read = memory::cases_from_text(text.value(), options.cases);
+  auto read = read_cases(options.cases);
   if (!read.has_value()) {
     return refused(read.error());
   }
@@ -165,10 +161,7 @@ int import_cases(const MemoryOptions& options) {
       one.trust = memory::Trust::unchecked;
     }
   }
-  if (const auto problem = make_folder_of(options.file)) {
-    return refused(*problem);
-  }
-  auto store = memory::Store::open(options.file);
+  auto store = open_to_add(options.file);
   if (!store.has_value()) {
     return refused(store.error());
   }
@@ -240,6 +233,21 @@ int verify_bank(const MemoryOptions& options) {
 }
 
 }  // namespace
+
+Result<std::vector<memory::Case>> read_cases(const std::string& file) {
+  const auto text = read_file(file, many_bytes);
+  if (!text.has_value()) {
+    return text.error();
+  }
+  return memory::cases_from_text(text.value(), file);
+}
+
+Result<memory::Store> open_to_add(const std::string& file) {
+  if (auto problem = make_folder_of(file)) {
+    return *std::move(problem);
+  }
+  return memory::Store::open(file);
+}
 
 void add_memory(CLI::App& line, int& exit_code) {
   CLI::App* const command = line.add_subcommand("memory", "What was learnt");

@@ -1,8 +1,20 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "saca/core/result.h"
+#include "saca/memory/case.h"
+#include "saca/memory/store.h"
 
 namespace saca::app {
+
+/// What `build` or `export` wrote.
+[[nodiscard]] Result<std::vector<memory::Case>> read_cases(const std::string& file);
+
+/// The bank that cases are added to; one that is not there is made, with its folder.
+[[nodiscard]] Result<memory::Store> open_to_add(const std::string& file);
 
 /// `saca memory add`.
 void add_memory_add(CLI::App& memory, int& exit_code);

@@ -189,6 +189,13 @@ Action least_expected(const world::Scene& scene, std::span<const JointMotion> mo
           .source = "forecast"};
 }
 
+/// Over draws of all that is not known of the others.
+std::vector<preview::ExpectedHarm> expected_over_draws(const View& view,
+                                                       const runtime::PlanesSetup& setup) {
+  return preview::expected_harms(view.scene, decide::draws_of(view.scene, view.beliefs),
+                                 setup.forecast, Physics::rolled_out);
+}
+
 /// How the others will truly move while the ego goes on.
 JointMotion true_motion(const loop::ClosedLoop& truth, const world::Scene& scene) {
   manoeuvre::EgoMotion ego;
@@ -315,17 +322,13 @@ AtTrigger::Choose chooser(std::string_view name, const MethodTools& tools) {
   }
   if (name == "beliefs_drawn") {
     return [setup](const View& view) {
-      return least_expected(view.scene,
-                            preview::drawn_motions(view.scene, view.beliefs, intent::MotionLaw{},
-                                                   decide::usual_draws),
-                            setup, Physics::rolled_out);
+      return Action{.plan = preview::least_harmful(expected_over_draws(view, setup)),
+                    .source = "forecast"};
     };
   }
   if (name == "beliefs_and_experience") {
     return [setup, experience = tools.experience](const View& view) {
-      const auto draws = preview::drawn_motions(view.scene, view.beliefs, intent::MotionLaw{},
-                                                decide::usual_draws);
-      auto all = preview::expected_harms(view.scene, draws, setup.forecast, Physics::rolled_out);
+      auto all = expected_over_draws(view, setup);
       const memory::Corrections corrections = experience->corrections(view.scene);
       for (preview::ExpectedHarm& one : all) {
         one.harm = std::max(0.0, one.harm + corrections[manoeuvre::index(one.plan.policy)]);

@@ -125,7 +125,7 @@ TEST_F(ThinkingTest, ARowIsSacaWithWhatItWasGiven) {
 TEST_F(ThinkingTest, ExperienceCorrectsWhatIsExpectedOfOneDecision) {
   const sim::Scenario scenario = only_left_helps();
   memory::Case one = case_at_trigger({&scenario, &car_, &harm_, &intent::shipped_model(), {}, {}},
-                                     {&car_, &harm_}, 16)
+                                     {&car_, &harm_}, 16, {})
                          .value()
                          .value();
   for (const PolicyId left : {PolicyId::aes_left, PolicyId::es_b_left, PolicyId::t_drift_left}) {

@@ -10,33 +10,28 @@ namespace saca::eval {
 namespace {
 
 memory::Case case_now(const loop::ClosedLoop& now, const loop::Stage& stage,
-                      const preview::ForecastTools& tools, std::size_t draws) {
+                      const preview::ForecastTools& tools, std::size_t draws,
+                      const std::vector<memory::MadeWith>& made_with) {
   const auto tried = try_all(now, *stage.car, *stage.harm, Knowledge::everything);
   const preview::PolicyFacts& best = tried[best_of(tried)].facts;
   const outcome::Outcome& outcome = best.outcome();
-  memory::Case one{
-      .scene = now.seen(),
-      .plan = best.plan,
-      .best = best.plan.policy,
-      .harm = outcome.harm,
-      .best_harm = outcome.harm,
-      .collision_loss = outcome.collision_loss,
-      .source = stage.scenario->name,
-      .origin = stage.scenario->provenance ? memory::Origin::recording : memory::Origin::simulation,
-      .told = loop::told_harms(decide::Forecaster(tools, draws).judge(now.seen(), now.beliefs())),
-      .happened = loop::happened_harms(tried),
-      .made_with = loop::made_with(tools, *stage.intent, stage.scenario->car)};
-  for (const intent::Belief& belief : now.beliefs()) {
-    one.intentions.push_back(belief.now());
-  }
+  memory::Case one = loop::case_of(now.seen(), now.beliefs(), *stage.scenario);
+  one.plan = best.plan;
+  one.best = best.plan.policy;
+  one.harm = outcome.harm;
+  one.best_harm = outcome.harm;
+  one.collision_loss = outcome.collision_loss;
+  one.told = loop::told_harms(decide::Forecaster(tools, draws).judge(now.seen(), now.beliefs()));
+  one.happened = loop::happened_harms(tried);
+  one.made_with = made_with;
   return one;
 }
 
 }  // namespace
 
-Result<std::optional<memory::Case>> case_at_trigger(const loop::Stage& stage,
-                                                    const preview::ForecastTools& tools,
-                                                    std::size_t draws) {
+Result<std::optional<memory::Case>> case_at_trigger(
+    const loop::Stage& stage, const preview::ForecastTools& tools, std::size_t draws,
+    const std::vector<memory::MadeWith>& made_with) {
   loop::ClosedLoop now(stage);
   while (!now.over()) {
     if (auto problem = now.look()) {
@@ -44,7 +39,7 @@ Result<std::optional<memory::Case>> case_at_trigger(const loop::Stage& stage,
     }
     (void)now.wake();
     if (now.driven() && now.trigger()) {
-      return std::optional(case_now(now, stage, tools, draws));
+      return std::optional(case_now(now, stage, tools, draws, made_with));
     }
     now.keep();
     if (now.contact()) {

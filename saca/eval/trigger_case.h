@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "saca/core/result.h"
 #include "saca/loop/closed_loop.h"
@@ -17,8 +18,10 @@ namespace saca::eval {
 /// @param stage  with perception and draws, as it is played
 /// @param tools  plans are held against draws with these
 /// @param draws  that the expectation is the mean of, >= 1
+/// @param made_with  loop::made_with of these: the same for all encounters
 /// @return       nullopt: the trigger never fires; out_of_range: the encounter cannot be played
 [[nodiscard]] Result<std::optional<memory::Case>> case_at_trigger(
-    const loop::Stage& stage, const preview::ForecastTools& tools, std::size_t draws);
+    const loop::Stage& stage, const preview::ForecastTools& tools, std::size_t draws,
+    const std::vector<memory::MadeWith>& made_with);
 
 }  // namespace saca::eval

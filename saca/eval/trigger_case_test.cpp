@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "saca/eval/scenes_for_test.h"
+#include "saca/loop/learnt_case.h"
 
 namespace saca::eval::trigger_case_test {
 namespace {
@@ -16,7 +17,8 @@ class TriggerCase : public testing::Test {
  protected:
   [[nodiscard]] Result<std::optional<memory::Case>> of(const sim::Scenario& scenario) const {
     return case_at_trigger({&scenario, &car_, &harm_, &intent::shipped_model(), {}, {}},
-                           {&car_, &harm_}, draws);
+                           {&car_, &harm_}, draws,
+                           loop::made_with({&car_, &harm_}, intent::shipped_model(), "a car"));
   }
 
   manoeuvre::Car car_ = manoeuvre::default_car();

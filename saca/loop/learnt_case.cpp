@@ -18,6 +18,21 @@ void take_least(memory::PolicyHarms& harms, const manoeuvre::Plan& plan, double 
   least = std::min(least.value_or(harm), harm);
 }
 
+/// Writes a case again; where somebody has deleted it, there is nothing to be changed.
+template <class Change>
+std::optional<Error> change_case(memory::Store& memory, memory::CaseId id, const Change& change) {
+  auto found = memory.find(id);
+  if (!found.has_value()) {
+    return found.error();
+  }
+  if (!found.value()) {
+    return std::nullopt;
+  }
+  memory::Case one = *std::move(found).value();
+  change(one);
+  return memory.update(one);
+}
+
 }  // namespace
 
 std::vector<memory::MadeWith> made_with(const preview::ForecastTools& tools,
@@ -51,34 +66,39 @@ memory::PolicyHarms happened_harms(std::span<const preview::RolledOut> tried) {
   return harms;
 }
 
+memory::Case case_of(const world::Scene& seen, const intent::Beliefs& beliefs,
+                     const sim::Scenario& scenario) {
+  memory::Case one{
+      .scene = seen,
+      .source = scenario.name,
+      .origin = scenario.provenance ? memory::Origin::recording : memory::Origin::simulation};
+  for (const intent::Belief& belief : beliefs) {
+    one.intentions.push_back(belief.now());
+  }
+  return one;
+}
+
 memory::Case learnt_case(const Setup& setup, const Record& record, const Trigger& trigger) {
   expects(record.decision && record.hindsight && record.best, "something was decided");
   const decide::Decision& decision = *record.decision;
   const preview::PolicyFacts& best = (*record.hindsight)[manoeuvre::index(*record.best)].facts;
-  memory::Case one{
-      .scene = trigger.seen,
-      .plan = decision.plan,
-      .best = *record.best,
-      .harm = record.result.harm,
-      .best_harm = best.outcome().harm,
-      .collision_loss = record.result.collision_loss,
-      .review = fmt::format("{}: {}; best {}: {}", name(decision.plan.policy),
-                            outcome::describe(record.result, record.met), name(*record.best),
-                            outcome::describe(best.outcome(), trigger.moment.scene)),
-      .source = setup.scenario->name,
-      .origin = setup.scenario->provenance ? memory::Origin::recording : memory::Origin::simulation,
-      .happened =
-          happened_harms(all_plans_tried({&trigger.moment, 1}, *setup.car, *setup.harm).front()),
-      .made_with = made_with({setup.car, setup.harm, setup.atlas, setup.danger}, *setup.intent,
-                             setup.scenario->car)};
+  memory::Case one = case_of(trigger.seen, trigger.beliefs, *setup.scenario);
+  one.plan = decision.plan;
+  one.best = *record.best;
+  one.harm = record.result.harm;
+  one.best_harm = best.outcome().harm;
+  one.collision_loss = record.result.collision_loss;
+  one.review = fmt::format("{}: {}; best {}: {}", name(decision.plan.policy),
+                           outcome::describe(record.result, record.met), name(*record.best),
+                           outcome::describe(best.outcome(), trigger.moment.scene));
+  one.happened =
+      happened_harms(all_plans_tried({&trigger.moment, 1}, *setup.car, *setup.harm).front());
+  const preview::ForecastTools tools{setup.car, setup.harm, setup.atlas, setup.danger};
+  one.made_with = made_with(tools, *setup.intent, setup.scenario->car);
   if (decision.verdict) {
     one.told = told_harms(*decision.verdict);
   }
-  for (const intent::Belief& belief : trigger.beliefs) {
-    one.intentions.push_back(belief.now());
-  }
-  for (const reach::ObstacleRisk& risk :
-       preview::obstacle_risks(trigger.seen, {setup.car, setup.harm, setup.atlas, setup.danger})) {
+  for (const reach::ObstacleRisk& risk : preview::obstacle_risks(trigger.seen, tools)) {
     one.risks.push_back(risk.risk);
   }
   return one;
@@ -102,16 +122,9 @@ std::optional<memory::CaseId> refuted_case(const Record& record) {
 Result<memory::Learnt> learn(memory::Store& memory, const memory::Case& one,
                              const std::optional<memory::CaseId>& refuted) {
   if (refuted) {
-    auto found = memory.find(*refuted);
-    if (!found.has_value()) {
-      return found.error();
-    }
-    if (found.value()) {  // else somebody has deleted it
-      memory::Case wrong = *std::move(found).value();
-      wrong.trust = memory::Trust::quarantined;
-      if (auto error = memory.update(wrong)) {
-        return *std::move(error);
-      }
+    const auto quarantine = [](memory::Case& wrong) { wrong.trust = memory::Trust::quarantined; };
+    if (auto error = change_case(memory, *refuted, quarantine)) {
+      return *std::move(error);
     }
   }
   return memory.learn(one);
@@ -122,16 +135,7 @@ std::optional<Error> keep_lesson(memory::Store& memory, memory::CaseId id,
   if (review.truth.num_checked == 0 || !review.truth.wrong.empty()) {
     return std::nullopt;
   }
-  auto found = memory.find(id);
-  if (!found.has_value()) {
-    return found.error();
-  }
-  if (!found.value()) {
-    return std::nullopt;  // somebody has deleted it
-  }
-  memory::Case one = *std::move(found).value();
-  one.lessons.push_back(review.text);
-  return memory.update(one);
+  return change_case(memory, id, [&](memory::Case& one) { one.lessons.push_back(review.text); });
 }
 
 }  // namespace saca::loop

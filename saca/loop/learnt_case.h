@@ -27,6 +27,12 @@ namespace saca::loop {
 /// Of each policy the plan that would have harmed least.
 [[nodiscard]] memory::PolicyHarms happened_harms(std::span<const preview::RolledOut> tried);
 
+/// What every case has, however it came about: the scene, what was believed of its actors, and
+/// where it comes from.
+/// @param beliefs  one per actor
+[[nodiscard]] memory::Case case_of(const world::Scene& seen, const intent::Beliefs& beliefs,
+                                   const sim::Scenario& scenario);
+
 /// The trigger of an encounter as SACA saw it, and what followed from it.
 struct Trigger {
   world::Scene seen;
