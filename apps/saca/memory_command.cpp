@@ -16,10 +16,12 @@
 #include "apps/saca/memory_picture.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
+#include "saca/config/compressed_text.h"
 #include "saca/core/file.h"
 #include "saca/memory/case_json.h"
 #include "saca/memory/scene_json.h"
 #include "saca/memory/store.h"
+#include "saca/memory/thinning.h"
 
 namespace saca::app {
 namespace {
@@ -31,6 +33,7 @@ struct MemoryOptions {
   std::int64_t id = 0;
   std::string cases;  ///< JSON Lines
   std::string svg;
+  std::size_t most = 0;
   bool keep_trust = false;
   bool as_json = false;
 };
@@ -182,6 +185,27 @@ int import_cases(const MemoryOptions& options) {
   return success;
 }
 
+/// Forgets what is missed least, until there are few enough.
+int thin_bank(const MemoryOptions& options) {
+  auto store = open_existing(options.file);
+  if (!store.has_value()) {
+    return refused(store.error());
+  }
+  memory::Store memory = std::move(store).value();
+  const auto cases = memory.all();
+  if (!cases.has_value()) {
+    return refused(cases.error());
+  }
+  const std::vector<memory::CaseId> ids = memory::most_redundant(cases.value(), options.most);
+  if (const auto problem = memory.forget(ids)) {
+    return refused(*problem);
+  }
+  const std::size_t left = cases.value().size() - ids.size();
+  app::print("{}: {} cases forgotten, {} left{}\n", options.file, ids.size(), left,
+             left > options.most ? ": nothing else is stood for by another" : "");
+  return success;
+}
+
 /// Reads everything in the bank.
 int verify_bank(const MemoryOptions& options) {
   auto store = open_existing(options.file);
@@ -235,7 +259,7 @@ int verify_bank(const MemoryOptions& options) {
 }  // namespace
 
 Result<std::vector<memory::Case>> read_cases(const std::string& file) {
-  const auto text = read_file(file, many_bytes);
+  const auto text = config::read_compressed(file, many_bytes);
   if (!text.has_value()) {
     return text.error();
   }
@@ -277,6 +301,11 @@ void add_memory(CLI::App& line, int& exit_code) {
   given->add_option("cases", options->cases, "The file")->required();
   add_bank(*given);
   given->callback([options, &exit_code] { exit_code = export_cases(*options); });
+  CLI::App* const thin = command->add_subcommand(
+      "thin", "Forgets cases for which others stand, the most redundant first");
+  thin->add_option("--most", options->most, "How many are to be left")->required();
+  add_bank(*thin);
+  thin->callback([options, &exit_code] { exit_code = thin_bank(*options); });
   CLI::App* const verify =
       command->add_subcommand("verify", "Reads all of the bank, and counts what is in it");
   verify->add_flag("--json", options->as_json, "For programs");

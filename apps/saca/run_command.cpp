@@ -18,6 +18,7 @@
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/settings.h"
+#include "apps/saca/shipped_cases.h"
 #include "apps/saca/story.h"
 #include "apps/saca/thinking_options.h"
 #include "apps/saca/version.h"
@@ -50,6 +51,7 @@ struct RunOptions {
   std::string atlas;
   std::string danger;
   bool no_memory = false;
+  bool empty_memory = false;
   bool no_learning = false;
   bool review = false;
   std::string output = "runs";
@@ -89,7 +91,8 @@ Result<std::optional<reach::DangerModel>> open_danger(const RunOptions& options,
 }
 
 /// nullptr: none is wanted.
-Result<std::shared_ptr<memory::Store>> open_memory(const RunOptions& options) {
+Result<std::shared_ptr<memory::Store>> open_memory(const RunOptions& options,
+                                                   const ScenarioInputs& inputs) {
   const std::string& file = options.thinking.memory;
   if (file.empty() || options.no_memory) {
     return std::shared_ptr<memory::Store>();
@@ -101,7 +104,12 @@ Result<std::shared_ptr<memory::Store>> open_memory(const RunOptions& options) {
         Error::Code::unreadable,
         fmt::format("--memory {}: want a folder that is there, got {}", file, folder.string())};
   }
-  auto opened = options.no_learning ? memory::Store::snapshot(file) : memory::Store::open(file);
+  auto opened = options.no_learning ? memory::Store::snapshot(file)
+                : options.empty_memory
+                    ? memory::Store::open(file)
+                    : open_or_begin(file, inputs.places,
+                                    loop::made_with({&inputs.car, &inputs.harm}, inputs.intent,
+                                                    inputs.scenario.car));
   if (!opened.has_value()) {
     return Error{opened.error().code, opened.error().message + " (" +
                                           (options.no_learning ? "" : "move the file away, or ") +
@@ -204,7 +212,7 @@ int run(const RunOptions& options) {
   if (!danger.has_value()) {
     return refused(danger.error());
   }
-  const auto memory = open_memory(options);
+  const auto memory = open_memory(options, inputs.value());
   if (!memory.has_value()) {
     return refused(memory.error());
   }
@@ -333,6 +341,8 @@ void add_run(CLI::App& line, int& exit_code) {
                    "evasions (default: by what was learnt of the car, if anything)")
       ->check(one_of({"tables", "off"}));
   command->add_flag("--no-memory", options->no_memory, "As without --memory")->group("");
+  command->add_flag("--empty-memory", options->empty_memory,
+                    "A memory that is not there yet begins without the shipped cases");
   command->add_flag("--review", options->review,
                     "Have the language model look back when all is over: half a minute");
   command->add_flag("--no-learning", options->no_learning,

@@ -99,6 +99,8 @@ constexpr const char* select_one =
     "SELECT id, policy, target_speed_mps, best_policy, harm, best_harm, collision_loss, review,"
     " source, scene, strength, details FROM cases WHERE id = ?1";
 
+constexpr const char* remove_one = "DELETE FROM cases WHERE id = ?1";
+
 /// Also the number of its parameter in `insert` and `rewrite`, but for the id.
 enum Column : int {
   id_column,
@@ -654,6 +656,26 @@ std::optional<Error> Store::update(const Case& one) {
     state_->experience.relearn(one);
   }
   return std::nullopt;
+}
+
+std::optional<Error> Store::forget(std::span<const CaseId> ids) {
+  if (state_->may_not_be_upgraded) {
+    return state_->may_not_be_upgraded;
+  }
+  const auto forget_all = [&]() -> std::optional<Error> {
+    for (const CaseId id : ids) {
+      Statement statement(state_->database.get(), remove_one);
+      if (statement.bind(1, id).step() != SQLITE_DONE) {
+        return state_->problem(Access::write);
+      }
+    }
+    return std::nullopt;
+  };
+  if (auto error = state_->in_one_transaction(forget_all)) {
+    return error;
+  }
+  state_->experience = {};  // what is left is read anew
+  return state_->catch_up();
 }
 
 Result<std::vector<Case>> Store::all() {

@@ -86,6 +86,10 @@ class Store {
   /// @throws ContractViolation  as `add`
   [[nodiscard]] std::optional<Error> update(const Case& one);
 
+  /// Forgets these cases, all or none; who is not there is none to forget.
+  /// @return  unwritable; or what `open` would say of what is left
+  [[nodiscard]] std::optional<Error> forget(std::span<const CaseId> ids);
+
   /// All cases, oldest first.
   [[nodiscard]] Result<std::vector<Case>> all();
 

@@ -358,6 +358,31 @@ TEST_F(Memory, PassesOverWhoIsQuarantined) {
   EXPECT_FALSE(asked.recall(best.scene).value().has_value());
 }
 
+TEST_F(Memory, ForgetsWhatItIsToldTo) {
+  Store store = opened();
+  std::mt19937 rng(11);
+  std::vector<Case> cases;
+  for (std::uint32_t i = 0; i < 5; ++i) {
+    cases.push_back(example_case(i));
+    cases.back().scene = random_scene(rng, 2);
+  }
+  const std::vector<CaseId> ids = store.add_all(cases).value();
+  EXPECT_FALSE(store.forget(std::array{ids[1], ids[3], CaseId{777}}));
+  EXPECT_EQ(store.size(), 3U);
+  EXPECT_FALSE(store.find(ids[1]).value());
+  EXPECT_TRUE(store.find(ids[2]).value());
+  const auto match = store.recall(cases[3].scene).value();
+  ASSERT_TRUE(match);
+  EXPECT_NE(match->found.id, ids[3]);
+  EXPECT_FALSE(store.forget({}));
+  EXPECT_EQ(opened().size(), 3U);
+  Store fixed = Store::snapshot(path_).value();
+  const auto error = fixed.forget(std::array{ids[0]});
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->code, Error::Code::unwritable);
+  EXPECT_EQ(fixed.size(), 3U);
+}
+
 TEST_F(Memory, TakesManyCasesOrNone) {
   std::vector<Case> cases;
   for (std::uint32_t i = 1; i <= 5; ++i) {

@@ -68,7 +68,7 @@ def test_the_same_run_gives_the_same_bytes_but_for_the_clock(tmp_path):
 def test_memory_learns_and_is_shown(tmp_path):
     assert quick("100car_8676", cwd=tmp_path).returncode == SUCCESS
     assert not list(tmp_path.rglob("*.sqlite")), "memory is used where it is asked for"
-    assert quick("100car_8676", "--memory", "runs/memory.sqlite", cwd=tmp_path).returncode == SUCCESS
+    assert quick("100car_8676", "--memory", "runs/memory.sqlite", "--empty-memory", cwd=tmp_path).returncode == SUCCESS
     assert "want a folder that is there, got rnus" in one_error(quick("100car_8676", "--memory", "rnus/memory.sqlite", cwd=tmp_path), BAD_INPUT)
     assert not (tmp_path / "rnus").exists()
     cases = json.loads(saca("memory", "list", "--json", cwd=tmp_path).stdout)
@@ -269,7 +269,7 @@ def obey_modes():
 
 
 def test_a_memory_that_may_only_be_read_is_used_and_the_lost_case_told(tmp_path):
-    quick("100car_8676", "--memory", "memory.sqlite", cwd=tmp_path)
+    quick("100car_8676", "--memory", "memory.sqlite", "--empty-memory", cwd=tmp_path)
     file = tmp_path / "memory.sqlite"
     file.chmod(0o444)
     before = file.read_bytes()

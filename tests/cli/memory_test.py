@@ -1,4 +1,5 @@
 """`saca memory`."""
+import gzip
 import json
 import pathlib
 import sqlite3
@@ -157,3 +158,52 @@ def test_calibrating_wants_cases(tmp_path):
     (tmp_path / "empty.jsonl").write_text('{"schema": "saca.cases/1", "cases": 0}\n')
     assert "want cases, got none" in one_error(saca("memory", "calibrate", "empty.jsonl", cwd=tmp_path), BAD_INPUT)
     assert "none.jsonl" in one_error(saca("memory", "calibrate", "none.jsonl", cwd=tmp_path), BAD_INPUT)
+
+
+SHIPPED = pathlib.Path(__file__).parents[2] / "data/memory/seed.jsonl.gz"
+
+
+def test_a_new_memory_begins_with_the_shipped_cases(tmp_path):
+    run = ("run", "100car_9018", "--llm", "off", "--pace", "lockstep", "--danger", "off", "--memory", "m.sqlite")
+    assert saca(*run, cwd=tmp_path).returncode == SUCCESS
+    record = json.loads((tmp_path / "runs/100car_9018/record.json").read_text())
+    assert record["decision"]["source"] == "memory", "it finds a case at its first encounter"
+    listed = json.loads(saca("memory", "list", "--memory", "m.sqlite", "--json", cwd=tmp_path).stdout)
+    with gzip.open(SHIPPED, "rt") as lines:
+        shipped = json.loads(next(lines))["cases"]
+    assert shipped > 5_000 and [one["id"] for one in listed] == [*range(1, shipped + 2)]
+    assert {(one["origin"], one["trust"]) for one in listed[:-1]} == {("simulation", "trusted")}
+    assert listed[-1]["source"] == "100car_9018"
+    assert SHIPPED.stat().st_size < 5_000_000
+    assert saca("memory", "thin", "--most", "1000", "--memory", "m.sqlite", cwd=tmp_path).returncode == SUCCESS
+    assert saca(*run, cwd=tmp_path).returncode == SUCCESS
+    listed = json.loads(saca("memory", "list", "--memory", "m.sqlite", "--json", cwd=tmp_path).stdout)
+    assert len(listed) <= 1001, "what was forgotten does not come back"
+
+
+def test_for_another_car_the_shipped_cases_are_in_doubt(tmp_path):
+    scenario = (SHIPPED.parents[2] / "scenarios/one_way.toml").read_text()
+    (tmp_path / "one_way.toml").write_text(scenario.replace('car = "compact_rwd_ev"', 'car = "midsize_suv"'))
+    run = saca("run", "one_way.toml", "--llm", "off", "--pace", "lockstep", "--danger", "off", "--atlas", "off", "--memory", "m.sqlite", cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    told = json.loads(saca("memory", "verify", "--memory", "m.sqlite", "--json", cwd=tmp_path).stdout)
+    assert told["trust"].get("unchecked", 0) > 5_000 and told["trust"].get("trusted", 0) <= 1
+
+
+def test_who_wants_a_smaller_bank_loses_what_others_stand_for(cases, tmp_path):
+    for _ in range(2):
+        saca("memory", "--memory", "bank.db", "import", str(cases), "--keep-trust", cwd=tmp_path)
+    count = len(documents(cases)) - 1
+    thinned = saca("memory", "thin", "--most", str(count - 1), "--memory", "bank.db", cwd=tmp_path)
+    assert thinned.returncode == SUCCESS and f"1 cases forgotten, {count - 1} left" in thinned.stdout, thinned.stdout + thinned.stderr
+    thinned = saca("memory", "thin", "--most", "0", "--memory", "bank.db", cwd=tmp_path)
+    assert "nothing else is stood for by another" in thinned.stdout
+    assert "there is no such memory bank" in one_error(saca("memory", "thin", "--most", "1", "--memory", "none.db", cwd=tmp_path), BAD_INPUT)
+
+
+def test_compressed_cases_are_read_and_damage_is_told(cases, tmp_path):
+    packed = gzip.compress(cases.read_bytes())
+    (tmp_path / "cases.jsonl.gz").write_bytes(packed)
+    assert saca("memory", "import", "cases.jsonl.gz", "--memory", "bank.db", cwd=tmp_path).returncode == SUCCESS
+    (tmp_path / "cut.jsonl.gz").write_bytes(packed[:-20])
+    assert "cut.jsonl.gz: is damaged" in one_error(saca("memory", "import", "cut.jsonl.gz", "--memory", "bank.db", cwd=tmp_path), BAD_INPUT)

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "apps/saca/places.h"
+#include "saca/memory/case.h"
+#include "saca/memory/store.h"
+
+namespace saca::app {
+
+/// The cases that are shipped (data/memory/seed.jsonl.gz). One that was worked out with another car
+/// or other harm than these is unchecked.
+/// @param now  loop::made_with
+[[nodiscard]] Result<std::vector<memory::Case>> shipped_cases(
+    const Places& places, std::span<const memory::MadeWith> now);
+
+/// Opens the bank; one that is not there is made, and begins with the shipped cases.
+[[nodiscard]] Result<memory::Store> open_or_begin(const std::string& file, const Places& places,
+                                                  std::span<const memory::MadeWith> now);
+
+}  // namespace saca::app

@@ -1,0 +1,110 @@
+#include "saca/memory/thinning.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "saca/memory/example_scenes.h"
+#include "saca/memory/experience.h"
+
+namespace saca::memory::thinning_test {
+namespace {
+
+using manoeuvre::PolicyId;
+
+Case a_case(CaseId id, const world::Scene& scene, PolicyId best) {
+  Case one;
+  one.id = id;
+  one.scene = scene;
+  one.best = best;
+  one.origin = Origin::simulation;
+  return one;
+}
+
+/// The definition, looked up anew for each that goes: every pair is compared.
+std::vector<CaseId> by_brute_force(std::vector<Case> cases, std::size_t most) {
+  std::vector<CaseId> gone;
+  while (cases.size() > most) {
+    double least = std::numeric_limits<double>::infinity();
+    auto next = cases.end();
+    for (auto one = cases.begin(); one != cases.end(); ++one) {
+      if (one->trust != Trust::trusted || one->origin == Origin::own ||
+          one->origin == Origin::expert) {
+        continue;
+      }
+      for (const Case& other : cases) {
+        if (other.id == one->id || other.trust != Trust::trusted ||
+            as_good_as_best(other) != as_good_as_best(*one)) {
+          continue;
+        }
+        const Features a = features(one->scene);
+        const Features b = features(other.scene);
+        const double apart = difference(a.ego, {a.actors.begin(), a.actors.size()}, b.ego,
+                                        {b.actors.begin(), b.actors.size()});
+        if (apart < least || (apart == least && next != cases.end() && one->id > next->id)) {
+          least = apart;
+          next = one;
+        }
+      }
+    }
+    if (next == cases.end()) {
+      break;
+    }
+    gone.push_back(next->id);
+    cases.erase(next);
+  }
+  return gone;
+}
+
+TEST(Thinning, IsWhatComparingAllPairsAnewWouldDo) {
+  std::mt19937 rng(3);
+  std::vector<Case> cases;
+  for (CaseId id = 1; id <= 80; ++id) {
+    Case one = a_case(id, random_scene(rng, static_cast<int>(rng() % 3)),
+                      manoeuvre::all_policies.at(rng() % 3));
+    one.trust = rng() % 5 == 0 ? Trust::unchecked : Trust::trusted;
+    one.origin = rng() % 5 == 0 ? Origin::own : Origin::simulation;
+    cases.push_back(one);
+  }
+  for (const std::size_t most : {0U, 20U, 50U, 79U}) {
+    EXPECT_EQ(most_redundant(cases, most), by_brute_force(cases, most)) << most;
+  }
+}
+
+TEST(Thinning, TakesNobodyWhereThereIsRoom) {
+  const std::vector<Case> cases{a_case(1, empty_road(), PolicyId::aeb),
+                                a_case(2, empty_road(), PolicyId::aeb)};
+  EXPECT_TRUE(most_redundant(cases, 2).empty());
+  EXPECT_TRUE(most_redundant(cases, 1'000).empty());
+  EXPECT_TRUE(most_redundant({}, 0).empty());
+}
+
+TEST(Thinning, OfTheSameTheNewerGoesAndTheLastStays) {
+  const std::vector<Case> cases{a_case(1, empty_road(), PolicyId::aeb),
+                                a_case(2, empty_road(), PolicyId::aeb),
+                                a_case(5, empty_road(), PolicyId::aeb)};
+  EXPECT_EQ(most_redundant(cases, 1), (std::vector<CaseId>{5, 2}));
+  EXPECT_EQ(most_redundant(cases, 0), (std::vector<CaseId>{5, 2})) << "alike to nothing";
+}
+
+TEST(Thinning, KeepsWhatSpeaksForSomethingElse) {
+  const std::vector<Case> cases{a_case(1, empty_road(), PolicyId::aeb),
+                                a_case(2, empty_road(), PolicyId::es_b_left)};
+  EXPECT_TRUE(most_redundant(cases, 1).empty());
+}
+
+TEST(Thinning, KeepsWhatTheCarDroveWhatExpertsToldAndWhatIsInDoubt) {
+  for (const auto keep : {+[](Case& one) { one.origin = Origin::own; },
+                          +[](Case& one) { one.origin = Origin::expert; },
+                          +[](Case& one) { one.trust = Trust::unchecked; },
+                          +[](Case& one) { one.trust = Trust::quarantined; }}) {
+    std::vector<Case> cases{a_case(1, empty_road(), PolicyId::aeb),
+                            a_case(2, empty_road(), PolicyId::aeb)};
+    std::for_each(cases.begin(), cases.end(), keep);
+    EXPECT_TRUE(most_redundant(cases, 0).empty());
+  }
+}
+
+}  // namespace
+}  // namespace saca::memory::thinning_test
