@@ -21,7 +21,7 @@ class CompressedText : public testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
 
   [[nodiscard]] fs::path compressed(const std::string& text) const {
-    const fs::path file = folder_ / "text.gz";
+    fs::path file = folder_ / "text.gz";
     gzFile out = gzopen(file.c_str(), "wb9");
     EXPECT_EQ(gzwrite(out, text.data(), static_cast<unsigned>(text.size())),
               static_cast<int>(text.size()));

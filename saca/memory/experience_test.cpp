@@ -105,7 +105,7 @@ TEST(Experience, IsThatOfTheNearest) {
       sum += weight * wrong;
       weights += weight;
     }
-    EXPECT_NEAR(experience.corrections(scene)[0], sum / weights, 1e-9);
+    EXPECT_NEAR(experience.corrections(scene)[0], sum / weights, 1e-7);
   }
 }
 

@@ -7,16 +7,21 @@
 #include <span>
 #include <vector>
 
+#include "saca/core/static_vector.h"
 #include "saca/memory/case.h"
+#include "saca/memory/neighbour_graph.h"
 #include "saca/memory/similarity.h"
 
 namespace saca::memory {
 
 /// The features of many scenes, packed to be searched.
 ///
-/// Scenes lie in cells of one kind of road and its markings, a step of the ego's speed and one of
-/// the grip. A search goes from its own cell outwards and ends where no cell can hold anything
-/// nearer than what was found: exact, and it looks at few. Searching allocates nothing.
+/// Of few, scenes lie in cells of one kind of road and its markings, a step of the ego's speed and
+/// one of the grip. A search goes from its own cell outwards and ends where no cell can hold
+/// anything nearer than what was found: it is exact. Of many it goes from neighbour to neighbour
+/// (NeighbourGraph), and now and then misses one (docs/decisions/0030-many-cases.md).
+///
+/// While nothing is added any number of threads may search; searching allocates nothing.
 class FeatureIndex {
  public:
   struct Hit {
@@ -24,6 +29,10 @@ class FeatureIndex {
     double difference = 0.0;
     std::size_t place = 0;  ///< how many were added before it
   };
+
+  /// Up to this many are searched exactly.
+  static constexpr std::size_t usually_exact = 20'000;
+  explicit FeatureIndex(std::size_t most_exact = usually_exact) : most_exact_(most_exact) {}
 
   /// @param id     greater than all before
   /// @param scene  breaks no rule of `world::broken_rule`
@@ -40,11 +49,13 @@ class FeatureIndex {
   /// The scene that differs least, the oldest of equals; nullopt when there is none.
   [[nodiscard]] std::optional<Hit> nearest(const Features& wanted) const noexcept;
   /// As many of those that differ least as there is room for, the nearest first, the older of
-  /// equals; who is like no other is left out.
+  /// equals; of many at most NeighbourGraph::most_found.
   /// @return  how many were found
   [[nodiscard]] std::size_t nearest(const Features& wanted, std::span<Hit> hits) const noexcept;
 
   [[nodiscard]] std::size_t size() const noexcept { return ids_.size(); }
+  /// Memory that it takes [byte].
+  [[nodiscard]] std::size_t bytes() const noexcept;
   /// 0 when there is none.
   [[nodiscard]] CaseId last_id() const noexcept { return ids_.empty() ? 0 : ids_.back(); }
 
@@ -53,35 +64,49 @@ class FeatureIndex {
   static constexpr int num_grips = 24;   ///< likewise of the logarithm of the grip
 
   struct Entry {
-    EgoFeatures ego;
-    std::uint32_t place = 0;
+    ScaledEgo<float> ego;
+    bool passed_over = false;
   };
-  /// Scenes of one kind of road with the same markings.
+  using Places = std::vector<std::uint32_t>;
   struct Kind {
-    EgoFeatures road;                       ///< one of them
-    std::vector<std::vector<Entry>> cells;  ///< by speed, then by grip
+    ScaledEgo<float> road;      ///< one of them
+    std::vector<Places> cells;  ///< by speed, then by grip
   };
-  /// Where a case lies.
-  struct Where {
-    std::uint32_t kind = 0;
-    std::uint32_t cell = 0;
-    std::uint32_t entry = 0;
+  struct Wanted {
+    explicit Wanted(const Features& features) noexcept;
+    ScaledEgo<float> ego;
+    StaticVector<ScaledActor<float>, world::max_actors> actors;
   };
 
   [[nodiscard]] static std::size_t cell_at(int speed, int grip) noexcept;
-  [[nodiscard]] static std::size_t cell_of(const EgoFeatures& ego) noexcept;
-  /// Looks at all that may differ by less than `farthest()`, which may shrink meanwhile.
+  [[nodiscard]] static std::size_t cell_of(const ScaledEgo<float>& ego) noexcept;
+  [[nodiscard]] std::span<const ScaledActor<float>> actors_of(std::uint32_t place) const noexcept {
+    return {actors_.data() + first_actor_[place], first_actor_[place + 1] - first_actor_[place]};
+  }
+  /// Asks for what a place needs to be compared, without waiting for it.
+  void prepare(std::uint32_t place) const noexcept;
+  void add_to_cells(std::uint32_t place);
+  void add_to_graph();
+  /// Looks at all whose squared difference may be less than `farthest2()`, which may shrink
+  /// meanwhile.
   template <class Farthest, class Take>
-  void search(const Features& wanted, const Farthest& farthest, const Take& take) const noexcept;
+  void search(const Wanted& wanted, const Farthest& farthest2, const Take& take) const noexcept;
   template <class Farthest, class Take>
-  void search(const Kind& kind, double apart2, const Features& wanted, const Farthest& farthest,
+  void search(const Kind& kind, float apart2, const Wanted& wanted, const Farthest& farthest2,
               const Take& take) const noexcept;
+  [[nodiscard]] std::size_t nearest_in_cells(const Wanted& wanted,
+                                             std::span<Hit> hits) const noexcept;
+  [[nodiscard]] std::size_t nearest_in_graph(const Wanted& wanted,
+                                             std::span<Hit> hits) const noexcept;
 
+  std::size_t most_exact_;
   std::vector<CaseId> ids_;
-  std::vector<Where> where_;
-  std::vector<Kind> kinds_;
-  std::vector<ActorFeatures> actors_;        ///< scene after scene
-  std::vector<std::size_t> first_actor_{0};  ///< of each scene, and behind the last
+  std::vector<Entry> entries_;
+  std::vector<ScaledActor<float>> actors_;     ///< scene after scene
+  std::vector<std::uint32_t> first_actor_{0};  ///< of each scene, and behind the last
+  std::size_t num_passed_over_ = 0;
+  std::vector<Kind> kinds_;  ///< of few
+  NeighbourGraph graph_;     ///< of many
 };
 
 }  // namespace saca::memory

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <span>
 
 #include "saca/core/contract.h"
@@ -12,6 +13,8 @@
 
 namespace saca::memory::feature_index_test {
 namespace {
+
+constexpr double rounding = 1e-5;  // features are kept as float
 
 TEST(FeatureIndex, IsEmptyAtFirst) {
   const FeatureIndex index;
@@ -39,7 +42,7 @@ TEST(FeatureIndex, FindsWhatComparingAllScenesFinds) {
     }
     const FeatureIndex::Hit hit = index.nearest(features(wanted)).value();
     EXPECT_EQ(hit.id, 10 + static_cast<CaseId>(best));
-    EXPECT_DOUBLE_EQ(similarity_at(hit.difference), similarity(wanted, scenes[best]));
+    EXPECT_NEAR(similarity_at(hit.difference), similarity(wanted, scenes[best]), rounding);
   }
 }
 
@@ -60,7 +63,7 @@ TEST(FeatureIndex, FindsAsManyOfTheNearestAsThereIsRoomFor) {
   ASSERT_EQ(index.nearest(features(wanted), some), 7U);
   for (std::size_t i = 0; i < some.size(); ++i) {
     EXPECT_EQ(some[i].id, all[i].second);
-    EXPECT_DOUBLE_EQ(similarity_at(some[i].difference), -all[i].first);
+    EXPECT_NEAR(similarity_at(some[i].difference), -all[i].first, rounding);
   }
   std::array<FeatureIndex::Hit, 200> many;
   EXPECT_EQ(index.nearest(features(wanted), many), 99U);
@@ -104,9 +107,47 @@ TEST(FeatureIndex, MissesNothingAtTheEdgesOfItsCells) {
     ASSERT_EQ(index.nearest(wanted, hits), 5U);
     for (std::size_t k = 0; k < hits.size(); ++k) {
       EXPECT_EQ(hits[k].id, sorted[k].second) << i << ", " << k;
-      EXPECT_DOUBLE_EQ(hits[k].difference, sorted[k].first);
+      EXPECT_NEAR(hits[k].difference, sorted[k].first, rounding * sorted[k].first);
     }
   }
+}
+
+// Of many: beyond the threshold it goes from neighbour to neighbour.
+TEST(FeatureIndex, OfManyFindsNearlyAllThatAnExactSearchFinds) {
+  std::mt19937 rng(4);
+  FeatureIndex exact;
+  FeatureIndex many(100);
+  for (CaseId id = 1; id <= 3'000; ++id) {
+    const world::Scene scene = random_scene(rng, static_cast<int>(rng() % 4));
+    exact.add(id, scene);
+    many.add(id, scene);
+  }
+  std::set<CaseId> passed_over;
+  for (CaseId id = 1; id <= 3'000; id += 100) {
+    exact.pass_over(id);
+    many.pass_over(id);
+    many.pass_over(id);
+    passed_over.insert(id);
+  }
+  int first_found = 0;
+  int found = 0;
+  constexpr int queries = 100;
+  for (int i = 0; i < queries; ++i) {
+    const Features wanted = features(random_scene(rng, static_cast<int>(rng() % 4)));
+    std::array<FeatureIndex::Hit, 50> right;
+    std::array<FeatureIndex::Hit, 50> hits;
+    ASSERT_EQ(exact.nearest(wanted, right), 50U);
+    ASSERT_EQ(many.nearest(wanted, hits), 50U);
+    first_found += right[0].id == hits[0].id ? 1 : 0;
+    for (const FeatureIndex::Hit& hit : hits) {
+      EXPECT_FALSE(passed_over.contains(hit.id));
+      EXPECT_EQ(many.place_of(hit.id), hit.place);
+      found += hit.difference <= right[49].difference ? 1 : 0;
+    }
+  }
+  EXPECT_GE(first_found, 0.99 * queries);
+  EXPECT_GE(found, 0.98 * 50 * queries);
+  EXPECT_GT(many.bytes(), exact.bytes());
 }
 
 TEST(FeatureIndex, PrefersTheOldestOfEquals) {

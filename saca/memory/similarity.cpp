@@ -4,7 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <initializer_list>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "saca/core/angle.h"
@@ -163,88 +166,89 @@ ActorFeatures actor_features(const world::Actor& actor, const world::Road& road,
           .kind = actor.kind};
 }
 
-double marking_difference2(const EgoFeatures& a, const EgoFeatures& b) {
-  return (a.oncoming_left != b.oncoming_left ? square(other_marking) : 0.0) +
-         (a.oncoming_right != b.oncoming_right ? square(other_marking) : 0.0);
+template <class Real>
+constexpr Real square_of(Real x) {
+  return x * x;
 }
 
-double topology_difference2(const EgoFeatures& a, const EgoFeatures& b) {
-  return a.topology != b.topology ? square(other_topology) : 0.0;
-}
-
-/// One part of what the ego and its road differ in.
-struct EgoPart {
-  const char* what;
-  double squared;
-};
-constexpr std::size_t num_ego_parts = 12;
-
-double edge_difference2(double room_a, double room_b, Beyond a, Beyond b) {
+/// Square of what two egos differ in, by ScaledEgo::Part.
+template <class Real>
+std::array<Real, num_ego_parts> ego_squares(const ScaledEgo<Real>& a, const ScaledEgo<Real>& b) {
+  std::array<Real, num_ego_parts> squares;
+  for (std::size_t i = 0; i < squares.size(); ++i) {
+    squares[i] = square_of(a.parts[i] - b.parts[i]);
+  }
+  // The short way round.
+  constexpr auto half_turn = static_cast<Real>(std::numbers::pi / heading_scale);
+  Real turned = std::abs(a.parts[ego_heading] - b.parts[ego_heading]);
+  turned = turned > half_turn ? 2 * half_turn - turned : turned;
+  squares[ego_heading] = square_of(turned);
   // What lies beyond matters fully within a lane's width and not at all where room is ample.
-  const double nearness =
-      std::clamp((ample_room - 0.5 * (room_a + room_b)) / (ample_room - lane), 0.0, 1.0);
-  const double ground = is_hard(a) != is_hard(b) ? other_ground * nearness : 0.0;
-  return square((room_a - room_b) / room_scale) + square(ground);
+  const auto ground = [&](std::size_t room, bool is_other) {
+    constexpr auto ample = static_cast<Real>(ample_room / room_scale);
+    constexpr auto near = static_cast<Real>(lane / room_scale);
+    const Real mean = (a.parts[room] + b.parts[room]) / 2;
+    const Real nearness = std::clamp((ample - mean) / (ample - near), Real{0}, Real{1});
+    squares[room] += is_other ? square_of(static_cast<Real>(other_ground) * nearness) : Real{0};
+  };
+  ground(ego_room_left, a.hard_left != b.hard_left);
+  ground(ego_room_right, a.hard_right != b.hard_right);
+  return squares;
 }
 
-std::array<EgoPart, num_ego_parts> ego_parts(const EgoFeatures& a, const EgoFeatures& b) {
-  const Vec2 v = a.v_L - b.v_L;
-  return {{{"speed", square(v.x / speed_scale) + square(v.y / sideways_scale)},
-           {"place in the lane", square((a.offset - b.offset) / offset_scale)},
-           {"heading", square(wrap_angle(a.heading - b.heading) / heading_scale)},
-           {"yaw rate", square((a.yaw_rate - b.yaw_rate) / yaw_rate_scale)},
-           {"body", square((a.length - b.length) / ego_size_scale) +
-                        square((a.width - b.width) / ego_size_scale)},
-           {"grip", square((a.log_grip - b.log_grip) / log_grip_scale)},
-           {"width of the lane", square((a.lane_width - b.lane_width) / lane_scale)},
-           {"curve", square((a.curve - b.curve) / curve_scale)},
-           {"room to the left",
-            edge_difference2(a.room_left, b.room_left, a.left_beyond, b.left_beyond)},
-           {"room to the right",
-            edge_difference2(a.room_right, b.room_right, a.right_beyond, b.right_beyond)},
-           {"markings", marking_difference2(a, b)},
-           {"kind of road", topology_difference2(a, b)}}};
-}
-
-double ego_difference2(const EgoFeatures& a, const EgoFeatures& b) {
-  double sum = 0.0;
-  for (const EgoPart& part : ego_parts(a, b)) {
-    sum += part.squared;
+template <class Real>
+Real ego_difference2(const ScaledEgo<Real>& a, const ScaledEgo<Real>& b) {
+  // Four sums at once: one after the other each addition would wait for the one before.
+  const std::array<Real, num_ego_parts> squares = ego_squares(a, b);
+  std::array<Real, 4> sums{};
+  for (std::size_t i = 0; i < squares.size(); i += sums.size()) {
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+      sums[k] += squares[i + k];
+    }
   }
-  return sum;
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]) + road_difference2(a, b);
 }
 
-double actor_difference2(const ActorFeatures& a, const ActorFeatures& b) {
-  const Vec2 p = a.p_rel_L - b.p_rel_L;
-  const Vec2 v = a.v_rel_L - b.v_rel_L;
-  double sum = square(p.x / along_now_scale) + square(p.y / across_now_scale);
-  sum += square((p.y + v.y) / across_then_scale) + square((p.x + 2.0 * v.x) / along_then_scale);
-  sum += square(v.x / speed_along_scale) + square(v.y / speed_across_scale);
-  sum += square((a.sideways - b.sideways) / acceleration_scale);
-  sum += square(0.5 * (a.length - b.length) / edge_scale);
-  sum += square(0.5 * (a.width - b.width) / edge_scale);
+template <class Real>
+Real actor_difference2(const ScaledActor<Real>& a, const ScaledActor<Real>& b) {
+  std::array<Real, 4> sums{};
+  for (std::size_t i = 0; i < a.parts.size(); i += sums.size()) {
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+      sums[k] += square_of(a.parts[i + k] - b.parts[i + k]);
+    }
+  }
+  Real sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
   // Turning moves the ends of a long body, not those of a disc; front and rear are alike.
-  const double arm = 0.25 * (std::abs(a.length - a.width) + std::abs(b.length - b.width));
-  const double sine = a.forward_L.x * b.forward_L.y - a.forward_L.y * b.forward_L.x;
-  sum += square(arm * sine / turned_scale);
+  const Real sine = a.forward_s * b.forward_d - a.forward_d * b.forward_s;
+  sum += square_of((a.arm + b.arm) * sine);
   if (a.kind != b.kind) {
-    sum += square(group(a.kind) == group(b.kind) ? other_kind : other_group);
+    sum += static_cast<Real>(square(group(a.kind) == group(b.kind) ? other_kind : other_group));
   }
   return sum;
 }
 
-double absence2(const ActorFeatures& actor) {
-  return square(absence_share * actor.threat);
-}
+/// Turns p^2 / a^2 + (p + t v)^2 / b^2 + v^2 / c^2 into two squares: L^T (p, v) with the Cholesky
+/// factor L of that form.
+struct TwoSquares {
+  double of_p = 0.0;
+  double p_of_v = 0.0;
+  double of_v = 0.0;
+
+  TwoSquares(double a, double b, double t, double c)
+      : of_p(std::sqrt(1.0 / square(a) + 1.0 / square(b))),
+        p_of_v(t / square(b) / of_p),
+        of_v(std::sqrt(square(t / b) + 1.0 / square(c) - square(p_of_v))) {}
+};
 
 /// The assignment of which the sum of squared differences is smallest, exactly: the Hungarian
 /// method, one row after the other by shortest augmenting paths (R. Jonker, A. Volgenant, A
 /// shortest augmenting path algorithm for dense and sparse linear assignment problems, Computing
 /// 38, 1987). To match two actors saves what their absences count above their difference; nobody
 /// is matched where that saves nothing.
+template <class Real>
 class Assignment {
  public:
-  using Actors = std::span<const ActorFeatures>;
+  using Actors = std::span<const ScaledActor<Real>>;
 
   /// @param rows  not more than `columns`
   Assignment(Actors rows, Actors columns) : rows_(rows), columns_(columns) {
@@ -252,6 +256,10 @@ class Assignment {
       for (std::size_t j = 0; j < columns.size(); ++j) {
         pair2_[i][j] = actor_difference2(rows[i], columns[j]);
       }
+    }
+    std::fill_n(row_of_.begin(), columns.size(), nobody);
+    std::fill_n(column_price_.begin(), columns.size(), Real{0});
+    for (std::size_t i = 0; i < rows.size(); ++i) {
       assign(i);
     }
   }
@@ -260,71 +268,75 @@ class Assignment {
   /// `none` in the other's place.
   template <class Take>
   void each(const Take& take) const {
-    std::array<bool, world::max_actors> is_matched{};
+    std::array<bool, world::max_actors> is_matched;
+    std::fill_n(is_matched.begin(), rows_.size(), false);
     for (std::size_t j = 0; j < columns_.size(); ++j) {
       const std::size_t row = row_of_[j];
-      if (row != none && saving2(row, j) > 0.0) {
+      if (row != nobody && saving2(row, j) > Real{0}) {
         take(row, j, pair2_[row][j]);
         is_matched[row] = true;
       } else {
-        take(none, j, absence2(columns_[j]));
+        take(none, j, columns_[j].absence2);
       }
     }
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       if (!is_matched[i]) {
-        take(i, none, absence2(rows_[i]));
+        take(i, none, rows_[i].absence2);
       }
     }
   }
 
   /// Sum of squares over the pairs and the unmatched: from the smallest on, so that it does not
   /// depend on their order, nor on which scene comes first.
-  [[nodiscard]] double sum2() const {
-    std::array<double, 2 * world::max_actors> parts;
+  [[nodiscard]] Real sum2() const {
+    std::array<Real, 2 * world::max_actors> parts;
     std::size_t size = 0;
-    each([&](std::size_t, std::size_t, double squared) { parts[size++] = squared; });
+    each([&](std::size_t, std::size_t, Real squared) { parts[size++] = squared; });
     std::sort(parts.data(), parts.data() + size);
-    return std::accumulate(parts.data(), parts.data() + size, 0.0);
+    return std::accumulate(parts.data(), parts.data() + size, Real{0});
   }
 
   static constexpr std::size_t none = world::max_actors;
 
  private:
-  [[nodiscard]] double saving2(std::size_t i, std::size_t j) const {
-    return absence2(rows_[i]) + absence2(columns_[j]) - pair2_[i][j];
+  [[nodiscard]] Real saving2(std::size_t i, std::size_t j) const {
+    return rows_[i].absence2 + columns_[j].absence2 - pair2_[i][j];
   }
-  [[nodiscard]] double cost(std::size_t i, std::size_t j) const {
-    return -std::max(saving2(i, j), 0.0);
+  [[nodiscard]] Real cost(std::size_t i, std::size_t j) const {
+    return -std::max(saving2(i, j), Real{0});
   }
 
   /// Finds a column for a row, moving the rows before where that is cheaper.
   void assign(std::size_t row) {
-    constexpr double far = std::numeric_limits<double>::infinity();
-    std::array<double, world::max_actors> shortest;       // reduced cost of the way to each column
-    std::array<std::size_t, world::max_actors> before{};  // column on that way
-    std::array<bool, world::max_actors> done{};
-    shortest.fill(far);
-    std::size_t column = none;  // where the way has come to
-    std::size_t from = row;     // the row that is without a column there
-    double length = 0.0;
+    constexpr Real far = std::numeric_limits<Real>::infinity();
+    std::array<Real, world::max_actors> shortest;  // reduced cost of the way to each column
+    std::array<Index, world::max_actors> before;   // column on that way
+    std::array<bool, world::max_actors> done;
+    std::fill_n(shortest.begin(), columns_.size(), far);
+    std::fill_n(before.begin(), columns_.size(), nobody);
+    std::fill_n(done.begin(), columns_.size(), false);
+    row_price_[row] = 0;
+    Index column = nobody;   // where the way has come to
+    std::size_t from = row;  // the row that is without a column there
+    Real length = 0;
     while (true) {
-      std::size_t next = none;
+      std::size_t next = nobody;
       for (std::size_t j = 0; j < columns_.size(); ++j) {
         if (done[j]) {
           continue;
         }
-        const double way = length + cost(from, j) - row_price_[from] - column_price_[j];
+        const Real way = length + cost(from, j) - row_price_[from] - column_price_[j];
         if (way < shortest[j]) {
           shortest[j] = way;
           before[j] = column;
         }
-        if (next == none || shortest[j] < shortest[next]) {
+        if (next == nobody || shortest[j] < shortest[next]) {
           next = j;
         }
       }
-      column = next;
+      column = static_cast<Index>(next);
       length = shortest[column];
-      if (row_of_[column] == none) {
+      if (row_of_[column] == nobody) {
         break;
       }
       done[column] = true;
@@ -337,25 +349,23 @@ class Assignment {
         column_price_[j] -= length - shortest[j];
       }
     }
-    while (before[column] != none) {
+    while (before[column] != nobody) {
       row_of_[column] = row_of_[before[column]];
       column = before[column];
     }
-    row_of_[column] = row;
+    row_of_[column] = static_cast<Index>(row);
   }
 
-  static constexpr std::array<std::size_t, world::max_actors> nobody() {
-    std::array<std::size_t, world::max_actors> all{};
-    all.fill(none);
-    return all;
-  }
-
+  // A search makes thousands of these: only what is needed is set, by the constructor.
+  using Index = std::uint8_t;
+  static constexpr Index nobody = 255;
+  static_assert(world::max_actors < nobody);
   Actors rows_;
   Actors columns_;
-  std::array<std::array<double, world::max_actors>, world::max_actors> pair2_;
-  std::array<std::size_t, world::max_actors> row_of_ = nobody();
-  std::array<double, world::max_actors> row_price_{};
-  std::array<double, world::max_actors> column_price_{};
+  std::array<std::array<Real, world::max_actors>, world::max_actors> pair2_;
+  std::array<Index, world::max_actors> row_of_;
+  std::array<Real, world::max_actors> row_price_;
+  std::array<Real, world::max_actors> column_price_;
 };
 
 }  // namespace
@@ -376,42 +386,148 @@ Features features(const world::Scene& scene) noexcept {
   return result;
 }
 
-double road_difference2(const EgoFeatures& a, const EgoFeatures& b) noexcept {
-  return marking_difference2(a, b) + topology_difference2(a, b);
+template <class Real>
+ScaledEgo<Real> scaled(const EgoFeatures& ego) noexcept {
+  const auto real = [](double x) { return static_cast<Real>(x); };
+  ScaledEgo<Real> result;
+  result.parts = {
+      real(ego.v_L.x / speed_scale),       real(ego.v_L.y / sideways_scale),
+      real(ego.offset / offset_scale),     real(wrap_angle(ego.heading) / heading_scale),
+      real(ego.yaw_rate / yaw_rate_scale), real(ego.length / ego_size_scale),
+      real(ego.width / ego_size_scale),    real(ego.log_grip / log_grip_scale),
+      real(ego.lane_width / lane_scale),   real(ego.curve / curve_scale),
+      real(ego.room_left / room_scale),    real(ego.room_right / room_scale)};
+  result.usable = ego.usable;
+  result.hard_left = is_hard(ego.left_beyond);
+  result.hard_right = is_hard(ego.right_beyond);
+  result.oncoming_left = ego.oncoming_left;
+  result.oncoming_right = ego.oncoming_right;
+  result.topology = ego.topology;
+  return result;
 }
+
+template <class Real>
+ScaledActor<Real> scaled(const ActorFeatures& actor) noexcept {
+  static const TwoSquares along(along_now_scale, along_then_scale, 2.0, speed_along_scale);
+  static const TwoSquares across(across_now_scale, across_then_scale, 1.0, speed_across_scale);
+  const auto real = [](double x) { return static_cast<Real>(x); };
+  const Vec2 p = actor.p_rel_L;
+  const Vec2 v = actor.v_rel_L;
+  ScaledActor<Real> result;
+  result.parts = {
+      real(along.of_p * p.x + along.p_of_v * v.x),   real(along.of_v * v.x),
+      real(across.of_p * p.y + across.p_of_v * v.y), real(across.of_v * v.y),
+      real(actor.sideways / acceleration_scale),     real(0.5 * actor.length / edge_scale),
+      real(0.5 * actor.width / edge_scale),          Real{0}};
+  result.arm = real(0.25 * std::abs(actor.length - actor.width) / turned_scale);
+  result.forward_s = real(actor.forward_L.x);
+  result.forward_d = real(actor.forward_L.y);
+  result.absence2 = real(square(absence_share * actor.threat));
+  result.kind = actor.kind;
+  return result;
+}
+
+template <class Real>
+Real road_difference2(const ScaledEgo<Real>& a, const ScaledEgo<Real>& b) noexcept {
+  constexpr auto marking2 = static_cast<Real>(square(other_marking));
+  constexpr auto topology2 = static_cast<Real>(square(other_topology));
+  return (a.oncoming_left != b.oncoming_left ? marking2 : Real{0}) +
+         (a.oncoming_right != b.oncoming_right ? marking2 : Real{0}) +
+         (a.topology != b.topology ? topology2 : Real{0});
+}
+
+template <class Real>
+Real difference2(const ScaledEgo<Real>& ego_a, std::span<const ScaledActor<Real>> actors_a,
+                 const ScaledEgo<Real>& ego_b, std::span<const ScaledActor<Real>> actors_b,
+                 Real limit2) noexcept {
+  if (!ego_a.usable || !ego_b.usable) {
+    return std::numeric_limits<Real>::infinity();
+  }
+  const Real ego2 = ego_difference2(ego_a, ego_b);
+  if (ego2 >= limit2) {
+    return ego2;
+  }
+  const bool fewer = actors_a.size() <= actors_b.size();
+  return ego2 + Assignment<Real>(fewer ? actors_a : actors_b, fewer ? actors_b : actors_a).sum2();
+}
+
+template ScaledEgo<float> scaled<float>(const EgoFeatures&) noexcept;
+template ScaledActor<float> scaled<float>(const ActorFeatures&) noexcept;
+template float road_difference2(const ScaledEgo<float>&, const ScaledEgo<float>&) noexcept;
+template float difference2(const ScaledEgo<float>&, std::span<const ScaledActor<float>>,
+                           const ScaledEgo<float>&, std::span<const ScaledActor<float>>,
+                           float) noexcept;
+template ScaledEgo<double> scaled<double>(const EgoFeatures&) noexcept;
+template ScaledActor<double> scaled<double>(const ActorFeatures&) noexcept;
+template double road_difference2(const ScaledEgo<double>&, const ScaledEgo<double>&) noexcept;
+template double difference2(const ScaledEgo<double>&, std::span<const ScaledActor<double>>,
+                            const ScaledEgo<double>&, std::span<const ScaledActor<double>>,
+                            double) noexcept;
+
+namespace {
+
+using ExactActors = StaticVector<ScaledActor<double>, world::max_actors>;
+
+ExactActors exact(std::span<const ActorFeatures> actors) {
+  ExactActors all;
+  for (const ActorFeatures& actor : actors) {
+    all.push_back(scaled<double>(actor));
+  }
+  return all;
+}
+
+std::span<const ScaledActor<double>> span_of(const ExactActors& actors) {
+  return {actors.begin(), actors.size()};
+}
+
+}  // namespace
 
 double difference(const EgoFeatures& ego_a, std::span<const ActorFeatures> actors_a,
                   const EgoFeatures& ego_b, std::span<const ActorFeatures> actors_b,
                   double limit) noexcept {
-  if (!ego_a.usable || !ego_b.usable) {
-    return std::numeric_limits<double>::infinity();
-  }
-  const double ego2 = ego_difference2(ego_a, ego_b);
-  if (ego2 >= square(limit)) {
-    return std::sqrt(ego2);
-  }
-  const bool fewer = actors_a.size() <= actors_b.size();
-  return std::sqrt(ego2 +
-                   Assignment(fewer ? actors_a : actors_b, fewer ? actors_b : actors_a).sum2());
+  const ExactActors of_a = exact(actors_a);
+  const ExactActors of_b = exact(actors_b);
+  return std::sqrt(difference2(scaled<double>(ego_a), span_of(of_a), scaled<double>(ego_b),
+                               span_of(of_b), square(limit)));
 }
 
 std::vector<DifferencePart> difference_parts(const world::Scene& a, const world::Scene& b) {
   const Features of_a = features(a);
   const Features of_b = features(b);
   expects(of_a.ego.usable && of_b.ego.usable, "neither scene breaks a rule");
-  std::vector<DifferencePart> parts;
-  for (const EgoPart& part : ego_parts(of_a.ego, of_b.ego)) {
-    parts.push_back({part.what, std::sqrt(part.squared)});
-  }
+  const auto ego_a = scaled<double>(of_a.ego);
+  const auto ego_b = scaled<double>(of_b.ego);
+  const auto squares = ego_squares(ego_a, ego_b);
+  const auto root = [&squares](std::initializer_list<std::size_t> which) {
+    double sum = 0.0;
+    for (const std::size_t part : which) {
+      sum += squares[part];
+    }
+    return std::sqrt(sum);
+  };
+  std::vector<DifferencePart> parts{
+      {"speed", root({ego_speed, ego_sideways})},
+      {"place in the lane", root({ego_offset})},
+      {"heading", root({ego_heading})},
+      {"yaw rate", root({ego_yaw_rate})},
+      {"body", root({ego_length, ego_width})},
+      {"grip", root({ego_grip})},
+      {"width of the lane", root({ego_lane_width})},
+      {"curve", root({ego_curve})},
+      {"room to the left", root({ego_room_left})},
+      {"room to the right", root({ego_room_right})},
+      {"road and markings", std::sqrt(road_difference2(ego_a, ego_b))}};
   const bool fewer = of_a.actors.size() <= of_b.actors.size();
   const world::Scene& rows = fewer ? a : b;
   const world::Scene& columns = fewer ? b : a;
-  const auto span_of = [](const Features& one) {
-    return std::span(one.actors.begin(), one.actors.size());
+  const auto actors_of = [](const Features& one) {
+    return exact({one.actors.begin(), one.actors.size()});
   };
-  const Assignment assignment(span_of(fewer ? of_a : of_b), span_of(fewer ? of_b : of_a));
+  const ExactActors of_rows = actors_of(fewer ? of_a : of_b);
+  const ExactActors of_columns = actors_of(fewer ? of_b : of_a);
+  const Assignment<double> assignment(span_of(of_rows), span_of(of_columns));
   assignment.each([&](std::size_t row, std::size_t column, double squared) {
-    constexpr std::size_t none = Assignment::none;
+    constexpr std::size_t none = Assignment<double>::none;
     const std::string of_row = row == none ? "nobody" : actor_name(rows.actors[row]);
     const std::string of_column = column == none ? "nobody" : actor_name(columns.actors[column]);
     parts.push_back({(fewer ? of_row : of_column) + " for " + (fewer ? of_column : of_row),

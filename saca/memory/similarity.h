@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <limits>
 #include <span>
 #include <string>
@@ -60,8 +62,66 @@ struct Features {
 /// Allocates nothing.
 [[nodiscard]] Features features(const world::Scene& scene) noexcept;
 
+/// Parts of what is compared of the ego and its road, each divided by its scale.
+enum EgoPart : std::size_t {
+  ego_speed,
+  ego_sideways,
+  ego_offset,
+  ego_heading,
+  ego_yaw_rate,
+  ego_length,
+  ego_width,
+  ego_grip,
+  ego_lane_width,
+  ego_curve,
+  ego_room_left,
+  ego_room_right,
+};
+constexpr std::size_t num_ego_parts = 12;
+
+/// As they are compared: a difference of 1 in a part makes a difference of 1.
+template <class Real>
+struct ScaledEgo {
+  std::array<Real, num_ego_parts> parts{};  ///< by EgoPart
+  world::Topology topology = world::Topology::straight;
+  bool usable = false;
+  bool hard_left = false;  ///< a barrier or trees beyond the edge
+  bool hard_right = false;
+  bool oncoming_left = false;
+  bool oncoming_right = false;
+};
+
+/// Likewise an actor.
+template <class Real>
+struct ScaledActor {
+  /// Two along the lane, two across it, `sideways`, half of each size, 0.
+  std::array<Real, 8> parts{};
+  Real arm = 0;  ///< half of what turning moves
+  Real forward_s = 1;
+  Real forward_d = 0;
+  Real absence2 = 0;  ///< square of the difference that its absence makes
+  world::ActorKind kind = world::ActorKind::car;
+};
+
+/// As float they are half as large, and compared twice as fast; differences are then good to six
+/// digits. Defined for float and double.
+template <class Real>
+[[nodiscard]] ScaledEgo<Real> scaled(const EgoFeatures& ego) noexcept;
+template <class Real>
+[[nodiscard]] ScaledActor<Real> scaled(const ActorFeatures& actor) noexcept;
+
 /// The part of the square of a difference that is due to another kind of road or other markings.
-[[nodiscard]] double road_difference2(const EgoFeatures& a, const EgoFeatures& b) noexcept;
+template <class Real>
+[[nodiscard]] Real road_difference2(const ScaledEgo<Real>& a, const ScaledEgo<Real>& b) noexcept;
+
+/// Square of `difference`.
+/// @param limit2  where the caller stops caring: any number >= limit2 may come back instead of a
+///                larger one
+template <class Real>
+[[nodiscard]] Real difference2(const ScaledEgo<Real>& ego_a,
+                               std::span<const ScaledActor<Real>> actors_a,
+                               const ScaledEgo<Real>& ego_b,
+                               std::span<const ScaledActor<Real>> actors_b, Real limit2) noexcept;
 
 /// How far apart two scenes are: the root of a sum of squares over the ego, its road and the
 /// actors, under the assignment of one scene's actors to the other's that makes it smallest. Who

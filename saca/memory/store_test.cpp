@@ -245,7 +245,7 @@ TEST_F(Memory, FindsTheNearestLikeALinearScan) {
     }
     const Match match = store.recall(scene).value().value();
     EXPECT_EQ(match.found.id, best->id);
-    EXPECT_DOUBLE_EQ(match.similarity, similarity(best->scene, scene));
+    EXPECT_NEAR(match.similarity, similarity(best->scene, scene), 1e-6);
     expect_same(match.found, *best);
   }
   EXPECT_EQ(store.recall(cases[7].scene).value().value().similarity, 1.0);
