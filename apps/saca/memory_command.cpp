@@ -52,15 +52,6 @@ json case_json(const memory::Case& one) {
           {"count", one.count}};
 }
 
-/// An existing file only: to look must not make one.
-Result<memory::Store> open_existing(const std::string& file) {
-  std::error_code problem;
-  if (!std::filesystem::exists(file, problem)) {
-    return Error{Error::Code::unreadable, file + ": there is no such memory bank"};
-  }
-  return memory::Store::open(file);
-}
-
 /// All cases of an existing bank.
 Result<std::vector<memory::Case>> all_of(const std::string& file) {
   auto store = open_existing(file);
@@ -266,6 +257,14 @@ Result<std::vector<memory::Case>> read_cases(const std::string& file) {
   return memory::cases_from_text(text.value(), file);
 }
 
+Result<memory::Store> open_existing(const std::string& file) {
+  std::error_code problem;
+  if (!std::filesystem::exists(file, problem)) {
+    return Error{Error::Code::unreadable, file + ": there is no such memory bank"};
+  }
+  return memory::Store::open(file);
+}
+
 Result<memory::Store> open_to_add(const std::string& file) {
   if (auto problem = make_folder_of(file)) {
     return *std::move(problem);
@@ -313,6 +312,7 @@ void add_memory(CLI::App& line, int& exit_code) {
   verify->callback([options, &exit_code] { exit_code = verify_bank(*options); });
   add_memory_add(*command, exit_code);
   add_memory_build(*command, exit_code);
+  add_memory_check(*command, exit_code);
   add_memory_calibrate(*command, exit_code);
 }
 

@@ -16,11 +16,17 @@ namespace saca::app {
 /// The bank that cases are added to; one that is not there is made, with its folder.
 [[nodiscard]] Result<memory::Store> open_to_add(const std::string& file);
 
+/// An existing bank only: to look must not make one.
+[[nodiscard]] Result<memory::Store> open_existing(const std::string& file);
+
 /// `saca memory add`.
 void add_memory_add(CLI::App& memory, int& exit_code);
 
 /// `saca memory build`.
 void add_memory_build(CLI::App& memory, int& exit_code);
+
+/// `saca memory check`.
+void add_memory_check(CLI::App& memory, int& exit_code);
 
 /// `saca memory calibrate`.
 void add_memory_calibrate(CLI::App& memory, int& exit_code);

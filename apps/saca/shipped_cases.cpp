@@ -8,21 +8,6 @@
 #include "apps/saca/memory_commands.h"
 
 namespace saca::app {
-namespace {
-
-/// Was the case worked out with this car, and with this harm?
-bool is_of(const memory::Case& one, std::span<const memory::MadeWith> now) {
-  return std::all_of(now.begin(), now.end(), [&one](const memory::MadeWith& input) {
-    return (input.what != "car" && input.what != "harm") ||
-           std::any_of(one.made_with.begin(), one.made_with.end(),
-                       [&input](const memory::MadeWith& then) {
-                         return then.what == input.what && then.digest == input.digest;
-                       });
-  });
-}
-
-}  // namespace
-
 Result<std::vector<memory::Case>> shipped_cases(const Places& places,
                                                 std::span<const memory::MadeWith> now) {
   auto read = read_cases((places.root / "data/memory/seed.jsonl.gz").string());
@@ -31,7 +16,7 @@ Result<std::vector<memory::Case>> shipped_cases(const Places& places,
   }
   std::vector<memory::Case> cases = std::move(read).value();
   for (memory::Case& one : cases) {
-    if (!is_of(one, now)) {
+    if (!memory::same_car_and_harm(one.made_with, now)) {
       one.trust = std::max(one.trust, memory::Trust::unchecked);
     }
   }

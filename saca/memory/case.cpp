@@ -47,6 +47,21 @@ std::optional<Trust> trust_from(std::string_view name) {
   return value_from<Trust>(name, trust_names);
 }
 
+bool same_car_and_harm(std::span<const MadeWith> then, std::span<const MadeWith> now) {
+  const auto same = [&](const char* what) {
+    const auto of = [what](std::span<const MadeWith> all) {
+      const auto found = std::find_if(all.begin(), all.end(),
+                                      [what](const MadeWith& one) { return one.what == what; });
+      return found == all.end() ? nullptr : &*found;
+    };
+    const MadeWith* const before = of(then);
+    const MadeWith* const after = of(now);
+    return before != nullptr && after != nullptr && !after->digest.empty() &&
+           before->digest == after->digest;
+  };
+  return same("car") && same("harm");
+}
+
 std::optional<CaseProblem> broken_rule(const Case& one) {
   constexpr const char* amount = "want a finite number >= 0";
   constexpr const char* harms = "want 8 numbers >= 0, or null where a policy cannot be driven";

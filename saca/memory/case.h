@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,6 +48,9 @@ struct MadeWith {
 
   bool operator==(const MadeWith&) const = default;
 };
+
+/// Are car and harm the same, by their digests?
+[[nodiscard]] bool same_car_and_harm(std::span<const MadeWith> then, std::span<const MadeWith> now);
 
 /// Of a case: lessons, or inputs.
 constexpr std::size_t most_texts = 100;

@@ -68,5 +68,20 @@ TEST(ACase, HasWordsForWhereItComesFromAndHowFarItIsTrusted) {
   EXPECT_FALSE(trust_from("").has_value());
 }
 
+TEST(ACase, IsOfTheSameCarAndHarmByTheirDigests) {
+  const std::vector<MadeWith> now{{"car", "van", "1"}, {"harm", "h", "2"}, {"atlas", "van", "3"}};
+  std::vector<MadeWith> then = now;
+  then[2].digest = "4";
+  then[0].name = "the van";
+  EXPECT_TRUE(same_car_and_harm(then, now));
+  then[1].digest = "5";
+  EXPECT_FALSE(same_car_and_harm(then, now));
+  EXPECT_FALSE(same_car_and_harm({}, now));
+  EXPECT_FALSE(same_car_and_harm(now, {}));
+  EXPECT_FALSE(same_car_and_harm({}, {}));
+  const std::vector<MadeWith> unknown{{"car", "van", ""}, {"harm", "h", ""}};
+  EXPECT_FALSE(same_car_and_harm(unknown, unknown)) << "nobody knows";
+}
+
 }  // namespace
 }  // namespace saca::memory::case_test

@@ -207,3 +207,27 @@ def test_compressed_cases_are_read_and_damage_is_told(cases, tmp_path):
     assert saca("memory", "import", "cases.jsonl.gz", "--memory", "bank.db", cwd=tmp_path).returncode == SUCCESS
     (tmp_path / "cut.jsonl.gz").write_bytes(packed[:-20])
     assert "cut.jsonl.gz: is damaged" in one_error(saca("memory", "import", "cut.jsonl.gz", "--memory", "bank.db", cwd=tmp_path), BAD_INPUT)
+
+
+def test_what_is_not_trusted_is_rolled_out(cases, tmp_path):
+    lines = cases.read_text().splitlines()
+    first = json.loads(lines[1])
+    poisoned = json.loads(lines[1]) | {"best_policy": 7, "policy": 7, "target_speed_mps": None, "strength": None}
+    del poisoned["details"]["told"], poisoned["details"]["happened"]
+    worst = max(harm for harm in first["details"]["told"] if harm is not None)
+    assert first["details"]["told"][7] == worst > first["details"]["told"][0] + 0.01, "doing nothing is the worst there"
+    (tmp_path / "cases.jsonl").write_text("\n".join([lines[0], json.dumps(poisoned), *lines[2:]]) + "\n")
+    saca("memory", "import", "cases.jsonl", "--memory", "bank.db", cwd=tmp_path)
+    run = saca("memory", "check", "--memory", "bank.db", "--draws", "4", "--json", cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    told = json.loads(run.stdout)
+    count = len(lines) - 1
+    assert told["schema"] == "saca.memory_check/1" and told["confirmed"] + told["open"] + told["refuted"] == count
+    assert told["refuted"] >= 1 and told["confirmed"] > count / 2
+    listed = json.loads(saca("memory", "list", "--memory", "bank.db", "--json", cwd=tmp_path).stdout)
+    assert listed[0]["trust"] == "quarantined"
+    assert sum(one["trust"] == "trusted" for one in listed) == told["confirmed"]
+    again = saca("memory", "check", "--memory", "bank.db", "--draws", "4", cwd=tmp_path)
+    assert f"0 cases confirmed and trusted, {told['open']} stay unchecked, 0 refuted" in again.stdout
+    assert "no such memory bank" in one_error(saca("memory", "check", "--memory", "none.db", cwd=tmp_path), BAD_INPUT)
+    assert "tank" in one_error(saca("memory", "check", "--memory", "bank.db", "--car", "tank", cwd=tmp_path), BAD_INPUT)

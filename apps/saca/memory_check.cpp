@@ -1,0 +1,124 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/saca/json_output.h"
+#include "apps/saca/memory_commands.h"
+#include "apps/saca/places.h"
+#include "apps/saca/planes_making.h"
+#include "apps/saca/printing.h"
+#include "apps/saca/progress.h"
+#include "saca/core/parallel.h"
+#include "saca/eval/case_check.h"
+#include "saca/loop/learnt_case.h"
+#include "saca/memory/store.h"
+
+namespace saca::app {
+namespace {
+
+using nlohmann::json;
+
+struct CheckCasesOptions {
+  std::string file = "runs/memory.sqlite";
+  std::string car = "compact_rwd_ev";
+  std::size_t draws = 64;
+  int threads = usual_threads();
+  bool as_json = false;
+};
+
+using Counts = std::array<int, 3>;  ///< by eval::CaseCheck
+
+/// Those that are not trusted yet; what was worked out is kept where it is interrupted.
+Result<Counts> check_all(memory::Store& memory, std::vector<memory::Case> cases,
+                         const PlanesOfCar& planes, const CheckCasesOptions& options) {
+  const preview::ForecastTools& tools = planes.setup.forecast;
+  const auto made_with = loop::made_with(tools, planes.inputs.intent, planes.inputs.car_name);
+  SteadyClock clock;
+  ProgressLine progress("cases", static_cast<int>(cases.size()), clock);
+  Counts counts{};
+  constexpr std::size_t at_once = 32;
+  for (std::size_t first = 0; first < cases.size() && !interrupted(); first += at_once) {
+    std::vector<eval::CheckedCase> checked(std::min(at_once, cases.size() - first));
+    in_parallel(checked.size(), options.threads, [&](std::size_t i) {
+      checked[i] =
+          eval::checked(cases[first + i], tools, planes.inputs.intent, options.draws, made_with);
+    });
+    for (const eval::CheckedCase& each : checked) {
+      if (auto problem = memory.update(each.one)) {
+        return *std::move(problem);
+      }
+      ++counts.at(static_cast<std::size_t>(each.check));
+    }
+    progress.show(static_cast<int>(first + checked.size()), 0, " cases");
+  }
+  return counts;
+}
+
+int check_bank(const CheckCasesOptions& options) {
+  auto opened = open_existing(options.file);
+  if (!opened.has_value()) {
+    return refused(opened.error());
+  }
+  memory::Store memory = std::move(opened).value();
+  auto all = memory.all();
+  if (!all.has_value()) {
+    return refused(all.error());
+  }
+  std::vector<memory::Case> cases = std::move(all).value();
+  std::erase_if(cases,
+                [](const memory::Case& one) { return one.trust != memory::Trust::unchecked; });
+  const auto planes = open_planes(options.car);
+  if (!planes.has_value()) {
+    return refused(planes.error());
+  }
+  watch_for_interrupt();
+  const auto counts = check_all(memory, std::move(cases), *planes.value(), options);
+  if (!counts.has_value()) {
+    return refused(counts.error());
+  }
+  const auto [confirmed, open, refuted] = counts.value();
+  if (options.as_json) {
+    app::print_json(json{{"schema", "saca.memory_check/1"},
+                         {"file", options.file},
+                         {"car", options.car},
+                         {"confirmed", confirmed},
+                         {"open", open},
+                         {"refuted", refuted}});
+  } else {
+    app::print(
+        "{}: {} cases confirmed and trusted, {} stay unchecked, {} refuted and quarantined\n",
+        options.file, confirmed, open, refuted);
+  }
+  if (interrupted()) {
+    complain("interrupted: the same command goes on from here");
+    return was_interrupted;
+  }
+  return success;
+}
+
+}  // namespace
+
+void add_memory_check(CLI::App& memory, int& exit_code) {
+  CLI::App* const command = memory.add_subcommand(
+      "check", "Rolls out what is not trusted, with the car at hand: what holds is trusted then");
+  const auto options = std::make_shared<CheckCasesOptions>();
+  command->add_option("--memory", options->file, "The memory bank")->capture_default_str();
+  command->add_option("--car", options->car, "A car's file, or the name of a shipped one")
+      ->capture_default_str();
+  command->add_option("--draws", options->draws, "That expected harm is the mean of")
+      ->check(CLI::Range(1, 1'000))
+      ->capture_default_str();
+  command->add_option("--threads", options->threads, "They do not change the result")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  command->add_flag("--json", options->as_json, "For programs");
+  command->callback([options, &exit_code] { exit_code = check_bank(*options); });
+}
+
+}  // namespace saca::app

@@ -1,0 +1,93 @@
+#include "saca/eval/case_check.h"
+
+#include <gtest/gtest.h>
+
+#include "saca/eval/scenes_for_test.h"
+#include "saca/eval/trigger_case.h"
+#include "saca/loop/learnt_case.h"
+
+namespace saca::eval::case_check_test {
+namespace {
+
+using manoeuvre::PolicyId;
+using memory::Trust;
+
+constexpr std::size_t draws = 16;
+
+// Braking needs 49 m and has 28.6 m; to the right is a barrier: only the left helps.
+class CaseCheckTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    const sim::Scenario scenario = only_left_helps();
+    one_ = case_at_trigger({&scenario, &car_, &harm_, &intent_, {}, {}}, tools_, draws, made_with_)
+               .value()
+               .value();
+    one_.trust = Trust::unchecked;
+  }
+  [[nodiscard]] CheckedCase check(const memory::Case& one) const {
+    return checked(one, tools_, intent_, draws, made_with_);
+  }
+  /// What somebody says is best there, without figures.
+  [[nodiscard]] memory::Case said(PolicyId best) const {
+    memory::Case one = one_;
+    one.best = best;
+    one.told.reset();
+    one.happened.reset();
+    one.intentions.clear();
+    one.made_with.clear();
+    return one;
+  }
+
+  manoeuvre::Car car_ = manoeuvre::default_car();
+  outcome::HarmModel harm_ = shipped_harm();
+  const intent::Model& intent_ = intent::shipped_model();
+  preview::ForecastTools tools_{&car_, &harm_};
+  std::vector<memory::MadeWith> made_with_ = loop::made_with(tools_, intent_, "a car");
+  memory::Case one_;
+};
+
+TEST_F(CaseCheckTest, ConfirmsWhatItWouldSayItself) {
+  const CheckedCase checked = check(one_);
+  EXPECT_EQ(checked.check, CaseCheck::confirmed);
+  EXPECT_EQ(checked.one.trust, Trust::trusted);
+  EXPECT_EQ(checked.one.told, one_.told) << "the same car, draws and beliefs";
+  EXPECT_EQ(checked.one.happened, one_.happened);
+  EXPECT_FALSE(memory::broken_rule(checked.one));
+}
+
+TEST_F(CaseCheckTest, ConfirmsAnExpertWhoIsRight) {
+  const CheckedCase checked = check(said(PolicyId::es_b_left));
+  EXPECT_EQ(checked.check, CaseCheck::confirmed);
+  EXPECT_TRUE(checked.one.told);
+  EXPECT_EQ(checked.one.made_with, made_with_);
+}
+
+TEST_F(CaseCheckTest, LeavesOpenWhatIsNoWorseThanBraking) {
+  const CheckedCase checked = check(said(PolicyId::aeb));
+  EXPECT_EQ(checked.check, CaseCheck::open);
+  EXPECT_EQ(checked.one.trust, Trust::unchecked);
+}
+
+TEST_F(CaseCheckTest, RefutesWhatIsWorseThanBraking) {
+  const CheckedCase checked = check(said(PolicyId::no_intervention));
+  EXPECT_EQ(checked.check, CaseCheck::refuted);
+  EXPECT_EQ(checked.one.trust, Trust::quarantined);
+}
+
+TEST_F(CaseCheckTest, ForgetsWhatHappenedToAnotherCar) {
+  memory::Case one = one_;
+  one.made_with[0].digest = "0123456789abcdef";
+  const CheckedCase checked = check(one);
+  EXPECT_EQ(checked.check, CaseCheck::confirmed);
+  EXPECT_FALSE(checked.one.happened);
+  EXPECT_EQ(checked.one.made_with, made_with_);
+}
+
+TEST(ACaseCheck, HasAName) {
+  EXPECT_EQ(name(CaseCheck::confirmed), "confirmed");
+  EXPECT_EQ(name(CaseCheck::open), "open");
+  EXPECT_EQ(name(CaseCheck::refuted), "refuted");
+}
+
+}  // namespace
+}  // namespace saca::eval::case_check_test
