@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <optional>
 #include <queue>
@@ -48,7 +49,8 @@ class Alike {
   }
 
  private:
-  FeatureIndex index_;
+  // Exact, however many: a graph in which most places are passed over would find nobody.
+  FeatureIndex index_{std::numeric_limits<std::size_t>::max()};
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "saca/memory/example_scenes.h"
 #include "saca/memory/experience.h"
+#include "saca/memory/feature_index.h"
 
 namespace saca::memory::thinning_test {
 namespace {
@@ -70,6 +71,20 @@ TEST(Thinning, IsWhatComparingAllPairsAnewWouldDo) {
   for (const std::size_t most : {0U, 20U, 50U, 79U}) {
     EXPECT_EQ(most_redundant(cases, most), by_brute_force(cases, most)) << most;
   }
+}
+
+// Among so many a search from neighbour to neighbour would meet only those that are gone.
+TEST(Thinning, GoesOnToTheEndOfMany) {
+  std::mt19937 rng(4);
+  std::vector<Case> cases;
+  const world::Scene scene = random_scene(rng, 1);
+  constexpr auto many = static_cast<CaseId>(FeatureIndex::usually_exact + 500);
+  std::uniform_real_distribution<double> speed(10.0, 30.0);
+  for (CaseId id = 1; id <= many; ++id) {
+    cases.push_back(a_case(id, scene, PolicyId::aeb));
+    cases.back().scene.ego.v_B.x = speed(rng);
+  }
+  EXPECT_EQ(most_redundant(cases, 20).size(), cases.size() - 20);
 }
 
 TEST(Thinning, TakesNobodyWhereThereIsRoom) {
