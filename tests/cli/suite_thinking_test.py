@@ -17,7 +17,7 @@ def taught(folder, count=4):
     for number in range(count):
         words = saca("suite", "balanced", "--replay", number, cwd=folder).stdout.split()
         words.remove("--no-memory")
-        run = saca(*words[1:], "--danger", "off", "--memory", "m.sqlite", "--json", cwd=folder)
+        run = saca(*words[1:], "--danger", "off", "--memory", "m.sqlite", "--empty-memory", "--json", cwd=folder)
         assert run.returncode == SUCCESS, run.stderr
     return folder / "m.sqlite"
 
