@@ -23,9 +23,9 @@ const FeatureIndex& index_of(std::int64_t size) {
 void nearest_of(benchmark::State& state) {
   const FeatureIndex& index = index_of(state.range(0));
   std::mt19937 rng(2);
-  std::vector<Features> wanted;
-  for (int i = 0; i < 64; ++i) {
-    wanted.push_back(features(random_scene(rng, i % 9)));
+  std::vector<Features> wanted(64);
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    wanted[i] = features(random_scene(rng, static_cast<int>(i % 9)));
   }
   std::size_t turn = 0;
   for (auto _ : state) {
