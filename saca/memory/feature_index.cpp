@@ -44,11 +44,9 @@ constexpr Steps grips{-21.0F, 24};
 
 }  // namespace
 
-FeatureIndex::Wanted::Wanted(const Features& features) noexcept : ego(scaled<float>(features.ego)) {
-  for (const ActorFeatures& actor : features.actors) {
-    actors.push_back(scaled<float>(actor));
-  }
-}
+FeatureIndex::Wanted::Wanted(const Features& features) noexcept
+    : ego(scaled<float>(features.ego)),
+      actors(scaled<float>(std::span(features.actors.begin(), features.actors.size()))) {}
 
 std::size_t FeatureIndex::cell_at(int speed, int grip) noexcept {
   return static_cast<std::size_t>(speed) * num_grips + static_cast<std::size_t>(grip);

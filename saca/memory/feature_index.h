@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "saca/core/static_vector.h"
 #include "saca/memory/case.h"
 #include "saca/memory/neighbour_graph.h"
 #include "saca/memory/similarity.h"
@@ -75,7 +74,7 @@ class FeatureIndex {
   struct Wanted {
     explicit Wanted(const Features& features) noexcept;
     ScaledEgo<float> ego;
-    StaticVector<ScaledActor<float>, world::max_actors> actors;
+    ScaledActors<float> actors;
   };
 
   [[nodiscard]] static std::size_t cell_at(int speed, int grip) noexcept;

@@ -17,9 +17,9 @@ namespace saca::memory {
 /// robust approximate nearest neighbor search using hierarchical navigable small world graphs,
 /// IEEE TPAMI 42, 2020, algorithms 1 to 5).
 ///
-/// It knows places 0, 1, ... only; how far they are apart it is told. The same places and distances
-/// make the same graph. While nothing is added any number of threads may search; searching
-/// allocates nothing and waits for nothing, and looks at a bounded number of places.
+/// It knows places 0, 1, ... only; the caller measures how far they are apart. The same places and
+/// distances make the same graph. While nothing is added any number of threads may search;
+/// searching allocates nothing and waits for nothing, and looks at a bounded number of places.
 class NeighbourGraph {
  public:
   struct Found {

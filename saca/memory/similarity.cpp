@@ -21,6 +21,8 @@ using world::Beyond;
 
 // Scales: what, alone, makes a difference of 1. Fitted, but for those marked assumed: in the
 // encounters that they were fitted to, these hardly differ (docs/decisions/0029-experience.md).
+constexpr double speed_scale = 0.7;  // of the ego, along the lane [m/s]
+constexpr double log_grip_scale = 0.15;
 constexpr double sideways_scale = 1.0;  // of the ego, across [m/s], assumed
 constexpr double offset_scale = 1.0;    // of the ego in its lane [m], assumed
 constexpr double heading_scale = 0.2;   // [rad], assumed
@@ -56,7 +58,8 @@ constexpr double swerve_share = 0.6;      // of grip, as mean sideways accelerat
 constexpr int num_threat_samples = 13;    // 3 s: a stop from 25 m/s on a dry road
 constexpr double threat_interval = 0.25;  // [s]
 
-constexpr double square(double x) {
+template <class Real>
+constexpr Real square(Real x) {
   return x * x;
 }
 
@@ -166,30 +169,25 @@ ActorFeatures actor_features(const world::Actor& actor, const world::Road& road,
           .kind = actor.kind};
 }
 
-template <class Real>
-constexpr Real square_of(Real x) {
-  return x * x;
-}
-
 /// Square of what two egos differ in, by ScaledEgo::Part.
 template <class Real>
 std::array<Real, num_ego_parts> ego_squares(const ScaledEgo<Real>& a, const ScaledEgo<Real>& b) {
   std::array<Real, num_ego_parts> squares;
   for (std::size_t i = 0; i < squares.size(); ++i) {
-    squares[i] = square_of(a.parts[i] - b.parts[i]);
+    squares[i] = square(a.parts[i] - b.parts[i]);
   }
   // The short way round.
   constexpr auto half_turn = static_cast<Real>(std::numbers::pi / heading_scale);
   Real turned = std::abs(a.parts[ego_heading] - b.parts[ego_heading]);
   turned = turned > half_turn ? 2 * half_turn - turned : turned;
-  squares[ego_heading] = square_of(turned);
+  squares[ego_heading] = square(turned);
   // What lies beyond matters fully within a lane's width and not at all where room is ample.
   const auto ground = [&](std::size_t room, bool is_other) {
     constexpr auto ample = static_cast<Real>(ample_room / room_scale);
     constexpr auto near = static_cast<Real>(lane / room_scale);
     const Real mean = (a.parts[room] + b.parts[room]) / 2;
     const Real nearness = std::clamp((ample - mean) / (ample - near), Real{0}, Real{1});
-    squares[room] += is_other ? square_of(static_cast<Real>(other_ground) * nearness) : Real{0};
+    squares[room] += is_other ? square(static_cast<Real>(other_ground) * nearness) : Real{0};
   };
   ground(ego_room_left, a.hard_left != b.hard_left);
   ground(ego_room_right, a.hard_right != b.hard_right);
@@ -214,13 +212,13 @@ Real actor_difference2(const ScaledActor<Real>& a, const ScaledActor<Real>& b) {
   std::array<Real, 4> sums{};
   for (std::size_t i = 0; i < a.parts.size(); i += sums.size()) {
     for (std::size_t k = 0; k < sums.size(); ++k) {
-      sums[k] += square_of(a.parts[i + k] - b.parts[i + k]);
+      sums[k] += square(a.parts[i + k] - b.parts[i + k]);
     }
   }
   Real sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
   // Turning moves the ends of a long body, not those of a disc; front and rear are alike.
   const Real sine = a.forward_s * b.forward_d - a.forward_d * b.forward_s;
-  sum += square_of((a.arm + b.arm) * sine);
+  sum += square((a.arm + b.arm) * sine);
   if (a.kind != b.kind) {
     sum += static_cast<Real>(square(group(a.kind) == group(b.kind) ? other_kind : other_group));
   }
@@ -239,6 +237,27 @@ struct TwoSquares {
         p_of_v(t / square(b) / of_p),
         of_v(std::sqrt(square(t / b) + 1.0 / square(c) - square(p_of_v))) {}
 };
+
+template <class Real>
+ScaledActor<Real> scaled_actor(const ActorFeatures& actor) {
+  static const TwoSquares along(along_now_scale, along_then_scale, 2.0, speed_along_scale);
+  static const TwoSquares across(across_now_scale, across_then_scale, 1.0, speed_across_scale);
+  const auto real = [](double x) { return static_cast<Real>(x); };
+  const Vec2 p = actor.p_rel_L;
+  const Vec2 v = actor.v_rel_L;
+  ScaledActor<Real> result;
+  result.parts = {
+      real(along.of_p * p.x + along.p_of_v * v.x),   real(along.of_v * v.x),
+      real(across.of_p * p.y + across.p_of_v * v.y), real(across.of_v * v.y),
+      real(actor.sideways / acceleration_scale),     real(0.5 * actor.length / edge_scale),
+      real(0.5 * actor.width / edge_scale),          Real{0}};
+  result.arm = real(0.25 * std::abs(actor.length - actor.width) / turned_scale);
+  result.forward_s = real(actor.forward_L.x);
+  result.forward_d = real(actor.forward_L.y);
+  result.absence2 = real(square(absence_share * actor.threat));
+  result.kind = actor.kind;
+  return result;
+}
 
 /// The assignment of which the sum of squared differences is smallest, exactly: the Hungarian
 /// method, one row after the other by shortest augmenting paths (R. Jonker, A. Volgenant, A
@@ -407,24 +426,12 @@ ScaledEgo<Real> scaled(const EgoFeatures& ego) noexcept {
 }
 
 template <class Real>
-ScaledActor<Real> scaled(const ActorFeatures& actor) noexcept {
-  static const TwoSquares along(along_now_scale, along_then_scale, 2.0, speed_along_scale);
-  static const TwoSquares across(across_now_scale, across_then_scale, 1.0, speed_across_scale);
-  const auto real = [](double x) { return static_cast<Real>(x); };
-  const Vec2 p = actor.p_rel_L;
-  const Vec2 v = actor.v_rel_L;
-  ScaledActor<Real> result;
-  result.parts = {
-      real(along.of_p * p.x + along.p_of_v * v.x),   real(along.of_v * v.x),
-      real(across.of_p * p.y + across.p_of_v * v.y), real(across.of_v * v.y),
-      real(actor.sideways / acceleration_scale),     real(0.5 * actor.length / edge_scale),
-      real(0.5 * actor.width / edge_scale),          Real{0}};
-  result.arm = real(0.25 * std::abs(actor.length - actor.width) / turned_scale);
-  result.forward_s = real(actor.forward_L.x);
-  result.forward_d = real(actor.forward_L.y);
-  result.absence2 = real(square(absence_share * actor.threat));
-  result.kind = actor.kind;
-  return result;
+ScaledActors<Real> scaled(std::span<const ActorFeatures> actors) noexcept {
+  ScaledActors<Real> all;
+  for (const ActorFeatures& actor : actors) {
+    all.push_back(scaled_actor<Real>(actor));
+  }
+  return all;
 }
 
 template <class Real>
@@ -452,13 +459,13 @@ Real difference2(const ScaledEgo<Real>& ego_a, std::span<const ScaledActor<Real>
 }
 
 template ScaledEgo<float> scaled<float>(const EgoFeatures&) noexcept;
-template ScaledActor<float> scaled<float>(const ActorFeatures&) noexcept;
+template ScaledActors<float> scaled<float>(std::span<const ActorFeatures>) noexcept;
 template float road_difference2(const ScaledEgo<float>&, const ScaledEgo<float>&) noexcept;
 template float difference2(const ScaledEgo<float>&, std::span<const ScaledActor<float>>,
                            const ScaledEgo<float>&, std::span<const ScaledActor<float>>,
                            float) noexcept;
 template ScaledEgo<double> scaled<double>(const EgoFeatures&) noexcept;
-template ScaledActor<double> scaled<double>(const ActorFeatures&) noexcept;
+template ScaledActors<double> scaled<double>(std::span<const ActorFeatures>) noexcept;
 template double road_difference2(const ScaledEgo<double>&, const ScaledEgo<double>&) noexcept;
 template double difference2(const ScaledEgo<double>&, std::span<const ScaledActor<double>>,
                             const ScaledEgo<double>&, std::span<const ScaledActor<double>>,
@@ -466,17 +473,8 @@ template double difference2(const ScaledEgo<double>&, std::span<const ScaledActo
 
 namespace {
 
-using ExactActors = StaticVector<ScaledActor<double>, world::max_actors>;
-
-ExactActors exact(std::span<const ActorFeatures> actors) {
-  ExactActors all;
-  for (const ActorFeatures& actor : actors) {
-    all.push_back(scaled<double>(actor));
-  }
-  return all;
-}
-
-std::span<const ScaledActor<double>> span_of(const ExactActors& actors) {
+template <class Real>
+std::span<const ScaledActor<Real>> span_of(const ScaledActors<Real>& actors) {
   return {actors.begin(), actors.size()};
 }
 
@@ -485,8 +483,8 @@ std::span<const ScaledActor<double>> span_of(const ExactActors& actors) {
 double difference(const EgoFeatures& ego_a, std::span<const ActorFeatures> actors_a,
                   const EgoFeatures& ego_b, std::span<const ActorFeatures> actors_b,
                   double limit) noexcept {
-  const ExactActors of_a = exact(actors_a);
-  const ExactActors of_b = exact(actors_b);
+  const auto of_a = scaled<double>(actors_a);
+  const auto of_b = scaled<double>(actors_b);
   return std::sqrt(difference2(scaled<double>(ego_a), span_of(of_a), scaled<double>(ego_b),
                                span_of(of_b), square(limit)));
 }
@@ -521,10 +519,10 @@ std::vector<DifferencePart> difference_parts(const world::Scene& a, const world:
   const world::Scene& rows = fewer ? a : b;
   const world::Scene& columns = fewer ? b : a;
   const auto actors_of = [](const Features& one) {
-    return exact({one.actors.begin(), one.actors.size()});
+    return scaled<double>(std::span(one.actors.begin(), one.actors.size()));
   };
-  const ExactActors of_rows = actors_of(fewer ? of_a : of_b);
-  const ExactActors of_columns = actors_of(fewer ? of_b : of_a);
+  const auto of_rows = actors_of(fewer ? of_a : of_b);
+  const auto of_columns = actors_of(fewer ? of_b : of_a);
   const Assignment<double> assignment(span_of(of_rows), span_of(of_columns));
   assignment.each([&](std::size_t row, std::size_t column, double squared) {
     constexpr std::size_t none = Assignment<double>::none;

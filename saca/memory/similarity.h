@@ -37,11 +37,6 @@ struct EgoFeatures {
   bool oncoming_right = false;
 };
 
-/// What, alone, makes a difference of 1: of the ego's speed along the lane [m/s], and of the
-/// logarithm of the grip. All others stand in similarity.cpp.
-constexpr double speed_scale = 0.7;
-constexpr double log_grip_scale = 0.15;
-
 /// One actor.
 struct ActorFeatures {
   Vec2 p_rel_L;           ///< (s, d) along the lane, minus the ego's [m]
@@ -103,12 +98,15 @@ struct ScaledActor {
   world::ActorKind kind = world::ActorKind::car;
 };
 
+template <class Real>
+using ScaledActors = StaticVector<ScaledActor<Real>, world::max_actors>;
+
 /// As float they are half as large, and compared twice as fast; differences are then good to six
 /// digits. Defined for float and double.
 template <class Real>
 [[nodiscard]] ScaledEgo<Real> scaled(const EgoFeatures& ego) noexcept;
 template <class Real>
-[[nodiscard]] ScaledActor<Real> scaled(const ActorFeatures& actor) noexcept;
+[[nodiscard]] ScaledActors<Real> scaled(std::span<const ActorFeatures> actors) noexcept;
 
 /// The part of the square of a difference that is due to another kind of road or other markings.
 template <class Real>
