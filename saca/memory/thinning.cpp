@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <queue>
+#include <span>
 
 #include "saca/memory/experience.h"
 #include "saca/memory/feature_index.h"
@@ -21,76 +22,75 @@ bool may_go(const Case& one) {
 /// How near a case is to the one that would stand for it.
 struct Redundancy {
   double difference = 0.0;
-  CaseId id = 0;
   std::size_t place = 0;  ///< of the case
 };
 
 /// What goes later: first the nearest goes, of equals the newest.
 bool later(const Redundancy& a, const Redundancy& b) {
-  return a.difference != b.difference ? a.difference > b.difference : a.id < b.id;
+  return a.difference != b.difference ? a.difference > b.difference : a.place < b.place;
 }
 
-/// Trusted cases that speak for the same policies, to be thinned out together.
+/// Trusted cases, those that speak for the same policies together.
 class Alike {
  public:
-  void add(CaseId id, const world::Scene& scene) { index_.add(id, scene); }
-  void remove(CaseId id) { index_.pass_over(id); }
+  void add(const Case& one) { group_of(one).add(one.id, one.scene); }
+  void remove(const Case& one) { group_of(one).pass_over(one.id); }
 
-  /// The nearest that is left beside the case itself.
-  [[nodiscard]] std::optional<FeatureIndex::Hit> other(CaseId id, const Features& scene) const {
-    std::array<FeatureIndex::Hit, 2> hits;
-    const std::size_t found = index_.nearest(scene, hits);
-    for (std::size_t i = 0; i < found; ++i) {
-      if (hits.at(i).id != id) {
-        return hits.at(i);
+  /// How far the nearest is that is left beside the case itself; nullopt: there is none.
+  [[nodiscard]] std::optional<double> nearest_other(const Case& one) {
+    std::array<FeatureIndex::Hit, 2> room;
+    const std::size_t found = group_of(one).nearest(features(one.scene), room);
+    for (const FeatureIndex::Hit& hit : std::span(room).first(found)) {
+      if (hit.id != one.id) {
+        return hit.difference;
       }
     }
     return std::nullopt;
   }
 
  private:
-  // Exact, however many: a graph in which most places are passed over would find nobody.
-  FeatureIndex index_{std::numeric_limits<std::size_t>::max()};
+  FeatureIndex& group_of(const Case& one) {
+    // Exact, however many: a graph in which most places are passed over would find nobody.
+    constexpr auto any_number = std::numeric_limits<std::size_t>::max();
+    return groups_.try_emplace(as_good_as_best(one).to_ulong(), any_number).first->second;
+  }
+
+  std::map<unsigned long, FeatureIndex> groups_;
 };
 
 }  // namespace
 
 std::vector<CaseId> most_redundant(std::span<const Case> cases, std::size_t most) {
-  const std::size_t too_many = cases.size() - std::min(cases.size(), most);
-  std::map<unsigned long, Alike> groups;
-  const auto group_of = [&groups](const Case& one) -> Alike& {
-    return groups[as_good_as_best(one).to_ulong()];
-  };
+  std::vector<CaseId> gone;
+  if (cases.size() <= most) {
+    return gone;
+  }
+  Alike alike;
   for (const Case& one : cases) {
     if (one.trust == Trust::trusted) {
-      group_of(one).add(one.id, one.scene);
+      alike.add(one);
     }
   }
   std::priority_queue<Redundancy, std::vector<Redundancy>, decltype(&later)> waiting(later);
-  const auto wait = [&](std::size_t place) {
-    const Case& one = cases[place];
-    if (const auto other = group_of(one).other(one.id, features(one.scene))) {
-      waiting.push({other->difference, one.id, place});
-    }
-  };
-  for (std::size_t place = 0; too_many > 0 && place < cases.size(); ++place) {
+  for (std::size_t place = 0; place < cases.size(); ++place) {
     if (may_go(cases[place])) {
-      wait(place);
+      if (const auto nearest = alike.nearest_other(cases[place])) {
+        waiting.push({*nearest, place});
+      }
     }
   }
-  std::vector<CaseId> gone;
-  while (gone.size() < too_many && !waiting.empty()) {
+  while (cases.size() - gone.size() > most && !waiting.empty()) {
     const Redundancy next = waiting.top();
     waiting.pop();
     const Case& one = cases[next.place];
     // Who would have stood for it may have gone: then it waits for its turn anew.
-    const auto other = group_of(one).other(one.id, features(one.scene));
-    if (!other || other->difference > next.difference) {
-      wait(next.place);
-      continue;
+    const auto nearest = alike.nearest_other(one);
+    if (nearest && *nearest > next.difference) {
+      waiting.push({*nearest, next.place});
+    } else if (nearest) {
+      alike.remove(one);
+      gone.push_back(one.id);
     }
-    group_of(one).remove(one.id);
-    gone.push_back(one.id);
   }
   return gone;
 }
