@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The cases that a new memory begins with: data/memory/seed.jsonl.gz. Ten minutes on two cores.
+# The cases that a new memory begins with: data/memory/seed.jsonl.gz. Four minutes on two cores.
 # usage: tools/seed_bank.sh [MOST]
 #   MOST  how many are kept (default 10000: all): the most redundant go
 # Encounters of the suites `balanced` and `natural`, of the tuning split alone, and their twins without risk. Numbers keep five digits:
@@ -11,7 +11,7 @@ most=${1:-10000}
 saca=build/release/saca
 work=build/seed_bank
 mkdir -p "$work" data/memory
-rm -f "$work/bank.sqlite"
+rm -f "$work/bank.sqlite" "$work/shipped.sqlite"
 for suite in natural balanced; do
   [ -e "$work/$suite.jsonl" ] || "$saca" memory build "$suite" --count 3000 --draws 32 -o "$work/$suite.jsonl"
   "$saca" memory import "$work/$suite.jsonl" --keep-trust --memory "$work/bank.sqlite"
