@@ -32,28 +32,29 @@ struct CheckCasesOptions {
   bool as_json = false;
 };
 
-using Counts = std::array<int, 3>;  ///< by eval::CaseCheck
+/// How many are trusted then, stay unchecked, and are quarantined: by memory::Trust.
+using Counts = std::array<int, 3>;
 
 /// Those that are not trusted yet; what was worked out is kept where it is interrupted.
-Result<Counts> check_all(memory::Store& memory, std::vector<memory::Case> cases,
+Result<Counts> check_all(memory::Store& memory, const std::vector<memory::Case>& cases,
                          const PlanesOfCar& planes, const CheckCasesOptions& options) {
   const preview::ForecastTools& tools = planes.setup.forecast;
-  const auto made_with = loop::made_with(tools, planes.inputs.intent, planes.inputs.car_name);
+  const intent::Model& intent = planes.inputs.intent;
+  const auto made_with = loop::made_with(tools, intent, planes.inputs.car_name);
   SteadyClock clock;
   ProgressLine progress("cases", static_cast<int>(cases.size()), clock);
   Counts counts{};
   constexpr std::size_t at_once = 32;
   for (std::size_t first = 0; first < cases.size() && !interrupted(); first += at_once) {
-    std::vector<eval::CheckedCase> checked(std::min(at_once, cases.size() - first));
+    std::vector<memory::Case> checked(std::min(at_once, cases.size() - first));
     in_parallel(checked.size(), options.threads, [&](std::size_t i) {
-      checked[i] =
-          eval::checked(cases[first + i], tools, planes.inputs.intent, options.draws, made_with);
+      checked[i] = eval::checked(cases[first + i], tools, intent, options.draws, made_with);
     });
-    for (const eval::CheckedCase& each : checked) {
-      if (auto problem = memory.update(each.one)) {
+    for (const memory::Case& one : checked) {
+      if (auto problem = memory.update(one)) {
         return *std::move(problem);
       }
-      ++counts.at(static_cast<std::size_t>(each.check));
+      ++counts.at(static_cast<std::size_t>(one.trust));
     }
     progress.show(static_cast<int>(first + checked.size()), 0, " cases");
   }
@@ -61,24 +62,19 @@ Result<Counts> check_all(memory::Store& memory, std::vector<memory::Case> cases,
 }
 
 int check_bank(const CheckCasesOptions& options) {
-  auto opened = open_existing(options.file);
-  if (!opened.has_value()) {
-    return refused(opened.error());
+  auto read = read_bank(options.file);
+  if (!read.has_value()) {
+    return refused(read.error());
   }
-  memory::Store memory = std::move(opened).value();
-  auto all = memory.all();
-  if (!all.has_value()) {
-    return refused(all.error());
-  }
-  std::vector<memory::Case> cases = std::move(all).value();
-  std::erase_if(cases,
+  ReadBank bank = std::move(read).value();
+  std::erase_if(bank.cases,
                 [](const memory::Case& one) { return one.trust != memory::Trust::unchecked; });
   const auto planes = open_planes(options.car);
   if (!planes.has_value()) {
     return refused(planes.error());
   }
   watch_for_interrupt();
-  const auto counts = check_all(memory, std::move(cases), *planes.value(), options);
+  const auto counts = check_all(bank.store, bank.cases, *planes.value(), options);
   if (!counts.has_value()) {
     return refused(counts.error());
   }

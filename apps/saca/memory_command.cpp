@@ -52,24 +52,24 @@ json case_json(const memory::Case& one) {
           {"count", one.count}};
 }
 
-/// All cases of an existing bank.
-Result<std::vector<memory::Case>> all_of(const std::string& file) {
-  auto store = open_existing(file);
-  if (!store.has_value()) {
-    return store.error();
+/// An existing file only: to look must not make one.
+Result<memory::Store> open_existing(const std::string& file) {
+  std::error_code problem;
+  if (!std::filesystem::exists(file, problem)) {
+    return Error{Error::Code::unreadable, file + ": there is no such memory bank"};
   }
-  memory::Store memory = std::move(store).value();
-  return memory.all();
+  return memory::Store::open(file);
 }
 
 int list_cases(const MemoryOptions& options) {
-  const auto cases = all_of(options.file);
-  if (!cases.has_value()) {
-    complain(cases.error().message);
+  const auto bank = read_bank(options.file);
+  if (!bank.has_value()) {
+    complain(bank.error().message);
     return bad_input;
   }
+  const std::vector<memory::Case>& cases = bank.value().cases;
   json list = json::array();
-  for (const memory::Case& one : cases.value()) {
+  for (const memory::Case& one : cases) {
     list.push_back(case_json(one));
     if (!options.as_json) {
       const std::string mark =
@@ -80,7 +80,7 @@ int list_cases(const MemoryOptions& options) {
   }
   if (options.as_json) {
     app::print_json(list);
-  } else if (cases.value().empty()) {
+  } else if (cases.empty()) {
     app::print("{}: no cases yet\n", options.file);
   }
   return success;
@@ -116,14 +116,15 @@ int show_case(const MemoryOptions& options) {
 }
 
 int export_cases(const MemoryOptions& options) {
-  const auto cases = all_of(options.file);
-  if (!cases.has_value()) {
-    return refused(cases.error());
+  const auto bank = read_bank(options.file);
+  if (!bank.has_value()) {
+    return refused(bank.error());
   }
-  if (const auto problem = write_output(options.cases, memory::cases_text(cases.value()))) {
+  const std::vector<memory::Case>& cases = bank.value().cases;
+  if (const auto problem = write_output(options.cases, memory::cases_text(cases))) {
     return refused(*problem);
   }
-  app::print("{}: {} cases\n", options.cases, cases.value().size());
+  app::print("{}: {} cases\n", options.cases, cases.size());
   return success;
 }
 
@@ -178,20 +179,16 @@ int import_cases(const MemoryOptions& options) {
 
 /// Forgets what is missed least, until there are few enough.
 int thin_bank(const MemoryOptions& options) {
-  auto store = open_existing(options.file);
-  if (!store.has_value()) {
-    return refused(store.error());
+  auto read = read_bank(options.file);
+  if (!read.has_value()) {
+    return refused(read.error());
   }
-  memory::Store memory = std::move(store).value();
-  const auto cases = memory.all();
-  if (!cases.has_value()) {
-    return refused(cases.error());
-  }
-  const std::vector<memory::CaseId> ids = memory::most_redundant(cases.value(), options.most);
-  if (const auto problem = memory.forget(ids)) {
+  ReadBank bank = std::move(read).value();
+  const std::vector<memory::CaseId> ids = memory::most_redundant(bank.cases, options.most);
+  if (const auto problem = bank.store.forget(ids)) {
     return refused(*problem);
   }
-  const std::size_t left = cases.value().size() - ids.size();
+  const std::size_t left = bank.cases.size() - ids.size();
   app::print("{}: {} cases forgotten, {} left{}\n", options.file, ids.size(), left,
              left > options.most ? ": nothing else is stood for by another" : "");
   return success;
@@ -199,16 +196,12 @@ int thin_bank(const MemoryOptions& options) {
 
 /// Reads everything in the bank.
 int verify_bank(const MemoryOptions& options) {
-  auto store = open_existing(options.file);
-  if (!store.has_value()) {
-    return refused(store.error());
+  const auto bank = read_bank(options.file);
+  if (!bank.has_value()) {
+    return refused(bank.error());
   }
-  memory::Store memory = std::move(store).value();
-  const auto cases = memory.all();
-  if (!cases.has_value()) {
-    return refused(cases.error());
-  }
-  const auto digest = memory.digest();
+  const std::vector<memory::Case>& cases = bank.value().cases;
+  const auto digest = bank.value().store.digest();
   if (!digest.has_value()) {
     return refused(digest.error());
   }
@@ -216,7 +209,7 @@ int verify_bank(const MemoryOptions& options) {
   std::map<std::string_view, int> origins;
   std::map<std::string_view, int> trusts;
   std::map<std::string_view, int> best;
-  for (const memory::Case& one : cases.value()) {
+  for (const memory::Case& one : cases) {
     ++origins[name(one.origin)];
     ++trusts[name(one.trust)];
     ++best[name(one.best)];
@@ -224,7 +217,7 @@ int verify_bank(const MemoryOptions& options) {
   if (options.as_json) {
     app::print_json(json{{"schema", "saca.memory_bank/1"},
                          {"file", options.file},
-                         {"cases", cases.value().size()},
+                         {"cases", cases.size()},
                          {"digest", digest_text},
                          {"origins", origins},
                          {"trust", trusts},
@@ -238,9 +231,8 @@ int verify_bank(const MemoryOptions& options) {
     }
     return text;
   };
-  app::print("{}: {} cases, all whole; digest {}\n", options.file, cases.value().size(),
-             digest_text);
-  if (!cases.value().empty()) {
+  app::print("{}: {} cases, all whole; digest {}\n", options.file, cases.size(), digest_text);
+  if (!cases.empty()) {
     app::print("from   {}\ntrust  {}\nbest   {}\n", counted(origins), counted(trusts),
                counted(best));
   }
@@ -257,12 +249,17 @@ Result<std::vector<memory::Case>> read_cases(const std::string& file) {
   return memory::cases_from_text(text.value(), file);
 }
 
-Result<memory::Store> open_existing(const std::string& file) {
-  std::error_code problem;
-  if (!std::filesystem::exists(file, problem)) {
-    return Error{Error::Code::unreadable, file + ": there is no such memory bank"};
+Result<ReadBank> read_bank(const std::string& file) {
+  auto store = open_existing(file);
+  if (!store.has_value()) {
+    return store.error();
   }
-  return memory::Store::open(file);
+  memory::Store memory = std::move(store).value();
+  auto cases = memory.all();
+  if (!cases.has_value()) {
+    return cases.error();
+  }
+  return ReadBank{std::move(memory), std::move(cases).value()};
 }
 
 Result<memory::Store> open_to_add(const std::string& file) {

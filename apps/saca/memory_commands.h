@@ -16,8 +16,13 @@ namespace saca::app {
 /// The bank that cases are added to; one that is not there is made, with its folder.
 [[nodiscard]] Result<memory::Store> open_to_add(const std::string& file);
 
-/// An existing bank only: to look must not make one.
-[[nodiscard]] Result<memory::Store> open_existing(const std::string& file);
+/// An existing bank and all its cases.
+struct ReadBank {
+  memory::Store store;
+  std::vector<memory::Case> cases;
+};
+/// To look must not make one: unreadable where there is none.
+[[nodiscard]] Result<ReadBank> read_bank(const std::string& file);
 
 /// `saca memory add`.
 void add_memory_add(CLI::App& memory, int& exit_code);

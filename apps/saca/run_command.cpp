@@ -104,18 +104,25 @@ Result<std::shared_ptr<memory::Store>> open_memory(const RunOptions& options,
         Error::Code::unreadable,
         fmt::format("--memory {}: want a folder that is there, got {}", file, folder.string())};
   }
-  auto opened = options.no_learning ? memory::Store::snapshot(file)
-                : options.empty_memory
-                    ? memory::Store::open(file)
-                    : open_or_begin(file, inputs.places,
-                                    loop::made_with({&inputs.car, &inputs.harm}, inputs.intent,
-                                                    inputs.scenario.car));
+  const auto with_a_way_out = [&options](const Error& error) {
+    return Error{error.code, error.message + " (" +
+                                 (options.no_learning ? "" : "move the file away, or ") +
+                                 "run without --memory)"};
+  };
+  const bool is_new = !fs::exists(file, problem);
+  auto opened = options.no_learning ? memory::Store::snapshot(file) : memory::Store::open(file);
   if (!opened.has_value()) {
-    return Error{opened.error().code, opened.error().message + " (" +
-                                          (options.no_learning ? "" : "move the file away, or ") +
-                                          "run without --memory)"};
+    return with_a_way_out(opened.error());
   }
-  return std::make_shared<memory::Store>(std::move(opened).value());
+  auto store = std::make_shared<memory::Store>(std::move(opened).value());
+  if (is_new && !options.empty_memory) {
+    const auto made_with =
+        loop::made_with({&inputs.car, &inputs.harm}, inputs.intent, inputs.scenario.car);
+    if (const auto failed = add_shipped_cases(*store, inputs.places, made_with)) {
+      return with_a_way_out(*failed);
+    }
+  }
+  return store;
 }
 
 std::optional<Error> write_outputs(const std::string& record, const fs::path& folder,

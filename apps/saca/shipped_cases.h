@@ -1,7 +1,7 @@
 #pragma once
 
+#include <optional>
 #include <span>
-#include <vector>
 
 #include "apps/saca/places.h"
 #include "saca/memory/case.h"
@@ -9,14 +9,10 @@
 
 namespace saca::app {
 
-/// The cases that are shipped (data/memory/seed.jsonl.gz). One that was worked out with another car
-/// or other harm than these is unchecked.
+/// Puts the cases that are shipped (data/memory/seed.jsonl.gz) into an empty bank. One that was
+/// worked out with another car or other harm than these is unchecked.
 /// @param now  loop::made_with
-[[nodiscard]] Result<std::vector<memory::Case>> shipped_cases(
-    const Places& places, std::span<const memory::MadeWith> now);
-
-/// Opens the bank; one that is not there is made, and begins with the shipped cases.
-[[nodiscard]] Result<memory::Store> open_or_begin(const std::string& file, const Places& places,
-                                                  std::span<const memory::MadeWith> now);
+[[nodiscard]] std::optional<Error> add_shipped_cases(memory::Store& memory, const Places& places,
+                                                     std::span<const memory::MadeWith> now);
 
 }  // namespace saca::app

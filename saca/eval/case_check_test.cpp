@@ -24,7 +24,7 @@ class CaseCheckTest : public testing::Test {
                .value();
     one_.trust = Trust::unchecked;
   }
-  [[nodiscard]] CheckedCase check(const memory::Case& one) const {
+  [[nodiscard]] memory::Case check(const memory::Case& one) const {
     return checked(one, tools_, intent_, draws, made_with_);
   }
   /// What somebody says is best there, without figures.
@@ -47,46 +47,37 @@ class CaseCheckTest : public testing::Test {
 };
 
 TEST_F(CaseCheckTest, ConfirmsWhatItWouldSayItself) {
-  const CheckedCase checked = check(one_);
-  EXPECT_EQ(checked.check, CaseCheck::confirmed);
-  EXPECT_EQ(checked.one.trust, Trust::trusted);
-  EXPECT_EQ(checked.one.told, one_.told) << "the same car, draws and beliefs";
-  EXPECT_EQ(checked.one.happened, one_.happened);
-  EXPECT_FALSE(memory::broken_rule(checked.one));
+  const memory::Case checked = check(one_);
+  EXPECT_EQ(checked.trust, Trust::trusted);
+  EXPECT_EQ(checked.told, one_.told) << "the same car, draws and beliefs";
+  EXPECT_EQ(checked.happened, one_.happened);
+  EXPECT_FALSE(memory::broken_rule(checked));
 }
 
 TEST_F(CaseCheckTest, ConfirmsAnExpertWhoIsRight) {
-  const CheckedCase checked = check(said(PolicyId::es_b_left));
-  EXPECT_EQ(checked.check, CaseCheck::confirmed);
-  EXPECT_TRUE(checked.one.told);
-  EXPECT_EQ(checked.one.made_with, made_with_);
+  const memory::Case checked = check(said(PolicyId::es_b_left));
+  EXPECT_EQ(checked.trust, Trust::trusted);
+  EXPECT_TRUE(checked.told);
+  EXPECT_EQ(checked.made_with, made_with_);
 }
 
 TEST_F(CaseCheckTest, LeavesOpenWhatIsNoWorseThanBraking) {
-  const CheckedCase checked = check(said(PolicyId::aeb));
-  EXPECT_EQ(checked.check, CaseCheck::open);
-  EXPECT_EQ(checked.one.trust, Trust::unchecked);
+  const memory::Case checked = check(said(PolicyId::aeb));
+  EXPECT_EQ(checked.trust, Trust::unchecked);
 }
 
 TEST_F(CaseCheckTest, RefutesWhatIsWorseThanBraking) {
-  const CheckedCase checked = check(said(PolicyId::no_intervention));
-  EXPECT_EQ(checked.check, CaseCheck::refuted);
-  EXPECT_EQ(checked.one.trust, Trust::quarantined);
+  const memory::Case checked = check(said(PolicyId::no_intervention));
+  EXPECT_EQ(checked.trust, Trust::quarantined);
 }
 
 TEST_F(CaseCheckTest, ForgetsWhatHappenedToAnotherCar) {
   memory::Case one = one_;
   one.made_with[0].digest = "0123456789abcdef";
-  const CheckedCase checked = check(one);
-  EXPECT_EQ(checked.check, CaseCheck::confirmed);
-  EXPECT_FALSE(checked.one.happened);
-  EXPECT_EQ(checked.one.made_with, made_with_);
-}
-
-TEST(ACaseCheck, HasAName) {
-  EXPECT_EQ(name(CaseCheck::confirmed), "confirmed");
-  EXPECT_EQ(name(CaseCheck::open), "open");
-  EXPECT_EQ(name(CaseCheck::refuted), "refuted");
+  const memory::Case checked = check(one);
+  EXPECT_EQ(checked.trust, Trust::trusted);
+  EXPECT_FALSE(checked.happened);
+  EXPECT_EQ(checked.made_with, made_with_);
 }
 
 }  // namespace
