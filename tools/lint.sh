@@ -19,7 +19,7 @@ command -v clang-tidy-14 >/dev/null || {
 
 tidy() {
   clang-tidy-14 --quiet --config-file=.clang-tidy "$@" -- -std=c++20 -I. -isystem /usr/include/eigen3 -isystem /usr/include/hdf5/serial \
-    -isystem /usr/include/cairo -DSACA_VERSION='""' 2>/dev/null
+    -isystem /usr/include/cairo -isystem /usr/include/postgresql -DSACA_VERSION='""' 2>/dev/null
 }
 lint_folder() {  # FOLDER
   local sources joined stamp
@@ -52,7 +52,7 @@ export -f tidy lint_folder in_parallel
 # Each source by itself, as who builds without presets compiles it.
 stands_alone() {  # SOURCE
   g++ -fsyntax-only -std=c++20 -I. -isystem /usr/include/eigen3 -isystem /usr/include/hdf5/serial \
-    -isystem /usr/include/cairo -DSACA_VERSION='""' "$1" || {
+    -isystem /usr/include/cairo -isystem /usr/include/postgresql -DSACA_VERSION='""' "$1" || {
     echo "lint: error: $1 does not compile by itself"
     return 1
   }

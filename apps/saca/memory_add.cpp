@@ -56,7 +56,7 @@ int add_case(const AddOptions& options) {
   }
   using How = memory::Learnt::How;
   const memory::Learnt& how = learnt.value();
-  app::print("{}: case {}{}; it is used where a rollout confirms it\n", options.file, how.id,
+  app::print("{}: case {}{}; it is used where a rollout confirms it\n", memory.name(), how.id,
              how.how == How::merged         ? " stands for it already"
              : how.how == How::contradicted ? fmt::format(", which contradicts case {}", how.other)
                                             : "");

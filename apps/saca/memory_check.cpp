@@ -81,7 +81,7 @@ int check_bank(const CheckCasesOptions& options) {
   const auto [confirmed, open, refuted] = counts.value();
   if (options.as_json) {
     app::print_json(json{{"schema", "saca.memory_check/1"},
-                         {"file", options.file},
+                         {"file", bank.store.name()},
                          {"car", options.car},
                          {"confirmed", confirmed},
                          {"open", open},
@@ -89,7 +89,7 @@ int check_bank(const CheckCasesOptions& options) {
   } else {
     app::print(
         "{}: {} cases confirmed and trusted, {} stay unchecked, {} refuted and quarantined\n",
-        options.file, confirmed, open, refuted);
+        bank.store.name(), confirmed, open, refuted);
   }
   if (interrupted()) {
     complain("interrupted: the same command goes on from here");

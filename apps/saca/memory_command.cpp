@@ -33,6 +33,7 @@ struct MemoryOptions {
   std::int64_t id = 0;
   std::string cases;  ///< JSON Lines
   std::string svg;
+  std::string html;
   std::size_t most = 0;
   bool keep_trust = false;
   bool as_json = false;
@@ -50,15 +51,6 @@ json case_json(const memory::Case& one) {
           {"origin", name(one.origin)},
           {"trust", name(one.trust)},
           {"count", one.count}};
-}
-
-/// An existing file only: to look must not make one.
-Result<memory::Store> open_existing(const std::string& file) {
-  std::error_code problem;
-  if (!std::filesystem::exists(file, problem)) {
-    return Error{Error::Code::unreadable, file + ": there is no such memory bank"};
-  }
-  return memory::Store::open(file);
 }
 
 int list_cases(const MemoryOptions& options) {
@@ -81,13 +73,35 @@ int list_cases(const MemoryOptions& options) {
   if (options.as_json) {
     app::print_json(list);
   } else if (cases.empty()) {
-    app::print("{}: no cases yet\n", options.file);
+    app::print("{}: no cases yet\n", bank.value().store.name());
   }
   return success;
 }
 
+std::optional<Error> write_pictures(const MemoryOptions& options, memory::Store& memory,
+                                    const memory::Case& one) {
+  if (options.svg.empty() && options.html.empty()) {
+    return std::nullopt;
+  }
+  const auto all = memory.all();
+  if (!all.has_value()) {
+    return all.error();
+  }
+  if (!options.svg.empty()) {
+    if (auto problem = write_output(options.svg, case_picture(one, all.value()))) {
+      return problem;
+    }
+  }
+  return options.html.empty()
+             ? std::nullopt
+             : write_output(options.html,
+                            case_page(one, all.value(),
+                                      fmt::format("saca memory show {} --memory {} --html {}",
+                                                  one.id, memory.name(), options.html)));
+}
+
 int show_case(const MemoryOptions& options) {
-  auto store = open_existing(options.file);
+  auto store = memory::Store::open_existing(options.file);
   if (!store.has_value()) {
     complain(store.error().message);
     return bad_input;
@@ -99,17 +113,12 @@ int show_case(const MemoryOptions& options) {
     return bad_input;
   }
   if (!found.value()) {
-    complain(fmt::format("{}: want an id of `saca memory list`, got {}", options.file, options.id));
+    complain(
+        fmt::format("{}: want an id of `saca memory list`, got {}", memory.name(), options.id));
     return bad_input;
   }
-  if (!options.svg.empty()) {
-    const auto all = memory.all();
-    if (!all.has_value()) {
-      return refused(all.error());
-    }
-    if (const auto problem = write_output(options.svg, case_picture(*found.value(), all.value()))) {
-      return refused(*problem);
-    }
+  if (const auto problem = write_pictures(options, memory, *found.value())) {
+    return refused(*problem);
   }
   app::print("{}\n", memory::to_json(*found.value()).dump(1));  // it comes back to the last bit
   return success;
@@ -171,7 +180,7 @@ int import_cases(const MemoryOptions& options) {
     return refused(ids.error());
   }
   app::print(
-      "{}: {} cases taken over{}{}\n", options.file, cases.size(),
+      "{}: {} cases taken over{}{}\n", memory.name(), cases.size(),
       left_out > 0 ? fmt::format(", {} were there already", left_out) : "",
       cases.empty() || options.keep_trust ? "" : ": each is used only where a rollout confirms it");
   return success;
@@ -189,7 +198,7 @@ int thin_bank(const MemoryOptions& options) {
     return refused(*problem);
   }
   const std::size_t left = bank.cases.size() - ids.size();
-  app::print("{}: {} cases forgotten, {} left{}\n", options.file, ids.size(), left,
+  app::print("{}: {} cases forgotten, {} left{}\n", bank.store.name(), ids.size(), left,
              left > options.most ? ": nothing else is stood for by another" : "");
   return success;
 }
@@ -216,7 +225,7 @@ int verify_bank(const MemoryOptions& options) {
   }
   if (options.as_json) {
     app::print_json(json{{"schema", "saca.memory_bank/1"},
-                         {"file", options.file},
+                         {"file", bank.value().store.name()},
                          {"cases", cases.size()},
                          {"digest", digest_text},
                          {"origins", origins},
@@ -231,7 +240,8 @@ int verify_bank(const MemoryOptions& options) {
     }
     return text;
   };
-  app::print("{}: {} cases, all whole; digest {}\n", options.file, cases.size(), digest_text);
+  app::print("{}: {} cases, all whole; digest {}\n", bank.value().store.name(), cases.size(),
+             digest_text);
   if (!cases.empty()) {
     app::print("from   {}\ntrust  {}\nbest   {}\n", counted(origins), counted(trusts),
                counted(best));
@@ -250,7 +260,7 @@ Result<std::vector<memory::Case>> read_cases(const std::string& file) {
 }
 
 Result<ReadBank> read_bank(const std::string& file) {
-  auto store = open_existing(file);
+  auto store = memory::Store::open_existing(file);
   if (!store.has_value()) {
     return store.error();
   }
@@ -263,8 +273,10 @@ Result<ReadBank> read_bank(const std::string& file) {
 }
 
 Result<memory::Store> open_to_add(const std::string& file) {
-  if (auto problem = make_folder_of(file)) {
-    return *std::move(problem);
+  if (!memory::is_on_a_server(file)) {
+    if (auto problem = make_folder_of(file)) {
+      return *std::move(problem);
+    }
   }
   return memory::Store::open(file);
 }
@@ -284,6 +296,7 @@ void add_memory(CLI::App& line, int& exit_code) {
   CLI::App* const show = command->add_subcommand("show", "One case, with its scene, as JSON");
   show->add_option("id", options->id)->required();
   show->add_option("--svg", options->svg, "It and those most like it as a picture, besides");
+  show->add_option("--html", options->html, "Likewise as a page, with all that is known of it");
   add_bank(*show);
   show->callback([options, &exit_code] { exit_code = show_case(*options); });
   CLI::App* const taken = command->add_subcommand("import", "Takes over cases from JSON Lines");
@@ -311,6 +324,7 @@ void add_memory(CLI::App& line, int& exit_code) {
   add_memory_build(*command, exit_code);
   add_memory_check(*command, exit_code);
   add_memory_calibrate(*command, exit_code);
+  add_memory_stats(*command, exit_code);
 }
 
 }  // namespace saca::app

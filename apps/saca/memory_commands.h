@@ -36,4 +36,7 @@ void add_memory_check(CLI::App& memory, int& exit_code);
 /// `saca memory calibrate`.
 void add_memory_calibrate(CLI::App& memory, int& exit_code);
 
+/// `saca memory stats`.
+void add_memory_stats(CLI::App& memory, int& exit_code);
+
 }  // namespace saca::app

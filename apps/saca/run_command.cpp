@@ -97,24 +97,27 @@ Result<std::shared_ptr<memory::Store>> open_memory(const RunOptions& options,
   if (file.empty() || options.no_memory) {
     return std::shared_ptr<memory::Store>();
   }
-  const fs::path folder = fs::path(file).parent_path();
+  const bool on_a_server = memory::is_on_a_server(file);
+  const fs::path folder = on_a_server ? fs::path() : fs::path(file).parent_path();
   std::error_code problem;
   if (!options.no_learning && !folder.empty() && !fs::is_directory(folder, problem)) {
     return Error{
         Error::Code::unreadable,
         fmt::format("--memory {}: want a folder that is there, got {}", file, folder.string())};
   }
-  const auto with_a_way_out = [&options](const Error& error) {
-    return Error{error.code, error.message + " (" +
-                                 (options.no_learning ? "" : "move the file away, or ") +
-                                 "run without --memory)"};
+  const auto with_a_way_out = [&options, on_a_server](const Error& error) {
+    return Error{error.code,
+                 error.message + " (" +
+                     (options.no_learning || on_a_server ? "" : "move the file away, or ") +
+                     "run without --memory)"};
   };
-  const bool is_new = !fs::exists(file, problem);
+  const bool file_is_new = !on_a_server && !fs::exists(file, problem);
   auto opened = options.no_learning ? memory::Store::snapshot(file) : memory::Store::open(file);
   if (!opened.has_value()) {
     return with_a_way_out(opened.error());
   }
   auto store = std::make_shared<memory::Store>(std::move(opened).value());
+  const bool is_new = file_is_new || (on_a_server && store->size() == 0 && !options.no_learning);
   if (is_new && !options.empty_memory) {
     const auto made_with =
         loop::made_with({&inputs.car, &inputs.harm}, inputs.intent, inputs.scenario.car);

@@ -23,7 +23,7 @@ Result<std::vector<memory::Store>> copies_of(const std::string& file, int count)
 }
 
 /// Differs between copies that somebody wrote between.
-Result<std::string> text_of(const std::vector<memory::Store>& copies, const std::string& file) {
+Result<std::string> text_of(const std::vector<memory::Store>& copies) {
   std::vector<std::uint64_t> digests;
   for (const memory::Store& copy : copies) {
     const auto digest = copy.digest();
@@ -31,7 +31,8 @@ Result<std::string> text_of(const std::vector<memory::Store>& copies, const std:
       return digest.error();
     }
     if (!digests.empty() && digest.value() != digests.front()) {
-      return Error{Error::Code::unreadable, "--memory: " + file + ": another program writes to it"};
+      return Error{Error::Code::unreadable,
+                   "--memory: " + copy.name() + ": another program writes to it"};
     }
     digests.push_back(digest.value());
   }
@@ -50,7 +51,7 @@ Result<std::unique_ptr<SuiteThinking>> SuiteThinking::open(const ThinkingOptions
       return copies.error();
     }
     std::vector<memory::Store> stores = std::move(copies).value();
-    auto text = text_of(stores, options.memory);
+    auto text = text_of(stores);
     if (!text.has_value()) {
       return text.error();
     }

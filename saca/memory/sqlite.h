@@ -7,15 +7,11 @@
 #include <string>
 
 #include "saca/core/result.h"
+#include "saca/memory/case_table.h"
 
 namespace saca::memory {
 
 // A thin skin over SQLite, for this module only.
-
-/// How long another process may hold a file before an operation on it gives up [ms].
-constexpr int usual_patience = 5'000;
-/// Likewise where a decision waits for the answer: longer than another's commit takes.
-constexpr int short_patience = 200;
 
 struct Close {
   void operator()(sqlite3* database) const { sqlite3_close_v2(database); }
@@ -88,8 +84,6 @@ class Statement {
   std::unique_ptr<sqlite3_stmt, Close> statement_;
   int problem_ = SQLITE_OK;
 };
-
-enum class Access : std::uint8_t { read, write };
 
 /// The connection's last problem, with the file's name as its user knows it.
 [[nodiscard]] Error sqlite_problem(sqlite3* database, const std::string& name, Access access);

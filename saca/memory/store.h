@@ -1,10 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "saca/core/result.h"
@@ -14,6 +15,8 @@
 #include "saca/world/scene.h"
 
 namespace saca::memory {
+
+class CaseTable;
 
 /// What the paper's Algorithm 1 does with what memory speaks for.
 enum class Gate : std::uint8_t {
@@ -36,38 +39,49 @@ struct Match {
 /// The gate of its confidence; what trusted cases alone do not support is not used unchecked.
 [[nodiscard]] Gate gate(const Match& match) noexcept;
 
-/// The memory bank: one SQLite file, which several processes may have open.
+/// Is a bank of this name on a PostgreSQL server, and in no file?
+[[nodiscard]] bool is_on_a_server(std::string_view place) noexcept;
+
+/// The memory bank: one SQLite file, or two tables on a PostgreSQL server
+/// ("postgresql://USER@HOST/DATABASE"), which several processes may have open.
 ///
-/// One thread at a time. It waits for the disk, and for another process (then: too_late) up to 5 s,
-/// `recall` some tenths of a second, so it belongs to the thinking plane. What other processes add
-/// is seen by the next call. Movable, not copyable. Table and versions: docs/formats.md.
+/// One thread at a time. It waits for disk or network, and for another process (then: too_late) up
+/// to 5 s, `recall` some tenths of a second, so it belongs to the thinking plane. What other
+/// processes add is seen by the next call. Movable, not copyable. Table and versions:
+/// docs/formats.md.
 ///
-/// Every error names the file and, where one row is at fault, table, id and key.
+/// Every error names the bank, without a password, and, where one row is at fault, table, id and
+/// key.
 class Store {
  public:
-  /// Opens the file, or makes it where there is none. Its features are read into memory, so a
+  /// Opens the bank, or makes it where there is none. Its features are read into memory, so a
   /// damaged row is told here.
   ///
-  /// A file of an older version is brought to the newest. A file that may only be read is opened
-  /// for reading: `add` then returns unwritable.
+  /// A bank of an older version is brought to the newest. One that may only be read, such as a
+  /// server's replica, is opened for reading: `add` then returns unwritable.
   /// @return  unreadable when it cannot be opened; malformed when it is damaged, is no memory bank,
   ///          has another version, or a row cannot be used
-  [[nodiscard]] static Result<Store> open(const std::filesystem::path& path);
+  [[nodiscard]] static Result<Store> open(const std::string& place);
 
-  /// Copies what an existing file holds now, to ask it as often as wanted: what anybody adds to the
-  /// file later is not seen, and `add` returns unwritable.
-  /// @return  unreadable when there is no such file; else as `open`
-  [[nodiscard]] static Result<Store> snapshot(const std::filesystem::path& path);
+  /// Likewise, but makes none.
+  /// @return  unreadable where there is none
+  [[nodiscard]] static Result<Store> open_existing(const std::string& place);
+
+  /// Copies what an existing bank holds now, to ask it as often as wanted: what anybody adds to it
+  /// later is not seen, and `add` returns unwritable.
+  /// @return  unreadable when there is no such bank; else as `open`
+  [[nodiscard]] static Result<Store> snapshot(const std::string& place);
 
   Store(Store&&) noexcept;
   Store& operator=(Store&&) noexcept;
   ~Store();
 
   /// Puts a case on the disk. When this returns an id, the case outlives a killed process and a
-  /// lost power supply; when it returns an error, the file is as it was before.
+  /// lost power supply; when it returns an error, the bank is as it was before, but where the
+  /// message says that this is not known: a server was lost at the end, and did not come back.
   ///
   /// @param one  its `id` is not looked at
-  /// @return     the id given to it; unwritable when the disk is full or the file read-only
+  /// @return     the id given to it; unwritable when the disk is full or the bank read-only
   /// @throws ContractViolation  if the case or its scene breaks a rule
   [[nodiscard]] Result<CaseId> add(const Case& one);
 
@@ -110,9 +124,16 @@ class Store {
   /// How many cases were in the file when it was last looked at.
   [[nodiscard]] std::size_t size() const noexcept;
 
+  /// As people know it, for messages.
+  [[nodiscard]] const std::string& name() const noexcept;
+
  private:
   struct State;
   explicit Store(std::unique_ptr<State> state);
+  [[nodiscard]] static Result<Store> with(Result<std::unique_ptr<CaseTable>> table);
+
+  enum class KeepIds : std::uint8_t { no, where_empty };
+  [[nodiscard]] Result<std::vector<CaseId>> add_in_turn(std::span<const Case> cases, KeepIds keep);
 
   std::unique_ptr<State> state_;
 };

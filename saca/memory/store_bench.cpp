@@ -4,6 +4,9 @@
 
 #include <unistd.h>
 
+#include <cstdlib>
+#include <filesystem>
+
 #include "saca/memory/example_scenes.h"
 
 namespace saca::memory::store_bench {
@@ -44,6 +47,26 @@ void add_one_case(benchmark::State& state) {
   }
 }
 BENCHMARK(add_one_case)->Unit(benchmark::kMillisecond);
+
+// The same on a server (SACA_POSTGRES_URL), also by several at once, each with its own connection.
+void add_one_case_to_a_server(benchmark::State& state) {
+  const char* const url = std::getenv("SACA_POSTGRES_URL");
+  if (url == nullptr) {
+    state.SkipWithError("SACA_POSTGRES_URL names no server");
+    return;
+  }
+  Store store = Store::open(url).value();
+  std::mt19937 rng(1);
+  const Case one = case_of(rng);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(store.add(one).has_value());
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(add_one_case_to_a_server)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->ThreadRange(1, 4);
 
 void nearest_of(benchmark::State& state) {
   const Bank bank;

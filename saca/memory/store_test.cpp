@@ -20,9 +20,7 @@
 
 #include "saca/core/contract.h"
 #include "saca/core/file.h"
-#include "saca/memory/case_json.h"
-#include "saca/memory/example_scenes.h"
-#include "saca/memory/scene_json.h"
+#include "saca/memory/cases_for_test.h"
 #include "saca/memory/similarity.h"
 
 namespace saca::memory::store_test {
@@ -31,38 +29,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 using world::Scene;
-
-Case example_case(std::uint32_t seed) {
-  std::mt19937 rng(seed);
-  Case one;
-  one.scene = random_scene(rng, static_cast<int>(seed % 9));
-  one.plan = {manoeuvre::PolicyId::es_b_right, 0.1 * seed};
-  one.best = manoeuvre::PolicyId::aeb;
-  one.harm = 0.3 / (seed + 1.0);
-  one.best_harm = 0.1 / (seed + 1.0);
-  one.collision_loss = 1.0 / 3.0;
-  one.review = "stopped 0.4 m later than forecast; \"wet\" – 'perhaps'";
-  one.source = "case " + std::to_string(seed);
-  one.origin = Origin::simulation;
-  one.trust = seed % 2 == 0 ? Trust::trusted : Trust::unchecked;
-  one.count = static_cast<int>(seed) + 1;
-  one.worst_harm = 2.0 / 3.0;
-  one.told = PolicyHarms{0.1, 0.2, std::nullopt, 1.0 / 7.0};
-  one.lessons = {"braking alone was too late"};
-  return one;
-}
-
-void expect_same(const Case& a, const Case& b) {
-  EXPECT_EQ(to_json(a.scene), to_json(b.scene));  // all numbers to the last bit, see its own test
-  EXPECT_EQ(a.plan, b.plan);
-  EXPECT_EQ(a.best, b.best);
-  EXPECT_EQ(a.harm, b.harm);
-  EXPECT_EQ(a.best_harm, b.best_harm);
-  EXPECT_EQ(a.collision_loss, b.collision_loss);
-  EXPECT_EQ(a.review, b.review);
-  EXPECT_EQ(a.source, b.source);
-  EXPECT_EQ(details_json(a), details_json(b));
-}
 
 /// What somebody with the sqlite3 shell would do.
 std::string shell(const fs::path& path, const std::string& sql) {
@@ -763,58 +729,6 @@ TEST_F(Memory, LosesNothingOnAFullDisk) {
 }
 
 // ---- Several processes
-
-/// A process that adds cases and reports the id of each, once it is safe, through a pipe.
-class Adder {
- public:
-  Adder(const fs::path& path, int num_cases) {
-    std::array<int, 2> ends{};
-    EXPECT_EQ(::pipe(ends.data()), 0);
-    process_ = ::fork();
-    if (process_ == 0) {
-      auto opened = Store::open(path);
-      if (!opened.has_value()) {
-        ::_exit(2);
-      }
-      Store store = std::move(opened).value();
-      for (int i = 0; i < num_cases; ++i) {
-        const auto id = store.add(example_case(static_cast<std::uint32_t>(i)));
-        if (!id.has_value() || ::write(ends[1], &id.value(), sizeof(CaseId)) != sizeof(CaseId)) {
-          ::_exit(1);
-        }
-      }
-      ::_exit(0);
-    }
-    ::close(ends[1]);
-    report_ = ends[0];
-  }
-  ~Adder() { ::close(report_); }
-  Adder(const Adder&) = delete;
-  Adder& operator=(const Adder&) = delete;
-
-  /// The next id; nullopt when the process has ended.
-  [[nodiscard]] std::optional<CaseId> next() const {
-    CaseId id = 0;
-    return ::read(report_, &id, sizeof(id)) == sizeof(id) ? std::optional(id) : std::nullopt;
-  }
-
-  void kill_after(std::chrono::microseconds delay) const {
-    const timespec pause{0, std::chrono::nanoseconds(delay).count()};
-    ::nanosleep(&pause, nullptr);
-    ::kill(process_, SIGKILL);
-  }
-
-  /// @return  its exit status; -1 when it was killed
-  [[nodiscard]] int wait() const {
-    int status = 0;
-    ::waitpid(process_, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-
- private:
-  pid_t process_ = 0;
-  int report_ = -1;
-};
 
 TEST_F(Memory, SeesWhatAnotherProcessAdds) {
   Store store = opened();

@@ -231,3 +231,31 @@ def test_what_is_not_trusted_is_rolled_out(cases, tmp_path):
     assert f"0 cases confirmed and trusted, {told['open']} stay unchecked, 0 refuted" in again.stdout
     assert "no such memory bank" in one_error(saca("memory", "check", "--memory", "none.db", cwd=tmp_path), BAD_INPUT)
     assert "tank" in one_error(saca("memory", "check", "--memory", "bank.db", "--car", "tank", cwd=tmp_path), BAD_INPUT)
+
+
+def test_stats_tell_what_a_bank_has_seen(cases, tmp_path):
+    assert saca("memory", "import", cases, "--keep-trust", "--memory", "bank.db", cwd=tmp_path).returncode == SUCCESS
+    told = json.loads(saca("memory", "stats", "--memory", "bank.db", "--json", cwd=tmp_path).stdout)
+    assert told["schema"] == "saca.memory_stats/1"
+    scenes = [one["scene"] for one in documents(cases)[1:]]
+    assert told["cases"] == sum(cell["cases"] for cell in told["cells"]) == len(scenes)
+    slow = sum(scene["ego"]["forward_mps"] < 8.0 for scene in scenes)  # hardly anything sideways
+    assert sum(cell["cases"] for cell in told["cells"] if cell["to_mps"] == 8.0) == slow
+    with_pedestrians_only = sum({actor["kind"] for actor in scene["actors"]} == {"pedestrian"} for scene in scenes)
+    assert sum(cell["cases"] for cell in told["cells"] if cell["situation"] == "pedestrian") >= with_pedestrians_only
+    assert 0.0 < told["recall_us"]["p50"] <= told["recall_us"]["p99"]
+    lines = saca("memory", "stats", "--memory", "bank.db", cwd=tmp_path).stdout
+    assert f"{len(scenes)} cases" in lines and "crossing" in lines
+    assert "no such memory bank" in one_error(saca("memory", "stats", "--memory", "none.db", cwd=tmp_path), BAD_INPUT)
+
+
+def test_a_case_is_shown_as_a_page(cases, tmp_path):
+    assert saca("memory", "import", cases, "--keep-trust", "--memory", "bank.db", cwd=tmp_path).returncode == SUCCESS
+    assert saca("memory", "show", "1", "--memory", "bank.db", "--html", "case.html", cwd=tmp_path).returncode == SUCCESS
+    page = (tmp_path / "case.html").read_text()
+    first = documents(cases)[1]
+    assert first["source"] in page and "Harm of each policy" in page
+    assert page.count("% alike") == 5 and "<script src" not in page
+    happened = [harm for harm in first["details"]["happened"] if harm is not None]
+    assert f"{max(happened):.3f}" in page
+    assert "nowhere" in one_error(saca("memory", "show", "1", "--memory", "bank.db", "--html", "/proc/nowhere/case.html", cwd=tmp_path), CANNOT_WRITE)

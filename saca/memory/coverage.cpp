@@ -1,0 +1,135 @@
+#include "saca/memory/coverage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "saca/core/contract.h"
+#include "saca/memory/experience.h"
+#include "saca/memory/feature_index.h"
+#include "saca/memory/similarity.h"
+
+namespace saca::memory {
+namespace {
+
+constexpr double slippery_grip = 0.4;
+
+Situation way_of(const ActorFeatures& actor) {
+  const double along = actor.forward_L.x;  // cosine of its heading against the lane
+  constexpr double at_45_deg = 0.70710678118654752;
+  if (along >= at_45_deg) {
+    return Situation::same_direction;
+  }
+  return along <= -at_45_deg ? Situation::oncoming : Situation::crossing;
+}
+
+Situation situation_with(const ActorFeatures& actor) {
+  switch (actor.kind) {
+    case world::ActorKind::car:
+    case world::ActorKind::van:
+    case world::ActorKind::truck:
+      return way_of(actor);
+    case world::ActorKind::motorcycle:
+    case world::ActorKind::bicycle:
+      return Situation::two_wheeler;
+    case world::ActorKind::pedestrian:
+      return Situation::pedestrian;
+    case world::ActorKind::obstacle:
+      break;
+  }
+  return Situation::obstacle;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::optional<double> to_nearest_other(const FeatureIndex& index, const Case& one) {
+  std::array<FeatureIndex::Hit, 2> room;
+  const std::size_t found = index.nearest(features(one.scene), room);
+  for (const FeatureIndex::Hit& hit : std::span(room).first(found)) {
+    if (hit.id != one.id) {
+      return hit.difference;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string_view name(Situation situation) {
+  switch (situation) {
+    case Situation::nobody:
+      return "nobody";
+    case Situation::same_direction:
+      return "same_direction";
+    case Situation::oncoming:
+      return "oncoming";
+    case Situation::crossing:
+      return "crossing";
+    case Situation::two_wheeler:
+      return "two_wheeler";
+    case Situation::pedestrian:
+      return "pedestrian";
+    case Situation::obstacle:
+      break;
+  }
+  return "obstacle";
+}
+
+Situation situation_of(const world::Scene& scene) {
+  const Features found = features(scene);
+  expects(found.ego.usable, "the scene breaks no rule");
+  const auto most = std::max_element(
+      found.actors.begin(), found.actors.end(),
+      [](const ActorFeatures& a, const ActorFeatures& b) { return a.threat < b.threat; });
+  return most == found.actors.end() ? Situation::nobody : situation_with(*most);
+}
+
+std::vector<CoverageCell> coverage(std::span<const Case> cases) {
+  constexpr std::size_t num_classes = speed_classes.size() + 1;
+  std::vector<CoverageCell> cells;
+  cells.reserve(all_situations.size() * num_classes);
+  for (const Situation situation : all_situations) {
+    for (std::size_t k = 0; k < num_classes; ++k) {
+      cells.push_back({.situation = situation, .speed_class = k});
+    }
+  }
+  FeatureIndex index;
+  for (const Case& one : cases) {
+    if (one.trust != Trust::quarantined) {
+      index.add(one.id, one.scene);
+    }
+  }
+  std::vector<std::vector<double>> differences(cells.size());
+  for (const Case& one : cases) {
+    if (one.trust == Trust::quarantined) {
+      continue;
+    }
+    const double speed = norm(one.scene.ego.v_B);
+    const auto speed_class = static_cast<std::size_t>(
+        std::upper_bound(speed_classes.begin(), speed_classes.end(), speed) -
+        speed_classes.begin());
+    const std::size_t place =
+        static_cast<std::size_t>(situation_of(one.scene)) * num_classes + speed_class;
+    CoverageCell& cell = cells.at(place);
+    ++cell.cases;
+    const bool braking_does = as_good_as_best(one).test(manoeuvre::index(manoeuvre::PolicyId::aeb));
+    cell.braking_as_good += braking_does ? 1 : 0;
+    cell.slippery += one.scene.grip < slippery_grip ? 1 : 0;
+    if (const auto difference = to_nearest_other(index, one)) {
+      differences.at(place).push_back(*difference);
+    }
+  }
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    cells[i].to_nearest = median(std::move(differences[i]));
+  }
+  return cells;
+}
+
+}  // namespace saca::memory
