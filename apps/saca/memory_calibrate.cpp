@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -13,7 +14,10 @@
 #include "apps/saca/memory_commands.h"
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
+#include "apps/saca/progress.h"
+#include "saca/core/clock.h"
 #include "saca/core/parallel.h"
+#include "saca/eval/scale_fit.h"
 #include "saca/eval/transfer.h"
 #include "saca/report/chart_svg.h"
 
@@ -28,6 +32,8 @@ struct CalibrateOptions {
   std::string cases;
   std::vector<std::string> checks;
   std::string svg;
+  bool fit = false;
+  int fit_scenes = 2'000;
   std::uint64_t seed = 1;
   int threads = usual_threads();
   bool as_json = false;
@@ -121,6 +127,89 @@ std::string picture_of(const std::vector<Transfer>& all, const std::string& name
                    .curves = {truth, as_told, braking}}}});
 }
 
+/// Every so many, so that not more than `most` are left.
+std::vector<memory::Case> some_of(const std::vector<memory::Case>& cases, int most) {
+  const std::size_t step =
+      (cases.size() + static_cast<std::size_t>(most) - 1) / static_cast<std::size_t>(most);
+  std::vector<memory::Case> some;
+  some.reserve(cases.size() / step + 1);
+  for (std::size_t i = 0; i < cases.size(); i += step) {
+    some.push_back(cases[i]);
+  }
+  return some;
+}
+
+void print_fit(const eval::ScaleFit& fit) {
+  app::print("\n{:14} {:>8} {:>8}\n", "scale", "shipped", "fitted");
+  for (const eval::FittedScale& one : eval::fitted_scales) {
+    app::print("{:14} {:8.3f} {:8.3f}\n", one.name, memory::Scales{}.*one.value,
+               fit.scales.*one.value);
+  }
+  app::print("error of the harm foretold by like cases: {:.4f}, fitted {:.4f}\n", fit.error_before,
+             fit.error);
+}
+
+/// Fits what makes a difference, and holds it against other cases.
+int fit_similarity(const CalibrateOptions& options, const std::vector<memory::Case>& cases,
+                   const std::vector<memory::Case>& checks) {
+  watch_for_interrupt();
+  SteadyClock clock;
+  ProgressLine progress("scales", 0, clock);
+  const auto fit = eval::fit_scales(
+      cases, some_of(cases, options.fit_scenes), {}, options.threads, [&](int count, double error) {
+        progress.show(count, 0, fmt::format(" tries, error {:.5f}", error));
+        return !interrupted();
+      });
+  if (!fit) {
+    return refused({Error::Code::malformed, options.cases +
+                                                ": want cases that tell what every policy was "
+                                                "expected to harm, got none"});
+  }
+  json out{{"meta.command", "saca memory calibrate CASES --fit"},
+           {"meta.version", SACA_VERSION},
+           {"memory.scales.is_done", fit->is_done},
+           {"memory.scales.error.shipped", fit->error_before},
+           {"memory.scales.error.fitted", fit->error}};
+  for (const eval::FittedScale& one : eval::fitted_scales) {
+    out[fmt::format("memory.scales.{}.shipped", one.name)] = memory::Scales{}.*one.value;
+    out[fmt::format("memory.scales.{}.fitted", one.name)] = fit->scales.*one.value;
+  }
+  if (!options.as_json) {
+    print_fit(*fit);
+  }
+  const auto shipped = eval::scale_error(cases, checks, {}, options.threads);
+  const auto fitted = eval::scale_error(cases, checks, fit->scales, options.threads);
+  if (shipped && fitted) {
+    out["memory.scales.check_error.shipped"] = *shipped;
+    out["memory.scales.check_error.fitted"] = *fitted;
+    if (!options.as_json) {
+      app::print("in the cases to check: {:.4f}, fitted {:.4f}\n", *shipped, *fitted);
+    }
+  }
+  if (options.as_json) {
+    app::print("{}\n", json_text(out));
+  }
+  if (!fit->is_done) {
+    complain("interrupted: the scales are the best so far");
+    return was_interrupted;
+  }
+  return success;
+}
+
+/// Of all files to check.
+Result<std::vector<memory::Case>> read_checks(const CalibrateOptions& options) {
+  std::vector<memory::Case> checks;
+  for (const std::string& file : options.checks) {
+    auto more = read_cases(file);
+    if (!more.has_value()) {
+      return more.error();
+    }
+    std::vector<memory::Case> read = std::move(more).value();
+    std::move(read.begin(), read.end(), std::back_inserter(checks));
+  }
+  return checks;
+}
+
 int calibrate(const CalibrateOptions& options) {
   if (const auto problem = why_outputs_unwritable({options.svg})) {
     return refused(*problem);
@@ -131,6 +220,13 @@ int calibrate(const CalibrateOptions& options) {
   }
   if (cases.value().empty()) {
     return refused({Error::Code::malformed, options.cases + ": want cases, got none"});
+  }
+  const auto checks = read_checks(options);
+  if (!checks.has_value()) {
+    return refused(checks.error());
+  }
+  if (options.fit) {
+    return fit_similarity(options, cases.value(), checks.value());
   }
   const auto held = [&](const std::vector<memory::Case>& queries) {
     return eval::transfers(cases.value(), queries, options.seed, options.threads);
@@ -158,17 +254,8 @@ int calibrate(const CalibrateOptions& options) {
                  least ? fmt::format("{:.2f}", memory::confidence_at(*least)) : "none");
     }
   }
-  std::vector<memory::Case> queries;
-  for (const std::string& file : options.checks) {
-    auto more = read_cases(file);
-    if (!more.has_value()) {
-      return refused(more.error());
-    }
-    std::vector<memory::Case> read = std::move(more).value();
-    std::move(read.begin(), read.end(), std::back_inserter(queries));
-  }
   if (!options.checks.empty()) {
-    drawn = held(queries);
+    drawn = held(checks.value());
     drawn_of.clear();
     for (const std::string& file : options.checks) {
       drawn_of += (drawn_of.empty() ? "" : ", ") + name_of(file);
@@ -196,6 +283,11 @@ void add_memory_calibrate(CLI::App& memory, int& exit_code) {
   command->add_option("--check", options->checks, "Other cases, that are held against them");
   command->add_option("--svg", options->svg,
                       "The curve as a picture, of --check where it is given");
+  command->add_flag("--fit", options->fit,
+                    "Fits the scales of what makes a difference between scenes instead");
+  command->add_option("--fit-scenes", options->fit_scenes, "How many are foretold in each try")
+      ->check(CLI::Range(10, 1'000'000))
+      ->capture_default_str();
   command->add_option("--seed", options->seed, "Of what is drawn")->capture_default_str();
   command->add_option("--threads", options->threads, "They do not change the result")
       ->check(CLI::Range(1, 256))

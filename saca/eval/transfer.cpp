@@ -28,7 +28,8 @@ bool choice_matters(const memory::Case& one) {
   return least && *most - *least > matters;
 }
 
-/// Name of the encounter that a case is of, its twin's too.
+}  // namespace
+
 std::string_view encounter_of(const memory::Case& one) {
   std::string_view source = one.source;
   if (constexpr std::string_view twin = "_twin"; source.ends_with(twin)) {
@@ -36,8 +37,6 @@ std::string_view encounter_of(const memory::Case& one) {
   }
   return source;
 }
-
-}  // namespace
 
 std::vector<Transfer> transfers(std::span<const memory::Case> cases,
                                 std::span<const memory::Case> queries, std::uint64_t seed,

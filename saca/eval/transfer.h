@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "saca/danger/margins.h"
@@ -10,6 +11,9 @@
 #include "saca/memory/experience.h"
 
 namespace saca::eval {
+
+/// Name of the encounter that a case is of, and its twin without risk too ("..._twin").
+[[nodiscard]] std::string_view encounter_of(const memory::Case& one);
 
 /// One recall, held against what is known of the scene that it was for.
 struct Transfer {

@@ -19,35 +19,12 @@ namespace {
 using world::ActorKind;
 using world::Beyond;
 
-// Scales: what, alone, makes a difference of 1. Fitted, but for those marked assumed: in the
-// encounters that they were fitted to, these hardly differ (docs/decisions/0029-experience.md).
-constexpr double speed_scale = 0.7;  // of the ego, along the lane [m/s]
-constexpr double log_grip_scale = 0.15;
-constexpr double sideways_scale = 1.0;  // of the ego, across [m/s], assumed
-constexpr double offset_scale = 1.0;    // of the ego in its lane [m], assumed
-constexpr double heading_scale = 0.2;   // [rad], assumed
-constexpr double yaw_rate_scale = 0.3;  // [rad/s], assumed
-constexpr double ego_size_scale = 2.0;  // [m], assumed
-constexpr double lane_scale = 1.0;      // its width [m], assumed
-constexpr double curve_scale = 2.0;     // [m/s^2], assumed
-constexpr double room_scale = 3.0;      // [m]
 constexpr double ample_room = 7.0;      // [m]
 constexpr double other_ground = 2.0;    // soft instead of hard beyond an edge that is at hand
 constexpr double other_marking = 1.25;  // oncoming traffic or not
 constexpr double other_topology = 4.0;
-// Of an actor. Where it will be across the lane in 1 s counts most: it hits or misses.
-constexpr double along_now_scale = 6.0;      // [m]
-constexpr double across_now_scale = 4.0;     // [m]
-constexpr double across_then_scale = 0.7;    // in 1 s, at constant velocity [m]
-constexpr double along_then_scale = 8.0;     // in 2 s, likewise [m]
-constexpr double speed_along_scale = 3.5;    // [m/s]
-constexpr double speed_across_scale = 4.5;   // [m/s]
-constexpr double acceleration_scale = 1.25;  // across the lane [m/s^2]
-constexpr double edge_scale = 0.6;           // of half its length or width [m]
-constexpr double turned_scale = 4.0;         // of the ends of its body [m]
-constexpr double other_kind = 0.4;           // of the same group
+constexpr double other_kind = 0.4;  // of the same group
 constexpr double other_group = 1.0;
-constexpr double absence_share = 0.75;  // of its threat, which is at most 4
 
 // An actor's absence is a `full_threat` where it touches ground that the ego can reach, and 1 where
 // it stays a lane's width away from it.
@@ -169,7 +146,7 @@ ActorFeatures actor_features(const world::Actor& actor, const world::Road& road,
           .kind = actor.kind};
 }
 
-/// Square of what two egos differ in, by ScaledEgo::Part.
+/// Square of what two egos differ in, by EgoPart.
 template <class Real>
 std::array<Real, num_ego_parts> ego_squares(const ScaledEgo<Real>& a, const ScaledEgo<Real>& b) {
   std::array<Real, num_ego_parts> squares;
@@ -177,20 +154,16 @@ std::array<Real, num_ego_parts> ego_squares(const ScaledEgo<Real>& a, const Scal
     squares[i] = square(a.parts[i] - b.parts[i]);
   }
   // The short way round.
-  constexpr auto half_turn = static_cast<Real>(std::numbers::pi / heading_scale);
   Real turned = std::abs(a.parts[ego_heading] - b.parts[ego_heading]);
-  turned = turned > half_turn ? 2 * half_turn - turned : turned;
+  turned = turned > a.half_turn ? 2 * a.half_turn - turned : turned;
   squares[ego_heading] = square(turned);
   // What lies beyond matters fully within a lane's width and not at all where room is ample.
-  const auto ground = [&](std::size_t room, bool is_other) {
-    constexpr auto ample = static_cast<Real>(ample_room / room_scale);
-    constexpr auto near = static_cast<Real>(lane / room_scale);
-    const Real mean = (a.parts[room] + b.parts[room]) / 2;
-    const Real nearness = std::clamp((ample - mean) / (ample - near), Real{0}, Real{1});
-    squares[room] += is_other ? square(static_cast<Real>(other_ground) * nearness) : Real{0};
+  const auto ground = [&](std::size_t room, bool is_other, Real nearness) {
+    const Real share = std::clamp(nearness, Real{0}, Real{1});
+    squares[room] += is_other ? square(static_cast<Real>(other_ground) * share) : Real{0};
   };
-  ground(ego_room_left, a.hard_left != b.hard_left);
-  ground(ego_room_right, a.hard_right != b.hard_right);
+  ground(ego_room_left, a.hard_left != b.hard_left, (a.near_left + b.near_left) / 2);
+  ground(ego_room_right, a.hard_right != b.hard_right, (a.near_right + b.near_right) / 2);
   return squares;
 }
 
@@ -239,9 +212,8 @@ struct TwoSquares {
 };
 
 template <class Real>
-ScaledActor<Real> scaled_actor(const ActorFeatures& actor) {
-  static const TwoSquares along(along_now_scale, along_then_scale, 2.0, speed_along_scale);
-  static const TwoSquares across(across_now_scale, across_then_scale, 1.0, speed_across_scale);
+ScaledActor<Real> scaled_actor(const ActorFeatures& actor, const Scales& scales,
+                               const TwoSquares& along, const TwoSquares& across) {
   const auto real = [](double x) { return static_cast<Real>(x); };
   const Vec2 p = actor.p_rel_L;
   const Vec2 v = actor.v_rel_L;
@@ -249,12 +221,12 @@ ScaledActor<Real> scaled_actor(const ActorFeatures& actor) {
   result.parts = {
       real(along.of_p * p.x + along.p_of_v * v.x),   real(along.of_v * v.x),
       real(across.of_p * p.y + across.p_of_v * v.y), real(across.of_v * v.y),
-      real(actor.sideways / acceleration_scale),     real(0.5 * actor.length / edge_scale),
-      real(0.5 * actor.width / edge_scale),          Real{0}};
-  result.arm = real(0.25 * std::abs(actor.length - actor.width) / turned_scale);
+      real(actor.sideways / scales.acceleration),    real(0.5 * actor.length / scales.edge),
+      real(0.5 * actor.width / scales.edge),         Real{0}};
+  result.arm = real(0.25 * std::abs(actor.length - actor.width) / scales.turned);
   result.forward_s = real(actor.forward_L.x);
   result.forward_d = real(actor.forward_L.y);
-  result.absence2 = real(square(absence_share * actor.threat));
+  result.absence2 = real(square(scales.absence * actor.threat));
   result.kind = actor.kind;
   return result;
 }
@@ -406,16 +378,22 @@ Features features(const world::Scene& scene) noexcept {
 }
 
 template <class Real>
-ScaledEgo<Real> scaled(const EgoFeatures& ego) noexcept {
+ScaledEgo<Real> scaled(const EgoFeatures& ego, const Scales& scales) noexcept {
   const auto real = [](double x) { return static_cast<Real>(x); };
   ScaledEgo<Real> result;
   result.parts = {
-      real(ego.v_L.x / speed_scale),       real(ego.v_L.y / sideways_scale),
-      real(ego.offset / offset_scale),     real(wrap_angle(ego.heading) / heading_scale),
-      real(ego.yaw_rate / yaw_rate_scale), real(ego.length / ego_size_scale),
-      real(ego.width / ego_size_scale),    real(ego.log_grip / log_grip_scale),
-      real(ego.lane_width / lane_scale),   real(ego.curve / curve_scale),
-      real(ego.room_left / room_scale),    real(ego.room_right / room_scale)};
+      real(ego.v_L.x / scales.speed),           real(ego.v_L.y / scales.sideways),
+      real(ego.offset / scales.offset),         real(wrap_angle(ego.heading) / scales.heading),
+      real(ego.yaw_rate / scales.yaw_rate),     real(ego.length / scales.ego_size),
+      real(ego.width / scales.ego_size),        real(ego.log_grip / scales.log_grip),
+      real(ego.lane_width / scales.lane_width), real(ego.curve / scales.curve),
+      real(ego.room_left / scales.room),        real(ego.room_right / scales.room)};
+  const auto nearness = [&](double room) {
+    return real((ample_room - room) / (ample_room - lane));
+  };
+  result.near_left = nearness(ego.room_left);
+  result.near_right = nearness(ego.room_right);
+  result.half_turn = real(std::numbers::pi / scales.heading);
   result.usable = ego.usable;
   result.hard_left = is_hard(ego.left_beyond);
   result.hard_right = is_hard(ego.right_beyond);
@@ -426,10 +404,12 @@ ScaledEgo<Real> scaled(const EgoFeatures& ego) noexcept {
 }
 
 template <class Real>
-ScaledActors<Real> scaled(std::span<const ActorFeatures> actors) noexcept {
+ScaledActors<Real> scaled(std::span<const ActorFeatures> actors, const Scales& scales) noexcept {
+  const TwoSquares along(scales.along_now, scales.along_then, 2.0, scales.speed_along);
+  const TwoSquares across(scales.across_now, scales.across_then, 1.0, scales.speed_across);
   ScaledActors<Real> all;
   for (const ActorFeatures& actor : actors) {
-    all.push_back(scaled_actor<Real>(actor));
+    all.push_back(scaled_actor<Real>(actor, scales, along, across));
   }
   return all;
 }
@@ -458,14 +438,15 @@ Real difference2(const ScaledEgo<Real>& ego_a, std::span<const ScaledActor<Real>
   return ego2 + Assignment<Real>(fewer ? actors_a : actors_b, fewer ? actors_b : actors_a).sum2();
 }
 
-template ScaledEgo<float> scaled<float>(const EgoFeatures&) noexcept;
-template ScaledActors<float> scaled<float>(std::span<const ActorFeatures>) noexcept;
+template ScaledEgo<float> scaled<float>(const EgoFeatures&, const Scales&) noexcept;
+template ScaledActors<float> scaled<float>(std::span<const ActorFeatures>, const Scales&) noexcept;
 template float road_difference2(const ScaledEgo<float>&, const ScaledEgo<float>&) noexcept;
 template float difference2(const ScaledEgo<float>&, std::span<const ScaledActor<float>>,
                            const ScaledEgo<float>&, std::span<const ScaledActor<float>>,
                            float) noexcept;
-template ScaledEgo<double> scaled<double>(const EgoFeatures&) noexcept;
-template ScaledActors<double> scaled<double>(std::span<const ActorFeatures>) noexcept;
+template ScaledEgo<double> scaled<double>(const EgoFeatures&, const Scales&) noexcept;
+template ScaledActors<double> scaled<double>(std::span<const ActorFeatures>,
+                                             const Scales&) noexcept;
 template double road_difference2(const ScaledEgo<double>&, const ScaledEgo<double>&) noexcept;
 template double difference2(const ScaledEgo<double>&, std::span<const ScaledActor<double>>,
                             const ScaledEgo<double>&, std::span<const ScaledActor<double>>,

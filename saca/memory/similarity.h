@@ -57,6 +57,32 @@ struct Features {
 /// Allocates nothing.
 [[nodiscard]] Features features(const world::Scene& scene) noexcept;
 
+/// What, alone, makes a difference of 1. Fitted (`saca memory calibrate --fit`), but for those
+/// marked assumed: in the encounters that they were fitted to, these hardly differ.
+struct Scales {
+  double speed = 0.7;  ///< of the ego, along the lane [m/s]
+  double log_grip = 0.15;
+  double sideways = 1.0;    ///< of the ego, across [m/s], assumed
+  double offset = 1.0;      ///< of the ego in its lane [m], assumed
+  double heading = 0.2;     ///< [rad], assumed
+  double yaw_rate = 0.3;    ///< [rad/s], assumed
+  double ego_size = 2.0;    ///< [m], assumed
+  double lane_width = 1.0;  ///< [m], assumed
+  double curve = 2.0;       ///< [m/s^2], assumed
+  double room = 3.0;        ///< to an edge [m]
+  // Of an actor. Where it will be across the lane in 1 s counts most: it hits or misses.
+  double along_now = 6.0;      ///< [m]
+  double across_now = 4.0;     ///< [m]
+  double across_then = 0.7;    ///< in 1 s, at constant velocity [m]
+  double along_then = 8.0;     ///< in 2 s, likewise [m]
+  double speed_along = 3.5;    ///< [m/s]
+  double speed_across = 4.5;   ///< [m/s]
+  double acceleration = 1.25;  ///< across the lane [m/s^2]
+  double edge = 0.6;           ///< of half its length or width [m]
+  double turned = 4.0;         ///< of the ends of its body [m]
+  double absence = 0.75;       ///< share of its threat that its absence makes
+};
+
 /// Parts of what is compared of the ego and its road, each divided by its scale.
 enum EgoPart : std::size_t {
   ego_speed,
@@ -78,6 +104,10 @@ constexpr std::size_t num_ego_parts = 12;
 template <class Real>
 struct ScaledEgo {
   std::array<Real, num_ego_parts> parts{};  ///< by EgoPart
+  /// How much of what lies beyond an edge matters: 1 within a lane's width, 0 where room is ample.
+  Real near_left = 0;
+  Real near_right = 0;
+  Real half_turn = 0;  ///< in units of its heading
   world::Topology topology = world::Topology::straight;
   bool usable = false;
   bool hard_left = false;  ///< a barrier or trees beyond the edge
@@ -104,9 +134,10 @@ using ScaledActors = StaticVector<ScaledActor<Real>, world::max_actors>;
 /// As float they are half as large, and compared twice as fast; differences are then good to six
 /// digits. Defined for float and double.
 template <class Real>
-[[nodiscard]] ScaledEgo<Real> scaled(const EgoFeatures& ego) noexcept;
+[[nodiscard]] ScaledEgo<Real> scaled(const EgoFeatures& ego, const Scales& scales = {}) noexcept;
 template <class Real>
-[[nodiscard]] ScaledActors<Real> scaled(std::span<const ActorFeatures> actors) noexcept;
+[[nodiscard]] ScaledActors<Real> scaled(std::span<const ActorFeatures> actors,
+                                        const Scales& scales = {}) noexcept;
 
 /// The part of the square of a difference that is due to another kind of road or other markings.
 template <class Real>

@@ -259,3 +259,18 @@ def test_a_case_is_shown_as_a_page(cases, tmp_path):
     happened = [harm for harm in first["details"]["happened"] if harm is not None]
     assert f"{max(happened):.3f}" in page
     assert "nowhere" in one_error(saca("memory", "show", "1", "--memory", "bank.db", "--html", "/proc/nowhere/case.html", cwd=tmp_path), CANNOT_WRITE)
+
+
+def test_scales_are_fitted_and_held_against_other_cases(cases, tmp_path):
+    run = saca("memory", "calibrate", cases, "--fit", "--check", cases, "--json", cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    told = json.loads(run.stdout)
+    assert told["memory.scales.is_done"] is True
+    assert 0.0 <= told["memory.scales.error.fitted"] <= told["memory.scales.error.shipped"]
+    assert told["memory.scales.speed.fitted"] > 0.0
+    assert told["memory.scales.check_error.shipped"] == pytest.approx(told["memory.scales.error.shipped"]), "all are asked"
+    untold = documents(cases)
+    for one in untold[1:]:
+        one["details"].pop("told")
+    (tmp_path / "untold.jsonl").write_text("\n".join(map(json.dumps, untold)) + "\n")
+    assert "untold.jsonl: want cases that tell" in one_error(saca("memory", "calibrate", "untold.jsonl", "--fit", cwd=tmp_path), BAD_INPUT)
