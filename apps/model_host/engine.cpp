@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <ctime>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -39,6 +40,13 @@ constexpr std::size_t telling_tokens = 64;  // a shorter prompt says nothing of 
 // the space is forced and the digits compare at equal footing.
 constexpr std::string_view answer_stem = " Response to user:";
 constexpr std::string_view stated_answer = "Response to user:";
+
+// Of all threads of this process, since it began [s].
+double processor_seconds() {
+  timespec used{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+}
 
 Tokens tokenised(const llama_vocab* vocab, std::string_view text, bool with_special) {
   Tokens tokens(text.size() + 8);
@@ -338,6 +346,7 @@ struct Engine::State {
   bool begin_scene(Thought& thought, const Tokens& prompt, Clock::Time deadline,
                    AskFigures& figures, const EngineEvents& events) {
     const Clock::Time begin = clock->now();
+    const double computed_before = processor_seconds();
     // Only its own answer is waited for: those before it have theirs.
     const int last = evaluate_run(prompt, system_tokens, sequence(thought.scene), true,
                                   deadline - from_seconds(answer_cost.get()));
@@ -348,7 +357,8 @@ struct Engine::State {
     }
     learn_token_cost(cost, prompt.size());
     if (prompt.size() >= telling_tokens) {
-      threads.note_prompt(cost / static_cast<double>(prompt.size()));
+      threads.note_prompt(cost / static_cast<double>(prompt.size()),
+                          computing(computed_before, cost));
     }
     figures.prompt_tokens[thought.scene] = static_cast<int>(prompt.size());
     events.prompt_read(thought.scene, static_cast<int>(prompt.size()));
@@ -356,6 +366,12 @@ struct Engine::State {
     thought.next = likeliest(last);
     thought.reasoning = true;
     return read_answers({&thought}, AnswerKind::first, deadline, events);
+  }
+
+  // Of the time that the threads had, the share in which they computed.
+  [[nodiscard]] double computing(double computed_before, double seconds) const {
+    const double had = seconds * threads.threads();
+    return had > 0.0 ? (processor_seconds() - computed_before) / had : 1.0;
   }
 
   void learn_token_cost(double cost, std::size_t tokens) {
@@ -489,13 +505,15 @@ Result<int> Engine::set_system(std::string_view text, Clock& clock) {
   s.system_tokens = 0;
   s.clock = nullptr;  // nothing to be late for
   const Clock::Time begin = clock.now();
+  const double computed_before = processor_seconds();
   if (s.evaluate_run(tokens, 0, sequence(0), false, Clock::Time::max()) < 0) {
     return Error{Error::Code::malformed, "system part: cannot be evaluated"};
   }
   // Cold, thus dear: half of it may be enough another time.
   const double cost = to_seconds(clock.now() - begin);
   s.learn_token_cost(0.5 * cost, tokens.size());
-  s.threads.note_prompt(cost / static_cast<double>(tokens.size()));
+  s.threads.note_prompt(cost / static_cast<double>(tokens.size()),
+                        s.computing(computed_before, cost));
   for (std::size_t scene = 1; scene < max_scenes; ++scene) {
     llama_memory_seq_cp(s.memory(), sequence(0), sequence(scene), -1, -1);
   }

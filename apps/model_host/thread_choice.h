@@ -11,7 +11,8 @@ namespace saca::model_host {
 
 /// How many threads to compute with. All are fastest where nobody else wants the cores; else they
 /// wait for each other hundreds of times in each step, and one alone is several times as fast.
-/// Which holds is seen from what prompts and steps take.
+/// Which holds is seen from what prompts and steps take, and from how much of that time the threads
+/// were computing: a machine may be slow although nobody disturbs it.
 class ThreadChoice {
  public:
   /// @param all        > 0
@@ -29,11 +30,13 @@ class ThreadChoice {
   void take_one() { alone_ = gives_way_; }
 
   /// A prompt was read, at so much time for each of its tokens [s].
-  void note_prompt(double token_cost) {
+  /// @param computing  processor time over the time that all threads had, in [0, 1]: less than 1
+  ///                   where others had the cores. Who waits for another thread computes, too
+  void note_prompt(double token_cost, double computing) {
     if (alone_) {
       return;
     }
-    alone_ = gives_way_ && token_cost > dear_prompt * prompt_token_;
+    alone_ = gives_way_ && computing < undisturbed && token_cost > dear_prompt * prompt_token_;
     prompt_token_ = std::min(prompt_token_, token_cost);
   }
 
@@ -58,6 +61,9 @@ class ThreadChoice {
   // twice as long as with none; a step takes three times as long as one thread takes, or more. On
   // an idle machine a prompt may take 1.6 times as long, a single step three times.
   static constexpr double dear_prompt = 1.8;
+  // Likewise: of their time threads computed in 0.89 to 0.98 where nobody else was, in 0.50 to 0.63
+  // beside one other process.
+  static constexpr double undisturbed = 0.75;
   static constexpr double most_lost = 6.0;  // against one thread, in steps of that
   static constexpr double never = std::numeric_limits<double>::infinity();
 

@@ -37,18 +37,29 @@ TEST(ThreadChoice, SlowStepsNowAndThenAreMadeUpFor) {
 
 TEST(ThreadChoice, PromptTellsIt) {
   ThreadChoice choice(2, true);
-  choice.note_prompt(0.0011);  // cold
+  constexpr double disturbed = 0.6;
+  choice.note_prompt(0.0011, disturbed);  // cold
   EXPECT_EQ(choice.threads(), 2);
-  choice.note_prompt(0.0008);
+  choice.note_prompt(0.0008, 1.0);
   EXPECT_EQ(choice.threads(), 2);
-  choice.note_prompt(0.0012);
+  choice.note_prompt(0.0012, disturbed);
   EXPECT_EQ(choice.threads(), 2);
-  choice.note_prompt(0.0018);
+  choice.note_prompt(0.0018, disturbed);
   EXPECT_EQ(choice.threads(), 1);
-  choice.note_prompt(0.0005);  // of one thread: says nothing of both
+  choice.note_prompt(0.0005, disturbed);  // of one thread: says nothing of both
   choice.take_all();
-  choice.note_prompt(0.0008);
+  choice.note_prompt(0.0008, disturbed);
   EXPECT_EQ(choice.threads(), 2);
+}
+
+// A cold cache, a lower clock, a longer context: nobody else has the cores.
+TEST(ThreadChoice, PromptThatIsSlowThoughNobodyDisturbsIsReadByAll) {
+  ThreadChoice choice(2, true);
+  choice.note_prompt(0.0008, 1.0);
+  choice.note_prompt(0.0100, 0.97);
+  EXPECT_EQ(choice.threads(), 2);
+  choice.note_prompt(0.0100, 0.70);
+  EXPECT_EQ(choice.threads(), 1);
 }
 
 TEST(ThreadChoice, NumberOfScenesIsKeptApart) {
@@ -69,9 +80,9 @@ TEST(ThreadChoice, WhoDoesNotGiveWayOrHasOneThreadNeverChanges) {
     choice.take_one();
     EXPECT_EQ(choice.threads(), all);
     choice.note_step(1, 0.01);
-    choice.note_prompt(0.001);
+    choice.note_prompt(0.001, 0.5);
     EXPECT_FALSE(choice.note_step(1, 1.0));
-    choice.note_prompt(1.0);
+    choice.note_prompt(1.0, 0.5);
     EXPECT_EQ(choice.threads(), all);
   }
 }
