@@ -47,7 +47,7 @@ release := build/release
 soak: setup
 	@tools/model/setup.sh server
 	@cmake --preset release > /dev/null && cmake --build --preset release -- --quiet
-	SACA_SOAK_KILLS=$${SACA_SOAK_KILLS:-500} $(release)/modules/memory/memory_test --gtest_filter='*Killed*'
+	SACA_SOAK_KILLS=$${SACA_SOAK_KILLS:-1000} $(release)/modules/memory/memory_test --gtest_filter='*Killed*'
 	SACA_SOAK_ASKS=$${SACA_SOAK_ASKS:-1000} SACA_SOAK_CHILD_KILLS=$${SACA_SOAK_CHILD_KILLS:-200} $(release)/apps/model_host/model_host_test --gtest_filter='SoakTest.*:HostTest.NoPrompt*'
 	SACA_SOAK_CLOCK=1 $(release)/modules/reason/reason_test --gtest_filter='*RealTime*'
 	PYTHONDONTWRITEBYTECODE=1 python3 -m pytest -q -p no:cacheprovider tests/cli/real_server_test.py
