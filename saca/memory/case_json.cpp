@@ -5,8 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "saca/config/json_lines.h"
 #include "saca/config/json_reader.h"
-#include "saca/config/json_text.h"
 #include "saca/memory/scene_json.h"
 
 namespace saca::memory {
@@ -145,10 +145,6 @@ std::optional<double> read_optional(Reader& reader, const char* key) {
   return reader.has_value(key) ? std::optional(reader.number(key)) : std::nullopt;
 }
 
-Error at_line(const std::string& name, std::size_t line, const std::string& why) {
-  return {Error::Code::malformed, name + ": line " + std::to_string(line) + ": " + why};
-}
-
 }  // namespace
 
 json details_json(const Case& one) {
@@ -252,7 +248,7 @@ Result<Case> case_from_json(const json& document) {
 }
 
 std::string cases_text(std::span<const Case> cases) {
-  std::string text = json{{"schema", file_schema}, {"cases", cases.size()}}.dump() + '\n';
+  std::string text = config::first_json_line(file_schema, "cases", cases.size());
   for (const Case& one : cases) {
     text += to_json(one).dump() + '\n';
   }
@@ -262,43 +258,20 @@ std::string cases_text(std::span<const Case> cases) {
 Result<std::vector<Case>> cases_from_text(std::string_view text, const std::string& name) {
   std::vector<Case> cases;
   std::set<CaseId> ids;
-  std::uint64_t wanted = 0;
-  std::size_t line = 0;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const auto parsed = config::parse_json(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-    ++line;
-    if (!parsed.has_value()) {
-      return at_line(name, line, parsed.error().message);
-    }
-    if (line == 1) {
-      std::optional<Error> problem;
-      Reader header(parsed.value(), "", problem, "first line");
-      header.schema(file_schema);
-      wanted = header.integer("cases");
-      header.refuse_others();
-      if (problem) {
-        return at_line(name, line, problem->message);
-      }
-      continue;
-    }
-    Result<Case> one = case_from_json(parsed.value());
-    if (!one.has_value()) {
-      return at_line(name, line, one.error().message);
-    }
-    if (!ids.insert(one.value().id).second) {
-      return at_line(
-          name, line,
-          "id: want each once, got " + std::to_string(one.value().id) + " a second time");
-    }
-    cases.push_back(std::move(one).value());
-  }
-  if (line == 0 || cases.size() != wanted) {
-    return at_line(name, line + 1,
-                   line == 0 ? "want cases, got nothing"
-                             : "want " + std::to_string(wanted) + " cases, as line 1 says, got " +
-                                   std::to_string(cases.size()));
+  const auto problem = config::read_json_lines(
+      text, name, file_schema, "cases", [&](const json& document) -> std::optional<std::string> {
+        Result<Case> one = case_from_json(document);
+        if (!one.has_value()) {
+          return one.error().message;
+        }
+        if (!ids.insert(one.value().id).second) {
+          return "id: want each once, got " + std::to_string(one.value().id) + " a second time";
+        }
+        cases.push_back(std::move(one).value());
+        return std::nullopt;
+      });
+  if (problem) {
+    return *problem;
   }
   return cases;
 }
