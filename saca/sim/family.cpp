@@ -15,8 +15,8 @@ using config::Table;
 using Keys = std::span<const std::string_view>;
 
 constexpr std::array<std::string_view, num_family_kinds> kind_names{
-    "crossing",   "one_way", "lead_brakes", "cut_in", "cut_out",
-    "pedestrian", "cyclist", "head_on",     "merge",  "dart_out"};
+    "crossing", "one_way", "lead_brakes", "cut_in",      "cut_out",   "pedestrian", "cyclist",
+    "head_on",  "merge",   "dart_out",    "slower_lead", "sideswipe", "turning"};
 
 // Every share is a probability.
 constexpr std::array surroundings_list = std::to_array<std::string_view>(
@@ -55,6 +55,15 @@ constexpr std::array merge_list =
 constexpr std::array dart_out_list =
     std::to_array<std::string_view>({"ego_speed_mps", "run_mps", "acceleration_mps2", "overlap",
                                      "from_left_share", "parked_row_m", "parked_gap_m"});
+constexpr std::array slower_lead_list = std::to_array<std::string_view>(
+    {"ego_speed_mps", "lead_mps", "offset_m", "van_share", "truck_share"});
+constexpr std::array sideswipe_list =
+    std::to_array<std::string_view>({"ego_speed_mps", "other_speed_mps", "beside_ahead_m",
+                                     "takes_s", "from_left_share", "van_share", "truck_share"});
+constexpr std::array turning_list =
+    std::to_array<std::string_view>({"ego_speed_mps", "other_speed_mps", "from_deg", "turn_deg",
+                                     "radius_m", "late_s", "van_share", "truck_share"});
+constexpr std::string_view optional_key = "motorcycle_share";
 
 bool is_share(std::string_view key) {
   return key.ends_with("_share") && key.find("speed") == key.npos;
@@ -76,6 +85,12 @@ config::Range bounds(std::string_view key) {
   }
   if (key == "angle_deg") {
     return {30.0, 150.0};
+  }
+  if (key == "from_deg" || key == "turn_deg") {
+    return {-180.0, 180.0};
+  }
+  if (key == "radius_m") {
+    return {3.0, 100.0};
   }
   if (key == "overlap") {
     return {-0.5, 1.5};
@@ -114,7 +129,7 @@ FamilyRange read_range(Table table, std::string_view key) {
 void check_sums(const Family& family, Table& ranges) {
   constexpr double most = 1.0 + 1e-9;
   for (const std::vector<std::string>& together :
-       {std::vector<std::string>{"van_share", "truck_share"},
+       {std::vector<std::string>{"van_share", "truck_share", std::string(optional_key)},
         {"barrier_share", "trees_share", "kerb_share"},
         {"chance_stop", "chance_run"}}) {
     double sum = 0.0;
@@ -142,7 +157,8 @@ Keys own_keys(FamilyKind kind) {
   static constexpr std::array<Keys, num_family_kinds> keys{
       Keys(crossing_list), Keys(one_way_list),    Keys(lead_brakes_list), Keys(cut_in_list),
       Keys(cut_out_list),  Keys(pedestrian_list), Keys(cyclist_list),     Keys(head_on_list),
-      Keys(merge_list),    Keys(dart_out_list)};
+      Keys(merge_list),    Keys(dart_out_list),   Keys(slower_lead_list), Keys(sideswipe_list),
+      Keys(turning_list)};
   return keys[static_cast<std::size_t>(kind)];
 }
 
@@ -173,8 +189,8 @@ Result<Family> read_family(std::string_view text, std::string_view source,
   const auto known = family_kind_from(kind);
   if (!known) {
     root.reject("kind",
-                "want crossing, one_way, lead_brakes, cut_in, cut_out, pedestrian, "
-                "cyclist, head_on or merge, got \"" +
+                "want crossing, one_way, lead_brakes, cut_in, cut_out, pedestrian, cyclist, "
+                "head_on, merge, dart_out, slower_lead, sideswipe or turning, got \"" +
                     kind + "\"");
   }
   family.kind = known.value_or(FamilyKind::crossing);
@@ -183,6 +199,9 @@ Result<Family> read_family(std::string_view text, std::string_view source,
   Table ranges = root.table("ranges");
   for (const std::string_view key : own_keys(family.kind)) {
     family.ranges[std::string(key)] = read_range(ranges.table(key), key);
+  }
+  if (ranges.has(optional_key) && family.ranges.contains("van_share")) {
+    family.ranges[std::string(optional_key)] = read_range(ranges.table(optional_key), optional_key);
   }
   for (const std::string_view key : surroundings_list) {
     if (ranges.has(key)) {

@@ -24,9 +24,12 @@ enum class FamilyKind : std::uint8_t {
   head_on,      ///< oncoming traffic drifts over
   merge,        ///< a vehicle beside runs out of its lane
   dart_out,     ///< somebody runs out from between parked cars
+  slower_lead,  ///< the vehicle ahead stands, or drives slower at a constant speed
+  sideswipe,    ///< a vehicle beside changes into our lane where we are
+  turning,      ///< a vehicle turns across our lane, or into it
 };
 
-constexpr std::size_t num_family_kinds = 10;
+constexpr std::size_t num_family_kinds = 13;
 [[nodiscard]] std::string_view name(FamilyKind kind);
 [[nodiscard]] std::optional<FamilyKind> family_kind_from(std::string_view name);
 
@@ -46,7 +49,8 @@ struct Family {
   std::map<std::string, FamilyRange, std::less<>> ranges;  ///< every key of its kind, no other
 };
 
-/// The numbers that a family of a kind needs: its own, and those of the surroundings.
+/// The numbers that a family of a kind needs: its own, and those of the surroundings. A kind with
+/// a `van_share` may have a `motorcycle_share` besides; without one nobody rides.
 [[nodiscard]] std::span<const std::string_view> own_keys(FamilyKind kind);
 [[nodiscard]] std::span<const std::string_view> surroundings_keys();
 

@@ -6,6 +6,7 @@
 #include "saca/core/units.h"
 #include "saca/sim/family.h"
 #include "saca/sim/family_stage.h"
+#include "saca/sim/family_vehicles.h"
 #include "saca/sim/motion.h"
 #include "saca/sim/traffic.h"
 
@@ -15,44 +16,15 @@ namespace {
 using world::ActorKind;
 
 constexpr double right_angle = 0.5 * std::numbers::pi;
-constexpr double trigger = 1.3;  // [s] before a conflict: T1 of the paper
+constexpr double trigger = Stage::trigger;
 
 constexpr double notices = 0.3;  // [s] after the ego must act somebody on foot sees it: assumption
-
-/// What the twin's first actor does instead; nullopt: it is not there.
-using Harmless = std::optional<Script>;
-
-/// Braking so that whoever goes straight on at `speed` stops after `room`; at once when less is
-/// there than that needs at 7 m/s^2, a hard stop on a dry road.
-Script stopping_after(Script script, double room) {
-  constexpr double hard = 7.0;
-  const double way = 0.5 * script.speed * script.speed / hard;
-  script.behaviour = Behaviour::brake;
-  script.acceleration = way < room ? hard : 0.5 * script.speed * script.speed / room;
-  script.from = std::max(0.0, (room - way) / script.speed);
-  return script;
-}
 
 /// On a straight path across our lane: at `where` along the lane, in the middle of it at `time`.
 Script crossing_at(double s, double d, double time, double heading, double speed) {
   const double way = speed * time;
   return {.start = {s - way * std::cos(heading), d - way * std::sin(heading), heading},
           .speed = speed};
-}
-
-/// Moves the edge out where it is nearer than that.
-void widen(Stage& stage, double side, double room) {
-  double& edge = side > 0.0 ? stage.scenario.road.left_edge : stage.scenario.road.right_edge;
-  edge = side * std::max(std::abs(edge), room + 0.01);
-}
-
-/// A lane beside ours, in our direction.
-void want_lane(Stage& stage, double side) {
-  widen(stage, side, 1.5 * stage.lane());
-  (side > 0.0 ? stage.left_lane : stage.right_lane) = true;
-  if (side > 0.0) {
-    stage.scenario.road.oncoming_left = false;
-  }
 }
 
 /// How far from the middle of our lane cars are parked on a side: beside its outermost lane.
@@ -67,7 +39,7 @@ void park(Stage& stage, double s, double ahead, double side) {
   const double d = parked_aside(stage, side);
   stage.add(ActorKind::car,
             {.start = {s + ahead - 0.5 * length, side * d, 0.0}, .behaviour = Behaviour::hold});
-  widen(stage, side, d + Stage::width_of(ActorKind::car));
+  stage.widen(side, d + Stage::width_of(ActorKind::car));
 }
 
 Harmless crossing(Stage& stage) {
@@ -122,7 +94,7 @@ Harmless one_way(Stage& stage) {
         .shape = world::Shape::ellipse, .length = size, .width = size};
   }
   if (dice.happens("merging_share")) {
-    widen(stage, -1.0, 2.5 * stage.lane());
+    stage.widen(-1.0, 2.5 * stage.lane());
     stage.right_lane = true;
     const double pace = stage.speed * dice.in("merging_speed_share");
     const double there = stage.speed * stage.decision + dice.in("merging_ahead_m");
@@ -156,7 +128,7 @@ Harmless cut_in(Stage& stage) {
   const double pace = std::max(1.0, stage.speed - dice.in("slower_mps"));
   const double gap = dice.in("gap_m");
   const double takes = dice.in("takes_s");
-  want_lane(stage, side);
+  stage.want_lane(side);
   const double begins = Stage::approach;
   const double s = stage.head() + gap + 0.5 * Stage::length_of(kind) - pace * begins;
   const world::LanePose start{s, side * stage.lane(), 0.0};
@@ -180,7 +152,7 @@ Harmless cut_out(Stage& stage) {
   const double gap = stage.speed * dice.in("gap_s");
   const double meets = Stage::approach - (gap + Stage::length_of(kind)) / stage.speed;
   const double side = dice.side("to_left_share");
-  want_lane(stage, side);
+  stage.want_lane(side);
   const world::LanePose start{stage.front + gap + 0.5 * Stage::length_of(kind), 0.0, 0.0};
   stage.add(kind,
             changing_lane(start, stage.speed, side * stage.lane(),
@@ -345,6 +317,12 @@ Harmless play(FamilyKind kind, Stage& stage) {
       return head_on(stage);
     case FamilyKind::merge:
       return merge(stage);
+    case FamilyKind::slower_lead:
+      return slower_lead(stage);
+    case FamilyKind::sideswipe:
+      return sideswipe(stage);
+    case FamilyKind::turning:
+      return turning(stage);
     case FamilyKind::dart_out:
       break;
   }
@@ -410,7 +388,8 @@ Result<FamilySample> sample(const Family& family, std::uint64_t seed, std::uint6
   constexpr int tries = 100;
   for (int k = 0; k < tries; ++k) {
     Dice dice(family, rng);
-    Stage stage(dice, ego, family.kind == FamilyKind::crossing);
+    Stage stage(dice, ego,
+                family.kind == FamilyKind::crossing || family.kind == FamilyKind::turning);
     const Harmless harmless = play(family.kind, stage);
     stage.add_surroundings();
     FamilySample found{.scenario = stage.scenario, .twin = stage.scenario};

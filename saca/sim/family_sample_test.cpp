@@ -78,7 +78,9 @@ INSTANTIATE_TEST_SUITE_P(All, EveryFamily,
                                          FamilyKind::lead_brakes, FamilyKind::cut_in,
                                          FamilyKind::cut_out, FamilyKind::pedestrian,
                                          FamilyKind::cyclist, FamilyKind::head_on,
-                                         FamilyKind::merge, FamilyKind::dart_out),
+                                         FamilyKind::merge, FamilyKind::dart_out,
+                                         FamilyKind::slower_lead, FamilyKind::sideswipe,
+                                         FamilyKind::turning),
                          [](const auto& one) { return std::string(name(one.param)); });
 
 // Who only stands by stands beside our lane: half a metre at least from it.

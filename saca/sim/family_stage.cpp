@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include "saca/core/contract.h"
@@ -66,6 +67,19 @@ Script changing_lane(world::LanePose start, double speed, double to_d, double be
           .takes = takes};
 }
 
+Script stopping_after(Script script, double room) {
+  constexpr double hard = 7.0;
+  const double way = 0.5 * script.speed * script.speed / hard;
+  script.behaviour = Behaviour::brake;
+  script.acceleration = way < room ? hard : 0.5 * script.speed * script.speed / room;
+  script.from = std::max(0.0, (room - way) / script.speed);
+  return script;
+}
+
+bool Dice::has(std::string_view key) const {
+  return family_.ranges.find(key) != family_.ranges.end();
+}
+
 double Dice::in(std::string_view key) {
   const auto range = family_.ranges.find(key);
   expects(range != family_.ranges.end(), "the family has a range for the key");
@@ -106,8 +120,26 @@ double Stage::width_of(ActorKind kind) {
 ActorKind Stage::any_vehicle() {
   const double van = dice.in("van_share");
   const double truck = van + dice.in("truck_share");
+  const double motorcycle =
+      dice.has("motorcycle_share") ? truck + dice.in("motorcycle_share") : truck;
   const double u = dice.even();
-  return u < van ? ActorKind::van : u < truck ? ActorKind::truck : ActorKind::car;
+  return u < van          ? ActorKind::van
+         : u < truck      ? ActorKind::truck
+         : u < motorcycle ? ActorKind::motorcycle
+                          : ActorKind::car;
+}
+
+void Stage::widen(double side, double room) {
+  double& edge = side > 0.0 ? scenario.road.left_edge : scenario.road.right_edge;
+  edge = side * std::max(std::abs(edge), room + 0.01);
+}
+
+void Stage::want_lane(double side) {
+  widen(side, 1.5 * lane());
+  (side > 0.0 ? left_lane : right_lane) = true;
+  if (side > 0.0) {
+    scenario.road.oncoming_left = false;
+  }
 }
 
 ScenarioActor& Stage::add(ActorKind kind, Script script) {

@@ -15,6 +15,8 @@ class Dice {
 
   /// Evenly between the ends of the range `key`.
   [[nodiscard]] double in(std::string_view key);
+  /// Does the family have the range `key`?
+  [[nodiscard]] bool has(std::string_view key) const;
   /// With the probability drawn from `key`.
   [[nodiscard]] bool happens(std::string_view key) { return even() < in(key); }
   /// +1 for left with the probability drawn from `key`, else -1.
@@ -34,10 +36,18 @@ class Dice {
 /// Along the lane at a constant pace, from `begins` on to another d within `takes`.
 [[nodiscard]] Script changing_lane(world::LanePose start, double speed, double to_d, double begins,
                                    double takes);
+/// Braking so that whoever goes straight on at `speed` stops after `room`; at once when less is
+/// there than that needs at 7 m/s^2, a hard stop on a dry road.
+[[nodiscard]] Script stopping_after(Script script, double room);
+
+/// What the twin's first actor does instead; nullopt: it is not there.
+using Harmless = std::optional<Script>;
 
 /// One encounter while it is put together: straight road, the ego's lane along x from its start.
 class Stage {
  public:
+  /// Before a conflict at which the ego must act [s]: T1 of the paper.
+  static constexpr double trigger = 1.3;
   /// How long before its encounter the ego is on its way [s]: longer than T2.
   static constexpr double approach = 6.5;
 
@@ -58,9 +68,14 @@ class Stage {
   [[nodiscard]] double head() const { return front + speed * approach; }
   [[nodiscard]] double lane() const { return scenario.road.lane_width; }
 
+  /// Moves the edge on a side (+1 left, -1 right) out where it is nearer than that.
+  void widen(double side, double room);
+  /// A lane beside ours, in our direction.
+  void want_lane(double side);
+
   /// Another body of a usual size; the first one added is what the conflict is about.
   ScenarioActor& add(world::ActorKind kind, Script script);
-  /// Car, van or truck, as `van_share` and `truck_share` say.
+  /// Car, van, truck or motorcycle, as `van_share`, `truck_share` and `motorcycle_share` say.
   [[nodiscard]] world::ActorKind any_vehicle();
   /// Length of a usual body of this kind [m].
   [[nodiscard]] static double length_of(world::ActorKind kind);

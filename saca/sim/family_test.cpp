@@ -48,6 +48,18 @@ TEST(Family, CrossingSpeedsAreThoseOfEuroNcap) {
   }
 }
 
+TEST(Family, MayHaveMotorcyclesAmongItsVehicles) {
+  std::string text = text_of("lead_brakes");
+  text += "motorcycle_share = { min = 0.5, max = 0.5, source = \"test\" }\n";
+  const auto family = read_family(text, "f.toml", text_of("surroundings"), "s.toml");
+  ASSERT_TRUE(family.has_value()) << family.error().message;
+  EXPECT_EQ(family.value().ranges.at("motorcycle_share").min, 0.5);
+  EXPECT_FALSE(load_family(folder, "lead_brakes").value().ranges.contains("motorcycle_share"));
+  std::string walker = text_of("pedestrian");
+  walker += "motorcycle_share = { min = 0.5, max = 0.5, source = \"test\" }\n";
+  EXPECT_FALSE(read_family(walker, "f.toml", text_of("surroundings"), "s.toml").has_value());
+}
+
 std::string complaint(const std::string& from, const std::string& to) {
   std::string text = text_of("lead_brakes");
   const auto at = text.find(from);
