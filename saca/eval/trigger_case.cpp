@@ -29,9 +29,7 @@ memory::Case case_now(const loop::ClosedLoop& now, const loop::Stage& stage,
 
 }  // namespace
 
-Result<std::optional<memory::Case>> case_at_trigger(
-    const loop::Stage& stage, const preview::ForecastTools& tools, std::size_t draws,
-    const std::vector<memory::MadeWith>& made_with) {
+Result<std::optional<loop::ClosedLoop>> played_to_trigger(const loop::Stage& stage) {
   loop::ClosedLoop now(stage);
   while (!now.over()) {
     if (auto problem = now.look()) {
@@ -39,7 +37,7 @@ Result<std::optional<memory::Case>> case_at_trigger(
     }
     (void)now.wake();
     if (now.driven() && now.trigger()) {
-      return std::optional(case_now(now, stage, tools, draws, made_with));
+      return std::optional(std::move(now));
     }
     now.keep();
     if (now.contact()) {
@@ -47,7 +45,18 @@ Result<std::optional<memory::Case>> case_at_trigger(
     }
     now.advance();
   }
-  return std::optional<memory::Case>();
+  return std::optional<loop::ClosedLoop>();
+}
+
+Result<std::optional<memory::Case>> case_at_trigger(
+    const loop::Stage& stage, const preview::ForecastTools& tools, std::size_t draws,
+    const std::vector<memory::MadeWith>& made_with) {
+  const auto now = played_to_trigger(stage);
+  if (!now.has_value()) {
+    return now.error();
+  }
+  return now.value() ? std::optional(case_now(*now.value(), stage, tools, draws, made_with))
+                     : std::nullopt;
 }
 
 }  // namespace saca::eval

@@ -11,6 +11,10 @@
 
 namespace saca::eval {
 
+/// Plays an encounter, nobody having acted, until SACA's trigger first fires.
+/// @return  there; nullopt: it never fires; out_of_range: the encounter cannot be played
+[[nodiscard]] Result<std::optional<loop::ClosedLoop>> played_to_trigger(const loop::Stage& stage);
+
 /// What an encounter teaches memory: the scene as it is perceived when SACA's trigger first fires,
 /// nobody having acted; what every policy is expected to harm then, and what it truly would have.
 /// As carried out counts the best in hindsight.

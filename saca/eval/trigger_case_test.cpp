@@ -61,6 +61,16 @@ TEST_F(TriggerCase, WasToldWhatHappensWhereNothingIsUnknown) {
   }
 }
 
+// At 20 m/s 100 m are 5 s, of which T1 leaves 1.3.
+TEST_F(TriggerCase, IsPlayedUntilTheTriggerFires) {
+  const sim::Scenario scenario = standing_car(20.0, 100.0);
+  const loop::Stage stage{&scenario, &car_, &harm_, &intent::shipped_model(), {}, {}};
+  const auto now = played_to_trigger(stage);
+  ASSERT_TRUE(now.has_value() && now.value().has_value());
+  EXPECT_NEAR(now.value()->time(), 3.7, 0.05);
+  EXPECT_TRUE(now.value()->driven());
+}
+
 TEST_F(TriggerCase, IsNoneWhereNothingThreatens) {
   sim::Scenario free = standing_car(20.0, 60.0);
   free.actors.clear();

@@ -1,0 +1,100 @@
+#include "saca/eval/judged_encounter.h"
+
+#include <utility>
+
+#include "saca/decide/forecaster.h"
+#include "saca/eval/moment.h"
+#include "saca/eval/oracle.h"
+#include "saca/eval/trigger_case.h"
+#include "saca/loop/learnt_case.h"
+
+namespace saca::eval {
+namespace {
+
+void take_verdict(const decide::Verdict& verdict, JudgedEncounter& judged) {
+  judged.one.told = loop::told_harms(verdict);
+  judged.admissible_harm = decide::admissible_harm(verdict);
+  judged.speaks_for = decide::plan_of(verdict);
+  judged.plans.reserve(verdict.plans.size());
+  for (const decide::JudgedPlan& plan : verdict.plans) {
+    if (plan.drivable) {
+      judged.plans.push_back(
+          {plan.plan, plan.harm, plan.contact, decide::admits(verdict, plan.plan)});
+    }
+  }
+}
+
+void take_oracle(const Oracle& told, int draws, JudgedEncounter& judged) {
+  memory::PolicyHarms harms;
+  for (const manoeuvre::PolicyId policy : told.ranking) {
+    const Verdict& verdict = told.of(policy);
+    const std::size_t place = manoeuvre::index(policy);
+    harms[place] = verdict.expected.harm.value;
+    judged.happened[place] = PolicyOverDraws{.plan = verdict.written.facts.plan,
+                                             .harm = verdict.expected.harm,
+                                             .contact = verdict.expected.contact.share};
+  }
+  memory::Case& one = judged.one;
+  const Verdict& best = told.of(told.best());
+  one.plan = best.written.facts.plan;
+  one.best = told.best();
+  one.harm = best.expected.harm.value;
+  one.best_harm = one.harm;
+  one.collision_loss = best.expected.collision_loss.value;
+  one.happened = harms;
+  one.draws = draws;
+}
+
+}  // namespace
+
+std::optional<TriggerAsWritten> trigger_as_written(const sim::Scenario& scenario,
+                                                   const manoeuvre::Car& car,
+                                                   const outcome::HarmModel& harm) {
+  const auto time = trigger_time(scenario, car);
+  if (!time) {
+    return std::nullopt;
+  }
+  const Moment moment = moment_at(scenario, car, *time);
+  const outcome::Attempt nothing{manoeuvre::doing_nothing, &moment.scene, &moment.others,
+                                 moment.grip, moment.unknown};
+  const preview::RolledOut tried = std::move(preview::tried(car, {&nothing, 1}, harm).front());
+  TriggerAsWritten found{.time = *time, .contact = std::nullopt};
+  if (!tried.facts.drivable() || !tried.facts.outcome().contact) {
+    return found;
+  }
+  const outcome::Contact& contact = *tried.facts.outcome().contact;
+  const auto& actors = moment.scene.actors;
+  WithoutAvoidance without{
+      .met = contact.actor ? world::actor_name(actors[*contact.actor]) : std::string("edge"),
+      .ego_face = contact.ego_face,
+      .other_face = contact.other_face,
+      .relative_speed = contact.relative_speed,
+      .after = contact.time - moment.scene.time};
+  without.first_actor = contact.actor && without.met == sim::actor_name(scenario.actors.front());
+  found.contact = std::move(without);
+  return found;
+}
+
+Result<std::optional<JudgedEncounter>> judged_encounter(
+    const loop::Stage& stage, const preview::ForecastTools& tools, const JudgingOptions& options,
+    const std::vector<memory::MadeWith>& made_with) {
+  const auto played = played_to_trigger(stage);
+  if (!played.has_value()) {
+    return played.error();
+  }
+  if (!played.value()) {
+    return std::optional<JudgedEncounter>();
+  }
+  const loop::ClosedLoop& now = *played.value();
+  JudgedEncounter judged;
+  judged.one = loop::case_of(now.seen(), now.beliefs(), *stage.scenario);
+  judged.one.made_with = made_with;
+  take_verdict(decide::Forecaster(tools, options.told_draws).judge(now.seen(), now.beliefs()),
+               judged);
+  take_oracle(oracle(*stage.scenario, *stage.car, *stage.harm,
+                     {.time = now.time(), .draws = options.draws, .seed = options.seed}),
+              options.draws, judged);
+  return std::optional(std::move(judged));
+}
+
+}  // namespace saca::eval
