@@ -16,10 +16,9 @@
 #include "apps/saca/planes_making.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
+#include "apps/saca/resumable.h"
 #include "saca/config/json_reader.h"
 #include "saca/config/json_text.h"
-#include "saca/core/journal.h"
-#include "saca/core/parallel.h"
 #include "saca/eval/trigger_case.h"
 #include "saca/loop/learnt_case.h"
 #include "saca/memory/case_json.h"
@@ -42,7 +41,7 @@ struct Gained {
   std::string problem;              ///< why it could not be played; else empty
 };
 
-std::string line_of(const Gained& gained) {
+std::string gained_line(const Gained& gained) {
   json cases = json::array();
   for (const memory::Case& one : gained.cases) {
     cases.push_back(memory::to_json(one));
@@ -73,14 +72,40 @@ Result<Gained> gained_from(const std::string& line) {
   return gained;
 }
 
-void gain(Gained& gained, const loop::Stage& stage, const preview::ForecastTools& tools,
-          std::size_t draws, const std::vector<memory::MadeWith>& made_with) {
-  auto one = eval::case_at_trigger(stage, tools, draws, made_with);
+/// What cases are worked out with; the planes outlive it.
+struct CaseTools {
+  CaseTools(const PlanesOfCar& of, std::size_t num_draws)
+      : planes(of),
+        draws(num_draws),
+        made_with(loop::made_with(of.setup.forecast, of.inputs.intent, of.inputs.car_name)) {}
+
+  const PlanesOfCar& planes;
+  std::size_t draws;
+  std::vector<memory::MadeWith> made_with;
+};
+
+void gain(Gained& gained, const loop::Stage& stage, const CaseTools& with) {
+  auto one = eval::case_at_trigger(stage, with.planes.setup.forecast, with.draws, with.made_with);
   if (!one.has_value()) {
     gained.problem = one.error().message;
   } else if (one.value()) {
     gained.cases.push_back(*std::move(one).value());
   }
+}
+
+Gained gained_of(const SuiteEncounters& encounters, const BuildOptions& options,
+                 const CaseTools& with, std::size_t number) {
+  Gained gained;
+  const auto played = played_encounter(encounters, options.from, number);
+  if (!played.has_value()) {
+    gained.problem = played.error().message;
+    return gained;
+  }
+  gain(gained, played.value().stage(with.planes.inputs), with);
+  if (played.value().twin && !options.no_twins) {
+    gain(gained, played.value().twin_stage(with.planes.inputs), with);
+  }
+  return gained;
 }
 
 /// All encounters, from where the journal ends on.
@@ -96,60 +121,18 @@ Result<std::optional<std::vector<Gained>>> gather(const BuildOptions& options,
   if (!planes.has_value()) {
     return planes.error();
   }
-  const std::string path =
-      options.from.journal.empty() ? options.from.output + ".journal" : options.from.journal;
-  if (auto problem = make_folder_of(path)) {
-    return *problem;
-  }
-  const auto journal =
-      Journal::open(path, fmt::format("saca {} {} of {}", SACA_VERSION, command, encounters.what));
-  if (!journal.has_value()) {
-    return journal.error();
-  }
-  std::vector<Gained> all;
-  for (const std::string& line : journal.value().lines()) {
-    auto gained = gained_from(line);
-    if (!gained.has_value()) {
-      return Error{Error::Code::malformed,
-                   fmt::format("{}: line {}: {}", path, all.size() + 2, gained.error().message)};
-    }
-    all.push_back(std::move(gained).value());
-  }
-  const auto count = static_cast<std::size_t>(encounters.count);
-  all.resize(std::min(all.size(), count));
-  const auto before = static_cast<int>(all.size());
-  SteadyClock clock;
-  ProgressLine progress("memory of " + options.from.name, encounters.count, clock);
-  const Inputs& inputs = planes.value()->inputs;
-  const preview::ForecastTools& tools = planes.value()->setup.forecast;
-  const auto made_with = loop::made_with(tools, inputs.intent, inputs.car_name);
-  while (all.size() < count) {
-    if (interrupted()) {
-      return std::optional<std::vector<Gained>>();
-    }
-    const std::size_t first = all.size();
-    constexpr std::size_t at_once = 32;
-    std::vector<Gained> next(std::min(at_once, count - first));
-    in_parallel(next.size(), options.from.threads, [&](std::size_t i) {
-      const auto played = played_encounter(encounters, options.from, first + i);
-      if (!played.has_value()) {
-        next[i].problem = played.error().message;
-        return;
-      }
-      gain(next[i], played.value().stage(inputs), tools, options.draws, made_with);
-      if (played.value().twin && !options.no_twins) {
-        gain(next[i], played.value().twin_stage(inputs), tools, options.draws, made_with);
-      }
-    });
-    for (Gained& gained : next) {
-      if (!journal.value().add(line_of(gained))) {
-        return Error{Error::Code::unwritable, path + ": cannot be added to"};
-      }
-      all.push_back(std::move(gained));
-    }
-    progress.show(static_cast<int>(all.size()), before, " encounters");
-  }
-  return std::optional(std::move(all));
+  const CaseTools with{*planes.value(), options.draws};
+  return rows_of<Gained>(
+      {.journal =
+           options.from.journal.empty() ? options.from.output + ".journal" : options.from.journal,
+       .title = fmt::format("saca {} {} of {}", SACA_VERSION, command, encounters.what),
+       .progress = "memory of " + options.from.name,
+       .unit = "encounters",
+       .count = static_cast<std::size_t>(encounters.count),
+       .threads = options.from.threads,
+       .row = [&](std::size_t number) { return gained_of(encounters, options, with, number); },
+       .line_of = gained_line,
+       .row_from = gained_from});
 }
 
 int build(const BuildOptions& options) {
