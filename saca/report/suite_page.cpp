@@ -29,6 +29,8 @@ tr.faded td { color: #525d6a; font-style: italic; }
 .cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(890px, 1fr)); gap: 1rem; }
 .card { border: 1px solid #d3dae1; border-radius: 4px; padding: .6rem; }
 .card h3 { margin: 0; font-size: 1rem; }
+.card details { margin: .3rem 0; font-size: 13.5px; }
+.card details td, .card details th { text-align: left; white-space: normal; }
 .card .pair { display: flex; flex-wrap: wrap; gap: .5rem; }
 code { background: #f2f4f6; padding: .1rem .3rem; border-radius: 3px; font-size: 12.5px; overflow-wrap: anywhere; }
 .notes { color: #525d6a; font-size: 13px; }
@@ -52,9 +54,9 @@ std::string shade(const std::optional<double>& value) {
   return fmt::format(" style=\"background:rgba(213,94,0,{:.2f})\"", 0.75 * *value);
 }
 
-std::string table_html(const PageTable& table) {
-  std::string html = fmt::format("<h2>{}</h2>\n{}<div class=\"wide\"><table><thead><tr><th></th>",
-                                 escaped(table.heading), paragraphs(table.lines));
+/// Without its heading.
+std::string bare_table(const PageTable& table) {
+  std::string html = paragraphs(table.lines) + "<div class=\"wide\"><table><thead><tr><th></th>";
   for (const std::string& column : table.columns) {
     html += fmt::format("<th>{}</th>", escaped(column));
   }
@@ -85,17 +87,29 @@ std::string table_html(const PageTable& table) {
                    "</ul></details>\n";
 }
 
+std::string table_html(const PageTable& table) {
+  return fmt::format("<h2>{}</h2>\n{}", escaped(table.heading), bare_table(table));
+}
+
 std::string picture(const SceneView& view) {
   return svg_in_page(card_picture, view.title, scene_card(view, card_picture));
 }
 
 std::string card_html(const GalleryCard& card) {
-  return fmt::format(
-      "<section class=\"card\"><h3>{}</h3>\n{}<div "
-      "class=\"pair\">{}{}</div>\n<p><code>{}</code></p>"
-      "</section>\n",
-      escaped(card.title), paragraphs(card.lines), picture(card.done), picture(card.best),
-      escaped(card.command));
+  std::string html = fmt::format(
+      "<section class=\"card\"><h3>{}</h3>\n{}<div class=\"pair\">{}{}</div>\n",
+      escaped(card.title), paragraphs(card.lines), picture(card.done), picture(card.best));
+  if (!card.command.empty()) {
+    html += fmt::format("<p><code>{}</code></p>", escaped(card.command));
+  }
+  for (const PageTable& table : card.tables) {
+    html += bare_table(table);
+  }
+  for (const PageTable& table : card.folded) {
+    html += fmt::format("<details><summary>{}</summary>\n{}</details>\n", escaped(table.heading),
+                        bare_table(table));
+  }
+  return html + "</section>\n";
 }
 
 }  // namespace

@@ -28,10 +28,12 @@ struct PageTable {
 /// One encounter, what was done in it, and what would have been best.
 struct GalleryCard {
   std::string title;
-  std::vector<std::string> lines;  ///< why it went wrong
+  std::vector<std::string> lines;  ///< what there is to say of it, e.g. why it went wrong
   SceneView done;
   SceneView best;
-  std::string command;  ///< that plays it again
+  std::string command;            ///< that plays it again; may be empty
+  std::vector<PageTable> tables;  ///< below the pictures
+  std::vector<PageTable> folded;  ///< likewise, each behind its heading
 };
 
 /// Methods compared over many encounters.

@@ -67,6 +67,27 @@ TEST(SuitePage, ShowsEachCellWithItsShadeAndEachCardWithTwoPictures) {
   EXPECT_EQ(pictures, 2U);
 }
 
+TEST(SuitePage, CardsHaveTablesOpenAndFolded) {
+  SuitePage made = page();
+  const PageTable table{
+      .heading = "Facts <of it>",
+      .lines = {},
+      .columns = {"code"},
+      .rows = {{.name = "TRAV_SP", .explanation = "", .cells = {"45"}, .shades = {}}}};
+  made.gallery[0].command.clear();
+  made.gallery[0].tables = {table};
+  made.gallery[0].folded = {table, table};
+  const std::string html = suite_page(made);
+  EXPECT_THAT(html, HasSubstr("<details><summary>Facts &lt;of it&gt;</summary>"));
+  std::size_t cells = 0;
+  for (std::size_t at = html.find("TRAV_SP"); at != std::string::npos;
+       at = html.find("TRAV_SP", at + 1)) {
+    ++cells;
+  }
+  EXPECT_EQ(cells, 3U);
+  EXPECT_THAT(html, Not(HasSubstr("<code></code>")));
+}
+
 TEST(SuitePage, RefusesATableThatDoesNotFit) {
   SuitePage wrong = page();
   wrong.tables[0].rows[0].cells.pop_back();
