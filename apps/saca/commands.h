@@ -15,6 +15,7 @@ void add_verify(CLI::App& line, int& exit_code);
 void add_scenarios(CLI::App& line, int& exit_code);
 void add_import(CLI::App& line, int& exit_code);
 void add_memory(CLI::App& line, int& exit_code);
+void add_cases(CLI::App& line, int& exit_code);
 void add_reason(CLI::App& line, int& exit_code);
 void add_model(CLI::App& line, int& exit_code);
 void add_physics(CLI::App& line, int& exit_code);

@@ -53,6 +53,7 @@ int main(int argc, char** argv) {
     add_scenarios(line, exit_code);
     add_import(line, exit_code);
     add_memory(line, exit_code);
+    add_cases(line, exit_code);
     add_reason(line, exit_code);
     add_model(line, exit_code);
     add_physics(line, exit_code);

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace saca::app {
+
+/// `saca cases build`.
+void add_cases_build(CLI::App& cases, int& exit_code);
+
+/// `saca cases show`.
+void add_cases_show(CLI::App& cases, int& exit_code);
+
+}  // namespace saca::app

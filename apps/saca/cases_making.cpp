@@ -1,0 +1,163 @@
+#include "apps/saca/cases_making.h"
+
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "saca/config/json_reader.h"
+#include "saca/config/json_text.h"
+#include "saca/core/fnv.h"
+#include "saca/crash_records/facts.h"
+#include "saca/eval/suite.h"
+#include "saca/loop/learnt_case.h"
+
+namespace saca::app {
+
+std::string case_row_line(const CaseRow& row) {
+  return nlohmann::json{{"family", row.family},
+                        {"end", name(row.end)},
+                        {"problem", row.problem},
+                        {"case", row.made ? eval::to_json(*row.made) : nlohmann::json(nullptr)}}
+      .dump();
+}
+
+Result<CaseRow> case_row_from(const std::string& line) {
+  const auto parsed = config::parse_json(line);
+  if (!parsed.has_value()) {
+    return parsed.error();
+  }
+  std::optional<Error> problem;
+  config::JsonReader reader(parsed.value(), "", problem, "line");
+  CaseRow row{.family = reader.text("family")};
+  row.end = reader.word("end", eval::crash_end_from, "how a search ended");
+  row.problem = reader.text("problem");
+  if (reader.has_value("case")) {
+    auto made = eval::crash_case_from_json(reader.any("case"));
+    if (!made.has_value()) {
+      return made.error();
+    }
+    row.made = std::move(made).value();
+  }
+  reader.refuse_others();
+  if (problem) {
+    return *problem;
+  }
+  return row;
+}
+
+CaseMaking::CaseMaking(const CaseMakingOptions& options, const CaseSources& sources,
+                       const PlanesOfCar& planes)
+    : options_(options),
+      sources_(sources),
+      planes_(planes),
+      made_with_(
+          loop::made_with(planes.setup.forecast, planes.inputs.intent, planes.inputs.car_name)) {}
+
+CaseRow CaseMaking::row(std::size_t number) const {
+  return number < sources_.prospects.size()
+             ? row_of(sources_.prospects[number])
+             : row_of(sources_.events[number - sources_.prospects.size()]);
+}
+
+std::uint64_t CaseMaking::digest() const {
+  Fnv hash;
+  for (const memory::MadeWith& one : made_with_) {
+    hash.add(one.name + one.digest);
+  }
+  for (const CrashProspect& prospect : sources_.prospects) {
+    hash.add(prospect.family.name);
+    for (const auto& [key, range] : prospect.family.ranges) {
+      hash.add(fmt::format("{} {} {} {}", key, range.min, range.max, range.source));
+    }
+  }
+  for (const sim::HundredCarOutcome& event : sources_.events) {
+    hash.add(sim::write_scenario(event.rebuilt()->scenario));
+  }
+  return hash.value();
+}
+
+/// Perception and chance are drawn by the record's name: which others are worked on does not
+/// matter.
+void CaseMaking::judge(CaseRow& row, eval::CrashCase made, const sim::Scenario& scenario) const {
+  const Inputs& inputs = planes_.inputs;
+  const eval::SuiteOptions played{.methods = {}, .seed = options_.seed};
+  const sim::Scenario world = eval::as_played(scenario, played);
+  Fnv of_name;
+  of_name.add(made.record.name);
+  const loop::Stage stage{.scenario = &world,
+                          .car = &inputs.car,
+                          .harm = &inputs.harm,
+                          .intent = &inputs.intent,
+                          .thresholds = {},
+                          .chance = eval::chance_of(played, of_name.value())};
+  eval::JudgingOptions judging = options_.judging;
+  judging.seed = eval::encounter_seed(options_.seed, of_name.value());
+  auto judged = eval::judged_encounter(stage, planes_.setup.forecast, judging, made_with_);
+  if (!judged.has_value()) {
+    row.problem = made.record.name + ": " + judged.error().message;
+  } else if (judged.value()) {
+    made.grip = scenario.grip;
+    made.judged = *std::move(judged).value();
+    row.made = std::move(made);
+  }
+}
+
+CaseRow CaseMaking::row_of(const CrashProspect& prospect) const {
+  const crash_records::FarsCrash& crash = sources_.release.crashes[prospect.crash];
+  const crash_records::FarsVehicle& ego = crash.vehicles[prospect.roles.ego];
+  CaseRow row{.family = std::string(name(prospect.roles.family))};
+  eval::CrashFound found = eval::find_crash(
+      prospect.family, prospect.roles.struck, options_.seed, planes_.inputs.car_name,
+      planes_.inputs.car, planes_.inputs.harm, static_cast<std::uint64_t>(options_.tries));
+  row.end = found.end;
+  if (found.end != eval::CrashEnd::happens) {
+    return row;
+  }
+  const auto recorded_face = crash_records::face_of_impact(ego.impact);
+  eval::CrashCase made{
+      .record = {.study = "FARS",
+                 .name = prospect.family.name,
+                 .state = sources_.codes.meaning("STATE", crash.id.state()),
+                 .year = crash.id.year,
+                 .number = crash.id.number},
+      .family = row.family,
+      .place = std::string(name(prospect.roles.place)),
+      .facts = crash_records::facts_of(crash, prospect.roles, sources_.codes),
+      .kind = std::string(name(prospect.family.kind)),
+      .seed = options_.seed,
+      .sample = found.sample,
+      .without = found.as_written.contact,
+      .as_recorded = true,
+      .impact_agrees = recorded_face
+                           ? std::optional(*recorded_face == found.as_written.contact->ego_face)
+                           : std::nullopt};
+  made.ranges.reserve(prospect.family.ranges.size());
+  for (const auto& [key, range] : prospect.family.ranges) {
+    made.ranges.push_back({key, range.min, range.max, range.source});
+  }
+  judge(row, std::move(made), found.scenario);
+  return row;
+}
+
+CaseRow CaseMaking::row_of(const sim::HundredCarOutcome& event) const {
+  sim::Scenario scenario = event.rebuilt()->scenario;
+  scenario.car = planes_.inputs.car_name;
+  const auto as_written =
+      eval::trigger_as_written(scenario, planes_.inputs.car, planes_.inputs.harm);
+  CaseRow row{.family = "100car",
+              .end = !as_written           ? eval::CrashEnd::never_triggers
+                     : as_written->contact ? eval::CrashEnd::happens
+                                           : eval::CrashEnd::does_not_happen};
+  eval::CrashCase made{.record = {.study = "100-Car", .name = scenario.name, .number = event.event},
+                       .family = row.family,
+                       .facts = {{"crash", "severity", std::nullopt, event.severity},
+                                 {"ego", "driver", std::nullopt, scenario.driver},
+                                 {"crash", "notes", std::nullopt, scenario.notes}},
+                       .without = as_written ? as_written->contact : std::nullopt,
+                       .as_recorded = as_written && as_written->contact.has_value()};
+  judge(row, std::move(made), scenario);
+  return row;
+}
+
+}  // namespace saca::app

@@ -1,0 +1,197 @@
+"""`saca cases`: cases of recorded crashes."""
+import html.parser
+import json
+import pathlib
+import sys
+
+import pytest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from program import BAD_INPUT, CANNOT_WRITE, SUCCESS, WRONG_COMMAND_LINE, figures, one_error, saca
+
+QUICK = ("--draws", "2", "--told-draws", "2")
+ACCIDENTS = "STATE,ST_CASE,YEAR,LGT_COND,RELJCT2,TYP_INT\n"
+VEHICLES = ("STATE,ST_CASE,VEH_NO,BODY_TYP,BODY_TYPNAME,TRAV_SP,VSPD_LIM,VTRAFWAY,VNUM_LAN,VALIGN,VSURCOND,"
+            "P_CRASH1,P_CRASH2,P_CRASH3,ACC_TYPE,IMPACT1\n")
+PERSONS = "STATE,ST_CASE,VEH_NO,PER_TYP,AGE,STR_VEH,LOCATION\n"
+
+
+def crash(number, *vehicles, light=1, junction=1):
+    """Rows of one crash of 2016: of each vehicle its body, speed, P_CRASH2, ACC_TYPE and IMPACT1."""
+    rows = "".join(f'4,{number},{k},{body},"Some, body",{speed},45,1,2,1,1,1,{event},99,{kind},{impact}\n'
+                   for k, (body, speed, event, kind, impact) in enumerate(vehicles, 1))
+    return f"4,{number},2016,{light},{junction},1\n", rows
+
+
+def release(folder, *crashes, persons=""):
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "accident.csv").write_text(ACCIDENTS + "".join(accident for accident, _ in crashes))
+    (folder / "vehicle.csv").write_text(VEHICLES + "".join(rows for _, rows in crashes))
+    (folder / "person.csv").write_text(PERSONS + "4,40001,1,1,40,0,0\n" + persons)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def fars(tmp_path_factory):
+    """A rear-end crash, a crossing, a walker, one whose ego is a motorcycle, and one of a car alone."""
+    return release(tmp_path_factory.mktemp("fars") / "az",
+                   crash(40001, (4, 45, 51, 24, 12), (31, 20, 53, 25, 6)),
+                   crash(40002, (4, 40, 66, 89, 9), (4, 998, 17, 88, 12), junction=2),
+                   crash(40003, (4, 40, 80, 13, 12), light=3),
+                   crash(40004, (80, 45, 51, 24, 12), (31, 20, 53, 25, 6)),
+                   crash(40005, (4, 70, 13, 1, 12)),
+                   persons="4,40003,0,5,30,1,11\n")
+
+
+@pytest.fixture(scope="module")
+def built(fars, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("cases")
+    run = saca("cases", "build", fars, *QUICK, "--output", "cases.jsonl", "--for-memory", "plain.jsonl", "--json", cwd=folder)
+    return folder, figures(run)
+
+
+def documents(path):
+    return [json.loads(line) for line in path.read_text().splitlines()]
+
+
+def test_each_family_is_counted_with_its_share(built):
+    _, told = built
+    assert told["cases.num_crashes"] == 5 and told["cases.num_failed"] == 0
+    assert told["cases.rear_end.num_crashes"] == 2 and told["cases.rear_end.share"] == 0.4
+    assert told["cases.rear_end.ego_is_no_car"] == 1 and told["cases.rear_end.worked_on"] == 1
+    assert told["cases.pedestrian.num_crashes"] == 1 and told["cases.ramp.num_crashes"] == 0
+    assert told["cases.num_cases"] == 3
+    assert sum(told[f"cases.best.{name}"] for name in ("AEB", "AES-L", "AES-R", "ES-B-L", "ES-B-R", "T-D-L", "T-D-R", "NI")) == 3
+
+
+def test_a_case_has_its_record_and_says_what_is_assumed(built):
+    folder, _ = built
+    header, *cases = documents(folder / "cases.jsonl")
+    assert header == {"schema": "saca.crash_cases/1", "cases": 3}
+    rear_end = cases[0]
+    assert rear_end["record"] == {"study": "FARS", "name": "fars_2016_40001", "state": "Arizona", "year": 2016, "number": 40001}
+    assert rear_end["family"] == "rear_end" and rear_end["kind"] == "slower_lead" and rear_end["place"] == "road"
+    facts = {(fact["about"], fact["key"]): fact for fact in rear_end["facts"]}
+    assert facts["ego", "TRAV_SP"]["code"] == 45 and facts["other", "BODY_TYP"]["words"] == "pickup"
+    assert facts["crash", "LGT_COND"]["words"] == "daylight"
+    ranges = {entry["key"]: entry for entry in rear_end["ranges"]}
+    assert ranges["ego_speed_mps"]["source"].startswith("recorded: ego's TRAV_SP 45 mph")
+    assert ranges["ego_speed_mps"]["min"] == pytest.approx(40.5 * 0.44704)
+    assert ranges["follower_gap_s"]["source"].startswith("assumption")
+    assert ranges["ego_speed_mps"]["min"] <= rear_end["case"]["scene"]["ego"]["forward_mps"] <= ranges["ego_speed_mps"]["max"]
+
+
+def test_the_recorded_crash_happens_without_avoidance(built):
+    folder, _ = built
+    for one in documents(folder / "cases.jsonl")[1:]:
+        assert one["as_recorded"] and one["without_avoidance"]["first_actor"]
+    crossing = next(one for one in documents(folder / "cases.jsonl")[1:] if one["family"] == "crossing")
+    assert crossing["without_avoidance"]["ego_face"] == "left" and crossing["impact_agrees"], "ACC_TYPE 89, IMPACT1 9"
+
+
+def test_what_is_admissible_is_what_the_arbiter_calls_so(built):
+    folder, _ = built
+    for one in documents(folder / "cases.jsonl")[1:]:
+        assert any(plan["admissible"] for plan in one["plans"])
+        for plan in one["plans"]:
+            assert plan["admissible"] == (plan["harm"] <= one["admissible_harm"])
+        driven = [entry["harm"] for entry in one["happened"] if entry]
+        assert one["case"]["best_harm"] == one["happened"][one["case"]["best_policy"]]["harm"] <= min(driven) + 0.005
+        assert one["case"]["details"]["draws"] == 2
+
+
+def test_same_seed_same_bytes_whatever_the_threads_and_where_it_was_interrupted(fars, built, tmp_path):
+    folder, _ = built
+    again = saca("cases", "build", fars, *QUICK, "--output", "again.jsonl", "--threads", "1", cwd=tmp_path)
+    assert again.returncode == SUCCESS, again.stderr
+    assert "rear_end" in again.stdout and "3 cases of 5 crashes" in again.stdout
+    assert (tmp_path / "again.jsonl").read_bytes() == (folder / "cases.jsonl").read_bytes()
+    lines = (folder / "cases.jsonl.journal").read_text().splitlines(keepends=True)
+    (tmp_path / "resumed.jsonl.journal").write_text("".join(lines[:2]) + lines[2][:80])  # killed while it wrote
+    assert saca("cases", "build", fars, *QUICK, "--output", "resumed.jsonl", cwd=tmp_path).returncode == SUCCESS
+    assert (tmp_path / "resumed.jsonl").read_bytes() == (folder / "cases.jsonl").read_bytes()
+    other = saca("cases", "build", fars, *QUICK, "--seed", "2", "--output", "resumed.jsonl", cwd=tmp_path)
+    assert "--seed 2" in one_error(other, BAD_INPUT)
+
+
+def test_fewer_are_of_all_families_in_turn(fars, tmp_path):
+    told = figures(saca("cases", "build", fars, *QUICK, "--count", "2", "--output", "two.jsonl", "--json", cwd=tmp_path))
+    assert told["cases.rear_end.worked_on"] == told["cases.crossing.worked_on"] == 1
+    assert told["cases.pedestrian.worked_on"] == 0
+
+
+def test_memory_takes_them_over(built, tmp_path):
+    folder, _ = built
+    run = saca("memory", "import", folder / "plain.jsonl", "--memory", "bank.db", cwd=tmp_path)
+    assert run.returncode == SUCCESS and "3 cases" in run.stdout, run.stderr
+
+
+class Texts(html.parser.HTMLParser):
+    def __init__(self):
+        super().__init__()
+        self.texts, self.pictures, self.depth = [], 0, 0
+
+    def handle_starttag(self, tag, attrs):
+        self.pictures += tag == "svg" and self.depth == 0 and ("width", "0") not in attrs
+        self.depth += tag == "svg"
+
+    def handle_endtag(self, tag):
+        self.depth -= tag == "svg"
+
+    def handle_data(self, data):
+        self.texts.append(data)
+
+
+def test_a_page_shows_pictures_facts_and_harms(built, tmp_path):
+    folder, _ = built
+    run = saca("cases", "show", folder / "cases.jsonl", "--output", "page.html", "--json", cwd=tmp_path)
+    told = figures(run)
+    assert told["schema"] == "saca.cases_page/1" and len(told["shown"]) == told["cases"] == 3
+    page = Texts()
+    page.feed((tmp_path / "page.html").read_text())
+    text = "".join(page.texts)
+    assert page.pictures == 6, "without avoidance and the best, of each"
+    assert "ST_CASE 40001" in text and "dark - lighted" in text and "recorded: ego's TRAV_SP 45 mph" in text
+    assert "admissible plans" in text and "Without avoidance" in text
+    one = saca("cases", "show", folder / "cases.jsonl", "--record", "fars_2016_40003", "--output", "one.html", cwd=tmp_path)
+    assert one.returncode == SUCCESS and "1 of 3 cases" in one.stdout
+    assert (tmp_path / "page.html").read_bytes() != (tmp_path / "one.html").read_bytes()
+
+
+@pytest.mark.parametrize("name, text, message", [
+    ("vehicle.csv", "STATE,ST_CASE,VEH_NO,BODY_TYP\n4,40001,1,4\n", "vehicle.csv: want a column TRAV_SP, got 4 columns without it"),
+    ("accident.csv", "", "accident.csv: want a column ST_CASE"),
+    ("person.csv", PERSONS, "person.csv: want at least one row, got none"),
+    ("vehicle.csv", VEHICLES + "4,40001\n", "want 16 fields, got 2"),
+])
+def test_another_release_is_refused(tmp_path, name, text, message):
+    folder = release(tmp_path / "az", crash(40001, (4, 45, 51, 24, 12), (31, 20, 53, 25, 6)))
+    (folder / name).write_text(text)
+    assert message in one_error(saca("cases", "build", folder, cwd=tmp_path), BAD_INPUT)
+    assert not (tmp_path / "runs").exists()
+
+
+def test_what_cannot_be_read_or_written_is_told(fars, built, tmp_path):
+    folder, _ = built
+    assert "want one file accident.csv, got 0" in one_error(saca("cases", "build", tmp_path, cwd=tmp_path), BAD_INPUT)
+    assert "in two" in one_error(saca("cases", "build", fars, fars, cwd=tmp_path), BAD_INPUT)
+    assert saca("cases", "build", cwd=tmp_path).returncode == WRONG_COMMAND_LINE
+    assert saca("cases", "build", fars, "--draws", "1", cwd=tmp_path).returncode == WRONG_COMMAND_LINE
+    (tmp_path / "file").write_text("x")
+    assert "file" in one_error(saca("cases", "build", fars, "--output", "file/cases.jsonl", cwd=tmp_path), CANNOT_WRITE)
+    assert "file" in one_error(saca("cases", "show", folder / "cases.jsonl", "--output", "file/a.html", cwd=tmp_path), CANNOT_WRITE)
+    assert "none.jsonl" in one_error(saca("cases", "show", "none.jsonl", cwd=tmp_path), BAD_INPUT)
+    assert "of the family boat, got none of 3" in one_error(
+        saca("cases", "show", folder / "cases.jsonl", "--family", "boat", cwd=tmp_path), BAD_INPUT)
+
+
+@pytest.mark.parametrize("spoil, message", [
+    (lambda text: "", "line 1: want cases, got nothing"),
+    (lambda text: "".join(text.splitlines(keepends=True)[:-1]), "as line 1 says, got 2"),
+    (lambda text: text.replace('"family":', '"kin":', 1), "line 2: family: is missing"),
+    (lambda text: text.replace("saca.crash_cases/1", "saca.cases/1"), "line 1: schema: want saca.crash_cases/1"),
+])
+def test_what_is_no_such_file_is_refused(built, tmp_path, spoil, message):
+    folder, _ = built
+    (tmp_path / "cases.jsonl").write_text(spoil((folder / "cases.jsonl").read_text()))
+    assert message in one_error(saca("cases", "show", "cases.jsonl", cwd=tmp_path), BAD_INPUT)
