@@ -71,7 +71,7 @@ def test_a_case_is_drawn_with_those_most_like_it(cases, tmp_path):
     picture = ElementTree.parse(tmp_path / "out/case.svg").getroot()
     texts = ["".join(text.itertext()) for text in picture.iter("{http://www.w3.org/2000/svg}text")]
     assert sum(text.startswith("differs: ") or text == "the same scene" for text in texts) == 5
-    assert any(text.startswith("told: ") for text in texts) and any(text.startswith("in truth: ") for text in texts)
+    assert any(text.startswith("expected: ") for text in texts) and any(text.startswith("in hindsight: ") for text in texts)
     assert "bank.db" in one_error(saca("memory", "show", "2", "--svg", "bank.db/case.svg", "--memory", "bank.db", cwd=tmp_path), CANNOT_WRITE)
 
 
