@@ -20,9 +20,8 @@ namespace saca::config {
 
 /// @param name  of the file, for messages
 /// @param take  of each document after the first line: why it is refused; nullopt: it is not
-/// @return      malformed, naming file, line and what is wrong: no JSON, another schema, what
-/// `take`
-///              refuses, fewer or more documents than the first line says; nullopt: all was taken
+/// @return      malformed, naming file, line and what is wrong: no JSON, another schema, what is
+///              refused, fewer or more documents than the first line says; nullopt: all was taken
 [[nodiscard]] std::optional<Error> read_json_lines(
     std::string_view text, const std::string& name, std::string_view schema,
     const std::string& word,

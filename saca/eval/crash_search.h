@@ -29,7 +29,7 @@ struct CrashFound {
 };
 
 /// Tries samples 0, 1, 2, ... of a record's family until without avoidance its first actor is met,
-/// on the side of the ego that is told.
+/// on the given side of the ego.
 /// @param struck   the ego's face; nullopt: any
 /// @param tries    >= 1
 [[nodiscard]] CrashFound find_crash(const sim::Family& family, std::optional<outcome::Face> struck,

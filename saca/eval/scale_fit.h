@@ -33,12 +33,12 @@ inline constexpr std::array fitted_scales{
     FittedScale{"absence", &memory::Scales::absence},
 };
 
-/// How well the expected harm of every policy in some scenes is foretold by that in the 20 nearest
+/// How well the expected harm of every policy in some scenes is predicted by that in the 20 nearest
 /// of other encounters, each weighing exp(-d^2 / 2) for its difference d: the mean absolute error
 /// over policies and scenes [-]. Cases of which nothing was expected are not asked about.
 /// @param cases    that are asked, at least one of another encounter than each query
 /// @param queries  may be among them; cases of the same encounter are left out, its twin's too
-/// @return         nullopt where there is nothing to be foretold
+/// @return         nullopt where there is nothing to be predicted
 [[nodiscard]] std::optional<double> scale_error(std::span<const memory::Case> cases,
                                                 std::span<const memory::Case> queries,
                                                 const memory::Scales& scales, int threads);
@@ -53,7 +53,7 @@ struct ScaleFit {
 /// Coordinate search for the least error: each of `fitted_scales` in turn is made larger or smaller
 /// by a quarter as long as that helps, then by a twelfth.
 /// @param go_on  asked after each evaluation, with how many there were and the least error so far
-/// @return       nullopt where there is nothing to be foretold
+/// @return       nullopt where there is nothing to be predicted
 [[nodiscard]] std::optional<ScaleFit> fit_scales(std::span<const memory::Case> cases,
                                                  std::span<const memory::Case> queries,
                                                  const memory::Scales& begin, int threads,

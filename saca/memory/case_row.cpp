@@ -169,6 +169,19 @@ Result<Case> case_from_cells(CaseId id, const Cells& cells, const std::string& w
   return one;
 }
 
+std::optional<Error> wrong_version(std::int64_t version, const std::string& where) {
+  if (version >= 1 && version <= table_version) {
+    return std::nullopt;
+  }
+  return Error{Error::Code::malformed,
+               fmt::format("{}: want version {} of a memory bank or an older one, got version {}",
+                           where, table_version, version)};
+}
+
+Error no_such_bank(const std::string& where) {
+  return {Error::Code::unreadable, where + ": there is no such memory bank"};
+}
+
 std::string column_names() {
   std::string names = "id";
   for (const Column& column : case_columns) {
@@ -178,9 +191,9 @@ std::string column_names() {
 }
 
 std::string parameters(char mark) {
-  std::string text = fmt::format("{}1", mark);
+  std::string text;
   for (std::size_t i = 0; i < case_columns.size(); ++i) {
-    text += fmt::format(", {}{}", mark, i + 2);
+    text += fmt::format("{}{}{}", i == 0 ? "" : ", ", mark, i + 2);
   }
   return text;
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -52,12 +53,18 @@ using Cells = std::array<Cell, case_columns.size()>;
 /// @return       malformed, naming bank, id, column, what was wanted and what came
 [[nodiscard]] Result<Case> case_from_cells(CaseId id, const Cells& cells, const std::string& where);
 
+// What a table says that is not as it should be, whatever database keeps it.
+
+/// @return  nullopt: it is table_version or older
+[[nodiscard]] std::optional<Error> wrong_version(std::int64_t version, const std::string& where);
+[[nodiscard]] Error no_such_bank(const std::string& where);
+
 /// "id, policy, ...": what is selected where rows are read.
 [[nodiscard]] std::string column_names();
 
 // Of statements that write rows: parameter 1 is the id, those after it are the columns.
 
-/// "?1, ?2, ...", of an id and all columns.
+/// "?2, ?3, ...", of all columns.
 /// @param mark  before the number of a parameter
 [[nodiscard]] std::string parameters(char mark);
 /// "policy = ?2, ..."

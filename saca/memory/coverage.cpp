@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "saca/core/contract.h"
+#include "saca/core/percentile.h"
 #include "saca/memory/experience.h"
 #include "saca/memory/feature_index.h"
 #include "saca/memory/similarity.h"
@@ -38,26 +39,6 @@ Situation situation_with(const ActorFeatures& actor) {
       break;
   }
   return Situation::obstacle;
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) {
-    return std::numeric_limits<double>::quiet_NaN();
-  }
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-std::optional<double> to_nearest_other(const FeatureIndex& index, const Case& one) {
-  std::array<FeatureIndex::Hit, 2> room;
-  const std::size_t found = index.nearest(features(one.scene), room);
-  for (const FeatureIndex::Hit& hit : std::span(room).first(found)) {
-    if (hit.id != one.id) {
-      return hit.difference;
-    }
-  }
-  return std::nullopt;
 }
 
 }  // namespace
@@ -122,12 +103,13 @@ std::vector<CoverageCell> coverage(std::span<const Case> cases) {
     const bool braking_does = as_good_as_best(one).test(manoeuvre::index(manoeuvre::PolicyId::aeb));
     cell.braking_as_good += braking_does ? 1 : 0;
     cell.slippery += one.scene.grip < slippery_grip ? 1 : 0;
-    if (const auto difference = to_nearest_other(index, one)) {
+    if (const auto difference = index.nearest_other(features(one.scene), one.id)) {
       differences.at(place).push_back(*difference);
     }
   }
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    cells[i].to_nearest = median(std::move(differences[i]));
+    cells[i].to_nearest = differences[i].empty() ? std::numeric_limits<double>::quiet_NaN()
+                                                 : percentile(std::move(differences[i]), 0.5);
   }
   return cells;
 }

@@ -196,6 +196,18 @@ std::optional<FeatureIndex::Hit> FeatureIndex::nearest(const Features& wanted) c
   return nearest(wanted, room) == 0 ? std::nullopt : std::optional(room.front());
 }
 
+std::optional<double> FeatureIndex::nearest_other(const Features& wanted,
+                                                  CaseId own) const noexcept {
+  std::array<Hit, 2> room;
+  const std::size_t found = nearest(wanted, room);
+  for (const Hit& hit : std::span(room).first(found)) {
+    if (hit.id != own) {
+      return hit.difference;
+    }
+  }
+  return std::nullopt;
+}
+
 std::size_t FeatureIndex::nearest(const Features& wanted, std::span<Hit> hits) const noexcept {
   if (hits.empty() || !wanted.ego.usable) {
     return 0;

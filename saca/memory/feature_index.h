@@ -52,6 +52,10 @@ class FeatureIndex {
   /// @return  how many were found
   [[nodiscard]] std::size_t nearest(const Features& wanted, std::span<Hit> hits) const noexcept;
 
+  /// How far the nearest is of those that have another id; nullopt: there is none.
+  [[nodiscard]] std::optional<double> nearest_other(const Features& wanted,
+                                                    CaseId own) const noexcept;
+
   [[nodiscard]] std::size_t size() const noexcept { return ids_.size(); }
   /// Memory that it takes [byte].
   [[nodiscard]] std::size_t bytes() const noexcept;

@@ -21,7 +21,8 @@ constexpr const char* create_head =
 constexpr const char* fill_head =
     "INSERT INTO saca_bank SELECT $1, 0 WHERE NOT EXISTS (SELECT FROM saca_bank)";
 /// Who makes or upgrades the tables holds this number, in the database ("SACA").
-constexpr const char* hold_tables = "SELECT pg_advisory_xact_lock(1396785985)";
+constexpr const char* hold_tables =
+    "SELECT pg_current_xact_id()::text, pg_advisory_xact_lock(1396785985)";
 
 /// Rows that are read at once: some MB.
 constexpr int rows_at_once = 1000;
@@ -63,7 +64,7 @@ class PostgresTable final : public CaseTable {
     auto version = stored_version();
     if (version.has_value() && version.value() == 0) {
       if (missing == IfMissing::refuse) {
-        return Error{Error::Code::unreadable, name_ + ": there is no such memory bank"};
+        return no_such_bank(name_);
       }
       if (auto error = change_tables([this] { return create(); })) {
         return error;
@@ -73,11 +74,8 @@ class PostgresTable final : public CaseTable {
     if (!version.has_value()) {
       return version.error();
     }
-    if (version.value() < 1 || version.value() > table_version) {
-      return Error{Error::Code::malformed,
-                   fmt::format("{}: want version {} of a memory bank or an older one, got "
-                               "version {}",
-                               name_, table_version, version.value())};
+    if (auto wrong = wrong_version(version.value(), name_)) {
+      return wrong;
     }
     return version.value() == table_version ? std::nullopt
                                             : change_tables([this] { return upgrade(); });
@@ -122,8 +120,7 @@ class PostgresTable final : public CaseTable {
   }
 
   [[nodiscard]] std::optional<Error> in_one_transaction(const Work& work) override {
-    return transaction("SELECT last_id, pg_current_xact_id()::text FROM saca_bank FOR UPDATE",
-                       work);
+    return transaction("SELECT pg_current_xact_id()::text FROM saca_bank FOR UPDATE", work);
   }
 
   [[nodiscard]] Result<bool> is_empty() override {
@@ -136,8 +133,8 @@ class PostgresTable final : public CaseTable {
     static const std::string sql = fmt::format(
         "WITH given AS (UPDATE saca_bank SET last_id = greatest(last_id, coalesce($1::bigint, "
         "last_id + 1)) RETURNING coalesce($1::bigint, last_id) AS id) INSERT INTO saca_cases ({}) "
-        "SELECT (SELECT id FROM given){} RETURNING id",
-        column_names(), values_of_columns());
+        "SELECT (SELECT id FROM given), {} RETURNING id",
+        column_names(), parameters('$'));
     const auto rows = write(sql, id ? Cell(*id) : Cell(), cells);
     return rows.has_value() ? Result(CaseId{rows.value().integer(0, 0)}) : rows.error();
   }
@@ -155,11 +152,6 @@ class PostgresTable final : public CaseTable {
   }
 
  private:
-  [[nodiscard]] static std::string values_of_columns() {
-    const std::string all = parameters('$');
-    return all.substr(all.find(','));  // without the id's
-  }
-
   [[nodiscard]] static Cells cells_at(const Rows& rows, int row) {
     Cells cells;
     for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -265,13 +257,13 @@ class PostgresTable final : public CaseTable {
 
   /// What became of a try.
   struct Try {
-    std::optional<Error> error;    ///< nullopt: it happened, or `is_unknown`
+    std::optional<Error> error;    ///< nullopt: it happened
     bool may_be_repeated = false;  ///< it did not happen, because the connection was lost
     std::string unknown;           ///< the transaction of which the end was not heard; or empty
   };
 
-  /// @param begin  a statement that makes others wait, and whose second column, if it has one, is
-  ///               the transaction's own number
+  /// @param begin  a statement that makes others wait, and whose first column is the transaction's
+  ///               own number
   [[nodiscard]] std::optional<Error> transaction(const std::string& begin, const Work& work) {
     const Time until = patience_from_now();
     while (true) {
@@ -303,7 +295,7 @@ class PostgresTable final : public CaseTable {
       end_transaction(until);
       return failed(*failure);
     }
-    const Cell number = rows.size() > 0 ? rows.cell(0, 1) : Cell();
+    const Cell number = rows.size() > 0 ? rows.cell(0, 0) : Cell();
     in_transaction_ = true;
     auto error = work();
     in_transaction_ = false;
@@ -392,7 +384,7 @@ class PostgresTable final : public CaseTable {
   }
 
   [[nodiscard]] std::optional<Error> change_tables(const Work& work) {
-    return transaction(std::string(hold_tables) + ", pg_current_xact_id()::text", work);
+    return transaction(hold_tables, work);
   }
 
   [[nodiscard]] std::optional<Error> create() {

@@ -177,7 +177,7 @@ class SqliteTable final : public CaseTable {
 
   [[nodiscard]] Result<CaseId> insert(const Cells& cells, std::optional<CaseId> id) override {
     static const std::string sql =
-        "INSERT INTO cases (" + column_names() + ") VALUES (" + parameters('?') + ")";
+        "INSERT INTO cases (" + column_names() + ") VALUES (?1, " + parameters('?') + ")";
     Statement statement(database_.get(), sql.c_str());
     if (id) {
       statement.bind(1, *id);
@@ -370,11 +370,8 @@ class SqliteTable final : public CaseTable {
       return Error{Error::Code::malformed,
                    name_ + ": want a memory bank, got a database of another program"};
     }
-    if (found.value() < 1 || found.value() > table_version) {
-      return Error{Error::Code::malformed, name_ + ": want version " +
-                                               std::to_string(table_version) +
-                                               " of a memory bank or an older one, got version " +
-                                               std::to_string(found.value())};
+    if (auto wrong = wrong_version(found.value(), name_)) {
+      return wrong;
     }
     if (auto foreign = foreign_schema(found.value())) {
       return foreign;

@@ -83,10 +83,8 @@ namespace {
 
 std::optional<Error> missing_file(const std::string& place) {
   std::error_code problem;
-  return std::filesystem::exists(place, problem)
-             ? std::nullopt
-             : std::optional(
-                   Error{Error::Code::unreadable, place + ": there is no such memory bank"});
+  return std::filesystem::exists(place, problem) ? std::nullopt
+                                                 : std::optional(no_such_bank(place));
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "saca/memory/thinning.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <map>
 #include <optional>
@@ -38,14 +37,7 @@ class Alike {
 
   /// How far the nearest is that is left beside the case itself; nullopt: there is none.
   [[nodiscard]] std::optional<double> nearest_other(const Case& one) {
-    std::array<FeatureIndex::Hit, 2> room;
-    const std::size_t found = group_of(one).nearest(features(one.scene), room);
-    for (const FeatureIndex::Hit& hit : std::span(room).first(found)) {
-      if (hit.id != one.id) {
-        return hit.difference;
-      }
-    }
-    return std::nullopt;
+    return group_of(one).nearest_other(features(one.scene), one.id);
   }
 
  private:
