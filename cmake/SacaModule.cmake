@@ -12,7 +12,8 @@ target_compile_options(saca_flags INTERFACE
 
 # Flags of the tests' own code: it is compiled as it stands, in half the time; what is tested is not.
 add_library(saca_test_flags INTERFACE)
-target_compile_options(saca_test_flags INTERFACE -O0)
+target_compile_options(saca_test_flags INTERFACE -O0
+  $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)  # for ccache
 target_link_libraries(saca_test_flags INTERFACE saca_flags)
 
 # Another build folder of the same sources. What only computes, numbers in and numbers out (COMPUTES), is

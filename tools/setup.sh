@@ -5,11 +5,11 @@
 set -euo pipefail
 
 packages=(
-  g++ cmake ninja-build make git pkg-config
+  g++ ccache cmake ninja-build make git pkg-config
   libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libcli11-dev libsqlite3-dev libpq-dev postgresql libcurl4-openssl-dev openssl
   libeigen3-dev libboost-math-dev libnlopt-dev libnlopt-cxx-dev libxsimd-dev libpugixml-dev libhdf5-dev libcairo2-dev libzip-dev zlib1g-dev
   libgtest-dev libgmock-dev libbenchmark-dev
-  clang-format-14 clang-tidy-14
+  clang-format-14
   python3 python3-venv python3-pytest python3-jsonschema
   chromium
 )

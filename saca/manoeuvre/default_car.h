@@ -1,18 +1,16 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <string>
 
 #include "saca/manoeuvre/car.h"
 
 namespace saca::manoeuvre {
 
-/// A car of this source tree's data/vehicles/: for tests and benchmarks only.
+/// A car of data/vehicles/: for tests and benchmarks only, which run in the project's folder.
 /// @param name  one of `shipped_cars`
 inline Car shipped_car(const std::string& name) {
-  const auto tree = std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
-  return read_car(tree / "data" / "vehicles" / (name + ".toml")).value();
+  return read_car("data/vehicles/" + name + ".toml").value();
 }
 
 constexpr std::array shipped_cars{"compact_rwd_ev", "small_fwd_car", "midsize_suv", "delivery_van"};

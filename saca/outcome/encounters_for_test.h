@@ -3,7 +3,6 @@
 // Encounters by construction, for the tests and the benchmark of this module.
 
 #include <cmath>
-#include <filesystem>
 #include <vector>
 
 #include "saca/outcome/outcome.h"
@@ -12,7 +11,7 @@
 namespace saca::outcome {
 
 inline HarmModel shipped_harm() {
-  return read_harm(std::filesystem::path(__FILE__).parent_path() / "../../data/harm.toml").value();
+  return read_harm("data/harm.toml").value();
 }
 
 /// A wide road, so that edges do not matter unless a test narrows it.

@@ -17,8 +17,7 @@ namespace {
 using testing::HasSubstr;
 using world::ActorKind;
 
-const std::filesystem::path data_file =
-    std::filesystem::path(__FILE__).parent_path() / "../../data/harm.toml";
+const std::filesystem::path data_file = "data/harm.toml";
 
 HarmModel shipped() {
   return read_harm(data_file).value();

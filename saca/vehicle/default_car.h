@@ -1,15 +1,13 @@
 #pragma once
 
-#include <filesystem>
-
 #include "saca/vehicle/parameters.h"
 
 namespace saca::vehicle {
 
-/// The default car, read from this source tree's data/vehicles/: for tests and benchmarks only.
+/// The default car, read from data/vehicles/: for tests and benchmarks only, which run in the
+/// project's folder.
 inline Vehicle default_car() {
-  const auto tree = std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
-  return read_vehicle(tree / "data" / "vehicles" / "compact_rwd_ev.toml").value();
+  return read_vehicle("data/vehicles/compact_rwd_ev.toml").value();
 }
 
 /// Rolling straight along x_W, nothing commanded.

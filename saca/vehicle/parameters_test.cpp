@@ -23,14 +23,12 @@ using testing::HasSubstr;
 class Parameters : public testing::Test {
  protected:
   void SetUp() override {
-    text_ = read_file(tree() / "data" / "vehicles" / "compact_rwd_ev.toml").value();
+    text_ = read_file(fs::path("data/vehicles") / "compact_rwd_ev.toml").value();
     path_ = fs::path(testing::TempDir()) /
             ("saca_car_" +
              std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".toml");
   }
   void TearDown() override { fs::remove(path_); }
-
-  static fs::path tree() { return fs::path(__FILE__).parent_path().parent_path().parent_path(); }
 
   // The message about the default car's file with one piece of text replaced.
   std::string complaint(const std::string& old_text, const std::string& new_text) {
@@ -125,8 +123,7 @@ class EveryCar : public testing::Test {
  protected:
   // All of data/vehicles/ but the tunings.
   void SetUp() override {
-    const auto tree = fs::path(__FILE__).parent_path().parent_path().parent_path();
-    for (const auto& entry : fs::directory_iterator(tree / "data" / "vehicles")) {
+    for (const auto& entry : fs::directory_iterator("data/vehicles")) {
       const std::string name = entry.path().filename().string();
       if (entry.path().extension() != ".toml" || entry.path().stem().extension() == ".tuning") {
         continue;
