@@ -36,7 +36,7 @@ namespace {
 using nlohmann::json;
 
 /// Integrated milliseconds per second of computing: a stop from 20 m/s, over and over.
-void bench_vehicle(const manoeuvre::Car& car, Clock& clock, json& figures) {
+void bench_vehicle(const manoeuvre::Car& car, const Clock& clock, json& figures) {
   world::Scene scene;
   scene.ego.v_B = {20.0, 0.0};
   const manoeuvre::Plan plan{manoeuvre::PolicyId::aeb, std::nullopt};
@@ -58,7 +58,7 @@ void bench_vehicle(const manoeuvre::Car& car, Clock& clock, json& figures) {
 /// All eight read from the atlas and judged: percentiles, with one target speed and with four, the
 /// others known exactly and with their spread.
 void bench_atlas(const manoeuvre::Car& car, const manoeuvre::Atlas& atlas,
-                 const outcome::HarmModel& harm, Clock& clock, int num_calls, json& figures) {
+                 const outcome::HarmModel& harm, const Clock& clock, int num_calls, json& figures) {
   constexpr std::array half{0.5};
   for (const int num_actors : {1, 8, 32}) {
     for (const bool spread : {false, true}) {

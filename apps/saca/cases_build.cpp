@@ -162,6 +162,10 @@ int build_cases(const CasesBuildOptions& options) {
   if (const auto problem = why_outputs_unwritable({options.output, options.for_memory})) {
     return refused(*problem);
   }
+  if (options.folders.empty() && options.hundred_car.empty()) {
+    complain("want folders with releases of FARS, or --hundred-car; got neither");
+    return wrong_command_line;
+  }
   watch_for_interrupt();
   auto inputs = read_inputs(options.car);
   if (!inputs.has_value()) {
@@ -216,10 +220,8 @@ void add_cases_build(CLI::App& cases, int& exit_code) {
   CLI::App* const command =
       cases.add_subcommand("build", "Makes cases of recorded crashes: FARS, and the 100-Car study");
   const auto options = std::make_shared<CasesBuildOptions>();
-  command
-      ->add_option("FOLDER", options->folders,
-                   "Releases of FARS: accident.csv, vehicle.csv and person.csv in each")
-      ->required();
+  command->add_option("FOLDER", options->folders,
+                      "Releases of FARS: accident.csv, vehicle.csv and person.csv in each");
   command->add_option("--hundred-car", options->hundred_car,
                       "Folder of the 100-Car study's release: its emergencies, too");
   command->add_option("--count", options->count, "At most so many crashes, of the families in turn")

@@ -8,6 +8,7 @@ void add_cases(CLI::App& line, int& exit_code) {
       line.add_subcommand("cases", "Cases from records of crashes: made, and looked at");
   cases->require_subcommand(1);
   add_cases_build(*cases, exit_code);
+  add_cases_export(*cases, exit_code);
   add_cases_show(*cases, exit_code);
 }
 

@@ -77,20 +77,27 @@ std::uint64_t CaseMaking::digest() const {
   return hash.value();
 }
 
-/// Perception and chance are drawn by the record's name: which others are worked on does not
-/// matter.
+sim::Scenario case_world(const sim::Scenario& drawn, std::uint64_t seed) {
+  return eval::as_played(drawn, {.methods = {}, .seed = seed});
+}
+
+loop::Stage case_stage(const sim::Scenario& world, const Inputs& inputs, std::uint64_t seed,
+                       const std::string& name) {
+  Fnv of_name;
+  of_name.add(name);
+  return {.scenario = &world,
+          .car = &inputs.car,
+          .harm = &inputs.harm,
+          .intent = &inputs.intent,
+          .thresholds = {},
+          .chance = eval::chance_of({.methods = {}, .seed = seed}, of_name.value())};
+}
+
 void CaseMaking::judge(CaseRow& row, eval::CrashCase made, const sim::Scenario& scenario) const {
-  const Inputs& inputs = planes_.inputs;
-  const eval::SuiteOptions played{.methods = {}, .seed = options_.seed};
-  const sim::Scenario world = eval::as_played(scenario, played);
+  const sim::Scenario world = case_world(scenario, options_.seed);
+  const loop::Stage stage = case_stage(world, planes_.inputs, options_.seed, made.record.name);
   Fnv of_name;
   of_name.add(made.record.name);
-  const loop::Stage stage{.scenario = &world,
-                          .car = &inputs.car,
-                          .harm = &inputs.harm,
-                          .intent = &inputs.intent,
-                          .thresholds = {},
-                          .chance = eval::chance_of(played, of_name.value())};
   eval::JudgingOptions judging = options_.judging;
   judging.seed = eval::encounter_seed(options_.seed, of_name.value());
   auto judged = eval::judged_encounter(stage, planes_.setup.forecast, judging, made_with_);

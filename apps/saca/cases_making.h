@@ -24,6 +24,16 @@ struct CaseRow {
 [[nodiscard]] std::string case_row_line(const CaseRow& row);
 [[nodiscard]] Result<CaseRow> case_row_from(const std::string& line);
 
+// How an encounter of a record is played. Perception and chance are drawn by its name: which others
+// are worked on does not matter.
+
+/// @param drawn  as its family or record has it
+[[nodiscard]] sim::Scenario case_world(const sim::Scenario& drawn, std::uint64_t seed);
+/// @param world   outlives the stage, as do the inputs
+/// @param name    of the record, or of its twin
+[[nodiscard]] loop::Stage case_stage(const sim::Scenario& world, const Inputs& inputs,
+                                     std::uint64_t seed, const std::string& name);
+
 /// How cases are made of records.
 struct CaseMakingOptions {
   std::uint64_t seed = 1;

@@ -36,11 +36,11 @@ Result<ShownMoment> shown_moment(const CrashCase& one, const Inputs& inputs) {
         .grip = one.grip};
     return shown;
   }
-  auto scenario = eval::drawn_again(one, inputs.car_name, manoeuvre::footprint(inputs.car));
-  if (!scenario.has_value()) {
-    return scenario.error();
+  auto again = eval::drawn_again(one, inputs.car_name, manoeuvre::footprint(inputs.car));
+  if (!again.has_value()) {
+    return again.error();
   }
-  ShownMoment shown{.scenario = std::make_unique<sim::Scenario>(std::move(scenario).value()),
+  ShownMoment shown{.scenario = std::make_unique<sim::Scenario>(std::move(again).value().scenario),
                     .moment = {}};
   const auto time = eval::trigger_time(*shown.scenario, inputs.car);
   if (!time) {

@@ -49,7 +49,7 @@ std::vector<Checked> in_bin(const std::vector<Checked>& all, std::size_t bin) {
 }
 
 /// How long a value takes, of 32 that are asked for at once [us].
-double microseconds_of_value(const danger::Network& network, SteadyClock& clock) {
+double microseconds_of_value(const danger::Network& network, const SteadyClock& clock) {
   constexpr std::size_t count = danger::Network::at_once;
   constexpr int times = 2'000;
   const std::vector<danger::SeenByNet> seen(count);

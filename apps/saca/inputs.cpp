@@ -12,7 +12,7 @@ namespace saca::app {
 namespace fs = std::filesystem;
 
 Result<Inputs> read_inputs(const std::string& car) {
-  auto places = find_places();
+  const auto places = find_places();
   if (!places.has_value()) {
     return places.error();
   }
@@ -21,11 +21,11 @@ Result<Inputs> read_inputs(const std::string& car) {
     return found.error();
   }
   const fs::path& file = found.value();
-  auto read = manoeuvre::read_car(file);
+  const auto read = manoeuvre::read_car(file);
   if (!read.has_value()) {
     return read.error();
   }
-  auto harm = outcome::read_harm(places.value().root / "data" / "harm.toml");
+  const auto harm = outcome::read_harm(places.value().root / "data" / "harm.toml");
   if (!harm.has_value()) {
     return harm.error();
   }
@@ -66,12 +66,12 @@ Result<ScenarioInputs> read_scenario_inputs(const std::string& scenario) {
   if (const auto car = find_car(places.value(), first.value().car); !car.has_value()) {
     return Error{car.error().code, file.string() + ": car: " + car.error().message};
   }
-  auto inputs = read_inputs(first.value().car);
+  const auto inputs = read_inputs(first.value().car);
   if (!inputs.has_value()) {
     return inputs.error();
   }
   // Again, now that the body of its car is known.
-  auto read = sim::load_scenario(file, manoeuvre::footprint(inputs.value().car));
+  const auto read = sim::load_scenario(file, manoeuvre::footprint(inputs.value().car));
   if (!read.has_value()) {
     return read.error();
   }

@@ -36,7 +36,7 @@ struct ExamplesOptions {
 };
 
 void tell_shares(const SequenceSet& set) {
-  std::set<std::string> splits(set.splits.begin(), set.splits.end());
+  const std::set<std::string> splits(set.splits.begin(), set.splits.end());
   app::print("{:12} {:>9} {:>8} {:>8} | frames: M, LC, RC, FB, LB, RB; in doubt\n", "split",
              "sequences", "groups", "hours");
   for (const std::string& split : splits) {

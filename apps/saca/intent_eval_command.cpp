@@ -193,7 +193,7 @@ std::optional<Error> compare_recorded(const EvalOptions& options, const ModelsBy
     if (!set.has_value()) {
       return set.error();
     }
-    auto forecasts = learn::forecasts_of(set.value(), scored.sequences, file);
+    const auto forecasts = learn::forecasts_of(set.value(), scored.sequences, file);
     if (!forecasts.has_value()) {
       return forecasts.error();
     }

@@ -108,7 +108,7 @@ std::string page(const CLI::App& line, const CLI::App& command) {
   const bool whole = &line == &command;
   const std::vector<DescribedCommand> all = described(command);
   const DescribedCommand& own = all.front();
-  std::string name = page_name(own.name);
+  const std::string name = page_name(own.name);
   std::string capitals = name;
   std::transform(capitals.begin(), capitals.end(), capitals.begin(), [](char c) {
     return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;

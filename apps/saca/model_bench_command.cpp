@@ -146,7 +146,7 @@ double rate(const std::vector<Asked>& all, int Reply::*tokens,
 /// The model's own part of each question, and what is left for answers and the way between the
 /// processes.
 void put_child_figures(ChildModel& child, double load, const std::vector<Asked>& one,
-                       const std::vector<Asked>& three, Clock& clock, BenchFigures& figures) {
+                       const std::vector<Asked>& three, const Clock& clock, BenchFigures& figures) {
   using Parts = reason::ChildModelFigures;
   figures.put("load_s", load);
   figures.put("system_tokens", child.figures().system_tokens);

@@ -189,7 +189,7 @@ std::optional<Error> why_outputs_unwritable(std::initializer_list<fs::path> file
 }
 
 std::optional<Error> write_output(const fs::path& file, std::string_view text) {
-  auto problem = make_folder_of(file);
+  const auto problem = make_folder_of(file);
   return problem ? problem : write_file(file, text);
 }
 

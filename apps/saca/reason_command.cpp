@@ -153,7 +153,7 @@ void tell_question(const std::vector<Preview>& previews) {
 
 /// Asks, telling the text while it comes if that is wanted. Answers are dated from the question.
 Result<std::vector<Reply>> ask(reason::LanguageModel& model, const std::vector<Preview>& previews,
-                               const ReasonOptions& options, Clock& clock) {
+                               const ReasonOptions& options, const Clock& clock) {
   std::vector<std::string> scenes;
   scenes.reserve(previews.size());
   for (const Preview& preview : previews) {

@@ -78,7 +78,7 @@ Result<std::optional<manoeuvre::Atlas>> open_atlas(const RunOptions& options,
   if (options.atlas.empty()) {
     return std::optional(usual_atlas(inputs));
   }
-  auto atlas = manoeuvre::read_atlas(options.atlas, inputs.car);
+  const auto atlas = manoeuvre::read_atlas(options.atlas, inputs.car);
   return atlas.has_value() ? Result<std::optional<manoeuvre::Atlas>>(std::optional(atlas.value()))
                            : atlas.error();
 }

@@ -237,7 +237,7 @@ Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
   const auto before = static_cast<int>(done.rows.size());
   ProgressLine progress(command, source.count, clock);
   const Clock::Time start = clock.now();
-  SuiteThinking& thinking = *bench->thinking;
+  const SuiteThinking& thinking = *bench->thinking;
   const std::size_t at_once =
       static_cast<std::size_t>(options.threads) * (thinking.has_model() ? 1 : batch_per_thread);
   while (done.rows.size() < count) {

@@ -152,7 +152,7 @@ Result<SuiteEncounters> open_encounters(const SuiteCommandOptions& options,
       fmt::format("{}, {} split ({:016x})", options.name, options.split, suite.value().digest);
   source.at = [suite = suite.value(),
                twins = !options.no_twins](std::uint64_t number) -> Result<SuiteEncounter> {
-    auto sample = suite.source.sample(number);
+    const auto sample = suite.source.sample(number);
     if (!sample.has_value()) {
       return sample.error();
     }

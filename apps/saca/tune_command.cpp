@@ -148,7 +148,7 @@ int tune_car(TuneOptions options) {
   if (!from.has_value()) {
     return refused(from.error());
   }
-  auto start = read_start(car_file, manoeuvre::tuning_path(from.value()));
+  const auto start = read_start(car_file, manoeuvre::tuning_path(from.value()));
   if (!start.has_value()) {
     return refused(start.error());
   }

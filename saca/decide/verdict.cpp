@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "saca/outcome/admissible.h"
 #include "saca/outcome/ordering.h"
 
 namespace saca::decide {
@@ -12,9 +13,6 @@ using manoeuvre::doing_nothing;
 using manoeuvre::full_braking;
 using manoeuvre::Plan;
 using manoeuvre::PolicyId;
-
-constexpr double least_tolerance = 0.002;  // of harm: what forecasts cannot tell apart
-constexpr double tolerance_share = 0.03;   // of what braking has above the best
 
 /// The judged braking that is next to this strength, on the harder side or the gentler one.
 const JudgedPlan* next_to(const Verdict& verdict, const Plan& plan, bool harder) {
@@ -81,8 +79,8 @@ std::optional<double> admissible_harm(const Verdict& verdict) noexcept {
     return std::nullopt;
   }
   const JudgedPlan* const aeb = find_plan(verdict, full_braking);
-  const double above = aeb == nullptr || !aeb->drivable ? 0.0 : aeb->harm - least->harm;
-  return least->harm + std::max(least_tolerance, tolerance_share * above);
+  return outcome::admissible_harm(least->harm,
+                                  aeb == nullptr || !aeb->drivable ? least->harm : aeb->harm);
 }
 
 std::size_t num_admissible(const Verdict& verdict) noexcept {
@@ -109,7 +107,7 @@ const JudgedPlan* best_braking(const Verdict& verdict) noexcept {
   if (least == nullptr) {
     return nullptr;
   }
-  const double most = std::min(least->harm + least_tolerance,
+  const double most = std::min(least->harm + outcome::least_tolerance,
                                std::max(least->harm, admissible_harm(verdict).value_or(0.0)));
   const JudgedPlan* best = least;
   for (const JudgedPlan& one : verdict.plans) {

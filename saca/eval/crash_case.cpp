@@ -191,8 +191,8 @@ void read_lists(Reader& reader, CrashCase& one) {
 
 }  // namespace
 
-Result<sim::Scenario> drawn_again(const CrashCase& one, std::string_view car,
-                                  const world::Footprint& ego) {
+Result<sim::FamilySample> drawn_again(const CrashCase& one, std::string_view car,
+                                      const world::Footprint& ego) {
   const auto kind = one.kind ? sim::family_kind_from(*one.kind) : std::nullopt;
   if (!kind) {
     return Error{Error::Code::out_of_range,
@@ -211,9 +211,7 @@ Result<sim::Scenario> drawn_again(const CrashCase& one, std::string_view car,
       }
     }
   }
-  auto sample = sim::sample(family, one.seed, one.sample, car, ego);
-  return sample.has_value() ? Result<sim::Scenario>(std::move(sample).value().scenario)
-                            : Result<sim::Scenario>(sample.error());
+  return sim::sample(family, one.seed, one.sample, car, ego);
 }
 
 json to_json(const CrashCase& one) {

@@ -49,11 +49,11 @@ struct CrashCase {
   JudgedEncounter judged;
 };
 
-/// The encounter again, as it was drawn.
+/// The encounter again, as it was drawn, and its twin without risk.
 /// @param ego  body of the car that it was drawn for, whose name is `car`
 /// @return     out_of_range where it was recorded, or cannot be drawn
-[[nodiscard]] Result<sim::Scenario> drawn_again(const CrashCase& one, std::string_view car,
-                                                const world::Footprint& ego);
+[[nodiscard]] Result<sim::FamilySample> drawn_again(const CrashCase& one, std::string_view car,
+                                                    const world::Footprint& ego);
 
 [[nodiscard]] nlohmann::json to_json(const CrashCase& one);
 /// Strict.

@@ -61,8 +61,8 @@ TEST(CrashCase, IsDrawnAgainAsItWas) {
   const CrashCase one = example();
   const auto again = drawn_again(one, "compact_rwd_ev", sim::standard_ego);
   ASSERT_TRUE(again.has_value()) << again.error().message;
-  EXPECT_EQ(again.value().grip, one.grip);
-  EXPECT_EQ(std::get<sim::EgoStart>(again.value().ego).speed, one.judged.one.scene.ego.v_B.x);
+  EXPECT_EQ(again.value().scenario.grip, one.grip);
+  EXPECT_EQ(std::get<sim::EgoStart>(again.value().scenario.ego).speed, one.judged.one.scene.ego.v_B.x);
 }
 
 TEST(CrashCase, OfARecordingIsNotDrawn) {

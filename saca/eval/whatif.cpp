@@ -339,7 +339,7 @@ Result<Scenario> varied(const Scenario& scenario, const manoeuvre::Car& car, dou
     if (!text.has_value()) {
       return impossible(axis, value, text.error().message);
     }
-    auto read = sim::read_scenario(text.value(), "as varied", ego);
+    const auto read = sim::read_scenario(text.value(), "as varied", ego);
     return read.has_value() ? read : impossible(axis, value, read.error().message);
   }
   PlacesThen wanted = places_at(scenario, car, time);

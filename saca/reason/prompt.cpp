@@ -12,6 +12,7 @@
 
 #include "saca/core/contract.h"
 #include "saca/core/names.h"
+#include "saca/memory/experience.h"
 #include "saca/outcome/describe.h"
 #include "saca/outcome/ordering.h"
 #include "saca/reason/token_bound.h"
@@ -46,8 +47,6 @@ constexpr std::array<std::string_view, intent::num_intentions> intention_words{
     "maintain", "lane change left",  "lane change right",
     "brake",    "brake moving left", "brake moving right",
     "stop",     "cross the lane"};
-
-constexpr std::array<std::string_view, 4> beyond_words{"open ground", "kerb", "barrier", "trees"};
 
 // "-0.0" would be a number that stands nowhere else.
 double without_negative_zero(double x, double resolution) {
@@ -178,7 +177,7 @@ std::string actor_line(const preview::Situation& situation, std::size_t i) {
 }
 
 std::string edge_text(double way, world::Beyond beyond, bool is_oncoming) {
-  return fmt::format("{:.1f} m, {}{}", std::max(way, 0.0), name_of(beyond, beyond_words),
+  return fmt::format("{:.1f} m, {}{}", std::max(way, 0.0), beyond_text(beyond),
                      is_oncoming ? ", oncoming lane" : "");
 }
 
@@ -270,17 +269,31 @@ std::string manoeuvre_section(const preview::Situation& situation, const Lines& 
   return refused.empty() ? text : text + "Not possible: " + refused + '\n';
 }
 
-// The case's own texts are not told: they come from a file.
-std::string history_section(const std::optional<memory::Case>& nearest, double similarity) {
+// The case's own texts are not told: they come from a file. What it teaches stands in its numbers:
+// how often it was met, and what was expected where it went otherwise.
+std::string history_section(const std::optional<memory::Case>& nearest, double similarity,
+                            bool with_lesson) {
   if (!nearest) {
     return std::string(historical) + "none\n";
   }
-  const auto told = [](PolicyId policy, double harm) {
+  const auto policy_harm = [](PolicyId policy, double harm) {
     return fmt::format("{} {}, {}", manoeuvre::index(policy), name(policy), harm_text(harm));
   };
-  return fmt::format("{}A case {:.0f} % alike: carried out {}; best in hindsight {}\n", historical,
-                     100.0 * similarity, told(nearest->plan.policy, nearest->harm),
-                     told(nearest->best, nearest->best_harm));
+  const PolicyId done = nearest->plan.policy;
+  std::string often;
+  std::string expected;
+  if (with_lesson && nearest->count > 1) {
+    often = fmt::format(", met {} times", nearest->count);
+  }
+  if (with_lesson && nearest->told && nearest->told->at(manoeuvre::index(done))) {
+    const double harm = *nearest->told->at(manoeuvre::index(done));
+    if (std::abs(harm - nearest->harm) > memory::as_good) {
+      expected = fmt::format(" ({:.4f} expected)", harm);
+    }
+  }
+  return fmt::format("{}A case {:.0f} % alike{}: carried out {}{}; best in hindsight {}\n",
+                     historical, 100.0 * similarity, often, policy_harm(done, nearest->harm),
+                     expected, policy_harm(nearest->best, nearest->best_harm));
 }
 
 std::string from_mildest() {
@@ -335,7 +348,7 @@ std::string scene_part(const preview::Situation& situation,
           "one intention, posterior, risk and track per actor");
   expects(!nearest || (similarity >= 0.0 && similarity <= 1.0), "similarity in [0, 1]");
   const Lines lines = lines_of(situation);
-  const std::string history = history_section(nearest, similarity);
+  const std::string history = history_section(nearest, similarity, false);
   Depth told{.actor = std::vector<bool>(num_actors), .in_whole = {}};
   bool actors_left_out = false;  // nobody is told who is less dangerous than somebody untold
   for (const Detail& detail : by_weight(situation)) {
@@ -354,7 +367,11 @@ std::string scene_part(const preview::Situation& situation,
       actors_left_out = true;
     }
   }
-  return rendered(situation, lines, told, history);
+  const std::string with_lesson =
+      rendered(situation, lines, told, history_section(nearest, similarity, true));
+  return tokens_at_most(with_lesson) <= most_prompt_tokens
+             ? with_lesson
+             : rendered(situation, lines, told, history);
 }
 
 std::string without_facts(const std::string& scene_part) {
@@ -372,6 +389,11 @@ std::string policy_line(const preview::PolicyFacts& facts, const world::Scene& s
 std::string harm_text(double harm) {
   constexpr double smallest = 0.5e-4;
   return harm < smallest ? "no harm" : fmt::format("harm {:.4f}", harm);
+}
+
+std::string_view beyond_text(world::Beyond beyond) {
+  constexpr std::array<std::string_view, 4> words{"open ground", "kerb", "barrier", "trees"};
+  return name_of(beyond, words);
 }
 
 bool is_line_of(std::string_view line, PolicyId policy) {

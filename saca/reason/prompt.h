@@ -11,7 +11,7 @@
 namespace saca::reason {
 
 /// Of a scene part, by `tokens_at_most`: what a small model reads within a second on two cores.
-constexpr int most_prompt_tokens = 450;
+constexpr int most_prompt_tokens = 465;
 
 /// The part of the prompt that never changes: the policies, the rule by which they are chosen
 /// (from `outcome::better`, with the order of `outcome::severity` and the weights of
@@ -27,8 +27,8 @@ constexpr int most_prompt_tokens = 450;
 /// left in words; numbers have fixed decimals.
 ///
 /// However crowded the scene, the text has at most `most_prompt_tokens`. What does not fit is left
-/// out, the lightest first: lines of road users of low risk, who are counted instead, and of
-/// policies that are forecast badly, how they come to their harm.
+/// out, the lightest first: what the case teaches, lines of road users of low risk, who are counted
+/// instead, and of policies that are forecast badly, how they come to their harm.
 ///
 /// @param nearest     the stored case that is most alike, if there is one
 /// @param similarity  of that case, in [0, 1]
@@ -46,6 +46,9 @@ constexpr int most_prompt_tokens = 450;
 
 /// "harm 0.0125", or "no harm" where that would be four zeros.
 [[nodiscard]] std::string harm_text(double harm);
+
+/// What stands beyond an edge: "open ground", "kerb", "barrier" or "trees".
+[[nodiscard]] std::string_view beyond_text(world::Beyond beyond);
 
 /// Whether a line of a scene part is that policy's, or the ego's own.
 [[nodiscard]] bool is_line_of(std::string_view line, manoeuvre::PolicyId policy);

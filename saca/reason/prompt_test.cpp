@@ -156,6 +156,23 @@ TEST(Prompt, NearestCaseIsToldInNumbersOnly) {
   EXPECT_THAT(text, Not(HasSubstr("<|")));
 }
 
+// By the case alone: braking was expected to harm less than it did.
+TEST(Prompt, NearestCaseTellsWhatWasExpectedAndHowOftenItWasMet) {
+  memory::Case nearest;
+  nearest.plan.policy = manoeuvre::PolicyId::aeb;
+  nearest.best = manoeuvre::PolicyId::es_b_left;
+  nearest.harm = 0.0321;
+  nearest.count = 3;
+  nearest.told.emplace();
+  nearest.told->at(0) = 0.0;
+  EXPECT_THAT(scene_part(example_situation(), nearest, 0.654),
+              HasSubstr("A case 65 % alike, met 3 times: carried out 0 AEB, harm 0.0321 (0.0000 "
+                        "expected); best in hindsight 3 ES-B-L, no harm\n"));
+  nearest.told->at(0) = 0.0311;  // cannot be told apart
+  EXPECT_THAT(scene_part(example_situation(), nearest, 0.654),
+              HasSubstr("carried out 0 AEB, harm 0.0321; best in hindsight"));
+}
+
 TEST(Prompt, SlidingIsTold) {
   preview::Situation situation = example_situation();
   situation.scene_at_trigger.ego.v_B = {14.0, -0.62};
@@ -170,6 +187,8 @@ TEST(Prompt, CrowdFitsIntoTheBound) {
     nearest.plan.policy = manoeuvre::PolicyId::es_b_right;
     nearest.best = manoeuvre::PolicyId::t_drift_left;
     nearest.best_harm = 0.5;
+    nearest.count = 123;
+    nearest.told.emplace().fill(0.1234);
     const preview::Situation situation = crowded_situation(seed);
     const std::string text = scene_part(situation, nearest, 1.0);
     EXPECT_LE(tokens_at_most(text), most_prompt_tokens) << text;

@@ -104,8 +104,8 @@ Result<Reply> SharedModel::asked(const Question& question, Clock::Time patience,
   Clock::Time begin{0};
   const auto ask = [&]() -> Result<Reply> {
     begin = clock_.now();
-    auto replies = model_.ask({question.scene}, begin + patience, [](const Progress&) {},
-                              {.stop = stop, .max_tokens = question.max_tokens});
+    const auto replies = model_.ask({question.scene}, begin + patience, [](const Progress&) {},
+                                    {.stop = stop, .max_tokens = question.max_tokens});
     return replies.has_value() ? Result(later_by(replies.value().front(), -begin))
                                : replies.error();
   };

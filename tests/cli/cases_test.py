@@ -175,7 +175,7 @@ def test_what_cannot_be_read_or_written_is_told(fars, built, tmp_path):
     folder, _ = built
     assert "want one file accident.csv, got 0" in one_error(saca("cases", "build", tmp_path, cwd=tmp_path), BAD_INPUT)
     assert "in two" in one_error(saca("cases", "build", fars, fars, cwd=tmp_path), BAD_INPUT)
-    assert saca("cases", "build", cwd=tmp_path).returncode == WRONG_COMMAND_LINE
+    assert "got neither" in one_error(saca("cases", "build", cwd=tmp_path), WRONG_COMMAND_LINE)
     assert saca("cases", "build", fars, "--draws", "1", cwd=tmp_path).returncode == WRONG_COMMAND_LINE
     (tmp_path / "file").write_text("x")
     assert "file" in one_error(saca("cases", "build", fars, "--output", "file/cases.jsonl", cwd=tmp_path), CANNOT_WRITE)
@@ -195,3 +195,67 @@ def test_what_is_no_such_file_is_refused(built, tmp_path, spoil, message):
     folder, _ = built
     (tmp_path / "cases.jsonl").write_text(spoil((folder / "cases.jsonl").read_text()))
     assert message in one_error(saca("cases", "show", "cases.jsonl", cwd=tmp_path), BAD_INPUT)
+
+
+def examples(path):
+    return [json.loads(line) for line in path.read_text().splitlines()]
+
+
+def test_sets_hold_prompts_and_admissible_replies_of_one_record_each(built, tmp_path):
+    folder, _ = built
+    told = figures(saca("cases", "export", folder / "cases.jsonl", "--output", "sets", "--json", cwd=tmp_path))
+    sets = {name: examples(tmp_path / "sets" / f"{name}.jsonl") for name in ("train", "calibration", "test")}
+    records = {name: {one["record"] for one in lines[1:]} for name, lines in sets.items()}
+    assert sum(len(names) for names in records.values()) == len(set().union(*records.values())) == 3
+    for name, (header, *lines) in sets.items():
+        assert header == {"schema": "saca.reply_examples/1", "examples": len(lines)}
+        assert told[f"export.{name}.num_examples"] == len(lines)
+        for one in lines:
+            assert one["set"] == name and one["prompt"].startswith("# Collision avoidance scenario\n")
+            assert one["choice"] in one["admissible"] and one["reply"].endswith(f"\nResponse to user: {one['choice']}")
+            assert one["forecast"][one["choice"]] <= min(harm for harm in one["forecast"] if harm is not None) + 0.05
+            assert one["twin"] == all(harm is None for harm in one["known"])
+    assert "FARS" in (tmp_path / "sets" / "README.md").read_text()
+    assert (tmp_path / "sets" / "system.txt").read_text().endswith("from 0 to 7.")
+
+
+def test_sets_are_the_same_again_and_other_words_come_of_another_seed(built, tmp_path):
+    folder, _ = built
+    texts = []
+    for output, seed in (("a", 1), ("b", 1), ("c", 2)):
+        figures(saca("cases", "export", folder / "cases.jsonl", "--output", output, "--seed", seed, "--json", cwd=tmp_path))
+        texts.append("".join((tmp_path / output / f"{name}.jsonl").read_text() for name in ("train", "calibration", "test")))
+    assert texts[0] == texts[1] != texts[2]
+
+
+# As the guide to supervised fine-tuning of chat models has it: messages with a role and a text, the assistant's the last.
+def test_chats_have_the_form_that_fine_tuning_takes(built, tmp_path):
+    folder, _ = built
+    figures(saca("cases", "export", folder / "cases.jsonl", "--format", "openai", "--output", "sets", "--json", cwd=tmp_path))
+    chats = [chat for name in ("train", "calibration", "test") for chat in examples(tmp_path / "sets" / f"{name}.jsonl")]
+    assert len(chats) >= 3
+    for chat in chats:
+        assert list(chat) == ["messages"] and [one["role"] for one in chat["messages"]] == ["system", "user", "assistant"]
+        assert all(one["content"].strip() for one in chat["messages"])
+
+
+def test_prompts_tell_of_the_case_that_a_memory_would_recall(built, tmp_path):
+    folder, _ = built
+    saca("memory", "import", folder / "plain.jsonl", "--keep-trust", "--memory", "bank.sqlite", cwd=tmp_path)
+    figures(saca("cases", "export", folder / "cases.jsonl", "--memory", "bank.sqlite", "--output", "sets", "--json", cwd=tmp_path))
+    prompts = [one["prompt"] for name in ("train", "calibration", "test") for one in examples(tmp_path / "sets" / f"{name}.jsonl")[1:]]
+    assert all("% alike" in prompt for prompt in prompts)
+
+
+def test_what_cannot_be_exported_is_told(built, tmp_path):
+    folder, _ = built
+    cases = documents(folder / "cases.jsonl")
+    crossing = [dict(case, kind="cyclist") for case in cases[1:]]
+    (tmp_path / "cyclists.jsonl").write_text("\n".join(json.dumps(line) for line in [cases[0], *crossing]) + "\n")
+    assert "0 recorded ones and 3 of families for tests" in one_error(
+        saca("cases", "export", "cyclists.jsonl", cwd=tmp_path), BAD_INPUT)
+    assert "none.jsonl" in one_error(saca("cases", "export", "none.jsonl", cwd=tmp_path), BAD_INPUT)
+    assert "none.sqlite" in one_error(
+        saca("cases", "export", folder / "cases.jsonl", "--memory", "none.sqlite", cwd=tmp_path), BAD_INPUT)
+    (tmp_path / "file").write_text("x")
+    assert "file" in one_error(saca("cases", "export", folder / "cases.jsonl", "--output", "file/a", cwd=tmp_path), CANNOT_WRITE)

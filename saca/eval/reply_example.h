@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "saca/core/result.h"
+#include "saca/loop/closed_loop.h"
+#include "saca/manoeuvre/plan.h"
+#include "saca/memory/case.h"
+#include "saca/memory/experience.h"
+#include "saca/preview/policy_facts.h"
+
+namespace saca::eval {
+
+/// What an example is for. All examples of one record are of one set.
+enum class ExampleSet : std::uint8_t {
+  train,
+  calibration,  ///< when to stop, temperatures
+  test,         ///< figures
+};
+inline constexpr std::array all_example_sets{ExampleSet::train, ExampleSet::calibration,
+                                             ExampleSet::test};
+[[nodiscard]] std::string_view name(ExampleSet set);
+[[nodiscard]] std::optional<ExampleSet> example_set_from(std::string_view name);
+
+/// 70 % train, 15 % each of the others, by the record's name alone.
+[[nodiscard]] ExampleSet set_of_record(std::string_view record);
+
+/// What a language model is taught with: a prompt as it is asked, and what an expert replies
+/// (reason::expert_reply). One line of a file of them: schema "saca.reply_example/1".
+struct ReplyExample {
+  std::string record;  ///< of the encounter
+  std::string family;
+  bool is_twin = false;  ///< the same encounter without risk
+  ExampleSet set = ExampleSet::train;
+  std::string prompt;  ///< reason::scene_part
+  std::string reply;
+  manoeuvre::PolicyId choice = manoeuvre::PolicyId::aeb;
+  memory::Policies admissible;
+  memory::PolicyHarms forecast;  ///< of the prompt's facts; nullopt: cannot be driven
+  memory::PolicyHarms known;     ///< a mean over draws of what happened; nullopt: not known
+};
+
+[[nodiscard]] nlohmann::json to_json(const ReplyExample& example);
+/// Strict.
+/// @return  Error::Code::malformed, naming the key, what was wanted, what came
+[[nodiscard]] Result<ReplyExample> reply_example_from_json(const nlohmann::json& document);
+
+/// An example as chat fine-tuning takes it: {"messages": [system, user, assistant]}.
+/// @param system  reason::system_part
+[[nodiscard]] nlohmann::json chat_json(const ReplyExample& example, std::string_view system);
+
+/// The likeliest situation of those that SACA would prepare for when its trigger first fires,
+/// nobody having acted.
+/// @return  nullopt: the trigger never fires, or no hypothesis leads to a conflict; out_of_range:
+///          the encounter cannot be played
+[[nodiscard]] Result<std::optional<preview::Situation>> situation_at_trigger(
+    const loop::Stage& stage, const preview::ForecastTools& tools);
+
+/// The case that a prompt tells of.
+struct ToldCase {
+  memory::Case found;
+  double similarity = 0.0;  ///< in [0, 1]
+};
+
+/// Completes an example: prompt, choice and reply.
+/// @param example  record, family, twin and `known` are set
+/// @param seed     of the reply's words, together with the record's name
+/// @return         nullopt where nothing can be driven
+[[nodiscard]] std::optional<ReplyExample> reply_example(ReplyExample example,
+                                                        const preview::Situation& situation,
+                                                        const std::optional<ToldCase>& told,
+                                                        std::uint64_t seed);
+
+}  // namespace saca::eval

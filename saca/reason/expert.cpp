@@ -1,0 +1,391 @@
+#include "saca/reason/expert.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "saca/core/contract.h"
+#include "saca/outcome/admissible.h"
+#include "saca/outcome/ordering.h"
+#include "saca/reason/prompt.h"
+#include "saca/world/scene.h"
+
+namespace saca::reason {
+namespace {
+
+using manoeuvre::PolicyId;
+using preview::AllFacts;
+using preview::PolicyFacts;
+using world::Actor;
+using world::ActorKind;
+
+/// A contact less likely than this is no threat.
+constexpr double unlikely = 0.05;
+/// An edge that is nearer than this is worth a word [m]: a lane's width.
+constexpr double near_edge = 3.5;
+
+const PolicyFacts& of(const AllFacts& facts, PolicyId policy) {
+  return facts[manoeuvre::index(policy)];
+}
+
+bool may_touch(const PolicyFacts& facts) {
+  return facts.outcome().contact.has_value() || facts.contact_probability() > unlikely;
+}
+
+/// What stands in a prompt behind this beginning of a line, to the line's end; empty: it is not
+/// there.
+std::string_view rest_of_line(std::string_view text, const std::string& beginning) {
+  for (std::size_t at = text.find(beginning); at != std::string_view::npos;
+       at = text.find(beginning, at + 1)) {
+    if (at == 0 || text[at - 1] == '\n') {
+      const std::string_view rest = text.substr(at + beginning.size());
+      return rest.substr(0, rest.find('\n'));
+    }
+  }
+  return {};
+}
+
+/// What a road user's line says, piece by piece. Empty pieces are not told.
+struct ActorLine {
+  std::string place;      ///< "16.0 m ahead, 6.4 m left"
+  std::string motion;     ///< "moving right at 7.5 m/s"
+  std::string intention;  ///< "lane change right 0.88"
+  std::string conflict;   ///< "TTC 0.9 s"
+  std::string risk;       ///< "risk 0.94"
+};
+
+ActorLine read_actor_line(std::string_view line) {
+  std::vector<std::string> parts;
+  while (!line.empty()) {
+    const std::size_t end = std::min(line.find(", "), line.size());
+    parts.emplace_back(line.substr(0, end));
+    line.remove_prefix(std::min(end + 2, line.size()));
+  }
+  ActorLine read;
+  std::string last;
+  for (std::string& part : parts) {
+    if (part.ends_with("m ahead") || part.ends_with("m behind")) {
+      read.place = part;
+    } else if (part.ends_with("m left") || part.ends_with("m right")) {
+      read.place += ", " + part;
+    } else if (part.starts_with("moving ") || part == "standing") {
+      read.motion = part;
+    } else if (part.starts_with("TTC ")) {
+      read.intention = last;
+      read.conflict = part == "TTC none" ? "" : part;
+    } else if (part.starts_with("risk ")) {
+      read.risk = part;
+    }
+    last = std::move(part);
+  }
+  return read;
+}
+
+/// Puts arguments together and words them.
+class Speaker {
+ public:
+  Speaker(const preview::Situation& situation, std::string_view scene_part,
+          const std::optional<memory::Case>& nearest, PolicyId choice, std::mt19937_64& random)
+      : situation_(situation),
+        facts_(situation.facts),
+        prompt_(scene_part),
+        nearest_(nearest),
+        choice_(choice),
+        random_(random) {}
+
+  std::string reply() {
+    std::vector<std::string> statements = opening();
+    std::vector<std::string> more = reasons();
+    std::shuffle(more.begin(), more.end(), random_);
+    const std::size_t room = most_statements - 1 - statements.size();
+    more.resize(std::min(room, more.size()));
+    std::move(more.begin(), more.end(), std::back_inserter(statements));
+    statements.push_back(conclusion());
+    std::string text = "Scenario Analysis\n";
+    for (std::size_t i = 0; i < statements.size(); ++i) {
+      text += fmt::format("{}. {}.\n", i + 1, statements[i]);
+    }
+    return text + fmt::format("Response to user: {}", manoeuvre::index(choice_));
+  }
+
+ private:
+  template <class... Words>
+  std::string one_of(const Words&... words) {
+    std::array<std::string, sizeof...(words)> all{std::string(words)...};
+    return all.at(std::uniform_int_distribution<std::size_t>(0, all.size() - 1)(random_));
+  }
+  bool perhaps() { return std::uniform_int_distribution<int>(0, 1)(random_) == 1; }
+
+  [[nodiscard]] std::string called(PolicyId policy) const {
+    return manoeuvre::plan_name(of(facts_, policy).plan);
+  }
+  /// "is clear by 0.6 m, no harm", "hits car1 with its front at 8.0 m/s, harm 0.0125": as the
+  /// prompt has it, so far as it has it.
+  [[nodiscard]] std::string end_of(PolicyId policy) const {
+    const PolicyFacts& facts = of(facts_, policy);
+    if (!facts.drivable()) {
+      return "is not possible";
+    }
+    const std::string_view told = rest_of_line(prompt_, manoeuvre::plan_text(facts.plan) + ": ");
+    return told.starts_with("clear") ? "is " + std::string(told) : std::string(told);
+  }
+  [[nodiscard]] std::string harm_of(PolicyId policy) const {
+    return harm_text(of(facts_, policy).outcome().harm);
+  }
+
+  // The beginning: who threatens, and what comes of doing nothing or of braking.
+  std::vector<std::string> opening() {
+    std::vector<std::string> statements;
+    const PolicyFacts& nothing = of(facts_, PolicyId::no_intervention);
+    const bool is_safe = nothing.drivable() && !may_touch(nothing);
+    const std::optional<std::size_t> who = most_dangerous();
+    if (who) {
+      statements.push_back(threat(*who, is_safe));
+    }
+    if (choice_ != PolicyId::no_intervention && (perhaps() || !who) && nothing.drivable()) {
+      statements.push_back(one_of("NI ", "Without intervention, NI ", "Going on as now, NI ") +
+                           end_of(PolicyId::no_intervention));
+    }
+    if (choice_ != PolicyId::aeb && !is_safe) {
+      statements.push_back(one_of("", "Braking alone, ", "In the lane, ") + called(PolicyId::aeb) +
+                           ' ' + end_of(PolicyId::aeb));
+    }
+    return statements;
+  }
+
+  [[nodiscard]] bool is_told(std::size_t actor) const {
+    const auto& actors = situation_.scene_at_trigger.actors;
+    return !rest_of_line(prompt_, actor_name(actors[actor]) + ": ").empty();
+  }
+
+  /// Who is hit if nothing is done; else, of those whom the prompt tells of, that of the highest
+  /// risk.
+  [[nodiscard]] std::optional<std::size_t> most_dangerous() const {
+    const PolicyFacts& nothing = of(facts_, PolicyId::no_intervention);
+    if (nothing.drivable() && nothing.outcome().contact) {
+      const std::optional<std::size_t> hit = nothing.outcome().contact->actor;
+      if (hit && is_told(*hit)) {
+        return hit;
+      }
+    }
+    std::optional<std::size_t> most;
+    for (std::size_t i = 0; i < situation_.risks.size(); ++i) {
+      if (is_told(i) && (!most || situation_.risks[i].risk > situation_.risks[*most].risk)) {
+        most = i;
+      }
+    }
+    return most;
+  }
+
+  std::string threat(std::size_t who, bool is_safe) {
+    const Actor& actor = situation_.scene_at_trigger.actors[who];
+    const std::string name = actor_name(actor);
+    const ActorLine told = read_actor_line(rest_of_line(prompt_, name + ": "));
+    std::string where = told.place;
+    if (!told.motion.empty() && perhaps()) {
+      where += ", " + told.motion;
+    }
+    if (is_safe) {
+      return one_of("Nearest to danger is ", "Most to be watched is ") + name + ", " + where +
+             ", " + told.risk;
+    }
+    if (!told.conflict.empty() && perhaps()) {
+      where += ", " + told.conflict;
+    } else if (!told.intention.empty()) {
+      where += ", " + told.intention;
+    }
+    const bool is_bare = actor.kind == ActorKind::pedestrian || actor.kind == ActorKind::bicycle ||
+                         actor.kind == ActorKind::motorcycle;
+    return one_of("Most dangerous is ", "The danger is ", "What threatens is ") + name + ", " +
+           where + ", " + told.risk + (is_bare ? ", outside any vehicle" : "");
+  }
+
+  /// What may be said besides, each by itself.
+  std::vector<std::string> reasons() {
+    std::vector<std::string> all;
+    for (const int side : {1, -1}) {
+      add_side(side, all);
+    }
+    if (nearest_) {
+      all.push_back(
+          one_of("In the most alike case ", "In the nearest case ") +
+          std::string(name(nearest_->best)) + " was the best in hindsight" +
+          (nearest_->plan.policy != nearest_->best &&
+                   nearest_->harm > nearest_->best_harm + memory::as_good
+               ? ", though " + std::string(name(nearest_->plan.policy)) + " was carried out"
+               : ""));
+    }
+    return all;
+  }
+
+  void add_side(int side, std::vector<std::string>& all) {
+    const world::Road& road = situation_.scene_at_trigger.road;
+    const std::string word = side > 0 ? "left" : "right";
+    const std::optional<PolicyId> best = best_to(side);
+    if (!best && manoeuvre::side(choice_) != side) {
+      all.push_back(one_of("The way to the " + word, "All that goes to the " + word) +
+                    (can_go(side) ? " is blocked" : " is not possible"));
+    } else if (best && manoeuvre::side(choice_) != side) {
+      all.push_back(one_of("To the " + word + " ", "On the " + word + " ") + called(*best) + ' ' +
+                    end_of(*best));
+    }
+    if ((side > 0 ? road.oncoming_left : road.oncoming_right) && best) {
+      all.push_back(one_of("The lane to the " + word + " belongs to oncoming traffic",
+                           "To the " + word + " is an oncoming lane"));
+    }
+    const double d = to_lane(road, situation_.scene_at_trigger.ego.X_WB).d;
+    const double way = side > 0 ? road.left_edge - d : d - road.right_edge;
+    const world::Beyond beyond = side > 0 ? road.left_beyond : road.right_beyond;
+    if (way < near_edge && beyond != world::Beyond::unmarked) {
+      all.push_back(fmt::format("{} the {} edge, {:.1f} m away, {} {}", one_of("Beyond", "Behind"),
+                                word, std::max(way, 0.0),
+                                beyond == world::Beyond::trees ? "are" : "is a",
+                                beyond_text(beyond)));
+    }
+  }
+
+  [[nodiscard]] bool can_go(int side) const {
+    return std::any_of(facts_.begin(), facts_.end(), [side](const PolicyFacts& facts) {
+      return manoeuvre::side(facts.plan.policy) == side && facts.drivable();
+    });
+  }
+
+  /// The best policy to a side that touches nobody for certain; nullopt: all are blocked.
+  [[nodiscard]] std::optional<PolicyId> best_to(int side) const {
+    std::optional<PolicyId> best;
+    for (const PolicyId policy : manoeuvre::all_policies) {
+      const PolicyFacts& facts = of(facts_, policy);
+      if (manoeuvre::side(policy) == side && facts.drivable() && !facts.outcome().contact &&
+          (!best || preview::better(facts, of(facts_, *best)))) {
+        best = policy;
+      }
+    }
+    return best;
+  }
+
+  // Why this choice and not the next best.
+  std::string conclusion() {
+    const std::string chosen =
+        fmt::format("policy {}, {}", manoeuvre::index(choice_), called(choice_));
+    const double least = preview::least_harm(facts_);
+    const PolicyFacts& mine = of(facts_, choice_);
+    const std::optional<PolicyId> other = next_best();
+    const std::string best_is = one_of("The best is ", "So ", "I choose ");
+    if (!other) {
+      return best_is + chosen + ": it alone is possible";
+    }
+    const PolicyFacts& theirs = of(facts_, *other);
+    if (outcome::harm_class(mine.outcome().harm) == outcome::harm_class(least) &&
+        theirs.outcome().harm > mine.outcome().harm + outcome::least_tolerance) {
+      return best_is + chosen + ": it has the least harm, and " + called(*other) + ' ' +
+             one_of("has ", "comes next with ") + harm_of(*other);
+    }
+    return best_is + chosen + ": " + called(*other) + " harms " +
+           one_of("about as little", "as little, as far as can be told") + advantage(mine, theirs);
+  }
+
+  /// The best by forecast of the others.
+  [[nodiscard]] std::optional<PolicyId> next_best() const {
+    std::optional<PolicyId> best;
+    for (const PolicyId policy : manoeuvre::all_policies) {
+      const PolicyFacts& facts = of(facts_, policy);
+      if (policy != choice_ && facts.drivable() &&
+          (!best || preview::better(facts, of(facts_, *best)))) {
+        best = policy;
+      }
+    }
+    return best;
+  }
+
+  /// What speaks for the one of two that harm about as little; empty: nothing that is told.
+  [[nodiscard]] std::string advantage(const PolicyFacts& mine, const PolicyFacts& theirs) const {
+    const PolicyId other = theirs.plan.policy;
+    if (outcome::milder(choice_, other)) {
+      return ", and this is milder";
+    }
+    if (choice_ == PolicyId::aeb && other == PolicyId::no_intervention) {
+      return ", and less speed harms less where a forecast errs";
+    }
+    if (mine.contact_probability() + unlikely < theirs.contact_probability()) {
+      return ", and this touches somebody less often";
+    }
+    const world::Road& road = situation_.scene_at_trigger.road;
+    const auto is_oncoming = [&road](PolicyId policy) {
+      const int side = manoeuvre::side(policy);
+      return (side > 0 && road.oncoming_left) || (side < 0 && road.oncoming_right);
+    };
+    if (is_oncoming(other) && !is_oncoming(choice_)) {
+      return ", and this stays out of the oncoming lane";
+    }
+    if (nearest_ && nearest_->best == choice_) {
+      return ", and this was best in the most alike case";
+    }
+    return "";
+  }
+
+  const preview::Situation& situation_;
+  const AllFacts& facts_;
+  std::string_view prompt_;
+  const std::optional<memory::Case>& nearest_;
+  PolicyId choice_;
+  std::mt19937_64& random_;
+};
+
+}  // namespace
+
+memory::Policies admissible(const AllFacts& facts) {
+  memory::Policies policies;
+  const double least = preview::least_harm(facts);
+  const PolicyFacts& braking = of(facts, PolicyId::aeb);
+  const double most =
+      outcome::admissible_harm(least, braking.drivable() ? braking.outcome().harm : least);
+  for (const PolicyFacts& one : facts) {
+    policies.set(manoeuvre::index(one.plan.policy), one.drivable() && one.outcome().harm <= most);
+  }
+  return policies;
+}
+
+PolicyId expert_choice(const AllFacts& facts, const memory::PolicyHarms& known) {
+  const memory::Policies may = admissible(facts);
+  expects(may.any(), "something can be driven");
+  bool is_known = true;
+  for (std::size_t k = 0; k < may.size(); ++k) {
+    is_known = is_known && (!may.test(k) || known.at(k).has_value());
+  }
+  const auto harm_of = [&](PolicyId policy) {
+    return is_known ? *known.at(manoeuvre::index(policy)) : of(facts, policy).outcome().harm;
+  };
+  double least = std::numeric_limits<double>::infinity();
+  for (const PolicyId policy : manoeuvre::all_policies) {
+    if (may.test(manoeuvre::index(policy))) {
+      least = std::min(least, harm_of(policy));
+    }
+  }
+  std::optional<PolicyId> best;
+  for (const PolicyId policy : manoeuvre::all_policies) {
+    if (!may.test(manoeuvre::index(policy)) || harm_of(policy) > least + memory::as_good) {
+      continue;
+    }
+    const bool equally_mild =
+        best && !outcome::milder(*best, policy) && !outcome::milder(policy, *best);
+    if (!best || outcome::milder(policy, *best) ||
+        (equally_mild && preview::better(of(facts, policy), of(facts, *best)))) {
+      best = policy;
+    }
+  }
+  return *best;
+}
+
+std::string expert_reply(const preview::Situation& situation, std::string_view scene_part,
+                         const std::optional<memory::Case>& nearest, PolicyId choice,
+                         std::mt19937_64& random) {
+  expects(admissible(situation.facts).test(manoeuvre::index(choice)), "an admissible choice");
+  return Speaker(situation, scene_part, nearest, choice, random).reply();
+}
+
+}  // namespace saca::reason

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <random>
+#include <string>
+#include <string_view>
+
+#include "saca/manoeuvre/plan.h"
+#include "saca/memory/case.h"
+#include "saca/memory/experience.h"
+#include "saca/preview/situation.h"
+
+namespace saca::reason {
+
+/// The policies whose forecast cannot be told from the best one: they can be driven, and their harm
+/// is at most outcome::admissible_harm, braking being as its facts have it. None where nothing can
+/// be driven.
+[[nodiscard]] memory::Policies admissible(const preview::AllFacts& facts);
+
+/// What somebody would choose who knows how it ends on average, but takes nothing that is
+/// knowingly worse than the best: of the admissible policies that of the least known harm; of those
+/// within memory::as_good of it the mildest (outcome::milder); of equally mild ones the better by
+/// forecast.
+///
+/// @param known  harm by PolicyId [-], a mean over draws; where it is not known of some admissible
+///               policy, the forecast decides in its place, for all
+/// @throws ContractViolation  if nothing can be driven
+[[nodiscard]] manoeuvre::PolicyId expert_choice(const preview::AllFacts& facts,
+                                                const memory::PolicyHarms& known);
+
+/// How an expert argues for a choice, in the form that prompts ask for: what models are taught
+/// with, and what is shown where a model's own words are not true.
+///
+/// Composed by a grammar of arguments from what stands in the prompt, so that every number and
+/// claim holds by `truth_of`: who threatens and how sure that is; what comes of doing nothing and
+/// of braking; what is blocked, what lies beyond an edge, whose lane it is, what the most alike
+/// case says; and why this choice and not the next best. At most `most_statements`; which of those
+/// that apply, and in which words, is drawn.
+///
+/// @param scene_part  of this situation and case
+/// @param nearest     as for the scene part
+/// @param choice      admissible
+/// @param random      same state, same text
+/// @throws ContractViolation  if the choice is not admissible
+[[nodiscard]] std::string expert_reply(const preview::Situation& situation,
+                                       std::string_view scene_part,
+                                       const std::optional<memory::Case>& nearest,
+                                       manoeuvre::PolicyId choice, std::mt19937_64& random);
+
+/// Of an expert's reply, without its first and last line.
+constexpr int most_statements = 5;
+
+}  // namespace saca::reason

@@ -1,0 +1,171 @@
+#include "saca/reason/expert.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+#include <string>
+
+#include "saca/core/contract.h"
+#include "saca/reason/crowded_situation_for_test.h"
+#include "saca/reason/prompt.h"
+#include "saca/reason/reply.h"
+#include "saca/reason/token_bound.h"
+#include "saca/reason/truth.h"
+
+namespace saca::reason::expert_test {
+namespace {
+
+using manoeuvre::PolicyId;
+using testing::HasSubstr;
+using testing::Not;
+
+preview::PolicyFacts& of(preview::Situation& situation, PolicyId policy) {
+  return situation.facts[manoeuvre::index(policy)];
+}
+
+std::string replied(const preview::Situation& situation, PolicyId choice, unsigned seed,
+                    const std::optional<memory::Case>& nearest = std::nullopt) {
+  std::mt19937_64 random(seed);
+  return expert_reply(situation, scene_part(situation, nearest, 0.8), nearest, choice, random);
+}
+
+/// Both ways of going left in reach: they harm little, braking and the right more.
+preview::Situation left_is_open() {
+  preview::Situation situation = example_situation();
+  for (const PolicyId policy : {PolicyId::aes_left, PolicyId::es_b_left}) {
+    auto& end = of(situation, policy).end.emplace<preview::ExpectedOutcome>();
+    end.outcome.clearance = 1.5;
+    end.contact_probability = 0.02;
+  }
+  of(situation, PolicyId::aeb).outcome().harm = 0.1;
+  of(situation, PolicyId::aeb).outcome().contact =
+      of(situation, PolicyId::aes_right).outcome().contact;
+  return situation;
+}
+
+TEST(Expert, AdmitsWhatForecastsCannotTellFromTheBest) {
+  preview::Situation situation = left_is_open();
+  of(situation, PolicyId::aes_left).outcome().harm = 0.001;
+  // Braking has 0.1 above the best, 3 % of which are 0.003.
+  of(situation, PolicyId::es_b_right).outcome().harm = 0.0029;
+  of(situation, PolicyId::aes_right).outcome().harm = 0.0031;
+  const memory::Policies may = admissible(situation.facts);
+  EXPECT_EQ(may, memory::Policies("00011010"));  // 1, 3 and 4
+}
+
+TEST(Expert, ChoosesByWhatIsKnownAmongTheAdmissible) {
+  preview::Situation situation = left_is_open();
+  memory::PolicyHarms known;
+  known[1] = 0.01;
+  known[3] = 0.05;
+  known[0] = 0.0;  // not admissible by what was forecast
+  EXPECT_EQ(expert_choice(situation.facts, known), PolicyId::aes_left);
+  known[3] = 0.011;  // as good, and milder
+  EXPECT_EQ(expert_choice(situation.facts, known), PolicyId::es_b_left);
+}
+
+TEST(Expert, ChoosesByForecastWhereSomethingIsNotKnown) {
+  preview::Situation situation = left_is_open();
+  of(situation, PolicyId::es_b_left).outcome().harm = 0.0005;
+  memory::PolicyHarms known;
+  known[3] = 0.5;
+  EXPECT_EQ(expert_choice(situation.facts, known), PolicyId::es_b_left);
+}
+
+TEST(Expert, ChoosesTheBetterForecastOfEquallyMild) {
+  preview::Situation situation = left_is_open();
+  auto& end = of(situation, PolicyId::es_b_right).end.emplace<preview::ExpectedOutcome>();
+  end.outcome.clearance = 2.5;
+  EXPECT_EQ(expert_choice(situation.facts, {}), PolicyId::es_b_right);
+}
+
+TEST(Expert, SaysWhatThreatensWhatBrakingDoesAndWhy) {
+  const preview::Situation situation = left_is_open();
+  const std::string text = replied(situation, PolicyId::es_b_left, 3);
+  EXPECT_THAT(text, testing::StartsWith("Scenario Analysis\n1. "));
+  EXPECT_THAT(text, HasSubstr("truck1, 16.0 m ahead, 6.4 m left"));
+  EXPECT_THAT(text, HasSubstr("risk 0.94"));
+  EXPECT_THAT(text, HasSubstr("AEB hits truck1 with its front at 10.0 m/s, harm 0.1000"));
+  EXPECT_THAT(text, HasSubstr("policy 3, ES-B-L to 7.0 m/s: AES-L harms"));
+  EXPECT_THAT(text, testing::EndsWith("\nResponse to user: 3"));
+}
+
+// Not the one of the highest risk.
+TEST(Expert, NamesWhoIsHitIfNothingIsDone) {
+  preview::Situation situation = left_is_open();
+  situation.risks[1].risk = 0.99;
+  const std::string text = replied(situation, PolicyId::es_b_left, 3);
+  EXPECT_THAT(text, HasSubstr("truck1, 16.0 m ahead"));
+  EXPECT_THAT(text, Not(HasSubstr("pedestrian1")));
+}
+
+TEST(Expert, NamesTheRunnerUpsHarm) {
+  preview::Situation situation = left_is_open();
+  of(situation, PolicyId::aes_left).outcome().harm = 0.02;
+  const std::string text = replied(situation, PolicyId::es_b_left, 1);
+  EXPECT_THAT(text, HasSubstr("it has the least harm, and NI"));
+}
+
+// What it says holds, whatever the scene: it is true by construction.
+TEST(Expert, SaysNothingFalse) {
+  std::set<std::string> conclusions;
+  for (unsigned seed = 0; seed < 400; ++seed) {
+    preview::Situation situation = seed % 4 == 0 ? left_is_open() : crowded_situation(seed);
+    std::optional<memory::Case> nearest;
+    if (seed % 3 == 0) {
+      nearest.emplace();
+      nearest->best = *manoeuvre::policy_from(static_cast<int>(seed % 8));
+      nearest->harm = 0.2;
+    }
+    std::mt19937_64 random(seed);
+    memory::PolicyHarms known;
+    for (auto& harm : known) {
+      harm = std::uniform_real_distribution<double>(0.0, 0.01)(random);
+    }
+    const std::string prompt = scene_part(situation, nearest, 0.8);
+    const PolicyId choice = expert_choice(situation.facts, known);
+    const std::string text = expert_reply(situation, prompt, nearest, choice, random);
+    EXPECT_EQ(stated_policy(text), choice) << text;
+    const Truth truth = truth_of(text, prompt, situation, choice);
+    EXPECT_GE(truth.num_checked, 2) << text;
+    for (const FalseStatement& one : truth.wrong) {
+      ADD_FAILURE() << one.text << ": " << one.why << '\n' << prompt << text;
+    }
+    EXPECT_LE(std::count(text.begin(), text.end(), '\n'), most_statements + 1) << text;
+    EXPECT_LE(tokens_at_most(text), 260) << text;
+    conclusions.insert(text.substr(text.rfind('.', text.rfind("policy"))));
+  }
+  EXPECT_GE(conclusions.size(), 50U);
+}
+
+TEST(Expert, SameSeedSaysTheSame) {
+  const preview::Situation situation = left_is_open();
+  EXPECT_EQ(replied(situation, PolicyId::aes_left, 5), replied(situation, PolicyId::aes_left, 5));
+  std::set<std::string> texts;
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    texts.insert(replied(situation, PolicyId::aes_left, seed));
+  }
+  EXPECT_GE(texts.size(), 30U);
+}
+
+TEST(Expert, DoesNothingWhereNothingThreatens) {
+  preview::Situation situation = left_is_open();
+  auto& end = of(situation, PolicyId::no_intervention).end.emplace<preview::ExpectedOutcome>();
+  end.outcome.clearance = 3.0;
+  ASSERT_EQ(expert_choice(situation.facts, {}), PolicyId::no_intervention);
+  const std::string text = replied(situation, PolicyId::no_intervention, 1);
+  EXPECT_THAT(text, Not(HasSubstr("threatens is")));
+  EXPECT_THAT(text, testing::EndsWith("Response to user: 7"));
+}
+
+TEST(Expert, RefusesAChoiceThatIsKnowinglyWorse) {
+  const preview::Situation situation = left_is_open();
+  EXPECT_THROW(replied(situation, PolicyId::aeb, 1), ContractViolation);
+  EXPECT_THROW(replied(situation, PolicyId::t_drift_left, 1), ContractViolation);
+}
+
+}  // namespace
+}  // namespace saca::reason::expert_test
