@@ -31,7 +31,7 @@ test: setup model
 	@tools/check.sh
 
 lint: setup
-	@tools/lint.sh
+	@tools/lint/run.sh
 
 measuring := manoeuvre_bench outcome_bench sim_bench intent_bench memory_bench model_host_process_bench
 # Only the programs that measure are built, not the tests.

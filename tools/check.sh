@@ -40,7 +40,7 @@ step "build: address and undefined-behaviour sanitiser" build asan-quick
 step "tests: address and undefined-behaviour sanitiser" tools/ctest_again.py asan-quick --parallel "$at_once"
 step "build: thread sanitiser" build tsan core_test loop_test reason_test runtime_test
 step "tests: thread sanitiser" tools/ctest_again.py tsan --parallel "$at_once"
-step "lint: what has changed" tools/lint.sh --changed
+step "lint: what has changed" tools/lint/run.sh --changed
 step "package: installed, found and used by another project" tools/check_package.sh
 
 # Of what is skipped each test says why.

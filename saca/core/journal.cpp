@@ -22,7 +22,7 @@ Result<Journal> Journal::open(const fs::path& path, const std::string& title) {
   const std::string first = title + "\n";
   std::string text;
   if (fs::exists(path)) {
-    auto read = read_file(path, many_bytes);
+    const auto read = read_file(path, many_bytes);
     if (!read.has_value()) {
       return read.error();
     }

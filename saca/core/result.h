@@ -13,7 +13,7 @@ namespace saca {
 struct Error {
   enum class Code { unreadable, unwritable, malformed, out_of_range, too_late };
 
-  Code code;
+  Code code = Code::unreadable;
   std::string message;
 
   bool operator==(const Error&) const = default;

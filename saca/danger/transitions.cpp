@@ -45,7 +45,7 @@ class Maker {
 
   void add_drive() {
     const double grip = uniform(random_, 0.2, 1.0);
-    Driven driven(car_, drawn_start(car_, grip, random_), grip);
+    const Driven driven(car_, drawn_start(car_, grip, random_), grip);
     const State start{.ego = driven.ego(), .grip = grip};
     const Obstacles first = drawn_obstacles(start);
     const Drive drive = driven_by(drawn_behaviour(), driven, grip, first);

@@ -62,7 +62,8 @@ TEST(CrashCase, IsDrawnAgainAsItWas) {
   const auto again = drawn_again(one, "compact_rwd_ev", sim::standard_ego);
   ASSERT_TRUE(again.has_value()) << again.error().message;
   EXPECT_EQ(again.value().scenario.grip, one.grip);
-  EXPECT_EQ(std::get<sim::EgoStart>(again.value().scenario.ego).speed, one.judged.one.scene.ego.v_B.x);
+  EXPECT_EQ(std::get<sim::EgoStart>(again.value().scenario.ego).speed,
+            one.judged.one.scene.ego.v_B.x);
 }
 
 TEST(CrashCase, OfARecordingIsNotDrawn) {

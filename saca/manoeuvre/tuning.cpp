@@ -81,7 +81,7 @@ Result<Tuning> read_tuning(const std::filesystem::path& path) {
   config::Table root = document.value().root();
   Tuning tuning{};
   read_law(root.table("swerve"), swerve_numbers, tuning.swerve);
-  config::Table drift = root.table("drift");
+  const config::Table drift = root.table("drift");
   read_law(drift, drift_numbers, tuning.drift);
   config::Table domain = root.table("drift_domain");
   const auto grips = domain.numbers("grip", {0.0, 1.2}, DriftDomain::grips.size());

@@ -308,7 +308,7 @@ class SqliteTable final : public CaseTable {
   /// All that `work` does happens, or nothing of it.
   /// @param work  returns what went wrong
   template <class Work>
-  [[nodiscard]] std::optional<Error> transaction(Work work) const {
+  [[nodiscard]] std::optional<Error> transaction(const Work& work) const {
     if (auto error = run("BEGIN IMMEDIATE", Access::write)) {
       return error;
     }

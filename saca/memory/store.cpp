@@ -122,7 +122,7 @@ Result<Store> Store::snapshot(const std::string& place) {
     auto missing = missing_file(place);
     return missing ? *std::move(missing) : with(copy_of_sqlite(place));
   }
-  auto table = open_postgres(place, IfMissing::refuse);
+  const auto table = open_postgres(place, IfMissing::refuse);
   return table.has_value() ? with(copy_of(*table.value())) : table.error();
 }
 

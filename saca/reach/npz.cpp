@@ -57,7 +57,7 @@ class Literal {
     if (end == std::string_view::npos) {
       return std::nullopt;
     }
-    const std::string inside(text_.substr(at_ + 1, end - at_ - 1));
+    std::string inside(text_.substr(at_ + 1, end - at_ - 1));
     at_ = end + 1;
     return inside;
   }
@@ -144,7 +144,7 @@ std::optional<NpyHeader> parse_header(std::string_view text) {
     if (!key || !literal.accept(":") || !parse_entry(*key, literal, header)) {
       return std::nullopt;
     }
-    if (!literal.accept(",") && !literal.rest().starts_with("}")) {
+    if (!literal.accept(",") && !literal.rest().starts_with('}')) {
       return std::nullopt;
     }
   }

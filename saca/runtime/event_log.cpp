@@ -58,7 +58,8 @@ std::optional<Event> EventLog::next() {
     }
   }
   if (read_.empty()) {
-    auto of_driving = rejected(Plane::reflex, notices_.num_rejected(), notices_rejected_told_);
+    const auto of_driving =
+        rejected(Plane::reflex, notices_.num_rejected(), notices_rejected_told_);
     return of_driving
                ? of_driving
                : rejected(Plane::thinking, thoughts_.num_rejected(), thoughts_rejected_told_);

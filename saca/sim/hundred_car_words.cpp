@@ -85,7 +85,7 @@ std::string driver_of(const traffic::HundredCarEvent& event, const HundredCarReq
   if (action.brake_time) {
     text += ", brake lights on from " + shown(*action.brake_time, 1) + " s";
   }
-  text += ".";
+  text += '.';
   if (!request.narrative.empty()) {
     text += " The study's narrative: \"" + request.narrative + "\"";
   }

@@ -98,7 +98,7 @@ class Writer {
         list += "\n  ";
         line = 2;
       } else if (list.size() > 1) {
-        list += " ";
+        list += ' ';
       }
       list += item;
       line += item.size() + 1;

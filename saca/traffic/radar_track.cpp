@@ -40,7 +40,7 @@ std::optional<RadarTarget> successor(const HundredCarRow& row, Radar radar, cons
   std::optional<RadarTarget> best;
   double best_distance = 0.0;
   for (const RadarTarget& target : seen_in(row, radar)) {
-    double distance = std::abs(target.range - expected);
+    const double distance = std::abs(target.range - expected);
     constexpr double widest = 2.0;  // from the axis [m]: beyond, it is in another lane
     if (distance > 1.0 + 2.0 * age || std::abs(target.rate - last.rate) > 3.0 + 5.0 * age ||
         aside(target) > widest) {
