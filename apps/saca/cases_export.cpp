@@ -312,7 +312,7 @@ std::optional<Error> write_sets(const std::vector<ReplyExample>& examples, const
       }
     }
     if (options.format == "local") {
-      lines = config::first_json_line(examples_schema, "examples", count) + lines;
+      lines.insert(0, config::first_json_line(examples_schema, "examples", count));
     }
     if (auto problem = write_output(folder / (std::string(name(set)) + ".jsonl"), lines)) {
       return problem;
