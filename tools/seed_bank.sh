@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The cases that a new memory begins with: data/memory/seed.jsonl.gz. Six minutes on two cores.
+# The cases that a new memory begins with: data/memory/seed.jsonl.gz. Four minutes on two cores for the suites, as many of one core for the recordings.
 # usage: tools/seed_bank.sh HUNDRED_CAR [MOST]
 #   HUNDRED_CAR  folder of the 100-Car study's release (docs/formats.md)
 #   MOST         how many are kept (default 10000: all): the most redundant go

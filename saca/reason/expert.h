@@ -29,7 +29,7 @@ namespace saca::reason {
                                                 const memory::PolicyHarms& known);
 
 /// How an expert argues for a choice, in the form that prompts ask for: what models are taught
-/// with, and what is shown where a model's own words are not true.
+/// with.
 ///
 /// Composed by a grammar of arguments from what stands in the prompt, so that every number and
 /// claim holds by `truth_of`: who threatens and how sure that is; what comes of doing nothing and
