@@ -33,6 +33,19 @@ const PolicyFacts& of(const AllFacts& facts, PolicyId policy) {
   return facts[manoeuvre::index(policy)];
 }
 
+/// The best by forecast of those that can be driven and are wanted; nullopt: there is none.
+template <class Wanted>
+std::optional<PolicyId> best_where(const AllFacts& facts, const Wanted& wanted) {
+  std::optional<PolicyId> best;
+  for (const PolicyId policy : manoeuvre::all_policies) {
+    const PolicyFacts& one = of(facts, policy);
+    if (one.drivable() && wanted(one) && (!best || preview::better(one, of(facts, *best)))) {
+      best = policy;
+    }
+  }
+  return best;
+}
+
 bool may_touch(const PolicyFacts& facts) {
   return facts.outcome().contact.has_value() || facts.contact_probability() > unlikely;
 }
@@ -257,15 +270,9 @@ class Speaker {
 
   /// The best policy to a side that touches nobody for certain; nullopt: all are blocked.
   [[nodiscard]] std::optional<PolicyId> best_to(int side) const {
-    std::optional<PolicyId> best;
-    for (const PolicyId policy : manoeuvre::all_policies) {
-      const PolicyFacts& facts = of(facts_, policy);
-      if (manoeuvre::side(policy) == side && facts.drivable() && !facts.outcome().contact &&
-          (!best || preview::better(facts, of(facts_, *best)))) {
-        best = policy;
-      }
-    }
-    return best;
+    return best_where(facts_, [side](const PolicyFacts& facts) {
+      return manoeuvre::side(facts.plan.policy) == side && !facts.outcome().contact;
+    });
   }
 
   // Why this choice and not the next best.
@@ -291,15 +298,8 @@ class Speaker {
 
   /// The best by forecast of the others.
   [[nodiscard]] std::optional<PolicyId> next_best() const {
-    std::optional<PolicyId> best;
-    for (const PolicyId policy : manoeuvre::all_policies) {
-      const PolicyFacts& facts = of(facts_, policy);
-      if (policy != choice_ && facts.drivable() &&
-          (!best || preview::better(facts, of(facts_, *best)))) {
-        best = policy;
-      }
-    }
-    return best;
+    return best_where(facts_,
+                      [this](const PolicyFacts& facts) { return facts.plan.policy != choice_; });
   }
 
   /// What speaks for the one of two that harm about as little; empty: nothing that is told.
