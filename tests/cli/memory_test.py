@@ -172,7 +172,7 @@ def test_a_new_memory_begins_with_the_shipped_cases(tmp_path):
     with gzip.open(SHIPPED, "rt") as lines:
         shipped = json.loads(next(lines))["cases"]
     assert shipped > 5_000 and [one["id"] for one in listed] == [*range(1, shipped + 2)]
-    assert {(one["origin"], one["trust"]) for one in listed[:-1]} == {("simulation", "trusted")}
+    assert {(one["origin"], one["trust"]) for one in listed[:-1]} == {("simulation", "trusted"), ("recording", "trusted")}
     assert listed[-1]["source"] == "100car_9018"
     assert SHIPPED.stat().st_size < 5_000_000
     assert saca("memory", "thin", "--most", "1000", "--memory", "m.sqlite", cwd=tmp_path).returncode == SUCCESS
