@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
+#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -65,8 +65,8 @@ std::string_view rest_of_line(std::string_view text, const std::string& beginnin
 
 /// What a road user's line says, piece by piece. Empty pieces are not told.
 struct ActorLine {
-  std::string place;      ///< "16.0 m ahead, 6.4 m left"
-  std::string motion;     ///< "moving right at 7.5 m/s"
+  std::string along;      ///< "16.0 m ahead"
+  std::string across;     ///< "6.4 m left"
   std::string intention;  ///< "lane change right 0.88"
   std::string conflict;   ///< "TTC 0.9 s"
   std::string risk;       ///< "risk 0.94"
@@ -83,11 +83,9 @@ ActorLine read_actor_line(std::string_view line) {
   std::string last;
   for (std::string& part : parts) {
     if (part.ends_with("m ahead") || part.ends_with("m behind")) {
-      read.place = part;
+      read.along = part;
     } else if (part.ends_with("m left") || part.ends_with("m right")) {
-      read.place += ", " + part;
-    } else if (part.starts_with("moving ") || part == "standing") {
-      read.motion = part;
+      read.across = part;
     } else if (part.starts_with("TTC ")) {
       read.intention = last;
       read.conflict = part == "TTC none" ? "" : part;
@@ -113,11 +111,11 @@ class Speaker {
 
   std::string reply() {
     std::vector<std::string> statements = opening();
-    std::vector<std::string> more = reasons();
-    std::shuffle(more.begin(), more.end(), random_);
-    const std::size_t room = most_statements - 1 - statements.size();
-    more.resize(std::min(room, more.size()));
-    std::move(more.begin(), more.end(), std::back_inserter(statements));
+    const std::vector<std::string> more = reasons();
+    if (!more.empty() && perhaps()) {
+      statements.push_back(
+          more.at(std::uniform_int_distribution<std::size_t>(0, more.size() - 1)(random_)));
+    }
     statements.push_back(conclusion());
     std::string text = "Scenario Analysis\n";
     for (std::size_t i = 0; i < statements.size(); ++i) {
@@ -134,18 +132,16 @@ class Speaker {
   }
   bool perhaps() { return std::uniform_int_distribution<int>(0, 1)(random_) == 1; }
 
-  [[nodiscard]] std::string called(PolicyId policy) const {
-    return manoeuvre::plan_name(of(facts_, policy).plan);
-  }
-  /// "is clear by 0.6 m, no harm", "hits car1 with its front at 8.0 m/s, harm 0.0125": as the
-  /// prompt has it, so far as it has it.
+  [[nodiscard]] static std::string called(PolicyId policy) { return std::string(name(policy)); }
+  /// "is clear by 0.6 m", "hits car1, harm 0.0125": what the prompt has of it, in short.
   [[nodiscard]] std::string end_of(PolicyId policy) const {
     const PolicyFacts& facts = of(facts_, policy);
     if (!facts.drivable()) {
       return "is not possible";
     }
     const std::string_view told = rest_of_line(prompt_, manoeuvre::plan_text(facts.plan) + ": ");
-    return told.starts_with("clear") ? "is " + std::string(told) : std::string(told);
+    const std::string how(told.substr(0, std::min(told.find(','), told.find(" with "))));
+    return how.starts_with("clear") ? "is " + how : how + ", " + harm_of(policy);
   }
   [[nodiscard]] std::string harm_of(PolicyId policy) const {
     return harm_text(of(facts_, policy).outcome().harm);
@@ -160,13 +156,13 @@ class Speaker {
     if (who) {
       statements.push_back(threat(*who, is_safe));
     }
-    if (choice_ != PolicyId::no_intervention && (perhaps() || !who) && nothing.drivable()) {
-      statements.push_back(one_of("NI ", "Without intervention, NI ", "Going on as now, NI ") +
+    const bool braking = choice_ != PolicyId::aeb && !is_safe && (perhaps() || !nothing.drivable());
+    if (braking) {
+      statements.push_back(one_of("", "Braking alone, ") + called(PolicyId::aeb) + ' ' +
+                           end_of(PolicyId::aeb));
+    } else if (choice_ != PolicyId::no_intervention && nothing.drivable()) {
+      statements.push_back(one_of("", "Going on, ") + called(PolicyId::no_intervention) + ' ' +
                            end_of(PolicyId::no_intervention));
-    }
-    if (choice_ != PolicyId::aeb && !is_safe) {
-      statements.push_back(one_of("", "Braking alone, ", "In the lane, ") + called(PolicyId::aeb) +
-                           ' ' + end_of(PolicyId::aeb));
     }
     return statements;
   }
@@ -199,23 +195,26 @@ class Speaker {
     const Actor& actor = situation_.scene_at_trigger.actors[who];
     const std::string name = actor_name(actor);
     const ActorLine told = read_actor_line(rest_of_line(prompt_, name + ": "));
-    std::string where = told.place;
-    if (!told.motion.empty() && perhaps()) {
-      where += ", " + told.motion;
-    }
+    const std::string where = told.along + (beside(who) ? ", " + told.across : "");
     if (is_safe) {
       return one_of("Nearest to danger is ", "Most to be watched is ") + name + ", " + where +
              ", " + told.risk;
     }
-    if (!told.conflict.empty() && perhaps()) {
-      where += ", " + told.conflict;
-    } else if (!told.intention.empty()) {
-      where += ", " + told.intention;
-    }
+    const bool in_time = !told.conflict.empty() && (told.intention.empty() || perhaps());
     const bool is_bare = actor.kind == ActorKind::pedestrian || actor.kind == ActorKind::bicycle ||
                          actor.kind == ActorKind::motorcycle;
-    return one_of("Most dangerous is ", "The danger is ", "What threatens is ") + name + ", " +
-           where + ", " + told.risk + (is_bare ? ", outside any vehicle" : "");
+    return one_of("Most dangerous is ", "The danger is ") + name + ", " + where + ", " +
+           (in_time                  ? told.conflict
+            : told.intention.empty() ? told.risk
+                                     : told.intention) +
+           (is_bare ? ", unprotected" : "");
+  }
+
+  /// Whether where somebody is sideways says more than that he is ahead.
+  [[nodiscard]] bool beside(std::size_t who) const {
+    constexpr double half_lane = 1.75;  // [m]
+    const world::Scene& scene = situation_.scene_at_trigger;
+    return std::abs((inverse(scene.ego.X_WB) * scene.actors[who].X_WA.p).y) > half_lane;
   }
 
   /// What may be said besides, each by itself.
@@ -225,13 +224,12 @@ class Speaker {
       add_side(side, all);
     }
     if (nearest_) {
-      all.push_back(
-          one_of("In the most alike case ", "In the nearest case ") +
-          std::string(name(nearest_->best)) + " was the best in hindsight" +
-          (nearest_->plan.policy != nearest_->best &&
-                   nearest_->harm > nearest_->best_harm + memory::as_good
-               ? ", though " + std::string(name(nearest_->plan.policy)) + " was carried out"
-               : ""));
+      all.push_back(one_of("In the most alike case ", "In the nearest case ") +
+                    called(nearest_->best) + " was best in hindsight" +
+                    (nearest_->plan.policy != nearest_->best &&
+                             nearest_->harm > nearest_->best_harm + memory::as_good
+                         ? ", though " + called(nearest_->plan.policy) + " was carried out"
+                         : ""));
     }
     return all;
   }
@@ -241,23 +239,21 @@ class Speaker {
     const std::string word = side > 0 ? "left" : "right";
     const std::optional<PolicyId> best = best_to(side);
     if (!best && manoeuvre::side(choice_) != side) {
-      all.push_back(one_of("The way to the " + word, "All that goes to the " + word) +
+      all.push_back(one_of("The way to the " + word, "All to the " + word) +
                     (can_go(side) ? " is blocked" : " is not possible"));
     } else if (best && manoeuvre::side(choice_) != side) {
       all.push_back(one_of("To the " + word + " ", "On the " + word + " ") + called(*best) + ' ' +
                     end_of(*best));
     }
     if ((side > 0 ? road.oncoming_left : road.oncoming_right) && best) {
-      all.push_back(one_of("The lane to the " + word + " belongs to oncoming traffic",
-                           "To the " + word + " is an oncoming lane"));
+      all.push_back("To the " + word + " is an oncoming lane");
     }
     const double d = to_lane(road, situation_.scene_at_trigger.ego.X_WB).d;
     const double way = side > 0 ? road.left_edge - d : d - road.right_edge;
     const world::Beyond beyond = side > 0 ? road.left_beyond : road.right_beyond;
     if (way < near_edge && beyond != world::Beyond::unmarked) {
-      all.push_back(fmt::format("{} the {} edge, {:.1f} m away, {} {}", one_of("Beyond", "Behind"),
-                                word, std::max(way, 0.0),
-                                beyond == world::Beyond::trees ? "are" : "is a",
+      all.push_back(fmt::format("Beyond the {} edge, {:.1f} m away, {} {}", word,
+                                std::max(way, 0.0), beyond == world::Beyond::trees ? "are" : "is a",
                                 beyond_text(beyond)));
     }
   }
@@ -277,23 +273,20 @@ class Speaker {
 
   // Why this choice and not the next best.
   std::string conclusion() {
-    const std::string chosen =
-        fmt::format("policy {}, {}", manoeuvre::index(choice_), called(choice_));
+    const std::string chosen = one_of("The best is ", "So ", "I choose ") + called(choice_);
     const double least = preview::least_harm(facts_);
     const PolicyFacts& mine = of(facts_, choice_);
     const std::optional<PolicyId> other = next_best();
-    const std::string best_is = one_of("The best is ", "So ", "I choose ");
     if (!other) {
-      return best_is + chosen + ": it alone is possible";
+      return chosen + ": it alone is possible";
     }
     const PolicyFacts& theirs = of(facts_, *other);
     if (outcome::harm_class(mine.outcome().harm) == outcome::harm_class(least) &&
         theirs.outcome().harm > mine.outcome().harm + outcome::least_tolerance) {
-      return best_is + chosen + ": it has the least harm, and " + called(*other) + ' ' +
+      return chosen + ": it has the least harm, " + called(*other) + ' ' +
              one_of("has ", "comes next with ") + harm_of(*other);
     }
-    return best_is + chosen + ": " + called(*other) + " harms " +
-           one_of("about as little", "as little, as far as can be told") + advantage(mine, theirs);
+    return chosen + ": " + called(*other) + " harms about as little" + advantage(mine, theirs);
   }
 
   /// The best by forecast of the others.
@@ -309,7 +302,7 @@ class Speaker {
       return ", and this is milder";
     }
     if (choice_ == PolicyId::aeb && other == PolicyId::no_intervention) {
-      return ", and less speed harms less where a forecast errs";
+      return ", and less speed harms less if a forecast errs";
     }
     if (mine.contact_probability() + unlikely < theirs.contact_probability()) {
       return ", and this touches somebody less often";

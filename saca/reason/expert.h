@@ -34,8 +34,9 @@ namespace saca::reason {
 /// Composed by a grammar of arguments from what stands in the prompt, so that every number and
 /// claim holds by `truth_of`: who threatens and how sure that is; what comes of doing nothing and
 /// of braking; what is blocked, what lies beyond an edge, whose lane it is, what the most alike
-/// case says; and why this choice and not the next best. At most `most_statements`; which of those
-/// that apply, and in which words, is drawn.
+/// case says; and why this choice and not the next best. At most `most_statements` of few words,
+/// because each takes time where a model says them; which of those that apply, and in which words,
+/// is drawn.
 ///
 /// @param scene_part  of this situation and case
 /// @param nearest     as for the scene part
@@ -48,6 +49,6 @@ namespace saca::reason {
                                        manoeuvre::PolicyId choice, std::mt19937_64& random);
 
 /// Of an expert's reply, without its first and last line.
-constexpr int most_statements = 5;
+constexpr int most_statements = 4;
 
 }  // namespace saca::reason

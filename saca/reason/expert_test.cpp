@@ -87,9 +87,8 @@ TEST(Expert, SaysWhatThreatensWhatBrakingDoesAndWhy) {
   const std::string text = replied(situation, PolicyId::es_b_left, 3);
   EXPECT_THAT(text, testing::StartsWith("Scenario Analysis\n1. "));
   EXPECT_THAT(text, HasSubstr("truck1, 16.0 m ahead, 6.4 m left"));
-  EXPECT_THAT(text, HasSubstr("risk 0.94"));
-  EXPECT_THAT(text, HasSubstr("AEB hits truck1 with its front at 10.0 m/s, harm 0.1000"));
-  EXPECT_THAT(text, HasSubstr("policy 3, ES-B-L to 7.0 m/s: AES-L harms"));
+  EXPECT_THAT(text, HasSubstr("AEB hits truck1, harm 0.1000"));
+  EXPECT_THAT(text, HasSubstr("ES-B-L: AES-L harms about as little"));
   EXPECT_THAT(text, testing::EndsWith("\nResponse to user: 3"));
 }
 
@@ -106,7 +105,7 @@ TEST(Expert, NamesTheRunnerUpsHarm) {
   preview::Situation situation = left_is_open();
   of(situation, PolicyId::aes_left).outcome().harm = 0.02;
   const std::string text = replied(situation, PolicyId::es_b_left, 1);
-  EXPECT_THAT(text, HasSubstr("it has the least harm, and NI"));
+  EXPECT_THAT(text, HasSubstr("it has the least harm, NI"));
 }
 
 // What it says holds, whatever the scene: it is true by construction.
@@ -135,8 +134,8 @@ TEST(Expert, SaysNothingFalse) {
       ADD_FAILURE() << one.text << ": " << one.why << '\n' << prompt << text;
     }
     EXPECT_LE(std::count(text.begin(), text.end(), '\n'), most_statements + 1) << text;
-    EXPECT_LE(tokens_at_most(text), 260) << text;
-    conclusions.insert(text.substr(text.rfind('.', text.rfind("policy"))));
+    EXPECT_LE(tokens_at_most(text), 170) << text;
+    conclusions.insert(text.substr(text.rfind('\n', text.rfind("\nResponse") - 1)));
   }
   EXPECT_GE(conclusions.size(), 50U);
 }

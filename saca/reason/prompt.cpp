@@ -13,6 +13,7 @@
 #include "saca/core/contract.h"
 #include "saca/core/names.h"
 #include "saca/memory/experience.h"
+#include "saca/outcome/admissible.h"
 #include "saca/outcome/describe.h"
 #include "saca/outcome/ordering.h"
 #include "saca/reason/token_bound.h"
@@ -327,16 +328,17 @@ std::string system_part(const outcome::HarmModel& harm) {
   }
   text += fmt::format(
       "Harm counts the people expected to be severely injured ({:g} each) or killed ({:g} each), "
-      "in and outside vehicles alike. Choose the policy with the least harm. Where harm is equal "
-      "within {:.4f}, choose the mildest; from the mildest: {}. Where these are equal too, choose "
-      "the larger clearance. Do nothing where nothing threatens. A policy that is not possible "
-      "cannot be chosen.\n"
+      "in and outside vehicles alike. It is a forecast: harms within {:.3f}, or {:.0f} % of what "
+      "AEB has above the least, cannot be told apart. Choose the policy with the least harm, or of "
+      "those that cannot be told apart from it the surest: whom it may hit and how likely, what "
+      "lies beyond the edge, how the most alike case ended. Else the mildest; from the mildest: "
+      "{}. Do nothing where nothing threatens. A policy that is not possible cannot be chosen.\n"
       "Places are seen from the ego. Risk is from 0 to 1. TTC is the time to the conflict. An "
       "oncoming lane belongs to oncoming traffic; policies to that side enter it.\n"
       "Reply with \"Scenario Analysis\", then a few short numbered statements that quote the "
       "facts, and as the last line \"Response to user: N\" with N from 0 to 7.",
-      harm.severe_weight, harm.severe_weight + harm.killed_weight, outcome::harm_tie,
-      from_mildest());
+      harm.severe_weight, harm.severe_weight + harm.killed_weight, outcome::least_tolerance,
+      100.0 * outcome::tolerated_share, from_mildest());
   return text;
 }
 

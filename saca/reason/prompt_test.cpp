@@ -269,7 +269,8 @@ TEST(Prompt, RulesFollowTheOneOrdering) {
   const std::string text = system_part(harm);
   EXPECT_THAT(text, HasSubstr("severely injured (1 each) or killed (5 each)"));
   EXPECT_THAT(text, HasSubstr("from the mildest: 7, 0, 3 and 4, 1 and 2, 5 and 6."));
-  EXPECT_THAT(text, HasSubstr("equal within 0.0001"));
+  EXPECT_THAT(text,
+              HasSubstr("within 0.002, or 3 % of what AEB has above the least, cannot be told"));
   EXPECT_THAT(text, HasSubstr("\n3 ES-B-L: "));
   EXPECT_THAT(text, HasSubstr("\"Response to user: N\""));
 }
