@@ -100,7 +100,7 @@ function show_review(record) {
     panel.remove();
     return;
   }
-  panel.append(el("pre", { class: "reasoning", text: review.text }), truth_check(review.truth) ?? "",
+  panel.append(...reasons(review.explanation, review.text, review.truth),
     el("details", {}, el("summary", { text: "Prompt" }), el("pre", { class: "prompt", tabindex: "0", text: review.prompt })));
 }
 
@@ -177,6 +177,17 @@ function preview_answers(preview, record) {
   return table("Probability of each policy over time", headings, rows);
 }
 
+const explained_by = { model: "as the language model wrote it; every statement is true", model_in_part: "by the language model, without what is not true", facts: "composed from the figures" };
+
+/** What is shown as the reason, and, folded, all that the model wrote with what of it is true. */
+function reasons(explanation, text, truth) {
+  return [
+    explanation ? el("pre", { class: "reasoning", text: explanation.text }) : null,
+    explanation ? el("p", { class: "soft", text: explained_by[explanation.from] ?? explanation.from }) : null,
+    text ? el("details", {}, el("summary", { text: "What the model wrote" }), el("pre", { class: "reasoning", text }), truth_check(truth)) : null,
+  ].filter(Boolean);
+}
+
 /** What of the reasoning is true, and each statement that is not. */
 function truth_check(truth) {
   if (!truth?.checked) return null;
@@ -193,8 +204,7 @@ function preview_steps(preview, record) {
   return el("ol", { class: "steps" },
     step("Memory", "done", memory ? el("p", {}, bar(memory.confidence ?? memory.similarity, `${percent(memory.confidence ?? memory.similarity)} · ${case_words}`), el("small", { text: gate_words[gate] ?? gate ?? "" })) : el("p", { class: "soft", text: "not asked" })),
     step("Language model", list(preview.answers).length ? "done" : "skipped", preview_answers(preview, record),
-      preview.reasoning ? el("pre", { class: "reasoning", text: preview.reasoning }) : null,
-      truth_check(preview.truth),
+      ...reasons(preview.explanation, preview.reasoning, preview.truth),
       preview.prompt ? el("details", {}, el("summary", { text: "Prompt" }), el("pre", { class: "prompt", tabindex: "0", text: preview.prompt })) : null),
     step("Rollout check", check ? (check.passed ? "done" : "failed") : "skipped",
       check ? el("p", {}, tag(check.passed ? "✓ passed" : "✕ failed", check.passed ? "good" : "bad"), " ", check.text ?? "") : el("p", { class: "soft", text: "not needed, or not reached" })),

@@ -17,6 +17,7 @@
 #include "apps/saca/model.h"
 #include "apps/saca/printing.h"
 #include "saca/decide/check.h"
+#include "saca/decide/event.h"
 #include "saca/reason/prompt.h"
 #include "saca/reason/reply.h"
 #include "saca/reason/truth.h"
@@ -85,7 +86,8 @@ struct Considered {
   const Preview* preview = nullptr;
   Reply reply;
   reason::Truth truth;
-  std::optional<decide::Check> check;  ///< of what was last chosen
+  std::optional<decide::Check> check;              ///< of what was last chosen
+  std::optional<reason::Explanation> explanation;  ///< of that, where it can be driven
 };
 
 json considered_json(const Considered& one) {
@@ -104,6 +106,9 @@ json considered_json(const Considered& one) {
           {"prompt_tokens", one.reply.prompt_tokens},
           {"reply_tokens", one.reply.reply_tokens},
           {"truth", truth_json(one.truth)},
+          {"explanation", one.explanation ? json{{"text", one.explanation->text},
+                                                 {"from", name(one.explanation->from)}}
+                                          : json()},
           {"check",
            one.check ? json{{"passed", one.check->passed}, {"text", one.check->text}} : json()}};
 }
@@ -137,6 +142,12 @@ void tell_considered(std::size_t number, const Considered& one, bool with_text) 
     return;
   }
   const PolicyId chosen = likeliest_policy(one.reply.answers.back());
+  if (one.explanation) {
+    app::print("Reasons, {}:\n{}",
+               one.explanation->from == reason::Explanation::From::facts ? "by the figures"
+                                                                         : "as far as true",
+               one.explanation->text);
+  }
   app::print("Choice: {} {}; rollout check {}: {}.\n{} tokens read, {} written.\n\n",
              manoeuvre::index(chosen), name(chosen), one.check->passed ? "passed" : "failed",
              one.check->text, one.reply.prompt_tokens, one.reply.reply_tokens);
@@ -226,6 +237,9 @@ int reason_about(const ReasonOptions& options) {
         one.check = decide::check(situation.facts[manoeuvre::index(chosen)].plan, situation, tools);
       }
       one.truth = reason::truth_of(one.reply, one.preview->prompt, situation);
+      Preview replied = *one.preview;
+      replied.reply = one.reply;
+      one.explanation = decide::explanation(replied);
       all.push_back(std::move(one));
     }
   }
@@ -262,7 +276,8 @@ void add_reason(CLI::App& line, int& exit_code) {
       ->required();
   command
       ->add_option("--llm", options->model,
-                   "local: the language model of `make model`; replay:FILE: recorded replies; "
+                   "local: the language model of `make model`; local:FILE: other weights, GGUF; "
+                   "replay:FILE: recorded replies; "
                    "MODEL@URL: a server with /v1/chat/completions, key in SACA_LLM_KEY")
       ->capture_default_str();
   command

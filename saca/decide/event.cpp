@@ -6,6 +6,8 @@
 #include <array>
 
 #include "saca/core/names.h"
+#include "saca/reason/prompt.h"
+#include "saca/reason/reply.h"
 
 namespace saca::decide {
 namespace {
@@ -43,6 +45,29 @@ const Preview* find_preview(std::span<const Preview> previews, std::int32_t numb
       std::lower_bound(previews.begin(), previews.end(), number,
                        [](const Preview& one, std::int32_t wanted) { return one.number < wanted; });
   return found == previews.end() || found->number != number ? nullptr : &*found;
+}
+
+std::optional<reason::Explanation> explanation(const Preview& preview) {
+  std::optional<manoeuvre::PolicyId> chosen;
+  if (preview.plan) {
+    chosen = preview.plan->policy;
+  } else if (!preview.reply.answers.empty()) {
+    chosen = reason::likeliest_policy(preview.reply.answers.back());
+  }
+  if (!chosen || !preview.situation.facts[manoeuvre::index(*chosen)].drivable()) {
+    return std::nullopt;
+  }
+  std::optional<memory::Case> nearest;
+  if (preview.nearest) {
+    nearest = preview.nearest->found;
+  }
+  const std::string prompt =
+      preview.prompt.empty()
+          ? reason::scene_part(preview.situation, nearest,
+                               preview.nearest ? preview.nearest->similarity : 0.0)
+          : preview.prompt;
+  return reason::explanation(reason::finished_part(preview.reply), prompt, preview.situation,
+                             nearest, *chosen);
 }
 
 std::string trigger_text(const world::Actor& actor, double time,

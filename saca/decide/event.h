@@ -14,6 +14,7 @@
 #include "saca/memory/case.h"
 #include "saca/memory/store.h"
 #include "saca/preview/situation.h"
+#include "saca/reason/explanation.h"
 #include "saca/reason/language_model.h"
 #include "saca/reason/truth.h"
 
@@ -76,6 +77,11 @@ struct Preview {
 /// @param previews  numbers ascend
 [[nodiscard]] const Preview* find_preview(std::span<const Preview> previews,
                                           std::int32_t number) noexcept;
+
+/// Why its plan was chosen, or else what the model answered last (reason::explanation). Takes
+/// milliseconds.
+/// @return  nullopt: there is neither, or it cannot be driven
+[[nodiscard]] std::optional<reason::Explanation> explanation(const Preview& preview);
 
 /// Who set off the trigger, and why before T1 where it was.
 /// @param time  to the conflict [s]

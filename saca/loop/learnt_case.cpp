@@ -132,10 +132,11 @@ Result<memory::Learnt> learn(memory::Store& memory, const memory::Case& one,
 
 std::optional<Error> keep_lesson(memory::Store& memory, memory::CaseId id,
                                  const reason::Review& review) {
-  if (review.truth.num_checked == 0 || !review.truth.wrong.empty()) {
+  if (review.shown.from == reason::Explanation::From::facts) {
     return std::nullopt;
   }
-  return change_case(memory, id, [&](memory::Case& one) { one.lessons.push_back(review.text); });
+  return change_case(memory, id,
+                     [&](memory::Case& one) { one.lessons.push_back(review.shown.text); });
 }
 
 }  // namespace saca::loop

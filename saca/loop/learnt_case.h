@@ -56,8 +56,7 @@ struct Trigger {
 [[nodiscard]] Result<memory::Learnt> learn(memory::Store& memory, const memory::Case& one,
                                            const std::optional<memory::CaseId>& refuted);
 
-/// Adds what a review says to the case that memory learnt, where everything in it that can be
-/// checked is true.
+/// Adds what of a model's review is true to the case that memory learnt; the figures alone it has.
 /// @return  what memory could not do
 [[nodiscard]] std::optional<Error> keep_lesson(memory::Store& memory, memory::CaseId id,
                                                const reason::Review& review);

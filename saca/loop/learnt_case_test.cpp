@@ -86,17 +86,17 @@ TEST(Lessons, AreKeptWhereAllThatCanBeCheckedIsTrue) {
   one.harm = 0.25;
   const memory::CaseId id = memory.add(one).value();
   const auto lessons = [&] { return memory.find(id).value().value().lessons; };
-  EXPECT_FALSE(keep_lesson(memory, id, {.text = "says nothing"}).has_value());
-  EXPECT_FALSE(keep_lesson(memory, id,
-                           {.text = "is wrong",
-                            .truth = {.num_checked = 2, .wrong = {{.text = "is", .why = "no"}}}})
-                   .has_value());
+  using From = reason::Explanation::From;
+  EXPECT_FALSE(
+      keep_lesson(memory, id, {.text = "is wrong", .shown = {"figures", From::facts}}).has_value());
   EXPECT_TRUE(lessons().empty());
   EXPECT_FALSE(
-      keep_lesson(memory, id, {.text = "is true", .truth = {.num_checked = 2}}).has_value());
+      keep_lesson(memory, id,
+                  {.text = "is true, and wrong", .shown = {"is true", From::model_in_part}})
+          .has_value());
   EXPECT_EQ(lessons(), std::vector<std::string>{"is true"});
   EXPECT_EQ(memory.find(id).value().value().harm, 0.25);
-  EXPECT_FALSE(keep_lesson(memory, id + 1, {.text = "x", .truth = {.num_checked = 1}}).has_value())
+  EXPECT_FALSE(keep_lesson(memory, id + 1, {.shown = {"x", From::model}}).has_value())
       << "whoever deleted the case wants no lesson";
   std::filesystem::remove(file);
 }

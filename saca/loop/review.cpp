@@ -51,6 +51,7 @@ Result<std::optional<reason::Review>> review(const Setup& setup, const Record& r
   review.text = replies.value().front().reasoning;
   review.truth = reason::truth_of(reason::finished_part(replies.value().front()), review.prompt,
                                   aftermath.known, std::nullopt);
+  review.shown = reason::explanation(review, aftermath);
   return std::optional(std::move(review));
 }
 

@@ -73,6 +73,7 @@ TEST_F(ReviewTest, IsHeardJudgedAndRecorded) {
   const auto out = nlohmann::json::parse(record_json(setup_, record));
   EXPECT_EQ(out["review"]["text"], words_);
   EXPECT_EQ(out["review"]["truth"]["checked"], 2);
+  EXPECT_EQ(out["review"]["explanation"]["from"], "facts") << "its last statement is wrong";
 }
 
 TEST_F(ReviewTest, QuotesWhatTookThePlaceOfThePlan) {

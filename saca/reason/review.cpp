@@ -2,7 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+
+#include "saca/memory/experience.h"
 #include "saca/outcome/describe.h"
+#include "saca/outcome/ordering.h"
 #include "saca/reason/prompt.h"
 
 namespace saca::reason {
@@ -35,6 +39,39 @@ std::string review_prompt(const Aftermath& aftermath) {
                      ? ": what was carried out\n"
                      : fmt::format(": harm less by {:.4f}\n",
                                    aftermath.result.harm - best.outcome().harm));
+}
+
+Explanation explanation(const Review& review, const Aftermath& aftermath) {
+  if (auto held = true_part(review.text, review.prompt, aftermath.known, std::nullopt, "")) {
+    return *std::move(held);
+  }
+  const preview::PolicyFacts& best = aftermath.known.facts[manoeuvre::index(aftermath.best)];
+  const double more = aftermath.result.harm - best.outcome().harm;
+  const bool was_best = aftermath.best == aftermath.done.policy && aftermath.later.empty();
+  std::string text = fmt::format("1. {} was carried out", manoeuvre::plan_name(aftermath.done));
+  for (const manoeuvre::Plan& plan : aftermath.later) {
+    text += ", then " + manoeuvre::plan_name(plan);
+  }
+  text += fmt::format(": {}, {}.\n", outcome::describe(aftermath.result, aftermath.met),
+                      harm_text(aftermath.result.harm));
+  if (was_best) {
+    text += "2. Nothing would have harmed less.\n";
+  } else if (more >= outcome::harm_tie) {
+    text += fmt::format("2. {} would have harmed less by {:.4f}.\n",
+                        manoeuvre::plan_name(best.plan), more);
+  } else {
+    text += fmt::format("2. {} would have harmed as much.\n", manoeuvre::plan_name(best.plan));
+  }
+  if (aftermath.forecast_harm && aftermath.later.empty()) {
+    const double error = aftermath.result.harm - *aftermath.forecast_harm;
+    text += std::abs(error) <= memory::as_good
+                ? "3. It went as forecast"
+                : fmt::format("3. It harmed {:.4f} {} than was forecast", std::abs(error),
+                              error > 0.0 ? "more" : "less");
+    text += fmt::format(": {} instead of {}.\n", harm_text(aftermath.result.harm),
+                        harm_text(*aftermath.forecast_harm));
+  }
+  return {text, Explanation::From::facts};
 }
 
 }  // namespace saca::reason

@@ -8,6 +8,7 @@
 #include "saca/manoeuvre/plan.h"
 #include "saca/outcome/outcome.h"
 #include "saca/preview/situation.h"
+#include "saca/reason/explanation.h"
 #include "saca/reason/truth.h"
 
 namespace saca::reason {
@@ -31,10 +32,15 @@ struct Review {
   std::string prompt;
   std::string text;
   Truth truth;
+  Explanation shown;  ///< what of it is true; else the figures, in words
 };
 
 /// Asks what happened, which policy would have been best and by how much, and what to remember.
 /// All figures stand in it (computed, not to be computed). Words as in `scene_part`.
 [[nodiscard]] std::string review_prompt(const Aftermath& aftermath);
+
+/// What of a review is true, where that is its last statement too; else what happened in three
+/// statements of the same figures.
+[[nodiscard]] Explanation explanation(const Review& review, const Aftermath& aftermath);
 
 }  // namespace saca::reason

@@ -71,5 +71,30 @@ TEST(Review, IsJudgedByWhatIsKnown) {
   EXPECT_EQ(truth_of("AES-L is clear.", prompt, made.known, std::nullopt).score(), 0.0);
 }
 
+TEST(Review, IsShownWhereItIsTrue) {
+  const Aftermath made = aftermath();
+  Review review{.prompt = review_prompt(made)};
+  review.text = "1. NI hits truck1, harm 0.0125.\n2. AEB is clear by 0.6 m.\n";
+  EXPECT_EQ(explanation(review, made).from, Explanation::From::model);
+  review.text = "1. NI hits truck1, harm 0.0125.\n2. NI is clear.\n3. AEB is clear by 0.6 m.\n";
+  EXPECT_EQ(explanation(review, made).text,
+            "1. NI hits truck1, harm 0.0125.\n2. AEB is clear by 0.6 m.\n");
+}
+
+TEST(Review, ElseItsFiguresAreShown) {
+  Aftermath made = aftermath();
+  made.forecast_harm = 0.0031;
+  Review review{.prompt = review_prompt(made), .text = "1. AEB hits truck1."};
+  EXPECT_EQ(explanation(review, made).text,
+            "1. NI was carried out: hits truck1 with its front at 15.0 m/s, harm 0.0125.\n"
+            "2. AEB would have harmed less by 0.0125.\n"
+            "3. It harmed 0.0094 more than was forecast: harm 0.0125 instead of harm 0.0031.\n");
+  made.done = made.known.facts[0].plan;
+  made.result = made.known.facts[0].outcome();
+  made.forecast_harm = 0.0;
+  EXPECT_THAT(explanation(review, made).text,
+              HasSubstr("2. Nothing would have harmed less.\n3. It went as forecast: no harm"));
+}
+
 }  // namespace
 }  // namespace saca::reason::review_test

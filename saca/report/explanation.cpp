@@ -117,6 +117,25 @@ class Story {
     }
     return {};
   }
+  /// The statements that are shown as the reason of the cached plan, one sentence; empty: none.
+  [[nodiscard]] std::string weighed() const {
+    const auto number = decision_.find("preview");
+    if (number == decision_.end() || number->is_null()) {
+      return {};
+    }
+    const json& preview = record_.at("previews").at(number->get<std::size_t>());
+    if (!preview.contains("explanation") || preview.at("explanation").is_null()) {
+      return {};
+    }
+    std::string text = preview.at("explanation").at("text").get<std::string>();
+    while (text.ends_with('\n')) {
+      text.pop_back();
+    }
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    const bool by_model = preview.at("explanation").at("from") != "facts";
+    return fmt::format("{}: {}",
+                       by_model ? "The model's reasons, checked" : "Reasons, by the figures", text);
+  }
   [[nodiscard]] double decided_at() const { return decision_.at("time_s").get<double>(); }
   [[nodiscard]] std::string source() const { return decision_.at("source").get<std::string>(); }
 
@@ -375,6 +394,11 @@ Story::Sentences Story::chosen() const {
             : ""));
   }
   told.push_back(fmt::format("It was begun because {}.", because()));
+  if (source() == "memory" || source() == "model") {
+    if (std::string reasons = weighed(); !reasons.empty()) {
+      told.push_back(std::move(reasons));
+    }
+  }
   return told;
 }
 

@@ -132,6 +132,24 @@ TEST(Explanation, TellsTheRuleByWhichWasChosen) {
 }
 
 // Of a record in which braking was begun although only doing nothing is admissible.
+TEST(Explanation, TellsTheReasonsOfAPlanThatWasReady) {
+  json other = record();
+  other["decision"]["source"] = "model";
+  other["decision"]["preview"] = 1;
+  const json none{{"explanation", nullptr}};
+  other["previews"] = {
+      none,
+      {{"explanation",
+        {{"text", "1. AEB hits car7.\n2. So AES-L.\n"}, {"from", "model_in_part"}}}}};
+  EXPECT_THAT(told(other, "What was chosen, and by which rule"),
+              HasSubstr("The model's reasons, checked: 1. AEB hits car7. 2. So AES-L.\n"));
+  other["previews"][1]["explanation"]["from"] = "facts";
+  EXPECT_THAT(told(other, "What was chosen, and by which rule"),
+              HasSubstr("Reasons, by the figures: 1. AEB"));
+  other["decision"]["preview"] = 0;
+  EXPECT_THAT(told(other, "What was chosen, and by which rule"), testing::Not(HasSubstr("easons")));
+}
+
 TEST(Explanation, DoesNotCallBrakingAdmissibleWhereItIsNot) {
   const std::string about = "What was chosen, and by which rule";
   json other = record();
