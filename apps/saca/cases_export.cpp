@@ -6,27 +6,20 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "apps/saca/cases_commands.h"
-#include "apps/saca/cases_making.h"
+#include "apps/saca/cases_examples.h"
 #include "apps/saca/json_output.h"
 #include "apps/saca/resumable.h"
-#include "saca/config/compressed_text.h"
 #include "saca/config/json_lines.h"
 #include "saca/config/json_reader.h"
 #include "saca/config/json_text.h"
-#include "saca/core/file.h"
-#include "saca/core/fnv.h"
 #include "saca/core/parallel.h"
 #include "saca/eval/reply_example.h"
-#include "saca/memory/case_json.h"
-#include "saca/memory/store.h"
 #include "saca/reason/prompt.h"
 #include "saca/reason/token_bound.h"
-#include "saca/sim/splits.h"
 
 namespace saca::app {
 namespace {
@@ -39,11 +32,8 @@ using nlohmann::json;
 constexpr std::string_view examples_schema = "saca.reply_examples/1";
 
 struct CasesExportOptions {
-  std::string file;
+  ExampleOptions examples;
   std::string format = "local";
-  std::string memory;  ///< a bank; empty: prompts tell of no case
-  std::string car = "compact_rwd_ev";
-  std::uint64_t seed = 1;
   std::string output = "runs/reply_sets";
   int threads = usual_threads();
   bool as_json = false;
@@ -86,132 +76,13 @@ Result<ExampleRow> row_from(const std::string& line) {
   return row;
 }
 
-/// Cases that prompts tell of, as a run's memory would: asked by several threads.
-class ToldCases {
- public:
-  explicit ToldCases(std::vector<memory::Case> cases)
-      : cases_(std::move(cases)), experience_(cases_) {
-    for (std::size_t i = 0; i < cases_.size(); ++i) {
-      place_of_[cases_[i].id] = i;
-    }
+ExampleRow row_of(const CrashCase& one, const ExampleSource& source,
+                  const ExampleOptions& options) {
+  DrawnExamples drawn = drawn_examples(one, source, options);
+  ExampleRow row{.examples = {}, .problem = std::move(drawn.problem)};
+  for (DrawnExample& each : drawn.examples) {
+    row.examples.push_back(std::move(each.example));
   }
-
-  [[nodiscard]] std::optional<eval::ToldCase> in(const world::Scene& scene) const {
-    const auto recalled = experience_.recall(memory::features(scene));
-    if (!recalled) {
-      return std::nullopt;
-    }
-    return eval::ToldCase{cases_[place_of_.at(recalled->nearest)], recalled->similarity};
-  }
-
- private:
-  std::vector<memory::Case> cases_;
-  memory::Experience experience_;
-  std::unordered_map<memory::CaseId, std::size_t> place_of_;
-};
-
-/// The cases that are exported, and what examples are made of them with.
-struct Exporting {
-  std::vector<CrashCase> cases;  ///< drawn from families that training may see
-  int recorded = 0;              ///< left out: they cannot be drawn again
-  int test_only = 0;             ///< left out: of a family that only the test split has
-  std::unique_ptr<const PlanesOfCar> planes;
-  std::optional<ToldCases> told;
-  std::uint64_t digest = 0;  ///< of all that examples depend on, but for the options
-};
-
-Result<Exporting> open_exporting(const CasesExportOptions& options) {
-  Exporting all;
-  const auto text = config::read_compressed(options.file, many_bytes);
-  if (!text.has_value()) {
-    return text.error();
-  }
-  auto cases = eval::crash_cases_from_text(text.value(), options.file);
-  if (!cases.has_value()) {
-    return cases.error();
-  }
-  auto planes = open_planes(options.car);
-  if (!planes.has_value()) {
-    return planes.error();
-  }
-  all.planes = std::move(planes).value();
-  const auto splits =
-      sim::load_splits(all.planes->inputs.places.root / "scenarios" / "splits.toml");
-  if (!splits.has_value()) {
-    return splits.error();
-  }
-  Fnv hash;
-  hash.add(text.value());
-  for (CrashCase& one : std::move(cases).value()) {
-    const auto& test_only = splits.value().test_only;
-    if (!one.kind) {
-      ++all.recorded;
-    } else if (std::find(test_only.begin(), test_only.end(), *one.kind) != test_only.end()) {
-      ++all.test_only;
-    } else {
-      all.cases.push_back(std::move(one));
-    }
-  }
-  if (all.cases.empty()) {
-    return Error{Error::Code::out_of_range,
-                 fmt::format("{}: want cases that were drawn from families of the tuning split, "
-                             "got {} recorded ones and {} of families for tests",
-                             options.file, all.recorded, all.test_only)};
-  }
-  if (!options.memory.empty()) {
-    auto bank = memory::Store::open_existing(options.memory);
-    auto stored = bank.has_value() ? std::move(bank).value().all()
-                                   : Result<std::vector<memory::Case>>(bank.error());
-    if (!stored.has_value()) {
-      return stored.error();
-    }
-    hash.add(memory::cases_text(stored.value()));
-    all.told.emplace(std::move(stored).value());
-  }
-  all.digest = hash.value();
-  return all;
-}
-
-/// Adds the example of one encounter, where its trigger fires.
-void add_example(ExampleRow& row, const sim::Scenario& drawn, ReplyExample example,
-                 const Exporting& with, const CasesExportOptions& options, std::uint64_t seed) {
-  const Inputs& inputs = with.planes->inputs;
-  const sim::Scenario world = case_world(drawn, seed);
-  const auto situation = eval::situation_at_trigger(
-      case_stage(world, inputs, seed, example.record + (example.is_twin ? "_twin" : "")),
-      with.planes->setup.forecast);
-  if (!situation.has_value()) {
-    row.problem = example.record + ": " + situation.error().message;
-    return;
-  }
-  if (!situation.value()) {
-    return;
-  }
-  const auto told = with.told ? with.told->in(situation.value()->scene_at_trigger) : std::nullopt;
-  auto made = eval::reply_example(std::move(example), *situation.value(), told, options.seed);
-  if (made) {
-    row.examples.push_back(*std::move(made));
-  }
-}
-
-ExampleRow row_of(const CrashCase& one, const Exporting& with, const CasesExportOptions& options) {
-  ExampleRow row;
-  const Inputs& inputs = with.planes->inputs;
-  const auto again = eval::drawn_again(one, inputs.car_name, manoeuvre::footprint(inputs.car));
-  if (!again.has_value()) {
-    row.problem = again.error().message;
-    return row;
-  }
-  ReplyExample example{.record = one.record.name, .family = one.family};
-  for (std::size_t k = 0; k < one.judged.happened.size(); ++k) {
-    if (one.judged.happened.at(k)) {
-      example.known.at(k) = one.judged.happened.at(k)->harm.value;
-    }
-  }
-  add_example(row, again.value().scenario, example, with, options, one.seed);
-  example.known = {};
-  example.is_twin = true;
-  add_example(row, again.value().twin, std::move(example), with, options, one.seed);
   return row;
 }
 
@@ -243,7 +114,7 @@ SetTallies tallied(const std::vector<ReplyExample>& examples) {
   return tallies;
 }
 
-std::string data_card(const Exporting& with, const SetTallies& tallies,
+std::string data_card(const ExampleSource& with, const SetTallies& tallies,
                       const std::string& command) {
   std::string text = fmt::format(
       "# Examples of prompts and an expert's replies\n\nMade by `saca {}` (version {}). Each "
@@ -276,7 +147,7 @@ std::string data_card(const Exporting& with, const SetTallies& tallies,
   return text + "\nLicence: that of SACA. FARS is in the public domain.\n";
 }
 
-json figures_of(const Exporting& with, const SetTallies& tallies, int failed,
+json figures_of(const ExampleSource& with, const SetTallies& tallies, int failed,
                 const std::string& command) {
   json out{{"meta.command", "saca " + command},      {"meta.version", SACA_VERSION},
            {"export.num_cases", with.cases.size()},  {"export.num_recorded", with.recorded},
@@ -296,8 +167,9 @@ json figures_of(const Exporting& with, const SetTallies& tallies, int failed,
   return out;
 }
 
-std::optional<Error> write_sets(const std::vector<ReplyExample>& examples, const Exporting& with,
-                                const CasesExportOptions& options, const std::string& card) {
+std::optional<Error> write_sets(const std::vector<ReplyExample>& examples,
+                                const ExampleSource& with, const CasesExportOptions& options,
+                                const std::string& card) {
   const std::filesystem::path folder = options.output;
   const std::string system = reason::system_part(with.planes->inputs.harm);
   for (const ExampleSet set : eval::all_example_sets) {
@@ -330,23 +202,24 @@ int export_cases(const CasesExportOptions& options) {
     return refused(*problem);
   }
   watch_for_interrupt();
-  const auto opened = open_exporting(options);
+  const auto opened = open_examples(options.examples);
   if (!opened.has_value()) {
     return refused(opened.error());
   }
-  const Exporting& with = opened.value();
-  const std::string command = fmt::format(
-      "cases export {} --format {} --car {} --seed {}{}", options.file, options.format, options.car,
-      options.seed, options.memory.empty() ? "" : " --memory " + options.memory);
+  const ExampleSource& with = opened.value();
+  const std::string command =
+      fmt::format("cases export {} --format {} --car {} --seed {}{}", options.examples.file,
+                  options.format, options.examples.car, options.examples.seed,
+                  options.examples.memory.empty() ? "" : " --memory " + options.examples.memory);
   auto rows = rows_of<ExampleRow>(
       {.journal = (folder / "journal").string(),
        .title = fmt::format("saca {} cases export --car {} --seed {} ({:016x})", SACA_VERSION,
-                            options.car, options.seed, with.digest),
+                            options.examples.car, options.examples.seed, with.digest),
        .progress = "examples of replies",
        .unit = "cases",
        .count = with.cases.size(),
        .threads = options.threads,
-       .row = [&](std::size_t i) { return row_of(with.cases[i], with, options); },
+       .row = [&](std::size_t i) { return row_of(with.cases[i], with, options.examples); },
        .line_of = row_line,
        .row_from = row_from});
   if (!rows.has_value()) {
@@ -392,17 +265,11 @@ void add_cases_export(CLI::App& cases, int& exit_code) {
   CLI::App* const command = cases.add_subcommand(
       "export", "Writes prompts and an expert's replies as sets to teach a language model with");
   const auto options = std::make_shared<CasesExportOptions>();
-  command->add_option("FILE", options->file, "What `build` wrote")->required();
+  add_example_options(*command, options->examples);
   command
       ->add_option("--format", options->format,
                    "local: with what is known of each, for `training/`; openai: chat fine-tuning")
       ->check(CLI::IsMember({"local", "openai"}))
-      ->capture_default_str();
-  command->add_option("--memory", options->memory,
-                      "A bank whose most alike case prompts tell of; without, they tell of none");
-  command->add_option("--car", options->car, "That the cases were made with")
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "Of the replies' words: same seed, same bytes")
       ->capture_default_str();
   command->add_option("--output,-o", options->output, "The folder where the sets go")
       ->capture_default_str();

@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr Clock::Time loading_time = std::chrono::seconds(60);  // a cold disk included
 constexpr std::string_view replay_prefix = "replay:";
+constexpr std::string_view weights_prefix = "local:";
 
 Result<std::unique_ptr<reason::LanguageModel>> open_replay(const std::string& file,
                                                            runtime::Pace pace, Clock& clock) {
@@ -118,10 +119,10 @@ Result<std::unique_ptr<reason::LanguageModel>> open_server(const Places& places,
       std::make_unique<reason::OpenAiModel>(std::move(settings), clock));
 }
 
-}  // namespace
-
-Result<std::unique_ptr<reason::ChildModel>> open_local_model(const Places& places,
-                                                             runtime::Pace pace, Clock& clock) {
+/// @param weights  nullopt: none were found
+Result<std::unique_ptr<reason::ChildModel>> open_weights(const Places& places,
+                                                         const std::optional<fs::path>& weights,
+                                                         runtime::Pace pace, Clock& clock) {
   std::error_code problem;
   if (!std::filesystem::exists(places.model_host, problem)) {
     return Error{Error::Code::unreadable,
@@ -129,7 +130,6 @@ Result<std::unique_ptr<reason::ChildModel>> open_local_model(const Places& place
                      ": the program that runs the language model is missing; `make model` and "
                      "`make build` make it"};
   }
-  const auto weights = find_weights(places);
   if (!weights) {
     return Error{Error::Code::unreadable,
                  (places.root / "third_party" / "models" / "choice.json").string() +
@@ -161,14 +161,24 @@ Result<std::unique_ptr<reason::ChildModel>> open_local_model(const Places& place
   return model;
 }
 
+}  // namespace
+
+Result<std::unique_ptr<reason::ChildModel>> open_local_model(const Places& places,
+                                                             runtime::Pace pace, Clock& clock) {
+  return open_weights(places, find_weights(places), pace, clock);
+}
+
 namespace {
 
 /// nullptr: off.
 Result<std::unique_ptr<reason::LanguageModel>> open_model(const Places& places,
                                                           const std::string& choice,
                                                           runtime::Pace pace, Clock& clock) {
-  if (choice == "local") {
-    auto local = open_local_model(places, pace, clock);
+  if (choice == "local" || choice.starts_with(weights_prefix)) {
+    auto local = open_weights(
+        places,
+        choice == "local" ? find_weights(places) : fs::path(choice.substr(weights_prefix.size())),
+        pace, clock);
     if (!local.has_value()) {
       return local.error();
     }
@@ -183,8 +193,9 @@ Result<std::unique_ptr<reason::LanguageModel>> open_model(const Places& places,
   if (choice == "off") {
     return std::unique_ptr<reason::LanguageModel>();
   }
-  return Error{Error::Code::malformed,
-               "--llm: want local, off, replay:FILE or MODEL@URL, got `" + choice + "`"};
+  return Error{
+      Error::Code::malformed,
+      "--llm: want local, local:FILE, off, replay:FILE or MODEL@URL, got `" + choice + "`"};
 }
 
 }  // namespace

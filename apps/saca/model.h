@@ -30,7 +30,8 @@ namespace saca::app {
 /// A model as `--llm` names it, and whoever writes down what it says.
 class ChosenModel {
  public:
-  /// @param choice  "local", "off", "replay:FILE" or "MODEL@URL": a server with
+  /// @param choice  "local", "local:FILE" (other weights), "off", "replay:FILE" or "MODEL@URL": a
+  /// server with
   ///                /v1/chat/completions, its key in the environment as SACA_LLM_KEY
   /// @param record  file for its replies; empty: none
   /// @return        without a model when it is off, or when "local" is not there: that is said on

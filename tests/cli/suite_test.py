@@ -113,7 +113,7 @@ def test_a_journal_of_other_work_is_refused(tmp_path):
     (["suite", "balanced", "--methods", "saca_no_model", "--memory", "m"], WRONG_COMMAND_LINE, 'want --llm MODEL with "saca_no_model"'),
     (["suite", "balanced", "--memory", "no_such.sqlite"], BAD_INPUT, "no_such.sqlite: there is no such memory bank"),
     (["ladder", "balanced", "--memory", "no_such.sqlite"], BAD_INPUT, "no_such.sqlite: there is no such memory bank"),
-    (["suite", "balanced", "--llm", "no_such"], BAD_INPUT, "want local, off, replay:FILE or MODEL@URL"),
+    (["suite", "balanced", "--llm", "no_such"], BAD_INPUT, "want local, local:FILE, off, replay:FILE or MODEL@URL"),
     (["suite", "fmvss127", "--memory", "m.sqlite"], WRONG_COMMAND_LINE, "SACA as it ships"),
     (["suite", "traffic", "--data", ".", "--llm", "local"], WRONG_COMMAND_LINE, "the verdict alone"),
     (["suite", "fmvss127", "--t1-s", "2"], WRONG_COMMAND_LINE, "run as it stands"),

@@ -1,0 +1,275 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/saca/cases_commands.h"
+#include "apps/saca/cases_examples.h"
+#include "apps/saca/json_output.h"
+#include "apps/saca/model.h"
+#include "apps/saca/resumable.h"
+#include "apps/saca/suite_pages.h"
+#include "saca/config/json_lines.h"
+#include "saca/config/json_reader.h"
+#include "saca/config/json_text.h"
+#include "saca/eval/reply_score.h"
+
+namespace saca::app {
+namespace {
+
+using eval::ExampleReply;
+using eval::ReplyScore;
+using nlohmann::json;
+
+constexpr std::string_view replies_schema = "saca.example_replies/1";
+// Of a case and its twin together: without haste, so that every reply comes to its end.
+constexpr Clock::Time patience_with_model = std::chrono::seconds(180);
+
+struct CasesEvalOptions {
+  ExampleOptions examples;
+  std::string model = "local";
+  std::string set = "test";
+  std::size_t count = 0;  ///< at most so many cases; 0: all of the set
+  std::string output = "runs/replies.jsonl";
+  bool as_json = false;
+};
+
+/// What was replied about one case and its twin; as a line of the journal.
+struct ReplyRow {
+  std::vector<ExampleReply> replies;
+  std::string problem;  ///< why it could not be played or asked; else empty
+};
+
+std::string reply_row_line(const ReplyRow& row) {
+  json replies = json::array();
+  for (const ExampleReply& one : row.replies) {
+    replies.push_back(eval::to_json(one));
+  }
+  return json{{"replies", std::move(replies)}, {"problem", row.problem}}.dump();
+}
+
+Result<ReplyRow> reply_row_from(const std::string& line) {
+  const auto parsed = config::parse_json(line);
+  if (!parsed.has_value()) {
+    return parsed.error();
+  }
+  std::optional<Error> problem;
+  config::JsonReader reader(parsed.value(), "", problem, "line");
+  ReplyRow row{.replies = {}, .problem = reader.text("problem")};
+  const json* const replies = reader.list("replies");
+  reader.refuse_others();
+  for (std::size_t i = 0; replies != nullptr && i < replies->size(); ++i) {
+    auto one = eval::example_reply_from_json((*replies)[i]);
+    if (!one.has_value()) {
+      return one.error();
+    }
+    row.replies.push_back(std::move(one).value());
+  }
+  if (problem) {
+    return *problem;
+  }
+  return row;
+}
+
+ReplyRow asked_about(DrawnExamples drawn, reason::LanguageModel& model, Clock& clock) {
+  ReplyRow row{.replies = {}, .problem = std::move(drawn.problem)};
+  if (drawn.examples.empty()) {
+    return row;
+  }
+  std::vector<std::string> scenes;
+  for (const DrawnExample& each : drawn.examples) {
+    scenes.push_back(each.example.prompt);
+  }
+  const auto replies =
+      model.ask(scenes, clock.now() + patience_with_model, [](const reason::Progress&) {});
+  if (!replies.has_value()) {
+    row.problem = drawn.examples.front().example.record + ": " + replies.error().message;
+    return row;
+  }
+  for (std::size_t i = 0; i < drawn.examples.size(); ++i) {
+    DrawnExample& each = drawn.examples[i];
+    row.replies.push_back(
+        eval::example_reply(std::move(each.example), replies.value()[i], each.situation));
+  }
+  return row;
+}
+
+int median_of(const std::vector<int>& sorted) {
+  return sorted[sorted.size() / 2];
+}
+
+json figures_of(const ReplyScore& score, int failed, const std::string& command,
+                const std::string& model) {
+  json out{{"meta.command", "saca " + command},
+           {"meta.version", SACA_VERSION},
+           {"meta.model", model},
+           {"eval.num_examples", score.examples},
+           {"eval.num_known", score.known},
+           {"eval.num_failed", failed},
+           {"eval.ended", score.ended},
+           {"eval.text_and_answer_agree", score.agrees},
+           {"eval.statements_checked", score.statements},
+           {"eval.true_statements", score.true_statements},
+           {"eval.true_replies", score.true_replies},
+           {"eval.unfounded", score.unfounded},
+           {"eval.tokens.p50", median_of(score.tokens)},
+           {"eval.tokens.max", score.tokens.back()}};
+  add_estimate(out, "eval.twins.needless", score.needless);
+  for (const eval::ReplyChoice& one : score.choices) {
+    const std::string key = fmt::format("eval.{}.", one.key);
+    add_estimate(out, key + "best_within", one.best_within);
+    add_estimate(out, key + "admissible", one.admissible);
+    add_estimate(out, key + "harm", one.harm);
+    add_estimate(out, key + "regret", one.regret);
+    add_estimate(out, key + "above_rule", one.above_rule);
+  }
+  if (score.calibration) {
+    out["eval.temperature"] = score.calibration->temperature;
+    out["eval.log_loss"] = score.calibration->log_loss_now;
+    out["eval.log_loss_at_temperature"] = score.calibration->log_loss;
+  }
+  return out;
+}
+
+void print(const ReplyScore& score, const CasesEvalOptions& options, const std::string& model) {
+  app::print("{} examples of the {} set, {}; of {} the harm of every policy is known\n\n",
+             score.examples, options.set, model, score.known);
+  app::print("{:42} {:>22} {:>12} {:>24} {:>24}\n", "choice", "best of admissible, %",
+             "admissible,%", "regret", "harm above the rule's");
+  for (const eval::ReplyChoice& one : score.choices) {
+    app::print("{:42} {:>22} {:12.1f} {:>24} {:>24}\n", one.title,
+               with_interval(one.best_within, 1, 100.0), 100.0 * one.admissible.value,
+               with_interval(one.regret, 4), with_interval(one.above_rule, 4));
+  }
+  app::print(
+      "\nThe rule: AEB where it is admissible, else the mildest. In twins, where nothing has to be "
+      "done, the model\nintervenes in {} %.\n\n{:.1f} % of the replies end by themselves, of {} "
+      "tokens (median; at most {}); {:.1f} % conclude as they answer.\n{:.1f} statements of each "
+      "can be checked, {:.1f} % of them are true; in {:.1f} % of the replies all are; {:.1f} % of "
+      "the choices\nrest on something false.\n",
+      with_interval(score.needless, 1, 100.0), 100.0 * score.ended, median_of(score.tokens),
+      score.tokens.back(), 100.0 * score.agrees, score.statements, 100.0 * score.true_statements,
+      100.0 * score.true_replies, 100.0 * score.unfounded);
+  if (score.calibration) {
+    app::print("Temperature: {:.2f} (log loss {:.3f}, as it is {:.3f}; {} examples)\n",
+               score.calibration->temperature, score.calibration->log_loss,
+               score.calibration->log_loss_now, score.calibration->count);
+  }
+}
+
+std::optional<Error> write_replies(const std::string& path,
+                                   const std::vector<ExampleReply>& replies) {
+  std::string lines = config::first_json_line(replies_schema, "replies", replies.size());
+  for (const ExampleReply& one : replies) {
+    lines += eval::to_json(one).dump() + '\n';
+  }
+  return write_output(path, lines);
+}
+
+int eval_cases(const CasesEvalOptions& options) {
+  if (const auto problem = why_outputs_unwritable({options.output})) {
+    return refused(*problem);
+  }
+  watch_for_interrupt();
+  auto opened = open_examples(options.examples);
+  if (!opened.has_value()) {
+    return refused(opened.error());
+  }
+  ExampleSource source = std::move(opened).value();
+  const eval::ExampleSet set = eval::example_set_from(options.set).value();
+  std::erase_if(source.cases, [set](const eval::CrashCase& one) {
+    return eval::set_of_record(one.record.name) != set;
+  });
+  if (options.count > 0 && source.cases.size() > options.count) {
+    source.cases.resize(options.count);
+  }
+  if (source.cases.empty()) {
+    return refused({Error::Code::out_of_range, options.examples.file + ": want cases of the " +
+                                                   options.set + " set, got none"});
+  }
+  SteadyClock clock;
+  const auto model = open_needed_model(source.planes->inputs.places, options.model,
+                                       runtime::Pace::lockstep, clock);
+  if (!model.has_value()) {
+    return refused(model.error());
+  }
+  const std::string description = model.value()->description();
+  const std::string command =
+      fmt::format("cases eval {} --set {} --llm {} --car {} --seed {}{}", options.examples.file,
+                  options.set, options.model, options.examples.car, options.examples.seed,
+                  options.examples.memory.empty() ? "" : " --memory " + options.examples.memory);
+  auto rows = rows_of<ReplyRow>(
+      {.journal = options.output + ".journal",
+       .title = fmt::format("saca {} cases eval --set {} --car {} --seed {} ({:016x}) {}",
+                            SACA_VERSION, options.set, options.examples.car, options.examples.seed,
+                            source.digest, description),
+       .progress = "replies",
+       .unit = "cases",
+       .count = source.cases.size(),
+       .threads = 1,  // the model uses all cores
+       .row =
+           [&](std::size_t i) {
+             return asked_about(drawn_examples(source.cases[i], source, options.examples),
+                                *model.value(), clock);
+           },
+       .line_of = reply_row_line,
+       .row_from = reply_row_from});
+  if (!rows.has_value()) {
+    return refused(rows.error());
+  }
+  if (!rows.value()) {
+    complain("interrupted: the same command goes on from here");
+    return was_interrupted;
+  }
+  std::vector<ExampleReply> replies;
+  int failed = 0;
+  std::vector<ReplyRow> all = *std::move(rows).value();
+  for (ReplyRow& row : all) {
+    if (!row.problem.empty()) {
+      ++failed;
+      complain(row.problem);
+    }
+    std::move(row.replies.begin(), row.replies.end(), std::back_inserter(replies));
+  }
+  if (replies.empty()) {
+    complain(options.examples.file + ": nothing could be asked");
+    return some_failed;
+  }
+  if (const auto problem = write_replies(options.output, replies)) {
+    return refused(*problem);
+  }
+  const ReplyScore score = eval::reply_score(replies, options.examples.seed);
+  if (options.as_json) {
+    app::print_json(figures_of(score, failed, command, description));
+  } else {
+    print(score, options, description);
+  }
+  return failed == 0 ? success : some_failed;
+}
+
+}  // namespace
+
+void add_cases_eval(CLI::App& cases, int& exit_code) {
+  CLI::App* const command = cases.add_subcommand(
+      "eval", "How well a language model replies to prompts of cases, beside simple rules");
+  const auto options = std::make_shared<CasesEvalOptions>();
+  add_example_options(*command, options->examples);
+  command->add_option("--llm", options->model, "As of `saca reason`")->capture_default_str();
+  command->add_option("--set", options->set, "Of which records: those that `export` put into it")
+      ->check(CLI::IsMember({"train", "calibration", "test"}))
+      ->capture_default_str();
+  command->add_option("--count", options->count, "At most so many cases of the set")
+      ->check(CLI::Range(1, 1'000'000));
+  command->add_option("--output,-o", options->output, "Where the replies go, a line each")
+      ->capture_default_str();
+  command->add_flag("--json", options->as_json, "For programs");
+  command->callback([options, &exit_code] { exit_code = eval_cases(*options); });
+}
+
+}  // namespace saca::app

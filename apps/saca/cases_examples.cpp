@@ -1,0 +1,146 @@
+#include "apps/saca/cases_examples.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "apps/saca/cases_making.h"
+#include "saca/config/compressed_text.h"
+#include "saca/core/fnv.h"
+#include "saca/memory/case_json.h"
+#include "saca/memory/store.h"
+#include "saca/sim/splits.h"
+
+namespace saca::app {
+
+using eval::CrashCase;
+using eval::ReplyExample;
+
+void add_example_options(CLI::App& command, ExampleOptions& options) {
+  command.add_option("FILE", options.file, "What `build` wrote")->required();
+  command.add_option("--memory", options.memory,
+                     "A bank whose most alike case prompts tell of; without, they tell of none");
+  command.add_option("--car", options.car, "That the cases were made with")->capture_default_str();
+  command.add_option("--seed", options.seed, "Of the replies' words: same seed, same bytes")
+      ->capture_default_str();
+}
+
+ToldCases::ToldCases(std::vector<memory::Case> cases)
+    : cases_(std::move(cases)), experience_(cases_) {
+  for (std::size_t i = 0; i < cases_.size(); ++i) {
+    place_of_[cases_[i].id] = i;
+  }
+}
+
+std::optional<eval::ToldCase> ToldCases::in(const world::Scene& scene) const {
+  const auto recalled = experience_.recall(memory::features(scene));
+  if (!recalled) {
+    return std::nullopt;
+  }
+  return eval::ToldCase{cases_[place_of_.at(recalled->nearest)], recalled->similarity};
+}
+
+Result<ExampleSource> open_examples(const ExampleOptions& options) {
+  ExampleSource all;
+  const auto text = config::read_compressed(options.file, many_bytes);
+  if (!text.has_value()) {
+    return text.error();
+  }
+  auto cases = eval::crash_cases_from_text(text.value(), options.file);
+  if (!cases.has_value()) {
+    return cases.error();
+  }
+  auto planes = open_planes(options.car);
+  if (!planes.has_value()) {
+    return planes.error();
+  }
+  all.planes = std::move(planes).value();
+  const auto splits =
+      sim::load_splits(all.planes->inputs.places.root / "scenarios" / "splits.toml");
+  if (!splits.has_value()) {
+    return splits.error();
+  }
+  Fnv hash;
+  hash.add(text.value());
+  for (CrashCase& one : std::move(cases).value()) {
+    const auto& test_only = splits.value().test_only;
+    if (!one.kind) {
+      ++all.recorded;
+    } else if (std::find(test_only.begin(), test_only.end(), *one.kind) != test_only.end()) {
+      ++all.test_only;
+    } else {
+      all.cases.push_back(std::move(one));
+    }
+  }
+  if (all.cases.empty()) {
+    return Error{Error::Code::out_of_range,
+                 fmt::format("{}: want cases that were drawn from families of the tuning split, "
+                             "got {} recorded ones and {} of families for tests",
+                             options.file, all.recorded, all.test_only)};
+  }
+  if (!options.memory.empty()) {
+    auto bank = memory::Store::open_existing(options.memory);
+    auto stored = bank.has_value() ? std::move(bank).value().all()
+                                   : Result<std::vector<memory::Case>>(bank.error());
+    if (!stored.has_value()) {
+      return stored.error();
+    }
+    hash.add(memory::cases_text(stored.value()));
+    all.told.emplace(std::move(stored).value());
+  }
+  all.digest = hash.value();
+  return all;
+}
+
+namespace {
+
+/// Adds the example of one encounter, where its trigger fires.
+void add_example(DrawnExamples& all, const sim::Scenario& drawn, ReplyExample example,
+                 const ExampleSource& source, const ExampleOptions& options, std::uint64_t seed) {
+  const Inputs& inputs = source.planes->inputs;
+  const sim::Scenario world = case_world(drawn, seed);
+  auto situation = eval::situation_at_trigger(
+      case_stage(world, inputs, seed, example.record + (example.is_twin ? "_twin" : "")),
+      source.planes->setup.forecast);
+  if (!situation.has_value()) {
+    all.problem = example.record + ": " + situation.error().message;
+    return;
+  }
+  if (!situation.value()) {
+    return;
+  }
+  const auto told =
+      source.told ? source.told->in(situation.value()->scene_at_trigger) : std::nullopt;
+  auto made = eval::reply_example(std::move(example), *situation.value(), told, options.seed);
+  if (made) {
+    all.examples.push_back({*std::move(made), *std::move(situation).value()});
+  }
+}
+
+}  // namespace
+
+DrawnExamples drawn_examples(const CrashCase& one, const ExampleSource& source,
+                             const ExampleOptions& options) {
+  DrawnExamples all;
+  const Inputs& inputs = source.planes->inputs;
+  const auto again = eval::drawn_again(one, inputs.car_name, manoeuvre::footprint(inputs.car));
+  if (!again.has_value()) {
+    all.problem = again.error().message;
+    return all;
+  }
+  ReplyExample example{.record = one.record.name, .family = one.family};
+  for (std::size_t k = 0; k < one.judged.happened.size(); ++k) {
+    if (one.judged.happened.at(k)) {
+      example.known.at(k) = one.judged.happened.at(k)->harm.value;
+    }
+  }
+  add_example(all, again.value().scenario, example, source, options, one.seed);
+  example.known = {};
+  example.is_twin = true;
+  add_example(all, again.value().twin, std::move(example), source, options, one.seed);
+  return all;
+}
+
+}  // namespace saca::app
