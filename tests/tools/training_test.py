@@ -1,0 +1,210 @@
+"""Training of the language model: what it learns from, and that it learns."""
+import json
+import pathlib
+import random
+import subprocess
+import sys
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+TRAINING = ROOT / "training"
+PYTHON = ROOT / "build/training/bin/python"
+sys.path.insert(0, str(TRAINING))
+import examples  # noqa: E402
+
+needs_environment = pytest.mark.skipif(not PYTHON.exists(), reason="PyTorch is not installed (training/run.sh setup)")
+HEADER = {"schema": "saca.reply_examples/1", "examples": 1}
+EXAMPLE = {"record": "fars_1", "family": "rear_end", "twin": False, "prompt": "0 AEB: clear", "choice": 3, "admissible": [3],
+           "reply": "Scenario Analysis\n1. So ES-B-L.\nResponse to user: 3", "forecast": [0.1] * 8, "known": [None] * 8}
+END = -1
+
+
+def letters(text):
+    """A tokeniser whose tokens are letters: a digit is a token of its own."""
+    return [ord(letter) for letter in text]
+
+
+def write(path, *documents):
+    path.write_text("".join(json.dumps(one) + "\n" for one in documents))
+    return path
+
+
+def sequence(seed=1):
+    one = examples.read_set_line(json.dumps(EXAMPLE), "place")
+    return examples.sequence_of(one, letters, END, 5.0, random.Random(seed))
+
+
+def branch(made, number):
+    return [i for i, of in enumerate(made.branch) if of == number]
+
+
+def test_sets_are_read_back(tmp_path):
+    (one,) = examples.read_set(write(tmp_path / "train.jsonl", HEADER, EXAMPLE))
+    assert one.record == "fars_1" and one.choice == 3 and one.known == (None,) * 8
+
+
+@pytest.mark.parametrize("documents, message", [
+    ((), "train.jsonl:1: want a header"),
+    (({"schema": "saca.cases/1"}, EXAMPLE), "train.jsonl:1: want a header"),
+    (([1], EXAMPLE), "train.jsonl:1: want a header"),
+    ((dict(HEADER, examples=2), EXAMPLE), "want 2 examples, got 1"),
+    ((HEADER, {key: value for key, value in EXAMPLE.items() if key != "known"}), "train.jsonl:2: want the key 'known'"),
+    ((HEADER, dict(EXAMPLE, choice=4)), "train.jsonl:2: want a reply that ends with its choice"),
+    ((HEADER, dict(EXAMPLE, choice="x")), "train.jsonl:2: want an example"),
+])
+def test_bad_sets_are_refused(tmp_path, documents, message):
+    with pytest.raises(examples.Problem, match=message.replace("(", ".")):
+        examples.read_set(write(tmp_path / "train.jsonl", *documents))
+    with pytest.raises(examples.Problem, match="none.jsonl: cannot read"):
+        examples.read_set(tmp_path / "none.jsonl")
+
+
+def test_each_branch_is_the_reply_that_the_engine_asks_for():
+    made = sequence()
+    text = lambda number: "".join(chr(made.tokens[i]) for i in branch(made, number) if made.tokens[i] != END)
+    assert text(0) == "0 AEB: clear<|im_end|>\n<|im_start|>assistant\n"
+    assert text(1) == EXAMPLE["reply"] and made.tokens[branch(made, 1)[-1]] == END
+    assert text(2) == text(3) == " Response to user: 3"
+
+
+def test_only_replies_are_learnt_and_the_answer_weighs_more():
+    made = sequence()
+    assert all(made.weight[i] == 0.0 for i in branch(made, 0))
+    reasoned = [made.weight[i] for i in branch(made, 1)]
+    assert reasoned == [1.0] * (len(reasoned) - 2) + [5.0, 1.0]
+    for number in (2, 3):  # nobody has to learn the question
+        assert [made.weight[i] for i in branch(made, number)] == [0.0] * (len(branch(made, number)) - 1) + [5.0]
+
+
+def test_tokens_are_predicted_from_those_before_them():
+    for seed in range(20):
+        made = sequence(seed)
+        prompt = branch(made, 0)
+        for number in (1, 2, 3):
+            own = branch(made, number)
+            assert [made.source[i] for i in own[1:]] == own[:-1]
+        assert made.source[branch(made, 1)[0]] == made.source[branch(made, 2)[0]] == prompt[-1]
+        assert 1 <= made.cut < len(branch(made, 1))
+        before = len(prompt) + made.cut - 1  # the reasoning's last token that the cut branch sees
+        assert made.branch[before] == 1 and made.source[branch(made, 3)[0]] == before
+        assert made.position[branch(made, 3)[0]] == made.position[before] + 1
+        assert [made.position[i] for i in branch(made, 2)] == list(range(len(prompt), len(prompt) + len(branch(made, 2))))
+
+
+def test_a_tokeniser_that_splits_answers_is_refused():
+    one = examples.read_set_line(json.dumps(EXAMPLE), "place")
+    with pytest.raises(examples.Problem, match="a token of its own"):
+        examples.sequence_of(one, lambda text: [text], END, 5.0, random.Random(1))
+
+
+def test_batches_hold_every_example_once_of_about_one_length():
+    lengths = [random.Random(i).randrange(200, 500) for i in range(101)]
+    made = examples.batches_of(lengths, 4, 0, 1)
+    assert sorted(i for one in made for i in one) == list(range(101)) and max(map(len, made)) == 4
+    assert made == examples.batches_of(lengths, 4, 0, 1) != examples.batches_of(lengths, 4, 1, 1)
+    spread = lambda batches: sum(max(lengths[i] for i in one) - min(lengths[i] for i in one) for one in batches)
+    assert spread(made) < 0.3 * spread([list(range(i, min(i + 4, 101))) for i in range(0, 101, 4)])
+
+
+def in_environment(code, *arguments):
+    run = subprocess.run([PYTHON, "-c", code, *map(str, arguments)], cwd=TRAINING, capture_output=True, text=True,
+                         env={"PYTHONDONTWRITEBYTECODE": "1", "HF_HUB_OFFLINE": "1", "OMP_NUM_THREADS": "1"})
+    assert run.returncode == 0, run.stderr[-2000:]
+    return json.loads(run.stdout.splitlines()[-1])
+
+
+# A tiny model with random weights: what a branch's tokens see, and that nothing else changes what it says.
+TINY = """
+import json, random, sys, torch, transformers
+import batch as batches, examples, fine_tune
+torch.manual_seed(1)
+config = transformers.LlamaConfig(vocab_size=300, hidden_size=64, intermediate_size=96, num_hidden_layers=2, num_attention_heads=4,
+                                  num_key_value_heads=2, max_position_embeddings=512, initializer_range=0.2)
+given = fine_tune.options(["sets", "base", "out", "--rank", "4", "--alpha", "32"])
+model = fine_tune.with_adapter(transformers.LlamaForCausalLM(config), given)
+model.eval()
+letters = lambda text: [ord(letter) % 299 for letter in text]
+def example(prompt, reply, choice):
+    return examples.Example("r", "f", False, prompt, f"{reply}\\nResponse to user: {choice}", choice, (choice,), (0.0,) * 8, (0.0,) * 8)
+system = letters("rules")
+"""
+
+
+@needs_environment
+def test_branches_say_what_they_would_say_alone():
+    assert in_environment(TINY + """
+one, two = example("a scene", "so it is", 3), example("another scene, longer", "no", 5)
+made = [examples.sequence_of(each, letters, 299, 5.0, random.Random(2)) for each in (one, two)]
+together = batches.batch_of(made, len(system), 299)
+logits = fine_tune.logits_of(model, system, together)
+worst = 0.0
+for k, (row, source) in enumerate(zip(together.rows.tolist(), together.sources.tolist())):
+    s = made[row]
+    number = s.branch[source]
+    target_branch = next(s.branch[i] for i in range(len(s.tokens)) if s.source[i] == source and s.weight[i] > 0 and s.tokens[i] == together.targets[k])
+    prompt = s.branch.count(0)
+    if target_branch == 3:
+        path = list(range(prompt + s.cut)) + [i for i in range(source + 1) if s.branch[i] == 3]
+    else:
+        path = list(range(prompt)) + [i for i in range(source + 1) if s.branch[i] == target_branch]
+    alone = model(input_ids=torch.tensor([system + [s.tokens[i] for i in path]])).logits[0, -1]
+    worst = max(worst, (alone - logits[k]).abs().max().item())
+print(json.dumps({"worst": worst, "predictions": len(together.targets)}))
+""")["worst"] < 1e-4
+
+
+@needs_environment
+def test_what_is_repeated_is_learnt():
+    told = in_environment(TINY + """
+trained = [p for p in model.parameters() if p.requires_grad]
+optimizer = torch.optim.AdamW(trained, lr=0.01)
+made = [examples.sequence_of(example(prompt, "so", choice), letters, 299, 5.0, random.Random(3)) for prompt, choice in (("left is clear", 1), ("right is clear", 2))]
+both = batches.batch_of(made, len(system), 299)
+losses = []
+for step in range(200):
+    loss = fine_tune.loss_of(model, system, both)
+    optimizer.zero_grad(); loss.backward(); optimizer.step()
+    losses.append(loss.item())
+print(json.dumps({"first": losses[0], "last": losses[-1]}))
+""")
+    assert told["last"] < 0.5 * told["first"]
+
+
+@needs_environment
+def test_the_rate_rises_and_falls():
+    rates = in_environment(TINY + """
+given = fine_tune.options(["sets", "base", "out", "--steps", "100", "--warm-up", "10"])
+print(json.dumps([fine_tune.rate_at(step, given) for step in range(100)]))
+""")
+    assert rates[:10] == pytest.approx([0.1 * k for k in range(1, 11)]) and rates[10] == pytest.approx(1.0)
+    assert rates[55] == pytest.approx(0.5) and rates[99] < 0.001 and rates[10:] == sorted(rates[10:], reverse=True)
+
+
+# llama.cpp's own rule: of a head's rows r and r + d / 2 stand side by side.
+@needs_environment
+def test_an_adapter_has_llama_cpps_order_of_rows(tmp_path):
+    told = in_environment(TINY + """
+import adapter, gguf, numpy, pathlib, peft
+(pathlib.Path(sys.argv[1]) / "base.gguf").write_bytes(b"weights")
+state = {key: torch.arange(value.numel(), dtype=torch.float32).reshape(value.shape) for key, value in peft.get_peft_model_state_dict(model).items()}
+path = pathlib.Path(sys.argv[1]) / "adapter.gguf"
+adapter.write_adapter(path, state, config, 8, path.parent / "base.gguf", "test")
+reader = gguf.GGUFReader(path)
+tensors = {one.name: one.data.tolist() for one in reader.tensors}
+print(json.dumps({"names": len(tensors), "q": [row[0] for row in tensors["blk.0.attn_q.weight.lora_b"]], "o": [row[0] for row in tensors["blk.1.attn_output.weight.lora_b"]],
+                  "a": len(tensors["blk.0.ffn_down.weight.lora_a"]), "fields": sorted(reader.fields)}))
+""", tmp_path)
+    assert told["names"] == 2 * 7 * 2 and told["a"] == 4
+    row = lambda head, k: 4.0 * (16 * head + k)  # 64 rows of rank 4, four heads of 16
+    assert told["q"] == [row(head, k + half) for head in range(4) for k in range(8) for half in (0, 8)]
+    assert told["o"] == [4.0 * k for k in range(64)]
+    assert {"adapter.lora.alpha", "adapter.type", "general.type", "saca.base.sha256"} <= set(told["fields"])
+
+
+@needs_environment
+def test_bad_input_is_told_in_one_line(tmp_path):
+    tune = lambda *arguments: subprocess.run([PYTHON, TRAINING / "fine_tune.py", *map(str, arguments)], capture_output=True, text=True)
+    none = tune(tmp_path, tmp_path / "none.gguf", tmp_path / "out")
+    assert none.returncode == 3 and "none.gguf: want the model's weights" in none.stderr and none.stderr.count("\n") == 1
+    assert "--steps: want at least 1, got 0" in tune(tmp_path, tmp_path, tmp_path / "out", "--steps", "0").stderr

@@ -1,0 +1,64 @@
+"""A trained adapter as a file that llama.cpp reads (GGUF, type adapter).
+
+PyTorch keeps both halves of a head's rotary pairs apart, llama.cpp side by side: the rows of what a head's query
+and key are made with are put into its order.
+"""
+import hashlib
+import pathlib
+
+import gguf
+import numpy as np
+import torch
+
+NAMES = {
+    "self_attn.q_proj": "attn_q",
+    "self_attn.k_proj": "attn_k",
+    "self_attn.v_proj": "attn_v",
+    "self_attn.o_proj": "attn_output",
+    "mlp.gate_proj": "ffn_gate",
+    "mlp.up_proj": "ffn_up",
+    "mlp.down_proj": "ffn_down",
+}
+BASE_KEY = "saca.base.sha256"
+
+
+def rotary_rows(weights, heads):
+    """Rows in llama.cpp's order. weights: [heads * d, n]"""
+    rows = weights.shape[0]
+    return weights.reshape(heads, 2, rows // heads // 2, -1).swapaxes(1, 2).reshape(rows, -1)
+
+
+def sha256_of(path):
+    return hashlib.sha256(pathlib.Path(path).read_bytes()).hexdigest()
+
+
+def tensors_of(state, heads, key_heads):
+    """Pairs of name and matrix. state: of peft.get_peft_model_state_dict"""
+    for key, value in sorted(state.items()):
+        parts = key.split(".")
+        layer = parts[parts.index("layers") + 1]
+        module = next(name for name in NAMES if f".{name}." in key)
+        half = "lora_a" if "lora_A" in key else "lora_b"
+        matrix = value.detach().to(torch.float32).numpy()
+        if half == "lora_b" and module.endswith(("q_proj", "k_proj")):
+            matrix = rotary_rows(matrix, heads if module.endswith("q_proj") else key_heads)
+        yield f"blk.{layer}.{NAMES[module]}.weight.{half}", np.ascontiguousarray(matrix.astype(np.float16))
+
+
+def write_adapter(path, state, config, alpha, base, name):
+    """path: of the file; config: of the base model; base: its GGUF file, whose sha256 the adapter names"""
+    unfinished = pathlib.Path(f"{path}.part")
+    writer = gguf.GGUFWriter(unfinished, "llama")
+    writer.add_type("adapter")
+    writer.add_name(name)
+    writer.add_license("apache-2.0")
+    writer.add_string("adapter.type", "lora")
+    writer.add_float32("adapter.lora.alpha", float(alpha))
+    writer.add_string(BASE_KEY, sha256_of(base))
+    for tensor, matrix in tensors_of(state, config.num_attention_heads, config.num_key_value_heads):
+        writer.add_tensor(tensor, matrix)
+    writer.write_header_to_file()
+    writer.write_kv_data_to_file()
+    writer.write_tensors_to_file()
+    writer.close()
+    unfinished.rename(path)

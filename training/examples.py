@@ -1,0 +1,139 @@
+"""Examples as token sequences with branches, and which are learnt from together.
+
+A language model reads an example's prompt once. From there on three replies begin, none of which sees the
+others: the expert's reasoning with its answer; the answer at once; and the answer after the reasoning was cut at
+a random token. So an answer that is asked for at any time is like what was learnt (`apps/model_host/engine.cpp`
+asks so). All examples share the system part, whose tokens are evaluated once for a whole batch.
+"""
+import dataclasses
+import json
+import pathlib
+import random
+
+SCHEMA = "saca.reply_examples/1"
+SYSTEM_HEAD = "<|im_start|>system\n"
+SYSTEM_TAIL = "<|im_end|>\n<|im_start|>user\n"
+PROMPT_TAIL = "<|im_end|>\n<|im_start|>assistant\n"
+ANSWER_STEM = " Response to user:"
+ANSWERS = 8
+
+
+class Problem(Exception):
+    """What is wrong with what was given, for whoever gave it."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Example:
+    """A line of a set (`saca cases export`)."""
+
+    record: str
+    family: str
+    twin: bool
+    prompt: str
+    reply: str
+    choice: int
+    admissible: tuple
+    forecast: tuple  # harm by policy; None: cannot be driven
+    known: tuple  # harm over draws by policy; None: not known
+
+
+def read_set(path):
+    """All examples of a file, in its order. Raises Problem, naming the line."""
+    path = pathlib.Path(path)
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except OSError as error:
+        raise Problem(f"{path}: cannot read: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise Problem(f"{path}: want UTF-8") from None
+    try:
+        head = json.loads(lines[0]) if lines else {}
+        told = head.get("examples") if head.get("schema") == SCHEMA else None
+    except (ValueError, AttributeError):
+        told = None
+    if told is None:
+        raise Problem(f"{path}:1: want a header of {SCHEMA}, as `saca cases export` writes it")
+    if told != len(lines) - 1:
+        raise Problem(f"{path}: want {told} examples, got {len(lines) - 1}: it is cut or was lengthened")
+    return [read_set_line(line, f"{path}:{i}") for i, line in enumerate(lines[1:], start=2)]
+
+
+def read_set_line(line, place):
+    """One example; `place` names the line in errors."""
+    try:
+        found = json.loads(line)
+        result = Example(*(found[key] for key in ("record", "family", "twin", "prompt", "reply")), int(found["choice"]),
+                         *(tuple(found[key]) for key in ("admissible", "forecast", "known")))
+    except (ValueError, TypeError) as error:
+        raise Problem(f"{place}: want an example as JSON: {error}") from None
+    except KeyError as error:
+        raise Problem(f"{place}: want the key {error}") from None
+    if not result.reply.endswith(f"Response to user: {result.choice}") or result.choice not in range(ANSWERS):
+        raise Problem(f"{place}: want a reply that ends with its choice, 0 to 7")
+    return result
+
+
+def system_tokens(tokens_of, system):
+    return tokens_of(SYSTEM_HEAD) + tokens_of(system) + tokens_of(SYSTEM_TAIL)
+
+
+@dataclasses.dataclass
+class Sequence:
+    """An example as tokens: its prompt, then branches.
+
+    `branch` is 0 in the prompt, else the number of the branch; a token sees the prompt's and its own branch's up to
+    itself, of the cut branch also `cut` tokens of the first branch. `weight` is that of the prediction *of* a token.
+    """
+
+    tokens: list
+    branch: list
+    position: list  # behind the system part
+    weight: list
+    source: list  # index of the token that it is predicted from
+    cut: int
+
+
+def sequence_of(example, tokens_of, end_token, answer_weight, rng):
+    """One example's prompt and its three branches.
+
+    tokens_of: text to tokens; end_token: that a reply ends with; rng: where the reasoning is cut.
+    """
+    prompt = tokens_of(example.prompt) + tokens_of(PROMPT_TAIL)
+    stem = tokens_of(ANSWER_STEM) + tokens_of(" ")
+    digit = tokens_of(str(example.choice))
+    reply = tokens_of(example.reply)
+    if len(digit) != 1 or reply[-1:] != digit:
+        raise Problem(f"{example.record}: want a tokeniser in which the answer is a token of its own")
+    made = Sequence(list(prompt), [0] * len(prompt), list(range(len(prompt))), [0.0] * len(prompt),
+                    list(range(-1, len(prompt) - 1)), rng.randint(1, max(1, len(reply) - len(stem) - 1)))
+    _add_branch(made, 1, len(prompt), len(prompt) - 1, reply + [end_token], [1.0] * (len(reply) - 1) + [answer_weight, 1.0])
+    _add_branch(made, 2, len(prompt), len(prompt) - 1, stem + digit, [0.0] * len(stem) + [answer_weight])
+    _add_branch(made, 3, len(prompt) + made.cut, len(prompt) + made.cut - 1, stem + digit,
+                [0.0] * len(stem) + [answer_weight])
+    return made
+
+
+def _add_branch(made, number, position, source, tokens, weights):
+    begin = len(made.tokens)
+    made.tokens += tokens
+    made.branch += [number] * len(tokens)
+    made.position += range(position, position + len(tokens))
+    made.weight += weights
+    made.source += [source, *range(begin, begin + len(tokens) - 1)]
+
+
+def batches_of(lengths, size, epoch, seed):
+    """The batches of an epoch, as lists of indices: drawn, but of examples that are about as long, since the shorter
+    ones of a batch wait for the longest. The same for the same seed, however often training was interrupted.
+    """
+    rng = random.Random(f"{seed} {epoch}")
+    order = list(range(len(lengths)))
+    rng.shuffle(order)
+    window = 8 * size
+    batches = []
+    for begin in range(0, len(order), window):
+        part = sorted(order[begin:begin + window], key=lambda i: lengths[i])
+        made = [part[i:i + size] for i in range(0, len(part), size)]
+        rng.shuffle(made)
+        batches += made
+    return batches
