@@ -259,3 +259,64 @@ def test_what_cannot_be_exported_is_told(built, tmp_path):
         saca("cases", "export", folder / "cases.jsonl", "--memory", "none.sqlite", cwd=tmp_path), BAD_INPUT)
     (tmp_path / "file").write_text("x")
     assert "file" in one_error(saca("cases", "export", folder / "cases.jsonl", "--output", "file/a", cwd=tmp_path), CANNOT_WRITE)
+
+
+def key_of(prompt):
+    """FNV-1a, 64 bits, as its authors publish it."""
+    key = 0xCBF29CE484222325
+    for byte in prompt.encode():
+        key = (key ^ byte) * 0x100000001B3 % 2**64
+    return f"{key:016x}"
+
+
+@pytest.fixture(scope="module")
+def hand_written(built, tmp_path_factory):
+    """For each example a reply that says its expert's choice, though it begins with braking; and in which set there is one."""
+    folder, _ = built
+    made = tmp_path_factory.mktemp("replies")
+    figures(saca("cases", "export", folder / "cases.jsonl", "--output", "sets", "--json", cwd=made))
+    known = {name: examples(made / "sets" / f"{name}.jsonl")[1:] for name in ("train", "calibration", "test")}
+    name = max(known, key=lambda one: sum(not example["twin"] for example in known[one]))
+    replies = {}
+    for example in known[name]:
+        answers = [{"after_ns": 1_000_000 * (k + 1), "kind": kind, "probability": [float(policy == choice) for policy in range(8)]}
+                   for k, (kind, choice) in enumerate((("first", 0), ("ended", example["choice"])))]
+        replies[key_of(example["prompt"])] = {"prompt": example["prompt"], "reasoning": example["reply"][:-2], "prompt_tokens": 400,
+                                              "reply_tokens": 80, "answers": answers}
+    file = made / "replies.json"
+    file.write_text(json.dumps({"schema": "saca.replies/1", "model": "by hand", "replies": replies}))
+    return folder, file, name, known[name]
+
+
+def test_a_model_is_scored_beside_simple_rules(hand_written, tmp_path):
+    folder, file, name, known = hand_written
+    asked = ("cases", "eval", folder / "cases.jsonl", "--llm", f"replay:{file}", "--set", name, "--output", "replies.jsonl")
+    told = figures(saca(*asked, "--json", cwd=tmp_path))
+    real = [one for one in known if not one["twin"]]
+    assert told["eval.num_examples"] == len(known) and told["eval.num_known"] == len(real) >= 1
+    assert told["eval.ended"] == told["eval.text_and_answer_agree"] == told["eval.true_replies"] == 1.0
+    assert told["eval.statements_checked"] >= 2.0 and told["eval.tokens.max"] == 80
+    harm = lambda choice: sum(choice(one) for one in real) / len(real)
+    assert told["eval.model.harm"] == told["eval.expert.harm"] == pytest.approx(harm(lambda one: one["known"][one["choice"]]))
+    assert told["eval.model_at_once.harm"] == told["eval.aeb.harm"] == pytest.approx(harm(lambda one: one["known"][0]))
+    assert told["eval.best_within.harm"] == pytest.approx(harm(lambda one: min(one["known"][k] for k in one["admissible"])))
+    assert told["eval.expert.best_within"] == 1.0 and told["eval.expert.admissible"] == 1.0
+    header, *lines = examples(tmp_path / "replies.jsonl")
+    assert header == {"schema": "saca.example_replies/1", "replies": len(known)}
+    assert [one["example"]["prompt"] for one in lines] == [one["prompt"] for one in known]
+    again = saca(*asked, cwd=tmp_path)  # from the journal
+    assert again.returncode == SUCCESS and "always AEB" in again.stdout and "by hand" in again.stdout
+
+
+def test_what_cannot_be_scored_is_told(hand_written, tmp_path):
+    folder, file, name, _ = hand_written
+    ask = lambda *more: saca("cases", "eval", folder / "cases.jsonl", "--set", name, *more, cwd=tmp_path)
+    assert "want a language model to ask, got `off`" in one_error(ask("--llm", "off"), BAD_INPUT)
+    assert "none.gguf" in one_error(ask("--llm", "local:none.gguf"), BAD_INPUT)
+    assert ask("--set", "dev").returncode == WRONG_COMMAND_LINE
+    (tmp_path / "file").write_text("x")
+    assert "file" in one_error(ask("--llm", f"replay:{file}", "--output", "file/a"), CANNOT_WRITE)
+    nobody = tmp_path / "nobody.json"
+    nobody.write_text(json.dumps({"schema": "saca.replies/1", "model": "by hand", "replies": {}}))
+    mute = ask("--llm", f"replay:{nobody}")
+    assert mute.returncode == 5 and "nothing could be asked" in mute.stderr
