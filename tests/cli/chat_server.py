@@ -2,6 +2,7 @@
 import http.server
 import json
 import threading
+import time
 
 import pytest
 
@@ -15,6 +16,7 @@ class Server(http.server.BaseHTTPRequestHandler):
         if self.server.silent:
             self.server.let_go.wait()
             return
+        time.sleep(self.server.pause)
         refuses = self.server.refuses or (self.server.refuses_after is not None and len(self.server.asked) > self.server.refuses_after)
         self.send_response(401 if refuses else 200)
         self.end_headers()
@@ -35,6 +37,7 @@ def server():
     found.asked, found.refuses, found.conclusion = [], False, "Response to user: 6"
     found.refuses_after = None  # so many questions
     found.silent, found.let_go = False, threading.Event()
+    found.pause = 0.0  # [s] before each reply
     threading.Thread(target=found.serve_forever, daemon=True).start()
     yield found
     found.let_go.set()

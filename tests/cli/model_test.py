@@ -23,6 +23,15 @@ def test_bench_measures_any_model(server, tmp_path):
     assert "some-model" in told["meta.model"]
 
 
+def test_bench_of_a_slow_model_has_figures_too(server, tmp_path):
+    server.pause = 4.5  # more than the 4.2 s that there are for three forecasts
+    run = saca("model", "bench", "--llm", name_of(server), "--runs", 1, "--json", cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    told = json.loads(run.stdout)
+    assert told["reason.full_answer_s.p50"] > 4.5 and told["reason.deadline_misses"] == 1
+    assert "reason.three_previews_s.p50" not in told
+
+
 def test_score_is_of_what_was_carried_out_and_goes_on(server, tmp_path):
     def score(count, *more):
         run = saca("model", "score", "--llm", name_of(server), "--count", count, "--json", *more, cwd=tmp_path)
