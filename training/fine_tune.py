@@ -42,6 +42,7 @@ def options(arguments):
     parser.add_argument("--warm-up", type=int, default=25, help="steps until then")
     parser.add_argument("--answer-weight", type=float, default=5.0, help="of an answer's digit; of other tokens 1")
     parser.add_argument("--twin-share", type=float, default=0.5, help="of the scenes without risk")
+    parser.add_argument("--single-share", type=float, default=0.5, help="of the scenes in which one policy alone is admissible")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--threads", type=int, default=0, help="0: all cores")
     parser.add_argument("--keep-every", type=int, default=20, help="steps")
@@ -106,9 +107,10 @@ def rate_at(step, given):
 
 
 def chosen_examples(all_of_set, given):
-    """All scenes with risk, and a share of those without, which are learnt sooner."""
-    rng = random.Random(f"{given.seed} twins")
-    return [one for one in all_of_set if not one.twin or rng.random() < given.twin_share]
+    """All scenes with risk in which there is a choice, and a share of the others, which are learnt sooner."""
+    rng = random.Random(f"{given.seed} chosen")
+    share = lambda one: (given.twin_share if one.twin else 1.0) * (given.single_share if len(one.admissible) == 1 else 1.0)
+    return [one for one in all_of_set if rng.random() < share(one)]
 
 
 class Training:

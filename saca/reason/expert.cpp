@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "saca/core/contract.h"
-#include "saca/outcome/admissible.h"
 #include "saca/outcome/ordering.h"
 #include "saca/reason/prompt.h"
 #include "saca/world/scene.h"
@@ -274,19 +273,16 @@ class Speaker {
   // Why this choice and not the next best.
   std::string conclusion() {
     const std::string chosen = one_of("The best is ", "So ", "I choose ") + called(choice_);
-    const double least = preview::least_harm(facts_);
-    const PolicyFacts& mine = of(facts_, choice_);
     const std::optional<PolicyId> other = next_best();
     if (!other) {
       return chosen + ": it alone is possible";
     }
-    const PolicyFacts& theirs = of(facts_, *other);
-    if (outcome::harm_class(mine.outcome().harm) == outcome::harm_class(least) &&
-        theirs.outcome().harm > mine.outcome().harm + outcome::least_tolerance) {
+    if (admissible(facts_).count() == 1) {
       return chosen + ": it has the least harm, " + called(*other) + ' ' +
              one_of("has ", "comes next with ") + harm_of(*other);
     }
-    return chosen + ": " + called(*other) + " harms about as little" + advantage(mine, theirs);
+    return chosen + ": " + called(*other) + " harms about as little" +
+           advantage(of(facts_, choice_), of(facts_, *other));
   }
 
   /// The best by forecast of the others.
@@ -330,18 +326,6 @@ class Speaker {
 };
 
 }  // namespace
-
-memory::Policies admissible(const AllFacts& facts) {
-  memory::Policies policies;
-  const double least = preview::least_harm(facts);
-  const PolicyFacts& braking = of(facts, PolicyId::aeb);
-  const double most =
-      outcome::admissible_harm(least, braking.drivable() ? braking.outcome().harm : least);
-  for (const PolicyFacts& one : facts) {
-    policies.set(manoeuvre::index(one.plan.policy), one.drivable() && one.outcome().harm <= most);
-  }
-  return policies;
-}
 
 PolicyId expert_choice(const AllFacts& facts, const memory::PolicyHarms& known) {
   const memory::Policies may = admissible(facts);

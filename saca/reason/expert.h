@@ -12,11 +12,6 @@
 
 namespace saca::reason {
 
-/// The policies whose forecast cannot be told from the best one: they can be driven, and their harm
-/// is at most outcome::admissible_harm, braking being as its facts have it. None where nothing can
-/// be driven.
-[[nodiscard]] memory::Policies admissible(const preview::AllFacts& facts);
-
 /// What somebody would choose who knows how it ends on average, but takes nothing that is
 /// knowingly worse than the best: of the admissible policies that of the least known harm; of those
 /// within memory::as_good of it the mildest (outcome::milder); of equally mild ones the better by

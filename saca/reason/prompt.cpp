@@ -255,6 +255,24 @@ std::string actor_sections(const Scene& scene, const Lines& lines, const Depth& 
          "## Traffic Participants:\n" + (participants.empty() ? "none\n" : participants);
 }
 
+// So that nobody who reads has to compare numbers; empty: nothing can be driven.
+std::string least_harm_line(const preview::Situation& situation) {
+  const memory::Policies may = admissible(situation.facts);
+  std::string text;
+  for (const std::size_t k : by_forecast(situation)) {
+    const bool is_next = !may.test(k);
+    text += fmt::format("{}{} {}",
+                        text.empty() ? "Least harm: "
+                        : is_next    ? "; next "
+                                     : ", ",
+                        k, name(situation.facts[k].plan.policy));
+    if (is_next) {
+      break;
+    }
+  }
+  return text.empty() ? text : text + '\n';
+}
+
 std::string manoeuvre_section(const preview::Situation& situation, const Lines& lines,
                               const Depth& depth) {
   std::string text(manoeuvres);
@@ -267,7 +285,8 @@ std::string manoeuvre_section(const preview::Situation& situation, const Lines& 
       refused += fmt::format("{}{}", refused.empty() ? "" : ", ", name(facts.plan.policy));
     }
   }
-  return refused.empty() ? text : text + "Not possible: " + refused + '\n';
+  return text + (refused.empty() ? "" : "Not possible: " + refused + '\n') +
+         least_harm_line(situation);
 }
 
 // The case's own texts are not told: they come from a file. What it teaches stands in its numbers:
@@ -318,6 +337,18 @@ std::string rendered(const preview::Situation& situation, const Lines& lines, co
 
 }  // namespace
 
+memory::Policies admissible(const preview::AllFacts& facts) {
+  memory::Policies policies;
+  const double least = preview::least_harm(facts);
+  const preview::PolicyFacts& braking = facts[manoeuvre::index(PolicyId::aeb)];
+  const double most =
+      outcome::admissible_harm(least, braking.drivable() ? braking.outcome().harm : least);
+  for (const preview::PolicyFacts& one : facts) {
+    policies.set(manoeuvre::index(one.plan.policy), one.drivable() && one.outcome().harm <= most);
+  }
+  return policies;
+}
+
 std::string system_part(const outcome::HarmModel& harm) {
   std::string text =
       "You choose the manoeuvre that does the least harm in the last seconds before a crash.\n"
@@ -328,11 +359,13 @@ std::string system_part(const outcome::HarmModel& harm) {
   }
   text += fmt::format(
       "Harm counts the people expected to be severely injured ({:g} each) or killed ({:g} each), "
-      "in and outside vehicles alike. It is a forecast: harms within {:.3f}, or {:.0f} % of what "
-      "AEB has above the least, cannot be told apart. Choose the policy with the least harm, or of "
-      "those that cannot be told apart from it the surest: whom it may hit and how likely, what "
-      "lies beyond the edge, how the most alike case ended. Else the mildest; from the mildest: "
-      "{}. Do nothing where nothing threatens. A policy that is not possible cannot be chosen.\n"
+      "in and outside vehicles alike. It is a forecast: under \"Least harm\" stand, best first, "
+      "the "
+      "policies within {:.3f} of the least, or {:.0f} % of what AEB has above it, which cannot be "
+      "told apart, then the next. Choose the surest of those that cannot be told apart: whom it "
+      "may "
+      "hit and how likely, what lies beyond the edge, how the most alike case ended. Else the "
+      "mildest; from the mildest: {}. Do nothing where nothing threatens.\n"
       "Places are seen from the ego. Risk is from 0 to 1. TTC is the time to the conflict. An "
       "oncoming lane belongs to oncoming traffic; policies to that side enter it.\n"
       "Reply with \"Scenario Analysis\", then a few short numbered statements that quote the "

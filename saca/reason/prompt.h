@@ -5,13 +5,20 @@
 #include <string_view>
 
 #include "saca/memory/case.h"
+#include "saca/memory/experience.h"
 #include "saca/outcome/harm.h"
+#include "saca/preview/policy_facts.h"
 #include "saca/preview/situation.h"
 
 namespace saca::reason {
 
 /// Of a scene part, by `tokens_at_most`: what a small model reads within a second on two cores.
-constexpr int most_prompt_tokens = 465;
+constexpr int most_prompt_tokens = 485;
+
+/// The policies whose forecast cannot be told from the best one: they can be driven, and their harm
+/// is at most outcome::admissible_harm, braking being as its facts have it. None where nothing can
+/// be driven.
+[[nodiscard]] memory::Policies admissible(const preview::AllFacts& facts);
 
 /// The part of the prompt that never changes: the policies, the rule by which they are chosen
 /// (from `outcome::better`, with the order of `outcome::severity` and the weights of

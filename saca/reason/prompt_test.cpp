@@ -65,7 +65,28 @@ TEST(Prompt, ForecastOfEachPolicyIsTold) {
   EXPECT_THAT(text, HasSubstr("\n3 ES-B-L to 7.0 m/s: hits truck1 with its front at 11.0 m/s, "
                               "harm 0.0125\n"));
   EXPECT_THAT(text, HasSubstr("\n7 NI: hits truck1 with its front at 15.0 m/s, harm 0.0125\n"));
-  EXPECT_THAT(text, HasSubstr("Not possible: T-D-L, T-D-R\n"));
+  EXPECT_THAT(text, HasSubstr("Not possible: T-D-L, T-D-R\nLeast harm: 0 AEB; next 7 NI\n"));
+}
+
+// 0.5 above the best braking allows 0.015; of two that harm as much the milder comes first.
+TEST(Prompt, TellsWhatCannotBeToldFromTheBest) {
+  preview::Situation situation = example_situation();
+  const auto harm = [&](std::size_t k) -> double& { return situation.facts[k].outcome().harm; };
+  harm(0) = 0.6;
+  harm(1) = 0.114;
+  harm(2) = 0.2;
+  harm(3) = 0.1;
+  harm(4) = 0.1;
+  harm(7) = 0.9;
+  situation.facts[4].outcome().clearance = 0.5;
+  EXPECT_THAT(prompt(situation),
+              HasSubstr("\nLeast harm: 4 ES-B-R, 3 ES-B-L, 1 AES-L; next 2 AES-R\n"));
+  for (const std::size_t k : {0U, 1U, 2U, 4U, 7U}) {
+    situation.facts[k].end = preview::Refused{"no"};
+  }
+  EXPECT_THAT(prompt(situation), HasSubstr("\nLeast harm: 3 ES-B-L\n"));
+  situation.facts[3].end = preview::Refused{"no"};
+  EXPECT_THAT(prompt(situation), testing::Not(HasSubstr("\nLeast harm")));
 }
 
 // 4 and 3 have their speed, 0 its strength where that is not all of the grip.
@@ -269,8 +290,8 @@ TEST(Prompt, RulesFollowTheOneOrdering) {
   const std::string text = system_part(harm);
   EXPECT_THAT(text, HasSubstr("severely injured (1 each) or killed (5 each)"));
   EXPECT_THAT(text, HasSubstr("from the mildest: 7, 0, 3 and 4, 1 and 2, 5 and 6."));
-  EXPECT_THAT(text,
-              HasSubstr("within 0.002, or 3 % of what AEB has above the least, cannot be told"));
+  EXPECT_THAT(text, HasSubstr("within 0.002 of the least, or 3 % of what AEB has above it, which "
+                              "cannot be told apart"));
   EXPECT_THAT(text, HasSubstr("\n3 ES-B-L: "));
   EXPECT_THAT(text, HasSubstr("\"Response to user: N\""));
 }
