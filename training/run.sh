@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Teaches the shipped language model what an expert would choose and say, from raw crash records to the adapter that
-# `make model` merges. In a Python environment of its own (build/training, 5.6 GB).
-# usage: training/run.sh all FARS...         records to cases, to sets, to data/language_model/; hours on two cores.
+# Teaches the shipped language model what an expert would choose and say, from raw crash records to an adapter. In a
+# Python environment of its own (build/training, 5.6 GB).
+# usage: training/run.sh all FARS...         records to cases, to sets, to runs/training/tuned/; hours on two cores.
 #                                            Can be interrupted: the same command goes on where it was
 #        training/run.sh tune SETS OUTPUT [--steps N] [...]     the training alone (fine_tune.py --help)
 #        training/run.sh agree REPLIES SYSTEM ADAPTER [...]     whether llama.cpp answers as PyTorch does (agreement.py)
@@ -59,10 +59,8 @@ case $command in
     gunzip -c "$root/data/memory/seed.jsonl.gz" >"$work/shipped.jsonl"
     "$saca" memory --memory "$work/shipped.sqlite" import "$work/shipped.jsonl" --keep-trust
     "$saca" cases export "$work/cases.jsonl" --memory "$work/shipped.sqlite" -o "$work/sets"
-    tune "$work/sets" "$work/tuned" --steps 220
-    mkdir -p "$root/data/language_model"
-    cp "$work/tuned/adapter.gguf" "$work/tuned/curve.csv" "$work/tuned/training.json" "$root/data/language_model/"
-    echo "data/language_model is new; make model merges it"
+    tune "$work/sets" "$work/tuned" --steps 300
+    echo "the adapter: $work/tuned/adapter.gguf"
     ;;
   *) usage ;;
 esac
