@@ -11,13 +11,12 @@
 
 #include "apps/saca/cases_commands.h"
 #include "apps/saca/cases_examples.h"
+#include "apps/saca/items_row.h"
 #include "apps/saca/json_output.h"
 #include "apps/saca/model.h"
 #include "apps/saca/resumable.h"
 #include "apps/saca/suite_pages.h"
 #include "saca/config/json_lines.h"
-#include "saca/config/json_reader.h"
-#include "saca/config/json_text.h"
 #include "saca/eval/reply_score.h"
 
 namespace saca::app {
@@ -40,45 +39,11 @@ struct CasesEvalOptions {
   bool as_json = false;
 };
 
-/// What was replied about one case and its twin; as a line of the journal.
-struct ReplyRow {
-  std::vector<ExampleReply> replies;
-  std::string problem;  ///< why it could not be played or asked; else empty
-};
+/// What was replied about one case and its twin.
+using ReplyRow = ItemsRow<ExampleReply>;
 
-std::string reply_row_line(const ReplyRow& row) {
-  json replies = json::array();
-  for (const ExampleReply& one : row.replies) {
-    replies.push_back(eval::to_json(one));
-  }
-  return json{{"replies", std::move(replies)}, {"problem", row.problem}}.dump();
-}
-
-Result<ReplyRow> reply_row_from(const std::string& line) {
-  const auto parsed = config::parse_json(line);
-  if (!parsed.has_value()) {
-    return parsed.error();
-  }
-  std::optional<Error> problem;
-  config::JsonReader reader(parsed.value(), "", problem, "line");
-  ReplyRow row{.replies = {}, .problem = reader.text("problem")};
-  const json* const replies = reader.list("replies");
-  reader.refuse_others();
-  for (std::size_t i = 0; replies != nullptr && i < replies->size(); ++i) {
-    auto one = eval::example_reply_from_json((*replies)[i]);
-    if (!one.has_value()) {
-      return one.error();
-    }
-    row.replies.push_back(std::move(one).value());
-  }
-  if (problem) {
-    return *problem;
-  }
-  return row;
-}
-
-ReplyRow asked_about(DrawnExamples drawn, reason::LanguageModel& model, Clock& clock) {
-  ReplyRow row{.replies = {}, .problem = std::move(drawn.problem)};
+ReplyRow asked_about(DrawnExamples drawn, reason::LanguageModel& model, const Clock& clock) {
+  ReplyRow row{.items = {}, .problem = std::move(drawn.problem)};
   if (drawn.examples.empty()) {
     return row;
   }
@@ -94,7 +59,7 @@ ReplyRow asked_about(DrawnExamples drawn, reason::LanguageModel& model, Clock& c
   }
   for (std::size_t i = 0; i < drawn.examples.size(); ++i) {
     DrawnExample& each = drawn.examples[i];
-    row.replies.push_back(
+    row.items.push_back(
         eval::example_reply(std::move(each.example), replies.value()[i], each.situation));
   }
   return row;
@@ -218,8 +183,11 @@ int eval_cases(const CasesEvalOptions& options) {
              return asked_about(drawn_examples(source.cases[i], source, options.examples),
                                 *model.value(), clock);
            },
-       .line_of = reply_row_line,
-       .row_from = reply_row_from});
+       .line_of = items_line<ExampleReply>,
+       .row_from =
+           [](const std::string& line) {
+             return items_row<ExampleReply>(line, eval::example_reply_from_json);
+           }});
   if (!rows.has_value()) {
     return refused(rows.error());
   }
@@ -227,16 +195,8 @@ int eval_cases(const CasesEvalOptions& options) {
     complain("interrupted: the same command goes on from here");
     return was_interrupted;
   }
-  std::vector<ExampleReply> replies;
   int failed = 0;
-  std::vector<ReplyRow> all = *std::move(rows).value();
-  for (ReplyRow& row : all) {
-    if (!row.problem.empty()) {
-      ++failed;
-      complain(row.problem);
-    }
-    std::move(row.replies.begin(), row.replies.end(), std::back_inserter(replies));
-  }
+  const std::vector<ExampleReply> replies = all_items(*std::move(rows).value(), failed);
   if (replies.empty()) {
     complain(options.examples.file + ": nothing could be asked");
     return some_failed;

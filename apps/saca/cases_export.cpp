@@ -11,11 +11,10 @@
 
 #include "apps/saca/cases_commands.h"
 #include "apps/saca/cases_examples.h"
+#include "apps/saca/items_row.h"
 #include "apps/saca/json_output.h"
 #include "apps/saca/resumable.h"
 #include "saca/config/json_lines.h"
-#include "saca/config/json_reader.h"
-#include "saca/config/json_text.h"
 #include "saca/core/parallel.h"
 #include "saca/eval/reply_example.h"
 #include "saca/reason/prompt.h"
@@ -39,49 +38,15 @@ struct CasesExportOptions {
   bool as_json = false;
 };
 
-/// What one case and its twin gave; as a line of the journal.
-struct ExampleRow {
-  std::vector<ReplyExample> examples;
-  std::string problem;  ///< why it could not be played; else empty
-};
-
-std::string row_line(const ExampleRow& row) {
-  json examples = json::array();
-  for (const ReplyExample& one : row.examples) {
-    examples.push_back(eval::to_json(one));
-  }
-  return json{{"examples", std::move(examples)}, {"problem", row.problem}}.dump();
-}
-
-Result<ExampleRow> row_from(const std::string& line) {
-  const auto parsed = config::parse_json(line);
-  if (!parsed.has_value()) {
-    return parsed.error();
-  }
-  std::optional<Error> problem;
-  config::JsonReader reader(parsed.value(), "", problem, "line");
-  ExampleRow row{.examples = {}, .problem = reader.text("problem")};
-  const json* const examples = reader.list("examples");
-  reader.refuse_others();
-  for (std::size_t i = 0; examples != nullptr && i < examples->size(); ++i) {
-    auto one = eval::reply_example_from_json((*examples)[i]);
-    if (!one.has_value()) {
-      return one.error();
-    }
-    row.examples.push_back(std::move(one).value());
-  }
-  if (problem) {
-    return *problem;
-  }
-  return row;
-}
+/// What one case and its twin gave.
+using ExampleRow = ItemsRow<ReplyExample>;
 
 ExampleRow row_of(const CrashCase& one, const ExampleSource& source,
                   const ExampleOptions& options) {
   DrawnExamples drawn = drawn_examples(one, source, options);
-  ExampleRow row{.examples = {}, .problem = std::move(drawn.problem)};
+  ExampleRow row{.items = {}, .problem = std::move(drawn.problem)};
   for (DrawnExample& each : drawn.examples) {
-    row.examples.push_back(std::move(each.example));
+    row.items.push_back(std::move(each.example));
   }
   return row;
 }
@@ -220,8 +185,11 @@ int export_cases(const CasesExportOptions& options) {
        .count = with.cases.size(),
        .threads = options.threads,
        .row = [&](std::size_t i) { return row_of(with.cases[i], with, options.examples); },
-       .line_of = row_line,
-       .row_from = row_from});
+       .line_of = items_line<ReplyExample>,
+       .row_from =
+           [](const std::string& line) {
+             return items_row<ReplyExample>(line, eval::reply_example_from_json);
+           }});
   if (!rows.has_value()) {
     return refused(rows.error());
   }
@@ -229,16 +197,8 @@ int export_cases(const CasesExportOptions& options) {
     complain("interrupted: the same command goes on from here");
     return was_interrupted;
   }
-  std::vector<ReplyExample> examples;
   int failed = 0;
-  std::vector<ExampleRow> all = *std::move(rows).value();
-  for (ExampleRow& row : all) {
-    if (!row.problem.empty()) {
-      ++failed;
-      complain(row.problem);
-    }
-    std::move(row.examples.begin(), row.examples.end(), std::back_inserter(examples));
-  }
+  const std::vector<ReplyExample> examples = all_items(*std::move(rows).value(), failed);
   const SetTallies tallies = tallied(examples);
   const std::string card = data_card(with, tallies, command);
   if (const auto problem = write_sets(examples, with, options, card)) {

@@ -10,6 +10,7 @@
 
 #include "apps/saca/commands.h"
 #include "apps/saca/forecast_commands.h"
+#include "apps/saca/items_row.h"
 #include "apps/saca/json_output.h"
 #include "apps/saca/memory_commands.h"
 #include "apps/saca/places.h"
@@ -17,8 +18,6 @@
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/resumable.h"
-#include "saca/config/json_reader.h"
-#include "saca/config/json_text.h"
 #include "saca/eval/trigger_case.h"
 #include "saca/loop/learnt_case.h"
 #include "saca/memory/case_json.h"
@@ -35,42 +34,8 @@ struct BuildOptions {
   bool as_json = false;
 };
 
-/// What one encounter gave, and its twin without risk; as a line of the journal.
-struct Gained {
-  std::vector<memory::Case> cases;  ///< none where the trigger never fires
-  std::string problem;              ///< why it could not be played; else empty
-};
-
-std::string gained_line(const Gained& gained) {
-  json cases = json::array();
-  for (const memory::Case& one : gained.cases) {
-    cases.push_back(memory::to_json(one));
-  }
-  return json{{"cases", cases}, {"problem", gained.problem}}.dump();
-}
-
-Result<Gained> gained_from(const std::string& line) {
-  const auto parsed = config::parse_json(line);
-  if (!parsed.has_value()) {
-    return parsed.error();
-  }
-  std::optional<Error> problem;
-  config::JsonReader reader(parsed.value(), "", problem, "line");
-  Gained gained{.cases = {}, .problem = reader.text("problem")};
-  const json* const cases = reader.list("cases");
-  reader.refuse_others();
-  for (std::size_t i = 0; cases != nullptr && i < cases->size(); ++i) {
-    auto one = memory::case_from_json((*cases)[i]);
-    if (!one.has_value()) {
-      return one.error();
-    }
-    gained.cases.push_back(std::move(one).value());
-  }
-  if (problem) {
-    return *problem;
-  }
-  return gained;
-}
+/// What one encounter gave, and its twin without risk: none where the trigger never fires.
+using Gained = ItemsRow<memory::Case>;
 
 /// What cases are worked out with; the planes outlive it.
 struct CaseTools {
@@ -89,7 +54,7 @@ void gain(Gained& gained, const loop::Stage& stage, const CaseTools& with) {
   if (!one.has_value()) {
     gained.problem = one.error().message;
   } else if (one.value()) {
-    gained.cases.push_back(*std::move(one).value());
+    gained.items.push_back(*std::move(one).value());
   }
 }
 
@@ -131,8 +96,11 @@ Result<std::optional<std::vector<Gained>>> gather(const BuildOptions& options,
        .count = static_cast<std::size_t>(encounters.count),
        .threads = options.from.threads,
        .row = [&](std::size_t number) { return gained_of(encounters, options, with, number); },
-       .line_of = gained_line,
-       .row_from = gained_from});
+       .line_of = items_line<memory::Case>,
+       .row_from =
+           [](const std::string& line) {
+             return items_row<memory::Case>(line, memory::case_from_json);
+           }});
 }
 
 int build(const BuildOptions& options) {
@@ -153,20 +121,13 @@ int build(const BuildOptions& options) {
     complain("interrupted: the same command goes on from here");
     return was_interrupted;
   }
-  std::vector<Gained> all = *std::move(gathered).value();
-  std::vector<memory::Case> cases;
+  const std::size_t num_encounters = gathered.value()->size();
   int num_failed = 0;
+  std::vector<memory::Case> cases = all_items(*std::move(gathered).value(), num_failed);
   std::array<int, manoeuvre::num_policies> best{};
-  for (Gained& gained : all) {
-    if (!gained.problem.empty()) {
-      ++num_failed;
-      complain(gained.problem);
-    }
-    for (memory::Case& one : gained.cases) {
-      one.id = static_cast<memory::CaseId>(cases.size() + 1);
-      ++best.at(manoeuvre::index(one.best));
-      cases.push_back(std::move(one));
-    }
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    cases[i].id = static_cast<memory::CaseId>(i + 1);
+    ++best.at(manoeuvre::index(cases[i].best));
   }
   if (const auto problem = write_output(from.output, memory::cases_text(cases))) {
     return refused(*problem);
@@ -174,7 +135,7 @@ int build(const BuildOptions& options) {
   if (options.as_json) {
     json out{{"meta.command", "saca " + command},
              {"meta.version", SACA_VERSION},
-             {"memory.num_encounters", all.size()},
+             {"memory.num_encounters", num_encounters},
              {"memory.num_cases", cases.size()},
              {"memory.num_failed", num_failed}};
     for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
@@ -182,7 +143,7 @@ int build(const BuildOptions& options) {
     }
     app::print("{}\n", json_text(out));
   } else {
-    app::print("{}: {} cases of {} encounters; best", from.output, cases.size(), all.size());
+    app::print("{}: {} cases of {} encounters; best", from.output, cases.size(), num_encounters);
     for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
       app::print(" {} {}", name(policy), best.at(manoeuvre::index(policy)));
     }

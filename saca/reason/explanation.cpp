@@ -26,7 +26,7 @@ std::vector<std::string_view> numbered_statements(std::string_view text) {
   std::vector<std::string_view> all;
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
-    std::string_view line = text.substr(0, end);
+    const std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
     const std::size_t digits = line.find_first_not_of("0123456789");
     if (digits != std::string_view::npos && digits > 0 && line.substr(digits).starts_with(". ")) {
