@@ -216,11 +216,30 @@ std::string line_of(const preview::PolicyFacts& facts, const Scene& scene, bool 
   return line + ", " + harm_text(facts.outcome().harm);
 }
 
+// So that nobody who reads has to compare numbers; empty: nothing can be driven.
+std::string least_harm_line(const preview::Situation& situation) {
+  const memory::Policies may = admissible(situation.facts);
+  std::string text;
+  for (const std::size_t k : by_forecast(situation)) {
+    const bool is_next = !may.test(k);
+    text += fmt::format("{}{} {}",
+                        text.empty() ? "Least harm: "
+                        : is_next    ? "; next "
+                                     : ", ",
+                        k, name(situation.facts[k].plan.policy));
+    if (is_next) {
+      break;
+    }
+  }
+  return text.empty() ? text : text + '\n';
+}
+
 /// Every line that may stand in a prompt.
 struct Lines {
   std::vector<std::string> actor;
   std::array<std::string, manoeuvre::num_policies> in_whole;
   std::array<std::string, manoeuvre::num_policies> in_short;
+  std::string least_harm;  ///< empty: nothing can be driven
 };
 
 Lines lines_of(const preview::Situation& situation) {
@@ -233,6 +252,7 @@ Lines lines_of(const preview::Situation& situation) {
     lines.in_whole.at(k) = line_of(situation.facts[k], situation.scene_at_trigger, true) + '\n';
     lines.in_short.at(k) = line_of(situation.facts[k], situation.scene_at_trigger, false) + '\n';
   }
+  lines.least_harm = least_harm_line(situation);
   return lines;
 }
 
@@ -255,24 +275,6 @@ std::string actor_sections(const Scene& scene, const Lines& lines, const Depth& 
          "## Traffic Participants:\n" + (participants.empty() ? "none\n" : participants);
 }
 
-// So that nobody who reads has to compare numbers; empty: nothing can be driven.
-std::string least_harm_line(const preview::Situation& situation) {
-  const memory::Policies may = admissible(situation.facts);
-  std::string text;
-  for (const std::size_t k : by_forecast(situation)) {
-    const bool is_next = !may.test(k);
-    text += fmt::format("{}{} {}",
-                        text.empty() ? "Least harm: "
-                        : is_next    ? "; next "
-                                     : ", ",
-                        k, name(situation.facts[k].plan.policy));
-    if (is_next) {
-      break;
-    }
-  }
-  return text.empty() ? text : text + '\n';
-}
-
 std::string manoeuvre_section(const preview::Situation& situation, const Lines& lines,
                               const Depth& depth) {
   std::string text(manoeuvres);
@@ -285,8 +287,7 @@ std::string manoeuvre_section(const preview::Situation& situation, const Lines& 
       refused += fmt::format("{}{}", refused.empty() ? "" : ", ", name(facts.plan.policy));
     }
   }
-  return text + (refused.empty() ? "" : "Not possible: " + refused + '\n') +
-         least_harm_line(situation);
+  return text + (refused.empty() ? "" : "Not possible: " + refused + '\n') + lines.least_harm;
 }
 
 // The case's own texts are not told: they come from a file. What it teaches stands in its numbers:

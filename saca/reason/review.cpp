@@ -10,6 +10,14 @@
 #include "saca/reason/prompt.h"
 
 namespace saca::reason {
+namespace {
+
+/// Nothing else was carried out, and nothing would have been better.
+bool was_best(const Aftermath& aftermath) {
+  return aftermath.best == aftermath.done.policy && aftermath.later.empty();
+}
+
+}  // namespace
 
 std::string review_prompt(const Aftermath& aftermath) {
   const auto& facts = aftermath.known.facts;
@@ -35,10 +43,9 @@ std::string review_prompt(const Aftermath& aftermath) {
                             : manoeuvre::plan_text(each.plan) + ": not possible\n";
   }
   text += "## Best in Hindsight:\n" + manoeuvre::plan_text(best.plan);
-  return text + (aftermath.best == aftermath.done.policy && aftermath.later.empty()
-                     ? ": what was carried out\n"
-                     : fmt::format(": harm less by {:.4f}\n",
-                                   aftermath.result.harm - best.outcome().harm));
+  return text + (was_best(aftermath) ? ": what was carried out\n"
+                                     : fmt::format(": harm less by {:.4f}\n",
+                                                   aftermath.result.harm - best.outcome().harm));
 }
 
 Explanation explanation(const Review& review, const Aftermath& aftermath) {
@@ -47,14 +54,13 @@ Explanation explanation(const Review& review, const Aftermath& aftermath) {
   }
   const preview::PolicyFacts& best = aftermath.known.facts[manoeuvre::index(aftermath.best)];
   const double more = aftermath.result.harm - best.outcome().harm;
-  const bool was_best = aftermath.best == aftermath.done.policy && aftermath.later.empty();
   std::string text = fmt::format("1. {} was carried out", manoeuvre::plan_name(aftermath.done));
   for (const manoeuvre::Plan& plan : aftermath.later) {
     text += ", then " + manoeuvre::plan_name(plan);
   }
   text += fmt::format(": {}, {}.\n", outcome::describe(aftermath.result, aftermath.met),
                       harm_text(aftermath.result.harm));
-  if (was_best) {
+  if (was_best(aftermath)) {
     text += "2. Nothing would have harmed less.\n";
   } else if (more >= outcome::harm_tie) {
     text += fmt::format("2. {} would have harmed less by {:.4f}.\n",
