@@ -88,4 +88,15 @@ double best_temperature(std::span<const JudgedAnswer> judged) {
   return std::exp(0.5 * (low + high));
 }
 
+std::optional<Calibration> calibrated(std::span<const JudgedAnswer> judged) {
+  if (judged.empty()) {
+    return std::nullopt;
+  }
+  const double temperature = best_temperature(judged);
+  return Calibration{.count = static_cast<int>(judged.size()),
+                     .temperature = temperature,
+                     .log_loss = log_loss(judged, temperature),
+                     .log_loss_now = log_loss(judged, 1.0)};
+}
+
 }  // namespace saca::eval

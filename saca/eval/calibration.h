@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,5 +38,15 @@ struct JudgedAnswer {
 /// Source: Guo, Pleiss, Sun, Weinberger, On calibration of modern neural networks, ICML 2017.
 /// @param judged  at least one
 [[nodiscard]] double best_temperature(std::span<const JudgedAnswer> judged);
+
+/// How often what the model gave a policy is how often that policy is right.
+struct Calibration {
+  int count = 0;            ///< answers
+  double temperature = 1;   ///< by which its answers would have to be softened
+  double log_loss = 0;      ///< with it
+  double log_loss_now = 0;  ///< of its answers as they are
+};
+/// @return  nullopt where there is no answer
+[[nodiscard]] std::optional<Calibration> calibrated(std::span<const JudgedAnswer> judged);
 
 }  // namespace saca::eval

@@ -38,14 +38,7 @@ std::optional<Calibration> calibration_of(std::span<const SuiteRow> rows) {
       judged.push_back({*thinking->answer, right_policies(row.risk)});
     }
   }
-  if (judged.empty()) {
-    return std::nullopt;
-  }
-  const double temperature = best_temperature(judged);
-  return Calibration{.count = static_cast<int>(judged.size()),
-                     .temperature = temperature,
-                     .log_loss = log_loss(judged, temperature),
-                     .log_loss_now = log_loss(judged, 1.0)};
+  return calibrated(judged);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "saca/eval/calibration.h"
 #include "saca/eval/suite_figures.h"
 
 namespace saca::eval {
@@ -25,14 +26,6 @@ struct ScoredChoice {
 
 /// The methods of scored_choices(), in their order: the suite in which a model is scored.
 [[nodiscard]] std::vector<std::string> scored_methods();
-
-/// How often what the model gave a policy is how often that policy is right.
-struct Calibration {
-  int count = 0;            ///< encounters in which it had answered about what came
-  double temperature = 1;   ///< by which its answers would have to be softened
-  double log_loss = 0;      ///< with it
-  double log_loss_now = 0;  ///< of its answers as they are
-};
 
 /// How well a language model chooses in closed loop.
 struct ModelScore {

@@ -9,6 +9,7 @@
 #include "saca/core/contract.h"
 #include "saca/memory/experience.h"
 #include "saca/outcome/ordering.h"
+#include "saca/reason/reply.h"
 #include "saca/reason/truth.h"
 
 namespace saca::eval {
@@ -48,12 +49,8 @@ bool is_admissible(const ReplyExample& example, PolicyId policy) {
   return example.admissible.test(manoeuvre::index(policy));
 }
 
-constexpr auto anyone = [](PolicyId) { return true; };
-
 PolicyId likeliest(const std::optional<Probabilities>& answer) {
-  return !answer
-             ? PolicyId::aeb
-             : *most(anyone, [&](PolicyId policy) { return answer->at(manoeuvre::index(policy)); });
+  return answer ? reason::likeliest_policy({.probability = *answer}) : PolicyId::aeb;
 }
 
 PolicyId likeliest_within(const ExampleReply& reply) {
@@ -209,14 +206,7 @@ std::optional<Calibration> calibration_of(std::span<const ExampleReply* const> k
     }
     judged.push_back(answer);
   }
-  if (judged.empty()) {
-    return std::nullopt;
-  }
-  const double temperature = best_temperature(judged);
-  return Calibration{.count = static_cast<int>(judged.size()),
-                     .temperature = temperature,
-                     .log_loss = log_loss(judged, temperature),
-                     .log_loss_now = log_loss(judged, 1.0)};
+  return calibrated(judged);
 }
 
 void score_texts(ReplyScore& score, std::span<const ExampleReply> replies) {
