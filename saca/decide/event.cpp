@@ -47,6 +47,15 @@ const Preview* find_preview(std::span<const Preview> previews, std::int32_t numb
   return found == previews.end() || found->number != number ? nullptr : &*found;
 }
 
+std::optional<memory::Case> told_case(const Preview& preview) {
+  return preview.nearest ? std::optional(preview.nearest->found) : std::nullopt;
+}
+
+std::string prompt_of(const Preview& preview) {
+  return reason::scene_part(preview.situation, told_case(preview),
+                            preview.nearest ? preview.nearest->similarity : 0.0);
+}
+
 std::optional<reason::Explanation> explanation(const Preview& preview) {
   std::optional<manoeuvre::PolicyId> chosen;
   if (preview.plan) {
@@ -57,17 +66,9 @@ std::optional<reason::Explanation> explanation(const Preview& preview) {
   if (!chosen || !preview.situation.facts[manoeuvre::index(*chosen)].drivable()) {
     return std::nullopt;
   }
-  std::optional<memory::Case> nearest;
-  if (preview.nearest) {
-    nearest = preview.nearest->found;
-  }
-  const std::string prompt =
-      preview.prompt.empty()
-          ? reason::scene_part(preview.situation, nearest,
-                               preview.nearest ? preview.nearest->similarity : 0.0)
-          : preview.prompt;
-  return reason::explanation(reason::finished_part(preview.reply), prompt, preview.situation,
-                             nearest, *chosen);
+  return reason::explanation(reason::finished_part(preview.reply),
+                             preview.prompt.empty() ? prompt_of(preview) : preview.prompt,
+                             preview.situation, told_case(preview), *chosen);
 }
 
 std::string trigger_text(const world::Actor& actor, double time,

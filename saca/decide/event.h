@@ -78,6 +78,11 @@ struct Preview {
 [[nodiscard]] const Preview* find_preview(std::span<const Preview> previews,
                                           std::int32_t number) noexcept;
 
+/// The case that a prompt about it tells of; nullopt: none was found.
+[[nodiscard]] std::optional<memory::Case> told_case(const Preview& preview);
+/// The scene part about it.
+[[nodiscard]] std::string prompt_of(const Preview& preview);
+
 /// Why its plan was chosen, or else what the model answered last (reason::explanation). Takes
 /// milliseconds.
 /// @return  nullopt: there is neither, or it cannot be driven

@@ -329,12 +329,7 @@ void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>
   for (const std::size_t i : which) {
     Preview& preview = previews_[i];
     left = std::min(left, time_left(round, preview.newest_scene));
-    std::optional<memory::Case> nearest;
-    if (preview.nearest) {
-      nearest = preview.nearest->found;
-    }
-    preview.prompt = reason::scene_part(preview.situation, nearest,
-                                        preview.nearest ? preview.nearest->similarity : 0.0);
+    preview.prompt = prompt_of(preview);
     if (!tools_.asking.facts) {
       preview.prompt = reason::without_facts(preview.prompt);
     }
