@@ -18,6 +18,7 @@
 #include "apps/saca/printing.h"
 #include "saca/decide/check.h"
 #include "saca/decide/event.h"
+#include "saca/reason/explanation_json.h"
 #include "saca/reason/prompt.h"
 #include "saca/reason/reply.h"
 #include "saca/reason/truth.h"
@@ -106,9 +107,7 @@ json considered_json(const Considered& one) {
           {"prompt_tokens", one.reply.prompt_tokens},
           {"reply_tokens", one.reply.reply_tokens},
           {"truth", truth_json(one.truth)},
-          {"explanation", one.explanation ? json{{"text", one.explanation->text},
-                                                 {"from", name(one.explanation->from)}}
-                                          : json()},
+          {"explanation", explanation_json(one.explanation)},
           {"check",
            one.check ? json{{"passed", one.check->passed}, {"text", one.check->text}} : json()}};
 }

@@ -11,7 +11,7 @@
 #include "saca/manoeuvre/ego.h"
 #include "saca/outcome/describe.h"
 #include "saca/outcome/loss.h"
-#include "saca/reason/explanation.h"
+#include "saca/reason/explanation_json.h"
 #include "saca/reason/reply.h"
 #include "saca/reason/truth_json.h"
 
@@ -139,10 +139,6 @@ json memory_json(const decide::Preview& preview) {
           {"gate", gates[static_cast<std::size_t>(preview.gate)]}};
 }
 
-json explanation_json(const std::optional<reason::Explanation>& told) {
-  return told ? json{{"text", told->text}, {"from", name(told->from)}} : json(nullptr);
-}
-
 json preview_json(const decide::Preview& preview) {
   const preview::Situation& situation = preview.situation;
   const world::Scene& scene = situation.scene_at_trigger;
@@ -180,7 +176,7 @@ json preview_json(const decide::Preview& preview) {
       {"memory", memory_json(preview)},
       {"prompt", preview.prompt},
       {"reasoning", preview.reply.reasoning},
-      {"explanation", explanation_json(decide::explanation(preview))},
+      {"explanation", reason::explanation_json(decide::explanation(preview))},
       {"truth", preview.truth ? reason::truth_json(*preview.truth) : json(nullptr)},
       {"answers", answers},
       {"check", preview.check
@@ -406,11 +402,12 @@ std::string record_json(const Setup& setup, const Record& record, const Provenan
            {"hindsight", hindsight_json(record)},
            {"best", record.best ? json(manoeuvre::index(*record.best)) : json(nullptr)},
            {"danger_maps", danger_maps_json(record.danger_maps)},
-           {"review", record.review ? json{{"prompt", record.review->prompt},
-                                           {"text", record.review->text},
-                                           {"explanation", explanation_json(record.review->shown)},
-                                           {"truth", reason::truth_json(record.review->truth)}}
-                                    : json(nullptr)},
+           {"review", record.review
+                          ? json{{"prompt", record.review->prompt},
+                                 {"text", record.review->text},
+                                 {"explanation", reason::explanation_json(record.review->shown)},
+                                 {"truth", reason::truth_json(record.review->truth)}}
+                          : json(nullptr)},
            {"case", record.stored ? json(*record.stored) : json(nullptr)},
            {"timing",
             {{"reflex_calls", record.reflex.calls},
