@@ -148,8 +148,8 @@ class Training:
 
     def indices_at(self, step):
         """Of the examples of a step."""
-        batches = -(-len(self.train) // self.given.batch)
-        return examples.batches_of(self.lengths, self.given.batch, step // batches, self.given.seed)[step % batches]
+        in_epoch = -(-len(self.train) // self.given.batch)
+        return examples.batches_of(self.lengths, self.given.batch, step // in_epoch, self.given.seed)[step % in_epoch]
 
     def step(self, step):
         for group in self.optimizer.param_groups:

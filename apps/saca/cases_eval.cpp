@@ -166,9 +166,8 @@ int eval_cases(const CasesEvalOptions& options) {
   }
   const std::string description = model.value()->description();
   const std::string command =
-      fmt::format("cases eval {} --set {} --llm {} --car {} --seed {}{}", options.examples.file,
-                  options.set, options.model, options.examples.car, options.examples.seed,
-                  options.examples.memory.empty() ? "" : " --memory " + options.examples.memory);
+      fmt::format("cases eval {} --set {} --llm {} {}", options.examples.file, options.set,
+                  options.model, example_text(options.examples));
   auto rows = rows_of<ReplyRow>(
       {.journal = options.output + ".journal",
        .title = fmt::format("saca {} cases eval --set {} --car {} --seed {} ({:016x}) {}",

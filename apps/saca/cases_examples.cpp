@@ -27,6 +27,11 @@ void add_example_options(CLI::App& command, ExampleOptions& options) {
       ->capture_default_str();
 }
 
+std::string example_text(const ExampleOptions& options) {
+  return fmt::format("--car {} --seed {}{}", options.car, options.seed,
+                     options.memory.empty() ? "" : " --memory " + options.memory);
+}
+
 ToldCases::ToldCases(std::vector<memory::Case> cases)
     : cases_(std::move(cases)), experience_(cases_) {
   for (std::size_t i = 0; i < cases_.size(); ++i) {

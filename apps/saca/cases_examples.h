@@ -27,6 +27,8 @@ struct ExampleOptions {
 
 /// FILE, --memory, --car and --seed.
 void add_example_options(CLI::App& command, ExampleOptions& options);
+/// All but FILE, as a command has them.
+[[nodiscard]] std::string example_text(const ExampleOptions& options);
 
 /// Cases that prompts tell of, as a run's memory would: asked by several threads.
 class ToldCases {

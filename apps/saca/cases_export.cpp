@@ -172,10 +172,8 @@ int export_cases(const CasesExportOptions& options) {
     return refused(opened.error());
   }
   const ExampleSource& with = opened.value();
-  const std::string command =
-      fmt::format("cases export {} --format {} --car {} --seed {}{}", options.examples.file,
-                  options.format, options.examples.car, options.examples.seed,
-                  options.examples.memory.empty() ? "" : " --memory " + options.examples.memory);
+  const std::string command = fmt::format("cases export {} --format {} {}", options.examples.file,
+                                          options.format, example_text(options.examples));
   auto rows = rows_of<ExampleRow>(
       {.journal = (folder / "journal").string(),
        .title = fmt::format("saca {} cases export --car {} --seed {} ({:016x})", SACA_VERSION,
