@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Teaches the shipped language model what an expert would choose and say, from raw crash records to an adapter. In a
 # Python environment of its own (build/training, 5.6 GB).
-# usage: training/run.sh all FARS...         records to cases, to sets, to runs/training/tuned/; hours on two cores.
-#                                            Can be interrupted: the same command goes on where it was
+# usage: training/run.sh all FARS...         records to cases, to sets, to models/language/; hours on two cores. Can be
+#                                            interrupted: the same command goes on where it was. `make model` merges it
 #        training/run.sh tune SETS OUTPUT [--steps N] [...]     the training alone (fine_tune.py --help)
 #        training/run.sh agree REPLIES SYSTEM ADAPTER [...]     whether llama.cpp answers as PyTorch does (agreement.py)
 #        training/run.sh setup               makes the environment only
@@ -60,7 +60,9 @@ case $command in
     "$saca" memory --memory "$work/shipped.sqlite" import "$work/shipped.jsonl" --keep-trust
     "$saca" cases export "$work/cases.jsonl" --memory "$work/shipped.sqlite" -o "$work/sets"
     tune "$work/sets" "$work/tuned" --steps 300
-    echo "the adapter: $work/tuned/adapter.gguf"
+    cp "$work/tuned/adapter.gguf" "$work/tuned/curve.csv" "$work/tuned/training.json" "$root/models/language/"
+    python3 "$here/curve.py" "$work/tuned/curve.csv" "$root/docs/language_model/curve.svg"
+    echo "the adapter: models/language/adapter.gguf; make model merges it"
     ;;
   *) usage ;;
 esac

@@ -4,6 +4,7 @@ import pathlib
 import random
 import subprocess
 import sys
+from xml.etree import ElementTree
 
 import pytest
 
@@ -11,6 +12,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 TRAINING = ROOT / "training"
 PYTHON = ROOT / "build/training/bin/python"
 sys.path.insert(0, str(TRAINING))
+import curve  # noqa: E402
 import examples  # noqa: E402
 
 needs_environment = pytest.mark.skipif(not PYTHON.exists(), reason="PyTorch is not installed (training/run.sh setup)")
@@ -208,3 +210,24 @@ def test_bad_input_is_told_in_one_line(tmp_path):
     none = tune(tmp_path, tmp_path / "none.gguf", tmp_path / "out")
     assert none.returncode == 3 and "none.gguf: want the model's weights" in none.stderr and none.stderr.count("\n") == 1
     assert "--steps: want at least 1, got 0" in tune(tmp_path, tmp_path, tmp_path / "out", "--steps", "0").stderr
+
+
+def test_the_curve_is_drawn(tmp_path):
+    table = tmp_path / "curve.csv"
+    table.write_text("step,tokens,loss,calibration_loss,seconds\n1,10,2.0,,1\n2,20,1.0,,2\n3,30,0.5,0.7,3\n")
+    losses, judged = curve.read_curve(table)
+    assert losses == [(1, 2.0), (2, 1.0), (3, 0.5)] and judged == [(3, 0.7)]
+    assert curve.smoothed(losses)[-1] == (3, pytest.approx(3.5 / 3))
+    assert curve.ticks(0.4, 12) == [0.5, 1.0, 2.0, 5.0, 10.0]
+    curve.main([str(table), str(tmp_path / "curve.svg")])
+    circles = [one.attrib for one in ElementTree.parse(tmp_path / "curve.svg").iter() if one.tag.endswith("circle")]
+    down = [float(one["cy"]) for one in circles]
+    assert down[0] < down[1] < down[2] and down[1] < down[3] < down[2]  # less loss is lower, and so is the judged one
+
+
+@pytest.mark.parametrize("text", ["", "step,loss\n1,2\n", "step,tokens,loss,calibration_loss,seconds\n1,1,x,,1\n",
+                                  "step,tokens,loss,calibration_loss,seconds\n1,1,0,,1\n"])
+def test_a_bad_curve_is_refused(tmp_path, text):
+    (tmp_path / "curve.csv").write_text(text)
+    with pytest.raises(SystemExit, match="curve.csv: want"):
+        curve.main([str(tmp_path / "curve.csv"), str(tmp_path / "curve.svg")])

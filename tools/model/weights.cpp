@@ -1,5 +1,7 @@
-// saca-weights merge BASE SHA256 ADAPTER OUT   adds a trained adapter to the weights that it was
-// trained with saca-weights make TYPE IN OUT           rewrites weights as q8_0 or bf16
+// saca-weights merge BASE SHA256 ADAPTER OUT
+//   adds a trained adapter to the weights that it was trained with
+// saca-weights make TYPE IN OUT
+//   rewrites weights as q8_0 or bf16
 // saca-weights choose PROMPTS OUT REFERENCE [CANDIDATE...]
 //   measures each file on this processor and writes to OUT which one to use: the fastest of those
 //   that decide as REFERENCE does. Exit code 3: the machine is too busy to measure anything.

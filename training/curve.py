@@ -1,0 +1,75 @@
+"""Draws the loss over the steps of a training.
+
+usage: curve.py CURVE OUTPUT
+  CURVE   of fine_tune.py: curve.csv
+  OUTPUT  the picture (SVG)
+"""
+import csv
+import math
+import pathlib
+import sys
+
+WIDTH, HEIGHT = 720, 300
+LEFT, RIGHT, TOP, BOTTOM = 56, 16, 16, 44
+SMOOTHED_OVER = 10  # steps, the newest last
+
+
+def read_curve(path):
+    """Steps, their loss, and the judged losses by step."""
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        losses = [(int(row["step"]), float(row["loss"])) for row in rows]
+        judged = [(int(row["step"]), float(row["calibration_loss"])) for row in rows if row["calibration_loss"]]
+    except (OSError, KeyError, TypeError, ValueError) as error:
+        raise SystemExit(f"curve: error: {path}: want a training's curve (columns step, loss, calibration_loss): {error!r}") from None
+    if not losses or min(loss for _, loss in losses + judged) <= 0:
+        raise SystemExit(f"curve: error: {path}: want steps with losses above 0")
+    return losses, judged
+
+
+def smoothed(losses):
+    values = [loss for _, loss in losses]
+    means = [sum(part) / len(part) for part in (values[max(0, i + 1 - SMOOTHED_OVER):i + 1] for i in range(len(values)))]
+    return [(step, mean) for (step, _), mean in zip(losses, means)]
+
+
+def ticks(low, high):
+    """1, 2, 5 of each power of ten between two values."""
+    powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    return [factor * 10.0**power for power in powers for factor in (1, 2, 5) if low <= factor * 10.0**power <= high]
+
+
+def picture(losses, judged):
+    last = losses[-1][0]
+    values = [loss for _, loss in losses + judged]
+    low, high = min(values) / 1.1, max(values) * 1.1
+    x = lambda step: LEFT + (WIDTH - LEFT - RIGHT) * step / last
+    y = lambda loss: TOP + (HEIGHT - TOP - BOTTOM) * math.log(high / loss) / math.log(high / low)
+    line = lambda points: " ".join(f"{x(step):.1f},{y(loss):.1f}" for step, loss in points)
+    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" font-family="sans-serif" font-size="12">',
+             f'<rect width="{WIDTH}" height="{HEIGHT}" fill="white"/>']
+    for loss in ticks(low, high):
+        parts += [f'<path d="M{LEFT} {y(loss):.1f}H{WIDTH - RIGHT}" stroke="#ddd"/>',
+                  f'<text x="{LEFT - 8}" y="{y(loss) + 4:.1f}" text-anchor="end" fill="#444">{loss:g}</text>']
+    for step in range(0, last + 1, max(1, 10 ** (len(str(last)) - 1) // 2)):
+        parts.append(f'<text x="{x(step):.1f}" y="{HEIGHT - BOTTOM + 18}" text-anchor="middle" fill="#444">{step}</text>')
+    parts += [f'<circle cx="{x(step):.1f}" cy="{y(loss):.1f}" r="1.4" fill="#9db8d9"/>' for step, loss in losses]
+    parts += [f'<polyline points="{line(smoothed(losses))}" fill="none" stroke="#1f5fa8" stroke-width="1.6"/>']
+    parts += [f'<circle cx="{x(step):.1f}" cy="{y(loss):.1f}" r="4" fill="none" stroke="#c0392b" stroke-width="1.6"/>' for step, loss in judged]
+    middle = (LEFT + WIDTH - RIGHT) / 2
+    parts += [f'<text x="{middle:.0f}" y="{HEIGHT - 8}" text-anchor="middle" fill="#444">step</text>',
+              f'<text x="{WIDTH - RIGHT}" y="{TOP + 14}" text-anchor="end" fill="#1f5fa8">loss on replies: of each step, and over {SMOOTHED_OVER}</text>',
+              f'<text x="{WIDTH - RIGHT}" y="{TOP + 30}" text-anchor="end" fill="#c0392b">on cases kept from training</text>', "</svg>"]
+    return "\n".join(parts) + "\n"
+
+
+def main(arguments):
+    if len(arguments) != 2:
+        raise SystemExit(__doc__)
+    losses, judged = read_curve(arguments[0])
+    pathlib.Path(arguments[1]).write_text(picture(losses, judged), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
