@@ -192,7 +192,7 @@ class Training:
 
     def write(self):
         with open(self.given.output / "curve.csv", "w", newline="", encoding="utf-8") as file:
-            writer = csv.writer(file)
+            writer = csv.writer(file, lineterminator="\n")
             writer.writerow(["step", "tokens", "loss", "calibration_loss", "seconds"])
             writer.writerows(self.curve)
         adapter.write_adapter(self.given.output / "adapter.gguf", self.state(), self.model.get_base_model().config, self.given.alpha,

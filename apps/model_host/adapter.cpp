@@ -14,6 +14,8 @@ namespace saca::model_host {
 namespace {
 
 constexpr const char* alpha_key = "adapter.lora.alpha";
+constexpr const char* type_key = "general.file_type";
+constexpr std::uint32_t mostly_f16 = 1;  // as llama.h has it: LLAMA_FTYPE_MOSTLY_F16
 constexpr const char* base_key = "saca.base.sha256";
 constexpr std::string_view first_half = ".lora_a";
 constexpr std::string_view second_half = ".lora_b";
@@ -173,6 +175,7 @@ std::optional<Error> merge_adapter(const std::string& base, std::string_view bas
   }
   const std::unique_ptr<gguf_context, decltype(&gguf_free)> result(gguf_init_empty(), gguf_free);
   gguf_set_kv(result.get(), weights.value().about());
+  gguf_set_val_u32(result.get(), type_key, mostly_f16);
   std::vector<std::vector<ggml_fp16_t>> kept;  // what the file points to, until it is written
   for (const ggml_tensor* one : weights.value().tensors()) {
     gguf_add_tensor(result.get(), one);

@@ -4,6 +4,7 @@
 #include <gguf.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <llama.h>
 
 #include <filesystem>
 #include <fstream>
@@ -105,7 +106,10 @@ std::vector<float> read(const std::string& path, const std::string& name) {
 TEST_F(AdapterTest, AddsTheProductToItsMatrix) {
   const std::string base =
       write("base.gguf", {{"w", 2, 3, {1, 2, 3, 4, 5, 6}}, {"norm", 1, 3, {7, 8, 9}}},
-            [](gguf_context* file) { gguf_set_val_str(file, "general.architecture", "llama"); });
+            [](gguf_context* file) {
+              gguf_set_val_str(file, "general.architecture", "llama");
+              gguf_set_val_u32(file, "general.file_type", LLAMA_FTYPE_MOSTLY_Q4_1);
+            });
   const std::string adapter = write(
       "adapter.gguf", {{"w.lora_a", 2, 3, {1, 0, 2, 0, 1, 0}}, {"w.lora_b", 2, 2, {1, 3, -1, 0}}},
       describe_adapter);
@@ -115,6 +119,8 @@ TEST_F(AdapterTest, AddsTheProductToItsMatrix) {
   EXPECT_THAT(read(path("out.gguf"), "norm"), testing::ElementsAre(7, 8, 9));
   gguf_context* file = gguf_init_from_file(path("out.gguf").c_str(), {true, nullptr});
   EXPECT_STREQ(gguf_get_val_str(file, gguf_find_key(file, "general.architecture")), "llama");
+  EXPECT_EQ(gguf_get_val_u32(file, gguf_find_key(file, "general.file_type")),
+            LLAMA_FTYPE_MOSTLY_F16);
   gguf_free(file);
 }
 
