@@ -47,7 +47,8 @@ class HostTest : public testing::Test {
 };
 
 TEST_F(HostTest, WithdrawnQuestionLeavesTheModelReady) {
-  reason::ChildModelSettings patient = settings(100);
+  constexpr int most = 60;  // a reply of the shipped weights is longer
+  reason::ChildModelSettings patient = settings(most);
   patient.margin = 100.0;  // a busy machine may be slow to stop
   reason::ChildModel model(patient, clock_);
   const auto alone = model.ask({scene_}, clock_.now() + patience, nobody_);
@@ -69,12 +70,12 @@ TEST_F(HostTest, WithdrawnQuestionLeavesTheModelReady) {
     } else {
       ASSERT_TRUE(replies.has_value()) << replies.error().message;
       EXPECT_FALSE(replies.value()[0].answers.empty());
-      EXPECT_LT(replies.value()[0].reply_tokens, 100);
+      EXPECT_LT(replies.value()[0].reply_tokens, most);
     }
   }
   const auto again = model.ask({scene_}, clock_.now() + patience, nobody_);
   ASSERT_TRUE(alone.has_value() && again.has_value());
-  EXPECT_EQ(alone.value()[0].reply_tokens, 100);
+  EXPECT_EQ(alone.value()[0].reply_tokens, most);
   EXPECT_EQ(alone.value()[0].reasoning, again.value()[0].reasoning);
   EXPECT_EQ(model.restarts(), 0);
 }
