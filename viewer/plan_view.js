@@ -124,6 +124,7 @@ class PlanView {
     this.forecast(g, t, view, frame);
     this.contact(g, t, view);
     this.pixel_units(g);
+    this.cues(view);
     this.strangers(g, frame, view);
     this.write_labels(g);
   }
@@ -310,6 +311,14 @@ class PlanView {
     }
     const p = this.to_screen(view, contact.x_m, contact.y_m);
     this.labels.push({ ...p, text: `contact ${num(contact.relative_speed_mps, 1, "m/s")}`, reach: -26, weight: 9, colour: this.colours.contact, bold: true });
+  }
+
+  /** What the place tells of, without being seen. */
+  cues(view) {
+    for (const cue of list(this.record.cues)) {
+      const p = this.to_screen(view, cue.x_m, cue.y_m);
+      this.labels.push({ ...p, text: `⚠ ${String(cue.kind).replaceAll("_", " ")}`, reach: 0, weight: 4, colour: this.colours.threat_line });
+    }
   }
 
   /** Threats outside the picture are named at its border. */

@@ -24,6 +24,7 @@ void add_harm(CLI::App& line, int& exit_code);
 void add_oracle(CLI::App& line, int& exit_code);
 void add_whatif(CLI::App& line, int& exit_code);
 void add_family(CLI::App& line, int& exit_code);
+void add_cues(CLI::App& line, int& exit_code);
 void add_balance(CLI::App& line, int& exit_code);
 void add_forecast(CLI::App& line, int& exit_code);
 void add_ladder(CLI::App& line, int& exit_code);

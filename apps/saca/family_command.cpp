@@ -13,6 +13,7 @@
 #include "apps/saca/within.h"
 #include "saca/core/file.h"
 #include "saca/eval/moment.h"
+#include "saca/eval/suite_source.h"
 #include "saca/manoeuvre/ego.h"
 #include "saca/outcome/describe.h"
 
@@ -31,12 +32,14 @@ struct FamilyCommand {
   std::string test_log;
   std::string svg = "runs/family.svg";
   std::string write;
+  std::string cues;  ///< a suite whose cues they have; empty: they have none
   bool twins = false;
   bool as_json = false;
 };
 
 /// A sample with what comes of doing nothing from the trigger on.
-report::SceneView thumbnail(const sim::Scenario& scenario, const Inputs& inputs) {
+report::SceneView thumbnail(const sim::Scenario& scenario, const std::vector<sim::DrawnCue>& cues,
+                            const Inputs& inputs) {
   const auto trigger = eval::trigger_time(scenario, inputs.car);
   const eval::Moment moment = eval::moment_at(scenario, inputs.car, trigger.value_or(0.0));
   const auto tried = loop::hindsight(moment, inputs.car, inputs.harm);
@@ -47,6 +50,12 @@ report::SceneView thumbnail(const sim::Scenario& scenario, const Inputs& inputs)
   view.lines.insert(view.lines.begin(),
                     fmt::format("{:.1f} m/s, grip {:.2f}{}", norm(moment.scene.ego.v_B),
                                 scenario.grip, trigger ? "" : "; never triggers"));
+  for (std::size_t k = 0; k < cues.size(); ++k) {
+    const Vec2 p_W = scenario.cues[k].p_W;
+    view.lines.insert(view.lines.begin() + 1,
+                      fmt::format("{} at {:.0f}, {:.1f} m{}", name(cues[k].kind), p_W.x, p_W.y,
+                                  cues[k].comes ? ", and it comes" : ""));
+  }
   return view;
 }
 
@@ -68,15 +77,24 @@ int run(const FamilyCommand& options) {
   if (!inputs.has_value()) {
     return refused(inputs.error());
   }
-  const auto family = read_family(inputs.value().places, options.name);
+  auto read = read_family(inputs.value().places, options.name);
   const auto splits = read_splits(inputs.value().places);
   const fs::path some_file =
       options.write.empty() ? fs::path() : fs::path(options.write) / "x.toml";
   if (const auto problem = why_outputs_unwritable({options.svg, some_file})) {
     return refused(*problem);
   }
-  if (!family.has_value() || !splits.has_value()) {
-    return refused(family.has_value() ? splits.error() : family.error());
+  if (!read.has_value() || !splits.has_value()) {
+    return refused(read.has_value() ? splits.error() : read.error());
+  }
+  sim::Family family = std::move(read).value();
+  if (!options.cues.empty()) {
+    const auto cues =
+        eval::cues_of_suite(inputs.value().places.root / "scenarios" / "families", options.cues);
+    if (!cues.has_value()) {
+      return refused({cues.error().code, "--cues: " + cues.error().message});
+    }
+    family.cues = cues.value();
   }
   std::optional<sim::TestLog> log;
   if (!options.test_log.empty()) {
@@ -84,18 +102,18 @@ int run(const FamilyCommand& options) {
                                                      options.name, options.first, options.count)};
   }
   const auto seed =
-      sim::seed_for(splits.value(), *sim::split_from(options.split), family.value().name, log);
+      sim::seed_for(splits.value(), *sim::split_from(options.split), family.name, log);
   if (!seed.has_value()) {
     const std::string hint = options.split == "test" ? " (--test-log FILE)" : "";
     return refused({seed.error().code, seed.error().message + hint});
   }
   report::ContactSheet sheet;
-  sheet.heading = fmt::format("{}: {}", family.value().name, family.value().title);
-  sheet.lines = {family.value().why, "Drawn: nobody intervenes."};
+  sheet.heading = fmt::format("{}: {}", family.name, family.title);
+  sheet.lines = {family.why, "Drawn: nobody intervenes."};
   json list = json::array();
   const world::Footprint ego = manoeuvre::footprint(inputs.value().car);
   for (int k = options.first; k < options.first + options.count; ++k) {
-    const auto sample = sim::sample(family.value(), seed.value(), static_cast<std::uint64_t>(k),
+    const auto sample = sim::sample(family, seed.value(), static_cast<std::uint64_t>(k),
                                     inputs.value().car_name, ego);
     if (!sample.has_value()) {
       return refused(sample.error());
@@ -110,20 +128,24 @@ int run(const FamilyCommand& options) {
       }
     }
     list.push_back(json_of(scenario, file));
-    sheet.scenes.push_back(thumbnail(scenario, inputs.value()));
+    std::vector<sim::DrawnCue> cues = sample.value().cues;
+    for (sim::DrawnCue& cue : cues) {
+      cue.comes = cue.comes && !options.twins;
+    }
+    sheet.scenes.push_back(thumbnail(scenario, cues, inputs.value()));
   }
   if (const auto problem = write_picture(options, sheet)) {
     return refused(*problem);
   }
   if (options.as_json) {
     app::print_json(json{{"schema", "saca.family_samples/1"},
-                         {"family", family.value().name},
+                         {"family", family.name},
                          {"split", options.split},
                          {"seed", seed.value()},
                          {"svg", options.svg},
                          {"samples", list}});
   } else {
-    app::print("{} samples of {}: {}\n", options.count, family.value().name,
+    app::print("{} samples of {}: {}\n", options.count, family.name,
                fs::absolute(options.svg).string());
   }
   return success;
@@ -148,6 +170,7 @@ void add_family(CLI::App& line, int& exit_code) {
       ->capture_default_str();
   command->add_option("--test-log", options->test_log,
                       "Where a use of the test split is noted; needed for it");
+  command->add_option("--cues", options->cues, "With the cues of this suite");
   command->add_flag("--twins", options->twins, "The same encounters without risk");
   command->add_option("--car", options->car, "A car's file, or the name of a shipped one")
       ->capture_default_str();

@@ -33,11 +33,16 @@ Result<Inputs> read_inputs(const std::string& car) {
   if (!intent.has_value()) {
     return intent.error();
   }
+  const auto cues = intent::load_cue_law(places.value().root / "data" / "cues.toml");
+  if (!cues.has_value()) {
+    return cues.error();
+  }
   return Inputs{.places = places.value(),
                 .car_name = file.stem().string(),
                 .car = read.value(),
                 .harm = harm.value(),
-                .intent = std::move(intent).value()};
+                .intent = std::move(intent).value(),
+                .cues = cues.value()};
 }
 
 Result<runtime::ThinkingCosts> read_costs(const Places& places) {

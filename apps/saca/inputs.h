@@ -3,6 +3,7 @@
 #include <string>
 
 #include "apps/saca/places.h"
+#include "saca/intent/cue_law.h"
 #include "saca/intent/model.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/outcome/harm.h"
@@ -20,6 +21,7 @@ struct Inputs {
   manoeuvre::Car car;
   outcome::HarmModel harm;
   intent::Model intent;
+  intent::CueLaw cues;  ///< what cues of a scene stand for: data/cues.toml
 };
 
 /// @param car  its file, or the name of a shipped one

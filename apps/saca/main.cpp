@@ -62,6 +62,7 @@ int main(int argc, char** argv) {
     add_oracle(line, exit_code);
     add_whatif(line, exit_code);
     add_family(line, exit_code);
+    add_cues(line, exit_code);
     add_balance(line, exit_code);
     add_forecast(line, exit_code);
     add_ladder(line, exit_code);

@@ -61,12 +61,13 @@ namespace {
 struct Shipped {
   const char* what;
   const char* folder;                      ///< below the root
-  std::array<std::string_view, 2> others;  ///< files of the folder that are something else
+  std::array<std::string_view, 3> others;  ///< files of the folder that are something else
   const char* listed_by;  ///< the command that lists them; nullptr: the names are few
 };
 
 constexpr Shipped of_scenarios{"scenario", "scenarios", {"splits"}, "saca scenarios"};
-constexpr Shipped of_families{"family", "scenarios/families", {"suites", "surroundings"}, nullptr};
+constexpr Shipped of_families{
+    "family", "scenarios/families", {"suites", "surroundings", "cues"}, nullptr};
 constexpr Shipped of_cars{"car", "data/vehicles", {}, nullptr};
 constexpr Shipped of_reach_cases{"case", "data/reach", {}, nullptr};
 

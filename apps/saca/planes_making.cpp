@@ -15,7 +15,10 @@ Result<std::unique_ptr<const PlanesOfCar>> open_planes(Inputs inputs,
   manoeuvre::Atlas atlas = usual_atlas(inputs);
   std::unique_ptr<PlanesOfCar> planes(new PlanesOfCar{
       .inputs = std::move(inputs), .atlas = std::move(atlas), .clock = {}, .setup = {}});
-  planes->setup = {.forecast = {&planes->inputs.car, &planes->inputs.harm, &planes->atlas},
+  planes->setup = {.forecast = {.car = &planes->inputs.car,
+                                .harm = &planes->inputs.harm,
+                                .atlas = &planes->atlas,
+                                .cues = &planes->inputs.cues},
                    .thresholds = thresholds,
                    .costs = costs.value(),
                    .clock = &planes->clock};

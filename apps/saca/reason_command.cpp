@@ -209,8 +209,11 @@ int reason_about(const ReasonOptions& options) {
   if (!danger.has_value()) {
     return refused(danger.error());
   }
-  const preview::ForecastTools tools{&inputs.value().car, &inputs.value().harm, &atlas,
-                                     danger.value() ? &*danger.value() : nullptr};
+  const preview::ForecastTools tools{.car = &inputs.value().car,
+                                     .harm = &inputs.value().harm,
+                                     .atlas = &atlas,
+                                     .danger = danger.value() ? &*danger.value() : nullptr,
+                                     .cues = &inputs.value().cues};
   const auto asked = first_question(inputs.value(), tools, clock);
   if (!asked.has_value()) {
     return refused(asked.error());

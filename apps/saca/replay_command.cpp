@@ -112,7 +112,9 @@ int run(const ReplayOptions& options) {
   }
   SteadyClock clock;
   runtime::PlanesSetup setup{
-      .forecast = {&inputs.value().car, &inputs.value().harm},
+      .forecast = {.car = &inputs.value().car,
+                   .harm = &inputs.value().harm,
+                   .cues = &inputs.value().cues},
       .thresholds = header.thresholds,
       .guard = header.guarded ? decide::Guard::never_worse_than_braking : decide::Guard::none,
       .forced = header.forced,

@@ -244,6 +244,7 @@ int run(const RunOptions& options) {
                           .intent = &inputs.value().intent,
                           .atlas = atlas.value() ? &*atlas.value() : nullptr,
                           .danger = danger.value() ? &*danger.value() : nullptr,
+                          .cues = &inputs.value().cues,
                           .thresholds = thresholds_of(options),
                           .pace = pace,
                           .costs = costs.value(),

@@ -24,9 +24,12 @@ std::optional<Error> add_files(const Places& places, const std::string& car, Fnv
   if (!car_file.has_value()) {
     return car_file.error();
   }
-  std::vector<fs::path> files{
-      car_file.value(), "/proc/self/exe", places.root / "data" / "harm.toml",
-      places.root / "data" / "thinking_costs.toml", places.root / "scenarios" / "splits.toml"};
+  std::vector<fs::path> files{car_file.value(),
+                              "/proc/self/exe",
+                              places.root / "data" / "cues.toml",
+                              places.root / "data" / "harm.toml",
+                              places.root / "data" / "thinking_costs.toml",
+                              places.root / "scenarios" / "splits.toml"};
   files.push_back(manoeuvre::tuning_path(files.front()));
   for (const auto& entry : fs::directory_iterator(places.root / "scenarios" / "families")) {
     if (entry.path().extension() == ".toml") {

@@ -46,7 +46,10 @@ Result<json> read_now(const std::string& car, bool with_atlas) {
   if (with_atlas) {
     atlas = usual_atlas(inputs.value());
   }
-  return loop::inputs_json({&inputs.value().car, &inputs.value().harm, atlas ? &*atlas : nullptr},
+  return loop::inputs_json({.car = &inputs.value().car,
+                            .harm = &inputs.value().harm,
+                            .atlas = atlas ? &*atlas : nullptr,
+                            .cues = &inputs.value().cues},
                            inputs.value().intent, car);
 }
 

@@ -6,6 +6,7 @@
 #include "saca/core/contract.h"
 #include "saca/manoeuvre/batch.h"
 #include "saca/preview/drawn_motions.h"
+#include "saca/preview/supposed.h"
 
 namespace saca::decide {
 namespace {
@@ -104,11 +105,55 @@ std::optional<double> least_harm_later(const Verdict& verdict,
   return least;
 }
 
+// ---- What cues of a scene stand for
+
+/// Where doing nothing is admissible: the one plan that takes no wheel.
+bool speaks_for_nothing(const Verdict& verdict) {
+  return plan_of(verdict) == manoeuvre::doing_nothing;
+}
+
+/// Adds what a supposition makes of each plan: its harm there less that as seen, as likely as it
+/// is. A plan that cannot be driven there counts as full braking does.
+void mix_in(Verdict& verdict, const Verdict& as_seen, const Verdict& supposed, double probability) {
+  const JudgedPlan* const braking = find_plan(supposed, manoeuvre::full_braking);
+  const auto mix = [&](JudgedPlan& one, const JudgedPlan& seen, const JudgedPlan* other) {
+    if (other == nullptr || !other->drivable) {
+      other = braking;
+    }
+    if (one.drivable && other != nullptr && other->drivable) {
+      one.harm += probability * (other->harm - seen.harm);
+      one.contact += probability * (other->contact - seen.contact);
+    }
+  };
+  for (std::size_t i = 0; i < verdict.plans.size(); ++i) {
+    mix(verdict.plans[i], as_seen.plans[i], find_plan(supposed, verdict.plans[i].plan));
+  }
+  if (verdict.under_way && supposed.under_way) {
+    mix(*verdict.under_way, *as_seen.under_way, &*supposed.under_way);
+  }
+}
+
+/// What waiting costs is as without cues.
+void keep_waiting_cost(Verdict& verdict, const Verdict& as_seen) {
+  const auto cost = cost_of_waiting(as_seen);
+  const JudgedPlan* const best = least_harmful(verdict);
+  verdict.later.reset();
+  if (cost && best != nullptr) {
+    verdict.later = best->harm + *cost;
+  }
+}
+
 }  // namespace
 
 std::vector<preview::JointMotion> draws_of(const Scene& scene, const intent::Beliefs& beliefs,
                                            std::size_t num_draws) {
   return preview::drawn_motions(scene, beliefs, intent::MotionLaw{}, num_draws);
+}
+
+int judgements_of(const Scene& scene, const intent::Beliefs& beliefs, const intent::CueLaw* law) {
+  return law == nullptr || scene.cues.empty()
+             ? 1
+             : 1 + static_cast<int>(preview::suppositions(scene, beliefs, *law).size());
 }
 
 Forecaster::Forecaster(const preview::ForecastTools& tools, std::size_t num_draws)
@@ -119,6 +164,28 @@ Forecaster::Forecaster(const preview::ForecastTools& tools, std::size_t num_draw
 
 Verdict Forecaster::judge(const Scene& scene, const intent::Beliefs& beliefs,
                           const std::optional<UnderWay>& under_way) const {
+  const Verdict as_seen = judge_as_seen(scene, beliefs, under_way);
+  if (tools_.cues == nullptr || scene.cues.empty() || speaks_for_nothing(as_seen)) {
+    return as_seen;
+  }
+  const preview::Suppositions all = preview::suppositions(scene, beliefs, *tools_.cues);
+  Verdict verdict = as_seen;
+  if (!all.empty()) {
+    for (JudgedPlan& one : verdict.plans) {
+      one.as_seen = one.drivable ? std::optional(one.harm) : std::nullopt;
+    }
+  }
+  for (const preview::Supposition& one : all) {
+    if (!(one.is_slippery && under_way)) {
+      mix_in(verdict, as_seen, judge_as_seen(one.scene, one.beliefs, under_way), one.probability);
+    }
+  }
+  keep_waiting_cost(verdict, as_seen);
+  return verdict;
+}
+
+Verdict Forecaster::judge_as_seen(const Scene& scene, const intent::Beliefs& beliefs,
+                                  const std::optional<UnderWay>& under_way) const {
   const auto draws = draws_of(scene, beliefs, num_draws_);
   const preview::PreparedMotions motions(scene, draws, tools_);
   Verdict verdict{.time = scene.time};

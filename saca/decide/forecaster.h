@@ -48,6 +48,13 @@ constexpr std::size_t usual_draws = 16;
                                                          const intent::Beliefs& beliefs,
                                                          std::size_t num_draws = usual_draws);
 
+/// How many times as long as that of a scene without cues the verdict of this one takes at most: 1
+/// and one more for each supposition (Forecaster::judge).
+/// @param law  by which it is judged; nullptr: cues stand for nothing
+/// @throws ContractViolation  if beliefs and actors differ in number
+[[nodiscard]] int judgements_of(const world::Scene& scene, const intent::Beliefs& beliefs,
+                                const intent::CueLaw* law);
+
 /// The plane between reflex and thinking: one scene in, one verdict out, many times a second. Its
 /// work is bounded: it asks neither disk nor language model.
 ///
@@ -58,6 +65,17 @@ class Forecaster {
   /// @param num_draws  >= 1
   explicit Forecaster(const preview::ForecastTools& tools, std::size_t num_draws = usual_draws);
 
+  /// Where the scene has cues, what they stand for is reckoned with, by ForecastTools::cues
+  /// (preview::suppositions): each is judged by itself, and harms are the mean over them and what
+  /// is seen, as likely as they are.
+  ///
+  /// * Suppositions are only added: everybody who is seen counts as without.
+  /// * A cue alone never takes the wheel, nor keeps it: where without it the verdict speaks for
+  ///   doing nothing, it is that without it. What waiting costs is always as without.
+  /// * Where there would be less grip, a plan that could not be driven counts as full braking does;
+  ///   a plan under way is judged on the grip that is believed.
+  /// * Each plan tells its harm without cues, too (`JudgedPlan::as_seen`).
+  ///
   /// @param scene      breaks no rule of world::broken_rule
   /// @param beliefs    one per actor
   /// @param under_way  judged from where it is: the rest of the way that was meant when it began,
@@ -70,6 +88,9 @@ class Forecaster {
                               const std::optional<UnderWay>& under_way = std::nullopt) const;
 
  private:
+  [[nodiscard]] Verdict judge_as_seen(const world::Scene& scene, const intent::Beliefs& beliefs,
+                                      const std::optional<UnderWay>& under_way) const;
+
   preview::ForecastTools tools_;
   std::size_t num_draws_;
 };

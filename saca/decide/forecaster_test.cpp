@@ -8,12 +8,14 @@
 #include "saca/intent/shipped_model.h"
 #include "saca/manoeuvre/batch.h"
 #include "saca/manoeuvre/default_car.h"
+#include "saca/preview/supposed.h"
 #include "tests/support/scenes.h"
 
 namespace saca::decide::forecaster_test {
 namespace {
 
 using manoeuvre::PolicyId;
+using world::CueKind;
 using world::Scene;
 
 class ForecasterTest : public ::testing::Test {
@@ -259,6 +261,132 @@ TEST_F(ForecasterTest, JudgesAllWhoMayDoAnything) {
 TEST_F(ForecasterTest, RefusesBeliefsAboutOthers) {
   EXPECT_THROW((void)forecaster_.judge(wreck_ahead(), {}), ContractViolation);
   EXPECT_THROW(Forecaster({.car = &car_, .harm = &harm_}, 0), ContractViolation);
+}
+
+// ---- What cues stand for
+
+class CuesTest : public ::testing::Test {
+ protected:
+  CuesTest() {
+    law_.unseen[static_cast<std::size_t>(CueKind::bus_at_stop)] =
+        intent::Unseen{.who = world::ActorKind::pedestrian, .probability = 0.4, .speed = 2.0};
+    law_.unseen[static_cast<std::size_t>(CueKind::wet_leaves)] =
+        intent::Unseen{.who = std::nullopt, .probability = 0.5, .grip_share = 0.4};
+  }
+  [[nodiscard]] Verdict seen(const Scene& scene) const {
+    return forecaster_.judge(scene, intent::beliefs_at_sight(intent::shipped_model(), scene));
+  }
+  [[nodiscard]] Verdict by_cues(const Scene& scene) const {
+    return reckoning_.judge(scene, intent::beliefs_at_sight(intent::shipped_model(), scene));
+  }
+  static double harm_of(const Verdict& verdict, PolicyId policy) {
+    return find_plan(verdict, {policy, std::nullopt})->harm;
+  }
+  /// 15 m/s, three lanes; a wreck ahead in ours.
+  static Scene wreck_between_lanes() {
+    Scene scene = test::ego_at(15.0);
+    scene.road.left_edge = 5.25;
+    scene.road.right_edge = -5.25;
+    scene.actors.push_back(test::car(1, {22.0, 0.0}));
+    scene.actors[0].kind = world::ActorKind::obstacle;
+    return scene;
+  }
+
+  manoeuvre::Car car_ = manoeuvre::default_car();
+  outcome::HarmModel harm_ = outcome::read_harm("data/harm.toml").value();
+  intent::CueLaw law_;
+  Forecaster forecaster_{{.car = &car_, .harm = &harm_}};
+  Forecaster reckoning_{{.car = &car_, .harm = &harm_, .cues = &law_}};
+};
+
+TEST_F(CuesTest, WithoutCuesNothingChanges) {
+  const Scene scene = wreck_between_lanes();
+  const Verdict plain = seen(scene);
+  const Verdict judged = by_cues(scene);
+  ASSERT_EQ(judged.plans.size(), plain.plans.size());
+  for (std::size_t i = 0; i < plain.plans.size(); ++i) {
+    EXPECT_EQ(judged.plans[i].harm, plain.plans[i].harm);
+    EXPECT_FALSE(judged.plans[i].as_seen);
+  }
+}
+
+// Nobody threatens: somebody may step out, but nobody takes the wheel for that.
+TEST_F(CuesTest, ACueAloneTakesNoWheel) {
+  Scene scene = wreck_between_lanes();
+  scene.actors.clear();
+  scene.cues.push_back({CueKind::bus_at_stop, {15.0, -4.0}});
+  const Verdict judged = by_cues(scene);
+  EXPECT_EQ(plan_of(judged), manoeuvre::doing_nothing);
+  EXPECT_EQ(harm_of(judged, PolicyId::no_intervention), 0.0);
+}
+
+TEST_F(CuesTest, EachCueThatCountsIsJudgedByItself) {
+  Scene scene = wreck_between_lanes();
+  const intent::Beliefs beliefs = intent::beliefs_at_sight(intent::shipped_model(), scene);
+  EXPECT_EQ(judgements_of(scene, beliefs, &law_), 1);
+  scene.cues.push_back({CueKind::bus_at_stop, {24.0, -6.0}});
+  EXPECT_EQ(judgements_of(scene, beliefs, nullptr), 1);
+  EXPECT_EQ(judgements_of(scene, beliefs, &law_), 2);
+  scene.cues.push_back({CueKind::wet_leaves, {24.0, 0.0}});
+  EXPECT_EQ(judgements_of(scene, beliefs, &law_), 3);
+  scene.cues[1].p_W.x = -20.0;  // we have passed it
+  EXPECT_EQ(judgements_of(scene, beliefs, &law_), 2);
+}
+
+// Somebody steps out before the wreck. That he is met does not undo that the wreck is hit where he
+// does not come: the harm is the mean over both worlds.
+TEST_F(CuesTest, WhatComesOfAPlanIsTheMeanOverBothWorlds) {
+  Scene scene = wreck_between_lanes();
+  scene.cues.push_back({CueKind::bus_at_stop, {17.0, -6.0}});
+  const intent::Beliefs beliefs = intent::beliefs_at_sight(intent::shipped_model(), scene);
+  const preview::Suppositions all = preview::suppositions(scene, beliefs, law_);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].probability, 0.4);
+  const Verdict with_him = forecaster_.judge(all[0].scene, all[0].beliefs);
+  const Verdict judged = by_cues(scene);
+  for (const PolicyId policy : {PolicyId::no_intervention, PolicyId::aeb, PolicyId::aes_right}) {
+    EXPECT_NEAR(harm_of(judged, policy),
+                0.6 * harm_of(seen(scene), policy) + 0.4 * harm_of(with_him, policy), 1e-12);
+  }
+  EXPECT_GT(harm_of(with_him, PolicyId::no_intervention),
+            harm_of(seen(scene), PolicyId::no_intervention));
+}
+
+// Somebody who comes from the right beside the wreck is met by who goes there.
+TEST_F(CuesTest, TheSideOfTheCueHarmsMore) {
+  Scene scene = wreck_between_lanes();
+  scene.cues.push_back({CueKind::bus_at_stop, {24.0, -6.0}});
+  const Verdict plain = seen(scene);
+  const Verdict judged = by_cues(scene);
+  const auto added = [&](PolicyId policy) {
+    return harm_of(judged, policy) - harm_of(plain, policy);
+  };
+  EXPECT_GT(added(PolicyId::aes_right), 0.01);
+  EXPECT_GT(added(PolicyId::aes_right), added(PolicyId::aeb));
+  const JudgedPlan* right = find_plan(judged, {PolicyId::aes_right, std::nullopt});
+  ASSERT_TRUE(right->as_seen);
+  EXPECT_DOUBLE_EQ(*right->as_seen, harm_of(plain, PolicyId::aes_right));
+}
+
+TEST_F(CuesTest, WaitingCostsAsMuchAsWithoutCues) {
+  Scene scene = wreck_between_lanes();
+  scene.cues.push_back({CueKind::bus_at_stop, {24.0, -6.0}});
+  const auto without = cost_of_waiting(seen(scene));
+  const auto with = cost_of_waiting(by_cues(scene));
+  ASSERT_TRUE(without && with);
+  EXPECT_NEAR(*with, *without, 1e-12);
+}
+
+// With half of the probability on 0.4 of the grip, braking harms the mean of both.
+TEST_F(CuesTest, LessGripCountsAsItsProbability) {
+  Scene scene = wreck_between_lanes();
+  scene.cues.push_back({CueKind::wet_leaves, {10.0, 0.0}});
+  Scene slippery = wreck_between_lanes();
+  slippery.grip *= 0.4;
+  const double dry = harm_of(seen(scene), PolicyId::aeb);
+  const double wet = harm_of(seen(slippery), PolicyId::aeb);
+  EXPECT_GT(wet, dry);
+  EXPECT_NEAR(harm_of(by_cues(scene), PolicyId::aeb), 0.5 * (dry + wet), 1e-12);
 }
 
 }  // namespace

@@ -17,6 +17,8 @@ struct JudgedPlan {
   double harm = 0.0;      ///< expected over everything that is not known of the others; of braking
                           ///< below full strength see spread_over_strengths
   double contact = 0.0;   ///< probability, in [0, 1]
+  std::optional<double> as_seen;  ///< the harm without who is only supposed, by cues of the scene;
+                                  ///< nullopt: nobody was
 };
 
 [[nodiscard]] JudgedPlan judged(const preview::ExpectedHarm& one);

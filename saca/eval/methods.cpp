@@ -30,7 +30,7 @@ using manoeuvre::PolicyId;
 using preview::JointMotion;
 using preview::Physics;
 
-constexpr std::array<MethodInfo, 33> infos{{
+constexpr std::array<MethodInfo, 34> infos{{
     {"saca", "SACA",
      "The shipped planes: a cached plan that matches and is admissible, else what the verdict "
      "speaks "
@@ -39,6 +39,8 @@ constexpr std::array<MethodInfo, 33> infos{{
      Needs::memory},
     {"saca_no_model", "SACA without model", "As SACA; the language model is not asked.", false,
      Needs::model},
+    {"saca_no_cues", "SACA, cues not reckoned with",
+     "As SACA; it reckons only with who is seen, whatever the place."},
     {"saca_at_t1", "SACA, never before T1",
      "As SACA; it waits for T1 even where waiting is expected to cost harm."},
     {"saca_full_braking", "SACA, braking with one strength",
@@ -269,6 +271,9 @@ runtime::PlanesSetup planes_of(std::string_view name, runtime::PlanesSetup plane
                    .reasoning = !name.ends_with("_at_once")};
   if (name == "saca_full_braking") {
     planes.forecast.braking = preview::Braking::full;
+  }
+  if (name == "saca_no_cues") {
+    planes.forecast.cues = nullptr;
   }
   if (name == "saca_at_t1") {
     planes.thresholds.waiting_cost.reset();

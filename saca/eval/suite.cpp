@@ -249,8 +249,12 @@ sim::Chance chance_of(const SuiteOptions& options, std::uint64_t number) {
 }
 
 sim::Scenario as_played(sim::Scenario scenario, const SuiteOptions& options) {
-  if (!options.exact && scenario.perception == sim::PerceptionModel{}) {
+  sim::PerceptionModel besides_grip = scenario.perception;
+  besides_grip.grip_believed.reset();
+  if (!options.exact && besides_grip == sim::PerceptionModel{}) {
+    const auto believed = scenario.perception.grip_believed;
     scenario.perception = usual_perception();
+    scenario.perception.grip_believed = believed ? believed : scenario.perception.grip_believed;
   }
   return scenario;
 }

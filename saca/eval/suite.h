@@ -64,7 +64,8 @@ struct SuiteRow {
 /// world.
 [[nodiscard]] std::uint64_t encounter_seed(std::uint64_t seed, std::uint64_t number);
 
-/// The scenario as the suite plays it: with the usual perception, where it says nothing of it.
+/// The scenario as the suite plays it: with the usual perception, where it says nothing of it but
+/// what the grip is taken for.
 [[nodiscard]] sim::Scenario as_played(sim::Scenario scenario, const SuiteOptions& options);
 
 /// Runs one encounter. One does not depend on the others.

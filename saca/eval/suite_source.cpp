@@ -11,6 +11,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Files beside the families that are none.
+bool is_shared(std::string_view name) {
+  return name == "surroundings" || name == "cues";
+}
+
 /// A suite of that name, or a family as a suite of itself.
 Result<sim::Suite> find_suite(const fs::path& folder, const std::string& wanted,
                               const std::vector<std::string>& other_names) {
@@ -25,7 +30,7 @@ Result<sim::Suite> find_suite(const fs::path& folder, const std::string& wanted,
     }
     names.push_back(suite.name);
   }
-  const bool is_plain = wanted.find('/') == std::string::npos && wanted != "surroundings";
+  const bool is_plain = wanted.find('/') == std::string::npos && !is_shared(wanted);
   if (is_plain && !wanted.empty() && fs::is_regular_file(folder / (wanted + ".toml"))) {
     return sim::Suite{.name = wanted, .why = {}, .members = {{wanted, 1.0, {}}}};
   }
@@ -33,7 +38,7 @@ Result<sim::Suite> find_suite(const fs::path& folder, const std::string& wanted,
   const auto num_suites = static_cast<std::ptrdiff_t>(names.size());
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().stem().string();
-    if (entry.path().extension() == ".toml" && name != "suites" && name != "surroundings") {
+    if (entry.path().extension() == ".toml" && name != "suites" && !is_shared(name)) {
       names.push_back(name);
     }
   }
@@ -42,7 +47,24 @@ Result<sim::Suite> find_suite(const fs::path& folder, const std::string& wanted,
                                                       wanted, suggestion(wanted, names))};
 }
 
+Result<std::optional<sim::FamilyCues>> cues_of(const fs::path& folder, const sim::Suite& suite) {
+  if (suite.cues.empty()) {
+    return std::optional<sim::FamilyCues>();
+  }
+  const auto law = intent::load_cue_law(folder / "cues.toml");
+  if (!law.has_value()) {
+    return law.error();
+  }
+  return std::optional(sim::FamilyCues{law.value(), suite.cues});
+}
+
 }  // namespace
+
+Result<std::optional<sim::FamilyCues>> cues_of_suite(const fs::path& families,
+                                                     const std::string& suite) {
+  const auto found = find_suite(families, suite, {});
+  return found.has_value() ? cues_of(families, found.value()) : found.error();
+}
 
 Result<SuiteSource> SuiteSource::open(const SuiteDraw& draw) {
   const fs::path folder = draw.scenarios / "families";
@@ -64,6 +86,13 @@ Result<SuiteSource> SuiteSource::open(const SuiteDraw& draw) {
       return family.error();
     }
     source.families_.push_back(std::move(family).value());
+  }
+  const auto cues = cues_of(folder, source.suite_);
+  if (!cues.has_value()) {
+    return cues.error();
+  }
+  for (sim::Family& family : source.families_) {
+    family.cues = cues.value();
   }
   for (const sim::Family& family : source.families_) {  // last: a use of the test split is noted
     const auto seed = sim::seed_for(splits.value(), draw.split, family.name, draw.test_log);

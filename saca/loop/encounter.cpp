@@ -105,7 +105,11 @@ Stage Encounter::stage_of(const Setup& setup) {
 }
 
 runtime::PlanesSetup Encounter::planes_setup(const Setup& setup) {
-  return {.forecast = {setup.car, setup.harm, setup.atlas, setup.danger},
+  return {.forecast = {.car = setup.car,
+                       .harm = setup.harm,
+                       .atlas = setup.atlas,
+                       .danger = setup.danger,
+                       .cues = setup.cues},
           .thresholds = setup.thresholds,
           .pace = setup.pace,
           .costs = setup.costs,

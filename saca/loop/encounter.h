@@ -37,6 +37,7 @@ struct Setup {
   const intent::Model* intent = nullptr;
   const manoeuvre::Atlas* atlas = nullptr;  ///< of the car; nullptr: all forecasts are rolled out
   const reach::DangerModel* danger = nullptr;  ///< of the car; nullptr: the best of few evasions
+  const intent::CueLaw* cues = nullptr;        ///< what cues of a scene stand for; nullptr: nothing
   preview::Thresholds thresholds;
   runtime::Pace pace = runtime::Pace::lockstep;
   runtime::ThinkingCosts costs;            ///< for lockstep

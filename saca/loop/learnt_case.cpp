@@ -37,8 +37,10 @@ std::optional<Error> change_case(memory::Store& memory, memory::CaseId id, const
 
 std::vector<memory::MadeWith> made_with(const preview::ForecastTools& tools,
                                         const intent::Model& intent, const std::string& car) {
+  preview::ForecastTools without_cues = tools;  // of a case's scene there are none
+  without_cues.cues = nullptr;
   std::vector<memory::MadeWith> inputs;
-  for (const nlohmann::json& one : inputs_json(tools, intent, car)) {
+  for (const nlohmann::json& one : inputs_json(without_cues, intent, car)) {
     const nlohmann::json& digest = one.at("digest");
     inputs.push_back({one.at("what").get<std::string>(), one.at("name").get<std::string>(),
                       digest.is_string() ? digest.get<std::string>() : ""});

@@ -22,15 +22,20 @@ json inputs_json(const preview::ForecastTools& tools, const intent::Model& inten
                  const std::string& car) {
   const runtime::TapeHeader digests = runtime::tape_header({.forecast = tools}, intent);
   const json atlas = digests.atlas ? json(*digests.atlas) : json(nullptr);
-  return {input_json("car", car, digests.car_digest),
-          input_json("harm", "data/harm.toml", digests.harm_digest),
-          input_json("intentions", "models/intent/model.safetensors", digests.intent_digest),
-          input_json("atlas", car, atlas)};
+  json inputs = {input_json("car", car, digests.car_digest),
+                 input_json("harm", "data/harm.toml", digests.harm_digest),
+                 input_json("intentions", "models/intent/model.safetensors", digests.intent_digest),
+                 input_json("atlas", car, atlas)};
+  if (digests.cues) {
+    inputs.push_back(input_json("cues", "data/cues.toml", *digests.cues));
+  }
+  return inputs;
 }
 
 json made_json(const Setup& setup, const Provenance& provenance) {
   json inputs =
-      inputs_json({setup.car, setup.harm, setup.atlas}, *setup.intent, setup.scenario->car);
+      inputs_json({.car = setup.car, .harm = setup.harm, .atlas = setup.atlas, .cues = setup.cues},
+                  *setup.intent, setup.scenario->car);
   inputs.insert(inputs.begin(), input_json("scenario", provenance.file, provenance.digest));
   return {{"program", provenance.program},
           {"commit", provenance.commit},

@@ -18,7 +18,7 @@ struct Provenance {
 };
 
 /// What a run reads besides its scenario: a list of { "what", "name", "digest": or null, there is
-/// none }.
+/// none }; what cues stand for is among it where they are reckoned with.
 /// @param car  its name or file
 [[nodiscard]] nlohmann::json inputs_json(const preview::ForecastTools& tools,
                                          const intent::Model& intent, const std::string& car);

@@ -9,6 +9,7 @@
 #include "saca/loop/state_json.h"
 #include "saca/loop/verdict_json.h"
 #include "saca/manoeuvre/ego.h"
+#include "saca/memory/scene_json.h"
 #include "saca/outcome/describe.h"
 #include "saca/outcome/loss.h"
 #include "saca/reason/explanation_json.h"
@@ -380,6 +381,7 @@ std::string record_json(const Setup& setup, const Record& record, const Provenan
              {"earliest_swerve_s", setup.thresholds.earliest_swerve},
              {"material_harm", decide::material_harm}}},
            {"road", road_json(scenario.road)},
+           {"cues", memory::cues_json(scenario.cues)},
            {"ego",
             {{"length_m", body.length},
              {"width_m", body.width},

@@ -19,6 +19,9 @@ json judged_json(const decide::JudgedPlan& judged) {
   json entry = plan_json(judged.plan);
   entry["harm"] = judged.drivable ? json(judged.harm) : json(nullptr);
   entry["contact"] = judged.drivable ? json(judged.contact) : json(nullptr);
+  if (judged.as_seen) {
+    entry["harm_as_seen"] = *judged.as_seen;
+  }
   return entry;
 }
 

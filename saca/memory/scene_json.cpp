@@ -159,6 +159,29 @@ Road read_road(Reader reader) {
   return road;
 }
 
+/// The key is there only if there is one.
+constexpr const char* cues_key = "cues";
+
+world::Cue read_cue(Reader reader) {
+  const world::Cue cue{
+      .kind = reader.word("kind", world::cue_kind_from,
+                          "school_zone, bus_at_stop, parked_vans, work_zone, emergency_vehicle, "
+                          "low_sun or wet_leaves"),
+      .p_W = {reader.number("x_m"), reader.number("y_m")}};
+  reader.refuse_others();
+  return cue;
+}
+
+void read_cues(Reader& reader, Scene& scene) {
+  if (!reader.has(cues_key)) {
+    return;
+  }
+  const json* cues = reader.list(cues_key, world::max_cues);
+  for (std::size_t i = 0; cues != nullptr && i < cues->size(); ++i) {
+    scene.cues.push_back(read_cue(reader.element(cues_key, *cues, i)));
+  }
+}
+
 void read_actors(Reader& reader, Scene& scene) {
   const json* actors = reader.list("actors", world::max_actors);
   for (std::size_t i = 0; actors != nullptr && i < actors->size(); ++i) {
@@ -168,6 +191,14 @@ void read_actors(Reader& reader, Scene& scene) {
 
 }  // namespace
 
+json cues_json(std::span<const world::Cue> cues) {
+  json all = json::array();
+  for (const world::Cue& cue : cues) {
+    all.push_back({{"kind", world::name(cue.kind)}, {"x_m", cue.p_W.x}, {"y_m", cue.p_W.y}});
+  }
+  return all;
+}
+
 json to_json(const Scene& scene) {
   const auto rule = world::broken_rule(scene);
   expects(!rule, rule.value_or(""));
@@ -175,13 +206,17 @@ json to_json(const Scene& scene) {
   for (const Actor& actor : scene.actors) {
     actors.push_back(actor_json(actor));
   }
-  return {{"schema", schema},
-          {"time_s", scene.time},
-          {"grip", scene.grip},
-          {"grip_sd", scene.grip_sd},
-          {"ego", ego_json(scene)},
-          {"actors", std::move(actors)},
-          {"road", road_json(scene.road)}};
+  json node = {{"schema", schema},
+               {"time_s", scene.time},
+               {"grip", scene.grip},
+               {"grip_sd", scene.grip_sd},
+               {"ego", ego_json(scene)},
+               {"actors", std::move(actors)},
+               {"road", road_json(scene.road)}};
+  if (!scene.cues.empty()) {
+    node[cues_key] = cues_json({scene.cues.begin(), scene.cues.size()});
+  }
+  return node;
 }
 
 Result<Scene> scene_from_json(const json& document) {
@@ -195,6 +230,7 @@ Result<Scene> scene_from_json(const json& document) {
   read_ego(reader.object("ego"), scene);
   scene.road = read_road(reader.object("road"));
   read_actors(reader, scene);
+  read_cues(reader, scene);
   reader.refuse_others();
   if (problem) {
     return *problem;

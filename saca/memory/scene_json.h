@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "saca/core/result.h"
 #include "saca/world/scene.h"
@@ -12,6 +13,9 @@ namespace saca::memory {
 ///
 /// @throws ContractViolation  if the scene breaks a rule of `world::broken_rule`
 [[nodiscard]] nlohmann::json to_json(const world::Scene& scene);
+
+/// As a scene, and a record, hold them.
+[[nodiscard]] nlohmann::json cues_json(std::span<const world::Cue> cues);
 
 /// Strict: a key that is missing, unknown, of the wrong type or out of range is refused, and so is
 /// a scene that breaks a rule of `world::broken_rule`.

@@ -88,6 +88,30 @@ TEST(SceneJson, AWallComesBackAndACarCannotBeOne) {
   EXPECT_THAT(refusal(car), HasSubstr("only an obstacle is a segment"));
 }
 
+TEST(SceneJson, CuesComeBackAndScenesWithoutAreAsBefore) {
+  Scene scene = crossing_truck();
+  EXPECT_FALSE(to_json(scene).contains("cues"));
+  scene.cues.push_back({world::CueKind::parked_vans, {12.5, -1.0 / 3.0}});
+  scene.cues.push_back({world::CueKind::low_sun, {0.0, 4.0}});
+  json document = json::parse(to_json(scene).dump());
+  const auto back = scene_from_json(document);
+  ASSERT_TRUE(back.has_value()) << back.error().message;
+  ASSERT_EQ(back.value().cues.size(), 2U);
+  EXPECT_EQ(back.value().cues[0].kind, world::CueKind::parked_vans);
+  EXPECT_EQ(back.value().cues[0].p_W.y, -1.0 / 3.0);
+  EXPECT_EQ(back.value().cues[1].kind, world::CueKind::low_sun);
+  json other = document;
+  other[at("/cues/1/kind")] = "tram";
+  EXPECT_THAT(refusal(other), HasSubstr("cues[1].kind: want school_zone"));
+  other = document;
+  other[at("/cues/0/x_m")] = 1e8;
+  EXPECT_THAT(refusal(other), HasSubstr("cues lie within 10,000 km"));
+  other = document;
+  other["cues"] = json::array(
+      {other["cues"][0], other["cues"][0], other["cues"][0], other["cues"][0], other["cues"][0]});
+  EXPECT_THAT(refusal(other), HasSubstr("cues: want"));
+}
+
 TEST(SceneJson, CarriesUnitsInItsKeysAndNamesForKinds) {
   const json document = to_json(crossing_truck());
   EXPECT_EQ(document["schema"], "saca.scene/1");

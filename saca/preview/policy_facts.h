@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "saca/core/static_vector.h"
+#include "saca/intent/cue_law.h"
 #include "saca/intent/motion.h"
 #include "saca/manoeuvre/atlas.h"
 #include "saca/manoeuvre/car.h"
@@ -33,6 +34,7 @@ struct ForecastTools {
   const reach::DangerModel* danger = nullptr;  ///< of this car; nullptr: the best of few evasions
   intent::MotionLaw motion = hard_driving();   ///< how the others move under an intention
   Braking braking = Braking::any_strength;     ///< which plans there are
+  const intent::CueLaw* cues = nullptr;        ///< what cues of a scene stand for; nullptr: nothing
 };
 
 /// Every plan that can be chosen at `speed` [m/s]: each policy, 3 and 4 once for each of

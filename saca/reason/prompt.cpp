@@ -49,6 +49,15 @@ constexpr std::array<std::string_view, intent::num_intentions> intention_words{
     "brake",    "brake moving left", "brake moving right",
     "stop",     "cross the lane"};
 
+constexpr std::array<std::string_view, world::num_cue_kinds> cue_words{
+    "school zone",
+    "bus at a stop with open doors",
+    "row of parked vans",
+    "work zone",
+    "siren of an emergency vehicle that is not seen",
+    "low sun",
+    "wet leaves on the road"};
+
 // "-0.0" would be a number that stands nowhere else.
 double without_negative_zero(double x, double resolution) {
   return std::abs(x) < resolution / 2.0 ? 0.0 : x;
@@ -185,9 +194,15 @@ std::string edge_text(double way, world::Beyond beyond, bool is_oncoming) {
 std::string road_section(const Scene& scene) {
   const world::Road& road = scene.road;
   const double d = to_lane(road, scene.ego.X_WB).d;
-  return fmt::format("## Road:\nleft edge {}; right edge {}\n",
-                     edge_text(road.left_edge - d, road.left_beyond, road.oncoming_left),
-                     edge_text(d - road.right_edge, road.right_beyond, road.oncoming_right));
+  std::string text =
+      fmt::format("## Road:\nleft edge {}; right edge {}\n",
+                  edge_text(road.left_edge - d, road.left_beyond, road.oncoming_left),
+                  edge_text(d - road.right_edge, road.right_beyond, road.oncoming_right));
+  for (const world::Cue& cue : scene.cues) {
+    text += fmt::format("{}, {}\n", name_of(cue.kind, cue_words),
+                        placed(inverse(scene.ego.X_WB) * cue.p_W));
+  }
+  return text;
 }
 
 // Where it is not sure whether there is contact, how likely it is.

@@ -162,6 +162,16 @@ TEST(Prompt, ObstaclesStandInTheirSection) {
   EXPECT_THAT(text, Not(HasSubstr("## Obstacles:\nnone")));
 }
 
+TEST(Prompt, CuesStandWithTheRoad) {
+  preview::Situation situation = example_situation();
+  situation.scene_at_trigger.cues.push_back({world::CueKind::bus_at_stop, {12.0, -3.5}});
+  situation.scene_at_trigger.cues.push_back({world::CueKind::wet_leaves, {-4.0, 0.0}});
+  EXPECT_THAT(prompt(situation),
+              HasSubstr("right edge 1.8 m, open ground\nbus at a stop with open doors, 12.0 m "
+                        "ahead, 3.5 m right\nwet leaves on the road, 4.0 m behind, 0.0 m left\n"
+                        "## Manoeuvres:\n"));
+}
+
 TEST(Prompt, NearestCaseIsToldInNumbersOnly) {
   memory::Case nearest;
   nearest.plan.policy = manoeuvre::PolicyId::aeb;

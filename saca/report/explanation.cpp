@@ -57,6 +57,7 @@ struct Judged {
   bool drivable = false;
   double harm = 0.0;
   double contact = 0.0;
+  std::optional<double> harm_as_seen;  ///< nullopt: nobody was reckoned with who is not seen
   bool admissible = false;
   bool is_braking = false;
   bool chosen = false;
@@ -84,6 +85,9 @@ class Story {
         judged.harm = plan.at("harm").get<double>();
         judged.contact = plan.at("contact").get<double>();
         judged.admissible = most_ && judged.harm <= *most_;
+        if (const auto seen = plan.find("harm_as_seen"); seen != plan.end()) {
+          judged.harm_as_seen = seen->get<double>();
+        }
       }
       judged_.push_back(judged);
     }
@@ -116,6 +120,16 @@ class Story {
       }
     }
     return {};
+  }
+  /// "parked vans, wet leaves".
+  [[nodiscard]] std::string cues() const {
+    std::string names;
+    for (const json& cue : record_.value("cues", json::array())) {
+      std::string name = cue.at("kind").get<std::string>();
+      std::replace(name.begin(), name.end(), '_', ' ');
+      names += (names.empty() ? "" : ", ") + name;
+    }
+    return names;
   }
   /// The statements that are shown as the reason of the cached plan, one sentence; empty: none.
   [[nodiscard]] std::string weighed() const {
@@ -260,11 +274,20 @@ Story::Sentences Story::expected() const {
                                    "the plans from the atlas"
                                  : "the forecaster drove every plan against draws of what the "
                                    "others may do")};
+  if (std::any_of(judged_.begin(), judged_.end(),
+                  [](const Judged& plan) { return plan.harm_as_seen.has_value(); })) {
+    told.push_back(fmt::format(
+        "Reckoned with was also what is not seen but likelier here than elsewhere: {}.", cues()));
+  }
   for (const Judged& plan : judged_) {
     told.push_back(
         plan.drivable
-            ? fmt::format("{}, {}: expected harm {:.4f}, chance of contact {}.", plan.name,
-                          plan.policy, plan.harm, percent(plan.contact))
+            ? fmt::format("{}, {}: expected harm {:.4f}{}, chance of contact {}.", plan.name,
+                          plan.policy, plan.harm,
+                          plan.harm_as_seen
+                              ? fmt::format(" ({:.4f} by what is seen alone)", *plan.harm_as_seen)
+                              : "",
+                          percent(plan.contact))
             : fmt::format("{}, {}: cannot be driven from there.", plan.name, plan.policy));
   }
   return told;

@@ -10,17 +10,18 @@ void ChargedForecasts::offer(const TimedScene& newest) {
   if (now < free_at_ - rounding) {
     return;
   }
-  free_at_ = now + std::max(verdict_period, cost_);
-  rounds_.push_back(newest);
-  while (rounds_.size() > 1 && is_ready(rounds_[1], now)) {
+  const double cost = cost_(newest);
+  free_at_ = now + std::max(verdict_period, cost);
+  rounds_.push_back({newest, now + cost});
+  while (rounds_.size() > 1 && rounds_[1].ready <= now) {
     rounds_.pop_front();
   }
 }
 
 std::optional<NumberedVerdict> ChargedForecasts::take(double now) {
   std::optional<TimedScene> newest;
-  while (!rounds_.empty() && is_ready(rounds_.front(), now)) {
-    newest = rounds_.front();
+  while (!rounds_.empty() && rounds_.front().ready <= now) {
+    newest = rounds_.front().of;
     rounds_.pop_front();
   }
   if (!newest) {

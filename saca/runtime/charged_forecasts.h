@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -18,8 +19,11 @@ constexpr double verdict_period = 0.05;
 /// nobody takes is not worked out.
 class ChargedForecasts {
  public:
-  /// @param cost  of one verdict [s], >= 0
-  ChargedForecasts(decide::Judge judge, double cost) : judge_(std::move(judge)), cost_(cost) {}
+  using Cost = std::function<double(const TimedScene&)>;
+
+  /// @param cost  of the verdict of a scene [s], >= 0
+  ChargedForecasts(decide::Judge judge, Cost cost)
+      : judge_(std::move(judge)), cost_(std::move(cost)) {}
 
   /// Begins a round unless the last one was begun less than a period ago, or is still worked on.
   void offer(const TimedScene& newest);
@@ -40,14 +44,15 @@ class ChargedForecasts {
  private:
   static constexpr double never = -std::numeric_limits<double>::infinity();
 
-  [[nodiscard]] bool is_ready(const TimedScene& round, double now) const {
-    return round.scene.time + cost_ <= now;
-  }
+  struct Round {
+    TimedScene of;
+    double ready = 0.0;  ///< [s]
+  };
 
   decide::Judge judge_;
-  double cost_;
-  std::deque<TimedScene> rounds_;  ///< by time; what nobody can take any more is dropped
-  double free_at_ = never;         ///< [s]
+  Cost cost_;
+  std::deque<Round> rounds_;  ///< by time; what nobody can take any more is dropped
+  double free_at_ = never;    ///< [s]
 };
 
 }  // namespace saca::runtime

@@ -19,6 +19,10 @@ class ChargedForecastsTest : public ::testing::Test {
     }
   }
 
+  static ChargedForecasts::Cost always(double cost) {
+    return [cost](const TimedScene&) { return cost; };
+  }
+
   manoeuvre::Car car_ = manoeuvre::default_car();
   outcome::HarmModel harm_ = outcome::read_harm("data/harm.toml").value();
   decide::Judge judge_ = [one = decide::Forecaster({.car = &car_, .harm = &harm_}, 1)](
@@ -26,7 +30,7 @@ class ChargedForecastsTest : public ::testing::Test {
 };
 
 TEST_F(ChargedForecastsTest, AVerdictIsHeldBackUntilItWouldBeReady) {
-  ChargedForecasts forecasts(judge_, 0.03);
+  ChargedForecasts forecasts(judge_, always(0.03));
   offer_until(forecasts, 0.0);
   EXPECT_FALSE(forecasts.take(0.02).has_value());
   const auto verdict = forecasts.take(0.03);
@@ -36,7 +40,7 @@ TEST_F(ChargedForecastsTest, AVerdictIsHeldBackUntilItWouldBeReady) {
 }
 
 TEST_F(ChargedForecastsTest, TheNewestThatIsReadyIsTaken) {
-  ChargedForecasts forecasts(judge_, 0.03);
+  ChargedForecasts forecasts(judge_, always(0.03));
   offer_until(forecasts, 1.0);  // rounds at 0, 0.05, ... 1.0
   EXPECT_NEAR(forecasts.take(1.0)->verdict.time, 0.95, 1e-9);
   const auto last = forecasts.take(1.04);
@@ -45,7 +49,7 @@ TEST_F(ChargedForecastsTest, TheNewestThatIsReadyIsTaken) {
 }
 
 TEST_F(ChargedForecastsTest, WhatWasBegunForAnEncounterThatIsOverDoesNotCome) {
-  ChargedForecasts forecasts(judge_, 0.03);
+  ChargedForecasts forecasts(judge_, always(0.03));
   offer_until(forecasts, 1.0);
   forecasts.forget();
   EXPECT_FALSE(forecasts.take(2.0).has_value());
@@ -53,7 +57,7 @@ TEST_F(ChargedForecastsTest, WhatWasBegunForAnEncounterThatIsOverDoesNotCome) {
 
 // Time jumps back by a second: rounds begin at once, not a second later.
 TEST_F(ChargedForecastsTest, BeginsAnewWhereTimeJumps) {
-  ChargedForecasts forecasts(judge_, 0.03);
+  ChargedForecasts forecasts(judge_, always(0.03));
   offer_until(forecasts, 1.0);
   forecasts.begin_anew();
   offer_until(forecasts, 0.0);
@@ -62,8 +66,16 @@ TEST_F(ChargedForecastsTest, BeginsAnewWhereTimeJumps) {
   EXPECT_EQ(verdict->scene, 0U);
 }
 
+TEST_F(ChargedForecastsTest, EachSceneCostsWhatItCosts) {
+  ChargedForecasts forecasts(
+      judge_, [](const TimedScene& one) { return one.scene.time < 0.2 ? 0.03 : 0.12; });
+  offer_until(forecasts, 0.3);  // rounds at 0, 0.05, 0.1, 0.15, 0.2, 0.32
+  EXPECT_NEAR(forecasts.take(0.3)->verdict.time, 0.15, 1e-9);
+  EXPECT_NEAR(forecasts.take(0.32)->verdict.time, 0.2, 1e-9);
+}
+
 TEST_F(ChargedForecastsTest, ASlowForecasterBeginsFewerRounds) {
-  ChargedForecasts forecasts(judge_, 0.3);
+  ChargedForecasts forecasts(judge_, always(0.3));
   offer_until(forecasts, 1.0);  // rounds at 0, 0.3, 0.6, 0.9
   EXPECT_NEAR(forecasts.take(1.0)->verdict.time, 0.6, 1e-9);
 }

@@ -49,7 +49,11 @@ Planes::Planes(const PlanesSetup& setup, Listener listener, std::size_t looks)
                          : std::make_unique<ChargedModel>(*setup.model, setup.costs, *setup.clock,
                                                           simulated_clock_)),
       charged_(setup.costs.preview, simulated_clock_),
-      charged_forecasts_(setup_.judge, setup.costs.verdict),
+      charged_forecasts_(
+          setup_.judge,
+          [cost = setup.costs.verdict, cues = setup.forecast.cues](const TimedScene& one) {
+            return cost * decide::judgements_of(one.scene, one.beliefs, cues);
+          }),
       reflex_(reflex_tools(setup)),
       tape_(setup.tape_size),
       plane_(tools(), setup.thresholds, output()) {

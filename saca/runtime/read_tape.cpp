@@ -65,7 +65,8 @@ decide::JudgedPlan read_judged(JsonReader from) {
   const decide::JudgedPlan judged{.plan = read_plan(from.object("plan")),
                                   .drivable = from.flag("drivable"),
                                   .harm = from.number("harm"),
-                                  .contact = from.number("contact")};
+                                  .contact = from.number("contact"),
+                                  .as_seen = read_number(from, "harm_as_seen")};
   from.refuse_others();
   return judged;
 }
@@ -298,6 +299,9 @@ TapeHeader read_header(JsonReader& from) {
   if (from.has_value("atlas_digest")) {
     header.atlas = from.text("atlas_digest");
   }
+  if (from.has_value("cues_digest")) {
+    header.cues = from.text("cues_digest");
+  }
   header.danger = from.flag("danger");
   header.model = from.text("model");
   header.memory = from.flag("memory");
@@ -348,7 +352,7 @@ class TapeReader {
 
 Result<TapeFile> TapeReader::read(std::string_view text) {
   if (text.empty()) {
-    return error("want a tape (saca.tape/5), got an empty file");
+    return error("want a tape (saca.tape/6), got an empty file");
   }
   while (!text.empty()) {
     ++line_;
@@ -376,7 +380,7 @@ Result<TapeFile> TapeReader::read(std::string_view text) {
 std::optional<Error> TapeReader::read_line(std::string_view line) {
   const auto node = config::parse_json(line);
   if (!node.has_value()) {
-    return error("want one JSON object of a tape (saca.tape/5), got " + shown(line));
+    return error("want one JSON object of a tape (saca.tape/6), got " + shown(line));
   }
   std::optional<Error> problem;
   JsonReader from(node.value(), "", problem, "line");
@@ -390,7 +394,7 @@ void TapeReader::read_object(JsonReader& from) {
     const std::string_view wanted = line_ == 1 ? "header" : "before";
     if (type != wanted) {
       from.reject("type",
-                  fmt::format("want \"{}\" of a tape (saca.tape/5), got {}", wanted, shown(type)));
+                  fmt::format("want \"{}\" of a tape (saca.tape/6), got {}", wanted, shown(type)));
     } else if (line_ == 1) {
       tape_.header = read_header(from);
     } else {

@@ -120,13 +120,13 @@ TEST_F(ReadTape, OneAlteredBitAnywhereIsNoticed) {
 }
 
 TEST_F(ReadTape, NamesLineKeyWantedAndGot) {
-  EXPECT_EQ(refusal(""), "a.tape: want a tape (saca.tape/5), got an empty file");
+  EXPECT_EQ(refusal(""), "a.tape: want a tape (saca.tape/6), got an empty file");
   EXPECT_EQ(refusal("\xff\n"),
-            "a.tape:1: want one JSON object of a tape (saca.tape/5), got \"\\ufffd\"");
+            "a.tape:1: want one JSON object of a tape (saca.tape/6), got \"\\ufffd\"");
   EXPECT_THAT(refusal("{\"schema\": \"saca.record/1\"}\n"),
               StartsWith("a.tape:1: type: is missing"));
-  EXPECT_EQ(refusal(with_line(1, [](json& line) { line["schema"] = "saca.tape/6"; })),
-            "a.tape:1: schema: want saca.tape/5, got \"saca.tape/6\"");
+  EXPECT_EQ(refusal(with_line(1, [](json& line) { line["schema"] = "saca.tape/7"; })),
+            "a.tape:1: schema: want saca.tape/6, got \"saca.tape/7\"");
   EXPECT_EQ(refusal(with_line(2, [](json& line) { line["lost"] = -1; })),
             "a.tape:2: lost: want an integer from 0 to 18446744073709551615, got -1");
   EXPECT_THAT(refusal(with_line(3, [](json& line) { line["scene"]["grip"] = 7; })),

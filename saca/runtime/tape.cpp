@@ -93,6 +93,7 @@ void pass(Packing& packing, Step& step) {
   packing.value(step.scene.road);
   packing.value(step.scene.grip);
   packing.value(step.scene.grip_sd);
+  packing.list(step.scene.cues, whole);
   packing.list(step.beliefs, whole);
   packing.value(step.finished);
   packing.optional(step.plans, [&](auto& plans) {

@@ -43,6 +43,9 @@ TapeHeader tape_header(const PlanesSetup& setup, const intent::Model& intent) {
           .intent_digest = hash_of([&](Fnv& hash) { hash.add(intent::digest(intent)); }),
           .harm_digest = hash_of([&](Fnv& hash) { hash.add_doubles(*tools.harm); }),
           .atlas = tools.atlas == nullptr ? std::nullopt : std::optional(digest_of(*tools.atlas)),
+          .cues = tools.cues == nullptr ? std::nullopt : std::optional(hash_of([&](Fnv& hash) {
+            hash.add(intent::digest(*tools.cues));
+          })),
           .danger = tools.danger != nullptr,
           .model = setup.model == nullptr ? "off" : setup.model->description(),
           .memory = setup.memory != nullptr,
@@ -75,8 +78,12 @@ std::optional<Error> mismatch(const TapeHeader& tape, const TapeHeader& here) {
       return other(key, tape.*member, here.*member);
     }
   }
-  if (tape.atlas != here.atlas) {
-    return other("atlas_digest", tape.atlas.value_or("none"), here.atlas.value_or("none"));
+  constexpr std::array<std::pair<const char*, std::optional<std::string> TapeHeader::*>, 2>
+      same_or_none{{{"atlas_digest", &TapeHeader::atlas}, {"cues_digest", &TapeHeader::cues}}};
+  for (const auto& [key, member] : same_or_none) {
+    if (tape.*member != here.*member) {
+      return other(key, (tape.*member).value_or("none"), (here.*member).value_or("none"));
+    }
   }
   return std::nullopt;
 }

@@ -23,6 +23,7 @@ struct TapeHeader {
   std::string intent_digest;              ///< weights of the model of intentions
   std::string harm_digest;                ///< data/harm.toml
   std::optional<std::string> atlas;       ///< digest; nullopt: none
+  std::optional<std::string> cues;        ///< digest of what they stand for; nullopt: nothing
   bool danger = false;                    ///< risks were read from solved tables
   std::string model = "off";              ///< the language model's description
   bool memory = false;                    ///< was there one?

@@ -33,10 +33,13 @@ TEST(TapeHeader, WhateverResultsDependOnHasADigestOfItsOwn) {
   drive.harm.killed_weight *= 1.5;
   PlanesSetup setup = drive.setup();
   setup.forecast.atlas = &manoeuvre::small_atlas();
+  const intent::CueLaw cues = intent::load_cue_law("data/cues.toml").value();
+  setup.forecast.cues = &cues;
   const TapeHeader other = tape_header(setup, intent::shipped_model());
   EXPECT_NE(other.car_digest, here.car_digest);
   EXPECT_NE(other.harm_digest, here.harm_digest);
   EXPECT_NE(other.atlas, here.atlas);
+  EXPECT_NE(other.cues, here.cues);
   EXPECT_EQ(other.intent_digest, here.intent_digest);
   EXPECT_EQ(tape_header(setup, intent::shipped_model()).atlas, other.atlas);
 }
@@ -58,6 +61,8 @@ TEST(TapeHeader, WhatWasRecordedWithAnythingElseIsToldApart) {
   EXPECT_THAT(told([](TapeHeader& tape) { tape.intent_digest = "1"; }),
               StartsWith("intent_digest: "));
   EXPECT_THAT(told([](TapeHeader& tape) { tape.harm_digest = "1"; }), StartsWith("harm_digest: "));
+  EXPECT_THAT(told([](TapeHeader& tape) { tape.cues = "1"; }),
+              StartsWith("cues_digest: recorded with 1, here it is none"));
   EXPECT_THAT(told([](TapeHeader& tape) { tape.atlas = "abc"; }),
               StartsWith("atlas_digest: recorded with abc, here it is none"));
 }

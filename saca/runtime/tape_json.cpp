@@ -36,7 +36,8 @@ json judged_json(const decide::JudgedPlan& one) {
   return {{"plan", plan_json(one.plan)},
           {"drivable", one.drivable},
           {"harm", one.harm},
-          {"contact", one.contact}};
+          {"contact", one.contact},
+          {"harm_as_seen", or_null(one.as_seen, itself)}};
 }
 
 json ego_features_json(const memory::EgoFeatures& ego) {
@@ -125,6 +126,7 @@ json header_json(const TapeHeader& header) {
           {"intent_digest", header.intent_digest},
           {"harm_digest", header.harm_digest},
           {"atlas_digest", header.atlas ? json(*header.atlas) : json(nullptr)},
+          {"cues_digest", header.cues ? json(*header.cues) : json(nullptr)},
           {"danger", header.danger},
           {"model", header.model},
           {"memory", header.memory},

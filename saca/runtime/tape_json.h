@@ -9,14 +9,14 @@
 
 namespace saca::runtime {
 
-constexpr std::string_view tape_schema = "saca.tape/5";
+constexpr std::string_view tape_schema = "saca.tape/6";
 
 struct TapeFile {
   TapeHeader header;
   TapeContent content;
 };
 
-/// The file of docs/formats.md, schema saca.tape/5: a line of JSON each for the header, what was
+/// The file of docs/formats.md, schema saca.tape/6: a line of JSON each for the header, what was
 /// there before, every step and the end. Numbers come back to the last bit.
 [[nodiscard]] std::string tape_text(const TapeFile& tape);
 

@@ -28,7 +28,7 @@ TEST(TapeJson, IsAHeaderWhatWasBeforeTheStepsAndAnEnd) {
   const auto lines = lines_of(tape_text({tape_header(setup, intent::shipped_model()), content}));
   ASSERT_EQ(lines.size(), 60U + 3U);
   EXPECT_EQ(lines[0]["type"], "header");
-  EXPECT_EQ(lines[0]["schema"], "saca.tape/5");
+  EXPECT_EQ(lines[0]["schema"], "saca.tape/6");
   EXPECT_EQ(lines[1]["type"], "before");
   EXPECT_EQ(lines[2]["forgotten"], "drive");
   for (std::size_t k = 0; k < 60; ++k) {
@@ -61,7 +61,7 @@ TEST(TapeJson, AVerdictHasTheHarmOfEachPlan) {
   EXPECT_EQ(
       verdict_json(verdict),
       json::parse(R"({"t_s": 1.5, "later": null, "under_way": null, "plans": [{"drivable": true,
-              "harm": 0.3333333333333333, "contact": 0.25,
+              "harm": 0.3333333333333333, "contact": 0.25, "harm_as_seen": null,
               "plan": {"policy": 3, "target_speed_mps": 7.5, "strength": null}}]})"));
 }
 

@@ -16,6 +16,9 @@ TapeStep full_step(std::uint64_t number, std::size_t num_actors) {
   TapeStep step{.number = number};
   step.scene = test::ego_at(20.0 + 0.1 * static_cast<double>(number));
   step.scene.time = 0.01 * static_cast<double>(number);
+  for (std::size_t i = 0; i < number % (world::max_cues + 1); ++i) {
+    step.scene.cues.push_back({world::CueKind::work_zone, {static_cast<double>(i), 1.0 / 3.0}});
+  }
   for (std::size_t i = 0; i < num_actors; ++i) {
     step.scene.actors.push_back(test::car(static_cast<std::uint8_t>(i + 1),
                                           {10.0 * static_cast<double>(i + 1), 1.0 / 3.0}));
@@ -30,8 +33,11 @@ TapeStep full_step(std::uint64_t number, std::size_t num_actors) {
                                   .preview = static_cast<std::int32_t>(number)});
   step.verdict.emplace().scene = number;
   step.verdict->verdict.time = step.scene.time;
-  step.verdict->verdict.plans.push_back(
-      {.plan = manoeuvre::full_braking, .drivable = true, .harm = 0.1, .contact = 0.3});
+  step.verdict->verdict.plans.push_back({.plan = manoeuvre::full_braking,
+                                         .drivable = true,
+                                         .harm = 0.1,
+                                         .contact = 0.3,
+                                         .as_seen = 0.07});
   step.reflex.threat = preview::Threat{0, 1.2};
   return step;
 }

@@ -3,11 +3,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "saca/core/result.h"
+#include "saca/intent/cue_law.h"
 #include "saca/sim/scenario.h"
 
 namespace saca::sim {
@@ -40,6 +43,18 @@ struct FamilyRange {
   std::string source;
 };
 
+/// Cues that encounters have, and what comes of them.
+struct FamilyCues {
+  intent::CueLaw law;
+  std::vector<world::CueKind> kinds;  ///< at least one, each once
+};
+
+/// A cue that an encounter has.
+struct DrawnCue {
+  world::CueKind kind = world::CueKind::parked_vans;
+  bool comes = false;  ///< what it stands for
+};
+
 /// Encounters of one kind: the ranges of all that varies. Units stand in the keys, as in the file.
 struct Family {
   std::string name;  ///< also the file's
@@ -47,6 +62,7 @@ struct Family {
   std::string title;
   std::string why;  ///< what it is there for, in one sentence
   std::map<std::string, FamilyRange, std::less<>> ranges;  ///< every key of its kind, no other
+  std::optional<FamilyCues> cues;  ///< of a suite that has some; nullopt: none
 };
 
 /// The numbers that a family of a kind needs: its own, and those of the surroundings. A kind with
@@ -70,10 +86,11 @@ struct Family {
                                          std::string_view name);
 
 /// One encounter of a family, and the same without risk: the truck brakes, the obstacle is not
-/// there, the vehicle beside stays in its lane.
+/// there, the vehicle beside stays in its lane. Its cues stand for nothing then.
 struct FamilySample {
   Scenario scenario;
   Scenario twin;
+  std::vector<DrawnCue> cues = {};  ///< in the scenario's order
 };
 
 /// Sample `number` of the series `seed`, for a car of this name and body.

@@ -5,6 +5,7 @@
 #include "saca/core/fnv.h"
 #include "saca/core/units.h"
 #include "saca/sim/family.h"
+#include "saca/sim/family_cues.h"
 #include "saca/sim/family_stage.h"
 #include "saca/sim/family_vehicles.h"
 #include "saca/sim/motion.h"
@@ -385,15 +386,19 @@ Result<FamilySample> sample(const Family& family, std::uint64_t seed, std::uint6
   Fnv of_family;  // two families have nothing in common, whatever the seed
   of_family.add(family.name);
   std::mt19937_64 rng = generator(seed ^ of_family.value(), number);
-  constexpr int tries = 100;
+  const auto cues = family.cues ? draw_cues(*family.cues, rng) : std::vector<DrawnCue>{};
+  const int tries = family.cues ? 2'000 : 100;  // what cues stand for has to find its place, too
   for (int k = 0; k < tries; ++k) {
     Dice dice(family, rng);
     Stage stage(dice, ego,
                 family.kind == FamilyKind::crossing || family.kind == FamilyKind::turning);
     const Harmless harmless = play(family.kind, stage);
+    const auto came =
+        family.cues ? add_cues(stage, cues, family.cues->law) : std::vector<std::size_t>{};
     stage.add_surroundings();
-    FamilySample found{.scenario = stage.scenario, .twin = stage.scenario};
+    FamilySample found{.scenario = stage.scenario, .twin = stage.scenario, .cues = cues};
     label(family, seed, number, car, found);
+    take_away(found.twin, came);
     if (harmless) {
       found.twin.actors.front().motion = *harmless;
     } else {
@@ -406,8 +411,8 @@ Result<FamilySample> sample(const Family& family, std::uint64_t seed, std::uint6
     }
   }
   return Error{Error::Code::out_of_range,
-               family.name + ": 100 draws of sample " + std::to_string(number) + " of seed " +
-                   std::to_string(seed) +
+               family.name + ": " + std::to_string(tries) + " draws of sample " +
+                   std::to_string(number) + " of seed " + std::to_string(seed) +
                    " gave no encounter in which only the conflict itself is a contact: narrow its "
                    "ranges"};
 }

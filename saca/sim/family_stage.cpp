@@ -7,6 +7,7 @@
 
 #include "saca/core/contract.h"
 #include "saca/intent/driver.h"
+#include "saca/world/usual_body.h"
 
 namespace saca::sim {
 namespace {
@@ -14,28 +15,7 @@ namespace {
 using world::ActorKind;
 using world::Beyond;
 
-struct Body {
-  world::Shape shape;
-  double length;  // [m]
-  double width;   // [m]
-  double mass;    // [kg]
-};
-
-// By ActorKind: a middle-sized one of each. Car: the Global Vehicle Target's size and a compact
-// car's mass; person: Euro NCAP's adult dummy, 0.5 m wide; others: assumptions.
-constexpr std::array<Body, 7> bodies{{{world::Shape::box, 4.02, 1.71, 1400.0},
-                                      {world::Shape::box, 5.5, 2.0, 2300.0},
-                                      {world::Shape::box, 8.0, 2.5, 12000.0},
-                                      {world::Shape::box, 2.1, 0.8, 260.0},
-                                      {world::Shape::box, 1.8, 0.5, 90.0},
-                                      {world::Shape::ellipse, 0.6, 0.5, 75.0},
-                                      {world::Shape::box, 2.0, 2.0, 1000.0}}};
-
 constexpr double free_road = 1e3;  // [m]
-
-const Body& body_of(ActorKind kind) {
-  return bodies[static_cast<std::size_t>(kind)];
-}
 
 Beyond draw_beyond(Dice& dice) {
   const double barrier = dice.in("barrier_share");
@@ -111,10 +91,10 @@ Stage::Stage(Dice& the_dice, const world::Footprint& ego, bool junction) : dice(
 }
 
 double Stage::length_of(ActorKind kind) {
-  return body_of(kind).length;
+  return world::usual_body(kind).footprint.length;
 }
 double Stage::width_of(ActorKind kind) {
-  return body_of(kind).width;
+  return world::usual_body(kind).footprint.width;
 }
 
 ActorKind Stage::any_vehicle() {
@@ -147,13 +127,9 @@ ScenarioActor& Stage::add(ActorKind kind, Script script) {
   for (const ScenarioActor& other : scenario.actors) {
     id = static_cast<std::uint8_t>(id + (other.kind == kind ? 1 : 0));
   }
-  const Body& body = body_of(kind);
+  const world::UsualBody body = world::usual_body(kind);
   scenario.actors.push_back(
-      {.id = id,
-       .kind = kind,
-       .footprint = {.shape = body.shape, .length = body.length, .width = body.width},
-       .mass = body.mass,
-       .motion = script});
+      {.id = id, .kind = kind, .footprint = body.footprint, .mass = body.mass, .motion = script});
   return scenario.actors.back();
 }
 

@@ -150,6 +150,13 @@ PerceptionModel read_perception(Table& root) {
   return model;
 }
 
+world::Cue read_cue(Table table) {
+  return {.kind = read_word(table, "kind", world::cue_kind_from,
+                            "school_zone, bus_at_stop, parked_vans, work_zone, emergency_vehicle, "
+                            "low_sun, wet_leaves"),
+          .p_W = {table.number("x_m", position_range), table.number("y_m", position_range)}};
+}
+
 /// Whether an actor is there when the scenario begins.
 bool present(const ScenarioActor& actor) {
   const auto* recording = std::get_if<Recording>(&actor.motion);
@@ -265,6 +272,12 @@ Result<Scenario> read_scenario(std::string_view text, std::string_view source,
   for (const Table& actor : actors) {
     scenario.actors.push_back(read_actor(actor));
   }
+  const std::vector<Table> cues = root.tables("cues");
+  if (cues.size() > world::max_cues) {
+    root.reject("cues", "want at most " + std::to_string(world::max_cues) + ", got " +
+                            std::to_string(cues.size()));
+  }
+  std::transform(cues.begin(), cues.end(), std::back_inserter(scenario.cues), read_cue);
   if (const auto* start = std::get_if<EgoStart>(&scenario.ego)) {
     check_place(scenario.road, start->pose, root.table("ego"));
   }

@@ -106,6 +106,7 @@ struct Scenario {
   world::Road road;
   std::variant<EgoStart, Recording> ego;
   std::vector<ScenarioActor> actors;
+  std::vector<world::Cue> cues;  ///< at most world::max_cues
   std::optional<Provenance> provenance;
 };
 

@@ -109,6 +109,23 @@ TEST(ReadScenario, HoldsWhatTheFileSays) {
   EXPECT_FALSE(scenario.provenance.has_value());
 }
 
+TEST(ReadScenario, HoldsCues) {
+  const std::string cue = "[[cues]]\nkind = \"bus_at_stop\"\nx_m = 12\ny_m = -4.5\n\n[[actors]]";
+  const Result<Scenario> result = read_scenario(with("[[actors]]", cue), "x.toml");
+  ASSERT_TRUE(result.has_value()) << result.error().message;
+  ASSERT_EQ(result.value().cues.size(), 1U);
+  EXPECT_EQ(result.value().cues[0].kind, world::CueKind::bus_at_stop);
+  EXPECT_EQ(result.value().cues[0].p_W.y, -4.5);
+  std::string tram = cue;
+  tram.replace(tram.find("bus_at_stop"), 11, "tram");
+  EXPECT_THAT(problem("[[actors]]", tram), HasSubstr("kind: want school_zone, bus_at_stop"));
+  std::string many;
+  for (std::size_t k = 0; k <= world::max_cues; ++k) {
+    many += "[[cues]]\nkind = \"low_sun\"\nx_m = 12\ny_m = -4.5\n\n";
+  }
+  EXPECT_THAT(problem("[[actors]]", many + "[[actors]]"), HasSubstr("cues: want at most 4, got 5"));
+}
+
 TEST(ReadScenario, NamesFileLineAndKeyOfAnUnknownKey) {
   EXPECT_THAT(problem("grip = 0.9", "grip = 0.9\ngripp = 1"),
               AllOf(HasSubstr("x.toml:8"), HasSubstr("gripp"), HasSubstr("unknown key")));

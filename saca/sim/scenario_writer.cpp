@@ -289,6 +289,12 @@ std::string write_scenario(const Scenario& scenario) {
   for (const ScenarioActor& actor : scenario.actors) {
     write(out, actor);
   }
+  for (const world::Cue& cue : scenario.cues) {
+    out.heading("[[cues]]");
+    out.text("kind", world::name(cue.kind));
+    out.number("x_m", cue.p_W.x);
+    out.number("y_m", cue.p_W.y);
+  }
   return std::move(out).take();
 }
 

@@ -92,6 +92,8 @@ Scenario drawn(unsigned seed) {
   wall.footprint = {.shape = world::Shape::segment, .length = 12.5};
   wall.motion = Script{.start = {200.0, 5.0, angle(rng)}, .behaviour = Behaviour::hold};
   scenario.actors.push_back(wall);
+  scenario.cues = {{world::CueKind::parked_vans, {any(rng), any(rng)}},
+                   {world::CueKind::low_sun, {any(rng), any(rng)}}};
   scenario.perception = {.position_sd = any(rng),
                          .heading_sd = std::abs(angle(rng)),
                          .latency = any(rng),
@@ -125,6 +127,9 @@ TEST(WriteScenario, ComesBackBitByBit) {
     EXPECT_EQ(after.value().why, before.why);
     EXPECT_EQ(after.value().perception, before.perception);
     EXPECT_EQ(after.value().grip, before.grip);
+    ASSERT_EQ(after.value().cues.size(), 2U);
+    EXPECT_EQ(after.value().cues[1].kind, world::CueKind::low_sun);
+    EXPECT_EQ(after.value().cues[1].p_W.x, before.cues[1].p_W.x);
     EXPECT_EQ(after.value().road.X_WL.yaw, before.road.X_WL.yaw);
     EXPECT_EQ(after.value().provenance->last_row, 77);
     expect_same(std::get<Recording>(after.value().ego), std::get<Recording>(before.ego));

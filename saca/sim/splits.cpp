@@ -76,6 +76,20 @@ Suite read_suite(Table table) {
       member.reject("source", "want who says so, or \"assumption: ...\", got nothing");
     }
   }
+  for (Table cue : table.tables("cues")) {
+    const std::string word = cue.text("kind");
+    const auto kind = world::cue_kind_from(word);
+    if (!kind) {
+      cue.reject("kind",
+                 "want school_zone, bus_at_stop, parked_vans, work_zone, emergency_vehicle, "
+                 "low_sun or wet_leaves, got \"" +
+                     word + "\"");
+    } else if (std::find(suite.cues.begin(), suite.cues.end(), *kind) != suite.cues.end()) {
+      cue.reject("kind", "want each kind once, got a second " + word);
+    } else {
+      suite.cues.push_back(*kind);
+    }
+  }
   if (suite.members.empty()) {
     table.reject("members", "want at least one family, got none");
   }

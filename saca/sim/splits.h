@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "saca/core/result.h"
+#include "saca/world/cue.h"
 
 namespace saca::sim {
 
@@ -57,7 +58,8 @@ struct Suite {
   };
   std::string name;
   std::string why;
-  std::vector<Member> members;  ///< at least one
+  std::vector<Member> members;            ///< at least one
+  std::vector<world::CueKind> cues = {};  ///< that its encounters have; none: it has no cues
 };
 
 /// Reads the suites of a file, schema saca.suites/1.

@@ -127,6 +127,10 @@ TEST(Suites, RefuseWhatIsWrong) {
     text += source;
     return text + "\"\n";
   };
+  const std::string bus = "[[suites.cues]]\nkind=\"bus_at_stop\"\n";
+  EXPECT_THAT(why(member("1", "x") + bus + bus), HasSubstr("kind: want each kind once"));
+  EXPECT_THAT(why(member("1", "x") + "[[suites.cues]]\nkind=\"tram\"\n"),
+              HasSubstr("kind: want school_zone"));
   EXPECT_THAT(why("schema = \"saca.suites/1\"\n"), HasSubstr("at least one suite"));
   EXPECT_THAT(why(head), HasSubstr("at least one family"));
   EXPECT_THAT(why(member("0", "s")), AllOf(HasSubstr("u.toml:7"), HasSubstr("weight")));

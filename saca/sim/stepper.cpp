@@ -78,6 +78,9 @@ world::Scene Stepper::scene_of(const StaticVector<world::Actor, world::max_actor
                      .actors = actors,
                      .road = scenario_.road,
                      .grip = grip_};
+  for (const world::Cue& cue : scenario_.cues) {
+    scene.cues.push_back(cue);
+  }
   carry_on(scene.actors);
   return scene;
 }

@@ -199,6 +199,18 @@ TEST(Stepper, ChanceChangesCarGripAndStart) {
   EXPECT_EQ(seen.ego_mass, car.mass);
 }
 
+TEST(Stepper, CuesArePerceivedFromTheStart) {
+  Scenario scenario = behind_a_braking_lead();
+  scenario.cues = {{world::CueKind::work_zone, {40.0, -5.0}}};
+  const manoeuvre::Car car = manoeuvre::default_car();
+  Stepper stepper(scenario, car);
+  for (const world::Scene& scene : {stepper.scene(), stepper.perceive()}) {
+    ASSERT_EQ(scene.cues.size(), 1U);
+    EXPECT_EQ(scene.cues[0].kind, world::CueKind::work_zone);
+    EXPECT_EQ(scene.cues[0].p_W.x, 40.0);
+  }
+}
+
 TEST(Stepper, GhostsArePerceivedButNotThere) {
   Scenario scenario = behind_a_braking_lead();
   scenario.perception.grip_believed = 0.6;

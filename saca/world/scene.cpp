@@ -123,6 +123,11 @@ std::optional<std::string_view> broken_rule(const Scene& scene) {
   if (!(scene.grip > 0.0 && scene.grip <= 1.2) || !is_amount(scene.grip_sd)) {
     return "grip is in (0, 1.2], its uncertainty in [0, 1e7]";
   }
+  for (const Cue& cue : scene.cues) {
+    if (!within(cue.p_W, most_position)) {
+      return "cues lie within 10,000 km";
+    }
+  }
   for (const Actor& actor : scene.actors) {
     if (const auto rule = broken_rule(actor)) {
       return rule;

@@ -8,6 +8,7 @@
 
 #include "saca/core/pose.h"
 #include "saca/core/static_vector.h"
+#include "saca/world/cue.h"
 #include "saca/world/footprint.h"
 #include "saca/world/road.h"
 #include "saca/world/track.h"
@@ -78,8 +79,9 @@ struct Scene {
   double ego_mass = 0.0;  ///< [kg]
   StaticVector<Actor, max_actors> actors;
   Road road;
-  double grip = 0.9;     ///< best estimate of the friction coefficient [-], in (0, 1.2]
-  double grip_sd = 0.0;  ///< its standard deviation [-], >= 0
+  double grip = 0.9;                 ///< best estimate of the friction coefficient [-], in (0, 1.2]
+  double grip_sd = 0.0;              ///< its standard deviation [-], >= 0
+  StaticVector<Cue, max_cues> cues;  ///< what makes the unseen likelier
 };
 
 /// @return  the first rule of a scene that is broken, in words: numbers of what there is on roads,

@@ -29,7 +29,7 @@ def test_a_record_says_who_made_it_by_what(played):
     assert made["program"].startswith("saca ") and made["seed"] == 3
     assert re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ", made["date"])
     assert made["command"] == "saca run mine.toml --seed 3 --report 'first page.html' --llm off --pace lockstep"
-    assert [one["what"] for one in made["inputs"]] == ["scenario", "car", "harm", "intentions", "atlas"]
+    assert [one["what"] for one in made["inputs"]] == ["scenario", "car", "harm", "intentions", "atlas", "cues"]
     assert all(re.fullmatch(r"[0-9a-f]{16}", one["digest"]) for one in made["inputs"])
 
 
@@ -46,7 +46,7 @@ def test_what_was_written_is_verified_and_what_was_changed_told(played):
     folder, _ = played
     run = saca("verify", record_of(folder), cwd=folder)
     assert run.returncode == SUCCESS, run.stderr
-    assert run.stdout.count("the same here") == 5 and "content      as it was written" in run.stdout
+    assert run.stdout.count("the same here") == 6 and "content      as it was written" in run.stdout
     record = json.loads(record_of(folder).read_text())
     record["result"]["harm"] += 0.001
     (folder / "changed.json").write_text(json.dumps(record))
@@ -69,7 +69,7 @@ def test_an_input_that_is_another_one_now_is_told(played):
     answer = json.loads(told.stdout)
     assert answer["schema"] == "saca.verification/1" and not answer["same"]
     assert {one["what"]: one["same"] for one in answer["inputs"]} == {
-        "scenario": False, "car": True, "harm": True, "intentions": True, "atlas": True}
+        "scenario": False, "car": True, "harm": True, "intentions": True, "atlas": True, "cues": True}
     assert "scenario     mine.toml: not here: " in missing.stdout
 
 

@@ -91,7 +91,7 @@ def test_what_it_finds_is_told_in_words(tape, tmp_path):
 
 def test_the_tape_is_that_of_the_run(tape):
     header, *steps = [json.loads(line) for line in tape.splitlines()]
-    assert (header["schema"], header["scenario"], header["pace"]) == ("saca.tape/5", "one_way", "lockstep")
+    assert (header["schema"], header["scenario"], header["pace"]) == ("saca.tape/6", "one_way", "lockstep")
     assert digest(tape[:tape.rindex("\n", 0, -1) + 1]) == steps[-1]["digest"]
 
 
@@ -136,7 +136,7 @@ def setting(key, value):
 
 
 @pytest.mark.parametrize("alter, wanted", [
-    (setting("schema", "saca.tape/9"), 'b.tape:1: schema: want saca.tape/5, got "saca.tape/9"'),
+    (setting("schema", "saca.tape/9"), 'b.tape:1: schema: want saca.tape/6, got "saca.tape/9"'),
     (setting("program", "9.9.9"), "b.tape: program: recorded with 9.9.9, here it is"),
     (setting("level", "none"), "b.tape: level: recorded with none"),
     (setting("car", "batmobile"), "b.tape: car: "),

@@ -102,6 +102,9 @@ WRONG = {
     "a wall with a width": actor(WALL, width_m=1),
     "a car that is a line": actor(WALL, kind="car"),
     "an obstacle that moves": lambda s: s["actors"][WALL].update(start=copy.deepcopy(s["actors"][CAR]["start"])),
+    "an unknown cue": lambda s: s["cues"][0].update(kind="tram"),
+    "a cue without a place": without("cues", 0, "y_m"),
+    "five cues": lambda s: s.update(cues=s["cues"][:1] * 5),
     "33 actors": lambda s: s.update(actors=s["actors"][:1] * 33),
 }
 
@@ -149,7 +152,7 @@ def keys_of(table, path=""):
     for key, schema in table["properties"].items():
         if schema.get("type") == "object":
             yield from keys_of(schema, f"{path}{key}.")
-        elif key not in ("actors", "start", "behaviour"):
+        elif key not in ("actors", "cues", "start", "behaviour"):
             yield f"{path}{key}", schema, key not in table["required"]
 
 
@@ -160,7 +163,7 @@ def test_the_formats_tell_kind_and_range_of_every_key():
         for behaviour in re.findall(r"`(\w+)`", behaviours) or ([behaviours] if behaviours else [""]):
             told[key, behaviour] = kind, allowed, meaning.startswith("may be missing")
     wanted = {(key, ""): (*kinds_of(schema), may) for key, schema, may in
-              [*keys_of(SCHEMA), *keys_of(SCHEMA["$defs"]["actor"], "actors.")]}
+              [*keys_of(SCHEMA), *keys_of(SCHEMA["$defs"]["cue"], "cues."), *keys_of(SCHEMA["$defs"]["actor"], "actors.")]}
     for behaviour in ("hold", "constant_velocity", "accelerate", "brake", "lane_change", "follow", "walk"):
         for key, schema, may in keys_of(SCHEMA["$defs"][behaviour], "actors.start."):
             everywhere = (key, "all") in told

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "saca/eval/suite_figures.h"
+#include "saca/sim/family.h"
+
+namespace saca::eval {
+
+/// The cues of one encounter.
+using DrawnCues = std::vector<sim::DrawnCue>;
+
+/// How often there were cues of a kind, and how often what they stand for came.
+struct CueCount {
+  int there = 0;
+  int came = 0;
+
+  /// Probability that it comes, by Jeffreys' prior: (came + 1/2) / (there + 1).
+  [[nodiscard]] double probability() const { return (came + 0.5) / (there + 1.0); }
+};
+
+/// By world::CueKind.
+using CueCounts = std::array<CueCount, world::num_cue_kinds>;
+
+[[nodiscard]] CueCounts count_cues(std::span<const DrawnCues> encounters);
+
+/// A way to tell how likely it is that anything comes of an encounter's cues.
+struct CueForecast {
+  std::string_view key;    ///< as files have it
+  std::string_view title;  ///< for readers
+  Estimate log_loss;       ///< mean of -ln of the probability of what happened
+  Estimate brier;          ///< mean square of probability less what happened
+};
+
+/// Four ways: the share of all encounters in which anything came; a table of counts by kind, kinds
+/// that were not counted as all kinds together, cues independent of each other; logistic regression
+/// on the kinds (an intercept and one weight for each, standard normal prior on the weights); the
+/// law that the encounters were drawn by, which nobody can beat but by chance.
+/// @param learnt_from  what the first three know
+/// @param judged       what all are held against, not empty
+[[nodiscard]] std::vector<CueForecast> cue_forecasts(std::span<const DrawnCues> learnt_from,
+                                                     std::span<const DrawnCues> judged,
+                                                     const intent::CueLaw& law, std::uint64_t seed);
+
+}  // namespace saca::eval
