@@ -59,10 +59,12 @@ Result<std::vector<DrawnCues>> drawn(const CuesCommand& options, const std::stri
 
 /// What SACA is to reckon with: who comes and how as in `law`, how often as counted.
 std::string counted_law(const intent::CueLaw& law, const eval::CueCounts& counts) {
-  eval::CueCount all;
-  for (const eval::CueCount& one : counts) {
-    all.there += one.there;
-    all.came += one.came;
+  eval::CueCount all;  // of those who would come
+  for (std::size_t k = 0; k < num_cue_kinds; ++k) {
+    if (law.unseen.at(k) && law.unseen.at(k)->who) {
+      all.there += counts.at(k).there;
+      all.came += counts.at(k).came;
+    }
   }
   intent::CueLaw told = law;
   std::array<std::string, num_cue_kinds> sources;
@@ -71,13 +73,13 @@ std::string counted_law(const intent::CueLaw& law, const eval::CueCounts& counts
     if (!told.unseen.at(k)) {
       continue;
     }
-    constexpr double fine = 1e3;  // more digits than a count of thousands has
+    constexpr double fine = 1e4;  // more digits than a count of thousands has
     const double probability = (one.there > 0 ? one : all).probability();
-    told.unseen.at(k)->probability = std::round(fine * probability) / fine;
+    told.unseen.at(k)->probability = std::ceil(fine * probability) / fine;
     sources.at(k) = one.there > 0
                         ? fmt::format("counted: {} of {} encounters of suite {}, tuning split",
                                       one.came, one.there, counted_suite)
-                        : fmt::format("assumption: as all that were counted together, {} of {}",
+                        : fmt::format("assumption: as all who were counted together, {} of {}",
                                       all.came, all.there);
   }
   return "# What cues of a scene stand for, as SACA reckons with it. Written by `saca cues -o`: "

@@ -114,7 +114,7 @@ int run(const ReplayOptions& options) {
   runtime::PlanesSetup setup{
       .forecast = {.car = &inputs.value().car,
                    .harm = &inputs.value().harm,
-                   .cues = &inputs.value().cues},
+                   .cues = header.cues ? &inputs.value().cues : nullptr},
       .thresholds = header.thresholds,
       .guard = header.guarded ? decide::Guard::never_worse_than_braking : decide::Guard::none,
       .forced = header.forced,

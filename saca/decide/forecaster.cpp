@@ -113,12 +113,12 @@ bool speaks_for_nothing(const Verdict& verdict) {
 }
 
 /// Adds what a supposition makes of each plan: its harm there less that as seen, as likely as it
-/// is. A plan that cannot be driven there counts as full braking does.
+/// is. Who tries there what cannot be driven slides on: it counts as doing nothing does.
 void mix_in(Verdict& verdict, const Verdict& as_seen, const Verdict& supposed, double probability) {
-  const JudgedPlan* const braking = find_plan(supposed, manoeuvre::full_braking);
+  const JudgedPlan* const sliding = find_plan(supposed, manoeuvre::doing_nothing);
   const auto mix = [&](JudgedPlan& one, const JudgedPlan& seen, const JudgedPlan* other) {
     if (other == nullptr || !other->drivable) {
-      other = braking;
+      other = sliding;
     }
     if (one.drivable && other != nullptr && other->drivable) {
       one.harm += probability * (other->harm - seen.harm);
@@ -150,10 +150,13 @@ std::vector<preview::JointMotion> draws_of(const Scene& scene, const intent::Bel
   return preview::drawn_motions(scene, beliefs, intent::MotionLaw{}, num_draws);
 }
 
-int judgements_of(const Scene& scene, const intent::Beliefs& beliefs, const intent::CueLaw* law) {
+double judgements_of(const Scene& scene, const intent::Beliefs& beliefs,
+                     const intent::CueLaw* law) {
+  constexpr double share = 0.6;  // of a whole verdict's time that half of the draws take, measured
   return law == nullptr || scene.cues.empty()
-             ? 1
-             : 1 + static_cast<int>(preview::suppositions(scene, beliefs, *law).size());
+             ? 1.0
+             : 1.0 +
+                   share * static_cast<double>(preview::suppositions(scene, beliefs, *law).size());
 }
 
 Forecaster::Forecaster(const preview::ForecastTools& tools, std::size_t num_draws)
@@ -164,29 +167,38 @@ Forecaster::Forecaster(const preview::ForecastTools& tools, std::size_t num_draw
 
 Verdict Forecaster::judge(const Scene& scene, const intent::Beliefs& beliefs,
                           const std::optional<UnderWay>& under_way) const {
-  const Verdict as_seen = judge_as_seen(scene, beliefs, under_way);
-  if (tools_.cues == nullptr || scene.cues.empty() || speaks_for_nothing(as_seen)) {
+  const preview::Suppositions all = tools_.cues == nullptr || scene.cues.empty()
+                                        ? preview::Suppositions()
+                                        : preview::suppositions(scene, beliefs, *tools_.cues);
+  const Depth of_seen{.draws = num_draws_, .later = true, .may_be_short = all.empty()};
+  const Verdict as_seen = judge_as_seen(scene, beliefs, under_way, of_seen);
+  if (all.empty() || speaks_for_nothing(as_seen)) {
     return as_seen;
   }
-  const preview::Suppositions all = preview::suppositions(scene, beliefs, *tools_.cues);
   Verdict verdict = as_seen;
-  if (!all.empty()) {
-    for (JudgedPlan& one : verdict.plans) {
-      one.as_seen = one.drivable ? std::optional(one.harm) : std::nullopt;
-    }
+  const auto note = [](JudgedPlan& one) {
+    one.as_seen = one.drivable ? std::optional(one.harm) : std::nullopt;
+  };
+  std::for_each(verdict.plans.begin(), verdict.plans.end(), note);
+  if (verdict.under_way) {
+    note(*verdict.under_way);
   }
+  const Depth of_supposed{.draws = (num_draws_ + 1) / 2, .later = false, .may_be_short = false};
   for (const preview::Supposition& one : all) {
-    if (!(one.is_slippery && under_way)) {
-      mix_in(verdict, as_seen, judge_as_seen(one.scene, one.beliefs, under_way), one.probability);
+    Verdict supposed = judge_as_seen(one.scene, one.beliefs, under_way, of_supposed);
+    if (one.is_slippery) {
+      supposed.under_way.reset();
     }
+    mix_in(verdict, as_seen, supposed, one.probability);
   }
   keep_waiting_cost(verdict, as_seen);
   return verdict;
 }
 
 Verdict Forecaster::judge_as_seen(const Scene& scene, const intent::Beliefs& beliefs,
-                                  const std::optional<UnderWay>& under_way) const {
-  const auto draws = draws_of(scene, beliefs, num_draws_);
+                                  const std::optional<UnderWay>& under_way,
+                                  const Depth& depth) const {
+  const auto draws = draws_of(scene, beliefs, depth.draws);
   const preview::PreparedMotions motions(scene, draws, tools_);
   Verdict verdict{.time = scene.time};
   const auto judge_plans = [&](std::span<const manoeuvre::Plan> plans) {
@@ -194,7 +206,7 @@ Verdict Forecaster::judge_as_seen(const Scene& scene, const intent::Beliefs& bel
       verdict.plans.push_back(judged(one));
     }
   };
-  if (under_way && under_way->plan.policy == manoeuvre::PolicyId::aeb) {
+  if (depth.may_be_short && under_way && under_way->plan.policy == manoeuvre::PolicyId::aeb) {
     const preview::Plans braking = not_much_gentler(under_way->plan, scene.ego.v_B.x);
     judge_plans({braking.begin(), braking.size()});
     spread_over_strengths(verdict);
@@ -207,7 +219,7 @@ Verdict Forecaster::judge_as_seen(const Scene& scene, const intent::Beliefs& bel
   const preview::Plans plans = preview::all_plans(scene.ego.v_B.x, tools_.braking);
   judge_plans({plans.begin(), plans.size()});
   spread_over_strengths(verdict);
-  if (!under_way) {
+  if (depth.later && !under_way) {
     verdict.later = least_harm_later(verdict, motions);
   }
   if (under_way && has_past(under_way->plan)) {

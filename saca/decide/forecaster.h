@@ -48,12 +48,12 @@ constexpr std::size_t usual_draws = 16;
                                                          const intent::Beliefs& beliefs,
                                                          std::size_t num_draws = usual_draws);
 
-/// How many times as long as that of a scene without cues the verdict of this one takes at most: 1
-/// and one more for each supposition (Forecaster::judge).
+/// How many times as long as that of a scene without cues the verdict of this one takes: 1, and 0.6
+/// more for each supposition (Forecaster::judge).
 /// @param law  by which it is judged; nullptr: cues stand for nothing
 /// @throws ContractViolation  if beliefs and actors differ in number
-[[nodiscard]] int judgements_of(const world::Scene& scene, const intent::Beliefs& beliefs,
-                                const intent::CueLaw* law);
+[[nodiscard]] double judgements_of(const world::Scene& scene, const intent::Beliefs& beliefs,
+                                   const intent::CueLaw* law);
 
 /// The plane between reflex and thinking: one scene in, one verdict out, many times a second. Its
 /// work is bounded: it asks neither disk nor language model.
@@ -66,14 +66,15 @@ class Forecaster {
   explicit Forecaster(const preview::ForecastTools& tools, std::size_t num_draws = usual_draws);
 
   /// Where the scene has cues, what they stand for is reckoned with, by ForecastTools::cues
-  /// (preview::suppositions): each is judged by itself, and harms are the mean over them and what
-  /// is seen, as likely as they are.
+  /// (preview::suppositions): each is judged by itself, over half of the draws, and harms are the
+  /// mean over them and what is seen, as likely as they are.
   ///
   /// * Suppositions are only added: everybody who is seen counts as without.
   /// * A cue alone never takes the wheel, nor keeps it: where without it the verdict speaks for
   ///   doing nothing, it is that without it. What waiting costs is always as without.
-  /// * Where there would be less grip, a plan that could not be driven counts as full braking does;
-  ///   a plan under way is judged on the grip that is believed.
+  /// * Where there would be less grip, the car is driven as if it knew; a plan that could not be
+  ///   driven then counts as doing nothing does; the plan under way is judged on the grip that is
+  ///   believed.
   /// * Each plan tells its harm without cues, too (`JudgedPlan::as_seen`).
   ///
   /// @param scene      breaks no rule of world::broken_rule
@@ -88,8 +89,15 @@ class Forecaster {
                               const std::optional<UnderWay>& under_way = std::nullopt) const;
 
  private:
+  /// How much of a verdict is worked out.
+  struct Depth {
+    std::size_t draws = usual_draws;
+    bool later = true;         ///< Verdict::later, too
+    bool may_be_short = true;  ///< see judge: while braking that harms little is under way
+  };
   [[nodiscard]] Verdict judge_as_seen(const world::Scene& scene, const intent::Beliefs& beliefs,
-                                      const std::optional<UnderWay>& under_way) const;
+                                      const std::optional<UnderWay>& under_way,
+                                      const Depth& depth) const;
 
   preview::ForecastTools tools_;
   std::size_t num_draws_;

@@ -323,39 +323,69 @@ TEST_F(CuesTest, ACueAloneTakesNoWheel) {
 TEST_F(CuesTest, EachCueThatCountsIsJudgedByItself) {
   Scene scene = wreck_between_lanes();
   const intent::Beliefs beliefs = intent::beliefs_at_sight(intent::shipped_model(), scene);
-  EXPECT_EQ(judgements_of(scene, beliefs, &law_), 1);
-  scene.cues.push_back({CueKind::bus_at_stop, {24.0, -6.0}});
-  EXPECT_EQ(judgements_of(scene, beliefs, nullptr), 1);
-  EXPECT_EQ(judgements_of(scene, beliefs, &law_), 2);
+  EXPECT_EQ(judgements_of(scene, beliefs, &law_), 1.0);
+  scene.cues.push_back({CueKind::bus_at_stop, {24.0, -3.0}});
+  EXPECT_EQ(judgements_of(scene, beliefs, nullptr), 1.0);
+  EXPECT_DOUBLE_EQ(judgements_of(scene, beliefs, &law_), 1.6);
   scene.cues.push_back({CueKind::wet_leaves, {24.0, 0.0}});
-  EXPECT_EQ(judgements_of(scene, beliefs, &law_), 3);
-  scene.cues[1].p_W.x = -20.0;  // we have passed it
-  EXPECT_EQ(judgements_of(scene, beliefs, &law_), 2);
+  EXPECT_DOUBLE_EQ(judgements_of(scene, beliefs, &law_), 2.2);
+  scene.cues[1].p_W.x = -100.0;  // we have passed them long ago
+  EXPECT_DOUBLE_EQ(judgements_of(scene, beliefs, &law_), 1.6);
 }
 
-// Somebody steps out before the wreck. That he is met does not undo that the wreck is hit where he
-// does not come: the harm is the mean over both worlds.
-TEST_F(CuesTest, WhatComesOfAPlanIsTheMeanOverBothWorlds) {
+// Somebody steps out before the wreck, or it is slippery. That he is met does not undo that the
+// wreck is hit where he does not come: the harm is the mean over all worlds.
+TEST_F(CuesTest, WhatComesOfAPlanIsTheMeanOverAllWorlds) {
   Scene scene = wreck_between_lanes();
-  scene.cues.push_back({CueKind::bus_at_stop, {17.0, -6.0}});
+  scene.cues.push_back({CueKind::bus_at_stop, {17.0, -3.0}});
+  scene.cues.push_back({CueKind::wet_leaves, {24.0, 0.0}});
   const intent::Beliefs beliefs = intent::beliefs_at_sight(intent::shipped_model(), scene);
   const preview::Suppositions all = preview::suppositions(scene, beliefs, law_);
-  ASSERT_EQ(all.size(), 1U);
-  EXPECT_EQ(all[0].probability, 0.4);
-  const Verdict with_him = forecaster_.judge(all[0].scene, all[0].beliefs);
+  ASSERT_EQ(all.size(), 2U);
+  const Forecaster half({.car = &car_, .harm = &harm_}, usual_draws / 2);
+  const Verdict plain = seen(scene);
   const Verdict judged = by_cues(scene);
-  for (const PolicyId policy : {PolicyId::no_intervention, PolicyId::aeb, PolicyId::aes_right}) {
-    EXPECT_NEAR(harm_of(judged, policy),
-                0.6 * harm_of(seen(scene), policy) + 0.4 * harm_of(with_him, policy), 1e-12);
+  for (const PolicyId policy : {PolicyId::no_intervention, PolicyId::aeb, PolicyId::es_b_right}) {
+    double mean = harm_of(plain, policy);
+    for (const preview::Supposition& one : all) {
+      const double there = harm_of(half.judge(one.scene, one.beliefs), policy);
+      mean += one.probability * (there - harm_of(plain, policy));
+    }
+    EXPECT_NEAR(harm_of(judged, policy), mean, 1e-12);
   }
-  EXPECT_GT(harm_of(with_him, PolicyId::no_intervention),
-            harm_of(seen(scene), PolicyId::no_intervention));
+  EXPECT_GT(harm_of(judged, PolicyId::no_intervention), harm_of(plain, PolicyId::no_intervention));
+}
+
+// Full braking under way, and a wreck that it just spares: as seen nothing is better. Where it may
+// be slippery all plans are judged, and the braking harms more.
+TEST_F(CuesTest, WhatIsUnderWayIsJudgedInAllWorlds) {
+  Scene scene = wreck_between_lanes();
+  scene.cues.push_back({CueKind::wet_leaves, {24.0, 0.0}});
+  const UnderWay braking = {.plan = manoeuvre::full_braking,
+                            .begun = scene.time,
+                            .ego = scene.ego,
+                            .road = scene.road,
+                            .grip = scene.grip};
+  const intent::Beliefs beliefs = intent::beliefs_at_sight(intent::shipped_model(), scene);
+  const Verdict plain = forecaster_.judge(scene, beliefs, braking);
+  ASSERT_LT(harm_of(plain, PolicyId::aeb), material_harm);
+  const Verdict judged = reckoning_.judge(scene, beliefs, braking);
+  EXPECT_GT(judged.plans.size(), plain.plans.size());
+  EXPECT_GT(harm_of(judged, PolicyId::aeb), harm_of(plain, PolicyId::aeb));
+  const UnderWay swerve = {.plan = {PolicyId::aes_left, std::nullopt},
+                           .begun = scene.time,
+                           .ego = scene.ego,
+                           .road = scene.road,
+                           .grip = scene.grip};
+  const Verdict of_swerve = reckoning_.judge(scene, beliefs, swerve);
+  ASSERT_TRUE(of_swerve.under_way);
+  EXPECT_EQ(of_swerve.under_way->harm, of_swerve.under_way->as_seen);
 }
 
 // Somebody who comes from the right beside the wreck is met by who goes there.
 TEST_F(CuesTest, TheSideOfTheCueHarmsMore) {
   Scene scene = wreck_between_lanes();
-  scene.cues.push_back({CueKind::bus_at_stop, {24.0, -6.0}});
+  scene.cues.push_back({CueKind::bus_at_stop, {24.0, -4.0}});
   const Verdict plain = seen(scene);
   const Verdict judged = by_cues(scene);
   const auto added = [&](PolicyId policy) {
@@ -370,14 +400,15 @@ TEST_F(CuesTest, TheSideOfTheCueHarmsMore) {
 
 TEST_F(CuesTest, WaitingCostsAsMuchAsWithoutCues) {
   Scene scene = wreck_between_lanes();
-  scene.cues.push_back({CueKind::bus_at_stop, {24.0, -6.0}});
+  scene.cues.push_back({CueKind::bus_at_stop, {24.0, -4.0}});
   const auto without = cost_of_waiting(seen(scene));
   const auto with = cost_of_waiting(by_cues(scene));
   ASSERT_TRUE(without && with);
   EXPECT_NEAR(*with, *without, 1e-12);
 }
 
-// With half of the probability on 0.4 of the grip, braking harms the mean of both.
+// With half of the probability on 0.4 of the grip, braking harms the mean of both: a wreck is the
+// same in every draw.
 TEST_F(CuesTest, LessGripCountsAsItsProbability) {
   Scene scene = wreck_between_lanes();
   scene.cues.push_back({CueKind::wet_leaves, {10.0, 0.0}});

@@ -17,8 +17,8 @@ struct JudgedPlan {
   double harm = 0.0;      ///< expected over everything that is not known of the others; of braking
                           ///< below full strength see spread_over_strengths
   double contact = 0.0;   ///< probability, in [0, 1]
-  std::optional<double> as_seen;  ///< the harm without who is only supposed, by cues of the scene;
-                                  ///< nullopt: nobody was
+  std::optional<double> as_seen;  ///< the harm without what is only supposed, by cues of the
+                                  ///< scene; nullopt: nothing was
 };
 
 [[nodiscard]] JudgedPlan judged(const preview::ExpectedHarm& one);
@@ -29,7 +29,8 @@ struct Verdict {
   double time = 0.0;  ///< of the scene that was judged [s]
   StaticVector<JudgedPlan, preview::Plans::capacity()> plans;
   std::optional<double> later;  ///< the least expected harm of what begins `waited` later, the ego
-                                ///< going on until then; nullopt: not worked out
+                                ///< going on until then; where cues count, the best plan's harm
+                                ///< and what waiting costs by what is seen; nullopt: not worked out
   std::optional<JudgedPlan> under_way;  ///< the rest of a plan under way that has a past (has_past)
 };
 

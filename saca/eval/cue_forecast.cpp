@@ -70,8 +70,7 @@ double sigmoid(double x) {
   return 1.0 / (1.0 + std::exp(-x));
 }
 
-/// The weights of largest posterior probability, by Newton's method: the loss is strictly convex
-/// but for the intercept, which no prior holds where nothing ever or always comes.
+/// The weights of largest posterior probability, by Newton's method: the loss is strictly convex.
 Forecast by_logistic_regression(std::span<const DrawnCues> learnt_from) {
   using Square = Eigen::Matrix<double, num_weights, num_weights>;
   constexpr int steps = 30;

@@ -38,8 +38,9 @@ struct CueForecast {
 
 /// Four ways: the share of all encounters in which anything came; a table of counts by kind, kinds
 /// that were not counted as all kinds together, cues independent of each other; logistic regression
-/// on the kinds (an intercept and one weight for each, standard normal prior on the weights); the
-/// law that the encounters were drawn by, which nobody can beat but by chance.
+/// on the kinds (an intercept with a prior of standard deviation 32, one weight for each kind with
+/// one of 1); the law that the encounters were drawn by, which nobody who knows the kinds alone can
+/// beat but by chance.
 /// @param learnt_from  what the first three know
 /// @param judged       what all are held against, not empty
 [[nodiscard]] std::vector<CueForecast> cue_forecasts(std::span<const DrawnCues> learnt_from,

@@ -254,7 +254,7 @@ sim::Scenario as_played(sim::Scenario scenario, const SuiteOptions& options) {
   if (!options.exact && besides_grip == sim::PerceptionModel{}) {
     const auto believed = scenario.perception.grip_believed;
     scenario.perception = usual_perception();
-    scenario.perception.grip_believed = believed ? believed : scenario.perception.grip_believed;
+    scenario.perception.grip_believed = believed;
   }
   return scenario;
 }

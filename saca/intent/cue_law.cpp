@@ -52,10 +52,7 @@ Result<CueLaw> read_cue_law(std::string_view text, std::string_view source) {
     const std::string word = table.text("kind");
     const auto kind = world::cue_kind_from(word);
     if (!kind) {
-      table.reject("kind",
-                   "want school_zone, bus_at_stop, parked_vans, work_zone, emergency_vehicle, "
-                   "low_sun or wet_leaves, got \"" +
-                       word + "\"");
+      table.reject("kind", fmt::format("want {}, got \"{}\"", world::cue_kind_words, word));
       break;
     }
     auto& unseen = law.unseen[static_cast<std::size_t>(*kind)];

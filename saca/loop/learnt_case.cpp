@@ -37,7 +37,7 @@ std::optional<Error> change_case(memory::Store& memory, memory::CaseId id, const
 
 std::vector<memory::MadeWith> made_with(const preview::ForecastTools& tools,
                                         const intent::Model& intent, const std::string& car) {
-  preview::ForecastTools without_cues = tools;  // of a case's scene there are none
+  preview::ForecastTools without_cues = tools;  // told_harms are those as seen
   without_cues.cues = nullptr;
   std::vector<memory::MadeWith> inputs;
   for (const nlohmann::json& one : inputs_json(without_cues, intent, car)) {
@@ -52,7 +52,7 @@ memory::PolicyHarms told_harms(const decide::Verdict& verdict) {
   memory::PolicyHarms harms;
   for (const decide::JudgedPlan& one : verdict.plans) {
     if (one.drivable) {
-      take_least(harms, one.plan, one.harm);
+      take_least(harms, one.plan, one.as_seen.value_or(one.harm));
     }
   }
   return harms;

@@ -21,7 +21,7 @@ namespace saca::loop {
                                                       const intent::Model& intent,
                                                       const std::string& car);
 
-/// Of each policy the plan that is expected to harm least.
+/// Of each policy the plan that is expected to harm least, by what is seen.
 [[nodiscard]] memory::PolicyHarms told_harms(const decide::Verdict& verdict);
 
 /// Of each policy the plan that would have harmed least.

@@ -163,11 +163,8 @@ Road read_road(Reader reader) {
 constexpr const char* cues_key = "cues";
 
 world::Cue read_cue(Reader reader) {
-  const world::Cue cue{
-      .kind = reader.word("kind", world::cue_kind_from,
-                          "school_zone, bus_at_stop, parked_vans, work_zone, emergency_vehicle, "
-                          "low_sun or wet_leaves"),
-      .p_W = {reader.number("x_m"), reader.number("y_m")}};
+  const world::Cue cue{.kind = reader.word("kind", world::cue_kind_from, world::cue_kind_words),
+                       .p_W = {reader.number("x_m"), reader.number("y_m")}};
   reader.refuse_others();
   return cue;
 }

@@ -17,16 +17,10 @@ using world::Cue;
 using world::LanePose;
 using world::Scene;
 
-/// When the ego's front is at the cue, if it goes on [s]; nullopt: it has passed, or it is far.
-std::optional<double> time_until(const Scene& scene, const LanePose& cue) {
+/// How far the ego's front is from the cue, along the lane [m]; below 0: it has passed.
+double way_to(const Scene& scene, const LanePose& cue) {
   const LanePose ego = to_lane(scene.road, scene.ego.X_WB);
-  const double front = ego.s + scene.ego_footprint.centre_x + 0.5 * scene.ego_footprint.length;
-  const double way = cue.s - front;
-  const double speed = scene.ego.v_B.x;
-  if (way < 0.0 || way > longest_ahead * speed) {
-    return std::nullopt;
-  }
-  return way / speed;
+  return cue.s - (ego.s + scene.ego_footprint.centre_x + 0.5 * scene.ego_footprint.length);
 }
 
 /// An id that nobody else of this kind has; nullopt: there is none.
@@ -40,25 +34,31 @@ std::optional<std::uint8_t> free_id(const Scene& scene, world::ActorKind kind) {
   return std::nullopt;
 }
 
-/// Whether whom the cue stands for is there to be seen.
-bool is_seen(const Scene& scene, const Cue& cue, world::ActorKind kind) {
-  constexpr double moving = 0.3;  // [m/s]
+/// Whether whom the cue stands for is there to be seen: somebody of that kind who comes from there.
+bool is_seen(const Scene& scene, const LanePose& cue, const intent::Unseen& unseen) {
+  const double reach = least_reach + seen_before * unseen.speed;
   return std::any_of(scene.actors.begin(), scene.actors.end(), [&](const Actor& one) {
-    return one.kind == kind && norm(one.v_W) > moving && norm(one.X_WA.p - cue.p_W) < seen_near;
+    const LanePose at = to_lane(scene.road, one.X_WA);
+    const double across = rotated(one.v_W, at.heading - one.X_WA.yaw).y;
+    const double towards = cue.d < 0.0 ? across : -across;
+    return one.kind == unseen.who && towards > 0.5 * unseen.speed &&
+           std::hypot(at.s - cue.s, at.d - cue.d) < reach;
   });
 }
 
-/// Who crosses from the side of the cue, and is in the middle of the lane after `time`.
+/// Who crosses from the side of the cue, and is half-way between it and the middle of our lane
+/// after `time`.
 Actor crossing(const Scene& scene, const LanePose& cue, const intent::Unseen& unseen, double time) {
   const double side = cue.d < 0.0 ? -1.0 : 1.0;
-  const LanePose start{cue.s, side * unseen.speed * time, -side * 0.5 * std::numbers::pi};
+  const LanePose start{cue.s, 0.5 * cue.d + side * unseen.speed * time,
+                       -side * 0.5 * std::numbers::pi};
   const world::UsualBody& body = world::usual_body(*unseen.who);
   Actor actor{.kind = *unseen.who, .footprint = body.footprint, .mass = body.mass};
   actor.X_WA = from_lane(scene.road, start);
   actor.v_W = rotated({unseen.speed, 0.0}, actor.X_WA.yaw);
-  constexpr double sooner_or_later = 1.0;  // [s], standard deviation: assumption
-  constexpr double widest = 2.0;           // [m]: the error is the same along our lane
-  actor.position_sd = std::min(widest, sooner_or_later * unseen.speed);
+  // Evenly anywhere between the two; along our lane the same error is no more than the cue's own.
+  const double even = std::abs(cue.d) / std::sqrt(12.0);
+  actor.position_sd = std::clamp(even, 0.5, 2.0);
   actor.occluded = true;
   return actor;
 }
@@ -73,14 +73,15 @@ intent::Belief going_on() {
   return belief;
 }
 
-/// Adds whom the cue stands for. @return  false: there is no room, or it is seen already
-bool add_crossing(Supposition& one, const LanePose& place, const Cue& cue,
-                  const intent::Unseen& unseen, double time) {
+/// Adds whom the cue stands for, where he may still come: he is not seen, and has not come out yet.
+bool add_crossing(Supposition& one, const LanePose& cue, const intent::Unseen& unseen,
+                  double time) {
   const auto id = free_id(one.scene, *unseen.who);
-  if (!id || one.scene.actors.full() || is_seen(one.scene, cue, *unseen.who)) {
+  const bool has_come_out = unseen.speed * time < 0.5 * std::abs(cue.d);
+  if (!id || has_come_out || one.scene.actors.full() || is_seen(one.scene, cue, unseen)) {
     return false;
   }
-  Actor actor = crossing(one.scene, place, unseen, time);
+  Actor actor = crossing(one.scene, cue, unseen, time);
   actor.id = *id;
   one.scene.actors.push_back(actor);
   one.beliefs.push_back(going_on());
@@ -94,11 +95,14 @@ Suppositions suppositions(const Scene& scene, const intent::Beliefs& beliefs,
   expects(beliefs.size() == scene.actors.size(), "one belief per actor");
   Suppositions all;
   double sum = 0.0;
+  const double speed = scene.ego.v_B.x;
   for (const Cue& cue : scene.cues) {
     const auto& unseen = law.of(cue.kind);
     const LanePose place = to_lane(scene.road, {cue.p_W, 0.0});
-    const auto time = time_until(scene, place);
-    if (!unseen || !time || unseen->probability == 0.0) {
+    const double way = way_to(scene, place);
+    const double behind = unseen && !unseen->who ? slippery_for : 0.0;
+    if (!unseen || unseen->probability == 0.0 || !(speed > 0.0) || way < -behind ||
+        way > longest_ahead * speed) {
       continue;
     }
     Supposition one{.probability = unseen->probability,
@@ -107,7 +111,7 @@ Suppositions suppositions(const Scene& scene, const intent::Beliefs& beliefs,
                     .is_slippery = !unseen->who};
     if (one.is_slippery) {
       one.scene.grip *= unseen->grip_share;
-    } else if (!add_crossing(one, place, cue, *unseen, *time)) {
+    } else if (!add_crossing(one, place, *unseen, way / speed)) {
       continue;
     }
     sum += one.probability;

@@ -21,12 +21,14 @@ using Suppositions = StaticVector<Supposition, world::max_cues>;
 /// together. Nobody who is seen is changed.
 ///
 /// Whoever may come is a usual body of its kind on a straight way across the ego's lane, from the
-/// side where the cue is; it is in the middle of the lane when the ego's front is there, if the ego
-/// goes on as it does. It is known to a second of its way, 2 m at most: it may come sooner or
-/// later. Each supposition has the probability of the law; where they sum to more than
-/// `most_likely`, all are that much less likely. Cues that the ego has passed or reaches only after
-/// `longest_ahead` suppose nothing, nor does one near which somebody of its kind moves and is seen
-/// (within `seen_near`: that is who it stands for), nor one that a full scene has no room for.
+/// side where the cue is; when the ego's front is there, if the ego goes on as it does, it is
+/// half-way between the cue and the middle of the lane, known as what is even between the two (0.5
+/// to 2 m). Each supposition has the probability of the law; where they sum to more than
+/// `most_likely`, all are that much less likely. Nobody is supposed by a cue that the ego has
+/// passed or reaches only after `longest_ahead`; who would have come out by now, because then he
+/// would be seen; where one of his kind is seen to come from there (within `least_reach` and what
+/// he covers in `seen_before`); and where a scene has no room. It may be slippery from the cue on
+/// for `slippery_for`.
 /// @param beliefs  one per actor
 /// @throws ContractViolation  if beliefs and actors differ in number
 [[nodiscard]] Suppositions suppositions(const world::Scene& scene, const intent::Beliefs& beliefs,
@@ -36,7 +38,9 @@ using Suppositions = StaticVector<Supposition, world::max_cues>;
 constexpr double most_likely = 0.5;
 /// How far ahead cues are looked at [s].
 constexpr double longest_ahead = 4.0;
-/// Who moves so near to a cue is no longer supposed but seen [m]: assumption.
-constexpr double seen_near = 12.0;
+// Assumptions:
+constexpr double least_reach = 6.0;    ///< [m]
+constexpr double seen_before = 1.5;    ///< [s]
+constexpr double slippery_for = 60.0;  ///< [m]
 
 }  // namespace saca::preview

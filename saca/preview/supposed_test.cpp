@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "saca/core/contract.h"
 #include "saca/world/time_to_conflict.h"
 #include "tests/support/scenes.h"
@@ -33,7 +35,9 @@ Scene road(CueKind kind, double ahead, double left) {
   return scene;
 }
 
-// 20 m ahead of 10 m/s are 2 s; at 2 m/s somebody who then is in the middle is 4 m beside it now.
+// 20 m ahead of 10 m/s are 2 s; at 2 m/s somebody who then is half-way between the cue and the
+// middle, 1.5 m to the right, is 5.5 m to the right now. What is even over 3 m has a standard
+// deviation of 3 / sqrt(12).
 TEST(Suppositions, SomebodyMeetsTheEgoWhereItGoesOn) {
   const Scene scene = road(CueKind::bus_at_stop, 20.0, -3.0);
   const Suppositions all = suppositions(scene, {}, law());
@@ -45,7 +49,8 @@ TEST(Suppositions, SomebodyMeetsTheEgoWhereItGoesOn) {
   const world::Actor& he = all[0].scene.actors[0];
   EXPECT_EQ(he.kind, ActorKind::pedestrian);
   EXPECT_NEAR(he.X_WA.p.x, 20.0, 1e-12);
-  EXPECT_NEAR(he.X_WA.p.y, -4.0, 1e-12);
+  EXPECT_NEAR(he.X_WA.p.y, -5.5, 1e-12);
+  EXPECT_NEAR(he.position_sd, 3.0 / std::sqrt(12.0), 1e-12);
   EXPECT_NEAR(he.v_W.x, 0.0, 1e-12);
   EXPECT_NEAR(he.v_W.y, 2.0, 1e-12);
   EXPECT_DOUBLE_EQ(he.existence, 1.0);
@@ -78,16 +83,31 @@ TEST(Suppositions, NobodyIsSupposedBesidesWhoIsSeen) {
   Scene scene = road(CueKind::bus_at_stop, 20.0, -3.0);
   world::Actor child = test::car(1, {20.0, -3.0});
   child.kind = ActorKind::pedestrian;
+  child.X_WA.yaw = 1.5;
   child.v_W = {0.0, 2.0};
   scene.actors.push_back(child);
   intent::Beliefs one;
   one.push_back({});
   EXPECT_TRUE(suppositions(scene, one, law()).empty());
-  scene.actors[0].v_W = {};  // who waits there does not come
+  scene.actors[0].v_W = {0.0, 0.4};  // who stands, as perceived
+  EXPECT_EQ(suppositions(scene, one, law()).size(), 1U);
+  scene.actors[0].v_W = {0.0, -2.0};  // who leaves the road
   EXPECT_EQ(suppositions(scene, one, law()).size(), 1U);
   scene.actors[0].v_W = {0.0, 2.0};
-  scene.actors[0].X_WA.p.x += seen_near;
+  scene.actors[0].X_WA.p.x += least_reach + seen_before * 2.0;
   EXPECT_EQ(suppositions(scene, one, law()).size(), 1U);
+}
+
+// Half a second before the ego is there he would be 1 m from where he is to be, in the lane: he
+// would be seen.
+TEST(Suppositions, NobodyIsSupposedWhoWouldBeSeen) {
+  EXPECT_TRUE(suppositions(road(CueKind::bus_at_stop, 5.0, -3.0), {}, law()).empty());
+  EXPECT_EQ(suppositions(road(CueKind::bus_at_stop, 8.0, -3.0), {}, law()).size(), 1U);
+}
+
+TEST(Suppositions, ItStaysSlipperyBehindTheCue) {
+  EXPECT_EQ(suppositions(road(CueKind::wet_leaves, 1.0 - slippery_for, 0.0), {}, law()).size(), 1U);
+  EXPECT_TRUE(suppositions(road(CueKind::wet_leaves, -1.0 - slippery_for, 0.0), {}, law()).empty());
 }
 
 TEST(Suppositions, TogetherTheyAreCapped) {

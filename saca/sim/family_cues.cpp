@@ -31,8 +31,10 @@ double between(Dice& dice, double low, double high) {
 Spot draw_spot(Stage& stage) {
   const double ahead = between(stage.dice, -8.0, 12.0);
   const double side = stage.dice.even() < 0.3 ? 1.0 : -1.0;
-  const bool lane = side > 0.0 ? stage.left_lane : stage.right_lane;
-  return {stage.head() + ahead, side, (lane ? 1.5 : 0.5) * stage.lane()};
+  const world::Road& road = stage.scenario.road;
+  const double room = side > 0.0 ? road.left_edge : -road.right_edge;
+  const double lanes = std::floor(room / stage.lane() - 0.5);  // beside ours, whole ones
+  return {stage.head() + ahead, side, (0.5 + std::max(lanes, 0.0)) * stage.lane()};
 }
 
 /// What stands there and hides; its end is a metre before the spot, so that who comes passes it.
@@ -105,9 +107,19 @@ void let_come(Stage& stage, const Spot& spot, const intent::Unseen& unseen,
   who.motion = coming(spot, d, time, pace, since, stage.scenario.duration);
 }
 
+/// Nobody brakes harder than the road allows.
 void make_slippery(Scenario& scenario, double share) {
-  scenario.perception.grip_believed = scenario.grip;
+  constexpr double g = 9.81;  // [m/s^2]
+  if (!scenario.perception.grip_believed) {
+    scenario.perception.grip_believed = scenario.grip;
+  }
   scenario.grip *= share;
+  for (ScenarioActor& actor : scenario.actors) {
+    auto* const script = std::get_if<Script>(&actor.motion);
+    if (script != nullptr && script->behaviour == Behaviour::brake) {
+      script->acceleration = std::min(script->acceleration, scenario.grip * g);
+    }
+  }
 }
 
 }  // namespace
@@ -128,9 +140,9 @@ std::vector<DrawnCue> draw_cues(const FamilyCues& cues, std::mt19937_64& rng) {
   return drawn;
 }
 
-std::vector<std::size_t> add_cues(Stage& stage, const std::vector<DrawnCue>& cues,
-                                  const intent::CueLaw& law) {
-  std::vector<std::size_t> came;
+std::vector<Comer> add_cues(Stage& stage, const std::vector<DrawnCue>& cues,
+                            const intent::CueLaw& law) {
+  std::vector<Comer> all;
   for (const DrawnCue& cue : cues) {
     const Spot spot = draw_spot(stage);
     std::optional<double> hidden_until;
@@ -138,24 +150,26 @@ std::vector<std::size_t> add_cues(Stage& stage, const std::vector<DrawnCue>& cue
       hidden_until = set_up(stage, spot, *screen);
     }
     stage.scenario.cues.push_back({cue.kind, {spot.s, spot.side * spot.edge}});
-    if (!cue.comes) {
-      continue;
-    }
-    const intent::Unseen& unseen = *law.of(cue.kind);
-    if (unseen.who) {
-      let_come(stage, spot, unseen, hidden_until);
-      came.push_back(stage.scenario.actors.size() - 1);
-    } else {
-      make_slippery(stage.scenario, unseen.grip_share);
+    const auto& unseen = law.of(cue.kind);
+    if (unseen && unseen->who) {
+      let_come(stage, spot, *unseen, hidden_until);
+      all.push_back({stage.scenario.actors.size() - 1, cue.comes});
+    } else if (unseen && cue.comes) {
+      make_slippery(stage.scenario, unseen->grip_share);
     }
   }
-  return came;
+  return all;
 }
 
-void take_away(Scenario& scenario, const std::vector<std::size_t>& came) {
-  for (auto i = came.rbegin(); i != came.rend(); ++i) {
-    scenario.actors.erase(scenario.actors.begin() + static_cast<std::ptrdiff_t>(*i));
+void take_away(Scenario& scenario, const std::vector<Comer>& all, bool also_who_come) {
+  for (auto one = all.rbegin(); one != all.rend(); ++one) {
+    if (also_who_come || !one->comes) {
+      scenario.actors.erase(scenario.actors.begin() + static_cast<std::ptrdiff_t>(one->actor));
+    }
   }
+}
+
+void take_leaves_away(Scenario& scenario) {
   if (const auto believed = std::exchange(scenario.perception.grip_believed, std::nullopt)) {
     scenario.grip = *believed;
   }

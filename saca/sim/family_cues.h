@@ -14,20 +14,32 @@ namespace saca::sim {
 /// have to be drawn: so it comes as often as the law says.
 [[nodiscard]] std::vector<DrawnCue> draw_cues(const FamilyCues& cues, std::mt19937_64& rng);
 
-/// Puts cues into an encounter, and what comes of them.
+/// Somebody whom a cue stands for.
+struct Comer {
+  std::size_t actor = 0;  ///< index into Scenario::actors
+  bool comes = false;     ///< else he is to be taken away again
+};
+
+/// Puts cues into an encounter, and what may come of them.
 ///
 /// A cue lies beside our outermost lane, 8 m before to 12 m behind the place of the conflict, in
 /// seven of ten cases to the right; what hides people there (vans, a bus, a hoarding, a car) stands
-/// there with or without somebody behind it. Who comes does so when an ego that just goes on would
-/// be there: he is then anywhere between the middle of our lane and the edge of the road on his
-/// side. Whom nothing hides (glare; a siren from a side street) is in the scenario from 1.5 s
-/// before that on. Where it is slippery the ego believes that the grip is what it had been.
-/// All numbers here are assumptions. Call it after the conflict was made, before the surroundings.
-/// @return  who came, by index into Scenario::actors
-[[nodiscard]] std::vector<std::size_t> add_cues(Stage& stage, const std::vector<DrawnCue>& cues,
-                                                const intent::CueLaw& law);
+/// there with or without somebody behind it. Who comes crosses at 0.8 to 1.2 times the speed of the
+/// law, and is anywhere between the middle of our lane and the edge of that outermost one when an
+/// ego that just goes on is there. Whom nothing hides (glare; a siren from a side street) is in the
+/// scenario from 1.5 s before that on. Where it is slippery the whole road is, the ego believes
+/// that the grip is what it had been, and nobody brakes harder than the road allows. All numbers
+/// here are assumptions.
+///
+/// Whoever may come is put in, so that places are as likely where he comes as where he does not;
+/// see take_away. Call it after the conflict was made, before the surroundings.
+[[nodiscard]] std::vector<Comer> add_cues(Stage& stage, const std::vector<DrawnCue>& cues,
+                                          const intent::CueLaw& law);
 
-/// Takes away who came, and gives the grip back.
-void take_away(Scenario& scenario, const std::vector<std::size_t>& came);
+/// Takes away who does not come, or all.
+void take_away(Scenario& scenario, const std::vector<Comer>& all, bool also_who_come);
+
+/// Gives the grip back where it is slippery and nobody knows.
+void take_leaves_away(Scenario& scenario);
 
 }  // namespace saca::sim

@@ -106,6 +106,30 @@ TEST_F(FamilyCuesTest, TheTwinHasTheCuesAndNobodyComes) {
   EXPECT_EQ(people(none.scenario), 0);
 }
 
+// Whether he comes is not told by the place: with the same dice all else is the same.
+TEST_F(FamilyCuesTest, WhoDoesNotComeLeavesThePlaceAsItIs) {
+  FamilyCues cues = cues_of({CueKind::parked_vans}, 1.0);
+  const FamilySample comes = drawn(family(cues), 4);
+  cues.law.unseen[static_cast<std::size_t>(CueKind::parked_vans)]->probability = 0.0;
+  const FamilySample stays = drawn(family(cues), 4);
+  EXPECT_EQ(write_scenario(comes.twin), write_scenario(stays.twin));
+  EXPECT_EQ(comes.scenario.actors.size(), stays.scenario.actors.size() + 1);
+}
+
+TEST_F(FamilyCuesTest, NobodyBrakesHarderThanLeavesAllow) {
+  Family brakes = load_family("scenarios/families", "lead_brakes").value();
+  brakes.cues = cues_of({CueKind::wet_leaves}, 1.0);
+  for (std::uint64_t number = 0; number < 20; ++number) {
+    const FamilySample one = drawn(brakes, number);
+    for (const ScenarioActor& actor : one.scenario.actors) {
+      const auto* script = std::get_if<Script>(&actor.motion);
+      if (script != nullptr && script->behaviour == Behaviour::brake) {
+        EXPECT_LE(script->acceleration, 9.81 * one.scenario.grip + 1e-9);
+      }
+    }
+  }
+}
+
 TEST_F(FamilyCuesTest, WhereItIsSlipperyTheEgoDoesNotKnow) {
   const FamilySample one = drawn(family(cues_of({CueKind::wet_leaves}, 1.0)), 2);
   EXPECT_NEAR(one.scenario.grip, 0.5 * believed_grip(one.scenario), 1e-12);

@@ -393,18 +393,24 @@ Result<FamilySample> sample(const Family& family, std::uint64_t seed, std::uint6
     Stage stage(dice, ego,
                 family.kind == FamilyKind::crossing || family.kind == FamilyKind::turning);
     const Harmless harmless = play(family.kind, stage);
-    const auto came =
-        family.cues ? add_cues(stage, cues, family.cues->law) : std::vector<std::size_t>{};
+    const auto comers =
+        family.cues ? add_cues(stage, cues, family.cues->law) : std::vector<Comer>{};
     stage.add_surroundings();
-    FamilySample found{.scenario = stage.scenario, .twin = stage.scenario, .cues = cues};
+    const Scenario with_all = stage.scenario;
+    FamilySample found{.scenario = with_all, .twin = with_all, .cues = cues};
+    take_away(found.scenario, comers, false);
+    take_away(found.twin, comers, true);
+    if (family.cues) {
+      take_leaves_away(found.twin);
+    }
     label(family, seed, number, car, found);
-    take_away(found.twin, came);
     if (harmless) {
       found.twin.actors.front().motion = *harmless;
     } else {
       found.twin.actors.erase(found.twin.actors.begin());
     }
-    if (can_be_written(found.scenario, ego) && can_be_written(found.twin, ego) &&
+    if ((comers.empty() || is_sensible(with_all, ego, stage.decision)) &&
+        can_be_written(found.scenario, ego) && can_be_written(found.twin, ego) &&
         is_sensible(found.scenario, ego, stage.decision) &&
         is_sensible(found.twin, ego, stage.decision)) {
       return found;

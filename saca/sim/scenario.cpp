@@ -151,9 +151,7 @@ PerceptionModel read_perception(Table& root) {
 }
 
 world::Cue read_cue(Table table) {
-  return {.kind = read_word(table, "kind", world::cue_kind_from,
-                            "school_zone, bus_at_stop, parked_vans, work_zone, emergency_vehicle, "
-                            "low_sun, wet_leaves"),
+  return {.kind = read_word(table, "kind", world::cue_kind_from, world::cue_kind_words),
           .p_W = {table.number("x_m", position_range), table.number("y_m", position_range)}};
 }
 

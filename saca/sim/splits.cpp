@@ -80,10 +80,7 @@ Suite read_suite(Table table) {
     const std::string word = cue.text("kind");
     const auto kind = world::cue_kind_from(word);
     if (!kind) {
-      cue.reject("kind",
-                 "want school_zone, bus_at_stop, parked_vans, work_zone, emergency_vehicle, "
-                 "low_sun or wet_leaves, got \"" +
-                     word + "\"");
+      cue.reject("kind", std::string("want ") + world::cue_kind_words + ", got \"" + word + "\"");
     } else if (std::find(suite.cues.begin(), suite.cues.end(), *kind) != suite.cues.end()) {
       cue.reject("kind", "want each kind once, got a second " + word);
     } else {

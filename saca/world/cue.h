@@ -21,6 +21,10 @@ enum class CueKind : std::uint8_t {
 };
 constexpr std::size_t num_cue_kinds = 7;
 
+/// All their names, for messages.
+constexpr const char* cue_kind_words =
+    "school_zone, bus_at_stop, parked_vans, work_zone, emergency_vehicle, low_sun or wet_leaves";
+
 /// "bus_at_stop": as files and tables have it.
 [[nodiscard]] std::string_view name(CueKind kind);
 [[nodiscard]] std::optional<CueKind> cue_kind_from(std::string_view name);
@@ -28,7 +32,7 @@ constexpr std::size_t num_cue_kinds = 7;
 /// One cue of a scene, as perception or a map tells it.
 struct Cue {
   CueKind kind = CueKind::parked_vans;
-  Vec2 p_W;  ///< where what it stands for would come from, or begins [m]
+  Vec2 p_W;  ///< where what it stands for would come from [m]
 };
 
 constexpr std::size_t max_cues = 4;

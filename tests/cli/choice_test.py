@@ -16,7 +16,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from program import BAD_INPUT, CANNOT_WRITE, INTERRUPTED, PROGRAM, ROOT, SUCCESS, WRONG_COMMAND_LINE, figures, one_error, saca
 
 FAMILIES = sorted(file.stem for file in (ROOT / "scenarios/families").glob("*.toml")
-                  if file.stem not in ("surroundings", "suites"))
+                  if file.stem not in ("surroundings", "suites", "cues"))
 NAMES = ["AEB", "AES-L", "AES-R", "ES-B-L", "ES-B-R", "T-D-L", "T-D-R", "NI"]
 
 
