@@ -84,8 +84,8 @@ std::string counted_law(const intent::CueLaw& law, const eval::CueCounts& counts
   }
   return "# What cues of a scene stand for, as SACA reckons with it. Written by `saca cues -o`: "
          "who "
-         "comes and how\n# is an assumption (scenarios/families/cues.toml), how often was "
-         "counted.\n" +
+         "comes and how\n"
+         "# is an assumption (scenarios/families/cues.toml), how often was counted.\n" +
          intent::cue_law_text(told, sources);
 }
 
@@ -111,10 +111,8 @@ void print(const char* suite, const std::vector<eval::CueForecast>& forecasts) {
 }
 
 int run(const CuesCommand& options) {
-  if (!options.output.empty()) {
-    if (const auto problem = why_outputs_unwritable({options.output})) {
-      return refused(*problem);
-    }
+  if (const auto problem = why_outputs_unwritable({options.output})) {
+    return refused(*problem);
   }
   const auto places = find_places();
   if (!places.has_value()) {

@@ -60,10 +60,18 @@ Result<std::optional<sim::FamilyCues>> cues_of(const fs::path& folder, const sim
 
 }  // namespace
 
-Result<std::optional<sim::FamilyCues>> cues_of_suite(const fs::path& families,
-                                                     const std::string& suite) {
+Result<sim::FamilyCues> cues_of_suite(const fs::path& families, const std::string& suite) {
   const auto found = find_suite(families, suite, {});
-  return found.has_value() ? cues_of(families, found.value()) : found.error();
+  if (!found.has_value()) {
+    return found.error();
+  }
+  const auto cues = cues_of(families, found.value());
+  if (!cues.has_value()) {
+    return cues.error();
+  }
+  return cues.value() ? Result(*cues.value())
+                      : Error{Error::Code::out_of_range,
+                              suite + ": want a suite with cues, got one without"};
 }
 
 Result<SuiteSource> SuiteSource::open(const SuiteDraw& draw) {

@@ -12,11 +12,12 @@
 
 namespace saca::eval {
 
-/// What comes of the cues that a suite has; nullopt: it has none.
+/// What comes of the cues that a suite has.
 /// @param families  folder with suites.toml and cues.toml
-/// @return          out_of_range where there is no such suite; else what cannot be read
-[[nodiscard]] Result<std::optional<sim::FamilyCues>> cues_of_suite(
-    const std::filesystem::path& families, const std::string& suite);
+/// @return          out_of_range where there is no such suite, or it has no cues; else what cannot
+///                  be read
+[[nodiscard]] Result<sim::FamilyCues> cues_of_suite(const std::filesystem::path& families,
+                                                    const std::string& suite);
 
 /// Which encounters are drawn, and for which car.
 struct SuiteDraw {

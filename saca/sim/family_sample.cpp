@@ -396,13 +396,11 @@ Result<FamilySample> sample(const Family& family, std::uint64_t seed, std::uint6
     const auto comers =
         family.cues ? add_cues(stage, cues, family.cues->law) : std::vector<Comer>{};
     stage.add_surroundings();
-    const Scenario with_all = stage.scenario;
+    const Scenario& with_all = stage.scenario;
     FamilySample found{.scenario = with_all, .twin = with_all, .cues = cues};
     take_away(found.scenario, comers, false);
     take_away(found.twin, comers, true);
-    if (family.cues) {
-      take_leaves_away(found.twin);
-    }
+    take_leaves_away(found.twin);
     label(family, seed, number, car, found);
     if (harmless) {
       found.twin.actors.front().motion = *harmless;

@@ -13,6 +13,7 @@
 #include "saca/core/file.h"
 #include "saca/core/names.h"
 #include "saca/core/printable.h"
+#include "saca/sim/motion_reader.h"
 
 namespace saca::sim {
 namespace {
@@ -77,15 +78,11 @@ Suite read_suite(Table table) {
     }
   }
   for (Table cue : table.tables("cues")) {
-    const std::string word = cue.text("kind");
-    const auto kind = world::cue_kind_from(word);
-    if (!kind) {
-      cue.reject("kind", std::string("want ") + world::cue_kind_words + ", got \"" + word + "\"");
-    } else if (std::find(suite.cues.begin(), suite.cues.end(), *kind) != suite.cues.end()) {
-      cue.reject("kind", "want each kind once, got a second " + word);
-    } else {
-      suite.cues.push_back(*kind);
+    const auto kind = read_word(cue, "kind", world::cue_kind_from, world::cue_kind_words);
+    if (std::find(suite.cues.begin(), suite.cues.end(), kind) != suite.cues.end()) {
+      cue.reject("kind", "want each kind once, got a second " + std::string(name(kind)));
     }
+    suite.cues.push_back(kind);
   }
   if (suite.members.empty()) {
     table.reject("members", "want at least one family, got none");
