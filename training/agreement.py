@@ -12,7 +12,6 @@ import json
 import pathlib
 import sys
 
-import peft
 import torch
 
 import examples
@@ -81,7 +80,7 @@ def main(arguments):
         tokens_of = fine_tune.tokeniser(tokenizer)
         given.seed = 1
         model = fine_tune.with_adapter(base, given)
-        peft.set_peft_model_state_dict(model, torch.load(given.adapter, weights_only=True)["adapter"])
+        fine_tune.begin_with(model, given.adapter)
         system = examples.system_tokens(tokens_of, given.system.read_text(encoding="utf-8"))
     except (Problem, OSError) as error:
         print(f"agreement: error: {error}", file=sys.stderr)

@@ -15,6 +15,8 @@ class Batch:
     sources: torch.Tensor  # [N] token that it is made from
     targets: torch.Tensor  # [N]
     weights: torch.Tensor  # [N]
+    at_once: torch.Tensor  # [B], which of the predictions are answers that no reasoning precedes
+    shares: torch.Tensor  # [B, 8], how much each answer counts there
 
 
 def batch_of(sequences, system_length, pad_token):
@@ -24,6 +26,7 @@ def batch_of(sequences, system_length, pad_token):
     unseen = torch.full((len(sequences), 1, longest, system_length + longest), UNSEEN)
     unseen[..., :system_length] = 0.0
     predictions = []
+    at_once = []
     for row, s in enumerate(sequences):
         length = len(s.tokens)
         tokens[row, :length] = torch.tensor(s.tokens)
@@ -35,7 +38,9 @@ def batch_of(sequences, system_length, pad_token):
         same |= (branch[:, None] == 3) & (branch[None, :] == 1) & (place[None, :] < prompt + s.cut)
         seen = same & (place[None, :] <= place[:, None])
         unseen[row, 0, :length, system_length:system_length + length][seen] = 0.0
-        predictions += [(row, s.source[i], s.tokens[i], s.weight[i]) for i in range(length) if s.weight[i] > 0.0]
+        predicted = [i for i in range(length) if s.weight[i] > 0.0]
+        at_once.append(len(predictions) + predicted.index(s.at_once))
+        predictions += [(row, s.source[i], s.tokens[i], s.weight[i]) for i in predicted]
     rows, sources, targets, weights = zip(*predictions)
     return Batch(tokens, positions, unseen, torch.tensor(rows), torch.tensor(sources), torch.tensor(targets),
-                 torch.tensor(weights))
+                 torch.tensor(weights), torch.tensor(at_once), torch.tensor([s.shares for s in sequences]))

@@ -7,6 +7,7 @@ asks so). All examples share the system part, whose tokens are evaluated once fo
 """
 import dataclasses
 import json
+import math
 import pathlib
 import random
 
@@ -16,6 +17,7 @@ SYSTEM_TAIL = "<|im_end|>\n<|im_start|>user\n"
 PROMPT_TAIL = "<|im_end|>\n<|im_start|>assistant\n"
 ANSWER_STEM = " Response to user:"
 ANSWERS = 8
+NOTHING = 7  # the answer to do nothing
 
 
 class Problem(Exception):
@@ -73,6 +75,19 @@ def read_set_line(line, place):
     return result
 
 
+def shares_of_answers(example, harm_scale):
+    """How much each answer counts, 8 numbers that sum to 1: the expert's choice alone, or, with a scale above 0, every
+    admissible one as exp(-harm / scale), where the harm of all of these is known and the expert does something.
+    """
+    known = {policy: example.known[policy] for policy in example.admissible}
+    if harm_scale <= 0.0 or example.choice == NOTHING or example.choice not in known or None in known.values():
+        known = {example.choice: 0.0}
+        harm_scale = 1.0
+    least = min(known.values())
+    shares = [math.exp((least - known[policy]) / harm_scale) if policy in known else 0.0 for policy in range(ANSWERS)]
+    return [share / sum(shares) for share in shares]
+
+
 def system_tokens(tokens_of, system):
     return tokens_of(SYSTEM_HEAD) + tokens_of(system) + tokens_of(SYSTEM_TAIL)
 
@@ -91,12 +106,15 @@ class Sequence:
     weight: list
     source: list  # index of the token that it is predicted from
     cut: int
+    at_once: int = -1  # index of the answer that no reasoning precedes
+    shares: list = dataclasses.field(default_factory=list)  # of that answer: how much each counts
 
 
-def sequence_of(example, tokens_of, end_token, answer_weight, rng):
+def sequence_of(example, tokens_of, end_token, answer_weight, rng, harm_scale=0.0):
     """One example's prompt and its three branches.
 
-    tokens_of: text to tokens; end_token: that a reply ends with; rng: where the reasoning is cut.
+    tokens_of: text to tokens; end_token: that a reply ends with; rng: where the reasoning is cut; harm_scale: as of
+    shares_of_answers, for the answer at once: the other two follow what was written.
     """
     prompt = tokens_of(example.prompt) + tokens_of(PROMPT_TAIL)
     stem = tokens_of(ANSWER_STEM) + tokens_of(" ")
@@ -108,6 +126,7 @@ def sequence_of(example, tokens_of, end_token, answer_weight, rng):
                     list(range(-1, len(prompt) - 1)), rng.randint(1, max(1, len(reply) - len(stem) - 1)))
     _add_branch(made, 1, len(prompt), len(prompt) - 1, reply + [end_token], [1.0] * (len(reply) - 1) + [answer_weight, 1.0])
     _add_branch(made, 2, len(prompt), len(prompt) - 1, stem + digit, [0.0] * len(stem) + [answer_weight])
+    made.at_once, made.shares = len(made.tokens) - 1, shares_of_answers(example, harm_scale)
     _add_branch(made, 3, len(prompt) + made.cut, len(prompt) + made.cut - 1, stem + digit,
                 [0.0] * len(stem) + [answer_weight])
     return made

@@ -32,6 +32,7 @@ MODULES = [name.split(".")[1] for name in adapter.NAMES]
 def options(arguments):
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("sets", type=pathlib.Path)
+    parser.add_argument("--also", type=pathlib.Path, action="append", default=[], metavar="SETS", help="other examples of the same rules")
     parser.add_argument("base", type=pathlib.Path)
     parser.add_argument("output", type=pathlib.Path)
     parser.add_argument("--steps", type=int, default=400, help="of --batch examples each")
@@ -41,8 +42,11 @@ def options(arguments):
     parser.add_argument("--rate", type=float, default=8e-4, help="of learning, at its highest")
     parser.add_argument("--warm-up", type=int, default=25, help="steps until then")
     parser.add_argument("--answer-weight", type=float, default=5.0, help="of an answer's digit; of other tokens 1")
+    parser.add_argument("--harm-scale", type=float, default=0.0,
+                        help="above 0: the answer at once is taught as exp(-harm / this) over what is admissible")
     parser.add_argument("--twin-share", type=float, default=0.5, help="of the scenes without risk")
     parser.add_argument("--single-share", type=float, default=0.5, help="of the scenes in which one policy alone is admissible")
+    parser.add_argument("--begin-with", type=pathlib.Path, default=None, help="what another training kept (kept.pt): begins with its adapter")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--threads", type=int, default=0, help="0: all cores")
     parser.add_argument("--keep-every", type=int, default=20, help="steps")
@@ -72,6 +76,23 @@ def with_adapter(model, given):
     return peft.get_peft_model(model, peft.LoraConfig(r=given.rank, lora_alpha=given.alpha, target_modules=MODULES, lora_dropout=0.0))
 
 
+def begin_with(model, place):
+    """Takes the adapter of another training."""
+    try:
+        peft.set_peft_model_state_dict(model, torch.load(place, weights_only=True)["adapter"])
+    except Exception as error:  # of several kinds, none of which the libraries name
+        raise Problem(f"{place}: want a training that was kept: {error}") from None
+
+
+def rules_of(folders):
+    """The system part that all these sets share."""
+    rules = [(folder / "system.txt").read_text(encoding="utf-8") for folder in folders]
+    for folder, text in zip(folders, rules):
+        if text != rules[0]:
+            raise Problem(f"{folder / 'system.txt'}: want the rules of {folders[0]}, got others")
+    return rules[0]
+
+
 def tokeniser(tokenizer):
     known = {}
 
@@ -94,8 +115,12 @@ def logits_of(model, system, batch):
     return causal.lm_head(hidden[batch.rows, batch.sources])
 
 
-def loss_of(model, system, batch):
-    losses = torch.nn.functional.cross_entropy(logits_of(model, system, batch), batch.targets, reduction="none")
+def loss_of(model, system, batch, digits):
+    """digits: the tokens of the eight answers."""
+    logits = logits_of(model, system, batch)
+    losses = torch.nn.functional.cross_entropy(logits, batch.targets, reduction="none")
+    answers = torch.log_softmax(logits[batch.at_once], dim=-1)[:, digits]
+    losses = losses.index_copy(0, batch.at_once, -(batch.shares * answers).sum(dim=-1))
     return (losses * batch.weights).sum() / batch.weights.sum()
 
 
@@ -120,10 +145,13 @@ class Training:
         self.tokenizer, base = load(given.base)
         self.tokens_of = tokeniser(self.tokenizer)
         self.model = with_adapter(base, given)
-        self.system = examples.system_tokens(self.tokens_of, (given.sets / "system.txt").read_text(encoding="utf-8"))
-        self.train = chosen_examples(examples.read_set(given.sets / "train.jsonl"), given)
+        if given.begin_with:
+            begin_with(self.model, given.begin_with)
+        self.system = examples.system_tokens(self.tokens_of, rules_of([given.sets, *given.also]))
+        self.digits = [self.tokens_of(str(answer))[0] for answer in range(examples.ANSWERS)]
+        self.train = chosen_examples(self.read("train.jsonl"), given)
         self.lengths = [len(one.prompt) + len(one.reply) for one in self.train]
-        self.judged = examples.read_set(given.sets / "calibration.jsonl")
+        self.judged = self.read("calibration.jsonl")
         if not self.train or not self.judged:
             raise Problem(f"{given.sets}: want examples to train with and to judge by, got {len(self.train)} and {len(self.judged)}")
         self.optimizer = torch.optim.AdamW([p for p in self.model.parameters() if p.requires_grad], lr=given.rate)
@@ -131,9 +159,13 @@ class Training:
         self.tokens = 0
         self.seconds = 0.0
 
+    def read(self, name):
+        return [one for folder in [self.given.sets, *self.given.also] for one in examples.read_set(folder / name)]
+
     def batch(self, chosen, name):
         rng = random.Random(f"{self.given.seed} {name}")
-        made = [examples.sequence_of(one, self.tokens_of, self.tokenizer.eos_token_id, self.given.answer_weight, rng) for one in chosen]
+        made = [examples.sequence_of(one, self.tokens_of, self.tokenizer.eos_token_id, self.given.answer_weight, rng, self.given.harm_scale)
+                for one in chosen]
         return batches.batch_of(made, len(self.system), self.tokenizer.eos_token_id), sum(len(one.tokens) for one in made)
 
     def judge(self):
@@ -143,7 +175,7 @@ class Training:
         with torch.no_grad():
             for part in examples.batches_of(lengths, self.given.batch, 0, 0)[:12]:
                 batch, _ = self.batch([self.judged[i] for i in part], f"judged {part}")
-                losses.append(loss_of(self.model, self.system, batch).item())
+                losses.append(loss_of(self.model, self.system, batch, self.digits).item())
         return sum(losses) / len(losses)
 
     def indices_at(self, step):
@@ -155,7 +187,7 @@ class Training:
         for group in self.optimizer.param_groups:
             group["lr"] = self.given.rate * rate_at(step, self.given)
         batch, tokens = self.batch([self.train[i] for i in self.indices_at(step)], f"step {step}")
-        loss = loss_of(self.model, self.system, batch)
+        loss = loss_of(self.model, self.system, batch, self.digits)
         self.optimizer.zero_grad()
         loss.backward()
         torch.nn.utils.clip_grad_norm_([p for p in self.model.parameters() if p.requires_grad], 1.0)
@@ -198,6 +230,8 @@ class Training:
         adapter.write_adapter(self.given.output / "adapter.gguf", self.state(), self.model.get_base_model().config, self.given.alpha,
                               self.given.base, "SmolLM2-135M-Instruct for saca")
         told = {"schema": "saca.fine_tuning/1", **self.settings, "sets": self.given.sets.name, "base": self.given.base.name,
+                "also": " ".join(folder.name for folder in self.given.also),
+                "begin_with": self.given.begin_with.parent.name if self.given.begin_with else "",
                 "examples": len(self.train), "tokens": self.tokens, "seconds": round(self.seconds),
                 "calibration_loss": next((row[3] for row in reversed(self.curve) if row[3] is not None), None)}
         (self.given.output / "training.json").write_text(json.dumps(told, indent=2) + "\n")

@@ -59,7 +59,9 @@ case $command in
     gunzip -c "$root/data/memory/seed.jsonl.gz" >"$work/shipped.jsonl"
     "$saca" memory --memory "$work/shipped.sqlite" import "$work/shipped.jsonl" --keep-trust
     "$saca" cases export "$work/cases.jsonl" --memory "$work/shipped.sqlite" -o "$work/sets"
-    tune "$work/sets" "$work/tuned" --steps 300
+    "$saca" cases export "$work/cases.jsonl" --memory "$work/shipped.sqlite" --cues cues -o "$work/cues"
+    tune "$work/sets" "$work/first" --steps 300
+    tune "$work/sets" "$work/tuned" --also "$work/cues" --begin-with "$work/first/kept.pt" --steps 180 --rate 5e-4 --harm-scale 0.01
     cp "$work/tuned/adapter.gguf" "$work/tuned/curve.csv" "$work/tuned/training.json" "$root/models/language/"
     python3 "$here/curve.py" "$work/tuned/curve.csv" "$root/docs/language_model/curve.svg"
     echo "the adapter: models/language/adapter.gguf; make model merges it"

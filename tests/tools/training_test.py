@@ -1,5 +1,6 @@
 """Training of the language model: what it learns from, and that it learns."""
 import json
+import math
 import pathlib
 import random
 import subprocess
@@ -94,6 +95,20 @@ def test_tokens_are_predicted_from_those_before_them():
         assert [made.position[i] for i in branch(made, 2)] == list(range(len(prompt), len(prompt) + len(branch(made, 2))))
 
 
+def test_the_answer_at_once_may_be_shared_by_harm():
+    told = dict(EXAMPLE, admissible=[0, 3], known=[0.02, 0.0, None, 0.01, 0.5, 0.5, 0.5, 1.0])
+    one = examples.read_set_line(json.dumps(told), "place")
+    assert examples.shares_of_answers(one, 0.0) == [0, 0, 0, 1, 0, 0, 0, 0]
+    better = 1 / (1 + math.exp(-1))  # 0.01 less harm at a scale of 0.01; 1, which harms nobody, is not admissible
+    assert examples.shares_of_answers(one, 0.01) == pytest.approx([1 - better, 0, 0, better, 0, 0, 0, 0])
+    nothing = examples.read_set_line(json.dumps(dict(told, admissible=[0, 7], choice=7, reply=told["reply"].replace("user: 3", "user: 7"))), "place")
+    assert examples.shares_of_answers(nothing, 0.01) == [0, 0, 0, 0, 0, 0, 0, 1]
+    unknown = examples.read_set_line(json.dumps(dict(told, admissible=[2, 3])), "place")
+    assert examples.shares_of_answers(unknown, 0.01) == [0, 0, 0, 1, 0, 0, 0, 0]
+    made = examples.sequence_of(one, letters, END, 5.0, random.Random(1), 0.01)
+    assert made.shares[3] == pytest.approx(better) and made.branch[made.at_once] == 2 and chr(made.tokens[made.at_once]) == "3"
+
+
 def test_a_tokeniser_that_splits_answers_is_refused():
     one = examples.read_set_line(json.dumps(EXAMPLE), "place")
     with pytest.raises(examples.Problem, match="a token of its own"):
@@ -118,7 +133,7 @@ def in_environment(code, *arguments):
 
 # A tiny model with random weights: what a branch's tokens see, and that nothing else changes what it says.
 TINY = """
-import json, random, sys, torch, transformers
+import dataclasses, json, random, sys, torch, transformers
 import batch as batches, examples, fine_tune
 torch.manual_seed(1)
 config = transformers.LlamaConfig(vocab_size=300, hidden_size=64, intermediate_size=96, num_hidden_layers=2, num_attention_heads=4,
@@ -130,6 +145,7 @@ letters = lambda text: [ord(letter) % 299 for letter in text]
 def example(prompt, reply, choice):
     return examples.Example("r", "f", False, prompt, f"{reply}\\nResponse to user: {choice}", choice, (choice,), (0.0,) * 8, (0.0,) * 8)
 system = letters("rules")
+digits = [letters(str(answer))[0] for answer in range(8)]
 """
 
 
@@ -165,12 +181,28 @@ made = [examples.sequence_of(example(prompt, "so", choice), letters, 299, 5.0, r
 both = batches.batch_of(made, len(system), 299)
 losses = []
 for step in range(200):
-    loss = fine_tune.loss_of(model, system, both)
+    loss = fine_tune.loss_of(model, system, both, digits)
     optimizer.zero_grad(); loss.backward(); optimizer.step()
     losses.append(loss.item())
 print(json.dumps({"first": losses[0], "last": losses[-1]}))
 """)
     assert told["last"] < 0.5 * told["first"]
+
+
+@needs_environment
+def test_a_loss_over_shares_is_the_mean_over_answers():
+    told = in_environment(TINY + """
+made = examples.sequence_of(example("a scene", "so", 3), letters, 299, 5.0, random.Random(3))
+loss = lambda shares: fine_tune.loss_of(model, system, batches.batch_of([dataclasses.replace(made, shares=shares)], len(system), 299), digits).item()
+one_hot = lambda answer: [float(k == answer) for k in range(8)]
+half = [0.5 * (a + b) for a, b in zip(one_hot(3), one_hot(6))]
+usual = batches.batch_of([made], len(system), 299)
+plain = torch.nn.functional.cross_entropy(fine_tune.logits_of(model, system, usual), usual.targets, reduction="none")
+print(json.dumps({"half": loss(half), "mean": 0.5 * (loss(one_hot(3)) + loss(one_hot(6))), "hard": loss(one_hot(3)),
+                  "plain": ((plain * usual.weights).sum() / usual.weights.sum()).item()}))
+""")
+    assert told["half"] == pytest.approx(told["mean"], rel=1e-5) and told["hard"] == pytest.approx(told["plain"], rel=1e-5)
+    assert told["half"] != pytest.approx(told["hard"], rel=1e-3)
 
 
 @needs_environment
