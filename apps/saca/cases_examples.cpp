@@ -3,12 +3,16 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <limits>
 #include <string_view>
 #include <utility>
 
 #include "apps/saca/cases_making.h"
 #include "saca/config/compressed_text.h"
 #include "saca/core/fnv.h"
+#include "saca/decide/forecaster.h"
+#include "saca/eval/suite_source.h"
 #include "saca/memory/case_json.h"
 #include "saca/memory/store.h"
 #include "saca/sim/splits.h"
@@ -23,13 +27,16 @@ void add_example_options(CLI::App& command, ExampleOptions& options) {
   command.add_option("--memory", options.memory,
                      "A bank whose most alike case prompts tell of; without, they tell of none");
   command.add_option("--car", options.car, "That the cases were made with")->capture_default_str();
+  command.add_option("--cues", options.cues,
+                     "Other encounters of the same cases, with the cues of this suite");
   command.add_option("--seed", options.seed, "Of the replies' words: same seed, same bytes")
       ->capture_default_str();
 }
 
 std::string example_text(const ExampleOptions& options) {
-  return fmt::format("--car {} --seed {}{}", options.car, options.seed,
-                     options.memory.empty() ? "" : " --memory " + options.memory);
+  return fmt::format("--car {} --seed {}{}{}", options.car, options.seed,
+                     options.memory.empty() ? "" : " --memory " + options.memory,
+                     options.cues.empty() ? "" : " --cues " + options.cues);
 }
 
 ToldCases::ToldCases(std::vector<memory::Case> cases)
@@ -62,8 +69,15 @@ Result<ExampleSource> open_examples(const ExampleOptions& options) {
     return planes.error();
   }
   all.planes = std::move(planes).value();
-  const auto splits =
-      sim::load_splits(all.planes->inputs.places.root / "scenarios" / "splits.toml");
+  const std::filesystem::path scenarios = all.planes->inputs.places.root / "scenarios";
+  if (!options.cues.empty()) {
+    auto cues = eval::cues_of_suite(scenarios / "families", options.cues);
+    if (!cues.has_value()) {
+      return Error{cues.error().code, "--cues: " + cues.error().message};
+    }
+    all.cues = std::move(cues).value();
+  }
+  const auto splits = sim::load_splits(scenarios / "splits.toml");
   if (!splits.has_value()) {
     return splits.error();
   }
@@ -95,32 +109,56 @@ Result<ExampleSource> open_examples(const ExampleOptions& options) {
     hash.add(memory::cases_text(stored.value()));
     all.told.emplace(std::move(stored).value());
   }
+  hash.add(options.cues);
+  if (all.cues) {
+    hash.add(intent::digest(all.cues->law));
+    hash.add(intent::digest(all.planes->inputs.cues));
+  }
   all.digest = hash.value();
   return all;
 }
 
 namespace {
 
+/// What every policy is expected to harm, cues standing for what this law says.
+memory::PolicyHarms expected_by(const intent::CueLaw& law, const eval::AtFirstTrigger& now,
+                                preview::ForecastTools tools) {
+  tools.cues = &law;
+  const decide::Verdict verdict = decide::Forecaster(tools).judge(now.seen, now.beliefs);
+  memory::PolicyHarms harms;
+  for (const decide::JudgedPlan& one : verdict.plans) {
+    auto& harm = harms.at(manoeuvre::index(one.plan.policy));
+    if (one.drivable && one.harm < harm.value_or(std::numeric_limits<double>::infinity())) {
+      harm = one.harm;
+    }
+  }
+  return harms;
+}
+
 /// Adds the example of one encounter, where its trigger fires.
 void add_example(DrawnExamples& all, const sim::Scenario& drawn, ReplyExample example,
                  const ExampleSource& source, const ExampleOptions& options, std::uint64_t seed) {
   const Inputs& inputs = source.planes->inputs;
   const sim::Scenario world = case_world(drawn, seed);
-  auto situation = eval::situation_at_trigger(
-      case_stage(world, inputs, seed, example.record + (example.is_twin ? "_twin" : "")),
-      source.planes->setup.forecast);
-  if (!situation.has_value()) {
-    all.problem = example.record + ": " + situation.error().message;
+  const preview::ForecastTools& tools = source.planes->setup.forecast;
+  auto played = eval::at_first_trigger(
+      case_stage(world, inputs, seed, example.record + (example.is_twin ? "_twin" : "")), tools);
+  if (!played.has_value()) {
+    all.problem = example.record + ": " + played.error().message;
     return;
   }
-  if (!situation.value()) {
+  if (!played.value()) {
     return;
   }
-  const auto told =
-      source.told ? source.told->in(situation.value()->scene_at_trigger) : std::nullopt;
-  auto made = eval::reply_example(std::move(example), *situation.value(), told, options.seed);
+  eval::AtFirstTrigger now = *std::move(played).value();
+  if (source.cues) {
+    example.known = expected_by(source.cues->law, now, tools);
+    example.by_table = expected_by(inputs.cues, now, tools);
+  }
+  const auto told = source.told ? source.told->in(now.situation.scene_at_trigger) : std::nullopt;
+  auto made = eval::reply_example(std::move(example), now.situation, told, options.seed);
   if (made) {
-    all.examples.push_back({*std::move(made), *std::move(situation).value()});
+    all.examples.push_back({*std::move(made), std::move(now.situation)});
   }
 }
 
@@ -130,7 +168,8 @@ DrawnExamples drawn_examples(const CrashCase& one, const ExampleSource& source,
                              const ExampleOptions& options) {
   DrawnExamples all;
   const Inputs& inputs = source.planes->inputs;
-  const auto again = eval::drawn_again(one, inputs.car_name, manoeuvre::footprint(inputs.car));
+  const auto again =
+      eval::drawn_again(one, inputs.car_name, manoeuvre::footprint(inputs.car), source.cues);
   if (!again.has_value()) {
     all.problem = again.error().message;
     return all;

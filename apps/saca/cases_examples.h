@@ -22,10 +22,11 @@ struct ExampleOptions {
   std::string file;
   std::string memory;  ///< a bank; empty: prompts tell of no case
   std::string car = "compact_rwd_ev";
+  std::string cues;        ///< a suite whose cues the encounters have; empty: they have none
   std::uint64_t seed = 1;  ///< of the replies' words
 };
 
-/// FILE, --memory, --car and --seed.
+/// FILE, --memory, --car, --cues and --seed.
 void add_example_options(CLI::App& command, ExampleOptions& options);
 /// All but FILE, as a command has them.
 [[nodiscard]] std::string example_text(const ExampleOptions& options);
@@ -50,7 +51,8 @@ struct ExampleSource {
   int test_only = 0;                   ///< left out: of a family that only the test split has
   std::unique_ptr<const PlanesOfCar> planes;
   std::optional<ToldCases> told;
-  std::uint64_t digest = 0;  ///< of all that examples depend on, but for the options
+  std::optional<sim::FamilyCues> cues;  ///< that the encounters have, with the law of what comes
+  std::uint64_t digest = 0;             ///< of all that examples depend on, but for the options
 };
 /// @return  an error that names the file, or says that nothing in it can be an example
 [[nodiscard]] Result<ExampleSource> open_examples(const ExampleOptions& options);

@@ -192,7 +192,8 @@ void read_lists(Reader& reader, CrashCase& one) {
 }  // namespace
 
 Result<sim::FamilySample> drawn_again(const CrashCase& one, std::string_view car,
-                                      const world::Footprint& ego) {
+                                      const world::Footprint& ego,
+                                      const std::optional<sim::FamilyCues>& cues) {
   const auto kind = one.kind ? sim::family_kind_from(*one.kind) : std::nullopt;
   if (!kind) {
     return Error{Error::Code::out_of_range,
@@ -200,6 +201,7 @@ Result<sim::FamilySample> drawn_again(const CrashCase& one, std::string_view car
                      (one.kind ? "one of the unknown kind " + *one.kind : "a recording")};
   }
   sim::Family family{.name = one.record.name, .kind = *kind};
+  family.cues = cues;
   for (const RecordRange& range : one.ranges) {
     family.ranges[range.key] = {range.min, range.max, range.source};
   }

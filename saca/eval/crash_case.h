@@ -50,10 +50,12 @@ struct CrashCase {
 };
 
 /// The encounter again, as it was drawn, and its twin without risk.
-/// @param ego  body of the car that it was drawn for, whose name is `car`
-/// @return     out_of_range where it was recorded, or cannot be drawn
-[[nodiscard]] Result<sim::FamilySample> drawn_again(const CrashCase& one, std::string_view car,
-                                                    const world::Footprint& ego);
+/// @param ego   body of the car that it was drawn for, whose name is `car`
+/// @param cues  that it is to have: then another encounter of the same ranges; nullopt: none
+/// @return      out_of_range where it was recorded, or cannot be drawn
+[[nodiscard]] Result<sim::FamilySample> drawn_again(
+    const CrashCase& one, std::string_view car, const world::Footprint& ego,
+    const std::optional<sim::FamilyCues>& cues = std::nullopt);
 
 [[nodiscard]] nlohmann::json to_json(const CrashCase& one);
 /// Strict.

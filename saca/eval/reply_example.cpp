@@ -75,17 +75,21 @@ json to_json(const ReplyExample& example) {
       admissible.push_back(k);
     }
   }
-  return {{"schema", example_schema},
-          {"record", example.record},
-          {"family", example.family},
-          {"twin", example.is_twin},
-          {"set", name(example.set)},
-          {"prompt", example.prompt},
-          {"reply", example.reply},
-          {"choice", manoeuvre::index(example.choice)},
-          {"admissible", std::move(admissible)},
-          {"forecast", harms_json(example.forecast)},
-          {"known", harms_json(example.known)}};
+  json document{{"schema", example_schema},
+                {"record", example.record},
+                {"family", example.family},
+                {"twin", example.is_twin},
+                {"set", name(example.set)},
+                {"prompt", example.prompt},
+                {"reply", example.reply},
+                {"choice", manoeuvre::index(example.choice)},
+                {"admissible", std::move(admissible)},
+                {"forecast", harms_json(example.forecast)},
+                {"known", harms_json(example.known)}};
+  if (example.by_table) {
+    document["by_table"] = harms_json(*example.by_table);
+  }
+  return document;
 }
 
 Result<ReplyExample> reply_example_from_json(const json& document) {
@@ -113,6 +117,9 @@ Result<ReplyExample> reply_example_from_json(const json& document) {
   }
   example.forecast = read_harms(reader, "forecast");
   example.known = read_harms(reader, "known");
+  if (reader.has("by_table")) {
+    example.by_table = read_harms(reader, "by_table");
+  }
   reader.refuse_others();
   if (problem) {
     return *problem;
@@ -126,19 +133,21 @@ json chat_json(const ReplyExample& example, std::string_view system) {
                                     {{"role", "assistant"}, {"content", example.reply}}})}};
 }
 
-Result<std::optional<preview::Situation>> situation_at_trigger(
-    const loop::Stage& stage, const preview::ForecastTools& tools) {
+Result<std::optional<AtFirstTrigger>> at_first_trigger(const loop::Stage& stage,
+                                                       const preview::ForecastTools& tools) {
   const auto played = played_to_trigger(stage);
   if (!played.has_value()) {
     return played.error();
   }
   if (!played.value()) {
-    return std::optional<preview::Situation>();
+    return std::optional<AtFirstTrigger>();
   }
   const loop::ClosedLoop& now = *played.value();
   std::vector<preview::Situation> all =
       preview::situations(now.seen(), now.beliefs(), stage.thresholds, tools);
-  return all.empty() ? std::optional<preview::Situation>() : std::optional(std::move(all.front()));
+  return all.empty()
+             ? std::optional<AtFirstTrigger>()
+             : std::optional(AtFirstTrigger{std::move(all.front()), now.seen(), now.beliefs()});
 }
 
 std::optional<ReplyExample> reply_example(ReplyExample example, const preview::Situation& situation,

@@ -42,7 +42,10 @@ struct ReplyExample {
   manoeuvre::PolicyId choice = manoeuvre::PolicyId::aeb;
   memory::Policies admissible;
   memory::PolicyHarms forecast;  ///< of the prompt's facts; nullopt: cannot be driven
-  memory::PolicyHarms known;     ///< a mean over draws of what happened; nullopt: not known
+  memory::PolicyHarms known;     ///< a mean over draws of what happened, in scenes with cues what
+                                 ///< is expected by the law they are drawn by; nullopt: not known
+  std::optional<memory::PolicyHarms> by_table;  ///< likewise by what SACA reckons with
+                                                ///< (data/cues.toml); nullopt: without cues
 };
 
 [[nodiscard]] nlohmann::json to_json(const ReplyExample& example);
@@ -54,11 +57,17 @@ struct ReplyExample {
 /// @param system  reason::system_part
 [[nodiscard]] nlohmann::json chat_json(const ReplyExample& example, std::string_view system);
 
-/// The likeliest situation of those that SACA would prepare for when its trigger first fires,
-/// nobody having acted.
+/// When SACA's trigger first fires.
+struct AtFirstTrigger {
+  preview::Situation situation;  ///< the likeliest of those that it would prepare for
+  world::Scene seen;             ///< as perceived
+  intent::Beliefs beliefs;       ///< one per actor
+};
+
+/// Nobody has acted before.
 /// @return  nullopt: the trigger never fires, or no hypothesis leads to a conflict; out_of_range:
 ///          the encounter cannot be played
-[[nodiscard]] Result<std::optional<preview::Situation>> situation_at_trigger(
+[[nodiscard]] Result<std::optional<AtFirstTrigger>> at_first_trigger(
     const loop::Stage& stage, const preview::ForecastTools& tools);
 
 /// The case that a prompt tells of.

@@ -79,8 +79,8 @@ PolicyId rule_within(const ExampleReply& reply) {
   return is_admissible(reply.example, PolicyId::aeb) ? PolicyId::aeb : mildest_within(reply);
 }
 
-PolicyId best_within(const ExampleReply& reply) {
-  memory::PolicyHarms harms = reply.example.known;
+/// Of the admissible the one of the least of these harms.
+PolicyId least_within(const ExampleReply& reply, memory::PolicyHarms harms) {
   for (std::size_t k = 0; k < harms.size(); ++k) {
     if (!reply.example.admissible.test(k)) {
       harms.at(k).reset();
@@ -89,13 +89,22 @@ PolicyId best_within(const ExampleReply& reply) {
   return least_of(harms);
 }
 
+PolicyId best_within(const ExampleReply& reply) {
+  return least_within(reply, reply.example.known);
+}
+
+/// Without cues as the rule has it.
+PolicyId table_within(const ExampleReply& reply) {
+  return reply.example.by_table ? least_within(reply, *reply.example.by_table) : rule_within(reply);
+}
+
 struct Chooser {
   std::string_view key;
   std::string_view title;
   PolicyId (*choose)(const ExampleReply&);
 };
 
-constexpr std::array<Chooser, 9> choosers{{
+constexpr std::array<Chooser, 10> choosers{{
     {"model_at_once", "the model, at once",
      [](const ExampleReply& one) { return likeliest(one.first); }},
     {"model", "the model, after reasoning",
@@ -105,6 +114,7 @@ constexpr std::array<Chooser, 9> choosers{{
      [](const ExampleReply& one) { return least_of(one.example.forecast); }},
     {"rule_within", "AEB where admissible, else the mildest", rule_within},
     {"mildest_within", "the mildest of the admissible", mildest_within},
+    {"table_within", "with cues the least by their table, else AEB, the mildest", table_within},
     {"expert", "the expert it was taught by",
      [](const ExampleReply& one) { return one.example.choice; }},
     {"aeb", "always AEB", [](const ExampleReply&) { return PolicyId::aeb; }},

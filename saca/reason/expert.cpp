@@ -111,7 +111,9 @@ class Speaker {
   std::string reply() {
     std::vector<std::string> statements = opening();
     const std::vector<std::string> more = reasons();
-    if (!more.empty() && perhaps()) {
+    if (const world::Cue* const cue = next_cue()) {
+      statements.push_back(warning(*cue));
+    } else if (!more.empty() && perhaps()) {
       statements.push_back(
           more.at(std::uniform_int_distribution<std::size_t>(0, more.size() - 1)(random_)));
     }
@@ -257,6 +259,36 @@ class Speaker {
     }
   }
 
+  /// The nearest cue that is ahead; nullptr: none is.
+  [[nodiscard]] const world::Cue* next_cue() const {
+    const world::Cue* next = nullptr;
+    for (const world::Cue& cue : situation_.scene_at_trigger.cues) {
+      if (place_of(cue).x > 0.0 && (next == nullptr || place_of(cue).x < place_of(*next).x)) {
+        next = &cue;
+      }
+    }
+    return next;
+  }
+  /// Seen from the ego [m].
+  [[nodiscard]] Vec2 place_of(const world::Cue& cue) const {
+    return inverse(situation_.scene_at_trigger.ego.X_WB) * cue.p_W;
+  }
+  /// +1: to the left of our lane, -1: to the right; 0: on it, or it is the road itself.
+  [[nodiscard]] int side_of(const world::Cue& cue) const {
+    constexpr double half_lane = 1.0;  // [m], and a person's half
+    const double y = place_of(cue).y;
+    return cue.kind == world::CueKind::wet_leaves || std::abs(y) < half_lane ? 0 : y > 0.0 ? 1 : -1;
+  }
+
+  /// "The row of parked vans 12.0 m ahead, 3.5 m right may hide somebody".
+  std::string warning(const world::Cue& cue) {
+    return fmt::format("The {} {} {}", cue_text(cue.kind),
+                       cue_place(cue, situation_.scene_at_trigger),
+                       cue.kind == world::CueKind::wet_leaves
+                           ? one_of("may leave less grip", "may be slippery")
+                           : one_of("may hide somebody", "may mean somebody who is not seen"));
+  }
+
   [[nodiscard]] bool can_go(int side) const {
     return std::any_of(facts_.begin(), facts_.end(), [side](const PolicyFacts& facts) {
       return manoeuvre::side(facts.plan.policy) == side && facts.drivable();
@@ -300,6 +332,11 @@ class Speaker {
     if (choice_ == PolicyId::aeb && other == PolicyId::no_intervention) {
       return ", and less speed harms less if a forecast errs";
     }
+    const world::Cue* const cue = next_cue();
+    if (cue != nullptr && side_of(*cue) != 0 && manoeuvre::side(other) == side_of(*cue) &&
+        manoeuvre::side(choice_) != side_of(*cue)) {
+      return fmt::format(", and this keeps away from the {}", cue_text(cue->kind));
+    }
     if (mine.contact_probability() + unlikely < theirs.contact_probability()) {
       return ", and this touches somebody less often";
     }
@@ -330,6 +367,9 @@ class Speaker {
 PolicyId expert_choice(const AllFacts& facts, const memory::PolicyHarms& known) {
   const memory::Policies may = admissible(facts);
   expects(may.any(), "something can be driven");
+  if (may.test(manoeuvre::index(PolicyId::no_intervention))) {
+    return PolicyId::no_intervention;
+  }
   bool is_known = true;
   for (std::size_t k = 0; k < may.size(); ++k) {
     is_known = is_known && (!may.test(k) || known.at(k).has_value());

@@ -160,6 +160,47 @@ TEST(Expert, DoesNothingWhereNothingThreatens) {
   EXPECT_THAT(text, testing::EndsWith("Response to user: 7"));
 }
 
+// One draw in which it ends badly does not tell another prompt from this one; what is begun is
+// looked at again.
+TEST(Expert, DoesNothingWhereThatCannotBeToldFromTheBest) {
+  preview::Situation situation = left_is_open();
+  auto& end = of(situation, PolicyId::no_intervention).end.emplace<preview::ExpectedOutcome>();
+  end.outcome.clearance = 0.2;
+  memory::PolicyHarms known;
+  known[1] = known[3] = known[4] = 0.0;
+  known[7] = 0.5;
+  EXPECT_EQ(expert_choice(situation.facts, known), PolicyId::no_intervention);
+}
+
+// Vans on the right: what may step out speaks against going there.
+TEST(Expert, WarnsOfWhatIsNotSeen) {
+  preview::Situation situation = left_is_open();
+  of(situation, PolicyId::aes_left).outcome().harm = 0.05;
+  of(situation, PolicyId::es_b_right).end.emplace<preview::ExpectedOutcome>().outcome.clearance =
+      2.0;
+  situation.scene_at_trigger.cues.push_back({world::CueKind::parked_vans, {12.0, -3.5}});
+  std::set<std::string> texts;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const std::string text = replied(situation, PolicyId::es_b_left, seed);
+    EXPECT_THAT(text, HasSubstr("The row of parked vans 12.0 m ahead, 3.5 m right may "));
+    const std::string prompt = scene_part(situation, std::nullopt, 0.0);
+    EXPECT_TRUE(truth_of(text, prompt, situation, PolicyId::es_b_left).wrong.empty()) << text;
+    texts.insert(text);
+  }
+  EXPECT_TRUE(std::any_of(texts.begin(), texts.end(), [](const std::string& text) {
+    return text.find(
+               "ES-B-R harms about as little, and this keeps away from the row of parked vans") !=
+           std::string::npos;
+  }));
+  // Of two alike the nearer one.
+  situation.scene_at_trigger.cues.push_back({world::CueKind::parked_vans, {7.0, -3.5}});
+  EXPECT_THAT(replied(situation, PolicyId::es_b_left, 1), HasSubstr("vans 7.0 m ahead"));
+  for (world::Cue& cue : situation.scene_at_trigger.cues) {
+    cue.p_W.x = -5.0;  // passed
+  }
+  EXPECT_THAT(replied(situation, PolicyId::es_b_left, 1), Not(HasSubstr("vans")));
+}
+
 TEST(Expert, RefusesAChoiceThatIsKnowinglyWorse) {
   const preview::Situation situation = left_is_open();
   EXPECT_THROW(replied(situation, PolicyId::aeb, 1), ContractViolation);

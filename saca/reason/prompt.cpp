@@ -199,8 +199,7 @@ std::string road_section(const Scene& scene) {
                   edge_text(road.left_edge - d, road.left_beyond, road.oncoming_left),
                   edge_text(d - road.right_edge, road.right_beyond, road.oncoming_right));
   for (const world::Cue& cue : scene.cues) {
-    text += fmt::format("{}, {}\n", name_of(cue.kind, cue_words),
-                        placed(inverse(scene.ego.X_WB) * cue.p_W));
+    text += fmt::format("{}, {}\n", cue_text(cue.kind), cue_place(cue, scene));
   }
   return text;
 }
@@ -381,7 +380,7 @@ std::string system_part(const outcome::HarmModel& harm) {
       "told apart, then the next. Choose the surest of those that cannot be told apart: whom it "
       "may "
       "hit and how likely, what lies beyond the edge, how the most alike case ended. Else the "
-      "mildest; from the mildest: {}. Do nothing where nothing threatens.\n"
+      "mildest; from the mildest: {}. Do nothing where that is among them: it is looked at again.\n"
       "Places are seen from the ego. Risk is from 0 to 1. TTC is the time to the conflict. An "
       "oncoming lane belongs to oncoming traffic; policies to that side enter it.\n"
       "Reply with \"Scenario Analysis\", then a few short numbered statements that quote the "
@@ -430,6 +429,14 @@ std::string without_facts(const std::string& scene_part) {
   const std::size_t end = scene_part.find(historical);
   expects(begin < end && end != std::string::npos, "a scene part");
   return scene_part.substr(0, begin) + scene_part.substr(end);
+}
+
+std::string_view cue_text(world::CueKind kind) {
+  return name_of(kind, cue_words);
+}
+
+std::string cue_place(const world::Cue& cue, const Scene& scene) {
+  return placed(inverse(scene.ego.X_WB) * cue.p_W);
 }
 
 std::string policy_line(const preview::PolicyFacts& facts, const world::Scene& scene) {

@@ -54,6 +54,11 @@ constexpr int most_prompt_tokens = 485;
 /// "harm 0.0125", or "no harm" where that would be four zeros.
 [[nodiscard]] std::string harm_text(double harm);
 
+/// What a cue is called in a prompt: "row of parked vans".
+[[nodiscard]] std::string_view cue_text(world::CueKind kind);
+/// And where it is said to be: "12.0 m ahead, 3.5 m right".
+[[nodiscard]] std::string cue_place(const world::Cue& cue, const world::Scene& scene);
+
 /// What stands beyond an edge: "open ground", "kerb", "barrier" or "trees".
 [[nodiscard]] std::string_view beyond_text(world::Beyond beyond);
 
