@@ -57,36 +57,28 @@ Result<std::vector<DrawnCues>> drawn(const CuesCommand& options, const std::stri
   return all;
 }
 
-/// What SACA is to reckon with: who comes and how as in `law`, how often as counted.
-std::string counted_law(const intent::CueLaw& law, const eval::CueCounts& counts) {
-  eval::CueCount all;  // of those who would come
-  for (std::size_t k = 0; k < num_cue_kinds; ++k) {
-    if (law.unseen.at(k) && law.unseen.at(k)->who) {
-      all.there += counts.at(k).there;
-      all.came += counts.at(k).came;
-    }
-  }
-  intent::CueLaw told = law;
+/// The file that tells SACA what to reckon with, with where each number comes from.
+std::string counted_law_text(const intent::CueLaw& law, const eval::CueCounts& counts) {
+  const eval::CueCount all = eval::all_who_may_come(counts, law);
+  intent::CueLaw counted = eval::counted_law(law, counts);
   std::array<std::string, num_cue_kinds> sources;
   for (std::size_t k = 0; k < num_cue_kinds; ++k) {
     const eval::CueCount& one = counts.at(k);
-    if (!told.unseen.at(k)) {
-      continue;
+    if (auto& unseen = counted.unseen.at(k)) {
+      constexpr double fine = 1e4;  // more digits than a count of thousands has
+      unseen->probability = std::ceil(fine * unseen->probability) / fine;
+      sources.at(k) = one.there > 0
+                          ? fmt::format("counted: {} of {} encounters of suite {}, tuning split",
+                                        one.came, one.there, counted_suite)
+                          : fmt::format("assumption: as all who were counted together, {} of {}",
+                                        all.came, all.there);
     }
-    constexpr double fine = 1e4;  // more digits than a count of thousands has
-    const double probability = (one.there > 0 ? one : all).probability();
-    told.unseen.at(k)->probability = std::ceil(fine * probability) / fine;
-    sources.at(k) = one.there > 0
-                        ? fmt::format("counted: {} of {} encounters of suite {}, tuning split",
-                                      one.came, one.there, counted_suite)
-                        : fmt::format("assumption: as all who were counted together, {} of {}",
-                                      all.came, all.there);
   }
   return "# What cues of a scene stand for, as SACA reckons with it. Written by `saca cues -o`: "
          "who "
          "comes and how\n"
          "# is an assumption (scenarios/families/cues.toml), how often was counted.\n" +
-         intent::cue_law_text(told, sources);
+         intent::cue_law_text(counted, sources);
 }
 
 void print(const eval::CueCounts& counts) {
@@ -156,7 +148,7 @@ int run(const CuesCommand& options) {
     }
   }
   if (!options.output.empty()) {
-    if (auto problem = write_output(options.output, counted_law(law.value(), counts))) {
+    if (auto problem = write_output(options.output, counted_law_text(law.value(), counts))) {
       return refused(*problem);
     }
   }

@@ -12,23 +12,12 @@
 namespace saca::eval {
 namespace {
 
-using world::CueKind;
 using world::num_cue_kinds;
 
 using Forecast = std::function<double(const DrawnCues&)>;
 
 bool anything_comes(const DrawnCues& cues) {
   return std::any_of(cues.begin(), cues.end(), [](const sim::DrawnCue& one) { return one.comes; });
-}
-
-/// Of cues that know nothing of each other.
-template <class Probability>
-double any_of_them(const DrawnCues& cues, const Probability& of) {
-  double none = 1.0;
-  for (const sim::DrawnCue& one : cues) {
-    none *= 1.0 - of(one.kind);
-  }
-  return 1.0 - none;
 }
 
 Forecast by_base_rate(std::span<const DrawnCues> learnt_from) {
@@ -38,20 +27,6 @@ Forecast by_base_rate(std::span<const DrawnCues> learnt_from) {
     any.came += anything_comes(cues) ? 1 : 0;
   }
   return [p = any.probability()](const DrawnCues&) { return p; };
-}
-
-Forecast by_table(const CueCounts& counts) {
-  CueCount all;
-  for (const CueCount& one : counts) {
-    all.there += one.there;
-    all.came += one.came;
-  }
-  return [counts, all](const DrawnCues& cues) {
-    return any_of_them(cues, [&](CueKind kind) {
-      const CueCount& one = counts.at(static_cast<std::size_t>(kind));
-      return (one.there > 0 ? one : all).probability();
-    });
-  };
 }
 
 constexpr int num_weights = 1 + static_cast<int>(num_cue_kinds);
@@ -93,11 +68,13 @@ Forecast by_logistic_regression(std::span<const DrawnCues> learnt_from) {
 }
 
 Forecast by_law(const intent::CueLaw& law) {
-  return [&law](const DrawnCues& cues) {
-    return any_of_them(cues, [&](CueKind kind) {
-      const auto& unseen = law.of(kind);
-      return unseen ? unseen->probability : 0.0;
-    });
+  return [law](const DrawnCues& cues) {
+    double none = 1.0;  // cues know nothing of each other
+    for (const sim::DrawnCue& one : cues) {
+      const auto& unseen = law.of(one.kind);
+      none *= 1.0 - (unseen ? unseen->probability : 0.0);
+    }
+    return 1.0 - none;
   };
 }
 
@@ -131,12 +108,34 @@ CueCounts count_cues(std::span<const DrawnCues> encounters) {
   return counts;
 }
 
+CueCount all_who_may_come(const CueCounts& counts, const intent::CueLaw& law) {
+  CueCount all;
+  for (std::size_t k = 0; k < num_cue_kinds; ++k) {
+    if (law.unseen.at(k) && law.unseen.at(k)->who) {
+      all.there += counts.at(k).there;
+      all.came += counts.at(k).came;
+    }
+  }
+  return all;
+}
+
+intent::CueLaw counted_law(intent::CueLaw law, const CueCounts& counts) {
+  const CueCount all = all_who_may_come(counts, law);
+  for (std::size_t k = 0; k < num_cue_kinds; ++k) {
+    if (auto& unseen = law.unseen.at(k)) {
+      unseen->probability = (counts.at(k).there > 0 ? counts.at(k) : all).probability();
+    }
+  }
+  return law;
+}
+
 std::vector<CueForecast> cue_forecasts(std::span<const DrawnCues> learnt_from,
                                        std::span<const DrawnCues> judged, const intent::CueLaw& law,
                                        std::uint64_t seed) {
   expects(!judged.empty(), "encounters to be held against");
   return {scored("base_rate", "share of all encounters", by_base_rate(learnt_from), judged, seed),
-          scored("table", "table by kind", by_table(count_cues(learnt_from)), judged, seed),
+          scored("table", "table by kind", by_law(counted_law(law, count_cues(learnt_from))),
+                 judged, seed),
           scored("logistic", "logistic regression on the kinds",
                  by_logistic_regression(learnt_from), judged, seed),
           scored("law", "the law they are drawn by", by_law(law), judged, seed)};

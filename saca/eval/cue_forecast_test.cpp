@@ -74,15 +74,27 @@ TEST(CueForecast, OfTwoCuesOneIsEnough) {
   EXPECT_NEAR(all[3].log_loss.value, -std::log(1.0 - 0.9 * 0.5), 1e-12);
 }
 
-// Of a kind that was never counted the table says what all kinds together say.
-TEST(CueForecast, AnotherKindIsTakenForAnyKind) {
+// Of a kind that was never counted the table says what all who may come together say: leaves, which
+// bring nobody, are not among them.
+TEST(CueForecast, AnotherKindIsTakenForAllWhoMayCome) {
   std::vector<DrawnCues> learnt;
   add(learnt, CueKind::parked_vans, 100, 1000);
   add(learnt, CueKind::work_zone, 500, 1000);
+  add(learnt, CueKind::wet_leaves, 900, 1000);
+  intent::CueLaw law = law_of(0.1, 0.5);
+  law.unseen[static_cast<std::size_t>(CueKind::low_sun)] =
+      intent::Unseen{.who = world::ActorKind::pedestrian, .probability = 0.7};
+  law.unseen[static_cast<std::size_t>(CueKind::wet_leaves)] =
+      intent::Unseen{.probability = 0.9, .grip_share = 0.5};
   const auto all =
-      cue_forecasts(learnt, std::vector<DrawnCues>{one(CueKind::low_sun, true)}, {}, 1);
+      cue_forecasts(learnt, std::vector<DrawnCues>{one(CueKind::low_sun, true)}, law, 1);
   EXPECT_NEAR(all[1].log_loss.value, -std::log(600.5 / 2001.0), 1e-12);
   EXPECT_TRUE(std::isfinite(all[2].log_loss.value));
+  const intent::CueLaw counted = counted_law(law, count_cues(learnt));
+  EXPECT_DOUBLE_EQ(counted.of(CueKind::low_sun)->probability, 600.5 / 2001.0);
+  EXPECT_DOUBLE_EQ(counted.of(CueKind::wet_leaves)->probability, 900.5 / 1001.0);
+  EXPECT_EQ(counted.of(CueKind::low_sun)->who, world::ActorKind::pedestrian);
+  EXPECT_FALSE(counted.of(CueKind::school_zone).has_value());
 }
 
 // Nothing ever comes: no weight runs away.
