@@ -28,6 +28,7 @@ void add_cues(CLI::App& line, int& exit_code);
 void add_balance(CLI::App& line, int& exit_code);
 void add_forecast(CLI::App& line, int& exit_code);
 void add_ladder(CLI::App& line, int& exit_code);
+void add_learn(CLI::App& line, int& exit_code);
 void add_tables(CLI::App& line, int& exit_code);
 void add_suite(CLI::App& line, int& exit_code);
 void add_search_showcase(CLI::App& line, int& exit_code);

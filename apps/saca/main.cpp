@@ -66,6 +66,7 @@ int main(int argc, char** argv) {
     add_balance(line, exit_code);
     add_forecast(line, exit_code);
     add_ladder(line, exit_code);
+    add_learn(line, exit_code);
     add_tables(line, exit_code);
     add_suite(line, exit_code);
     add_search_showcase(line, exit_code);

@@ -31,6 +31,10 @@ struct ResumableWork {
   std::function<Row(std::size_t number)> row;
   std::function<std::string(const Row& row)> line_of;
   std::function<Result<Row>(const std::string& line)> row_from;
+  bool spoilt_by_interrupt = false;  ///< rows that are worked on then are not to be kept
+  std::function<std::optional<Error>()> failure = [] {
+    return std::nullopt;
+  };  ///< why the newest rows are worth nothing, and all is to stop
 };
 
 /// All rows, from where the journal ends on, with progress on the error stream.
@@ -64,10 +68,16 @@ template <class Row>
     if (interrupted()) {
       return std::optional<std::vector<Row>>();
     }
-    constexpr std::size_t at_once = 32;
+    const std::size_t at_once = work.threads == 1 ? 1 : 32;
     const std::size_t first = rows.size();
     std::vector<Row> next(std::min(at_once, work.count - first));
     in_parallel(next.size(), work.threads, [&](std::size_t i) { next[i] = work.row(first + i); });
+    if (work.spoilt_by_interrupt && interrupted()) {
+      return std::optional<std::vector<Row>>();
+    }
+    if (auto failed = work.failure()) {
+      return *std::move(failed);
+    }
     for (Row& row : next) {
       if (!journal.value().add(work.line_of(row))) {
         return Error{Error::Code::unwritable, work.journal + ": cannot be added to"};

@@ -9,8 +9,8 @@
 
 namespace saca::app {
 
-std::optional<Error> add_shipped_cases(memory::Store& memory, const Places& places,
-                                       std::span<const memory::MadeWith> now) {
+Result<std::vector<memory::Case>> shipped_cases(const Places& places,
+                                                std::span<const memory::MadeWith> now) {
   auto read = read_cases((places.root / "data/memory/seed.jsonl.gz").string());
   if (!read.has_value()) {
     return read.error();
@@ -21,7 +21,16 @@ std::optional<Error> add_shipped_cases(memory::Store& memory, const Places& plac
       one.trust = std::max(one.trust, memory::Trust::unchecked);
     }
   }
-  const auto ids = memory.add_all(cases);
+  return cases;
+}
+
+std::optional<Error> add_shipped_cases(memory::Store& memory, const Places& places,
+                                       std::span<const memory::MadeWith> now) {
+  const auto cases = shipped_cases(places, now);
+  if (!cases.has_value()) {
+    return cases.error();
+  }
+  const auto ids = memory.add_all(cases.value());
   return ids.has_value() ? std::nullopt : std::optional(ids.error());
 }
 

@@ -106,18 +106,22 @@ memory::Case learnt_case(const Setup& setup, const Record& record, const Trigger
   return one;
 }
 
-std::optional<memory::CaseId> refuted_case(const Record& record) {
-  expects(record.decision && record.hindsight, "something was decided");
-  const decide::Decision& decision = *record.decision;
+std::optional<memory::CaseId> followed_case(const decide::Decision& decision,
+                                            std::span<const decide::Preview> previews) {
   if (decision.source != decide::Source::memory || !decision.preview) {
     return std::nullopt;
   }
-  const decide::Preview* const preview = decide::find_preview(record.previews, *decision.preview);
+  const decide::Preview* const preview = decide::find_preview(previews, *decision.preview);
+  return preview != nullptr && preview->nearest ? std::optional(preview->nearest->found.id)
+                                                : std::nullopt;
+}
+
+std::optional<memory::CaseId> refuted_case(const Record& record) {
+  expects(record.decision && record.hindsight, "something was decided");
   const outcome::Outcome& braking =
       (*record.hindsight)[manoeuvre::index(manoeuvre::PolicyId::aeb)].facts.outcome();
-  return preview != nullptr && preview->nearest &&
-                 record.result.harm > braking.harm + decide::material_harm
-             ? std::optional(preview->nearest->found.id)
+  return record.result.harm > braking.harm + decide::material_harm
+             ? followed_case(*record.decision, record.previews)
              : std::nullopt;
 }
 

@@ -45,6 +45,11 @@ struct Trigger {
 [[nodiscard]] memory::Case learnt_case(const Setup& setup, const Record& record,
                                        const Trigger& trigger);
 
+/// The case by which memory spoke for what was decided; nullopt: memory did not decide.
+/// @param previews  all that was thought until then
+[[nodiscard]] std::optional<memory::CaseId> followed_case(
+    const decide::Decision& decision, std::span<const decide::Preview> previews);
+
 /// The case whose policy was carried out by memory's word and did materially more harm than full
 /// braking would have; nullopt: there is none.
 /// @param record  with a decision and its hindsight

@@ -1,5 +1,7 @@
 #include "saca/loop/saca_method.h"
 
+#include "saca/loop/learnt_case.h"
+
 namespace saca::loop {
 
 std::optional<Action> SacaMethod::step(const View& view) {
@@ -20,6 +22,7 @@ std::optional<Action> SacaMethod::step(const View& view) {
   const decide::Decision& decision = *avoider_.decision();
   if (!first_) {
     first_ = decision;
+    followed_ = followed_case(decision, avoider_.planes().previews());
   }
   action.source = name(decision.source);
   action.reason = reason_of(decision, avoider_.planes().previews());

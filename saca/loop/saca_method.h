@@ -4,6 +4,7 @@
 
 #include "saca/intent/model.h"
 #include "saca/loop/method.h"
+#include "saca/memory/case.h"
 #include "saca/runtime/avoider.h"
 
 namespace saca::loop {
@@ -20,10 +21,13 @@ class SacaMethod final : public Method {
   [[nodiscard]] Avoider* avoider() override { return &avoider_; }
   /// In the encounter of the first decision; without one, in that under way.
   [[nodiscard]] std::optional<ThinkingFigures> thinking() const override;
+  /// The case by which memory spoke for the first decision; nullopt: memory did not decide.
+  [[nodiscard]] std::optional<memory::CaseId> followed() const { return followed_; }
 
  private:
   Avoider avoider_;
   std::optional<decide::Decision> first_;    ///< decision
+  std::optional<memory::CaseId> followed_;   ///< by it
   std::optional<ThinkingFigures> thinking_;  ///< of its encounter, which is over
 };
 

@@ -335,6 +335,10 @@ Result<std::uint64_t> Store::digest() const {
   return hash.value();
 }
 
+std::optional<Error> Store::catch_up() {
+  return state_->catch_up();
+}
+
 const std::string& Store::name() const noexcept {
   return state_->table->name();
 }

@@ -115,6 +115,10 @@ class Store {
   /// @throws ContractViolation  if the scene breaks a rule of `world::broken_rule`
   [[nodiscard]] Result<std::optional<Match>> recall(const world::Scene& scene);
 
+  /// Looks at what was added since, by itself too; `recall` and `learn` begin with it.
+  /// @return  what `open` would say of a new row that cannot be used
+  [[nodiscard]] std::optional<Error> catch_up();
+
   /// What was met, as of when the file was last looked at; changes with the next call.
   [[nodiscard]] const Experience& experience() const noexcept;
 
