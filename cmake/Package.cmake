@@ -13,5 +13,6 @@ install(FILES ${PROJECT_BINARY_DIR}/sacaConfig.cmake ${PROJECT_BINARY_DIR}/sacaC
 install(DIRECTORY data scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/saca)
 install(FILES models/intent/model.safetensors DESTINATION ${CMAKE_INSTALL_DATADIR}/saca/models/intent)
 install(FILES models/danger/compact_rwd_ev.safetensors DESTINATION ${CMAKE_INSTALL_DATADIR}/saca/models/danger)
+install(FILES models/imitator/compact_rwd_ev.safetensors DESTINATION ${CMAKE_INSTALL_DATADIR}/saca/models/imitator)
 install(FILES models/places/model.safetensors DESTINATION ${CMAKE_INSTALL_DATADIR}/saca/models/places)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/saca)

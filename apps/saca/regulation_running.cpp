@@ -64,7 +64,8 @@ std::vector<RegulationResult> results_of(const RegulationRun& run, std::size_t i
       .scenario = eval::scenario_of(run.regulation, cell, manoeuvre::footprint(car.inputs.car)),
       .twin = {}};
   const eval::SuiteRow row = eval::run_encounter(
-      encounter, {.methods = run.methods, .seed = 1, .exact = true}, car.setup, car.inputs.intent);
+      encounter, {.methods = run.methods, .seed = 1, .imitator = run.imitator.get(), .exact = true},
+      car.setup, car.inputs.intent);
   std::vector<RegulationResult> results(run.methods.size());
   for (std::size_t m = 0; m < results.size(); ++m) {
     RegulationResult& result = results[m];
@@ -120,6 +121,11 @@ Result<RegulationRun> prepare(const RegulationOptions& options,
                     .methods = methods,
                     .results = {},
                     .meta = {}};
+  auto imitator = imitator_of(methods, places.value());
+  if (!imitator.has_value()) {
+    return imitator.error();
+  }
+  run.imitator = std::move(imitator).value();
   if (auto problem = choose_rows(run.regulation, options.rows)) {
     return *problem;
   }

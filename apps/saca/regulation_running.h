@@ -37,7 +37,8 @@ struct RegulationRun {
   std::vector<std::string> methods;
   std::vector<RegulationResult> results;  ///< by car, cell and method, the last running fastest
   nlohmann::json meta;                    ///< "meta.command" and so on
-  std::vector<RegulationRun> elsewhere;   ///< "aeb" on each further surface, if it is a method
+  std::shared_ptr<const eval::Imitator> imitator;  ///< nullptr: no method needs it
+  std::vector<RegulationRun> elsewhere;  ///< "aeb" on each further surface, if it is a method
 
   [[nodiscard]] const RegulationResult& at(std::size_t car, std::size_t cell,
                                            std::size_t method) const {

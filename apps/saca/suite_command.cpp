@@ -35,7 +35,8 @@ struct SuiteCommand {
 constexpr const char* traffic_suite = "traffic";
 
 constexpr const char* usual_methods =
-    "saca,saca_at_t1,saca_paper,aeb,r157,cc_driver,fsm,rss,rss_steering,random,nothing,first_"
+    "saca,saca_at_t1,saca_paper,aeb,r157,cc_driver,fsm,rss,rss_steering,imitation,random,nothing,"
+    "first_"
     "forecast,"
     "newest_forecast,going_on_atlas,beliefs_atlas,beliefs_rolled_out,oracle";
 

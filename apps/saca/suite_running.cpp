@@ -49,7 +49,8 @@ struct Bench {
   SuiteEncounters source;
   std::unique_ptr<const PlanesOfCar> planes;
   std::unique_ptr<SuiteThinking> thinking;
-  std::shared_ptr<const danger::Network> danger;  ///< nullptr: no method needs it
+  std::shared_ptr<const danger::Network> danger;   ///< nullptr: no method needs it
+  std::shared_ptr<const eval::Imitator> imitator;  ///< likewise
   eval::SuiteOptions how;
 };
 
@@ -94,12 +95,17 @@ Result<std::shared_ptr<Bench>> open_bench(const SuiteCommandOptions& options,
   if (!danger.has_value()) {
     return danger.error();
   }
+  auto imitator = imitator_of(methods, planes.value()->inputs.places);
+  if (!imitator.has_value()) {
+    return imitator.error();
+  }
   eval::SuiteOptions how = how_of(options, methods);
+  how.imitator = imitator.value().get();
   how.danger = danger.value().get();
   how.experience = thinking.value()->experience();
   return std::make_shared<Bench>(Bench{std::move(opened), std::move(planes).value(),
                                        std::move(thinking).value(), std::move(danger).value(),
-                                       std::move(how)});
+                                       std::move(imitator).value(), std::move(how)});
 }
 
 /// A row, whatever happens: what cannot be drawn is a fault of that encounter.
@@ -128,7 +134,10 @@ std::string work_of(const Bench& bench, const SuiteCommandOptions& options) {
       part("memory", bench.thinking->memory_text()), part("model", bench.thinking->model_text()),
       part("danger", bench.danger == nullptr
                          ? std::nullopt
-                         : std::optional(fmt::format("{:016x}", bench.danger->digest()))),
+                         : std::optional(fmt::format("{:016x}", bench.danger->digest()))) +
+          part("imitator", bench.imitator == nullptr
+                               ? std::nullopt
+                               : std::optional(fmt::format("{:016x}", bench.imitator->digest()))),
       joined(bench.how.methods));
 }
 
@@ -142,6 +151,7 @@ const char* missing_for(const eval::MethodInfo& info, const ThinkingOptions& thi
       return thinking.model == "off" ? "--llm MODEL" : nullptr;
     case eval::Needs::danger:
       return danger.empty() ? "--danger WEIGHTS" : nullptr;
+    case eval::Needs::imitator:  // it is shipped
     case eval::Needs::nothing:
       return nullptr;
   }
@@ -155,6 +165,21 @@ std::optional<std::size_t> index_of(const std::vector<std::string>& methods,
   const auto found = std::find(methods.begin(), methods.end(), method);
   return found == methods.end() ? std::nullopt
                                 : std::optional(static_cast<std::size_t>(found - methods.begin()));
+}
+
+Result<std::shared_ptr<const eval::Imitator>> imitator_of(const std::vector<std::string>& methods,
+                                                          const Places& places) {
+  if (std::none_of(methods.begin(), methods.end(), [](const std::string& name) {
+        return eval::find_method(name)->needs == eval::Needs::imitator;
+      })) {
+    return std::shared_ptr<const eval::Imitator>();
+  }
+  auto read =
+      eval::Imitator::read(places.root / "models" / "imitator" / "compact_rwd_ev.safetensors");
+  if (!read.has_value()) {
+    return read.error();
+  }
+  return std::make_shared<const eval::Imitator>(std::move(read).value());
 }
 
 Result<std::vector<std::string>> methods_from(const std::string& list,

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include "apps/saca/inputs.h"
 #include "apps/saca/thinking_options.h"
 #include "saca/core/parallel.h"
+#include "saca/eval/imitator.h"
 #include "saca/eval/suite.h"
 #include "saca/manoeuvre/atlas.h"
 #include "saca/preview/threat.h"
@@ -64,6 +66,11 @@ struct SuiteRun {
 [[nodiscard]] Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
                                                         const std::string& command,
                                                         const std::vector<std::string>& methods);
+
+/// The shipped network of who imitates choices; nullptr: none of these methods needs it.
+/// @param methods  names of eval::methods()
+[[nodiscard]] Result<std::shared_ptr<const eval::Imitator>> imitator_of(
+    const std::vector<std::string>& methods, const Places& places);
 
 /// nullopt: it is not among them.
 [[nodiscard]] std::optional<std::size_t> index_of(const std::vector<std::string>& methods,

@@ -58,9 +58,10 @@ constexpr std::array<PublishedRow, 4> one_way_rows{
      {"Language model without fine-tuning", 1.06, 0.20},
      {"Language model without scenario awareness", 0.65, 0.0},
      {"SACA with a fine-tuned model", 0.07, 0.0}}};
-constexpr std::array<OwnRow, 6> own_rows{
+constexpr std::array<OwnRow, 7> own_rows{
     {{"SACA without model and memory", "saca"},
      {"SACA without model and memory, Algorithm 1", "saca_paper"},
+     {"Imitation learning", "imitation"},
      {"AEB at T1", "aeb"},
      {"RSS, braking", "rss"},
      {"Best of eight in expectation, rolled out", "beliefs_rolled_out"},
@@ -153,10 +154,12 @@ std::vector<std::string> own_methods() {
 
 /// `draws` draws of each condition.
 std::vector<SuiteRow> run_table(const TableSpec& table, const Conditions& conditions, int draws,
-                                const TablesCommand& options, const PlanesOfCar& planes) {
+                                const TablesCommand& options, const PlanesOfCar& planes,
+                                const eval::Imitator* imitator) {
   const std::size_t num = conditions.risk.size();
   std::vector<SuiteRow> played(num * static_cast<std::size_t>(draws));
-  const eval::SuiteOptions how{.methods = own_methods(), .seed = options.seed};
+  const eval::SuiteOptions how{
+      .methods = own_methods(), .seed = options.seed, .imitator = imitator};
   SteadyClock clock;
   ProgressLine progress(table.title, static_cast<int>(played.size()), clock);
   constexpr std::size_t at_once = 32;
@@ -235,6 +238,10 @@ int run(const TablesCommand& options) {
   if (!planes.has_value()) {
     return refused(planes.error());
   }
+  const auto imitator = imitator_of(own_methods(), planes.value()->inputs.places);
+  if (!imitator.has_value()) {
+    return refused(imitator.error());
+  }
   json out{
       {"meta.command",
        fmt::format(
@@ -256,7 +263,8 @@ int run(const TablesCommand& options) {
     }
     const auto num = static_cast<int>(conditions.value().risk.size());
     const int draws = std::max(few_draws, (options.count + num - 1) / num);
-    const auto played = run_table(table, conditions.value(), draws, options, *planes.value());
+    const auto played = run_table(table, conditions.value(), draws, options, *planes.value(),
+                                  imitator.value().get());
     if (interrupted()) {
       complain("interrupted; tables are made anew each time");
       return was_interrupted;

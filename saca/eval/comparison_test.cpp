@@ -68,6 +68,7 @@ class ComparisonTest : public testing::Test {
                               .intent = &intent::shipped_model(),
                               .danger = &danger_,
                               .experience = &experience_,
+                              .imitator = &imitator_,
                               .seed = 1});
   }
 
@@ -77,6 +78,7 @@ class ComparisonTest : public testing::Test {
   memory::Experience experience_;
   danger::Network danger_ =
       danger::Network::from(danger::networks_that_hand_on(), "weights").value();
+  Imitator imitator_ = Imitator::read("models/imitator/compact_rwd_ev.safetensors").value();
   sim::Scenario scenario_;
   loop::Stage stage_;
 };

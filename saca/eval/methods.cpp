@@ -30,7 +30,7 @@ using manoeuvre::PolicyId;
 using preview::JointMotion;
 using preview::Physics;
 
-constexpr std::array<MethodInfo, 34> infos{{
+constexpr std::array<MethodInfo, 35> infos{{
     {"saca", "SACA",
      "The shipped planes: a cached plan that matches and is admissible, else what the verdict "
      "speaks "
@@ -72,6 +72,10 @@ constexpr std::array<MethodInfo, 34> infos{{
     {"rss_steering", "RSS, braking or steering",
      "As RSS; where braking comes too late, changes to a neighbouring lane in which the distances "
      "are kept."},
+    {"imitation", "Imitation learning",
+     "At T1, what a small network says that was shown scenes of the tuning split and what was best "
+     "in them, with the compact car; it forecasts nothing.",
+     false, Needs::imitator},
     {"random", "Any of the eight", "One of the eight at T1, all alike likely."},
     {"first_forecast", "Best of the first forecast",
      "The best plan of the forecast made when somebody first threatens, some 4 s before T1."},
@@ -295,6 +299,12 @@ AtTrigger::Choose chooser(std::string_view name, const MethodTools& tools) {
       return Action{.plan = manoeuvre::default_plan(policy, view.scene.ego.v_B.x)};
     };
   }
+  if (name == "imitation") {
+    return [imitator = tools.imitator](const View& view) {
+      return Action{
+          .plan = manoeuvre::default_plan(imitator->choice(view.scene), view.scene.ego.v_B.x)};
+    };
+  }
   if (name == "going_on_atlas") {
     return [setup](const View& view) {
       const JointMotion motion = preview::all_going_on(view.scene);
@@ -415,6 +425,8 @@ std::unique_ptr<Method> make_method(std::string_view name, const MethodTools& to
   expects(tools.hindsight != nullptr && tools.intent != nullptr, "hindsight and intent are given");
   expects(find_method(name)->needs != Needs::danger || tools.danger != nullptr,
           "V_h is given to who chooses by it");
+  expects(find_method(name)->needs != Needs::imitator || tools.imitator != nullptr,
+          "the network is given to who asks it");
   expects(name != "beliefs_and_experience" || tools.experience != nullptr,
           "experience is given to who is corrected by it");
   const runtime::PlanesSetup& setup = tools.saca;

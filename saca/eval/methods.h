@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "saca/danger/network.h"
+#include "saca/eval/imitator.h"
 #include "saca/eval/yardstick.h"
 #include "saca/loop/method.h"
 #include "saca/memory/experience.h"
@@ -14,7 +15,7 @@
 namespace saca::eval {
 
 /// What a method leaves out or asks, so that without it there is no such row.
-enum class Needs : std::uint8_t { nothing, memory, model, danger };
+enum class Needs : std::uint8_t { nothing, memory, model, danger, imitator };
 
 /// One row of a table: something that decides.
 struct MethodInfo {
@@ -38,6 +39,7 @@ struct MethodTools {
   const intent::Model* intent = nullptr;
   const danger::Network* danger = nullptr;         ///< V_h learnt of the car; for who needs it
   const memory::Experience* experience = nullptr;  ///< of the memory; for who needs it
+  const Imitator* imitator = nullptr;              ///< for who needs it
   std::uint64_t seed = 0;  ///< of who chooses at random, and of this encounter
 };
 

@@ -61,7 +61,7 @@ TEST(Methods, NamesAreDifferentAndFound) {
   EXPECT_THROW((void)make_method("magic", {}), ContractViolation);
 }
 
-TEST_F(MethodsTest, WhoChoosesByDangerNeedsIt) {
+TEST_F(MethodsTest, WhoChoosesBySomethingNeedsIt) {
   Hindsight hindsight(car_, harm_);
   EXPECT_THROW((void)make_method("least_danger", tools(hindsight)), ContractViolation);
   const danger::Network network =
@@ -73,6 +73,7 @@ TEST_F(MethodsTest, WhoChoosesByDangerNeedsIt) {
   const memory::Experience experience;
   with.experience = &experience;
   EXPECT_NE(make_method("beliefs_and_experience", with), nullptr);
+  EXPECT_THROW((void)make_method("imitation", with), ContractViolation);
 }
 
 TEST_F(MethodsTest, WhereOnlyALaneChangeHelpsThoseThatForecastFindIt) {

@@ -49,6 +49,7 @@ Played play(const sim::Scenario& scenario, std::uint64_t number, const SuiteOpti
                                            .intent = &intent,
                                            .danger = options.danger,
                                            .experience = options.experience,
+                                           .imitator = options.imitator,
                                            .seed = encounter_seed(options.seed, number)}));
     }
     auto compared = compare(stage, methods, hindsight);

@@ -32,6 +32,7 @@ struct SuiteOptions {
   std::uint64_t seed = 1;                          ///< of all that is drawn
   const danger::Network* danger = nullptr;         ///< as in MethodTools
   const memory::Experience* experience = nullptr;  ///< likewise
+  const Imitator* imitator = nullptr;              ///< likewise
   bool exact = false;  ///< nothing is left to chance and perception is as the scenarios have it
 };
 
