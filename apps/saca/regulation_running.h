@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -7,6 +8,7 @@
 
 #include "apps/saca/places.h"
 #include "saca/core/parallel.h"
+#include "saca/eval/imitator.h"
 #include "saca/eval/regulation.h"
 
 namespace saca::app {

@@ -259,11 +259,11 @@ Episode Curriculum::play(const SuiteEncounter& encounter) {
     }
     JudgingOptions judging = setup_.judging;
     judging.seed = encounter_seed(setup_.seed, encounter.number);
-    auto judged = judged_encounter(stage, setup_.saca.forecast, judging, setup_.made_with);
+    const auto judged = judged_encounter(stage, setup_.saca.forecast, judging, setup_.made_with);
     if (!judged.has_value()) {
       episode.row.fault = judged.error().message;
     } else if (judged.value()) {
-      episode.one = std::move(judged.value()->one);
+      episode.one = judged.value()->one;
     }
   } catch (const std::exception& fault) {
     episode.row.fault = fault.what();

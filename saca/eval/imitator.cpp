@@ -159,7 +159,7 @@ std::array<double, num_policies> Imitator::scores(const ImitatorInputs& inputs) 
   for (std::size_t k = 0; k < layers_.size(); ++k) {
     const Layer& layer = layers_[k];
     const auto rows = static_cast<Eigen::Index>(layer.rows);
-    Eigen::VectorXf y =
+    const Eigen::VectorXf y =
         Weights(layer.weight.data(), rows, static_cast<Eigen::Index>(layer.columns)) * x +
         Eigen::Map<const Eigen::VectorXf>(layer.bias.data(), rows);
     x = k + 1 < layers_.size() ? Eigen::VectorXf(y.cwiseMax(0.0F)) : y;
