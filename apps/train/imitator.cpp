@@ -13,7 +13,6 @@
 
 #include "apps/train/program.h"
 #include "saca/config/compressed_text.h"
-#include "saca/core/file.h"
 #include "saca/core/fnv.h"
 #include "saca/eval/transfer.h"
 #include "saca/memory/case_json.h"
@@ -95,10 +94,7 @@ int train_imitator(const Options& options) {
       options.dropout, state, [&](const train::Epoch& now) {
         const double other = now.held_out.value_or(std::nan(""));
         curve += fmt::format("{},{:.5f},{:.5f}\n", now.number, now.loss, other);
-        fmt::print("epoch {} of {}: loss {:.4f}, held out {:.4f}, {:.1f} s\n", now.number,
-                   options.schedule.epochs, now.loss, other, now.seconds);
-        std::fflush(stdout);
-        return !train_program::is_to_stop();
+        return train_program::show_epoch(now, options.schedule.epochs);
       });
   if (!network.has_value()) {
     return train_program::failed(program, network.error());
@@ -119,11 +115,8 @@ int train_imitator(const Options& options) {
                    {"held_out_right", fmt::format("{:.4f}", held_out.best)},
                    {"held_out_as_good", fmt::format("{:.4f}", held_out.as_good)},
                    {"digest", fmt::format("{:016x}", imitator.value().digest())}};
-  for (const auto& [name, bytes] : {std::pair(options.output, config::tensor_bytes(tensors)),
-                                    std::pair(options.output + ".curve.csv", std::move(curve))}) {
-    if (const auto problem = write_file(name, bytes)) {
-      return train_program::failed(program, *problem);
-    }
+  if (const auto problem = train_program::write_trained(options.output, tensors, curve)) {
+    return train_program::failed(program, *problem);
   }
   fs::remove(state);
   fmt::print(

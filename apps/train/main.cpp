@@ -212,10 +212,7 @@ int train_model(const Options& options) {
     networks.push_back(network.value());
   }
   const config::Tensors tensors = described(options, train::model_tensors(networks));
-  if (const auto problem = write_file(options.output, config::tensor_bytes(tensors))) {
-    return train_program::failed(program, *problem);
-  }
-  if (const auto problem = write_file(options.output + ".curve.csv", curve)) {
+  if (const auto problem = train_program::write_trained(options.output, tensors, curve)) {
     return train_program::failed(program, *problem);
   }
   for (int i = 0; i < options.networks; ++i) {

@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "apps/train/program.h"
-#include "saca/core/file.h"
 #include "saca/core/fnv.h"
 #include "saca/core/parallel.h"
 #include "saca/eval/place_examples.h"
@@ -188,10 +187,7 @@ int train_places(const Options& options) {
       pieces, held_out, options.schedule, options.dropout, state, [&](const train::Epoch& now) {
         const double other = now.held_out.value_or(std::nan(""));
         curve += fmt::format("{},{:.5f},{:.5f},{:.1f}\n", now.number, now.loss, other, now.seconds);
-        fmt::print("epoch {} of {}: loss {:.4f}, held out {:.4f}, {:.1f} s\n", now.number,
-                   options.schedule.epochs, now.loss, other, now.seconds);
-        std::fflush(stdout);
-        return !train_program::is_to_stop();
+        return train_program::show_epoch(now, options.schedule.epochs);
       });
   if (!network.has_value()) {
     return train_program::failed(program, network.error());
@@ -205,10 +201,7 @@ int train_places(const Options& options) {
                    {"epochs", std::to_string(options.schedule.epochs)},
                    {"encounters", std::to_string(options.encounters)},
                    {"drives", std::to_string(options.data.empty() ? 0 : options.drives)}};
-  if (const auto problem = write_file(options.output, config::tensor_bytes(tensors))) {
-    return train_program::failed(program, *problem);
-  }
-  if (const auto problem = write_file(options.output + ".curve.csv", curve)) {
+  if (const auto problem = train_program::write_trained(options.output, tensors, curve)) {
     return train_program::failed(program, *problem);
   }
   fs::remove(state);

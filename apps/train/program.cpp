@@ -3,9 +3,11 @@
 #include <fmt/core.h>
 #include <torch/torch.h>
 
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 
+#include "saca/core/file.h"
 #include "saca/core/standard_files.h"
 #include "saca/train/blas.h"
 
@@ -32,6 +34,21 @@ int failed(std::string_view program, const Error& error) {
   constexpr int bad_input = 3;
   constexpr int cannot_write = 4;
   return error.code == Error::Code::unwritable ? cannot_write : bad_input;
+}
+
+bool show_epoch(const train::Epoch& now, int epochs) {
+  fmt::print("epoch {} of {}: loss {:.4f}, held out {:.4f}, {:.1f} s\n", now.number, epochs,
+             now.loss, now.held_out.value_or(std::nan("")), now.seconds);
+  std::fflush(stdout);
+  return !is_to_stop();
+}
+
+std::optional<Error> write_trained(const std::string& output, const config::Tensors& weights,
+                                   std::string_view curve) {
+  if (auto problem = write_file(output, config::tensor_bytes(weights))) {
+    return problem;
+  }
+  return write_file(output + ".curve.csv", curve);
 }
 
 int stopped(std::string_view program) {

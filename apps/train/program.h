@@ -1,8 +1,12 @@
 #pragma once
 
+#include <optional>
+#include <string>
 #include <string_view>
 
+#include "saca/config/tensors.h"
 #include "saca/core/result.h"
+#include "saca/train/task.h"
 
 /// What all training programs share: how they begin, are stopped and end.
 namespace saca::train_program {
@@ -19,6 +23,15 @@ void begin(char** argv);
 /// Says what is wrong.
 /// @return  the exit code that goes with it
 [[nodiscard]] int failed(std::string_view program, const Error& error);
+
+/// Prints an epoch of so many.
+/// @return  whether to go on
+[[nodiscard]] bool show_epoch(const train::Epoch& now, int epochs);
+
+/// Writes the weights, and beside them ("....curve.csv") the curve.
+[[nodiscard]] std::optional<Error> write_trained(const std::string& output,
+                                                 const config::Tensors& weights,
+                                                 std::string_view curve);
 
 /// Says that it was stopped.
 /// @return  likewise

@@ -58,7 +58,10 @@ std::string JsonReader::text(std::string_view key) {
 
 std::uint64_t JsonReader::integer(std::string_view key, std::uint64_t largest) {
   const json* value = find(key);
-  if (value == nullptr || (value->is_number_unsigned() && value->get<std::uint64_t>() <= largest)) {
+  // What was read is unsigned where it is not negative; what a program made may be signed.
+  if (value == nullptr || (value->is_number_integer() &&
+                           (value->is_number_unsigned() || value->get<std::int64_t>() >= 0) &&
+                           value->get<std::uint64_t>() <= largest)) {
     return value == nullptr ? 0 : value->get<std::uint64_t>();
   }
   reject(key, "want an integer from 0 to " + std::to_string(largest) + ", got " + shown(*value));

@@ -37,6 +37,16 @@ TEST(JsonReader, ReadsWhatIsThere) {
   EXPECT_FALSE(problem) << problem->message;
 }
 
+TEST(JsonReader, TakesIntegersThatAProgramMade) {
+  const json node{{"a", std::int64_t{7}}, {"b", std::int64_t{-7}}};
+  std::optional<Error> problem;
+  JsonReader reader(node, "", problem);
+  EXPECT_EQ(reader.integer("a", 7), 7U);
+  EXPECT_FALSE(problem);
+  (void)reader.integer("b");
+  EXPECT_TRUE(problem);
+}
+
 TEST(JsonReader, NamesKeyWantedAndGot) {
   EXPECT_EQ(problem_of("{}", [](JsonReader& r) { (void)r.number("a_m"); }), "a_m: is missing");
   EXPECT_EQ(problem_of(R"({"a_m": "5"})", [](JsonReader& r) { (void)r.number("a_m"); }),

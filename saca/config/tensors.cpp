@@ -221,4 +221,25 @@ Result<std::vector<float>> take(const Tensors& tensors, const std::string& name,
   return found->second.values;
 }
 
+void Layer::add_to(Fnv& hash) const {
+  for (const std::vector<float>* numbers : {&weight, &bias}) {
+    for (const float number : *numbers) {
+      hash.add(std::bit_cast<std::uint32_t>(number));
+    }
+  }
+}
+
+Result<Layer> take_layer(const Tensors& tensors, const std::string& name, std::size_t rows,
+                         std::size_t columns, std::string_view source) {
+  auto weight = take(tensors, name + ".weight", {rows, columns}, source);
+  if (!weight.has_value()) {
+    return weight.error();
+  }
+  auto bias = take(tensors, name + ".bias", {rows}, source);
+  if (!bias.has_value()) {
+    return bias.error();
+  }
+  return Layer{rows, columns, std::move(weight).value(), std::move(bias).value()};
+}
+
 }  // namespace saca::config

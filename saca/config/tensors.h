@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "saca/core/file.h"
+#include "saca/core/fnv.h"
 #include "saca/core/result.h"
 
 namespace saca::config {
@@ -49,5 +50,22 @@ struct Tensors {
 [[nodiscard]] Result<std::vector<float>> take(const Tensors& tensors, const std::string& name,
                                               const std::vector<std::size_t>& shape,
                                               std::string_view source);
+
+/// Weights of one layer of a network, and what is added.
+struct Layer {
+  std::size_t rows = 0;
+  std::size_t columns = 0;
+  std::vector<float> weight;  ///< [row][column]
+  std::vector<float> bias;    ///< [row]
+
+  /// Adds all its numbers, to name them.
+  void add_to(Fnv& hash) const;
+};
+
+/// The tensors `name`.weight (rows x columns) and `name`.bias (rows).
+/// @return  likewise
+[[nodiscard]] Result<Layer> take_layer(const Tensors& tensors, const std::string& name,
+                                       std::size_t rows, std::size_t columns,
+                                       std::string_view source);
 
 }  // namespace saca::config

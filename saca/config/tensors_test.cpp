@@ -71,6 +71,21 @@ TEST(Tensors, TakesOnlyTheShapeThatIsWanted) {
   EXPECT_EQ(take(tensors, "v", {1}, "f").error().message, "f: want a tensor v");
 }
 
+TEST(Tensors, TakesALayerWhole) {
+  Tensors tensors;
+  tensors.tensors["0.weight"] = {{1, 2}, {1.0F, 2.0F}};
+  EXPECT_EQ(take_layer(tensors, "0", 1, 2, "f").error().message, "f: want a tensor 0.bias");
+  tensors.tensors["0.bias"] = {{1}, {3.0F}};
+  const auto taken = take_layer(tensors, "0", 1, 2, "f");
+  ASSERT_TRUE(taken.has_value());
+  EXPECT_EQ(taken.value().weight, (std::vector{1.0F, 2.0F}));
+  EXPECT_EQ(taken.value().bias, std::vector{3.0F});
+  EXPECT_EQ(taken.value().rows, 1U);
+  EXPECT_EQ(taken.value().columns, 2U);
+  EXPECT_EQ(take_layer(tensors, "0", 2, 1, "f").error().message,
+            "f: tensor 0.weight: want a shape of [2, 1], got [1, 2]");
+}
+
 TEST(Tensors, RefusesWhatIsDamagedOrForeign) {
   EXPECT_THAT(refusal(""), HasSubstr("got one of 0 bytes"));
   EXPECT_THAT(refusal(std::string(100, '\xff')), HasSubstr("header of"));

@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -37,20 +36,13 @@ Result<Network::Layers> Network::layers_from(const config::Tensors& tensors,
                                              std::string_view source) {
   Layers layers;
   for (std::size_t k = 0; k < layers.size(); ++k) {
-    Layer& layer = layers[k];
-    layer.rows = k + 1 < layers.size() ? width : 1;
-    layer.columns = k > 0 ? width : inputs;
-    const std::string name = prefix + std::to_string(k);
-    auto weight = config::take(tensors, name + ".weight", {layer.rows, layer.columns}, source);
-    if (!weight.has_value()) {
-      return weight.error();
+    auto layer =
+        config::take_layer(tensors, prefix + std::to_string(k), k + 1 < layers.size() ? width : 1,
+                           k > 0 ? width : inputs, source);
+    if (!layer.has_value()) {
+      return layer.error();
     }
-    auto bias = config::take(tensors, name + ".bias", {layer.rows}, source);
-    if (!bias.has_value()) {
-      return bias.error();
-    }
-    layer.weight = std::move(weight).value();
-    layer.bias = std::move(bias).value();
+    layers[k] = std::move(layer).value();
   }
   return layers;
 }
@@ -108,12 +100,8 @@ Result<Network> Network::from(const config::Tensors& tensors, std::string_view s
 std::uint64_t Network::digest() const {
   Fnv hash;
   const auto add = [&](const Layers& layers) {
-    for (const Layer& layer : layers) {
-      for (const std::vector<float>* numbers : {&layer.weight, &layer.bias}) {
-        for (const float number : *numbers) {
-          hash.add(std::bit_cast<std::uint32_t>(number));
-        }
-      }
+    for (const config::Layer& layer : layers) {
+      layer.add_to(hash);
     }
   };
   add(v_);
@@ -133,7 +121,7 @@ void Network::run(const Layers& layers, const float* inputs, std::size_t count, 
       inputs, static_cast<Eigen::Index>(layers[0].columns), columns);
   Columns y;
   for (std::size_t k = 0; k < layers.size(); ++k) {
-    const Layer& layer = layers[k];
+    const config::Layer& layer = layers[k];
     const auto rows = static_cast<Eigen::Index>(layer.rows);
     const Weights weight(layer.weight.data(), rows, static_cast<Eigen::Index>(layer.columns));
     y.resize(rows, columns);

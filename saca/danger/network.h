@@ -60,13 +60,7 @@ class Network {
   [[nodiscard]] const std::map<std::string, std::string>& words() const { return words_; }
 
  private:
-  struct Layer {
-    std::size_t rows = 0;
-    std::size_t columns = 0;
-    std::vector<float> weight;  ///< [row][column]
-    std::vector<float> bias;
-  };
-  using Layers = std::array<Layer, 4>;
+  using Layers = std::array<config::Layer, 4>;
   using TwoQ = std::array<Layers, 2>;
 
   [[nodiscard]] static Result<Layers> layers_from(const config::Tensors& tensors,

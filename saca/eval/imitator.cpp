@@ -2,12 +2,12 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numeric>
 #include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "saca/core/contract.h"
 #include "saca/core/fnv.h"
@@ -25,10 +25,6 @@ constexpr std::array<std::size_t, 5> signed_of_ego{1, 2, 3, 4, 7};
 constexpr std::array<std::array<std::size_t, 2>, 3> sides_of_ego{{{8, 9}, {10, 11}, {12, 13}}};
 // Of an actor's inputs likewise.
 constexpr std::array<std::size_t, 4> signed_of_actor{2, 4, 5, 7};
-
-bool is_hard(world::Beyond beyond) {
-  return beyond == world::Beyond::barrier || beyond == world::Beyond::trees;
-}
 
 /// Writes numbers one after the other.
 class Writer {
@@ -54,8 +50,8 @@ void write_ego(const memory::EgoFeatures& ego, float* to) {
   out.add(ego.curve / 3.0);
   out.add(ego.room_left / 6.0);
   out.add(ego.room_right / 6.0);
-  out.add(is_hard(ego.left_beyond));
-  out.add(is_hard(ego.right_beyond));
+  out.add(world::is_hard(ego.left_beyond));
+  out.add(world::is_hard(ego.right_beyond));
   out.add(ego.oncoming_left);
   out.add(ego.oncoming_right);
 }
@@ -129,20 +125,13 @@ PolicyId mirrored(PolicyId policy) {
 Result<Imitator> Imitator::from(const config::Tensors& tensors, std::string_view source) {
   Imitator imitator;
   for (std::size_t k = 0; k < imitator.layers_.size(); ++k) {
-    Layer& layer = imitator.layers_[k];
-    layer.rows = k + 1 < imitator.layers_.size() ? width : num_policies;
-    layer.columns = k > 0 ? width : num_imitator_inputs;
-    const std::string name = std::to_string(k);
-    auto weight = config::take(tensors, name + ".weight", {layer.rows, layer.columns}, source);
-    if (!weight.has_value()) {
-      return weight.error();
+    auto layer = config::take_layer(tensors, std::to_string(k),
+                                    k + 1 < imitator.layers_.size() ? width : num_policies,
+                                    k > 0 ? width : num_imitator_inputs, source);
+    if (!layer.has_value()) {
+      return layer.error();
     }
-    auto bias = config::take(tensors, name + ".bias", {layer.rows}, source);
-    if (!bias.has_value()) {
-      return bias.error();
-    }
-    layer.weight = std::move(weight).value();
-    layer.bias = std::move(bias).value();
+    imitator.layers_[k] = std::move(layer).value();
   }
   return imitator;
 }
@@ -157,7 +146,7 @@ std::array<double, num_policies> Imitator::scores(const ImitatorInputs& inputs) 
       Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
   Eigen::VectorXf x = Eigen::Map<const Eigen::VectorXf>(inputs.data(), num_imitator_inputs);
   for (std::size_t k = 0; k < layers_.size(); ++k) {
-    const Layer& layer = layers_[k];
+    const config::Layer& layer = layers_[k];
     const auto rows = static_cast<Eigen::Index>(layer.rows);
     const Eigen::VectorXf y =
         Weights(layer.weight.data(), rows, static_cast<Eigen::Index>(layer.columns)) * x +
@@ -202,12 +191,8 @@ PolicyId Imitator::choice(const world::Scene& scene) const {
 
 std::uint64_t Imitator::digest() const {
   Fnv hash;
-  for (const Layer& layer : layers_) {
-    for (const std::vector<float>* numbers : {&layer.weight, &layer.bias}) {
-      for (const float number : *numbers) {
-        hash.add(std::bit_cast<std::uint32_t>(number));
-      }
-    }
+  for (const config::Layer& layer : layers_) {
+    layer.add_to(hash);
   }
   return hash.value();
 }

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <string_view>
-#include <vector>
 
 #include "saca/config/tensors.h"
 #include "saca/core/result.h"
@@ -60,17 +59,10 @@ class Imitator {
   [[nodiscard]] std::uint64_t digest() const;
 
  private:
-  struct Layer {
-    std::size_t rows = 0;
-    std::size_t columns = 0;
-    std::vector<float> weight;  ///< [row][column]
-    std::vector<float> bias;
-  };
-
   [[nodiscard]] std::array<double, manoeuvre::num_policies> scores(
       const ImitatorInputs& inputs) const;
 
-  std::array<Layer, 3> layers_;
+  std::array<config::Layer, 3> layers_;
 };
 
 }  // namespace saca::eval

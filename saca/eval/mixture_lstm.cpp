@@ -38,16 +38,12 @@ Result<MixtureModel> MixtureModel::from(const config::Tensors& tensors, std::str
   if (!encoder.has_value()) {
     return encoder.error();
   }
-  auto weight = config::take(tensors, "output.weight", {outputs_per_side, encoded}, source);
-  if (!weight.has_value()) {
-    return weight.error();
+  auto taken = config::take_layer(tensors, "output", outputs_per_side, encoded, source);
+  if (!taken.has_value()) {
+    return taken.error();
   }
-  auto bias = config::take(tensors, "output.bias", {outputs_per_side}, source);
-  if (!bias.has_value()) {
-    return bias.error();
-  }
-  return MixtureModel{std::move(encoder).value(), std::move(weight).value(),
-                      std::move(bias).value()};
+  config::Layer output = std::move(taken).value();
+  return MixtureModel{std::move(encoder).value(), std::move(output.weight), std::move(output.bias)};
 }
 
 Result<MixtureModel> MixtureModel::read(const std::filesystem::path& path) {

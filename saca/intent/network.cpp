@@ -36,22 +36,19 @@ Scores mirrored(const Scores& scores) {
 Result<DenseLayer> DenseLayer::from(const config::Tensors& tensors, const std::string& name,
                                     std::size_t rows, std::size_t columns,
                                     std::string_view source) {
-  const auto weight = config::take(tensors, name + ".weight", {rows, columns}, source);
-  if (!weight.has_value()) {
-    return weight.error();
+  auto taken = config::take_layer(tensors, name, rows, columns, source);
+  if (!taken.has_value()) {
+    return taken.error();
   }
-  auto bias = config::take(tensors, name + ".bias", {rows}, source);
-  if (!bias.has_value()) {
-    return bias.error();
-  }
-  DenseLayer result{.num_columns = columns, .weight = {}, .bias = std::move(bias).value()};
+  config::Layer layer = std::move(taken).value();
+  DenseLayer result{.num_columns = columns, .weight = {}, .bias = std::move(layer.bias)};
   const std::size_t num_tiles = (rows + tile - 1) / tile;
   result.bias.resize(num_tiles * tile);
   result.weight.resize(num_tiles * tile * columns);
   for (std::size_t row = 0; row < rows; ++row) {
     for (std::size_t column = 0; column < columns; ++column) {
       result.weight[(row / tile * columns + column) * tile + row % tile] =
-          weight.value()[row * columns + column];
+          layer.weight[row * columns + column];
     }
   }
   return result;

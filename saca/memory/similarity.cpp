@@ -40,10 +40,6 @@ constexpr Real square(Real x) {
   return x * x;
 }
 
-bool is_hard(Beyond beyond) {
-  return beyond == Beyond::barrier || beyond == Beyond::trees;
-}
-
 /// Actors of one group can stand in for each other when a manoeuvre is chosen.
 int group(ActorKind kind) {
   switch (kind) {
@@ -395,8 +391,8 @@ ScaledEgo<Real> scaled(const EgoFeatures& ego, const Scales& scales) noexcept {
   result.near_right = nearness(ego.room_right);
   result.half_turn = real(std::numbers::pi / scales.heading);
   result.usable = ego.usable;
-  result.hard_left = is_hard(ego.left_beyond);
-  result.hard_right = is_hard(ego.right_beyond);
+  result.hard_left = world::is_hard(ego.left_beyond);
+  result.hard_right = world::is_hard(ego.right_beyond);
   result.oncoming_left = ego.oncoming_left;
   result.oncoming_right = ego.oncoming_right;
   result.topology = ego.topology;

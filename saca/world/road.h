@@ -16,6 +16,11 @@ enum class Beyond : std::uint8_t {
   trees,
 };
 
+/// Does it stop a car at once: a barrier, or trees?
+constexpr bool is_hard(Beyond beyond) {
+  return beyond == Beyond::barrier || beyond == Beyond::trees;
+}
+
 enum class Topology : std::uint8_t { straight, intersection, one_way };
 
 [[nodiscard]] std::string_view name(Beyond beyond);
