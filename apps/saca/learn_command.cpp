@@ -1,7 +1,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -13,13 +12,13 @@
 #include "apps/saca/commands.h"
 #include "apps/saca/forecast_commands.h"
 #include "apps/saca/json_output.h"
+#include "apps/saca/learn_figures.h"
 #include "apps/saca/memory_commands.h"
 #include "apps/saca/planes_making.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/resumable.h"
 #include "apps/saca/shipped_cases.h"
-#include "apps/saca/suite_pages.h"
 #include "apps/saca/suite_thinking.h"
 #include "saca/config/json_text.h"
 #include "saca/core/fnv.h"
@@ -28,7 +27,6 @@
 #include "saca/eval/curriculum.h"
 #include "saca/loop/learnt_case.h"
 #include "saca/memory/case_json.h"
-#include "saca/report/chart_svg.h"
 
 namespace saca::app {
 namespace {
@@ -36,8 +34,7 @@ namespace {
 namespace fs = std::filesystem;
 using eval::Curriculum;
 using eval::Episode;
-using eval::Estimate;
-using eval::Learner;
+using eval::Episodes;
 using nlohmann::json;
 
 struct LearnOptions {
@@ -48,12 +45,6 @@ struct LearnOptions {
   std::string folder;  ///< empty: runs/learn-NAME-SPLIT
   std::string svg;     ///< empty: none
   bool as_json = false;
-};
-
-/// Number n of all seeds.
-struct Episodes {
-  std::vector<Episode> of;                                        ///< by seed
-  std::vector<std::array<std::size_t, eval::num_learners>> size;  ///< of the banks after it
 };
 
 /// The curricula of all seeds, and what they are made of.
@@ -119,7 +110,7 @@ std::optional<Error> School::learn(Episodes& episodes) {
 std::string line_of(const Episodes& episodes) {
   json line = json::array();
   for (const Episode& one : episodes.of) {
-    line.push_back(json::parse(eval::line_of(one)));
+    line.push_back(to_json(one));
   }
   return line.dump();
 }
@@ -136,7 +127,7 @@ Result<Episodes> episodes_from(const std::string& line, const std::vector<std::u
   }
   Episodes episodes;
   for (const json& one : read.value()) {
-    auto episode = eval::episode_from(one.dump());
+    auto episode = eval::episode_from_json(one);
     if (!episode.has_value()) {
       return episode.error();
     }
@@ -258,241 +249,6 @@ Result<std::optional<std::vector<Episodes>>> taught_by(School& school, const fs:
        }});
 }
 
-// --- figures
-
-/// A figure of one run of an encounter; nullopt: it does not count.
-using Measure = std::optional<double> (*)(const Episode& episode, std::size_t method);
-
-double harm_of(const Episode& episode, std::size_t method) {
-  return episode.row.risk.runs[method].harm;
-}
-
-constexpr std::size_t aeb_method = eval::curriculum_methods.size() - 1;
-
-struct EpisodeFigure {
-  const char* key;
-  Measure value;
-};
-
-constexpr std::array<EpisodeFigure, 4> episode_measures{{
-    {"harm", [](const Episode& one, std::size_t m) { return std::optional(harm_of(one, m)); }},
-    {"regret",
-     [](const Episode& one, std::size_t m) {
-       return std::optional(harm_of(one, m) - one.row.risk.best_harm);
-     }},
-    {"materially_worse_than_aeb",
-     [](const Episode& one, std::size_t m) {
-       return std::optional(harm_of(one, m) > harm_of(one, aeb_method) + eval::material ? 1.0
-                                                                                        : 0.0);
-     }},
-    {"acts",
-     [](const Episode& one, std::size_t m) {
-       return std::optional(one.row.risk.runs[m].intervened() ? 1.0 : 0.0);
-     }},
-}};
-constexpr Measure episode_regret = episode_measures[1].value;
-
-/// Of a forecast for which a plan was sought: was it in memory?
-std::optional<double> from_memory(const Episode& episode, std::size_t method) {
-  const auto& thinking = episode.row.risk.runs[method].thinking;
-  return thinking && thinking->forecasts > 0
-             ? std::optional(static_cast<double>(thinking->from_memory) / thinking->forecasts)
-             : std::nullopt;
-}
-
-/// The mean over the episodes from `first` to before `last` of each seed, and over these.
-template <class Value>
-Estimate over_seeds(const std::vector<Episodes>& all, std::size_t first, std::size_t last,
-                    const Value& value) {
-  std::vector<double> means;
-  for (std::size_t k = 0; k < all.front().of.size(); ++k) {
-    double sum = 0.0;
-    int n = 0;
-    for (std::size_t i = first; i < last; ++i) {
-      const Episode& episode = all[i].of[k];
-      const std::optional<double> one = episode.row.fault.empty() ? value(episode) : std::nullopt;
-      sum += one.value_or(0.0);
-      n += one ? 1 : 0;
-    }
-    if (n > 0) {
-      means.push_back(sum / n);
-    }
-  }
-  return means.empty() ? Estimate{} : eval::mean_over_seeds(means);
-}
-
-Estimate of_method(const std::vector<Episodes>& all, std::size_t first, std::size_t last,
-                   std::size_t method, Measure measure) {
-  return over_seeds(all, first, last,
-                    [&](const Episode& episode) { return measure(episode, method); });
-}
-
-/// How much more one harms than another in the same encounters.
-struct Pair {
-  std::size_t method;
-  std::size_t other;
-};
-constexpr std::array<Pair, 3> compared_pairs{{{1, 0}, {2, 0}, {4, 3}}};
-
-Estimate harm_over(const std::vector<Episodes>& all, std::size_t first, std::size_t last,
-                   const Pair& pair) {
-  return over_seeds(all, first, last, [&](const Episode& episode) {
-    return std::optional(harm_of(episode, pair.method) - harm_of(episode, pair.other));
-  });
-}
-
-std::string key_of(const Pair& pair, const std::string& block = "") {
-  return fmt::format("{}.{}harm_over_{}", eval::curriculum_methods.at(pair.method), block,
-                     eval::curriculum_methods.at(pair.other));
-}
-
-/// The episodes in blocks that follow each other, at most ten.
-std::vector<std::array<std::size_t, 2>> blocks_of(std::size_t count) {
-  constexpr std::size_t most = 10;
-  const std::size_t num = std::min(count, most);
-  std::vector<std::array<std::size_t, 2>> blocks;
-  for (std::size_t k = 0; k < num; ++k) {
-    blocks.push_back({k * count / num, (k + 1) * count / num});
-  }
-  return blocks;
-}
-
-double mean_size(const Episodes& after, Learner who) {
-  double sum = 0.0;
-  for (const auto& sizes : after.size) {
-    sum += static_cast<double>(sizes.at(static_cast<std::size_t>(who)));
-  }
-  return sum / static_cast<double>(after.size.size());
-}
-
-/// Of all episodes: how often something is so.
-template <class Is>
-int count_if(const std::vector<Episodes>& all, const Is& is) {
-  int count = 0;
-  for (const Episodes& episodes : all) {
-    count += static_cast<int>(std::count_if(episodes.of.begin(), episodes.of.end(), is));
-  }
-  return count;
-}
-
-json figures_of(const std::vector<Episodes>& all, const std::string& suite) {
-  const std::string head = "learn." + suite + ".";
-  const auto blocks = blocks_of(all.size());
-  json out;
-  for (std::size_t m = 0; m < eval::curriculum_methods.size(); ++m) {
-    const std::string place = fmt::format("{}{}.", head, eval::curriculum_methods.at(m));
-    for (const EpisodeFigure& figure : episode_measures) {
-      add_estimate(out, place + figure.key, of_method(all, 0, all.size(), m, figure.value));
-    }
-    if (m < eval::num_learners) {
-      loop::ThinkingFigures sum;
-      for (const Episodes& episodes : all) {
-        for (const Episode& one : episodes.of) {
-          if (one.row.fault.empty() && one.row.risk.runs[m].thinking) {
-            sum.forecasts += one.row.risk.runs[m].thinking->forecasts;
-            sum.from_memory += one.row.risk.runs[m].thinking->from_memory;
-            sum.asked += one.row.risk.runs[m].thinking->asked;
-          }
-        }
-      }
-      out[place + "forecasts"] = sum.forecasts;
-      out[place + "from_memory"] = sum.from_memory;
-      out[place + "asked_model"] = sum.asked;
-      out[place + "cases"] = mean_size(all.back(), static_cast<Learner>(m));
-      out[place + "refuted"] =
-          count_if(all, [m](const Episode& one) { return one.refuted.at(m).has_value(); });
-    }
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      add_estimate(out, fmt::format("{}block{}.regret", place, b + 1),
-                   of_method(all, blocks[b][0], blocks[b][1], m, episode_regret));
-    }
-  }
-  for (const Pair& pair : compared_pairs) {
-    add_estimate(out, head + key_of(pair), harm_over(all, 0, all.size(), pair));
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      add_estimate(out, head + key_of(pair, fmt::format("block{}.", b + 1)),
-                   harm_over(all, blocks[b][0], blocks[b][1], pair));
-    }
-  }
-  out[head + "lies"] = count_if(all, eval::misleads);
-  out[head + "episodes"] = all.size();
-  out[head + "seeds"] = all.front().of.size();
-  out[head + "faults"] = count_if(all, [](const Episode& one) { return !one.row.fault.empty(); });
-  return out;
-}
-
-std::string curve_of(const std::vector<Episodes>& all, const std::string& suite) {
-  using report::ChartColour;
-  constexpr std::array<ChartColour, eval::curriculum_methods.size()> colours{
-      ChartColour::grey,   ChartColour::blue,  ChartColour::orange,
-      ChartColour::purple, ChartColour::green, ChartColour::ink};
-  const auto blocks = blocks_of(all.size());
-  const auto last = static_cast<double>(all.size());
-  report::LineChart lost{.title = "Harm above the best of all plans begun at T1",
-                         .x = {.name = "encounters met", .low = 0.0, .high = last},
-                         .y = {.name = "regret", .low = 0.0, .high = 0.0},
-                         .curves = {}};
-  report::LineChart known{.title = "Forecasts whose plan comes from memory",
-                          .x = lost.x,
-                          .y = {.name = "share", .unit = "%", .low = 0.0, .high = 100.0},
-                          .curves = {}};
-  for (std::size_t m = 0; m < eval::curriculum_methods.size(); ++m) {
-    report::ChartLine line{.name = std::string(eval::curriculum_methods.at(m)),
-                           .colour = colours.at(m),
-                           .dashed = m >= eval::num_learners,
-                           .points = {}};
-    report::ChartLine share = line;
-    for (const auto& [first, end] : blocks) {
-      const double middle = 0.5 * static_cast<double>(first + end);
-      const Estimate one = of_method(all, first, end, m, episode_regret);
-      line.points.push_back({middle, one.value});
-      lost.y.high = std::max(lost.y.high, 1.1 * one.value);
-      lost.y.low = std::min(lost.y.low, 1.1 * one.value);
-      const Estimate answered = of_method(all, first, end, m, from_memory);
-      if (answered.n > 0) {
-        share.points.push_back({middle, 100.0 * answered.value});
-      }
-    }
-    lost.curves.push_back(std::move(line));
-    if (m < eval::num_learners) {
-      known.curves.push_back(std::move(share));
-    }
-  }
-  lost.y.high = lost.y.high > 0.0 ? lost.y.high : 1.0;
-  return report::chart_svg(
-      {.heading = "Learning from encounters",
-       .lines = {fmt::format("{}: {} encounters one after the other, mean of {} seeds, each with "
-                             "encounters of its own",
-                             suite, all.size(), all.front().of.size())},
-       .charts = {std::move(lost), std::move(known)}});
-}
-
-void print(const std::vector<Episodes>& all) {
-  const std::size_t seeds = all.front().of.size();
-  app::print("{} encounters of each of {} seeds; means over seeds with 95 % intervals\n\n",
-             all.size(), seeds);
-  constexpr const char* line = "{:10} {:26} {:26} {:>11} {:>8} {:>8} {:>8}\n";
-  app::print(line, "", "harm", "regret", "worse than", "acts", "from", "cases");
-  app::print(line, "", "", "", "AEB, %", "%", "memory,%", "");
-  for (std::size_t m = 0; m < eval::curriculum_methods.size(); ++m) {
-    const auto of = [&](Measure measure) { return of_method(all, 0, all.size(), m, measure); };
-    const bool remembers = m < eval::num_learners;
-    app::print(
-        line, eval::curriculum_methods.at(m), with_interval(of(episode_measures[0].value), 4),
-        with_interval(of(episode_regret), 4),
-        fmt::format("{:.1f}", 100.0 * of(episode_measures[2].value).value),
-        fmt::format("{:.1f}", 100.0 * of(episode_measures[3].value).value),
-        remembers ? fmt::format("{:.1f}", 100.0 * of(from_memory).value) : "-",
-        remembers ? fmt::format("{:.0f}", mean_size(all.back(), static_cast<Learner>(m))) : "-");
-  }
-  app::print("\n");
-  for (const Pair& pair : compared_pairs) {
-    app::print("{} does {} more harm than {}\n", eval::curriculum_methods.at(pair.method),
-               with_interval(harm_over(all, 0, all.size(), pair), 5),
-               eval::curriculum_methods.at(pair.other));
-  }
-}
-
 /// A bank that lies where banks are replaced.
 std::optional<Error> why_in_the_way(const LearnOptions& options) {
   std::error_code ignored;
@@ -563,7 +319,7 @@ int run(LearnOptions options) {
   }
   const std::vector<Episodes>& all = *taught.value();
   const std::string suite = fs::path(from.name).filename().string();
-  json figures = figures_of(all, suite);
+  json figures = learn_figures(all, suite);
   figures["meta.command"] = "saca " + command;
   figures["meta.version"] = SACA_VERSION;
   figures["meta.memory"] = starts_with;
@@ -571,14 +327,14 @@ int run(LearnOptions options) {
     figures["meta.model"] = *model;
   }
   if (!options.svg.empty()) {
-    if (auto problem = write_output(options.svg, curve_of(all, suite))) {
+    if (auto problem = write_output(options.svg, learn_curve(all, suite))) {
       return refused(*problem);
     }
   }
   if (options.as_json) {
     app::print_json(figures);
   } else {
-    print(all);
+    print_learnt(all);
     app::print("\nbanks: {}/seed-*/\n", options.folder);
   }
   return figures["learn." + suite + ".faults"].get<int>() > 0 ? some_failed : success;

@@ -8,12 +8,10 @@
 #include <exception>
 #include <limits>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <random>
 #include <utility>
 
-#include "saca/config/json_text.h"
 #include "saca/core/contract.h"
 #include "saca/decide/verdict.h"
 #include "saca/eval/methods.h"
@@ -128,27 +126,20 @@ Case taught(const Episode& episode, Learner who) {
   return one;
 }
 
-std::string line_of(const Episode& episode) {
+json to_json(const Episode& episode) {
   json refuted = json::array();
   for (const auto& id : episode.refuted) {
     refuted.push_back(json_of(id));
   }
-  return json{{"row", json::parse(line_of(episode.row))},
-              {"case", episode.one ? memory::to_json(*episode.one) : json()},
-              {"lie", episode.is_lie},
-              {"refuted", std::move(refuted)}}
-      .dump();
+  return {{"row", to_json(episode.row)},
+          {"case", episode.one ? memory::to_json(*episode.one) : json()},
+          {"lie", episode.is_lie},
+          {"refuted", std::move(refuted)}};
 }
 
-Result<Episode> episode_from(std::string_view line) {
+Result<Episode> episode_from_json(const json& in) {
   try {
-    const auto read = config::parse_json(line);
-    if (!read.has_value()) {
-      return Error{Error::Code::malformed,
-                   "want one episode of a curriculum: " + read.error().message};
-    }
-    const json& in = read.value();
-    auto row = suite_row_from(in.at("row").dump(), curriculum_methods.size());
+    auto row = suite_row_from_json(in.at("row"), curriculum_methods.size());
     if (!row.has_value()) {
       return row.error();
     }
@@ -215,12 +206,7 @@ Episode Curriculum::play(const SuiteEncounter& encounter) {
                   .is_lie = draws.happens(setup_.lies),
                   .refuted = {}};
   const sim::Scenario world = as_played(is_twin ? *encounter.twin : encounter.scenario, how);
-  const loop::Stage stage{.scenario = &world,
-                          .car = setup_.saca.forecast.car,
-                          .harm = setup_.saca.forecast.harm,
-                          .intent = setup_.intent,
-                          .thresholds = setup_.saca.thresholds,
-                          .chance = chance_of(how, encounter.number)};
+  const loop::Stage stage = stage_of(world, encounter.number, how, setup_.saca, *setup_.intent);
   try {
     Hindsight hindsight(*stage.car, *stage.harm);
     std::vector<std::unique_ptr<loop::Method>> methods;

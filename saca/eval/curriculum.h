@@ -3,10 +3,11 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "saca/core/result.h"
@@ -41,9 +42,9 @@ struct Episode {
   std::array<std::optional<memory::CaseId>, num_learners> refuted;
 };
 
-/// One line, for journals; and back. Error::Code::malformed: no such line.
-[[nodiscard]] std::string line_of(const Episode& episode);
-[[nodiscard]] Result<Episode> episode_from(std::string_view line);
+/// As JSON, for journals; and back. Error::Code::malformed: no such episode.
+[[nodiscard]] nlohmann::json to_json(const Episode& episode);
+[[nodiscard]] Result<Episode> episode_from_json(const nlohmann::json& in);
 
 /// The same case, in which what harms least is told as what harms most, and the other way round:
 /// what happened with each policy is mirrored between the least and the largest harm, and told as

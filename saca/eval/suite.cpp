@@ -20,17 +20,6 @@ using nlohmann::json;
 
 // --- one encounter
 
-/// @param world  as it is played; outlives the stage
-loop::Stage stage_of(const sim::Scenario& world, std::uint64_t number, const SuiteOptions& options,
-                     const runtime::PlanesSetup& saca, const intent::Model& intent) {
-  return {.scenario = &world,
-          .car = saca.forecast.car,
-          .harm = saca.forecast.harm,
-          .intent = &intent,
-          .thresholds = saca.thresholds,
-          .chance = chance_of(options, number)};
-}
-
 struct Played {
   std::optional<Comparison> comparison;
   std::string fault;
@@ -260,6 +249,16 @@ sim::Scenario as_played(sim::Scenario scenario, const SuiteOptions& options) {
   return scenario;
 }
 
+loop::Stage stage_of(const sim::Scenario& world, std::uint64_t number, const SuiteOptions& options,
+                     const runtime::PlanesSetup& saca, const intent::Model& intent) {
+  return {.scenario = &world,
+          .car = saca.forecast.car,
+          .harm = saca.forecast.harm,
+          .intent = &intent,
+          .thresholds = saca.thresholds,
+          .chance = chance_of(options, number)};
+}
+
 SuiteRow run_encounter(const SuiteEncounter& encounter, const SuiteOptions& options,
                        const runtime::PlanesSetup& saca, const intent::Model& intent) {
   expects(!options.methods.empty(), "at least one method");
@@ -304,30 +303,24 @@ std::optional<TriedScene> tried_in(const SuiteEncounter& encounter, const SuiteO
   return std::nullopt;
 }
 
-std::string line_of(const SuiteRow& row) {
-  json line{{"number", row.number}, {"family", row.family}};
+json to_json(const SuiteRow& row) {
+  json out{{"number", row.number}, {"family", row.family}};
   if (!row.fault.empty()) {
-    line["fault"] = row.fault;
+    out["fault"] = row.fault;
   } else {
-    line["risk"] = json_of(row.risk);
+    out["risk"] = json_of(row.risk);
     if (row.twin) {
-      line["twin"] = json_of(*row.twin);
+      out["twin"] = json_of(*row.twin);
     }
     if (row.driver) {
-      line["driver"] = json_of(*row.driver);
+      out["driver"] = json_of(*row.driver);
     }
   }
-  return line.dump(-1, ' ', false, json::error_handler_t::replace);
+  return out;
 }
 
-Result<SuiteRow> suite_row_from(std::string_view line, std::size_t num_methods) {
+Result<SuiteRow> suite_row_from_json(const json& in, std::size_t num_methods) {
   try {
-    const auto read = config::parse_json(line);
-    if (!read.has_value()) {
-      return Error{Error::Code::malformed,
-                   "want one encounter of a suite: " + read.error().message};
-    }
-    const json& in = read.value();
     SuiteRow row{.number = in.at("number").get<std::uint64_t>(),
                  .family = in.at("family").get<std::string>(),
                  .fault = in.value("fault", std::string()),
@@ -345,10 +338,26 @@ Result<SuiteRow> suite_row_from(std::string_view line, std::size_t num_methods) 
     }
     return row;
   } catch (const std::exception& problem) {
+    return Error{Error::Code::malformed, one_line(problem.what())};
+  }
+}
+
+std::string line_of(const SuiteRow& row) {
+  return to_json(row).dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+Result<SuiteRow> suite_row_from(std::string_view line, std::size_t num_methods) {
+  const auto read = config::parse_json(line);
+  if (!read.has_value()) {
+    return Error{Error::Code::malformed, "want one encounter of a suite: " + read.error().message};
+  }
+  auto row = suite_row_from_json(read.value(), num_methods);
+  if (!row.has_value()) {
     return Error{Error::Code::malformed,
                  fmt::format("want one encounter of a suite, got \"{}\": {}", one_line(line, 80),
-                             one_line(problem.what()))};
+                             row.error().message)};
   }
+  return row;
 }
 
 bool agrees(const DriverRow& driver, const std::optional<manoeuvre::Plan>& plan) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -69,6 +70,12 @@ struct SuiteRow {
 /// what the grip is taken for.
 [[nodiscard]] sim::Scenario as_played(sim::Scenario scenario, const SuiteOptions& options);
 
+/// What plays an encounter, with its draws.
+/// @param world  as it is played (as_played); outlives the stage
+[[nodiscard]] loop::Stage stage_of(const sim::Scenario& world, std::uint64_t number,
+                                   const SuiteOptions& options, const runtime::PlanesSetup& saca,
+                                   const intent::Model& intent);
+
 /// Runs one encounter. One does not depend on the others.
 /// @param saca  of SACA and everybody's forecasts
 [[nodiscard]] SuiteRow run_encounter(const SuiteEncounter& encounter, const SuiteOptions& options,
@@ -85,7 +92,11 @@ struct TriedScene {
                                                  const runtime::PlanesSetup& saca,
                                                  const intent::Model& intent);
 
-/// One line, for journals; and back. Error::Code::malformed: no such line, or of other methods.
+/// As JSON, for journals; and back. Error::Code::malformed: no such row, or of other methods.
+[[nodiscard]] nlohmann::json to_json(const SuiteRow& row);
+[[nodiscard]] Result<SuiteRow> suite_row_from_json(const nlohmann::json& in,
+                                                   std::size_t num_methods);
+/// Likewise as one line.
 [[nodiscard]] std::string line_of(const SuiteRow& row);
 [[nodiscard]] Result<SuiteRow> suite_row_from(std::string_view line, std::size_t num_methods);
 
