@@ -66,6 +66,56 @@ std::string unit_at(std::string_view rest) {
   return "";
 }
 
+/// Whether a text begins with a whole word, whatever the case.
+bool begins_with_word(std::string_view text, std::string_view word) {
+  return text.size() >= word.size() &&
+         std::equal(word.begin(), word.end(), text.begin(),
+                    [](char a, char b) { return a == small(b); }) &&
+         (text.size() == word.size() ||
+          (!is_name_char(text[word.size()]) && !is_numeral(text[word.size()])));
+}
+
+/// @param rest  what follows the number
+std::string where_at(std::string_view rest, std::string_view unit) {
+  constexpr std::array<std::string_view, 5> words{"ahead", "behind", "left", "right", "away"};
+  const auto skip_space = [&rest] {
+    if (rest.starts_with(' ')) {
+      rest.remove_prefix(1);
+    }
+  };
+  skip_space();
+  rest.remove_prefix(unit.size());
+  skip_space();
+  for (const std::string_view article : {"to the ", "on the "}) {
+    rest.remove_prefix(rest.starts_with(article) ? article.size() : 0);
+  }
+  const auto* const found = std::find_if(words.begin(), words.end(), [&](std::string_view word) {
+    return begins_with_word(rest, word);
+  });
+  return found == words.end() ? "" : std::string(*found);
+}
+
+/// @param before  what precedes the number
+std::string of_what_at(std::string_view before) {
+  // Of two that end alike the longer is first.
+  constexpr std::array<std::string_view, 12> words{"lane change left",
+                                                   "lane change right",
+                                                   "brake moving left",
+                                                   "brake moving right",
+                                                   "brake",
+                                                   "maintain",
+                                                   "cross the lane",
+                                                   "stop",
+                                                   "risk",
+                                                   "harm",
+                                                   "grip",
+                                                   "edge"};
+  const auto* const found = std::find_if(words.begin(), words.end(), [&](std::string_view word) {
+    return ends_with_word(before, word);
+  });
+  return found == words.end() ? "" : std::string(*found);
+}
+
 std::size_t end_of_digits(std::string_view text, std::size_t at) {
   while (at < text.size() && is_numeral(text[at])) {
     ++at;
@@ -110,7 +160,10 @@ std::vector<QuotedNumber> quoted_numbers(std::string_view text) {
     }
     QuotedNumber number{.text = std::string(text.substr(begin, i - begin)),
                         .unit = unit_at(text.substr(i)),
-                        .after_equals = ends_with_word(text.substr(0, begin), "=")};
+                        .after_equals = ends_with_word(text.substr(0, begin), "="),
+                        .where = {},
+                        .of_what = of_what_at(text.substr(0, begin))};
+    number.where = where_at(text.substr(i), number.unit);
     number.value = std::strtod(number.text.c_str(), nullptr);
     number.resolution = whole == i ? 1.0 : std::pow(10.0, -static_cast<double>(i - whole - 1));
     numbers.push_back(std::move(number));

@@ -13,6 +13,10 @@ struct QuotedNumber {
   double resolution = 1.0;  ///< of the last digit: 0.1 of "14.0"
   std::string unit;         ///< "m", "m/s", "s" or "%"; empty: none of these follows
   bool after_equals = false;
+  std::string where;  ///< "ahead", "behind", "left", "right" or "away", if that follows at once
+  /// What it is of, if that stands right before it: "risk", "harm", "grip", "edge", or an intention
+  /// ("lane change left", "maintain") as the prompt calls them.
+  std::string of_what;
 };
 
 /// The numbers of a text, in its order. Not among them: digits within a name ("car1"), labels at

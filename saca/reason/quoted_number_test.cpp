@@ -37,6 +37,21 @@ TEST(QuotedNumbers, AreNoNamesLabelsOrChoices) {
   EXPECT_EQ(listed("policy 1, 12 m away"), "12m ");  // two digits name no policy
 }
 
+TEST(QuotedNumbers, KnowWhereAndOfWhatTheyAre) {
+  const auto told = [](std::string_view text) {
+    std::string all;
+    for (const QuotedNumber& number : quoted_numbers(text)) {
+      all += number.of_what + '|' + number.where + ' ';
+    }
+    return all;
+  };
+  EXPECT_EQ(told("16.0 m ahead, 6.4 m to the left, 3 m Right"), "|ahead |left |right ");
+  EXPECT_EQ(told("3.2 m away, at 7.5 m/s, 4 m leftover"), "|away | | ");
+  EXPECT_EQ(told("Lane change left 0.93, maintain 0.94, risk 0.5, brake moving right 0.1"),
+            "lane change left| maintain| risk| brake moving right| ");
+  EXPECT_EQ(told("harm 0.0125, 12 % likely"), "harm| | ");
+}
+
 TEST(QuotedNumbers, SayWhatIsComputed) {
   EXPECT_EQ(listed("TTC = 16.0/14.0 = 1.14 s"), "16.0= 14.0 1.14s= ");
 }

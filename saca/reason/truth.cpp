@@ -228,7 +228,10 @@ bool agree(const QuotedNumber& said, const QuotedNumber& known) {
   constexpr double coarsest = 0.1;  // of the number: 1 is not a rounded 0.9
   const bool may_be_rounded = said.resolution <= coarsest * said.value;
   const double off = may_be_rounded ? 0.5 * said.resolution : 0.0;
-  return same_unit && std::abs(said.value - known.value) <= off + rounding;
+  const bool same_place = said.where.empty() || said.where == known.where;
+  const bool same_kind = said.of_what.empty() || said.of_what == known.of_what;
+  return same_unit && same_place && same_kind &&
+         std::abs(said.value - known.value) <= off + rounding;
 }
 
 /// "16 / 14 = 1.14": to the decimals that are quoted.
@@ -383,15 +386,24 @@ struct Verdict {
 
 void judge_numbers(std::string_view sentence, std::string_view prompt, const Subject& subject,
                    const Situation& situation, Verdict& verdict) {
-  const std::vector<QuotedNumber> said = quoted_numbers(sentence);
+  std::vector<QuotedNumber> said = quoted_numbers(sentence);
   if (said.empty()) {
     return;
   }
   verdict.says_something = true;
+  const bool of_an_edge = has_any(
+      lowered(sentence), std::array<std::string_view, 4>{"edge", "trees", "barrier", "kerb"});
+  for (QuotedNumber& one : said) {
+    if (one.where == "away") {
+      one.where.clear();
+      one.of_what = of_an_edge ? "edge" : one.of_what;
+    }
+  }
   const std::string lines = lines_about(prompt, subject, situation);
   std::vector<QuotedNumber> known = quoted_numbers(lines);
   if (has_phrase(lines, "no harm")) {
-    known.push_back({.text = "0", .unit = "of harm"});  // nothing but a number without a unit
+    // Nothing but a number without a unit.
+    known.push_back({.text = "0", .unit = "of harm", .where = {}, .of_what = "harm"});
   }
   for (std::size_t i = 0; i < said.size(); ++i) {
     const bool stands = std::any_of(known.begin(), known.end(),
@@ -436,6 +448,99 @@ void judge_claim(Claim claim, const Subject& subject, const Situation& situation
   }
 }
 
+/// What was done and what was best in the case that the prompt tells of.
+struct AlikeCase {
+  std::optional<PolicyId> done;
+  std::optional<PolicyId> best;
+};
+
+AlikeCase alike_case(std::string_view prompt) {
+  const auto policy_after = [prompt](std::string_view words) -> std::optional<PolicyId> {
+    const std::size_t at = prompt.find(words);
+    if (at == std::string_view::npos || at + words.size() >= prompt.size()) {
+      return std::nullopt;
+    }
+    return manoeuvre::policy_from(prompt[at + words.size()] - '0');
+  };
+  return {policy_after(": carried out "), policy_after("; best in hindsight ")};
+}
+
+void judge_alike_case(std::string_view low, std::string_view prompt, const Subject& subject,
+                      const std::optional<PolicyId>& choice, Verdict& verdict) {
+  const AlikeCase alike = alike_case(prompt);
+  const auto says = [&](PolicyId policy, std::string_view what,
+                        const std::optional<PolicyId>& known) {
+    const bool of_it = has_phrase(low, lowered(name(policy)) + std::string(what)) ||
+                       (policy == choice && has_phrase(low, "this" + std::string(what)));
+    if (!of_it) {
+      return;
+    }
+    verdict.says_something = true;
+    if (known != policy) {
+      verdict.wrong(known ? fmt::format("in the most alike case it was {}", name(*known))
+                          : "no like case tells it");
+    }
+  };
+  for (const PolicyId policy : subject.policies) {
+    says(policy, " was best", alike.best);
+    says(policy, " was carried out", alike.done);
+  }
+}
+
+/// What is said of the choice ("this") and one other policy.
+void judge_comparison(std::string_view low, const Subject& subject, const Situation& situation,
+                      PolicyId choice, Verdict& verdict) {
+  std::vector<PolicyId> others = subject.policies;
+  if (std::erase(others, choice) == 0 || is_denied(low)) {
+    return;
+  }
+  if (has_phrase(low, "alone is possible")) {
+    verdict.says_something = true;
+    const auto num = std::count_if(situation.facts.begin(), situation.facts.end(),
+                                   [](const PolicyFacts& one) { return one.drivable(); });
+    if (num != 1) {
+      verdict.wrong(fmt::format("{} policies are possible", num));
+    }
+  }
+  if (others.size() != 1) {
+    return;
+  }
+  const PolicyId other = others.front();
+  const PolicyFacts& mine = situation.facts[manoeuvre::index(choice)];
+  const PolicyFacts& theirs = situation.facts[manoeuvre::index(other)];
+  const auto must_be = [&](bool so, std::string why) {
+    verdict.says_something = true;
+    if (!so) {
+      verdict.wrong(std::move(why));
+    }
+  };
+  const auto both = [&](std::string_view how) {
+    return fmt::format("{} {} {}", name(choice), how, name(other));
+  };
+  if (has_phrase(low, "harms about as little")) {
+    const auto may = admissible(situation.facts);
+    must_be(may.test(manoeuvre::index(choice)) && may.test(manoeuvre::index(other)),
+            told(theirs, situation));
+  }
+  if (has_phrase(low, "milder")) {
+    must_be(outcome::milder(choice, other), both("is not milder than"));
+  }
+  if (has_phrase(low, "less often")) {
+    must_be(mine.drivable() && theirs.drivable() &&
+                mine.contact_probability() < theirs.contact_probability(),
+            both("touches somebody as often as"));
+  }
+  if (has_phrase(low, "out of the oncoming lane")) {
+    const world::Road& road = situation.scene_at_trigger.road;
+    const auto is_oncoming = [&road](PolicyId policy) {
+      const int side = manoeuvre::side(policy);
+      return (side > 0 && road.oncoming_left) || (side < 0 && road.oncoming_right);
+    };
+    must_be(!is_oncoming(choice) && is_oncoming(other),
+            both("is where oncoming traffic is, or as far from it as"));
+  }
+}
+
 /// Whether the sentence is about what was chosen.
 bool is_about(const Subject& subject, PolicyId choice) {
   return std::find(subject.policies.begin(), subject.policies.end(), choice) !=
@@ -461,6 +566,10 @@ Verdict judged(std::string_view sentence, std::string_view prompt, const Situati
   const std::optional<Claim> claim = claim_of(low);
   if (claim) {
     judge_claim(*claim, subject, situation, verdict);
+  }
+  judge_alike_case(low, prompt, subject, choice, verdict);
+  if (choice) {
+    judge_comparison(low, subject, situation, *choice, verdict);
   }
   if (choice && is_about(subject, *choice)) {
     verdict.load_bearing = true;

@@ -36,15 +36,21 @@ struct Truth {
 ///
 /// * A number must stand in the prompt, with the same unit where both have one, rounded at most to
 ///   a tenth of it: "16" is a rounded 16.4, "1" no rounded 0.9; where the sentence names one road
-///   user or policy, in a line about it. Numbers after "=" that are the quotient of the two before
-///   it are true as well.
+///   user or policy, in a line about it. Where it says in which direction ("6.4 m left"), or of
+///   what
+///   ("lane change left 0.93", "risk 0.94"), it stands there so; "away" from trees or a barrier is
+///   how far an edge is. Numbers after "=" that are the quotient of the two before it are true as
+///   well.
 /// * A name of our kind ("car3") must be somebody of the scene; who a named policy "hits" must be
 ///   among those that it is forecast to hit.
 /// * A number right before a policy's name ("6 T-D-R") must be that policy's.
 /// * "clear", "no harm", "hits", "not possible", "blocked", "least harm" of a named policy must be
 ///   its forecast; of a named side ("left is blocked") that of all policies to it, "clear" of one.
 ///   "Blocked" is what is not possible or forecast to hit.
-/// * The choice must not be what the text calls blocked or not possible.
+/// * The choice must not be what the text calls blocked or not possible. What is said of it beside
+///   one other policy must be so: "harms about as little", "milder", "less often", "out of the
+///   oncoming lane"; that it "alone is possible" as well.
+/// * What "was best" or "was carried out" in a like case must be what the prompt tells of it.
 /// What is said about the policy or the side that was chosen is load-bearing. What says nothing of
 /// this kind, or denies or excepts in another way ("not blocked", "all but AEB"), is not judged.
 ///

@@ -1,5 +1,6 @@
 #include "saca/reason/truth.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <random>
@@ -7,6 +8,7 @@
 
 #include "saca/reason/example_situation.h"
 #include "saca/reason/prompt.h"
+#include "saca/reason/quoted_number.h"
 
 namespace saca::reason::truth_test {
 namespace {
@@ -86,6 +88,19 @@ TEST(Truth, NumbersStandInALineAboutTheirSubject) {
   EXPECT_EQ(wrong("Risk is 1."), "1 stands nowhere;");  // of 0.94
 }
 
+TEST(Truth, NumbersStandWhereAndForWhatIsSaid) {
+  EXPECT_EQ(wrong("truck1 is 6.4 m ahead."), "6.4 m stands nowhere;");
+  EXPECT_EQ(wrong("truck1 is 16.0 m left."), "16.0 m stands nowhere;");
+  EXPECT_EQ(wrong("truck1 is 16.0 m away."), "") << "no direction is told";
+  EXPECT_EQ(wrong("truck1 is 16.0 m away, trees."), "16.0 m stands nowhere;");
+  EXPECT_EQ(wrong("truck1: risk 0.94."), "");
+  EXPECT_EQ(wrong("truck1: brake 0.94."), "0.94 stands nowhere;");
+  const preview::Situation situation = example_situation();
+  const std::string prompt = scene_part(situation, std::nullopt, 0.0);
+  const auto edge = quoted_numbers(prompt.substr(prompt.find("left edge"))).front();
+  EXPECT_EQ(wrong("Beyond the left edge, " + edge.text + " m away, are trees."), "");
+}
+
 TEST(Truth, QuotientsAreComputed) {
   EXPECT_EQ(wrong("Time: 16.0 m / 14.0 m/s = 1.14 s."), "");
   EXPECT_EQ(wrong("Time: 16.0 m / 14.0 m/s = 1.23 s."), "1.23 s stands nowhere;");
@@ -156,6 +171,52 @@ TEST(Truth, NobodyChoosesWhatHeCallsBlocked) {
             "! and yet 2 AES-R was chosen;");
   EXPECT_TRUE(judge("Action 1 is blocked.", PolicyId::aes_left).is_choice_unfounded());
   EXPECT_FALSE(judge("Action 2 is clear.", PolicyId::aes_left).is_choice_unfounded());
+}
+
+// AEB is clear, AES-R hits the truck: they can be told apart, until AES-R harms as little.
+TEST(Truth, ComparisonsOfTheChoiceAreSo) {
+  preview::Situation situation = example_situation();
+  const auto why = [&](const std::string& text, PolicyId choice) {
+    const Truth truth = truth_of(text, scene_part(situation, std::nullopt, 0.0), situation, choice);
+    EXPECT_EQ(truth.num_checked, 1) << text;
+    return truth.wrong.empty() ? "" : truth.wrong.front().why;
+  };
+  const std::string little = "So AEB: AES-R harms about as little, and this is milder";
+  EXPECT_THAT(why(little, PolicyId::aeb), testing::StartsWith("2 AES-R: hits truck1"));
+  situation.facts[2].outcome().harm = situation.facts[0].outcome().harm;
+  EXPECT_EQ(why(little, PolicyId::aeb), "");
+  EXPECT_EQ(why("So AES-R: AEB harms about as little, and this is milder", PolicyId::aes_right),
+            "AES-R is not milder than AEB");
+  EXPECT_EQ(why("So AES-R: AES-L harms about as little, and this is milder", PolicyId::aes_right),
+            "1 AES-L: hits truck1 with its front at 9.0 m/s");
+  situation.scene_at_trigger.road.oncoming_left = true;
+  situation.facts[1].outcome().harm = situation.facts[0].outcome().harm;
+  const std::string oncoming = " harms about as little, and this stays out of the oncoming lane";
+  EXPECT_EQ(why("So AES-R: AES-L" + oncoming, PolicyId::aes_right), "");
+  EXPECT_NE(why("So AES-L: AES-R" + oncoming, PolicyId::aes_left), "");
+  EXPECT_EQ(why("I choose AEB: it alone is possible", PolicyId::aeb), "6 policies are possible");
+  EXPECT_EQ(truth_of("AES-R is milder.", "", situation, std::nullopt).num_checked, 0)
+      << "than what?";
+}
+
+TEST(Truth, OfALikeCaseIsWhatThePromptTells) {
+  const preview::Situation situation = example_situation();
+  memory::Case nearest;
+  nearest.plan.policy = PolicyId::aeb;
+  nearest.best = PolicyId::es_b_left;
+  const auto why = [&](const std::string& text, const std::optional<memory::Case>& told) {
+    const Truth truth =
+        truth_of(text, scene_part(situation, told, 0.9), situation, PolicyId::es_b_left);
+    EXPECT_EQ(truth.num_checked, 1) << text;
+    return truth.wrong.empty() ? "" : truth.wrong.front().why;
+  };
+  EXPECT_EQ(why("In the most alike case ES-B-L was best in hindsight, though AEB was carried out",
+                nearest),
+            "");
+  EXPECT_EQ(why("In the nearest case AEB was best in hindsight", nearest),
+            "in the most alike case it was ES-B-L");
+  EXPECT_EQ(why("So ES-B-L: and this was best in the most alike case", nearest), "");
+  EXPECT_EQ(why("ES-B-L was best in hindsight", std::nullopt), "no like case tells it");
 }
 
 TEST(Truth, IsKeptInOrderAndCounted) {
