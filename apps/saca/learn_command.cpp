@@ -153,7 +153,7 @@ Result<std::vector<memory::Case>> first_cases(const LearnOptions& options, const
     }
     return std::move(bank).value().cases;
   }
-  return shipped_cases(school.planes->inputs.places, school.made_with);
+  return shipped_cases(school.planes->inputs.places);
 }
 
 /// Makes the banks of all seeds, in the place of those that were there.
@@ -200,15 +200,15 @@ Result<std::unique_ptr<School>> open_school(const LearnOptions& options) {
     return planes.error();
   }
   school->planes = std::move(planes).value();
+  school->made_with = loop::made_with(school->planes->setup.forecast, school->planes->inputs.intent,
+                                      school->planes->inputs.car_name);
   auto thinking = SuiteThinking::open({.memory = "", .model = options.from.thinking.model},
-                                      school->planes->inputs.places, options.from.threads,
-                                      *school->planes->setup.clock);
+                                      school->planes->inputs.places, school->made_with,
+                                      options.from.threads, *school->planes->setup.clock);
   if (!thinking.has_value()) {
     return thinking.error();
   }
   school->thinking = std::move(thinking).value();
-  school->made_with = loop::made_with(school->planes->setup.forecast, school->planes->inputs.intent,
-                                      school->planes->inputs.car_name);
   auto start = first_cases(options, *school);
   if (!start.has_value()) {
     return start.error();

@@ -11,6 +11,7 @@
 #include "apps/saca/places.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/within.h"
+#include "saca/core/printable.h"
 #include "saca/eval/moment.h"
 #include "saca/memory/store.h"
 
@@ -26,6 +27,10 @@ struct AddOptions {
 };
 
 int add_case(const AddOptions& options) {
+  if (!is_utf8(options.why)) {
+    return refused(
+        Error{Error::Code::malformed, "--why: want UTF-8, got " + one_line(options.why)});
+  }
   const auto inputs = read_scenario_inputs(options.scenario);
   if (!inputs.has_value()) {
     return refused(inputs.error());

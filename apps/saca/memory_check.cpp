@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "saca/core/parallel.h"
 #include "saca/eval/case_check.h"
 #include "saca/loop/learnt_case.h"
+#include "saca/memory/case_json.h"
 #include "saca/memory/store.h"
 
 namespace saca::app {
@@ -35,26 +37,40 @@ struct CheckCasesOptions {
 /// How many are trusted then, stay unchecked, and are quarantined: by memory::Trust.
 using Counts = std::array<int, 3>;
 
-/// Those that are not trusted yet; what was worked out is kept where it is interrupted.
-Result<Counts> check_all(memory::Store& memory, const std::vector<memory::Case>& cases,
+/// Those that this car does not trust yet; what was worked out is kept where it is interrupted.
+Result<Counts> check_all(memory::Store& memory, std::vector<memory::Case> cases,
                          const PlanesOfCar& planes, const CheckCasesOptions& options) {
   const preview::ForecastTools& tools = planes.setup.forecast;
   const intent::Model& intent = planes.inputs.intent;
   const auto made_with = loop::made_with(tools, intent, planes.inputs.car_name);
+  std::erase_if(cases, [&](const memory::Case& one) {
+    return one.trust == memory::Trust::quarantined || memory::is_trusted_by(made_with, one);
+  });
   SteadyClock clock;
   ProgressLine progress("cases", static_cast<int>(cases.size()), clock);
   Counts counts{};
   constexpr std::size_t at_once = 32;
   for (std::size_t first = 0; first < cases.size() && !interrupted(); first += at_once) {
-    std::vector<memory::Case> checked(std::min(at_once, cases.size() - first));
+    std::vector<std::optional<memory::Case>> checked(std::min(at_once, cases.size() - first));
     in_parallel(checked.size(), options.threads, [&](std::size_t i) {
       checked[i] = eval::checked(cases[first + i], tools, intent, options.draws, made_with);
     });
-    for (const memory::Case& one : checked) {
-      if (auto problem = memory.update(one)) {
-        return *std::move(problem);
+    for (std::size_t i = 0; i < checked.size(); ++i) {
+      auto trust = memory::Trust::unchecked;
+      const auto keep = [&](memory::Case& now) {
+        if (memory::to_json(now) != memory::to_json(cases[first + i])) {
+          return false;  // another process has learnt of it meanwhile: it is checked the next time
+        }
+        now = *checked[i];
+        trust = now.trust;
+        return true;
+      };
+      if (checked[i]) {
+        if (auto problem = memory.change(checked[i]->id, keep)) {
+          return *std::move(problem);
+        }
       }
-      ++counts.at(static_cast<std::size_t>(one.trust));
+      ++counts.at(static_cast<std::size_t>(trust));
     }
     progress.show(static_cast<int>(first + checked.size()), 0, " cases");
   }
@@ -67,14 +83,12 @@ int check_bank(const CheckCasesOptions& options) {
     return refused(read.error());
   }
   ReadBank bank = std::move(read).value();
-  std::erase_if(bank.cases,
-                [](const memory::Case& one) { return one.trust != memory::Trust::unchecked; });
   const auto planes = open_planes(options.car);
   if (!planes.has_value()) {
     return refused(planes.error());
   }
   watch_for_interrupt();
-  const auto counts = check_all(bank.store, bank.cases, *planes.value(), options);
+  const auto counts = check_all(bank.store, std::move(bank.cases), *planes.value(), options);
   if (!counts.has_value()) {
     return refused(counts.error());
   }

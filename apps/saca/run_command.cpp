@@ -111,17 +111,19 @@ Result<std::shared_ptr<memory::Store>> open_memory(const RunOptions& options,
                      (options.no_learning || on_a_server ? "" : "move the file away, or ") +
                      "run without --memory)"};
   };
-  const bool file_is_new = !on_a_server && !fs::exists(file, problem);
-  auto opened = options.no_learning ? memory::Store::snapshot(file) : memory::Store::open(file);
+  auto car = loop::made_with({&inputs.car, &inputs.harm}, inputs.intent, inputs.scenario.car);
+  auto opened = options.no_learning ? memory::Store::snapshot(file, std::move(car))
+                                    : memory::Store::open(file, std::move(car));
   if (!opened.has_value()) {
     return with_a_way_out(opened.error());
   }
   auto store = std::make_shared<memory::Store>(std::move(opened).value());
-  const bool is_new = file_is_new || (on_a_server && store->size() == 0 && !options.no_learning);
-  if (is_new && !options.empty_memory) {
-    const auto made_with =
-        loop::made_with({&inputs.car, &inputs.harm}, inputs.intent, inputs.scenario.car);
-    if (const auto failed = add_shipped_cases(*store, inputs.places, made_with)) {
+  if (store->size() == 0 && !options.no_learning && !options.empty_memory) {
+    const auto cases = shipped_cases(inputs.places);
+    if (!cases.has_value()) {
+      return cases.error();
+    }
+    if (const auto failed = store->begin_with(cases.value())) {
       return with_a_way_out(*failed);
     }
   }

@@ -10,10 +10,11 @@
 namespace saca::app {
 namespace {
 
-Result<std::vector<memory::Store>> copies_of(const std::string& file, int count) {
+Result<std::vector<memory::Store>> copies_of(const std::string& file,
+                                             const std::vector<memory::MadeWith>& car, int count) {
   std::vector<memory::Store> copies;
   for (int i = 0; i < count; ++i) {
-    auto copy = memory::Store::snapshot(file);
+    auto copy = memory::Store::snapshot(file, car);
     if (!copy.has_value()) {
       return Error{copy.error().code, "--memory: " + copy.error().message};
     }
@@ -42,11 +43,12 @@ Result<std::string> text_of(const std::vector<memory::Store>& copies) {
 }  // namespace
 
 Result<std::unique_ptr<SuiteThinking>> SuiteThinking::open(const ThinkingOptions& options,
-                                                           const Places& places, int threads,
-                                                           Clock& clock) {
+                                                           const Places& places,
+                                                           const std::vector<memory::MadeWith>& car,
+                                                           int threads, Clock& clock) {
   std::unique_ptr<SuiteThinking> thinking(new SuiteThinking());
   if (!options.memory.empty()) {
-    auto copies = copies_of(options.memory, threads);
+    auto copies = copies_of(options.memory, car, threads);
     if (!copies.has_value()) {
       return copies.error();
     }

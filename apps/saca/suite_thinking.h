@@ -23,11 +23,12 @@ class SuiteThinking {
  public:
   /// Signals are watched for from here on: an interrupt withdraws questions to the model.
   /// @param clock    outlives this
+  /// @param car      that asks memory (loop::made_with)
   /// @param threads  that think at once at most, >= 1
   /// @return         an error where memory or model is not there: a row without it would be another
-  [[nodiscard]] static Result<std::unique_ptr<SuiteThinking>> open(const ThinkingOptions& options,
-                                                                   const Places& places,
-                                                                   int threads, Clock& clock);
+  [[nodiscard]] static Result<std::unique_ptr<SuiteThinking>> open(
+      const ThinkingOptions& options, const Places& places,
+      const std::vector<memory::MadeWith>& car, int threads, Clock& clock);
 
   /// What one encounter is run with, until it is let go: `setup` with memory and model.
   struct Loan {

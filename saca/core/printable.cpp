@@ -62,6 +62,17 @@ std::string printable(std::string_view text) {
   return result;
 }
 
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const Character character = first_character(text);
+    if (!character.valid) {
+      return false;
+    }
+    text.remove_prefix(character.length);
+  }
+  return true;
+}
+
 std::string one_line(std::string_view text, std::size_t most) {
   constexpr std::size_t longest_character = 4;  // bytes
   std::string line = printable(text.substr(0, longest_character * (most + 1)));

@@ -11,6 +11,9 @@ namespace saca {
 /// no UTF-8 become U+FFFD.
 [[nodiscard]] std::string printable(std::string_view text);
 
+/// Is it UTF-8 to the last byte (RFC 3629)?
+[[nodiscard]] bool is_utf8(std::string_view text);
+
 /// The beginning of a foreign text as a message may hold it: one line, printable.
 ///
 /// @param most  characters; where there are more, "..." follows them

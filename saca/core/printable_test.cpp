@@ -27,6 +27,15 @@ TEST(Printable, MarksBytesThatAreNoUtf8) {
   EXPECT_EQ(printable("\xF4\x90\x80\x80"), mark + mark + mark + mark);  // beyond U+10FFFF
 }
 
+TEST(Printable, TellsUtf8FromOtherBytes) {
+  EXPECT_TRUE(is_utf8(""));
+  EXPECT_TRUE(is_utf8("Lücke 3,5 m → 漢字 \xF0\x9F\x9A\x97"));
+  for (const char* const other :
+       {"\x9B", "a\xC3", "\xC0\x9B", "\xED\xA0\x80", "\xF4\x90\x80\x80"}) {
+    EXPECT_FALSE(is_utf8(other));
+  }
+}
+
 TEST(Printable, OneLineHasNoEndAndAtMostSoManyCharacters) {
   EXPECT_EQ(one_line("a\nb"), "a b");
   EXPECT_EQ(one_line("abc", 3), "abc");

@@ -33,9 +33,9 @@ memory::Trust trust_in(const memory::Policies& spoken_for, const memory::PolicyH
 
 }  // namespace
 
-memory::Case checked(const memory::Case& one, const preview::ForecastTools& tools,
-                     const intent::Model& intent, std::size_t draws,
-                     const std::vector<memory::MadeWith>& made_with) {
+std::optional<memory::Case> checked(const memory::Case& one, const preview::ForecastTools& tools,
+                                    const intent::Model& intent, std::size_t draws,
+                                    const std::vector<memory::MadeWith>& made_with) {
   world::Scene scene = one.scene;
   scene.ego_footprint = manoeuvre::footprint(*tools.car);
   scene.ego_mass = tools.car->mass;
@@ -43,6 +43,9 @@ memory::Case checked(const memory::Case& one, const preview::ForecastTools& tool
   now.told = loop::told_harms(
       decide::Forecaster(tools, draws).judge(scene, beliefs_of(one, intent, scene)));
   now.trust = trust_in(memory::as_good_as_best(one), *now.told);
+  if (now.trust == memory::Trust::unchecked) {
+    return std::nullopt;
+  }
   if (!memory::same_car_and_harm(one.made_with, made_with)) {
     now.happened.reset();
   }

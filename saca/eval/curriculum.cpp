@@ -177,7 +177,7 @@ Result<Curriculum> Curriculum::begin(CurriculumSetup setup, std::span<const Case
     for (const char* const part : {"", "-journal"}) {
       std::filesystem::remove(place.string() + part, ignored);
     }
-    auto bank = memory::Store::open(place.string());
+    auto bank = memory::Store::open(place.string(), curriculum.setup_.made_with);
     if (!bank.has_value()) {
       return bank.error();
     }

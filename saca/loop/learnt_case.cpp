@@ -18,21 +18,6 @@ void take_least(memory::PolicyHarms& harms, const manoeuvre::Plan& plan, double 
   least = std::min(least.value_or(harm), harm);
 }
 
-/// Writes a case again; where somebody has deleted it, there is nothing to be changed.
-template <class Change>
-std::optional<Error> change_case(memory::Store& memory, memory::CaseId id, const Change& change) {
-  auto found = memory.find(id);
-  if (!found.has_value()) {
-    return found.error();
-  }
-  if (!found.value()) {
-    return std::nullopt;
-  }
-  memory::Case one = *std::move(found).value();
-  change(one);
-  return memory.update(one);
-}
-
 }  // namespace
 
 std::vector<memory::MadeWith> made_with(const preview::ForecastTools& tools,
@@ -128,8 +113,11 @@ std::optional<memory::CaseId> refuted_case(const Record& record) {
 Result<memory::Learnt> learn(memory::Store& memory, const memory::Case& one,
                              const std::optional<memory::CaseId>& refuted) {
   if (refuted) {
-    const auto quarantine = [](memory::Case& wrong) { wrong.trust = memory::Trust::quarantined; };
-    if (auto error = change_case(memory, *refuted, quarantine)) {
+    const auto quarantine = [](memory::Case& wrong) {
+      wrong.trust = memory::Trust::quarantined;
+      return true;
+    };
+    if (auto error = memory.change(*refuted, quarantine)) {
       return *std::move(error);
     }
   }
@@ -141,8 +129,10 @@ std::optional<Error> keep_lesson(memory::Store& memory, memory::CaseId id,
   if (review.shown.from == reason::Explanation::From::facts) {
     return std::nullopt;
   }
-  return change_case(memory, id,
-                     [&](memory::Case& one) { one.lessons.push_back(review.shown.text); });
+  return memory.change(id, [&](memory::Case& one) {
+    memory::add_lessons(one, {&review.shown.text, 1});
+    return true;
+  });
 }
 
 }  // namespace saca::loop

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "saca/core/names.h"
+#include "saca/core/printable.h"
 
 namespace saca::memory {
 namespace {
@@ -62,11 +63,24 @@ bool same_car_and_harm(std::span<const MadeWith> then, std::span<const MadeWith>
   return same("car") && same("harm");
 }
 
+bool may_be_the_same_car(std::span<const MadeWith> a, std::span<const MadeWith> b) {
+  return a.empty() || b.empty() || same_car_and_harm(a, b);
+}
+
+bool is_hearsay(const Case& one) noexcept {
+  return one.origin == Origin::expert && !one.told && !one.happened;
+}
+
+bool is_trusted_by(std::span<const MadeWith> car, const Case& one) {
+  return one.trust == Trust::trusted && (car.empty() || same_car_and_harm(one.made_with, car));
+}
+
 std::optional<CaseProblem> broken_rule(const Case& one) {
   constexpr const char* amount = "want a finite number >= 0";
   constexpr const char* harms = "want 8 numbers >= 0, or null where a policy cannot be driven";
   constexpr const char* few = "want at most 100";
   constexpr const char* shares = "want shares from 0 to 1";
+  constexpr const char* utf8 = "want UTF-8";
   constexpr const char* per_actor = "want one per actor of the scene, or none";
   const std::size_t actors = one.scene.actors.size();
   const auto per_actor_or_none = [&](std::size_t size) { return size == 0 || size == actors; };
@@ -92,6 +106,9 @@ std::optional<CaseProblem> broken_rule(const Case& one) {
        shares},
       {per_actor_or_none(one.risks.size()), "risks", per_actor},
       {std::all_of(one.risks.begin(), one.risks.end(), is_share), "risks", shares},
+      {is_utf8(one.review), "review", utf8},
+      {is_utf8(one.source), "source", utf8},
+      {std::all_of(one.lessons.begin(), one.lessons.end(), is_utf8), "lessons", utf8},
       {one.lessons.size() <= most_texts, "lessons", few},
       {one.made_with.size() <= most_texts, "made_with", few},
       {are_harms(one.told), "told", harms},

@@ -52,6 +52,9 @@ struct MadeWith {
 /// Are car and harm the same, by their digests?
 [[nodiscard]] bool same_car_and_harm(std::span<const MadeWith> then, std::span<const MadeWith> now);
 
+/// Were both worked out with the same car and harm, or does one of them not say?
+[[nodiscard]] bool may_be_the_same_car(std::span<const MadeWith> a, std::span<const MadeWith> b);
+
 /// Of a case: lessons, or inputs.
 constexpr std::size_t most_texts = 100;
 
@@ -81,6 +84,13 @@ struct Case {
   std::vector<MadeWith> made_with;
 };
 
+/// Is nothing known of it but what somebody says is best?
+[[nodiscard]] bool is_hearsay(const Case& one) noexcept;
+
+/// May it be used by a car of this make as it is, without a rollout in the scene at hand?
+/// @param car  what a case of that car is made with; empty: no matter which
+[[nodiscard]] bool is_trusted_by(std::span<const MadeWith> car, const Case& one);
+
 /// What is wrong with a case: the key by which files call it, and what was wanted.
 struct CaseProblem {
   std::string key;
@@ -88,9 +98,8 @@ struct CaseProblem {
 };
 
 /// @return  the first rule that is broken: harms finite and >= 0, a target speed only where the
-///          policy has one, one intention and risk per actor, few
-///          texts; nullopt when it can be kept. The
-///          scene's own rules are those of world::broken_rule.
+///          policy has one, one intention and risk per actor, few texts, all in UTF-8; nullopt when
+///          it can be kept. The scene's own rules are those of world::broken_rule.
 [[nodiscard]] std::optional<CaseProblem> broken_rule(const Case& one);
 
 }  // namespace saca::memory

@@ -52,6 +52,9 @@ TEST(ACase, NamesWhatCannotBeKept) {
             "intentions");
   EXPECT_EQ(key_of([&](Case& c) { c.lessons.resize(101); }), "lessons");
   EXPECT_EQ(key_of([&](Case& c) { c.made_with.resize(101); }), "made_with");
+  EXPECT_EQ(key_of([&](Case& c) { c.review = "a\xC3"; }), "review");
+  EXPECT_EQ(key_of([&](Case& c) { c.source = "\x9B"; }), "source");
+  EXPECT_EQ(key_of([&](Case& c) { c.lessons = {"a", "\xC0\x9B"}; }), "lessons");
   EXPECT_EQ(key_of([&](Case& c) { c.told = PolicyHarms{0.0, nan}; }), "told");
   EXPECT_EQ(key_of([&](Case& c) { c.happened = PolicyHarms{-1.0}; }), "happened");
   EXPECT_EQ(key_of([&](Case& c) { c.happened = PolicyHarms{std::nullopt, 0.0}; }), "nothing");

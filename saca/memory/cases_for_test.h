@@ -21,6 +21,14 @@ namespace saca::memory {
 
 // What the tests of this module's tables share.
 
+/// A change to what this says.
+inline Store::Change becomes(const Case& changed) {
+  return [changed](Case& one) {
+    one = changed;
+    return true;
+  };
+}
+
 inline Case example_case(std::uint32_t seed) {
   std::mt19937 rng(seed);
   Case one;

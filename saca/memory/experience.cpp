@@ -69,11 +69,17 @@ Experience::Experience(std::span<const Case> cases) {
   }
 }
 
-Experience::Lesson Experience::lesson_of(const Case& one) {
+Experience Experience::for_car(std::vector<MadeWith> car) {
+  Experience experience;
+  experience.car_ = std::move(car);
+  return experience;
+}
+
+Experience::Lesson Experience::lesson_of(const Case& one) const {
   Lesson lesson{.good = as_good_as_best(one),
                 .best = one.best,
                 .errors = {},
-                .trusted = one.trust == Trust::trusted};
+                .trusted = is_trusted_by(car_, one)};
   if (one.told && one.happened) {
     for (std::size_t p = 0; p < lesson.errors.size(); ++p) {
       const auto& told = (*one.told)[p];
@@ -101,10 +107,15 @@ void Experience::relearn(const Case& one) {
   }
 }
 
-std::optional<CaseId> Experience::same_encounter_as(const Features& scene) const noexcept {
-  const auto nearest = index_.nearest(scene);
-  return nearest && nearest->difference < same_encounter ? std::optional(nearest->id)
-                                                         : std::nullopt;
+StaticVector<CaseId, Experience::most_same> Experience::same_encounter_as(
+    const Features& scene) const noexcept {
+  std::array<FeatureIndex::Hit, most_same> hits;
+  const std::size_t found = index_.nearest(scene, hits);
+  StaticVector<CaseId, most_same> same;
+  for (std::size_t i = 0; i < found && hits[i].difference < same_encounter; ++i) {
+    same.push_back(hits[i].id);
+  }
+  return same;
 }
 
 std::optional<Recall> Experience::recall(const Features& scene,

@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "saca/core/static_vector.h"
 #include "saca/manoeuvre/plan.h"
 #include "saca/memory/case.h"
 #include "saca/memory/feature_index.h"
@@ -61,6 +63,9 @@ class Experience {
   static constexpr double most_counted = 0.5;  ///< of harm [-]
 
   Experience() = default;
+  /// @param car  that asks: of the trusted cases those that another was worked out with speak like
+  ///             unchecked ones (is_trusted_by)
+  [[nodiscard]] static Experience for_car(std::vector<MadeWith> car);
   /// Of these, in their order.
   explicit Experience(std::span<const Case> cases);
 
@@ -78,8 +83,13 @@ class Experience {
   /// 0 when there is none.
   [[nodiscard]] CaseId last_id() const noexcept { return index_.last_id(); }
 
-  /// The nearest case that differs by less than memory::same_encounter; nullopt: none does.
-  [[nodiscard]] std::optional<CaseId> same_encounter_as(const Features& scene) const noexcept;
+  /// The nearest cases that differ by less than memory::same_encounter, the nearest first, at most
+  /// `most_same`.
+  static constexpr std::size_t most_same = 16;
+  [[nodiscard]] StaticVector<CaseId, most_same> same_encounter_as(
+      const Features& scene) const noexcept;
+  /// Forgets all that was met, and asks for the same car.
+  void clear() { *this = for_car(std::move(car_)); }
 
   /// Each policy's share of the weight of the cases that differ least, in which it was as good as
   /// the best; a case weighs exp(-d^2 / 2 r^2) for its difference d, and `doubt` is added to the
@@ -107,8 +117,9 @@ class Experience {
     bool trusted = false;
   };
 
-  [[nodiscard]] static Lesson lesson_of(const Case& one);
+  [[nodiscard]] Lesson lesson_of(const Case& one) const;
 
+  std::vector<MadeWith> car_;
   FeatureIndex index_;
   std::vector<Lesson> lessons_;  ///< in its order
 };

@@ -1,15 +1,22 @@
 #include "saca/memory/learning.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "saca/memory/experience.h"
 
 namespace saca::memory {
 namespace {
 
-/// Of two means of so many each.
+/// Of two means of so many each; no sum of numbers and of counts leaves their range.
 double mean_of(double older, int of_older, double newer, int of_newer) {
-  return (older * of_older + newer * of_newer) / (of_older + of_newer);
+  const double share = 1.0 / (1.0 + static_cast<double>(of_older) / of_newer);
+  return older * (1.0 - share) + newer * share;
+}
+
+int sum_of(int a, int b) {
+  constexpr int most = std::numeric_limits<int>::max();
+  return a > most - b ? most : a + b;
 }
 
 std::optional<PolicyHarms> mean_of(const std::optional<PolicyHarms>& older, int of_older,
@@ -34,7 +41,25 @@ bool contradict(const Case& a, const Case& b) noexcept {
   return of_a.any() && of_b.any() && (of_a & of_b).none();
 }
 
+void add_lessons(Case& one, std::span<const std::string> lessons) {
+  one.lessons.insert(one.lessons.end(), lessons.begin(), lessons.end());
+  if (one.lessons.size() > most_texts) {
+    one.lessons.erase(one.lessons.begin(), one.lessons.end() - most_texts);
+  }
+}
+
 Case merged(const Case& older, const Case& newer) {
+  if (is_hearsay(newer) || is_hearsay(older)) {
+    Case one = is_hearsay(newer) ? older : newer;
+    one.id = older.id;
+    one.scene = older.scene;
+    one.intentions = older.intentions;
+    one.risks = older.risks;
+    one.trust = older.trust;
+    one.lessons = older.lessons;
+    add_lessons(one, newer.lessons);
+    return one;
+  }
   Case one = older;
   const auto mean = [&](double Case::*harm) {
     return mean_of(older.*harm, older.count, newer.*harm, newer.count);
@@ -46,11 +71,8 @@ Case merged(const Case& older, const Case& newer) {
       std::max(older.worst_harm.value_or(older.harm), newer.worst_harm.value_or(newer.harm));
   one.told = mean_of(older.told, older.count, newer.told, newer.count);
   one.happened = mean_of(older.happened, older.count, newer.happened, newer.count);
-  one.count = older.count + newer.count;
-  one.lessons.insert(one.lessons.end(), newer.lessons.begin(), newer.lessons.end());
-  if (one.lessons.size() > most_texts) {  // the newest are kept
-    one.lessons.erase(one.lessons.begin(), one.lessons.end() - most_texts);
-  }
+  one.count = sum_of(older.count, newer.count);
+  add_lessons(one, newer.lessons);
   if (one.happened) {
     const Policies good = as_good_as_best(*one.happened);
     const auto does = [&](manoeuvre::PolicyId policy) {

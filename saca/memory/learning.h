@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <string>
 
 #include "saca/memory/case.h"
 
@@ -14,9 +16,13 @@ constexpr double same_encounter = 0.25;
 
 /// Two cases of one encounter as one. Counts add up; harms are means of as many encounters as each
 /// stands for, and the largest is kept beside them; the best in hindsight is that of the least mean
-/// harm, as long as each policy's is known. All else is the older's: its id, its scene, how far it
-/// is trusted; but lessons are those of both.
+/// harm, as long as each policy's is known. Of hearsay there are no figures: those of the other
+/// stay as they are. All else is the older's: its id, its scene, how far it is trusted; but lessons
+/// are those of both.
 [[nodiscard]] Case merged(const Case& older, const Case& newer);
+
+/// Adds what was learnt; of more than `most_texts` the newest are kept.
+void add_lessons(Case& one, std::span<const std::string> lessons);
 
 /// What learning a case came to.
 struct Learnt {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <string>
+
 #include "saca/memory/example_scenes.h"
 
 namespace saca::memory::learning_test {
@@ -25,6 +28,53 @@ TEST(Contradiction, IsToSpeakForNothingInCommon) {
   EXPECT_FALSE(contradict(aeb, either));
   EXPECT_FALSE(contradict(aeb, aeb));
   EXPECT_FALSE(contradict(aeb, with_harms({}))) << "it speaks for nothing";
+}
+
+TEST(AMergedCase, IsInRangeWhateverItIsMergedOf) {
+  Case much = with_harms({1e308});
+  much.harm = much.best_harm = much.collision_loss = 1.7e308;
+  much.count = std::numeric_limits<int>::max();
+  const Case one = merged(much, much);
+  EXPECT_FALSE(broken_rule(one));
+  EXPECT_EQ(one.count, std::numeric_limits<int>::max());
+  EXPECT_FALSE(broken_rule(merged(one, with_harms({0.1}))));
+  EXPECT_FALSE(broken_rule(merged(with_harms({0.1}), one)));
+}
+
+TEST(AMergedCase, TakesNoFiguresOfHearsay) {
+  Case known = with_harms({0.2, 0.1});
+  known.id = 3;
+  known.count = 4;
+  known.harm = 0.4;
+  Case said;
+  said.scene = empty_road();
+  said.origin = Origin::expert;
+  said.trust = Trust::unchecked;
+  said.best = PolicyId::aes_left;
+  said.id = 8;
+  ASSERT_TRUE(is_hearsay(said));
+  ASSERT_FALSE(is_hearsay(known));
+  const Case one = merged(known, said);
+  EXPECT_EQ(one.harm, 0.4);
+  EXPECT_EQ(one.count, 4);
+  EXPECT_EQ(one.id, 3);
+  const Case other = merged(said, known);
+  EXPECT_EQ(other.harm, 0.4);
+  EXPECT_EQ(other.happened, known.happened);
+  EXPECT_EQ(other.id, 8);
+  EXPECT_EQ(other.trust, Trust::unchecked);
+  EXPECT_EQ(merged(said, said).best, PolicyId::aes_left);
+}
+
+TEST(Lessons, AreTheNewestOfMany) {
+  Case one;
+  for (std::size_t i = 0; i <= most_texts; ++i) {
+    const std::string text = std::to_string(i);
+    add_lessons(one, {&text, 1});
+  }
+  EXPECT_FALSE(broken_rule(one));
+  EXPECT_EQ(one.lessons.front(), "1");
+  EXPECT_EQ(one.lessons.back(), std::to_string(most_texts));
 }
 
 TEST(AMergedCase, IsTheMeanOfAsManyEncountersAsEachStandsFor) {

@@ -297,7 +297,14 @@ class PostgresTable final : public CaseTable {
     }
     const Cell number = rows.size() > 0 ? rows.cell(0, 0) : Cell();
     in_transaction_ = true;
-    auto error = work();
+    std::optional<Error> error;
+    try {
+      error = work();
+    } catch (...) {
+      in_transaction_ = false;
+      end_transaction(until);
+      throw;
+    }
     in_transaction_ = false;
     if (error) {
       const bool lost = !connection_.is_open();

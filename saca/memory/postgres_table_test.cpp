@@ -9,6 +9,7 @@
 #include <set>
 #include <thread>
 
+#include "saca/core/contract.h"
 #include "saca/memory/cases_for_test.h"
 #include "saca/memory/postgres.h"
 #include "tests/support/postgres_server.h"
@@ -68,7 +69,8 @@ TEST_F(Fleet, KeepsCasesAsAFileDoes) {
   Case corrected = example_case(5);
   corrected.id = 16;
   corrected.review = "otherwise";
-  EXPECT_EQ(there.update(corrected), here.update(corrected));
+  EXPECT_EQ(there.change(16, becomes(corrected)), std::nullopt);
+  EXPECT_EQ(here.change(16, becomes(corrected)), std::nullopt);
   const std::vector<CaseId> gone{4, 7, 999};
   EXPECT_EQ(there.forget(gone), std::nullopt);
   EXPECT_EQ(here.forget(gone), std::nullopt);
@@ -77,8 +79,10 @@ TEST_F(Fleet, KeepsCasesAsAFileDoes) {
   const Match match = there.recall(example_case(8).scene).value().value();
   EXPECT_EQ(match.found.id, here.recall(example_case(8).scene).value().value().found.id);
   expect_same(match.found, example_case(8));
-  corrected.id = 4;
-  EXPECT_EQ(there.update(corrected)->code, Error::Code::out_of_range);
+  EXPECT_EQ(there.change(4, becomes(corrected)), std::nullopt) << "it is gone";
+  corrected.count = 0;
+  EXPECT_THROW((void)there.change(1, becomes(corrected)), ContractViolation);
+  EXPECT_TRUE(there.add(example_case(1)).has_value()) << "no transaction is left open";
   std::filesystem::remove(file);
 }
 

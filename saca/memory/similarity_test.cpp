@@ -164,6 +164,42 @@ TEST(Similarity, IsOneOnlyForTheSame) {
   }
 }
 
+// However a scene is changed by a little, what is like it stays about as like; also where a road
+// user begins to be matched with another one, or to matter at all.
+TEST(Difference, HasNoJumps) {
+  std::mt19937 rng(17);
+  std::normal_distribution<double> normal;
+  constexpr double step = 1e-6;  // [m], [m/s], [rad], [m/s^2]
+  double most = 0.0;
+  for (int i = 0; i < 400; ++i) {
+    const Scene a = random_scene(rng, i % 7);
+    const Scene b = random_scene(rng, (i + i / 7) % 7);
+    Scene moved = b;
+    moved.ego.X_WB.p.x += step * normal(rng);
+    moved.ego.X_WB.p.y += step * normal(rng);
+    moved.ego.v_B.x += step * normal(rng);
+    moved.grip += step;
+    for (world::Actor& actor : moved.actors) {
+      actor.X_WA.p.x += step * normal(rng);
+      actor.X_WA.p.y += step * normal(rng);
+      actor.X_WA.yaw += step * normal(rng);
+      actor.v_W.x += step * normal(rng);
+      actor.v_W.y += step * normal(rng);
+      actor.a_W.x += step * normal(rng);
+    }
+    const auto from_a = [&](const Scene& other) {
+      const Features of_a = features(a);
+      const Features of_other = features(other);
+      const auto actors = [](const Features& one) {
+        return std::span(one.actors.begin(), one.actors.size());
+      };
+      return difference(of_a.ego, actors(of_a), of_other.ego, actors(of_other));
+    };
+    most = std::max(most, std::abs(from_a(moved) - from_a(b)));
+  }
+  EXPECT_LT(most, 1e-3) << "a thousand times the step";
+}
+
 TEST(Similarity, IsTheSameFromEveryWorldFrame) {
   std::mt19937 rng(3);
   for (int i = 0; i < 200; ++i) {

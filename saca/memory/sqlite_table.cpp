@@ -312,13 +312,20 @@ class SqliteTable final : public CaseTable {
     if (auto error = run("BEGIN IMMEDIATE", Access::write)) {
       return error;
     }
+    struct UndoUnlessDone {
+      const SqliteTable& table;
+      bool is_done = false;
+      ~UndoUnlessDone() {
+        if (!is_done) {
+          (void)table.run("ROLLBACK", Access::write);
+        }
+      }
+    } undo{*this};
     std::optional<Error> error = work();
     if (!error) {
       error = run("COMMIT", Access::write);
     }
-    if (error) {
-      (void)run("ROLLBACK", Access::write);
-    }
+    undo.is_done = !error;
     return error;
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <set>
 #include <string>
 #include <utility>
@@ -54,17 +55,10 @@ struct Store::State {
     return each_after(experience.last_id(), [this](const Case& one) { experience.add(one); });
   }
 
-  /// In a transaction.
+  /// In a transaction; of a row that is there.
   [[nodiscard]] std::optional<Error> rewrite(const Case& one) const {
     const auto written = table->rewrite(one.id, cells_of(one));
-    if (!written.has_value()) {
-      return written.error();
-    }
-    if (!written.value()) {
-      return Error{Error::Code::out_of_range,
-                   table->name() + ": there is no case " + std::to_string(one.id)};
-    }
-    return std::nullopt;
+    return written.has_value() ? std::nullopt : std::optional(written.error());
   }
 
   void relearn(const Case& one) {
@@ -93,37 +87,39 @@ bool is_on_a_server(std::string_view place) noexcept {
   return is_postgres_url(place);
 }
 
-Result<Store> Store::with(Result<std::unique_ptr<CaseTable>> table) {
+Result<Store> Store::with(Result<std::unique_ptr<CaseTable>> table, std::vector<MadeWith> car) {
   if (!table.has_value()) {
     return table.error();
   }
   auto state = std::make_unique<State>();
   state->table = std::move(table).value();
+  state->experience = Experience::for_car(std::move(car));
   if (auto error = state->catch_up()) {
     return *std::move(error);
   }
   return Store(std::move(state));
 }
 
-Result<Store> Store::open(const std::string& place) {
-  return with(is_on_a_server(place) ? open_postgres(place, IfMissing::make) : open_sqlite(place));
+Result<Store> Store::open(const std::string& place, std::vector<MadeWith> car) {
+  return with(is_on_a_server(place) ? open_postgres(place, IfMissing::make) : open_sqlite(place),
+              std::move(car));
 }
 
 Result<Store> Store::open_existing(const std::string& place) {
   if (is_on_a_server(place)) {
-    return with(open_postgres(place, IfMissing::refuse));
+    return with(open_postgres(place, IfMissing::refuse), {});
   }
   auto missing = missing_file(place);
   return missing ? *std::move(missing) : open(place);
 }
 
-Result<Store> Store::snapshot(const std::string& place) {
+Result<Store> Store::snapshot(const std::string& place, std::vector<MadeWith> car) {
   if (!is_on_a_server(place)) {
     auto missing = missing_file(place);
-    return missing ? *std::move(missing) : with(copy_of_sqlite(place));
+    return missing ? *std::move(missing) : with(copy_of_sqlite(place), std::move(car));
   }
   const auto table = open_postgres(place, IfMissing::refuse);
-  return table.has_value() ? with(copy_of(*table.value())) : table.error();
+  return table.has_value() ? with(copy_of(*table.value()), std::move(car)) : table.error();
 }
 
 namespace {
@@ -136,32 +132,50 @@ void check(const Case& one) {
 }  // namespace
 
 Result<CaseId> Store::add(const Case& one) {
-  const auto ids = add_in_turn({&one, 1}, KeepIds::no);
+  const auto ids = add_in_turn({&one, 1}, Adding::new_ids);
   return ids.has_value() ? Result(ids.value().front()) : ids.error();
 }
 
-Result<std::vector<CaseId>> Store::add_all(std::span<const Case> cases) {
+namespace {
+
+/// Ids that a bank can keep: each comes once, and there is room for new ones.
+bool are_ids(std::span<const Case> cases) {
+  constexpr CaseId most = std::numeric_limits<CaseId>::max() / 2;
   std::set<CaseId> own;
   for (const Case& one : cases) {
     own.insert(one.id);
   }
-  const bool each_once = own.size() == cases.size() && !own.empty() && *own.begin() > 0;
-  return add_in_turn(cases, each_once ? KeepIds::where_empty : KeepIds::no);
+  return own.size() == cases.size() && !own.empty() && *own.begin() > 0 && *own.rbegin() <= most;
 }
 
-Result<std::vector<CaseId>> Store::add_in_turn(std::span<const Case> cases, KeepIds keep) {
+}  // namespace
+
+Result<std::vector<CaseId>> Store::add_all(std::span<const Case> cases) {
+  return add_in_turn(cases, are_ids(cases) ? Adding::own_ids_where_empty : Adding::new_ids);
+}
+
+std::optional<Error> Store::begin_with(std::span<const Case> cases) {
+  expects(are_ids(cases), "each has an id of its own");
+  const auto ids = add_in_turn(cases, Adding::only_where_empty);
+  return ids.has_value() ? std::nullopt : std::optional(ids.error());
+}
+
+Result<std::vector<CaseId>> Store::add_in_turn(std::span<const Case> cases, Adding how) {
   std::for_each(cases.begin(), cases.end(), check);
   CaseTable& table = *state_->table;
   std::vector<CaseId> ids;
   auto error = table.in_one_transaction([&]() -> std::optional<Error> {
     ids.clear();
-    const auto keeps_ids = keep == KeepIds::no ? Result(false) : table.is_empty();
-    if (!keeps_ids.has_value()) {
-      return keeps_ids.error();
+    const auto is_empty = how == Adding::new_ids ? Result(false) : table.is_empty();
+    if (!is_empty.has_value()) {
+      return is_empty.error();
+    }
+    if (how == Adding::only_where_empty && !is_empty.value()) {
+      return std::nullopt;
     }
     for (const Case& one : cases) {
       const auto id =
-          table.insert(cells_of(one), keeps_ids.value() ? std::optional(one.id) : std::nullopt);
+          table.insert(cells_of(one), is_empty.value() ? std::optional(one.id) : std::nullopt);
       if (!id.has_value()) {
         return id.error();
       }
@@ -178,57 +192,82 @@ Result<std::vector<CaseId>> Store::add_in_turn(std::span<const Case> cases, Keep
 Result<Learnt> Store::learn(const Case& one) {
   check(one);
   Learnt learnt;
+  const auto rewrite = [this](const Case& known) {
+    auto error = state_->rewrite(known);
+    if (!error) {
+      state_->relearn(known);
+    }
+    return error;
+  };
   const auto learn_now = [&]() -> std::optional<Error> {
     if (auto error = state_->catch_up()) {
       return error;
     }
-    std::optional<Case> same;
-    if (const auto id = state_->experience.same_encounter_as(features(one.scene))) {
-      auto found = find(*id);
+    std::optional<Case> doubted;  // the nearest that contradicts it
+    for (const CaseId id : state_->experience.same_encounter_as(features(one.scene))) {
+      auto found = find(id);
       if (!found.has_value()) {
         return found.error();
       }
-      same = std::move(found).value();  // unless somebody has deleted it
-    }
-    const auto rewrite = [this](const Case& known) {
-      auto error = state_->rewrite(known);
-      if (!error) {
-        state_->relearn(known);
+      if (!found.value()) {
+        continue;  // somebody has deleted it
       }
-      return error;
-    };
-    if (same && !contradict(*same, one)) {
-      learnt = {.how = Learnt::How::merged, .id = same->id, .other = same->id};
-      return rewrite(merged(*same, one));
+      Case known = *std::move(found).value();
+      if (known.trust == Trust::quarantined) {  // since it was read
+        state_->experience.pass_over(id);
+      } else if (!may_be_the_same_car(known.made_with, one.made_with)) {
+        continue;
+      } else if (!contradict(known, one)) {
+        learnt = {.how = Learnt::How::merged, .id = id, .other = id};
+        return rewrite(merged(known, one));
+      } else if (!doubted) {
+        doubted = std::move(known);
+      }
     }
-    Case doubtful = one;
-    if (same) {
-      doubtful.trust = std::max(doubtful.trust, Trust::unchecked);
-      same->trust = std::max(same->trust, Trust::unchecked);
-      if (auto error = rewrite(*same)) {
+    Case added = one;
+    if (doubted) {
+      added.trust = std::max(added.trust, Trust::unchecked);
+      doubted->trust = std::max(doubted->trust, Trust::unchecked);
+      if (auto error = rewrite(*doubted)) {
         return error;
       }
     }
-    const auto id = state_->table->insert(cells_of(doubtful), std::nullopt);
+    const auto id = state_->table->insert(cells_of(added), std::nullopt);
     if (!id.has_value()) {
       return id.error();
     }
-    learnt = same ? Learnt{Learnt::How::contradicted, id.value(), same->id}
-                  : Learnt{Learnt::How::added, id.value(), 0};
+    learnt = doubted ? Learnt{Learnt::How::contradicted, id.value(), doubted->id}
+                     : Learnt{Learnt::How::added, id.value(), 0};
     return std::nullopt;
   };
   if (auto error = state_->table->in_one_transaction(learn_now)) {
-    state_->experience = {};  // it may know of what did not happen
+    state_->experience.clear();  // it may know of what did not happen
     return *std::move(error);
   }
   return learnt;
 }
 
-std::optional<Error> Store::update(const Case& one) {
-  check(one);
-  auto error = state_->table->in_one_transaction([&] { return state_->rewrite(one); });
-  if (!error) {
-    state_->relearn(one);
+std::optional<Error> Store::change(CaseId id, const Change& change) {
+  std::optional<Case> changed;
+  auto error = state_->table->in_one_transaction([&]() -> std::optional<Error> {
+    changed.reset();
+    auto found = find(id);
+    if (!found.has_value() || !found.value()) {
+      return found.has_value() ? std::nullopt : std::optional(found.error());
+    }
+    Case one = *std::move(found).value();
+    const world::Scene scene = one.scene;
+    if (!change(one)) {
+      return std::nullopt;
+    }
+    one.id = id;
+    one.scene = scene;
+    check(one);
+    changed = std::move(one);
+    return state_->rewrite(*changed);
+  });
+  if (!error && changed) {
+    state_->relearn(*changed);
   }
   return error;
 }
@@ -245,7 +284,7 @@ std::optional<Error> Store::forget(std::span<const CaseId> ids) {
   if (auto error = state_->table->in_one_transaction(forget_all)) {
     return error;
   }
-  state_->experience = {};  // what is left is read anew
+  state_->experience.clear();  // what is left is read anew
   return state_->catch_up();
 }
 
@@ -302,7 +341,7 @@ Result<std::optional<Match>> Store::recall(const world::Scene& scene) {
       return found.error();
     }
     if (!found.value()) {
-      state_->experience = {};  // somebody has deleted it: look again, at all
+      state_->experience.clear();  // somebody has deleted it: look again, at all
     } else if (found.value()->trust == Trust::quarantined) {
       state_->experience.pass_over(recalled->nearest);  // since it was read
     } else {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -47,8 +48,9 @@ struct Match {
 ///
 /// One thread at a time. It waits for disk or network, and for another process (then: too_late) up
 /// to 5 s, `recall` some tenths of a second, so it belongs to the thinking plane. What other
-/// processes add is seen by the next call. Movable, not copyable. Table and versions:
-/// docs/formats.md.
+/// processes add is seen by the next call; what they change of a case, when it is the one that is
+/// served or learnt into, or when the bank is opened anew. Movable, not copyable. Table and
+/// versions: docs/formats.md.
 ///
 /// Every error names the bank, without a password, and, where one row is at fault, table, id and
 /// key.
@@ -59,18 +61,21 @@ class Store {
   ///
   /// A bank of an older version is brought to the newest. One that may only be read, such as a
   /// server's replica, is opened for reading: `add` then returns unwritable.
+  /// @param car  that asks: cases that another car was worked out with are not trusted by it
+  ///             (is_trusted_by); empty: no matter which
   /// @return  unreadable when it cannot be opened; malformed when it is damaged, is no memory bank,
   ///          has another version, or a row cannot be used
-  [[nodiscard]] static Result<Store> open(const std::string& place);
+  [[nodiscard]] static Result<Store> open(const std::string& place, std::vector<MadeWith> car = {});
 
-  /// Likewise, but makes none.
+  /// Likewise for any car, but makes none.
   /// @return  unreadable where there is none
   [[nodiscard]] static Result<Store> open_existing(const std::string& place);
 
   /// Copies what an existing bank holds now, to ask it as often as wanted: what anybody adds to it
   /// later is not seen, and `add` returns unwritable.
   /// @return  unreadable when there is no such bank; else as `open`
-  [[nodiscard]] static Result<Store> snapshot(const std::string& place);
+  [[nodiscard]] static Result<Store> snapshot(const std::string& place,
+                                              std::vector<MadeWith> car = {});
 
   Store(Store&&) noexcept;
   Store& operator=(Store&&) noexcept;
@@ -85,20 +90,27 @@ class Store {
   /// @throws ContractViolation  if the case or its scene breaks a rule
   [[nodiscard]] Result<CaseId> add(const Case& one);
 
-  /// Adds what was met, as `add`, or merges it into the stored case that is the same encounter
-  /// (`merged`). Where the two contradict each other it keeps both and marks them unchecked. All of
-  /// it happens or nothing; who is quarantined is the same as nothing.
+  /// Adds what was met, as `add`, or merges it into the nearest stored case that is the same
+  /// encounter of the same car and does not contradict it (`merged`). Where each of these
+  /// contradicts it, it is added, and it and the nearest are marked unchecked. All of it happens or
+  /// nothing; who is quarantined is the same as nothing.
   [[nodiscard]] Result<Learnt> learn(const Case& one);
 
   /// Puts all of them on the disk, as `add`, or none. Where the bank is empty they keep their ids,
-  /// if these are positive and each comes once; else they get new ones.
+  /// if these are positive, leave room for new ones, and each comes once; else they get new ones.
   /// @return  the ids given, in their order
   [[nodiscard]] Result<std::vector<CaseId>> add_all(std::span<const Case> cases);
 
-  /// Writes a case again: what was learnt of it since. Its scene stays as it is.
-  /// @return  unwritable; out_of_range where there is no case of this id
+  /// As `add_all` where the bank is empty, and nothing where somebody has put a case into it.
+  [[nodiscard]] std::optional<Error> begin_with(std::span<const Case> cases);
+
+  /// Writes again what was learnt of a case since, as it is then; nobody else writes meanwhile.
+  /// @param change  gets the case as it is now; its scene and id stay. False: it is left as it was.
+  ///                May be asked again where the first try did not happen
+  /// @return  what went wrong; nothing where somebody has deleted it
   /// @throws ContractViolation  as `add`
-  [[nodiscard]] std::optional<Error> update(const Case& one);
+  using Change = std::function<bool(Case& one)>;
+  [[nodiscard]] std::optional<Error> change(CaseId id, const Change& change);
 
   /// Forgets these cases, all or none; who is not there is none to forget.
   /// @return  unwritable; or what `open` would say of what is left
@@ -134,10 +146,11 @@ class Store {
  private:
   struct State;
   explicit Store(std::unique_ptr<State> state);
-  [[nodiscard]] static Result<Store> with(Result<std::unique_ptr<CaseTable>> table);
+  [[nodiscard]] static Result<Store> with(Result<std::unique_ptr<CaseTable>> table,
+                                          std::vector<MadeWith> car);
 
-  enum class KeepIds : std::uint8_t { no, where_empty };
-  [[nodiscard]] Result<std::vector<CaseId>> add_in_turn(std::span<const Case> cases, KeepIds keep);
+  enum class Adding : std::uint8_t { new_ids, own_ids_where_empty, only_where_empty };
+  [[nodiscard]] Result<std::vector<CaseId>> add_in_turn(std::span<const Case> cases, Adding how);
 
   std::unique_ptr<State> state_;
 };

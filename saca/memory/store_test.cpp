@@ -228,14 +228,50 @@ TEST_F(Memory, WritesACaseAgain) {
   changed.trust = Trust::quarantined;
   changed.lessons.emplace_back("a truck was hidden");
   changed.plan = {manoeuvre::PolicyId::no_intervention};
-  EXPECT_FALSE(store.update(changed).has_value());
+  EXPECT_FALSE(store.change(id, becomes(changed)).has_value());
   expect_same(opened().find(id).value().value(), changed);
   expect_same(opened().find(id + 1).value().value(), example_case(2));
-  changed.id = 99;
-  const auto problem = store.update(changed);
-  ASSERT_TRUE(problem.has_value());
-  EXPECT_EQ(problem->code, Error::Code::out_of_range);
-  EXPECT_THAT(problem->message, HasSubstr("bank.db: there is no case 99"));
+  EXPECT_FALSE(store.change(99, becomes(changed)).has_value()) << "somebody has deleted it";
+  EXPECT_EQ(opened().size(), 2U);
+  const auto spoils_and_leaves = [](Case& one) {
+    one.harm = 7.0;
+    return false;
+  };
+  EXPECT_FALSE(store.change(id, spoils_and_leaves).has_value());
+  expect_same(opened().find(id).value().value(), changed);
+}
+
+// Each adds to what the other has written meanwhile, and nothing is lost.
+TEST_F(Memory, ChangesACaseAsItIsThen) {
+  Store one = opened();
+  Store other = opened();
+  const CaseId id = one.add(example_case(1)).value();
+  ASSERT_FALSE(other.catch_up().has_value());
+  const auto counts = [](Case& known) {
+    ++known.count;
+    return true;
+  };
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_FALSE(one.change(id, counts).has_value());
+    EXPECT_FALSE(other.change(id, counts).has_value());
+  }
+  EXPECT_EQ(opened().find(id).value().value().count, example_case(1).count + 6);
+}
+
+TEST_F(Memory, IsNotLeftInTheMiddleOfAChangeThatThrows) {
+  Store store = opened();
+  const CaseId id = store.add(example_case(1)).value();
+  const auto breaks_a_rule = [](Case& one) {
+    one.count = 0;
+    return true;
+  };
+  EXPECT_THROW((void)store.change(id, breaks_a_rule), ContractViolation);
+  expect_same(opened().find(id).value().value(), [&] {
+    Case same = example_case(1);
+    same.id = id;
+    return same;
+  }());
+  EXPECT_TRUE(store.add(example_case(2)).has_value()) << "no transaction is left open";
 }
 
 /// In this scene one policy harms nobody, and all others do.
@@ -306,6 +342,88 @@ TEST_F(Memory, KeepsWhatContradictsAndTrustsNeither) {
   EXPECT_EQ(match.trusted_confidence, 0.0) << "also where the bank has been open all the time";
 }
 
+// The nearest is not asked alone: where another is the same encounter and agrees, they become one.
+TEST_F(Memory, MergesIntoTheOneThatAgrees) {
+  Store store = opened();
+  const CaseId aeb = store.learn(best_is(manoeuvre::PolicyId::aeb, 14.0)).value().id;
+  const CaseId left = store.learn(best_is(manoeuvre::PolicyId::aes_left, 14.1)).value().id;
+  for (int i = 0; i < 3; ++i) {
+    const Learnt again = store.learn(best_is(manoeuvre::PolicyId::aes_left, 14.0)).value();
+    EXPECT_EQ(again.how, Learnt::How::merged);
+    EXPECT_EQ(again.id, left) << "case " << aeb << " is nearer, and contradicts it";
+  }
+  EXPECT_EQ(opened().size(), 2U);
+}
+
+// Somebody has quarantined what it would be merged into, and it must not vanish with it.
+TEST_F(Memory, MergesIntoNobodyWhoIsQuarantined) {
+  Store store = opened();
+  Case wrong = best_is(manoeuvre::PolicyId::aeb, 14.0);
+  wrong.id = store.learn(wrong).value().id;
+  Store other = opened();
+  wrong.trust = Trust::quarantined;
+  ASSERT_FALSE(other.change(wrong.id, becomes(wrong)).has_value());
+  const Learnt again = store.learn(best_is(manoeuvre::PolicyId::aeb, 14.0)).value();
+  EXPECT_EQ(again.how, Learnt::How::added);
+  EXPECT_EQ(opened().recall(wrong.scene).value().value().found.id, again.id);
+}
+
+TEST_F(Memory, MergesNoEncountersOfDifferentCars) {
+  const auto made_with = [](const char* car) {
+    return std::vector<MadeWith>{{"car", "car", car}, {"harm", "harm", "h"}};
+  };
+  Store store = opened();
+  Case one = best_is(manoeuvre::PolicyId::aeb, 14.0);
+  one.made_with = made_with("a");
+  const CaseId first = store.learn(one).value().id;
+  one.made_with = made_with("b");
+  EXPECT_EQ(store.learn(one).value().how, Learnt::How::added);
+  EXPECT_EQ(store.learn(one).value().id, first + 1);
+  one.made_with.clear();
+  EXPECT_EQ(store.learn(one).value().how, Learnt::How::merged) << "nobody knows which";
+}
+
+// What another car learnt is asked, but not believed.
+TEST_F(Memory, IsTrustedByTheCarThatItWasWorkedOutWith) {
+  const std::vector<MadeWith> car{{"car", "car", "a"}, {"harm", "harm", "h"}};
+  const std::vector<MadeWith> other{{"car", "car", "b"}, {"harm", "harm", "h"}};
+  Case one = best_is(manoeuvre::PolicyId::aeb, 14.0);
+  one.made_with = car;
+  for (int i = 0; i < 20; ++i) {
+    ASSERT_TRUE(opened().add(one).has_value());
+  }
+  const auto trusted_by = [&](const std::vector<MadeWith>& asking) {
+    const Match open = Store::open(path_, asking).value().recall(one.scene).value().value();
+    const Match copy = Store::snapshot(path_, asking).value().recall(one.scene).value().value();
+    EXPECT_EQ(open.confidence, copy.confidence);
+    EXPECT_EQ(open.trusted_confidence, copy.trusted_confidence);
+    EXPECT_GT(open.confidence, 0.9);
+    return open.trusted_confidence;
+  };
+  EXPECT_GT(trusted_by(car), 0.9);
+  EXPECT_EQ(trusted_by(other), 0.0);
+  EXPECT_GT(trusted_by({}), 0.9) << "no matter which";
+}
+
+TEST_F(Memory, BeginsWithCasesOnlyWhereThereAreNone) {
+  std::vector<Case> cases{example_case(1), example_case(2)};
+  cases[0].id = 5;
+  cases[1].id = 9;
+  Store store = opened();
+  EXPECT_FALSE(store.begin_with(cases).has_value());
+  EXPECT_FALSE(opened().begin_with(cases).has_value()) << "another process was faster";
+  EXPECT_EQ(opened().size(), 2U);
+  EXPECT_TRUE(opened().find(9).value().has_value());
+}
+
+TEST_F(Memory, GivesNewIdsWhereTheirOwnLeaveNoRoom) {
+  Case one = example_case(1);
+  one.id = std::numeric_limits<CaseId>::max();
+  Store store = opened();
+  EXPECT_EQ(store.add_all({&one, 1}).value(), std::vector<CaseId>{1});
+  EXPECT_TRUE(store.add(example_case(2)).has_value());
+}
+
 TEST_F(Memory, PassesOverWhoIsQuarantined) {
   Store asked = opened();
   Store other = opened();
@@ -314,13 +432,13 @@ TEST_F(Memory, PassesOverWhoIsQuarantined) {
   const CaseId second = other.add(example_case(4)).value();
   EXPECT_EQ(asked.recall(best.scene).value().value().found.id, best.id);
   best.trust = Trust::quarantined;
-  EXPECT_FALSE(other.update(best).has_value());
+  EXPECT_FALSE(other.change(best.id, becomes(best)).has_value());
   EXPECT_EQ(asked.recall(best.scene).value().value().found.id, second) << "another's change";
   EXPECT_EQ(opened().recall(best.scene).value().value().found.id, second);
   Case last = example_case(4);
   last.id = second;
   last.trust = Trust::quarantined;
-  EXPECT_FALSE(other.update(last).has_value());
+  EXPECT_FALSE(other.change(last.id, becomes(last)).has_value());
   EXPECT_FALSE(asked.recall(best.scene).value().has_value());
 }
 

@@ -314,6 +314,10 @@ std::string history_section(const std::optional<memory::Case>& nearest, double s
   const auto policy_harm = [](PolicyId policy, double harm) {
     return fmt::format("{} {}, {}", manoeuvre::index(policy), name(policy), harm_text(harm));
   };
+  if (memory::is_hearsay(*nearest)) {
+    return fmt::format("{}A case {:.0f} % alike: somebody says that {} {} is best\n", historical,
+                       100.0 * similarity, manoeuvre::index(nearest->best), name(nearest->best));
+  }
   const PolicyId done = nearest->plan.policy;
   std::string often;
   std::string expected;

@@ -204,6 +204,15 @@ TEST(Prompt, NearestCaseTellsWhatWasExpectedAndHowOftenItWasMet) {
               HasSubstr("carried out 0 AEB, harm 0.0321; best in hindsight"));
 }
 
+// Nothing happened of which there would be figures.
+TEST(Prompt, ACaseThatSomebodySaysHasNoHarm) {
+  memory::Case nearest;
+  nearest.origin = memory::Origin::expert;
+  nearest.plan.policy = nearest.best = manoeuvre::PolicyId::es_b_left;
+  EXPECT_THAT(scene_part(example_situation(), nearest, 0.9),
+              HasSubstr("A case 90 % alike: somebody says that 3 ES-B-L is best\n"));
+}
+
 TEST(Prompt, SlidingIsTold) {
   preview::Situation situation = example_situation();
   situation.scene_at_trigger.ego.v_B = {14.0, -0.62};

@@ -181,13 +181,30 @@ def test_a_new_memory_begins_with_the_shipped_cases(tmp_path):
     assert len(listed) <= 1001, "what was forgotten does not come back"
 
 
-def test_for_another_car_the_shipped_cases_are_in_doubt(tmp_path):
+def test_another_car_does_not_trust_the_shipped_cases(tmp_path):
     scenario = (SHIPPED.parents[2] / "scenarios/one_way.toml").read_text()
     (tmp_path / "one_way.toml").write_text(scenario.replace('car = "compact_rwd_ev"', 'car = "midsize_suv"'))
-    run = saca("run", "one_way.toml", "--llm", "off", "--pace", "lockstep", "--danger", "off", "--atlas", "off", "--memory", "m.sqlite", cwd=tmp_path)
-    assert run.returncode == SUCCESS, run.stderr
+    usual = ("--llm", "off", "--pace", "lockstep", "--danger", "off", "--atlas", "off", "--no-learning", "--json", "--memory", "m.sqlite")
+    saca("memory", "import", SHIPPED.parents[2] / "data/memory/seed.jsonl.gz", "--keep-trust", "--memory", "m.sqlite", cwd=tmp_path)
+    as_it_is, checked = {}, {}
+    for scenario in ("one_way.toml", "one_way"):
+        run = saca("run", scenario, *usual, cwd=tmp_path)
+        assert run.returncode == SUCCESS, run.stderr
+        previews = json.loads(run.stdout)["previews"]
+        as_it_is[scenario] = sum(one["memory"]["gate"] == "cache" for one in previews)
+        checked[scenario] = sum(one["memory"]["gate"] == "check" for one in previews)
+    assert as_it_is["one_way"] > 0 and as_it_is["one_way.toml"] == 0 < checked["one_way.toml"]
+
+
+def test_a_first_run_that_was_killed_is_begun_anew(tmp_path):
+    usual = ("--llm", "off", "--pace", "lockstep", "--danger", "off", "--atlas", "off", "--memory", "m.sqlite")
+    assert saca("run", "one_way", *usual, "--no-learning", cwd=tmp_path).returncode != SUCCESS, "there is nothing to read"
+    with sqlite3.connect(tmp_path / "m.sqlite"):
+        pass  # as the file is before its table is made
+    for _ in range(2):
+        assert saca("run", "one_way", *usual, cwd=tmp_path).returncode == SUCCESS
     told = json.loads(saca("memory", "verify", "--memory", "m.sqlite", "--json", cwd=tmp_path).stdout)
-    assert told["trust"].get("unchecked", 0) > 5_000 and told["trust"].get("trusted", 0) <= 1
+    assert 7_000 < told["cases"] < 8_000
 
 
 def test_who_wants_a_smaller_bank_loses_what_others_stand_for(cases, tmp_path):
