@@ -28,6 +28,12 @@ def rotary_rows(weights, heads):
     return weights.reshape(heads, 2, rows // heads // 2, -1).swapaxes(1, 2).reshape(rows, -1)
 
 
+def torch_rows(weights, heads):
+    """Undoes rotary_rows."""
+    rows = weights.shape[0]
+    return weights.reshape(heads, rows // heads // 2, 2, -1).swapaxes(1, 2).reshape(rows, -1)
+
+
 def sha256_of(path):
     return hashlib.sha256(pathlib.Path(path).read_bytes()).hexdigest()
 
@@ -62,3 +68,31 @@ def write_adapter(path, state, config, alpha, base, name):
     writer.write_tensors_to_file()
     writer.close()
     unfinished.rename(path)
+
+
+class OtherAdapter(ValueError):
+    """The file is no adapter of this base."""
+
+
+def read_adapter(path, config, base):
+    """What write_adapter wrote, as peft.set_peft_model_state_dict takes it, and its alpha. What it was rounded to stays."""
+    try:
+        reader = gguf.GGUFReader(path)
+        told = {key: field.contents() for key, field in reader.fields.items()}
+    except (OSError, ValueError, IndexError) as error:
+        raise OtherAdapter(f"want a GGUF file: {error}") from None
+    if told.get("adapter.type") != "lora":
+        raise OtherAdapter("want an adapter, got other weights")
+    if told.get(BASE_KEY) != sha256_of(base):
+        raise OtherAdapter(f"want an adapter of {base}, got one of other weights")
+    modules = {short: module for module, short in NAMES.items()}
+    state = {}
+    for tensor in reader.tensors:
+        _, layer, short, _, half = tensor.name.split(".")
+        module = modules[short]
+        matrix = np.array(tensor.data, dtype=np.float32)
+        if half == "lora_b" and module.endswith(("q_proj", "k_proj")):
+            matrix = torch_rows(matrix, config.num_attention_heads if module.endswith("q_proj") else config.num_key_value_heads)
+        state[f"base_model.model.model.layers.{layer}.{module}.{'lora_A' if half == 'lora_a' else 'lora_B'}.weight"] = torch.from_numpy(
+            np.ascontiguousarray(matrix))
+    return state, told["adapter.lora.alpha"]

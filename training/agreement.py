@@ -4,8 +4,9 @@ usage: agreement.py REPLIES SYSTEM BASE ADAPTER [--count N] [--json]
   REPLIES  of `saca cases eval --output`: prompts, what was written, and what was answered before and after it
   SYSTEM   system.txt of the sets
   BASE     GGUF file that the adapter was trained with
-  ADAPTER  what training kept (kept.pt)
-PyTorch is given the same prompts and the same written text: so each answer is compared by itself.
+  ADAPTER  what training kept (kept.pt) or wrote (adapter.gguf)
+PyTorch is given the same prompts and the same written text: so each answer is compared by itself. Exit code 1: in more than
+one of a hundred another answer is the likeliest.
 """
 import argparse
 import json
@@ -80,7 +81,7 @@ def main(arguments):
         tokens_of = fine_tune.tokeniser(tokenizer)
         given.seed = 1
         model = fine_tune.with_adapter(base, given)
-        fine_tune.begin_with(model, given.adapter)
+        fine_tune.begin_with(model, given.adapter, given)
         system = examples.system_tokens(tokens_of, given.system.read_text(encoding="utf-8"))
     except (Problem, OSError) as error:
         print(f"agreement: error: {error}", file=sys.stderr)
@@ -91,13 +92,14 @@ def main(arguments):
         pairs = [(sharpened(one[kind], given.temperature), probabilities(model, system, asked_tokens(one, kind, tokens_of), digits))
                  for one in replies]
         told[kind] = compare(pairs)
+    disagree = any(one["same"] < 0.99 * one["compared"] for one in told.values())
     if given.json:
         print(json.dumps({"schema": "saca.agreement/1", **told}))
-        return 0
+        return int(disagree)
     for kind, title in zip(KINDS, ("at once", "after reasoning")):
         one = told[kind]
         print(f"{title}: {one['same']} of {one['compared']} the same, probabilities differ by at most {one['largest_shift']:.3f}")
-    return 0
+    return int(disagree)
 
 
 if __name__ == "__main__":

@@ -46,7 +46,7 @@ def options(arguments):
                         help="above 0: the answer at once is taught as exp(-harm / this) over what is admissible")
     parser.add_argument("--twin-share", type=float, default=0.5, help="of the scenes without risk")
     parser.add_argument("--single-share", type=float, default=0.5, help="of the scenes in which one policy alone is admissible")
-    parser.add_argument("--begin-with", type=pathlib.Path, default=None, help="what another training kept (kept.pt): begins with its adapter")
+    parser.add_argument("--begin-with", type=pathlib.Path, default=None, help="what another training kept (kept.pt) or wrote (adapter.gguf): begins with its adapter")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--threads", type=int, default=0, help="0: all cores")
     parser.add_argument("--keep-every", type=int, default=20, help="steps")
@@ -76,12 +76,21 @@ def with_adapter(model, given):
     return peft.get_peft_model(model, peft.LoraConfig(r=given.rank, lora_alpha=given.alpha, target_modules=MODULES, lora_dropout=0.0))
 
 
-def begin_with(model, place):
-    """Takes the adapter of another training."""
+def begin_with(model, place, given):
+    """Takes the adapter of another training: what it kept, or what it wrote (.gguf)."""
     try:
-        peft.set_peft_model_state_dict(model, torch.load(place, weights_only=True)["adapter"])
+        if place.suffix == ".gguf":
+            state, alpha = adapter.read_adapter(place, model.config, given.base)
+            if alpha != given.alpha:
+                raise adapter.OtherAdapter(f"want --alpha {alpha:g}, got {given.alpha}")
+        else:
+            state = torch.load(place, weights_only=True)["adapter"]
+        own = peft.get_peft_model_state_dict(model)
+        if {key: value.shape for key, value in own.items()} != {key: value.shape for key, value in state.items()}:
+            raise adapter.OtherAdapter(f"want the layers and the rank ({given.rank}) of this one")
+        peft.set_peft_model_state_dict(model, state)
     except Exception as error:  # of several kinds, none of which the libraries name
-        raise Problem(f"{place}: want a training that was kept: {error}") from None
+        raise Problem(f"{place}: want a training that was kept, or its adapter: {error}") from None
 
 
 def rules_of(folders):
@@ -146,7 +155,7 @@ class Training:
         self.tokens_of = tokeniser(self.tokenizer)
         self.model = with_adapter(base, given)
         if given.begin_with:
-            begin_with(self.model, given.begin_with)
+            begin_with(self.model, given.begin_with, given)
         self.system = examples.system_tokens(self.tokens_of, rules_of([given.sets, *given.also]))
         self.digits = [self.tokens_of(str(answer))[0] for answer in range(examples.ANSWERS)]
         self.train = chosen_examples(self.read("train.jsonl"), given)

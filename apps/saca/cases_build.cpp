@@ -12,6 +12,7 @@
 #include "apps/saca/cases_making.h"
 #include "apps/saca/json_output.h"
 #include "apps/saca/resumable.h"
+#include "apps/saca/version.h"
 #include "saca/core/parallel.h"
 #include "saca/memory/case_json.h"
 
@@ -132,7 +133,7 @@ Result<std::optional<std::vector<CaseRow>>> gather_cases(const CasesBuildOptions
   const CaseMaking making(options.making, sources, *planes.value());
   return rows_of<CaseRow>(
       {.journal = options.journal.empty() ? options.output + ".journal" : options.journal,
-       .title = fmt::format("saca {} {} ({:016x})", SACA_VERSION, command, making.digest()),
+       .title = fmt::format("saca {} {} ({:016x})", version_text(), command, making.digest()),
        .progress = "cases of crashes",
        .unit = "records",
        .count = making.size(),

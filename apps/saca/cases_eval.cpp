@@ -16,6 +16,7 @@
 #include "apps/saca/model.h"
 #include "apps/saca/resumable.h"
 #include "apps/saca/suite_pages.h"
+#include "apps/saca/version.h"
 #include "saca/config/json_lines.h"
 #include "saca/eval/reply_score.h"
 
@@ -171,8 +172,8 @@ int eval_cases(const CasesEvalOptions& options) {
   auto rows = rows_of<ReplyRow>(
       {.journal = options.output + ".journal",
        .title = fmt::format("saca {} cases eval --set {} --car {} --seed {} ({:016x}) {}",
-                            SACA_VERSION, options.set, options.examples.car, options.examples.seed,
-                            source.digest, description),
+                            version_text(), options.set, options.examples.car,
+                            options.examples.seed, source.digest, description),
        .progress = "replies",
        .unit = "cases",
        .count = source.cases.size(),

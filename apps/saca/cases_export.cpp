@@ -14,6 +14,7 @@
 #include "apps/saca/items_row.h"
 #include "apps/saca/json_output.h"
 #include "apps/saca/resumable.h"
+#include "apps/saca/version.h"
 #include "saca/config/json_lines.h"
 #include "saca/core/parallel.h"
 #include "saca/eval/reply_example.h"
@@ -176,7 +177,7 @@ int export_cases(const CasesExportOptions& options) {
                                           options.format, example_text(options.examples));
   auto rows = rows_of<ExampleRow>(
       {.journal = (folder / "journal").string(),
-       .title = fmt::format("saca {} cases export --car {} --seed {} ({:016x})", SACA_VERSION,
+       .title = fmt::format("saca {} cases export --car {} --seed {} ({:016x})", version_text(),
                             options.examples.car, options.examples.seed, with.digest),
        .progress = "examples of replies",
        .unit = "cases",

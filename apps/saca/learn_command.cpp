@@ -20,6 +20,7 @@
 #include "apps/saca/resumable.h"
 #include "apps/saca/shipped_cases.h"
 #include "apps/saca/suite_thinking.h"
+#include "apps/saca/version.h"
 #include "saca/config/json_text.h"
 #include "saca/core/fnv.h"
 #include "saca/core/journal.h"
@@ -299,7 +300,7 @@ int run(LearnOptions options) {
   for (const memory::MadeWith& one : school.made_with) {
     hash.add(one.digest);
   }
-  const std::string title = fmt::format("saca {} {} of {}, from {}{}, with {:016x}", SACA_VERSION,
+  const std::string title = fmt::format("saca {} {} of {}, from {}{}, with {:016x}", version_text(),
                                         command, school.encounters.what, starts_with,
                                         model ? ", model: " + *model : "", hash.value());
   // Banks are replaced only where the journal is of this very work.

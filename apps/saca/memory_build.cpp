@@ -18,6 +18,7 @@
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/resumable.h"
+#include "apps/saca/version.h"
 #include "saca/eval/trigger_case.h"
 #include "saca/loop/learnt_case.h"
 #include "saca/memory/case_json.h"
@@ -90,7 +91,7 @@ Result<std::optional<std::vector<Gained>>> gather(const BuildOptions& options,
   return rows_of<Gained>(
       {.journal =
            options.from.journal.empty() ? options.from.output + ".journal" : options.from.journal,
-       .title = fmt::format("saca {} {} of {}", SACA_VERSION, command, encounters.what),
+       .title = fmt::format("saca {} {} of {}", version_text(), command, encounters.what),
        .progress = "memory of " + options.from.name,
        .unit = "encounters",
        .count = static_cast<std::size_t>(encounters.count),

@@ -13,6 +13,7 @@
 #include "apps/saca/suite_thinking.h"
 #include "apps/saca/surveying.h"
 #include "apps/saca/thresholds_options.h"
+#include "apps/saca/version.h"
 #include "saca/core/csv.h"
 #include "saca/core/file.h"
 #include "saca/core/journal.h"
@@ -235,7 +236,7 @@ Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
     return *problem;
   }
   const auto journal = Journal::open(
-      path, fmt::format("saca {} {} of {}", SACA_VERSION, command, work_of(*bench, options)));
+      path, fmt::format("saca {} {} of {}", version_text(), command, work_of(*bench, options)));
   if (!journal.has_value()) {
     return journal.error();
   }

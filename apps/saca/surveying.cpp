@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "apps/saca/progress.h"
+#include "apps/saca/version.h"
 #include "apps/saca/within.h"
 #include "saca/core/file.h"
 #include "saca/core/fnv.h"
@@ -100,7 +101,7 @@ Result<std::optional<std::vector<Finding>>> survey(const DrawnSuite& suite,
        .count = options.count,
        .threads = options.threads,
        .journal = path,
-       .title = fmt::format("saca {} survey of {}, {} split, {} ({:016x})", SACA_VERSION,
+       .title = fmt::format("saca {} survey of {}, {} split, {} ({:016x})", version_text(),
                             options.suite, options.split, options.car, suite.digest)},
       {.is_interrupted = interrupted,
        .progress = [&](int done, int before) { progress.show(done, before, " encounters"); }});

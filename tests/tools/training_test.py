@@ -237,6 +237,33 @@ print(json.dumps({"names": len(tensors), "q": [row[0] for row in tensors["blk.0.
 
 
 @needs_environment
+def test_an_adapter_comes_back_and_is_gone_on_with(tmp_path):
+    told = in_environment(TINY + """
+import adapter, argparse, pathlib, peft
+import fine_tune
+folder = pathlib.Path(sys.argv[1])
+for name in ("base", "other"):
+    (folder / f"{name}.gguf").write_bytes(name.encode())
+state = {key: torch.randn(value.shape).half().float() for key, value in peft.get_peft_model_state_dict(model).items()}
+adapter.write_adapter(folder / "adapter.gguf", state, config, 8, folder / "base.gguf", "test")
+back, alpha = adapter.read_adapter(folder / "adapter.gguf", config, folder / "base.gguf")
+given = argparse.Namespace(base=folder / "base.gguf", alpha=8, rank=4)
+fine_tune.begin_with(model, folder / "adapter.gguf", given)
+begun = peft.get_peft_model_state_dict(model)
+refused = []
+for change in ({"base": folder / "other.gguf"}, {"alpha": 16}, {"base": folder / "none.gguf"}):
+    try:
+        fine_tune.begin_with(model, folder / "adapter.gguf", argparse.Namespace(**{**vars(given), **change}))
+    except fine_tune.Problem as problem:
+        refused.append(str(problem))
+print(json.dumps({"alpha": alpha, "same": sorted(back) == sorted(state) and all(torch.equal(back[k], state[k]) for k in state),
+                  "begun": all(torch.equal(begun[k], state[k]) for k in state), "refused": refused}))
+""", tmp_path)
+    assert told["alpha"] == 8 and told["same"] and told["begun"]
+    assert "got one of other weights" in told["refused"][0] and "want --alpha 8, got 16" in told["refused"][1] and "none.gguf" in told["refused"][2]
+
+
+@needs_environment
 def test_bad_input_is_told_in_one_line(tmp_path):
     tune = lambda *arguments: subprocess.run([PYTHON, TRAINING / "fine_tune.py", *map(str, arguments)], capture_output=True, text=True)
     none = tune(tmp_path, tmp_path / "none.gguf", tmp_path / "out")
