@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes docs/suites.md from the figures that `saca suite`, `saca ladder` and `saca tables` print with --json.
+"""Makes docs/suites.md from the figures that `saca suite`, `ladder`, `forecast eval`, `tables`, `memory calibrate` and `cases eval` print with --json.
 
 usage: tools/suite_results.py COMMIT FILE.json... [-- COMMIT FILE.json...]
            puts together files, each made at the commit named before it, as docs/suites.json, and writes docs/suites.md from it
@@ -203,20 +203,60 @@ def forecast_section(figures, name):
     return "\n".join(text)
 
 
+CONFIDENCES = (("above_0.9", "above 0.9"), ("0.7_to_0.9", "0.7 to 0.9"), ("below_0.7", "up to 0.7"))
+RECALLED = (("in_truth", "as good as the best in truth"), ("as_told", "as was expected there"), ("random_one", "policy of any case"), ("braking", "braking"))
+
+
+def memory_section(figures):
+    text = ["## What memory recalls\n", f"{figures['memory.transfer.cases']:,} cases. In per cent, with exact 95 % intervals."]
+    for place, words in (("memory.transfer.within", "Each held against all others"), ("memory.transfer.check", "Other cases held against them")):
+        if place + ".queries" not in figures:
+            continue
+        lines = [[name, percent(figures, f"{place}.{key}.coverage"), *(interval(figures, f"{place}.{key}.{what}", 1, 100.0) for what, _ in RECALLED)]
+                 for key, name in CONFIDENCES]
+        text += [f"\n{words}, {figures[place + '.queries']:,} scenes in which the choice matters:\n",
+                 table(["confidence", "coverage", *(name for _, name in RECALLED)], lines)]
+    return "\n".join(text)
+
+
+CHOICES = (("model_at_once", "the model, at once"), ("model", "the model, after reasoning"), ("model_within", "the same, within the admissible"),
+           ("mildest_within", "the mildest of the admissible: nothing first, then AEB, as the arbiter does"), ("forecast", "the best forecast"),
+           ("rule_within", "AEB where it is admissible, else the mildest"), ("table_within", "with cues the least by their table"), ("aeb", "AEB always"),
+           ("expert", "what the examples teach, knowing the draws"), ("best_within", "the best of the admissible in hindsight"))
+
+
+def replies_section(figures):
+    lines = [[words, *(interval(figures, f"eval.{key}.{what}", 1, 100.0) for what in ("best_within", "admissible")),
+              *(interval(figures, f"eval.{key}.{what}") for what in ("regret", "above_rule"))] for key, words in CHOICES if f"eval.{key}.harm" in figures]
+    share = lambda key: percent(figures, "eval." + key)
+    return "\n".join([
+        "## A language model asked about crash cases\n",
+        f"{figures['eval.num_examples']} prompts, of {figures['eval.num_known']} of which the harm of every policy is known; {figures['eval.num_failed']} failed.\n",
+        table(["choice", "best of the admissible, %", "admissible, %", "regret", "harm above the rule's (AEB, else the mildest), paired"], lines),
+        f"\nReplies: {share('ended')} % end by themselves, with {figures['eval.tokens.p50']} tokens (median; at most {figures['eval.tokens.max']}); in "
+        f"{share('text_and_answer_agree')} % the text ends with what is then answered. {share('true_statements')} % of the statements that can be checked "
+        f"({figures['eval.statements_checked']:.1f} a reply) are true, in {share('true_replies')} % of the replies all are; {share('unfounded')} % of the choices rest "
+        f"on a false one. As the reason {share('shown')} % are shown as they are, {share('shown_in_part')} % without what does not hold. In twins in which nothing "
+        f"has to be done it intervenes in {interval(figures, 'eval.twins.needless', 1, 100.0)} %."
+        + (f" Temperature that fits best: {figures['eval.temperature']:.2f}." if "eval.temperature" in figures else "")])
+
+
 def section(figures):
     sections = []
     for kind, make in (("suite", suite_section), ("ladder", ladder_section), ("forecast", forecast_section)):
         for name in sorted({key.split(".")[1] for key in figures if key.startswith(kind + ".")}):
             sections.append(make(figures, name))
-    if any(key.startswith("tables.") for key in figures):
-        sections.append(tables_section(figures))
-    made = (f"\n`{figures['meta.command']}`; seed {figures['meta.seed']}, commit {figures['meta.commit']}, {figures['meta.date']}, "
+    for key, make in (("tables.", tables_section), ("memory.transfer.", memory_section), ("eval.num_examples", replies_section)):
+        if any(known.startswith(key) for known in figures):
+            sections.append(make(figures))
+    seed = f"seed {figures['meta.seed']}, " if "meta.seed" in figures else ""
+    made = (f"\n`{figures['meta.command']}`; {seed}commit {figures['meta.commit']}, {figures['meta.date']}, "
             f"{figures['meta.processor']}" + "".join(f", {part}: {figures['meta.' + part]}" for part in ("memory", "model") if "meta." + part in figures) + ".")
     return "\n".join([*sections, made])
 
 
 def page_of(runs):
-    head = ("# Suites, ladders, forecasts and tables\n\nMade by `tools/suite_results.py` from [suites.json](suites.json), which holds what the commands "
+    head = ("# Suites, ladders, forecasts, tables, recalls and replies\n\nMade by `tools/suite_results.py` from [suites.json](suites.json), which holds what the commands "
             "below printed: no figure here is typed by hand. What the words mean: docs/formats.md, section Suite. `regret` is the harm above that "
             "of the best plan begun at T1 with full knowledge; materially worse means by more than 0.005.\n\n")
     named = [Figures(run, f"docs/suites.json, `{run.get('meta.command')}`") for run in runs]

@@ -1,8 +1,8 @@
-"""Draws the loss over the steps of a training.
+"""Draws the loss over the steps of a training, or of several of which each went on with the last.
 
-usage: curve.py CURVE OUTPUT
+usage: curve.py CURVE... OUTPUT
   CURVE   of fine_tune.py: curve.csv
-  OUTPUT  the picture (SVG)
+  OUTPUT  the picture (.svg), or all of them as one curve (.csv): steps, tokens and seconds are counted on
 """
 import csv
 import math
@@ -14,18 +14,42 @@ LEFT, RIGHT, TOP, BOTTOM = 56, 16, 16, 44
 SMOOTHED_OVER = 10  # steps, the newest last
 
 
-def read_curve(path):
-    """Steps, their loss, and the judged losses by step."""
+COLUMNS = ("step", "tokens", "loss", "calibration_loss", "seconds")
+
+
+def read_rows(path):
     try:
         with open(path, newline="", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
-        losses = [(int(row["step"]), float(row["loss"])) for row in rows]
-        judged = [(int(row["step"]), float(row["calibration_loss"])) for row in rows if row["calibration_loss"]]
+            rows = [{"step": int(row["step"]), "tokens": int(row["tokens"]), "loss": float(row["loss"]),
+                     "calibration_loss": float(row["calibration_loss"]) if row["calibration_loss"] else "", "seconds": float(row["seconds"])}
+                    for row in csv.DictReader(file)]
     except (OSError, KeyError, TypeError, ValueError) as error:
-        raise SystemExit(f"curve: error: {path}: want a training's curve (columns step, loss, calibration_loss): {error!r}") from None
-    if not losses or min(loss for _, loss in losses + judged) <= 0:
+        raise SystemExit(f"curve: error: {path}: want a training's curve (columns {', '.join(COLUMNS)}): {error!r}") from None
+    if not rows or min(row["loss"] for row in rows) <= 0 or min(row["calibration_loss"] or 1.0 for row in rows) <= 0:
         raise SystemExit(f"curve: error: {path}: want steps with losses above 0")
-    return losses, judged
+    return rows
+
+
+def joined(curves):
+    """One curve after the other: what is counted goes on from where the last ended."""
+    rows = []
+    for curve in curves:
+        last = rows[-1] if rows else {"step": 0, "tokens": 0, "seconds": 0.0}
+        rows += [row | {key: row[key] + last[key] for key in ("step", "tokens")} | {"seconds": round(row["seconds"] + last["seconds"], 1)} for row in curve]
+    return rows
+
+
+def read_curve(*paths):
+    """Steps, their loss, and the judged losses by step."""
+    rows = joined([read_rows(path) for path in paths])
+    return [(row["step"], row["loss"]) for row in rows], [(row["step"], row["calibration_loss"]) for row in rows if row["calibration_loss"]]
+
+
+def write_joined(path, rows):
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
 
 
 def smoothed(losses):
@@ -65,10 +89,13 @@ def picture(losses, judged):
 
 
 def main(arguments):
-    if len(arguments) != 2:
+    if len(arguments) < 2:
         raise SystemExit(__doc__)
-    losses, judged = read_curve(arguments[0])
-    pathlib.Path(arguments[1]).write_text(picture(losses, judged), encoding="utf-8")
+    *curves, output = arguments
+    if output.endswith(".csv"):
+        write_joined(output, joined([read_rows(path) for path in curves]))
+    else:
+        pathlib.Path(output).write_text(picture(*read_curve(*curves)), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,5 @@
 #include "engine.h"
 
-#include <ggml-cpu.h>
 #include <llama.h>
 #include <unistd.h>
 
@@ -304,6 +303,7 @@ struct Engine::State {
     if (running.empty()) {
       return true;
     }
+    const double computed_before = processor_seconds();
     if (!evaluate(stop)) {
       for (const auto& [thought, at] : running) {  // nothing half done stays in the cache
         forget_from(thought->scene, thought->position);
@@ -314,7 +314,7 @@ struct Engine::State {
     const double cost = to_seconds(clock->now() - begin);
     step_cost.add(cost);
     figures.reply_seconds += cost;
-    if (threads.note_step(running.size(), cost)) {
+    if (threads.note_step(running.size(), cost, computing(computed_before, cost))) {
       step_cost = {};
       step_cost.add(threads.step_alone(running.size()));
     }
@@ -460,9 +460,8 @@ Result<std::shared_ptr<Engine>> Engine::load(const EngineSettings& settings) {
   params.n_threads = settings.threads;
   params.n_threads_batch = settings.threads;
   params.kv_unified = false;
-  // With AVX-512 it reads prompts a fifth faster; with AVX2 each token of the reply takes longer.
   params.flash_attn_type =
-      ggml_cpu_has_avx512() != 0 ? LLAMA_FLASH_ATTN_TYPE_ENABLED : LLAMA_FLASH_ATTN_TYPE_DISABLED;
+      settings.flash_attention ? LLAMA_FLASH_ATTN_TYPE_ENABLED : LLAMA_FLASH_ATTN_TYPE_DISABLED;
   params.abort_callback = State::must_stop;
   params.abort_callback_data = state.get();
   state->context = llama_init_from_model(state->model, params);

@@ -2,6 +2,7 @@
 // out of memory, be killed) can touch the process that steers.
 //
 //   saca-model-host --model FILE [--threads N] [--context N] [--temperature T] [--give-way]
+//                   [--flash-attention]
 //       reads requests from standard input and writes events to standard output, one JSON object a
 //       line (docs/model-protocol.md); ends when its input ends, or with the process that began it
 //
@@ -62,6 +63,8 @@ int run(int argc, char** argv) {
   app.add_flag("--give-way", settings.gives_way,
                "compute with one thread where others want the cores; the last bits of an answer "
                "depend on it");
+  app.add_flag("--flash-attention", settings.flash_attention,
+               "attention in one pass; the last bits of an answer depend on it");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

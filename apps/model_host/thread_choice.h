@@ -41,14 +41,16 @@ class ThreadChoice {
   }
 
   /// A step made one token for each of `scenes` [s].
-  /// @return  whether one thread alone goes on from here
-  bool note_step(std::size_t scenes, double cost) {
+  /// @param computing  as of a prompt
+  /// @return           whether one thread alone goes on from here
+  bool note_step(std::size_t scenes, double cost, double computing) {
     double& alone = step_alone_.at(scenes - 1);
     if (alone_) {
       alone = std::min(alone, cost);
       return false;
     }
-    lost_ = std::max(0.0, lost_ + cost - alone);
+    const double more = cost - alone;
+    lost_ = std::max(0.0, lost_ + (computing < undisturbed ? more : std::min(more, 0.0)));
     alone_ = gives_way_ && lost_ > most_lost * alone;
     return alone_;
   }
@@ -61,8 +63,8 @@ class ThreadChoice {
   // twice as long as with none; a step takes three times as long as one thread takes, or more. On
   // an idle machine a prompt may take 1.6 times as long, a single step three times.
   static constexpr double dear_prompt = 1.8;
-  // Likewise: of their time threads computed in 0.89 to 0.98 where nobody else was, in 0.50 to 0.63
-  // beside one other process.
+  // Likewise: of their time threads computed in 0.87 to 1.00 where nobody else was, in 0.50 to 0.63
+  // beside one other process, in steps of three scenes in up to 0.71.
   static constexpr double undisturbed = 0.75;
   static constexpr double most_lost = 6.0;  // against one thread, in steps of that
   static constexpr double never = std::numeric_limits<double>::infinity();

@@ -5,6 +5,8 @@
 namespace saca::model_host::thread_choice_test {
 namespace {
 
+constexpr double disturbed = 0.6;
+
 // Measured on two cores with the BF16 weights: a token of a prompt takes 0.8 ms, of a reply 9 ms;
 // one thread takes 1.5 and 13 ms, whether or not somebody else holds the other core; two threads
 // then take 1.8 and 60 ms.
@@ -12,12 +14,12 @@ TEST(ThreadChoice, StepsOfBothThreadsOnABusyMachineAreLeftToOne) {
   ThreadChoice choice(2, true);
   choice.take_one();
   EXPECT_EQ(choice.threads(), 1);
-  EXPECT_FALSE(choice.note_step(1, 0.013));
+  EXPECT_FALSE(choice.note_step(1, 0.013, disturbed));
   choice.take_all();
-  EXPECT_FALSE(choice.note_step(1, 0.009));
+  EXPECT_FALSE(choice.note_step(1, 0.009, disturbed));
   EXPECT_EQ(choice.threads(), 2);
-  EXPECT_FALSE(choice.note_step(1, 0.060));  // once is nothing
-  EXPECT_TRUE(choice.note_step(1, 0.060));
+  EXPECT_FALSE(choice.note_step(1, 0.060, disturbed));  // once is nothing
+  EXPECT_TRUE(choice.note_step(1, 0.060, disturbed));
   EXPECT_EQ(choice.threads(), 1);
   EXPECT_EQ(choice.step_alone(1), 0.013);
   choice.take_all();
@@ -27,17 +29,29 @@ TEST(ThreadChoice, StepsOfBothThreadsOnABusyMachineAreLeftToOne) {
 TEST(ThreadChoice, SlowStepsNowAndThenAreMadeUpFor) {
   ThreadChoice choice(2, true);
   choice.take_one();
-  choice.note_step(1, 0.013);
+  choice.note_step(1, 0.013, disturbed);
   choice.take_all();
   for (int i = 0; i < 1000; ++i) {
-    ASSERT_FALSE(choice.note_step(1, i % 10 == 0 ? 0.040 : 0.009)) << i;
+    ASSERT_FALSE(choice.note_step(1, i % 10 == 0 ? 0.040 : 0.009, disturbed)) << i;
   }
-  EXPECT_TRUE(choice.note_step(1, 0.200));  // at once where it is very slow
+  EXPECT_TRUE(choice.note_step(1, 0.200, disturbed));  // at once where it is very slow
+}
+
+// On an Intel Xeon a step takes two threads as long as one now and then, though nobody disturbs.
+TEST(ThreadChoice, StepsThatAreSlowThoughNobodyDisturbsAreMadeByAll) {
+  ThreadChoice choice(2, true);
+  choice.take_one();
+  choice.note_step(1, 0.013, 1.0);
+  choice.take_all();
+  for (int i = 0; i < 1000; ++i) {
+    ASSERT_FALSE(choice.note_step(1, 0.060, 0.87)) << i;
+  }
+  EXPECT_FALSE(choice.note_step(1, 0.060, 0.5));
+  EXPECT_TRUE(choice.note_step(1, 0.060, 0.5)) << "from now on somebody does";
 }
 
 TEST(ThreadChoice, PromptTellsIt) {
   ThreadChoice choice(2, true);
-  constexpr double disturbed = 0.6;
   choice.note_prompt(0.0011, disturbed);  // cold
   EXPECT_EQ(choice.threads(), 2);
   choice.note_prompt(0.0008, 1.0);
@@ -65,13 +79,13 @@ TEST(ThreadChoice, PromptThatIsSlowThoughNobodyDisturbsIsReadByAll) {
 TEST(ThreadChoice, NumberOfScenesIsKeptApart) {
   ThreadChoice choice(2, true);
   choice.take_one();
-  choice.note_step(3, 0.027);
-  choice.note_step(1, 0.013);
+  choice.note_step(3, 0.027, disturbed);
+  choice.note_step(1, 0.013, disturbed);
   choice.take_all();
-  EXPECT_FALSE(choice.note_step(2, 10.0));   // nothing to compare with
-  EXPECT_FALSE(choice.note_step(3, 0.120));  // four steps lost of three scenes
+  EXPECT_FALSE(choice.note_step(2, 10.0, disturbed));   // nothing to compare with
+  EXPECT_FALSE(choice.note_step(3, 0.120, disturbed));  // four steps lost of three scenes
   choice.take_all();
-  EXPECT_TRUE(choice.note_step(1, 0.120));
+  EXPECT_TRUE(choice.note_step(1, 0.120, disturbed));
 }
 
 TEST(ThreadChoice, WhoDoesNotGiveWayOrHasOneThreadNeverChanges) {
@@ -79,9 +93,9 @@ TEST(ThreadChoice, WhoDoesNotGiveWayOrHasOneThreadNeverChanges) {
     const int all = choice.threads();
     choice.take_one();
     EXPECT_EQ(choice.threads(), all);
-    choice.note_step(1, 0.01);
+    choice.note_step(1, 0.01, disturbed);
     choice.note_prompt(0.001, 0.5);
-    EXPECT_FALSE(choice.note_step(1, 1.0));
+    EXPECT_FALSE(choice.note_step(1, 1.0, disturbed));
     choice.note_prompt(1.0, 0.5);
     EXPECT_EQ(choice.threads(), all);
   }

@@ -84,6 +84,8 @@ json figures_of(const ReplyScore& score, int failed, const std::string& command,
            {"eval.true_statements", score.true_statements},
            {"eval.true_replies", score.true_replies},
            {"eval.unfounded", score.unfounded},
+           {"eval.shown", score.shown},
+           {"eval.shown_in_part", score.shown_in_part},
            {"eval.tokens.p50", median_of(score.tokens)},
            {"eval.tokens.max", score.tokens.back()}};
   add_estimate(out, "eval.twins.needless", score.needless);
@@ -118,10 +120,12 @@ void print(const ReplyScore& score, const CasesEvalOptions& options, const std::
       "done, the model\nintervenes in {} %.\n\n{:.1f} % of the replies end by themselves, of {} "
       "tokens (median; at most {}); {:.1f} % conclude as they answer.\n{:.1f} statements of each "
       "can be checked, {:.1f} % of them are true; in {:.1f} % of the replies all are; {:.1f} % of "
-      "the choices\nrest on something false.\n",
+      "the choices\nrest on something false. As the reason {:.1f} % are shown as they are, {:.1f} % "
+      "without what does not hold;\nin place of the others the figures are told.\n",
       with_interval(score.needless, 1, 100.0), 100.0 * score.ended, median_of(score.tokens),
       score.tokens.back(), 100.0 * score.agrees, score.statements, 100.0 * score.true_statements,
-      100.0 * score.true_replies, 100.0 * score.unfounded);
+      100.0 * score.true_replies, 100.0 * score.unfounded, 100.0 * score.shown,
+      100.0 * score.shown_in_part);
   if (score.calibration) {
     app::print("Temperature: {:.2f} (log loss {:.3f}, as it is {:.3f}; {} examples)\n",
                score.calibration->temperature, score.calibration->log_loss,

@@ -79,7 +79,8 @@ Result<double> temperature_of(const Places& places, const std::string& weights) 
 
 /// Tells apart what may answer otherwise: by other weights, another prompt or temperature. Of the
 /// weights their size and their ends count, since to read them all takes a second.
-std::string fingerprint(const fs::path& weights, std::string_view system, double temperature) {
+std::string fingerprint(const fs::path& weights, std::string_view system, double temperature,
+                        bool flash_attention) {
   constexpr std::streamoff looked_at = 1 << 16;
   std::ifstream file(weights, std::ios::binary | std::ios::ate);
   const std::streamoff size = file.tellg();
@@ -94,6 +95,7 @@ std::string fingerprint(const fs::path& weights, std::string_view system, double
   }
   hash.add(system);
   hash.add(std::bit_cast<std::uint64_t>(temperature));
+  hash.add(static_cast<std::uint64_t>(flash_attention));
   hash.add(static_cast<std::uint64_t>(reason::ChildModelSettings{}.max_tokens));
   return fmt::format("{:08x}", hash.value() >> 32U);
 }
@@ -119,10 +121,10 @@ Result<std::unique_ptr<reason::LanguageModel>> open_server(const Places& places,
       std::make_unique<reason::OpenAiModel>(std::move(settings), clock));
 }
 
-/// @param weights  nullopt: none were found
 Result<std::unique_ptr<reason::ChildModel>> open_weights(const Places& places,
-                                                         const std::optional<fs::path>& weights,
+                                                         const ModelChoice& choice,
                                                          runtime::Pace pace, Clock& clock) {
+  const std::optional<fs::path>& weights = choice.weights;
   std::error_code problem;
   if (!std::filesystem::exists(places.model_host, problem)) {
     return Error{Error::Code::unreadable,
@@ -144,9 +146,13 @@ Result<std::unique_ptr<reason::ChildModel>> open_weights(const Places& places,
   if (!temperature.has_value()) {
     return temperature.error();
   }
-  const std::string print = fingerprint(*weights, system.value(), temperature.value());
+  const std::string print =
+      fingerprint(*weights, system.value(), temperature.value(), choice.flash_attention);
   std::vector<std::string> command{places.model_host.string(), "--model", weights->string(),
                                    "--temperature", fmt::format("{}", temperature.value())};
+  if (choice.flash_attention) {
+    command.emplace_back("--flash-attention");
+  }
   if (pace == runtime::Pace::real) {
     command.emplace_back("--give-way");
   }
@@ -165,7 +171,7 @@ Result<std::unique_ptr<reason::ChildModel>> open_weights(const Places& places,
 
 Result<std::unique_ptr<reason::ChildModel>> open_local_model(const Places& places,
                                                              runtime::Pace pace, Clock& clock) {
-  return open_weights(places, find_weights(places), pace, clock);
+  return open_weights(places, find_model_choice(places), pace, clock);
 }
 
 namespace {
@@ -175,10 +181,11 @@ Result<std::unique_ptr<reason::LanguageModel>> open_model(const Places& places,
                                                           const std::string& choice,
                                                           runtime::Pace pace, Clock& clock) {
   if (choice == "local" || choice.starts_with(weights_prefix)) {
-    auto local = open_weights(
-        places,
-        choice == "local" ? find_weights(places) : fs::path(choice.substr(weights_prefix.size())),
-        pace, clock);
+    ModelChoice mine = find_model_choice(places);
+    if (choice != "local") {
+      mine.weights = fs::path(choice.substr(weights_prefix.size()));
+    }
+    auto local = open_weights(places, mine, pace, clock);
     if (!local.has_value()) {
       return local.error();
     }

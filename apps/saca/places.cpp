@@ -36,23 +36,26 @@ Result<Places> find_places() {
                "data/harm.toml is neither beside the program's build folder nor in share/saca"};
 }
 
-std::optional<fs::path> find_weights(const Places& places) {
+ModelChoice find_model_choice(const Places& places) {
   const fs::path folder = places.root / "third_party" / "models";
-  const auto choice = read_file(folder / "choice.json");
-  if (!choice.has_value()) {
-    return std::nullopt;
+  const auto text = read_file(folder / "choice.json");
+  if (!text.has_value()) {
+    return {};
   }
-  const auto parsed = config::parse_json(choice.value());
+  const auto parsed = config::parse_json(text.value());
   if (!parsed.has_value() || !parsed.value().is_object()) {
-    return std::nullopt;
+    return {};
   }
+  ModelChoice choice;
   const auto name = parsed.value().find("weights");
-  if (name == parsed.value().end() || !name->is_string()) {
-    return std::nullopt;
+  if (name != parsed.value().end() && name->is_string()) {
+    const fs::path weights = folder / name->get<std::string>();
+    std::error_code problem;
+    choice.weights = fs::exists(weights, problem) ? std::optional(weights) : std::nullopt;
   }
-  const fs::path weights = folder / name->get<std::string>();
-  std::error_code problem;
-  return fs::exists(weights, problem) ? std::optional(weights) : std::nullopt;
+  const auto flash = parsed.value().find("flash_attention");
+  choice.flash_attention = flash != parsed.value().end() && flash->is_boolean() && *flash == true;
+  return choice;
 }
 
 namespace {

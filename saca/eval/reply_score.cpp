@@ -15,6 +15,7 @@
 namespace saca::eval {
 namespace {
 
+using From = reason::Explanation::From;
 using manoeuvre::PolicyId;
 using nlohmann::json;
 
@@ -229,6 +230,9 @@ void score_texts(ReplyScore& score, std::span<const ExampleReply> replies) {
       replies, [](const ExampleReply& one) { return one.false_statements == 0; },
       [](const ExampleReply& one) { return one.statements > 0; });
   score.unfounded = share(replies, [](const ExampleReply& one) { return one.unfounded; });
+  score.shown = share(replies, [](const ExampleReply& one) { return one.shown == From::model; });
+  score.shown_in_part =
+      share(replies, [](const ExampleReply& one) { return one.shown == From::model_in_part; });
   int statements = 0;
   int wrong = 0;
   for (const ExampleReply& one : replies) {
@@ -260,6 +264,10 @@ ExampleReply example_reply(ReplyExample example, const reason::Reply& reply,
     result.statements = truth.num_checked;
     result.false_statements = static_cast<int>(truth.wrong.size());
     result.unfounded = truth.is_choice_unfounded();
+    const PolicyId chosen = likeliest(result.last);
+    const auto held = reason::true_part(result.reasoning, result.example.prompt, situation, chosen,
+                                        manoeuvre::name(chosen));
+    result.shown = held ? held->from : From::facts;
   }
   return result;
 }
@@ -274,7 +282,8 @@ json to_json(const ExampleReply& reply) {
           {"tokens", static_cast<std::uint64_t>(reply.tokens)},
           {"statements", static_cast<std::uint64_t>(reply.statements)},
           {"false_statements", static_cast<std::uint64_t>(reply.false_statements)},
-          {"unfounded", reply.unfounded}};
+          {"unfounded", reply.unfounded},
+          {"shown", name(reply.shown)}};
 }
 
 Result<ExampleReply> example_reply_from_json(const json& document) {
@@ -294,6 +303,13 @@ Result<ExampleReply> example_reply_from_json(const json& document) {
     reply.*part = static_cast<int>(reader.integer(key, many));
   }
   reply.unfounded = reader.flag("unfounded");
+  const std::string shown = reader.text("shown");
+  if (const auto from = reason::explanation_from(shown)) {
+    reply.shown = *from;
+  } else if (!problem) {
+    problem = Error{Error::Code::malformed,
+                    "shown: want model, model_in_part or facts, got \"" + shown + '"'};
+  }
   reader.refuse_others();
   if (problem) {
     return *problem;

@@ -14,6 +14,7 @@
 #include "saca/eval/model_score.h"
 #include "saca/eval/reply_example.h"
 #include "saca/eval/suite_figures.h"
+#include "saca/reason/explanation.h"
 #include "saca/reason/language_model.h"
 
 namespace saca::eval {
@@ -30,6 +31,8 @@ struct ExampleReply {
   int statements = 0;                  ///< that can be checked
   int false_statements = 0;            ///< of these
   bool unfounded = false;              ///< the choice rests on one of them
+  /// Whose words would be shown as the reason of its last answer (reason::explanation).
+  reason::Explanation::From shown = reason::Explanation::From::facts;
 };
 
 /// @param situation  that the example's prompt is about
@@ -67,6 +70,8 @@ struct ReplyScore {
   double true_replies = 0.0;     ///< share in which nothing is false, of those with statements
   double unfounded = 0.0;        ///< share whose choice rests on something false
   double statements = 0.0;       ///< that can be checked, in a reply, mean
+  double shown = 0.0;            ///< share whose words are shown as they are
+  double shown_in_part = 0.0;    ///< share of which what is true is shown; of the rest the figures
   std::vector<int> tokens;       ///< of each reply, ascending
   std::optional<Calibration> calibration;  ///< of the last answers: as good as the best within
 };

@@ -117,12 +117,15 @@ TEST(ReplyScoreTest, TextsAreScoredByWhatTheySay) {
   wrong.false_statements = 1;
   wrong.unfounded = true;
   wrong.tokens = 60;
+  honest.shown = reason::Explanation::From::model;
   const ReplyScore score = reply_score(std::vector{honest, wrong}, 1);
   EXPECT_DOUBLE_EQ(score.agrees, 0.5);
   EXPECT_DOUBLE_EQ(score.true_statements, 0.75);
   EXPECT_DOUBLE_EQ(score.true_replies, 0.5);
   EXPECT_DOUBLE_EQ(score.unfounded, 0.5);
   EXPECT_DOUBLE_EQ(score.statements, 2.0);
+  EXPECT_DOUBLE_EQ(score.shown, 0.5);
+  EXPECT_DOUBLE_EQ(score.shown_in_part, 0.0);
   EXPECT_THAT(score.tokens, ElementsAre(60, 80));
 }
 

@@ -65,6 +65,10 @@ std::string_view name(Explanation::From from) {
   return name_of(from, from_names);
 }
 
+std::optional<Explanation::From> explanation_from(std::string_view name) {
+  return value_from<Explanation::From>(name, from_names);
+}
+
 std::optional<Explanation> true_part(std::string_view written, std::string_view prompt,
                                      const preview::Situation& situation,
                                      const std::optional<PolicyId>& choice,

@@ -22,6 +22,7 @@ struct Explanation {
   From from = From::facts;
 };
 [[nodiscard]] std::string_view name(Explanation::From from);
+[[nodiscard]] std::optional<Explanation::From> explanation_from(std::string_view name);
 
 /// Of a model's numbered statements those that can be checked and are true.
 ///

@@ -75,6 +75,29 @@ def test_forecasts_made_before_a_model_was_there_do_without_it():
     assert "| negative log likelihood, ln m2, 1 s | 1.000 | 2.000 |" in text and "particle_filter" not in text
 
 
+def test_recalls_are_told_by_confidence():
+    figures = {"memory.transfer.cases": 1234, "memory.transfer.check.queries": 50}
+    for k, (key, _) in enumerate(suite_results.CONFIDENCES):
+        place = f"memory.transfer.check.{key}."
+        figures[place + "coverage"] = 0.25
+        for i, (what, _) in enumerate(suite_results.RECALLED):
+            figures |= {place + what: 0.5 + 0.1 * i, place + what + ".lo": 0.125, place + what + ".hi": 0.875}
+    text = suite_results.memory_section(figures)
+    assert "1,234 cases" in text and "Each held against" not in text and "50 scenes in which" in text
+    assert "| above 0.9 | 25.0 | 50.0 (12.5 to 87.5) | 60.0 (12.5 to 87.5) |" in text
+
+
+def test_replies_are_told_beside_simple_rules():
+    figures = {f"eval.{key}.{what}": value for key in ("model", "aeb") for what, value in (("best_within", 0.75), ("admissible", 1.0), ("harm", 0.5),
+                                                                                          ("regret", 0.25), ("above_rule", -0.125))}
+    figures |= {"eval." + key: 0.5 for key in ("ended", "text_and_answer_agree", "true_statements", "statements_checked", "true_replies", "unfounded", "shown",
+                                               "shown_in_part", "temperature")}
+    figures |= {"eval.num_examples": 9, "eval.num_known": 5, "eval.num_failed": 0, "eval.tokens.p50": 80, "eval.tokens.max": 99}
+    text = suite_results.replies_section(figures)
+    assert "| the model, after reasoning | 75.0 | 100.0 | 0.2500 | -0.1250 |" in text and "the best forecast" not in text
+    assert "As the reason 50.0 % are shown" in text and text.endswith("Temperature that fits best: 0.50.")
+
+
 def test_single_families_keep_their_regret_only():
     figures = {"suite.x.aeb.regret": 1, "suite.x.aeb.crossing.regret": 2, "suite.x.aeb.crossing.harm": 3, "suite.x.aeb.crossing.regret.lo": 4,
                "suite.x.aeb.harm.lo": 5, "meta.seed": "1"}

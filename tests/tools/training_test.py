@@ -1,4 +1,5 @@
 """Training of the language model: what it learns from, and that it learns."""
+import hashlib
 import json
 import math
 import pathlib
@@ -282,6 +283,24 @@ def test_the_curve_is_drawn(tmp_path):
     circles = [one.attrib for one in ElementTree.parse(tmp_path / "curve.svg").iter() if one.tag.endswith("circle")]
     down = [float(one["cy"]) for one in circles]
     assert down[0] < down[1] < down[2] and down[1] < down[3] < down[2]  # less loss is lower, and so is the judged one
+
+
+def test_a_training_that_went_on_has_one_curve(tmp_path):
+    for name, steps in (("first", 3), ("second", 2)):
+        rows = "".join(f"{k},{10 * k},0.5,{0.25 if k == steps else ''},{1.5 * k}\n" for k in range(1, steps + 1))
+        (tmp_path / f"{name}.csv").write_text("step,tokens,loss,calibration_loss,seconds\n" + rows)
+    both = [str(tmp_path / f"{name}.csv") for name in ("first", "second")]
+    curve.main([*both, str(tmp_path / "all.csv")])
+    rows = (tmp_path / "all.csv").read_text().splitlines()
+    assert [row.split(",")[0] for row in rows[1:]] == ["1", "2", "3", "4", "5"] and rows[3] == "3,30,0.5,0.25,4.5" and rows[-1] == "5,50,0.5,0.25,7.5"
+    assert curve.read_curve(*both) == curve.read_curve(tmp_path / "all.csv")
+
+
+def test_the_shipped_adapter_is_that_of_its_card():
+    digest = hashlib.sha256((ROOT / "models/language/adapter.gguf").read_bytes()).hexdigest()
+    assert f"sha256 `{digest}`" in (ROOT / "models/language/README.md").read_text()
+    losses, _ = curve.read_curve(ROOT / "models/language/curve.csv")
+    assert len(losses) == 480
 
 
 @pytest.mark.parametrize("text", ["", "step,loss\n1,2\n", "step,tokens,loss,calibration_loss,seconds\n1,1,x,,1\n",

@@ -33,11 +33,10 @@ llama_options=(
   -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=OFF -DGGML_NATIVE=ON -DGGML_OPENMP=ON
   -DLLAMA_BUILD_COMMON=OFF -DLLAMA_BUILD_TESTS=OFF -DLLAMA_BUILD_EXAMPLES=OFF
   -DLLAMA_BUILD_TOOLS=OFF -DLLAMA_BUILD_SERVER=OFF -DLLAMA_BUILD_APP=OFF -DLLAMA_CURL=OFF)
-# GCC 12 takes `_tile_loadconfig` to read eight bytes of the 64 (amxtileintrin.h) and drops what was written to the
-# others: the processor refuses such tiles with a fault. Without tiles it computes with AVX-512.
+# Intel's tiles (AMX) read a prompt twice as fast as AVX-512 does; GCC 12's own header for them is wrong.
 if grep -qE -m1 '^flags.* amx_tile' /proc/cpuinfo; then
-  no_tiles="-mno-amx-tile -mno-amx-int8 -mno-amx-bf16"
-  llama_options+=("-DCMAKE_C_FLAGS=$no_tiles" "-DCMAKE_CXX_FLAGS=$no_tiles")
+  tiles="-include \"$here/tiles.h\""
+  llama_options+=("-DCMAKE_C_FLAGS=$tiles" "-DCMAKE_CXX_FLAGS=$tiles")
 fi
 export GOMP_SPINCOUNT=10000
 
@@ -96,7 +95,7 @@ version=$(sed -n 's/^llama-cpp-python==\([^ ]*\).*/\1/p' "$here/requirements-lla
 # What is built for this very processor: another one builds its own.
 stamp_in() {  # FOLDER
   local flags
-  flags=$({ sed -n 's/^flags[^:]*: //p;T;q' /proc/cpuinfo; echo "${llama_options[*]}"; } |
+  flags=$({ sed -n 's/^flags[^:]*: //p;T;q' /proc/cpuinfo; echo "${llama_options[*]/"$here"/}"; cat "$here/tiles.h"; } |
     sha256sum | cut -c1-16)
   echo "$1/built-$version-$flags"
 }
@@ -155,7 +154,8 @@ choose_weights() {
   stamp=$models/$tuned.of-$(sha256sum "$adapter" | cut -c1-16)
   processor=$(sed -n 's/^model name[^:]*: //p;T;q' /proc/cpuinfo)
   if [ -e "$models/choice.json" ] && grep -qF "\"$processor\"" "$models/choice.json" &&
-     [ -e "$stamp" ] && [ -e "$models/$(sed -n 's/^  "weights": "\(.*\)".*/\1/p' "$models/choice.json")" ]; then
+     grep -q '^  "flash_attention"' "$models/choice.json" && [ -e "$stamp" ] &&
+     [ -e "$models/$(sed -n 's/^  "weights": "\(.*\)".*/\1/p' "$models/choice.json")" ]; then
     return
   fi
   quietly "$third_party/weights.log" cmake -S "$here" -B "$third_party/build/weights" -G Ninja \
