@@ -9,6 +9,7 @@
 #include "saca/core/contract.h"
 #include "saca/memory/experience.h"
 #include "saca/outcome/ordering.h"
+#include "saca/reason/conclusion.h"
 #include "saca/reason/reply.h"
 #include "saca/reason/truth.h"
 
@@ -171,29 +172,6 @@ ReplyChoice figures_of(std::span<const ExampleReply* const> known, const Chooser
           })};
 }
 
-/// Whom the last line of a reasoning that names a policy names first.
-std::optional<PolicyId> concluded(std::string_view reasoning) {
-  while (!reasoning.empty()) {
-    const std::size_t begin = reasoning.rfind('\n');
-    const std::string_view line =
-        begin == std::string_view::npos ? reasoning : reasoning.substr(begin + 1);
-    std::optional<PolicyId> first;
-    std::size_t at = std::string_view::npos;
-    for (const PolicyId policy : manoeuvre::all_policies) {
-      // "ES-B-L" holds no other's name, and "AES-L" does not hold "ES-B-L".
-      if (const std::size_t found = line.find(name(policy)); found < at) {
-        at = found;
-        first = policy;
-      }
-    }
-    if (first) {
-      return first;
-    }
-    reasoning = begin == std::string_view::npos ? "" : reasoning.substr(0, begin);
-  }
-  return std::nullopt;
-}
-
 double share(
     std::span<const ExampleReply> replies, bool (*holds)(const ExampleReply&),
     bool (*counts)(const ExampleReply&) = [](const ExampleReply&) { return true; }) {
@@ -224,7 +202,9 @@ void score_texts(ReplyScore& score, std::span<const ExampleReply> replies) {
   score.ended = share(replies, [](const ExampleReply& one) { return one.ended; });
   score.agrees = share(
       replies,
-      [](const ExampleReply& one) { return concluded(one.reasoning) == likeliest(one.last); },
+      [](const ExampleReply& one) {
+        return reason::concluded(one.reasoning) == likeliest(one.last);
+      },
       [](const ExampleReply& one) { return one.ended && one.last.has_value(); });
   score.true_replies = share(
       replies, [](const ExampleReply& one) { return one.false_statements == 0; },
@@ -264,9 +244,8 @@ ExampleReply example_reply(ReplyExample example, const reason::Reply& reply,
     result.statements = truth.num_checked;
     result.false_statements = static_cast<int>(truth.wrong.size());
     result.unfounded = truth.is_choice_unfounded();
-    const PolicyId chosen = likeliest(result.last);
-    const auto held = reason::true_part(result.reasoning, result.example.prompt, situation, chosen,
-                                        manoeuvre::name(chosen));
+    const auto held = reason::true_part(result.reasoning, result.example.prompt, situation,
+                                        likeliest(result.last));
     result.shown = held ? held->from : From::facts;
   }
   return result;

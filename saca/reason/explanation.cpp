@@ -10,6 +10,7 @@
 #include "saca/core/contract.h"
 #include "saca/core/fnv.h"
 #include "saca/core/names.h"
+#include "saca/reason/conclusion.h"
 #include "saca/reason/expert.h"
 #include "saca/reason/prompt.h"
 #include "saca/reason/truth.h"
@@ -71,8 +72,7 @@ std::optional<Explanation::From> explanation_from(std::string_view name) {
 
 std::optional<Explanation> true_part(std::string_view written, std::string_view prompt,
                                      const preview::Situation& situation,
-                                     const std::optional<PolicyId>& choice,
-                                     std::string_view must_name) {
+                                     const std::optional<PolicyId>& choice) {
   const std::vector<std::string_view> all = numbered_statements(written);
   std::vector<std::string_view> kept;
   for (const std::string_view statement : all) {
@@ -82,7 +82,7 @@ std::optional<Explanation> true_part(std::string_view written, std::string_view 
     }
   }
   if (kept.empty() || kept.back().data() != all.back().data() ||
-      kept.back().find(must_name) == std::string_view::npos) {
+      (choice && first_named(kept.back()) != choice)) {
     return std::nullopt;
   }
   return Explanation{numbered(kept), kept.size() == all.size() ? Explanation::From::model
@@ -93,7 +93,7 @@ Explanation explanation(std::string_view reasoning, std::string_view prompt,
                         const preview::Situation& situation,
                         const std::optional<memory::Case>& nearest, PolicyId chosen) {
   expects(situation.facts[manoeuvre::index(chosen)].drivable(), "a policy that can be driven");
-  if (auto held = true_part(reasoning, prompt, situation, chosen, name(chosen))) {
+  if (auto held = true_part(reasoning, prompt, situation, chosen)) {
     return *std::move(held);
   }
   if (!admissible(situation.facts).test(manoeuvre::index(chosen))) {

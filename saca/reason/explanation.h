@@ -26,15 +26,12 @@ struct Explanation {
 
 /// Of a model's numbered statements those that can be checked and are true.
 ///
-/// @param written    whole sentences of a reply (finished_part)
-/// @param choice     as for truth_of
-/// @param must_name  what the last statement has to say
-/// @return           nullopt: its last statement is not among them, or does not say that
-[[nodiscard]] std::optional<Explanation> true_part(std::string_view written,
-                                                   std::string_view prompt,
-                                                   const preview::Situation& situation,
-                                                   const std::optional<manoeuvre::PolicyId>& choice,
-                                                   std::string_view must_name);
+/// @param written  whole sentences of a reply (finished_part)
+/// @param choice   as for truth_of; where there is one, the last statement has to come to it
+/// @return         nullopt: its last statement is not among them, or comes to another policy
+[[nodiscard]] std::optional<Explanation> true_part(
+    std::string_view written, std::string_view prompt, const preview::Situation& situation,
+    const std::optional<manoeuvre::PolicyId>& choice);
 
 /// Why a policy was chosen: what of a model's reasoning is true and ends with the policy; else what
 /// an expert would say (expert_reply), or, of a policy that is not admissible, its facts beside the

@@ -50,9 +50,10 @@ TEST_F(ExplanationTest, WhatIsFalseOrSaysNothingIsLeftOut) {
 }
 
 TEST_F(ExplanationTest, WithoutATrueConclusionTheFactsSpeak) {
-  for (const char* reasoning :
-       {"", "1. 1.1.1:", "1. NI hits truck1.\n2. So AEB: it hits truck1.\n",
-        "1. NI hits truck1.\n2. So AES-R hits truck1.\n", "no statement, AEB is clear by 0.6 m"}) {
+  for (const char* reasoning : {"", "1. 1.1.1:", "1. NI hits truck1.\n2. So AEB: it hits truck1.\n",
+                                "1. NI hits truck1.\n2. So AES-R hits truck1.\n",
+                                "1. NI hits truck1.\n2. So AES-R, and AEB is clear by 0.6 m.\n",
+                                "no statement, AEB is clear by 0.6 m"}) {
     const Explanation told = of(reasoning);
     EXPECT_EQ(told.from, From::facts) << reasoning;
     EXPECT_THAT(told.text, StartsWith("1. ")) << reasoning;

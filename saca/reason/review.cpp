@@ -49,7 +49,7 @@ std::string review_prompt(const Aftermath& aftermath) {
 }
 
 Explanation explanation(const Review& review, const Aftermath& aftermath) {
-  if (auto held = true_part(review.text, review.prompt, aftermath.known, std::nullopt, "")) {
+  if (auto held = true_part(review.text, review.prompt, aftermath.known, std::nullopt)) {
     return *std::move(held);
   }
   const preview::PolicyFacts& best = aftermath.known.facts[manoeuvre::index(aftermath.best)];

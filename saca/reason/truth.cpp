@@ -10,6 +10,7 @@
 
 #include "saca/outcome/describe.h"
 #include "saca/outcome/ordering.h"
+#include "saca/reason/conclusion.h"
 #include "saca/reason/prompt.h"
 #include "saca/reason/quote.h"
 #include "saca/reason/quoted_number.h"
@@ -466,12 +467,13 @@ AlikeCase alike_case(std::string_view prompt) {
 }
 
 void judge_alike_case(std::string_view low, std::string_view prompt, const Subject& subject,
-                      const std::optional<PolicyId>& choice, Verdict& verdict) {
+                      Verdict& verdict) {
   const AlikeCase alike = alike_case(prompt);
+  const std::optional<PolicyId> it = first_named(low);
   const auto says = [&](PolicyId policy, std::string_view what,
                         const std::optional<PolicyId>& known) {
     const bool of_it = has_phrase(low, lowered(name(policy)) + std::string(what)) ||
-                       (policy == choice && has_phrase(low, "this" + std::string(what)));
+                       (policy == it && has_phrase(low, "this" + std::string(what)));
     if (!of_it) {
       return;
     }
@@ -487,13 +489,16 @@ void judge_alike_case(std::string_view low, std::string_view prompt, const Subje
   }
 }
 
-/// What is said of the choice ("this") and one other policy.
+/// What is said of the policy that is named first ("this", "it") and one other.
 void judge_comparison(std::string_view low, const Subject& subject, const Situation& situation,
-                      PolicyId choice, Verdict& verdict) {
-  std::vector<PolicyId> others = subject.policies;
-  if (std::erase(others, choice) == 0 || is_denied(low)) {
+                      Verdict& verdict) {
+  const std::optional<PolicyId> first = first_named(low);
+  if (!first || is_denied(low)) {
     return;
   }
+  const PolicyId it = *first;
+  std::vector<PolicyId> others = subject.policies;
+  std::erase(others, it);
   if (has_phrase(low, "alone is possible")) {
     verdict.says_something = true;
     const auto num = std::count_if(situation.facts.begin(), situation.facts.end(),
@@ -506,7 +511,7 @@ void judge_comparison(std::string_view low, const Subject& subject, const Situat
     return;
   }
   const PolicyId other = others.front();
-  const PolicyFacts& mine = situation.facts[manoeuvre::index(choice)];
+  const PolicyFacts& mine = situation.facts[manoeuvre::index(it)];
   const PolicyFacts& theirs = situation.facts[manoeuvre::index(other)];
   const auto must_be = [&](bool so, std::string why) {
     verdict.says_something = true;
@@ -515,15 +520,15 @@ void judge_comparison(std::string_view low, const Subject& subject, const Situat
     }
   };
   const auto both = [&](std::string_view how) {
-    return fmt::format("{} {} {}", name(choice), how, name(other));
+    return fmt::format("{} {} {}", name(it), how, name(other));
   };
   if (has_phrase(low, "harms about as little")) {
     const auto may = admissible(situation.facts);
-    must_be(may.test(manoeuvre::index(choice)) && may.test(manoeuvre::index(other)),
+    must_be(may.test(manoeuvre::index(it)) && may.test(manoeuvre::index(other)),
             told(theirs, situation));
   }
   if (has_phrase(low, "milder")) {
-    must_be(outcome::milder(choice, other), both("is not milder than"));
+    must_be(outcome::milder(it, other), both("is not milder than"));
   }
   if (has_phrase(low, "less often")) {
     must_be(mine.drivable() && theirs.drivable() &&
@@ -536,7 +541,7 @@ void judge_comparison(std::string_view low, const Subject& subject, const Situat
       const int side = manoeuvre::side(policy);
       return (side > 0 && road.oncoming_left) || (side < 0 && road.oncoming_right);
     };
-    must_be(!is_oncoming(choice) && is_oncoming(other),
+    must_be(!is_oncoming(it) && is_oncoming(other),
             both("is where oncoming traffic is, or as far from it as"));
   }
 }
@@ -567,10 +572,8 @@ Verdict judged(std::string_view sentence, std::string_view prompt, const Situati
   if (claim) {
     judge_claim(*claim, subject, situation, verdict);
   }
-  judge_alike_case(low, prompt, subject, choice, verdict);
-  if (choice) {
-    judge_comparison(low, subject, situation, *choice, verdict);
-  }
+  judge_alike_case(low, prompt, subject, verdict);
+  judge_comparison(low, subject, situation, verdict);
   if (choice && is_about(subject, *choice)) {
     verdict.load_bearing = true;
     const bool rules_out = claim == Claim::not_possible || claim == Claim::blocked;

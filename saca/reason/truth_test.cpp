@@ -174,7 +174,7 @@ TEST(Truth, NobodyChoosesWhatHeCallsBlocked) {
 }
 
 // AEB is clear, AES-R hits the truck: they can be told apart, until AES-R harms as little.
-TEST(Truth, ComparisonsOfTheChoiceAreSo) {
+TEST(Truth, ComparisonsAreSo) {
   preview::Situation situation = example_situation();
   const auto why = [&](const std::string& text, PolicyId choice) {
     const Truth truth = truth_of(text, scene_part(situation, std::nullopt, 0.0), situation, choice);
@@ -197,6 +197,9 @@ TEST(Truth, ComparisonsOfTheChoiceAreSo) {
   EXPECT_EQ(why("I choose AEB: it alone is possible", PolicyId::aeb), "6 policies are possible");
   EXPECT_EQ(truth_of("AES-R is milder.", "", situation, std::nullopt).num_checked, 0)
       << "than what?";
+  // Whatever is answered then: "this" is what the sentence speaks of.
+  EXPECT_EQ(why("So AES-R: AEB harms about as little, and this is milder", PolicyId::aeb),
+            "AES-R is not milder than AEB");
 }
 
 TEST(Truth, OfALikeCaseIsWhatThePromptTells) {

@@ -81,6 +81,10 @@ def test_an_expert_adds_what_is_then_found_and_looked_at(tmp_path):
     case = json.loads(saca("memory", "show", "1", "--memory", "bank.db", cwd=tmp_path).stdout)
     assert case["best_policy"] == 4 and case["review"] == "the truck is slow" and case["source"] == "intersection_t1"
     assert case["details"] == {"origin": "expert", "trust": "unchecked"}
+    run = saca("run", "intersection_t1", "--llm", "off", "--pace", "lockstep", "--danger", "off", "--no-learning", "--json", "--memory", "bank.db", cwd=tmp_path)
+    assert run.returncode == SUCCESS, run.stderr
+    found = [one["memory"] for one in json.loads(run.stdout)["previews"] if one["memory"]]
+    assert found and all(one["case"] == 1 and one["gate"] != "cache" for one in found), "it is asked, and never believed unchecked"
     again = saca("memory", "add", "intersection_t1", "--policy", "4", "--memory", "bank.db", cwd=tmp_path)
     assert "case 1 stands for it already" in again.stdout
     other = saca("memory", "add", "intersection_t1", "--policy", "0", "--memory", "bank.db", cwd=tmp_path)
