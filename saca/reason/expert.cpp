@@ -341,11 +341,7 @@ class Speaker {
       return ", and this touches somebody less often";
     }
     const world::Road& road = situation_.scene_at_trigger.road;
-    const auto is_oncoming = [&road](PolicyId policy) {
-      const int side = manoeuvre::side(policy);
-      return (side > 0 && road.oncoming_left) || (side < 0 && road.oncoming_right);
-    };
-    if (is_oncoming(other) && !is_oncoming(choice_)) {
+    if (leads_into_oncoming(road, other) && !leads_into_oncoming(road, choice_)) {
       return ", and this stays out of the oncoming lane";
     }
     if (nearest_ && nearest_->best == choice_) {

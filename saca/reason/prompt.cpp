@@ -356,6 +356,11 @@ std::string rendered(const preview::Situation& situation, const Lines& lines, co
 
 }  // namespace
 
+bool leads_into_oncoming(const world::Road& road, PolicyId policy) {
+  const int side = manoeuvre::side(policy);
+  return (side > 0 && road.oncoming_left) || (side < 0 && road.oncoming_right);
+}
+
 memory::Policies admissible(const preview::AllFacts& facts) {
   memory::Policies policies;
   const double least = preview::least_harm(facts);

@@ -20,6 +20,9 @@ constexpr int most_prompt_tokens = 485;
 /// be driven.
 [[nodiscard]] memory::Policies admissible(const preview::AllFacts& facts);
 
+/// Does a policy lead to a side where oncoming traffic is?
+[[nodiscard]] bool leads_into_oncoming(const world::Road& road, manoeuvre::PolicyId policy);
+
 /// The part of the prompt that never changes: the policies, the rule by which they are chosen
 /// (from `outcome::better`, with the order of `outcome::severity` and the weights of
 /// data/harm.toml), and the form of the reply.

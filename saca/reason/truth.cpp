@@ -489,34 +489,15 @@ void judge_alike_case(std::string_view low, std::string_view prompt, const Subje
   }
 }
 
-/// What is said of the policy that is named first ("this", "it") and one other.
-void judge_comparison(std::string_view low, const Subject& subject, const Situation& situation,
-                      Verdict& verdict) {
-  const std::optional<PolicyId> first = first_named(low);
-  if (!first || is_denied(low)) {
-    return;
-  }
-  const PolicyId it = *first;
-  std::vector<PolicyId> others = subject.policies;
-  std::erase(others, it);
-  if (has_phrase(low, "alone is possible")) {
-    verdict.says_something = true;
-    const auto num = std::count_if(situation.facts.begin(), situation.facts.end(),
-                                   [](const PolicyFacts& one) { return one.drivable(); });
-    if (num != 1) {
-      verdict.wrong(fmt::format("{} policies are possible", num));
-    }
-  }
-  if (others.size() != 1) {
-    return;
-  }
-  const PolicyId other = others.front();
+/// What is said of a policy ("this") beside another one.
+void judge_beside(std::string_view low, PolicyId it, PolicyId other, const Situation& situation,
+                  Verdict& verdict) {
   const PolicyFacts& mine = situation.facts[manoeuvre::index(it)];
   const PolicyFacts& theirs = situation.facts[manoeuvre::index(other)];
-  const auto must_be = [&](bool so, std::string why) {
+  const auto must_be = [&](bool so, const std::string& why) {
     verdict.says_something = true;
     if (!so) {
-      verdict.wrong(std::move(why));
+      verdict.wrong(why);
     }
   };
   const auto both = [&](std::string_view how) {
@@ -537,12 +518,30 @@ void judge_comparison(std::string_view low, const Subject& subject, const Situat
   }
   if (has_phrase(low, "out of the oncoming lane")) {
     const world::Road& road = situation.scene_at_trigger.road;
-    const auto is_oncoming = [&road](PolicyId policy) {
-      const int side = manoeuvre::side(policy);
-      return (side > 0 && road.oncoming_left) || (side < 0 && road.oncoming_right);
-    };
-    must_be(!is_oncoming(it) && is_oncoming(other),
+    must_be(!leads_into_oncoming(road, it) && leads_into_oncoming(road, other),
             both("is where oncoming traffic is, or as far from it as"));
+  }
+}
+
+/// What is said of the policy that is named first ("this", "it"), alone or beside one other.
+void judge_comparison(std::string_view low, const Subject& subject, const Situation& situation,
+                      Verdict& verdict) {
+  const std::optional<PolicyId> it = first_named(low);
+  if (!it || is_denied(low)) {
+    return;
+  }
+  if (has_phrase(low, "alone is possible")) {
+    verdict.says_something = true;
+    const auto num = std::count_if(situation.facts.begin(), situation.facts.end(),
+                                   [](const PolicyFacts& one) { return one.drivable(); });
+    if (num != 1) {
+      verdict.wrong(fmt::format("{} policies are possible", num));
+    }
+  }
+  std::vector<PolicyId> others = subject.policies;
+  std::erase(others, *it);
+  if (others.size() == 1) {
+    judge_beside(low, *it, others.front(), situation, verdict);
   }
 }
 
