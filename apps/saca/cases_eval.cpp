@@ -120,7 +120,8 @@ void print(const ReplyScore& score, const CasesEvalOptions& options, const std::
       "done, the model\nintervenes in {} %.\n\n{:.1f} % of the replies end by themselves, of {} "
       "tokens (median; at most {}); {:.1f} % conclude as they answer.\n{:.1f} statements of each "
       "can be checked, {:.1f} % of them are true; in {:.1f} % of the replies all are; {:.1f} % of "
-      "the choices\nrest on something false. As the reason {:.1f} % are shown as they are, {:.1f} % "
+      "the choices\nrest on something false. As the reason {:.1f} % are shown as they are, {:.1f} "
+      "% "
       "without what does not hold;\nin place of the others the figures are told.\n",
       with_interval(score.needless, 1, 100.0), 100.0 * score.ended, median_of(score.tokens),
       score.tokens.back(), 100.0 * score.agrees, score.statements, 100.0 * score.true_statements,
