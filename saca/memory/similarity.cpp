@@ -17,7 +17,6 @@ namespace saca::memory {
 namespace {
 
 using world::ActorKind;
-using world::Beyond;
 
 constexpr double ample_room = 7.0;      // [m]
 constexpr double other_ground = 2.0;    // soft instead of hard beyond an edge that is at hand
