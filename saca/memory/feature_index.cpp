@@ -191,11 +191,6 @@ void FeatureIndex::search(const Wanted& wanted, const Farthest& farthest2,
   }
 }
 
-std::optional<FeatureIndex::Hit> FeatureIndex::nearest(const Features& wanted) const noexcept {
-  std::array<Hit, 1> room;
-  return nearest(wanted, room) == 0 ? std::nullopt : std::optional(room.front());
-}
-
 std::optional<double> FeatureIndex::nearest_other(const Features& wanted,
                                                   CaseId own) const noexcept {
   std::array<Hit, 2> room;

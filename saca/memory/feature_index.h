@@ -45,8 +45,6 @@ class FeatureIndex {
   /// @param id  of one that was added
   [[nodiscard]] std::size_t place_of(CaseId id) const;
 
-  /// The scene that differs least, the oldest of equals; nullopt when there is none.
-  [[nodiscard]] std::optional<Hit> nearest(const Features& wanted) const noexcept;
   /// As many of those that differ least as there is room for, the nearest first, the older of
   /// equals; of many at most NeighbourGraph::most_found.
   /// @return  how many were found

@@ -2,6 +2,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <array>
 #include <map>
 
 #include "saca/memory/example_scenes.h"
@@ -28,8 +29,9 @@ void nearest_of(benchmark::State& state) {
     wanted[i] = features(random_scene(rng, static_cast<int>(i % 9)));
   }
   std::size_t turn = 0;
+  std::array<FeatureIndex::Hit, 1> hit;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(index.nearest(wanted[turn++ % wanted.size()]));
+    benchmark::DoNotOptimize(index.nearest(wanted[turn++ % wanted.size()], hit));
   }
 }
 BENCHMARK(nearest_of)->Arg(1'000)->Arg(30'000)->Unit(benchmark::kMicrosecond);
