@@ -48,11 +48,7 @@ Result<CaseRow> case_row_from(const std::string& line) {
 
 CaseMaking::CaseMaking(const CaseMakingOptions& options, const CaseSources& sources,
                        const PlanesOfCar& planes)
-    : options_(options),
-      sources_(sources),
-      planes_(planes),
-      made_with_(
-          loop::made_with(planes.setup.forecast, planes.inputs.intent, planes.inputs.car_name)) {}
+    : options_(options), sources_(sources), planes_(planes), made_with_(made_with(planes)) {}
 
 CaseRow CaseMaking::row(std::size_t number) const {
   return number < sources_.prospects.size()

@@ -26,7 +26,6 @@
 #include "saca/core/journal.h"
 #include "saca/core/parallel.h"
 #include "saca/eval/curriculum.h"
-#include "saca/loop/learnt_case.h"
 #include "saca/memory/case_json.h"
 
 namespace saca::app {
@@ -201,8 +200,7 @@ Result<std::unique_ptr<School>> open_school(const LearnOptions& options) {
     return planes.error();
   }
   school->planes = std::move(planes).value();
-  school->made_with = loop::made_with(school->planes->setup.forecast, school->planes->inputs.intent,
-                                      school->planes->inputs.car_name);
+  school->made_with = made_with(*school->planes);
   auto thinking = SuiteThinking::open({.memory = "", .model = options.from.thinking.model},
                                       school->planes->inputs.places, school->made_with,
                                       options.from.threads, *school->planes->setup.clock);

@@ -41,9 +41,7 @@ using Gained = ItemsRow<memory::Case>;
 /// What cases are worked out with; the planes outlive it.
 struct CaseTools {
   CaseTools(const PlanesOfCar& of, std::size_t num_draws)
-      : planes(of),
-        draws(num_draws),
-        made_with(loop::made_with(of.setup.forecast, of.inputs.intent, of.inputs.car_name)) {}
+      : planes(of), draws(num_draws), made_with(app::made_with(of)) {}
 
   const PlanesOfCar& planes;
   std::size_t draws;

@@ -17,7 +17,6 @@
 #include "apps/saca/progress.h"
 #include "saca/core/parallel.h"
 #include "saca/eval/case_check.h"
-#include "saca/loop/learnt_case.h"
 #include "saca/memory/case_json.h"
 #include "saca/memory/store.h"
 
@@ -42,7 +41,7 @@ Result<Counts> check_all(memory::Store& memory, std::vector<memory::Case> cases,
                          const PlanesOfCar& planes, const CheckCasesOptions& options) {
   const preview::ForecastTools& tools = planes.setup.forecast;
   const intent::Model& intent = planes.inputs.intent;
-  const auto made_with = loop::made_with(tools, intent, planes.inputs.car_name);
+  const auto made_with = app::made_with(planes);
   std::erase_if(cases, [&](const memory::Case& one) {
     return one.trust == memory::Trust::quarantined || memory::is_trusted_by(made_with, one);
   });

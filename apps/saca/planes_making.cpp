@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "apps/saca/atlas_making.h"
+#include "saca/loop/learnt_case.h"
 
 namespace saca::app {
 
@@ -32,6 +33,10 @@ Result<std::unique_ptr<const PlanesOfCar>> open_planes(const std::string& car,
     return inputs.error();
   }
   return open_planes(std::move(inputs).value(), thresholds);
+}
+
+std::vector<memory::MadeWith> made_with(const PlanesOfCar& planes) {
+  return loop::made_with(planes.setup.forecast, planes.inputs.intent, planes.inputs.car_name);
 }
 
 }  // namespace saca::app

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "apps/saca/inputs.h"
 #include "saca/core/clock.h"
 #include "saca/manoeuvre/atlas.h"
+#include "saca/memory/case.h"
 #include "saca/runtime/planes.h"
 
 namespace saca::app {
@@ -23,5 +26,8 @@ struct PlanesOfCar {
 /// @param car  its file, or the name of a shipped one
 [[nodiscard]] Result<std::unique_ptr<const PlanesOfCar>> open_planes(
     const std::string& car, const preview::Thresholds& thresholds = {});
+
+/// What a case is worked out with there (loop::made_with).
+[[nodiscard]] std::vector<memory::MadeWith> made_with(const PlanesOfCar& planes);
 
 }  // namespace saca::app

@@ -19,7 +19,6 @@
 #include "saca/core/journal.h"
 #include "saca/core/suggestion.h"
 #include "saca/danger/learned.h"
-#include "saca/loop/learnt_case.h"
 
 namespace saca::app {
 namespace {
@@ -89,10 +88,8 @@ Result<std::shared_ptr<Bench>> open_bench(const SuiteCommandOptions& options,
     return planes.error();
   }
   const PlanesOfCar& of_car = *planes.value();
-  auto thinking = SuiteThinking::open(
-      options.thinking, of_car.inputs.places,
-      loop::made_with(of_car.setup.forecast, of_car.inputs.intent, of_car.inputs.car_name),
-      options.threads, *of_car.setup.clock);
+  auto thinking = SuiteThinking::open(options.thinking, of_car.inputs.places, made_with(of_car),
+                                      options.threads, *of_car.setup.clock);
   if (!thinking.has_value()) {
     return thinking.error();
   }
