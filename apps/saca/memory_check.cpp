@@ -30,20 +30,23 @@ struct CheckCasesOptions {
   std::string car = "compact_rwd_ev";
   std::size_t draws = 64;
   int threads = usual_threads();
+  bool quarantined = false;  ///< too
   bool as_json = false;
 };
 
 /// How many are trusted then, stay unchecked, and are quarantined: by memory::Trust.
 using Counts = std::array<int, 3>;
 
-/// Those that this car does not trust yet; what was worked out is kept where it is interrupted.
+/// Those that this car does not trust yet, and where wanted those in quarantine; what was worked
+/// out is kept where it is interrupted.
 Result<Counts> check_all(memory::Store& memory, std::vector<memory::Case> cases,
                          const PlanesOfCar& planes, const CheckCasesOptions& options) {
   const preview::ForecastTools& tools = planes.setup.forecast;
   const intent::Model& intent = planes.inputs.intent;
   const auto made_with = app::made_with(planes);
   std::erase_if(cases, [&](const memory::Case& one) {
-    return one.trust == memory::Trust::quarantined || memory::is_trusted_by(made_with, one);
+    return one.trust == memory::Trust::quarantined ? !options.quarantined
+                                                   : memory::is_trusted_by(made_with, one);
   });
   SteadyClock clock;
   ProgressLine progress("cases", static_cast<int>(cases.size()), clock);
@@ -55,7 +58,8 @@ Result<Counts> check_all(memory::Store& memory, std::vector<memory::Case> cases,
       checked[i] = eval::checked(cases[first + i], tools, intent, options.draws, made_with);
     });
     for (std::size_t i = 0; i < checked.size(); ++i) {
-      auto trust = memory::Trust::unchecked;
+      auto trust = cases[first + i].trust == memory::Trust::quarantined ? memory::Trust::quarantined
+                                                                        : memory::Trust::unchecked;
       const auto keep = [&](memory::Case& now) {
         if (memory::to_json(now) != memory::to_json(cases[first + i])) {
           return false;  // another process has learnt of it meanwhile: it is checked the next time
@@ -126,6 +130,8 @@ void add_memory_check(CLI::App& memory, int& exit_code) {
   command->add_option("--threads", options->threads, "They do not change the result")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
+  command->add_flag("--quarantined", options->quarantined,
+                    "Also what one encounter refuted: what holds over draws is served again");
   command->add_flag("--json", options->as_json, "For programs");
   command->callback([options, &exit_code] { exit_code = check_bank(*options); });
 }

@@ -111,7 +111,7 @@ std::optional<memory::CaseId> refuted_case(const Record& record) {
 }
 
 Result<memory::Learnt> learn(memory::Store& memory, const memory::Case& one,
-                             const std::optional<memory::CaseId>& refuted) {
+                             const std::optional<memory::CaseId>& refuted, std::size_t bound) {
   if (refuted) {
     const auto quarantine = [](memory::Case& wrong) {
       wrong.trust = memory::Trust::quarantined;
@@ -121,7 +121,18 @@ Result<memory::Learnt> learn(memory::Store& memory, const memory::Case& one,
       return *std::move(error);
     }
   }
-  return memory.learn(one);
+  auto learnt = memory.learn(one);
+  if (!learnt.has_value() || memory::is_on_a_server(memory.name())) {
+    return learnt;
+  }
+  if (auto problem = memory.catch_up()) {
+    return *std::move(problem);
+  }
+  const auto gone = memory::keep_within(memory, bound);
+  if (!gone.has_value()) {
+    return gone.error();
+  }
+  return learnt;
 }
 
 std::optional<Error> keep_lesson(memory::Store& memory, memory::CaseId id,

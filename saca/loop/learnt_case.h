@@ -11,6 +11,7 @@
 #include "saca/loop/hindsight.h"
 #include "saca/memory/case.h"
 #include "saca/memory/store.h"
+#include "saca/memory/thinning.h"
 #include "saca/reason/review.h"
 
 namespace saca::loop {
@@ -56,10 +57,12 @@ struct Trigger {
 [[nodiscard]] std::optional<memory::CaseId> refuted_case(const Record& record);
 
 /// Memory learns an encounter: its case is added or merged, and a case that it refutes is
-/// quarantined.
+/// quarantined. A bank in a file is kept within a bound (memory::keep_within); one on a server
+/// belongs to many, who thin it when they want to.
 /// @return  what it came to, or what memory could not do
 [[nodiscard]] Result<memory::Learnt> learn(memory::Store& memory, const memory::Case& one,
-                                           const std::optional<memory::CaseId>& refuted);
+                                           const std::optional<memory::CaseId>& refuted,
+                                           std::size_t bound = memory::usual_bound);
 
 /// Adds what of a model's review is true to the case that memory learnt; the figures alone it has.
 /// @return  what memory could not do

@@ -76,6 +76,22 @@ TEST(Learning, QuarantinesWhatItRefutes) {
   std::filesystem::remove(file);
 }
 
+TEST(Learning, KeepsABankWithinItsBound) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "saca_bound.sqlite";
+  std::filesystem::remove(file);
+  memory::Store memory = memory::Store::open(file).value();
+  memory::Case one;
+  one.origin = memory::Origin::simulation;
+  std::mt19937 rng(2);
+  for (int i = 0; i < 12; ++i) {
+    one.scene = memory::random_scene(rng, 1);
+    ASSERT_TRUE(learn(memory, one, std::nullopt, 10).has_value());
+    EXPECT_LE(memory.size(), 10U);
+  }
+  EXPECT_EQ(memory.size(), 10U) << "a twentieth of so few is none";
+  std::filesystem::remove(file);
+}
+
 TEST(Lessons, AreKeptWhereAllThatCanBeCheckedIsTrue) {
   const auto file = std::filesystem::path(testing::TempDir()) / "saca_lessons.sqlite";
   std::filesystem::remove(file);

@@ -87,4 +87,19 @@ std::vector<CaseId> most_redundant(std::span<const Case> cases, std::size_t most
   return gone;
 }
 
+Result<std::size_t> keep_within(Store& memory, std::size_t most) {
+  if (memory.size() <= most) {
+    return std::size_t{0};
+  }
+  const auto cases = memory.all();
+  if (!cases.has_value()) {
+    return cases.error();
+  }
+  const auto gone = most_redundant(cases.value(), most - most / 20);
+  if (auto problem = memory.forget(gone)) {
+    return *std::move(problem);
+  }
+  return gone.size();
+}
+
 }  // namespace saca::memory

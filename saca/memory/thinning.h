@@ -4,7 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "saca/core/result.h"
 #include "saca/memory/case.h"
+#include "saca/memory/feature_index.h"
+#include "saca/memory/store.h"
 
 namespace saca::memory {
 
@@ -16,5 +19,13 @@ namespace saca::memory {
 /// @param cases  by ascending id; no scene breaks a rule of `world::broken_rule`
 /// @return       fewer than would be needed where the rest is alike to nothing or must stay
 [[nodiscard]] std::vector<CaseId> most_redundant(std::span<const Case> cases, std::size_t most);
+
+/// How many cases a bank is kept to by itself: as many as are searched exactly.
+constexpr std::size_t usual_bound = FeatureIndex::usually_exact;
+
+/// Where a bank holds more than `most`, forgets the most redundant until a twentieth of `most` is
+/// free, so that it need not be done for each new case.
+/// @return  how many were forgotten; or what `Store::all` or `Store::forget` could not do
+[[nodiscard]] Result<std::size_t> keep_within(Store& memory, std::size_t most);
 
 }  // namespace saca::memory

@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 
 #include "saca/memory/example_scenes.h"
 #include "saca/memory/experience.h"
 #include "saca/memory/feature_index.h"
+#include "saca/memory/store.h"
 
 namespace saca::memory::thinning_test {
 namespace {
@@ -119,6 +121,26 @@ TEST(Thinning, KeepsWhatTheCarDroveWhatExpertsToldAndWhatIsInDoubt) {
     std::for_each(cases.begin(), cases.end(), keep);
     EXPECT_TRUE(most_redundant(cases, 0).empty());
   }
+}
+
+TEST(Thinning, KeepsABankWithinItsBound) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "saca_bounded.sqlite";
+  std::filesystem::remove(file);
+  Store memory = Store::open(file).value();
+  std::mt19937 rng(5);
+  for (int i = 0; i < 40; ++i) {
+    ASSERT_TRUE(memory.add(a_case(0, random_scene(rng, 1), PolicyId::aeb)).has_value());
+  }
+  ASSERT_FALSE(memory.catch_up().has_value());
+  const auto cases = memory.all().value();
+  EXPECT_EQ(keep_within(memory, 40).value(), 0U);
+  ASSERT_TRUE(memory.add(a_case(0, cases[3].scene, PolicyId::aeb)).has_value());
+  ASSERT_FALSE(memory.catch_up().has_value());
+  EXPECT_EQ(keep_within(memory, 40).value(), 3U) << "two are free then";
+  EXPECT_EQ(memory.size(), 38U);
+  EXPECT_FALSE(memory.find(41).value().has_value()) << "the newer of two that are the same";
+  EXPECT_TRUE(memory.find(4).value().has_value());
+  std::filesystem::remove(file);
 }
 
 }  // namespace

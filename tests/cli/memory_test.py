@@ -250,6 +250,19 @@ def test_what_is_not_trusted_is_rolled_out(cases, tmp_path):
     assert sum(one["trust"] == "trusted" for one in listed) == told["confirmed"]
     again = saca("memory", "check", "--memory", "bank.db", "--draws", "4", cwd=tmp_path)
     assert f"0 cases confirmed and trusted, {told['open']} stay unchecked, 0 refuted" in again.stdout
+    # Where it is wanted, what is in quarantine is looked at again: a sound case that one encounter has refuted comes back, and so
+    # does the poisoned one, of which by now what was rolled out is kept in place of what it said.
+    with sqlite3.connect(tmp_path / "bank.db") as bank:
+        sound = next(one["id"] for one in listed if one["trust"] == "trusted")
+        bank.execute("UPDATE cases SET details = json_set(details, '$.trust', 'quarantined') WHERE id = ?", [sound])
+    assert "0 cases confirmed" in saca("memory", "check", "--memory", "bank.db", "--draws", "4", cwd=tmp_path).stdout
+    run = saca("memory", "check", "--memory", "bank.db", "--draws", "4", "--quarantined", "--json", cwd=tmp_path)
+    back = json.loads(run.stdout)
+    assert (back["confirmed"], back["open"], back["refuted"]) == (1 + told["refuted"], told["open"], 0)
+    listed = json.loads(saca("memory", "list", "--memory", "bank.db", "--json", cwd=tmp_path).stdout)
+    assert {one["id"]: one["trust"] for one in listed}[sound] == "trusted" == listed[0]["trust"]
+    recalled = json.loads(saca("memory", "show", str(listed[0]["id"]), "--memory", "bank.db", cwd=tmp_path).stdout)
+    assert recalled["details"]["told"][7] == max(harm for harm in recalled["details"]["told"] if harm is not None), "the truth"
     assert "no such memory bank" in one_error(saca("memory", "check", "--memory", "none.db", cwd=tmp_path), BAD_INPUT)
     assert "tank" in one_error(saca("memory", "check", "--memory", "bank.db", "--car", "tank", cwd=tmp_path), BAD_INPUT)
 
