@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,6 +21,7 @@
 #include "saca/intent/model.h"
 #include "saca/learn/calibration.h"
 #include "saca/learn/evaluation.h"
+#include "saca/learn/forecast_file.h"
 #include "saca/learn/sequence_file.h"
 #include "saca/train/training.h"
 
@@ -36,6 +38,8 @@ struct Options {
   std::string output;
   std::string calibrate;
   std::string leave_out;
+  std::string teachers;
+  double taught_share = train::Lessons().share;
   int networks = 1;
   train::TrainingPlan plan;
 };
@@ -44,7 +48,35 @@ struct Options {
 struct Data {
   std::vector<Sequence> training;
   std::vector<Sequence> held_out;
+  train::Lessons lessons;
 };
+
+/// What others foretell of sequences, where they do: those that they have not learnt from.
+Result<std::vector<learn::Forecasts>> read_teachers(const std::string& path,
+                                                    std::span<const Sequence> sequences) {
+  const auto set = learn::read_forecasts(path);
+  if (!set.has_value()) {
+    return set.error();
+  }
+  const std::set<std::string> foretold(set.value().names.begin(), set.value().names.end());
+  std::vector<learn::Forecasts> lessons(sequences.size());
+  bool is_any = false;
+  for (std::size_t i = 0; i < sequences.size(); ++i) {
+    if (foretold.count(sequences[i].name) > 0) {
+      auto one = learn::forecasts_of(set.value(), sequences.subspan(i, 1), path);
+      if (!one.has_value()) {
+        return one.error();
+      }
+      lessons[i] = std::move(one).value().front();
+      is_any = true;
+    }
+  }
+  if (!is_any) {
+    return Error{Error::Code::malformed,
+                 path + ": want forecasts of sequences to be trained with, got none of any"};
+  }
+  return lessons;
+}
 
 Result<Data> read_data(const Options& options) {
   auto read = learn::read_sequences(options.sequences);
@@ -74,6 +106,14 @@ Result<Data> read_data(const Options& options) {
   if (options.leave_out.empty()) {
     data.held_out = std::move(simulated_test);
   }
+  if (!options.teachers.empty()) {
+    auto lessons = read_teachers(options.teachers, data.training);
+    if (!lessons.has_value()) {
+      return lessons.error();
+    }
+    data.lessons.share = options.taught_share;
+    data.lessons.forecasts = std::move(lessons).value();
+  }
   return data;
 }
 
@@ -86,6 +126,9 @@ config::Tensors described(const Options& options, config::Tensors tensors) {
                    {"sequences", fmt::format("{:016x}", digest.value())},
                    {"seed", std::to_string(options.plan.seed)},
                    {"epochs", std::to_string(options.plan.epochs)}};
+  if (!options.teachers.empty()) {
+    tensors.words["taught_share"] = fmt::format("{}", options.taught_share);
+  }
   if (options.plan.speed_noise > 0.0) {
     tensors.words["speed_noise_mps"] = fmt::format("{}", options.plan.speed_noise);
   }
@@ -192,8 +235,9 @@ int train_model(const Options& options) {
     train::TrainingPlan plan = options.plan;
     plan.seed = options.plan.seed + static_cast<std::uint64_t>(i);
     const fs::path state = fmt::format("{}.network{}.state", options.output, i);
-    auto network =
-        train::trained(data.training, data.held_out, plan, state, [&](const train::Epoch& now) {
+    auto network = train::trained(
+        data.training, data.held_out, plan, state,
+        [&](const train::Epoch& now) {
           const double held_out = now.held_out.value_or(std::nan(""));
           curve += fmt::format("{},{},{:.5f},{:.5f},{:.1f}\n", i, now.number, now.loss, held_out,
                                now.seconds);
@@ -202,7 +246,8 @@ int train_model(const Options& options) {
                      now.seconds);
           std::fflush(stdout);
           return !train_program::is_to_stop();
-        });
+        },
+        data.lessons);
     if (!network.has_value()) {
       return train_program::failed(program, network.error());
     }
@@ -236,6 +281,15 @@ int main(int argc, char** argv) {
   output->excludes(calibrate);
   app.add_option("--leave-out", options.leave_out,
                  "A split or a site of the file that is not to be seen");
+  CLI::Option* const teachers = app.add_option(
+      "--teachers", options.teachers,
+      "HDF5 file of forecasts by models that have seen neither the sequence nor what is left out: "
+      "learn from them as well");
+  app.add_option("--taught-share", options.taught_share,
+                 "Of the teachers in what a label is taken for")
+      ->check(CLI::Range(0.0, 1.0))
+      ->needs(teachers)
+      ->capture_default_str();
   app.add_option("--networks", options.networks, "Trained from seeds one after the other")
       ->check(CLI::Range(1, static_cast<int>(intent::Model::max_networks)))
       ->capture_default_str();

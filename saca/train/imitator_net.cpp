@@ -88,7 +88,8 @@ std::vector<Piece> imitator_pieces(std::span<const memory::Case> cases) {
     const ImitatorInputs inputs = eval::imitator_inputs(one.scene);
     Piece piece{.features = torch::empty({1, imitator_inputs_size}),
                 .labels = torch::full({1, 1}, static_cast<std::int64_t>(one.best), torch::kInt64),
-                .known = torch::ones({1, 1}, torch::kBool)};
+                .known = torch::ones({1, 1}, torch::kBool),
+                .taught = {}};
     std::copy(inputs.begin(), inputs.end(), piece.features.data_ptr<float>());
     pieces.push_back(std::move(piece));
   }

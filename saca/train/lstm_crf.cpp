@@ -97,7 +97,9 @@ torch::Tensor LstmCrfImpl::loss(const torch::Tensor& emissions, const Batch& bat
                                 const ClassWeights& weights) {
   const torch::Tensor filtered =
       torch::log_softmax(forward_pass(emissions, start(), transition() + mask_, batch.present), -1);
-  const torch::Tensor of_label = filtered.gather(-1, batch.labels.unsqueeze(-1)).squeeze(-1);
+  const torch::Tensor of_label = batch.taught.defined()
+                                     ? (batch.taught * filtered).sum(-1)
+                                     : filtered.gather(-1, batch.labels.unsqueeze(-1)).squeeze(-1);
   const torch::Tensor counts =
       torch::tensor(at::ArrayRef<double>(weights), torch::kFloat32).index({batch.labels}) *
       batch.known.to(torch::kFloat32);

@@ -27,7 +27,8 @@ class LstmCrfImpl : public torch::nn::Module {
   torch::Tensor emissions(const torch::Tensor& features);
 
   /// -log p(label | what was seen so far) by the forward pass of the chain, exactly as a stream
-  /// tells it; weighted mean over known labels of all horizons.
+  /// tells it; weighted mean over known labels of all horizons. Where a batch is taught, the cross
+  /// entropy of what it is taught of a label takes the place of -log p of the label alone.
   /// @param weights  of labels
   torch::Tensor loss(const torch::Tensor& emissions, const Batch& batch,
                      const ClassWeights& weights = all_alike);

@@ -23,7 +23,9 @@ Batch random_batch() {
   std::vector<Piece> pieces;
   for (const std::int64_t length : {frames, frames - 5}) {
     pieces.push_back({torch::randn({length, static_cast<std::int64_t>(num_features)}),
-                      torch::randint(0, 6, {length, 3}), torch::rand({length, 3}) < 0.2});
+                      torch::randint(0, 6, {length, 3}),
+                      torch::rand({length, 3}) < 0.2,
+                      {}});
   }
   for (Piece& piece : pieces) {  // labels that the structural mask allows: all of one side
     piece.labels = piece.labels % 2 * 3;
@@ -82,6 +84,26 @@ TEST(LstmCrf, LossIsOfWhatAStreamIsTold) {
   const double num_known = batch.known.sum().item<double>();
   EXPECT_NEAR(loss.item<double>(), -filtered / num_known, 1e-4);  // float
   EXPECT_NEAR(weighted.item<double>(), -weighted_sum / weight, 1e-4);
+}
+
+TEST(LstmCrf, WhatIsTaughtOfALabelIsItsCrossEntropy) {
+  torch::manual_seed(17);
+  LstmCrf network(0.0);
+  Batch batch = random_batch();
+  const torch::Tensor emissions = 3.0 * torch::randn({2, frames, 3, 6});
+  const ClassWeights weights{1.0, 5.0, 0.5, 3.0, 7.0, 2.0};
+  const float by_labels = network->loss(emissions, batch, weights).item<float>();
+  batch.taught = torch::one_hot(batch.labels, 6).to(torch::kFloat32);
+  EXPECT_FLOAT_EQ(network->loss(emissions, batch, weights).item<float>(), by_labels);
+  // Half of each label, half of what comes after it: the mean of both losses, each frame counting
+  // as its label does.
+  Batch other = batch;
+  other.taught = batch.taught.roll(1, -1);
+  const float by_others = network->loss(emissions, other, weights).item<float>();
+  EXPECT_GT(std::abs(by_others - by_labels), 0.1F);
+  batch.taught = 0.5 * (batch.taught + other.taught);
+  EXPECT_NEAR(network->loss(emissions, batch, weights).item<float>(),
+              0.5F * (by_labels + by_others), 1e-4F);
 }
 
 TEST(LstmCrf, EmissionsAreThoseOfTheNetworkThatIsWritten) {

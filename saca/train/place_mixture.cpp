@@ -39,7 +39,8 @@ Piece piece_of_places(const std::vector<PlaceExample>& sequence, std::size_t fir
   const auto rows = static_cast<std::int64_t>(last - first);
   Piece piece{.features = torch::empty({rows, features_per_frame}),
               .labels = torch::zeros({rows, num_labels}),
-              .known = torch::zeros({rows, 1}, torch::kBool)};
+              .known = torch::zeros({rows, 1}, torch::kBool),
+              .taught = {}};
   auto* features = piece.features.data_ptr<float>();
   auto labels = piece.labels.accessor<float, 2>();
   auto known = piece.known.accessor<bool, 2>();

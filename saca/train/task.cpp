@@ -63,7 +63,11 @@ std::string fingerprint(const std::vector<Piece>& pieces, const Schedule& plan,
                         const std::string& words) {
   Fnv hash;
   for (const Piece& piece : pieces) {
-    for (const torch::Tensor* each : {&piece.features, &piece.labels, &piece.known}) {
+    for (const torch::Tensor* each :
+         {&piece.features, &piece.labels, &piece.known, &piece.taught}) {
+      if (!each->defined()) {
+        continue;
+      }
       const torch::Tensor flat = each->contiguous();
       hash.add(std::string_view(static_cast<const char*>(flat.data_ptr()), flat.nbytes()));
     }
@@ -232,7 +236,12 @@ Batch batch_of(const std::vector<const Piece*>& pieces) {
   Batch batch{.features = room_for(num, longest, pieces.front()->features),
               .present = torch::zeros({num, longest}, torch::kBool),
               .labels = room_for(num, longest, pieces.front()->labels),
-              .known = room_for(num, longest, pieces.front()->known)};
+              .known = room_for(num, longest, pieces.front()->known),
+              .taught = {}};
+  const bool is_taught = pieces.front()->taught.defined();
+  if (is_taught) {
+    batch.taught = room_for(num, longest, pieces.front()->taught);
+  }
   for (std::int64_t i = 0; i < num; ++i) {
     const Piece& piece = *pieces[static_cast<std::size_t>(i)];
     const std::int64_t size = piece.features.size(0);
@@ -240,6 +249,9 @@ Batch batch_of(const std::vector<const Piece*>& pieces) {
     batch.present[i].narrow(0, 0, size).fill_(true);
     batch.labels[i].narrow(0, 0, size).copy_(piece.labels);
     batch.known[i].narrow(0, 0, size).copy_(piece.known);
+    if (is_taught) {
+      batch.taught[i].narrow(0, 0, size).copy_(piece.taught);
+    }
   }
   return batch;
 }

@@ -22,6 +22,8 @@ struct Batch {
   torch::Tensor present;   ///< (B x T), bool: false where filled up
   torch::Tensor labels;    ///< (B x T x H ...); 0 where not known
   torch::Tensor known;     ///< (B x T x H), bool: the label is not in doubt
+  torch::Tensor
+      taught;  ///< of each label a distribution (B x T x H x K); undefined: nobody teaches
 };
 
 /// A piece of a sequence, as the network sees it.
@@ -29,6 +31,7 @@ struct Piece {
   torch::Tensor features;  ///< (T x features of a frame)
   torch::Tensor labels;    ///< (T x H ...)
   torch::Tensor known;     ///< (T x H), bool
+  torch::Tensor taught;    ///< (T x H x K), of all pieces or of none; undefined: nobody teaches
 };
 
 /// Pieces in batches of at most `frames` frames, or of one piece. Neighbours of like length come

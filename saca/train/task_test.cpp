@@ -41,7 +41,7 @@ TEST(Task, LearnsWhatTheKnownLabelsSay) {
   torch::nn::Linear linear(2, 1);
   std::vector<Piece> pieces;
   for (int i = 0; i < 40; ++i) {
-    Piece piece{.features = torch::randn({5 + i % 3, 2}), .labels = {}, .known = {}};
+    Piece piece{.features = torch::randn({5 + i % 3, 2}), .labels = {}, .known = {}, .taught = {}};
     piece.labels = (2.0 * piece.features.select(1, 0) - piece.features.select(1, 1)).unsqueeze(1);
     piece.known = torch::ones({piece.features.size(0), 1}, torch::kBool);
     piece.labels[4] = 100.0;

@@ -19,14 +19,38 @@ using intent::Feature;
 using learn::Sequence;
 
 constexpr auto columns = static_cast<std::int64_t>(intent::num_features);
+constexpr auto classes_foretold = static_cast<std::int64_t>(intent::num_classes);
 constexpr auto rows_ahead = static_cast<std::int64_t>(intent::num_horizons);
+
+/// What frames [first, last) of a sequence are taught of their labels: the labels themselves, and
+/// by its share what a teacher foretells.   (rows x H x K)
+torch::Tensor taught_of(const torch::Tensor& labels, const learn::Forecasts& teacher, double share,
+                        std::size_t first) {
+  torch::Tensor taught = torch::one_hot(labels, classes_foretold).to(torch::kFloat32);
+  if (teacher.at[0].empty()) {
+    return taught;
+  }
+  taught *= 1.0 - share;
+  auto rows = taught.accessor<float, 3>();
+  for (std::int64_t row = 0; row < labels.size(0); ++row) {
+    for (std::size_t h = 0; h < intent::num_horizons; ++h) {
+      const auto& foretold = teacher.at[h][first + static_cast<std::size_t>(row)];
+      for (std::size_t k = 0; k < intent::num_classes; ++k) {
+        rows[row][static_cast<std::int64_t>(h)][static_cast<std::int64_t>(k)] +=
+            static_cast<float>(share * foretold[k]);
+      }
+    }
+  }
+  return taught;
+}
 
 /// Frames [first, last) of a sequence, as a stream sees them that begins there.
 Piece piece_of(const Sequence& sequence, std::size_t first, std::size_t last) {
   const auto rows = static_cast<std::int64_t>(last - first);
   Piece piece{.features = torch::empty({rows, columns}),
               .labels = torch::zeros({rows, rows_ahead}, torch::kInt64),
-              .known = torch::zeros({rows, rows_ahead}, torch::kBool)};
+              .known = torch::zeros({rows, rows_ahead}, torch::kBool),
+              .taught = {}};
   auto* features = piece.features.data_ptr<float>();
   auto labels = piece.labels.accessor<std::int64_t, 2>();
   auto known = piece.known.accessor<bool, 2>();
@@ -99,24 +123,30 @@ std::string words_of(const TrainingPlan& plan) {
 
 }  // namespace
 
-std::vector<Piece> pieces_of(const std::vector<Sequence>& sequences, int longest, bool with_late) {
+std::vector<Piece> pieces_of(const std::vector<Sequence>& sequences, int longest, bool with_late,
+                             const Lessons& lessons) {
   expects(longest > 0, "longest > 0");
+  const bool is_taught = !lessons.forecasts.empty();
+  expects(!is_taught || lessons.forecasts.size() == sequences.size(), "lessons of each sequence");
   std::vector<Piece> pieces;
-  const auto add = [&](const Sequence& sequence, std::size_t first, std::size_t last) {
-    Piece piece = piece_of(sequence, first, last);
+  const auto add = [&](std::size_t which, std::size_t first, std::size_t last) {
+    Piece piece = piece_of(sequences[which], first, last);
+    if (is_taught) {
+      piece.taught = taught_of(piece.labels, lessons.forecasts[which], lessons.share, first);
+    }
     if (piece.known.any().item<bool>()) {
       pieces.push_back(std::move(piece));
     }
   };
   std::size_t number = 0;
-  for (const Sequence& sequence : sequences) {
-    const std::size_t num = sequence.observations.size();
+  for (std::size_t i = 0; i < sequences.size(); ++i) {
+    const std::size_t num = sequences[i].observations.size();
     for (std::size_t first = 0; first < num; first += static_cast<std::size_t>(longest)) {
       const std::size_t last = std::min(num, first + static_cast<std::size_t>(longest));
-      add(sequence, first, last);
+      add(i, first, last);
       const std::size_t late = first + (last - first) * (1 + number++ % 3) / 4;
       if (with_late && late < last) {
-        add(sequence, late, last);
+        add(i, late, last);
       }
     }
   }
@@ -126,7 +156,7 @@ std::vector<Piece> pieces_of(const std::vector<Sequence>& sequences, int longest
 Result<LstmCrf> trained(const std::vector<Sequence>& sequences,
                         const std::vector<Sequence>& held_out, const TrainingPlan& plan,
                         const std::filesystem::path& state,
-                        const std::function<bool(const Epoch&)>& on_epoch) {
+                        const std::function<bool(const Epoch&)>& on_epoch, const Lessons& lessons) {
   expects(!sequences.empty() && plan.epochs > 0 && plan.batch > 0, "something to train with");
   torch::manual_seed(plan.seed);
   LstmCrf network(plan.dropout, plan.with_chain);
@@ -149,7 +179,7 @@ Result<LstmCrf> trained(const std::vector<Sequence>& sequences,
                           .step = plan.step,
                           .decay = plan.decay};
   if (const auto problem =
-          train(task, pieces_of(sequences, plan.longest, true),
+          train(task, pieces_of(sequences, plan.longest, true, lessons),
                 pieces_of(held_out, plan.longest, false), schedule, state, on_epoch)) {
     return *problem;
   }

@@ -8,6 +8,7 @@
 
 #include "saca/core/result.h"
 #include "saca/learn/calibration.h"
+#include "saca/learn/score.h"
 #include "saca/learn/sequence.h"
 #include "saca/train/lstm_crf.h"
 #include "saca/train/task.h"
@@ -35,12 +36,23 @@ struct TrainingPlan {
   double speed_noise = 0.6;
 };
 
+/// What another model foretells of the sequences to be trained with, which it must not have seen:
+/// to learn from a teacher as well as from labels is to be told how sure one can be. Source:
+/// Hinton, Vinyals, Dean, Distilling the knowledge in a neural network, arXiv:1503.02531.
+struct Lessons {
+  double share = 0.5;  ///< of the teacher in what a label is taken for, 0 ... 1
+  /// One per sequence; without frames: of this one the labels alone are learnt. Empty: nobody
+  /// teaches.
+  std::vector<learn::Forecasts> forecasts;
+};
+
 /// Pieces of at most `longest` frames, each as a stream sees it that begins there. Labels of a
 /// horizon are those so many frames later; unknown where they are in doubt or after the end.
 /// @param with_late  also of each piece what comes after its first quarter, half or three quarters:
 ///                   somebody may come into view in the middle of anything
 [[nodiscard]] std::vector<Piece> pieces_of(const std::vector<learn::Sequence>& sequences,
-                                           int longest, bool with_late);
+                                           int longest, bool with_late,
+                                           const Lessons& lessons = {});
 
 /// Trains one network, or goes on where an earlier run of the same plan on the same data was
 /// stopped.
@@ -54,7 +66,8 @@ struct TrainingPlan {
 [[nodiscard]] Result<LstmCrf> trained(const std::vector<learn::Sequence>& sequences,
                                       const std::vector<learn::Sequence>& held_out,
                                       const TrainingPlan& plan, const std::filesystem::path& state,
-                                      const std::function<bool(const Epoch&)>& on_epoch);
+                                      const std::function<bool(const Epoch&)>& on_epoch,
+                                      const Lessons& lessons = {});
 
 /// The tensors of intent/model.h: networks trained from several seeds, and the mean of their
 /// chains; not calibrated.

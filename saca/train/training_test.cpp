@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "saca/config/tensors.h"
+#include "saca/core/contract.h"
 #include "saca/core/file.h"
 #include "saca/intent/features.h"
 #include "saca/intent/model.h"
@@ -137,6 +139,73 @@ TEST(Pieces, LabelsAreThoseOfLater) {
   EXPECT_EQ(with_late[1].labels[10][0].item<int>(), 3);  // frame 15
   const auto memory = static_cast<std::int64_t>(intent::Feature::memory);
   EXPECT_EQ(with_late[1].features[0][memory].item<float>(), 0.0F);  // a stream that begins
+}
+
+learn::Forecasts all_foretold_as(std::size_t num_frames, const learn::ClassProbabilities& p) {
+  learn::Forecasts forecasts;
+  for (auto& head : forecasts.at) {
+    head.assign(num_frames, p);
+  }
+  return forecasts;
+}
+
+TEST(Pieces, AreTaughtLabelsAndByItsShareWhatATeacherForetells) {
+  learn::Sequence sequence;
+  for (int t = 0; t < 25; ++t) {
+    sequence.observations.push_back({.speed = 10.0});
+    sequence.labels.push_back(static_cast<std::uint8_t>(t >= 15 ? 3 : 0));
+    sequence.scored.push_back(true);
+  }
+  Lessons lessons{.share = 0.25,
+                  .forecasts = {all_foretold_as(25, {0.0, 0.0, 0.0, 0.5, 0.5, 0.0}), {}}};
+  lessons.forecasts[0].at[0][21] = {1.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  const auto pieces = pieces_of({sequence, sequence}, 20, false, lessons);
+  ASSERT_EQ(pieces.size(), 4U);
+  const auto taught = [](const Piece& piece, std::int64_t t, std::int64_t h, std::int64_t k) {
+    return piece.taught[t][h][k].item<float>();
+  };
+  EXPECT_FLOAT_EQ(taught(pieces[0], 15, 0, 3), 0.75F + 0.125F);
+  EXPECT_FLOAT_EQ(taught(pieces[0], 15, 0, 4), 0.125F);
+  EXPECT_FLOAT_EQ(taught(pieces[0], 14, 0, 0), 0.75F);
+  EXPECT_FLOAT_EQ(taught(pieces[1], 1, 0, 0), 0.25F);  // frame 21: of the second piece the second
+  EXPECT_FLOAT_EQ(taught(pieces[1], 1, 0, 3), 0.75F);
+  EXPECT_FLOAT_EQ(taught(pieces[0], 10, 1, 3), 0.75F + 0.125F);  // its label in half a second
+  EXPECT_FLOAT_EQ(taught(pieces[2], 15, 0, 3), 1.0F);            // nobody teaches
+  EXPECT_FALSE(pieces_of({sequence}, 20, false)[0].taught.defined());
+  lessons.forecasts.pop_back();
+  EXPECT_THROW((void)pieces_of({sequence, sequence}, 20, false, lessons), ContractViolation);
+}
+
+TEST(Training, LearnsFromATeacherWhatNoLabelSays) {
+  const auto sequences = learn::simulated_sequences(20, 1, 1);
+  Lessons lessons{.share = 1.0, .forecasts = {}};
+  for (const auto& each : sequences) {  // of a teacher who is never sure
+    lessons.forecasts.push_back(
+        all_foretold_as(each.labels.size(), {0.5, 0.1, 0.1, 0.1, 0.1, 0.1}));
+  }
+  TrainingPlan plan = short_plan();
+  plan.epochs = 8;
+  const fs::path state = state_file("saca_training_taught.pt");
+  const auto alone = trained(sequences, {}, plan, state, all_epochs);
+  ASSERT_TRUE(alone.has_value());
+  EXPECT_THAT(trained(sequences, {}, plan, state, all_epochs, lessons).error().message,
+              testing::HasSubstr("is of another training"));
+  const auto taught = trained(sequences, {}, plan, {}, all_epochs, lessons);
+  ASSERT_TRUE(taught.has_value());
+  const auto mean_surest = [&](const LstmCrf& network) {
+    const auto model = intent::model_from(model_tensors({network}), "model");
+    double sum = 0.0;
+    double num = 0.0;
+    for (const auto& each : learn::foretold(model.value(), sequences, 1)) {
+      for (const auto& p : each.at[0]) {
+        sum += *std::max_element(p.begin(), p.end());
+        num += 1.0;
+      }
+    }
+    return sum / num;
+  };
+  EXPECT_LT(mean_surest(taught.value()), mean_surest(alone.value()) - 0.05)
+      << "of " << mean_surest(alone.value());
 }
 
 }  // namespace

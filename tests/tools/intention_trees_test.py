@@ -17,7 +17,7 @@ needs_setup = pytest.mark.skipif(not PYTHON.exists(), reason="tools/intention_tr
 
 def test_other_words_are_refused():
     run = subprocess.run([TOOL / "run.sh", "quickly"], capture_output=True, text=True, timeout=1500)
-    assert run.returncode == 2 and "want setup, train, foretell or cross, got quickly" in run.stderr
+    assert run.returncode == 2 and "want setup, train, foretell, cross or teachers, got quickly" in run.stderr
 
 
 def test_each_package_is_pinned_by_version_and_hash():
@@ -105,6 +105,7 @@ labels = numpy.repeat(numpy.arange(count) // 4 % 6, frames)  # each class in eac
 with h5py.File(path, "w", userblock_size=512) as file:
     for name, text in (("names", [f"s{i}" for i in range(count)]),
                        ("splits", [("train", "train", "tune", "test")[i % 4] for i in range(count)]),
+                       ("sites", [f"site{i // 20}" for i in range(count)]),
                        ("groups", [f"g{i // 5}" for i in range(count)])):
         file[f"sequences/{name}"] = numpy.bytes_("".join(line + chr(10) for line in text).encode())
     file["sequences/num_frames"] = numpy.full(count, float(frames))
@@ -167,3 +168,44 @@ def test_each_part_is_foretold_by_models_that_have_not_seen_it(tmp_path):
     done = subprocess.run([PYTHON, "-B", TOOL / "make.py", "cross", sequences, forecasts, "--parts", "none"],
                           capture_output=True, text=True, timeout=1500)
     assert done.returncode == 1 and "want three splits or more that begin with none, got 0" in done.stderr
+
+
+TAUGHT = """
+import json, pathlib, sys
+sys.path.insert(0, sys.argv[1])
+import files
+sequences = {one.name: one for one in files.read_sequences(sys.argv[2])}
+found = {}
+for path in sorted(pathlib.Path(sys.argv[3]).glob("*.h5")):
+    said = files.read_forecasts(path)
+    assert all(p.shape == (3, len(sequences[name].labels), 6) for name, p in said.items())
+    found[path.stem] = [len(said), sorted({sequences[name].split for name in said}),
+                        sorted({sequences[name].site for name in said})]
+print(json.dumps(found))
+"""
+
+
+@needs_setup
+def test_no_teacher_tells_of_what_is_left_out(tmp_path):
+    sequences, folder = tmp_path / "s.h5", tmp_path / "teachers"
+    small = SMALL.replace('("train", "train", "tune", "test")', '("part-0", "part-1", "part-2", "other")')
+    done = subprocess.run([PYTHON, "-B", "-c", small, TOOL, sequences], capture_output=True, text=True, timeout=1500)
+    assert done.returncode == 0, done.stderr
+    command = [PYTHON, "-B", TOOL / "make.py", "teachers", sequences, folder, "--rounds", "4", "--site", "site1"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=1500)
+    assert done.returncode == 0, done.stderr
+    made = sorted(line.split(":")[0] for line in done.stderr.splitlines())  # two parts left out serve both
+    assert made == ["part-0_part-1.h5", "part-0_part-2.h5", "part-0_site1.h5", "part-1_part-2.h5", "part-1_site1.h5",
+                    "part-2_site1.h5"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=1500)
+    assert done.returncode == 0 and done.stderr == ""  # all is there
+    done = subprocess.run([PYTHON, "-B", "-c", TAUGHT, TOOL, sequences, folder], capture_output=True, text=True,
+                          timeout=1500)
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout) == {
+        "without_part_0": [20, ["part-1", "part-2"], ["site0", "site1"]],
+        "without_part_1": [20, ["part-0", "part-2"], ["site0", "site1"]],
+        "without_part_2": [20, ["part-0", "part-1"], ["site0", "site1"]],
+        "without_site1": [15, ["part-0", "part-1", "part-2"], ["site0"]]}
+    done = subprocess.run(command[:-1] + ["nowhere"], capture_output=True, text=True, timeout=1500)
+    assert done.returncode == 1 and "--site: want sites of the file, got nowhere; there are site0, site1" in done.stderr

@@ -15,8 +15,8 @@ COLUMNS = ("speed_mps", "acceleration_mps2", "yaw_rate_radps", "offset_m", "late
 class Sequence:
     """One road user: columns by name, labels, and whether each frame is scored."""
 
-    def __init__(self, name, group, split, columns, labels, scored):
-        self.name, self.group, self.split = name, group, split
+    def __init__(self, name, site, group, split, columns, labels, scored):
+        self.name, self.site, self.group, self.split = name, site, group, split
         self.columns, self.labels, self.scored = columns, labels, scored
 
 
@@ -28,18 +28,28 @@ def read_sequences(path):
     sealed.check(path, SEQUENCES)
     with h5py.File(path, "r") as file:
         names, splits = lines(file["sequences/names"]), lines(file["sequences/splits"])
-        groups = lines(file["sequences/groups"])
+        groups, sites = lines(file["sequences/groups"]), lines(file["sequences/sites"])
         ends = numpy.cumsum(file["sequences/num_frames"][:]).astype(int)
         columns = {name: file[f"frames/{name}"][:] for name in COLUMNS}
         labels, scored = file["frames/label"][:].astype(int), file["frames/scored"][:] == 1.0
-    if not len(names) == len(groups) == len(splits) == len(ends) or ends[-1] != len(labels):
+    if not len(names) == len(groups) == len(sites) == len(splits) == len(ends) or ends[-1] != len(labels):
         raise sealed.Refused(f"{path}: want names, splits and frames of as many sequences, got {len(names)}, "
                              f"{len(splits)} and {len(ends)}")
     found = []
-    for name, group, split, begin, end in zip(names, groups, splits, numpy.concatenate([[0], ends[:-1]]), ends):
-        found.append(Sequence(name, group, split, {key: values[begin:end] for key, values in columns.items()},
+    begins = numpy.concatenate([[0], ends[:-1]])
+    for name, site, group, split, begin, end in zip(names, sites, groups, splits, begins, ends):
+        found.append(Sequence(name, site, group, split, {key: values[begin:end] for key, values in columns.items()},
                               labels[begin:end], scored[begin:end]))
     return found
+
+
+def read_forecasts(path):
+    """What is foretold of each sequence, by name: (heads x frames x classes)."""
+    sealed.check(path, FORECASTS)
+    with h5py.File(path, "r") as file:
+        names, ends = lines(file["names"]), numpy.cumsum(file["num_frames"][:]).astype(int)
+        probabilities = file["probabilities"][:]
+    return dict(zip(names, numpy.split(probabilities, ends[:-1], axis=1)))
 
 
 def write_forecasts(path, model, names, num_frames, probabilities):

@@ -23,6 +23,7 @@ MODEL = f"LightGBM {lightgbm.__version__} on windows of 2 s"
 SETTINGS = {"objective": "multiclass", "num_class": files.CLASSES, "learning_rate": 0.1, "num_leaves": 31, "max_bin": 63,
             "min_data_in_leaf": 40, "feature_fraction": 0.7, "bagging_fraction": 0.8, "bagging_freq": 1, "lambda_l2": 1.0,
             "seed": 1, "deterministic": True, "force_row_wise": True, "num_threads": 2, "verbosity": -1}
+TEACHING = SETTINGS | {"learning_rate": 0.2}  # half as many rounds, of which twenty models need many
 
 
 def of_split(sequences, split):
@@ -56,21 +57,21 @@ def class_weights(labels, stand_for):
     return each / each.mean()
 
 
-def trained(train, tune, told, names, ahead, rounds):
+def trained(train, tune, told, names, ahead, rounds, settings):
     rows, labels, stand_for = examples(train, told, ahead, THINNED)
     data = lightgbm.Dataset(rows, labels, weight=class_weights(labels, stand_for), feature_name=names)
     held_rows, held_labels, _ = examples(tune, told, ahead)
     held = lightgbm.Dataset(held_rows, held_labels, reference=data, feature_name=names)
     scores = {}
-    model = lightgbm.train(SETTINGS, data, rounds, valid_sets=[held], valid_names=["tune"],
+    model = lightgbm.train(settings, data, rounds, valid_sets=[held], valid_names=["tune"],
                            callbacks=[lightgbm.early_stopping(PATIENCE, verbose=False),
                                       lightgbm.record_evaluation(scores)])
     return model, {"frames_ahead": ahead, "rounds": model.best_iteration, "windows": len(rows),
                    "tune_log_loss": min(scores["tune"]["multi_logloss"])}
 
 
-def heads_of(train, tune, told, names, rounds):
-    return [trained(train, tune, told, names, ahead, rounds) for ahead in AHEAD]
+def heads_of(train, tune, told, names, rounds, settings=SETTINGS):
+    return [trained(train, tune, told, names, ahead, rounds, settings) for ahead in AHEAD]
 
 
 def windows_of(sequences):
@@ -88,8 +89,8 @@ def probabilities_of(models, told):
     return numpy.stack(found)
 
 
-def written(arguments, sequences, probabilities):
-    files.write_forecasts(arguments.forecasts, MODEL, [one.name for one in sequences],
+def written(path, sequences, probabilities):
+    files.write_forecasts(path, MODEL, [one.name for one in sequences],
                           [len(one.labels) for one in sequences], probabilities)
     return {"sequences": len(sequences), "frames": sum(len(one.labels) for one in sequences)}
 
@@ -115,30 +116,86 @@ def foretell(arguments):
             raise sealed.Refused(f"{path}: want a model, got none; train first")
         models.append(lightgbm.Booster(model_file=str(path)))
     told, _ = windows_of(sequences)
-    return written(arguments, sequences, probabilities_of(models, numpy.concatenate(list(told.values()))))
+    return written(arguments.forecasts, sequences, probabilities_of(models, numpy.concatenate(list(told.values()))))
+
+
+def parts_of(sequences, word):
+    parts = sorted({one.split for one in sequences if one.split.startswith(word)})
+    if len(parts) < 3:
+        raise sealed.Refused(f"want three splits or more that begin with {word}, got {len(parts)}")
+    return parts
+
+
+def is_of(one, places):
+    return one.split in places or one.site in places
+
+
+def heads_without(places, sequences, parts, told, names, rounds, settings=SETTINGS):
+    """They learn from what is of no such split or site, but for a few groups, which stop them."""
+    seen = [one for one in sequences if not is_of(one, places)]
+    always = [one for one in seen if one.split in ("train", "simulated")]
+    others = [one for one in seen if one.split in parts]
+    stopping = set(sorted({one.group for one in others})[::STOPPED_BY])
+    return heads_of(always + [one for one in others if one.group not in stopping],
+                    [one for one in others if one.group in stopping], told, names, rounds, settings)
+
+
+def said_of(mine, heads, told):
+    return probabilities_of([model for model, _ in heads], numpy.concatenate([told[one.name] for one in mine]))
 
 
 def cross(arguments):
-    """Each part by models that have not seen it: they learn from all others, but for a few groups, which stop them."""
+    """Each part by models that have not seen it."""
     sequences = files.read_sequences(arguments.sequences)
-    parts = sorted({one.split for one in sequences if one.split.startswith(arguments.parts)})
-    if len(parts) < 3:
-        raise sealed.Refused(f"want three splits or more that begin with {arguments.parts}, got {len(parts)}")
+    parts = parts_of(sequences, arguments.parts)
     begun = time.monotonic()
     told, names = windows_of(sequences)
-    always = [one for one in sequences if one.split in ("train", "simulated")]
     foretold, found, figures = [], [], []
     for part in parts:
-        others = [one for one in sequences if one.split in parts and one.split != part]
-        stopping = set(sorted({one.group for one in others})[::STOPPED_BY])
-        heads = heads_of(always + [one for one in others if one.group not in stopping],
-                         [one for one in others if one.group in stopping], told, names, arguments.rounds)
+        heads = heads_without({part}, sequences, parts, told, names, arguments.rounds)
         mine = of_split(sequences, part)
-        found.append(probabilities_of([model for model, _ in heads], numpy.concatenate([told[one.name] for one in mine])))
+        found.append(said_of(mine, heads, told))
         foretold += mine
         figures.append({"part": part, "heads": [one for _, one in heads]})
-    return written(arguments, foretold, numpy.concatenate(found, axis=1)) | {
+    return written(arguments.forecasts, foretold, numpy.concatenate(found, axis=1)) | {
         "parts": figures, "seconds": time.monotonic() - begun}
+
+
+def teachers(arguments):
+    """Whoever leaves out a part or a site may not learn of it through a teacher either: for each of them, every other
+    part by models that have seen neither. Models of two parts serve both; what is there already is not made again."""
+    sequences = files.read_sequences(arguments.sequences)
+    parts = parts_of(sequences, arguments.parts)
+    unknown = set(arguments.site) - {one.site for one in sequences}
+    if unknown:
+        raise sealed.Refused(f"--site: want sites of the file, got {', '.join(sorted(unknown))}; there are "
+                             f"{', '.join(sorted({one.site for one in sequences}))}")
+    begun = time.monotonic()
+    told, names = windows_of(sequences)
+    arguments.folder.mkdir(parents=True, exist_ok=True)
+    pairs = arguments.folder / "pairs"
+    pairs.mkdir(exist_ok=True)
+
+    def said_without(left_out, part):
+        path = pairs / ("_".join(sorted((left_out, part))) + ".h5")
+        if not path.exists():
+            places = {left_out, part}
+            heads = heads_without(places, sequences, parts, told, names, arguments.rounds, TEACHING)
+            both = [one for one in sequences if one.split in places]
+            written(path, both, said_of(both, heads, told))
+            print(f"{path.name}: {time.monotonic() - begun:.0f} s", file=sys.stderr, flush=True)
+        return files.read_forecasts(path)
+
+    for left_out in parts + arguments.site:
+        mine, found = [], []
+        for part in parts:
+            if part != left_out:
+                said = said_without(left_out, part)
+                taught = [one for one in of_split(sequences, part) if one.site != left_out]
+                found += [said[one.name] for one in taught]
+                mine += taught
+        written(arguments.folder / f"without_{left_out.replace('-', '_')}.h5", mine, numpy.concatenate(found, axis=1))
+    return {"left_out": parts + arguments.site, "seconds": time.monotonic() - begun}
 
 
 def command(actions, name, action, *places):
@@ -158,6 +215,9 @@ def main():
     command(actions, "train", train, "sequences", "models")
     command(actions, "foretell", foretell, "sequences", "models", "forecasts").add_argument("--split", default="test")
     command(actions, "cross", cross, "sequences", "forecasts").add_argument("--parts", default="part-")
+    for_teachers = command(actions, "teachers", teachers, "sequences", "folder")
+    for_teachers.add_argument("--parts", default="part-")
+    for_teachers.add_argument("--site", action="append", default=[])
     arguments = parser.parse_args()
     try:
         figures = arguments.action(arguments)
