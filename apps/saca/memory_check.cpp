@@ -34,7 +34,7 @@ struct CheckCasesOptions {
   bool as_json = false;
 };
 
-/// How many are trusted then, stay unchecked, and are quarantined: by memory::Trust.
+/// How many are trusted then, stay as they were, and are quarantined: by memory::Trust.
 using Counts = std::array<int, 3>;
 
 /// Those that this car does not trust yet, and where wanted those in quarantine; what was worked
@@ -58,8 +58,7 @@ Result<Counts> check_all(memory::Store& memory, std::vector<memory::Case> cases,
       checked[i] = eval::checked(cases[first + i], tools, intent, options.draws, made_with);
     });
     for (std::size_t i = 0; i < checked.size(); ++i) {
-      auto trust = cases[first + i].trust == memory::Trust::quarantined ? memory::Trust::quarantined
-                                                                        : memory::Trust::unchecked;
+      auto trust = memory::Trust::unchecked;
       const auto keep = [&](memory::Case& now) {
         if (memory::to_json(now) != memory::to_json(cases[first + i])) {
           return false;  // another process has learnt of it meanwhile: it is checked the next time
@@ -105,7 +104,7 @@ int check_bank(const CheckCasesOptions& options) {
                          {"refuted", refuted}});
   } else {
     app::print(
-        "{}: {} cases confirmed and trusted, {} stay unchecked, {} refuted and quarantined\n",
+        "{}: {} cases confirmed and trusted, {} stay as they were, {} refuted and quarantined\n",
         bank.store.name(), confirmed, open, refuted);
   }
   if (interrupted()) {
@@ -131,7 +130,7 @@ void add_memory_check(CLI::App& memory, int& exit_code) {
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   command->add_flag("--quarantined", options->quarantined,
-                    "Also what one encounter refuted: what holds over draws is served again");
+                    "Also what is in quarantine: what holds over draws is served again");
   command->add_flag("--json", options->as_json, "For programs");
   command->callback([options, &exit_code] { exit_code = check_bank(*options); });
 }

@@ -266,9 +266,6 @@ std::optional<Error> Curriculum::learn(const Episode& episode) {
     if (!learnt.has_value()) {
       return learnt.error();
     }
-    if (auto problem = of(who).catch_up()) {
-      return problem;
-    }
   }
   return std::nullopt;
 }

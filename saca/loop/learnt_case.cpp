@@ -122,15 +122,19 @@ Result<memory::Learnt> learn(memory::Store& memory, const memory::Case& one,
     }
   }
   auto learnt = memory.learn(one);
-  if (!learnt.has_value() || memory::is_on_a_server(memory.name())) {
+  if (!learnt.has_value()) {
     return learnt;
   }
   if (auto problem = memory.catch_up()) {
     return *std::move(problem);
   }
-  const auto gone = memory::keep_within(memory, bound);
+  if (memory::is_on_a_server(memory.name())) {
+    return learnt;
+  }
+  const auto gone = memory::keep_within(memory, bound, learnt.value().id);
   if (!gone.has_value()) {
-    return gone.error();
+    return Error{gone.error().code,
+                 "the encounter is learnt, but the bank is not thinned: " + gone.error().message};
   }
   return learnt;
 }

@@ -59,7 +59,7 @@ struct Trigger {
 /// Memory learns an encounter: its case is added or merged, and a case that it refutes is
 /// quarantined. A bank in a file is kept within a bound (memory::keep_within); one on a server
 /// belongs to many, who thin it when they want to.
-/// @return  what it came to, or what memory could not do
+/// @return  what it came to, as the bank then is (Store::catch_up); or what memory could not do
 [[nodiscard]] Result<memory::Learnt> learn(memory::Store& memory, const memory::Case& one,
                                            const std::optional<memory::CaseId>& refuted,
                                            std::size_t bound = memory::usual_bound);

@@ -87,15 +87,21 @@ std::vector<CaseId> most_redundant(std::span<const Case> cases, std::size_t most
   return gone;
 }
 
-Result<std::size_t> keep_within(Store& memory, std::size_t most) {
-  if (memory.size() <= most) {
+Result<std::size_t> keep_within(Store& memory, std::size_t most, CaseId newest) {
+  const std::size_t margin = std::max<std::size_t>(1, most / 20);
+  if (memory.size() <= most || (memory.size() - most - 1) % margin != 0) {
     return std::size_t{0};
   }
   const auto cases = memory.all();
   if (!cases.has_value()) {
     return cases.error();
   }
-  const auto gone = most_redundant(cases.value(), most - most / 20);
+  const std::size_t kept = most - most / 20;
+  std::vector<CaseId> gone = most_redundant(cases.value(), kept);
+  if (std::find(gone.begin(), gone.end(), newest) != gone.end()) {  // another goes in its place
+    gone = most_redundant(cases.value(), std::max<std::size_t>(kept, 1) - 1);
+    std::erase(gone, newest);
+  }
   if (auto problem = memory.forget(gone)) {
     return *std::move(problem);
   }

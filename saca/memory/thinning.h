@@ -24,8 +24,10 @@ namespace saca::memory {
 constexpr std::size_t usual_bound = FeatureIndex::usually_exact;
 
 /// Where a bank holds more than `most`, forgets the most redundant until a twentieth of `most` is
-/// free, so that it need not be done for each new case.
-/// @return  how many were forgotten; or what `Store::all` or `Store::forget` could not do
-[[nodiscard]] Result<std::size_t> keep_within(Store& memory, std::size_t most);
+/// free, so that it need not be done for each new case. Where what may not go leaves it beyond
+/// `most`, it is tried again when a twentieth more has come.
+/// @param newest  stays, whatever is like it
+/// @return        how many were forgotten; or what `Store::all` or `Store::forget` could not do
+[[nodiscard]] Result<std::size_t> keep_within(Store& memory, std::size_t most, CaseId newest);
 
 }  // namespace saca::memory

@@ -133,13 +133,38 @@ TEST(Thinning, KeepsABankWithinItsBound) {
   }
   ASSERT_FALSE(memory.catch_up().has_value());
   const auto cases = memory.all().value();
-  EXPECT_EQ(keep_within(memory, 40).value(), 0U);
+  EXPECT_EQ(keep_within(memory, 40, 40).value(), 0U);
   ASSERT_TRUE(memory.add(a_case(0, cases[3].scene, PolicyId::aeb)).has_value());
   ASSERT_FALSE(memory.catch_up().has_value());
-  EXPECT_EQ(keep_within(memory, 40).value(), 3U) << "two are free then";
+  EXPECT_EQ(keep_within(memory, 40, 1).value(), 3U) << "two are free then";
   EXPECT_EQ(memory.size(), 38U);
   EXPECT_FALSE(memory.find(41).value().has_value()) << "the newer of two that are the same";
   EXPECT_TRUE(memory.find(4).value().has_value());
+
+  const CaseId twin = memory.add(a_case(0, cases[0].scene, PolicyId::aeb)).value();
+  ASSERT_FALSE(memory.catch_up().has_value());
+  EXPECT_EQ(keep_within(memory, 38, twin).value(), 2U) << "its twin, and another";
+  EXPECT_TRUE(memory.find(twin).value().has_value()) << "what was just learnt stays";
+  std::filesystem::remove(file);
+}
+
+TEST(Thinning, IsNotTriedForEachCaseWhereNothingMayGo) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "saca_own_only.sqlite";
+  std::filesystem::remove(file);
+  Store memory = Store::open(file).value();
+  Case own = a_case(0, empty_road(), PolicyId::aeb);
+  own.origin = Origin::own;
+  for (int i = 0; i < 42; ++i) {
+    ASSERT_TRUE(memory.add(own).has_value());
+  }
+  ASSERT_TRUE(memory.add(a_case(0, empty_road(), PolicyId::aeb)).has_value());
+  ASSERT_TRUE(memory.add(a_case(0, empty_road(), PolicyId::aeb)).has_value());
+  ASSERT_FALSE(memory.catch_up().has_value());
+  EXPECT_EQ(keep_within(memory, 40, 1).value(), 0U) << "44 of 40: the next try is with 45";
+  ASSERT_TRUE(memory.add(own).has_value());
+  ASSERT_FALSE(memory.catch_up().has_value());
+  EXPECT_EQ(keep_within(memory, 40, 1).value(), 2U);
+  EXPECT_EQ(memory.size(), 43U);
   std::filesystem::remove(file);
 }
 

@@ -249,7 +249,7 @@ def test_what_is_not_trusted_is_rolled_out(cases, tmp_path):
     assert listed[0]["trust"] == "quarantined"
     assert sum(one["trust"] == "trusted" for one in listed) == told["confirmed"]
     again = saca("memory", "check", "--memory", "bank.db", "--draws", "4", cwd=tmp_path)
-    assert f"0 cases confirmed and trusted, {told['open']} stay unchecked, 0 refuted" in again.stdout
+    assert f"0 cases confirmed and trusted, {told['open']} stay as they were, 0 refuted" in again.stdout
     # Where it is wanted, what is in quarantine is looked at again: a sound case that one encounter has refuted comes back, and so
     # does the poisoned one, of which by now what was rolled out is kept in place of what it said.
     with sqlite3.connect(tmp_path / "bank.db") as bank:
