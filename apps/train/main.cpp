@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,8 +20,8 @@
 #include "saca/intent/model.h"
 #include "saca/learn/calibration.h"
 #include "saca/learn/evaluation.h"
-#include "saca/learn/forecast_file.h"
 #include "saca/learn/sequence_file.h"
+#include "saca/train/lessons.h"
 #include "saca/train/training.h"
 
 namespace {
@@ -50,33 +49,6 @@ struct Data {
   std::vector<Sequence> held_out;
   train::Lessons lessons;
 };
-
-/// What others foretell of sequences, where they do: those that they have not learnt from.
-Result<std::vector<learn::Forecasts>> read_teachers(const std::string& path,
-                                                    std::span<const Sequence> sequences) {
-  const auto set = learn::read_forecasts(path);
-  if (!set.has_value()) {
-    return set.error();
-  }
-  const std::set<std::string> foretold(set.value().names.begin(), set.value().names.end());
-  std::vector<learn::Forecasts> lessons(sequences.size());
-  bool is_any = false;
-  for (std::size_t i = 0; i < sequences.size(); ++i) {
-    if (foretold.count(sequences[i].name) > 0) {
-      auto one = learn::forecasts_of(set.value(), sequences.subspan(i, 1), path);
-      if (!one.has_value()) {
-        return one.error();
-      }
-      lessons[i] = std::move(one).value().front();
-      is_any = true;
-    }
-  }
-  if (!is_any) {
-    return Error{Error::Code::malformed,
-                 path + ": want forecasts of sequences to be trained with, got none of any"};
-  }
-  return lessons;
-}
 
 Result<Data> read_data(const Options& options) {
   auto read = learn::read_sequences(options.sequences);
@@ -107,27 +79,32 @@ Result<Data> read_data(const Options& options) {
     data.held_out = std::move(simulated_test);
   }
   if (!options.teachers.empty()) {
-    auto lessons = read_teachers(options.teachers, data.training);
+    auto lessons = train::read_lessons(options.teachers, data.training, data.held_out);
     if (!lessons.has_value()) {
       return lessons.error();
     }
+    data.lessons = std::move(lessons).value();
     data.lessons.share = options.taught_share;
-    data.lessons.forecasts = std::move(lessons).value();
   }
   return data;
 }
 
-/// The tensors, with words on where they come from.
-config::Tensors described(const Options& options, config::Tensors tensors) {
-  const auto bytes = read_file(options.sequences, many_bytes);
+std::string digest_of(const std::string& path) {
+  const auto bytes = read_file(path, many_bytes);
   Fnv digest;
   digest.add(bytes.has_value() ? std::string_view(bytes.value()) : std::string_view());
+  return fmt::format("{:016x}", digest.value());
+}
+
+/// The tensors, with words on where they come from.
+config::Tensors described(const Options& options, config::Tensors tensors) {
   tensors.words = {{"left_out", options.leave_out.empty() ? "nothing" : options.leave_out},
-                   {"sequences", fmt::format("{:016x}", digest.value())},
+                   {"sequences", digest_of(options.sequences)},
                    {"seed", std::to_string(options.plan.seed)},
                    {"epochs", std::to_string(options.plan.epochs)}};
   if (!options.teachers.empty()) {
     tensors.words["taught_share"] = fmt::format("{}", options.taught_share);
+    tensors.words["teachers"] = digest_of(options.teachers);
   }
   if (options.plan.speed_noise > 0.0) {
     tensors.words["speed_noise_mps"] = fmt::format("{}", options.plan.speed_noise);

@@ -8,8 +8,8 @@
 
 #include "saca/core/result.h"
 #include "saca/learn/calibration.h"
-#include "saca/learn/score.h"
 #include "saca/learn/sequence.h"
+#include "saca/train/lessons.h"
 #include "saca/train/lstm_crf.h"
 #include "saca/train/task.h"
 
@@ -34,16 +34,6 @@ struct TrainingPlan {
   /// each piece has its own between 0 and this, as each site has its own tracker. What is learnt
   /// transfers better to sites never seen (docs/decisions/0015).
   double speed_noise = 0.6;
-};
-
-/// What another model foretells of the sequences to be trained with, which it must not have seen:
-/// to learn from a teacher as well as from labels is to be told how sure one can be. Source:
-/// Hinton, Vinyals, Dean, Distilling the knowledge in a neural network, arXiv:1503.02531.
-struct Lessons {
-  double share = 0.5;  ///< of the teacher in what a label is taken for, 0 ... 1
-  /// One per sequence; without frames: of this one the labels alone are learnt. Empty: nobody
-  /// teaches.
-  std::vector<learn::Forecasts> forecasts;
 };
 
 /// Pieces of at most `longest` frames, each as a stream sees it that begins there. Labels of a

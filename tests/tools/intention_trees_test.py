@@ -177,7 +177,7 @@ import files
 sequences = {one.name: one for one in files.read_sequences(sys.argv[2])}
 found = {}
 for path in sorted(pathlib.Path(sys.argv[3]).glob("*.h5")):
-    said = files.read_forecasts(path)
+    said = files.read_forecasts(path)[1]
     assert all(p.shape == (3, len(sequences[name].labels), 6) for name, p in said.items())
     found[path.stem] = [len(said), sorted({sequences[name].split for name in said}),
                         sorted({sequences[name].site for name in said})]
@@ -207,5 +207,8 @@ def test_no_teacher_tells_of_what_is_left_out(tmp_path):
         "without_part_1": [20, ["part-0", "part-2"], ["site0", "site1"]],
         "without_part_2": [20, ["part-0", "part-1"], ["site0", "site1"]],
         "without_site1": [15, ["part-0", "part-1", "part-2"], ["site0"]]}
+    others = [word if word != "4" else "5" for word in command]
+    done = subprocess.run(others, capture_output=True, text=True, timeout=1500)
+    assert done.returncode == 1 and "at most 5 rounds" in done.stderr and "to begin anew" in done.stderr
     done = subprocess.run(command[:-1] + ["nowhere"], capture_output=True, text=True, timeout=1500)
     assert done.returncode == 1 and "--site: want sites of the file, got nowhere; there are site0, site1" in done.stderr

@@ -44,12 +44,13 @@ def read_sequences(path):
 
 
 def read_forecasts(path):
-    """What is foretold of each sequence, by name: (heads x frames x classes)."""
+    """Who made them, and what is foretold of each sequence, by name: (heads x frames x classes)."""
     sealed.check(path, FORECASTS)
     with h5py.File(path, "r") as file:
+        model = file["model"][()].decode("utf-8")
         names, ends = lines(file["names"]), numpy.cumsum(file["num_frames"][:]).astype(int)
         probabilities = file["probabilities"][:]
-    return dict(zip(names, numpy.split(probabilities, ends[:-1], axis=1)))
+    return model, dict(zip(names, numpy.split(probabilities, ends[:-1], axis=1)))
 
 
 def write_forecasts(path, model, names, num_frames, probabilities):

@@ -1,5 +1,6 @@
 """LightGBM on windows: see run.sh."""
 import argparse
+import hashlib
 import json
 import pathlib
 import sys
@@ -89,8 +90,8 @@ def probabilities_of(models, told):
     return numpy.stack(found)
 
 
-def written(path, sequences, probabilities):
-    files.write_forecasts(path, MODEL, [one.name for one in sequences],
+def written(path, sequences, probabilities, model=MODEL):
+    files.write_forecasts(path, model, [one.name for one in sequences],
                           [len(one.labels) for one in sequences], probabilities)
     return {"sequences": len(sequences), "frames": sum(len(one.labels) for one in sequences)}
 
@@ -175,6 +176,8 @@ def teachers(arguments):
     arguments.folder.mkdir(parents=True, exist_ok=True)
     pairs = arguments.folder / "pairs"
     pairs.mkdir(exist_ok=True)
+    sequences_sum = hashlib.sha256(arguments.sequences.read_bytes()).hexdigest()[:16]
+    model = f"{MODEL}, at most {arguments.rounds} rounds of rate {TEACHING['learning_rate']}, sequences {sequences_sum}"
 
     def said_without(left_out, part):
         path = pairs / ("_".join(sorted((left_out, part))) + ".h5")
@@ -182,9 +185,12 @@ def teachers(arguments):
             places = {left_out, part}
             heads = heads_without(places, sequences, parts, told, names, arguments.rounds, TEACHING)
             both = [one for one in sequences if one.split in places]
-            written(path, both, said_of(both, heads, told))
+            written(path, both, said_of(both, heads, told), model)
             print(f"{path.name}: {time.monotonic() - begun:.0f} s", file=sys.stderr, flush=True)
-        return files.read_forecasts(path)
+        made_by, said = files.read_forecasts(path)
+        if made_by != model:
+            raise sealed.Refused(f"{path}: want forecasts by {model}, got those by {made_by}: remove {pairs} to begin anew")
+        return said
 
     for left_out in parts + arguments.site:
         mine, found = [], []
