@@ -25,8 +25,8 @@ NUMBERS = ("harm", "regret", "harm_over_aeb", "contact", "right", "materially_wo
            "false_triggers", "regret_over_aeb", "cache_hit_rate", "memory_hit_rate", "agrees_with_driver")
 
 
-ORDER = ("saca", "saca_at_t1", "saca_no_memory", "saca_no_model", "saca_paper", "saca_paper_at_once", "saca_paper_no_facts",
-         "saca_paper_no_facts_at_once", "aeb", "r157", "cc_driver", "fsm", "rss", "rss_steering", "random", "nothing", "first_forecast",
+ORDER = ("saca", "saca_no_memory", "saca_no_model", "saca_untuned", "saca_unaware", "saca_no_cues", "saca_at_t1", "saca_full_braking", "saca_paper",
+         "saca_paper_at_once", "saca_paper_untuned", "saca_paper_unaware", "saca_paper_no_facts", "saca_paper_no_facts_at_once", "aeb", "r157", "cc_driver", "fsm", "rss", "rss_steering", "imitation", "random", "nothing", "first_forecast",
          "newest_forecast", "going_on_atlas", "least_danger", "least_joint_danger", "beliefs_atlas", "beliefs_rolled_out", "beliefs_drawn",
          "beliefs_and_danger", "beliefs_and_experience", "beliefs_and_grip", "beliefs_and_followers",
          "beliefs_and_hidden", "true_atlas", "true_rolled_out", "oracle")  # as saca/eval/methods.cpp has them
@@ -143,16 +143,34 @@ def ladder_section(figures, name):
 
 
 def tables_section(figures):
-    text = ["## Tables II and III of the paper, our rows\n"]
+    has_replies = any(key.startswith("tables.4.") for key in figures)
+    text = [f"## Tables II{',' if has_replies else ' and'} III{' and IV' if has_replies else ''} of the paper, our rows\n"]
     for number in ("2", "2_late", "3"):
         head = f"tables.{number}."
+        if not any(key.startswith(head) for key in figures):
+            continue
         methods = in_order([key[len(head):-len(".collision_loss")] for key in figures
-                            if re.fullmatch(re.escape(head) + r"[a-z_]+\.collision_loss", key)])
+                            if re.fullmatch(re.escape(head) + r"[a-z0-9_]+\.collision_loss", key)])
         rows = [[f"`{m}`", interval(figures, f"{head}{m}.collision_loss.ten_draws", 2), interval(figures, f"{head}{m}.collision_loss", 2),
                  interval(figures, f"{head}{m}.false_trigger_loss.ten_draws", 2), interval(figures, f"{head}{m}.false_trigger_loss", 2)] for m in methods]
+        columns = ["method", "Collision Loss, ten draws each", "all draws", "False-Trigger Loss, ten draws each", "all draws"]
+        if any(key.startswith(head) and key.endswith(".in_time.n") for key in figures):
+            columns.append("Collision Loss where each reply was in time, n")
+            for row, m in zip(rows, methods):
+                key = f"{head}{m}.collision_loss.in_time"
+                row.append(f"{interval(figures, key, 2)}, {figures[key + '.n']}" if key in figures else "-")
         count = figures[f"{head}{methods[0]}.collision_loss.n"]
         text += [f"\nTable {'I' * int(number[0])}{' with a late truck (ours)' if 'late' in number else ''}, {count} encounters:\n",
-                 table(["method", "Collision Loss, ten draws each", "all draws", "False-Trigger Loss, ten draws each", "all draws"], rows)]
+                 table(columns, rows)]
+    rows = []
+    for key in sorted(key for key in figures if key.startswith("tables.4.") and key.endswith(".asked")):
+        head = key[:-len("asked")]
+        number, model = head.split(".")[2:4]
+        rows.append([f"{'I' * int(number)}, {'the model' if model == 'model' else 'without fine-tuning'}", str(figures[key]), str(figures[head + "done"]), str(figures[head + "ended"]),
+                     *(interval(figures, head + what, digits) if head + what in figures else "-" for what, digits in (("tokens", 0), ("seconds", 1))),
+                     f"{figures[head + 'least_seconds']:.1f}" if head + "least_seconds" in figures else "-", str(figures[head + "in_time"])])
+    if rows:
+        text += ["\nTable IV, replies at real pace:\n", table(["scenes of table", "asked", "done", "ended", "tokens", "s", "least s", "done within T2 - T1"], rows)]
     return "\n".join(text)
 
 

@@ -26,6 +26,7 @@ namespace fs = std::filesystem;
 constexpr Clock::Time loading_time = std::chrono::seconds(60);  // a cold disk included
 constexpr std::string_view replay_prefix = "replay:";
 constexpr std::string_view weights_prefix = "local:";
+constexpr std::string_view llm_option = "--llm";
 
 Result<std::unique_ptr<reason::LanguageModel>> open_replay(const std::string& file,
                                                            runtime::Pace pace, Clock& clock) {
@@ -227,11 +228,19 @@ Result<ChosenModel> ChosenModel::open(const Places& places, const std::string& c
 
 Result<std::unique_ptr<reason::LanguageModel>> open_needed_model(const Places& places,
                                                                  const std::string& choice,
-                                                                 runtime::Pace pace, Clock& clock) {
+                                                                 runtime::Pace pace, Clock& clock,
+                                                                 std::string_view option) {
   auto model = open_model(places, choice, pace, clock);
   if (model.has_value() && model.value() == nullptr) {
     return Error{Error::Code::malformed,
-                 "--llm: want a language model to ask, got `" + choice + "`"};
+                 fmt::format("{}: want a language model to ask, got `{}`", option, choice)};
+  }
+  if (!model.has_value() && option != llm_option) {
+    std::string message = model.error().message;
+    if (message.starts_with(llm_option)) {
+      message.erase(0, llm_option.size() + std::string_view(": ").size());
+    }
+    return Error{model.error().code, fmt::format("{}: {}", option, message)};
   }
   return model;
 }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "apps/saca/places.h"
 #include "saca/core/clock.h"
@@ -23,9 +24,11 @@ namespace saca::app {
                                                                            Clock& clock);
 
 /// A model as `--llm` names it, for commands that are nothing without one.
-/// @return  never nullptr; an error where it is off or not there
+/// @param option  that named it, for messages
+/// @return        never nullptr; an error where it is off or not there
 [[nodiscard]] Result<std::unique_ptr<reason::LanguageModel>> open_needed_model(
-    const Places& places, const std::string& choice, runtime::Pace pace, Clock& clock);
+    const Places& places, const std::string& choice, runtime::Pace pace, Clock& clock,
+    std::string_view option = "--llm");
 
 /// A model as `--llm` names it, and whoever writes down what it says.
 class ChosenModel {

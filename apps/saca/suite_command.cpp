@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "apps/saca/commands.h"
 #include "apps/saca/json_output.h"
@@ -14,7 +13,6 @@
 #include "apps/saca/suite_pages.h"
 #include "apps/saca/traffic_suite.h"
 #include "saca/core/file.h"
-#include "saca/eval/suite_file.h"
 
 namespace saca::app {
 namespace {
@@ -22,7 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 using eval::Estimate;
 using eval::MethodFigures;
-using eval::SuiteRow;
 using nlohmann::json;
 
 struct SuiteCommand {
@@ -39,34 +36,6 @@ constexpr const char* usual_methods =
     "first_"
     "forecast,"
     "newest_forecast,going_on_atlas,beliefs_atlas,beliefs_rolled_out,oracle";
-
-std::vector<const SuiteRow*> rows_of(const SuiteRun& run, const std::string& family) {
-  std::vector<const SuiteRow*> found;
-  for (const SuiteRow& row : run.rows) {
-    if (family.empty() || row.family == family) {
-      found.push_back(&row);
-    }
-  }
-  return found;
-}
-
-SuiteResult result_of(const SuiteRun& run, std::uint64_t seed) {
-  SuiteResult result;
-  const auto aeb = index_of(run.methods, "aeb");
-  std::set<std::string> families;
-  for (const SuiteRow& row : run.rows) {
-    result.faults += row.fault.empty() ? 0 : 1;
-    families.insert(row.family);
-  }
-  result.all = eval::suite_figures(rows_of(run, ""), run.methods, aeb, seed);
-  for (const MethodFigures& one : result.all) {
-    result.method_faults += one.faults;
-  }
-  for (const std::string& family : families) {
-    result.families[family] = eval::suite_figures(rows_of(run, family), run.methods, aeb, seed);
-  }
-  return result;
-}
 
 json json_of(const SuiteRun& run, const SuiteResult& result, const SuiteCommandOptions& options) {
   json out = run.meta;
@@ -179,15 +148,11 @@ void print(const SuiteRun& run, const SuiteResult& result, const SuiteCommandOpt
 
 std::optional<Error> write(const SuiteRun& run, const SuiteResult& result, const json& figures,
                            const SuiteCommandOptions& options) {
-  if (auto problem = eval::write_suite(options.output, run.rows, run.methods, run.meta.dump())) {
+  if (auto problem = write_rows_and_page(run, result, options)) {
     return problem;
   }
-  fs::path beside = options.output;
-  if (auto problem = write_output(beside.replace_extension(".html"),
-                                  report::suite_page(page_of(run, result, options)))) {
-    return problem;
-  }
-  return write_output(beside.replace_extension(".json"), json_text(figures) + "\n");
+  return write_output(fs::path(options.output).replace_extension(".json"),
+                      json_text(figures) + "\n");
 }
 
 int watch(const SuiteCommand& options) {
@@ -204,7 +169,7 @@ int watch(const SuiteCommand& options) {
 }
 
 bool thinks(const CLI::App& line) {
-  return line.count("--memory") > 0 || line.count("--llm") > 0;
+  return line.count("--memory") > 0 || line.count("--llm") > 0 || line.count("--untuned") > 0;
 }
 
 /// The usual methods, and SACA without what it was given.
@@ -212,6 +177,7 @@ std::string usual_with(const ThinkingOptions& thinking) {
   std::string methods = "saca";
   methods += thinking.memory.empty() ? "" : ",saca_no_memory";
   methods += thinking.model == "off" ? "" : ",saca_no_model";
+  methods += thinking.untuned.empty() ? "" : ",saca_untuned";
   return methods + std::string(usual_methods).substr(std::string_view("saca").size());
 }
 
@@ -226,7 +192,7 @@ int run_as_regulation(const CLI::App& line, const SuiteCommand& options) {
     }
   }
   if (thinks(line)) {
-    complain(fmt::format("--memory, --llm: {} tests SACA as it ships, without either",
+    complain(fmt::format("--memory, --llm, --untuned: {} tests SACA as it ships, without them",
                          options.suite.name));
     return wrong_command_line;
   }
@@ -262,7 +228,7 @@ int run(const CLI::App& line, SuiteCommand options) {
     return wrong_command_line;
   }
   if (suite.name == traffic_suite && thinks(line)) {
-    complain("--memory, --llm: SACA watches the suite traffic with the verdict alone");
+    complain("--memory, --llm, --untuned: SACA watches the suite traffic with the verdict alone");
     return wrong_command_line;
   }
   if (suite.name == traffic_suite) {
@@ -326,10 +292,11 @@ void add_suite(CLI::App& line, int& exit_code) {
   const auto options = std::make_shared<SuiteCommand>();
   options->suite.methods = usual_methods;
   add_suite_options(*command, options->suite);
+  add_untuned_option(*command, options->suite.thinking);
   command
       ->add_option("--methods", options->suite.methods,
                    "Names, separated by commas; all: every one. With --memory or --llm the "
-                   "default has SACA without it as well")
+                   "default has SACA without it as well, with --untuned SACA with that model")
       ->capture_default_str();
   command->add_option("--replay", options->replay,
                       "Write encounter N as a scenario, and print the command that plays it");

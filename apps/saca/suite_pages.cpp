@@ -4,9 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <set>
 
+#include "apps/saca/json_output.h"
 #include "apps/saca/pictures.h"
 #include "apps/saca/suite_decisions.h"
+#include "saca/core/file.h"
+#include "saca/eval/suite_file.h"
 
 namespace saca::app {
 namespace {
@@ -313,7 +318,35 @@ std::vector<report::GalleryCard> gallery_of(const SuiteRun& run,
   return cards;
 }
 
+std::vector<const SuiteRow*> rows_of(const SuiteRun& run, const std::string& family) {
+  std::vector<const SuiteRow*> found;
+  for (const SuiteRow& row : run.rows) {
+    if (family.empty() || row.family == family) {
+      found.push_back(&row);
+    }
+  }
+  return found;
+}
+
 }  // namespace
+
+SuiteResult result_of(const SuiteRun& run, std::uint64_t seed) {
+  SuiteResult result;
+  const auto aeb = index_of(run.methods, "aeb");
+  std::set<std::string> families;
+  for (const SuiteRow& row : run.rows) {
+    result.faults += row.fault.empty() ? 0 : 1;
+    families.insert(row.family);
+  }
+  result.all = eval::suite_figures(rows_of(run, ""), run.methods, aeb, seed);
+  for (const MethodFigures& one : result.all) {
+    result.method_faults += one.faults;
+  }
+  for (const std::string& family : families) {
+    result.families[family] = eval::suite_figures(rows_of(run, family), run.methods, aeb, seed);
+  }
+  return result;
+}
 
 std::string with_interval(const Estimate& estimate, int digits, double factor) {
   return estimate.n == 0
@@ -399,6 +432,15 @@ report::SuitePage page_of(const SuiteRun& run, const SuiteResult& result,
     }
   }
   return page;
+}
+
+std::optional<Error> write_rows_and_page(const SuiteRun& run, const SuiteResult& result,
+                                         const SuiteCommandOptions& options) {
+  if (auto problem = eval::write_suite(options.output, run.rows, run.methods, run.meta.dump())) {
+    return problem;
+  }
+  return write_output(std::filesystem::path(options.output).replace_extension(".html"),
+                      report::suite_page(page_of(run, result, options)));
 }
 
 }  // namespace saca::app

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct SuiteResult {
   int faults = 0;         ///< encounters that could not be played
   int method_faults = 0;  ///< of methods that threw
 };
+
+/// Of all rows, and of each family's.
+[[nodiscard]] SuiteResult result_of(const SuiteRun& run, std::uint64_t seed);
 
 /// Recorded drivers, and how often each method does as they did.
 struct DriverFigures {
@@ -43,5 +47,11 @@ void add_estimate(nlohmann::json& out, const std::string& name, const eval::Esti
 /// decisions came from, and the encounters in which the first method lost most.
 [[nodiscard]] report::SuitePage page_of(const SuiteRun& run, const SuiteResult& result,
                                         const SuiteCommandOptions& options);
+
+/// The rows into `options.output`, the page beside them.
+/// @return  nullopt, else what could not be written
+[[nodiscard]] std::optional<Error> write_rows_and_page(const SuiteRun& run,
+                                                       const SuiteResult& result,
+                                                       const SuiteCommandOptions& options);
 
 }  // namespace saca::app

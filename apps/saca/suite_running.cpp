@@ -104,6 +104,7 @@ Result<std::shared_ptr<Bench>> open_bench(const SuiteCommandOptions& options,
   eval::SuiteOptions how = how_of(options, methods);
   how.imitator = imitator.value().get();
   how.danger = danger.value().get();
+  how.untuned = thinking.value()->untuned();
   how.experience = thinking.value()->experience();
   return std::make_shared<Bench>(Bench{std::move(opened), std::move(planes).value(),
                                        std::move(thinking).value(), std::move(danger).value(),
@@ -125,6 +126,11 @@ SuiteRow row_of(Bench& bench, std::uint64_t number) {
   return eval::run_encounter(encounter.value(), bench.how, loan.setup, bench.planes->inputs.intent);
 }
 
+std::optional<std::string> untuned_text(const Bench& bench) {
+  const reason::LanguageModel* const model = bench.thinking->untuned();
+  return model == nullptr ? std::nullopt : std::optional(model->description());
+}
+
 /// What the rows depend on besides the encounters.
 std::string work_of(const Bench& bench, const SuiteCommandOptions& options) {
   const auto part = [](const char* name, const std::optional<std::string>& text) {
@@ -134,9 +140,10 @@ std::string work_of(const Bench& bench, const SuiteCommandOptions& options) {
       "{}, {}, seed {}{}{}{}{}{}: {}", bench.source.what, options.car, options.seed,
       options.exact ? ", exact" : "", thresholds_arguments(options.thresholds),
       part("memory", bench.thinking->memory_text()), part("model", bench.thinking->model_text()),
-      part("danger", bench.danger == nullptr
-                         ? std::nullopt
-                         : std::optional(fmt::format("{:016x}", bench.danger->digest()))) +
+      part("untuned", untuned_text(bench)) +
+          part("danger", bench.danger == nullptr
+                             ? std::nullopt
+                             : std::optional(fmt::format("{:016x}", bench.danger->digest()))) +
           part("imitator", bench.imitator == nullptr
                                ? std::nullopt
                                : std::optional(fmt::format("{:016x}", bench.imitator->digest()))),
@@ -151,6 +158,8 @@ const char* missing_for(const eval::MethodInfo& info, const ThinkingOptions& thi
       return thinking.memory.empty() ? "--memory FILE" : nullptr;
     case eval::Needs::model:
       return thinking.model == "off" ? "--llm MODEL" : nullptr;
+    case eval::Needs::untuned:
+      return thinking.untuned.empty() ? "--untuned MODEL" : nullptr;
     case eval::Needs::danger:
       return danger.empty() ? "--danger WEIGHTS" : nullptr;
     case eval::Needs::imitator:  // it is shipped
@@ -205,10 +214,12 @@ Result<std::vector<std::string>> methods_from(const std::string& list,
                                                           word, suggestion(word, known))};
     }
     if (const char* const missing = missing_for(*info, thinking, danger)) {
-      return Error{Error::Code::out_of_range,
-                   fmt::format("--methods: want {} with \"{}\", which {}", missing, word,
-                               info->needs == eval::Needs::danger ? "chooses by V_h"
-                                                                  : "is SACA with all but that")};
+      return Error{
+          Error::Code::out_of_range,
+          fmt::format("--methods: want {} with \"{}\", which {}", missing, word,
+                      info->needs == eval::Needs::danger    ? "chooses by V_h"
+                      : info->needs == eval::Needs::untuned ? "asks that one"
+                                                            : "is SACA with all but that")};
     }
     if (std::find(names.begin(), names.end(), word) != names.end()) {
       return Error{Error::Code::out_of_range,
@@ -280,7 +291,7 @@ Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
     }
     if (const auto failure = thinking.failure()) {
       return Error{failure->code,
-                   fmt::format("--llm: {} (in encounters {} to {}; the same command goes on there)",
+                   fmt::format("{} (in encounters {} to {}; the same command goes on there)",
                                failure->message, first, first + next.size() - 1)};
     }
     for (SuiteRow& row : next) {
@@ -313,6 +324,9 @@ Result<std::optional<SuiteRun>> run_suite(const SuiteCommandOptions& options,
   if (const auto model = thinking.model_text()) {
     done.meta["meta.model"] = *model;
   }
+  if (const auto model = untuned_text(*bench)) {
+    done.meta["meta.untuned"] = *model;
+  }
   return std::optional(std::move(done));
 }
 
@@ -344,9 +358,10 @@ Result<std::string> write_encounter(const SuiteCommandOptions& options, std::uin
 
 void add_suite_options(CLI::App& command, SuiteCommandOptions& options) {
   command
-      .add_option("name", options.name,
-                  "A suite (natural, balanced), a family, a folder of scenarios, 100car, traffic, "
-                  "or a regulation (fmvss127, r152)")
+      .add_option(
+          "name", options.name,
+          "A suite (natural, balanced), a family, a table of the paper (table_2, table_2_late, "
+          "table_3), a folder of scenarios, 100car, traffic, or a regulation (fmvss127, r152)")
       ->required();
   command.add_option("--data", options.data,
                      "Of 100car the folder of the study's release; of traffic (SACA in shadow) "

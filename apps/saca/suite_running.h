@@ -20,7 +20,8 @@ namespace saca::app {
 
 /// Which encounters are run, and with what.
 struct SuiteCommandOptions {
-  std::string name;               ///< of a suite, of a family, a folder of scenarios, or "100car"
+  std::string name;               ///< of a suite, a family or a table of the paper, a folder of
+                                  ///< scenarios, or "100car"
   std::vector<std::string> data;  ///< of 100car: the study's folder; of traffic: one or more
   std::string methods;
   int count = 1'000;

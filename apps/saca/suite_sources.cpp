@@ -10,6 +10,7 @@
 #include "apps/saca/surveying.h"
 #include "saca/core/file.h"
 #include "saca/core/fnv.h"
+#include "saca/eval/paper_tables.h"
 #include "saca/manoeuvre/ego.h"
 #include "saca/sim/hundred_car_release.h"
 
@@ -111,6 +112,40 @@ Result<SuiteEncounters> open_folder(const SuiteCommandOptions& options, Inputs i
                    fmt::format("folder {} ({:016x})", options.name, hash.value()));
 }
 
+/// A table of the paper: its conditions one after the other, over and over.
+Result<SuiteEncounters> open_paper_table(const SuiteCommandOptions& options, Inputs inputs) {
+  auto conditions = eval::encounters_of(*eval::find_paper_table(options.name),
+                                        inputs.places.root / "scenarios", inputs.car);
+  if (!conditions.has_value()) {
+    return conditions.error();
+  }
+  std::vector<SuiteEncounter> all = std::move(conditions).value();
+  Fnv hash;
+  if (auto problem = add_inputs(inputs.places, options.car, hash)) {
+    return *problem;
+  }
+  for (SuiteEncounter& one : all) {
+    one.scenario.car = inputs.car_name;
+    one.twin->car = inputs.car_name;
+    hash.add(sim::write_scenario(one.scenario));
+    hash.add(sim::write_scenario(*one.twin));
+    if (options.no_twins) {
+      one.twin.reset();
+    }
+  }
+  SuiteEncounters source{.inputs = std::move(inputs),
+                         .what = fmt::format("{} ({:016x})", options.name, hash.value()),
+                         .count = options.count,
+                         .notes = {},
+                         .at = {}};
+  source.at = [all = std::move(all)](std::uint64_t number) -> Result<SuiteEncounter> {
+    SuiteEncounter one = all[number % all.size()];
+    one.number = number;
+    return one;
+  };
+  return source;
+}
+
 /// What `saca suite` takes beside suites and families.
 std::vector<std::string> names_beside_suites() {
   std::vector<std::string> names{"100car", "traffic"};
@@ -118,6 +153,9 @@ std::vector<std::string> names_beside_suites() {
     for (const auto& entry : fs::directory_iterator(places.value().root / "data" / "protocols")) {
       names.push_back(entry.path().stem().string());
     }
+  }
+  for (const eval::PaperTable& table : eval::paper_tables()) {
+    names.emplace_back(table.name);
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -127,10 +165,14 @@ std::vector<std::string> names_beside_suites() {
 
 Result<SuiteEncounters> open_encounters(const SuiteCommandOptions& options,
                                         const std::string& command) {
-  if (options.name == "100car" || fs::is_directory(options.name)) {
+  const bool is_table = eval::find_paper_table(options.name) != nullptr;
+  if (options.name == "100car" || is_table || fs::is_directory(options.name)) {
     auto inputs = read_inputs(options.car);
     if (!inputs.has_value()) {
       return inputs.error();
+    }
+    if (is_table) {
+      return open_paper_table(options, std::move(inputs).value());
     }
     return options.name == "100car" ? open_hundred_car(options, std::move(inputs).value())
                                     : open_folder(options, std::move(inputs).value());

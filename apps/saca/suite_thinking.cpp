@@ -61,16 +61,31 @@ Result<std::unique_ptr<SuiteThinking>> SuiteThinking::open(const ThinkingOptions
     thinking->experience_ = std::make_unique<const memory::Experience>(stores.front().experience());
     thinking->memories_ = std::make_unique<LendingPool<memory::Store>>(std::move(stores));
   }
-  if (options.model != "off") {
-    auto model = open_needed_model(places, options.model, runtime::Pace::lockstep, clock);
-    if (!model.has_value()) {
-      return model.error();
+  const auto open_shared = [&](const std::string& choice, const char* option,
+                               std::unique_ptr<reason::LanguageModel>& model,
+                               std::unique_ptr<reason::SharedModel>& shared) {
+    auto opened = open_needed_model(places, choice, runtime::Pace::lockstep, clock, option);
+    if (!opened.has_value()) {
+      return std::optional(opened.error());
     }
-    watch_for_interrupt();
-    thinking->interrupt_ = std::make_unique<InterruptStop>();
-    thinking->model_ = std::move(model).value();
-    thinking->shared_ = std::make_unique<reason::SharedModel>(*thinking->model_, clock,
-                                                              thinking->interrupt_->token());
+    if (thinking->interrupt_ == nullptr) {
+      watch_for_interrupt();
+      thinking->interrupt_ = std::make_unique<InterruptStop>();
+    }
+    model = std::move(opened).value();
+    shared = std::make_unique<reason::SharedModel>(*model, clock, thinking->interrupt_->token());
+    return std::optional<Error>();
+  };
+  if (options.model != "off") {
+    if (auto problem = open_shared(options.model, "--llm", thinking->model_, thinking->shared_)) {
+      return *std::move(problem);
+    }
+  }
+  if (!options.untuned.empty()) {
+    if (auto problem = open_shared(options.untuned, "--untuned", thinking->untuned_model_,
+                                   thinking->untuned_)) {
+      return *std::move(problem);
+    }
   }
   return thinking;
 }
@@ -84,7 +99,15 @@ SuiteThinking::Loan SuiteThinking::lend(runtime::PlanesSetup setup) {
 }
 
 std::optional<Error> SuiteThinking::failure() const {
-  return shared_ ? shared_->failure() : std::nullopt;
+  const auto failure_of = [](const std::unique_ptr<reason::SharedModel>& model,
+                             const char* option) -> std::optional<Error> {
+    const auto failure = model ? model->failure() : std::nullopt;
+    return failure ? std::optional(
+                         Error{failure->code, fmt::format("{}: {}", option, failure->message)})
+                   : std::nullopt;
+  };
+  const auto failure = failure_of(shared_, "--llm");
+  return failure ? failure : failure_of(untuned_, "--untuned");
 }
 
 std::optional<std::string> SuiteThinking::model_text() const {

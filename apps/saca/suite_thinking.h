@@ -16,9 +16,9 @@
 namespace saca::app {
 
 /// What SACA thinks with while many encounters are run on several threads: one language model for
-/// all, and for each thread a copy of the memory bank as it was at the start. So a row depends
-/// neither on the rows before it nor on the threads: nothing is learnt, and no two questions are
-/// put at once.
+/// all, one without fine-tuning where it is wanted, and for each thread a copy of the memory bank
+/// as it was at the start. So a row depends neither on the rows before it nor on the threads:
+/// nothing is learnt, and no two questions are put at once.
 class SuiteThinking {
  public:
   /// Signals are watched for from here on: an interrupt withdraws questions to the model.
@@ -40,14 +40,18 @@ class SuiteThinking {
   /// Of the memory bank; nullptr: without.
   [[nodiscard]] const memory::Experience* experience() const { return experience_.get(); }
 
-  [[nodiscard]] bool has_model() const { return shared_ != nullptr; }
-  /// Why the model cannot be asked any more: rows that were being run are then worth nothing.
+  [[nodiscard]] bool has_model() const { return shared_ != nullptr || untuned_ != nullptr; }
+  /// Why a model cannot be asked any more, and which: rows that were being run are then worth
+  /// nothing.
   [[nodiscard]] std::optional<Error> failure() const;
 
   /// Number of cases and a digest of them; nullopt: without memory.
   [[nodiscard]] const std::optional<std::string>& memory_text() const { return memory_text_; }
   /// What the model says that it is; nullopt: without.
   [[nodiscard]] std::optional<std::string> model_text() const;
+
+  /// The model without fine-tuning, to be asked by any thread; nullptr: none.
+  [[nodiscard]] reason::LanguageModel* untuned() const { return untuned_.get(); }
 
  private:
   SuiteThinking() = default;
@@ -58,6 +62,8 @@ class SuiteThinking {
   std::unique_ptr<InterruptStop> interrupt_;
   std::unique_ptr<reason::LanguageModel> model_;
   std::unique_ptr<reason::SharedModel> shared_;
+  std::unique_ptr<reason::LanguageModel> untuned_model_;
+  std::unique_ptr<reason::SharedModel> untuned_;
 };
 
 }  // namespace saca::app

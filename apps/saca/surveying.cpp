@@ -14,13 +14,11 @@
 #include "saca/manoeuvre/ego.h"
 
 namespace saca::app {
-namespace {
 
 namespace fs = std::filesystem;
 using eval::Finding;
 
-/// Of everything that changes what is found: the files, and the program itself.
-std::optional<Error> add_files(const Places& places, const std::string& car, Fnv& hash) {
+std::optional<Error> add_inputs(const Places& places, const std::string& car, Fnv& hash) {
   const auto car_file = find_car(places, car);
   if (!car_file.has_value()) {
     return car_file.error();
@@ -46,8 +44,6 @@ std::optional<Error> add_files(const Places& places, const std::string& car, Fnv
   return std::nullopt;
 }
 
-}  // namespace
-
 std::string command_line(const SurveyOptions& options, const std::string& command) {
   const std::string log = options.test_log.empty() ? "" : " --test-log " + options.test_log;
   return fmt::format("saca {} --suite {} --count {} --split {} --car {}{}", command, options.suite,
@@ -61,7 +57,7 @@ Result<DrawnSuite> open_suite(const SurveyOptions& options, const std::string& c
   }
   const Places& places = inputs.value().places;
   Fnv hash;
-  if (auto problem = add_files(places, options.car, hash)) {
+  if (auto problem = add_inputs(places, options.car, hash)) {
     return *problem;
   }
   std::optional<sim::TestLog> log;

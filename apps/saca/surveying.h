@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/saca/inputs.h"
+#include "saca/core/fnv.h"
 #include "saca/core/parallel.h"
 #include "saca/eval/survey.h"
 
@@ -31,6 +32,12 @@ void add_survey_options(CLI::App& command, SurveyOptions& options);
 
 /// The line that asks for the same again.
 [[nodiscard]] std::string command_line(const SurveyOptions& options, const std::string& command);
+
+/// Adds all that changes what is found in given encounters: the car, the data, the families, and
+/// the program itself.
+/// @return  nullopt, else what cannot be read
+[[nodiscard]] std::optional<Error> add_inputs(const Places& places, const std::string& car,
+                                              Fnv& hash);
 
 /// A suite that is drawn from, and what its encounters are played with.
 struct DrawnSuite {

@@ -2,318 +2,358 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "apps/saca/commands.h"
+#include "apps/saca/inputs.h"
 #include "apps/saca/json_output.h"
+#include "apps/saca/model.h"
 #include "apps/saca/planes_making.h"
 #include "apps/saca/printing.h"
 #include "apps/saca/progress.h"
 #include "apps/saca/suite_pages.h"
+#include "apps/saca/suite_running.h"
+#include "apps/saca/table_figures.h"
 #include "apps/saca/within.h"
 #include "saca/core/file.h"
-#include "saca/eval/whatif.h"
-#include "saca/manoeuvre/ego.h"
 
 namespace saca::app {
 namespace {
 
-using eval::SuiteRow;
+namespace fs = std::filesystem;
+using eval::PaperTable;
 using nlohmann::json;
-
-/// A row as the paper prints it, of a method that we do not have yet.
-struct PublishedRow {
-  const char* title;
-  double collision_loss;
-  double false_trigger_loss;
-};
-
-/// A row of ours.
-struct OwnRow {
-  const char* title;
-  const char* method;  ///< of eval::methods()
-};
-
-struct TableSpec {
-  const char* number;
-  const char* title;
-  const char* conditions;
-  const char* risk;  ///< scenario
-  const char* free;  ///< the same without risk
-  bool speeds;       ///< the ego at 10 to 15 m/s, else as the scenarios have it
-  std::span<const PublishedRow> published;
-};
-
-constexpr std::array<PublishedRow, 3> intersection_rows{
-    {{"Imitation learning", 2.36, 0.35},
-     {"Language model without fine-tuning", 1.85, 0.27},
-     {"SACA with a fine-tuned model", 0.54, 0.05}}};
-constexpr std::array<PublishedRow, 4> one_way_rows{
-    {{"Imitation learning", 0.49, 0.50},
-     {"Language model without fine-tuning", 1.06, 0.20},
-     {"Language model without scenario awareness", 0.65, 0.0},
-     {"SACA with a fine-tuned model", 0.07, 0.0}}};
-constexpr std::array<OwnRow, 7> own_rows{
-    {{"SACA without model and memory", "saca"},
-     {"SACA without model and memory, Algorithm 1", "saca_paper"},
-     {"Imitation learning", "imitation"},
-     {"AEB at T1", "aeb"},
-     {"RSS, braking", "rss"},
-     {"Best of eight in expectation, rolled out", "beliefs_rolled_out"},
-     {"Best in hindsight", "oracle"}}};
-constexpr std::array<TableSpec, 3> tables{
-    {{"2", "Table II: intersection",
-      "ego at 10, 11, ... 15 m/s where the paper has it at 14; the truck drives on, or brakes hard "
-      "(no risk)",
-      "intersection_t1", "intersection_t1_truck_brakes", true, intersection_rows},
-     {"2_late",
-      "Table II with a late truck (ours): whoever stops is struck",
-      "the same 1.87 s later, a queue barring the way ahead: the story of Fig. 9, which the "
-      "printed distances do not give",
-      "intersection_late_truck",
-      "intersection_late_truck_brakes",
-      true,
-      {}},
-     {"3", "Table III: one-way road", "ego at 12 m/s; without risk the obstacle ahead is not there",
-      "one_way", "one_way_free", false, one_way_rows}}};
 
 struct TablesCommand {
   int count = 1'000;
   std::uint64_t seed = 1;
   int threads = usual_threads();
+  ThinkingOptions thinking;
+  std::string methods;  ///< names, separated by commas; empty: methods_for
+  std::string output = "runs/tables";
   bool as_json = false;
   std::vector<std::string> only;  ///< numbers of tables; empty: all
 };
 
-Result<sim::Scenario> shipped(const Inputs& inputs, const std::string& name) {
-  const auto file = find_scenario(inputs.places, name);
-  return file.has_value() ? sim::load_scenario(file.value(), manoeuvre::footprint(inputs.car))
-                          : file.error();
+bool is_wanted(const PaperTable& table, const TablesCommand& options) {
+  return options.only.empty() || std::find(options.only.begin(), options.only.end(),
+                                           number_of(table)) != options.only.end();
 }
 
-/// The scene of the paper at several speeds of the ego, everything else at `at` where it is.
-Result<std::vector<sim::Scenario>> at_speeds(const sim::Scenario& scenario, const Inputs& inputs,
-                                             double at) {
-  std::vector<sim::Scenario> all;
-  const auto axis = eval::parse_axis("ego.speed_mps=10:15:1", scenario);
-  if (!axis.has_value()) {
-    return axis.error();
-  }
-  for (const double speed : axis.value().values) {
-    auto one = eval::varied(scenario, inputs.car, at, axis.value(), speed);
-    if (!one.has_value()) {
-      return one.error();
-    }
-    all.push_back(std::move(one).value());
-  }
-  return all;
-}
-
-/// With and without risk, one of each for every condition.
-struct Conditions {
-  std::vector<sim::Scenario> risk;
-  std::vector<sim::Scenario> free;
-};
-
-Result<Conditions> conditions_of(const Inputs& inputs, const TableSpec& table) {
-  const auto risk = shipped(inputs, table.risk);
-  if (!risk.has_value()) {
-    return risk.error();
-  }
-  const auto free = shipped(inputs, table.free);
-  if (!free.has_value()) {
-    return free.error();
-  }
-  if (!table.speeds) {
-    return Conditions{{risk.value()}, {free.value()}};
-  }
-  const auto at = eval::trigger_time(risk.value(), inputs.car);
-  if (!at) {
-    return Error{Error::Code::out_of_range,
-                 std::string(table.risk) + ": want a scene that triggers"};
-  }
-  const auto with_risk = at_speeds(risk.value(), inputs, *at);
-  const auto without = at_speeds(free.value(), inputs, *at);
-  if (!with_risk.has_value() || !without.has_value()) {
-    return with_risk.has_value() ? without.error() : with_risk.error();
-  }
-  return Conditions{with_risk.value(), without.value()};
-}
-
-std::vector<std::string> own_methods() {
-  std::vector<std::string> methods(own_rows.size());
-  std::transform(own_rows.begin(), own_rows.end(), methods.begin(),
-                 [](const OwnRow& row) { return row.method; });
+/// SACA and the paper's algorithm with all that is given and without each part of it; beside them
+/// the paper's baseline, published rules, and what could be had.
+std::vector<std::string> methods_for(const ThinkingOptions& thinking) {
+  const bool has_model = thinking.model != "off";
+  std::vector<std::string> methods{"saca"};
+  const auto add = [&](bool is_there, std::initializer_list<const char*> names) {
+    methods.insert(methods.end(), is_there ? names.begin() : names.end(), names.end());
+  };
+  add(!thinking.memory.empty(), {"saca_no_memory"});
+  add(has_model, {"saca_no_model"});
+  add(!thinking.untuned.empty(), {"saca_untuned"});
+  add(true, {"saca_unaware", "saca_paper"});
+  add(!thinking.untuned.empty(), {"saca_paper_untuned"});
+  add(has_model, {"saca_paper_unaware"});
+  add(true, {"imitation", "aeb", "rss", "beliefs_rolled_out", "oracle"});
   return methods;
 }
 
-/// `draws` draws of each condition.
-std::vector<SuiteRow> run_table(const TableSpec& table, const Conditions& conditions, int draws,
-                                const TablesCommand& options, const PlanesOfCar& planes,
-                                const eval::Imitator* imitator) {
-  const std::size_t num = conditions.risk.size();
-  std::vector<SuiteRow> played(num * static_cast<std::size_t>(draws));
-  const eval::SuiteOptions how{
-      .methods = own_methods(), .seed = options.seed, .imitator = imitator};
-  SteadyClock clock;
-  ProgressLine progress(table.title, static_cast<int>(played.size()), clock);
-  constexpr std::size_t at_once = 32;
-  for (std::size_t first = 0; first < played.size() && !interrupted(); first += at_once) {
-    const std::size_t count = std::min(at_once, played.size() - first);
-    in_parallel(count, options.threads, [&](std::size_t i) {
-      const std::size_t k = first + i;
-      played[k] = eval::run_encounter({.number = k,
-                                       .family = table.number,
-                                       .scenario = conditions.risk[k % num],
-                                       .twin = conditions.free[k % num]},
-                                      how, planes.setup, planes.inputs.intent);
-    });
-    progress.show(static_cast<int>(first + count), 0, " encounters");
+/// A table of a page, for the terminal: one row a line.
+void print(const report::PageTable& table) {
+  app::print("{}\n", table.heading);
+  for (const std::string& line : table.lines) {
+    app::print("  {}\n", line);
   }
-  return played;
-}
-
-/// Figures of the first draws of each condition.
-std::vector<eval::MethodFigures> first_draws(const std::vector<SuiteRow>& played, std::size_t count,
-                                             std::uint64_t seed) {
-  std::vector<const SuiteRow*> first;
-  for (std::size_t i = 0; i < std::min(count, played.size()); ++i) {
-    first.push_back(&played[i]);
+  std::size_t widest = 0;
+  std::vector<std::size_t> widths;
+  for (const std::string& column : table.columns) {
+    widths.push_back(column.size());
   }
-  const auto methods = own_methods();
-  return eval::suite_figures(first, methods, index_of(methods, "aeb"), seed);
-}
-
-void print_row(const char* title, const std::array<std::string, 6>& cells) {
-  app::print("  {:44} {:>9} {:>24} {:>24} | {:>9} {:>24} {:>24}\n", title, cells[0], cells[1],
-             cells[2], cells[3], cells[4], cells[5]);
-}
-
-void print(const TableSpec& table, const std::vector<eval::MethodFigures>& few,
-           const std::vector<eval::MethodFigures>& many) {
-  app::print("{}\n  {}\n", table.title, table.conditions);
-  print_row("", {"published", fmt::format("n = {}", few.front().collision_loss.n),
-                 fmt::format("n = {}", many.front().collision_loss.n), "published",
-                 "ten draws each", "all draws"});
-  app::print("  {:44} {:>9} {:>49} | {:>9} {:>49}\n", "", "", "Collision Loss", "",
-             "False-Trigger Loss");
-  for (const PublishedRow& row : table.published) {
-    print_row(row.title, {fmt::format("{:.2f}", row.collision_loss), "not yet", "not yet",
-                          fmt::format("{:.2f}", row.false_trigger_loss), "not yet", "not yet"});
+  for (const report::PageTable::Row& row : table.rows) {
+    widest = std::max(widest, row.name.size());
+    for (std::size_t i = 0; i < row.cells.size(); ++i) {
+      widths[i] = std::max(widths[i], row.cells[i].size());
+    }
   }
-  for (std::size_t m = 0; m < own_rows.size(); ++m) {
-    const auto triggers = [&](const eval::MethodFigures& one) {
-      return with_interval(one.false_trigger_loss.value_or(eval::Estimate{}), 2);
-    };
-    print_row(own_rows[m].title,
-              {"-", with_interval(few[m].collision_loss, 2),
-               with_interval(many[m].collision_loss, 2), "-", triggers(few[m]), triggers(many[m])});
+  const auto line = [&](const std::string& name, const std::vector<std::string>& cells) {
+    std::string text = fmt::format("  {:{}}", name, widest);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      text += fmt::format("  {:>{}}", cells[i], widths[i]);
+    }
+    app::print("{}\n", text);
+  };
+  line("", table.columns);
+  for (const report::PageTable::Row& row : table.rows) {
+    line(row.name, row.cells);
   }
   app::print("\n");
 }
 
-void add(json& out, const TableSpec& table, const std::vector<eval::MethodFigures>& figures,
-         const std::string& draws) {
-  for (const eval::MethodFigures& one : figures) {
-    const auto put = [&](const std::string& what, const eval::Estimate& estimate) {
-      add_estimate(out, fmt::format("tables.{}.{}.{}{}", table.number, one.method, what, draws),
-                   estimate);
-    };
-    put("collision_loss", one.collision_loss);
-    put("harm", one.harm);
-    put("harm_over_aeb", one.over_aeb);
-    if (one.false_trigger_loss) {
-      put("false_trigger_loss", *one.false_trigger_loss);
-    }
-  }
+/// The encounters of a table as a suite, which a journal goes on with.
+SuiteCommandOptions suite_of(const PaperTable& table, int count, const TablesCommand& options) {
+  SuiteCommandOptions suite;
+  suite.name = table.name;
+  suite.count = count;
+  suite.thinking = options.thinking;
+  suite.seed = options.seed;
+  suite.threads = options.threads;
+  suite.output = (fs::path(options.output) / fmt::format("{}.h5", table.name)).string();
+  return suite;
 }
 
-int run(const TablesCommand& options) {
+/// A model whose replies are timed.
+struct AskedModel {
+  std::string choice;
+  const char* option = "";
+  const char* title = "";  ///< for readers
+  const char* key = "";    ///< of the figures
+};
+
+std::vector<AskedModel> asked_models(const ThinkingOptions& thinking) {
+  std::vector<AskedModel> models;
+  if (thinking.model != "off") {
+    models.push_back({thinking.model, "--llm", "the model", "model"});
+  }
+  if (!thinking.untuned.empty()) {
+    models.push_back({thinking.untuned, "--untuned", "the model without fine-tuning", "untuned"});
+  }
+  return models;
+}
+
+/// The first questions in about ten draws of a table, as many of each condition.
+Result<std::vector<std::vector<std::string>>> questions_of(const PaperTable& table,
+                                                           const PlanesOfCar& planes,
+                                                           std::uint64_t seed) {
+  const auto conditions =
+      eval::encounters_of(table, planes.inputs.places.root / "scenarios", planes.inputs.car);
+  if (!conditions.has_value()) {
+    return conditions.error();
+  }
+  const std::size_t num = conditions.value().size();
+  std::vector<eval::SuiteEncounter> draws;
+  for (std::size_t k = 0; k < (few_draws + num - 1) / num * num; ++k) {
+    draws.push_back(conditions.value()[k % num]);
+    draws.back().number = k;
+  }
+  return eval::first_questions(draws, {.methods = {}, .seed = seed}, planes.setup,
+                               planes.inputs.intent);
+}
+
+/// Of the tables of which the paper has replies.
+/// @return  those of whom there was time to ask before an interrupt
+Result<std::vector<TimedModel>> time_replies(const TablesCommand& options) {
   const auto planes = open_planes("compact_rwd_ev");
   if (!planes.has_value()) {
-    return refused(planes.error());
+    return planes.error();
   }
-  const auto imitator = imitator_of(own_methods(), planes.value()->inputs.places);
-  if (!imitator.has_value()) {
-    return refused(imitator.error());
+  const PlanesOfCar& of_car = *planes.value();
+  const preview::Thresholds& thresholds = of_car.setup.thresholds;
+  constexpr double patience = 60.0;  // [s]
+  const InterruptStop interrupt;
+  std::vector<TimedModel> timed;
+  for (const eval::PublishedReplies& published : eval::published_replies()) {
+    const PaperTable& table = *eval::find_paper_table(published.table);
+    if (!is_wanted(table, options) || interrupted()) {
+      continue;
+    }
+    const auto questions = questions_of(table, of_car, options.seed);
+    if (!questions.has_value()) {
+      return questions.error();
+    }
+    for (const AskedModel& asked : asked_models(options.thinking)) {
+      auto model = open_needed_model(of_car.inputs.places, asked.choice, runtime::Pace::real,
+                                     *of_car.setup.clock, asked.option);
+      if (!model.has_value()) {
+        return model.error();
+      }
+      const auto times =
+          eval::timed_replies(*model.value(), *of_car.setup.clock, questions.value(),
+                              thresholds.preview - thresholds.trigger, patience, interrupt.token());
+      if (!times.has_value()) {
+        return Error{times.error().code,
+                     fmt::format("{}: {}", asked.option, times.error().message)};
+      }
+      timed.push_back({std::string(table.name), asked.title, asked.key, times.value()});
+    }
   }
-  json out{
+  return timed;
+}
+
+int interrupted_run() {
+  complain("interrupted; the same command goes on where this one stopped");
+  return was_interrupted;
+}
+
+/// What is shown and written in the end.
+struct Book {
+  json meta;
+  json figures = json::object();
+  report::SuitePage page;
+  bool faults = false;
+};
+
+Book empty_book(const TablesCommand& options) {
+  Book book;
+  book.meta = {
       {"meta.command",
        fmt::format(
-           "saca tables --count {} --seed {}{}", options.count, options.seed,
+           "saca tables --count {} --seed {}{}{}{}", options.count, options.seed,
+           thinking_text(options.thinking),
+           options.methods.empty() ? "" : " --methods " + options.methods,
            options.only.empty() ? "" : fmt::format(" --table {}", fmt::join(options.only, ",")))},
       {"meta.seed", std::to_string(options.seed)},
       {"meta.version", SACA_VERSION}};
-  constexpr int few_draws = 10;  // of each condition, as in the paper
+  book.page.title = "Tables II to IV of the paper, published and ours";
+  book.page.lines = {
+      "Published: arXiv 2504.00115; its text gives 1.54 for SACA's Collision Loss in the "
+      "intersection, its table 0.54. It counts only replies within T2 - T1; ours are counted "
+      "whether "
+      "they come in time or not, and beside it those that do. \"SACA\" here is held to the "
+      "verdict; "
+      "the paper's own rule is \"SACA, as in the paper\", with what was given as --llm, if "
+      "anything.",
+      "A row's name leads to its encounters, with those in which SACA lost most."};
+  return book;
+}
+
+/// Runs one table, or what is left of it, and adds it to the book.
+/// @return  how the program ends, where it does
+std::optional<int> add_table(const PaperTable& table, const TablesCommand& options,
+                             const std::vector<std::string>& methods, const Inputs& inputs,
+                             Book& book) {
+  const auto conditions = eval::encounters_of(table, inputs.places.root / "scenarios", inputs.car);
+  if (!conditions.has_value()) {
+    return refused(conditions.error());
+  }
+  const auto num = static_cast<int>(conditions.value().size());
+  const int draws = std::max(few_draws, (options.count + num - 1) / num);
+  const SuiteCommandOptions suite = suite_of(table, draws * num, options);
+  const auto ran = run_suite(suite, "suite", methods);
+  if (!ran.has_value()) {
+    return refused(ran.error());
+  }
+  if (!ran.value()) {
+    return interrupted_run();
+  }
+  const SuiteRun& done = *ran.value();
+  const SuiteResult result = result_of(done, options.seed);
+  TableFigures figures =
+      table_figures(table, done, static_cast<std::size_t>(few_draws * num), options.seed);
+  if (figures.few.empty()) {
+    complain(fmt::format("{}: none of the first {} encounters could be played: {}", table.title,
+                         few_draws * num, done.rows.front().fault));
+    return some_failed;
+  }
+  if (const auto problem = write_rows_and_page(done, result, suite)) {
+    return refused(*problem);
+  }
+  figures.page = fmt::format("{}.html", table.name);
+  add_figures(book.figures, figures);
+  for (const char* const key : {"meta.memory", "meta.model", "meta.untuned"}) {
+    if (done.meta.contains(key)) {
+      book.meta[key] = done.meta[key];
+    }
+  }
+  book.page.tables.push_back(page_table(figures));
+  book.faults = book.faults || result.faults + result.method_faults > 0;
+  return std::nullopt;
+}
+
+int run(const TablesCommand& options) {
+  const fs::path index = fs::path(options.output) / "index.html";
+  if (const auto problem = why_outputs_unwritable({index})) {
+    return refused(*problem);
+  }
+  const auto inputs = read_inputs("compact_rwd_ev");
+  if (!inputs.has_value()) {
+    return refused(inputs.error());
+  }
+  const auto methods = options.methods.empty()
+                           ? Result(methods_for(options.thinking))
+                           : methods_from(options.methods, options.thinking, "");
+  if (!methods.has_value()) {
+    complain(methods.error().message);
+    return wrong_command_line;
+  }
   watch_for_interrupt();
-  bool faults = false;
-  for (const TableSpec& table : tables) {
-    if (!options.only.empty() &&
-        std::find(options.only.begin(), options.only.end(), table.number) == options.only.end()) {
-      continue;
+  Book book = empty_book(options);
+  for (const PaperTable& table : eval::paper_tables()) {
+    if (is_wanted(table, options)) {
+      if (const auto ended = add_table(table, options, methods.value(), inputs.value(), book)) {
+        return *ended;
+      }
     }
-    const auto conditions = conditions_of(planes.value()->inputs, table);
-    if (!conditions.has_value()) {
-      return refused(conditions.error());
+  }
+  const bool has_model = !asked_models(options.thinking).empty();
+  if (has_model) {
+    const auto timed = time_replies(options);
+    if (interrupted()) {  // whoever interrupts a terminal interrupts the model as well
+      return interrupted_run();
     }
-    const auto num = static_cast<int>(conditions.value().risk.size());
-    const int draws = std::max(few_draws, (options.count + num - 1) / num);
-    const auto played = run_table(table, conditions.value(), draws, options, *planes.value(),
-                                  imitator.value().get());
-    if (interrupted()) {
-      complain("interrupted; tables are made anew each time");
-      return was_interrupted;
+    if (!timed.has_value()) {
+      return refused(timed.error());
     }
-    const auto few = first_draws(
-        played, static_cast<std::size_t>(few_draws) * static_cast<std::size_t>(num), options.seed);
-    const auto many = first_draws(played, played.size(), options.seed);
-    if (few.empty()) {
-      complain(std::string(table.title) +
-               ": no encounter could be played: " + played.front().fault);
-      return some_failed;
+    for (const TimedModel& one : timed.value()) {
+      add_figures(book.figures, one);
     }
-    faults = faults || std::any_of(played.begin(), played.end(),
-                                   [](const SuiteRow& row) { return !row.fault.empty(); });
-    add(out, table, few, ".ten_draws");
-    add(out, table, many, "");
-    if (!options.as_json) {
-      print(table, few, many);
-    }
+    book.page.tables.push_back(replies_table(timed.value()));
+  }
+  book.page.footnotes = footnotes_of(book.meta);
+  json out = book.meta;
+  out.update(book.figures);
+  auto problem = write_output(index, report::suite_page(book.page));
+  if (!problem) {
+    problem = write_output(fs::path(options.output) / "tables.json", json_text(out) + "\n");
+  }
+  if (problem) {
+    return refused(*problem);
   }
   if (options.as_json) {
     app::print_json(out);
   } else {
-    app::print(
-        "Published: arXiv 2504.00115, Tables II and III (its text gives 1.54 for SACA's Collision "
-        "Loss in the intersection, its table 0.54).\nThe paper counts only replies within 4.2 s; "
-        "no "
-        "row of ours asks a model yet, so the filter leaves all in.\nTable IV: tokens and response "
-        "times of SACA's replies: not yet (`saca model bench` measures the model that ships).\n");
+    for (const report::PageTable& table : book.page.tables) {
+      print(table);
+    }
+    app::print("{}\n{}page: {}\n", book.page.lines.front(),
+               has_model ? "" : "Table IV, how long replies take, needs a model: --llm local.\n",
+               index.string());
   }
-  return faults ? some_failed : success;
+  return book.faults ? some_failed : success;
 }
 
 }  // namespace
 
 void add_tables(CLI::App& line, int& exit_code) {
-  CLI::App* const command =
-      line.add_subcommand("tables", "Tables II to IV of the paper, published and ours");
+  CLI::App* const command = line.add_subcommand(
+      "tables", "Tables II to IV of the paper, published and ours; can be interrupted");
   const auto options = std::make_shared<TablesCommand>();
-  command->add_option("--count", options->count, "Encounters of each table, at least")
+  command
+      ->add_option("--count", options->count,
+                   "Encounters of each table, at least; ten draws of each condition in any case. "
+                   "With a model one takes half a minute")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
-  std::vector<std::string> numbers(tables.size());
-  std::transform(tables.begin(), tables.end(), numbers.begin(),
-                 [](const TableSpec& table) { return table.number; });
+  std::vector<std::string> numbers;
+  for (const PaperTable& table : eval::paper_tables()) {
+    numbers.push_back(number_of(table));
+  }
   command->add_option("--table", options->only, "Only these: 2, 2_late, 3; all unless given")
       ->delimiter(',')
       ->check(one_of(numbers));
+  command->add_option("--methods", options->methods,
+                      "Names of methods, separated by commas; default: SACA and the paper's "
+                      "algorithm, each without its parts, and baselines");
+  add_thinking_options(*command, options->thinking);
+  add_untuned_option(*command, options->thinking);
   command->add_option("--seed", options->seed, "Of all that is drawn")->capture_default_str();
+  command->add_option("--output", options->output, "Folder for the page and the rows")
+      ->capture_default_str();
   command->add_option("--threads", options->threads, "They do not change the result")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();

@@ -13,9 +13,15 @@ void add_thinking_options(CLI::App& command, ThinkingOptions& options) {
   command.add_option("--memory", options.memory, "The memory bank")->capture_default_str();
 }
 
+void add_untuned_option(CLI::App& command, ThinkingOptions& options) {
+  command.add_option("--untuned", options.untuned,
+                     "As --llm: a model without fine-tuning, for the methods ..._untuned");
+}
+
 std::string thinking_text(const ThinkingOptions& thinking) {
   return (thinking.memory.empty() ? "" : " --memory " + thinking.memory) +
-         (thinking.model == "off" ? "" : " --llm " + thinking.model);
+         (thinking.model == "off" ? "" : " --llm " + thinking.model) +
+         (thinking.untuned.empty() ? "" : " --untuned " + thinking.untuned);
 }
 
 }  // namespace saca::app

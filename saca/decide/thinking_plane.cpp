@@ -333,6 +333,9 @@ void ThinkingPlane::ask_model(const Round& round, const std::vector<std::size_t>
     if (!tools_.asking.facts) {
       preview.prompt = reason::without_facts(preview.prompt);
     }
+    if (!tools_.asking.risks) {
+      preview.prompt = reason::without_risks(preview.prompt);
+    }
     scenes.push_back(preview.prompt);
   }
   const double asked_at = round.now();

@@ -20,6 +20,7 @@ namespace saca::decide {
 /// out what each is worth.
 struct Asking {
   bool facts = true;      ///< what was computed about each manoeuvre stands in the prompt
+  bool risks = true;      ///< so does how dangerous each road user is
   bool reasoning = true;  ///< what it writes counts, and what it answers after that; else only its
                           ///< first answer does
 };

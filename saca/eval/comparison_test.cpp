@@ -8,6 +8,7 @@
 #include "saca/eval/methods.h"
 #include "saca/eval/scenes_for_test.h"
 #include "saca/intent/shipped_model.h"
+#include "saca/reason/scripted_model.h"
 #include "saca/sim/chance.h"
 
 namespace saca::eval::comparison_test {
@@ -69,6 +70,7 @@ class ComparisonTest : public testing::Test {
                               .danger = &danger_,
                               .experience = &experience_,
                               .imitator = &imitator_,
+                              .untuned = &untuned_,
                               .seed = 1});
   }
 
@@ -79,6 +81,7 @@ class ComparisonTest : public testing::Test {
   danger::Network danger_ =
       danger::Network::from(danger::networks_that_hand_on(), "weights").value();
   Imitator imitator_ = Imitator::read("models/imitator/compact_rwd_ev.safetensors").value();
+  reason::ScriptedModel untuned_{PolicyId::aeb, clock_};
   sim::Scenario scenario_;
   loop::Stage stage_;
 };

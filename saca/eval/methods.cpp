@@ -30,7 +30,7 @@ using manoeuvre::PolicyId;
 using preview::JointMotion;
 using preview::Physics;
 
-constexpr std::array<MethodInfo, 35> infos{{
+constexpr std::array<MethodInfo, 39> infos{{
     {"saca", "SACA",
      "The shipped planes: a cached plan that matches and is admissible, else what the verdict "
      "speaks "
@@ -39,6 +39,11 @@ constexpr std::array<MethodInfo, 35> infos{{
      Needs::memory},
     {"saca_no_model", "SACA without model", "As SACA; the language model is not asked.", false,
      Needs::model},
+    {"saca_untuned", "SACA with a model without fine-tuning",
+     "As SACA; the language model is asked as it was before it was taught.", false, Needs::untuned},
+    {"saca_unaware", "SACA without scenario awareness",
+     "As SACA; no intention is recognised, so that all are taken to go on as they do, and no risk "
+     "(V_h) stands in prompts."},
     {"saca_no_cues", "SACA, cues not reckoned with",
      "As SACA; it reckons only with who is seen, whatever the place."},
     {"saca_at_t1", "SACA, never before T1",
@@ -51,6 +56,11 @@ constexpr std::array<MethodInfo, 35> infos{{
     {"saca_paper_at_once", "The same, first answers only",
      "As saca_paper; the language model's answer right after the prompt, before it writes a word.",
      false, Needs::model},
+    {"saca_paper_untuned", "Algorithm 1 with a model without fine-tuning",
+     "As saca_paper; the language model is asked as it was before it was taught.", false,
+     Needs::untuned},
+    {"saca_paper_unaware", "Algorithm 1 without scenario awareness",
+     "As saca_paper; no intention is recognised, and no risk (V_h) stands in prompts."},
     {"saca_paper_no_facts", "The same, without our facts",
      "As saca_paper; nothing that was computed about the manoeuvres stands in the prompt.", false,
      Needs::model},
@@ -268,10 +278,12 @@ outcome::Others with_true_followers(const View& view, const JointMotion& motion)
 }
 
 /// The planes of one of SACA's rows.
-runtime::PlanesSetup planes_of(std::string_view name, runtime::PlanesSetup planes) {
+runtime::PlanesSetup planes_of(std::string_view name, const MethodTools& tools) {
+  runtime::PlanesSetup planes = tools.saca;
   planes.guard = name.starts_with("saca_paper") ? decide::Guard::none
                                                 : decide::Guard::never_worse_than_braking;
   planes.asking = {.facts = name.find("_no_facts") == std::string_view::npos,
+                   .risks = !name.ends_with("_unaware"),
                    .reasoning = !name.ends_with("_at_once")};
   if (name == "saca_full_braking") {
     planes.forecast.braking = preview::Braking::full;
@@ -284,7 +296,16 @@ runtime::PlanesSetup planes_of(std::string_view name, runtime::PlanesSetup plane
   }
   planes.memory = name == "saca_no_memory" ? nullptr : planes.memory;
   planes.model = name == "saca_no_model" ? nullptr : planes.model;
+  if (find_method(name)->needs == Needs::untuned) {
+    planes.model = tools.untuned;
+  }
   return planes;
+}
+
+/// Who recognises no intentions: nothing was learnt.
+const intent::Model& intentions_of(std::string_view name, const MethodTools& tools) {
+  static const intent::Model none;
+  return name.ends_with("_unaware") ? none : *tools.intent;
 }
 
 AtTrigger::Choose chooser(std::string_view name, const MethodTools& tools) {
@@ -427,11 +448,13 @@ std::unique_ptr<Method> make_method(std::string_view name, const MethodTools& to
           "V_h is given to who chooses by it");
   expects(find_method(name)->needs != Needs::imitator || tools.imitator != nullptr,
           "the network is given to who asks it");
+  expects(find_method(name)->needs != Needs::untuned || tools.untuned != nullptr,
+          "a model is given to who asks another one");
   expects(name != "beliefs_and_experience" || tools.experience != nullptr,
           "experience is given to who is corrected by it");
   const runtime::PlanesSetup& setup = tools.saca;
   if (name.starts_with("saca")) {
-    return std::make_unique<loop::SacaMethod>(planes_of(name, setup), *tools.intent);
+    return std::make_unique<loop::SacaMethod>(planes_of(name, tools), intentions_of(name, tools));
   }
   if (name == "nothing") {
     return std::make_unique<Nothing>();

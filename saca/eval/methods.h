@@ -15,7 +15,7 @@
 namespace saca::eval {
 
 /// What a method leaves out or asks, so that without it there is no such row.
-enum class Needs : std::uint8_t { nothing, memory, model, danger, imitator };
+enum class Needs : std::uint8_t { nothing, memory, model, untuned, danger, imitator };
 
 /// One row of a table: something that decides.
 struct MethodInfo {
@@ -40,6 +40,7 @@ struct MethodTools {
   const danger::Network* danger = nullptr;         ///< V_h learnt of the car; for who needs it
   const memory::Experience* experience = nullptr;  ///< of the memory; for who needs it
   const Imitator* imitator = nullptr;              ///< for who needs it
+  reason::LanguageModel* untuned = nullptr;        ///< in place of SACA's model; for who needs it
   std::uint64_t seed = 0;  ///< of who chooses at random, and of this encounter
 };
 

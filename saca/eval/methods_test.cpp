@@ -9,6 +9,7 @@
 #include "saca/eval/comparison.h"
 #include "saca/eval/scenes_for_test.h"
 #include "saca/intent/shipped_model.h"
+#include "saca/reason/scripted_model.h"
 #include "saca/sim/stepper.h"
 
 namespace saca::eval::methods_test {
@@ -74,6 +75,60 @@ TEST_F(MethodsTest, WhoChoosesBySomethingNeedsIt) {
   with.experience = &experience;
   EXPECT_NE(make_method("beliefs_and_experience", with), nullptr);
   EXPECT_THROW((void)make_method("imitation", with), ContractViolation);
+}
+
+// A car brakes ahead.
+sim::Scenario braking_car() {
+  sim::Scenario scenario = standing_car(20.0, 60.0);
+  scenario.actors[0].motion = sim::Script{.start = {.s = 60.0},
+                                          .speed = 20.0,
+                                          .behaviour = sim::Behaviour::brake,
+                                          .acceleration = 6.0,
+                                          .from = 0.5};
+  return scenario;
+}
+
+TEST_F(MethodsTest, WhoIsUnawareKnowsNoIntentionsAndTellsTheModelOfNoRisks) {
+  const sim::Scenario scenario = braking_car();
+  const loop::Stage stage{&scenario, &car_, &harm_, &intent::shipped_model(), {}, {}};
+  Hindsight hindsight(car_, harm_);
+  std::vector<std::string> prompts;
+  for (const char* const name : {"saca", "saca_unaware", "saca_paper_unaware"}) {
+    reason::ScriptedModel model(PolicyId::aeb, clock_);
+    MethodTools with = tools(hindsight);
+    with.saca.model = &model;
+    std::vector<std::unique_ptr<loop::Method>> alone;
+    alone.push_back(make_method(name, with));
+    ASSERT_TRUE(compare(stage, alone, hindsight).has_value());
+    ASSERT_GT(model.num_asked(), 0) << name;
+    prompts.push_back(model.last_scenes().front());
+  }
+  EXPECT_THAT(prompts[0], testing::HasSubstr(", risk "));
+  EXPECT_THAT(prompts[0], testing::Not(testing::HasSubstr("maintain 0.94")));
+  for (std::size_t i = 1; i < prompts.size(); ++i) {
+    EXPECT_THAT(prompts[i], testing::HasSubstr("maintain 0.94")) << i;  // preview::cautious: not 1
+    EXPECT_THAT(prompts[i], testing::Not(testing::HasSubstr(", risk "))) << i;
+  }
+}
+
+TEST_F(MethodsTest, WhoAsksAModelWithoutFineTuningAsksNoOther) {
+  const sim::Scenario scenario = braking_car();
+  const loop::Stage stage{&scenario, &car_, &harm_, &intent::shipped_model(), {}, {}};
+  Hindsight hindsight(car_, harm_);
+  reason::ScriptedModel tuned(PolicyId::aeb, clock_);
+  reason::ScriptedModel untuned(PolicyId::aeb, clock_);
+  MethodTools with = tools(hindsight);
+  with.saca.model = &tuned;
+  EXPECT_THROW((void)make_method("saca_untuned", with), ContractViolation);
+  with.untuned = &untuned;
+  for (const char* const name : {"saca_untuned", "saca_paper_untuned"}) {
+    std::vector<std::unique_ptr<loop::Method>> alone;
+    alone.push_back(make_method(name, with));
+    const int before = untuned.num_asked();
+    ASSERT_TRUE(compare(stage, alone, hindsight).has_value());
+    EXPECT_GT(untuned.num_asked(), before) << name;
+  }
+  EXPECT_EQ(tuned.num_asked(), 0);
 }
 
 TEST_F(MethodsTest, WhereOnlyALaneChangeHelpsThoseThatForecastFindIt) {

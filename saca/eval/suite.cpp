@@ -39,6 +39,7 @@ Played play(const sim::Scenario& scenario, std::uint64_t number, const SuiteOpti
                                            .danger = options.danger,
                                            .experience = options.experience,
                                            .imitator = options.imitator,
+                                           .untuned = options.untuned,
                                            .seed = encounter_seed(options.seed, number)}));
     }
     auto compared = compare(stage, methods, hindsight);

@@ -34,6 +34,7 @@ struct SuiteOptions {
   const danger::Network* danger = nullptr;         ///< as in MethodTools
   const memory::Experience* experience = nullptr;  ///< likewise
   const Imitator* imitator = nullptr;              ///< likewise
+  reason::LanguageModel* untuned = nullptr;        ///< likewise
   bool exact = false;  ///< nothing is left to chance and perception is as the scenarios have it
 };
 

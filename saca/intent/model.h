@@ -50,7 +50,8 @@ struct Calibration {
 struct Model {
   static constexpr std::size_t max_networks = 4;
 
-  std::vector<Network> networks;         ///< 1 to max_networks
+  std::vector<Network> networks;  ///< at most max_networks; empty: nothing was learnt, and
+                                  ///< everybody is taken to go on as they do, whoever walks too
   std::array<Crf, num_horizons> chains;  ///< structurally masked by may_follow
   std::array<Calibration, num_horizons> calibrations;
 };

@@ -19,8 +19,9 @@ Belief of_walker(const world::Scene& scene, const world::Actor& actor) {
   return belief;
 }
 
-/// An obstacle, or who is at rest: the next thing it can do is to drive on, which is M.
-Belief of_who_stands() {
+/// An obstacle, who is at rest, of whom the next thing it can do is to drive on, which is M, and
+/// everybody where nothing was learnt.
+Belief of_who_goes_on() {
   Belief belief;
   IntentPosterior maintains{};
   maintains[static_cast<std::size_t>(Intention::maintain)] = 1.0;
@@ -72,15 +73,15 @@ const Beliefs& Observer::look(const world::Scene& scene) {
 
 Belief Observer::judged(const world::Scene& scene, std::size_t i, Stream& stream) const {
   const world::Actor& actor = scene.actors[i];
+  if (actor.kind == world::ActorKind::obstacle || model_->networks.empty()) {
+    return of_who_goes_on();
+  }
   if (is_walker(actor.kind)) {
     return of_walker(scene, actor);
   }
-  if (actor.kind == world::ActorKind::obstacle) {
-    return of_who_stands();
-  }
   const Told told =
       stream.step(*model_, observed(scene, i));  // also of who stands: it may drive on
-  return norm(actor.v_W) < rest_speed ? of_who_stands() : of_vehicle(told);
+  return norm(actor.v_W) < rest_speed ? of_who_goes_on() : of_vehicle(told);
 }
 
 Observer::Known* Observer::find(const world::Actor& actor) {

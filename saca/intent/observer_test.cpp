@@ -57,6 +57,23 @@ double braking_at_sight(double deceleration) {
   return braking(beliefs_at_sight(model, with(0.0, {car(1, deceleration)}))[0]);
 }
 
+TEST(Observer, WhoHasLearntNothingTakesAllToGoOn) {
+  const Model none;
+  Observer observer(none);
+  Actor walker = car(2);
+  walker.kind = ActorKind::pedestrian;
+  walker.v_W = {0.0, 1.5};
+  const Scene scene = with(0.0, {car(1, 8.0), walker});
+  constexpr auto maintains = static_cast<std::size_t>(Intention::maintain);
+  EXPECT_LT(beliefs_at_sight(model, scene)[0].now()[maintains], 0.9);
+  EXPECT_LT(beliefs_at_sight(model, scene)[1].now()[maintains], 0.9);
+  for (const Belief& belief : observer.look(scene)) {
+    for (const IntentPosterior& at : belief.at) {
+      EXPECT_EQ(at[maintains], 1.0);
+    }
+  }
+}
+
 TEST(Observer, HardBrakingIsBelievedWithinThreeTenths) {
   Observer observer(model);
   for (int look = 0; look <= 40; ++look) {

@@ -30,6 +30,7 @@ using world::Scene;
 constexpr std::string_view ego_name = "ego";
 constexpr std::string_view manoeuvres = "## Manoeuvres:\n";
 constexpr std::string_view historical = "## Historical Scenarios:\n";
+constexpr std::string_view risk_label = ", risk ";
 constexpr double conflict_horizon = 10.0;  // [s], as the risk's
 constexpr double trigger_tolerance = 0.5;  // [s], as the trigger's
 constexpr double standing = 0.05;          // [m/s]: below it rounds to 0.0
@@ -91,8 +92,8 @@ std::string ego_section(const Scene& scene) {
 }
 
 std::string obstacle_line(const Actor& actor, Vec2 p_B, double risk) {
-  return fmt::format("{}: {:.1f} m long, {:.1f} m wide, {}, risk {:.2f}\n", actor_name(actor),
-                     actor.footprint.length, actor.footprint.width, placed(p_B), risk);
+  return fmt::format("{}: {:.1f} m long, {:.1f} m wide, {}{}{:.2f}\n", actor_name(actor),
+                     actor.footprint.length, actor.footprint.width, placed(p_B), risk_label, risk);
 }
 
 std::string participant_line(const preview::Situation& situation, std::size_t i, Vec2 p_B) {
@@ -104,10 +105,10 @@ std::string participant_line(const preview::Situation& situation, std::size_t i,
   // Over ground, seen along the ego's axes.
   const Vec2 v_B = rotated(actor.v_W, -scene.ego.X_WB.yaw);
   return fmt::format(
-      "{}: {}, {}{}, {} {:.2f}, TTC {}, risk {:.2f}\n", actor_name(actor), placed(p_B), moving(v_B),
+      "{}: {}, {}{}, {} {:.2f}, TTC {}{}{:.2f}\n", actor_name(actor), placed(p_B), moving(v_B),
       actor.occluded ? ", not seen now" : "", name_of(situation.intentions[i], intention_words),
       situation.posteriors[i].at(intention), conflict ? fmt::format("{:.1f} s", *conflict) : "none",
-      situation.risks[i].risk);
+      risk_label, situation.risks[i].risk);
 }
 
 // The most dangerous first, then the nearest; the order of the scene decides the rest.
@@ -438,6 +439,21 @@ std::string without_facts(const std::string& scene_part) {
   const std::size_t end = scene_part.find(historical);
   expects(begin < end && end != std::string::npos, "a scene part");
   return scene_part.substr(0, begin) + scene_part.substr(end);
+}
+
+std::string without_risks(const std::string& scene_part) {
+  static constexpr std::string_view digits = "0123456789.";
+  std::string rest;
+  std::size_t from = 0;
+  for (std::size_t at = scene_part.find(risk_label); at != std::string::npos;
+       at = scene_part.find(risk_label, at + 1)) {
+    const std::size_t end = scene_part.find_first_not_of(digits, at + risk_label.size());
+    if (end != std::string::npos && scene_part[end] == '\n') {
+      rest.append(scene_part, from, at - from);
+      from = end;
+    }
+  }
+  return rest.append(scene_part, from, std::string::npos);
 }
 
 std::string_view cue_text(world::CueKind kind) {

@@ -49,6 +49,8 @@ constexpr int most_prompt_tokens = 485;
 /// A scene part without what was computed about each manoeuvre, as the paper's prompts are: to find
 /// out what that is worth.
 [[nodiscard]] std::string without_facts(const std::string& scene_part);
+/// Likewise without how dangerous each road user is; who comes first stays so.
+[[nodiscard]] std::string without_risks(const std::string& scene_part);
 
 /// What a policy is forecast to end in, in one line: "0 AEB: clear by 0.6 m, no harm". Used
 /// by prompt, terminal and report alike.

@@ -285,6 +285,20 @@ TEST(Prompt, LinesAreKnownByTheirPolicy) {
   EXPECT_EQ(of_ego, 1);
 }
 
+TEST(Prompt, WithoutRisksTheRestIsAsItWas) {
+  const std::string whole = prompt(example_situation());
+  const std::string rest = without_risks(whole);
+  EXPECT_THAT(whole, testing::ContainsRegex(", risk [0-9.]+\n"));
+  EXPECT_THAT(rest, testing::Not(HasSubstr(", risk ")));
+  std::istringstream lines(whole);
+  std::string expected;
+  for (std::string line; std::getline(lines, line);) {
+    expected += line.substr(0, line.find(", risk ")) + "\n";
+  }
+  EXPECT_EQ(rest, expected);
+  EXPECT_EQ(without_risks("of one, risk 0.50 it says"), "of one, risk 0.50 it says");
+}
+
 TEST(Prompt, WithoutFactsTheRestIsAsItWas) {
   const std::string whole = prompt(example_situation());
   const std::string rest = without_facts(whole);

@@ -56,7 +56,11 @@ std::string shade(const std::optional<double>& value) {
 
 /// Without its heading.
 std::string bare_table(const PageTable& table) {
-  std::string html = paragraphs(table.lines) + "<div class=\"wide\"><table><thead><tr><th></th>";
+  std::string html = paragraphs(table.lines);
+  if (table.chart) {
+    html += dots_svg(*table.chart);
+  }
+  html += "<div class=\"wide\"><table><thead><tr><th></th>";
   for (const std::string& column : table.columns) {
     html += fmt::format("<th>{}</th>", escaped(column));
   }
@@ -67,7 +71,9 @@ std::string bare_table(const PageTable& table) {
     html += fmt::format(
         "<tr{}><td{}>{}</td>", row.faded ? " class=\"faded\"" : "",
         row.explanation.empty() ? "" : fmt::format(" title=\"{}\"", escaped(row.explanation)),
-        escaped(row.name));
+        row.link.empty()
+            ? escaped(row.name)
+            : fmt::format("<a href=\"{}\">{}</a>", escaped(row.link), escaped(row.name)));
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
       html += fmt::format("<td{}>{}</td>", row.shades.empty() ? "" : shade(row.shades[i]),
                           escaped(row.cells[i]));

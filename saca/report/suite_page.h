@@ -14,7 +14,8 @@ struct PageTable {
   struct Row {
     std::string name;
     std::string
-        explanation;  ///< shown when the name is pointed at, and below the table; may be empty
+        explanation;   ///< shown when the name is pointed at, and below the table; may be empty
+    std::string link;  ///< of the name: a page beside this one; may be empty
     std::vector<std::string> cells;             ///< one per column
     std::vector<std::optional<double>> shades;  ///< of the cells, 0 (none) to 1 (worst); or empty
     bool faded = false;                         ///< a yardstick that no method on a road can be
@@ -23,6 +24,7 @@ struct PageTable {
   std::vector<std::string> lines;    ///< below the heading
   std::vector<std::string> columns;  ///< without that of the names
   std::vector<Row> rows;
+  std::optional<DotChart> chart;  ///< below the heading's lines
 };
 
 /// One encounter, what was done in it, and what would have been best.

@@ -55,6 +55,18 @@ TEST(SuitePage, IsOneFileInWhichNoTextBecomesMarkup) {
   EXPECT_EQ(html, suite_page(page()));
 }
 
+TEST(SuitePage, ARowMayLeadToAnotherPageAndATableMayHaveAChart) {
+  SuitePage made = page();
+  made.tables[0].rows[0].link = "a\"b.html";
+  made.tables[0].chart = made.chart;
+  made.chart.reset();
+  const std::string html = suite_page(made);
+  EXPECT_THAT(html, HasSubstr("<a href=\"a&quot;b.html\">saca</a></td>"));
+  const std::size_t heading = html.find("<h2>All</h2>");
+  EXPECT_LT(heading, html.find("<svg", heading));
+  EXPECT_LT(html.find("<svg", heading), html.find("<table", heading));
+}
+
 TEST(SuitePage, ShowsEachCellWithItsShadeAndEachCardWithTwoPictures) {
   const std::string html = suite_page(page());
   EXPECT_THAT(html, HasSubstr("<td style=\"background:rgba(213,94,0,0.38)\">0.05</td>"));

@@ -178,11 +178,27 @@ def test_the_ladder_says_what_each_step_costs(tmp_path):
 
 
 def test_the_tables_stand_beside_what_was_published(tmp_path):
-    run = saca("tables", "--count", 12, "--table", 3, cwd=tmp_path)
+    few = "saca,imitation,aeb,oracle"
+    run = saca("tables", "--count", 12, "--table", 3, "--methods", few, cwd=tmp_path)
     assert run.returncode == SUCCESS, run.stderr
-    assert re.search(r"SACA with a fine-tuned model +0\.07 +not yet", run.stdout)
+    assert re.search(r"published: SACA with a fine-tuned model +0\.07 ", run.stdout) and re.search(r"\n  SACA +0\.", run.stdout)
     assert "n = 12" in run.stdout and "n = 10" in run.stdout  # all draws, and as many as the paper's
-    assert "Table II:" not in run.stdout and "not yet" in run.stdout.split("Table IV")[1]
+    assert "Table II:" not in run.stdout and "needs a model: --llm local" in run.stdout
+    told = json.loads((tmp_path / "runs/tables/tables.json").read_text())
+    assert told["tables.3.saca.collision_loss.n"] == 12 and told["tables.3.saca.collision_loss.ten_draws.n"] == 10
+    assert 0.0 == told["tables.3.oracle.false_trigger_loss"] <= told["tables.3.imitation.false_trigger_loss"]
+    page = (tmp_path / "runs/tables/index.html").read_text()
+    assert page.count('href="table_3.html"') == sum(key.endswith(".collision_loss") for key in told)
+    assert (tmp_path / "runs/tables/table_3.html").exists()
+    # What is there is not run again: of all lines one is left, and the others come back as they were.
+    journal = tmp_path / "runs/tables/table_3.h5.journal"
+    whole = journal.read_text()
+    journal.write_text("".join(whole.splitlines(keepends=True)[:-1]))
+    again = saca("tables", "--count", 12, "--table", 3, "--methods", few, "--json", cwd=tmp_path)
+    assert json.loads(again.stdout) == told and journal.read_text() == whole
+    # The same encounters under their own name.
+    alone = figures(saca("suite", "table_3", "--methods", "saca,aeb", "--count", 2, "--json", cwd=tmp_path))
+    assert alone["suite.table_3.n"] == 2 and "suite.table_3.saca.false_trigger_loss" in alone
 
 
 # Six speeds with ten draws each and their twins: minutes of one core, so `make soak` asks for it.
@@ -190,7 +206,7 @@ def test_the_tables_stand_beside_what_was_published(tmp_path):
 def test_the_table_of_the_intersection_has_six_speeds(tmp_path):
     run = saca("tables", "--count", 10, "--table", 2, cwd=tmp_path)
     assert run.returncode == SUCCESS, run.stderr
-    assert re.search(r"SACA with a fine-tuned model +0\.54 +not yet", run.stdout)
+    assert re.search(r"published: SACA with a fine-tuned model +0\.54 ", run.stdout)
     assert "n = 60" in run.stdout
 
 

@@ -83,6 +83,28 @@ def test_a_model_is_asked_in_suites(server, tmp_path):
     assert (tmp_path / "a.h5.journal").read_text() == (tmp_path / "b.h5.journal").read_text()
 
 
+def test_tables_ask_two_models_and_time_their_replies(server, tmp_path):
+    server.conclusion = "Response to user: 1"
+    address = f"@http://127.0.0.1:{server.server_address[1]}/v1"
+    told = figures(saca("tables", "--table", 3, "--count", 1, "--llm", "taught" + address, "--untuned", "base" + address,
+                        "--methods", "saca,saca_unaware,saca_no_model,saca_paper_untuned,aeb", "--json", cwd=tmp_path))
+    assert "taught" in told["meta.model"] and "base" in told["meta.untuned"] and "--untuned base@" in told["meta.command"]
+    for key in ("model", "untuned"):
+        place = f"tables.4.3.{key}."
+        assert told[place + "asked"] == told[place + "done"] == told[place + "ended"] == told[place + "in_time"] >= 10 == told[place + "seconds.n"]
+        assert 0.0 < told[place + "least_seconds"] <= told[place + "seconds"] < 4.2
+    # Ten draws of one condition, each answered in time.
+    assert told["tables.3.saca.collision_loss.in_time.n"] == told["tables.3.saca_paper_untuned.collision_loss.in_time.n"] == 10
+    assert "tables.3.saca_no_model.collision_loss.in_time" not in told
+    assert {one["model"] for one in server.asked} == {"taught", "base"}
+    asked = [message["content"] for one in server.asked for message in one["messages"] if message["role"] == "user"]
+    assert any(", risk " in text for text in asked) and any(", risk " not in text for text in asked), "who is unaware knows no risks"
+    page = (tmp_path / "runs/tables/index.html").read_text()
+    assert "Table IV: replies" in page and "without fine-tuning" in page
+    # A method that asks another model is refused where there is none.
+    assert "--untuned MODEL" in saca("suite", "table_3", "--methods", "saca_untuned", cwd=tmp_path).stderr
+
+
 def test_a_suite_whose_model_dies_stops_and_goes_on_when_it_is_back(server, tmp_path):
     whole = figures(saca(*asked(server, "--threads", 1, "--output", "a.h5"), cwd=tmp_path))
     server.asked.clear()

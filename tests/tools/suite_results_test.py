@@ -109,3 +109,23 @@ def test_a_figure_that_is_missing_is_named_with_its_file():
     del kept[0]["suite.balanced.faults"]
     with pytest.raises(SystemExit, match=r"docs/suites\.json, `saca suite balanced .*`: want the figure 'suite\.balanced\.faults', got none"):
         suite_results.page_of(kept)
+
+
+def test_tables_have_replies_and_what_was_in_time_where_a_model_was_asked():
+    figures = {}
+    for key in ("collision_loss", "false_trigger_loss"):
+        for draws, n in (("", 60), (".ten_draws", 10)):
+            figures |= {f"tables.3.saca.{key}{draws}{end}": value for end, value in (("", 0.5), (".lo", 0.25), (".hi", 0.75), (".n", n))}
+    text = suite_results.tables_section(figures)
+    assert "## Tables II and III of the paper" in text and "Table III, 60 encounters" in text and "Table II," not in text and "in time" not in text
+    assert "| `saca` | 0.50 (0.25 to 0.75) | 0.50 (0.25 to 0.75) | 0.50 (0.25 to 0.75) | 0.50 (0.25 to 0.75) |" in text
+    figures |= {f"tables.3.saca.collision_loss.in_time{end}": value for end, value in (("", 0.12), (".lo", 0.0), (".hi", 0.25), (".n", 7))}
+    figures |= {"tables.4.3.model.asked": 20, "tables.4.3.model.done": 19, "tables.4.3.model.ended": 18, "tables.4.3.model.in_time": 12, "tables.4.3.model.least_seconds": 2.2,
+                "tables.4.3.untuned.asked": 20, "tables.4.3.untuned.done": 0, "tables.4.3.untuned.ended": 0, "tables.4.3.untuned.in_time": 0}
+    for what, value in (("tokens", 80.0), ("seconds", 4.5)):
+        figures |= {f"tables.4.3.model.{what}{end}": value + more for end, more in (("", 0.0), (".lo", -1.0), (".hi", 1.0), (".n", 19))}
+    text = suite_results.tables_section(figures)
+    assert "Tables II, III and IV" in text and "| 0.12 (0.00 to 0.25), 7 |" in text
+    assert "| III, the model | 20 | 19 | 18 | 80 (79 to 81) | 4.5 (3.5 to 5.5) | 2.2 | 12 |" in text
+    assert "| III, without fine-tuning | 20 | 0 | 0 | - | - | - | 0 |" in text
+    assert set(suite_results.trimmed(figures)) == set(figures)
