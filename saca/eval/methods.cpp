@@ -56,7 +56,7 @@ constexpr std::array<MethodInfo, 39> infos{{
     {"saca_paper_at_once", "The same, first answers only",
      "As saca_paper; the language model's answer right after the prompt, before it writes a word.",
      false, Needs::model},
-    {"saca_paper_untuned", "Algorithm 1 with a model without fine-tuning",
+    {"saca_paper_untuned", "Algorithm 1, model without fine-tuning",
      "As saca_paper; the language model is asked as it was before it was taught.", false,
      Needs::untuned},
     {"saca_paper_unaware", "Algorithm 1 without scenario awareness",
