@@ -8,6 +8,7 @@ void add_cases(CLI::App& line, int& exit_code) {
       "cases", "Cases from records of crashes: made, looked at, and taught with");
   cases->require_subcommand(1);
   add_cases_build(*cases, exit_code);
+  add_cases_check(*cases, exit_code);
   add_cases_eval(*cases, exit_code);
   add_cases_export(*cases, exit_code);
   add_cases_show(*cases, exit_code);

@@ -7,6 +7,9 @@ namespace saca::app {
 /// `saca cases build`.
 void add_cases_build(CLI::App& cases, int& exit_code);
 
+/// `saca cases check`.
+void add_cases_check(CLI::App& cases, int& exit_code);
+
 /// `saca cases eval`.
 void add_cases_eval(CLI::App& cases, int& exit_code);
 

@@ -239,6 +239,21 @@ def test_chats_have_the_form_that_fine_tuning_takes(built, tmp_path):
         assert all(one["content"].strip() for one in chat["messages"])
 
 
+def test_chats_are_checked(built, tmp_path):
+    folder, _ = built
+    figures(saca("cases", "export", folder / "cases.jsonl", "--format", "openai", "--output", "sets", "--json", cwd=tmp_path))
+    chat = next(line for name in ("train", "calibration", "test") for line in (tmp_path / "sets" / f"{name}.jsonl").read_text().splitlines())
+    (tmp_path / "chats.jsonl").write_text((chat + "\n") * 10)
+    told = json.loads(saca("cases", "check", "chats.jsonl", "--json", cwd=tmp_path).stdout)
+    assert told["schema"] == "saca.chat_sets/1" and told["sets"][0]["examples"] == 10
+    assert told["sets"][0]["tokens_at_most"] == 10 * told["sets"][0]["longest_tokens_at_most"] > 10 * 500
+    (tmp_path / "spoilt.jsonl").write_text((chat + "\n") * 10 + chat.replace('"user"', '"robot"') + "\n")
+    run = saca("cases", "check", "chats.jsonl", "spoilt.jsonl", cwd=tmp_path)
+    assert "spoilt.jsonl: line 11: " in one_error(run, BAD_INPUT) and "robot" in run.stderr and "messages[1]" in run.stderr
+    assert "want at least 10 examples" in one_error(saca("cases", "check", "sets/test.jsonl", cwd=tmp_path), BAD_INPUT)
+    assert "none.jsonl" in one_error(saca("cases", "check", "none.jsonl", cwd=tmp_path), BAD_INPUT)
+
+
 def test_prompts_tell_of_the_case_that_a_memory_would_recall(built, tmp_path):
     folder, _ = built
     saca("memory", "import", folder / "plain.jsonl", "--keep-trust", "--memory", "bank.sqlite", cwd=tmp_path)
