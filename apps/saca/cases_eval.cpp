@@ -43,7 +43,10 @@ struct CasesEvalOptions {
 /// What was replied about one case and its twin.
 using ReplyRow = ItemsRow<ExampleReply>;
 
-ReplyRow asked_about(DrawnExamples drawn, reason::LanguageModel& model, const Clock& clock) {
+/// @param failure  why the model cannot be asked any more, if that is so: the row is then worth
+///                 nothing. That an answer is malformed is something that the model said
+ReplyRow asked_about(DrawnExamples drawn, reason::LanguageModel& model, const Clock& clock,
+                     std::optional<Error>& failure) {
   ReplyRow row{.items = {}, .problem = std::move(drawn.problem)};
   if (drawn.examples.empty()) {
     return row;
@@ -55,7 +58,13 @@ ReplyRow asked_about(DrawnExamples drawn, reason::LanguageModel& model, const Cl
   const auto replies =
       model.ask(scenes, clock.now() + patience_with_model, [](const reason::Progress&) {});
   if (!replies.has_value()) {
-    row.problem = drawn.examples.front().example.record + ": " + replies.error().message;
+    const std::string& record = drawn.examples.front().example.record;
+    row.problem = record + ": " + replies.error().message;
+    if (replies.error().code != Error::Code::malformed) {
+      failure = Error{replies.error().code,
+                      fmt::format("--llm: {} (in case {}; the same command goes on there)",
+                                  replies.error().message, record)};
+    }
     return row;
   }
   for (std::size_t i = 0; i < drawn.examples.size(); ++i) {
@@ -174,6 +183,7 @@ int eval_cases(const CasesEvalOptions& options) {
   const std::string command =
       fmt::format("cases eval {} --set {} --llm {} {}", options.examples.file, options.set,
                   options.model, example_text(options.examples));
+  std::optional<Error> failure;
   auto rows = rows_of<ReplyRow>(
       {.journal = options.output + ".journal",
        .title = fmt::format("saca {} cases eval --set {} --car {} --seed {} ({:016x}) {}",
@@ -186,13 +196,15 @@ int eval_cases(const CasesEvalOptions& options) {
        .row =
            [&](std::size_t i) {
              return asked_about(drawn_examples(source.cases[i], source, options.examples),
-                                *model.value(), clock);
+                                *model.value(), clock, failure);
            },
        .line_of = items_line<ExampleReply>,
        .row_from =
            [](const std::string& line) {
              return items_row<ExampleReply>(line, eval::example_reply_from_json);
-           }});
+           },
+       .spoilt_by_interrupt = true,  // it reaches the model's process, too
+       .failure = [&failure] { return failure; }});
   if (!rows.has_value()) {
     return refused(rows.error());
   }

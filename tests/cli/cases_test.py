@@ -7,6 +7,7 @@ import sys
 import pytest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from chat_server import server  # noqa: E402, F401, a fixture
 from program import BAD_INPUT, CANNOT_WRITE, SUCCESS, WRONG_COMMAND_LINE, figures, one_error, saca
 
 QUICK = ("--draws", "2", "--told-draws", "2")
@@ -333,5 +334,19 @@ def test_what_cannot_be_scored_is_told(hand_written, tmp_path):
     assert "file" in one_error(ask("--llm", f"replay:{file}", "--output", "file/a"), CANNOT_WRITE)
     nobody = tmp_path / "nobody.json"
     nobody.write_text(json.dumps({"schema": "saca.replies/1", "model": "by hand", "replies": {}}))
-    mute = ask("--llm", f"replay:{nobody}")
-    assert mute.returncode == 5 and "nothing could be asked" in mute.stderr
+    assert "goes on there" in one_error(ask("--llm", f"replay:{nobody}"), BAD_INPUT)
+    assert len((tmp_path / "runs/replies.jsonl.journal").read_text().splitlines()) == 1, "no row without its answers is kept"
+
+
+def test_a_model_that_dies_while_it_is_scored_is_gone_on_with(server, hand_written, tmp_path):
+    folder, _, name, known = hand_written
+    model = f"some-model@http://127.0.0.1:{server.server_address[1]}/v1"
+    asked = ("cases", "eval", folder / "cases.jsonl", "--llm", model, "--set", name, "--output", "replies.jsonl")
+    server.refuses_after = 1
+    died = saca(*asked, cwd=tmp_path)
+    assert died.returncode == BAD_INPUT and "--llm: " in died.stderr and "goes on there" in died.stderr.splitlines()[-1]
+    kept = len((tmp_path / "replies.jsonl.journal").read_text().splitlines()) - 1
+    server.refuses_after = None
+    figures_now = figures(saca(*asked, "--json", cwd=tmp_path))
+    assert figures_now["eval.num_examples"] == len(known) and figures_now["eval.num_failed"] == 0
+    assert kept < len((tmp_path / "replies.jsonl.journal").read_text().splitlines()) - 1
