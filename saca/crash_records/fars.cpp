@@ -208,6 +208,11 @@ std::optional<Error> read_vehicles(const fs::path& folder, const Keys& keys, Far
         }
         FarsCrash& crash = crashes[id];
         crash.id = id;
+        const auto is_this = [&](const FarsVehicle& one) { return one.number == vehicle.number; };
+        if (std::any_of(crash.vehicles.begin(), crash.vehicles.end(), is_this)) {
+          return fmt::format("column VEH_NO: want each vehicle of crash {} once, got {} again",
+                             id.number, vehicle.number);
+        }
         crash.vehicles.push_back(vehicle);
         return std::nullopt;
       },

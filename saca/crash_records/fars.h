@@ -72,8 +72,9 @@ struct FarsRelease {
 /// Reads the three files of a folder, whatever the case of their names.
 ///
 /// The year is in the file (YEAR), else that of all crashes of accident.csv, which must then be of
-/// one. A row whose number or code is none is passed over and mentioned in the notes, and so is a
-/// crash of which accident.csv or person.csv knows nothing.
+/// one. A row whose number or code is none, or that is the second one of a vehicle or a crash, is
+/// passed over and mentioned in the notes, and so is a crash of which accident.csv or person.csv
+/// knows nothing.
 /// @return  Error::Code::unreadable or malformed, naming file, column, wanted and got
 [[nodiscard]] Result<FarsRelease> read_fars(const std::filesystem::path& folder);
 

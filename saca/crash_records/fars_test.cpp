@@ -82,6 +82,20 @@ TEST(Fars, PassesOverBrokenRowsAndSaysSo) {
   EXPECT_THAT(read.value().notes, Contains(HasSubstr("1 of 2 crashes vehicle.csv has no row")));
 }
 
+TEST(Fars, TakesTheFirstOfTwoRowsOfOneVehicleAndSaysSo) {
+  const ReleaseForTest release("twice");
+  release.write("vehicle.csv", std::string(ReleaseForTest::vehicle_names) +
+                                   "\n4,40001,1,4,x,30,45,1,2,1,1,1,53,1,25,6\n"
+                                   "4,40001,1,4,x,20,45,1,2,1,1,1,53,1,25,6\n"
+                                   "4,40002,1,4,x,20,45,1,2,1,1,1,53,1,25,6\n");
+  const FarsRelease read = read_fars(release.folder()).value();
+  ASSERT_EQ(read.crashes[0].vehicles.size(), 1U);
+  EXPECT_EQ(read.crashes[0].vehicles[0].travel_speed, 30);
+  EXPECT_THAT(read.notes, Contains(HasSubstr("1 of 3 rows were passed over")));
+  EXPECT_THAT(read.notes,
+              Contains(HasSubstr("column VEH_NO: want each vehicle of crash 40001 once, got 1")));
+}
+
 TEST(Fars, TellsOfCrashesThatAccidentCsvDoesNotHave) {
   const ReleaseForTest release("subset");
   release.write("accident.csv", "ST_CASE,YEAR,LGT_COND,RELJCT2,TYP_INT\n40002,2016,1,2,2\n");
