@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -18,6 +19,7 @@
 #include "apps/saca/suite_pages.h"
 #include "apps/saca/version.h"
 #include "saca/config/json_lines.h"
+#include "saca/core/fnv.h"
 #include "saca/eval/reply_score.h"
 
 namespace saca::app {
@@ -152,6 +154,18 @@ std::optional<Error> write_replies(const std::string& path,
   return write_output(path, lines);
 }
 
+/// By something that has nothing to do with what they are, so that the first few stand for all:
+/// files have them by state, year and number.
+void sort_by_lot(std::vector<eval::CrashCase>& cases) {
+  const auto lot = [](const eval::CrashCase& one) {
+    Fnv hash;
+    hash.add(one.record.name);
+    return std::pair(hash.value(), one.record.name);
+  };
+  std::sort(cases.begin(), cases.end(),
+            [&](const auto& a, const auto& b) { return lot(a) < lot(b); });
+}
+
 int eval_cases(const CasesEvalOptions& options) {
   if (const auto problem = why_outputs_unwritable({options.output})) {
     return refused(*problem);
@@ -166,6 +180,11 @@ int eval_cases(const CasesEvalOptions& options) {
   std::erase_if(source.cases, [set](const eval::CrashCase& one) {
     return eval::set_of_record(one.record.name) != set;
   });
+  std::map<std::string, std::size_t> places;  // in the file
+  for (const eval::CrashCase& one : source.cases) {
+    places.emplace(one.record.name, places.size());
+  }
+  sort_by_lot(source.cases);
   if (options.count > 0 && source.cases.size() > options.count) {
     source.cases.resize(options.count);
   }
@@ -213,7 +232,11 @@ int eval_cases(const CasesEvalOptions& options) {
     return was_interrupted;
   }
   int failed = 0;
-  const std::vector<ExampleReply> replies = all_items(*std::move(rows).value(), failed);
+  std::vector<ExampleReply> replies = all_items(*std::move(rows).value(), failed);
+  std::stable_sort(replies.begin(), replies.end(),
+                   [&](const ExampleReply& a, const ExampleReply& b) {
+                     return places.at(a.example.record) < places.at(b.example.record);
+                   });
   if (replies.empty()) {
     complain(options.examples.file + ": nothing could be asked");
     return some_failed;
@@ -241,7 +264,9 @@ void add_cases_eval(CLI::App& cases, int& exit_code) {
   command->add_option("--set", options->set, "Of which records: those that `export` put into it")
       ->check(CLI::IsMember({"train", "calibration", "test"}))
       ->capture_default_str();
-  command->add_option("--count", options->count, "At most so many cases of the set")
+  command
+      ->add_option("--count", options->count,
+                   "At most so many cases of the set, drawn by lot, always the same")
       ->check(CLI::Range(1, 1'000'000));
   command->add_option("--output,-o", options->output, "Where the replies go, a line each")
       ->capture_default_str();

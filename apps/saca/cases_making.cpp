@@ -77,25 +77,32 @@ sim::Scenario case_world(const sim::Scenario& drawn, std::uint64_t seed) {
   return eval::as_played(drawn, {.methods = {}, .seed = seed});
 }
 
+namespace {
+
+/// Of the encounter that is made of a record, for its draws.
+std::uint64_t number_of_record(const std::string& name) {
+  Fnv hash;
+  hash.add(name);
+  return hash.value();
+}
+
+}  // namespace
+
 loop::Stage case_stage(const sim::Scenario& world, const Inputs& inputs, std::uint64_t seed,
                        const std::string& name) {
-  Fnv of_name;
-  of_name.add(name);
   return {.scenario = &world,
           .car = &inputs.car,
           .harm = &inputs.harm,
           .intent = &inputs.intent,
           .thresholds = {},
-          .chance = eval::chance_of({.methods = {}, .seed = seed}, of_name.value())};
+          .chance = eval::chance_of({.methods = {}, .seed = seed}, number_of_record(name))};
 }
 
 void CaseMaking::judge(CaseRow& row, eval::CrashCase made, const sim::Scenario& scenario) const {
   const sim::Scenario world = case_world(scenario, options_.seed);
   const loop::Stage stage = case_stage(world, planes_.inputs, options_.seed, made.record.name);
-  Fnv of_name;
-  of_name.add(made.record.name);
   eval::JudgingOptions judging = options_.judging;
-  judging.seed = eval::encounter_seed(options_.seed, of_name.value());
+  judging.seed = eval::encounter_seed(options_.seed, number_of_record(made.record.name));
   auto judged = eval::judged_encounter(stage, planes_.setup.forecast, judging, made_with_);
   if (!judged.has_value()) {
     row.problem = made.record.name + ": " + judged.error().message;
