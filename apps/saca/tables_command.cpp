@@ -167,8 +167,8 @@ Result<std::vector<TimedModel>> time_replies(const TablesCommand& options) {
       return questions.error();
     }
     for (const AskedModel& asked : asked_models(options.thinking)) {
-      auto model = open_needed_model(of_car.inputs.places, asked.choice, runtime::Pace::real,
-                                     *of_car.setup.clock, asked.option);
+      const auto model = open_needed_model(of_car.inputs.places, asked.choice, runtime::Pace::real,
+                                           *of_car.setup.clock, asked.option);
       if (!model.has_value()) {
         return model.error();
       }
@@ -243,8 +243,9 @@ std::optional<int> add_table(const PaperTable& table, const TablesCommand& optio
   }
   const SuiteRun& done = *ran.value();
   const SuiteResult result = result_of(done, options.seed);
-  TableFigures figures =
-      table_figures(table, done, static_cast<std::size_t>(few_draws * num), options.seed);
+  TableFigures figures = table_figures(
+      table, done, static_cast<std::size_t>(few_draws) * static_cast<std::size_t>(num),
+      options.seed);
   if (figures.few.empty()) {
     complain(fmt::format("{}: none of the first {} encounters could be played: {}", table.title,
                          few_draws * num, done.rows.front().fault));
