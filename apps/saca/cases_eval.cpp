@@ -12,6 +12,7 @@
 
 #include "apps/saca/cases_commands.h"
 #include "apps/saca/cases_examples.h"
+#include "apps/saca/cases_making.h"
 #include "apps/saca/items_row.h"
 #include "apps/saca/json_output.h"
 #include "apps/saca/model.h"
@@ -19,7 +20,6 @@
 #include "apps/saca/suite_pages.h"
 #include "apps/saca/version.h"
 #include "saca/config/json_lines.h"
-#include "saca/core/fnv.h"
 #include "saca/eval/reply_score.h"
 
 namespace saca::app {
@@ -158,9 +158,7 @@ std::optional<Error> write_replies(const std::string& path,
 /// files have them by state, year and number.
 void sort_by_lot(std::vector<eval::CrashCase>& cases) {
   const auto lot = [](const eval::CrashCase& one) {
-    Fnv hash;
-    hash.add(one.record.name);
-    return std::pair(hash.value(), one.record.name);
+    return std::pair(number_of_record(one.record.name), one.record.name);
   };
   std::sort(cases.begin(), cases.end(),
             [&](const auto& a, const auto& b) { return lot(a) < lot(b); });

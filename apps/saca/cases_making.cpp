@@ -77,16 +77,11 @@ sim::Scenario case_world(const sim::Scenario& drawn, std::uint64_t seed) {
   return eval::as_played(drawn, {.methods = {}, .seed = seed});
 }
 
-namespace {
-
-/// Of the encounter that is made of a record, for its draws.
 std::uint64_t number_of_record(const std::string& name) {
   Fnv hash;
   hash.add(name);
   return hash.value();
 }
-
-}  // namespace
 
 loop::Stage case_stage(const sim::Scenario& world, const Inputs& inputs, std::uint64_t seed,
                        const std::string& name) {

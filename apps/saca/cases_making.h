@@ -27,6 +27,9 @@ struct CaseRow {
 // How an encounter of a record is played. Perception and chance are drawn by its name: which others
 // are worked on does not matter.
 
+/// Its number, by the record's name.
+[[nodiscard]] std::uint64_t number_of_record(const std::string& name);
+
 /// @param drawn  as its family or record has it
 [[nodiscard]] sim::Scenario case_world(const sim::Scenario& drawn, std::uint64_t seed);
 /// @param world   outlives the stage, as do the inputs

@@ -25,13 +25,12 @@ constexpr std::array<PublishedRow, 4> one_way_rows{
      {"SACA with a fine-tuned model", 0.07, 0.0}}};
 
 constexpr std::array<PaperTable, 3> all_tables{
-    {{"table_2", "II", "Table II: intersection",
+    {{"table_2", "Table II: intersection",
       "Ego at 10, 11, ... 15 m/s where the paper has it at 14; the truck drives on, or brakes hard "
       "(no risk)",
       "intersection_t1", "intersection_t1_truck_brakes", "ego.speed_mps=10:15:1",
       intersection_rows},
      {"table_2_late",
-      "II",
       "Table II with a late truck (ours): whoever stops is struck",
       "The same 1.87 s later, a queue barring the way ahead: the story of Fig. 9, which the "
       "printed distances do not give",
@@ -39,7 +38,7 @@ constexpr std::array<PaperTable, 3> all_tables{
       "intersection_late_truck_brakes",
       "ego.speed_mps=10:15:1",
       {}},
-     {"table_3", "III", "Table III: one-way road",
+     {"table_3", "Table III: one-way road",
       "Ego at 12 m/s; without risk the obstacle ahead is not there", "one_way", "one_way_free", "",
       one_way_rows}}};
 

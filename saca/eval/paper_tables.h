@@ -22,7 +22,6 @@ struct PublishedRow {
 /// A table of the paper, and the scenes that it is of.
 struct PaperTable {
   std::string_view name;        ///< as commands have it
-  std::string_view number;      ///< as the paper has it
   std::string_view title;       ///< for readers
   std::string_view conditions;  ///< likewise: which scenes these are
   std::string_view risk;        ///< a shipped scenario

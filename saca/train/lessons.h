@@ -10,9 +10,9 @@
 
 namespace saca::train {
 
-/// What another model foretells of the sequences to be trained with, which it must not have seen:
-/// to learn from a teacher as well as from labels is to be told how sure one can be. Source:
-/// Hinton, Vinyals, Dean, Distilling the knowledge in a neural network, arXiv:1503.02531.
+/// Knowledge distillation: what another model predicts of the sequences to be trained with, which
+/// it must not have seen. Source: Hinton, Vinyals, Dean, Distilling the knowledge in a neural
+/// network, arXiv:1503.02531.
 struct Lessons {
   double share = 0.5;  ///< of the teacher in what a label is taken for, 0 ... 1
   /// One per sequence; without frames: of this one the labels alone are learnt. Empty: nobody
@@ -23,8 +23,8 @@ struct Lessons {
 /// What a file of format saca.forecasts/1 holds of sequences to be trained with.
 /// @param held_out  what the network must not see; its teachers must not have seen it either
 /// @return  a lesson for each sequence, without frames where the file has none of it. Malformed
-///          where it has none at all, or forecasts of one that is held out: each part is foretold
-///          by who has learnt from all others, so that those of the rest have learnt from this one
+///          where it has none at all, or predictions of one that is held out: whoever predicts each
+///          part from all others has learnt from that one when it predicts the rest
 [[nodiscard]] Result<Lessons> read_lessons(const std::filesystem::path& path,
                                            std::span<const learn::Sequence> sequences,
                                            std::span<const learn::Sequence> held_out);
