@@ -25,7 +25,7 @@ NUMBERS = ("harm", "regret", "harm_over_aeb", "contact", "right", "materially_wo
            "false_triggers", "regret_over_aeb", "cache_hit_rate", "memory_hit_rate", "agrees_with_driver")
 
 
-ORDER = ("saca", "saca_no_memory", "saca_no_model", "saca_untuned", "saca_unaware", "saca_no_cues", "saca_at_t1", "saca_full_braking", "saca_paper",
+ORDER = ("saca", "saca_no_memory", "saca_no_model", "saca_untuned", "saca_unaware", "saca_no_reach", "saca_no_cues", "saca_at_t1", "saca_full_braking", "saca_paper",
          "saca_paper_at_once", "saca_paper_untuned", "saca_paper_unaware", "saca_paper_no_facts", "saca_paper_no_facts_at_once", "aeb", "r157", "cc_driver", "fsm", "rss", "rss_steering", "imitation", "random", "nothing", "first_forecast",
          "newest_forecast", "going_on_atlas", "least_danger", "least_joint_danger", "beliefs_atlas", "beliefs_rolled_out", "beliefs_drawn",
          "beliefs_and_danger", "beliefs_and_experience", "beliefs_and_grip", "beliefs_and_followers",

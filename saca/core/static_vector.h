@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <type_traits>
@@ -40,6 +41,10 @@ class StaticVector {
   [[nodiscard]] constexpr const T* end() const { return items_.data() + size_; }
   [[nodiscard]] constexpr T* begin() { return items_.data(); }
   [[nodiscard]] constexpr T* end() { return items_.data() + size_; }
+
+  [[nodiscard]] friend constexpr bool operator==(const StaticVector& a, const StaticVector& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end());
+  }
 
  private:
   std::array<T, capacity_> items_{};

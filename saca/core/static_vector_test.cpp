@@ -23,6 +23,20 @@ TEST(StaticVector, RefusesOneTooManyAndReadingPastTheEnd) {
   EXPECT_THROW((void)numbers[1], ContractViolation);
 }
 
+TEST(StaticVector, IsEqualByWhatItHolds) {
+  StaticVector<int, 3> one;
+  StaticVector<int, 3> other;
+  one.push_back(4);
+  other.push_back(4);
+  other.push_back(5);
+  EXPECT_FALSE(one == other);
+  one.push_back(5);
+  EXPECT_TRUE(one == other);
+  one.clear();
+  other.clear();
+  EXPECT_TRUE(one == other) << "what was held counts no more";
+}
+
 TEST(StaticVector, IsTriviallyCopyable) {
   EXPECT_TRUE((std::is_trivially_copyable_v<StaticVector<double, 8>>));
 }

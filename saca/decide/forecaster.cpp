@@ -230,4 +230,9 @@ Verdict Forecaster::judge_as_seen(const Scene& scene, const intent::Beliefs& bel
   return verdict;
 }
 
+Judge judge_with(const preview::ForecastTools& tools) {
+  return
+      [forecaster = Forecaster(tools)](const auto&... seen) { return forecaster.judge(seen...); };
+}
+
 }  // namespace saca::decide

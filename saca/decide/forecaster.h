@@ -29,6 +29,8 @@ struct UnderWay {
   world::EgoState ego;  ///< then
   world::Road road;     ///< likewise
   double grip = 0.9;    ///< as it was believed then [-]
+
+  bool operator==(const UnderWay&) const = default;
 };
 
 /// What makes verdicts: as Forecaster::judge. May throw.
@@ -102,5 +104,8 @@ class Forecaster {
   preview::ForecastTools tools_;
   std::size_t num_draws_;
 };
+
+/// A Forecaster as a judge.
+[[nodiscard]] Judge judge_with(const preview::ForecastTools& tools);
 
 }  // namespace saca::decide

@@ -209,17 +209,18 @@ Episode Curriculum::play(const SuiteEncounter& encounter) {
   const loop::Stage stage = stage_of(world, encounter.number, how, setup_.saca, *setup_.intent);
   try {
     Hindsight hindsight(*stage.car, *stage.harm);
+    const runtime::PlanesSetup shared = with_shared_verdicts(setup_.saca);
     std::vector<std::unique_ptr<loop::Method>> methods;
     std::vector<const loop::SacaMethod*> learners;
     for (const Learner who : all_learners) {
-      runtime::PlanesSetup saca = setup_.saca;
+      runtime::PlanesSetup saca = shared;
       saca.memory = &of(who);
       auto method = std::make_unique<loop::SacaMethod>(saca, *setup_.intent);
       learners.push_back(method.get());
       methods.push_back(std::move(method));
     }
     for (const char* const name : {"beliefs_drawn", "beliefs_and_experience", "aeb"}) {
-      methods.push_back(make_method(name, {.saca = setup_.saca,
+      methods.push_back(make_method(name, {.saca = shared,
                                            .hindsight = &hindsight,
                                            .intent = setup_.intent,
                                            .experience = &of(Learner::learning).experience(),

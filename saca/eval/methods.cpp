@@ -7,6 +7,7 @@
 
 #include "saca/core/contract.h"
 #include "saca/decide/forecaster.h"
+#include "saca/decide/verdict_memo.h"
 #include "saca/eval/at_trigger.h"
 #include "saca/eval/danger_choice.h"
 #include "saca/eval/driver_models.h"
@@ -30,7 +31,7 @@ using manoeuvre::PolicyId;
 using preview::JointMotion;
 using preview::Physics;
 
-constexpr std::array<MethodInfo, 39> infos{{
+constexpr std::array<MethodInfo, 40> infos{{
     {"saca", "SACA",
      "The shipped planes: a cached plan that matches and is admissible, else what the verdict "
      "speaks "
@@ -44,6 +45,10 @@ constexpr std::array<MethodInfo, 39> infos{{
     {"saca_unaware", "SACA without scenario awareness",
      "As SACA; no intention is recognised, so that all are taken to go on as they do, and no risk "
      "(V_h) stands in prompts."},
+    {"saca_no_reach", "SACA without reachability",
+     "As SACA; the language model is not told how dangerous each road user is (V_h), which nothing "
+     "else that SACA decides by asks.",
+     false, Needs::model},
     {"saca_no_cues", "SACA, cues not reckoned with",
      "As SACA; it reckons only with who is seen, whatever the place."},
     {"saca_at_t1", "SACA, never before T1",
@@ -283,13 +288,15 @@ runtime::PlanesSetup planes_of(std::string_view name, const MethodTools& tools) 
   planes.guard = name.starts_with("saca_paper") ? decide::Guard::none
                                                 : decide::Guard::never_worse_than_braking;
   planes.asking = {.facts = name.find("_no_facts") == std::string_view::npos,
-                   .risks = !name.ends_with("_unaware"),
+                   .risks = !name.ends_with("_unaware") && name != "saca_no_reach",
                    .reasoning = !name.ends_with("_at_once")};
   if (name == "saca_full_braking") {
     planes.forecast.braking = preview::Braking::full;
+    planes.judge = {};  // that of `tools` judges other plans
   }
   if (name == "saca_no_cues") {
     planes.forecast.cues = nullptr;
+    planes.judge = {};  // that of `tools` reckons with them
   }
   if (name == "saca_at_t1") {
     planes.thresholds.waiting_cost.reset();
@@ -439,6 +446,12 @@ const MethodInfo* find_method(std::string_view name) {
   const auto* const found = std::find_if(infos.begin(), infos.end(),
                                          [&](const MethodInfo& info) { return info.name == name; });
   return found == infos.end() ? nullptr : found;
+}
+
+runtime::PlanesSetup with_shared_verdicts(runtime::PlanesSetup saca) {
+  saca.judge =
+      decide::memoised(saca.judge ? std::move(saca.judge) : decide::judge_with(saca.forecast));
+  return saca;
 }
 
 std::unique_ptr<Method> make_method(std::string_view name, const MethodTools& tools) {

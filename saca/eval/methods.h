@@ -31,6 +31,10 @@ struct MethodInfo {
 /// nullptr: there is none of that name.
 [[nodiscard]] const MethodInfo* find_method(std::string_view name);
 
+/// The setup for the methods of one encounter, one after the other: verdicts that several would
+/// work out alike are worked out once (decide::memoised).
+[[nodiscard]] runtime::PlanesSetup with_shared_verdicts(runtime::PlanesSetup saca);
+
 /// What methods are made with, for one encounter. What it points to outlives them.
 struct MethodTools {
   runtime::PlanesSetup saca;       ///< of SACA, with its memory and model, which are only asked;

@@ -31,9 +31,10 @@ Played play(const sim::Scenario& scenario, std::uint64_t number, const SuiteOpti
   const loop::Stage stage = stage_of(world, number, options, saca, intent);
   try {
     Hindsight hindsight(*saca.forecast.car, *saca.forecast.harm);
+    const runtime::PlanesSetup shared = with_shared_verdicts(saca);
     std::vector<std::unique_ptr<loop::Method>> methods;
     for (const std::string& name : options.methods) {
-      methods.push_back(make_method(name, {.saca = saca,
+      methods.push_back(make_method(name, {.saca = shared,
                                            .hindsight = &hindsight,
                                            .intent = &intent,
                                            .danger = options.danger,

@@ -16,6 +16,8 @@ struct Belief {
   std::array<IntentPosterior, horizons.size()> at;  ///< at[h]: `horizons[h]` from now
 
   [[nodiscard]] const IntentPosterior& now() const { return at.front(); }
+
+  bool operator==(const Belief&) const = default;
 };
 
 /// One per actor of a scene, in its order. Trivially copyable: it crosses between the planes with

@@ -15,9 +15,7 @@ constexpr Clock::Time breath = std::chrono::milliseconds(200);  // plans change 
 
 PlanesSetup with_judge(PlanesSetup setup) {
   if (!setup.judge) {
-    setup.judge = [forecaster = decide::Forecaster(setup.forecast)](const auto&... seen) {
-      return forecaster.judge(seen...);
-    };
+    setup.judge = decide::judge_with(setup.forecast);
   }
   return setup;
 }

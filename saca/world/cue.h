@@ -33,6 +33,8 @@ constexpr const char* cue_kind_words =
 struct Cue {
   CueKind kind = CueKind::parked_vans;
   Vec2 p_W;  ///< where what it stands for would come from [m]
+
+  bool operator==(const Cue&) const = default;
 };
 
 constexpr std::size_t max_cues = 4;

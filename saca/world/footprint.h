@@ -24,6 +24,8 @@ struct Footprint {
   double length = 0.0;    ///< along x_B [m], > 0
   double width = 0.0;     ///< along y_B [m], > 0; a segment has none: 0, and not used
   double centre_x = 0.0;  ///< of the shape's centre ahead of the body's origin [m]
+
+  bool operator==(const Footprint&) const = default;
 };
 
 /// Half its extent along x_B and y_B about the shape's centre [m].

@@ -41,6 +41,8 @@ struct Road {
   Beyond right_beyond = Beyond::unmarked;
   bool oncoming_left = false;   ///< the lane to the left belongs to oncoming traffic
   bool oncoming_right = false;  ///< likewise to the right
+
+  bool operator==(const Road&) const = default;
 };
 
 /// A pose along the road: s [m] from X_WL along the centre line, d [m] to the left of it, heading

@@ -33,6 +33,8 @@ struct SharedControls {
   std::optional<double> steering;  ///< mean angle of the steered road wheels, left positive [rad]
   std::optional<double> throttle;  ///< pedal, 0 to 1
   std::optional<double> brake;     ///< likewise; brake lights: 0 or 1
+
+  bool operator==(const SharedControls&) const = default;
 };
 
 /// A road user or obstacle as perceived: nobody has true states.
@@ -51,6 +53,8 @@ struct Actor {
   double age = 0.0;          ///< since it was last measured [s], >= 0
   bool occluded = false;     ///< not seen now; the state is a prediction
   SharedControls shared;     ///< of most nothing is known
+
+  bool operator==(const Actor&) const = default;
 };
 
 /// "car1", "pedestrian2": the only names that reach a prompt.
@@ -66,6 +70,8 @@ struct EgoState {
   Vec2 v_B;               ///< over ground [m/s]
   double yaw_rate = 0.0;  ///< [rad/s]
   Vec2 a_B;               ///< [m/s^2]
+
+  bool operator==(const EgoState&) const = default;
 };
 
 constexpr std::size_t max_actors = 32;
@@ -82,6 +88,8 @@ struct Scene {
   double grip = 0.9;                 ///< best estimate of the friction coefficient [-], in (0, 1.2]
   double grip_sd = 0.0;              ///< its standard deviation [-], >= 0
   StaticVector<Cue, max_cues> cues;  ///< what makes the unseen likelier
+
+  bool operator==(const Scene&) const = default;
 };
 
 /// @return  the first rule of a scene that is broken, in words: numbers of what there is on roads,
