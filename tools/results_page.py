@@ -162,8 +162,8 @@ def scenes_section(runs):
             "The map is of `saca whatif intersection_t1 --at-s 5 --vary truck.distance_m=10:24:0.5 --vary ego.speed_mps=8:18:0.5`: nearer or faster "
             "than printed the drift to the right of the paper is best.", "",
             "*Follower*: as in the paper's Fig. 5, policy 4 is right: braking is run into from behind. *Late truck*: harm and the paper's loss "
-            "weigh a blow differently: near a corner it moves the occupants less than through the middle of the rear.", "",
-            f"Risk in the one-way scene, foretold for the trigger: R = {risks_of(one_way)} (the paper has 0.78 for the obstacle ahead, 0.47 for the "
+            "weigh an impact differently: near a corner it moves the occupants less than through the middle of the rear.", "",
+            f"Risk in the one-way scene, predicted for the trigger: R = {risks_of(one_way)} (the paper has 0.78 for the obstacle ahead, 0.47 for the "
             "other; where that one stands is our assumption).", of_runs(*(runs[run] for run, _ in SCENES), one_way)]
 
 
@@ -254,7 +254,7 @@ def intentions_section(runs):
             "each frame by itself; the likeliest path of the chain takes none). The rule is that of the labels as the motion comes in.", "",
             "Gradient-boosted trees on the same windows find acts sooner and have a higher macro F1, with more false alarms; the LSTM without its chain "
             "has a little more of both (decisions/0015; `tools/intention.sh` measures both).", "",
-            "![Who was what, and what was foretold](intention/confusion.svg)", "",
+            "![Who was what, and what was predicted](intention/confusion.svg)", "",
             table(["now", "acts found", "recall of their frames: first 0.3 s", "to 0.6 s", "to 1 s", "to 2 s", "later"], found), "",
             "Labels know the end of an act at its first frame, a stream does not: what is missed are mostly the first 0.6 s.", "",
             "![A lane change, by a model that has not seen it](intention/lane_change.svg)", "![Two brakings and a stop](intention/braking.svg)", "",
@@ -414,7 +414,7 @@ def reach_section(runs):
                     number(bench, f"{head}seconds.t{threads[-1]}", 2)])
     lines = [(f"a parked car in four dimensions, {number(bench, 'reach.avoid4d.points', 0)} points, 4 s, grip 0.9, seen from the ego (aim 60 s, 1 GiB)",
               f"{number(bench, 'reach.avoid4d.seconds', 0)} s, {number(bench, 'reach.avoid4d.ns_per_point_stage', 1)} ns per point and stage"),
-             (f"its memory, whole process (foretold {number(bench, 'reach.avoid4d.foretold_mib', 0)} MiB)",
+             (f"its memory, whole process (predicted {number(bench, 'reach.avoid4d.foretold_mib', 0)} MiB)",
               f"{number(bench, 'reach.avoid4d.peak_mib', 0)} MiB, {number(bench, 'reach.avoid4d.bytes_per_point', 0)} bytes per point"),
              ("look-up in a table, p50 / p99 of states drawn at random", percentiles(bench, "reach.lookup_us", digits=2) + " us"),
              ("danger of a meeting that the tables hold, p50 / p99 (aim 0.5)", percentiles(bench, "reach.risk_us", digits=2) + " us"),

@@ -34,7 +34,7 @@ function close_up(record) {
     text: `The contact from near, the ego heading to the right; the faces that met are drawn bold. ${change_words(contact)}` }));
 }
 
-/** What the blow did to both. */
+/** What the impact did to both. */
 function change_words(contact) {
   const known = [["ego", contact.ego_delta_v_mps], [contact.with, contact.other_delta_v_mps]].filter(([name, v]) => name !== "edge" && is_number(v));
   return known.length ? `Change of velocity: ${known.map(([name, v]) => `${name} ${num(v, 1, "m/s")}`).join(", ")}.` : "";

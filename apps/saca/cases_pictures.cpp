@@ -9,7 +9,7 @@
 
 #include "apps/saca/pictures.h"
 #include "saca/crash_records/record_family.h"
-#include "saca/eval/moment.h"
+#include "saca/eval/decision_point.h"
 #include "saca/manoeuvre/ego.h"
 #include "saca/preview/expected_harm.h"
 
@@ -22,7 +22,7 @@ using manoeuvre::PolicyId;
 /// The instant from which the pictures go on.
 struct ShownMoment {
   std::unique_ptr<sim::Scenario> scenario;  ///< that the moment refers to; of a recording none
-  eval::Moment moment;
+  eval::DecisionPoint point;
 };
 
 /// Of an encounter that was drawn the truth, of a recording what was perceived, all going on.
@@ -30,7 +30,7 @@ Result<ShownMoment> shown_moment(const CrashCase& one, const Inputs& inputs) {
   if (!one.kind) {
     ShownMoment shown;
     const world::Scene& scene = one.judged.one.scene;
-    shown.moment = {
+    shown.point = {
         .scene = scene,
         .others = [tracks = preview::all_going_on(scene).tracks](const auto&...) { return tracks; },
         .grip = one.grip};
@@ -41,7 +41,7 @@ Result<ShownMoment> shown_moment(const CrashCase& one, const Inputs& inputs) {
     return again.error();
   }
   ShownMoment shown{.scenario = std::make_unique<sim::Scenario>(std::move(again).value().scenario),
-                    .moment = {}};
+                    .point = {}};
   const auto time = eval::trigger_time(*shown.scenario, inputs.car);
   if (!time) {
     return Error{Error::Code::out_of_range,
@@ -49,7 +49,7 @@ Result<ShownMoment> shown_moment(const CrashCase& one, const Inputs& inputs) {
                      ": want an encounter in which the trigger fires; is the car "
                      "another one than it was drawn for?"};
   }
-  shown.moment = eval::moment_at(*shown.scenario, inputs.car, *time);
+  shown.point = eval::decision_point_at(*shown.scenario, inputs.car, *time);
   return shown;
 }
 
@@ -177,21 +177,20 @@ Result<report::GalleryCard> case_card(const CrashCase& one, const Inputs& inputs
   if (!shown.has_value()) {
     return shown.error();
   }
-  const eval::Moment& moment = shown.value().moment;
-  const auto tried =
-      std::move(loop::all_plans_tried({&moment, 1}, inputs.car, inputs.harm).front());
+  const eval::DecisionPoint& point = shown.value().point;
+  const auto tried = std::move(loop::all_plans_tried({&point, 1}, inputs.car, inputs.harm).front());
   report::GalleryCard card{.title = title_of(one), .lines = {without_text(one)}};
   card.lines.push_back(fmt::format("{:.1f} m/s, grip {:.2f}; best over the draws: {}.",
-                                   norm(moment.scene.ego.v_B), one.grip,
+                                   norm(point.scene.ego.v_B), one.grip,
                                    plan_text(one.judged.one.plan)));
-  card.done = view_of(moment.scene, tried_plan(tried, manoeuvre::doing_nothing));
+  card.done = view_of(point.scene, tried_plan(tried, manoeuvre::doing_nothing));
   card.done.title = one.kind ? "Without avoidance" : "Without avoidance, all going on";
   if (!one.kind) {
     card.lines.emplace_back(
         "The pictures show the scene as it was perceived at the trigger, all others going on as "
         "they did then: how they really moved is in the recording, not in the case.");
   }
-  card.best = view_of(moment.scene, tried_plan(tried, one.judged.one.plan));
+  card.best = view_of(point.scene, tried_plan(tried, one.judged.one.plan));
   card.best.title = "Best: " + plan_text(one.judged.one.plan);
   card.tables = {harms_table(one)};
   card.folded = {facts_table(one)};

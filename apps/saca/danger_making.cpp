@@ -25,7 +25,7 @@
 #include "saca/danger/network.h"
 #include "saca/manoeuvre/ego.h"
 #include "saca/reach/car_limits.h"
-#include "saca/reach/danger_set.h"
+#include "saca/reach/danger_cases.h"
 #include "saca/reach/solve.h"
 #include "saca/reach/value_file.h"
 #include "saca/sim/traffic.h"
@@ -39,9 +39,9 @@ using reach::Solved;
 constexpr double table_grip = 0.9;  // dry: all others follow by scaling
 
 /// Bodies of all actors, each with the highest speed that it has while the ego stands at its start.
-std::vector<reach::ToBeJudged> to_be_judged(const sim::Scenario& scenario,
-                                            const world::Footprint& ego) {
-  std::vector<reach::ToBeJudged> found;
+std::vector<reach::ObstacleKind> to_be_judged(const sim::Scenario& scenario,
+                                              const world::Footprint& ego) {
+  std::vector<reach::ObstacleKind> found;
   const auto note = [&](const world::Actor& actor) {
     found.push_back({actor.footprint, norm(actor.v_W)});
   };
@@ -115,7 +115,7 @@ Result<Solved> solved_now(const reach::DangerCase& wanted) {
 }  // namespace
 
 Result<std::vector<reach::DangerCase>> tables_for(const Inputs& inputs, double grip,
-                                                  const std::vector<reach::ToBeJudged>& bodies) {
+                                                  const std::vector<reach::ObstacleKind>& bodies) {
   auto cases = reach::danger_cases(reach::avoidance_of(inputs.car, table_grip),
                                    manoeuvre::footprint(inputs.car), grip, bodies);
   if (!cases.has_value()) {
@@ -222,7 +222,7 @@ Result<reach::DangerModel> danger_of_drawn(const Inputs& inputs, bool with_table
   const auto box = [](double length, double width) {
     return world::Footprint{.length = length, .width = width};
   };
-  std::vector<reach::ToBeJudged> bodies;  // with the speeds that tables reach
+  std::vector<reach::ObstacleKind> bodies;  // with the speeds that tables reach
   if (with_tables) {
     bodies = {{box(0.5, 0.5), 4.0},
               {box(4.5, 1.8), 30.0},

@@ -7,7 +7,7 @@
 #include "apps/saca/inputs.h"
 #include "saca/core/result.h"
 #include "saca/reach/danger.h"
-#include "saca/reach/danger_set.h"
+#include "saca/reach/danger_cases.h"
 #include "saca/reach/solve.h"
 
 namespace saca::app {
@@ -15,7 +15,7 @@ namespace saca::app {
 /// The tables that these bodies need on this grip or more.
 /// @return  an error naming the car where it is beyond what a table may hold
 [[nodiscard]] Result<std::vector<reach::DangerCase>> tables_for(
-    const Inputs& inputs, double grip, const std::vector<reach::ToBeJudged>& bodies);
+    const Inputs& inputs, double grip, const std::vector<reach::ObstacleKind>& bodies);
 
 /// The tables that the scenario's actors need.
 /// @return  an error naming the car where it is beyond what a table may hold

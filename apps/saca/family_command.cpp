@@ -12,7 +12,7 @@
 #include "apps/saca/printing.h"
 #include "apps/saca/within.h"
 #include "saca/core/file.h"
-#include "saca/eval/moment.h"
+#include "saca/eval/decision_point.h"
 #include "saca/eval/suite_source.h"
 #include "saca/manoeuvre/ego.h"
 #include "saca/outcome/describe.h"
@@ -41,14 +41,15 @@ struct FamilyCommand {
 report::SceneView thumbnail(const sim::Scenario& scenario, const std::vector<sim::DrawnCue>& cues,
                             const Inputs& inputs) {
   const auto trigger = eval::trigger_time(scenario, inputs.car);
-  const eval::Moment moment = eval::moment_at(scenario, inputs.car, trigger.value_or(0.0));
-  const auto tried = loop::hindsight(moment, inputs.car, inputs.harm);
+  const eval::DecisionPoint point =
+      eval::decision_point_at(scenario, inputs.car, trigger.value_or(0.0));
+  const auto tried = loop::hindsight(point, inputs.car, inputs.harm);
   report::SceneView view =
-      view_of(moment.scene, tried[manoeuvre::index(manoeuvre::PolicyId::no_intervention)]);
+      view_of(point.scene, tried[manoeuvre::index(manoeuvre::PolicyId::no_intervention)]);
   view.policy = std::nullopt;
   view.title = scenario.name;
   view.lines.insert(view.lines.begin(),
-                    fmt::format("{:.1f} m/s, grip {:.2f}{}", norm(moment.scene.ego.v_B),
+                    fmt::format("{:.1f} m/s, grip {:.2f}{}", norm(point.scene.ego.v_B),
                                 scenario.grip, trigger ? "" : "; never triggers"));
   for (std::size_t k = 0; k < cues.size(); ++k) {
     const Vec2 p_W = scenario.cues[k].p_W;

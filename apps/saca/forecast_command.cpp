@@ -490,7 +490,7 @@ void add_encounter_options(CLI::App& command, SuiteCommandOptions& from) {
 
 void add_forecast(CLI::App& line, int& exit_code) {
   CLI::App* const forecast =
-      line.add_subcommand("forecast", "How well it is foretold where road users will be");
+      line.add_subcommand("forecast", "How well it is predicted where road users will be");
   forecast->require_subcommand(1);
   add_forecast_eval(*forecast, exit_code);
   add_forecast_show(*forecast, exit_code);

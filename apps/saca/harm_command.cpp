@@ -71,7 +71,7 @@ int harm(const HarmOptions& options) {
                    {"harm", table_json(harms)}};
     app::print_json(out);
   } else {
-    app::print("From {}. Probabilities are what is due to the blow.\n", file.string());
+    app::print("From {}. Probabilities are what is due to the impact.\n", file.string());
     print_table("probability", risks, speeds);
     print_table("weighted harm of one person", harms, speeds);
   }

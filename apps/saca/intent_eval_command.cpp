@@ -19,7 +19,7 @@
 #include "saca/learn/displacement.h"
 #include "saca/learn/evaluation.h"
 #include "saca/learn/forecast_file.h"
-#include "saca/learn/foretell.h"
+#include "saca/learn/predict.h"
 #include "saca/learn/sequence_file.h"
 #include "saca/report/intention_chart.h"
 
@@ -144,7 +144,8 @@ ModelsByLeftOut without_chains(ModelsByLeftOut models) {
 
 std::optional<Error> add_unseen(Comparison& comparison, const std::string& method,
                                 const ModelsByLeftOut& models, const Scored& scored) {
-  auto forecasts = learn::foretold_unseen(models, scored.sequences, scored.splits, usual_threads());
+  auto forecasts =
+      learn::predicted_unseen(models, scored.sequences, scored.splits, usual_threads());
   if (!forecasts.has_value()) {
     return forecasts.error();
   }
@@ -159,7 +160,8 @@ std::optional<Error> compare_recorded(const EvalOptions& options, const ModelsBy
     return problem;
   }
   const Scored closed = nothing_shared(scored);
-  auto of_closed = learn::foretold_unseen(models, closed.sequences, closed.splits, usual_threads());
+  auto of_closed =
+      learn::predicted_unseen(models, closed.sequences, closed.splits, usual_threads());
   if (!of_closed.has_value()) {
     return of_closed.error();
   }
@@ -169,19 +171,19 @@ std::optional<Error> compare_recorded(const EvalOptions& options, const ModelsBy
     if (!plain.has_value()) {
       return plain.error();
     }
-    const auto forecasts = learn::foretold_unseen(without_chains(plain.value()), scored.sequences,
-                                                  scored.splits, usual_threads());
+    const auto forecasts = learn::predicted_unseen(without_chains(plain.value()), scored.sequences,
+                                                   scored.splits, usual_threads());
     if (!forecasts.has_value()) {
       return forecasts.error();
     }
     comparison.add("LSTM without CRF",
                    learn::cross_calibrated(scored.sequences, scored.splits, forecasts.value()));
   }
-  const auto by = [&](auto&& foretell) {
+  const auto by = [&](auto&& predict) {
     std::vector<Forecasts> all;
     all.reserve(scored.sequences.size());
     for (const Sequence& sequence : scored.sequences) {
-      all.push_back(foretell(sequence));
+      all.push_back(predict(sequence));
     }
     return all;
   };
@@ -218,7 +220,7 @@ std::vector<Comparison> compare_transfer(const ModelsByLeftOut& models,
     Comparison comparison("Transfer: " + left_out, *scored, learn::recorded_classes, seed);
     if (!add_unseen(comparison, "its site seen", models, *scored)) {
       comparison.add("its site never seen",
-                     learn::foretold(model, scored->sequences, usual_threads()));
+                     learn::predicted(model, scored->sequences, usual_threads()));
       all.push_back(std::move(comparison));
       kept.push_back(std::move(scored));
     }
@@ -265,7 +267,7 @@ int evaluate(EvalOptions options) {
     comparisons.emplace_back("Simulated vehicles (LB, RB)", simulated, learn::simulated_classes,
                              options.seed);
     comparisons.back().add("LSTM-CRF",
-                           learn::foretold(whole->second, simulated.sequences, usual_threads()));
+                           learn::predicted(whole->second, simulated.sequences, usual_threads()));
   }
   std::vector<std::unique_ptr<Scored>> kept;
   for (Comparison& each : compare_transfer(models.value(), set.value(), kept, options.seed)) {

@@ -26,27 +26,28 @@ json interval_json(const std::optional<Interval>& interval) {
              : json();
 }
 
-json warnings_json(const learn::Warnings& warnings) {
-  return {{"events", warnings.events()},
-          {"share_warned", number(warnings.share_warned())},
-          {"lower_quartile_s", number(warnings.quantile(0.25))},
-          {"median_s", number(warnings.quantile(0.5))},
-          {"upper_quartile_s", number(warnings.quantile(0.75))}};
+json lead_times_json(const learn::LeadTimes& lead_times) {
+  return {{"events", lead_times.events()},
+          {"share_warned", number(lead_times.share_predicted())},
+          {"lower_quartile_s", number(lead_times.quantile(0.25))},
+          {"median_s", number(lead_times.quantile(0.5))},
+          {"upper_quartile_s", number(lead_times.quantile(0.75))}};
 }
 
-json acts_json(const learn::ActsFound& found) {
+json events_json(const learn::ManoeuvreEventsFound& found) {
   json all = json::object();
   for (std::size_t k = 1; k < learn::num_vehicle_classes; ++k) {
     json recalls = json::array();
-    for (std::size_t a = 0; a < learn::ActsFound::ages.size(); ++a) {
-      const learn::ActsFound::Share& frames = found.of[k].frames[a];
-      recalls.push_back({{"from_s", learn::ActsFound::ages[a]},
+    for (std::size_t a = 0; a < learn::ManoeuvreEventsFound::ages.size(); ++a) {
+      const learn::ManoeuvreEventsFound::Share& frames = found.of[k].frames[a];
+      recalls.push_back({{"from_s", learn::ManoeuvreEventsFound::ages[a]},
                          {"frames", frames.num},
                          {"recall", number(frames.share())}});
     }
-    all[std::string(name(static_cast<intent::Intention>(k)))] = {{"acts", found.of[k].acts.num},
-                                                                 {"found", found.of[k].acts.found},
-                                                                 {"recall_by_age", recalls}};
+    all[std::string(name(static_cast<intent::Intention>(k)))] = {
+        {"acts", found.of[k].events.num},
+        {"found", found.of[k].events.found},
+        {"recall_by_age", recalls}};
   }
   return all;
 }
@@ -85,11 +86,11 @@ json row_json(const Row& row) {
   }
   return {{"method", row.method},
           {"heads", heads},
-          {"warning_before_line", warnings_json(row.figures.lane_changes)},
-          {"warning_before_braking", warnings_json(row.figures.brakings)},
+          {"warning_before_line", lead_times_json(row.figures.lane_changes)},
+          {"warning_before_braking", lead_times_json(row.figures.brakings)},
           {"false_alarms_per_hour", number(row.figures.alarms.per_hour())},
           {"hours", row.figures.alarms.hours},
-          {"acts", acts_json(row.figures.acts)},
+          {"acts", events_json(row.figures.events)},
           {"illegal_steps", row.figures.illegal_steps},
           {"ours_less_this", interval_json(row.macro_f1_difference[0])}};
 }
@@ -120,7 +121,7 @@ void tell_table(const std::string& title, const std::vector<Row>& rows) {
 void tell_confusion(const Row& row) {
   for (std::size_t head = 0; head < learn::num_heads; ++head) {
     const learn::Confusion& confusion = row.figures.tallies[head].confusion;
-    app::print("\n{}, {:.1f} s ahead: truth in rows, foretold in columns\n{:>8}", row.method,
+    app::print("\n{}, {:.1f} s ahead: truth in rows, predicted in columns\n{:>8}", row.method,
                intent::horizons[head], "");
     for (std::size_t k = 0; k < learn::num_vehicle_classes; ++k) {
       app::print("{:>8}", name(static_cast<intent::Intention>(k)));
@@ -155,15 +156,15 @@ void tell_acts(const Row& row) {
   app::print("\n{}, now: acts found, and recall of their frames by the age of the act [s]\n{:8}",
              row.method, "");
   app::print("{:>16}", "acts found");
-  for (const double age : learn::ActsFound::ages) {
+  for (const double age : learn::ManoeuvreEventsFound::ages) {
     app::print("{:>8}", fmt::format("{:.1f}-", age));
   }
   app::print("\n");
   for (std::size_t k = 1; k < learn::num_vehicle_classes; ++k) {
-    const auto& found = row.figures.acts.of[k];
+    const auto& found = row.figures.events.of[k];
     app::print("{:>8}{:>16}", name(static_cast<intent::Intention>(k)),
-               fmt::format("{} of {}", found.acts.found, found.acts.num));
-    for (const learn::ActsFound::Share& frames : found.frames) {
+               fmt::format("{} of {}", found.events.found, found.events.num));
+    for (const learn::ManoeuvreEventsFound::Share& frames : found.frames) {
       app::print("{:>8}", cell(frames.share(), 2));
     }
     app::print("\n");

@@ -13,7 +13,7 @@
 /// The figures of `saca intent eval` as tables and as JSON (schema saca.intent_eval/1).
 namespace saca::app {
 
-/// One way to foretell and its figures.
+/// One way to predict and its figures.
 struct Row {
   std::string method;
   learn::Figures figures;

@@ -18,7 +18,7 @@
 #include "saca/core/file.h"
 #include "saca/core/parallel.h"
 #include "saca/intent/intention.h"
-#include "saca/learn/foretell.h"
+#include "saca/learn/predict.h"
 #include "saca/learn/sequence_file.h"
 #include "saca/report/intention_chart.h"
 #include "saca/report/intention_page.h"
@@ -117,7 +117,7 @@ int show(const ShowOptions& options) {
     if (!model.has_value()) {
       return refused(model.error());
     }
-    forecasts = learn::foretold(model.value(), sequences, usual_threads());
+    forecasts = learn::predicted(model.value(), sequences, usual_threads());
   }
   report::IntentionPage page{
       .title = "Intentions: drawn samples",

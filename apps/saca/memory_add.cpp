@@ -12,7 +12,7 @@
 #include "apps/saca/printing.h"
 #include "apps/saca/within.h"
 #include "saca/core/printable.h"
-#include "saca/eval/moment.h"
+#include "saca/eval/decision_point.h"
 #include "saca/memory/store.h"
 
 namespace saca::app {

@@ -145,7 +145,7 @@ void print_fit(const eval::ScaleFit& fit) {
     app::print("{:14} {:8.3f} {:8.3f}\n", one.name, memory::Scales{}.*one.value,
                fit.scales.*one.value);
   }
-  app::print("error of the harm foretold by like cases: {:.4f}, fitted {:.4f}\n", fit.error_before,
+  app::print("error of the harm predicted by like cases: {:.4f}, fitted {:.4f}\n", fit.error_before,
              fit.error);
 }
 
@@ -285,7 +285,7 @@ void add_memory_calibrate(CLI::App& memory, int& exit_code) {
                       "The curve as a picture, of --check where it is given");
   command->add_flag("--fit", options->fit,
                     "Fits the scales of what makes a difference between scenes instead");
-  command->add_option("--fit-scenes", options->fit_scenes, "How many are foretold in each try")
+  command->add_option("--fit-scenes", options->fit_scenes, "How many are predicted in each try")
       ->check(CLI::Range(10, 1'000'000))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Of what is drawn")->capture_default_str();

@@ -20,8 +20,8 @@ report::SceneView view_of(const world::Scene& scene, const loop::Hindsight& trie
     return view;
   }
   view.lines = {describe(facts.outcome(), scene)};
-  view.ego = tried.course.ego.track;
-  view.others = tried.course.others;
+  view.ego = tried.sequence.ego.track;
+  view.others = tried.sequence.others;
   if (facts.outcome().contact) {
     view.contacts.push_back(*facts.outcome().contact);
     view.contacts.insert(view.contacts.end(), facts.outcome().later.begin(),

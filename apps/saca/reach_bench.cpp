@@ -22,7 +22,7 @@
 #include "saca/core/percentile.h"
 #include "saca/manoeuvre/ego.h"
 #include "saca/reach/car_limits.h"
-#include "saca/reach/danger_set.h"
+#include "saca/reach/danger_cases.h"
 #include "saca/reach/own_systems.h"
 #include "saca/reach/solve.h"
 #include "saca/reach/solver.h"
@@ -321,7 +321,7 @@ Result<std::vector<reach::DangerTable>> two_tables(const reach::Avoidance& limit
                                                    const world::Footprint& ego,
                                                    const world::Footprint& other) {
   std::vector<reach::DangerTable> tables;
-  const std::array wanted{reach::ToBeJudged{other, 5.0}};
+  const std::array wanted{reach::ObstacleKind{other, 5.0}};
   const auto cases = reach::danger_cases(limits, ego, dry_grip, wanted);
   if (!cases.has_value()) {
     return cases.error();

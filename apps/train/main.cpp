@@ -140,7 +140,7 @@ Result<std::vector<ModelFile>> read_model_files(const fs::path& folder) {
   return files;
 }
 
-/// Of the recorded sequences, what models without calibration foretell that have not seen them.
+/// Of the recorded sequences, what models without calibration predict that have not seen them.
 Result<std::vector<learn::Forecasts>> unseen_forecasts(std::vector<ModelFile> files,
                                                        std::span<const Sequence> recorded,
                                                        std::span<const std::string> splits) {
@@ -153,10 +153,10 @@ Result<std::vector<learn::Forecasts>> unseen_forecasts(std::vector<ModelFile> fi
     }
     models.emplace(file.left_out, std::move(model).value());
   }
-  return learn::foretold_unseen(models, recorded, splits, usual_threads());
+  return learn::predicted_unseen(models, recorded, splits, usual_threads());
 }
 
-/// Calibrates each model of a folder on what models that had left a split out foretell of it: on
+/// Calibrates each model of a folder on what models that had left a split out predict of it: on
 /// all splits but the one, or sequences of all sites but the one, that it has left out itself.
 int calibrate_models(const Options& options) {
   const auto set = learn::read_sequences(options.sequences);

@@ -1,5 +1,5 @@
 // saca-train-places: from recordings and encounters of the tuning split to the weights that
-// foretell where vehicles go (eval/mixture_lstm.h).
+// predict where vehicles go (eval/mixture_lstm.h).
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -212,7 +212,7 @@ int train_places(const Options& options) {
 
 int main(int argc, char** argv) {
   train_program::begin(argv);
-  CLI::App app("Trains what foretells where vehicles go: a mixture density network, with libtorch");
+  CLI::App app("Trains what predicts where vehicles go: a mixture density network, with libtorch");
   Options options;
   app.add_option("--output", options.output, "safetensors file of the weights")->required();
   app.add_option("--data", options.data, "Folders with CommonRoad files of recorded traffic");

@@ -76,7 +76,7 @@ TEST_F(Learned, AddsTheMarginOfItsBin) {
 TEST_F(Learned, SeesHowTheEgoTurns) {
   // On a curve of 20 m the wheels are turned by atan(2.8 / 20).
   const reach::Motion turning{.yaw_rate = 15.0 / 20.0};
-  const double steering = std::atan((car_.front_arm + car_.rear_arm) / 20.0) / 0.2;
+  const double steering = std::atan((car_.cg_to_front_axle + car_.cg_to_rear_axle) / 20.0) / 0.2;
   EXPECT_NEAR(value()(ahead(6.0, 15.0), turning).value(),
               -6.0 + std::log1p(std::exp(0.75 + steering)) + 0.75, 1e-4);
   // Sliding at 60 degrees the body stands across its way: v_x is half of the speed.

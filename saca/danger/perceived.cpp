@@ -16,14 +16,15 @@ Ego perceived_ego(const manoeuvre::Car& car, const world::EgoState& ego) {
   constexpr double steers_from = 1.0;  // [m/s]
   const double speed = norm(ego.v_B);
   const double curvature = speed > steers_from ? ego.yaw_rate / speed : 0.0;
-  return {.X_WB = ego.X_WB,
-          .v_B = ego.v_B,
-          .yaw_rate = ego.yaw_rate,
-          .a_B = ego.a_B,
-          .steering = std::clamp(std::atan((car.front_arm + car.rear_arm) * curvature),
-                                 -car.steering_limit, car.steering_limit),
-          .braking = std::max(0.0, -ego.a_B.x),
-          .driving = std::max(0.0, ego.a_B.x)};
+  return {
+      .X_WB = ego.X_WB,
+      .v_B = ego.v_B,
+      .yaw_rate = ego.yaw_rate,
+      .a_B = ego.a_B,
+      .steering = std::clamp(std::atan((car.cg_to_front_axle + car.cg_to_rear_axle) * curvature),
+                             -car.steering_limit, car.steering_limit),
+      .braking = std::max(0.0, -ego.a_B.x),
+      .driving = std::max(0.0, ego.a_B.x)};
 }
 
 Obstacle perceived_obstacle(const reach::Meeting& meeting, const reach::Motion& motion,

@@ -34,7 +34,8 @@ TEST(PerceivedEgo, HasTheControlsThatItsMotionNeeds) {
   const manoeuvre::Car car = manoeuvre::default_car();
   constexpr double r = 50.0;
   const Ego turning = perceived_ego(car, {.v_B = {10.0, 0.0}, .yaw_rate = -10.0 / r, .a_B = {}});
-  EXPECT_NEAR(turning.steering, -std::atan((car.front_arm + car.rear_arm) / r), 1e-12);
+  EXPECT_NEAR(turning.steering, -std::atan((car.cg_to_front_axle + car.cg_to_rear_axle) / r),
+              1e-12);
   EXPECT_EQ(turning.braking, 0.0);
   const Ego braking = perceived_ego(car, {.v_B = {10.0, 0.0}, .a_B = {-4.0, 0.0}});
   EXPECT_EQ(braking.braking, 4.0);

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "saca/config/sealed_hdf5.h"
+#include "saca/config/checksummed_hdf5.h"
 
 namespace saca::danger {
 namespace {

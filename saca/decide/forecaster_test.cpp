@@ -117,7 +117,7 @@ TEST_F(ForecasterTest, JudgesTheRestOfWhatIsUnderWay) {
                                .road = start.road,
                                .known_grip = start.grip,
                                .grip = start.grip,
-                               .unknown = {}};
+                               .perturbation = {}};
   const manoeuvre::EgoMotion way = manoeuvre::drive_all({&drive, 1}, 10.0).front();
   constexpr std::size_t half = 100;  // 1 s
   Scene now = start;

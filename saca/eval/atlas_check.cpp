@@ -7,9 +7,9 @@
 #include "saca/core/percentile.h"
 #include "saca/manoeuvre/drive.h"
 #include "saca/manoeuvre/ego.h"
-#include "saca/outcome/blow.h"
 #include "saca/outcome/futures.h"
 #include "saca/outcome/harm.h"
+#include "saca/outcome/impact.h"
 #include "saca/outcome/outcome.h"
 #include "saca/outcome/roll_out.h"
 
@@ -167,17 +167,18 @@ LoneRegret lone_regret(std::span<const std::vector<AtlasRow>> scenes) {
 
 }  // namespace
 
-std::array<AtlasRow, num_checked> atlas_rows(const Moment& moment, const manoeuvre::Atlas& atlas,
+std::array<AtlasRow, num_checked> atlas_rows(const DecisionPoint& point,
+                                             const manoeuvre::Atlas& atlas,
                                              const manoeuvre::Car& car,
                                              const outcome::HarmModel& harm, std::uint64_t seed) {
-  world::Scene scene = moment.scene;
+  world::Scene scene = point.scene;
   scene.grip_sd = 0.0;
   for (world::Actor& actor : scene.actors) {
     actor.position_sd = 0.0;
     actor.velocity_sd = 0.0;
   }
   const manoeuvre::Plan going_on{manoeuvre::PolicyId::no_intervention, std::nullopt};
-  const auto tracks = moment.others(drive(car, going_on, scene, scene.grip, 20.0));
+  const auto tracks = point.others(drive(car, going_on, scene, scene.grip, 20.0));
   world::Scene doubtful = scene;
   doubtful.grip_sd = grip_sd_share * scene.grip;
   std::mt19937_64 rng(seed);
@@ -213,8 +214,8 @@ std::vector<AtlasRow> atlas_rows(const sim::Family& family, std::uint64_t seed,
   if (!time) {
     return {};
   }
-  const auto rows =
-      atlas_rows(moment_at(scenario, car, *time), atlas, car, harm, seed + 1'000'003 * number);
+  const auto rows = atlas_rows(decision_point_at(scenario, car, *time), atlas, car, harm,
+                               seed + 1'000'003 * number);
   return {rows.begin(), rows.end()};
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "saca/core/proportion.h"
-#include "saca/eval/moment.h"
+#include "saca/eval/decision_point.h"
 #include "saca/manoeuvre/atlas.h"
 #include "saca/sim/family.h"
 
@@ -46,7 +46,7 @@ constexpr std::size_t num_checked = manoeuvre::num_policies + manoeuvre::braking
 /// All of these begun at a moment, the others on the tracks that they would take while the ego goes
 /// on, known exactly; true grip is the believed one, but for drawn_contact.
 /// @param seed  of the drawn grips
-[[nodiscard]] std::array<AtlasRow, num_checked> atlas_rows(const Moment& moment,
+[[nodiscard]] std::array<AtlasRow, num_checked> atlas_rows(const DecisionPoint& point,
                                                            const manoeuvre::Atlas& atlas,
                                                            const manoeuvre::Car& car,
                                                            const outcome::HarmModel& harm,

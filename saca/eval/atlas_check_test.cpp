@@ -15,8 +15,8 @@ TEST(AtlasCheck, PutsAtlasAndPhysicsSideBySide) {
   sim::Scenario scenario = standing_car(12.5, 14.0);
   scenario.grip = 0.85;
   const manoeuvre::Car& car = manoeuvre::small_atlas_car();
-  const auto rows =
-      atlas_rows(moment_at(scenario, car, 0.5), manoeuvre::small_atlas(), car, shipped_harm());
+  const auto rows = atlas_rows(decision_point_at(scenario, car, 0.5), manoeuvre::small_atlas(), car,
+                               shipped_harm());
   const AtlasRow& going_on = rows[manoeuvre::index(PolicyId::no_intervention)];
   EXPECT_TRUE(going_on.told_contact && going_on.true_contact && going_on.same_partner);
   EXPECT_NEAR(going_on.speed_off, 0.0, 0.05);

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "saca/eval/crash_search.h"
-#include "saca/eval/moment.h"
+#include "saca/eval/decision_point.h"
 #include "saca/eval/scenes_for_test.h"
 
 namespace saca::eval::crash_case_test {

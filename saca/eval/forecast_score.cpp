@@ -102,7 +102,7 @@ ForecastSample sample_of(const Look& look, std::size_t i,
   ForecastSample sample{.who = actor_name(actor),
                         .time = look.seen.time,
                         .acts = norm(truth[after_two] - straight_on) > 1.0,
-                        .aside = !intent::is_walker(actor.kind) &&
+                        .aside = !intent::is_vru(actor.kind) &&
                                  std::abs(intent::line_of(look.seen, actor).lateral) > 0.5};
   for (const MotionModel model : motion_models) {
     const LikelyPlaces places = places_in(look, i, model);

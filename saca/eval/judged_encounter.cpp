@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "saca/decide/forecaster.h"
-#include "saca/eval/moment.h"
+#include "saca/eval/decision_point.h"
 #include "saca/eval/oracle.h"
 #include "saca/eval/trigger_case.h"
 #include "saca/loop/learnt_case.h"
@@ -54,22 +54,22 @@ std::optional<TriggerAsWritten> trigger_as_written(const sim::Scenario& scenario
   if (!time) {
     return std::nullopt;
   }
-  const Moment moment = moment_at(scenario, car, *time);
-  const outcome::Attempt nothing{manoeuvre::doing_nothing, &moment.scene, &moment.others,
-                                 moment.grip, moment.unknown};
+  const DecisionPoint point = decision_point_at(scenario, car, *time);
+  const outcome::Attempt nothing{manoeuvre::doing_nothing, &point.scene, &point.others, point.grip,
+                                 point.perturbation};
   const preview::RolledOut tried = std::move(preview::tried(car, {&nothing, 1}, harm).front());
   TriggerAsWritten found{.time = *time, .contact = std::nullopt};
   if (!tried.facts.drivable() || !tried.facts.outcome().contact) {
     return found;
   }
   const outcome::Contact& contact = *tried.facts.outcome().contact;
-  const auto& actors = moment.scene.actors;
+  const auto& actors = point.scene.actors;
   WithoutAvoidance without{
       .met = contact.actor ? world::actor_name(actors[*contact.actor]) : std::string("edge"),
       .ego_face = contact.ego_face,
       .other_face = contact.other_face,
       .relative_speed = contact.relative_speed,
-      .after = contact.time - moment.scene.time};
+      .after = contact.time - point.scene.time};
   without.first_actor = contact.actor && without.met == sim::actor_name(scenario.actors.front());
   found.contact = std::move(without);
   return found;

@@ -233,7 +233,8 @@ JointMotion true_motion(const loop::ClosedLoop& truth, const world::Scene& scene
 /// given.
 Action least_tried(const world::Scene& scene, std::span<const JointMotion> motions,
                    const std::function<outcome::Others(const JointMotion&)>& others, double grip,
-                   const manoeuvre::Unknown& unknown, const runtime::PlanesSetup& setup) {
+                   const manoeuvre::ParameterPerturbation& perturbation,
+                   const runtime::PlanesSetup& setup) {
   const auto plans = preview::all_plans(scene.ego.v_B.x);
   std::vector<preview::ExpectedHarm> all(plans.size());
   for (const JointMotion& motion : motions) {
@@ -241,7 +242,7 @@ Action least_tried(const world::Scene& scene, std::span<const JointMotion> motio
     std::vector<outcome::Attempt> attempts;
     attempts.reserve(plans.size());
     for (const Plan& plan : plans) {
-      attempts.push_back({plan, &scene, &moved, grip, unknown});
+      attempts.push_back({plan, &scene, &moved, grip, perturbation});
     }
     const auto tried = preview::tried(*setup.forecast.car, attempts, *setup.forecast.harm);
     for (std::size_t i = 0; i < plans.size(); ++i) {
@@ -386,7 +387,7 @@ AtTrigger::Choose chooser(std::string_view name, const MethodTools& tools) {
           [&](const JointMotion& motion) {
             return preview::with_reacting_followers(view.scene, motion.tracks);
           },
-          view.truth.truth().grip(), view.truth.truth().unknown_from_now(), setup);
+          view.truth.truth().grip(), view.truth.truth().perturbation_from_now(), setup);
     };
   }
   if (name == "beliefs_and_followers") {

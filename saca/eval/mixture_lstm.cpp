@@ -6,7 +6,7 @@
 
 #include "saca/intent/line.h"
 #include "saca/intent/observed.h"
-#include "saca/intent/walkers.h"
+#include "saca/intent/vru.h"
 
 namespace saca::eval {
 namespace {
@@ -29,7 +29,7 @@ world::Road travel_line(const Scene& scene, const Actor& actor) {
 }
 
 bool is_learnt_of(const Actor& actor) {
-  return actor.kind != world::ActorKind::obstacle && !intent::is_walker(actor.kind) &&
+  return actor.kind != world::ActorKind::obstacle && !intent::is_vru(actor.kind) &&
          norm(actor.v_W) >= intent::rest_speed;
 }
 
@@ -121,7 +121,7 @@ void MixturePredictor::look(const Scene& scene) {
   due_ = scene.time + intent::look_step;
   for (std::size_t i = 0; i < scene.actors.size(); ++i) {
     const Actor& actor = scene.actors[i];
-    if (actor.kind == world::ActorKind::obstacle || intent::is_walker(actor.kind)) {
+    if (actor.kind == world::ActorKind::obstacle || intent::is_vru(actor.kind)) {
       continue;
     }
     auto found = std::find_if(watched_.begin(), watched_.end(), [&](const Watched& one) {

@@ -18,13 +18,13 @@
 
 namespace saca::eval {
 
-/// The line that a moving road user is foretold along: through its place in its direction of
+/// The line that a moving road user is predicted along: through its place in its direction of
 /// travel, with the curvature of the lane that it follows; straight where it follows none. Places
 /// against it are s ahead and d to the left of where the road user is (world::to_lane).
 /// @throws ContractViolation  if it is slower than intent::rest_speed
 [[nodiscard]] world::Road travel_line(const world::Scene& scene, const world::Actor& actor);
 
-/// Is it foretold by what was learnt? A vehicle that moves.
+/// Is it predicted by what was learnt? A vehicle that moves.
 [[nodiscard]] bool is_learnt_of(const world::Actor& actor);
 
 /// What was learnt of where vehicles go: an LSTM over what is seen of one (intent/features.h) whose
@@ -72,7 +72,7 @@ struct MixtureModel {
 [[nodiscard]] LikelyPlaces places_of(const MixtureModel::Outputs& outputs, double speed,
                                      const world::Road& line);
 
-/// Watches a drive and foretells vehicles by a MixtureModel, everybody else by going_straight. Who
+/// Watches a drive and predicts vehicles by a MixtureModel, everybody else by going_straight. Who
 /// has not been seen for 2 s is forgotten.
 class MixturePredictor {
  public:
@@ -89,7 +89,7 @@ class MixturePredictor {
     world::ActorKind kind = world::ActorKind::car;
     std::uint8_t id = 0;
     double seen = 0.0;  ///< [s]
-    intent::Memory memory;
+    intent::ObservationHistory memory;
     intent::Encoder::State state;
     MixtureModel::Outputs outputs{};
   };

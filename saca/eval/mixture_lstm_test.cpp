@@ -127,7 +127,7 @@ TEST(MixturePredictor, ForetellsAlongTheLane) {
 TEST(MixturePredictor, StepsOverWhatIsObservedTenTimesASecond) {
   const MixtureModel random_model = model();
   MixturePredictor predictor(random_model);
-  intent::Memory memory;
+  intent::ObservationHistory memory;
   intent::Encoder::State state;
   MixtureModel::Outputs outputs{};
   world::Scene scene;
@@ -144,10 +144,10 @@ TEST(MixturePredictor, StepsOverWhatIsObservedTenTimesASecond) {
   }
   const world::Actor& car = scene.actors[0];
   const auto expected = places_of(outputs, 15.0, travel_line(scene, car));
-  const auto foretold = predictor.places_of(scene, car);
+  const auto predicted = predictor.places_of(scene, car);
   for (std::size_t i = 0; i < expected.back().size(); ++i) {
-    EXPECT_NEAR(foretold.back()[i].p_W.x, expected.back()[i].p_W.x, 1e-9);
-    EXPECT_NEAR(foretold.back()[i].probability, expected.back()[i].probability, 1e-12);
+    EXPECT_NEAR(predicted.back()[i].p_W.x, expected.back()[i].p_W.x, 1e-9);
+    EXPECT_NEAR(predicted.back()[i].probability, expected.back()[i].probability, 1e-12);
   }
 }
 

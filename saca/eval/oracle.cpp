@@ -15,16 +15,16 @@ using manoeuvre::num_policies;
 using manoeuvre::PolicyId;
 using Tried = std::vector<outcome::Outcome>;  // one a plan; meaningless where refused
 
-std::vector<std::vector<loop::Hindsight>> tried_of(std::span<const Moment> moments,
+std::vector<std::vector<loop::Hindsight>> tried_of(std::span<const DecisionPoint> points,
                                                    const manoeuvre::Car& car,
                                                    const outcome::HarmModel& harm,
                                                    const OracleOptions& options) {
   if (!options.only_defaults) {
-    return loop::all_plans_tried(moments, car, harm, preview::Braking::any_strength,
+    return loop::all_plans_tried(points, car, harm, preview::Braking::any_strength,
                                  options.threads);
   }
   std::vector<std::vector<loop::Hindsight>> all;
-  for (loop::Hindsights& tried : hindsights(moments, car, harm, options.threads)) {
+  for (loop::Hindsights& tried : hindsights(points, car, harm, options.threads)) {
     all.emplace_back(std::move_iterator(tried.begin()), std::move_iterator(tried.end()));
   }
   return all;
@@ -46,12 +46,12 @@ std::vector<Tried> all_draws(const sim::Scenario& scenario, const manoeuvre::Car
   std::vector<Tried> draws;
   draws.reserve(num_draws);
   while (draws.size() < num_draws) {
-    std::vector<Moment> moments(std::min(at_once, num_draws - draws.size()));
-    in_parallel(moments.size(), options.threads, [&](std::size_t k) {
+    std::vector<DecisionPoint> points(std::min(at_once, num_draws - draws.size()));
+    in_parallel(points.size(), options.threads, [&](std::size_t k) {
       const sim::Chance chance = sim::draw_chance(options.seed, draws.size() + k, options.time);
-      moments[k] = moment_at(scenario, car, options.time, chance);
+      points[k] = decision_point_at(scenario, car, options.time, chance);
     });
-    for (const auto& tried : tried_of(moments, car, harm, options)) {
+    for (const auto& tried : tried_of(points, car, harm, options)) {
       draws.push_back(outcomes_of(tried));
     }
   }
@@ -85,10 +85,10 @@ Oracle oracle(const sim::Scenario& scenario, const manoeuvre::Car& car,
   expects(options.draws == 0 || options.draws >= 2, "draws is 0, or 2 at least");
   expects(options.threads >= 1, "threads >= 1");
   Oracle told;
-  const Moment moment = moment_at(scenario, car, options.time);
-  told.scene = moment.scene;
+  const DecisionPoint point = decision_point_at(scenario, car, options.time);
+  told.scene = point.scene;
   const std::vector<loop::Hindsight> written =
-      std::move(tried_of({&moment, 1}, car, harm, options).front());
+      std::move(tried_of({&point, 1}, car, harm, options).front());
   const Tried as_written = outcomes_of(written);
   const std::vector<Tried> draws = all_draws(scenario, car, harm, options);
   std::vector<std::vector<outcome::Outcome>> outcomes(written.size());  // of a plan, by draws

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "saca/eval/moment.h"
+#include "saca/eval/decision_point.h"
 #include "saca/outcome/expected.h"
 
 namespace saca::eval {

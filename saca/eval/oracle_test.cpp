@@ -83,15 +83,15 @@ TEST(Oracle, OfEachPolicyTheBestOfAllTargetSpeedsAndStrengthsStands) {
   scenario.road.right_beyond = world::Beyond::barrier;
   const double time = 40.0 / 19.0;
   const Oracle told = oracle(scenario, default_car(), shipped_harm(), {.time = time});
-  const Moment moment = moment_at(scenario, default_car(), time);
-  const auto all = loop::all_plans_tried({&moment, 1}, default_car(), shipped_harm());
+  const DecisionPoint point = decision_point_at(scenario, default_car(), time);
+  const auto all = loop::all_plans_tried({&point, 1}, default_car(), shipped_harm());
   for (const loop::Hindsight& one : all.front()) {
     ASSERT_TRUE(one.facts.drivable());
     EXPECT_LE(told.of(one.facts.plan.policy).written.facts.outcome().harm,
               one.facts.outcome().harm + outcome::harm_tie);
   }
-  const loop::Hindsights by_default =
-      loop::hindsight(moment_at(scenario, default_car(), time), default_car(), shipped_harm());
+  const loop::Hindsights by_default = loop::hindsight(
+      decision_point_at(scenario, default_car(), time), default_car(), shipped_harm());
   const auto gain = [&](PolicyId policy) {
     return by_default[manoeuvre::index(policy)].facts.outcome().harm -
            told.of(policy).written.facts.outcome().harm;

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "saca/eval/moment.h"
+#include "saca/eval/decision_point.h"
 #include "saca/eval/scenes_for_test.h"
 #include "saca/sim/stepper.h"
 

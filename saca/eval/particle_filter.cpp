@@ -6,7 +6,7 @@
 #include "saca/core/quintic.h"
 #include "saca/eval/way_clusters.h"
 #include "saca/intent/line.h"
-#include "saca/intent/walkers.h"
+#include "saca/intent/vru.h"
 #include "saca/sim/chance.h"
 
 namespace saca::eval {
@@ -42,7 +42,7 @@ bool happens(double rate, double dt, std::mt19937_64& rng) {
 }
 
 bool follows_a_lane(const Scene& scene, const Actor& actor) {
-  return actor.kind != world::ActorKind::obstacle && !intent::is_walker(actor.kind) &&
+  return actor.kind != world::ActorKind::obstacle && !intent::is_vru(actor.kind) &&
          norm(actor.v_W) >= intent::rest_speed && intent::line_of(scene, actor).along_lane;
 }
 

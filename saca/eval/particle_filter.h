@@ -33,7 +33,7 @@ struct DriverPrior {
   Lognormal acceleration{0.85, 0.35};   ///< [m/s^2]
   Lognormal comfortable{1.6, 0.3};      ///< deceleration [m/s^2]
   /// What a driver does beyond the model: measured of vehicles that maintain (intent/motion.h).
-  intent::Wavering beyond = intent::MotionLaw{}.driving;
+  intent::OrnsteinUhlenbeck beyond = intent::MotionLaw{}.driving;
 
   /// Who brakes for a reason that the model does not know: how often that begins [1/s], and ends
   /// [1/s]; how hard [m/s^2], built up linearly within `braking_rise` [s].
@@ -56,7 +56,7 @@ struct DriverPrior {
   double other_share = 0.05;
 };
 
-/// Foretells vehicles that follow a lane by a particle filter over their drivers.
+/// Predicts vehicles that follow a lane by a particle filter over their drivers.
 ///
 /// A particle is one driver who may be at the wheel: its parameters of the Intelligent Driver
 /// Model, whether it moves to the side (where to, since when, for how long) and whether it brakes
@@ -64,7 +64,7 @@ struct DriverPrior {
 /// multiplied by the likelihood of what is perceived, and where the weights have gathered on few
 /// particles they are drawn anew in proportion to them (systematic resampling, parameters jittered
 /// by 5 %); one in five is then begun afresh as at first sight, for what none of them has thought
-/// of. To foretell, all of them drive on, with what they may yet begin; six ways on are the
+/// of. To predict, all of them drive on, with what they may yet begin; six ways on are the
 /// clusters of where they get to, and a seventh is that of who is none of these drivers.
 ///
 /// Perception errs as an Ornstein-Uhlenbeck process, so its errors at successive looks are alike.

@@ -7,7 +7,7 @@
 
 #include "saca/eval/mixture_lstm.h"
 #include "saca/intent/observed.h"
-#include "saca/intent/walkers.h"
+#include "saca/intent/vru.h"
 
 namespace saca::eval {
 namespace {
@@ -62,7 +62,7 @@ Result<std::vector<std::vector<PlaceExample>>> place_examples(const loop::Stage&
     loop.advance();
   }
   struct Watched {
-    intent::Memory memory;
+    intent::ObservationHistory memory;
     std::size_t last = 0;
     std::vector<PlaceExample> examples;
   };
@@ -80,7 +80,7 @@ Result<std::vector<std::vector<PlaceExample>>> place_examples(const loop::Stage&
     const Scene& seen = looks[n].seen;
     for (std::size_t i = 0; i < seen.actors.size(); ++i) {
       const Actor& actor = seen.actors[i];
-      if (actor.kind == world::ActorKind::obstacle || intent::is_walker(actor.kind)) {
+      if (actor.kind == world::ActorKind::obstacle || intent::is_vru(actor.kind)) {
         continue;
       }
       Watched& one = watched[{actor.kind, actor.id}];

@@ -12,7 +12,7 @@
 
 #include "saca/core/parallel.h"
 #include "saca/core/percentile.h"
-#include "saca/eval/moment.h"
+#include "saca/eval/decision_point.h"
 #include "saca/eval/scenes_for_test.h"
 #include "saca/manoeuvre/default_car.h"
 #include "saca/manoeuvre/drive.h"
@@ -30,7 +30,7 @@ using manoeuvre::PolicyId;
 /// Family by family in turn, from the tuning split, with chance drawn; those that trigger.
 struct Encounters {
   std::vector<sim::Scenario> scenarios;
-  std::vector<Moment> moments;
+  std::vector<DecisionPoint> points;
 
   explicit Encounters(int count) {
     const std::filesystem::path folder = "scenarios/families";
@@ -56,17 +56,18 @@ struct Encounters {
     for (std::size_t i = 0; i < scenarios.size(); ++i) {
       if (const auto time = trigger_time(scenarios[i], default_car())) {
         const auto chance = sim::draw_chance(seed, i, *time);
-        moments.push_back(moment_at(scenarios[i], default_car(), *time, chance));
+        points.push_back(decision_point_at(scenarios[i], default_car(), *time, chance));
       }
     }
   }
 };
 
-outcome::Outcome scalar(const Moment& moment, const manoeuvre::Plan& plan) {
+outcome::Outcome scalar(const DecisionPoint& point, const manoeuvre::Plan& plan) {
   constexpr double horizon = 20.0;  // [s] as roll_out_all, but where a stop takes longer
-  const double grip = std::min(1.2, moment.grip * moment.unknown.grip);
-  return play_out(drive(default_car(), plan, moment.scene, moment.grip, horizon, moment.unknown),
-                  moment.scene, moment.others, shipped_harm(), grip)
+  const double grip = std::min(1.2, point.grip * point.perturbation.grip);
+  return collision_sequence(
+             drive(default_car(), plan, point.scene, point.grip, horizon, point.perturbation),
+             point.scene, point.others, shipped_harm(), grip)
       .outcome;
 }
 
@@ -75,7 +76,7 @@ TEST(RolloutAgreement, TheBatchEndsAsTheScalarModelDoes) {
   const char* const wanted = std::getenv("SACA_AGREEMENT_ENCOUNTERS");
   const Encounters encounters(wanted == nullptr ? 14 : std::stoi(wanted));
   const int threads = usual_threads();
-  const auto batch = hindsights(encounters.moments, default_car(), shipped_harm(), threads);
+  const auto batch = hindsights(encounters.points, default_car(), shipped_harm(), threads);
   struct Pair {
     PolicyId policy;
     outcome::Outcome batch, scalar;
@@ -85,7 +86,7 @@ TEST(RolloutAgreement, TheBatchEndsAsTheScalarModelDoes) {
     for (const loop::Hindsight& one : batch[i]) {
       if (one.facts.drivable()) {
         pairs[i].push_back({one.facts.plan.policy, one.facts.outcome(),
-                            scalar(encounters.moments[i], one.facts.plan)});
+                            scalar(encounters.points[i], one.facts.plan)});
       }
     }
   });

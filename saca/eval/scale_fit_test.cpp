@@ -44,8 +44,8 @@ TEST(ScaleError, IsTheMeanAbsoluteErrorOfTheWeightedMean) {
   const std::vector<memory::Case> queries{case_at(10.0, 0.9, "c")};
   const double near = std::exp(-0.5);
   const double far = std::exp(-2.0);
-  const double foretold = 0.02 * (near * 10.7 + far * 11.4) / (near + far);
-  EXPECT_NEAR(*scale_error(cases, queries, {}, 1), foretold - 0.2, 1e-5);
+  const double predicted = 0.02 * (near * 10.7 + far * 11.4) / (near + far);
+  EXPECT_NEAR(*scale_error(cases, queries, {}, 1), predicted - 0.2, 1e-5);
 }
 
 TEST(ScaleError, AsksNoCaseOfTheSameEncounterNorOfItsTwin) {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "saca/config/checksummed_hdf5.h"
 #include "saca/config/hdf5_rows.h"
-#include "saca/config/sealed_hdf5.h"
 #include "saca/core/contract.h"
 
 namespace saca::eval {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "saca/config/checksummed_hdf5.h"
 #include "saca/config/hdf5_rows.h"
-#include "saca/config/sealed_hdf5.h"
 
 namespace saca::eval::suite_file_test {
 namespace {

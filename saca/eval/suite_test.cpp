@@ -6,7 +6,7 @@
 
 #include "saca/core/lending_pool.h"
 #include "saca/core/parallel.h"
-#include "saca/eval/moment.h"
+#include "saca/eval/decision_point.h"
 #include "saca/eval/scenes_for_test.h"
 #include "saca/eval/trigger_case.h"
 #include "saca/intent/shipped_model.h"

@@ -92,9 +92,9 @@ Finding finding_of(double time, const loop::Hindsights& tried) {
 
 std::vector<Finding> look_into(std::span<const sim::Scenario> scenarios, const manoeuvre::Car& car,
                                const outcome::HarmModel& harm, int threads) {
-  std::vector<std::optional<Moment>> triggers(scenarios.size());
+  std::vector<std::optional<DecisionPoint>> triggers(scenarios.size());
   in_parallel(scenarios.size(), threads,
-              [&](std::size_t i) { triggers[i] = moment_of_trigger(scenarios[i], car); });
+              [&](std::size_t i) { triggers[i] = decision_point_at_trigger(scenarios[i], car); });
   const auto tried = tried_from(triggers, car, harm, threads);
   std::vector<Finding> findings(scenarios.size());
   for (std::size_t i = 0; i < tried.size(); ++i) {

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "saca/eval/moment.h"
+#include "saca/eval/decision_point.h"
 #include "saca/eval/suite_source.h"
 
 namespace saca::eval {

@@ -407,13 +407,13 @@ std::optional<double> nominal(const Scenario& scenario, const manoeuvre::Car& ca
 std::vector<Cell> try_cells(std::span<const std::optional<Scenario>> scenarios,
                             const manoeuvre::Car& car, const outcome::HarmModel& harm, double time,
                             int threads) {
-  std::vector<std::optional<Moment>> moments(scenarios.size());
+  std::vector<std::optional<DecisionPoint>> points(scenarios.size());
   in_parallel(scenarios.size(), threads, [&](std::size_t i) {
     if (scenarios[i] && !overlaps(scene_at(*scenarios[i], car, time))) {
-      moments[i] = moment_at(*scenarios[i], car, time);
+      points[i] = decision_point_at(*scenarios[i], car, time);
     }
   });
-  const auto tried = tried_from(moments, car, harm, threads);
+  const auto tried = tried_from(points, car, harm, threads);
   std::vector<Cell> cells(scenarios.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
     cells[i] = tried[i] ? cell_of(finding_of(time, *tried[i])) : Cell{.possible = false};

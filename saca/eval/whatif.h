@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "saca/core/result.h"
-#include "saca/eval/moment.h"
+#include "saca/eval/decision_point.h"
 
 namespace saca::eval {
 

@@ -31,7 +31,7 @@ class Whatif : public testing::Test {
     const Axis changed = axis(text);
     const auto scenario =
         varied(scenario_, default_car(), t1, changed, changed.values.front()).value();
-    return moment_at(scenario, default_car(), t1).scene;
+    return decision_point_at(scenario, default_car(), t1).scene;
   }
 };
 
@@ -72,7 +72,7 @@ TEST_F(Whatif, TheNominalValuesAreThoseOfThePaper) {
 }
 
 TEST_F(Whatif, OnlyWhatIsVariedChangesAtTheMoment) {
-  const world::Scene before = moment_at(scenario_, default_car(), t1).scene;
+  const world::Scene before = decision_point_at(scenario_, default_car(), t1).scene;
   const world::Scene nearer = scene_with("truck.distance_m=12:12:1");
   EXPECT_NEAR(nearer.actors[0].X_WA.p.x - nearer.ego.X_WB.p.x, 12.0, 1e-9);
   EXPECT_NEAR(nearer.actors[0].X_WA.p.y, before.actors[0].X_WA.p.y, 1e-9);
@@ -158,11 +158,11 @@ TEST_F(Whatif, ValuesThatCannotBeAreRefused) {
 TEST(WhatifWithAFollower, ReactingDriversAreBroughtToWhereTheyWere) {
   const sim::Scenario scenario = shipped_scenario("lead_brakes_follower");
   const double time = 4.6;
-  const world::Scene before = moment_at(scenario, default_car(), time).scene;
+  const world::Scene before = decision_point_at(scenario, default_car(), time).scene;
   const Axis axis = parse_axis("ego.speed_mps=18:18:1", scenario).value();
   const auto slower = varied(scenario, default_car(), time, axis, 18.0);
   ASSERT_TRUE(slower.has_value()) << slower.error().message;
-  const world::Scene after = moment_at(slower.value(), default_car(), time).scene;
+  const world::Scene after = decision_point_at(slower.value(), default_car(), time).scene;
   EXPECT_NEAR(after.ego.v_B.x, 18.0, 1e-9);
   EXPECT_NEAR(after.ego.X_WB.p.x, before.ego.X_WB.p.x, 0.011);
   for (std::size_t i = 0; i < before.actors.size(); ++i) {

@@ -14,7 +14,7 @@ std::vector<preview::RolledOut> try_all(const loop::ClosedLoop& now, const manoe
   std::vector<outcome::Attempt> attempts;
   for (const manoeuvre::Plan& plan : preview::all_plans(scene.ego.v_B.x)) {
     attempts.push_back({plan, &scene, &others, all ? truth.grip() : scene.grip,
-                        all ? truth.unknown_from_now() : manoeuvre::Unknown{}});
+                        all ? truth.perturbation_from_now() : manoeuvre::ParameterPerturbation{}});
   }
   return preview::tried(car, attempts, harm);
 }

@@ -67,7 +67,7 @@ Driver::Driver(const DriverLaw& law, double speed, double grip, double step)
 void Driver::look(const Ahead& ahead) {
   Look now{way_ + ahead.gap, ahead.speed, 0};
   if (num_looks_ > 0) {
-    // Another body takes its place with a jump; none is farther from where it was foretold.
+    // Another body takes its place with a jump; none is farther from where it was predicted.
     constexpr double jump = 0.5;  // [m]
     const Look& before = looks_[(num_looks_ - 1) % capacity];
     const bool the_same = std::abs(now.place - before.place - before.speed * step_) < jump;

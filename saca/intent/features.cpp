@@ -26,11 +26,11 @@ Features mirrored(Features features) {
   return features;
 }
 
-const Memory::Look& Memory::back(std::size_t steps) const {
+const ObservationHistory::Look& ObservationHistory::back(std::size_t steps) const {
   return looks_[(num_seen_ - 1 - std::min(steps, num_seen_ - 1)) % capacity];
 }
 
-void Memory::add(const Observation& observation) {
+void ObservationHistory::add(const Observation& observation) {
   Look look{.seen = observation};
   if (num_seen_ > 0) {
     const Look& last = back(0);
@@ -47,7 +47,7 @@ void Memory::add(const Observation& observation) {
   ++num_seen_;
 }
 
-Features Memory::features() const {
+Features ObservationHistory::features() const {
   expects(num_seen_ > 0, "something was seen");
   Features f{};
   const auto set = [&](Feature which, double value) {

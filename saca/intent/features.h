@@ -66,7 +66,7 @@ using Features = std::array<float, num_features>;
 [[nodiscard]] Features mirrored(Features features);
 
 /// What is remembered of one road user: its last 2 s, at steps of look_step. Fixed in size.
-class Memory {
+class ObservationHistory {
  public:
   void add(const Observation& observation);
   /// @throws ContractViolation  before the first observation

@@ -29,7 +29,7 @@ TEST(Features, AreFiniteWhateverIsKnown) {
   std::mt19937 random(7);
   std::bernoulli_distribution known(0.6);
   std::normal_distribution<double> value(0.0, 100.0);
-  Memory memory;
+  ObservationHistory memory;
   for (int i = 0; i < 500; ++i) {
     const auto some = [&] { return known(random) ? value(random) : not_known; };
     Observation seen{.speed = std::abs(value(random)),
@@ -55,8 +55,8 @@ TEST(Features, AreFiniteWhateverIsKnown) {
 TEST(Features, OfAMirroredWorldAreTheMirroredFeatures) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal(0.0, 1.0);
-  Memory here;
-  Memory mirror;
+  ObservationHistory here;
+  ObservationHistory mirror;
   for (int i = 0; i < 40; ++i) {
     Observation seen = cruising();
     seen.yaw_rate = 0.1 * normal(random);
@@ -75,7 +75,7 @@ TEST(Features, OfAMirroredWorldAreTheMirroredFeatures) {
 }
 
 TEST(Features, SlopesAreThoseOfASteadyMotion) {
-  Memory memory;
+  ObservationHistory memory;
   for (int i = 0; i <= 30; ++i) {  // brakes with 3 m/s^2, drifts left with 0.5 m/s
     Observation seen = cruising();
     seen.speed = 20.0 - 0.3 * i;
@@ -99,7 +99,7 @@ TEST(Features, SlopesAreThoseOfASteadyMotion) {
 }
 
 TEST(Features, CrossingALineIsNoJump) {
-  Memory memory;
+  ObservationHistory memory;
   for (int i = 0; i <= 20; ++i) {  // to the left with 1 m/s, from the middle into the next lane
     Observation seen = cruising();
     const double way = 1.0 + 0.1 * i;
@@ -111,7 +111,7 @@ TEST(Features, CrossingALineIsNoJump) {
 }
 
 TEST(Features, AnotherLeadIsNoBrakingLead) {
-  Memory memory;
+  ObservationHistory memory;
   Observation seen = cruising();
   seen.gap = 60.0;
   seen.gap_speed = 0.0;
@@ -129,7 +129,7 @@ TEST(Features, AnotherLeadIsNoBrakingLead) {
 }
 
 TEST(Features, WhatIsNotKnownIsMasked) {
-  Memory memory;
+  ObservationHistory memory;
   memory.add({.speed = 10.0});
   const Features found = memory.features();
   for (const Feature mask :
@@ -142,7 +142,7 @@ TEST(Features, WhatIsNotKnownIsMasked) {
 
 // Brake lights are seen where no pedal is shared.
 TEST(Features, EachControlHasAMaskOfItsOwn) {
-  Memory memory;
+  ObservationHistory memory;
   memory.add({.speed = 10.0, .brake = 1.0});
   const Features found = memory.features();
   EXPECT_EQ(of(found, Feature::brake_known), 1.0F);
@@ -151,8 +151,8 @@ TEST(Features, EachControlHasAMaskOfItsOwn) {
   EXPECT_EQ(of(found, Feature::steering_known), 0.0F);
 }
 
-TEST(Memory, RefusesToSpeakOfNothing) {
-  Memory memory;
+TEST(ObservationHistory, RefusesToSpeakOfNothing) {
+  ObservationHistory memory;
   EXPECT_THROW((void)memory.features(), ContractViolation);
   memory.add(cruising());
   memory.clear();

@@ -12,13 +12,13 @@ constexpr std::array<std::string_view, num_intentions> names{"M",  "LC", "RC",  
 
 }  // namespace
 
-bool is_walker(world::ActorKind kind) {
+bool is_vru(world::ActorKind kind) {
   return kind == world::ActorKind::pedestrian || kind == world::ActorKind::bicycle;
 }
 
 std::span<const Intention> intentions_of(world::ActorKind kind) {
-  if (is_walker(kind)) {
-    return walker_intentions;
+  if (is_vru(kind)) {
+    return vru_intentions;
   }
   const std::span<const Intention> all = vehicle_intentions;
   return kind == world::ActorKind::obstacle ? all.first(1) : all;

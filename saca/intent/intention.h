@@ -31,12 +31,12 @@ constexpr std::array<Intention, num_intentions> all_intentions{
 constexpr std::array<Intention, 6> vehicle_intentions{
     Intention::maintain, Intention::lane_left,  Intention::lane_right,
     Intention::brake,    Intention::brake_left, Intention::brake_right};
-/// Those of walkers: pedestrians and cyclists.
-constexpr std::array<Intention, 3> walker_intentions{Intention::maintain, Intention::stop,
-                                                     Intention::cross};
+/// Those of VRUs: pedestrians and cyclists.
+constexpr std::array<Intention, 3> vru_intentions{Intention::maintain, Intention::stop,
+                                                  Intention::cross};
 
 /// A pedestrian or a cyclist.
-[[nodiscard]] bool is_walker(world::ActorKind kind);
+[[nodiscard]] bool is_vru(world::ActorKind kind);
 
 /// What a road user of this kind may intend, in the order of the enumeration; an obstacle only
 /// maintains.

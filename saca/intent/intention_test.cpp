@@ -36,8 +36,8 @@ TEST(Intention, WhoMayHaveItIsAMatterOfKind) {
   EXPECT_THAT(intentions_of(ActorKind::bicycle),
               ElementsAre(Intention::maintain, Intention::stop, Intention::cross));
   EXPECT_THAT(intentions_of(ActorKind::obstacle), ElementsAre(Intention::maintain));
-  EXPECT_TRUE(is_walker(ActorKind::pedestrian));
-  EXPECT_FALSE(is_walker(ActorKind::motorcycle));
+  EXPECT_TRUE(is_vru(ActorKind::pedestrian));
+  EXPECT_FALSE(is_vru(ActorKind::motorcycle));
 }
 
 TEST(Intention, OfEqualOnesTheFirstIsLikeliest) {

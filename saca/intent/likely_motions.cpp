@@ -85,7 +85,7 @@ std::vector<LikelyMotion> likely_motions(const world::Scene& scene, const world:
     brakes += is_braking(one.intention) ? one.probability : 0.0;
     one.probability *= 1.0 - of_side_moves;
   }
-  const Intention slower = is_walker(actor.kind) ? Intention::stop : Intention::brake;
+  const Intention slower = is_vru(actor.kind) ? Intention::stop : Intention::brake;
   for (const SideMove& move : side_moves(measured_side_move(line, actor), law)) {
     for (const bool braking : {false, true}) {
       const double p = braking ? brakes : 1.0 - brakes;

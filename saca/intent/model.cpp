@@ -41,10 +41,10 @@ Crf chain(const std::vector<float>& start, const std::vector<float>& transition,
 /// The calibrations, each checked.
 Result<std::array<Calibration, num_horizons>> calibrations_from(const config::Tensors& tensors,
                                                                 std::string_view source) {
-  const auto sharpness = config::take(tensors, "sharpness", {num_horizons}, source);
+  const auto inverse_temperature = config::take(tensors, "sharpness", {num_horizons}, source);
   const auto bias = config::take(tensors, "bias", {num_horizons, num_classes}, source);
   const auto naming = config::take(tensors, "naming", {num_horizons, num_classes}, source);
-  for (const auto* each : {&sharpness, &bias, &naming}) {
+  for (const auto* each : {&inverse_temperature, &bias, &naming}) {
     if (!each->has_value()) {
       return each->error();
     }
@@ -53,9 +53,10 @@ Result<std::array<Calibration, num_horizons>> calibrations_from(const config::Te
   std::array<Calibration, num_horizons> calibrations;
   for (std::size_t h = 0; h < num_horizons; ++h) {
     Calibration& one = calibrations[h];
-    one.sharpness = static_cast<double>(sharpness.value()[h]);
-    if (!positive(one.sharpness)) {
-      return not_a_model(source, fmt::format("tensor sharpness: want > 0, got {}", one.sharpness));
+    one.inverse_temperature = static_cast<double>(inverse_temperature.value()[h]);
+    if (!positive(one.inverse_temperature)) {
+      return not_a_model(
+          source, fmt::format("tensor sharpness: want > 0, got {}", one.inverse_temperature));
     }
     for (std::size_t k = 0; k < num_classes; ++k) {
       one.bias[k] = limited(bias.value()[h * num_classes + k]);
@@ -74,7 +75,8 @@ Scores calibrated(const Calibration& calibration, const Scores& probabilities) {
   Scores honest;
   double sum = 0.0;
   for (std::size_t k = 0; k < num_classes; ++k) {
-    honest[k] = std::pow(probabilities[k], calibration.sharpness) * std::exp(calibration.bias[k]);
+    honest[k] =
+        std::pow(probabilities[k], calibration.inverse_temperature) * std::exp(calibration.bias[k]);
     sum += honest[k];
   }
   for (double& each : honest) {
@@ -148,11 +150,11 @@ Result<Model> read_model(const std::filesystem::path& path) {
   return model_from(tensors.value(), path.string());
 }
 
-Told Stream::step(const Model& model, const Observation& observation) {
+HorizonScores Stream::step(const Model& model, const Observation& observation) {
   expects(!model.networks.empty() && model.networks.size() <= Model::max_networks,
           "1 to max_networks networks");
-  memory_.add(observation);
-  const Features features = memory_.features();
+  history_.add(observation);
+  const Features features = history_.features();
   Emissions mean{};
   const double share = 1.0 / static_cast<double>(model.networks.size());
   for (std::size_t i = 0; i < model.networks.size(); ++i) {
@@ -163,7 +165,7 @@ Told Stream::step(const Model& model, const Observation& observation) {
       }
     }
   }
-  Told told;
+  HorizonScores told;
   for (std::size_t h = 0; h < num_horizons; ++h) {
     told[h] = calibrated(model.calibrations[h], filters_[h].step(model.chains[h], mean[h]));
   }

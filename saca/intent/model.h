@@ -23,7 +23,7 @@ namespace saca::intent {
 
 /// How the probabilities of one horizon are made honest, and which of them is named.
 ///
-///   p'(k) ~ p(k)^sharpness exp(bias(k))
+///   p'(k) ~ p(k)^inverse_temperature exp(bias(k))
 ///
 /// Classes that count more in training are told too often by the network: bias takes that back.
 /// Sources: Guo et al., On calibration of modern neural networks, ICML 2017 (temperature and vector
@@ -31,8 +31,8 @@ namespace saca::intent {
 /// measure, ECML 2014 (F1 is greatest where a class is named from a probability of half that F1 on,
 /// not from 0.5 on).
 struct Calibration {
-  double sharpness = 1.0;  ///< > 0
-  Scores bias{};           ///< of logarithms
+  double inverse_temperature = 1.0;  ///< > 0
+  Scores bias{};                     ///< of logarithms
   /// What each probability counts when the class is named; > 0.
   Scores naming{1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
 };
@@ -59,8 +59,8 @@ struct Model {
 /// From the tensors of training: "networks" (how many), "K.input.weight" and so on for network K
 /// from 0 on (network.h), "chain.start" (num_horizons x num_classes), "chain.transition"
 /// (num_horizons x num_classes x num_classes, from x to; what is forbidden is not looked at),
-/// and of the calibrations "sharpness" (num_horizons), "bias" and "naming" (num_horizons x
-/// num_classes).
+/// and of the calibrations "sharpness" (num_horizons: the inverse temperature), "bias" and "naming"
+/// (num_horizons x num_classes).
 /// @return  Error::Code::malformed, naming source, tensor, wanted and got
 [[nodiscard]] Result<Model> model_from(const config::Tensors& tensors, std::string_view source);
 
@@ -71,7 +71,7 @@ struct Model {
 [[nodiscard]] std::uint64_t digest(const Model& model);
 
 /// Probabilities of the classes, one array per horizon; each sums to 1.
-using Told = std::array<Scores, num_horizons>;
+using HorizonScores = std::array<Scores, num_horizons>;
 
 /// One vehicle as it is watched: what is remembered of it. Fixed in size, copyable; allocates
 /// nothing.
@@ -79,10 +79,10 @@ class Stream {
  public:
   /// One look, look_step after the last one.
   /// @return  what the vehicle does or is about to do, given all that was seen so far
-  Told step(const Model& model, const Observation& observation);
+  HorizonScores step(const Model& model, const Observation& observation);
 
  private:
-  Memory memory_;
+  ObservationHistory history_;
   std::array<Network::State, Model::max_networks> states_{};
   std::array<CrfFilter, num_horizons> filters_{};
 };

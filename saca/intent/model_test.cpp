@@ -76,11 +76,11 @@ TEST(Stream, TellsTheSharpenedMarginalOfTheMeanEmissionsSoFar) {
   const auto model = model_from(tensors, "w");
   ASSERT_TRUE(model.has_value()) << model.error().message;
   Stream stream;
-  Memory memory;
+  ObservationHistory memory;
   std::array<Network::State, 2> states;
   std::array<std::vector<Scores>, num_horizons> emissions;
   for (const Observation& seen : random_drive(1, 25)) {
-    const Told told = stream.step(model.value(), seen);
+    const HorizonScores told = stream.step(model.value(), seen);
     memory.add(seen);
     const Emissions a = model.value().networks[0].step(memory.features(), states[0]);
     const Emissions b = model.value().networks[1].step(memory.features(), states[1]);
@@ -114,14 +114,14 @@ TEST(Stream, IsADistributionWhateverIsSeen) {
   Stream stream;
   for (int i = 0; i < 300; ++i) {
     const auto some = [&] { return known(random) ? wild(random) : not_known; };
-    const Told told = stream.step(model.value(), {.speed = std::abs(wild(random)),
-                                                  .acceleration = wild(random),
-                                                  .offset = some(),
-                                                  .lateral_speed = wild(random),
-                                                  .heading = wild(random),
-                                                  .lane_width = 3.5,
-                                                  .gap = some(),
-                                                  .gap_speed = wild(random)});
+    const HorizonScores told = stream.step(model.value(), {.speed = std::abs(wild(random)),
+                                                           .acceleration = wild(random),
+                                                           .offset = some(),
+                                                           .lateral_speed = wild(random),
+                                                           .heading = wild(random),
+                                                           .lane_width = 3.5,
+                                                           .gap = some(),
+                                                           .gap_speed = wild(random)});
     for (const Scores& each : told) {
       double sum = 0.0;
       for (const double p : each) {
@@ -147,11 +147,11 @@ TEST(Stream, OfAMirroredDriveTellsTheMirrorImage) {
   Stream here;
   Stream there;
   for (Observation seen : random_drive(8, 30)) {
-    const Told told = here.step(model.value(), seen);
+    const HorizonScores told = here.step(model.value(), seen);
     for (double* each : {&seen.yaw_rate, &seen.offset, &seen.lateral_speed, &seen.heading}) {
       *each = -*each;
     }
-    const Told other = there.step(model.value(), seen);
+    const HorizonScores other = there.step(model.value(), seen);
     for (std::size_t h = 0; h < num_horizons; ++h) {
       const Scores expected = mirrored(told[h]);
       for (std::size_t k = 0; k < num_classes; ++k) {

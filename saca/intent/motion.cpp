@@ -8,7 +8,7 @@
 #include "saca/core/contract.h"
 #include "saca/core/quintic.h"
 #include "saca/intent/line.h"
-#include "saca/intent/walkers.h"
+#include "saca/intent/vru.h"
 
 namespace saca::intent {
 namespace {
@@ -180,7 +180,7 @@ Slowing slowing(const Line& line, ActorKind kind, Intention intention, const Mot
 }
 
 void check(const MotionLaw& law) {
-  const auto wavers = [](const Wavering& one) { return one.sd >= 0.0 && one.time > 0.0; };
+  const auto wavers = [](const OrnsteinUhlenbeck& one) { return one.sd >= 0.0 && one.time > 0.0; };
   expects(wavers(law.driving) && wavers(law.walking) && law.braking > 0.0 &&
               law.braking_log_sd >= 0.0 && law.braking_rise >= 0.0 && law.held_log_sd >= 0.0 &&
               law.lane_change > 0.0 && law.lane_change_log_sd >= 0.0 && law.walking_speed > 0.0 &&
@@ -205,7 +205,7 @@ Forecast at_rest(const Scene& scene, const Actor& actor, double horizon) {
 }  // namespace
 
 // The correlation of an Ornstein-Uhlenbeck process, integrated twice over both times.
-double wavering_sd(const Wavering& wavering, double time) {
+double ornstein_uhlenbeck_sd(const OrnsteinUhlenbeck& wavering, double time) {
   const double x = time / wavering.time;
   constexpr double small = 0.05;  // below it the sum loses its digits; the next term is x^6 / 72
   const double variance =
@@ -231,8 +231,8 @@ Forecast motion_under(const Scene& scene, const Actor& actor, Intention intentio
   const bool brakes = is_braking(intention);
   const Slowing slowed = slowing(line, actor.kind, intention, law);
   const double log_sd = is_held(line, law) ? law.held_log_sd : law.braking_log_sd;
-  const Wavering& wavering = is_walker(actor.kind) ? law.walking : law.driving;
-  const Aside moved = is_walker(actor.kind) ? Aside{} : aside(line, side_of(intention), law);
+  const OrnsteinUhlenbeck& wavering = is_vru(actor.kind) ? law.walking : law.driving;
+  const Aside moved = is_vru(actor.kind) ? Aside{} : aside(line, side_of(intention), law);
 
   Forecast forecast{
       .track = {.start = scene.time, .step = step, .X_WA = {actor.X_WA}},
@@ -255,9 +255,10 @@ Forecast motion_under(const Scene& scene, const Actor& actor, Intention intentio
         line.road, {.s = along, .d = d, .heading = line.crab + std::asin(moved.slope_at(driven))}));
 
     const double perceived = std::hypot(actor.position_sd, actor.velocity_sd * slowed.moving(t));
-    const double of_speed = brakes ? log_sd * slowed.way_per_log(t) : wavering_sd(wavering, t);
+    const double of_speed =
+        brakes ? log_sd * slowed.way_per_log(t) : ornstein_uhlenbeck_sd(wavering, t);
     const double of_change = law.lane_change_log_sd * moved.way_per_log(driven);
-    const double aside_sd = is_walker(actor.kind) && !brakes ? of_speed : of_change;
+    const double aside_sd = is_vru(actor.kind) && !brakes ? of_speed : of_change;
     forecast.spread.at.push_back(
         {std::hypot(perceived, of_speed), std::hypot(perceived, aside_sd)});
   }

@@ -7,7 +7,7 @@
 namespace saca::intent {
 
 /// An acceleration that wavers about 0: an Ornstein-Uhlenbeck process.
-struct Wavering {
+struct OrnsteinUhlenbeck {
   double sd = 0.0;    ///< [m/s^2], >= 0
   double time = 1.0;  ///< it is correlated as exp(-t / this) [s], > 0
 };
@@ -18,11 +18,11 @@ struct Wavering {
 /// study (docs/intention.md, docs/results.md); the numbers of pedestrians and cyclists are
 /// assumptions.
 struct MotionLaw {
-  Wavering driving{0.86, 3.8};   ///< of a vehicle that maintains
-  Wavering walking{0.3, 1.0};    ///< of pedestrians and cyclists, in each direction
-  double braking = 2.6;          ///< of one who does not brake yet: median [m/s^2], > 0
-  double braking_log_sd = 0.32;  ///< standard deviation of its logarithm [-]
-  double braking_rise = 2.0;     ///< until such a braking has built up, linearly [s], >= 0
+  OrnsteinUhlenbeck driving{0.86, 3.8};  ///< of a vehicle that maintains
+  OrnsteinUhlenbeck walking{0.3, 1.0};   ///< of pedestrians and cyclists, in each direction
+  double braking = 2.6;                  ///< of one who does not brake yet: median [m/s^2], > 0
+  double braking_log_sd = 0.32;          ///< standard deviation of its logarithm [-]
+  double braking_rise = 2.0;             ///< until such a braking has built up, linearly [s], >= 0
   bool holds = true;          ///< who brakes already goes on as it does; else it brakes harder, to
                               ///< `braking` at least
   double held_log_sd = 0.61;  ///< of one who brakes: of the logarithm of what it goes on with over
@@ -47,7 +47,7 @@ struct Forecast {
 constexpr double motion_step = 0.05;
 
 /// Standard deviation of the way made in `time`: sd t^2 / 2 at first [m].
-[[nodiscard]] double wavering_sd(const Wavering& wavering, double time);
+[[nodiscard]] double ornstein_uhlenbeck_sd(const OrnsteinUhlenbeck& wavering, double time);
 
 /// Deceleration from which on somebody counts as braking [m/s^2]: the project's own mark.
 constexpr double braking_mark = 2.0;

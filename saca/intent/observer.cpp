@@ -5,17 +5,17 @@
 #include "saca/core/contract.h"
 #include "saca/intent/line.h"
 #include "saca/intent/observed.h"
-#include "saca/intent/walkers.h"
+#include "saca/intent/vru.h"
 
 namespace saca::intent {
 namespace {
 
 constexpr double rounding = 1e-6;  // [s]: times are sums of steps
 
-Belief of_walker(const world::Scene& scene, const world::Actor& actor) {
+Belief of_vru(const world::Scene& scene, const world::Actor& actor) {
   Belief belief;
   std::transform(horizons.begin(), horizons.end(), belief.at.begin(),
-                 [&](double ahead) { return walker_posterior(scene, actor, ahead); });
+                 [&](double ahead) { return vru_posterior(scene, actor, ahead); });
   return belief;
 }
 
@@ -29,7 +29,7 @@ Belief of_who_goes_on() {
   return belief;
 }
 
-Belief of_vehicle(const Told& told) {
+Belief of_vehicle(const HorizonScores& told) {
   Belief belief;
   for (std::size_t h = 0; h < num_horizons; ++h) {
     belief.at[h] = {};
@@ -76,10 +76,10 @@ Belief Observer::judged(const world::Scene& scene, std::size_t i, Stream& stream
   if (actor.kind == world::ActorKind::obstacle || model_->networks.empty()) {
     return of_who_goes_on();
   }
-  if (is_walker(actor.kind)) {
-    return of_walker(scene, actor);
+  if (is_vru(actor.kind)) {
+    return of_vru(scene, actor);
   }
-  const Told told =
+  const HorizonScores told =
       stream.step(*model_, observed(scene, i));  // also of who stands: it may drive on
   return norm(actor.v_W) < rest_speed ? of_who_goes_on() : of_vehicle(told);
 }

@@ -28,7 +28,7 @@ using Beliefs = StaticVector<Belief, world::max_actors>;
 ///
 /// A road user is known by its kind and id. Whoever is seen for the first time is judged at once,
 /// then every 0.1 s of scene time; in between, its last belief stands. Who has been gone for 2 s is
-/// forgotten. Vehicles are judged by the model, walkers by `walker_posterior`; who stands, and
+/// forgotten. Vehicles are judged by the model, VRUs by `vru_posterior`; who stands, and
 /// every obstacle, maintains. Fixed in size: copyable, and allocates nothing.
 class Observer {
  public:

@@ -60,10 +60,10 @@ double braking_at_sight(double deceleration) {
 TEST(Observer, WhoHasLearntNothingTakesAllToGoOn) {
   const Model none;
   Observer observer(none);
-  Actor walker = car(2);
-  walker.kind = ActorKind::pedestrian;
-  walker.v_W = {0.0, 1.5};
-  const Scene scene = with(0.0, {car(1, 8.0), walker});
+  Actor vru = car(2);
+  vru.kind = ActorKind::pedestrian;
+  vru.v_W = {0.0, 1.5};
+  const Scene scene = with(0.0, {car(1, 8.0), vru});
   constexpr auto maintains = static_cast<std::size_t>(Intention::maintain);
   EXPECT_LT(beliefs_at_sight(model, scene)[0].now()[maintains], 0.9);
   EXPECT_LT(beliefs_at_sight(model, scene)[1].now()[maintains], 0.9);
@@ -107,7 +107,7 @@ TEST(Observer, HasOneBeliefPerActorInTheScenesOrder) {
 TEST(Observer, StepsEachVehiclesStreamEveryTenthOfASecondAndRepeatsItselfBetween) {
   Observer observer(model);
   Stream stream;
-  Told told{};
+  HorizonScores told{};
   for (int look = 0; look <= 100; ++look) {
     const Scene scene = with(look / looks_per_second, {car(1, 0.05 * look)});
     if (look % 10 == 0) {

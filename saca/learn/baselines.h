@@ -11,7 +11,7 @@
 
 namespace saca::learn {
 
-// Ways to foretell that a model has to surpass. None looks at later frames.
+// Ways to predict that a model has to surpass. None looks at later frames.
 
 /// Nobody does anything: M, for certain, now and later.
 [[nodiscard]] Forecasts constant_motion(const Sequence& sequence);

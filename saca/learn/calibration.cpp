@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "saca/core/contract.h"
-#include "saca/learn/warning.h"
+#include "saca/learn/lead_time.h"
 
 namespace saca::learn {
 namespace {
@@ -24,7 +24,7 @@ constexpr std::array<Eigen::Index, num_classes> bias_of{0, 2, 2, 1, 3, 3};  // 0
 
 constexpr double least_log = -30.0;  // of a probability: more would let one frame decide
 
-/// What is foretold of one scored frame, and its label.
+/// What is predicted of one scored frame, and its label.
 struct Frame {
   ClassProbabilities log;
   std::uint8_t label = 0;
@@ -56,7 +56,7 @@ Parameters derivatives(const Frame& frame, std::size_t k) {
 }
 
 Calibration calibration_of(const Parameters& parameters) {
-  Calibration calibration{.sharpness = parameters[0]};
+  Calibration calibration{.inverse_temperature = parameters[0]};
   for (std::size_t k = 0; k < num_classes; ++k) {
     calibration.bias[k] = bias_of[k] > 0 ? parameters[bias_of[k]] : 0.0;
   }
@@ -102,7 +102,8 @@ Loss loss_at(const std::vector<Frame>& frames, const Parameters& parameters) {
   return loss;
 }
 
-/// Newton's method; a step that does not help is halved, and the sharpness stays positive.
+/// Newton's method; a step that does not help is halved, and the inverse temperature stays
+/// positive.
 Calibration likeliest_calibration(const std::vector<Frame>& frames) {
   constexpr int most_steps = 30;
   constexpr double least_sharpness = 0.05;

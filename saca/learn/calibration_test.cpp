@@ -53,7 +53,7 @@ TEST(Calibration, LeavesHonestForecastsAsTheyAre) {
   drawn.add(6'000, mostly(0, 0.7), mostly(0, 0.7), 6);
   drawn.add(6'000, mostly(3, 0.6), mostly(3, 0.6), 7);
   for (const intent::Calibration& each : drawn.best()) {
-    EXPECT_NEAR(each.sharpness, 1.0, 0.1);
+    EXPECT_NEAR(each.inverse_temperature, 1.0, 0.1);
     for (const double bias : each.bias) {
       EXPECT_NEAR(bias, 0.0, 0.2);
     }

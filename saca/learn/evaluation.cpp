@@ -9,7 +9,7 @@
 
 #include "saca/config/tensors.h"
 #include "saca/core/contract.h"
-#include "saca/learn/foretell.h"
+#include "saca/learn/predict.h"
 
 namespace saca::learn {
 namespace {
@@ -76,9 +76,9 @@ Figures figures_of(std::span<const Sequence> sequences, std::span<const Forecast
         num_draws, seed);
   }
   for (std::size_t i = 0; i < sequences.size(); ++i) {
-    figures.acts += acts_found(sequences[i], forecasts[i]);
-    figures.lane_changes.add(lane_change_warnings(sequences[i], forecasts[i]));
-    figures.brakings.add(braking_warnings(sequences[i], forecasts[i]));
+    figures.events += manoeuvre_events_found(sequences[i], forecasts[i]);
+    figures.lane_changes.add(lane_change_lead_times(sequences[i], forecasts[i]));
+    figures.brakings.add(braking_lead_times(sequences[i], forecasts[i]));
     figures.alarms += false_alarms(sequences[i], forecasts[i]);
     figures.illegal_steps += illegal_steps(forecasts[i].named(0), structurally_forbidden());
   }
@@ -139,9 +139,9 @@ Result<ModelsByLeftOut> read_models(const fs::path& folder) {
   return models;
 }
 
-Result<std::vector<Forecasts>> foretold_unseen(const ModelsByLeftOut& models,
-                                               std::span<const Sequence> sequences,
-                                               std::span<const std::string> splits, int threads) {
+Result<std::vector<Forecasts>> predicted_unseen(const ModelsByLeftOut& models,
+                                                std::span<const Sequence> sequences,
+                                                std::span<const std::string> splits, int threads) {
   expects(sequences.size() == splits.size(), "one split per sequence");
   std::vector<Forecasts> all(sequences.size());
   for (const std::string& split : std::set<std::string>(splits.begin(), splits.end())) {
@@ -158,7 +158,7 @@ Result<std::vector<Forecasts>> foretold_unseen(const ModelsByLeftOut& models,
         of_split.push_back(sequences[i]);
       }
     }
-    std::vector<Forecasts> some = foretold(model->second, of_split, threads);
+    std::vector<Forecasts> some = predicted(model->second, of_split, threads);
     for (std::size_t i = 0; i < places.size(); ++i) {
       all[places[i]] = std::move(some[i]);
     }

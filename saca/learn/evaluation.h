@@ -11,21 +11,21 @@
 
 #include "saca/core/result.h"
 #include "saca/intent/model.h"
-#include "saca/learn/acts.h"
 #include "saca/learn/bootstrap.h"
+#include "saca/learn/lead_time.h"
+#include "saca/learn/manoeuvre_events.h"
 #include "saca/learn/score.h"
 #include "saca/learn/sequence_file.h"
-#include "saca/learn/warning.h"
 
 namespace saca::learn {
 
-/// All figures of one way to foretell.
+/// All figures of one way to predict.
 struct Figures {
   std::array<Tally, num_heads> tallies;
   std::array<std::optional<Interval>, num_heads> macro_f1;  ///< groups drawn anew
-  ActsFound acts;
-  Warnings lane_changes;
-  Warnings brakings;
+  ManoeuvreEventsFound events;
+  LeadTimes lane_changes;
+  LeadTimes brakings;
   FalseAlarms alarms;
   std::size_t illegal_steps = 0;  ///< of what the head for now names
 };
@@ -63,9 +63,9 @@ using ModelsByLeftOut = std::map<std::string, intent::Model>;
 /// Forecasts of the sequences by the models that have not seen their split: cross-validation.
 /// @param splits  one per sequence
 /// @return        out_of_range, naming the split, when a model is missing
-[[nodiscard]] Result<std::vector<Forecasts>> foretold_unseen(const ModelsByLeftOut& models,
-                                                             std::span<const Sequence> sequences,
-                                                             std::span<const std::string> splits,
-                                                             int threads);
+[[nodiscard]] Result<std::vector<Forecasts>> predicted_unseen(const ModelsByLeftOut& models,
+                                                              std::span<const Sequence> sequences,
+                                                              std::span<const std::string> splits,
+                                                              int threads);
 
 }  // namespace saca::learn

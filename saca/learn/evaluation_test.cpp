@@ -8,7 +8,7 @@
 
 #include "saca/core/file.h"
 #include "saca/intent/network_for_test.h"
-#include "saca/learn/foretell.h"
+#include "saca/learn/predict.h"
 #include "saca/learn/sequences_for_test.h"
 
 namespace saca::learn::evaluation_test {
@@ -34,7 +34,7 @@ std::vector<Sequence> six() {
   return all;
 }
 
-/// What is foretold for each frame is what is there `late` frames before it.
+/// What is predicted for each frame is what is there `late` frames before it.
 std::vector<Forecasts> late_by(const std::vector<Sequence>& sequences, std::size_t late) {
   std::vector<Forecasts> all(sequences.size());
   for (std::size_t i = 0; i < sequences.size(); ++i) {
@@ -143,15 +143,15 @@ TEST_F(Models, EachForetellsWhatItHasNotSeen) {
   for (int i = 0; i < 6; ++i) {
     splits.push_back(i % 2 == 0 ? "part-0" : "part-1");
   }
-  const auto all = foretold_unseen(models.value(), sequences, splits, 2);
+  const auto all = predicted_unseen(models.value(), sequences, splits, 2);
   ASSERT_TRUE(all.has_value());
   for (std::size_t i = 0; i < 6; ++i) {
     const auto expected =
-        foretold(models.value().at(splits[i]), std::span(&sequences[i], 1), 1).front();
+        predicted(models.value().at(splits[i]), std::span(&sequences[i], 1), 1).front();
     EXPECT_EQ(all.value()[i].at, expected.at);
   }
   splits[3] = "part-2";
-  EXPECT_THAT(foretold_unseen(models.value(), sequences, splits, 1).error().message,
+  EXPECT_THAT(predicted_unseen(models.value(), sequences, splits, 1).error().message,
               HasSubstr("left out part-2, got none"));
 }
 

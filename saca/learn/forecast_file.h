@@ -12,7 +12,7 @@
 
 namespace saca::learn {
 
-/// What a model foretells of some sequences.
+/// What a model predicts of some sequences.
 struct ForecastSet {
   std::string model;               ///< what made them, in words
   std::vector<std::string> names;  ///< of the sequences, in the forecasts' order

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "saca/config/checksummed_hdf5.h"
 #include "saca/config/hdf5_rows.h"
-#include "saca/config/sealed_hdf5.h"
 #include "saca/core/contract.h"
 #include "saca/learn/sequences_for_test.h"
 
@@ -23,7 +23,7 @@ ForecastSet small_set() {
   ForecastSet set{.model = "by hand, two lines\nof it",
                   .names = {"a", "b"},
                   .forecasts = {all_heads("MLB"), all_heads("rM", 0.4)}};
-  set.forecasts[0].at[2] = foretold("lll", 1.0);
+  set.forecasts[0].at[2] = predicted("lll", 1.0);
   return set;
 }
 

@@ -99,12 +99,12 @@ void gather_wavering(const TrueMotion& motion, const Labels& labels, Gathered& g
 }
 
 /// The wavering that carries as far after 1 s and after all as was measured.
-intent::Wavering wavering_of(const Gathered& gathered) {
+intent::OrnsteinUhlenbeck wavering_of(const Gathered& gathered) {
   if (!(gathered.after_one_second > 0.0)) {
     return {};
   }
   const auto unit = [](double time, std::size_t frames) {
-    return intent::wavering_sd({1.0, time}, static_cast<double>(frames) * frame_step);
+    return intent::ornstein_uhlenbeck_sd({1.0, time}, static_cast<double>(frames) * frame_step);
   };
   const double wanted = std::sqrt(gathered.after_all / gathered.after_one_second);
   double low = frame_step;

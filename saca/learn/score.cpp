@@ -11,7 +11,7 @@ namespace {
 /// Of single precision, in which models work, a few roundings [-].
 constexpr double sum_tolerance = 1e-4;
 
-std::size_t foretold_as(const Confusion& confusion, std::size_t of) {
+std::size_t predicted_as(const Confusion& confusion, std::size_t of) {
   std::size_t sum = 0;
   for (const auto& row : confusion.counts) {
     sum += row.at(of);
@@ -39,16 +39,16 @@ void add(Reliability& bins, const Reliability& other) {
   }
 }
 
-void add(Tally& tally, const ClassProbabilities& foretold, std::size_t named, std::size_t truth) {
-  const std::size_t top = likeliest_class(foretold);
+void add(Tally& tally, const ClassProbabilities& predicted, std::size_t named, std::size_t truth) {
+  const std::size_t top = likeliest_class(predicted);
   ++tally.confusion.counts.at(truth).at(named);
-  add(tally.top, foretold.at(top), top == truth);
+  add(tally.top, predicted.at(top), top == truth);
   for (std::size_t c = 0; c < num_vehicle_classes; ++c) {
     const double is_so = c == truth ? 1.0 : 0.0;
-    add(tally.of_class.at(c), foretold.at(c), c == truth);
-    tally.brier += (foretold.at(c) - is_so) * (foretold.at(c) - is_so);
+    add(tally.of_class.at(c), predicted.at(c), c == truth);
+    tally.brier += (predicted.at(c) - is_so) * (predicted.at(c) - is_so);
   }
-  tally.log_loss -= std::log(std::max(foretold.at(truth), least_probability));
+  tally.log_loss -= std::log(std::max(predicted.at(truth), least_probability));
 }
 
 /// One head's, without asking whether all is whole.
@@ -128,12 +128,12 @@ std::optional<double> Confusion::recall(std::size_t of) const {
 }
 
 std::optional<double> Confusion::precision(std::size_t of) const {
-  const std::size_t called = foretold_as(*this, of);
+  const std::size_t called = predicted_as(*this, of);
   return called == 0 ? std::nullopt : std::optional<double>(share(counts.at(of).at(of), called));
 }
 
 std::optional<double> Confusion::f1(std::size_t of) const {
-  const std::size_t either = truly(of) + foretold_as(*this, of);
+  const std::size_t either = truly(of) + predicted_as(*this, of);
   return either == 0 ? std::nullopt
                      : std::optional<double>(share(2 * counts.at(of).at(of), either));
 }
@@ -162,8 +162,8 @@ std::optional<double> calibration_error(const Reliability& bins) {
 
 Tally& Tally::operator+=(const Tally& other) {
   for (std::size_t truth = 0; truth < num_vehicle_classes; ++truth) {
-    for (std::size_t foretold = 0; foretold < num_vehicle_classes; ++foretold) {
-      confusion.counts.at(truth).at(foretold) += other.confusion.counts.at(truth).at(foretold);
+    for (std::size_t predicted = 0; predicted < num_vehicle_classes; ++predicted) {
+      confusion.counts.at(truth).at(predicted) += other.confusion.counts.at(truth).at(predicted);
     }
     add(of_class.at(truth), other.of_class.at(truth));
   }

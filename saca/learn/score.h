@@ -13,7 +13,7 @@
 
 namespace saca::learn {
 
-/// How many frames ahead each head of a model foretells.
+/// How many frames ahead each head of a model predicts.
 constexpr std::size_t num_heads = intent::num_horizons;
 constexpr std::array<std::size_t, num_heads> frames_ahead = [] {
   std::array<std::size_t, num_heads> frames{};
@@ -27,7 +27,7 @@ constexpr std::array<std::size_t, num_heads> frames_ahead = [] {
 /// Probability of each class, in the order of `intent::Intention`; they sum to 1.
 using ClassProbabilities = std::array<double, num_vehicle_classes>;
 
-/// What a model says of one sequence: `at[head][t]` is what it foretells at frame t for frame
+/// What a model says of one sequence: `at[head][t]` is what it predicts at frame t for frame
 /// t + frames_ahead[head].   (num_heads x frames)
 struct Forecasts {
   std::array<std::vector<ClassProbabilities>, num_heads> at;
@@ -54,7 +54,7 @@ struct Forecasts {
 /// The likeliest class; among equals the first.
 [[nodiscard]] std::size_t likeliest_class(const ClassProbabilities& probabilities);
 
-/// Visits each frame t of which a head is judged, with the frame that it foretells: both are
+/// Visits each frame t of which a head is judged, with the frame that it predicts: both are
 /// scored.
 /// @param visit  is called with t and that frame
 template <class Visit>
@@ -74,7 +74,7 @@ void expect_forecasts_of(const Sequence& sequence, const Forecasts& forecasts);
 
 /// How often what was said of what.
 struct Confusion {
-  /// [truth][foretold]
+  /// [truth][predicted]
   std::array<std::array<std::size_t, num_vehicle_classes>, num_vehicle_classes> counts{};
 
   /// Of those that are of the class, the share that was found; nullopt: there is none.
@@ -82,7 +82,7 @@ struct Confusion {
   /// Of those that were called so, the share that is; nullopt: none was.
   [[nodiscard]] std::optional<double> precision(std::size_t of) const;
   /// Harmonic mean of both: 0 where all are missed or wrong; nullopt: the class neither occurs nor
-  /// is foretold.
+  /// is predicted.
   [[nodiscard]] std::optional<double> f1(std::size_t of) const;
   /// Mean F1 over those of the classes that truly occur; nullopt: none does.
   [[nodiscard]] std::optional<double> macro_f1(std::span<const std::size_t> classes) const;
@@ -97,7 +97,7 @@ constexpr std::array<std::size_t, 2> simulated_classes{4, 5};       // LB, RB
 /// Forecasts of about the same probability.
 struct ReliabilityBin {
   std::size_t count = 0;
-  double probability = 0.0;  ///< sum of what was foretold
+  double probability = 0.0;  ///< sum of what was predicted
   double right = 0.0;        ///< how many were so
 };
 

@@ -34,7 +34,7 @@ TEST(Confusion, CountsByHand) {
   EXPECT_THAT(confusion.precision(1), Optional(DoubleNear(2.0 / 3.0, rounding)));
   EXPECT_THAT(confusion.f1(1), Optional(DoubleNear(0.8, rounding)));
   EXPECT_THAT(confusion.f1(3), Optional(DoubleNear(2.0 / 3.0, rounding)));
-  // RC neither occurs nor is foretold: the mean is over M, LC and FB.
+  // RC neither occurs nor is predicted: the mean is over M, LC and FB.
   EXPECT_THAT(confusion.macro_f1(recorded_classes),
               Optional(DoubleNear((0.75 + 0.8 + 2.0 / 3.0) / 3.0, rounding)));
 }
@@ -44,7 +44,7 @@ TEST(Confusion, HasNoShareOfNothing) {
   EXPECT_EQ(sum.confusion.recall(3), std::nullopt);
   EXPECT_EQ(sum.confusion.precision(3), std::nullopt);
   EXPECT_EQ(sum.confusion.f1(3), std::nullopt);
-  EXPECT_THAT(sum.confusion.f1(1), Optional(0.0)) << "foretold, and wrong";
+  EXPECT_THAT(sum.confusion.f1(1), Optional(0.0)) << "predicted, and wrong";
   EXPECT_EQ(sum.confusion.macro_f1(simulated_classes), std::nullopt);
   EXPECT_EQ(Tally{}.mean_log_loss(), std::nullopt);
   EXPECT_EQ(Tally{}.top_calibration_error(), std::nullopt);
@@ -55,7 +55,7 @@ TEST(Tally, ComparesAHeadWithTheLabelAheadOfIt) {
   const std::string late = "MMMMMLLLLL";
   // The head for 0.5 s says at each frame what will be five frames later.
   Forecasts forecasts = all_heads("MMMMMMMMMM");
-  forecasts.at[1] = foretold("LLLLLBBBBB");  // the last five are never judged
+  forecasts.at[1] = predicted("LLLLLBBBBB");  // the last five are never judged
   const auto ahead = tally(labelled(late), forecasts, 1);
   EXPECT_EQ(ahead.confusion.total(), 5U);
   EXPECT_EQ(ahead.confusion.counts[1][1], 5U);
@@ -113,7 +113,7 @@ TEST(CalibrationError, IsTheDistanceOfProbabilityAndShareByHand) {
   const auto sum = tally(sequence, forecasts, 0);
   EXPECT_THAT(sum.top_calibration_error(),
               Optional(DoubleNear((std::abs(9.0 - 8.0) + std::abs(5.0 - 9.0)) / 20.0, rounding)));
-  // M: as above. FB: 10 x 0.02 and 10 x 0.1, which true 2 and 1. Others: as foretold, none true.
+  // M: as above. FB: 10 x 0.02 and 10 x 0.1, which true 2 and 1. Others: as predicted, none true.
   const double m = (1.0 + 4.0) / 20.0;
   const double fb = (std::abs(0.2 - 2.0) + std::abs(1.0 - 1.0)) / 20.0;
   const double other = (0.2 + 1.0) / 20.0;

@@ -9,10 +9,10 @@
 #include <set>
 #include <string_view>
 
+#include "saca/config/checksummed_hdf5.h"
 #include "saca/config/hdf5_reader.h"
 #include "saca/config/hdf5_rows.h"
 #include "saca/config/hdf5_writer.h"
-#include "saca/config/sealed_hdf5.h"
 #include "saca/core/contract.h"
 
 namespace saca::learn {

@@ -8,8 +8,8 @@
 #include <functional>
 #include <limits>
 
+#include "saca/config/checksummed_hdf5.h"
 #include "saca/config/hdf5_rows.h"
-#include "saca/config/sealed_hdf5.h"
 #include "saca/core/contract.h"
 #include "saca/core/file.h"
 #include "saca/learn/sequences_for_test.h"

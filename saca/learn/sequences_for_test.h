@@ -36,7 +36,7 @@ inline ClassProbabilities mostly(std::size_t top, double sure) {
   return probabilities;
 }
 
-inline std::vector<ClassProbabilities> foretold(std::string_view letters, double sure = 0.9) {
+inline std::vector<ClassProbabilities> predicted(std::string_view letters, double sure = 0.9) {
   std::vector<ClassProbabilities> all;
   for (const char letter : letters) {
     all.push_back(mostly(class_of(letter), sure));
@@ -46,7 +46,7 @@ inline std::vector<ClassProbabilities> foretold(std::string_view letters, double
 
 /// All heads say the same.
 inline Forecasts all_heads(std::string_view letters, double sure = 0.9) {
-  const auto said = foretold(letters, sure);
+  const auto said = predicted(letters, sure);
   return {{said, said, said}};
 }
 

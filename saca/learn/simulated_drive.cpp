@@ -28,7 +28,7 @@ double braking_at(const BrakingPlan& plan, double time) {
 }
 
 double wanted_at(const SpeedPlan& plan, double time) {
-  double wanted = plan.swaying[0].at(time) + plan.swaying[1].at(time);
+  double wanted = plan.oscillations[0].at(time) + plan.oscillations[1].at(time);
   for (const BrakingPlan& braking : plan.brakings) {
     wanted += braking_at(braking, time);
   }
@@ -94,16 +94,16 @@ void add_shift(const ShiftPlan& shift, const Along& driven, DriveMotion& motion)
 }
 
 /// The swing's slope over the way: a vehicle at rest does not wander.
-void add_wandering(const std::array<Sway, 2>& wandering, const Along& driven, DriveMotion& motion,
-                   double usual_speed) {
+void add_wandering(const std::array<Oscillation, 2>& wandering, const Along& driven,
+                   DriveMotion& motion, double usual_speed) {
   constexpr double epsilon = 1e-3;  // [s], for the numeric slope
   const double scale = std::max(1.0, usual_speed);
   for (std::size_t i = 0; i < driven.way.size(); ++i) {
     const double time = driven.way[i] / scale;  // so that it swings with the way made
-    for (const Sway& sway : wandering) {
-      motion.aside[i] += sway.at(time);
-      motion.slope[i] +=
-          (sway.at(time + epsilon) - sway.at(time - epsilon)) / (2.0 * epsilon * scale);
+    for (const Oscillation& oscillation : wandering) {
+      motion.aside[i] += oscillation.at(time);
+      motion.slope[i] += (oscillation.at(time + epsilon) - oscillation.at(time - epsilon)) /
+                         (2.0 * epsilon * scale);
     }
   }
 }
@@ -144,7 +144,7 @@ class Dice {
   std::mt19937_64& rng_;
 };
 
-Sway drawn_sway(Dice& dice, double most, double shortest, double longest) {
+Oscillation drawn_oscillation(Dice& dice, double most, double shortest, double longest) {
   return {dice.between(0.0, most), dice.between(shortest, longest),
           dice.between(0.0, 2.0 * std::numbers::pi)};
 }
@@ -231,7 +231,8 @@ void draw_leads(Dice& dice, bool acts, double start, DrivePlan& plan) {
   }
   for (auto* lead : {&plan.lead, &plan.beside}) {
     if (*lead) {
-      (*lead)->speed.swaying = {drawn_sway(dice, 0.2, 3.0, 6.0), drawn_sway(dice, 0.2, 6.0, 12.0)};
+      (*lead)->speed.oscillations = {drawn_oscillation(dice, 0.2, 3.0, 6.0),
+                                     drawn_oscillation(dice, 0.2, 6.0, 12.0)};
     }
   }
 }
@@ -246,7 +247,7 @@ sim::PerceptionModel drawn_perception(Dice& dice) {
 
 }  // namespace
 
-double Sway::at(double time) const {
+double Oscillation::at(double time) const {
   return amplitude * std::sin(2.0 * std::numbers::pi * time / period + phase);
 }
 
@@ -258,9 +259,11 @@ DrivePlan draw_plan(std::mt19937_64& rng) {
     const double sharpest = std::min(1.0 / 300.0, 2.5 / (plan.speed.speed * plan.speed.speed));
     plan.curvature = dice.side() * dice.between(0.0, sharpest);
   }
-  plan.speed.swaying = {drawn_sway(dice, 0.3, 3.0, 6.0), drawn_sway(dice, 0.3, 6.0, 12.0)};
+  plan.speed.oscillations = {drawn_oscillation(dice, 0.3, 3.0, 6.0),
+                             drawn_oscillation(dice, 0.3, 6.0, 12.0)};
   // Together below 0.3 m/s: never a motion that counts as a change.
-  plan.wandering = {drawn_sway(dice, 0.1, 5.0, 8.0), drawn_sway(dice, 0.2, 8.0, 15.0)};
+  plan.wandering = {drawn_oscillation(dice, 0.1, 5.0, 8.0),
+                    drawn_oscillation(dice, 0.2, 8.0, 15.0)};
   const double start = dice.between(2.0, plan.duration - 2.5);
   const double what = dice.between(0.0, 1.0);
   constexpr std::array<double, 3> up_to{0.2, 0.36, 0.5};  // drives on, brakes, changes; or both
@@ -285,8 +288,8 @@ DrivePlan draw_plan(std::mt19937_64& rng) {
 
 DrivePlan mirrored(DrivePlan plan) {
   plan.curvature = -plan.curvature;
-  for (Sway& sway : plan.wandering) {
-    sway.amplitude = -sway.amplitude;
+  for (Oscillation& oscillation : plan.wandering) {
+    oscillation.amplitude = -oscillation.amplitude;
   }
   for (ShiftPlan& shift : plan.shifts) {
     shift.aside = -shift.aside;

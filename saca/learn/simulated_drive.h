@@ -11,7 +11,7 @@
 namespace saca::learn {
 
 /// A slow swing about zero.
-struct Sway {
+struct Oscillation {
   double amplitude = 0.0;
   double period = 10.0;  ///< [s], > 0
   double phase = 0.0;    ///< [rad]
@@ -30,8 +30,8 @@ struct BrakingPlan {
 
 /// How somebody drives along the lane.
 struct SpeedPlan {
-  double speed = 0.0;           ///< at the start [m/s], >= 0
-  std::array<Sway, 2> swaying;  ///< of the acceleration [m/s^2]
+  double speed = 0.0;                       ///< at the start [m/s], >= 0
+  std::array<Oscillation, 2> oscillations;  ///< of the acceleration [m/s^2]
   std::vector<BrakingPlan> brakings;
 };
 
@@ -55,8 +55,8 @@ struct DrivePlan {
   double lane_width = 3.5;  ///< [m], > 0
   double curvature = 0.0;   ///< of the road, > 0: to the left [1/m]
   SpeedPlan speed;
-  std::array<Sway, 2> wandering;  ///< in its lane [m]
-  std::vector<ShiftPlan> shifts;  ///< one begins after the other
+  std::array<Oscillation, 2> wandering;  ///< in its lane [m]
+  std::vector<ShiftPlan> shifts;         ///< one begins after the other
   std::optional<LeadPlan> lead;
   std::optional<LeadPlan> beside;  ///< in the lanes to either side
   bool shares_pedals = false;

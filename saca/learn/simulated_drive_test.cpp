@@ -78,7 +78,7 @@ TEST(SimulatedDrive, BrakingBuildsUpHoldsAndIsLetGo) {
 
 TEST(SimulatedDrive, WhoHasStoppedStays) {
   DrivePlan plan = steady(8.0);
-  plan.speed.swaying = {{{0.3, 4.0, 1.0}, {}}};
+  plan.speed.oscillations = {{{0.3, 4.0, 1.0}, {}}};
   plan.speed.brakings = {{.start = 1.0, .build_up = 0.2, .deceleration = 8.0}};
   const DriveMotion motion = drive(plan);
   EXPECT_EQ(at(motion.speed, 4.0), 0.0);

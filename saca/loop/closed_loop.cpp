@@ -51,7 +51,7 @@ ClosedLoop::ClosedLoop(const Stage& stage)
     : stage_(&complete(stage)),
       stepper_(*stage.scenario, *stage.car, stage.chance),
       observer_(*stage.intent),
-      witness_(*stage.harm) {}
+      recorder_(*stage.harm) {}
 
 std::optional<Error> ClosedLoop::look() {
   const auto broken = [&](const Scene& scene) -> std::optional<Error> {
@@ -113,7 +113,7 @@ void ClosedLoop::limit_braking(double deceleration) {
 
 void ClosedLoop::keep() {
   if (driven()) {
-    contact_ = witness_.look(stepper_);
+    contact_ = recorder_.look(stepper_);
     kept_ = true;
   }
 }
@@ -175,7 +175,7 @@ bool ClosedLoop::over() const {
 }
 
 std::optional<outcome::Outcome> ClosedLoop::outcome() const {
-  return kept_ ? std::optional(witness_.outcome()) : std::nullopt;
+  return kept_ ? std::optional(recorder_.outcome()) : std::nullopt;
 }
 
 double ClosedLoop::steering() const {

@@ -7,7 +7,7 @@
 #include "saca/core/result.h"
 #include "saca/decide/track_confirmation.h"
 #include "saca/intent/observer.h"
-#include "saca/loop/witness.h"
+#include "saca/loop/outcome_recorder.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/manoeuvre/execution.h"
 #include "saca/manoeuvre/plan.h"
@@ -112,10 +112,10 @@ class ClosedLoop {
   [[nodiscard]] std::optional<outcome::Outcome> outcome() const;
   /// Of what was kept from a time on, without contact until then and after it.
   [[nodiscard]] outcome::Outcome outcome_since(double time) const {
-    return witness_.outcome_since(time);
+    return recorder_.outcome_since(time);
   }
   /// Among whom the outcome's contacts count.
-  [[nodiscard]] const world::Scene& met() const { return witness_.scene(); }
+  [[nodiscard]] const world::Scene& met() const { return recorder_.scene(); }
 
   [[nodiscard]] double steering() const;
 
@@ -131,7 +131,7 @@ class ClosedLoop {
   const Stage* stage_;
   sim::Stepper stepper_;
   intent::Observer observer_;
-  Witness witness_;
+  OutcomeRecorder recorder_;
   world::Scene seen_;
   intent::Beliefs beliefs_;
   decide::TrackConfirmation tracks_;

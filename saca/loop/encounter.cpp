@@ -246,9 +246,9 @@ void Encounter::note_decision(const Answer& answer) {
   record_.threat = actor_name(scene.actors[answer.threat->actor]);
   trigger_ = {.seen = scene,
               .beliefs = avoider_.beliefs(),
-              .moment = {*record_.at_trigger, loop_.truth().others(), loop_.truth().grip(),
-                         loop_.truth().unknown_from_now(), decision.plan}};
-  trigger_->moment.scene.grip = scene.grip;
+              .point = {*record_.at_trigger, loop_.truth().others(), loop_.truth().grip(),
+                        loop_.truth().perturbation_from_now(), decision.plan}};
+  trigger_->point.scene.grip = scene.grip;
 }
 
 void Encounter::film(const Answer& answer) {
@@ -283,7 +283,7 @@ void Encounter::conclude() {
     tell(Plane::world, EventKind::contact, outcome::describe(record_.result, record_.met));
   }
   if (record_.decision) {
-    record_.hindsight = hindsight_of_all_speeds(trigger_->moment, *setup_.car, *setup_.harm);
+    record_.hindsight = hindsight_of_all_speeds(trigger_->point, *setup_.car, *setup_.harm);
     preview::AllFacts facts;
     std::transform(record_.hindsight->begin(), record_.hindsight->end(), facts.begin(),
                    [](const Hindsight& one) { return one.facts; });

@@ -8,40 +8,39 @@
 
 namespace saca::loop {
 
-std::vector<Hindsights> hindsights(std::span<const Moment> moments, const manoeuvre::Car& car,
+std::vector<Hindsights> hindsights(std::span<const DecisionPoint> points, const manoeuvre::Car& car,
                                    const outcome::HarmModel& harm, int threads) {
   std::vector<outcome::Attempt> attempts;
-  for (const Moment& moment : moments) {
+  for (const DecisionPoint& point : points) {
     for (const manoeuvre::PolicyId policy : manoeuvre::all_policies) {
-      const manoeuvre::Plan plan =
-          moment.carried_out && moment.carried_out->policy == policy
-              ? *moment.carried_out
-              : manoeuvre::default_plan(policy, norm(moment.scene.ego.v_B));
-      attempts.push_back({plan, &moment.scene, &moment.others, moment.grip, moment.unknown});
+      const manoeuvre::Plan plan = point.carried_out && point.carried_out->policy == policy
+                                       ? *point.carried_out
+                                       : manoeuvre::default_plan(policy, norm(point.scene.ego.v_B));
+      attempts.push_back({plan, &point.scene, &point.others, point.grip, point.perturbation});
     }
   }
   std::vector<Hindsight> tried = preview::tried(car, attempts, harm, threads);
-  std::vector<Hindsights> all(moments.size());
+  std::vector<Hindsights> all(points.size());
   for (std::size_t k = 0; k < tried.size(); ++k) {
     all[k / manoeuvre::num_policies][k % manoeuvre::num_policies] = std::move(tried[k]);
   }
   return all;
 }
 
-std::vector<std::vector<Hindsight>> all_plans_tried(std::span<const Moment> moments,
+std::vector<std::vector<Hindsight>> all_plans_tried(std::span<const DecisionPoint> points,
                                                     const manoeuvre::Car& car,
                                                     const outcome::HarmModel& harm,
                                                     preview::Braking braking, int threads) {
   std::vector<outcome::Attempt> attempts;
   std::vector<std::size_t> num_plans;
-  for (const Moment& moment : moments) {
-    const preview::Plans plans = preview::all_plans(norm(moment.scene.ego.v_B), braking);
-    bool carried_out_stands = !moment.carried_out;
+  for (const DecisionPoint& point : points) {
+    const preview::Plans plans = preview::all_plans(norm(point.scene.ego.v_B), braking);
+    bool carried_out_stands = !point.carried_out;
     for (const manoeuvre::Plan& plan : plans) {
-      const bool first = !carried_out_stands && moment.carried_out->policy == plan.policy;
+      const bool first = !carried_out_stands && point.carried_out->policy == plan.policy;
       carried_out_stands = carried_out_stands || first;
-      attempts.push_back({first ? *moment.carried_out : plan, &moment.scene, &moment.others,
-                          moment.grip, moment.unknown});
+      attempts.push_back({first ? *point.carried_out : plan, &point.scene, &point.others,
+                          point.grip, point.perturbation});
     }
     num_plans.push_back(plans.size());
   }
@@ -56,10 +55,10 @@ std::vector<std::vector<Hindsight>> all_plans_tried(std::span<const Moment> mome
   return all;
 }
 
-Hindsights hindsight_of_all_speeds(const Moment& moment, const manoeuvre::Car& car,
+Hindsights hindsight_of_all_speeds(const DecisionPoint& point, const manoeuvre::Car& car,
                                    const outcome::HarmModel& harm) {
   std::vector<Hindsight> tried =
-      std::move(all_plans_tried({&moment, 1}, car, harm, preview::Braking::full).front());
+      std::move(all_plans_tried({&point, 1}, car, harm, preview::Braking::full).front());
   std::array<std::optional<std::size_t>, manoeuvre::num_policies> best;
   for (std::size_t i = 0; i < tried.size(); ++i) {
     std::optional<std::size_t>& of_policy = best[manoeuvre::index(tried[i].facts.plan.policy)];
@@ -78,9 +77,9 @@ Hindsights hindsight_of_all_speeds(const Moment& moment, const manoeuvre::Car& c
   return all;
 }
 
-Hindsights hindsight(const Moment& moment, const manoeuvre::Car& car,
+Hindsights hindsight(const DecisionPoint& point, const manoeuvre::Car& car,
                      const outcome::HarmModel& harm) {
-  return std::move(hindsights({&moment, 1}, car, harm).front());
+  return std::move(hindsights({&point, 1}, car, harm).front());
 }
 
 }  // namespace saca::loop

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "saca/manoeuvre/car.h"
+#include "saca/manoeuvre/parameter_perturbation.h"
 #include "saca/manoeuvre/plan.h"
-#include "saca/manoeuvre/unknown.h"
 #include "saca/outcome/outcome.h"
 #include "saca/preview/policy_facts.h"
 #include "saca/world/scene.h"
@@ -15,13 +15,13 @@
 namespace saca::loop {
 
 /// One instant at which policies begin, and all that their outcome depends on.
-struct Moment {
-  world::Scene scene;          ///< the truth but for `grip`, which is what the ego believes in
-  outcome::Others others;      ///< what the others truly do from then on, the ego's motion given;
-                               ///< may be called by several threads at once
-  double grip = 0.0;           ///< true friction coefficient; `unknown` may change it
-  manoeuvre::Unknown unknown;  ///< what else the ego's controller does not know
-  std::optional<manoeuvre::Plan> carried_out;  ///< tried instead of its policy's default plan
+struct DecisionPoint {
+  world::Scene scene;      ///< the truth but for `grip`, which is what the ego believes in
+  outcome::Others others;  ///< what the others truly do from then on, the ego's motion given;
+                           ///< may be called by several threads at once
+  double grip = 0.0;       ///< true friction coefficient; `perturbation` may change it
+  manoeuvre::ParameterPerturbation perturbation;  ///< what else the ego's controller does not know
+  std::optional<manoeuvre::Plan> carried_out;     ///< tried instead of its policy's default plan
 };
 
 /// What one policy would have led to, knowing what the others really did.
@@ -31,23 +31,25 @@ using Hindsights = std::array<Hindsight, manoeuvre::num_policies>;  ///< by Poli
 /// All eight policies, begun at each moment, on the true grip: preview::tried. One moment does not
 /// depend on the others.
 /// @param threads  >= 1; they do not change the result
-[[nodiscard]] std::vector<Hindsights> hindsights(std::span<const Moment> moments,
+[[nodiscard]] std::vector<Hindsights> hindsights(std::span<const DecisionPoint> points,
                                                  const manoeuvre::Car& car,
                                                  const outcome::HarmModel& harm, int threads = 1);
-[[nodiscard]] Hindsights hindsight(const Moment& moment, const manoeuvre::Car& car,
+[[nodiscard]] Hindsights hindsight(const DecisionPoint& point, const manoeuvre::Car& car,
                                    const outcome::HarmModel& harm);
 
 /// Likewise every plan that can be chosen (preview::all_plans), and what was carried out in the
 /// place of its policy's default plan: it stands first among those of its policy.
 /// @return  for each moment, in the order of preview::all_plans of its ego's speed
 [[nodiscard]] std::vector<std::vector<Hindsight>> all_plans_tried(
-    std::span<const Moment> moments, const manoeuvre::Car& car, const outcome::HarmModel& harm,
-    preview::Braking braking = preview::Braking::any_strength, int threads = 1);
+    std::span<const DecisionPoint> points, const manoeuvre::Car& car,
+    const outcome::HarmModel& harm, preview::Braking braking = preview::Braking::any_strength,
+    int threads = 1);
 
 /// Of each policy the plan that would have harmed least, of all target speeds; of those in one
 /// class of harm (outcome::harm_class) the first: what was carried out, else the default. Policy 0
 /// stands for what was carried out, else for full braking: that is what people compare with.
-[[nodiscard]] Hindsights hindsight_of_all_speeds(const Moment& moment, const manoeuvre::Car& car,
+[[nodiscard]] Hindsights hindsight_of_all_speeds(const DecisionPoint& point,
+                                                 const manoeuvre::Car& car,
                                                  const outcome::HarmModel& harm);
 
 }  // namespace saca::loop

@@ -28,8 +28,9 @@ TEST(Hindsight, KnowsWhatEachPolicyWouldHaveDone) {
   };
 
   const auto try_all = [&](double grip) {
-    return hindsight(Moment{.scene = scene, .others = stands, .grip = grip, .unknown = {}}, car,
-                     harm);
+    return hindsight(
+        DecisionPoint{.scene = scene, .others = stands, .grip = grip, .perturbation = {}}, car,
+        harm);
   };
   const Hindsights all = try_all(0.5);
   const auto of = [&](PolicyId policy) -> const Hindsight& {
@@ -41,14 +42,14 @@ TEST(Hindsight, KnowsWhatEachPolicyWouldHaveDone) {
   EXPECT_FALSE(of(PolicyId::aes_left).facts.outcome().contact.has_value());
   // Whoever hits the wreck slides to rest behind it.
   const Hindsight& nothing = of(PolicyId::no_intervention);
-  EXPECT_GT(world::end_time(nothing.course.ego.track), nothing.facts.outcome().contact->time);
-  EXPECT_LT(norm(nothing.course.ego.v_B.back()), 0.1);
+  EXPECT_GT(world::end_time(nothing.sequence.ego.track), nothing.facts.outcome().contact->time);
+  EXPECT_LT(norm(nothing.sequence.ego.v_B.back()), 0.1);
   // What was carried out is tried as it was.
-  const Moment slowly{.scene = scene,
-                      .others = stands,
-                      .grip = 0.5,
-                      .unknown = {},
-                      .carried_out = manoeuvre::Plan{PolicyId::es_b_left, 15.0}};
+  const DecisionPoint slowly{.scene = scene,
+                             .others = stands,
+                             .grip = 0.5,
+                             .perturbation = {},
+                             .carried_out = manoeuvre::Plan{PolicyId::es_b_left, 15.0}};
   const Hindsights tried = hindsight(slowly, car, harm);
   EXPECT_EQ(tried[manoeuvre::index(PolicyId::es_b_left)].facts.plan.target_speed, 15.0);
   EXPECT_EQ(tried[manoeuvre::index(PolicyId::es_b_right)].facts.plan.target_speed, 10.0);
@@ -59,7 +60,7 @@ TEST(Hindsight, KnowsWhatEachPolicyWouldHaveDone) {
   scene.grip = 0.15;
   const auto slippery = try_all(0.15);
   const Hindsight& drift = slippery[manoeuvre::index(PolicyId::t_drift_left)];
-  EXPECT_TRUE(drift.course.ego.track.X_WA.empty());
+  EXPECT_TRUE(drift.sequence.ego.track.X_WA.empty());
   EXPECT_FALSE(drift.facts.drivable());
 }
 
@@ -76,10 +77,10 @@ TEST(Hindsight, OfEachPolicyThePlanStandsThatHarmsLeast) {
   const outcome::Others stands = [&](const manoeuvre::EgoMotion&) {
     return std::vector<world::Track>{{.X_WA = {scene.actors[0].X_WA}}};
   };
-  const Moment moment{.scene = scene, .others = stands, .grip = 0.5, .unknown = {}};
-  const auto all = all_plans_tried({&moment, 1}, car, harm).front();
+  const DecisionPoint point{.scene = scene, .others = stands, .grip = 0.5, .perturbation = {}};
+  const auto all = all_plans_tried({&point, 1}, car, harm).front();
   EXPECT_EQ(all.size(), preview::all_plans(norm(scene.ego.v_B)).size());
-  const Hindsights best = hindsight_of_all_speeds(moment, car, harm);
+  const Hindsights best = hindsight_of_all_speeds(point, car, harm);
   bool other_than_default = false;
   for (const Hindsight& one : all) {
     const Hindsight& of_policy = best[manoeuvre::index(one.facts.plan.policy)];
@@ -97,11 +98,11 @@ TEST(Hindsight, OfEachPolicyThePlanStandsThatHarmsLeast) {
   // What was carried out is one of them, and stays where nothing harms less.
   const manoeuvre::Plan lone{PolicyId::no_intervention, std::nullopt};
   EXPECT_EQ(best[manoeuvre::index(PolicyId::no_intervention)].facts.plan, lone);
-  const Moment slowly{.scene = scene,
-                      .others = stands,
-                      .grip = 0.5,
-                      .unknown = {},
-                      .carried_out = manoeuvre::Plan{PolicyId::aeb, std::nullopt, 0.93}};
+  const DecisionPoint slowly{.scene = scene,
+                             .others = stands,
+                             .grip = 0.5,
+                             .perturbation = {},
+                             .carried_out = manoeuvre::Plan{PolicyId::aeb, std::nullopt, 0.93}};
   const auto with_it = all_plans_tried({&slowly, 1}, car, harm).front();
   EXPECT_EQ(with_it.size(), all.size());
   EXPECT_EQ(std::count_if(with_it.begin(), with_it.end(),

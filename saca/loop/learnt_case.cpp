@@ -77,9 +77,9 @@ memory::Case learnt_case(const Setup& setup, const Record& record, const Trigger
   one.collision_loss = record.result.collision_loss;
   one.review = fmt::format("{}: {}; best {}: {}", name(decision.plan.policy),
                            outcome::describe(record.result, record.met), name(*record.best),
-                           outcome::describe(best.outcome(), trigger.moment.scene));
+                           outcome::describe(best.outcome(), trigger.point.scene));
   one.happened =
-      happened_harms(all_plans_tried({&trigger.moment, 1}, *setup.car, *setup.harm).front());
+      happened_harms(all_plans_tried({&trigger.point, 1}, *setup.car, *setup.harm).front());
   const preview::ForecastTools tools{setup.car, setup.harm, setup.atlas, setup.danger};
   one.made_with = made_with(tools, *setup.intent, setup.scenario->car);
   if (decision.verdict) {

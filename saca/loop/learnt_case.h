@@ -38,7 +38,7 @@ namespace saca::loop {
 struct Trigger {
   world::Scene seen;
   intent::Beliefs beliefs;  ///< one per actor of it
-  Moment moment;            ///< the truth
+  DecisionPoint point;      ///< the truth
 };
 
 /// What memory keeps of an encounter in which something was decided.

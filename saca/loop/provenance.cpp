@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "saca/core/fnv.h"
-#include "saca/core/level.h"
+#include "saca/core/simd_level.h"
 #include "saca/runtime/tape_header.h"
 
 namespace saca::loop {

@@ -231,15 +231,16 @@ json path_json(const world::Track& track, double start, double end) {
 }
 
 /// What was done and what came of it, until the ego rests or for `longest_path`.
-void add_course(const outcome::Course& course, const world::Scene& scene, json& entry) {
+void add_sequence(const outcome::CollisionSequence& sequence, const world::Scene& scene,
+                  json& entry) {
   const double start = scene.time;
-  const double end = std::min(world::end_time(course.ego.track), start + longest_path);
-  entry["path"] = path_json(course.ego.track, start, end);
+  const double end = std::min(world::end_time(sequence.ego.track), start + longest_path);
+  entry["path"] = path_json(sequence.ego.track, start, end);
   for (std::size_t i = 0; i < scene.actors.size(); ++i) {
     entry["others"].push_back(
-        {{"id", actor_name(scene.actors[i])}, {"path", path_json(course.others[i], start, end)}});
+        {{"id", actor_name(scene.actors[i])}, {"path", path_json(sequence.others[i], start, end)}});
   }
-  for (const outcome::Contact& contact : course.outcome.later) {
+  for (const outcome::Contact& contact : sequence.outcome.later) {
     entry["later"].push_back(contact_json(contact, actors_of(scene)));
   }
 }
@@ -255,7 +256,7 @@ json hindsight_json(const Record& record) {
     entry["others"] = json::array();
     entry["later"] = json::array();
     if (one.facts.drivable()) {
-      add_course(one.course, *record.at_trigger, entry);
+      add_sequence(one.sequence, *record.at_trigger, entry);
     }
     all.push_back(entry);
   }
@@ -386,8 +387,8 @@ std::string record_json(const Setup& setup, const Record& record, const Provenan
             {{"length_m", body.length},
              {"width_m", body.width},
              {"centre_x_m", body.centre_x},
-             {"front_axle_x_m", setup.car->front_arm},
-             {"rear_axle_x_m", -setup.car->rear_arm},
+             {"front_axle_x_m", setup.car->cg_to_front_axle},
+             {"rear_axle_x_m", -setup.car->cg_to_rear_axle},
              {"track_m", setup.car->track_width}}},
            {"actors", actor_bodies_json(scenario)},
            {"frames", frames},

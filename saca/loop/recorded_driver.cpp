@@ -6,7 +6,7 @@
 
 #include "saca/intent/motion.h"
 #include "saca/loop/closed_loop.h"
-#include "saca/loop/witness.h"
+#include "saca/loop/outcome_recorder.h"
 #include "saca/sim/stepper.h"
 
 namespace saca::loop {
@@ -61,11 +61,11 @@ std::optional<RecordedDriver> recorded_driver(const sim::Scenario& scenario,
   RecordedDriver driver;
   DriverWatch watch;
   sim::Stepper replay(scenario, car);
-  Witness witness(harm);
+  OutcomeRecorder recorder(harm);
   while (!replay.over() && replay.time() <= until) {
     if (replay.time() >= from) {
       watch.look(replay.scene(), driver);
-      if (witness.look(replay)) {
+      if (recorder.look(replay)) {
         break;
       }
     }
@@ -73,8 +73,8 @@ std::optional<RecordedDriver> recorded_driver(const sim::Scenario& scenario,
       replay.advance({});
     }
   }
-  driver.outcome = witness.outcome();
-  const auto& cast = witness.scene().actors;
+  driver.outcome = recorder.outcome();
+  const auto& cast = recorder.scene().actors;
   driver.met.assign(cast.begin(), cast.end());
   return driver;
 }

@@ -75,7 +75,7 @@ constexpr std::array<bool, 6> mirrored{false, true, true, false, true, true};
 
 // Adds the weighted channels of a node to those of a path.
 [[gnu::always_inline]] inline void add_channels(const AtlasNode& node, double weight, int side,
-                                                bool sways, AtlasPath& path) noexcept {
+                                                bool with_sensitivity, AtlasPath& path) noexcept {
   for (std::size_t c = 0; c < 6; ++c) {
     const double sign = mirrored[c] ? side : 1.0;
     const auto factor = static_cast<float>(sign * weight) * node.scale[c];
@@ -83,37 +83,37 @@ constexpr std::array<bool, 6> mirrored{false, true, true, false, true, true};
       path.channel[c][i] += factor * static_cast<float>(node.path[c][i]);
     }
   }
-  for (std::size_t c = 0; c < 6 && sways; ++c) {
+  for (std::size_t c = 0; c < 6 && with_sensitivity; ++c) {
     const double sign = mirrored[c % 3] ? side : 1.0;
-    const auto factor = static_cast<float>(sign * weight) * node.sway_scale[c];
-    for (std::size_t i = 0; i < sway_samples; ++i) {
-      path.sway[c][i] += factor * static_cast<float>(node.sway[c][i]);
+    const auto factor = static_cast<float>(sign * weight) * node.sensitivity_scale[c];
+    for (std::size_t i = 0; i < sensitivity_samples; ++i) {
+      path.sensitivity[c][i] += factor * static_cast<float>(node.sensitivity[c][i]);
     }
   }
 }
 
 #if defined(__x86_64__)
 [[gnu::target("avx2")]] void add_channels_in_avx2(const AtlasNode& node, double weight, int side,
-                                                  bool sways, AtlasPath& path) noexcept {
-  add_channels(node, weight, side, sways, path);
+                                                  bool with_sensitivity, AtlasPath& path) noexcept {
+  add_channels(node, weight, side, with_sensitivity, path);
 }
 #endif
 
 // The same numbers on each instruction set: no operation is fused or put in another order.
-void add_node(const AtlasNode& node, double weight, int side, bool sways,
+void add_node(const AtlasNode& node, double weight, int side, bool with_sensitivity,
               AtlasPath& path) noexcept {
 #if defined(__x86_64__)
-  if (available(Level::avx2)) {
-    add_channels_in_avx2(node, weight, side, sways, path);
+  if (available(SimdLevel::avx2)) {
+    add_channels_in_avx2(node, weight, side, with_sensitivity, path);
   } else {
-    add_channels(node, weight, side, sways, path);
+    add_channels(node, weight, side, with_sensitivity, path);
   }
 #else
-  add_channels(node, weight, side, sways, path);
+  add_channels(node, weight, side, with_sensitivity, path);
 #endif
   path.span += weight * static_cast<double>(node.span);
   path.end += weight * static_cast<double>(node.end);
-  path.sway_span += weight * static_cast<double>(node.sway_span);
+  path.sensitivity_span += weight * static_cast<double>(node.sensitivity_span);
   path.ended = path.ended && node.ended != 0;
 }
 
@@ -313,28 +313,29 @@ AtlasInstant at(const AtlasPath& path, double time) noexcept {
   return last;
 }
 
-double sway_share(double grip_factor) noexcept {
+double sensitivity_share(double grip_factor) noexcept {
   constexpr double least_factor = 0.1;
-  constexpr double of_less = 1.0 / (1.0 - sway_factor) - 1.0;
-  constexpr double of_more = 1.0 - 1.0 / (1.0 + sway_factor);
+  constexpr double of_less = 1.0 / (1.0 - sensitivity_grip_step) - 1.0;
+  constexpr double of_more = 1.0 - 1.0 / (1.0 + sensitivity_grip_step);
   const double shorter = 1.0 - 1.0 / std::max(grip_factor, least_factor);
   return shorter / (shorter < 0.0 ? of_less : of_more);
 }
 
-Sway sway_at(const AtlasPath& path, double time, double grip_factor) noexcept {
-  if (!(path.sway_span > 0.0)) {
+FrictionSensitivity friction_sensitivity_at(const AtlasPath& path, double time,
+                                            double grip_factor) noexcept {
+  if (!(path.sensitivity_span > 0.0)) {
     return {};
   }
-  const double last = static_cast<double>(sway_samples - 1);
-  const double place = std::clamp(time / path.sway_span * last, 0.0, last);
-  const std::size_t i = std::min(static_cast<std::size_t>(place), sway_samples - 2);
+  const double last = static_cast<double>(sensitivity_samples - 1);
+  const double place = std::clamp(time / path.sensitivity_span * last, 0.0, last);
+  const std::size_t i = std::min(static_cast<std::size_t>(place), sensitivity_samples - 2);
   const double u = place - static_cast<double>(i);
-  const double off = sway_share(grip_factor);
+  const double off = sensitivity_share(grip_factor);
   const std::size_t first = off < 0.0 ? 0 : 3;
   const auto value = [&](std::size_t c) {
-    const auto& sway = path.sway[first + c];
-    return std::abs(off) *
-           ((1.0 - u) * static_cast<double>(sway[i]) + u * static_cast<double>(sway[i + 1]));
+    const auto& sensitivity = path.sensitivity[first + c];
+    return std::abs(off) * ((1.0 - u) * static_cast<double>(sensitivity[i]) +
+                            u * static_cast<double>(sensitivity[i + 1]));
   };
   return {value(0), value(1), value(2)};
 }

@@ -54,38 +54,40 @@ using AtlasGrid = std::array<AtlasAxes, num_atlas_kinds>;  ///< by AtlasKind
 /// What `saca atlas build` tables.
 [[nodiscard]] AtlasGrid default_atlas_grid();
 
-constexpr std::size_t atlas_samples = 64;  ///< of a path
-constexpr std::size_t sway_samples = 17;   ///< of what wrong grip does to it
-constexpr double sway_factor = 0.2;        ///< the two other drives: true grip 20 % off, either way
+constexpr std::size_t atlas_samples = 64;        ///< of a path
+constexpr std::size_t sensitivity_samples = 17;  ///< of what wrong grip does to it
+constexpr double sensitivity_grip_step =
+    0.2;  ///< the two other drives: true grip 20 % off, either way
 
 /// One drive, and two with another true grip: what lies in the file.
 ///
 /// Six channels at equal shares of `span`: x, y [m], heading [rad], and what each gains per sample.
-/// Sway: x, y and heading of a drive on less and on more grip, minus those of the middle one, at
-/// equal shares of `sway_span`. Numbers are `scale` times the integer.
+/// Sensitivity to friction: x, y and heading of a drive on less and on more grip, minus those of
+/// the middle one, at equal shares of `sensitivity_span`. Numbers are `scale` times the integer.
 struct AtlasNode {
-  float span = 0.0F;        ///< of the samples; to rest, or past the end [s]
-  float end = 0.0F;         ///< at rest, or lane recovered [s]; at most `span`
-  float sway_span = 0.0F;   ///< [s]
-  std::uint32_t ended = 0;  ///< 1: it came to its end; 0: the horizon came first
+  float span = 0.0F;              ///< of the samples; to rest, or past the end [s]
+  float end = 0.0F;               ///< at rest, or lane recovered [s]; at most `span`
+  float sensitivity_span = 0.0F;  ///< [s]
+  std::uint32_t ended = 0;        ///< 1: it came to its end; 0: the horizon came first
   std::array<float, 6> scale{};
-  std::array<float, 6> sway_scale{};
+  std::array<float, 6> sensitivity_scale{};
   std::array<std::array<std::int16_t, atlas_samples>, 6> path{};
-  std::array<std::array<std::int16_t, sway_samples>, 6> sway{};  ///< less grip, then more
+  std::array<std::array<std::int16_t, sensitivity_samples>, 6>
+      sensitivity{};  ///< less grip, then more
 };
 static_assert(sizeof(AtlasNode) == 1036);
 
 /// One future of the ego, between nodes: a value that needs no atlas any more.
 struct AtlasPath {
   alignas(32) std::array<std::array<float, atlas_samples>, 6> channel{};
-  std::array<std::array<float, sway_samples>, 6> sway{};
-  double span = 0.0;       ///< [s]
-  double end = 0.0;        ///< [s]
-  double sway_span = 0.0;  ///< [s]
-  double curvature = 0.0;  ///< of the lane [1/m]
-  double start_d = 0.0;    ///< where y = 0 lies in the lane [m]
-  bool rests = false;      ///< at its end
-  bool ended = false;      ///< false: only the horizon ends it
+  std::array<std::array<float, sensitivity_samples>, 6> sensitivity{};
+  double span = 0.0;              ///< [s]
+  double end = 0.0;               ///< [s]
+  double sensitivity_span = 0.0;  ///< [s]
+  double curvature = 0.0;         ///< of the lane [1/m]
+  double start_d = 0.0;           ///< where y = 0 lies in the lane [m]
+  bool rests = false;             ///< at its end
+  bool ended = false;             ///< false: only the horizon ends it
 };
 
 /// Where the ego is on an AtlasPath, along the middle of a lane that may bend.
@@ -102,19 +104,21 @@ struct AtlasInstant {
 ///              at the offset, heading and speed of the end
 [[nodiscard]] AtlasInstant at(const AtlasPath& path, double time) noexcept;
 
-/// How much of the sway of a drive on less (negative) or more grip another grip gives: -1 and 1 at
-/// 1 -+ sway_factor. Ways and times go with 1 / grip, between the drives and beyond.
+/// How much of the sensitivity to friction of a drive on less (negative) or more grip another grip
+/// gives: -1 and 1 at 1 -+ sensitivity_grip_step. Ways and times go with 1 / grip, between the
+/// drives and beyond.
 /// @param grip_factor  true over believed grip; less than 0.1, the least that is drawn, counts so
-[[nodiscard]] double sway_share(double grip_factor) noexcept;
+[[nodiscard]] double sensitivity_share(double grip_factor) noexcept;
 
 /// What less or more grip than believed does to the ego's place.
-struct Sway {
+struct FrictionSensitivity {
   double x = 0.0;        ///< [m]
   double y = 0.0;        ///< [m]
   double heading = 0.0;  ///< [rad]
 };
 /// @param grip_factor  true over believed grip
-[[nodiscard]] Sway sway_at(const AtlasPath& path, double time, double grip_factor) noexcept;
+[[nodiscard]] FrictionSensitivity friction_sensitivity_at(const AtlasPath& path, double time,
+                                                          double grip_factor) noexcept;
 
 /// Why a manoeuvre cannot be read from the atlas.
 enum class AtlasLimit : std::uint8_t {
@@ -170,7 +174,7 @@ class Atlas {
   /// The ego's future under a plan; what lies outside the grid is read at its rim. Ask `outside`
   /// first. Allocates nothing.
   /// @param scene  its ego's speed and offset, its grip, lane width and curvature count; where its
-  ///               grip_sd is 0, sway is left out
+  ///               grip_sd is 0, sensitivity to friction is left out
   ///
   /// Between nodes the eight or sixteen around are averaged at equal shares of their time, so that
   /// what comes to rest does so once and stays. Where the lane bends, the way on a straight one is

@@ -173,15 +173,17 @@ void store_path(const Trace& trace, AtlasNode& node) {
   }
 }
 
-void store_sway(const Trace& middle, const Trace& other, std::size_t first, AtlasNode& node) {
-  constexpr double last = sway_samples - 1;
+void store_sensitivity(const Trace& middle, const Trace& other, std::size_t first,
+                       AtlasNode& node) {
+  constexpr double last = sensitivity_samples - 1;
   for (std::size_t c = 0; c < 3; ++c) {
-    std::array<double, sway_samples> sway{};
-    for (std::size_t i = 0; i < sway_samples; ++i) {
-      const double time = static_cast<double>(node.sway_span) * static_cast<double>(i) / last;
-      sway[i] = at(other, time)[c] - at(middle, time)[c];
+    std::array<double, sensitivity_samples> sensitivity{};
+    for (std::size_t i = 0; i < sensitivity_samples; ++i) {
+      const double time =
+          static_cast<double>(node.sensitivity_span) * static_cast<double>(i) / last;
+      sensitivity[i] = at(other, time)[c] - at(middle, time)[c];
     }
-    node.sway_scale[first + c] = quantise(sway, node.sway[first + c]);
+    node.sensitivity_scale[first + c] = quantise(sensitivity, node.sensitivity[first + c]);
   }
 }
 
@@ -193,7 +195,7 @@ Car unbounded(Car car) {
 }
 
 // A point of the grid, and its drives on the grip of `grip_factors`.
-constexpr std::array grip_factors{1.0, 1.0 - sway_factor, 1.0 + sway_factor};
+constexpr std::array grip_factors{1.0, 1.0 - sensitivity_grip_step, 1.0 + sensitivity_grip_step};
 struct Node {
   Point point;
   std::array<Trace, grip_factors.size()> traces;
@@ -237,10 +239,10 @@ AtlasNode stored_node(const Node& driven) {
   if (driven.point.kind == AtlasKind::keep) {
     return node;  // rolls on whatever the grip
   }
-  node.sway_span = static_cast<float>(rests ? std::max({middle.end, less.end, more.end})
-                                            : span_of(driven.point));
-  store_sway(middle, less, 0, node);
-  store_sway(middle, more, 3, node);
+  node.sensitivity_span = static_cast<float>(rests ? std::max({middle.end, less.end, more.end})
+                                                   : span_of(driven.point));
+  store_sensitivity(middle, less, 0, node);
+  store_sensitivity(middle, more, 3, node);
   return node;
 }
 

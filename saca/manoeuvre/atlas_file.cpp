@@ -108,9 +108,9 @@ std::optional<Error> fault(const std::filesystem::path& path, const Header& head
 bool sensible(const AtlasNode& node) {
   const auto is_time = [](float time) { return std::isfinite(time) && time >= 0.0F; };
   const auto is_finite = [](float scale) { return std::isfinite(scale); };
-  return is_time(node.span) && is_time(node.end) && is_time(node.sway_span) && node.ended <= 1 &&
-         std::all_of(node.scale.begin(), node.scale.end(), is_finite) &&
-         std::all_of(node.sway_scale.begin(), node.sway_scale.end(), is_finite);
+  return is_time(node.span) && is_time(node.end) && is_time(node.sensitivity_span) &&
+         node.ended <= 1 && std::all_of(node.scale.begin(), node.scale.end(), is_finite) &&
+         std::all_of(node.sensitivity_scale.begin(), node.sensitivity_scale.end(), is_finite);
 }
 
 // In memory that nobody else can cut or write: a file mapped into it would change under the reader,

@@ -81,9 +81,9 @@ TEST_F(AtlasFile, WithoutFiniteNumbersIsRefused) {
   const std::string words = "node 1: want finite scales and times of 0 s or more";
   expect_refused(bytes_with([](AtlasNode& node) { node.span = nan; }), words);
   expect_refused(bytes_with([](AtlasNode& node) { node.end = infinite; }), words);
-  expect_refused(bytes_with([](AtlasNode& node) { node.sway_span = -1.0F; }), words);
+  expect_refused(bytes_with([](AtlasNode& node) { node.sensitivity_span = -1.0F; }), words);
   expect_refused(bytes_with([](AtlasNode& node) { node.scale[5] = nan; }), words);
-  expect_refused(bytes_with([](AtlasNode& node) { node.sway_scale[0] = infinite; }), words);
+  expect_refused(bytes_with([](AtlasNode& node) { node.sensitivity_scale[0] = infinite; }), words);
   AtlasGrid grid = small_grid();
   grid[0].speeds[grid[0].speeds.size() - 1] = std::numeric_limits<double>::quiet_NaN();
   expect_refused(atlas_bytes(small_atlas_car(), grid, small_nodes()), "header was altered");

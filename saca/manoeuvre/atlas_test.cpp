@@ -112,7 +112,7 @@ TEST(Atlas, RightIsTheMirrorOfLeft) {
       EXPECT_EQ(of_a.y, -of_b.y);
       EXPECT_EQ(of_a.heading, -of_b.heading);
       EXPECT_EQ(of_a.turn_rate, -of_b.turn_rate);
-      EXPECT_EQ(sway_at(a, time, 0.9).y, -sway_at(b, time, 0.9).y);
+      EXPECT_EQ(friction_sensitivity_at(a, time, 0.9).y, -friction_sensitivity_at(b, time, 0.9).y);
     }
   }
 }
@@ -176,7 +176,7 @@ TEST(Atlas, SwayHoldsNineOfTenDrivesOnOtherGrip) {
   std::mt19937_64 rng(11);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> share(0.0, 1.0);
-  const double sd = sway_factor / 1.645;
+  const double sd = sensitivity_grip_step / 1.645;
   int held = 0;
   int looked = 0;
   for (int i = 0; i < 60; ++i) {
@@ -193,8 +193,9 @@ TEST(Atlas, SwayHoldsNineOfTenDrivesOnOtherGrip) {
     const double time = 0.8 * std::min(path.end, length_of(motion));
     const double x = pose_at(motion.track, time).p.x;
     const AtlasInstant told = at(path, time);
-    const auto [low, high] = std::minmax(
-        {0.0, sway_at(path, time, 1.0 - sway_factor).x, sway_at(path, time, 1.0 + sway_factor).x});
+    const auto [low, high] =
+        std::minmax({0.0, friction_sensitivity_at(path, time, 1.0 - sensitivity_grip_step).x,
+                     friction_sensitivity_at(path, time, 1.0 + sensitivity_grip_step).x});
     constexpr double interpolation = 0.1;  // [m]
     held += x >= told.x + low - interpolation && x <= told.x + high + interpolation ? 1 : 0;
     ++looked;
@@ -207,11 +208,12 @@ TEST(Atlas, SwayHoldsNineOfTenDrivesOnOtherGrip) {
 TEST(Atlas, SwaysAsStoppingDistancesDo) {
   const auto longer = [](double factor) { return 1.0 / factor - 1.0; };
   for (const double factor : {0.5, 0.7, 0.8, 0.94, 1.0, 1.06, 1.2, 1.5}) {
-    const double drive = factor < 1.0 ? 1.0 - sway_factor : 1.0 + sway_factor;
-    EXPECT_NEAR(std::abs(sway_share(factor)) * longer(drive), longer(factor), 1e-12) << factor;
-    EXPECT_EQ(sway_share(factor) < 0.0, factor < 1.0);
+    const double drive = factor < 1.0 ? 1.0 - sensitivity_grip_step : 1.0 + sensitivity_grip_step;
+    EXPECT_NEAR(std::abs(sensitivity_share(factor)) * longer(drive), longer(factor), 1e-12)
+        << factor;
+    EXPECT_EQ(sensitivity_share(factor) < 0.0, factor < 1.0);
   }
-  EXPECT_EQ(sway_share(-3.0), sway_share(0.1));
+  EXPECT_EQ(sensitivity_share(-3.0), sensitivity_share(0.1));
 }
 
 TEST(Atlas, SaysWhyItCannotBeRead) {

@@ -17,15 +17,15 @@ namespace saca::manoeuvre {
 namespace {
 
 using LaneImage = lanes::Lane<float>;
-using LaneFlow = vehicle::equations::Flow<float>;
+using LaneStateVector = vehicle::equations::StateVector<float>;
 constexpr std::size_t numbers_per_lane = sizeof(LaneImage) / sizeof(float);
 
-lanes::Kernel kernel_for(Level level) {
+lanes::Kernel kernel_for(SimdLevel level) {
 #if defined(__x86_64__)
-  if (level == Level::avx2) {
+  if (level == SimdLevel::avx2) {
     return lanes::kernel_avx2();
   }
-  if (level == Level::avx512) {
+  if (level == SimdLevel::avx512) {
     return lanes::kernel_avx512();
   }
 #endif
@@ -59,7 +59,7 @@ Prepared prepared(const Drive& drive, EgoMotion& motion, double horizon) {
   expects(drive.longest >= 0.0, "longest >= 0 s");
   const auto num_poses =
       static_cast<int>(std::lround(std::min(horizon, drive.longest) / lanes::pose_step));
-  const Ride ride(*drive.car, drive.plan, scene_of(drive), drive.grip, drive.unknown);
+  const Ride ride(*drive.car, drive.plan, scene_of(drive), drive.grip, drive.perturbation);
   const vehicle::VehicleState& state = ride.state();
   const double s = world::to_lane(drive.road, state.X_WB).s;
   const Pose X_WS = world::from_lane(drive.road, {.s = s, .d = 0.0, .heading = 0.0});
@@ -132,9 +132,10 @@ class Packed {
   [[nodiscard]] float& number(std::size_t which, std::size_t lane) {
     return numbers_[which * kernel_.num_lanes + lane];
   }
-  [[nodiscard]] double flow(std::size_t which, std::size_t lane) {
+  [[nodiscard]] double state_vector(std::size_t which, std::size_t lane) {
     constexpr std::size_t first =
-        (offsetof(LaneImage, moving) + offsetof(lanes::MovingLane<float>, flow)) / sizeof(float);
+        (offsetof(LaneImage, moving) + offsetof(lanes::MovingLane<float>, state_vector)) /
+        sizeof(float);
     return static_cast<double>(number(first + which, lane));
   }
 
@@ -173,16 +174,17 @@ class Packed {
   [[nodiscard]] bool note(std::size_t lane) {
     const Busy& busy = lanes_[lane];
     EgoMotion& motion = *busy.motion;
-    const double x = flow(LaneFlow::x, lane);
-    const double y = flow(LaneFlow::y, lane);
+    const double x = state_vector(LaneStateVector::x, lane);
+    const double y = state_vector(LaneStateVector::y, lane);
     const Pose X_WB{{busy.X_WS.p.x + busy.cosine * x - busy.sine * y,
                      busy.X_WS.p.y + busy.sine * x + busy.cosine * y},
-                    wrap_angle(busy.X_WS.yaw + flow(LaneFlow::yaw, lane))};
-    const Vec2 v_B{flow(LaneFlow::vx, lane), flow(LaneFlow::vy, lane)};
+                    wrap_angle(busy.X_WS.yaw + state_vector(LaneStateVector::yaw, lane))};
+    const Vec2 v_B{state_vector(LaneStateVector::vx, lane),
+                   state_vector(LaneStateVector::vy, lane)};
     expects(is_finite(X_WB) && is_finite(v_B), "the drive stays finite");
     motion.track.X_WA.push_back(X_WB);
     motion.v_B.push_back(v_B);
-    motion.yaw_rate.push_back(flow(LaneFlow::yaw_rate, lane));
+    motion.yaw_rate.push_back(state_vector(LaneStateVector::yaw_rate, lane));
     motion.ended = has_ended(lane);
     return !motion.ended && static_cast<int>(motion.v_B.size()) <= busy.num_poses;
   }
@@ -199,8 +201,9 @@ class Packed {
     if (lanes_[lane].ends_with == EndsWith::nothing) {
       return false;
     }
-    for (std::size_t i = LaneFlow::vx; i < LaneFlow::wheel + vehicle::num_wheels; ++i) {
-      if (flow(i, lane) != 0.0) {
+    for (std::size_t i = LaneStateVector::vx; i < LaneStateVector::wheel + vehicle::num_wheels;
+         ++i) {
+      if (state_vector(i, lane) != 0.0) {
         return false;
       }
     }
@@ -247,7 +250,7 @@ Drive drive_from(const Car& car, const Plan& plan, const world::Scene& scene, do
           .road = scene.road,
           .known_grip = scene.grip,
           .grip = scene.grip,
-          .unknown = {},
+          .perturbation = {},
           .longest = longest};
 }
 
@@ -261,14 +264,14 @@ world::Scene scene_of(const Drive& drive) {
 }
 
 std::vector<EgoMotion> drive_all(std::span<const Drive> drives, double horizon, int threads,
-                                 Level level) {
+                                 SimdLevel level) {
   std::vector<EgoMotion> motions;
   drive_all(drives, horizon, motions, threads, level);
   return motions;
 }
 
 void drive_all(std::span<const Drive> drives, double horizon, std::vector<EgoMotion>& motions,
-               int threads, Level level) {
+               int threads, SimdLevel level) {
   expects(horizon >= 0.0 && horizon <= 3600.0, "horizon in [0, 3600] s");
   expects(threads >= 1, "threads >= 1");
   expects(available(level), "the level is available");

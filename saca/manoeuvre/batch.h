@@ -5,11 +5,11 @@
 #include <span>
 #include <vector>
 
-#include "saca/core/level.h"
+#include "saca/core/simd_level.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/manoeuvre/drive.h"
+#include "saca/manoeuvre/parameter_perturbation.h"
 #include "saca/manoeuvre/plan.h"
-#include "saca/manoeuvre/unknown.h"
 #include "saca/world/scene.h"
 
 namespace saca::manoeuvre {
@@ -23,7 +23,7 @@ struct Drive {
   world::Road road;
   double known_grip = 0.9;  ///< what the controller takes the road's grip to be [-]
   double grip = 0.9;        ///< what it is [-], in (0, 1.2]
-  Unknown unknown;
+  ParameterPerturbation perturbation;
   double longest = 3600.0;  ///< how long it is driven at most, whatever the batch's horizon [s]
 };
 
@@ -50,10 +50,10 @@ struct Drive {
 /// A drive's result depends on nothing but the drive itself, bit by bit: neither on the others, nor
 /// on their order or number.
 [[nodiscard]] std::vector<EgoMotion> drive_all(std::span<const Drive> drives, double horizon,
-                                               int threads = 1, Level level = best_level());
+                                               int threads = 1, SimdLevel level = best_level());
 /// The same into `motions`, whose memory is used again: for many batches in a row. What `motions`
 /// hold after an exception is not told.
 void drive_all(std::span<const Drive> drives, double horizon, std::vector<EgoMotion>& motions,
-               int threads = 1, Level level = best_level());
+               int threads = 1, SimdLevel level = best_level());
 
 }  // namespace saca::manoeuvre

@@ -30,7 +30,7 @@ std::vector<Drive> bench_drives(const Car& car) {
 // Items are scenes: eight policies, driven until they end or for 5 s.
 template <class Work>
 void bench_batch(benchmark::State& bench, const Work& work) {
-  const auto level = static_cast<Level>(bench.range(0));
+  const auto level = static_cast<SimdLevel>(bench.range(0));
   if (!available(level)) {
     bench.SkipWithError("not this processor's");
     return;
@@ -55,7 +55,7 @@ std::size_t num_poses(const std::vector<EgoMotion>& motions) {
 }
 
 void batch_scenes(benchmark::State& bench) {
-  bench_batch(bench, [](const std::vector<Drive>& drives, Level level) {
+  bench_batch(bench, [](const std::vector<Drive>& drives, SimdLevel level) {
     return num_poses(drive_all(drives, bench_horizon, 1, level));
   });
 }
@@ -64,7 +64,7 @@ BENCHMARK(batch_scenes)->DenseRange(0, 2);
 // The same into memory that is used again.
 void batch_scenes_in_a_row(benchmark::State& bench) {
   std::vector<EgoMotion> motions;
-  bench_batch(bench, [&](const std::vector<Drive>& drives, Level level) {
+  bench_batch(bench, [&](const std::vector<Drive>& drives, SimdLevel level) {
     drive_all(drives, bench_horizon, motions, 1, level);
     return num_poses(motions);
   });

@@ -16,7 +16,7 @@ using vehicle::equations::Wheelwise;
 
 /// The four contacts. Rear wheels point along the body.
 template <class T>
-struct Contacts {
+struct WheelContacts {
   std::array<Turn<T>, 2> front;  ///< of the front wheels against the body
   Wheelwise<T> v_x;              ///< of the wheel centres, expressed in T [m/s]
   Wheelwise<T> F_x, F_y;         ///< expressed in T [N]
@@ -30,13 +30,13 @@ struct CentreVelocities {
   std::array<T, 2> x, y;
 };
 template <class T>
-inline CentreVelocities<T> centre_velocities(const CarLane<T>& car,
-                                             const vehicle::equations::Flow<T>& flow) {
-  using F = vehicle::equations::Flow<T>;
-  const T round = car.half_track * flow[F::yaw_rate];
-  return {{flow[F::vx] - round, flow[F::vx] + round},
-          {flow[F::vy] + car.front_arm * flow[F::yaw_rate],
-           flow[F::vy] - car.rear_arm * flow[F::yaw_rate]}};
+inline CentreVelocities<T> centre_velocities(
+    const CarLane<T>& car, const vehicle::equations::StateVector<T>& state_vector) {
+  using F = vehicle::equations::StateVector<T>;
+  const T round = car.half_track * state_vector[F::yaw_rate];
+  return {{state_vector[F::vx] - round, state_vector[F::vx] + round},
+          {state_vector[F::vy] + car.cg_to_front_axle * state_vector[F::yaw_rate],
+           state_vector[F::vy] - car.cg_to_rear_axle * state_vector[F::yaw_rate]}};
 }
 
 /// cos(y) over y^2 in [0, pi^2], by interpolation at Chebyshev nodes: error 5e-5, enough for a
@@ -100,11 +100,12 @@ inline Sliding<T> sliding(const TyreLane<T>& tyre, const Wheelwise<T>& along,
 
 /// As `wheels_of` in the vehicle's equations.
 template <class T>
-inline Contacts<T> contacts_of(const CarLane<T>& car, const vehicle::equations::Flow<T>& flow,
-                               const Turn<T>& middle, const T& grip) {
-  using F = vehicle::equations::Flow<T>;
-  Contacts<T> contacts;
-  const CentreVelocities<T> v_B = centre_velocities(car, flow);
+inline WheelContacts<T> contacts_of(const CarLane<T>& car,
+                                    const vehicle::equations::StateVector<T>& state_vector,
+                                    const Turn<T>& middle, const T& grip) {
+  using F = vehicle::equations::StateVector<T>;
+  WheelContacts<T> contacts;
+  const CentreVelocities<T> v_B = centre_velocities(car, state_vector);
   const T forth = car.wheelbase * middle.cosine;
   const T across = car.wheelbase * middle.sine;
   const T aside = car.half_track * middle.sine;
@@ -124,10 +125,11 @@ inline Contacts<T> contacts_of(const CarLane<T>& car, const vehicle::equations::
       contacts.v_x[i] = turn.cosine * vx + turn.sine * vy;
       v_y[i] = turn.cosine * vy - turn.sine * vx;
     }
-    slip_x[i] = contacts.v_x[i] - car.wheel_radius * flow[F::wheel + i];
+    slip_x[i] = contacts.v_x[i] - car.wheel_radius * state_vector[F::wheel + i];
     speed_squared[i] = vx * vx + vy * vy;
   });
-  const Wheelwise<T> load = vehicle::equations::wheel_loads<T>(car, flow[F::ax], flow[F::ay]);
+  const Wheelwise<T> load =
+      vehicle::equations::wheel_loads<T>(car, state_vector[F::ax], state_vector[F::ay]);
   const Sliding<T> slides = sliding<T>(car.tyre, slip_x, v_y, speed_squared, load, grip);
   for_wheels([&](std::size_t i) {
     contacts.F_x[i] = -slides.drag[i] * slip_x[i];
@@ -139,10 +141,11 @@ inline Contacts<T> contacts_of(const CarLane<T>& car, const vehicle::equations::
 
 /// As `body_rates` in the vehicle's equations.
 template <class T>
-inline Pair<T> body_rates(const CarLane<T>& car, const vehicle::equations::Flow<T>& flow,
-                          const Contacts<T>& contacts, const Turn<T>& heading,
-                          vehicle::equations::Flow<T>& rate) {
-  using F = vehicle::equations::Flow<T>;
+inline Pair<T> body_rates(const CarLane<T>& car,
+                          const vehicle::equations::StateVector<T>& state_vector,
+                          const WheelContacts<T>& contacts, const Turn<T>& heading,
+                          vehicle::equations::StateVector<T>& rate) {
+  using F = vehicle::equations::StateVector<T>;
   Wheelwise<T> F_x = contacts.F_x;  // now in B
   Wheelwise<T> F_y = contacts.F_y;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -154,12 +157,13 @@ inline Pair<T> body_rates(const CarLane<T>& car, const vehicle::equations::Flow<
   const T right = F_x[vehicle::front_right] + F_x[vehicle::rear_right];
   const T front = F_y[vehicle::front_left] + F_y[vehicle::front_right];
   const T rear = F_y[vehicle::rear_left] + F_y[vehicle::rear_right];
-  const T vx = flow[F::vx];
-  const T vy = flow[F::vy];
+  const T vx = state_vector[F::vx];
+  const T vy = state_vector[F::vy];
   const T air = car.air_drag * hypot(vx, vy);
   const Pair<T> force{(left + right) - air * vx, (front + rear) - air * vy};
-  const T torque = car.front_arm * front - car.rear_arm * rear + car.half_track * (right - left);
-  vehicle::equations::body_motion<T>(car, flow, heading, force, torque, rate);
+  const T torque =
+      car.cg_to_front_axle * front - car.cg_to_rear_axle * rear + car.half_track * (right - left);
+  vehicle::equations::body_motion<T>(car, state_vector, heading, force, torque, rate);
   return force;
 }
 

@@ -9,7 +9,7 @@
 namespace saca::manoeuvre {
 
 /// A stop on one level, against the scalar model; skipped where the processor lacks the level.
-inline void expect_stop_as_scalar(Level level) {
+inline void expect_stop_as_scalar(SimdLevel level) {
   if (!available(level)) {
     GTEST_SKIP() << "this processor has no " << test::name_of(level);
   }

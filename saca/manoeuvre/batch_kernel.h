@@ -15,23 +15,24 @@ struct Seen {
 };
 
 template <class T>
-struct Told {
+struct ActuatorCommand {
   T steering = 0.0;
   Wheelwise<T> brake_torque{T(0.0), T(0.0), T(0.0), T(0.0)};
   T motor_torque = 0.0;
 };
 
 template <class T>
-inline Seen<T> seen(const vehicle::equations::Flow<T>& flow, const Pair<T>& a_B) {
-  using F = vehicle::equations::Flow<T>;
-  return {
-      .v_B = {flow[F::vx], flow[F::vy]},
-      .a_B = a_B,
-      .yaw_rate = flow[F::yaw_rate],
-      .steering = flow[F::steering],
-      .motor_torque = flow[F::motor],
-      .brake_torque = {flow[F::brake], flow[F::brake + 1], flow[F::brake + 2], flow[F::brake + 3]},
-      .wheel_speed = {flow[F::wheel], flow[F::wheel + 1], flow[F::wheel + 2], flow[F::wheel + 3]}};
+inline Seen<T> seen(const vehicle::equations::StateVector<T>& state_vector, const Pair<T>& a_B) {
+  using F = vehicle::equations::StateVector<T>;
+  return {.v_B = {state_vector[F::vx], state_vector[F::vy]},
+          .a_B = a_B,
+          .yaw_rate = state_vector[F::yaw_rate],
+          .steering = state_vector[F::steering],
+          .motor_torque = state_vector[F::motor],
+          .brake_torque = {state_vector[F::brake], state_vector[F::brake + 1],
+                           state_vector[F::brake + 2], state_vector[F::brake + 3]},
+          .wheel_speed = {state_vector[F::wheel], state_vector[F::wheel + 1],
+                          state_vector[F::wheel + 2], state_vector[F::wheel + 3]}};
 }
 
 /// Offset and heading against a lane that starts at the origin along x: as `world::to_lane`.
@@ -59,10 +60,10 @@ inline InLane<T> in_lane(const T& curvature, const T& x, const T& y, const T& ya
 }
 
 template <Kind kind, class T>
-inline Told<T> drift_told(const FixedLane<T>& fixed, const Seen<T>& state, const InLane<T>& place,
-                          MemoryLane<T>& memory) {
+inline ActuatorCommand<T> drift_told(const FixedLane<T>& fixed, const Seen<T>& state,
+                                     const InLane<T>& place, MemoryLane<T>& memory) {
   const T& side = fixed.side;
-  Told<T> told;
+  ActuatorCommand<T> told;
   equations::drift<T>(
       fixed.known, fixed.known.tuning.drift, fixed.known_grip,
       equations::Drifting<T>{side * place.heading, state.v_B.x, side * state.v_B.y,
@@ -78,8 +79,9 @@ inline Told<T> drift_told(const FixedLane<T>& fixed, const Seen<T>& state, const
 }
 
 template <Kind kind, class T>
-inline Told<T> path_told(const FixedLane<T>& fixed, const Seen<T>& state, const T& x, const T& y,
-                         const T& yaw, const Turn<T>& heading, MemoryLane<T>& memory) {
+inline ActuatorCommand<T> path_told(const FixedLane<T>& fixed, const Seen<T>& state, const T& x,
+                                    const T& y, const T& yaw, const Turn<T>& heading,
+                                    MemoryLane<T>& memory) {
   const T& arm = fixed.known.percussion_arm;
   const InLane<T> place =
       in_lane<T>(fixed.curvature, x + arm * heading.cosine, y + arm * heading.sine, yaw);
@@ -99,7 +101,7 @@ inline Told<T> path_told(const FixedLane<T>& fixed, const Seen<T>& state, const 
   const auto slower = fixed.slower > 0.5;
   const equations::Wants<T, std::remove_const_t<decltype(slower)>, kind == Kind::brakes> wants{
       fixed.rest > 0.5, slower, fixed.strength};
-  Told<T> told;
+  ActuatorCommand<T> told;
   equations::follow_path<T>(fixed.known, wants, fixed.curvature, fixed.known_grip, state, point,
                             step_of(kind), memory, told);
   return told;
@@ -107,17 +109,18 @@ inline Told<T> path_told(const FixedLane<T>& fixed, const Seen<T>& state, const 
 
 /// `control`, for plans of one kind.
 template <Kind kind, class T>
-inline Told<T> told(const FixedLane<T>& fixed, const Seen<T>& state,
-                    const vehicle::equations::Flow<T>& flow, const Turn<T>& heading,
-                    MemoryLane<T>& memory) {
-  using F = vehicle::equations::Flow<T>;
-  Told<T> result;
+inline ActuatorCommand<T> told(const FixedLane<T>& fixed, const Seen<T>& state,
+                               const vehicle::equations::StateVector<T>& state_vector,
+                               const Turn<T>& heading, MemoryLane<T>& memory) {
+  using F = vehicle::equations::StateVector<T>;
+  ActuatorCommand<T> result;
   if constexpr (kind == Kind::drifts) {
-    const InLane<T> place = in_lane<T>(fixed.curvature, flow[F::x], flow[F::y], flow[F::yaw]);
+    const InLane<T> place =
+        in_lane<T>(fixed.curvature, state_vector[F::x], state_vector[F::y], state_vector[F::yaw]);
     result = drift_told<kind, T>(fixed, state, place, memory);
   } else {
-    result =
-        path_told<kind, T>(fixed, state, flow[F::x], flow[F::y], flow[F::yaw], heading, memory);
+    result = path_told<kind, T>(fixed, state, state_vector[F::x], state_vector[F::y],
+                                state_vector[F::yaw], heading, memory);
   }
   memory.time = memory.time + step_of(kind);
   return result;
@@ -125,10 +128,10 @@ inline Told<T> told(const FixedLane<T>& fixed, const Seen<T>& state,
 
 /// Actuators under a held command: Heun's scheme.
 template <Kind kind, class T>
-inline void move_actuators(const CarLane<T>& car, const Told<T>& told,
-                           const vehicle::equations::Flow<T>& now,
-                           vehicle::equations::Flow<T>& next) {
-  using F = vehicle::equations::Flow<T>;
+inline void move_actuators(const CarLane<T>& car, const ActuatorCommand<T>& told,
+                           const vehicle::equations::StateVector<T>& now,
+                           vehicle::equations::StateVector<T>& next) {
+  using F = vehicle::equations::StateVector<T>;
   constexpr double step = step_of(kind);
   // How far what follows without limit comes in a step.
   const auto share = [](const Divisor<T>& lag) {
@@ -153,9 +156,10 @@ inline void move_actuators(const CarLane<T>& car, const Told<T>& told,
 /// exponential, for a wheel that moves evenly faster or slower, of second order and damped where it
 /// is stiff; brakes as dry friction.
 template <Kind kind, class T>
-inline void spin_wheels(const CarLane<T>& car, const Contacts<T>& contacts,
-                        const vehicle::equations::Flow<T>& now, vehicle::equations::Flow<T>& next) {
-  using F = vehicle::equations::Flow<T>;
+inline void spin_wheels(const CarLane<T>& car, const WheelContacts<T>& contacts,
+                        const vehicle::equations::StateVector<T>& now,
+                        vehicle::equations::StateVector<T>& next) {
+  using F = vehicle::equations::StateVector<T>;
   const CentreVelocities<T> v_B = centre_velocities(car, next);
   const std::array<T, 2> per_inertia{T(step_of(kind)) / car.front_wheel_inertia,
                                      T(step_of(kind)) / car.rear_wheel_inertia};
@@ -216,10 +220,10 @@ inline void hold(MovingLane<T>& moving, std::size_t now, const Wheelwise<T>& tor
 
 /// The body: Adams and Bashforth's scheme of second order; Euler's at the start.
 template <Kind kind, class T, class Mask>
-inline void move_body(const vehicle::equations::Flow<T>& flow,
-                      const vehicle::equations::Flow<T>& rate, const Mask& first,
-                      MovingLane<T>& moving, vehicle::equations::Flow<T>& next) {
-  using F = vehicle::equations::Flow<T>;
+inline void move_body(const vehicle::equations::StateVector<T>& state_vector,
+                      const vehicle::equations::StateVector<T>& rate, const Mask& first,
+                      MovingLane<T>& moving, vehicle::equations::StateVector<T>& next) {
+  using F = vehicle::equations::StateVector<T>;
   constexpr std::array<std::size_t, 8> body{F::x,  F::y,        F::yaw, F::vx,
                                             F::vy, F::yaw_rate, F::ax,  F::ay};
   constexpr double step = step_of(kind);
@@ -230,10 +234,10 @@ inline void move_body(const vehicle::equations::Flow<T>& flow,
     if (at == F::x || at == F::y) {
       T& lost = at == F::x ? moving.lost_x : moving.lost_y;
       const T whole = now * rate[at] - (old * moving.rate[i] + lost);
-      next[at] = flow[at] + whole;
-      lost = (next[at] - flow[at]) - whole;
+      next[at] = state_vector[at] + whole;
+      lost = (next[at] - state_vector[at]) - whole;
     } else {
-      next[at] = now * rate[at] + (flow[at] - old * moving.rate[i]);
+      next[at] = now * rate[at] + (state_vector[at] - old * moving.rate[i]);
     }
     moving.rate[i] = rate[at];
   }
@@ -244,19 +248,19 @@ inline void move_body(const vehicle::equations::Flow<T>& flow,
 template <Kind kind, class T>
 inline void advance(const FixedLane<T>& fixed, MovingLane<T>& moving, std::size_t now,
                     std::size_t late) {
-  using F = vehicle::equations::Flow<T>;
-  F& flow = moving.flow;
-  const auto held = vehicle::equations::is_held<T>(fixed.real, flow);
+  using F = vehicle::equations::StateVector<T>;
+  F& state_vector = moving.state_vector;
+  const auto held = vehicle::equations::is_held<T>(fixed.real, state_vector);
   if (any(held)) {
     for (std::size_t i = F::vx; i < F::wheel + num_wheels; ++i) {  // velocities, then wheels
-      flow[i] = select(held, 0.0, flow[i]);
+      state_vector[i] = select(held, 0.0, state_vector[i]);
     }
   }
-  const Turn<T> heading = vehicle::equations::turn_by<T>(flow[F::yaw]);
-  const Turn<T> middle = vehicle::equations::turn_by<T>(flow[F::steering]);
-  const Contacts<T> contacts = contacts_of<T>(fixed.real, flow, middle, fixed.grip);
+  const Turn<T> heading = vehicle::equations::turn_by<T>(state_vector[F::yaw]);
+  const Turn<T> middle = vehicle::equations::turn_by<T>(state_vector[F::steering]);
+  const WheelContacts<T> contacts = contacts_of<T>(fixed.real, state_vector, middle, fixed.grip);
   F rate;
-  Pair<T> force = body_rates<T>(fixed.real, flow, contacts, heading, rate);
+  Pair<T> force = body_rates<T>(fixed.real, state_vector, contacts, heading, rate);
   if (any(held)) {
     force = {select(held, 0.0, force.x), select(held, 0.0, force.y)};
     for (const std::size_t i : {F::x, F::y, F::yaw, F::vx, F::vy, F::yaw_rate}) {
@@ -264,7 +268,7 @@ inline void advance(const FixedLane<T>& fixed, MovingLane<T>& moving, std::size_
       moving.rate[i] = select(held, 0.0, moving.rate[i]);
     }
   }
-  vehicle::equations::load_rates<T>(fixed.real, flow, force, rate);
+  vehicle::equations::load_rates<T>(fixed.real, state_vector, force, rate);
 
   // Sensors tell the acceleration of 1 ms ago.
   const auto first = moving.first > 0.5;
@@ -274,7 +278,8 @@ inline void advance(const FixedLane<T>& fixed, MovingLane<T>& moving, std::size_
                        select(first, moving.ay, a.y + ago * (moving.ay - a.y))};
   moving.ax = a.x;
   moving.ay = a.y;
-  Told<T> command = told<kind, T>(fixed, seen<T>(flow, told_a), flow, heading, moving.memory);
+  ActuatorCommand<T> command =
+      told<kind, T>(fixed, seen<T>(state_vector, told_a), state_vector, heading, moving.memory);
   command.steering = clamp(command.steering, -fixed.real.steering_limit, fixed.real.steering_limit);
   command.motor_torque =
       clamp(command.motor_torque, -fixed.real.motor_limit, fixed.real.motor_limit);
@@ -286,16 +291,16 @@ inline void advance(const FixedLane<T>& fixed, MovingLane<T>& moving, std::size_
   command.brake_torque = delayed<T>(fixed, moving, now, late);
 
   F next;
-  move_actuators<kind, T>(fixed.real, command, flow, next);
-  move_body<kind>(flow, rate, first, moving, next);
-  spin_wheels<kind, T>(fixed.real, contacts, flow, next);
+  move_actuators<kind, T>(fixed.real, command, state_vector, next);
+  move_body<kind>(state_vector, rate, first, moving, next);
+  spin_wheels<kind, T>(fixed.real, contacts, state_vector, next);
   if (any(held)) {
     for (std::size_t i = F::wheel; i < F::wheel + num_wheels; ++i) {
       next[i] = select(held, 0.0, next[i]);
     }
   }
   moving.first = T(0.0);
-  moving.flow = next;
+  moving.state_vector = next;
 }
 
 }  // namespace saca::manoeuvre::lanes

@@ -4,7 +4,7 @@ namespace saca::manoeuvre::batch_kernel_avx2_test {
 namespace {
 
 TEST(BatchKernel, StopsAsTheScalarModelOnAvx2) {
-  expect_stop_as_scalar(Level::avx2);
+  expect_stop_as_scalar(SimdLevel::avx2);
 }
 
 }  // namespace

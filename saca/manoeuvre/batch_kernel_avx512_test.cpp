@@ -4,7 +4,7 @@ namespace saca::manoeuvre::batch_kernel_avx512_test {
 namespace {
 
 TEST(BatchKernel, StopsAsTheScalarModelOnAvx512) {
-  expect_stop_as_scalar(Level::avx512);
+  expect_stop_as_scalar(SimdLevel::avx512);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@ namespace saca::manoeuvre::batch_kernel_baseline_test {
 namespace {
 
 TEST(BatchKernel, StopsAsTheScalarModelOnBaseline) {
-  expect_stop_as_scalar(Level::baseline);
+  expect_stop_as_scalar(SimdLevel::baseline);
 }
 
 }  // namespace

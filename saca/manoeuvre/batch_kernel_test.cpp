@@ -14,7 +14,7 @@ namespace saca::manoeuvre::lanes::batch_kernel_test {
 namespace {
 
 using vehicle::VehicleState;
-using Flow = vehicle::equations::Flow<double>;
+using StateVector = vehicle::equations::StateVector<double>;
 
 VehicleState random_state(std::mt19937_64& rng, const Car& car) {
   const auto within = [&](double low, double high) {
@@ -31,23 +31,24 @@ VehicleState random_state(std::mt19937_64& rng, const Car& car) {
   return state;
 }
 
-Flow flow_of(const VehicleState& state) {
-  Flow flow;
-  flow[Flow::vx] = state.v_B.x;
-  flow[Flow::vy] = state.v_B.y;
-  flow[Flow::yaw_rate] = state.yaw_rate;
-  flow[Flow::steering] = state.steering;
-  flow[Flow::ax] = state.transfer_a_B.x;
-  flow[Flow::ay] = state.transfer_a_B.y;
+StateVector state_vector_of(const VehicleState& state) {
+  StateVector state_vector;
+  state_vector[StateVector::vx] = state.v_B.x;
+  state_vector[StateVector::vy] = state.v_B.y;
+  state_vector[StateVector::yaw_rate] = state.yaw_rate;
+  state_vector[StateVector::steering] = state.steering;
+  state_vector[StateVector::ax] = state.transfer_a_B.x;
+  state_vector[StateVector::ay] = state.transfer_a_B.y;
   for (std::size_t i = 0; i < num_wheels; ++i) {
-    flow[Flow::wheel + i] = state.wheel_speed[i];
+    state_vector[StateVector::wheel + i] = state.wheel_speed[i];
   }
-  return flow;
+  return state_vector;
 }
 
-Contacts<double> contacts_in(const Car& car, const Flow& flow, double grip) {
-  return contacts_of<double>(car_lane<double>(car, grip), flow,
-                             vehicle::equations::turn_by<double>(flow[Flow::steering]), grip);
+WheelContacts<double> contacts_in(const Car& car, const StateVector& state_vector, double grip) {
+  return contacts_of<double>(
+      car_lane<double>(car, grip), state_vector,
+      vehicle::equations::turn_by<double>(state_vector[StateVector::steering]), grip);
 }
 
 TEST(BatchKernel, ContactsAreThoseOfTheScalarModel) {
@@ -57,8 +58,8 @@ TEST(BatchKernel, ContactsAreThoseOfTheScalarModel) {
     for (int i = 0; i < 200; ++i) {
       const VehicleState state = random_state(rng, car);
       const double grip = std::uniform_real_distribution<double>(0.2, 1.2)(rng);
-      const Contacts<double> ours = contacts_in(car, flow_of(state), grip);
-      const vehicle::Contacts theirs = vehicle::contacts(car, state, grip);
+      const WheelContacts<double> ours = contacts_in(car, state_vector_of(state), grip);
+      const vehicle::WheelContacts theirs = vehicle::contacts(car, state, grip);
       for (std::size_t wheel = 0; wheel < num_wheels; ++wheel) {
         // The same formula, differently summed: rounding of forces of some kN.
         EXPECT_NEAR(ours.F_x[wheel], theirs[wheel].F_T.x, 1e-7);
@@ -73,20 +74,20 @@ TEST(BatchKernel, SlopeIsTheDerivativeOfTheForceAlongTheWheel) {
   const Car car = default_car();
   constexpr double more = 1e-5;  // [rad/s]
   for (int i = 0; i < 200; ++i) {
-    const Flow flow = flow_of(random_state(rng, car));
-    const Contacts<double> contacts = contacts_in(car, flow, 0.8);
+    const StateVector state_vector = state_vector_of(random_state(rng, car));
+    const WheelContacts<double> contacts = contacts_in(car, state_vector, 0.8);
     for (std::size_t wheel = 0; wheel < num_wheels; ++wheel) {
-      Flow faster = flow;
-      Flow slower = flow;
-      faster[Flow::wheel + wheel] += more;
-      slower[Flow::wheel + wheel] -= more;
+      StateVector faster = state_vector;
+      StateVector slower = state_vector;
+      faster[StateVector::wheel + wheel] += more;
+      slower[StateVector::wheel + wheel] -= more;
       // A faster wheel slides less forward, by its radius.
       const double derivative =
           (contacts_in(car, faster, 0.8).F_x[wheel] - contacts_in(car, slower, 0.8).F_x[wheel]) /
           (2.0 * more * car.wheel_radius);
-      const double drag =
-          std::abs(contacts.F_x[wheel] /
-                   (contacts.v_x[wheel] - car.wheel_radius * flow[Flow::wheel + wheel]));
+      const double drag = std::abs(
+          contacts.F_x[wheel] /
+          (contacts.v_x[wheel] - car.wheel_radius * state_vector[StateVector::wheel + wheel]));
       // The cosine's polynomial is good to 5e-5, times the shape, below 2; the rest is the
       // quotient's.
       EXPECT_NEAR(contacts.slope[wheel], derivative, 2e-4 * drag + 0.05);
@@ -98,18 +99,20 @@ TEST(BatchKernel, BodyRatesAreThoseOfTheScalarModel) {
   std::mt19937_64 rng(9);
   const Car car = default_car();
   for (int i = 0; i < 100; ++i) {
-    const Flow flow = flow_of(random_state(rng, car));
+    const StateVector state_vector = state_vector_of(random_state(rng, car));
     const Turn<double> heading = vehicle::equations::turn_by<double>(0.1 * i);
-    const Turn<double> middle = vehicle::equations::turn_by<double>(flow[Flow::steering]);
-    Flow ours;
-    Flow theirs;
-    (void)body_rates<double>(car_lane<double>(car, 0.8), flow, contacts_in(car, flow, 0.8), heading,
-                             ours);
+    const Turn<double> middle =
+        vehicle::equations::turn_by<double>(state_vector[StateVector::steering]);
+    StateVector ours;
+    StateVector theirs;
+    (void)body_rates<double>(car_lane<double>(car, 0.8), state_vector,
+                             contacts_in(car, state_vector, 0.8), heading, ours);
     const vehicle::equations::Wheels<double> wheels = vehicle::equations::wheels_of<double>(
-        static_cast<const vehicle::Vehicle&>(car), flow, middle, {0.8, 0.8, 0.8, 0.8});
-    (void)vehicle::equations::body_rates<double>(static_cast<const vehicle::Vehicle&>(car), flow,
-                                                 wheels, heading, theirs);
-    for (const std::size_t at : {Flow::x, Flow::y, Flow::yaw, Flow::vx, Flow::vy, Flow::yaw_rate}) {
+        static_cast<const vehicle::Vehicle&>(car), state_vector, middle, {0.8, 0.8, 0.8, 0.8});
+    (void)vehicle::equations::body_rates<double>(static_cast<const vehicle::Vehicle&>(car),
+                                                 state_vector, wheels, heading, theirs);
+    for (const std::size_t at : {StateVector::x, StateVector::y, StateVector::yaw, StateVector::vx,
+                                 StateVector::vy, StateVector::yaw_rate}) {
       EXPECT_NEAR(ours[at], theirs[at], 1e-10);
     }
   }

@@ -72,9 +72,9 @@ template <class T>
 struct CarLane {
   Divisor<T> mass, yaw_inertia, wheelbase, track_width, wheel_radius, front_wheel_inertia,
       rear_wheel_inertia, load_transfer_lag, steering_lag, brake_lag, motor_lag, peak_slip;
-  T front_arm, rear_arm, half_track, mass_height, front_roll_share, front_weight, rear_weight,
-      air_drag, steering_rate, steering_limit, brake_limit, motor_limit, front_motor_share,
-      rear_motor_share, front_rolls, percussion_arm, driven_load;
+  T cg_to_front_axle, cg_to_rear_axle, half_track, cg_height, front_roll_stiffness_share,
+      front_weight, rear_weight, air_drag, steering_rate, steering_limit, brake_limit, motor_limit,
+      front_motor_share, rear_motor_share, front_rolls, percussion_arm, driven_load;
   TyreLane<T> tyre;
   TuningLane<T> tuning;
 };
@@ -105,7 +105,7 @@ inline const T& air_drag(const CarLane<T>& car) {
 }
 template <class T>
 inline T front_load(const CarLane<T>& car, const T& ax) {
-  const T pitch = car.mass * ax * car.mass_height / car.wheelbase;
+  const T pitch = car.mass * ax * car.cg_height / car.wheelbase;
   return clamp(car.front_weight - pitch, 0.0, car.mass * vehicle::gravity);
 }
 template <class T>
@@ -274,10 +274,10 @@ constexpr std::size_t num_slots = 32;  ///< of the brake line, each of one step
 /// What changes with every step.
 template <class T>
 struct MovingLane {
-  vehicle::equations::Flow<T> flow;  ///< in the frame of the lane at the start
-  T lost_x, lost_y;                  ///< what rounding has left out of x and y
-  std::array<T, 8> rate;             ///< of the last step: x, y, yaw, v_x, v_y, yaw rate, a_x, a_y
-  T ax, ay;                          ///< acceleration at the last step
+  vehicle::equations::StateVector<T> state_vector;  ///< in the frame of the lane at the start
+  T lost_x, lost_y;                                 ///< what rounding has left out of x and y
+  std::array<T, 8> rate;  ///< of the last step: x, y, yaw, v_x, v_y, yaw rate, a_x, a_y
+  T ax, ay;               ///< acceleration at the last step
   T told_steering;
   T first;  ///< 1 before the first step, then 0
   MemoryLane<T> memory;

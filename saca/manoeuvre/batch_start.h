@@ -55,11 +55,11 @@ CarLane<T> car_lane(const Car& car, double grip) {
           .brake_lag = divisor<T>(car.brake_lag),
           .motor_lag = divisor<T>(car.motor_lag),
           .peak_slip = divisor<T>(equations::peak_slip(car, grip)),
-          .front_arm = t(car.front_arm),
-          .rear_arm = t(car.rear_arm),
+          .cg_to_front_axle = t(car.cg_to_front_axle),
+          .cg_to_rear_axle = t(car.cg_to_rear_axle),
           .half_track = t(vehicle::equations::half_track(car)),
-          .mass_height = t(car.mass_height),
-          .front_roll_share = t(car.front_roll_share),
+          .cg_height = t(car.cg_height),
+          .front_roll_stiffness_share = t(car.front_roll_stiffness_share),
           .front_weight = t(vehicle::equations::front_weight(car)),
           .rear_weight = t(vehicle::equations::rear_weight(car)),
           .air_drag = t(vehicle::equations::air_drag(car)),
@@ -146,26 +146,26 @@ FixedLane<T> fixed_lane(const Car& car, const Ride& ride, const Plan& plan, doub
 /// @param X_LB  the car in the frame that the lanes move in
 template <class T>
 MovingLane<T> moving_lane(const Ride& ride, const Pose& X_LB, const ControllerState& memory) {
-  using F = vehicle::equations::Flow<T>;
+  using F = vehicle::equations::StateVector<T>;
   const auto t = [](double value) { return static_cast<T>(value); };
   const vehicle::VehicleState& state = ride.state();
   MovingLane<T> lane{};
-  lane.flow[F::x] = t(X_LB.p.x);
-  lane.flow[F::y] = t(X_LB.p.y);
-  lane.flow[F::yaw] = t(X_LB.yaw);
-  lane.flow[F::vx] = t(state.v_B.x);
-  lane.flow[F::vy] = t(state.v_B.y);
-  lane.flow[F::yaw_rate] = t(state.yaw_rate);
+  lane.state_vector[F::x] = t(X_LB.p.x);
+  lane.state_vector[F::y] = t(X_LB.p.y);
+  lane.state_vector[F::yaw] = t(X_LB.yaw);
+  lane.state_vector[F::vx] = t(state.v_B.x);
+  lane.state_vector[F::vy] = t(state.v_B.y);
+  lane.state_vector[F::yaw_rate] = t(state.yaw_rate);
   std::array<T, vehicle::num_wheels> torque{};
   for (std::size_t i = 0; i < vehicle::num_wheels; ++i) {
-    lane.flow[F::wheel + i] = t(state.wheel_speed[i]);
+    lane.state_vector[F::wheel + i] = t(state.wheel_speed[i]);
     torque[i] = t(state.brake_torque[i]);
-    lane.flow[F::brake + i] = torque[i];
+    lane.state_vector[F::brake + i] = torque[i];
   }
-  lane.flow[F::steering] = t(state.steering);
-  lane.flow[F::motor] = t(state.motor_torque);
-  lane.flow[F::ax] = t(state.transfer_a_B.x);
-  lane.flow[F::ay] = t(state.transfer_a_B.y);
+  lane.state_vector[F::steering] = t(state.steering);
+  lane.state_vector[F::motor] = t(state.motor_torque);
+  lane.state_vector[F::ax] = t(state.transfer_a_B.x);
+  lane.state_vector[F::ay] = t(state.transfer_a_B.y);
   lane.ax = t(state.a_B.x);
   lane.ay = t(state.a_B.y);
   lane.first = t(1.0);

@@ -21,7 +21,7 @@ namespace {
 constexpr double long_enough = 14.0;  // [s]
 
 EgoMotion scalar(const Drive& one, double horizon) {
-  return drive(*one.car, one.plan, scene_of(one), one.grip, horizon, one.unknown);
+  return drive(*one.car, one.plan, scene_of(one), one.grip, horizon, one.perturbation);
 }
 
 const std::vector<Car>& cars() {
@@ -70,7 +70,7 @@ std::vector<Drive> random_drives(std::size_t count, unsigned seed) {
     one.start = within(0.0, 10.0);
     one.known_grip = within(0.3, 1.0);
     one.grip = one.known_grip;
-    one.unknown = draw(rng);
+    one.perturbation = draw(rng);
     one.road.X_WL = {{within(-500.0, 500.0), within(-500.0, 500.0)}, within(-3.0, 3.0)};
     one.road.curvature = within(-0.1, 0.1) * one.known_grip * vehicle::gravity / (speed * speed);
     one.ego.X_WB =
@@ -112,8 +112,8 @@ bool same_bits(const EgoMotion& a, const EgoMotion& b) {
          same(a.track.X_WA, b.track.X_WA) && same(a.v_B, b.v_B) && same(a.yaw_rate, b.yaw_rate);
 }
 
-std::vector<Level> levels() {
-  return test::those_here({Level::baseline, Level::avx2, Level::avx512});
+std::vector<SimdLevel> levels() {
+  return test::those_here({SimdLevel::baseline, SimdLevel::avx2, SimdLevel::avx512});
 }
 
 TEST(Batch, EndsWhereTheScalarModelDoes) {
@@ -122,7 +122,7 @@ TEST(Batch, EndsWhereTheScalarModelDoes) {
   for (const Drive& one : drives) {
     references.push_back(scalar(one, long_enough));
   }
-  for (const Level level : levels()) {
+  for (const SimdLevel level : levels()) {
     const std::vector<EgoMotion> motions = drive_all(drives, long_enough, 1, level);
     std::vector<double> position;
     std::vector<double> heading;
@@ -168,8 +168,8 @@ TEST(Batch, EndsWhereTheScalarModelDoesFromAnywhere) {
 // can be seen; elsewhere it is what sums of a thousand floats lose.
 TEST(Batch, LevelsDifferByRounding) {
   const std::vector<Drive> drives = plain_drives();
-  const std::vector<EgoMotion> baseline = drive_all(drives, long_enough, 1, Level::baseline);
-  for (const Level level : levels()) {
+  const std::vector<EgoMotion> baseline = drive_all(drives, long_enough, 1, SimdLevel::baseline);
+  for (const SimdLevel level : levels()) {
     const std::vector<EgoMotion> motions = drive_all(drives, long_enough, 1, level);
     std::vector<double> position;
     for (std::size_t i = 0; i < drives.size(); ++i) {
@@ -199,7 +199,7 @@ TEST(Batch, DoesNotDependOnOrderNeighboursOrThreads) {
     drives[i].ego.X_WB = world::from_lane(drives[i].road, {7.0, 0.2, 0.02});
     drives[i].ego.yaw_rate = 0.0;
   }
-  for (const Level level : levels()) {
+  for (const SimdLevel level : levels()) {
     const std::vector<EgoMotion> motions = drive_all(drives, 5.0, 1, level);
     const std::vector<EgoMotion> threaded = drive_all(drives, 5.0, 3, level);
     std::vector<Drive> backwards(drives.rbegin(), drives.rend());
@@ -233,7 +233,7 @@ TEST(Batch, CarsOfDifferentDeadTimesGoTogether) {
 
 // The centimetres hold for every strength; and a strength of all the grip is none at all.
 TEST(Batch, BrakesByAStrengthAsTheScalarModelDoes) {
-  for (const Level level : levels()) {
+  for (const SimdLevel level : levels()) {
     std::vector<Drive> drives;
     for (const Car& car : cars()) {
       for (const double strength : {0.2, 0.3, 0.45, 0.6, 0.8, 1.0}) {

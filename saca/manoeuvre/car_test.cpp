@@ -68,8 +68,8 @@ TEST(Car, ChangesLanesWhicheverItIs) {
 }
 
 /// What is not known, so many standard deviations off, each by its own.
-Unknown off_by(const std::array<double, 6>& sds) {
-  const Unknown& sd = unknown_sd;
+ParameterPerturbation off_by(const std::array<double, 6>& sds) {
+  const ParameterPerturbation& sd = perturbation_sd;
   return {.grip = 1.0 + sds[0] * sd.grip,
           .mass = 1.0 + sds[1] * sd.mass,
           .yaw_inertia = 1.0 + sds[2] * sd.yaw_inertia,

@@ -38,14 +38,14 @@ PathPoint path_point(const Car& car, const world::Road& road, const Pose& X_WB, 
 }
 
 double steering_for(const Car& car, double acceleration, double speed) {
-  return std::atan((car.front_arm + car.rear_arm) * acceleration / (speed * speed));
+  return std::atan((car.cg_to_front_axle + car.cg_to_rear_axle) * acceleration / (speed * speed));
 }
 
 // A lane change that the steering can follow: its angle, its rate, and the car's direction on the
 // way stay within bounds at the lowest speed of the change.
 LaneShift followable_shift(const Car& car, const PathPoint& start, double end_d, double share,
                            double grip, double slowest) {
-  const double wheelbase = car.front_arm + car.rear_arm;
+  const double wheelbase = car.cg_to_front_axle + car.cg_to_rear_axle;
   const double turning = slowest * slowest * std::tan(0.8 * car.steering_limit) / wheelbase;
   double amplitude = std::min(share * grip * gravity, turning);
   LaneShift shift;

@@ -86,7 +86,7 @@ TEST_F(Controller, UsesTheCircleWithoutLeavingIt) {
     state = vehicle::step(car_, state, control(car_, plan, scene.road, 0.8, state, memory, dt), 0.8,
                           dt);
     most = std::max(most, norm(state.a_B) / (0.8 * vehicle::gravity));
-    for (const vehicle::Contact& wheel : vehicle::contacts(car_, state, 0.8)) {
+    for (const vehicle::WheelContact& wheel : vehicle::contacts(car_, state, 0.8)) {
       EXPECT_LE(norm(wheel.F_T), wheel.peak_force * (1.0 + 1e-12));
       deepest_slip = std::max(deepest_slip, wheel.slip);
     }

@@ -38,13 +38,13 @@ std::vector<Ending> draw_endings(const Car& car, const Plan& plan, const world::
   expects(!refusal(car, plan, scene).has_value(), "the plan can be driven: refusal(...)");
   expects(count >= 0 && threads >= 1, "count >= 0 and threads >= 1");
   std::mt19937_64 rng(seed);
-  std::vector<Unknown> unknown(static_cast<std::size_t>(count));
-  for (Unknown& one : unknown) {
+  std::vector<ParameterPerturbation> perturbation(static_cast<std::size_t>(count));
+  for (ParameterPerturbation& one : perturbation) {
     one = draw(rng);
   }
-  std::vector<Ending> endings(unknown.size());
+  std::vector<Ending> endings(perturbation.size());
   in_parallel(endings.size(), threads, [&](std::size_t i) {
-    endings[i] = ride_to_end(Ride(car, plan, scene, grip, unknown[i]), horizon,
+    endings[i] = ride_to_end(Ride(car, plan, scene, grip, perturbation[i]), horizon,
                              i < static_cast<std::size_t>(with_paths));
   });
   return endings;

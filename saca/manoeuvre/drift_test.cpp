@@ -31,8 +31,9 @@ struct End {
   double time = 0.0;
 };
 
-End drifted(const Plan& plan, const world::Scene& scene, const Unknown& unknown = {}) {
-  Ride ride(default_car(), plan, scene, scene.grip, unknown);
+End drifted(const Plan& plan, const world::Scene& scene,
+            const ParameterPerturbation& perturbation = {}) {
+  Ride ride(default_car(), plan, scene, scene.grip, perturbation);
   End end;
   while (!ride.ended() && end.time < 30.0) {
     ride.step();

@@ -144,10 +144,10 @@ std::optional<std::string> refusal(const Car& car, const Plan& plan, const world
 }
 
 EgoMotion drive(const Car& car, const Plan& plan, const world::Scene& scene, double grip,
-                double horizon, const Unknown& unknown) {
+                double horizon, const ParameterPerturbation& perturbation) {
   expects(grip > 0.0 && grip <= 1.2, "grip in (0, 1.2]");
   expects(horizon >= 0.0 && horizon <= 3600.0, "horizon in [0, 3600] s");
-  Ride ride(car, plan, scene, grip, unknown);
+  Ride ride(car, plan, scene, grip, perturbation);
   const int num_poses =
       static_cast<int>(std::lround(horizon / (vehicle::usual_step * steps_per_pose)));
   EgoMotion motion;

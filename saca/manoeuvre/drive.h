@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "saca/manoeuvre/car.h"
+#include "saca/manoeuvre/parameter_perturbation.h"
 #include "saca/manoeuvre/plan.h"
-#include "saca/manoeuvre/unknown.h"
 #include "saca/vehicle/vehicle.h"
 #include "saca/world/scene.h"
 #include "saca/world/track.h"
@@ -58,10 +58,11 @@ struct EgoMotion {
 ///
 /// @param grip     true friction coefficient; the controller knows only scene.grip
 /// @param horizon  longest time [s]
-/// @param unknown  what else the controller does not know (see `Ride`)
+/// @param perturbation  what else the controller does not know (see `Ride`)
 /// @return         poses every 10 ms from scene.time, the model integrated at 1 ms
 /// @throws ContractViolation  if refusal(car, plan, scene) has a reason
 [[nodiscard]] EgoMotion drive(const Car& car, const Plan& plan, const world::Scene& scene,
-                              double grip, double horizon, const Unknown& unknown = {});
+                              double grip, double horizon,
+                              const ParameterPerturbation& perturbation = {});
 
 }  // namespace saca::manoeuvre

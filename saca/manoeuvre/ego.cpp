@@ -17,14 +17,14 @@ constexpr double most_share = 0.95;  // of a tyre's peak: what nobody drives at 
 
 // Angle at which the front tyres give their share of the turning that the ego does.
 double steering_of(const Vehicle& car, const world::EgoState& ego, double grip) {
-  const double wheelbase = car.front_arm + car.rear_arm;
-  const double load = car.mass * vehicle::gravity * car.rear_arm / wheelbase;
+  const double wheelbase = car.cg_to_front_axle + car.cg_to_rear_axle;
+  const double load = car.mass * vehicle::gravity * car.cg_to_rear_axle / wheelbase;
   const double peak = vehicle::peak_friction(car.tyre, 0.5 * load, grip);
-  const double F = car.mass * car.rear_arm / wheelbase * ego.v_B.x * ego.yaw_rate;
+  const double F = car.mass * car.cg_to_rear_axle / wheelbase * ego.v_B.x * ego.yaw_rate;
   const double share = std::min(most_share, std::abs(F) / (peak * load));
   const double slip = std::copysign(vehicle::slip_for(car.tyre, peak, share), F) *
                       std::max(1.0, vehicle::slip_speed_floor / ego.v_B.x);
-  const double way = std::atan2(ego.v_B.y + car.front_arm * ego.yaw_rate, ego.v_B.x);
+  const double way = std::atan2(ego.v_B.y + car.cg_to_front_axle * ego.yaw_rate, ego.v_B.x);
   return std::clamp(way + std::asin(std::clamp(slip, -0.7, 0.7)), -car.steering_limit,
                     car.steering_limit);
 }

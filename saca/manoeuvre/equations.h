@@ -41,15 +41,15 @@ constexpr double least_kept_speed = 0.5;
 
 // How far ahead of the centre of mass rear forces do not accelerate the body sideways [m].
 inline double percussion_arm(const Car& car) noexcept {
-  return car.yaw_inertia / (car.mass * car.rear_arm);
+  return car.yaw_inertia / (car.mass * car.cg_to_rear_axle);
 }
 
 // What the driven axles together can take to the road, shared as the motor shares it [N].
 inline double driven_load(const Car& car) noexcept {
-  const double per_metre = car.mass * gravity / (car.front_arm + car.rear_arm);
+  const double per_metre = car.mass * gravity / (car.cg_to_front_axle + car.cg_to_rear_axle);
   const double front_share = car.motor_front_share;
-  const double by_front = per_metre * car.rear_arm / std::max(front_share, 1e-9);
-  const double by_rear = per_metre * car.front_arm / std::max(1.0 - front_share, 1e-9);
+  const double by_front = per_metre * car.cg_to_rear_axle / std::max(front_share, 1e-9);
+  const double by_rear = per_metre * car.cg_to_front_axle / std::max(1.0 - front_share, 1e-9);
   return std::min(by_front, by_rear);
 }
 
@@ -124,9 +124,9 @@ inline T deceleration_left(const T& share, const T& grip, const T& sideways) {
 }
 
 // Acceleration that the path asks of the controlled point, to the left of the car [m/s^2].
-template <class T, class Car, class State, class Memory>
+template <class T, class Car, class State, class ControllerMemory>
 inline T sideways_demand(const Car& car, const T& curvature, const State& state,
-                         const Memory& memory, const PathPoint<T>& point) {
+                         const ControllerMemory& memory, const PathPoint<T>& point) {
   // The steering follows late: its cause leads, and the path is expected as much later.
   const auto& law = car.tuning.swerve;
   const T a = at<T>(memory.shift, memory.time).a;
@@ -150,7 +150,7 @@ struct Sides {
 template <class T, class Car, class State>
 inline Sides<T> turning_allowed(const Car& car, const State& state, const T& grip) {
   const auto& law = car.tuning.swerve;
-  const T vy_rear = state.v_B.y - car.rear_arm * state.yaw_rate;
+  const T vy_rear = state.v_B.y - car.cg_to_rear_axle * state.yaw_rate;
   const T slip = vy_rear / max(state.v_B.x, vehicle::slip_speed_floor);
   const T excess = (abs(slip) / peak_slip(car, grip) - law.guard_from) / law.guard_width;
   const T allowed = clamp(1.0 - excess, -0.5, 1.0);
@@ -174,7 +174,7 @@ inline T steering_angle(const Car& car, const State& state, const T& grip, const
   const T braking =
       min((state.brake_torque[front_left] + state.brake_torque[front_right]) / car.wheel_radius,
           0.98 * most);
-  const T F_B = car.mass * car.rear_arm / wheelbase(car) * demand;
+  const T F_B = car.mass * car.cg_to_rear_axle / wheelbase(car) * demand;
   const T room = sqrt(most * most - braking * braking);
   const Sides<T> allowed = turning_allowed<T>(car, state, grip);
   const Turn<T> wheel = vehicle::equations::turn_by<T>(state.steering);
@@ -182,7 +182,7 @@ inline T steering_angle(const Car& car, const State& state, const T& grip, const
                       room * allowed.left);
   const T force = hypot(F_T, braking);
   const auto pushes = force > 0.0;
-  const T vy = state.v_B.y + car.front_arm * state.yaw_rate;
+  const T vy = state.v_B.y + car.cg_to_front_axle * state.yaw_rate;
   const T course = atan2(vy, state.v_B.x);
   if (!any(pushes)) {
     return course;
@@ -212,8 +212,8 @@ struct Wants {
   T strength;   // share of the grip that a stop asks for at most; 1 changes no bit
 };
 
-template <class T, class Mask, bool may_brake, class Memory>
-inline Mask stops(const Wants<T, Mask, may_brake>& wants, const Memory& memory) {
+template <class T, class Mask, bool may_brake, class ControllerMemory>
+inline Mask stops(const Wants<T, Mask, may_brake>& wants, const ControllerMemory& memory) {
   return wants.rest || (wants.slower && memory.speed < least_kept_speed);
 }
 
@@ -228,10 +228,11 @@ inline void begin_abs_where(const Mask& mask, const T& speed, Abs& abs) {
 }
 
 // Brakes or motor: what the plan wants of the speed, with what steering leaves.
-template <class T, class Mask, bool may_brake, class Car, class State, class Memory, class Command>
+template <class T, class Mask, bool may_brake, class Car, class State, class ControllerMemory,
+          class Command>
 inline void command_speed(const Car& car, const Wants<T, Mask, may_brake>& wants, const T& grip,
-                          const State& state, const T& sideways, double dt, Memory& memory,
-                          Command& command) {
+                          const State& state, const T& sideways, double dt,
+                          ControllerMemory& memory, Command& command) {
   if constexpr (!may_brake) {
     command.motor_torque = holding_torque<T>(car, state, memory.speed, grip);
     return;
@@ -260,10 +261,10 @@ inline void command_speed(const Car& car, const Wants<T, Mask, may_brake>& wants
   }
 }
 
-template <class T, class Mask, bool may_brake, class Car, class State, class Memory>
+template <class T, class Mask, bool may_brake, class Car, class State, class ControllerMemory>
 inline void watch_recovery(const Car& car, const Wants<T, Mask, may_brake>& wants,
                            const PathPoint<T>& point, const State& state, double dt,
-                           Memory& memory) {
+                           ControllerMemory& memory) {
   constexpr double near_d = 0.2;      // [m]
   constexpr double near_speed = 1.0;  // [m/s]
   const double near_heading = from_degrees(2.0);
@@ -275,10 +276,11 @@ inline void watch_recovery(const Car& car, const Wants<T, Mask, may_brake>& want
 }
 
 // What to tell a car that follows a path.
-template <class T, class Mask, bool may_brake, class Car, class State, class Memory, class Command>
+template <class T, class Mask, bool may_brake, class Car, class State, class ControllerMemory,
+          class Command>
 inline void follow_path(const Car& car, const Wants<T, Mask, may_brake>& wants, const T& curvature,
                         const T& grip, const State& state, const PathPoint<T>& point, double dt,
-                        Memory& memory, Command& command) {
+                        ControllerMemory& memory, Command& command) {
   const T demand = sideways_demand<T>(car, curvature, state, memory, point);
   const T most = grip * gravity;
   const T sideways = min(max(abs(demand), abs(state.a_B.y)), most);
@@ -305,9 +307,9 @@ struct Drifting {
 };
 
 // How much more turning is wanted, as a share of what the actuators can do, in [-1, 1].
-template <class T, class Law, class Memory>
+template <class T, class Law, class ControllerMemory>
 inline T drift_demand(const Law& law, const T& grip, const Drifting<T>& motion, const T& speed,
-                      const Memory& memory) {
+                      const ControllerMemory& memory) {
   constexpr double least_speed = 1.0;  // [m/s]
   const T foreseen = motion.heading + law.lead * motion.yaw_rate;
   const T slowing = law.slide_share * grip * gravity;
@@ -339,9 +341,9 @@ inline double smoothing_share(const DriftState& /*memory*/, double dt, double ti
 }
 
 // The drift to the left.
-template <class T, class Car, class Law, class Memory, class Command>
+template <class T, class Car, class Law, class ControllerMemory, class Command>
 inline void drift(const Car& car, const Law& law, const T& grip, const Drifting<T>& motion,
-                  double dt, Memory& memory, Command& command) {
+                  double dt, ControllerMemory& memory, Command& command) {
   constexpr double smoothing = 0.02;    // [s]
   constexpr double over_brake = 1.6;    // of what a wheel can take: it locks
   constexpr double least_load = 500.0;  // [N] that a lifted wheel is braked for
@@ -353,7 +355,7 @@ inline void drift(const Car& car, const Law& law, const T& grip, const Drifting<
   const T u = drift_demand<T>(law, grip, motion, speed, memory);
   const T in = max(u, 0.0);
   const T out = max(-u, 0.0);
-  const T course = atan2(motion.vy + car.front_arm * motion.yaw_rate, max(motion.vx, 0.1));
+  const T course = atan2(motion.vy + car.cg_to_front_axle * motion.yaw_rate, max(motion.vx, 0.1));
   const auto locks = speed < law.lock_speed;
   command.steering =
       select(locks, 0.0, clamp(course + law.steering * u, -car.steering_limit, car.steering_limit));

@@ -8,17 +8,18 @@
 namespace saca::manoeuvre {
 
 Ride::Ride(const Car& car, const Plan& plan, const world::Scene& scene, double grip,
-           const Unknown& unknown)
+           const ParameterPerturbation& perturbation)
     : car_(car),
-      real_(real_car(car, unknown)),
-      grip_(std::min(1.2, grip * unknown.grip)),
+      real_(real_car(car, perturbation)),
+      grip_(std::min(1.2, grip * perturbation.grip)),
       plan_(plan),
       road_(scene.road),
       known_grip_(scene.grip) {
   expects(grip > 0.0 && grip <= 1.2 && grip_ > 0.0, "grip in (0, 1.2]");
   memory_ = begin(car_, plan_, scene);
   world::EgoState ego = scene.ego;
-  ego.v_B.x = std::max(std::min(ego.v_B.x, 0.0), ego.v_B.x + unknown.speed);  // never backwards
+  ego.v_B.x =
+      std::max(std::min(ego.v_B.x, 0.0), ego.v_B.x + perturbation.speed);  // never backwards
   state_ = rolling_state(real_, ego, grip_);
 }
 

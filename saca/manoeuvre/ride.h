@@ -2,8 +2,8 @@
 
 #include "saca/manoeuvre/car.h"
 #include "saca/manoeuvre/controller.h"
+#include "saca/manoeuvre/parameter_perturbation.h"
 #include "saca/manoeuvre/plan.h"
-#include "saca/manoeuvre/unknown.h"
 #include "saca/world/scene.h"
 
 namespace saca::manoeuvre {
@@ -13,11 +13,11 @@ class Ride {
  public:
   /// The car rolls as the scene's ego does.
   /// @param grip     true friction coefficient, in (0, 1.2]; the controller knows only scene.grip
-  /// @param unknown  what else the controller does not know; its `grip` is a factor of
+  /// @param perturbation  what else the controller does not know; its `grip` is a factor of
   ///                 `grip`, and the product at most 1.2
   /// @throws ContractViolation  if refusal(car, plan, scene) has a reason
   Ride(const Car& car, const Plan& plan, const world::Scene& scene, double grip,
-       const Unknown& unknown = {});
+       const ParameterPerturbation& perturbation = {});
 
   /// Asks the controller and goes on by `vehicle::usual_step`. Allocates nothing.
   void step();
@@ -30,7 +30,7 @@ class Ride {
   [[nodiscard]] const ControllerState& memory() const { return memory_; }
   /// What the controller said at the last step.
   [[nodiscard]] const vehicle::Command& command() const { return command_; }
-  [[nodiscard]] vehicle::Contacts contacts() const {
+  [[nodiscard]] vehicle::WheelContacts contacts() const {
     return vehicle::contacts(real_, state_, grip_);
   }
 

@@ -15,8 +15,8 @@ using test::ego_alone;
 
 constexpr Plan brake{PolicyId::aeb, std::nullopt};
 
-double stop(double grip, const Unknown& unknown) {
-  Ride ride(default_car(), brake, ego_alone(15.0, 0.8), grip, unknown);
+double stop(double grip, const ParameterPerturbation& perturbation) {
+  Ride ride(default_car(), brake, ego_alone(15.0, 0.8), grip, perturbation);
   while (!ride.ended()) {
     ride.step();
   }

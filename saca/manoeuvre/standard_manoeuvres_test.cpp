@@ -96,7 +96,7 @@ Passage drive_through(const Vehicle& car, const Driver& driver, double speed, do
     const double curvature = path_at(driver, x + state.v_B.x * driver.preview).curvature;
     const Vec2 v_W = rotated(state.v_B, state.X_WB.yaw);
     vehicle::Command command;
-    command.steering = (car.front_arm + car.rear_arm) * curvature +
+    command.steering = (car.cg_to_front_axle + car.cg_to_rear_axle) * curvature +
                        driver.place_gain * (here.y - state.X_WB.p.y) +
                        driver.course_gain * (std::atan(here.slope) - std::atan2(v_W.y, v_W.x));
     state = vehicle::step(car, state, command, grip, dt);

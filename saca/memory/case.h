@@ -58,7 +58,7 @@ struct MadeWith {
 /// Of a case: lessons, or inputs.
 constexpr std::size_t most_texts = 100;
 
-/// What memory keeps of an encounter: the scene at the trigger, what was foretold, what was done,
+/// What memory keeps of an encounter: the scene at the trigger, what was predicted, what was done,
 /// what came of it.
 struct Case {
   CaseId id = 0;  ///< given by the store

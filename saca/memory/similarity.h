@@ -157,7 +157,7 @@ template <class Real>
 /// stays unmatched counts by the threat that it is.
 ///
 /// The scales are such that what policies are expected to harm in like scenes, weighted by
-/// exp(-difference^2 / 2), foretells best what they are expected to harm in this one.
+/// exp(-difference^2 / 2), predicts best what they are expected to harm in this one.
 ///
 /// @param limit  where the caller stops caring: any number >= limit may come back instead of a
 ///               larger one

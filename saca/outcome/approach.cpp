@@ -22,14 +22,14 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Both bodies at one time. The gap is seen from the first one's origin, so that digits are not lost
 // far from the world's.
-struct Moment {
+struct BodiesAtTime {
   double time = 0.0;
   Pose X_WA;
   Pose X_WB;
   Separation gap;
 };
 
-Moment moment(const Mover& a, const Mover& b, double time) {
+BodiesAtTime bodies_at(const Mover& a, const Mover& b, double time) {
   const Pose X_WA = pose_at(a.track(), time);
   const Pose X_WB = pose_at(b.track(), time);
   return {time, X_WA, X_WB,
@@ -38,7 +38,8 @@ Moment moment(const Mover& a, const Mover& b, double time) {
 
 // Bound on how fast the distance shrinks on the way from one moment to another, forwards or
 // backwards in time, within which both bodies move straight and turn evenly [m/s].
-double closing_speed(const Mover& a, const Mover& b, const Moment& from, const Moment& to) {
+double closing_speed(const Mover& a, const Mover& b, const BodiesAtTime& from,
+                     const BodiesAtTime& to) {
   const Vec2 n_W = (1.0 / from.gap.distance) * (from.gap.p_b_W - from.gap.p_a_W);
   const double closing = dot(n_W, (to.X_WA.p - from.X_WA.p) - (to.X_WB.p - from.X_WB.p));
   const double turning = std::abs(wrap_angle(to.X_WA.yaw - from.X_WA.yaw)) * a.reach() +
@@ -47,13 +48,13 @@ double closing_speed(const Mover& a, const Mover& b, const Moment& from, const M
 }
 
 // Where they touch on the way from a moment apart to one where they overlap: still apart.
-Moment touching_between(const Mover& a, const Mover& b, Moment from, Moment to) {
+BodiesAtTime touching_between(const Mover& a, const Mover& b, BodiesAtTime from, BodiesAtTime to) {
   while (from.gap.distance > touching) {
     const double time = 0.5 * (from.time + to.time);
     if (time <= from.time || time >= to.time) {
       break;  // no time lies between
     }
-    const Moment middle = moment(a, b, time);
+    const BodiesAtTime middle = bodies_at(a, b, time);
     (middle.gap.distance > 0.0 ? from : to) = middle;
   }
   return from;
@@ -61,24 +62,24 @@ Moment touching_between(const Mover& a, const Mover& b, Moment from, Moment to) 
 
 // The longest step from `now` on the straight way to `corner` that cannot lead past a contact, but
 // at least one that makes headway.
-double stride(const Moment& now, double closing, double top_speed) {
+double stride(const BodiesAtTime& now, double closing, double top_speed) {
   const double safe = (now.gap.distance - 0.5 * touching) / closing;
   const double tick = 4.0 * std::numeric_limits<double>::epsilon() * (1.0 + std::abs(now.time));
   return std::max({safe, least_travel / top_speed, tick});
 }
 
-void note(const Moment& moment, Approach& found) {
-  if (moment.gap.distance < found.distance) {
-    found.distance = moment.gap.distance;
-    found.nearest_at = moment.time;
+void note(const BodiesAtTime& bodies_at, Approach& found) {
+  if (bodies_at.gap.distance < found.distance) {
+    found.distance = bodies_at.gap.distance;
+    found.nearest_at = bodies_at.time;
   }
 }
 
 // Notes the smallest distance between two moments of a straight segment, as far as it is below what
 // was found. The distance lies above a line that falls from either end; where the lines meet too
 // low, look there.
-void note_between(const Mover& a, const Mover& b, const Moment& from, const Moment& to, int depth,
-                  Approach& found) {
+void note_between(const Mover& a, const Mover& b, const BodiesAtTime& from, const BodiesAtTime& to,
+                  int depth, Approach& found) {
   note(from, found);
   note(to, found);
   const double forward = closing_speed(a, b, from, to);
@@ -92,7 +93,7 @@ void note_between(const Mover& a, const Mover& b, const Moment& from, const Mome
   if (from.gap.distance - forward * meet >= found.distance - distance_accuracy) {
     return;
   }
-  const Moment middle = moment(a, b, from.time + 0.5 * span);
+  const BodiesAtTime middle = bodies_at(a, b, from.time + 0.5 * span);
   note_between(a, b, from, middle, depth - 1, found);
   note_between(a, b, middle, to, depth - 1, found);
 }
@@ -242,7 +243,7 @@ Approach approach(const Mover& a, const Mover& b, double start, double end, doub
   if (!may_come_near(a.boxes(), b.boxes(), start, end, std::max(of_interest, touching))) {
     return found;
   }
-  Moment now = moment(a, b, start);
+  BodiesAtTime now = bodies_at(a, b, start);
   while (true) {
     const double distance = now.gap.distance;
     // May be used up and nothing be missed, neither a smaller distance nor a touch.
@@ -257,13 +258,13 @@ Approach approach(const Mover& a, const Mover& b, double start, double end, doub
     }
     const double corner = std::min({a.next_sample(now.time), b.next_sample(now.time), end});
     if (spare > touching && now.time + spare / top_speed > corner) {
-      now = moment(a, b, now.time + spare / top_speed);
+      now = bodies_at(a, b, now.time + spare / top_speed);
       continue;
     }
-    Moment next = moment(a, b, corner);
+    BodiesAtTime next = bodies_at(a, b, corner);
     const double closing = closing_speed(a, b, now, next);
     if (closing * (corner - now.time) > distance - 0.5 * touching) {
-      next = moment(a, b, std::min(corner, now.time + stride(now, closing, top_speed)));
+      next = bodies_at(a, b, std::min(corner, now.time + stride(now, closing, top_speed)));
     }
     if (next.gap.distance <= 0.0) {
       now = touching_between(a, b, now, next);

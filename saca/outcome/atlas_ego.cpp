@@ -27,14 +27,15 @@ AtlasEgo::AtlasEgo(const manoeuvre::AtlasPath& path, const world::Scene& scene) 
       start_(to_lane(scene.road, scene.ego.X_WB)),
       along_{std::cos(scene.road.X_WL.yaw), std::sin(scene.road.X_WL.yaw)},
       at_end_(manoeuvre::at(path, std::nextafter(path.end, 1e9))) {
-  last_look_ = path.rests   ? std::numeric_limits<double>::infinity()
-               : path.ended ? path.end + carried_on_for
-                            : path.end;
+  last_sample_ = path.rests   ? std::numeric_limits<double>::infinity()
+                 : path.ended ? path.end + carried_on_for
+                              : path.end;
   fill_directions();
-  fill_looks();
+  fill_samples();
   if (scene.grip_sd > 0.0) {
     const double off = scene.grip_sd / scene.grip;
-    grip_shares_ = {-manoeuvre::sway_share(1.0 - off), manoeuvre::sway_share(1.0 + off)};
+    grip_shares_ = {-manoeuvre::sensitivity_share(1.0 - off),
+                    manoeuvre::sensitivity_share(1.0 + off)};
     fill_sways();
   }
 }
@@ -60,18 +61,18 @@ void AtlasEgo::fill_directions() noexcept {
   }
 }
 
-void AtlasEgo::fill_looks() noexcept {
+void AtlasEgo::fill_samples() noexcept {
   const manoeuvre::AtlasPath& path = *path_;
   const double per_second =
       path.span > 0.0 ? static_cast<double>(atlas_samples - 1) / path.span : 0.0;
   const bool goes_on = !path.rests && !path.ended;
-  LookRow x{};  // along and across the lane, direction against it
-  LookRow y{};
-  LookRow cosine{};
-  LookRow sine{};
+  SampleRow x{};  // along and across the lane, direction against it
+  SampleRow y{};
+  SampleRow cosine{};
+  SampleRow sine{};
   std::size_t k = 0;
-  for (; k <= num_spans && (goes_on || look_time(k) <= path.end); ++k) {
-    const double place = std::min(look_time(k) * per_second, atlas_samples - 1.001);
+  for (; k <= num_spans && (goes_on || sample_time(k) <= path.end); ++k) {
+    const double place = std::min(sample_time(k) * per_second, atlas_samples - 1.001);
     const auto i = static_cast<std::size_t>(place);
     const auto share = static_cast<float>(place - static_cast<double>(i));
     const auto between = [&](const auto& row) { return row[i] + share * (row[i + 1] - row[i]); };
@@ -83,7 +84,7 @@ void AtlasEgo::fill_looks() noexcept {
   const auto end_cosine = static_cast<float>(std::cos(at_end_.heading));
   const auto end_sine = static_cast<float>(std::sin(at_end_.heading));
   for (; k <= num_spans; ++k) {
-    x[k] = static_cast<float>(at_end_.x + at_end_.x_rate * (look_time(k) - path.end));
+    x[k] = static_cast<float>(at_end_.x + at_end_.x_rate * (sample_time(k) - path.end));
     y[k] = static_cast<float>(at_end_.y);
     cosine[k] = end_cosine;
     sine[k] = end_sine;
@@ -104,16 +105,16 @@ void AtlasEgo::fill_looks() noexcept {
   for (std::size_t i = 0; i < x.size(); ++i) {
     const float c = lane_x_[i] * cosine[i] - lane_y_[i] * sine[i];
     const float s = lane_y_[i] * cosine[i] + lane_x_[i] * sine[i];
-    looks_.cosine[i] = c;
-    looks_.sine[i] = s;
-    looks_.x[i] = from_x + along_x * x[i] - along_y * y[i] + ahead * c;
-    looks_.y[i] = from_y + along_y * x[i] + along_x * y[i] + ahead * s;
+    samples_.cosine[i] = c;
+    samples_.sine[i] = s;
+    samples_.x[i] = from_x + along_x * x[i] - along_y * y[i] + ahead * c;
+    samples_.y[i] = from_y + along_y * x[i] + along_x * y[i] + ahead * s;
   }
-  complete(looks_, scene_->ego_footprint);
+  complete(samples_, scene_->ego_footprint);
 }
 
 // Turns ways along and across a lane that bends into places in the frame at its X_WL.
-void AtlasEgo::lay_along_arc(LookRow& x, LookRow& y) noexcept {
+void AtlasEgo::lay_along_arc(SampleRow& x, SampleRow& y) noexcept {
   const world::Road arc{.curvature = scene_->road.curvature};
   for (std::size_t k = 0; k <= num_spans; ++k) {
     const world::LanePose pose{start_.s + static_cast<double>(x[k]),
@@ -131,33 +132,34 @@ void AtlasEgo::fill_sways() noexcept {
   const manoeuvre::AtlasPath& path = *path_;
   for (const std::size_t c : {0U, 3U}) {
     float most = 0.0F;
-    for (std::size_t i = 0; i < manoeuvre::sway_samples; ++i) {
-      most = std::max(
-          most, path.sway[c][i] * path.sway[c][i] + path.sway[c + 1][i] * path.sway[c + 1][i]);
+    for (std::size_t i = 0; i < manoeuvre::sensitivity_samples; ++i) {
+      most = std::max(most, path.sensitivity[c][i] * path.sensitivity[c][i] +
+                                path.sensitivity[c + 1][i] * path.sensitivity[c + 1][i]);
     }
     const double share = c == 0 ? grip_shares_.less : grip_shares_.more;
     most_sway_ = std::max(most_sway_, share * std::sqrt(static_cast<double>(most)));
   }
-  constexpr double last = manoeuvre::sway_samples - 1;
-  const double per_second = path.sway_span > 0.0 ? last / path.sway_span : 0.0;
-  const auto of_less = static_cast<float>(path.sway_span > 0.0 ? grip_shares_.less : 0.0);
-  const auto of_more = static_cast<float>(path.sway_span > 0.0 ? grip_shares_.more : 0.0);
+  constexpr double last = manoeuvre::sensitivity_samples - 1;
+  const double per_second = path.sensitivity_span > 0.0 ? last / path.sensitivity_span : 0.0;
+  const auto of_less = static_cast<float>(path.sensitivity_span > 0.0 ? grip_shares_.less : 0.0);
+  const auto of_more = static_cast<float>(path.sensitivity_span > 0.0 ? grip_shares_.more : 0.0);
   for (std::size_t k = 0; k <= num_spans; ++k) {
-    const double place = std::min(look_time(k) * per_second, last);
-    const std::size_t i = std::min(static_cast<std::size_t>(place), manoeuvre::sway_samples - 2);
+    const double place = std::min(sample_time(k) * per_second, last);
+    const std::size_t i =
+        std::min(static_cast<std::size_t>(place), manoeuvre::sensitivity_samples - 2);
     const auto share = static_cast<float>(place - static_cast<double>(i));
     const auto value = [&](std::size_t c) {
-      const auto& row = path.sway[c];
+      const auto& row = path.sensitivity[c];
       return row[i] + share * (row[i + 1] - row[i]);
     };
     const float less_x = of_less * value(0);
     const float less_y = of_less * value(1);
     const float more_x = of_more * value(3);
     const float more_y = of_more * value(4);
-    sway_looks_.less_x[k] = lane_x_[k] * less_x - lane_y_[k] * less_y;
-    sway_looks_.less_y[k] = lane_y_[k] * less_x + lane_x_[k] * less_y;
-    sway_looks_.more_x[k] = lane_x_[k] * more_x - lane_y_[k] * more_y;
-    sway_looks_.more_y[k] = lane_y_[k] * more_x + lane_x_[k] * more_y;
+    sensitivity_at_samples_.less_x[k] = lane_x_[k] * less_x - lane_y_[k] * less_y;
+    sensitivity_at_samples_.less_y[k] = lane_y_[k] * less_x + lane_x_[k] * less_y;
+    sensitivity_at_samples_.more_x[k] = lane_x_[k] * more_x - lane_y_[k] * more_y;
+    sensitivity_at_samples_.more_y[k] = lane_y_[k] * more_x + lane_x_[k] * more_y;
   }
 }
 
@@ -183,13 +185,15 @@ Instant AtlasEgo::at(double time) const noexcept {
           now.turn_rate + road.curvature * now.x_rate};
 }
 
-AtlasEgo::Sways AtlasEgo::sways(double time) const noexcept {
+AtlasEgo::Sensitivities AtlasEgo::with_sensitivity(double time) const noexcept {
   const double grip_sd = scene_->grip_sd / scene_->grip;
-  const manoeuvre::Sway less = manoeuvre::sway_at(*path_, time, 1.0 - grip_sd);
-  const manoeuvre::Sway more = manoeuvre::sway_at(*path_, time, 1.0 + grip_sd);
+  const manoeuvre::FrictionSensitivity less =
+      manoeuvre::friction_sensitivity_at(*path_, time, 1.0 - grip_sd);
+  const manoeuvre::FrictionSensitivity more =
+      manoeuvre::friction_sensitivity_at(*path_, time, 1.0 + grip_sd);
   const Vec2 lane = scene_->road.curvature == 0.0 ? along_ : lane_direction(in_lane(time).s);
-  const auto in_W = [&](const manoeuvre::Sway& sway) {
-    return sway.x * lane + sway.y * left_of(lane);
+  const auto in_W = [&](const manoeuvre::FrictionSensitivity& sensitivity) {
+    return sensitivity.x * lane + sensitivity.y * left_of(lane);
   };
   return {in_W(less), in_W(more)};
 }

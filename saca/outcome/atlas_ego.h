@@ -3,8 +3,8 @@
 #include <array>
 
 #include "saca/manoeuvre/atlas.h"
-#include "saca/outcome/blow.h"
-#include "saca/outcome/looks.h"
+#include "saca/outcome/broad_phase.h"
+#include "saca/outcome/impact.h"
 #include "saca/world/scene.h"
 
 namespace saca::outcome {
@@ -29,13 +29,13 @@ class AtlasEgo {
   /// Offset and heading in the lane.
   [[nodiscard]] world::LanePose in_lane(double time) const noexcept;
   /// Displacement of the ego by the grip's standard deviation, in W [m].
-  struct Sways {
+  struct Sensitivities {
     Vec2 less_W;  ///< with so much less grip
     Vec2 more_W;  ///< with so much more
   };
-  [[nodiscard]] Sways sways(double time) const noexcept;
+  [[nodiscard]] Sensitivities with_sensitivity(double time) const noexcept;
 
-  /// How much of the atlas' sways the grip's standard deviation gives, both >= 0.
+  /// How much of the atlas' sensitivity to friction the grip's standard deviation gives, both >= 0.
   struct GripShares {
     double less = 0.0;
     double more = 0.0;
@@ -45,9 +45,9 @@ class AtlasEgo {
   [[nodiscard]] const manoeuvre::AtlasPath& path() const noexcept { return *path_; }
   [[nodiscard]] const world::Scene& scene() const noexcept { return *scene_; }
   /// How long it is looked at [s]: two seconds beyond a recovered lane; at rest, without end.
-  [[nodiscard]] double last_look() const noexcept { return last_look_; }
+  [[nodiscard]] double last_sample() const noexcept { return last_sample_; }
   /// From where the ego is at the scene's time.
-  [[nodiscard]] const Looks& looks() const noexcept { return looks_; }
+  [[nodiscard]] const PoseSamples& samples() const noexcept { return samples_; }
   /// The most that the grip's standard deviation moves it, at any time, on any side [m].
   [[nodiscard]] double most_sway() const noexcept { return most_sway_; }
   /// Of the heading in the lane, at the samples of the path.
@@ -56,19 +56,21 @@ class AtlasEgo {
     alignas(32) std::array<float, manoeuvre::atlas_samples> sine;
   };
   [[nodiscard]] const SampleDirections& directions() const noexcept { return directions_; }
-  /// `Sways` at the looks, where the grip has a standard deviation.
-  struct SwayLooks {
-    alignas(32) LookRow less_x;
-    alignas(32) LookRow less_y;
-    alignas(32) LookRow more_x;
-    alignas(32) LookRow more_y;
+  /// `Sensitivities` at the samples, where the grip has a standard deviation.
+  struct SensitivityAtSamples {
+    alignas(32) SampleRow less_x;
+    alignas(32) SampleRow less_y;
+    alignas(32) SampleRow more_x;
+    alignas(32) SampleRow more_y;
   };
-  [[nodiscard]] const SwayLooks& sway_looks() const noexcept { return sway_looks_; }
+  [[nodiscard]] const SensitivityAtSamples& sensitivity_at_samples() const noexcept {
+    return sensitivity_at_samples_;
+  }
 
  private:
   void fill_directions() noexcept;
-  void fill_looks() noexcept;
-  void lay_along_arc(LookRow& x, LookRow& y) noexcept;
+  void fill_samples() noexcept;
+  void lay_along_arc(SampleRow& x, SampleRow& y) noexcept;
   void fill_sways() noexcept;
   [[nodiscard]] manoeuvre::AtlasInstant on_path(double time) const noexcept;
   [[nodiscard]] Vec2 lane_direction(double s) const noexcept;
@@ -78,13 +80,14 @@ class AtlasEgo {
   world::LanePose start_;
   Vec2 along_;                      // direction of the lane at X_WL, in W
   manoeuvre::AtlasInstant at_end_;  // of the path
-  double last_look_ = 0.0;
+  double last_sample_ = 0.0;
   GripShares grip_shares_;
   double most_sway_ = 0.0;
-  Looks looks_;
-  SwayLooks sway_looks_{};
-  LookRow lane_x_;  // direction of the lane at the looks, where the grip has a standard deviation
-  LookRow lane_y_;
+  PoseSamples samples_;
+  SensitivityAtSamples sensitivity_at_samples_{};
+  SampleRow
+      lane_x_;  // direction of the lane at the samples, where the grip has a standard deviation
+  SampleRow lane_y_;
   SampleDirections directions_;
 };
 

@@ -25,20 +25,20 @@ world::Scene turned_scene(double curvature) {
   return scene;
 }
 
-TEST(AtlasEgo, LooksStandWhereItIs) {
+TEST(AtlasEgo, SamplesStandWhereItIs) {
   for (const auto policy : manoeuvre::all_policies) {
     for (const double curvature : {0.0, 0.004, -0.004}) {
       const world::Scene scene = turned_scene(curvature);
       const AtlasPath path = small_atlas().path(atlas_plan(policy, 12.5), scene);
       const AtlasEgo ego(path, scene);
       for (std::size_t k = 0; k <= num_spans; ++k) {
-        const Pose X_WB = ego.at(look_time(k)).X_WB;
+        const Pose X_WB = ego.at(sample_time(k)).X_WB;
         const Vec2 middle_W = X_WB * Vec2{0.3, 0.0} - scene.ego.X_WB.p;
         // Straight between samples: a t^2 / 8 = 10 * 0.07^2 / 8, and the same share of the turn.
-        EXPECT_NEAR(static_cast<double>(ego.looks().x[k]), middle_W.x, 0.02) << name(policy);
-        EXPECT_NEAR(static_cast<double>(ego.looks().y[k]), middle_W.y, 0.02) << name(policy);
-        EXPECT_NEAR(static_cast<double>(ego.looks().cosine[k]), std::cos(X_WB.yaw), 0.01);
-        EXPECT_NEAR(static_cast<double>(ego.looks().sine[k]), std::sin(X_WB.yaw), 0.01);
+        EXPECT_NEAR(static_cast<double>(ego.samples().x[k]), middle_W.x, 0.02) << name(policy);
+        EXPECT_NEAR(static_cast<double>(ego.samples().y[k]), middle_W.y, 0.02) << name(policy);
+        EXPECT_NEAR(static_cast<double>(ego.samples().cosine[k]), std::cos(X_WB.yaw), 0.01);
+        EXPECT_NEAR(static_cast<double>(ego.samples().sine[k]), std::sin(X_WB.yaw), 0.01);
       }
     }
   }
@@ -52,7 +52,7 @@ TEST(AtlasEgo, VelocityIsTheSlopeOfItsPlace) {
       const AtlasPath path = small_atlas().path(atlas_plan(policy, 12.5), scene);
       const AtlasEgo ego(path, scene);
       for (const double time : {0.3, 0.9, 1.7, path.end + 0.5}) {
-        if (time > ego.last_look()) {
+        if (time > ego.last_sample()) {
           continue;
         }
         constexpr double h = 1e-5;
@@ -63,7 +63,7 @@ TEST(AtlasEgo, VelocityIsTheSlopeOfItsPlace) {
   }
 }
 
-TEST(AtlasEgo, SwaysAtTheLooksAreThoseOfTheTime) {
+TEST(AtlasEgo, SensitivitiesAtTheSamplesAreThoseOfTheTime) {
   for (const auto policy : manoeuvre::all_policies) {
     world::Scene scene = turned_scene(0.003);
     scene.grip_sd = 0.06;
@@ -71,12 +71,16 @@ TEST(AtlasEgo, SwaysAtTheLooksAreThoseOfTheTime) {
     const AtlasEgo ego(path, scene);
     double most = 0.0;
     for (std::size_t k = 0; k <= num_spans; ++k) {
-      const AtlasEgo::Sways sways = ego.sways(look_time(k));
-      EXPECT_NEAR(static_cast<double>(ego.sway_looks().less_x[k]), sways.less_W.x, 2e-3);
-      EXPECT_NEAR(static_cast<double>(ego.sway_looks().less_y[k]), sways.less_W.y, 2e-3);
-      EXPECT_NEAR(static_cast<double>(ego.sway_looks().more_x[k]), sways.more_W.x, 2e-3);
-      EXPECT_NEAR(static_cast<double>(ego.sway_looks().more_y[k]), sways.more_W.y, 2e-3);
-      most = std::max({most, norm(sways.less_W), norm(sways.more_W)});
+      const AtlasEgo::Sensitivities with_sensitivity = ego.with_sensitivity(sample_time(k));
+      EXPECT_NEAR(static_cast<double>(ego.sensitivity_at_samples().less_x[k]),
+                  with_sensitivity.less_W.x, 2e-3);
+      EXPECT_NEAR(static_cast<double>(ego.sensitivity_at_samples().less_y[k]),
+                  with_sensitivity.less_W.y, 2e-3);
+      EXPECT_NEAR(static_cast<double>(ego.sensitivity_at_samples().more_x[k]),
+                  with_sensitivity.more_W.x, 2e-3);
+      EXPECT_NEAR(static_cast<double>(ego.sensitivity_at_samples().more_y[k]),
+                  with_sensitivity.more_W.y, 2e-3);
+      most = std::max({most, norm(with_sensitivity.less_W), norm(with_sensitivity.more_W)});
     }
     EXPECT_LE(most, ego.most_sway() + 1e-3);
   }

@@ -11,7 +11,7 @@ namespace saca::outcome {
 void atlas_way(const manoeuvre::Atlas& atlas, const manoeuvre::Plan& plan,
                const world::Scene& scene, const WayForm& form, world::Track& X_WB) {
   expects(form.step > 0.0 && form.longest >= 0.0, "step > 0, longest >= 0");
-  constexpr double after_recovery = 2.0;  // [s], as play_out looks on
+  constexpr double after_recovery = 2.0;  // [s], as collision_sequence looks on
   const manoeuvre::AtlasPath path = atlas.path(plan, scene);
   const AtlasEgo ego(path, scene);
   const double end = std::min(path.end + (path.rests ? 0.0 : after_recovery), form.longest);

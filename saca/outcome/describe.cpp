@@ -13,8 +13,8 @@ std::string called(std::size_t actor, std::span<const world::Actor> actors) {
 }
 
 // What is met with which face, e.g. "car1 with its front at 4.2 m/s".
-std::string meeting(const Contact& contact, std::span<const world::Actor> actors,
-                    std::string_view edge) {
+std::string forecast(const Contact& contact, std::span<const world::Actor> actors,
+                     std::string_view edge) {
   return fmt::format("{} with its {} at {:.1f} m/s",
                      contact.actor ? called(*contact.actor, actors) : std::string(edge),
                      name(contact.ego_face), contact.relative_speed);
@@ -45,9 +45,9 @@ std::string describe(const Outcome& outcome, std::span<const world::Actor> actor
     return staying_clear(outcome, actors);
   }
   std::string text = outcome.contact->actor ? "hits " : "leaves ";
-  text += meeting(*outcome.contact, actors, "the road");
+  text += forecast(*outcome.contact, actors, "the road");
   for (const Contact& contact : outcome.later) {
-    text += ", then " + meeting(contact, actors, "the road's edge");
+    text += ", then " + forecast(contact, actors, "the road's edge");
   }
   return text;
 }

@@ -108,7 +108,7 @@ Vec2 outermost(const Road& road, Side side, const Footprint& footprint, const Po
                                          : farthest_from(centre_W, footprint, X_WB);
 }
 
-double room(const Road& road, Side side, const Footprint& footprint, const Pose& X_WB) {
+double edge_clearance(const Road& road, Side side, const Footprint& footprint, const Pose& X_WB) {
   expects(road.left_edge > 0.0 && road.right_edge < 0.0, "left_edge > 0 > right_edge");
   expects(std::isfinite(road.curvature), "curvature is finite");
   const double d = to_lane(road, {outermost(road, side, footprint, X_WB), 0.0}).d;
@@ -119,9 +119,9 @@ EdgeApproach edge_approach(const Road& road, Side side, const Footprint& footpri
                            const world::Track& track, double of_interest, double from) {
   expects(!track.X_WA.empty() && track.step > 0.0, "a track has at least one pose");
   const auto room_at = [&](double time) {
-    return room(road, side, footprint, pose_at(track, time));
+    return edge_clearance(road, side, footprint, pose_at(track, time));
   };
-  // Between poses 10 ms apart the room bends by less than v^2 k dt^2 / 8 < 0.3 mm.
+  // Between poses 10 ms apart the clearance bends by less than v^2 k dt^2 / 8 < 0.3 mm.
   const int parts = std::max(1, static_cast<int>(std::ceil(track.step / 0.0101)));
   const int steps = parts * static_cast<int>(track.X_WA.size() - 1);
   const double step = track.step / parts;
@@ -129,7 +129,7 @@ EdgeApproach edge_approach(const Road& road, Side side, const Footprint& footpri
   std::size_t bounded = 0;  // the pose that `before` bounds
   double before = 0.0;
   std::optional<double> bound;  // from that pose to the next
-  const auto is_far = [&](int i, double room) {
+  const auto is_far = [&](int i, double edge_clearance) {
     const std::size_t pose = std::min(static_cast<std::size_t>(i / parts), track.X_WA.size() - 1);
     if (!bound || pose != bounded) {
       const bool goes_on = bound && pose == bounded + 1;
@@ -140,14 +140,14 @@ EdgeApproach edge_approach(const Road& road, Side side, const Footprint& footpri
       bounded = pose;
       bound = std::min(now, before) - least.between(here, next);
     }
-    return *bound > room;
+    return *bound > edge_clearance;
   };
-  EdgeApproach found{.room = of_interest};
+  EdgeApproach found{.clearance = of_interest};
   const double begin = std::max(from, track.start);
   double inside = begin;
   const int first = static_cast<int>(std::min((begin - track.start) / step, double(steps)));
   for (int i = first; i <= steps; ++i) {
-    if (i > first && is_far(i, found.room)) {
+    if (i > first && is_far(i, found.clearance)) {
       i = std::min(steps,
                    (i / parts + 1) * parts - 1);  // so is all that is left until the next pose
       inside = track.start + i * step;
@@ -155,8 +155,8 @@ EdgeApproach edge_approach(const Road& road, Side side, const Footprint& footpri
     }
     const double time = i == first ? begin : track.start + i * step;
     const double now = room_at(time);
-    if (now < found.room) {
-      found.room = now;
+    if (now < found.clearance) {
+      found.clearance = now;
       found.nearest_at = time;
     }
     if (now > 0.0) {

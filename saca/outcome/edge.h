@@ -18,12 +18,12 @@ enum class Side : std::uint8_t { left, right };
 ///
 /// Exact for boxes and ellipses on straight roads and on arcs, up to 1e-6 m.
 /// @throws ContractViolation  if the edges do not lie to either side of the lane's centre
-[[nodiscard]] double room(const world::Road& road, Side side, const world::Footprint& footprint,
-                          const Pose& X_WB);
+[[nodiscard]] double edge_clearance(const world::Road& road, Side side,
+                                    const world::Footprint& footprint, const Pose& X_WB);
 
 struct EdgeApproach {
   std::optional<double> crossing;  ///< when any point of the footprint first lies on the edge
-  double room = 0.0;               ///< smallest until then, at most `of_interest` [m]
+  double clearance = 0.0;          ///< smallest until then, at most `of_interest` [m]
   double nearest_at = 0.0;         ///< when it is, if it is less than `of_interest` [s]
 };
 

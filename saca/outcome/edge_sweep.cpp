@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "saca/outcome/closer_look.h"
 #include "saca/outcome/false_position.h"
+#include "saca/outcome/narrow_phase.h"
 #include "saca/world/footprint.h"
 
 namespace saca::outcome {
@@ -32,11 +32,11 @@ double reach_aside(const Footprint& body, double cosine, double sine, double sig
   return most + sign * body.centre_x * sine;
 }
 
-// The room between the ego and an edge.
-double room_at(const AtlasEgo& ego, Side side, double time) noexcept {
+// The clearance between the ego and an edge.
+double edge_clearance_at(const AtlasEgo& ego, Side side, double time) noexcept {
   const world::Road& road = ego.scene().road;
   if (road.curvature != 0.0) {
-    return room(road, side, ego.scene().ego_footprint, ego.at(time).X_WB);
+    return edge_clearance(road, side, ego.scene().ego_footprint, ego.at(time).X_WB);
   }
   const world::LanePose pose = ego.in_lane(time);
   return edge_of(road, side) - sign_of(side) * pose.d -
@@ -44,10 +44,10 @@ double room_at(const AtlasEgo& ego, Side side, double time) noexcept {
                      sign_of(side));
 }
 
-// The room at the samples of its path: exact to a millimetre where the road is straight, in a bend
-// to what an arc bulges over the length of the body.
-using SampleRow = std::array<float, atlas_samples>;
-SampleRow sample_rooms(const AtlasEgo& ego, Side side) noexcept {
+// The clearance at the samples of its path: exact to a millimetre where the road is straight, in a
+// bend to what an arc bulges over the length of the body.
+using AtlasRow = std::array<float, atlas_samples>;
+AtlasRow sample_clearances(const AtlasEgo& ego, Side side) noexcept {
   const manoeuvre::AtlasPath& path = ego.path();
   const Footprint& body = ego.scene().ego_footprint;
   const auto sign = static_cast<float>(sign_of(side));
@@ -58,79 +58,82 @@ SampleRow sample_rooms(const AtlasEgo& ego, Side side) noexcept {
   const auto edge =
       static_cast<float>(edge_of(ego.scene().road, side) - sign_of(side) * path.start_d);
   const bool round = body.shape == Shape::ellipse;
-  SampleRow rooms;
+  AtlasRow clearances;
   for (std::size_t i = 0; i < atlas_samples; ++i) {
     const float sine = ego.directions().sine[i];
     const float x = half_x * sine;
     const float y = half_y * ego.directions().cosine[i];
     const float most = round ? std::sqrt(x * x + y * y) : std::abs(x) + std::abs(y);
-    rooms[i] = edge - sign * path.channel[1][i] - most - ahead * sine;
+    clearances[i] = edge - sign * path.channel[1][i] - most - ahead * sine;
   }
-  return rooms;
+  return clearances;
 }
 
-// What the grip's standard deviation adds towards one side, at the samples of the path's sway.
-struct SideSway {
-  std::array<float, manoeuvre::sway_samples> mean{};
-  std::array<float, manoeuvre::sway_samples> variance{};
+// What the grip's standard deviation adds towards one side, at the samples of the path's
+// sensitivity to friction.
+struct SideSensitivity {
+  std::array<float, manoeuvre::sensitivity_samples> mean{};
+  std::array<float, manoeuvre::sensitivity_samples> variance{};
   double most = 0.0;        // [m]
   double per_second = 0.0;  // samples
   bool any = false;
 };
-SideSway side_sway(const AtlasEgo& ego, Side side) noexcept {
+SideSensitivity side_sensitivity(const AtlasEgo& ego, Side side) noexcept {
   const manoeuvre::AtlasPath& path = ego.path();
-  SideSway sway;
-  sway.any = ego.scene().grip_sd > 0.0 && path.sway_span > 0.0;
-  if (!sway.any) {
-    return sway;
+  SideSensitivity sensitivity;
+  sensitivity.any = ego.scene().grip_sd > 0.0 && path.sensitivity_span > 0.0;
+  if (!sensitivity.any) {
+    return sensitivity;
   }
   const auto of_less = static_cast<float>(sign_of(side) * ego.grip_shares().less);
   const auto of_more = static_cast<float>(sign_of(side) * ego.grip_shares().more);
   float most = 0.0F;
-  for (std::size_t i = 0; i < manoeuvre::sway_samples; ++i) {
-    const float less = of_less * path.sway[1][i];
-    const float more = of_more * path.sway[4][i];
-    sway.mean[i] = 0.3989423F * (less + more);  // as of_halves
-    sway.variance[i] =
-        std::max(0.0F, 0.5F * (less * less + more * more) - sway.mean[i] * sway.mean[i]);
+  for (std::size_t i = 0; i < manoeuvre::sensitivity_samples; ++i) {
+    const float less = of_less * path.sensitivity[1][i];
+    const float more = of_more * path.sensitivity[4][i];
+    sensitivity.mean[i] = 0.3989423F * (less + more);  // as of_halves
+    sensitivity.variance[i] = std::max(
+        0.0F, 0.5F * (less * less + more * more) - sensitivity.mean[i] * sensitivity.mean[i]);
     most = std::max(most, std::max(std::abs(less), std::abs(more)));
   }
-  sway.most = static_cast<double>(most);
-  sway.per_second = (manoeuvre::sway_samples - 1) / path.sway_span;
-  return sway;
+  sensitivity.most = static_cast<double>(most);
+  sensitivity.per_second = (manoeuvre::sensitivity_samples - 1) / path.sensitivity_span;
+  return sensitivity;
 }
 
-// How many standard deviations of the room are left at a time.
-double edge_score(const SideSway& sway, double time, double gap) noexcept {
+// How many standard deviations of the clearance are left at a time.
+double edge_score(const SideSensitivity& sensitivity, double time, double gap) noexcept {
   constexpr double least_sd_aside = 1e-5;  // [m]
   double mean = 0.0;
   double variance = 0.0;
-  if (sway.any) {
-    const double place = std::min(time * sway.per_second, manoeuvre::sway_samples - 1.001);
+  if (sensitivity.any) {
+    const double place =
+        std::min(time * sensitivity.per_second, manoeuvre::sensitivity_samples - 1.001);
     const auto i = static_cast<std::size_t>(place);
     const double share = place - static_cast<double>(i);
     const auto between = [&](const auto& row) {
       const auto low = static_cast<double>(row[i]);
       return low + share * (static_cast<double>(row[i + 1]) - low);
     };
-    mean = between(sway.mean);
-    variance = between(sway.variance);
+    mean = between(sensitivity.mean);
+    variance = between(sensitivity.variance);
   }
   return (gap - mean) / std::sqrt(std::max(variance, least_sd_aside * least_sd_aside));
 }
 
 }  // namespace
 
-Meeting edge_meeting(const AtlasEgo& ego, Side side, double of_interest) noexcept {
-  Meeting found{.clearance = of_interest};
+ContactForecast edge_contact_forecast(const AtlasEgo& ego, Side side, double of_interest) noexcept {
+  ContactForecast found{.clearance = of_interest};
   const manoeuvre::AtlasPath& path = ego.path();
-  const SampleRow rooms = sample_rooms(ego, side);
-  const SideSway sway = side_sway(ego, side);
+  const AtlasRow clearances = sample_clearances(ego, side);
+  const SideSensitivity sensitivity = side_sensitivity(ego, side);
   // An arc's bulge, and what lies between two samples.
-  const double reach = ego.looks().reach + std::abs(ego.scene().ego_footprint.centre_x);
+  const double reach = ego.samples().reach + std::abs(ego.scene().ego_footprint.centre_x);
   const double margin = 0.05 + std::abs(path.curvature) * reach * reach;
-  const auto matters = static_cast<float>(margin + std::max(of_interest, sure_sd * sway.most));
-  if (*std::min_element(rooms.begin(), rooms.end()) > matters) {
+  const auto matters =
+      static_cast<float>(margin + std::max(of_interest, sure_sd * sensitivity.most));
+  if (*std::min_element(clearances.begin(), clearances.end()) > matters) {
     return found;
   }
   const bool bends = ego.scene().road.curvature != 0.0;
@@ -138,16 +141,17 @@ Meeting edge_meeting(const AtlasEgo& ego, Side side, double of_interest) noexcep
   double best = std::numeric_limits<double>::infinity();
   const auto look = [&](double before, double time, double gap) {
     if (gap <= 0.0 && !found.contact) {
-      found.contact = time > 0.0
-                          ? last_positive(before, room_at(ego, side, before), time, gap, 1e-5, 1e-5,
-                                          [&](double at) { return room_at(ego, side, at); })
-                          : time;
+      found.contact =
+          time > 0.0
+              ? last_positive(before, edge_clearance_at(ego, side, before), time, gap, 1e-5, 1e-5,
+                              [&](double at) { return edge_clearance_at(ego, side, at); })
+              : time;
     }
     if (gap < found.clearance) {
       found.clearance = std::max(0.0, gap);
       found.nearest_at = time;
     }
-    const double score = edge_score(sway, time, gap);
+    const double score = edge_score(sensitivity, time, gap);
     if (score < best) {
       best = score;
       found.touch = time;
@@ -156,14 +160,17 @@ Meeting edge_meeting(const AtlasEgo& ego, Side side, double of_interest) noexcep
   std::size_t i = 0;
   for (; i < atlas_samples && static_cast<double>(i) * step < path.end; ++i) {
     const double time = static_cast<double>(i) * step;
-    const bool open = sway.any || !found.contact;
-    if (open && rooms[i] <= matters) {
-      look(time - step, time, bends ? room_at(ego, side, time) : static_cast<double>(rooms[i]));
+    const bool open = sensitivity.any || !found.contact;
+    if (open && clearances[i] <= matters) {
+      look(time - step, time,
+           bends ? edge_clearance_at(ego, side, time) : static_cast<double>(clearances[i]));
     }
   }
   look(static_cast<double>(std::max<std::size_t>(i, 1) - 1) * step, path.end,
-       room_at(ego, side, path.end));
-  found.probability = sway.any ? 0.5 * std::erfc(best * std::sqrt(0.5)) : found.contact ? 1.0 : 0.0;
+       edge_clearance_at(ego, side, path.end));
+  found.probability = sensitivity.any ? 0.5 * std::erfc(best * std::sqrt(0.5))
+                      : found.contact ? 1.0
+                                      : 0.0;
   return found;
 }
 

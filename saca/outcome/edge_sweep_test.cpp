@@ -25,17 +25,17 @@ TEST(EdgeSweep, AnEdgeIsCrossedWhenEdgeApproachSaysSo) {
     scene.road.right_edge = -2.0;
     const AtlasPath path = small_atlas().path(atlas_plan(PolicyId::aes_left, 12.5), scene);
     const AtlasEgo ego(path, scene);
-    const world::Track mine = sampled(ego, ego.last_look());
+    const world::Track mine = sampled(ego, ego.last_sample());
     const EdgeApproach left =
         edge_approach(scene.road, Side::left, scene.ego_footprint, mine, far_away);
-    const Meeting told = edge_meeting(ego, Side::left, far_away);
+    const ContactForecast told = edge_contact_forecast(ego, Side::left, far_away);
     ASSERT_TRUE(left.crossing && told.contact);
     EXPECT_NEAR(*told.contact, *left.crossing, 5e-3);
     const EdgeApproach right =
         edge_approach(scene.road, Side::right, scene.ego_footprint, mine, far_away);
-    const Meeting other = edge_meeting(ego, Side::right, far_away);
+    const ContactForecast other = edge_contact_forecast(ego, Side::right, far_away);
     EXPECT_EQ(other.contact, std::nullopt);
-    EXPECT_NEAR(other.clearance, right.room, 0.02);
+    EXPECT_NEAR(other.clearance, right.clearance, 0.02);
   }
 }
 
@@ -46,12 +46,12 @@ TEST(EdgeSweep, WhatDoesNotSwayIsSure) {
   scene.grip_sd = 0.05;
   scene.road.left_edge = 1.0;
   const AtlasPath path = small_atlas().path(atlas_plan(PolicyId::no_intervention, 12.5), scene);
-  const Meeting beside = edge_meeting(AtlasEgo(path, scene), Side::left, far_away);
+  const ContactForecast beside = edge_contact_forecast(AtlasEgo(path, scene), Side::left, far_away);
   EXPECT_EQ(beside.contact, std::nullopt);
   EXPECT_EQ(beside.probability, 0.0);
   EXPECT_NEAR(beside.clearance, 0.1, 1e-6);
   scene.road.left_edge = 0.8;
-  const Meeting beyond = edge_meeting(AtlasEgo(path, scene), Side::left, far_away);
+  const ContactForecast beyond = edge_contact_forecast(AtlasEgo(path, scene), Side::left, far_away);
   EXPECT_EQ(beyond.contact, 0.0);
   EXPECT_EQ(beyond.probability, 1.0);
 }
@@ -63,11 +63,12 @@ TEST(EdgeSweep, ProbabilityFallsWithTheRoom) {
   scene.grip_sd = 0.08;
   const AtlasPath path = small_atlas().path(atlas_plan(PolicyId::aes_left, 12.5), scene);
   scene.road.left_edge = 60.0;
-  const double farthest = 60.0 - edge_meeting(AtlasEgo(path, scene), Side::left, 100.0).clearance;
+  const double farthest =
+      60.0 - edge_contact_forecast(AtlasEgo(path, scene), Side::left, 100.0).clearance;
   double before = 1.1;
   for (const double room : {-0.3, -0.05, -0.01, 0.01, 0.3, 2.0}) {
     scene.road.left_edge = farthest + room;
-    const Meeting told = edge_meeting(AtlasEgo(path, scene), Side::left, far_away);
+    const ContactForecast told = edge_contact_forecast(AtlasEgo(path, scene), Side::left, far_away);
     EXPECT_EQ(told.contact.has_value(), room < 0.0) << room;
     EXPECT_LE(told.probability, before) << room;
     before = told.probability;

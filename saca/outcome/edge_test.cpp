@@ -32,10 +32,10 @@ TEST(Room, OnAStraightRoadByHand) {
   Road road;
   road.left_edge = 5.25;
   road.right_edge = -1.75;
-  EXPECT_NEAR(room(road, Side::left, car, {{30.0, 1.0}, 0.0}), 5.25 - 1.95, 1e-12);
-  EXPECT_NEAR(room(road, Side::right, car, {{30.0, 1.0}, 0.0}), 1.75 + 0.05, 1e-12);
+  EXPECT_NEAR(edge_clearance(road, Side::left, car, {{30.0, 1.0}, 0.0}), 5.25 - 1.95, 1e-12);
+  EXPECT_NEAR(edge_clearance(road, Side::right, car, {{30.0, 1.0}, 0.0}), 1.75 + 0.05, 1e-12);
   // Across the road: half its length to either side.
-  EXPECT_NEAR(room(road, Side::right, car, {{30.0, 0.0}, pi / 2.0}), 1.75 - 2.35, 1e-12);
+  EXPECT_NEAR(edge_clearance(road, Side::right, car, {{30.0, 0.0}, pi / 2.0}), 1.75 - 2.35, 1e-12);
 }
 
 // On a circle of 50 m about (0, 50): the inner long side is nearest in its middle, the outer
@@ -43,11 +43,12 @@ TEST(Room, OnAStraightRoadByHand) {
 TEST(Room, OnAnArcByHand) {
   Road road;
   road.curvature = 0.02;
-  EXPECT_NEAR(room(road, Side::left, car, {}), 1.75 - 0.95, 1e-9);
-  EXPECT_NEAR(room(road, Side::right, car, {}), 51.75 - std::hypot(50.0 + 0.95, 2.35), 1e-9);
+  EXPECT_NEAR(edge_clearance(road, Side::left, car, {}), 1.75 - 0.95, 1e-9);
+  EXPECT_NEAR(edge_clearance(road, Side::right, car, {}), 51.75 - std::hypot(50.0 + 0.95, 2.35),
+              1e-9);
   road.curvature = -0.02;
-  EXPECT_NEAR(room(road, Side::right, car, {}), 1.75 - 0.95, 1e-9);
-  EXPECT_NEAR(room(road, Side::left, car, {}), 51.75 - std::hypot(50.95, 2.35), 1e-9);
+  EXPECT_NEAR(edge_clearance(road, Side::right, car, {}), 1.75 - 0.95, 1e-9);
+  EXPECT_NEAR(edge_clearance(road, Side::left, car, {}), 51.75 - std::hypot(50.95, 2.35), 1e-9);
 }
 
 // Oracle: dense boundary points put into the lane one by one.
@@ -76,8 +77,8 @@ TEST(Room, AgreesWithDenseSamplesOfTheBoundary) {
       left = std::min(left, road.left_edge - d);
       right = std::min(right, d - road.right_edge);
     }
-    EXPECT_NEAR(room(road, Side::left, body, X_WB), left, 1e-5) << i;
-    EXPECT_NEAR(room(road, Side::right, body, X_WB), right, 1e-5) << i;
+    EXPECT_NEAR(edge_clearance(road, Side::left, body, X_WB), left, 1e-5) << i;
+    EXPECT_NEAR(edge_clearance(road, Side::right, body, X_WB), right, 1e-5) << i;
   }
 }
 
@@ -91,7 +92,7 @@ TEST(EdgeApproach, CrossesWhenTheFirstCornerDoes) {
   const double reach = 2.35 * std::sin(0.1) + 0.95 * std::cos(0.1);
   ASSERT_TRUE(found.crossing);
   EXPECT_NEAR(*found.crossing, (5.25 - reach) / v_W.y, 1e-3 / 10.0);
-  EXPECT_LE(found.room, 1e-12);
+  EXPECT_LE(found.clearance, 1e-12);
 }
 
 TEST(EdgeApproach, StayingInsideTellsTheSmallestRoom) {
@@ -99,7 +100,7 @@ TEST(EdgeApproach, StayingInsideTellsTheSmallestRoom) {
   const EdgeApproach found =
       edge_approach(road, Side::right, car, moving({{0.0, -0.3}, 0.0}, {20.0, 0.0}, 3.0), 100.0);
   EXPECT_FALSE(found.crossing);
-  EXPECT_NEAR(found.room, 1.75 - 0.95 - 0.3, 1e-9);
+  EXPECT_NEAR(found.clearance, 1.75 - 0.95 - 0.3, 1e-9);
 }
 
 TEST(EdgeApproach, StandingBeyondIsCrossingAtTheStart) {
@@ -128,12 +129,12 @@ TEST(EdgeApproach, IsTheSameMirrored) {
                       moving({{}, -heading}, rotated({10.0, 0.0}, -heading), 2.0), 100.0);
     ASSERT_EQ(left.crossing.has_value(), right.crossing.has_value()) << i;
     EXPECT_NEAR(left.crossing.value_or(0.0), right.crossing.value_or(0.0), 1e-7) << i;
-    EXPECT_NEAR(left.room, right.room, 1e-7) << i;
+    EXPECT_NEAR(left.clearance, right.clearance, 1e-7) << i;
   }
 }
 
-// Against the room at every millisecond, for bodies that spin and slide across bent roads, poses as
-// far apart as those of a forecast.
+// Against the clearance at every millisecond, for bodies that spin and slide across bent roads,
+// poses as far apart as those of a forecast.
 TEST(EdgeApproach, MissesNoCrossing) {
   std::mt19937 rng(4);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
@@ -159,7 +160,7 @@ TEST(EdgeApproach, MissesNoCrossing) {
     double first = std::numeric_limits<double>::infinity();
     for (int k = 0; k <= 2000 && std::isinf(first); ++k) {
       const double time = 2.0 + 0.001 * k;
-      first = room(road, side, body, pose_at(track, time)) <= 0.0 ? time : first;
+      first = edge_clearance(road, side, body, pose_at(track, time)) <= 0.0 ? time : first;
     }
     for (const double of_interest : {0.0, 100.0}) {
       const EdgeApproach found = edge_approach(road, side, body, track, of_interest);
@@ -173,9 +174,9 @@ TEST(EdgeApproach, MissesNoCrossing) {
 TEST(EdgeApproach, RefusesWhatIsNoRoad) {
   Road road;
   road.left_edge = -1.0;
-  EXPECT_THROW((void)room(road, Side::left, car, {}), ContractViolation);
+  EXPECT_THROW((void)edge_clearance(road, Side::left, car, {}), ContractViolation);
   road.left_edge = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW((void)room(road, Side::left, car, {}), ContractViolation);
+  EXPECT_THROW((void)edge_clearance(road, Side::left, car, {}), ContractViolation);
   EXPECT_THROW((void)edge_approach(Road{}, Side::left, car, world::Track{}, 1.0),
                ContractViolation);
 }

@@ -62,8 +62,8 @@ struct Encounter {
     add(world::ActorKind::car, test::ego_body, 1700.0, X_WA, v_W, yaw_rate);
   }
   /// The others on their tracks, whatever the ego does.
-  [[nodiscard]] Course played_out(const HarmModel& harm) const {
-    return play_out(
+  [[nodiscard]] CollisionSequence sequence(const HarmModel& harm) const {
+    return collision_sequence(
         motion, scene, [this](const manoeuvre::EgoMotion&) { return tracks; }, harm);
   }
   [[nodiscard]] Outcome judged(const HarmModel& harm) const {

@@ -12,7 +12,7 @@ namespace saca::outcome {
 enum class Face : std::uint8_t { front, left, right, rear };
 [[nodiscard]] std::string_view name(Face face);
 
-/// The face that a blow from the direction of `out_B` meets.
+/// The face that an impact from the direction of `out_B` meets.
 ///
 /// @param out_B  outward normal of the contact in the body's frame, not zero
 ///

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "saca/outcome/atlas_ego.h"
-#include "saca/outcome/blow.h"
 #include "saca/outcome/edge_sweep.h"
+#include "saca/outcome/impact.h"
 #include "saca/outcome/sweep.h"
 
 namespace saca::outcome {
@@ -22,7 +22,7 @@ using world::Track;
 
 // Whom or what the ego may meet, and when.
 struct Chance {
-  Meeting meeting;
+  ContactForecast forecast;
   std::optional<std::size_t> actor;
   std::optional<Side> edge;
   double probability = 0.0;  // its existence included
@@ -40,20 +40,20 @@ bool tracks_fit(const Scene& scene, std::span<const Track> tracks) noexcept {
          });
 }
 
-// Weighted harm of everybody in one blow, all of them there.
-double harm_of(const Blow& blow, const Scene& scene, const HarmModel& harm) noexcept {
-  double sum = harm.ego_people * weighted(harm, blow.ego);
-  if (blow.contact.actor) {
-    const auto kind = static_cast<std::size_t>(scene.actors[*blow.contact.actor].kind);
-    sum += harm.people[kind] * weighted(harm, blow.other);
+// Weighted harm of everybody in one impact, all of them there.
+double harm_of(const Impact& impact, const Scene& scene, const HarmModel& harm) noexcept {
+  double sum = harm.ego_people * weighted(harm, impact.ego);
+  if (impact.contact.actor) {
+    const auto kind = static_cast<std::size_t>(scene.actors[*impact.contact.actor].kind);
+    sum += harm.people[kind] * weighted(harm, impact.other);
   }
   return sum;
 }
 
 // What happens if the ego meets this one. Where they miss each other at the mean, the other is
 // where those are who do not.
-std::optional<Blow> blow_of(const Chance& chance, const AtlasEgo& ego, const Scene& scene,
-                            std::span<const Track> tracks, const HarmModel& harm) noexcept {
+std::optional<Impact> impact_of(const Chance& chance, const AtlasEgo& ego, const Scene& scene,
+                                std::span<const Track> tracks, const HarmModel& harm) noexcept {
   const Instant mine = ego.at(chance.time);
   const double time = scene.time + chance.time;
   if (!is_finite(mine.X_WB) || !is_finite(mine.v_W)) {
@@ -63,8 +63,8 @@ std::optional<Blow> blow_of(const Chance& chance, const AtlasEgo& ego, const Sce
     return leave(scene, *chance.edge, mine, time, harm);
   }
   Instant other = instant_at(tracks[*chance.actor], time);
-  if (!chance.meeting.contact) {
-    other.X_WB.p = other.X_WB.p + chance.meeting.brought_W;
+  if (!chance.forecast.contact) {
+    other.X_WB.p = other.X_WB.p + chance.forecast.brought_W;
   }
   if (!is_finite(other.X_WB) || !is_finite(other.v_W)) {
     return std::nullopt;
@@ -73,22 +73,23 @@ std::optional<Blow> blow_of(const Chance& chance, const AtlasEgo& ego, const Sce
 }
 
 void add(Chances& chances, const Chance& chance) noexcept {
-  if (chance.probability > negligible || chance.meeting.contact) {
+  if (chance.probability > negligible || chance.forecast.contact) {
     chances.push_back(chance);
-    chances[chances.size() - 1].time = chance.meeting.contact.value_or(chance.meeting.touch);
+    chances[chances.size() - 1].time = chance.forecast.contact.value_or(chance.forecast.touch);
   }
 }
 
 // Everybody and everything, in the order in which the ego comes upon them.
-Chances chances_of(const AtlasEgo& ego, std::span<const Track> tracks, std::span<const Looks> looks,
-                   std::span<const SpreadOverTime> spreads, Future& future) noexcept {
+Chances chances_of(const AtlasEgo& ego, std::span<const Track> tracks,
+                   std::span<const PoseSamples> samples, std::span<const SpreadOverTime> spreads,
+                   Future& future) noexcept {
   const Scene& scene = ego.scene();
   Chances chances;
   double until = std::numeric_limits<double>::infinity();  // by then somebody is struck for sure
   for (const Side side : {Side::left, Side::right}) {
     const world::Beyond what = beyond(scene.road, side);
     const bool counts = what != world::Beyond::unmarked;
-    const Meeting edge = edge_meeting(ego, side, counts ? future.clearance : 0.0);
+    const ContactForecast edge = edge_contact_forecast(ego, side, counts ? future.clearance : 0.0);
     if (counts && edge.nearest_at) {
       future.clearance = edge.clearance;
       future.nearest = {.edge = side, .time = scene.time + *edge.nearest_at};
@@ -99,10 +100,10 @@ Chances chances_of(const AtlasEgo& ego, std::span<const Track> tracks, std::span
     add(chances, {edge, std::nullopt, side, edge.probability, 0.0});
   }
   const bool leaves = std::any_of(chances.begin(), chances.end(), [](const Chance& chance) {
-    return chance.meeting.contact.has_value();
+    return chance.forecast.contact.has_value();
   });
-  const Meetings met =
-      meetings(ego, tracks, looks, spreads, leaves ? 0.0 : future.clearance, until);
+  const ContactForecasts met =
+      meetings(ego, tracks, samples, spreads, leaves ? 0.0 : future.clearance, until);
   for (std::size_t i = 0; i < met.size(); ++i) {
     if (met[i].nearest_at) {
       future.clearance = met[i].clearance;
@@ -122,32 +123,32 @@ bool stops(const Chance& chance, const Scene& scene) noexcept {
 void judge(const Chances& chances, const AtlasEgo& ego, std::span<const Track> tracks,
            const HarmModel& harm, Future& future) noexcept {
   const Scene& scene = ego.scene();
-  double unharmed = 1.0;        // probability that nobody has been struck so far
-  std::optional<Blow> met;      // at the mean
-  std::optional<Blow> crossed;  // likewise an edge that lets the ego go on
+  double unharmed = 1.0;          // probability that nobody has been struck so far
+  std::optional<Impact> met;      // at the mean
+  std::optional<Impact> crossed;  // likewise an edge that lets the ego go on
   for (const Chance& chance : chances) {
     if (unharmed < negligible && met) {
       break;
     }
-    const std::optional<Blow> blow = blow_of(chance, ego, scene, tracks, harm);
-    if (!blow) {
+    const std::optional<Impact> impact = impact_of(chance, ego, scene, tracks, harm);
+    if (!impact) {
       future.outside = AtlasLimit::no_number;
       return;
     }
-    const double size = harm_of(*blow, scene, harm);
+    const double size = harm_of(*impact, scene, harm);
     future.harm += unharmed * chance.probability * size;
     const bool ends = stops(chance, scene);
-    if (chance.meeting.contact && !met) {
+    if (chance.forecast.contact && !met) {
       const double there = chance.actor ? scene.actors[*chance.actor].existence : 1.0;
       future.harm_at_mean += there * size;
-      (ends ? met : crossed) = blow;
+      (ends ? met : crossed) = impact;
     }
     if (ends) {
       unharmed *= 1.0 - chance.probability;
     }
   }
   future.probability = 1.0 - unharmed;
-  if (const std::optional<Blow>& first = met ? met : crossed) {
+  if (const std::optional<Impact>& first = met ? met : crossed) {
     future.contact = first->contact;
     future.collision_loss = first->loss;
     future.clearance = 0.0;
@@ -170,7 +171,8 @@ class Judge {
     usable_ = !broken_rule(scene) && tracks_fit(scene, tracks) &&
               (spreads.empty() || spreads.size() == tracks.size());
     for (std::size_t i = 0; usable_ && i < tracks.size(); ++i) {
-      looks_[i] = looks_of(tracks[i], scene.actors[i].footprint, scene.time, scene.ego.X_WB.p);
+      samples_[i] =
+          pose_samples_of(tracks[i], scene.actors[i].footprint, scene.time, scene.ego.X_WB.p);
     }
   }
 
@@ -183,8 +185,8 @@ class Judge {
     }
     const manoeuvre::AtlasPath path = atlas_.path(plan, scene_);
     const AtlasEgo ego(path, scene_);
-    judge(chances_of(ego, tracks_, std::span(looks_).first(tracks_.size()), spreads_, future), ego,
-          tracks_, harm_, future);
+    judge(chances_of(ego, tracks_, std::span(samples_).first(tracks_.size()), spreads_, future),
+          ego, tracks_, harm_, future);
     future.end_time = scene_.time + path.end;
     return future;
   }
@@ -197,7 +199,7 @@ class Judge {
   const AtlasBounds& bounds_;
   std::span<const SpreadOverTime> spreads_;
   bool usable_ = false;
-  std::array<Looks, world::max_actors> looks_;
+  std::array<PoseSamples, world::max_actors> samples_;
 };
 
 }  // namespace

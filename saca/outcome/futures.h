@@ -40,8 +40,8 @@ constexpr std::array target_shares{0.5, 0.0, 0.25, 0.75};
 ///                actor: as its position_sd and velocity_sd have it, the same along as across
 ///
 /// The scene's grip is believed and, but for grip_sd, true. Left out: whoever is struck second
-/// (`play_out` has it), what others do when the ego moves otherwise (give the tracks that they
-/// take), and that errors last: each instant is judged alone.
+/// (`collision_sequence` has it), what others do when the ego moves otherwise (give the tracks that
+/// they take), and that errors last: each instant is judged alone.
 [[nodiscard]] Future future(const manoeuvre::Atlas& atlas, const manoeuvre::Plan& plan,
                             const world::Scene& scene, std::span<const world::Track> tracks,
                             const HarmModel& harm, const manoeuvre::AtlasBounds& bounds = {},

@@ -95,7 +95,7 @@ TEST(Futures, AgreeWithRollOut) {
   EXPECT_GT(hits, 30);
 }
 
-// One blow alone: what happens then is the same function's doing.
+// One impact alone: what happens then is the same function's doing.
 TEST(Futures, HarmOfOneBlowIsThatOfRollOut) {
   Staged stage;
   stage.add(world::ActorKind::car, {{14.0, 0.3}, 0.0}, {});

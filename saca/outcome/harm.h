@@ -5,8 +5,8 @@
 #include <string_view>
 
 #include "saca/core/result.h"
+#include "saca/outcome/collision_impulse.h"
 #include "saca/outcome/face.h"
-#include "saca/outcome/impact.h"
 #include "saca/world/road.h"
 #include "saca/world/scene.h"
 
@@ -57,36 +57,36 @@ struct HarmModel {
 [[nodiscard]] Result<HarmModel> parse_harm(std::string_view text, std::string_view source);
 [[nodiscard]] Result<HarmModel> read_harm(const std::filesystem::path& path);
 
-/// What blows do to one person, as probabilities in [0, 1].
+/// What impacts do to one person, as probabilities in [0, 1].
 struct Injury {
   double severe = 0.0;  ///< MAIS 3 or worse, the killed among them
   double killed = 0.0;
 };
 
-/// By either of two blows, taken as independent: 1 - (1 - p)(1 - q), severe and killed apart.
+/// By either of two impacts, taken as independent: 1 - (1 - p)(1 - q), severe and killed apart.
 [[nodiscard]] Injury combined(const Injury& first, const Injury& second);
 
 /// Weighted harm of one person.
 [[nodiscard]] double weighted(const HarmModel& model, const Injury& injury);
 
-/// What a blow does to one occupant of a vehicle.
+/// What an impact does to one occupant of a vehicle.
 /// @param delta_v  [m/s], >= 0; 0 does nothing
 [[nodiscard]] Injury occupant_injury(const HarmModel& model, Face struck, double delta_v);
 
-/// What a blow does to one person outside a vehicle: by the curves, but never less, weighted, than
-/// to an occupant struck in the side who suffers the closing speed as delta-v.
+/// What an impact does to one person outside a vehicle: by the curves, but never less, weighted,
+/// than to an occupant struck in the side who suffers the closing speed as delta-v.
 /// @param kind           pedestrian, bicycle or motorcycle
 /// @param closing_speed  [m/s], >= 0; 0 does nothing
 [[nodiscard]] Injury unprotected_injury(const HarmModel& model, world::ActorKind kind,
                                         double closing_speed);
 
-/// Weighted harm of one occupant of a vehicle by one blow.
+/// Weighted harm of one occupant of a vehicle by one impact.
 [[nodiscard]] double occupant_harm(const HarmModel& model, Face struck, double delta_v);
 
 /// Is somebody of this kind outside a vehicle?
 [[nodiscard]] bool unprotected(world::ActorKind kind);
 
-/// Weighted harm of one person outside a vehicle by one blow.
+/// Weighted harm of one person outside a vehicle by one impact.
 [[nodiscard]] double unprotected_harm(const HarmModel& model, world::ActorKind kind,
                                       double closing_speed);
 

@@ -1,109 +1,185 @@
 #include "saca/outcome/impact.h"
 
+#include <algorithm>
 #include <cmath>
 
-#include "saca/core/contract.h"
+#include "saca/outcome/approach.h"
+#include "saca/outcome/collision_impulse.h"
+#include "saca/outcome/loss.h"
 
 namespace saca::outcome {
 namespace {
 
-double cross(Vec2 a, Vec2 b) {
-  return a.x * b.y - a.y * b.x;
+using world::Actor;
+using world::ActorKind;
+using world::Beyond;
+using world::Scene;
+
+ImpactBody moving(ImpactBody body, const Instant& now) {
+  body.p_W = now.X_WB.p;
+  body.v_W = now.v_W;
+  body.yaw_rate = now.yaw_rate;
+  return body;
 }
 
-Vec2 velocity_at(const ImpactBody& body, Vec2 p_W) {
-  const Vec2 arm = p_W - body.p_W;
-  return body.v_W + body.yaw_rate * Vec2{-arm.y, arm.x};
+ImpactBody ego_body(const Scene& scene, const Instant& ego) {
+  return moving(free_body(scene.ego_mass, scene.ego_footprint), ego);
 }
 
-// Relative velocity along `out` that a unit impulse along `in` brings about [1/kg].
-double give(const ImpactBody& a, const ImpactBody& b, Vec2 p_W, Vec2 in, Vec2 out) {
-  const auto of = [&](const ImpactBody& body) {
-    const Vec2 arm = p_W - body.p_W;
-    return body.inverse_mass * dot(in, out) +
-           body.inverse_yaw_inertia * cross(arm, in) * cross(arm, out);
-  };
-  return of(a) + of(b);
+// Mass and inertia of an obstacle are those of the ground: its inverses stay 0.
+ImpactBody other_body(const Actor& actor, const Instant& now) {
+  const bool fixed = actor.kind == ActorKind::obstacle;
+  return moving(fixed ? ImpactBody{} : free_body(actor.mass, actor.footprint), now);
 }
 
-// Impulse on b, in normal and tangential parts.
-struct Impulse {
-  double normal = 0.0;
-  double tangential = 0.0;
-};
+// Closing speed that counts for somebody outside a vehicle: see data/harm.toml.
+double hurting_speed(Vec2 v_W, Vec2 n_W, double friction) {
+  const double approach = std::max(-dot(v_W, n_W), 0.0);
+  const double sliding = std::abs(dot(v_W, {-n_W.y, n_W.x}));
+  return std::hypot(approach, std::min(sliding, friction * approach));
+}
 
-// The impulse that ends the approach, vn = 0, with friction opposed to the sliding that remains.
-// Both the sticking and the sliding case then only take energy: J . v_after <= 0, and
-// J . v_before = J . v_after - J K J.
-Impulse stop(double vn, double vt, double k_nn, double k_nt, double k_tt, double friction) {
-  const double determinant = k_nn * k_tt - k_nt * k_nt;
-  if (determinant > 0.0) {
-    const Impulse stick{(-vn * k_tt + vt * k_nt) / determinant,
-                        (-vt * k_nn + vn * k_nt) / determinant};
-    if (stick.normal >= 0.0 && std::abs(stick.tangential) <= friction * stick.normal) {
-      return stick;
-    }
-  }
-  const double forward = vt >= 0.0 ? 1.0 : -1.0;
-  for (const double sliding : {forward, -forward}) {
-    const double k = k_nn - friction * sliding * k_nt;
-    if (k <= 0.0) {
-      continue;
-    }
-    const double normal = -vn / k;
-    const double remains = vt + normal * (k_nt - friction * sliding * k_tt);
-    if (sliding * remains >= 0.0) {
-      return {normal, -friction * sliding * normal};
-    }
-  }
-  return {-vn / k_nn, 0.0};  // no consistent sliding (friction jams): without friction
+// Unit vector from the road to what stands beyond its edge, where the ego comes nearest to it.
+Vec2 outwards(const Scene& scene, Side side, const Pose& X_WB) {
+  const Vec2 p_W = outermost(scene.road, side, scene.ego_footprint, X_WB);
+  const double lane_yaw = X_WB.yaw - to_lane(scene.road, {p_W, X_WB.yaw}).heading;
+  return rotated({0.0, side == Side::left ? 1.0 : -1.0}, lane_yaw);
 }
 
 }  // namespace
 
-ImpactBody free_body(double mass, const world::Footprint& footprint) {
-  expects(mass > 0.0 && std::isfinite(mass), "mass > 0");
-  expects(footprint.length > 0.0 && footprint.width > 0.0, "length and width > 0");
-  const double square = footprint.length * footprint.length + footprint.width * footprint.width;
-  const double divisor = footprint.shape == world::Shape::box ? 12.0 : 16.0;
-  ImpactBody body;
-  body.inverse_mass = 1.0 / mass;
-  body.inverse_yaw_inertia = divisor / (mass * square);
-  return body;
+Instant instant_at(const manoeuvre::EgoMotion& motion, double time) {
+  const world::Track& track = motion.track;
+  const Pose X_WB = pose_at(track, time);
+  const double steps = (time - track.start) / track.step;
+  const auto last = static_cast<double>(track.X_WA.size() - 1);
+  if (steps > last + 1e-6) {
+    return {X_WB, {}, 0.0};
+  }
+  const double place = std::clamp(steps, 0.0, last);
+  const auto low = static_cast<std::size_t>(place);
+  const std::size_t high = std::min(low + 1, track.X_WA.size() - 1);
+  const double share = place - static_cast<double>(low);
+  const Vec2 v_B = motion.v_B[low] + share * (motion.v_B[high] - motion.v_B[low]);
+  return {X_WB, rotated(v_B, X_WB.yaw),
+          motion.yaw_rate[low] + share * (motion.yaw_rate[high] - motion.yaw_rate[low])};
 }
 
-Vec2 relative_velocity_at(const ImpactBody& a, const ImpactBody& b, Vec2 p_W) {
-  return velocity_at(b, p_W) - velocity_at(a, p_W);
+Instant instant_at(const world::Track& track, double time) {
+  return {pose_at(track, time), velocity_at(track, time), yaw_rate_at(track, time)};
 }
 
-Impact impact(const ImpactBody& a, const ImpactBody& b, Vec2 p_W, Vec2 n_W, const ImpactLaw& law) {
-  for (const ImpactBody* body : {&a, &b}) {
-    expects(body->inverse_mass >= 0.0 && body->inverse_yaw_inertia >= 0.0, "inverses >= 0");
-    expects(is_finite(body->p_W) && is_finite(body->v_W) && std::isfinite(body->yaw_rate),
-            "the body's motion is finite");
+Impact meet(const Scene& scene, std::size_t index, const Instant& ego, const Instant& other,
+            double time, const HarmModel& harm) {
+  const Actor& actor = scene.actors[index];
+  const Touch at = touch(scene.ego_footprint, ego.X_WB, actor.footprint, other.X_WB, harm.depth);
+  const ImpactBody mine = ego_body(scene, ego);
+  const ImpactBody theirs = other_body(actor, other);
+  ImpactLaw law = harm.law;
+  if (unprotected(actor.kind)) {
+    law.restitution = 0.0;
   }
-  expects(a.inverse_mass + b.inverse_mass > 0.0, "one of the bodies can move");
-  expects(is_finite(p_W), "p_W is finite");
-  expects(std::abs(norm(n_W) - 1.0) < 1e-6, "n_W is a unit vector");
-  expects(law.restitution >= 0.0 && law.restitution <= 1.0, "restitution in [0, 1]");
-  expects(law.friction >= 0.0, "friction >= 0");
+  const CollisionImpulse impulse = collision_impulse(mine, theirs, at.p_W, at.n_W, law);
 
-  const Vec2 t_W{-n_W.y, n_W.x};
-  const Vec2 v_W = relative_velocity_at(a, b, p_W);
-  const double vn = dot(v_W, n_W);
-  if (vn >= 0.0) {
-    return {};
+  Impact impact;
+  Contact& contact = impact.contact;
+  contact.time = time;
+  contact.actor = index;
+  contact.ego_face = struck_face(scene.ego_footprint, rotated(at.n_W, -ego.X_WB.yaw));
+  contact.other_face = struck_face(actor.footprint, rotated(-at.n_W, -other.X_WB.yaw));
+  contact.p_W = at.p_W;
+  contact.n_W = at.n_W;
+  contact.v_rel_W = other.v_W - ego.v_W;
+  contact.relative_speed = norm(contact.v_rel_W);
+  contact.ego_delta_v = impulse.a_delta_v;
+  contact.other_delta_v = impulse.b_delta_v;
+  contact.ego_spin = impulse.a_spin;
+  contact.other_spin = impulse.b_spin;
+  impact.loss = collision_loss(contact.ego_face, contact.relative_speed);
+  impact.ego = occupant_injury(harm, contact.ego_face, contact.ego_delta_v);
+  const Vec2 v_W = relative_velocity_at(mine, theirs, at.p_W);
+  impact.other =
+      unprotected(actor.kind)
+          ? unprotected_injury(harm, actor.kind, hurting_speed(v_W, at.n_W, harm.law.friction))
+          : occupant_injury(harm, contact.other_face, contact.other_delta_v);
+  impact.ego_change_W = -mine.inverse_mass * impulse.impulse_W;
+  impact.other_change_W = theirs.inverse_mass * impulse.impulse_W;
+  impact.ego_after = {ego.X_WB, ego.v_W + impact.ego_change_W, ego.yaw_rate + impulse.a_spin};
+  impact.other_after = {other.X_WB, other.v_W + impact.other_change_W,
+                        other.yaw_rate + impulse.b_spin};
+  return impact;
+}
+
+Impact leave(const Scene& scene, Side side, const Instant& ego, double time,
+             const HarmModel& harm) {
+  const Beyond what = beyond(scene.road, side);
+  const double speed = norm(ego.v_W);
+  const double share = harm.speed_share[static_cast<std::size_t>(what)];
+  const Vec2 out_W = outwards(scene, side, ego.X_WB);
+
+  Impact impact;
+  impact.ego_after = ego;
+  Contact& contact = impact.contact;
+  contact.time = time;
+  contact.edge = side;
+  contact.v_rel_W = -ego.v_W;
+  contact.relative_speed = speed;
+  if (what == Beyond::barrier) {
+    contact.p_W = foremost(scene.ego_footprint, ego.X_WB, out_W, harm.depth);
+    contact.n_W = out_W;
+    const ImpactBody mine = ego_body(scene, ego);
+    const CollisionImpulse impulse = collision_impulse(mine, {}, contact.p_W, out_W, harm.law);
+    contact.ego_delta_v = impulse.a_delta_v;
+    contact.ego_spin = impulse.a_spin;
+    impact.ego_change_W = -mine.inverse_mass * impulse.impulse_W;
+    impact.ego_after.v_W = ego.v_W + impact.ego_change_W;
+    impact.ego_after.yaw_rate += impulse.a_spin;
+  } else {
+    contact.p_W = outermost(scene.road, side, scene.ego_footprint, ego.X_WB);
+    contact.n_W = speed > 0.0 ? (1.0 / speed) * ego.v_W : out_W;
+    contact.ego_delta_v = share * speed;
+    if (stops_the_ego(what)) {
+      contact.ego_spin = -ego.yaw_rate;
+      impact.ego_after = {ego.X_WB, {}, 0.0};
+    }
   }
-  const Impulse stopping = stop(vn, dot(v_W, t_W), give(a, b, p_W, n_W, n_W),
-                                give(a, b, p_W, n_W, t_W), give(a, b, p_W, t_W, t_W), law.friction);
-  const Vec2 impulse_W =
-      (1.0 + law.restitution) * (stopping.normal * n_W + stopping.tangential * t_W);
-  const double size = norm(impulse_W);
-  return {.impulse_W = impulse_W,
-          .a_delta_v = size * a.inverse_mass,
-          .b_delta_v = size * b.inverse_mass,
-          .a_spin = -a.inverse_yaw_inertia * cross(p_W - a.p_W, impulse_W),
-          .b_spin = b.inverse_yaw_inertia * cross(p_W - b.p_W, impulse_W)};
+  contact.ego_face = struck_face(scene.ego_footprint, rotated(contact.n_W, -ego.X_WB.yaw));
+  impact.loss = collision_loss(contact.ego_face, share * speed);
+  impact.ego = occupant_injury(harm, contact.ego_face, contact.ego_delta_v);
+  return impact;
+}
+
+Impact pressed_on(const Impact& first, const Impact& more, const HarmModel& harm) {
+  Impact both = first;
+  both.ego_change_W = first.ego_change_W + more.ego_change_W;
+  both.other_change_W = first.other_change_W + more.other_change_W;
+  both.ego_after = more.ego_after;
+  both.other_after = more.other_after;
+  Contact& contact = both.contact;
+  contact.ego_delta_v = norm(both.ego_change_W);
+  contact.other_delta_v = norm(both.other_change_W);
+  contact.ego_spin += more.contact.ego_spin;
+  contact.other_spin += more.contact.other_spin;
+  both.ego = occupant_injury(harm, contact.ego_face, contact.ego_delta_v);
+  both.other = occupant_injury(harm, contact.other_face, contact.other_delta_v);
+  return both;
+}
+
+double closing_speed(const Scene& scene, std::size_t index, const Instant& ego,
+                     const Instant& other, const HarmModel& harm) {
+  const Actor& actor = scene.actors[index];
+  const Touch at = touch(scene.ego_footprint, ego.X_WB, actor.footprint, other.X_WB, harm.depth);
+  return -dot(at.n_W, relative_velocity_at(moving({}, ego), moving({}, other), at.p_W));
+}
+
+double closing_speed(const Scene& scene, Side side, const Instant& ego, const HarmModel& harm) {
+  const Vec2 n_W = outwards(scene, side, ego.X_WB);
+  const Vec2 p_W = foremost(scene.ego_footprint, ego.X_WB, n_W, harm.depth);
+  return -dot(n_W, relative_velocity_at(moving({}, ego), {}, p_W));
+}
+
+Beyond beyond(const world::Road& road, Side side) {
+  return side == Side::left ? road.left_beyond : road.right_beyond;
 }
 
 }  // namespace saca::outcome

@@ -17,23 +17,23 @@ double normal_below(double x) noexcept {
   return 0.5 * std::erfc(-x * std::sqrt(0.5));
 }
 
-// How many standard deviations of the gap are between them along each axis, at the looks.
+// How many standard deviations of the gap are between them along each axis, at the samples.
 struct ScoreRows {
-  alignas(32) std::array<LookRow, num_axes> of_axis;
-  alignas(32) LookRow most;   // of the axes
-  alignas(32) LookRow bound;  // within the span no largest score is smaller
+  alignas(32) std::array<SampleRow, num_axes> of_axis;
+  alignas(32) SampleRow most;   // of the axes
+  alignas(32) SampleRow bound;  // within the span no largest score is smaller
 };
 
-// How far the actor may be from its track at the looks.
+// How far the actor may be from its track at the samples.
 struct ActorRows {
-  alignas(32) LookRow along;  // variances [m^2]
-  alignas(32) LookRow across;
+  alignas(32) SampleRow along;  // variances [m^2]
+  alignas(32) SampleRow across;
 };
 
 // Along one axis: what is added to the gap, and to how many standard deviations it is then.
 struct SpreadRows {
-  alignas(32) LookRow mean;  // [m]
-  alignas(32) LookRow per_sd;
+  alignas(32) SampleRow mean;  // [m]
+  alignas(32) SampleRow per_sd;
 };
 
 struct Range {
@@ -41,25 +41,25 @@ struct Range {
   std::size_t end;
 };
 
-void fill_actor(const CloserLook& pair, const Range& range, ActorRows& actor) noexcept {
+void fill_actor(const NarrowPhase& pair, const Range& range, ActorRows& actor) noexcept {
   for (std::size_t k = range.begin; k < range.end; ++k) {
-    const world::Spread spread = pair.actor_spread(look_time(k));
+    const world::Spread spread = pair.actor_spread(sample_time(k));
     actor.along[k] = static_cast<float>(spread.along_sd * spread.along_sd);
     actor.across[k] = static_cast<float>(spread.across_sd * spread.across_sd);
   }
 }
 
-[[gnu::always_inline]] inline void spread_along(const LookRow& n_x, const LookRow& n_y,
-                                                const LookRow& apart, const CloserLook& pair,
+[[gnu::always_inline]] inline void spread_along(const SampleRow& n_x, const SampleRow& n_y,
+                                                const SampleRow& apart, const NarrowPhase& pair,
                                                 const ActorRows& actor, const Range& range,
                                                 SpreadRows& spread) noexcept {
-  const AtlasEgo::SwayLooks& sway = pair.ego().sway_looks();
-  const Looks& other = pair.looks();
+  const AtlasEgo::SensitivityAtSamples& sensitivity = pair.ego().sensitivity_at_samples();
+  const PoseSamples& other = pair.samples();
   constexpr float mean_share = 0.3989423F;  // 1 / sqrt(2 pi), as in of_halves
   constexpr auto least_variance = static_cast<float>(least_sd * least_sd);
   for (std::size_t k = range.begin; k < range.end; ++k) {
-    const float less = n_x[k] * sway.less_x[k] + n_y[k] * sway.less_y[k];
-    const float more = n_x[k] * sway.more_x[k] + n_y[k] * sway.more_y[k];
+    const float less = n_x[k] * sensitivity.less_x[k] + n_y[k] * sensitivity.less_y[k];
+    const float more = n_x[k] * sensitivity.more_x[k] + n_y[k] * sensitivity.more_y[k];
     const float mean = mean_share * (less + more);
     const float n_along = n_x[k] * other.cosine[k] + n_y[k] * other.sine[k];
     const float n_across = n_y[k] * other.cosine[k] - n_x[k] * other.sine[k];
@@ -71,13 +71,13 @@ void fill_actor(const CloserLook& pair, const Range& range, ActorRows& actor) no
   }
 }
 
-[[gnu::always_inline]] inline void fill_axis(std::size_t axis, const CloserLook& pair,
+[[gnu::always_inline]] inline void fill_axis(std::size_t axis, const NarrowPhase& pair,
                                              const ActorRows& actor, const Range& range,
-                                             const NearLooks& near, ScoreRows& rows) noexcept {
-  const Looks& body = axis < 2 ? pair.ego().looks() : pair.looks();
-  const LookRow& apart = near.apart[axis];
-  const LookRow& reach = near.reach[axis];
-  LookRow left_x;  // of what looks along its length
+                                             const PairSamples& near, ScoreRows& rows) noexcept {
+  const PoseSamples& body = axis < 2 ? pair.ego().samples() : pair.samples();
+  const SampleRow& apart = near.apart[axis];
+  const SampleRow& reach = near.reach[axis];
+  SampleRow left_x;  // of what samples along its length
   SpreadRows spread;
   if (axis % 2 == 0) {
     spread_along(body.cosine, body.sine, apart, pair, actor, range, spread);
@@ -102,8 +102,8 @@ void fill_actor(const CloserLook& pair, const Range& range, ActorRows& actor) no
   }
 }
 
-[[gnu::always_inline]] inline void fill_axes(const CloserLook& pair, const ActorRows& actor,
-                                             const Range& range, const NearLooks& near,
+[[gnu::always_inline]] inline void fill_axes(const NarrowPhase& pair, const ActorRows& actor,
+                                             const Range& range, const PairSamples& near,
                                              ScoreRows& rows) noexcept {
   rows.most.fill(-std::numeric_limits<float>::infinity());
   rows.bound.fill(-std::numeric_limits<float>::infinity());
@@ -113,20 +113,20 @@ void fill_actor(const CloserLook& pair, const Range& range, ActorRows& actor) no
 }
 
 #if defined(__x86_64__)
-[[gnu::target("avx2")]] void fill_axes_in_avx2(const CloserLook& pair, const ActorRows& actor,
-                                               const Range& range, const NearLooks& near,
+[[gnu::target("avx2")]] void fill_axes_in_avx2(const NarrowPhase& pair, const ActorRows& actor,
+                                               const Range& range, const PairSamples& near,
                                                ScoreRows& rows) noexcept {
   fill_axes(pair, actor, range, near, rows);
 }
 #endif
 
 // The same numbers on each instruction set: no operation is fused or put in another order.
-void fill_all(const CloserLook& pair, const Range& range, const NearLooks& near,
+void fill_all(const NarrowPhase& pair, const Range& range, const PairSamples& near,
               ScoreRows& rows) noexcept {
   ActorRows actor;
   fill_actor(pair, range, actor);
 #if defined(__x86_64__)
-  if (best_level() != Level::baseline) {
+  if (best_level() != SimdLevel::baseline) {
     fill_axes_in_avx2(pair, actor, range, near, rows);
     return;
   }
@@ -135,7 +135,7 @@ void fill_all(const CloserLook& pair, const Range& range, const NearLooks& near,
 }
 
 // What is outside of its time, or no number, is infinitely unlikely. Returns the least bound.
-float fill(const CloserLook& pair, const Window& window, const NearLooks& near,
+float fill(const NarrowPhase& pair, const Window& window, const PairSamples& near,
            ScoreRows& rows) noexcept {
   fill_all(pair, {window.begin(), window.end() + spans_per_group}, near, rows);
   constexpr float never = std::numeric_limits<float>::infinity();
@@ -150,7 +150,7 @@ float fill(const CloserLook& pair, const Window& window, const NearLooks& near,
   const auto from = static_cast<float>(window.from);
   const auto to = static_cast<float>(window.to);
   for (std::size_t k = window.begin(); k <= window.end(); ++k) {
-    const bool inside = look_times[k] >= from && look_times[k] <= to && near.gap[k] > nowhere;
+    const bool inside = sample_times[k] >= from && sample_times[k] <= to && near.gap[k] > nowhere;
     if (!inside) {
       rows.most[k] = never;
     }
@@ -161,14 +161,14 @@ float fill(const CloserLook& pair, const Window& window, const NearLooks& near,
 // The scores along all axes at one time.
 struct End {
   double time = 0.0;  // [s]
-  std::array<CloserLook::Score, num_axes> of_axis;
+  std::array<NarrowPhase::Score, num_axes> of_axis;
 };
 
-End end_at(const CloserLook& pair, const NearLooks& near, const ScoreRows& rows,
+End end_at(const NarrowPhase& pair, const PairSamples& near, const ScoreRows& rows,
            std::size_t k) noexcept {
-  End end{.time = look_time(k), .of_axis = {}};
+  End end{.time = sample_time(k), .of_axis = {}};
   for (std::size_t axis = 0; axis < num_axes; ++axis) {
-    const Looks& body = axis < 2 ? pair.ego().looks() : pair.looks();
+    const PoseSamples& body = axis < 2 ? pair.ego().samples() : pair.samples();
     const Vec2 along{static_cast<double>(body.cosine[k]), static_cast<double>(body.sine[k])};
     const Vec2 n = axis % 2 == 0 ? along : left_of(along);
     end.of_axis[axis] = {static_cast<double>(rows.of_axis[axis][k]),
@@ -203,7 +203,7 @@ Valley valley_between(const End& low, const End& high, const Window& window) noe
     least.score = -std::numeric_limits<double>::infinity();
     return least;
   }
-  const auto look = [&](double share) {
+  const auto sample = [&](double share) {
     if (!(share >= first && share <= last)) {
       return;
     }
@@ -213,23 +213,23 @@ Valley valley_between(const End& low, const End& high, const Window& window) noe
     }
     least = most < least.score ? Valley{low.time + share * span, most} : least;
   };
-  look(first);
-  look(last);
+  sample(first);
+  sample(last);
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      look((from[i] - from[j]) / (rise[j] - rise[i]));
+      sample((from[i] - from[j]) / (rise[j] - rise[i]));
     }
   }
   return least;
 }
 
-// Looks where the lines of the scores meet lowest, and again between those looks.
+// PoseSamples where the lines of the scores meet lowest, and again between those samples.
 template <class Keep>
 void look_into(const Window& window, End low, End high, Valley valley, const Keep& keep) noexcept {
   constexpr double close = 0.05;  // standard deviations
   double best = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 5; ++i) {
-    const CloserLook::Scores now = keep(valley.time);
+    const NarrowPhase::Scores now = keep(valley.time);
     best = std::min(best, now.most);
     const End middle{valley.time, now.of_axis};
     const bool inside = middle.time > low.time && middle.time < high.time;
@@ -248,13 +248,13 @@ void look_into(const Window& window, End low, End high, Valley valley, const Kee
 
 // The first touch of the other when it is nearer by what is typical of those who touch.
 // @param passing  the likeliest instant; the gap then is > 0
-void find_touch(const CloserLook& pair, const CloserLook::Look& passing, double from,
-                Meeting& found) noexcept {
+void find_touch(const NarrowPhase& pair, const NarrowPhase::PairState& passing, double from,
+                ContactForecast& found) noexcept {
   constexpr double near = 1e-5;  // [m]: bodies that touch
-  const CloserLook::Doubt doubt = pair.doubt(passing);
+  const NarrowPhase::Doubt doubt = pair.doubt(passing);
   Vec2 nearer;
   const auto gap_at = [&](double time) {
-    CloserLook::Look now = pair.look(time);
+    NarrowPhase::PairState now = pair.state_at(time);
     now.other.centre = now.other.centre + nearer;
     return gap_between(now.mine, now.other);
   };
@@ -289,8 +289,8 @@ void find_touch(const CloserLook& pair, const CloserLook::Look& passing, double 
 
 }  // namespace
 
-void find_likeliest(const CloserLook& pair, const Window& window, const NearLooks& near,
-                    Meeting& found) noexcept {
+void find_likeliest(const NarrowPhase& pair, const Window& window, const PairSamples& near,
+                    ContactForecast& found) noexcept {
   if (!window.any) {
     return;
   }
@@ -301,17 +301,17 @@ void find_likeliest(const CloserLook& pair, const Window& window, const NearLook
   const auto likeliest = static_cast<std::size_t>(
       std::min_element(rows.most.begin() + window.begin(), rows.most.begin() + window.end() + 1) -
       rows.most.begin());
-  const auto at_look = static_cast<double>(rows.most[likeliest]);
-  if (at_look < -sure_sd - 1.0) {
-    found.probability = normal_below(-at_look);
-    found.touch = look_time(likeliest);
+  const auto at_sample = static_cast<double>(rows.most[likeliest]);
+  if (at_sample < -sure_sd - 1.0) {
+    found.probability = normal_below(-at_sample);
+    found.touch = sample_time(likeliest);
     return;
   }
   double best = std::numeric_limits<double>::infinity();
-  CloserLook::Look passing;
+  NarrowPhase::PairState passing;
   const auto keep = [&](double time) {
-    const CloserLook::Look now = pair.look(time);
-    const CloserLook::Scores scores = pair.scores(now);
+    const NarrowPhase::PairState now = pair.state_at(time);
+    const NarrowPhase::Scores scores = pair.scores(now);
     if (scores.most < best) {
       best = scores.most;
       passing = now;
@@ -321,18 +321,18 @@ void find_likeliest(const CloserLook& pair, const Window& window, const NearLook
   Valley deepest;
   std::size_t span = 0;
   for (std::size_t k = window.begin(); k < window.end(); ++k) {
-    if (static_cast<double>(rows.bound[k]) < std::min(at_look, sure_sd)) {
+    if (static_cast<double>(rows.bound[k]) < std::min(at_sample, sure_sd)) {
       const Valley valley =
           valley_between(end_at(pair, near, rows, k), end_at(pair, near, rows, k + 1), window);
       span = valley.score < deepest.score ? k : span;
       deepest = valley.score < deepest.score ? valley : deepest;
     }
   }
-  if (deepest.score < std::min(at_look, sure_sd)) {
+  if (deepest.score < std::min(at_sample, sure_sd)) {
     look_into(window, end_at(pair, near, rows, span), end_at(pair, near, rows, span + 1), deepest,
               keep);
   }
-  if (!(best < at_look)) {
+  if (!(best < at_sample)) {
     narrow(window, likeliest, 4, [&](double time) {
       const double before = best;
       return keep(time).most < before;

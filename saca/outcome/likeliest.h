@@ -1,8 +1,8 @@
 #pragma once
 
-#include "saca/outcome/closer_look.h"
-#include "saca/outcome/looks.h"
-#include "saca/outcome/meeting.h"
+#include "saca/outcome/broad_phase.h"
+#include "saca/outcome/contact_forecast.h"
+#include "saca/outcome/narrow_phase.h"
 
 namespace saca::outcome {
 
@@ -14,7 +14,7 @@ namespace saca::outcome {
 /// that closes there. (At the mean they pass each other, so that no speed closes.)
 /// @param near   filled for the window
 /// @param found  its contact is known
-void find_likeliest(const CloserLook& pair, const Window& window, const NearLooks& near,
-                    Meeting& found) noexcept;
+void find_likeliest(const NarrowPhase& pair, const Window& window, const PairSamples& near,
+                    ContactForecast& found) noexcept;
 
 }  // namespace saca::outcome

@@ -16,9 +16,9 @@ namespace {
 using manoeuvre::AtlasPath;
 using manoeuvre::PolicyId;
 
-// Against looks every 5 ms: no instant is likelier by more than a tenth of a standard deviation, in
-// nine of ten encounters.
-TEST(Likeliest, IsTheSmallestScoreOfManyLooks) {
+// Against samples every 5 ms: no instant is likelier by more than a tenth of a standard deviation,
+// in nine of ten encounters.
+TEST(Likeliest, IsTheSmallestScoreOfManySamples) {
   std::mt19937_64 rng(4);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   int off = 0;
@@ -37,16 +37,16 @@ TEST(Likeliest, IsTheSmallestScoreOfManyLooks) {
     const AtlasPath path =
         manoeuvre::small_atlas().path(manoeuvre::atlas_plan(policy, 12.5), scene);
     const AtlasEgo ego(path, scene);
-    const Looks looks = looks_of(track, actor.footprint, 0.0, {});
-    const CloserLook both(ego, 0, track, looks);
-    const auto near = std::make_unique<NearLooks>();
+    const PoseSamples samples = pose_samples_of(track, actor.footprint, 0.0, {});
+    const NarrowPhase both(ego, 0, track, samples);
+    const auto near = std::make_unique<PairSamples>();
     const Window window{.from = 0.0, .to = 3.2, .first = 0, .last = 3, .any = true};
-    look_over(ego.looks(), looks, 0, 3, *near);
-    Meeting found;
+    compare_samples(ego.samples(), samples, 0, 3, *near);
+    ContactForecast found;
     find_likeliest(both, window, *near, found);
     double least = 1e9;
     for (double time = 0.0; time <= 3.2; time += 0.005) {
-      least = std::min(least, both.scores(both.look(time)).most);
+      least = std::min(least, both.scores(both.state_at(time)).most);
     }
     const double true_chance = 0.5 * std::erfc(least * std::sqrt(0.5));
     EXPECT_LE(found.probability, true_chance + 0.02) << i;
@@ -77,11 +77,11 @@ TEST(Likeliest, WhatGripDoesNotMoveAsideMissesWhoIsBeside) {
     with.actors.push_back(actor);
     const world::Track track = steady(actor.X_WA, {}, 0.0, 3.2);
     const AtlasEgo among(path, with);
-    const Looks looks = looks_of(track, actor.footprint, 0.0, {});
-    const auto near = std::make_unique<NearLooks>();
-    look_over(among.looks(), looks, 0, num_groups - 1, *near);
-    Meeting found;
-    find_likeliest(CloserLook(among, 0, track, looks),
+    const PoseSamples samples = pose_samples_of(track, actor.footprint, 0.0, {});
+    const auto near = std::make_unique<PairSamples>();
+    compare_samples(among.samples(), samples, 0, num_groups - 1, *near);
+    ContactForecast found;
+    find_likeliest(NarrowPhase(among, 0, track, samples),
                    {.from = 0.0, .to = 22.0, .first = 0, .last = num_groups - 1, .any = true},
                    *near, found);
     return found.probability;
@@ -89,8 +89,8 @@ TEST(Likeliest, WhatGripDoesNotMoveAsideMissesWhoIsBeside) {
   EXPECT_LT(chance(body.length + 0.1, body.width + 0.05), 1e-4);
   EXPECT_LT(chance(body.length + 0.1, -body.width - 0.05), 1e-4);
   // Straight ahead it is, at rest, as likely as ways that long are.
-  const AtlasEgo::Sways sways = ego.sways(path.end + 5.0);
-  const Moments longer = of_halves(sways.less_W.x, sways.more_W.x);
+  const AtlasEgo::Sensitivities with_sensitivity = ego.with_sensitivity(path.end + 5.0);
+  const Moments longer = of_halves(with_sensitivity.less_W.x, with_sensitivity.more_W.x);
   EXPECT_NEAR(chance(body.length + 0.1, 0.0),
               0.5 * std::erfc((0.1 - longer.mean) / std::sqrt(2.0 * longer.variance)), 0.01);
 }
@@ -106,11 +106,11 @@ TEST(Likeliest, OfWhoIsFarIsNothing) {
   const AtlasPath path =
       manoeuvre::small_atlas().path({PolicyId::no_intervention, std::nullopt}, scene);
   const AtlasEgo ego(path, scene);
-  const Looks looks = looks_of(track, actor.footprint, 0.0, {});
-  const auto near = std::make_unique<NearLooks>();
-  look_over(ego.looks(), looks, 0, 3, *near);
-  Meeting found;
-  find_likeliest(CloserLook(ego, 0, track, looks),
+  const PoseSamples samples = pose_samples_of(track, actor.footprint, 0.0, {});
+  const auto near = std::make_unique<PairSamples>();
+  compare_samples(ego.samples(), samples, 0, 3, *near);
+  ContactForecast found;
+  find_likeliest(NarrowPhase(ego, 0, track, samples),
                  {.from = 0.0, .to = 3.2, .first = 0, .last = 3, .any = true}, *near, found);
   EXPECT_EQ(found.probability, 0.0);
 }

@@ -11,14 +11,14 @@ bool stops_the_ego(Beyond beyond) {
   return beyond == Beyond::barrier || beyond == Beyond::trees;
 }
 
-Course play_out(const EgoMotion& motion, const Scene& scene, const Others& others,
-                const HarmModel& harm) {
-  return play_out(motion, scene, others, harm, scene.grip);
+CollisionSequence collision_sequence(const EgoMotion& motion, const Scene& scene,
+                                     const Others& others, const HarmModel& harm) {
+  return collision_sequence(motion, scene, others, harm, scene.grip);
 }
 
 Outcome judge(const EgoMotion& motion, const Scene& scene, const Others& others,
               const HarmModel& harm) {
-  return play_out(motion, scene, others, harm).outcome;
+  return collision_sequence(motion, scene, others, harm).outcome;
 }
 
 Outcome judge(const EgoMotion& motion, const Scene& scene, std::span<const Track> tracks,

@@ -71,7 +71,7 @@ struct Outcome {
 using Others = std::function<std::vector<world::Track>(const manoeuvre::EgoMotion& ego)>;
 
 /// A story to its end.
-struct Course {
+struct CollisionSequence {
   Outcome outcome;
   manoeuvre::EgoMotion ego;          ///< as intended until it is struck, then sliding to rest
   std::vector<world::Track> others;  ///< likewise, one per actor of the scene
@@ -79,7 +79,8 @@ struct Course {
 
 /// Everything that comes of a motion, until all that matters rests.
 ///
-/// @param others  asked at the start, and again after each blow with what the ego then really does
+/// @param others  asked at the start, and again after each impact with what the ego then really
+/// does
 /// @param grip    true friction coefficient, on which struck bodies slide
 /// @throws ContractViolation  if tracks and actors differ in number, or the motion has no pose or
 /// not
@@ -104,16 +105,18 @@ struct Course {
 ///
 /// The contact with an edge that does not stop the ego is the first only when nothing else follows.
 ///
-/// Harm: the chances that each person comes out of every blow unhurt multiply, for severe injury
-/// and for death. An actor's `existence` scales the harm of meeting it and of all that follows, and
-/// nothing else.
-[[nodiscard]] Course play_out(const manoeuvre::EgoMotion& motion, const world::Scene& scene,
-                              const Others& others, const HarmModel& harm, double grip);
+/// Harm: the chances that each person comes out of every impact unhurt multiply, for severe injury
+/// and for death. An actor's `existence` scales the harm of contact forecast it and of all that
+/// follows, and nothing else.
+[[nodiscard]] CollisionSequence collision_sequence(const manoeuvre::EgoMotion& motion,
+                                                   const world::Scene& scene, const Others& others,
+                                                   const HarmModel& harm, double grip);
 /// Struck bodies slide on the scene's grip.
-[[nodiscard]] Course play_out(const manoeuvre::EgoMotion& motion, const world::Scene& scene,
-                              const Others& others, const HarmModel& harm);
+[[nodiscard]] CollisionSequence collision_sequence(const manoeuvre::EgoMotion& motion,
+                                                   const world::Scene& scene, const Others& others,
+                                                   const HarmModel& harm);
 
-/// The outcome of `play_out`.
+/// The outcome of `collision_sequence`.
 [[nodiscard]] Outcome judge(const manoeuvre::EgoMotion& motion, const world::Scene& scene,
                             const Others& others, const HarmModel& harm);
 /// The others follow fixed tracks until they are struck; before its track starts an actor is not

@@ -44,7 +44,7 @@ void judge_contact_among_8_actors(benchmark::State& state) {
 }
 BENCHMARK(judge_contact_among_8_actors)->Unit(benchmark::kMicrosecond);
 
-// A blow into the side of a car ahead, a slide, and whatever is met on the way to rest.
+// An impact into the side of a car ahead, a slide, and whatever is met on the way to rest.
 void judge_contact_and_aftermath(benchmark::State& state) {
   const HarmModel harm = shipped_harm();
   Encounter encounter;

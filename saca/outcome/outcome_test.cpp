@@ -105,7 +105,7 @@ TEST(Judge, StruckInTheSide) {
   EXPECT_GT(outcome.harm, 1.5 * occupant_harm(harm(), Face::front, 9.0));
 }
 
-// Side by side, drifting together at 0.3 m/s: a light blow at the side, however fast both drive.
+// Side by side, drifting together at 0.3 m/s: a light impact at the side, however fast both drive.
 TEST(Judge, GrazingIsAtTheSideAndLight) {
   Encounter encounter = driving(20.0);
   encounter.add_car({{0.5, 2.2}, 0.0}, {20.5, -0.3});
@@ -119,7 +119,7 @@ TEST(Judge, GrazingIsAtTheSideAndLight) {
 }
 
 // A car stands 30 degrees askew, its nose across the ego's way: the ego's front left corner runs
-// into it. The blow comes from 30 degrees beside the ego's nose, so in front; it is off the ego's
+// into it. The impact comes from 30 degrees beside the ego's nose, so in front; it is off the ego's
 // centre, so lighter than a full one, which would be 10 (1 + 0.1) / 2.
 TEST(Judge, AGlancingCorner) {
   Encounter encounter = driving(10.0);
@@ -299,7 +299,7 @@ TEST(Judge, ABarrierTakesTheSpeedAcrossIt) {
   EXPECT_EQ(outcome.contact->ego_face, Face::left);
   const double reach = 2.35 * std::sin(angle) + 0.95 * std::cos(angle);
   EXPECT_NEAR(outcome.contact->time, (3.0 - reach) / (15.0 * std::sin(angle)), 1e-3 / 15.0);
-  // The corner's arm about the centre of mass (2.11 along the barrier) lightens the blow.
+  // The corner's arm about the centre of mass (2.11 along the barrier) lightens the impact.
   EXPECT_GT(outcome.contact->ego_delta_v, 0.2 * 15.0 * std::sin(angle));
   EXPECT_LT(outcome.contact->ego_delta_v, 1.3 * 15.0 * std::sin(angle));
   EXPECT_NEAR(outcome.collision_loss, 0.41 * 15.0, 1e-9);

@@ -36,7 +36,7 @@ class PreparedMotion {
   /// When any point of the ego first lies on an edge of the road, if it moves as intended [s].
   [[nodiscard]] std::optional<double> crossing(Side side);
   /// `intended` with poses so far apart, or as it has them where that is nearer, to beyond its end:
-  /// what `joined` makes of it before a slide with such steps, to the last bit.
+  /// what `concatenated` makes of it before a slide with such steps, to the last bit.
   /// @param step  [s], > 0; the same in each call
   [[nodiscard]] const world::Track& in_steps_of(double step);
 
@@ -51,7 +51,7 @@ class PreparedMotion {
 };
 
 /// How those others who react move when the ego moves so: called at the start, and again after each
-/// blow with what the ego then really does. Up to each instant they answer to the ego's motion up
+/// impact with what the ego then really does. Up to each instant they answer to the ego's motion up
 /// to it only.
 ///
 /// @param X_WB    the ego until it rests, or its motion ends

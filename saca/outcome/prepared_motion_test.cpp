@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "saca/core/contract.h"
+#include "saca/outcome/concatenated.h"
 #include "saca/outcome/encounters_for_test.h"
-#include "saca/outcome/joined.h"
 
 namespace saca::outcome::prepared_motion_test {
 namespace {
@@ -158,11 +158,11 @@ TEST(PreparedMotion, ItsStepsAreWhatASlideIsJoinedTo) {
     PreparedMotion prepared(one, scene);
     const Track& finer = prepared.in_steps_of(0.04);
     EXPECT_GE(end_time(finer), end_time(one.track));
-    for (const double blow : {0.33, 7.0}) {
+    for (const double impact : {0.33, 7.0}) {
       const Track slide{
-          .start = blow, .step = 0.04, .X_WA = {{{3.0, 0.0}, 0.1}, {{3.1, 0.0}, 0.2}}};
-      const Track reference = joined(one.track, slide);
-      const Track all = joined(finer, slide);
+          .start = impact, .step = 0.04, .X_WA = {{{3.0, 0.0}, 0.1}, {{3.1, 0.0}, 0.2}}};
+      const Track reference = concatenated(one.track, slide);
+      const Track all = concatenated(finer, slide);
       ASSERT_EQ(all.X_WA.size(), reference.X_WA.size());
       EXPECT_EQ(all.step, reference.step);
       for (std::size_t k = 0; k < all.X_WA.size(); ++k) {

@@ -23,14 +23,14 @@ double longest(const world::Scene& scene, double grip) {
 }
 
 double true_grip(const Attempt& attempt) {
-  return std::min(1.2, attempt.grip * attempt.unknown.grip);
+  return std::min(1.2, attempt.grip * attempt.perturbation.grip);
 }
 
 manoeuvre::Drive drive_of(const manoeuvre::Car& car, const Attempt& attempt) {
   manoeuvre::Drive drive =
       drive_from(car, attempt.plan, *attempt.scene, longest(*attempt.scene, true_grip(attempt)));
   drive.grip = attempt.grip;
-  drive.unknown = attempt.unknown;
+  drive.perturbation = attempt.perturbation;
   return drive;
 }
 
@@ -41,8 +41,9 @@ Outcome roll_out(const manoeuvre::Car& car, const manoeuvre::Plan& plan, const w
   return judge(drive(car, plan, scene, grip, longest(scene, grip)), scene, tracks, harm, grip);
 }
 
-std::vector<Course> roll_out_all(const manoeuvre::Car& car, std::span<const Attempt> attempts,
-                                 const HarmModel& harm, int threads) {
+std::vector<CollisionSequence> roll_out_all(const manoeuvre::Car& car,
+                                            std::span<const Attempt> attempts,
+                                            const HarmModel& harm, int threads) {
   std::vector<manoeuvre::Drive> drives;
   double horizon = 0.0;
   for (const Attempt& attempt : attempts) {
@@ -52,12 +53,13 @@ std::vector<Course> roll_out_all(const manoeuvre::Car& car, std::span<const Atte
     horizon = std::max(horizon, drives.back().longest);
   }
   const auto motions = drive_all(drives, horizon, threads);
-  std::vector<Course> courses(attempts.size());
+  std::vector<CollisionSequence> sequences(attempts.size());
   in_parallel(attempts.size(), threads, [&](std::size_t i) {
     const Attempt& attempt = attempts[i];
-    courses[i] = play_out(motions[i], *attempt.scene, *attempt.others, harm, true_grip(attempt));
+    sequences[i] =
+        collision_sequence(motions[i], *attempt.scene, *attempt.others, harm, true_grip(attempt));
   });
-  return courses;
+  return sequences;
 }
 
 }  // namespace saca::outcome

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "saca/manoeuvre/car.h"
+#include "saca/manoeuvre/parameter_perturbation.h"
 #include "saca/manoeuvre/plan.h"
-#include "saca/manoeuvre/unknown.h"
 #include "saca/outcome/harm.h"
 #include "saca/outcome/outcome.h"
 #include "saca/world/scene.h"
@@ -15,7 +15,7 @@ namespace saca::outcome {
 
 /// What happens if `plan` is carried out in this scene: full dynamics to rest or a recovered lane,
 /// or, when neither comes, for 20 s, and longer where even a stop takes longer. The reference, one
-/// at a time: `drive`, then `play_out`.
+/// at a time: `drive`, then `collision_sequence`.
 /// @param grip  true friction coefficient
 /// @throws ContractViolation  if refusal(car, plan, scene) has a reason
 [[nodiscard]] Outcome roll_out(const manoeuvre::Car& car, const manoeuvre::Plan& plan,
@@ -26,10 +26,10 @@ namespace saca::outcome {
 struct Attempt {
   manoeuvre::Plan plan;
   const world::Scene* scene = nullptr;
-  const Others* others = nullptr;  ///< may be called by several threads at once
-  double grip = 0.0;               ///< true friction coefficient
-  manoeuvre::Unknown unknown;  ///< what else the controller does not know; its grip is a factor of
-                               ///< `grip`
+  const Others* others = nullptr;                 ///< may be called by several threads at once
+  double grip = 0.0;                              ///< true friction coefficient
+  manoeuvre::ParameterPerturbation perturbation;  ///< what else the controller does not know; its
+                                                  ///< grip is a factor of `grip`
 };
 
 /// What comes of each, driven side by side by the batch (manoeuvre/batch.h): as `roll_out`, but the
@@ -38,8 +38,8 @@ struct Attempt {
 /// @param threads  >= 1; they do not change the result
 /// @return         in the order of `attempts`
 /// @throws ContractViolation  as roll_out
-[[nodiscard]] std::vector<Course> roll_out_all(const manoeuvre::Car& car,
-                                               std::span<const Attempt> attempts,
-                                               const HarmModel& harm, int threads = 1);
+[[nodiscard]] std::vector<CollisionSequence> roll_out_all(const manoeuvre::Car& car,
+                                                          std::span<const Attempt> attempts,
+                                                          const HarmModel& harm, int threads = 1);
 
 }  // namespace saca::outcome

@@ -112,8 +112,8 @@ TEST(RollOutAll, IsRollOutWithinCentimetres) {
       }
     }
   }
-  const std::vector<Course> got = roll_out_all(car(), attempts, shipped_harm());
-  const std::vector<Course> on_two = roll_out_all(car(), attempts, shipped_harm(), 2);
+  const std::vector<CollisionSequence> got = roll_out_all(car(), attempts, shipped_harm());
+  const std::vector<CollisionSequence> on_two = roll_out_all(car(), attempts, shipped_harm(), 2);
   ASSERT_EQ(got.size(), wanted.size());
   for (std::size_t k = 0; k < got.size(); ++k) {
     const Outcome& outcome = got[k].outcome;

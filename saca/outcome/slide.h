@@ -1,7 +1,7 @@
 #pragma once
 
 #include "saca/manoeuvre/drive.h"
-#include "saca/outcome/impact.h"
+#include "saca/outcome/collision_impulse.h"
 #include "saca/world/footprint.h"
 
 namespace saca::outcome {
@@ -14,9 +14,9 @@ struct SlideSteps {
 /// For forecasts: positions to half a decimetre, in an eighth of the time.
 constexpr SlideSteps coarse_slide{.pose = 0.04, .per_pose = 1};
 
-/// A body after a blow, all wheels at the limit of friction, until it rests.
+/// A body after an impact, all wheels at the limit of friction, until it rests.
 ///
-/// @param body            mass, inertia and motion just after the blow, about its origin
+/// @param body            mass, inertia and motion just after the impact, about its origin
 /// @param X_WB, start     where it is then, and when; body.p_W is not used
 /// @param grip            friction coefficient of the road [-], > 0
 /// @return                poses from `start` to rest, `ended`; one pose for a body that nothing
@@ -24,7 +24,7 @@ constexpr SlideSteps coarse_slide{.pose = 0.04, .per_pose = 1};
 /// @throws ContractViolation  if the motion is not finite or a number out of range
 ///
 /// Each of four wheels is a point that grip * load pulls against its own velocity, so a body that
-/// spins slides farther. That everybody brakes so after a blow, drivers and people on the ground
+/// spins slides farther. That everybody brakes so after an impact, drivers and people on the ground
 /// alike, is an ASSUMPTION; so is where the wheels are: 0.3 of the length ahead of and behind the
 /// footprint's centre, 0.4 of the width beside it. Loads are those at rest. Below 0.05 m/s, or what
 /// 10 m/s^2 take in a longer step, a wheel's force fades in proportion, and a body all of whose

@@ -5,8 +5,8 @@
 
 #include "saca/core/contract.h"
 #include "saca/outcome/approach.h"
-#include "saca/outcome/joined.h"
-#include "saca/outcome/toll.h"
+#include "saca/outcome/concatenated.h"
+#include "saca/outcome/expected_harm.h"
 
 namespace saca::outcome {
 namespace {
@@ -20,7 +20,7 @@ constexpr double at_rest = 0.05;
 
 // How long a collision lasts: bodies that crumple into each other for so long have met once. An
 // assumption; crash pulses of cars take about a tenth of a second [s].
-constexpr double blow_lasts = 0.1;
+constexpr double impact_lasts = 0.1;
 
 // Bodies that have met and stay together press on each other; slower than this they do not meet
 // anew [m/s].
@@ -75,17 +75,18 @@ Story::Story(PreparedMotion& motion, const HarmModel& harm, double grip, const S
 EgoMotion Story::ego() const {
   EgoMotion all = motion_.intended();
   for (const EgoMotion& slide : ego_slides_) {
-    all = joined(all, slide);
+    all = concatenated(all, slide);
   }
   return all;
 }
 
 const Track& Story::ego_track() {
-  for (; num_joined_ < ego_slides_.size(); ++num_joined_) {
-    const Track& slide = ego_slides_[num_joined_].track;
-    joined_ = joined(num_joined_ == 0 ? motion_.in_steps_of(slide.step) : joined_, slide);
+  for (; num_concatenated_ < ego_slides_.size(); ++num_concatenated_) {
+    const Track& slide = ego_slides_[num_concatenated_].track;
+    concatenated_ = concatenated(
+        num_concatenated_ == 0 ? motion_.in_steps_of(slide.step) : concatenated_, slide);
   }
-  return num_joined_ == 0 ? motion_.intended().track : joined_;
+  return num_concatenated_ == 0 ? motion_.intended().track : concatenated_;
 }
 
 void Story::expect(std::span<const Mover* const> all) {
@@ -100,7 +101,7 @@ std::vector<Track> Story::others() const {
   for (const Other& other : others_) {
     all.push_back(other.expected->track());
     for (const EgoMotion& slide : other.slides) {
-      all.back() = joined(all.back(), slide.track);
+      all.back() = concatenated(all.back(), slide.track);
     }
   }
   return all;
@@ -159,10 +160,11 @@ std::optional<Event> Story::next_at(Side side) {
   const auto first_touch = [&](double time) {
     return edge_approach(scene_.road, side, scene_.ego_footprint, track, interest, time).crossing;
   };
-  if (before.last_blow) {
-    return meet_again(
-        std::max(since_, *before.last_blow + blow_lasts), end_time(track), look_again_, first_touch,
-        [&](double time) { return closing_speed(scene_, side, instant_at(now(), time), harm_); });
+  if (before.last_impact) {
+    return meet_again(std::max(since_, *before.last_impact + impact_lasts), end_time(track),
+                      look_again_, first_touch, [&](double time) {
+                        return closing_speed(scene_, side, instant_at(now(), time), harm_);
+                      });
   }
   if (interest == 0.0 && !was_struck() && since_ == track.start) {
     return at(motion_.crossing(side));
@@ -170,7 +172,7 @@ std::optional<Event> Story::next_at(Side side) {
   const EdgeApproach edge =
       edge_approach(scene_.road, side, scene_.ego_footprint, track, interest, since_);
   if (what != Beyond::unmarked) {
-    pass(std::max(0.0, edge.room), {.edge = side, .time = edge.nearest_at});
+    pass(std::max(0.0, edge.clearance), {.edge = side, .time = edge.nearest_at});
   }
   return at(edge.crossing);
 }
@@ -185,10 +187,10 @@ std::optional<Event> Story::next_with(std::size_t i, double until, bool first) {
   }
   const Mover& ego = ego_mover();
   const Mover& other = mover(i);
-  if (before.last_blow) {
+  if (before.last_impact) {
     const double rest = std::max(end_time(now().track), end_time(track(i)));
     return meet_again(
-        std::max(since_, *before.last_blow + blow_lasts), std::min(known, rest), look_again_,
+        std::max(since_, *before.last_impact + impact_lasts), std::min(known, rest), look_again_,
         [&](double time) { return approach(ego, other, time, known, 0.0).contact; },
         [&](double time) {
           return closing_speed(scene_, i, instant_at(now(), time), other_at(i, time), harm_);
@@ -238,65 +240,65 @@ EgoMotion Story::slide_of(const world::Footprint& footprint, double mass, const 
   return slide(footprint, body, after.X_WB, time, grip_, steps_);
 }
 
-void Story::note(const Blow& blow, const Event& event) {
+void Story::note(const Impact& impact, const Event& event) {
   if (event.presses_on) {
-    const auto last = std::find_if(blows_.rbegin(), blows_.rend(), [&](const Blow& one) {
+    const auto last = std::find_if(impacts_.rbegin(), impacts_.rend(), [&](const Impact& one) {
       return one.contact.actor == event.actor && one.contact.edge == event.edge;
     });
-    *last = pressed_on(*last, blow, harm_);
+    *last = pressed_on(*last, impact, harm_);
     return;
   }
-  blows_.push_back(blow);
+  impacts_.push_back(impact);
 }
 
 bool Story::happen(const Event& event) {
   const Instant ego = instant_at(now(), event.time);
   since_ = event.time;
-  Blow blow;
+  Impact impact;
   bool strikes = true;
   if (event.actor) {
     const std::size_t i = *event.actor;
     const world::Actor& actor = scene_.actors[i];
-    blow = meet(scene_, i, ego, other_at(i, event.time), event.time, harm_);
+    impact = meet(scene_, i, ego, other_at(i, event.time), event.time, harm_);
     if (actor.kind != world::ActorKind::obstacle) {
       others_[i].slides_on.reset();
       others_[i].slides.push_back(
-          slide_of(actor.footprint, actor.mass, blow.other_after, event.time));
+          slide_of(actor.footprint, actor.mass, impact.other_after, event.time));
     }
     others_[i].dealings = {event.time, unprotected(actor.kind)};
   } else {
     const Beyond what = beyond(scene_.road, *event.edge);
-    blow = leave(scene_, *event.edge, ego, event.time, harm_);
+    impact = leave(scene_, *event.edge, ego, event.time, harm_);
     strikes = stops_the_ego(what);
     dealings(*event.edge) = {event.time, what != Beyond::barrier};
   }
   if (strikes) {
     ego_slides_on_.reset();
     ego_slides_.push_back(
-        slide_of(scene_.ego_footprint, scene_.ego_mass, blow.ego_after, event.time));
-    first_ = first_.value_or(blows_.size());
+        slide_of(scene_.ego_footprint, scene_.ego_mass, impact.ego_after, event.time));
+    first_ = first_.value_or(impacts_.size());
   }
-  note(blow, event);
+  note(impact, event);
   return strikes;
 }
 
 Outcome Story::outcome() const {
   Outcome outcome;
-  outcome.harm = toll(blows_, scene_, harm_);
+  outcome.harm = expected_harm(impacts_, scene_, harm_);
   outcome.clearance = 0.0;
   outcome.end_time = end_time(was_struck() ? now().track : motion_.given().track);
-  if (blows_.empty()) {
+  if (impacts_.empty()) {
     outcome.clearance = clearance_;
     outcome.nearest = nearest_;
     return outcome;
   }
   const std::size_t first = first_.value_or(0);
-  outcome.contact = blows_[first].contact;
-  outcome.collision_loss = blows_[first].loss;
-  for (std::size_t i = first + 1; i < blows_.size() && !outcome.later.full(); ++i) {
-    outcome.later.push_back(blows_[i].contact);
+  outcome.contact = impacts_[first].contact;
+  outcome.collision_loss = impacts_[first].loss;
+  for (std::size_t i = first + 1; i < impacts_.size() && !outcome.later.full(); ++i) {
+    outcome.later.push_back(impacts_[i].contact);
   }
-  outcome.end_time = std::max(outcome.end_time, blows_[first].contact.time);
+  outcome.end_time = std::max(outcome.end_time, impacts_[first].contact.time);
   return outcome;
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "saca/core/static_vector.h"
-#include "saca/outcome/blow.h"
+#include "saca/outcome/impact.h"
 #include "saca/outcome/prepared_motion.h"
 #include "saca/outcome/slide.h"
 #include "saca/world/scene.h"
@@ -32,7 +32,7 @@ struct Event {
 };
 
 /// What comes of a motion of the ego, told event by event: who meets whom next, and how all move
-/// then (see play_out). Refers to what it is made of.
+/// then (see collision_sequence). Refers to what it is made of.
 class Story {
  public:
   /// @param detail  what else than contacts is told, and how finely
@@ -65,8 +65,8 @@ class Story {
  private:
   /// What has passed between the ego and somebody or something.
   struct Dealings {
-    std::optional<double> last_blow;  ///< [s]
-    bool over = false;                ///< nothing more can come of it
+    std::optional<double> last_impact;  ///< [s]
+    bool over = false;                  ///< nothing more can come of it
   };
   struct Other {
     Dealings dealings;
@@ -105,7 +105,7 @@ class Story {
       nearest_ = whom;
     }
   }
-  void note(const Blow& blow, const Event& event);
+  void note(const Impact& impact, const Event& event);
   [[nodiscard]] manoeuvre::EgoMotion slide_of(const world::Footprint& footprint, double mass,
                                               const Instant& after, double time) const;
 
@@ -122,9 +122,9 @@ class Story {
   std::array<Dealings, 2> edges_;  ///< by Side
   std::vector<manoeuvre::EgoMotion> ego_slides_;
   std::optional<Mover> ego_slides_on_;  ///< the last of them; none: not needed yet
-  world::Track joined_;                 ///< the ego's way with the first `num_joined_` slides
-  std::size_t num_joined_ = 0;
-  std::vector<Blow> blows_;           ///< in order of time
+  world::Track concatenated_;           ///< the ego's way with the first `num_concatenated_` slides
+  std::size_t num_concatenated_ = 0;
+  std::vector<Impact> impacts_;       ///< in order of time
   std::optional<std::size_t> first_;  ///< of them: the first that struck the ego
 };
 

@@ -50,7 +50,7 @@ TEST(Story, TellsFirstWhoIsMetFirst) {
   EXPECT_FALSE(story.struck()[1]);
 }
 
-// Up to the blow the ego moves as it was meant to, and then slides; with velocities or without.
+// Up to the impact the ego moves as it was meant to, and then slides; with velocities or without.
 TEST(Story, TheWayOfTheEgoIsThatOfItsMotion) {
   const Encounter encounter = two_ahead();
   PreparedMotion motion(encounter.motion, encounter.scene);

@@ -8,9 +8,9 @@
 #include <optional>
 #include <type_traits>
 
-#include "saca/outcome/closer_look.h"
 #include "saca/outcome/false_position.h"
 #include "saca/outcome/likeliest.h"
+#include "saca/outcome/narrow_phase.h"
 
 namespace saca::outcome {
 namespace {
@@ -25,11 +25,11 @@ constexpr double near_touch = 5e-6;
 constexpr double endless = std::numeric_limits<double>::infinity();
 
 double group_time(std::size_t group) noexcept {
-  return look_time(group * spans_per_group);
+  return sample_time(group * spans_per_group);
 }
 
 // No gap within a window is smaller.
-double least_of(const Window& window, const NearLooks& near) noexcept {
+double least_of(const Window& window, const PairSamples& near) noexcept {
   float least = std::numeric_limits<float>::infinity();
   for (std::size_t k = window.begin(); k < window.end(); ++k) {
     least = std::min(least, near.least[k]);
@@ -37,8 +37,8 @@ double least_of(const Window& window, const NearLooks& near) noexcept {
   return static_cast<double>(least);
 }
 
-// The look of a window at which they are nearest: at either end of a span that lies in it.
-std::size_t nearest_look(const Window& window, const NearLooks& near) noexcept {
+// The sample of a window at which they are nearest: at either end of a span that lies in it.
+std::size_t nearest_sample(const Window& window, const PairSamples& near) noexcept {
   std::size_t begin = window.begin();
   std::size_t end = window.end();
   while (begin < end && !window.holds(begin)) {
@@ -61,7 +61,7 @@ std::size_t nearest_look(const Window& window, const NearLooks& near) noexcept {
 // The ego and one actor all along.
 class Pair {
  public:
-  Pair(const AtlasEgo& ego, std::size_t actor, const Track& track, const Looks& looks,
+  Pair(const AtlasEgo& ego, std::size_t actor, const Track& track, const PoseSamples& samples,
        const world::SpreadOverTime* spread) noexcept;
 
   /// The first group of spans in which they may touch; num_groups: in none.
@@ -69,40 +69,40 @@ class Pair {
   /// They never come nearer at the mean, as far as is known.
   [[nodiscard]] double least() const noexcept { return std::min(least_, least_elsewhere_); }
   /// All but the clearance.
-  [[nodiscard]] Meeting meet(double until) noexcept;
+  [[nodiscard]] ContactForecast meet(double until) noexcept;
   /// Lowers the clearance that `nearest` has, and says when, where these two come nearer until
   /// then. After `meet`.
-  void approach(double until, Meeting& nearest) const noexcept;
+  void approach(double until, ContactForecast& nearest) const noexcept;
 
  private:
-  [[nodiscard]] double last_look() const noexcept;
+  [[nodiscard]] double last_sample() const noexcept;
   template <class Matters>
   [[nodiscard]] Window window(double until, const Matters& matters) const noexcept;
   [[nodiscard]] std::optional<double> touch_within(double from, double to) const noexcept;
   [[nodiscard]] std::optional<double> first_touch(const Window& window,
-                                                  const NearLooks& near) const noexcept;
+                                                  const PairSamples& near) const noexcept;
   [[nodiscard]] double touch_between(double apart, double high, double touching,
                                      double low) const noexcept;
 
-  CloserLook both_;
+  NarrowPhase both_;
   double first_ = 0.0;           // the actor is there from then on [s]
   double last_ = 0.0;            // and looked at until then [s]
   std::size_t begin_group_ = 0;  // in which both are there
   std::size_t end_group_ = 0;
   std::size_t first_group_ = num_groups;
   std::array<float, num_groups> group_gap_{};
-  Window seen_;                       // looked over by `meet`
-  std::size_t nearest_ = 0;           // look of it
+  Window seen_;                       // compared by `meet`
+  std::size_t nearest_ = 0;           // sample of it
   double least_ = endless;            // there
   double least_elsewhere_ = endless;  // outside
 };
 
-Pair::Pair(const AtlasEgo& ego, std::size_t actor, const Track& track, const Looks& looks,
+Pair::Pair(const AtlasEgo& ego, std::size_t actor, const Track& track, const PoseSamples& samples,
            const world::SpreadOverTime* spread) noexcept
-    : both_(ego, actor, track, looks, spread),
-      first_(std::max(0.0, looks.from)),
-      last_(last_look()),
-      group_gap_(group_gaps(ego.looks(), looks)) {
+    : both_(ego, actor, track, samples, spread),
+      first_(std::max(0.0, samples.from)),
+      last_(last_sample()),
+      group_gap_(group_gaps(ego.samples(), samples)) {
   const auto group_of = [](double time) {
     return std::min(span_at(time), num_spans - 1) / spans_per_group;
   };
@@ -116,13 +116,13 @@ Pair::Pair(const AtlasEgo& ego, std::size_t actor, const Track& track, const Loo
   first_group_ = num_groups;
 }
 
-double Pair::last_look() const noexcept {
+double Pair::last_sample() const noexcept {
   const AtlasEgo& ego = both_.ego();
-  const Looks& other = both_.looks();
+  const PoseSamples& other = both_.samples();
   if (ego.path().rests) {
     return other.goes ? other.end : std::max(ego.path().end, other.end);
   }
-  return other.goes ? std::min(ego.last_look(), other.end) : ego.last_look();
+  return other.goes ? std::min(ego.last_sample(), other.end) : ego.last_sample();
 }
 
 // The groups of spans from the first to the last in which they come as near as matters.
@@ -149,11 +149,11 @@ double Pair::touch_between(double apart, double high, double touching, double lo
 }
 
 std::optional<double> Pair::touch_within(double from, double to) const noexcept {
-  CloserLook::Look before = both_.look(from);
+  NarrowPhase::PairState before = both_.state_at(from);
   if (before.size <= 0.0) {
     return from;
   }
-  if (to - from < looks_end) {  // one span, or some
+  if (to - from < samples_end) {  // one span, or some
     const double size = both_.gap_at(to);
     if (size <= 0.0) {
       return touch_between(from, before.size, to, size);
@@ -167,7 +167,7 @@ std::optional<double> Pair::touch_within(double from, double to) const noexcept 
     if (!(next < to)) {
       break;
     }
-    const CloserLook::Look now = both_.look(next);
+    const NarrowPhase::PairState now = both_.state_at(next);
     if (now.size <= 0.0) {
       return touch_between(before.time, before.size, next, now.size);
     }
@@ -177,25 +177,25 @@ std::optional<double> Pair::touch_within(double from, double to) const noexcept 
 }
 
 std::optional<double> Pair::first_touch(const Window& window,
-                                        const NearLooks& near) const noexcept {
+                                        const PairSamples& near) const noexcept {
   for (std::size_t k = window.begin(); window.any && k < window.end(); ++k) {
-    const double from = std::max(window.from, look_time(k));
-    const double to = std::min(window.to, look_time(k + 1));
+    const double from = std::max(window.from, sample_time(k));
+    const double to = std::min(window.to, sample_time(k + 1));
     if (near.least[k] <= 0.0F && from <= to) {
       if (const auto touch = touch_within(from, to)) {
         return touch;
       }
     }
   }
-  return window.to > looks_end ? touch_within(std::max(window.from, looks_end), window.to)
-                               : std::nullopt;
+  return window.to > samples_end ? touch_within(std::max(window.from, samples_end), window.to)
+                                 : std::nullopt;
 }
 
 // At the mean, of two that do not touch.
-void Pair::approach(double until, Meeting& nearest) const noexcept {
+void Pair::approach(double until, ContactForecast& nearest) const noexcept {
   double& best = nearest.clearance;
-  const auto look_near = [&](const Window& window, std::size_t look) {
-    narrow(window, look, 6, [&](double time) {
+  const auto look_near = [&](const Window& window, std::size_t sample) {
+    narrow(window, sample, 6, [&](double time) {
       const double distance = both_.distance_at(time);
       if (!(distance < best)) {
         return false;
@@ -211,22 +211,22 @@ void Pair::approach(double until, Meeting& nearest) const noexcept {
   if (least_elsewhere_ < best) {
     const Window all = window(until, [&](double /*time*/) { return best; });
     if (all.any) {
-      NearLooks near;
-      look_over(both_.ego().looks(), both_.looks(), all.first, all.last, near);
+      PairSamples near;
+      compare_samples(both_.ego().samples(), both_.samples(), all.first, all.last, near);
       if (least_of(all, near) < best) {
-        look_near(all, nearest_look(all, near));
+        look_near(all, nearest_sample(all, near));
       }
     }
   }
 }
 
-Meeting Pair::meet(double until) noexcept {
+ContactForecast Pair::meet(double until) noexcept {
   seen_ = window(
       until, [&](double time) { return both_.spreads() ? sure_sd * both_.sd_until(time) : 0.0; });
-  Meeting found;
-  NearLooks near;
+  ContactForecast found;
+  PairSamples near;
   if (seen_.any) {
-    look_over(both_.ego().looks(), both_.looks(), seen_.first, seen_.last, near);
+    compare_samples(both_.ego().samples(), both_.samples(), seen_.first, seen_.last, near);
     least_ = least_of(seen_, near);
   }
   for (std::size_t g = begin_group_; g < end_group_; ++g) {
@@ -234,11 +234,11 @@ Meeting Pair::meet(double until) noexcept {
     const auto gap = static_cast<double>(group_gap_[g]);
     least_elsewhere_ = seen ? least_elsewhere_ : std::min(least_elsewhere_, gap);
   }
-  if (!(least_ > 0.0) || seen_.to > looks_end) {
+  if (!(least_ > 0.0) || seen_.to > samples_end) {
     found.contact = first_touch(seen_, near);
   }
   if (!found.contact && seen_.any) {
-    nearest_ = nearest_look(seen_, near);
+    nearest_ = nearest_sample(seen_, near);
   }
   if (both_.spreads()) {
     find_likeliest(both_, seen_, near, found);
@@ -253,9 +253,9 @@ class Pairs {
  public:
   Pairs() noexcept {}  // NOLINT(*-member-init): that is what it is for
 
-  void add(const AtlasEgo& ego, std::size_t actor, const Track& track, const Looks& looks,
+  void add(const AtlasEgo& ego, std::size_t actor, const Track& track, const PoseSamples& samples,
            const world::SpreadOverTime* spread) noexcept {
-    std::construct_at(&pairs_[actor], ego, actor, track, looks, spread);
+    std::construct_at(&pairs_[actor], ego, actor, track, samples, spread);
   }
   [[nodiscard]] Pair& operator[](std::size_t actor) noexcept { return pairs_[actor]; }
 
@@ -267,8 +267,9 @@ class Pairs {
 };
 
 // Gives all the smallest distance that any of them has at the mean, and says of whose it is when.
-void find_clearance(Pairs& pairs, double of_interest, double until, Meetings& all) noexcept {
-  Meeting least{.clearance = of_interest};
+void find_clearance(Pairs& pairs, double of_interest, double until,
+                    ContactForecasts& all) noexcept {
+  ContactForecast least{.clearance = of_interest};
   std::optional<std::size_t> whose;
   std::array<bool, world::max_actors> done{};
   while (least.clearance > 0.0) {
@@ -286,7 +287,7 @@ void find_clearance(Pairs& pairs, double of_interest, double until, Meetings& al
     whose = least.clearance < before ? nearest : whose;
     done[nearest] = true;
   }
-  for (Meeting& met : all) {
+  for (ContactForecast& met : all) {
     met.clearance = least.clearance;
   }
   if (whose) {
@@ -296,14 +297,15 @@ void find_clearance(Pairs& pairs, double of_interest, double until, Meetings& al
 
 }  // namespace
 
-Meetings meetings(const AtlasEgo& ego, std::span<const Track> tracks, std::span<const Looks> looks,
-                  std::span<const world::SpreadOverTime> spreads, double of_interest,
-                  double until) noexcept {
-  Meetings all;
+ContactForecasts meetings(const AtlasEgo& ego, std::span<const Track> tracks,
+                          std::span<const PoseSamples> samples,
+                          std::span<const world::SpreadOverTime> spreads, double of_interest,
+                          double until) noexcept {
+  ContactForecasts all;
   Pairs pairs;
   std::array<std::size_t, world::max_actors> order;  // who may be struck first, first
   for (std::size_t i = 0; i < tracks.size(); ++i) {
-    pairs.add(ego, i, tracks[i], looks[i], spreads.empty() ? nullptr : &spreads[i]);
+    pairs.add(ego, i, tracks[i], samples[i], spreads.empty() ? nullptr : &spreads[i]);
     all.push_back({});
     std::size_t place = i;
     for (; place > 0 && pairs[order[place - 1]].first_group() > pairs[i].first_group(); --place) {

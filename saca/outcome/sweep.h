@@ -4,20 +4,20 @@
 
 #include "saca/core/static_vector.h"
 #include "saca/outcome/atlas_ego.h"
-#include "saca/outcome/looks.h"
-#include "saca/outcome/meeting.h"
+#include "saca/outcome/broad_phase.h"
+#include "saca/outcome/contact_forecast.h"
 #include "saca/world/scene.h"
 #include "saca/world/track.h"
 
 namespace saca::outcome {
 
 /// One for each actor.
-using Meetings = StaticVector<Meeting, world::max_actors>;
+using ContactForecasts = StaticVector<ContactForecast, world::max_actors>;
 
 /// The ego and all others: when do they meet, how near do they come, how likely is it?
 ///
 /// @param tracks        one for each actor of the scene
-/// @param looks         of the tracks, from where the ego is at the scene's time
+/// @param samples         of the tracks, from where the ego is at the scene's time
 /// @param spreads       likewise, about them, or none at all: as perceived
 /// @param of_interest   larger clearances are not told apart [m]
 /// @param until         what comes later does not matter [s since the scene's time]
@@ -30,9 +30,9 @@ using Meetings = StaticVector<Meeting, world::max_actors>;
 /// of the actor's place (which grow with its velocity's) and of the ego's under wrong grip against
 /// the gap along whichever axis of either body makes contact least likely: they touch when they do
 /// along all. It is the chance of one instant, not of all of them together.
-[[nodiscard]] Meetings meetings(const AtlasEgo& ego, std::span<const world::Track> tracks,
-                                std::span<const Looks> looks,
-                                std::span<const world::SpreadOverTime> spreads, double of_interest,
-                                double until) noexcept;
+[[nodiscard]] ContactForecasts meetings(const AtlasEgo& ego, std::span<const world::Track> tracks,
+                                        std::span<const PoseSamples> samples,
+                                        std::span<const world::SpreadOverTime> spreads,
+                                        double of_interest, double until) noexcept;
 
 }  // namespace saca::outcome

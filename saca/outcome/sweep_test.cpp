@@ -44,10 +44,11 @@ world::Scene random_scene(std::mt19937_64& rng, world::Track& track) {
   return scene;
 }
 
-Meeting meeting(const AtlasEgo& ego, const world::Track& track, double of_interest) {
+ContactForecast forecast(const AtlasEgo& ego, const world::Track& track, double of_interest) {
   const world::Scene& scene = ego.scene();
-  const std::array looks{looks_of(track, scene.actors[0].footprint, scene.time, scene.ego.X_WB.p)};
-  return meetings(ego, std::span(&track, 1), looks, {}, of_interest, 1e9)[0];
+  const std::array samples{
+      pose_samples_of(track, scene.actors[0].footprint, scene.time, scene.ego.X_WB.p)};
+  return meetings(ego, std::span(&track, 1), samples, {}, of_interest, 1e9)[0];
 }
 
 TEST(Sweep, FindsTheContactsAndTheClearanceOfTheExactSearch) {
@@ -60,12 +61,12 @@ TEST(Sweep, FindsTheContactsAndTheClearanceOfTheExactSearch) {
     const auto policy = manoeuvre::all_policies[static_cast<std::size_t>(i) % 8];
     const AtlasPath path = small_atlas().path(atlas_plan(policy, scene.ego.v_B.x), scene);
     const AtlasEgo ego(path, scene);
-    const double until = path.rests ? 8.0 : std::min(8.0, ego.last_look());
+    const double until = path.rests ? 8.0 : std::min(8.0, ego.last_sample());
     const world::Track mine = sampled(ego, until);
     const Approach truth =
         approach(Mover(scene.ego_footprint, mine), Mover(scene.actors[0].footprint, track),
                  scene.time, scene.time + until, far_away);
-    const Meeting told = meeting(ego, track, far_away);
+    const ContactForecast told = forecast(ego, track, far_away);
     const bool graze = !truth.contact && truth.distance < 0.02;
     if (graze) {
       continue;
@@ -107,7 +108,7 @@ TEST(Sweep, ProbabilityIsThatOfTheNormalDistribution) {
     scene.actors.push_back(actor);
     const world::Track track = steady(actor.X_WA, {}, 0.0, 5.0);
     const AtlasPath path = small_atlas().path({PolicyId::no_intervention, std::nullopt}, scene);
-    const Meeting told = meeting(AtlasEgo(path, scene), track, 100.0);
+    const ContactForecast told = forecast(AtlasEgo(path, scene), track, 100.0);
     const double normal = 0.5 * std::erfc(gap / (0.3 * std::sqrt(2.0)));
     EXPECT_NEAR(told.probability, normal, gap < 0.0 ? 0.03 : 0.01) << gap;
   }
@@ -129,23 +130,24 @@ TEST(Sweep, ManyAreAsEachAlone) {
     const auto policy = manoeuvre::all_policies[static_cast<std::size_t>(i) % 8];
     const AtlasPath path = small_atlas().path(atlas_plan(policy, scene.ego.v_B.x), scene);
     const AtlasEgo ego(path, scene);
-    std::vector<Looks> looks;
+    std::vector<PoseSamples> samples;
     std::optional<double> first;
     double least = far_away;
     for (std::size_t k = 0; k < tracks.size(); ++k) {
-      looks.push_back(looks_of(tracks[k], scene.actors[k].footprint, scene.time, scene.ego.X_WB.p));
+      samples.push_back(
+          pose_samples_of(tracks[k], scene.actors[k].footprint, scene.time, scene.ego.X_WB.p));
       world::Scene alone = scene;
       alone.actors.clear();
       alone.actors.push_back(scene.actors[k]);
-      const Meeting told = meeting(AtlasEgo(path, alone), tracks[k], far_away);
+      const ContactForecast told = forecast(AtlasEgo(path, alone), tracks[k], far_away);
       if (told.contact && (!first || *told.contact < *first)) {
         first = told.contact;
       }
       least = std::min(least, told.clearance);
     }
-    const Meetings all = meetings(ego, tracks, looks, {}, far_away, 1e9);
+    const ContactForecasts all = meetings(ego, tracks, samples, {}, far_away, 1e9);
     std::optional<double> met;
-    for (const Meeting& one : all) {
+    for (const ContactForecast& one : all) {
       met = one.contact && (!met || *one.contact < *met) ? one.contact : met;
     }
     ASSERT_EQ(met.has_value(), first.has_value()) << i;
@@ -154,7 +156,7 @@ TEST(Sweep, ManyAreAsEachAlone) {
     } else {
       ++untouched;
       double told = far_away;
-      for (const Meeting& one : all) {
+      for (const ContactForecast& one : all) {
         told = std::min(told, one.clearance);
       }
       // Each alone is looked at between other neighbours: what a search of its minimum leaves.

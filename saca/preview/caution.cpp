@@ -49,7 +49,7 @@ intent::Beliefs cautious(const world::Scene& scene, intent::Beliefs beliefs,
   for (std::size_t i = 0; i < beliefs.size(); ++i) {
     const double least = least_braking(scene, scene.actors[i], thresholds, caution);
     const Intention slows =
-        intent::is_walker(scene.actors[i].kind) ? Intention::stop : Intention::brake;
+        intent::is_vru(scene.actors[i].kind) ? Intention::stop : Intention::brake;
     for (IntentPosterior& posterior : beliefs[i].at) {
       const double braking = braking_probability(posterior);
       if (braking >= least) {

@@ -32,18 +32,18 @@ Scene followed() {
   return scene;
 }
 
-/// Brakes with 6 m/s^2 from 1 s on; from `blow` on, turning, as hard as that, to rest.
-Track struck_at(double blow, double deceleration) {
+/// Brakes with 6 m/s^2 from 1 s on; from `impact` on, turning, as hard as that, to rest.
+Track struck_at(double impact, double deceleration) {
   Track track{.step = 0.04, .X_WA = {}};
   Pose pose;
   double speed = 20.0;
   for (int k = 0; k <= 400 && speed > 0.0; ++k) {
     track.X_WA.push_back(pose);
     const double time = k * track.step;
-    const double braking = time >= blow ? deceleration : time >= 1.0 ? 6.0 : 0.0;
+    const double braking = time >= impact ? deceleration : time >= 1.0 ? 6.0 : 0.0;
     speed = std::max(0.0, speed - braking * track.step);
     pose.p.x += speed * track.step;
-    pose.yaw += time >= blow ? 0.02 : 0.0;
+    pose.yaw += time >= impact ? 0.02 : 0.0;
   }
   return track;
 }
@@ -75,9 +75,9 @@ TEST(FollowerAnswers, AreThoseOfLetReact) {
     if (remembers) {
       answers.remember(struck_at(100.0, 0.0));
     }
-    for (const double blow : {100.0, 2.0, 3.0, 2.5, 0.0, 0.5, 3.0, 100.0}) {
+    for (const double impact : {100.0, 2.0, 3.0, 2.5, 0.0, 0.5, 3.0, 100.0}) {
       for (const double deceleration : {8.0, 30.0}) {
-        const Track X_WB = struck_at(blow, deceleration);
+        const Track X_WB = struck_at(impact, deceleration);
         expect_as_let_react(scene, answers.to(X_WB, 2), X_WB);
       }
     }

@@ -174,12 +174,12 @@ std::vector<RolledOut> tried(const manoeuvre::Car& car, std::span<const outcome:
       driven.push_back(attempt);
     }
   }
-  std::vector<outcome::Course> courses = roll_out_all(car, driven, harm, threads);
-  auto next = courses.begin();
-  for (auto& [facts, course] : all) {
+  std::vector<outcome::CollisionSequence> sequences = roll_out_all(car, driven, harm, threads);
+  auto next = sequences.begin();
+  for (auto& [facts, sequence] : all) {
     if (facts.drivable()) {
-      course = std::move(*next++);
-      facts.end = RolledOutcome{course.outcome};
+      sequence = std::move(*next++);
+      facts.end = RolledOutcome{sequence.outcome};
     }
   }
   return all;

@@ -69,7 +69,7 @@ using Plans =
 /// What one plan led to with full dynamics.
 struct RolledOut {
   PolicyFacts facts;
-  outcome::Course course;  ///< to its end; empty when refused
+  outcome::CollisionSequence sequence;  ///< to its end; empty when refused
 };
 /// outcome::roll_out_all of those attempts that can be driven; the others are refused.
 /// @return  in the order of `attempts`

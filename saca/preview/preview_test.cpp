@@ -118,7 +118,7 @@ TEST(Situations, PlacesAtTheTriggerAreAsUnsureAsTheForecast) {
   const double t = trigger.time;
   ASSERT_GT(t, 2.0);
   const double perceived = 0.3 * 0.3 + 0.01 * t * t;
-  const double wavered = intent::wavering_sd(intent::MotionLaw().driving, t);
+  const double wavered = intent::ornstein_uhlenbeck_sd(intent::MotionLaw().driving, t);
   EXPECT_EQ(found[0].intentions[0], intent::Intention::maintain);
   EXPECT_EQ(found[0].intentions[1], intent::Intention::maintain);
   const world::Spread first = spread_at(found[0].spreads[0], t);
@@ -129,7 +129,7 @@ TEST(Situations, PlacesAtTheTriggerAreAsUnsureAsTheForecast) {
   EXPECT_NEAR(beside.along_sd, std::sqrt(perceived + wavered * wavered), 3e-3);
   EXPECT_NEAR(beside.across_sd, std::sqrt(perceived), 1e-3);
   // A second later it has been seen again: what has come since is that of a second.
-  const double a_second = intent::wavering_sd(intent::MotionLaw().driving, 1.0);
+  const double a_second = intent::ornstein_uhlenbeck_sd(intent::MotionLaw().driving, 1.0);
   EXPECT_NEAR(spread_at(found[0].spreads[0], t + 1.0).along_sd,
               std::sqrt(0.3 * 0.3 + 0.01 + a_second * a_second), 3e-3);
 }
@@ -207,7 +207,7 @@ TEST(Situations, WhoCrossesIsUnsureByTheTriggersTolerance) {
   const double t = found[0].scene_at_trigger.time;
   const double along = 8.0 * Thresholds().trigger_tolerance / std::sqrt(3.0);
   EXPECT_NEAR(spread_at(found[0].spreads[0], t).along_sd,
-              std::min(along, intent::wavering_sd(law.driving, t)), 1e-3);
+              std::min(along, intent::ornstein_uhlenbeck_sd(law.driving, t)), 1e-3);
   EXPECT_NEAR(spread_at(found[0].spreads[0], t).across_sd, 0.0, 1e-9);
 }
 

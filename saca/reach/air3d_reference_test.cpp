@@ -51,7 +51,7 @@ std::vector<Real> start(const Grid& grid, const Air3d& game = {}) {
 
 template <class Real>
 std::vector<Real> solved(const Grid& grid, double horizon, const Settings& settings = {},
-                         const Air3d& game = {}, Level level = best_level()) {
+                         const Air3d& game = {}, SimdLevel level = best_level()) {
   return marched(grid, own_flow<Real>(grid, game, Differences::weno5, level),
                  start<Real>(grid, game), horizon, settings);
 }
@@ -73,7 +73,7 @@ Distance distance(const std::vector<Real>& values, const json& cells) {
 }
 
 template <class Real>
-void expect_as_reference(const std::string& precision, int x_points, Level level) {
+void expect_as_reference(const std::string& precision, int x_points, SimdLevel level) {
   const auto [grid, wanted] = solution(precision, x_points);
   const auto values = solved<Real>(grid, reference()["horizon_s"], {.tube = Tube::tube}, {}, level);
   const double volume = wanted["tube_volume_m2_rad"];
@@ -105,7 +105,7 @@ TEST(Air3dReference, FineGridsDoublesAndEachInstructionSetGiveTheSameTube) {
     GTEST_SKIP() << "SACA_SOAK_AIR3D is not set";
   }
   for (const int x_points : {51, 101}) {
-    for (const Level level : test::those_here({Level::baseline, Level::avx2})) {
+    for (const SimdLevel level : test::those_here({SimdLevel::baseline, SimdLevel::avx2})) {
       expect_as_reference<float>("float", x_points, level);
       expect_as_reference<double>("double", x_points, level);
     }

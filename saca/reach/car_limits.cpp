@@ -10,8 +10,8 @@ namespace saca::reach {
 
 Avoidance avoidance_of(const vehicle::Vehicle& car, double grip) {
   expects(grip > 0.0, "grip > 0");
-  const double wheelbase = car.front_arm + car.rear_arm;
-  const double front_load = car.rear_arm / wheelbase;  // of the weight
+  const double wheelbase = car.cg_to_front_axle + car.cg_to_rear_axle;
+  const double front_load = car.cg_to_rear_axle / wheelbase;  // of the weight
   // An axle that takes a part of the drive spins when that exceeds its load's part of the grip.
   const auto most = [](double load, double part) {
     return part > 0.0 ? load / part : std::numeric_limits<double>::infinity();
@@ -21,7 +21,7 @@ Avoidance avoidance_of(const vehicle::Vehicle& car, double grip) {
   const double by_motor = car.motor_limit / (car.wheel_radius * car.mass * vehicle::gravity * grip);
   return {.grip = grip,
           .tightest_curvature =
-              1.0 / std::hypot(wheelbase / std::tan(car.steering_limit), car.rear_arm),
+              1.0 / std::hypot(wheelbase / std::tan(car.steering_limit), car.cg_to_rear_axle),
           .drive_share = std::min({1.0, by_grip, by_motor}),
           .obstacle_speed = 0.0};
 }

@@ -13,8 +13,8 @@ namespace {
 vehicle::Vehicle rear_driven() {
   vehicle::Vehicle car{};
   car.mass = 1'700.0;
-  car.front_arm = 1.35;
-  car.rear_arm = 1.45;
+  car.cg_to_front_axle = 1.35;
+  car.cg_to_rear_axle = 1.45;
   car.wheel_radius = 0.32;
   car.steering_limit = 35.0 * std::numbers::pi / 180.0;
   car.motor_limit = 3'200.0;

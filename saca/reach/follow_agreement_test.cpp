@@ -15,7 +15,7 @@
 
 #include "saca/core/angle.h"
 #include "saca/reach/avoidance_case.h"
-#include "saca/reach/danger_set.h"
+#include "saca/reach/danger_cases.h"
 #include "saca/reach/follow.h"
 #include "saca/reach/intrusion.h"
 #include "saca/reach/solve.h"
@@ -207,8 +207,8 @@ TEST(FollowAgreement, OnTheGridsOfTheFiles) {
 std::vector<DangerTable> tables_of_a_car(double top_speed, const Avoidance& limits,
                                          const Footprint& ego) {
   std::vector<DangerTable> tables;
-  const std::array<ToBeJudged, 1> wanted{{{.obstacle = {.length = 4.8, .width = 1.9},  //
-                                           .top_speed = top_speed}}};
+  const std::array<ObstacleKind, 1> wanted{{{.obstacle = {.length = 4.8, .width = 1.9},  //
+                                             .top_speed = top_speed}}};
   const auto cases = danger_cases(limits, ego, limits.grip, wanted);
   for (const DangerCase& one : cases.value()) {
     tables.push_back({*one.asked.obstacle, one.asked.system.obstacle_speed, one.asked.view,

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "saca/core/level.h"
+#include "saca/core/simd_level.h"
 #include "saca/reach/air3d.h"
 #include "saca/reach/avoidance.h"
 #include "saca/reach/avoidance_ahead.h"
@@ -17,15 +17,15 @@ namespace saca::reach {
 template <class Real, class System>
 [[nodiscard]] Flow<Real> own_flow(const Grid& grid, const System& system,
                                   Differences differences = Differences::weno5,
-                                  Level level = best_level());
+                                  SimdLevel level = best_level());
 
-extern template Flow<float> own_flow(const Grid&, const Air3d&, Differences, Level);
-extern template Flow<double> own_flow(const Grid&, const Air3d&, Differences, Level);
-extern template Flow<float> own_flow(const Grid&, const Avoidance&, Differences, Level);
-extern template Flow<double> own_flow(const Grid&, const Avoidance&, Differences, Level);
-extern template Flow<float> own_flow(const Grid&, const AvoidanceAhead&, Differences, Level);
-extern template Flow<double> own_flow(const Grid&, const AvoidanceAhead&, Differences, Level);
-extern template Flow<float> own_flow(const Grid&, const EdgeAvoidance&, Differences, Level);
-extern template Flow<double> own_flow(const Grid&, const EdgeAvoidance&, Differences, Level);
+extern template Flow<float> own_flow(const Grid&, const Air3d&, Differences, SimdLevel);
+extern template Flow<double> own_flow(const Grid&, const Air3d&, Differences, SimdLevel);
+extern template Flow<float> own_flow(const Grid&, const Avoidance&, Differences, SimdLevel);
+extern template Flow<double> own_flow(const Grid&, const Avoidance&, Differences, SimdLevel);
+extern template Flow<float> own_flow(const Grid&, const AvoidanceAhead&, Differences, SimdLevel);
+extern template Flow<double> own_flow(const Grid&, const AvoidanceAhead&, Differences, SimdLevel);
+extern template Flow<float> own_flow(const Grid&, const EdgeAvoidance&, Differences, SimdLevel);
+extern template Flow<double> own_flow(const Grid&, const EdgeAvoidance&, Differences, SimdLevel);
 
 }  // namespace saca::reach

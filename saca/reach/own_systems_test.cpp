@@ -15,7 +15,7 @@ namespace {
 /// Values after a short march, in doubles.
 template <class System>
 std::vector<double> soon(const Grid& grid, const System& system, Differences differences,
-                         Level level) {
+                         SimdLevel level) {
   const auto h = sampled<double>(
       grid, [](auto x) { return 3.0 - std::hypot(x[0], 0.7 * x[1]); }, 1);
   return marched(grid, own_flow<double>(grid, system, differences, level), h, 0.2);
@@ -25,7 +25,7 @@ template <class System>
 void expect_levels_agree(const Grid& grid, const System& system) {
   for (const Differences differences :
        {Differences::upwind1, Differences::eno2, Differences::eno3, Differences::weno5}) {
-    const auto plain = soon(grid, system, differences, Level::baseline);
+    const auto plain = soon(grid, system, differences, SimdLevel::baseline);
     const auto wide = soon(grid, system, differences, best_level());
     ASSERT_EQ(plain.size(), wide.size());
     // ENO chooses between stencils, which a rounding may turn over where they are alike.
@@ -64,7 +64,7 @@ bool refused(const Grid& grid, const Flow<Real>& flow, const std::vector<Real>& 
 }
 
 template <class Real>
-void expect_nan_found(Level level, Tube tube) {
+void expect_nan_found(SimdLevel level, Tube tube) {
   const Grid grid = air3d_grid(9, 8, 6);
   Flow<Real> flow =
       own_flow<Real>(grid, Air3d{.pursuer_turn_rate = std::nan("")}, Differences::weno5, level);
@@ -75,7 +75,7 @@ void expect_nan_found(Level level, Tube tube) {
 }
 
 TEST(OwnFlow, FindsWhatIsNoNumberOnEachInstructionSet) {
-  for (const Level level : test::those_here({Level::baseline, Level::avx2})) {
+  for (const SimdLevel level : test::those_here({SimdLevel::baseline, SimdLevel::avx2})) {
     for (const Tube tube : {Tube::set, Tube::tube, Tube::highest}) {
       SCOPED_TRACE(testing::Message()
                    << test::name_of(level) << ", tube " << static_cast<int>(tube));

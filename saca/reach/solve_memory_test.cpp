@@ -101,7 +101,7 @@ class Memory : public testing::Test {
   }
 
   /// Beside the peak: enough, and not half as much again.
-  void expect_foretold(const Problem& problem, const Scheme& scheme) const {
+  void expect_predicted(const Problem& problem, const Scheme& scheme) const {
     fs::remove(folder_ / "a.h5");
     const auto told = static_cast<double>(memory_needed(problem, scheme));
     const double whole = rise([&] { solve_and_keep(problem, scheme, 1.0); });
@@ -129,8 +129,8 @@ TEST_F(Memory, OfSolvingIsForetold) {
   const Scheme floats{.differences = Differences::upwind1, .steps = Steps::tvd_rk2, .threads = 2};
   Scheme doubles = floats;
   doubles.doubles = true;
-  expect_foretold(moving(1000, 1), floats);
-  expect_foretold(moving(500, 4), doubles);
+  expect_predicted(moving(1000, 1), floats);
+  expect_predicted(moving(500, 4), doubles);
 }
 
 }  // namespace

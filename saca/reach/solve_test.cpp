@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "saca/core/contract.h"
-#include "saca/reach/danger_set.h"
+#include "saca/reach/danger_cases.h"
 #include "saca/reach/known_systems.h"
 #include "saca/reach/march_for_test.h"
 #include "saca/reach/own_systems.h"
@@ -206,7 +206,7 @@ TEST(Solve, FindsAnErrorThatWasNotAskedForBefore) {
 // and is to go on for longer. Before, an obstacle ahead comes nearer at up to 30 m/s.
 TEST(Solve, BesideAnObstacleAtRestFourSecondsAreEnough) {
   const Avoidance car;
-  const std::vector<ToBeJudged> parked{
+  const std::vector<ObstacleKind> parked{
       {.obstacle = {.shape = world::Shape::box, .length = 4.8, .width = 1.9}, .top_speed = 0.0}};
   const auto cases = danger_cases(car, parked[0].obstacle, car.grip, parked).value();
   ASSERT_EQ(cases.size(), 1U);

@@ -13,9 +13,9 @@
 #include <string_view>
 #include <utility>
 
+#include "saca/config/checksummed_file.h"
 #include "saca/config/hdf5_reader.h"
 #include "saca/config/hdf5_writer.h"
-#include "saca/config/sealed_file.h"
 #include "saca/core/contract.h"
 #include "saca/core/names.h"
 
@@ -262,11 +262,11 @@ std::optional<Error> write_solved(const fs::path& path, const Solved& solved) {
   if (!body) {
     return Error{Error::Code::unwritable, path.string() + ": HDF5 cannot make the file in memory"};
   }
-  return config::write_sealed(path, file_format, *body);
+  return config::write_checksummed(path, file_format, *body);
 }
 
 Result<Solved> read_solved(const fs::path& path) {
-  if (const auto problem = config::check_sealed(path, file_format)) {
+  if (const auto problem = config::verify_checksum(path, file_format)) {
     return *problem;
   }
   try {

@@ -87,12 +87,12 @@ class ValueFile : public ::testing::Test {
     ASSERT_GE(file, 0);
     change(file);
     ASSERT_GE(H5Fclose(file), 0);
-    put(sealed(read_file(plain).value()));
+    put(checksummed(read_file(plain).value()));
   }
 
   /// As docs/formats.md tells it.
-  [[nodiscard]] static std::string sealed(const std::string& body,
-                                          const std::string& format = "saca.value/2") {
+  [[nodiscard]] static std::string checksummed(const std::string& body,
+                                               const std::string& format = "saca.value/2") {
     Fnv sum;
     sum.add(body);
     std::array<char, 17> digits{};
@@ -209,9 +209,9 @@ TEST_F(ValueFile, RefusesWhatIsNoSuchFile) {
   const std::string body = bytes().substr(512);
   put(body);
   EXPECT_THAT(refusal(), HasSubstr("got HDF5 of another kind"));
-  put(sealed(body, "saca.value/3"));
+  put(checksummed(body, "saca.value/3"));
   EXPECT_THAT(refusal(), HasSubstr("want a file of saca.value/2, got saca.value/3"));
-  put(sealed("no HDF5 at all, but well sealed"));
+  put(checksummed("no HDF5 at all, but well sealed"));
   EXPECT_THAT(refusal(), HasSubstr("file: want HDF5, got what HDF5 cannot open"));
 }
 

@@ -155,13 +155,13 @@ std::optional<Error> RecordingModel::write(const std::filesystem::path& path) co
 Result<std::vector<Reply>> ReplayModel::reply_to(
     const std::vector<std::string>& scenes, Clock::Time deadline,
     const std::function<void(const Progress&)>& progress, const AskLimits& limits) {
-  struct Moment {
+  struct RecordedAnswer {
     std::size_t scene = 0;
     Answer answer;
   };
   const Clock::Time begin = clock_.now();
   std::vector<Reply> replies(scenes.size());
-  std::vector<Moment> moments;
+  std::vector<RecordedAnswer> recorded_answers;
   bool any_known = false;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const auto found = replies_.replies.find(prompt_key(scenes[i]));
@@ -173,32 +173,34 @@ Result<std::vector<Reply>> ReplayModel::reply_to(
     for (Answer answer : found->second.reply.answers) {
       answer.time += begin;
       if (answer.time < deadline) {
-        moments.push_back({i, answer});
+        recorded_answers.push_back({i, answer});
       }
     }
   }
-  std::stable_sort(moments.begin(), moments.end(),
-                   [](const Moment& a, const Moment& b) { return a.answer.time < b.answer.time; });
+  std::stable_sort(recorded_answers.begin(), recorded_answers.end(),
+                   [](const RecordedAnswer& a, const RecordedAnswer& b) {
+                     return a.answer.time < b.answer.time;
+                   });
   bool any_answer = false;
-  for (const Moment& moment : moments) {
+  for (const RecordedAnswer& next : recorded_answers) {
     if (pace_ == ReplayPace::as_recorded) {
-      clock_.wait_until_or_stop(moment.answer.time, limits.stop);
+      clock_.wait_until_or_stop(next.answer.time, limits.stop);
     }
     if (limits.stop.stop_requested()) {
       break;
     }
-    Reply& reply = replies[moment.scene];
-    if (moment.answer.kind != Answer::Kind::first && reply.reasoning.empty()) {
-      const Reply& recorded = replies_.replies.at(prompt_key(scenes[moment.scene])).reply;
+    Reply& reply = replies[next.scene];
+    if (next.answer.kind != Answer::Kind::first && reply.reasoning.empty()) {
+      const Reply& recorded = replies_.replies.at(prompt_key(scenes[next.scene])).reply;
       reply.reasoning = recorded.reasoning;
       reply.reply_tokens = recorded.reply_tokens;
       if (!reply.reasoning.empty()) {
-        progress({.prompt = moment.scene, .text = reply.reasoning, .answer = nullptr});
+        progress({.prompt = next.scene, .text = reply.reasoning, .answer = nullptr});
       }
     }
-    reply.answers.push_back(moment.answer);
+    reply.answers.push_back(next.answer);
     any_answer = true;
-    progress({.prompt = moment.scene, .text = {}, .answer = &reply.answers.back()});
+    progress({.prompt = next.scene, .text = {}, .answer = &reply.answers.back()});
   }
   if (any_answer) {
     return replies;

@@ -30,13 +30,18 @@ json column(const std::vector<Element>& elements, const Value& value) {
 
 json car_json(const DriveRecord& record) {
   const Vehicle& car = record.car;
-  return {
-      {"name", record.car_name},           {"mass_kg", car.mass},
-      {"front_arm_m", car.front_arm},      {"rear_arm_m", car.rear_arm},
-      {"track_width_m", car.track_width},  {"wheel_radius_m", car.wheel_radius},
-      {"length_m", car.body_length},       {"width_m", car.body_width},
-      {"front_end_m", car.front_end},      {"steering_limit_deg", to_degrees(car.steering_limit)},
-      {"motor_limit_Nm", car.motor_limit}, {"brake_limit_Nm", car.brake_limit}};
+  return {{"name", record.car_name},
+          {"mass_kg", car.mass},
+          {"front_arm_m", car.cg_to_front_axle},
+          {"rear_arm_m", car.cg_to_rear_axle},
+          {"track_width_m", car.track_width},
+          {"wheel_radius_m", car.wheel_radius},
+          {"length_m", car.body_length},
+          {"width_m", car.body_width},
+          {"front_end_m", car.front_end},
+          {"steering_limit_deg", to_degrees(car.steering_limit)},
+          {"motor_limit_Nm", car.motor_limit},
+          {"brake_limit_Nm", car.brake_limit}};
 }
 
 json wheel_json(const DriveRecord& record, std::size_t i) {
@@ -89,7 +94,7 @@ json spread_json(const std::vector<manoeuvre::Ending>& endings,
 
 json draws_json(const DriveRecord& record, const DriveDraws& draws) {
   using manoeuvre::Ending;
-  using manoeuvre::unknown_sd;
+  using manoeuvre::perturbation_sd;
   const auto& endings = draws.endings;
   json across;
   if (manoeuvre::drifts(record.plan.policy)) {
@@ -111,12 +116,12 @@ json draws_json(const DriveRecord& record, const DriveDraws& draws) {
       {"seed", draws.seed},
       {"count", endings.size()},
       {"unknown",
-       {{"grip_sd", unknown_sd.grip},
-        {"mass_sd", unknown_sd.mass},
-        {"yaw_inertia_sd", unknown_sd.yaw_inertia},
-        {"stiffness_sd", unknown_sd.stiffness},
-        {"lag_sd_s", unknown_sd.lag},
-        {"speed_sd_mps", unknown_sd.speed}}},
+       {{"grip_sd", perturbation_sd.grip},
+        {"mass_sd", perturbation_sd.mass},
+        {"yaw_inertia_sd", perturbation_sd.yaw_inertia},
+        {"stiffness_sd", perturbation_sd.stiffness},
+        {"lag_sd_s", perturbation_sd.lag},
+        {"speed_sd_mps", perturbation_sd.speed}}},
       {"within_10_deg", across},
       {"time_s", spread_json(endings, [](const Ending& e) { return e.time; })},
       {"forward_m", spread_json(endings, [](const Ending& e) { return e.X_WB.p.x; })},

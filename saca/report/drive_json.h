@@ -14,7 +14,7 @@ struct DriveSample {
   double time = 0.0;  ///< [s]
   vehicle::VehicleState state;
   vehicle::Command command;
-  vehicle::Contacts contacts{};
+  vehicle::WheelContacts contacts{};
 };
 
 /// The same manoeuvre again and again.

@@ -169,7 +169,7 @@ std::string harm_svg(const HarmModel& model) {
   }
   return chart_svg(
       {.heading = "How contact becomes harm",
-       .lines = {"What of each risk is due to the blow: the curves of data/harm.toml, less their "
+       .lines = {"What of each risk is due to the impact: the curves of data/harm.toml, less their "
                  "value at no speed at all."},
        .charts = {
            {"Occupants of vehicles", delta_v, chance, lines_of(risks, speeds, HarmOver::delta_v)},

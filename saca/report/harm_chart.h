@@ -19,7 +19,7 @@ struct HarmRisk {
   std::vector<double> values;  ///< (one per speed)
 };
 
-/// Probabilities that are due to the blow: occupants MAIS 3+ by the face struck; people outside
+/// Probabilities that are due to the impact: occupants MAIS 3+ by the face struck; people outside
 /// vehicles MAIS 3+ and killed.
 /// @param speeds  [m/s], >= 0
 [[nodiscard]] std::vector<HarmRisk> injury_risks(const outcome::HarmModel& model,

@@ -308,7 +308,7 @@ std::string confusion_svg(const ConfusionChart& chart) {
     out += svg_text("soft", {16.0, 40.0 + sample_line * static_cast<double>(i)},
                     fitted(chart.lines[i], usual_font, size.width - 32.0));
   }
-  out += svg_text("soft", {name_room + 0.5 * side, top + 8.0}, "foretold", Anchor::middle) +
+  out += svg_text("soft", {name_room + 0.5 * side, top + 8.0}, "predicted", Anchor::middle) +
          svg_text("soft", {16.0, top + 26.0}, "truth");
   for (std::size_t truth = 0; truth < charted_intentions; ++truth) {
     const auto& row = chart.counts.at(truth);
@@ -318,19 +318,19 @@ std::string confusion_svg(const ConfusionChart& chart) {
     out += svg_text("strong", {x_of_name, top + 26.0}, letters(truth), Anchor::middle);
     out += svg_text("strong", {name_room - 8.0, y + 27.0}, letters(truth), Anchor::end);
     out += svg_text("soft", {name_room - 8.0, y + 43.0}, fmt::format("{}", all), Anchor::end);
-    for (std::size_t foretold = 0; foretold < charted_intentions; ++foretold) {
-      const Vec2 at{name_room + cell * static_cast<double>(foretold), y};
+    for (std::size_t predicted = 0; predicted < charted_intentions; ++predicted) {
+      const Vec2 at{name_room + cell * static_cast<double>(predicted), y};
       const double share =
-          all == 0 ? 0.0 : static_cast<double>(row.at(foretold)) / static_cast<double>(all);
+          all == 0 ? 0.0 : static_cast<double>(row.at(predicted)) / static_cast<double>(all);
       out += svg_rect("fill-blue", at, {cell, cell},
                       fmt::format("fill-opacity=\"{}\"", svg_number(0.9 * share)));
       out += svg_rect("frame", at, {cell, cell});
-      if (row.at(foretold) > 0) {
+      if (row.at(predicted) > 0) {
         const std::string ink = share > 0.55 ? " on-dark" : "";
         out += svg_text("strong" + ink, at + Vec2{0.5 * cell, 28.0},
                         fmt::format("{:.1f} %", 100.0 * share), Anchor::middle);
         out += svg_text("soft" + ink, at + Vec2{0.5 * cell, 44.0},
-                        fmt::format("{}", row.at(foretold)), Anchor::middle);
+                        fmt::format("{}", row.at(predicted)), Anchor::middle);
       }
     }
   }

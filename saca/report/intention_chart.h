@@ -57,7 +57,7 @@ constexpr SvgSize intention_legend_size{600.0, 22.0};
 struct ConfusionChart {
   std::string title;
   std::vector<std::string> lines;  ///< below it
-  /// [truth][foretold]
+  /// [truth][predicted]
   std::array<std::array<std::size_t, charted_intentions>, charted_intentions> counts{};
 };
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "saca/core/level.h"
+#include "saca/core/simd_level.h"
 #include "saca/decide/forecaster.h"
 #include "saca/manoeuvre/atlas_build.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <random>
 
-#include "saca/manoeuvre/unknown.h"
+#include "saca/manoeuvre/parameter_perturbation.h"
 #include "saca/world/scene.h"
 
 namespace saca::sim {
@@ -25,8 +25,8 @@ struct ActorChance {
 /// One draw of everything that a scenario leaves to chance. As it stands, nothing: the scenario is
 /// played as written.
 struct Chance {
-  manoeuvre::Unknown car;  ///< of the ego and its road
-  double from = 0.0;       ///< when the actors' speeds begin to differ [s]
+  manoeuvre::ParameterPerturbation car;  ///< of the ego and its road
+  double from = 0.0;                     ///< when the actors' speeds begin to differ [s]
   std::array<ActorChance, world::max_actors> actors{};  ///< by index into Scenario::actors
   std::uint64_t perception = 0;                         ///< seed of what the sensors get wrong
 };

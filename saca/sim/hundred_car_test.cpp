@@ -100,7 +100,7 @@ TEST(RebuildHundredCar, FindsTheTruthBehindTheRadar) {
 TEST(RebuildHundredCar, CountsWhatItTreated) {
   std::vector<traffic::HundredCarRow> rows = rows_of_truth(2, 0.0);
   // Within the 1.2 m by which it may miss its place a tenth of a second later, so it is followed;
-  // but farther than 1 m from what its neighbours foretell.
+  // but farther than 1 m from what its neighbours predict.
   traffic::RadarTarget jumped = rows[60].front[0];
   jumped.range += 1.15;
   rows[60].front.clear();

@@ -66,7 +66,7 @@ Perception::Perception(const PerceptionModel& model, std::uint64_t seed)
   if (model.correlation_time > 0.0) {
     kept_ = std::exp(-step / model.correlation_time);
   }
-  moments_.resize(1 + static_cast<std::size_t>(std::lround(model.latency / step)));
+  snapshots_.resize(1 + static_cast<std::size_t>(std::lround(model.latency / step)));
   if (model != PerceptionModel{}) {
     beliefs_.resize(world::max_actors);
   }
@@ -74,9 +74,9 @@ Perception::Perception(const PerceptionModel& model, std::uint64_t seed)
 
 Scene Perception::look(const Scene& truth, std::span<const Actor> ghosts) {
   store(truth, ghosts);
-  const Moment& moment = measured_now();
+  const Snapshot& snapshot = measured_now();
   if (model_ == PerceptionModel{}) {
-    return moment.scene;
+    return snapshot.scene;
   }
   Scene scene = truth;
   scene.actors.clear();
@@ -87,9 +87,9 @@ Scene Perception::look(const Scene& truth, std::span<const Actor> ghosts) {
       scene.actors.push_back(as_known(belief, truth.time));
     }
   };
-  for (const Actor& actor : moment.scene.actors) {
+  for (const Actor& actor : snapshot.scene.actors) {
     Belief& belief = belief_of(actor);
-    update(belief, moment, actor);
+    update(belief, snapshot, actor);
     tell(belief);
   }
   for (Belief& belief : begun_beliefs()) {
@@ -103,21 +103,21 @@ Scene Perception::look(const Scene& truth, std::span<const Actor> ghosts) {
 
 void Perception::store(const Scene& truth, std::span<const Actor> ghosts) {
   if (num_looks_ > 0) {
-    const double last = moments_[(num_looks_ - 1) % moments_.size()].scene.time;
+    const double last = snapshots_[(num_looks_ - 1) % snapshots_.size()].scene.time;
     expects(std::abs(truth.time - last - step) < 1e-6, "looks are one step apart");
   }
-  Moment& moment = moments_[num_looks_ % moments_.size()];
-  moment = {truth, truth.actors.size()};
+  Snapshot& snapshot = snapshots_[num_looks_ % snapshots_.size()];
+  snapshot = {truth, truth.actors.size()};
   for (const Actor& ghost : ghosts) {
-    moment.scene.actors.push_back(ghost);
+    snapshot.scene.actors.push_back(ghost);
   }
-  expects(!world::broken_rule(moment.scene), "truth and ghosts make a scene");
+  expects(!world::broken_rule(snapshot.scene), "truth and ghosts make a scene");
   ++num_looks_;
 }
 
-const Perception::Moment& Perception::measured_now() const {
-  const bool full = num_looks_ >= moments_.size();
-  return moments_[full ? num_looks_ % moments_.size() : 0];
+const Perception::Snapshot& Perception::measured_now() const {
+  const bool full = num_looks_ >= snapshots_.size();
+  return snapshots_[full ? num_looks_ % snapshots_.size() : 0];
 }
 
 Perception::Belief& Perception::belief_of(const Actor& actor) {
@@ -159,14 +159,14 @@ Perception::Belief& Perception::free_place() {
 }
 
 // The same numbers are drawn at every look, seen or not: an actor's errors are its own.
-void Perception::update(Belief& belief, const Moment& moment, const Actor& actor) const {
+void Perception::update(Belief& belief, const Snapshot& snapshot, const Actor& actor) const {
   if (belief.num_looks > 0) {
     wander(belief);
   }
   belief.num_looks = num_looks_;
   const bool dropped = std::uniform_real_distribution<double>()(belief.rng) < model_.dropout;
-  if (!dropped && within_view(moment, actor)) {
-    measure(belief, actor, moment.scene.time);
+  if (!dropped && within_view(snapshot, actor)) {
+    measure(belief, actor, snapshot.scene.time);
   } else {
     miss(belief);
   }
@@ -192,13 +192,13 @@ void Perception::wander(Belief& belief) const {
   smoothed.heading += share * (errors.heading - smoothed.heading);
 }
 
-bool Perception::within_view(const Moment& moment, const Actor& actor) const {
-  const Scene& scene = moment.scene;
+bool Perception::within_view(const Snapshot& snapshot, const Actor& actor) const {
+  const Scene& scene = snapshot.scene;
   if (!(norm(actor.X_WA.p - scene.ego.X_WB.p) <= model_.range)) {
     return false;
   }
   return !model_.occlusion || in_sight(scene.ego.X_WB, scene.ego_footprint, actor,
-                                       {scene.actors.begin(), moment.num_real});
+                                       {scene.actors.begin(), snapshot.num_real});
 }
 
 void Perception::measure(Belief& belief, const Actor& actor, double time) const {

@@ -42,7 +42,7 @@ class Perception {
 
  private:
   /// What there was to see at one look: the truth, its actors followed by the ghosts.
-  struct Moment {
+  struct Snapshot {
     world::Scene scene;
     std::size_t num_real = 0;
   };
@@ -68,22 +68,22 @@ class Perception {
   };
 
   void store(const world::Scene& truth, std::span<const world::Actor> ghosts);
-  [[nodiscard]] const Moment& measured_now() const;
+  [[nodiscard]] const Snapshot& measured_now() const;
   [[nodiscard]] std::span<Belief> begun_beliefs() { return {beliefs_.data(), num_beliefs_}; }
   [[nodiscard]] Belief& belief_of(const world::Actor& actor);
   [[nodiscard]] Belief& free_place();
-  void update(Belief& belief, const Moment& moment, const world::Actor& actor) const;
+  void update(Belief& belief, const Snapshot& snapshot, const world::Actor& actor) const;
   [[nodiscard]] Errors draw(Belief& belief) const;
   void wander(Belief& belief) const;
-  [[nodiscard]] bool within_view(const Moment& moment, const world::Actor& actor) const;
+  [[nodiscard]] bool within_view(const Snapshot& snapshot, const world::Actor& actor) const;
   void measure(Belief& belief, const world::Actor& actor, double time) const;
   void miss(Belief& belief) const;
   [[nodiscard]] world::Actor as_known(const Belief& belief, double time) const;
 
   PerceptionModel model_;
   std::uint64_t seed_;
-  double kept_ = 0.0;            ///< share of an error that is left at the next look
-  std::vector<Moment> moments_;  ///< a ring, as long as the latency
+  double kept_ = 0.0;                ///< share of an error that is left at the next look
+  std::vector<Snapshot> snapshots_;  ///< a ring, as long as the latency
   std::size_t num_looks_ = 0;
   std::vector<Belief> beliefs_;  ///< room for max_actors
   std::size_t num_beliefs_ = 0;  ///< of them in use

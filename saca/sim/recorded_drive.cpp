@@ -32,7 +32,7 @@ std::optional<std::size_t> touched(const Scenario& scenario, const world::Footpr
 void note_departure(const world::Road& road, const world::Footprint& ego, const Pose& X_WB,
                     double time, std::optional<RecordedDeparture>& departure) {
   for (const outcome::Side side : {outcome::Side::left, outcome::Side::right}) {
-    const double beyond = -outcome::room(road, side, ego, X_WB);
+    const double beyond = -outcome::edge_clearance(road, side, ego, X_WB);
     if (beyond > 0.0 && !departure) {
       departure = RecordedDeparture{time, side, beyond};
     } else if (beyond > 0.0 && departure->side == side) {

@@ -97,11 +97,11 @@ world::Scene Stepper::perceive() {
   return perception_->look(truth, {ghosts.begin(), ghosts.size()});
 }
 
-manoeuvre::Unknown Stepper::unknown_from_now() const {
-  manoeuvre::Unknown unknown = chance_.car;
-  unknown.grip = 1.0;
-  unknown.speed = 0.0;
-  return unknown;
+manoeuvre::ParameterPerturbation Stepper::perturbation_from_now() const {
+  manoeuvre::ParameterPerturbation perturbation = chance_.car;
+  perturbation.grip = 1.0;
+  perturbation.speed = 0.0;
+  return perturbation;
 }
 
 outcome::Others Stepper::others() const {

@@ -49,7 +49,7 @@ class Stepper {
   [[nodiscard]] world::Scene perceive();
 
   /// How the real car differs from what the ego takes it for; grip() and the scene hold the rest.
-  [[nodiscard]] manoeuvre::Unknown unknown_from_now() const;
+  [[nodiscard]] manoeuvre::ParameterPerturbation perturbation_from_now() const;
 
   /// True friction coefficient.
   [[nodiscard]] double grip() const { return grip_; }

@@ -91,11 +91,11 @@ TEST(Stepper, AnActorIsNotThereBeforeItsFirstSample) {
   const world::Scene whole = stepper.whole_scene();
   ASSERT_EQ(whole.actors.size(), 2U);
   EXPECT_EQ(whole.actors[1].X_WA.p.x, 80.0);
-  const auto foretold = stepper.others()(standing_at(stepper.time()));
-  ASSERT_EQ(foretold.size(), 2U);
-  EXPECT_NEAR(foretold[0].start, 1.99, 1e-9);
-  EXPECT_NEAR(foretold[1].start, 2.0, 1e-9);
-  EXPECT_NEAR(pose_at(foretold[1], 3.0).p.x, 90.0, 1e-9);
+  const auto predicted = stepper.others()(standing_at(stepper.time()));
+  ASSERT_EQ(predicted.size(), 2U);
+  EXPECT_NEAR(predicted[0].start, 1.99, 1e-9);
+  EXPECT_NEAR(predicted[1].start, 2.0, 1e-9);
+  EXPECT_NEAR(pose_at(predicted[1], 3.0).p.x, 90.0, 1e-9);
   advance(stepper, 20);
   EXPECT_EQ(stepper.scene().actors.size(), 2U);
   EXPECT_NEAR(stepper.others()(standing_at(stepper.time()))[1].start, 2.01, 1e-9);
@@ -150,7 +150,7 @@ TEST(Stepper, ARecordedFollowerReactsFromWhenTheWheelIsTaken) {
 }
 
 // Whatever happens later, motions that agree up to a time have tracks that agree up to it; and what
-// was foretold comes true.
+// was predicted comes true.
 TEST(Stepper, OthersForetellWhatTheStepperThenDoes) {
   Script follow{.start = {.s = -16.6}, .speed = 20.0, .behaviour = Behaviour::follow};
   follow.law = intent::content_with(intent::usual_driver(20.0), 20.0, 11.9);
@@ -176,10 +176,10 @@ TEST(Stepper, OthersForetellWhatTheStepperThenDoes) {
       seen.push_back(stepper.scene().actors[0].X_WA.p.x);
     }
   }
-  const world::Track foretold = others(motion).at(0);
-  ASSERT_GE(foretold.X_WA.size(), seen.size());
+  const world::Track predicted = others(motion).at(0);
+  ASSERT_GE(predicted.X_WA.size(), seen.size());
   for (std::size_t k = 0; k < seen.size(); ++k) {
-    EXPECT_NEAR(foretold.X_WA[k].p.x, seen[k], 1e-9) << k;
+    EXPECT_NEAR(predicted.X_WA[k].p.x, seen[k], 1e-9) << k;
   }
   EXPECT_LT(seen.back(), seen.front() + 0.9 * 20.0 * 4.0);  // it did brake
 }

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "saca/core/contract.h"
-#include "saca/outcome/blow.h"
+#include "saca/outcome/impact.h"
 #include "saca/sim/motion.h"
 #include "saca/world/time_to_conflict.h"
 

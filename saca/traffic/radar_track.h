@@ -36,7 +36,7 @@ struct RadarTrack {
 constexpr double longest_gap = 1.5;     ///< [s] bridged; longer ends the track
 constexpr double near_axis = 1.5;       ///< a target this far aside is in the car's lane [m]
 constexpr double smallest_range = 1.5;  ///< nearer, the radar's range wanders: no seed there [m]
-constexpr double outlier_bound = 1.0;   ///< from what the three rows on either side foretell [m]
+constexpr double outlier_bound = 1.0;   ///< from what the three rows on either side predict [m]
 
 /// The vehicle ahead in the conflict: within [first, last], of the nearest target near the axis in
 /// each row, the one with the smallest range / closing speed, among those closing at 1 m/s or more.

@@ -118,7 +118,7 @@ Dynamics dynamics_of(double step, const SmootherSettings& settings) {
   return dynamics;
 }
 
-Estimate foretold(const Estimate& now, const Dynamics& dynamics) {
+Estimate predicted(const Estimate& now, const Dynamics& dynamics) {
   const Mat3& f = dynamics.transition;
   return {product(f, now.mean),
           symmetric_sum(product(product(f, now.covariance), transposed(f)), dynamics.noise, 1.0)};
@@ -195,7 +195,7 @@ AxisMotion smooth_axis(const std::vector<double>& positions, const std::vector<d
   std::vector<Estimate> estimates;
   for (std::size_t k = 0; k < positions.size(); ++k) {
     if (k > 0) {
-      now = foretold(now, dynamics);
+      now = predicted(now, dynamics);
     }
     expected.push_back(now);
     take_in(now, 0, positions[k] - origin, settings.position_sd);

@@ -48,22 +48,22 @@ std::size_t remove_outliers(std::vector<double>& series, const std::vector<doubl
   expects(slopes.size() == series.size(), "as many slopes as values");
   expects(step > 0.0, "step > 0");
   const std::vector<double> before = series;
-  std::vector<double> foretold;
+  std::vector<double> predicted;
   std::size_t removed = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {
     if (std::isnan(before[i])) {
       continue;
     }
     const auto [first, last] = around(i, half, before.size());
-    foretold.clear();
+    predicted.clear();
     for (std::size_t k = first; k <= last; ++k) {
       if (!std::isnan(before[k])) {
         const double ahead = step * (static_cast<double>(i) - static_cast<double>(k));
-        foretold.push_back(before[k] + slopes[k] * ahead);
+        predicted.push_back(before[k] + slopes[k] * ahead);
       }
     }
-    const auto middle = foretold.begin() + static_cast<std::ptrdiff_t>(foretold.size() / 2);
-    std::nth_element(foretold.begin(), middle, foretold.end());
+    const auto middle = predicted.begin() + static_cast<std::ptrdiff_t>(predicted.size() / 2);
+    std::nth_element(predicted.begin(), middle, predicted.end());
     if (std::abs(before[i] - *middle) > bound) {
       series[i] = missing;
       ++removed;

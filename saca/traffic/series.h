@@ -24,7 +24,7 @@ struct Filled {
 [[nodiscard]] Filled filled(const std::vector<double>& series);
 
 /// Removes (makes NaN) each value farther than `bound` from what its neighbours within `half` steps
-/// foretell: the median of their values, each moved along its own measured slope.
+/// predict: the median of their values, each moved along its own measured slope.
 /// @param slopes  [1/s], as many as values
 /// @param step    [s], > 0
 /// @return        how many were removed

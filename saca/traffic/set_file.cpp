@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
+#include "saca/config/checksummed_file.h"
 #include "saca/config/hdf5_reader.h"
 #include "saca/config/hdf5_writer.h"
-#include "saca/config/sealed_file.h"
 #include "saca/core/contract.h"
 #include "saca/core/csv.h"
 
@@ -312,11 +312,11 @@ std::optional<Error> write_set(const std::filesystem::path& path, const Recorded
   if (!body) {
     return Error{Error::Code::unwritable, path.string() + ": HDF5 cannot make the file in memory"};
   }
-  return config::write_sealed(path, set_format, *body);
+  return config::write_checksummed(path, set_format, *body);
 }
 
 Result<RecordedSet> read_set(const std::filesystem::path& path) {
-  if (const auto problem = config::check_sealed(path, set_format)) {
+  if (const auto problem = config::verify_checksum(path, set_format)) {
     return *problem;
   }
   try {

@@ -8,8 +8,8 @@
 #include <limits>
 #include <string>
 
+#include "saca/config/checksummed_file.h"
 #include "saca/config/hdf5_writer.h"
-#include "saca/config/sealed_file.h"
 #include "saca/core/contract.h"
 #include "saca/core/file.h"
 
@@ -150,9 +150,9 @@ TEST_F(SetFile, TellsDamageAndOtherFiles) {
   const std::string whole = read_file(path_).value();
   ASSERT_EQ(write_file(path_, whole.substr(0, whole.size() / 2)), std::nullopt);
   EXPECT_THAT(refusal(), HasSubstr("cut off or damaged"));
-  ASSERT_EQ(config::write_sealed(path_, "saca.traffic/9", "body"), std::nullopt);
+  ASSERT_EQ(config::write_checksummed(path_, "saca.traffic/9", "body"), std::nullopt);
   EXPECT_THAT(refusal(), HasSubstr("want a file of saca.traffic/1, got saca.traffic/9"));
-  ASSERT_EQ(config::write_sealed(path_, "saca.traffic/1", "no HDF5"), std::nullopt);
+  ASSERT_EQ(config::write_checksummed(path_, "saca.traffic/1", "no HDF5"), std::nullopt);
   EXPECT_THAT(refusal(), HasSubstr("want HDF5"));
 }
 
@@ -196,7 +196,8 @@ void SetFile::write_but(const std::string& part,
   }
   lines("skipped/reasons", "why\n");
   column("skipped/counts", {4.0});
-  ASSERT_EQ(config::write_sealed(path_, "saca.traffic/1", writer.bytes().value()), std::nullopt);
+  ASSERT_EQ(config::write_checksummed(path_, "saca.traffic/1", writer.bytes().value()),
+            std::nullopt);
 }
 
 TEST_F(SetFile, TakesAFileThatAnotherProgramWrote) {

@@ -42,7 +42,7 @@ std::vector<Observation> wavering() {
 torch::Tensor features_of(const std::vector<Observation>& observations) {
   torch::Tensor all = torch::empty({static_cast<std::int64_t>(observations.size()), num_columns});
   auto* to = all.data_ptr<float>();
-  intent::Memory memory;
+  intent::ObservationHistory memory;
   for (const Observation& each : observations) {
     memory.add(each);
     const intent::Features now = memory.features();

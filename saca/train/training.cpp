@@ -19,14 +19,14 @@ using intent::Feature;
 using learn::Sequence;
 
 constexpr auto columns = static_cast<std::int64_t>(intent::num_features);
-constexpr auto classes_foretold = static_cast<std::int64_t>(intent::num_classes);
+constexpr auto classes_predicted = static_cast<std::int64_t>(intent::num_classes);
 constexpr auto rows_ahead = static_cast<std::int64_t>(intent::num_horizons);
 
 /// What frames [first, last) of a sequence are taught of their labels: the labels themselves, and
-/// by its share what a teacher foretells.   (rows x H x K)
+/// by its share what a teacher predicts.   (rows x H x K)
 torch::Tensor taught_of(const torch::Tensor& labels, const learn::Forecasts& teacher, double share,
                         std::size_t first) {
-  torch::Tensor taught = torch::one_hot(labels, classes_foretold).to(torch::kFloat32);
+  torch::Tensor taught = torch::one_hot(labels, classes_predicted).to(torch::kFloat32);
   if (teacher.at[0].empty()) {
     return taught;
   }
@@ -34,10 +34,10 @@ torch::Tensor taught_of(const torch::Tensor& labels, const learn::Forecasts& tea
   auto rows = taught.accessor<float, 3>();
   for (std::int64_t row = 0; row < labels.size(0); ++row) {
     for (std::size_t h = 0; h < intent::num_horizons; ++h) {
-      const auto& foretold = teacher.at[h][first + static_cast<std::size_t>(row)];
+      const auto& predicted = teacher.at[h][first + static_cast<std::size_t>(row)];
       for (std::size_t k = 0; k < intent::num_classes; ++k) {
         rows[row][static_cast<std::int64_t>(h)][static_cast<std::int64_t>(k)] +=
-            static_cast<float>(share * foretold[k]);
+            static_cast<float>(share * predicted[k]);
       }
     }
   }
@@ -54,7 +54,7 @@ Piece piece_of(const Sequence& sequence, std::size_t first, std::size_t last) {
   auto* features = piece.features.data_ptr<float>();
   auto labels = piece.labels.accessor<std::int64_t, 2>();
   auto known = piece.known.accessor<bool, 2>();
-  intent::Memory memory;
+  intent::ObservationHistory memory;
   for (std::size_t t = first; t < last; ++t) {
     memory.add(sequence.observations[t]);
     const intent::Features now = memory.features();
@@ -187,17 +187,17 @@ Result<LstmCrf> trained(const std::vector<Sequence>& sequences,
 }
 
 void set_calibrations(config::Tensors& tensors, const learn::Calibrations& calibrations) {
-  config::Tensor sharpness{{intent::num_horizons}, {}};
+  config::Tensor inverse_temperature{{intent::num_horizons}, {}};
   config::Tensor bias{{intent::num_horizons, intent::num_classes}, {}};
   config::Tensor naming = bias;
   for (const intent::Calibration& each : calibrations) {
-    sharpness.values.push_back(static_cast<float>(each.sharpness));
+    inverse_temperature.values.push_back(static_cast<float>(each.inverse_temperature));
     for (std::size_t k = 0; k < intent::num_classes; ++k) {
       bias.values.push_back(static_cast<float>(each.bias[k]));
       naming.values.push_back(static_cast<float>(each.naming[k]));
     }
   }
-  tensors.tensors["sharpness"] = std::move(sharpness);
+  tensors.tensors["sharpness"] = std::move(inverse_temperature);
   tensors.tensors["bias"] = std::move(bias);
   tensors.tensors["naming"] = std::move(naming);
 }

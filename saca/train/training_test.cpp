@@ -11,7 +11,7 @@
 #include "saca/core/file.h"
 #include "saca/intent/features.h"
 #include "saca/intent/model.h"
-#include "saca/learn/foretell.h"
+#include "saca/learn/predict.h"
 #include "saca/learn/score.h"
 #include "saca/learn/simulated.h"
 
@@ -53,7 +53,7 @@ TEST(Training, LearnsWhatIsThere) {
   const auto model = intent::model_from(model_tensors({network.value()}), "model");
   ASSERT_TRUE(model.has_value());
   learn::Tally sum;
-  const auto forecasts = learn::foretold(model.value(), others, 1);
+  const auto forecasts = learn::predicted(model.value(), others, 1);
   for (std::size_t i = 0; i < others.size(); ++i) {
     sum += learn::tally(others[i], forecasts[i], 0);
   }
@@ -102,14 +102,14 @@ TEST(Training, WillNotGoOnWithAnother) {
 TEST(Training, CalibrationsTakeThePlaceOfThoseThatAreThere) {
   config::Tensors tensors = model_tensors({LstmCrf(0.0)});
   learn::Calibrations calibrations;
-  calibrations[1] = {.sharpness = 0.5,
+  calibrations[1] = {.inverse_temperature = 0.5,
                      .bias = {0.0, -0.5, -0.5, 0.25, 0.125, 0.125},
                      .naming = {1.0, 2.0, 2.0, 0.5, 1.0, 1.0}};
   set_calibrations(tensors, calibrations);
   const auto model = intent::model_from(tensors, "model");
   ASSERT_TRUE(model.has_value()) << model.error().message;
-  EXPECT_EQ(model.value().calibrations[0].sharpness, 1.0);
-  EXPECT_EQ(model.value().calibrations[1].sharpness, 0.5);
+  EXPECT_EQ(model.value().calibrations[0].inverse_temperature, 1.0);
+  EXPECT_EQ(model.value().calibrations[1].inverse_temperature, 0.5);
   EXPECT_EQ(model.value().calibrations[1].bias, calibrations[1].bias);
   EXPECT_EQ(model.value().calibrations[1].naming, calibrations[1].naming);
 }
@@ -141,7 +141,7 @@ TEST(Pieces, LabelsAreThoseOfLater) {
   EXPECT_EQ(with_late[1].features[0][memory].item<float>(), 0.0F);  // a stream that begins
 }
 
-learn::Forecasts all_foretold_as(std::size_t num_frames, const learn::ClassProbabilities& p) {
+learn::Forecasts all_predicted_as(std::size_t num_frames, const learn::ClassProbabilities& p) {
   learn::Forecasts forecasts;
   for (auto& head : forecasts.at) {
     head.assign(num_frames, p);
@@ -157,7 +157,7 @@ TEST(Pieces, AreTaughtLabelsAndByItsShareWhatATeacherForetells) {
     sequence.scored.push_back(true);
   }
   Lessons lessons{.share = 0.25,
-                  .forecasts = {all_foretold_as(25, {0.0, 0.0, 0.0, 0.5, 0.5, 0.0}), {}}};
+                  .forecasts = {all_predicted_as(25, {0.0, 0.0, 0.0, 0.5, 0.5, 0.0}), {}}};
   lessons.forecasts[0].at[0][21] = {1.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   const auto pieces = pieces_of({sequence, sequence}, 20, false, lessons);
   ASSERT_EQ(pieces.size(), 4U);
@@ -181,7 +181,7 @@ TEST(Training, LearnsFromATeacherWhatNoLabelSays) {
   Lessons lessons{.share = 1.0, .forecasts = {}};
   for (const auto& each : sequences) {  // of a teacher who is never sure
     lessons.forecasts.push_back(
-        all_foretold_as(each.labels.size(), {0.5, 0.1, 0.1, 0.1, 0.1, 0.1}));
+        all_predicted_as(each.labels.size(), {0.5, 0.1, 0.1, 0.1, 0.1, 0.1}));
   }
   TrainingPlan plan = short_plan();
   plan.epochs = 8;
@@ -196,7 +196,7 @@ TEST(Training, LearnsFromATeacherWhatNoLabelSays) {
     const auto model = intent::model_from(model_tensors({network}), "model");
     double sum = 0.0;
     double num = 0.0;
-    for (const auto& each : learn::foretold(model.value(), sequences, 1)) {
+    for (const auto& each : learn::predicted(model.value(), sequences, 1)) {
       for (const auto& p : each.at[0]) {
         sum += *std::max_element(p.begin(), p.end());
         num += 1.0;

@@ -337,7 +337,7 @@ void check_step_steer(const Log& log, const vehicle::Vehicle& car, Complaint& co
     }
   }
   const double angle = log.command.back().steering - log.command[log.event - 1].steering;
-  const double neutral = v * angle / (car.front_arm + car.rear_arm);
+  const double neutral = v * angle / (car.cg_to_front_axle + car.cg_to_rear_axle);
   const double ratio = yaw_rate / neutral;
   if (!(ratio > 0.15 && ratio < 3.0)) {
     const bool wheel = ratio > 1.0 / 30.0 && ratio <= 0.15;  // a steering gear's 12 to 20 to 1

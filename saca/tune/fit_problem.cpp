@@ -185,7 +185,7 @@ double FitProblem::offset(const VectorXd& x, std::size_t series) const {
   return info(logs_[place.log].measured[place.column].signal).offset_sd * x[place.unknown];
 }
 
-std::vector<double> FitProblem::foretold(const VectorXd& x, std::size_t log) const {
+std::vector<double> FitProblem::predicted(const VectorXd& x, std::size_t log) const {
   return response(logs_[log], held_[log], hypothesis(x, log));
 }
 
@@ -209,7 +209,7 @@ std::vector<std::vector<double>> FitProblem::errors(const VectorXd& x) const {
   std::vector<double> model;
   for (std::size_t k = 0; k < places_.size(); ++k) {
     if (k == 0 || places_[k].log != places_[k - 1].log) {
-      model = foretold(x, places_[k].log);
+      model = predicted(x, places_[k].log);
     }
     all.push_back(errors(x, k, model));
   }
@@ -246,7 +246,7 @@ bool FitProblem::is_asked(std::size_t candidate) const {
 VectorXd FitProblem::residuals(const VectorXd& x) const {
   VectorXd residuals(num_residuals());
   for (std::size_t log = 0; log < logs_.size(); ++log) {
-    add_residuals(x, log, foretold(x, log), residuals);
+    add_residuals(x, log, predicted(x, log), residuals);
   }
   residuals.tail(size_) = x;
   return residuals;
@@ -259,7 +259,7 @@ MatrixXd FitProblem::jacobian(const VectorXd& x, const std::vector<Index>& free)
   std::vector<std::vector<double>> model;
   VectorXd base(num_residuals());
   for (std::size_t log = 0; log < logs_.size(); ++log) {
-    model.push_back(foretold(x, log));
+    model.push_back(predicted(x, log));
     add_residuals(x, log, model.back(), base);
   }
   base.tail(size_) = x;
@@ -278,7 +278,7 @@ MatrixXd FitProblem::jacobian(const VectorXd& x, const std::vector<Index>& free)
       const bool of_this_log = unknown >= speed_index_[log] &&
                                (log + 1 == logs_.size() || unknown < speed_index_[log + 1]);
       if (of_the_car || unknown == speed_index_[log]) {
-        add_residuals(moved, log, foretold(moved, log), there);
+        add_residuals(moved, log, predicted(moved, log), there);
       } else if (of_this_log) {
         add_residuals(moved, log, model[log], there);
       }

@@ -53,7 +53,7 @@ class FitProblem {
   };
   [[nodiscard]] const std::vector<Place>& series() const { return places_; }
 
-  /// Measured less foretold, in the unit of the column   (series, rows that count).
+  /// Measured less predicted, in the unit of the column   (series, rows that count).
   [[nodiscard]] std::vector<std::vector<double>> errors(const Eigen::VectorXd& x) const;
   [[nodiscard]] double offset(const Eigen::VectorXd& x, std::size_t series) const;
 
@@ -79,11 +79,11 @@ class FitProblem {
   [[nodiscard]] Eigen::MatrixXd covariance(const Eigen::VectorXd& x) const;
 
  private:
-  [[nodiscard]] std::vector<double> foretold(const Eigen::VectorXd& x, std::size_t log) const;
+  [[nodiscard]] std::vector<double> predicted(const Eigen::VectorXd& x, std::size_t log) const;
   [[nodiscard]] std::vector<double> errors(const Eigen::VectorXd& x, std::size_t series,
-                                           const std::vector<double>& foretold) const;
-  void add_residuals(const Eigen::VectorXd& x, std::size_t log, const std::vector<double>& foretold,
-                     Eigen::VectorXd& residuals) const;
+                                           const std::vector<double>& predicted) const;
+  void add_residuals(const Eigen::VectorXd& x, std::size_t log,
+                     const std::vector<double>& predicted, Eigen::VectorXd& residuals) const;
 
   vehicle::Vehicle base_;
   double grip_;

@@ -18,7 +18,7 @@ struct Hypothesis {
 /// first row's speed until a brake test's braking begins, and rests from there on.
 [[nodiscard]] std::vector<double> held_speed(const Log& log);
 
-/// The measured signals as the model foretells them from the log's commands alone: the car rolls
+/// The measured signals as the model predicts them from the log's commands alone: the car rolls
 /// straight at the first row, and `vehicle::step` does the rest.
 ///
 /// @param held  held_speed(log)

@@ -19,11 +19,11 @@ struct FittedParameter {
   bool determined = false;  ///< the logs say much more than the base's uncertainty
 };
 
-/// How well the fitted model foretells one signal of one log, in the unit of its column.
+/// How well the fitted model predicts one signal of one log, in the unit of its column.
 struct SignalQuality {
   std::string log;  ///< its name
   Signal signal = Signal::speed;
-  double noise = 0.0;   ///< sd between neighbouring rows: what no model can foretell
+  double noise = 0.0;   ///< sd between neighbouring rows: what no model can predict
   double rms = 0.0;     ///< of the residual, outliers left out
   double offset = 0.0;  ///< the sensor's constant error
   double run = 1.0;     ///< how many rows in a sequence err alike: 1 for white noise

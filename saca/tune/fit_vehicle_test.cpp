@@ -194,9 +194,9 @@ TEST(VehicleFit, OfAnotherKindOfCarIsFiniteAndWarned) {
   vehicle::Vehicle truck = vehicle::default_car();
   truck.mass = 12'000.0;
   truck.yaw_inertia = 60'000.0;
-  truck.front_arm = 3.0;
-  truck.rear_arm = 2.0;
-  truck.mass_height = 1.2;
+  truck.cg_to_front_axle = 3.0;
+  truck.cg_to_rear_axle = 2.0;
+  truck.cg_height = 1.2;
   truck.tyre.nominal_load = 29'000.0;
   truck.tyre.stiffness = 8.0;
   truck.wheel_radius = 0.5;

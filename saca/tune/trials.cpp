@@ -120,7 +120,7 @@ std::vector<Trial> swerve_trials(unsigned long seed) {
 double drift_cost(const Car& car, const Trial& trial) {
   constexpr double most = 25.0;  // a heading 40 deg wrong, or worse
   const manoeuvre::Ending end = manoeuvre::ride_to_end(
-      Ride(without_domain(car), trial.plan, trial.scene, trial.scene.grip, trial.unknown),
+      Ride(without_domain(car), trial.plan, trial.scene, trial.scene.grip, trial.perturbation),
       longest_drift(trial.scene));
   if (!end.ended) {
     return 2.0 * most;
@@ -145,7 +145,7 @@ double swerve_cost(const Car& car, const Trial& trial) {
   const double shortest =
       std::max(2.0 * std::sqrt(d / (trial.scene.grip * gravity)), d / (steepest * slowest));
   const double longest = 4.0 * shortest + stays;
-  Ride ride(car, trial.plan, trial.scene, trial.scene.grip, trial.unknown);
+  Ride ride(car, trial.plan, trial.scene, trial.scene.grip, trial.perturbation);
   double settled = 0.0;
   double passed = 0.0;
   double overshoot = 0.0;

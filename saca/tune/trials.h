@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "saca/manoeuvre/car.h"
+#include "saca/manoeuvre/parameter_perturbation.h"
 #include "saca/manoeuvre/plan.h"
-#include "saca/manoeuvre/unknown.h"
 #include "saca/world/scene.h"
 
 namespace saca::tune {
@@ -15,7 +15,7 @@ namespace saca::tune {
 struct Trial {
   manoeuvre::Plan plan;
   world::Scene scene;
-  manoeuvre::Unknown unknown;
+  manoeuvre::ParameterPerturbation perturbation;
 };
 
 /// T-drifts to the left from 10 to 25 m/s on grip 0.2 to 0.9, straight and in bends: each once as

@@ -18,7 +18,7 @@ TEST(Trials, AreOnceAsKnownThenDrawnAndCrookedToEitherSide) {
     int num_right = 0;
     for (const Trial& trial : trials) {
       const double yaw = trial.scene.ego.X_WB.yaw;
-      EXPECT_EQ(trial.unknown.grip == 1.0, yaw == 0.0);
+      EXPECT_EQ(trial.perturbation.grip == 1.0, yaw == 0.0);
       num_left += yaw > 0.0 ? 1 : 0;
       num_right += yaw < 0.0 ? 1 : 0;
       if (yaw == 0.0) {  // rolls along its bend
@@ -29,8 +29,8 @@ TEST(Trials, AreOnceAsKnownThenDrawnAndCrookedToEitherSide) {
     EXPECT_GT(num_left, 10);
     EXPECT_GT(num_right, 10);
   }
-  EXPECT_EQ(drift_trials(1)[1].unknown.mass, drift_trials(1)[1].unknown.mass);
-  EXPECT_NE(drift_trials(1)[1].unknown.mass, drift_trials(2)[1].unknown.mass);
+  EXPECT_EQ(drift_trials(1)[1].perturbation.mass, drift_trials(1)[1].perturbation.mass);
+  EXPECT_NE(drift_trials(1)[1].perturbation.mass, drift_trials(2)[1].perturbation.mass);
 }
 
 TEST(Trials, ADriftThatDoesNotTurnCostsMore) {

@@ -56,7 +56,7 @@ inline Wheelwise<T> estimated_slip(const Car& car, const State& state, const T& 
   const Turn<T> turn = turn_by<T>(state.steering);
   const T half = half_track(car);
   for (std::size_t i = 0; i < num_wheels; ++i) {
-    const T x = is_front(i) ? T(car.front_arm) : T(-car.rear_arm);
+    const T x = is_front(i) ? T(car.cg_to_front_axle) : T(-car.cg_to_rear_axle);
     const T y = is_left(i) ? half : -half;
     const T vx = speed - state.yaw_rate * y;
     const T vy = state.v_B.y + state.yaw_rate * x;

@@ -31,7 +31,7 @@ Stop stop(const Vehicle& car, double speed, double grip, const Brakes& brakes) {
     result.time = i * dt;
     result.peak = std::max(result.peak, -state.a_B.x);
     if (state.v_B.x > 3.0) {
-      for (const Contact& wheel : contacts(car, state, grip)) {
+      for (const WheelContact& wheel : contacts(car, state, grip)) {
         result.deepest_slip = std::max(result.deepest_slip, wheel.slip);
       }
     }

@@ -93,7 +93,7 @@ TEST(Extremes, NoWheelLeavesItsCircleAndNoEnergyComesFromNowhere) {
       }
       const double gain = kinetic_energy(car, state) - kinetic_energy(car, before) - work;
       ASSERT_LE(gain, 1e-9 * kinetic_energy(car, before) + 1e-9) << run << ' ' << i;
-      for (const Contact& wheel : contacts(car, state, now.grip)) {
+      for (const WheelContact& wheel : contacts(car, state, now.grip)) {
         ASSERT_LE(norm(wheel.F_T), wheel.peak_force * (1.0 + 1e-12)) << run << ' ' << i;
         ASSERT_GE(wheel.load, 0.0);
       }
@@ -208,19 +208,19 @@ class Turns {
 // turning over.
 TEST(Extremes, ALiftedWheelDoesNotAddToTheWeight) {
   Vehicle car = default_car();
-  car.mass_height = 0.9;
-  car.front_roll_share = 0.3;
+  car.cg_height = 0.9;
+  car.front_roll_stiffness_share = 0.3;
   const double weight = car.mass * gravity;
-  const double rear = weight * car.front_arm / (car.front_arm + car.rear_arm);
+  const double rear = weight * car.cg_to_front_axle / (car.cg_to_front_axle + car.cg_to_rear_axle);
   // To the left: all of 1700 kg x 8 m/s^2 x 0.9 m / 1.6 m moves, 0.7 of it at the rear: too much.
-  const double moved = car.mass * 8.0 * car.mass_height / car.track_width;
+  const double moved = car.mass * 8.0 * car.cg_height / car.track_width;
   ASSERT_GT(0.7 * moved, 0.5 * rear);
   const PerWheel loads = wheel_loads(car, {0.0, 8.0});
   EXPECT_NEAR(loads[rear_left], 0.0, 1e-9);
   EXPECT_NEAR(loads[rear_right], rear, 1e-9);
   EXPECT_NEAR(loads[front_right] - loads[front_left], 2.0 * (moved - 0.5 * rear), 1e-9);
   for (const double share : {0.0, 0.3, 1.0}) {
-    car.front_roll_share = share;
+    car.front_roll_stiffness_share = share;
     for (const double a_x : {-30.0, -8.0, 0.0, 8.0, 30.0}) {
       for (const double a_y : {-30.0, -8.0, 0.0, 8.0, 30.0}) {
         const PerWheel all = wheel_loads(car, {a_x, a_y});

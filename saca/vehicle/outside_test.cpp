@@ -68,7 +68,7 @@ Vehicle car_for(const std::string& model) {
     car.load_transfer_lag = 0.002;
   }
   if (model == "std_plain") {
-    car.mass_height = 0.01;  // as in tools/outside_vehicle/models.py
+    car.cg_height = 0.01;  // as in tools/outside_vehicle/models.py
   }
   return car;
 }

@@ -13,17 +13,18 @@ using config::Table;
 void read_body(Table table, Vehicle& car) {
   car.mass = table.number("mass_kg", {300.0, 60'000.0});
   car.yaw_inertia = table.number("yaw_inertia_kgm2", {100.0, 1e6});
-  car.front_arm = table.number("front_arm_m", {0.3, 10.0});
-  car.rear_arm = table.number("rear_arm_m", {0.3, 10.0});
+  car.cg_to_front_axle = table.number("front_arm_m", {0.3, 10.0});
+  car.cg_to_rear_axle = table.number("rear_arm_m", {0.3, 10.0});
   car.track_width = table.number("track_width_m", {0.5, 3.0});
-  car.mass_height = table.number("mass_height_m", {0.1, 3.0});
+  car.cg_height = table.number("mass_height_m", {0.1, 3.0});
   car.body_length = table.number("length_m", {1.0, 20.0});
   car.body_width = table.number("width_m", {0.5, 3.0});
   car.front_end = table.number("front_end_m", {0.3, 15.0});
   car.drag_area = table.number("drag_area_m2", {0.0, 20.0});
-  car.front_roll_share = table.number("front_roll_share", {0.0, 1.0});
+  car.front_roll_stiffness_share = table.number("front_roll_share", {0.0, 1.0});
   car.load_transfer_lag = table.number("load_transfer_lag_s", {0.01, 1.0});
-  if (car.front_end <= car.front_arm || car.body_length - car.front_end <= car.rear_arm) {
+  if (car.front_end <= car.cg_to_front_axle ||
+      car.body_length - car.front_end <= car.cg_to_rear_axle) {
     table.reject("length_m", "want the axles inside the body");
   }
 }

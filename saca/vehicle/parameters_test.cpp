@@ -49,7 +49,7 @@ TEST_F(Parameters, OfTheDefaultCarAreRead) {
   const Vehicle car = default_car();
   EXPECT_EQ(car.mass, 1700.0);
   EXPECT_EQ(car.yaw_inertia, 2700.0);
-  EXPECT_EQ(car.front_arm + car.rear_arm, 2.8);
+  EXPECT_EQ(car.cg_to_front_axle + car.cg_to_rear_axle, 2.8);
   EXPECT_DOUBLE_EQ(car.steering_rate, from_degrees(60.0));
   EXPECT_EQ(car.motor_limit, 3200.0);
   EXPECT_EQ(car.front_end, 2.25);
@@ -95,8 +95,8 @@ TEST_F(Parameters, OfAMissingFileNameIt) {
   EXPECT_THAT(car.error().message, HasSubstr("no_such_car.toml"));
 }
 
-// What is known of a car's class: its static stability factor, track / (2 mass_height), and its
-// dynamic index, yaw_inertia / (mass front_arm rear_arm).
+// What is known of a car's class: its static stability factor, track / (2 cg_height), and its
+// dynamic index, yaw_inertia / (mass cg_to_front_axle cg_to_rear_axle).
 struct KnownClass {
   std::string_view file;
   double least_factor, most_factor;
@@ -144,7 +144,7 @@ class EveryCar : public testing::Test {
 TEST_F(EveryCar, IsAsHardToTurnAsItsArmsSay) {
   // Slug ft^2 taken for kg m^2 makes the index 0.74 times as large: outside for each of these.
   for (const auto& [known, car] : cars_) {
-    const double index = car.yaw_inertia / (car.mass * car.front_arm * car.rear_arm);
+    const double index = car.yaw_inertia / (car.mass * car.cg_to_front_axle * car.cg_to_rear_axle);
     EXPECT_GE(index, known.least_index) << known.file;
     EXPECT_LE(index, known.most_index) << known.file;
   }
@@ -152,7 +152,7 @@ TEST_F(EveryCar, IsAsHardToTurnAsItsArmsSay) {
 
 TEST_F(EveryCar, IsAsStableAgainstRollingOverAsItsClass) {
   for (const auto& [known, car] : cars_) {
-    const double factor = car.track_width / (2.0 * car.mass_height);
+    const double factor = car.track_width / (2.0 * car.cg_height);
     EXPECT_GE(factor, known.least_factor) << known.file;
     EXPECT_LE(factor, known.most_factor) << known.file;
   }
@@ -163,7 +163,8 @@ TEST_F(EveryCar, CarriesItsWeightWhereItsArmsSay) {
     const PerWheel loads = wheel_loads(car, {});
     const double weight = car.mass * gravity;
     const double front = (loads[front_left] + loads[front_right]) / weight;
-    EXPECT_NEAR(front, car.rear_arm / (car.front_arm + car.rear_arm), 1e-12) << known.file;
+    EXPECT_NEAR(front, car.cg_to_rear_axle / (car.cg_to_front_axle + car.cg_to_rear_axle), 1e-12)
+        << known.file;
     // Nose-heavy small cars to half loaded vans.
     EXPECT_GT(front, 0.45) << known.file;
     EXPECT_LT(front, 0.65) << known.file;

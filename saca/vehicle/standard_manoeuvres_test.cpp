@@ -29,11 +29,11 @@ Vehicle front_heavy() {
   return {
       .mass = 2600.0,
       .yaw_inertia = 4600.0,
-      .front_arm = 1.25,
-      .rear_arm = 1.95,
+      .cg_to_front_axle = 1.25,
+      .cg_to_rear_axle = 1.95,
       .track_width = 1.7,
-      .mass_height = 0.68,
-      .front_roll_share = 0.62,
+      .cg_height = 0.68,
+      .front_roll_stiffness_share = 0.62,
       .load_transfer_lag = 0.12,
       .drag_area = 1.1,
       .wheel_radius = 0.37,
@@ -55,7 +55,7 @@ Vehicle front_heavy() {
 }
 
 double wheelbase_of(const Vehicle& car) {
-  return car.front_arm + car.rear_arm;
+  return car.cg_to_front_axle + car.cg_to_rear_axle;
 }
 
 double air_drag(const Vehicle& car, double speed) {
@@ -144,7 +144,7 @@ double slip_of(const Tyre& tyre, const Axle& axle, double force) {
 // wheels pull back, the outer one harder; the driven axle also pulls.
 double steering_needed(const Vehicle& car, const PerWheel& grip, double a_y, double speed) {
   const double weight = car.mass * gravity;
-  const double moved = car.mass * a_y * car.mass_height / car.track_width;
+  const double moved = car.mass * a_y * car.cg_height / car.track_width;
   const double curvature = a_y / (speed * speed);
   double a_x = 0.0;
   double steering = 0.0;
@@ -156,21 +156,22 @@ double steering_needed(const Vehicle& car, const PerWheel& grip, double a_y, dou
   };
   for (int i = 0; i < 12; ++i) {
     const double front_load =
-        (weight * car.rear_arm - car.mass * a_x * car.mass_height) / wheelbase_of(car);
-    const Axle front{front_load, car.front_roll_share * moved, grip[front_left]};
-    const Axle rear{weight - front_load, (1.0 - car.front_roll_share) * moved, grip[rear_left]};
+        (weight * car.cg_to_rear_axle - car.mass * a_x * car.cg_height) / wheelbase_of(car);
+    const Axle front{front_load, car.front_roll_stiffness_share * moved, grip[front_left]};
+    const Axle rear{weight - front_load, (1.0 - car.front_roll_stiffness_share) * moved,
+                    grip[rear_left]};
     const double drive = car.mass * a_x + air_drag(car, speed) + pull * std::sin(steering);
     const double front_drive = car.motor_front_share * drive;
-    const double front_force =
-        (car.rear_arm * car.mass * a_y + 0.5 * car.track_width * difference * std::sin(steering)) /
-        wheelbase_of(car);
+    const double front_force = (car.cg_to_rear_axle * car.mass * a_y +
+                                0.5 * car.track_width * difference * std::sin(steering)) /
+                               wheelbase_of(car);
     pull = (front_force - front_drive * std::sin(steering)) / std::cos(steering);
     difference = pull * 2.0 * front.moved / front.load;
     const double front_angle = slip_angle(front, pull, front_drive);
     const double rear_angle = slip_angle(rear, car.mass * a_y - front_force, drive - front_drive);
-    const double sideslip = car.rear_arm * curvature - std::tan(rear_angle);
+    const double sideslip = car.cg_to_rear_axle * curvature - std::tan(rear_angle);
     a_x = -a_y * sideslip;
-    steering = front_angle + std::atan(sideslip + car.front_arm * curvature);
+    steering = front_angle + std::atan(sideslip + car.cg_to_front_axle * curvature);
   }
   return steering;
 }
@@ -195,8 +196,8 @@ double excess(const Vehicle& car, double steering, const VehicleState& end) {
 TEST_P(Manoeuvre, IsNeutralAtSmallLateralAcceleration) {
   for (const double shift : {-0.3, 0.0, 0.3}) {
     Vehicle car = car_;
-    car.front_arm += shift;
-    car.rear_arm -= shift;
+    car.cg_to_front_axle += shift;
+    car.cg_to_rear_axle -= shift;
     for (const PerWheel& grip : {dry, PerWheel{0.5, 0.5, 0.9, 0.9}}) {
       const double speed = 25.0;
       const VehicleState end =
@@ -214,7 +215,7 @@ TEST_P(Manoeuvre, FollowsTheHandlingCurveAtConstantSpeed) {
   double before = -1.0;
   for (const double share : {0.25, 0.5, 0.75}) {
     Vehicle car = car_;
-    car.front_roll_share = share;
+    car.front_roll_stiffness_share = share;
     double last = 0.0;  // excess at the largest acceleration
     for (const double wanted : {2.0, 4.0, 5.5}) {
       const double speed = 25.0;
@@ -259,7 +260,7 @@ TEST_P(Manoeuvre, CornersAsHardAsItsFrontAxleHolds) {
   const double speed = 30.0;
   for (const double share : {0.55, 0.7}) {
     Vehicle car = car_;
-    car.front_roll_share = share;
+    car.front_roll_stiffness_share = share;
     VehicleState state = cruising(car, speed);
     VehicleState hardest = state;
     for (int i = 0; i < 15'000; ++i) {
@@ -271,9 +272,9 @@ TEST_P(Manoeuvre, CornersAsHardAsItsFrontAxleHolds) {
     }
     const auto [a_x, most] = hardest.a_B;
     const double sine = std::sin(hardest.steering);
-    const double moved = share * car.mass * most * car.mass_height / car.track_width;
+    const double moved = share * car.mass * most * car.cg_height / car.track_width;
     const double load =
-        0.5 * car.mass * (gravity * car.rear_arm - a_x * car.mass_height) / wheelbase_;
+        0.5 * car.mass * (gravity * car.cg_to_rear_axle - a_x * car.cg_height) / wheelbase_;
     const double outer_peak = peak_of(car.tyre, load + moved, 0.9) * (load + moved);
     const double inner_peak = peak_of(car.tyre, load - moved, 0.9) * (load - moved);
     const double drive =
@@ -283,7 +284,7 @@ TEST_P(Manoeuvre, CornersAsHardAsItsFrontAxleHolds) {
     const double inner = std::sqrt(inner_peak * inner_peak - 0.25 * drive * drive);
     const double front = (outer + inner) * std::cos(hardest.steering) + drive * sine;
     const double expected = (front * wheelbase_ - 0.5 * car.track_width * (outer - inner) * sine) /
-                            (car.rear_arm * car.mass);
+                            (car.cg_to_rear_axle * car.mass);
     EXPECT_NEAR(most, expected, 0.01 * expected) << share;
   }
 }
@@ -303,17 +304,18 @@ double yaw_inertia_with_wheels(const Vehicle& car) {
 
 LinearCar linear(const Vehicle& car, double speed) {
   const double L = wheelbase_of(car);
-  const double front = car.tyre.stiffness * car.mass * gravity * car.rear_arm / L;
-  const double rear = car.tyre.stiffness * car.mass * gravity * car.front_arm / L;
-  const double moment = car.front_arm * front - car.rear_arm * rear;
+  const double front = car.tyre.stiffness * car.mass * gravity * car.cg_to_rear_axle / L;
+  const double rear = car.tyre.stiffness * car.mass * gravity * car.cg_to_front_axle / L;
+  const double moment = car.cg_to_front_axle * front - car.cg_to_rear_axle * rear;
   const double inertia = yaw_inertia_with_wheels(car);
   return {.a11 = -(front + rear) / (car.mass * speed),
           .a12 = -speed - moment / (car.mass * speed),
           .a21 = -moment / (inertia * speed),
-          .a22 = -(car.front_arm * car.front_arm * front + car.rear_arm * car.rear_arm * rear) /
+          .a22 = -(car.cg_to_front_axle * car.cg_to_front_axle * front +
+                   car.cg_to_rear_axle * car.cg_to_rear_axle * rear) /
                  (inertia * speed),
           .b1 = front / car.mass,
-          .b2 = car.front_arm * front / inertia};
+          .b2 = car.cg_to_front_axle * front / inertia};
 }
 
 // Columns: what has become of a little v_y and of a little yaw rate, after a time.
@@ -368,7 +370,8 @@ TEST_P(Manoeuvre, HasTheFrequencyAndDampingOfTheLinearCar) {
     EXPECT_NEAR(A.m12, expected.a12, 0.005 * speed) << speed;
     EXPECT_NEAR(A.m21, 0.0, 0.01) << speed;  // neutral: sideslip alone does not turn the car
     EXPECT_NEAR(A.m22, expected.a22, 0.005 * std::abs(expected.a22)) << speed;
-    const double ratio = car_.mass * car_.front_arm * car_.rear_arm / yaw_inertia_with_wheels(car_);
+    const double ratio =
+        car_.mass * car_.cg_to_front_axle * car_.cg_to_rear_axle / yaw_inertia_with_wheels(car_);
     const double frequency = std::sqrt(A.m11 * A.m22 - A.m12 * A.m21);
     EXPECT_NEAR(frequency, car_.tyre.stiffness * gravity / speed * std::sqrt(ratio),
                 0.005 * frequency);
@@ -477,7 +480,8 @@ TEST_P(Manoeuvre, TurnsOnSplitGripByHalfTheTrackTimesTheDifference) {
   double sum = air_drag(car_, speed);
   double moment = 0.0;
   for (std::size_t i = 0; i < num_wheels; ++i) {
-    const double load = 0.5 * weight * (i < 2 ? car_.rear_arm : car_.front_arm) / wheelbase_;
+    const double load =
+        0.5 * weight * (i < 2 ? car_.cg_to_rear_axle : car_.cg_to_front_axle) / wheelbase_;
     const double peak = peak_of(car_.tyre, load, grip[i]);
     const double force =
         peak * load *

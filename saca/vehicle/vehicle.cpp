@@ -16,48 +16,49 @@ using equations::is_front;
 using equations::turn_by;
 using equations::wheel_inertia;
 using equations::wheels_of;
-using Flow = equations::Flow<double>;
+using StateVector = equations::StateVector<double>;
 using Turn = equations::Turn<double>;
 using Wheels = equations::Wheels<double>;
 
-Flow along(const Flow& start, double dt, const Flow& rate) {
-  Flow end = start;
-  for (std::size_t i = 0; i < Flow::size; ++i) {
+StateVector along(const StateVector& start, double dt, const StateVector& rate) {
+  StateVector end = start;
+  for (std::size_t i = 0; i < StateVector::size; ++i) {
     end[i] += dt * rate[i];
   }
   return end;
 }
 
-Flow flow_of(const VehicleState& state) {
-  Flow flow;
-  flow[Flow::x] = state.X_WB.p.x;
-  flow[Flow::y] = state.X_WB.p.y;
-  flow[Flow::yaw] = state.X_WB.yaw;
-  flow[Flow::vx] = state.v_B.x;
-  flow[Flow::vy] = state.v_B.y;
-  flow[Flow::yaw_rate] = state.yaw_rate;
+StateVector state_vector_of(const VehicleState& state) {
+  StateVector state_vector;
+  state_vector[StateVector::x] = state.X_WB.p.x;
+  state_vector[StateVector::y] = state.X_WB.p.y;
+  state_vector[StateVector::yaw] = state.X_WB.yaw;
+  state_vector[StateVector::vx] = state.v_B.x;
+  state_vector[StateVector::vy] = state.v_B.y;
+  state_vector[StateVector::yaw_rate] = state.yaw_rate;
   for (std::size_t i = 0; i < num_wheels; ++i) {
-    flow[Flow::wheel + i] = state.wheel_speed[i];
-    flow[Flow::brake + i] = state.brake_torque[i];
+    state_vector[StateVector::wheel + i] = state.wheel_speed[i];
+    state_vector[StateVector::brake + i] = state.brake_torque[i];
   }
-  flow[Flow::steering] = state.steering;
-  flow[Flow::motor] = state.motor_torque;
-  flow[Flow::ax] = state.transfer_a_B.x;
-  flow[Flow::ay] = state.transfer_a_B.y;
-  return flow;
+  state_vector[StateVector::steering] = state.steering;
+  state_vector[StateVector::motor] = state.motor_torque;
+  state_vector[StateVector::ax] = state.transfer_a_B.x;
+  state_vector[StateVector::ay] = state.transfer_a_B.y;
+  return state_vector;
 }
 
-void put(const Flow& flow, VehicleState& state) {
-  state.X_WB = {{flow[Flow::x], flow[Flow::y]}, flow[Flow::yaw]};
-  state.v_B = {flow[Flow::vx], flow[Flow::vy]};
-  state.yaw_rate = flow[Flow::yaw_rate];
+void put(const StateVector& state_vector, VehicleState& state) {
+  state.X_WB = {{state_vector[StateVector::x], state_vector[StateVector::y]},
+                state_vector[StateVector::yaw]};
+  state.v_B = {state_vector[StateVector::vx], state_vector[StateVector::vy]};
+  state.yaw_rate = state_vector[StateVector::yaw_rate];
   for (std::size_t i = 0; i < num_wheels; ++i) {
-    state.wheel_speed[i] = flow[Flow::wheel + i];
-    state.brake_torque[i] = flow[Flow::brake + i];
+    state.wheel_speed[i] = state_vector[StateVector::wheel + i];
+    state.brake_torque[i] = state_vector[StateVector::brake + i];
   }
-  state.steering = flow[Flow::steering];
-  state.motor_torque = flow[Flow::motor];
-  state.transfer_a_B = {flow[Flow::ax], flow[Flow::ay]};
+  state.steering = state_vector[StateVector::steering];
+  state.motor_torque = state_vector[StateVector::motor];
+  state.transfer_a_B = {state_vector[StateVector::ax], state_vector[StateVector::ay]};
 }
 
 Turn after(Turn first, Turn second) {
@@ -88,31 +89,32 @@ struct Held {
   bool at_rest = false;
 };
 
-Held held_from(const Flow& start, const Command& command, const PerWheel& grip) {
+Held held_from(const StateVector& start, const Command& command, const PerWheel& grip) {
   return {.command = command,
           .grip = grip,
-          .heading = turn_by(start[Flow::yaw]),
-          .yaw = start[Flow::yaw],
-          .steering = turn_by(start[Flow::steering]),
-          .steering_angle = start[Flow::steering]};
+          .heading = turn_by(start[StateVector::yaw]),
+          .yaw = start[StateVector::yaw],
+          .steering = turn_by(start[StateVector::steering]),
+          .steering_angle = start[StateVector::steering]};
 }
 
-Wheels wheels_of(const Vehicle& car, const Flow& flow, const Held& held) {
-  const Turn middle = turned(held.steering, flow[Flow::steering] - held.steering_angle);
-  return wheels_of(car, flow, middle, held.grip);
+Wheels wheels_of(const Vehicle& car, const StateVector& state_vector, const Held& held) {
+  const Turn middle =
+      turned(held.steering, state_vector[StateVector::steering] - held.steering_angle);
+  return wheels_of(car, state_vector, middle, held.grip);
 }
 
-Flow rates(const Vehicle& car, const Flow& flow, const Held& held) {
-  Flow rate;
-  actuator_rates(car, flow, held.command, rate);
+StateVector rates(const Vehicle& car, const StateVector& state_vector, const Held& held) {
+  StateVector rate;
+  actuator_rates(car, state_vector, held.command, rate);
   equations::Pair<double> force;
   if (!held.at_rest) {
-    const Wheels wheels = wheels_of(car, flow, held);
-    equations::wheel_rates(car, flow, wheels, held.rolls, rate);
-    const Turn heading = turned(held.heading, flow[Flow::yaw] - held.yaw);
-    force = body_rates(car, flow, wheels, heading, rate);
+    const Wheels wheels = wheels_of(car, state_vector, held);
+    equations::wheel_rates(car, state_vector, wheels, held.rolls, rate);
+    const Turn heading = turned(held.heading, state_vector[StateVector::yaw] - held.yaw);
+    force = body_rates(car, state_vector, wheels, heading, rate);
   }
-  equations::load_rates(car, flow, force, rate);
+  equations::load_rates(car, state_vector, force, rate);
   return rate;
 }
 
@@ -149,16 +151,16 @@ void stop_all(VehicleState& state) {
 
 // A wheel that its brake would stop within 1 ms, and whose brake holds more than the road and the
 // motor turn, is locked.
-void lock_wheels(const Vehicle& car, Flow& flow, Held& held) {
+void lock_wheels(const Vehicle& car, StateVector& state_vector, Held& held) {
   PerWheel locked{};
   bool any = false;
-  Flow stopped = flow;
+  StateVector stopped = state_vector;
   for (std::size_t i = 0; i < num_wheels; ++i) {
-    const double brake = flow[Flow::brake + i];
-    const double holds = std::abs(flow[Flow::wheel + i]) * wheel_inertia(car, i);
+    const double brake = state_vector[StateVector::brake + i];
+    const double holds = std::abs(state_vector[StateVector::wheel + i]) * wheel_inertia(car, i);
     if (brake > 0.0 && holds * equations::brake_stiffness <= brake) {
       locked[i] = 1.0;
-      stopped[Flow::wheel + i] = 0.0;
+      stopped[StateVector::wheel + i] = 0.0;
       any = true;
     }
   }
@@ -167,23 +169,25 @@ void lock_wheels(const Vehicle& car, Flow& flow, Held& held) {
   }
   const Wheels wheels = wheels_of(car, stopped, held);
   for (std::size_t i = 0; i < num_wheels; ++i) {
-    const double turning = equations::turning_torque(car, i, flow[Flow::motor], wheels.F_x[i]);
-    if (locked[i] > 0.0 && std::abs(turning) < flow[Flow::brake + i]) {
-      flow[Flow::wheel + i] = 0.0;
+    const double turning =
+        equations::turning_torque(car, i, state_vector[StateVector::motor], wheels.F_x[i]);
+    if (locked[i] > 0.0 && std::abs(turning) < state_vector[StateVector::brake + i]) {
+      state_vector[StateVector::wheel + i] = 0.0;
       held.rolls[i] = 0.0;
     }
   }
 }
 
-Vec2 acceleration(const Flow& flow, const Flow& rate) {
-  return {rate[Flow::vx] - flow[Flow::yaw_rate] * flow[Flow::vy],
-          rate[Flow::vy] + flow[Flow::yaw_rate] * flow[Flow::vx]};
+Vec2 acceleration(const StateVector& state_vector, const StateVector& rate) {
+  return {
+      rate[StateVector::vx] - state_vector[StateVector::yaw_rate] * state_vector[StateVector::vy],
+      rate[StateVector::vy] + state_vector[StateVector::yaw_rate] * state_vector[StateVector::vx]};
 }
 
 }  // namespace
 
 Vec2 wheel_position(const Vehicle& car, std::size_t wheel) {
-  return {is_front(wheel) ? car.front_arm : -car.rear_arm,
+  return {is_front(wheel) ? car.cg_to_front_axle : -car.cg_to_rear_axle,
           equations::is_left(wheel) ? 0.5 * car.track_width : -0.5 * car.track_width};
 }
 
@@ -195,11 +199,11 @@ PerWheel wheel_loads(const Vehicle& car, Vec2 a_B) {
   return equations::wheel_loads(car, a_B.x, a_B.y);
 }
 
-Contacts contacts(const Vehicle& car, const VehicleState& state, const PerWheel& grip) {
+WheelContacts contacts(const Vehicle& car, const VehicleState& state, const PerWheel& grip) {
   expects(in_range(grip), "grip in (0, 1.2]");
-  const Flow flow = flow_of(state);
-  const Wheels wheels = wheels_of(car, flow, held_from(flow, {}, grip));
-  Contacts all;
+  const StateVector state_vector = state_vector_of(state);
+  const Wheels wheels = wheels_of(car, state_vector, held_from(state_vector, {}, grip));
+  WheelContacts all;
   for (std::size_t i = 0; i < num_wheels; ++i) {
     const double slip_x = wheels.v_x[i] - car.wheel_radius * state.wheel_speed[i];
     const double speed = std::hypot(wheels.v_x[i], wheels.v_y[i]);
@@ -212,7 +216,7 @@ Contacts contacts(const Vehicle& car, const VehicleState& state, const PerWheel&
   return all;
 }
 
-Contacts contacts(const Vehicle& car, const VehicleState& state, double grip) {
+WheelContacts contacts(const Vehicle& car, const VehicleState& state, double grip) {
   return contacts(car, state, PerWheel{grip, grip, grip, grip});
 }
 
@@ -261,22 +265,22 @@ VehicleState step(const Vehicle& car, const VehicleState& state, const Command& 
     expects(torque >= 0.0, "brake_torque >= 0");
     torque = std::min(torque, car.brake_limit);
   }
-  const bool holds = equations::is_held(car, flow_of(next));
+  const bool holds = equations::is_held(car, state_vector_of(next));
   if (holds) {
     stop_all(next);
   }
-  Flow start = flow_of(next);
+  StateVector start = state_vector_of(next);
   Held held = held_from(start, limited, grip);
   held.at_rest = holds;
   if (!holds) {
     lock_wheels(car, start, held);
   }
-  const Flow k1 = rates(car, start, held);
-  const Flow k2 = rates(car, along(start, 0.5 * dt, k1), held);
-  const Flow k3 = rates(car, along(start, 0.5 * dt, k2), held);
-  const Flow k4 = rates(car, along(start, dt, k3), held);
-  Flow end = start;
-  for (std::size_t i = 0; i < Flow::size; ++i) {
+  const StateVector k1 = rates(car, start, held);
+  const StateVector k2 = rates(car, along(start, 0.5 * dt, k1), held);
+  const StateVector k3 = rates(car, along(start, 0.5 * dt, k2), held);
+  const StateVector k4 = rates(car, along(start, dt, k3), held);
+  StateVector end = start;
+  for (std::size_t i = 0; i < StateVector::size; ++i) {
     end[i] += dt / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]);
   }
   put(end, next);

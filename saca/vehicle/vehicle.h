@@ -25,31 +25,32 @@ using PerWheel = std::array<double, num_wheels>;
 
 /// A car's parameters. There are no default numbers: they come from data/vehicles/.
 struct Vehicle {
-  double mass;                 ///< [kg], > 0
-  double yaw_inertia;          ///< about the vertical through the centre of mass [kg m^2], > 0
-  double front_arm;            ///< centre of mass to front axle [m], > 0
-  double rear_arm;             ///< centre of mass to rear axle [m], > 0
-  double track_width;          ///< distance of left and right wheels [m], > 0
-  double mass_height;          ///< of the centre of mass above the road [m], > 0
-  double front_roll_share;     ///< share of lateral load transfer carried in front [-], in [0, 1]
-  double load_transfer_lag;    ///< time constant [s], > 0
-  double drag_area;            ///< drag coefficient times frontal area [m^2], >= 0
-  double wheel_radius;         ///< [m], > 0
-  double front_wheel_inertia;  ///< of one wheel about its axle [kg m^2], > 0
-  double rear_wheel_inertia;   ///< likewise; each with its part of the drive train [kg m^2], > 0
-  Tyre tyre;                   ///< all four
-  double steering_lag;         ///< time constant [s], > 0
-  double steering_rate;        ///< largest, of the road wheels [rad/s], > 0
-  double steering_limit;       ///< largest angle of the road wheels [rad], in (0, pi/2)
-  double brake_dead_time;      ///< [s], in [0, 0.06]
-  double brake_lag;            ///< time constant of the build-up after the dead time [s], > 0
-  double brake_limit;          ///< largest torque on one wheel [N m], > 0
-  double motor_limit;          ///< largest torque of the motor, either way [N m], >= 0
-  double motor_front_share;    ///< of its torque, at the front axle: 0 rear-driven, 1 front [-]
-  double motor_lag;            ///< time constant [s], > 0
-  double body_length;          ///< [m], > 0
-  double body_width;           ///< [m], > 0
-  double front_end;            ///< front bumper ahead of the centre of mass [m], > 0
+  double mass;              ///< [kg], > 0
+  double yaw_inertia;       ///< about the vertical through the centre of mass [kg m^2], > 0
+  double cg_to_front_axle;  ///< centre of mass to front axle [m], > 0
+  double cg_to_rear_axle;   ///< centre of mass to rear axle [m], > 0
+  double track_width;       ///< distance of left and right wheels [m], > 0
+  double cg_height;         ///< of the centre of mass above the road [m], > 0
+  double front_roll_stiffness_share;  ///< share of lateral load transfer carried in front [-], in
+                                      ///< [0, 1]
+  double load_transfer_lag;           ///< time constant [s], > 0
+  double drag_area;                   ///< drag coefficient times frontal area [m^2], >= 0
+  double wheel_radius;                ///< [m], > 0
+  double front_wheel_inertia;         ///< of one wheel about its axle [kg m^2], > 0
+  double rear_wheel_inertia;  ///< likewise; each with its part of the drive train [kg m^2], > 0
+  Tyre tyre;                  ///< all four
+  double steering_lag;        ///< time constant [s], > 0
+  double steering_rate;       ///< largest, of the road wheels [rad/s], > 0
+  double steering_limit;      ///< largest angle of the road wheels [rad], in (0, pi/2)
+  double brake_dead_time;     ///< [s], in [0, 0.06]
+  double brake_lag;           ///< time constant of the build-up after the dead time [s], > 0
+  double brake_limit;         ///< largest torque on one wheel [N m], > 0
+  double motor_limit;         ///< largest torque of the motor, either way [N m], >= 0
+  double motor_front_share;   ///< of its torque, at the front axle: 0 rear-driven, 1 front [-]
+  double motor_lag;           ///< time constant [s], > 0
+  double body_length;         ///< [m], > 0
+  double body_width;          ///< [m], > 0
+  double front_end;           ///< front bumper ahead of the centre of mass [m], > 0
 };
 
 /// What the car is told to do, held for one step.
@@ -86,14 +87,14 @@ struct VehicleState {
 static_assert(std::is_trivially_copyable_v<VehicleState>);
 
 /// Where a wheel touches the road.
-struct Contact {
+struct WheelContact {
   double load = 0.0;        ///< [N], >= 0
   double angle = 0.0;       ///< of the wheel against the body [rad]
   Vec2 F_T;                 ///< force of the road on the wheel, expressed in T [N]
   double slip = 0.0;        ///< size of the sliding velocity over speed [-], >= 0
   double peak_force = 0.0;  ///< largest force at this load [N]
 };
-using Contacts = std::array<Contact, num_wheels>;
+using WheelContacts = std::array<WheelContact, num_wheels>;
 
 /// Below this speed [m/s] a car whose brakes hold more than its motor pulls stands still: the next
 /// step sets all its velocities to zero and leaves them there until the brakes let go.
@@ -111,9 +112,9 @@ constexpr double hold_speed = 0.05;
 
 /// The four contacts of a state.
 /// @param grip  friction coefficient of the road [-], in (0, 1.2]; one, or one under each wheel
-[[nodiscard]] Contacts contacts(const Vehicle& car, const VehicleState& state, double grip);
-[[nodiscard]] Contacts contacts(const Vehicle& car, const VehicleState& state,
-                                const PerWheel& grip);
+[[nodiscard]] WheelContacts contacts(const Vehicle& car, const VehicleState& state, double grip);
+[[nodiscard]] WheelContacts contacts(const Vehicle& car, const VehicleState& state,
+                                     const PerWheel& grip);
 
 /// Kinetic energy of the body and its wheels [J].
 [[nodiscard]] double kinetic_energy(const Vehicle& car, const VehicleState& state);

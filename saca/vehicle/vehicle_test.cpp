@@ -114,7 +114,7 @@ TEST_F(Dynamics, TurnsNeutrallyWhenSlow) {
   command.steering = 0.03;
   command.motor_torque = 60.0;  // about what keeps the speed
   const VehicleState state = after(rolling(car_, 8.0), 4.0, command);
-  const double wheelbase = car_.front_arm + car_.rear_arm;
+  const double wheelbase = car_.cg_to_front_axle + car_.cg_to_rear_axle;
   EXPECT_NEAR(state.yaw_rate, state.v_B.x * std::tan(0.03) / wheelbase, 0.02 * state.yaw_rate);
   EXPECT_NEAR(state.a_B.y, state.v_B.x * state.yaw_rate, 1e-3);
 }
@@ -190,7 +190,7 @@ TEST_F(Dynamics, NoWheelEverLeavesItsFrictionCircle) {
   VehicleState state = rolling(car_, 22.0);
   for (int i = 0; i < 1500; ++i) {
     state = step(car_, state, lively(3 * i), 0.5, dt);
-    for (const Contact& wheel : contacts(car_, state, 0.5)) {
+    for (const WheelContact& wheel : contacts(car_, state, 0.5)) {
       ASSERT_LE(norm(wheel.F_T), wheel.peak_force * (1.0 + 1e-12));
       ASSERT_GE(wheel.load, 0.0);
     }
@@ -303,7 +303,7 @@ TEST_F(Dynamics, SplitGripTurnsTheCarTowardsTheBetterSide) {
   }
   const VehicleState before = state;
   state = step(car_, state, command, grip, dt);
-  const Contacts wheels = contacts(car_, before, grip);
+  const WheelContacts wheels = contacts(car_, before, grip);
   double moment = 0.0;
   for (std::size_t i = 0; i < num_wheels; ++i) {
     const Vec2 p_B = wheel_position(car_, i);

@@ -1,4 +1,4 @@
-"""saca forecast: how well it is foretold where road users will be."""
+"""saca forecast: how well it is predicted where road users will be."""
 import json
 import pathlib
 import sys

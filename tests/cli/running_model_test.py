@@ -50,8 +50,8 @@ def descendants(pid):
 
 
 @needs_model
-@pytest.mark.parametrize("blow", [signal.SIGKILL, signal.SIGSTOP])
-def test_a_model_that_is_struck_in_the_middle_changes_nothing_on_the_reflex_plane(blow, tmp_path):
+@pytest.mark.parametrize("struck_by", [signal.SIGKILL, signal.SIGSTOP])
+def test_a_model_that_is_struck_in_the_middle_changes_nothing_on_the_reflex_plane(struck_by, tmp_path):
     # What the model would say here is refused, so that it brakes whatever it hears; it is over after seconds.
     run = subprocess.Popen([PROGRAM, "run", "one_way"], cwd=tmp_path, text=True,
                            stdout=subprocess.PIPE, stderr=subprocess.PIPE)
@@ -61,7 +61,7 @@ def test_a_model_that_is_struck_in_the_middle_changes_nothing_on_the_reflex_plan
         if not struck and "the model is asked" in line:
             struck = descendants(run.pid)
             for child in struck:
-                os.kill(child, blow)
+                os.kill(child, struck_by)
     assert run.wait(timeout=1500) == SUCCESS, run.stderr.read()
     assert any("policy 0 AEB" in line for line in story)
     assert (tmp_path / "runs/one_way/report.html").exists()

@@ -11,10 +11,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   namespace tune = saca::tune;
   const saca::vehicle::Vehicle car{.mass = 1700.0,
                                    .yaw_inertia = 2700.0,
-                                   .front_arm = 1.35,
-                                   .rear_arm = 1.45,
+                                   .cg_to_front_axle = 1.35,
+                                   .cg_to_rear_axle = 1.45,
                                    .track_width = 1.6,
-                                   .mass_height = 0.5,
+                                   .cg_height = 0.5,
                                    .wheel_radius = 0.32};
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   const auto read = tune::read_log(text, "fuzz.csv", car);

@@ -7,17 +7,17 @@
 #include <string_view>
 #include <vector>
 
-#include "saca/core/level.h"
+#include "saca/core/simd_level.h"
 
 namespace saca::test {
 
-inline std::string_view name_of(Level level) {
+inline std::string_view name_of(SimdLevel level) {
   switch (level) {
-    case Level::baseline:
+    case SimdLevel::baseline:
       return "baseline";
-    case Level::avx2:
+    case SimdLevel::avx2:
       return "AVX2";
-    case Level::avx512:
+    case SimdLevel::avx512:
       return "AVX-512";
   }
   return "?";
@@ -25,9 +25,9 @@ inline std::string_view name_of(Level level) {
 
 /// Of these instruction sets those that this processor has. Of each other the test's output says
 /// that it was not tested, in the words of a skipped test, which tools/check.sh repeats at its end.
-inline std::vector<Level> those_here(std::initializer_list<Level> levels) {
-  std::vector<Level> here;
-  for (const Level level : levels) {
+inline std::vector<SimdLevel> those_here(std::initializer_list<SimdLevel> levels) {
+  std::vector<SimdLevel> here;
+  for (const SimdLevel level : levels) {
     if (available(level)) {
       here.push_back(level);
     } else {

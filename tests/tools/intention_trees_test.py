@@ -17,7 +17,7 @@ needs_setup = pytest.mark.skipif(not PYTHON.exists(), reason="tools/intention_tr
 
 def test_other_words_are_refused():
     run = subprocess.run([TOOL / "run.sh", "quickly"], capture_output=True, text=True, timeout=1500)
-    assert run.returncode == 2 and "want setup, train, foretell, cross or teachers, got quickly" in run.stderr
+    assert run.returncode == 2 and "want setup, train, predict, cross or teachers, got quickly" in run.stderr
 
 
 def test_each_package_is_pinned_by_version_and_hash():
@@ -144,10 +144,10 @@ def test_what_is_told_by_the_speed_is_learned(tmp_path):
     assert [head["frames_ahead"] for head in figures["heads"]] == [0, 5, 10]
     # Of 20 vehicles four maintain, and of their windows a third is kept.
     assert figures["heads"][0]["windows"] == 16 * 60 + 4 * 20 and figures["heads"][2]["windows"] == 16 * 50 + 4 * 17
-    run(PYTHON, "-B", TOOL / "make.py", "foretell", sequences, models, forecasts)
+    run(PYTHON, "-B", TOOL / "make.py", "predict", sequences, models, forecasts)
     names, shape, off, right = json.loads(run(PYTHON, "-B", "-c", SCORE, TOOL, sequences, forecasts))
     assert names and shape == [3, 10 * 60, 6] and off < 1e-9 and right > 0.95
-    done = subprocess.run([PYTHON, "-B", TOOL / "make.py", "foretell", sequences, models, forecasts, "--split", "none"],
+    done = subprocess.run([PYTHON, "-B", TOOL / "make.py", "predict", sequences, models, forecasts, "--split", "none"],
                           capture_output=True, text=True, timeout=1500)
     assert done.returncode == 1 and "want sequences of the split none, got none; there are test, train, tune" in done.stderr
 

@@ -44,7 +44,7 @@ def read_sequences(path):
 
 
 def read_forecasts(path):
-    """Who made them, and what is foretold of each sequence, by name: (heads x frames x classes)."""
+    """Who made them, and what is predicted of each sequence, by name: (heads x frames x classes)."""
     sealed.check(path, FORECASTS)
     with h5py.File(path, "r") as file:
         model = file["model"][()].decode("utf-8")

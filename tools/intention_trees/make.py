@@ -108,7 +108,7 @@ def train(arguments):
     return {"heads": [figures for _, figures in heads], "seconds": time.monotonic() - begun}
 
 
-def foretell(arguments):
+def predict(arguments):
     sequences = of_split(files.read_sequences(arguments.sequences), arguments.split)
     models = []
     for ahead in AHEAD:
@@ -209,7 +209,7 @@ def command(actions, name, action, *places):
     parser.set_defaults(action=action)
     for place in places:
         parser.add_argument(place, type=pathlib.Path)
-    if action != foretell:
+    if action != predict:
         parser.add_argument("--rounds", type=int, default=MOST_ROUNDS, help="at most")
     parser.add_argument("--json", action="store_true")
     return parser
@@ -219,7 +219,7 @@ def main():
     parser = argparse.ArgumentParser(prog="intention_trees")
     actions = parser.add_subparsers(dest="what", required=True)
     command(actions, "train", train, "sequences", "models")
-    command(actions, "foretell", foretell, "sequences", "models", "forecasts").add_argument("--split", default="test")
+    command(actions, "predict", predict, "sequences", "models", "forecasts").add_argument("--split", default="test")
     command(actions, "cross", cross, "sequences", "forecasts").add_argument("--parts", default="part-")
     for_teachers = command(actions, "teachers", teachers, "sequences", "folder")
     for_teachers.add_argument("--parts", default="part-")

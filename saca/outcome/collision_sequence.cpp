@@ -1,0 +1,109 @@
+#include <span>
+#include <vector>
+
+#include "saca/outcome/outcome.h"
+#include "saca/outcome/prepared_motion.h"
+#include "saca/outcome/story.h"
+
+namespace saca::outcome {
+namespace {
+
+using manoeuvre::EgoMotion;
+using world::Scene;
+using world::Track;
+
+// A bound on the work: after so many impacts the story breaks off.
+constexpr std::size_t most_impacts = 32;
+
+/// Tells a story to its end.
+/// @param again  called whenever anybody has begun to move otherwise
+template <class Again>
+void tell(Story& story, Again&& again) {
+  for (std::size_t i = 0; i < most_impacts; ++i) {
+    const std::optional<Event> event = story.next();
+    if (!event) {
+      break;
+    }
+    if (story.happen(*event)) {
+      again();
+    }
+  }
+}
+
+std::vector<const Mover*> each_of(std::span<const Mover> movers) {
+  std::vector<const Mover*> all;
+  all.reserve(movers.size());
+  for (const Mover& mover : movers) {
+    all.push_back(&mover);
+  }
+  return all;
+}
+
+/// The others' tracks, as long as they were not struck. A story refers to them.
+struct OthersMotion {
+  std::vector<Track> tracks;
+  std::vector<Mover> movers;
+};
+OthersMotion tell(Story& story, const Scene& scene, const Others& others) {
+  OthersMotion told;
+  const auto ask = [&] {
+    told.tracks = others(story.ego());
+    told.movers = movers_of(scene, told.tracks);
+    story.expect(each_of(told.movers));
+  };
+  ask();
+  tell(story, ask);
+  return told;
+}
+
+}  // namespace
+
+CollisionSequence collision_sequence(const EgoMotion& motion, const Scene& scene,
+                                     const Others& others, const HarmModel& harm, double grip) {
+  PreparedMotion prepared(motion, scene);
+  Story story(prepared, harm, grip);
+  const OthersMotion told = tell(story, scene, others);
+  return {story.outcome(), story.ego(), story.others()};
+}
+
+Outcome judge(const EgoMotion& motion, const Scene& scene, std::span<const Track> tracks,
+              const HarmModel& harm, double grip) {
+  PreparedMotion prepared(motion, scene);
+  const std::vector<Mover> movers = movers_of(scene, tracks);
+  Story story(prepared, harm, grip);
+  story.expect(each_of(movers));
+  tell(story, [] {});
+  return story.outcome();
+}
+
+Outcome judge_contacts(const EgoMotion& motion, const Scene& scene, const Others& others,
+                       const HarmModel& harm) {
+  PreparedMotion prepared(motion, scene);
+  Story story(prepared, harm, scene.grip, only_contacts);
+  const OthersMotion told = tell(story, scene, others);
+  return story.outcome();
+}
+
+Outcome judge_contacts(const EgoMotion& motion, const Scene& scene, std::span<const Track> tracks,
+                       const HarmModel& harm) {
+  PreparedMotion prepared(motion, scene);
+  return judge_contacts(prepared, movers_of(scene, tracks), harm);
+}
+
+Outcome judge_contacts(PreparedMotion& motion, std::span<const Mover> others, const HarmModel& harm,
+                       const Reaction& reaction) {
+  Story story(motion, harm, motion.scene().grip, only_contacts);
+  std::vector<const Mover*> all = each_of(others);
+  const auto react = [&] {
+    if (reaction) {
+      const auto struck = story.struck();
+      reaction(story.ego_track(), {struck.begin(), struck.size()}, all);
+    }
+    story.expect(all);
+  };
+  react();
+  tell(story, react);
+  return story.outcome();
+}
+
+}  // namespace saca::outcome
