@@ -35,6 +35,7 @@ struct EvalOptions {
   std::string sequences;
   std::string models;
   std::string plain_models;
+  std::string other_models;
   std::vector<std::string> forecasts;
   std::string svg;
   unsigned long seed = 1;
@@ -166,6 +167,16 @@ std::optional<Error> compare_recorded(const EvalOptions& options, const ModelsBy
     return of_closed.error();
   }
   comparison.add("LSTM-CRF, nothing shared", std::move(of_closed).value());
+  if (!options.other_models.empty()) {
+    const auto others = learn::read_models(options.other_models);
+    if (!others.has_value()) {
+      return others.error();
+    }
+    if (auto problem =
+            add_unseen(comparison, "LSTM-CRF of another training", others.value(), scored)) {
+      return problem;
+    }
+  }
   if (!options.plain_models.empty()) {
     const auto plain = learn::read_models(options.plain_models);
     if (!plain.has_value()) {
@@ -298,6 +309,8 @@ void add_intent_eval(CLI::App& intent, int& exit_code) {
                       "Folder of weights, one per part left out; default: the shipped ones");
   command->add_option("--plain-models", options->plain_models,
                       "Likewise, trained without the CRF and not calibrated, for comparison");
+  command->add_option("--other-models", options->other_models,
+                      "Folder of weights of another training, as they are, for comparison");
   command->add_option("--forecasts", options->forecasts,
                       "Forecasts of other models (saca.forecasts/1), for comparison");
   command->add_option("--svg", options->svg, "A picture of the confusion of recorded vehicles");

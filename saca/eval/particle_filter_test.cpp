@@ -48,7 +48,7 @@ struct Moments {
 };
 
 /// Of a mixture along x and y, all courses being along x.
-Moments points(const std::vector<LikelyPlace>& places) {
+Moments moments(const std::vector<LikelyPlace>& places) {
   Moments told;
   double sum = 0.0;
   Vec2 squares;
@@ -70,7 +70,7 @@ TEST(ParticleFilter, WhoKeepsSpeedAndLaneIsForetoldTo) {
   const auto steady = [](double t) { return scene_at(t, {15.0 * t, 0.0}, {15.0, 0.0}); };
   const LikelyPlaces places = watched(steady, 3.0);
   for (std::size_t k = 0; k < forecast_times.size(); ++k) {
-    const Moments told = points(places[k]);
+    const Moments told = moments(places[k]);
     EXPECT_NEAR(told.mean.x, 15.0 * (3.0 + forecast_times[k]), 0.5 + 0.5 * forecast_times[k]);
     EXPECT_NEAR(told.mean.y, 0.0, 0.3);
     EXPECT_LT(score(places[k], {15.0 * (3.0 + forecast_times[k]), 0.0}).nll, 3.5);
@@ -84,9 +84,9 @@ TEST(ParticleFilter, AMoveToTheSideEndsInTheNextLane) {
     return scene_at(t, {15.0 * t, 3.5 * quintic((t - 1.0) / 4.0)},
                     {15.0, 3.5 * quintic_slope((t - 1.0) / 4.0) / 4.0});
   };
-  const Moments told = points(watched(changing, 3.0)[2]);
+  const Moments told = moments(watched(changing, 3.0)[2]);
   EXPECT_NEAR(told.mean.y, 3.5, 0.8);
-  const Moments before = points(watched(changing, 1.0)[2]);  // nobody knows of it yet
+  const Moments before = moments(watched(changing, 1.0)[2]);  // nobody knows of it yet
   EXPECT_NEAR(before.mean.y, 0.0, 0.4);
   EXPECT_GT(before.sd.y, 0.5);  // but it may come
 }
@@ -98,7 +98,7 @@ TEST(ParticleFilter, NobodyIsForetoldToDriveThroughWhoStands) {
     scene.actors.push_back(test::car(2, {15.0 + 40.0 + 4.5, 0.0}, {}));
     return scene;
   };
-  const auto [mean, sd] = points(watched(approaching, 1.0).back());
+  const auto [mean, sd] = moments(watched(approaching, 1.0).back());
   EXPECT_LT(mean.x, 15.0 + 40.0);
   EXPECT_GT(mean.x, 15.0 + 15.0);  // it was not seen to brake before
 }
@@ -111,7 +111,7 @@ TEST(ParticleFilter, WhoBrakesForNoReasonThatIsSeenGoesOnBraking) {
     return scene_at(t, {14.0 * t - 2.0 * b * b, 0.0}, {14.0 - 4.0 * b, 0.0});
   };
   const double here = 14.0 * 2.0 - 2.0;
-  const double on = points(watched(braking, 2.0)[2]).mean.x - here;
+  const double on = moments(watched(braking, 2.0)[2]).mean.x - here;
   EXPECT_NEAR(on, 12.0, 3.0);
 }
 
@@ -124,8 +124,8 @@ TEST(ParticleFilter, ErrorsThatStayAreNotAveragedOut) {
   staying.correlation_time = 1e3;
   sim::PerceptionModel independent = usual;
   independent.correlation_time = 0.0;
-  const double with_staying = points(watched(steady, 2.0, staying).front()).sd.y;
-  const double with_independent = points(watched(steady, 2.0, independent).front()).sd.y;
+  const double with_staying = moments(watched(steady, 2.0, staying).front()).sd.y;
+  const double with_independent = moments(watched(steady, 2.0, independent).front()).sd.y;
   EXPECT_NEAR(with_staying, std::hypot(0.2, 0.1), 0.08);
   EXPECT_LT(with_independent, 0.75 * with_staying);
 }
@@ -143,8 +143,8 @@ TEST(ParticleFilter, TheSameSeedForetellsTheSame) {
 TEST(ParticleFilter, OncomingTrafficIsForetoldInItsOwnDirection) {
   const auto oncoming = [](double t) { return scene_at(t, {300.0 - 15.0 * t, 3.5}, {-15.0, 0.0}); };
   const LikelyPlaces places = watched(oncoming, 2.0);
-  EXPECT_NEAR(points(places.back()).mean.x, 300.0 - 15.0 * 5.0, 2.5);
-  EXPECT_NEAR(points(places.back()).mean.y, 3.5, 0.5);
+  EXPECT_NEAR(moments(places.back()).mean.x, 300.0 - 15.0 * 5.0, 2.5);
+  EXPECT_NEAR(moments(places.back()).mean.y, 3.5, 0.5);
   EXPECT_NEAR(std::cos(places.back().front().course), -1.0, 1e-9);
 }
 

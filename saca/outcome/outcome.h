@@ -106,7 +106,7 @@ struct CollisionSequence {
 /// The contact with an edge that does not stop the ego is the first only when nothing else follows.
 ///
 /// Harm: the chances that each person comes out of every impact unhurt multiply, for severe injury
-/// and for death. An actor's `existence` scales the harm of contact forecast it and of all that
+/// and for death. An actor's `existence` scales the harm of meeting it and of all that
 /// follows, and nothing else.
 [[nodiscard]] CollisionSequence collision_sequence(const manoeuvre::EgoMotion& motion,
                                                    const world::Scene& scene, const Others& others,

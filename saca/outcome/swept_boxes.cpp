@@ -11,7 +11,7 @@ namespace {
 using world::Footprint;
 
 // Poses of a part, less one. With fewer there are more parts to compare, with more they overlap
-// where the bodies are far from contact forecast.
+// where the bodies are far from meeting.
 constexpr std::size_t segments_per_part = 4;
 
 // What rounding may move a body, here and in the exact search [m].

@@ -6,7 +6,7 @@ import sys
 import pytest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from program import BAD_INPUT, SUCCESS, WRONG_COMMAND_LINE, one_error, saca
+from program import BAD_INPUT, ROOT, SUCCESS, WRONG_COMMAND_LINE, one_error, saca
 from traffic_test import road
 
 
@@ -67,6 +67,14 @@ def test_the_shipped_models_are_scored(sequences, tmp_path):
     text = saca("intent", "eval", sequences, "--svg", "confusion.svg", cwd=tmp_path)
     assert (tmp_path / "confusion.svg").read_text().startswith("<svg")
     assert text.returncode == SUCCESS and "macro F1 now" in text.stdout and "constant velocity" in text.stdout
+
+
+def test_two_trainings_are_compared_as_they_are(sequences, tmp_path):
+    told = json.loads(saca("intent", "eval", sequences, "--other-models", ROOT / "models/intent", "--json", cwd=tmp_path).stdout)
+    other = next(one for one in told["comparisons"][0]["methods"] if one["method"] == "LSTM-CRF of another training")
+    for head in other["heads"]:  # the same weights
+        assert set(head["macro_f1_ours_less_this"].values()) <= {0.0, None}
+        assert set(head["log_loss_ours_less_this"].values()) <= {0.0, None}
 
 
 def test_what_cannot_be_used_is_refused(sequences, tmp_path):
