@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# From recordings to the weights of the intention model, and to its figures beside all baselines. Less than one hour on two cores.
+# From recordings to the weights of the intention model, and to its figures beside all baselines. About one hour on two cores.
 # usage: tools/intention.sh all|train|eval DATA
 #   all    train, then eval
-#   train  packs what DATA holds, labels it, trains the model, those that leave something out, and the LSTM without CRF;
-#          calibrates all models on what those say that have not seen it
-#   eval   trains the boosted trees and scores everything: build/intention/eval.txt and eval.json
+#   train  packs what DATA holds, labels it, trains boosted trees as teachers, the model, those that leave something out, and
+#          the LSTM without CRF; calibrates all models on what those say that have not seen it
+#   eval   scores everything beside the boosted trees: build/intention/eval.txt and eval.json
 # DATA: a folder with the CommonRoad NGSIM files (*.xml) and the 100-Car study's release, unpacked (data/README.md).
 # Weights go to models/intent. What was done before is not done again; remove build/intention to begin anew.
 # The trees need the network at their first run.
@@ -40,8 +40,14 @@ made "$work/commonroad.h5" "$saca" traffic pack commonroad "$data" -o "$work/com
 made "$work/100car.h5" "$saca" traffic pack 100car "$data" -o "$work/100car.h5"
 made "$work/sequences.h5" "$saca" intent examples "$work/commonroad.h5" "$work/100car.h5" \
   --simulated 1000 -o "$work/sequences.h5"
+made "$work/trees.h5" tools/intention_trees/run.sh cross "$work/sequences.h5" "$work/trees.h5"
 
 if [ "$what" != eval ]; then
+  teach() {
+    tools/intention_trees/run.sh teachers "$work/sequences.h5" "$work/teachers" --site us101 --site lankershim
+    touch "$work/teachers/made"
+  }
+  made "$work/teachers/made" teach
   train_one() {  # FILE OPTION...
     [ -e "$1" ] || "$train" "$work/sequences.h5" --output "$@" >> "$1.log" 2>&1
   }
@@ -52,13 +58,14 @@ if [ "$what" != eval ]; then
   export -f train_one
   export train work
   {
-    echo "$work/models/model.safetensors"
+    echo "$work/models/model.safetensors --teachers $work/trees.h5"
     for k in 0 1 2 3 4; do
-      echo "$work/models/without_part_$k.safetensors --leave-out part-$k"
-      echo "$work/plain/without_part_$k.safetensors --leave-out part-$k --without-chain"
+      of_part="--leave-out part-$k --teachers $work/teachers/without_part_$k.h5"
+      echo "$work/models/without_part_$k.safetensors $of_part"
+      echo "$work/plain/without_part_$k.safetensors $of_part --without-chain"
     done
     for site in us101 lankershim; do
-      echo "$work/models/without_$site.safetensors --leave-out $site"
+      echo "$work/models/without_$site.safetensors --leave-out $site --teachers $work/teachers/without_$site.h5"
     done
   } | xargs -P 2 -L 1 bash -c 'train_one "$@"' train_one  # two at a time, one core each
   made "$work/models/calibrated" calibrate
@@ -66,7 +73,6 @@ if [ "$what" != eval ]; then
 fi
 
 if [ "$what" != train ]; then
-  made "$work/trees.h5" tools/intention_trees/run.sh cross "$work/sequences.h5" "$work/trees.h5"
   evaluate() {
     "$saca" intent eval "$work/sequences.h5" --models models/intent --plain-models "$work/plain" \
       --forecasts "$work/trees.h5" "$@"
