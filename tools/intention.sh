@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# From recordings to the weights of the intention model, and to its figures beside all baselines. About one hour on two cores.
+# From recordings to the weights of the intention model, and to its figures beside all baselines. An hour to an hour and a half on two cores.
 # usage: tools/intention.sh all|train|eval DATA
 #   all    train, then eval
 #   train  packs what DATA holds, labels it, trains boosted trees as teachers, the model, those that leave something out, and
