@@ -12,16 +12,16 @@
 namespace saca::outcome {
 
 // Everybody at the same few instants, in floats that lie side by side: what cannot touch or come
-// near between two of them is passed over: the broad phase of collision detection, before the narrow
-// one (narrow_phase.h).
+// near between two of them is passed over: the broad phase of collision detection, before the
+// narrow one (narrow_phase.h).
 
 constexpr std::size_t num_spans = 40;  ///< of time: 16 of 0.2 s, 16 of 0.4 s, 8 of 1.6 s
 constexpr std::size_t spans_per_group = 4;
 constexpr std::size_t num_groups = num_spans / spans_per_group;
 constexpr double samples_end = 22.4;  ///< of the last span [s]
 
-/// One number for each sample, at the beginning of a span; the one behind the last span ends it. The
-/// rest is room for whole packs.
+/// One number for each sample, at the beginning of a span; the one behind the last span ends it.
+/// The rest is room for whole packs.
 using SampleRow = std::array<float, num_spans + 8>;
 
 /// When span `k` begins [s since the scene's time]; num_spans: when the last one ends.
