@@ -11,7 +11,7 @@ namespace saca::decide {
 namespace {
 
 /// One verdict, and what it was worked out from.
-struct Judged {
+struct Entry {
   world::Scene scene;
   intent::Beliefs beliefs;
   std::optional<UnderWay> under_way;
@@ -22,10 +22,10 @@ struct Judged {
 
 Judge memoised(Judge judge) {
   expects(static_cast<bool>(judge), "there is a judge");
-  return [judge = std::move(judge), known = std::make_shared<std::vector<Judged>>()](
+  return [judge = std::move(judge), known = std::make_shared<std::vector<Entry>>()](
              const world::Scene& scene, const intent::Beliefs& beliefs,
              const std::optional<UnderWay>& under_way) {
-    const auto found = std::find_if(known->begin(), known->end(), [&](const Judged& one) {
+    const auto found = std::find_if(known->begin(), known->end(), [&](const Entry& one) {
       return one.scene == scene && one.beliefs == beliefs && one.under_way == under_way;
     });
     if (found == known->end()) {

@@ -63,6 +63,29 @@ void expect_both(const Sequence& sequence, const Forecasts& forecasts) {
   expect_forecasts_of(sequence, forecasts);
 }
 
+/// @param kind_of  what an event is, by the label of the last frame before it; nullopt: it is of no
+///                 kind, and not labelled
+template <class KindOf>
+LeadTimes lead_times_of(const Sequence& sequence, const Forecasts& forecasts,
+                        std::span<const double> events, std::span<const std::size_t> heads,
+                        const KindOf& kind_of) {
+  expect_both(sequence, forecasts);
+  LeadTimes lead_times;
+  std::size_t first = 0;
+  for (const double event : events) {
+    const auto last = frame_before(sequence, event);
+    const std::optional<Kind> kind = last ? kind_of(sequence.labels[*last]) : std::nullopt;
+    if (kind) {
+      lead_times.times.push_back(
+          lead_time(forecasts, heads, *kind, event, std::min(first, *last), *last));
+    } else {
+      ++lead_times.unlabelled;
+    }
+    first = last ? *last + 1 : first;
+  }
+  return lead_times;
+}
+
 bool labelled_near(const Sequence& sequence, std::size_t begin, std::size_t end, Kind kind) {
   const std::size_t from = begin - std::min(begin, alarm_slack);
   const std::size_t to = std::min(sequence.labels.size(), end + alarm_slack);
@@ -121,45 +144,19 @@ std::optional<double> LeadTimes::quantile(double share) const {
 }
 
 LeadTimes lane_change_lead_times(const Sequence& sequence, const Forecasts& forecasts) {
-  expect_both(sequence, forecasts);
   constexpr std::array<std::size_t, 2> heads{0, num_heads - 1};
-  LeadTimes lead_times;
-  std::size_t first = 0;
-  for (const double crossing : sequence.crossing_times) {
-    const auto last = frame_before(sequence, crossing);
-    if (!last) {
-      ++lead_times.unlabelled;
-      continue;
-    }
-    const std::uint8_t label = sequence.labels[*last];
-    const bool left = names(label, Kind::left);
-    if (left || names(label, Kind::right)) {
-      lead_times.times.push_back(lead_time(forecasts, heads, left ? Kind::left : Kind::right,
-                                           crossing, std::min(first, *last), *last));
-    } else {
-      ++lead_times.unlabelled;
-    }
-    first = *last + 1;
-  }
-  return lead_times;
+  return lead_times_of(sequence, forecasts, sequence.crossing_times, heads,
+                       [](std::uint8_t label) -> std::optional<Kind> {
+                         return names(label, Kind::left)    ? std::optional(Kind::left)
+                                : names(label, Kind::right) ? std::optional(Kind::right)
+                                                            : std::nullopt;
+                       });
 }
 
 LeadTimes braking_lead_times(const Sequence& sequence, const Forecasts& forecasts) {
-  expect_both(sequence, forecasts);
   constexpr std::array<std::size_t, num_heads> heads{0, 1, 2};
-  LeadTimes lead_times;
-  std::size_t first = 0;
-  for (const double onset : sequence.braking_times) {
-    const auto last = frame_before(sequence, onset);
-    if (!last) {
-      ++lead_times.unlabelled;
-      continue;
-    }
-    lead_times.times.push_back(
-        lead_time(forecasts, heads, Kind::braking, onset, std::min(first, *last), *last));
-    first = *last + 1;
-  }
-  return lead_times;
+  return lead_times_of(sequence, forecasts, sequence.braking_times, heads,
+                       [](std::uint8_t) { return std::optional(Kind::braking); });
 }
 
 FalseAlarms& FalseAlarms::operator+=(const FalseAlarms& other) {
