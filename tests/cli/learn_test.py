@@ -66,17 +66,19 @@ def test_the_bank_that_it_begins_with_stays_as_it_is(taught, tmp_path):
     assert verified(tmp_path, "mine.sqlite") == before
 
 
-def test_what_cannot_be_done_is_refused(taught, tmp_path):
+def test_what_was_begun_otherwise_stays_as_it_was(taught, tmp_path):
     folder, _ = taught
-    assert "none.sqlite" in one_error(saca("learn", "balanced", "--memory", "none.sqlite", cwd=tmp_path), BAD_INPUT)
-    assert "balancd" in one_error(saca("learn", "balancd", cwd=tmp_path), BAD_INPUT)
     inside = saca("learn", "balanced", "--memory", folder / "way/seed-1/learning.sqlite", "-o", folder / "way", cwd=tmp_path)
     assert "--memory" in one_error(inside, BAD_INPUT)
-    # What was taught otherwise is no beginning of this, and its banks are not touched.
     before = verified(folder, "way/seed-1/learning.sqlite")
     told = one_error(saca(*COMMAND[:-1], 0.1, "-o", folder / "way", cwd=tmp_path), BAD_INPUT)
     assert "episodes.journal" in told
     assert verified(folder, "way/seed-1/learning.sqlite") == before
+
+
+def test_what_cannot_be_done_is_refused(tmp_path):
+    assert "none.sqlite" in one_error(saca("learn", "balanced", "--memory", "none.sqlite", cwd=tmp_path), BAD_INPUT)
+    assert "balancd" in one_error(saca("learn", "balancd", cwd=tmp_path), BAD_INPUT)
     assert saca("learn", "balanced", "--lies", 2, cwd=tmp_path).returncode == WRONG_COMMAND_LINE
     assert saca("learn", "balanced", "--memory", "a", "--empty-memory", cwd=tmp_path).returncode == WRONG_COMMAND_LINE
     (tmp_path / "one").mkdir()
