@@ -113,7 +113,8 @@ class Sequence:
 def sequence_of(example, tokens_of, end_token, answer_weight, rng, harm_scale=0.0):
     """One example's prompt and its three branches.
 
-    tokens_of: text to tokens; end_token: that a reply ends with; rng: where the reasoning is cut; harm_scale: as of
+    tokens_of: text to tokens; end_token: that a reply ends with; answer_weight: of an answer, and of the words that
+    name it in the last statement; rng: where the reasoning is cut; harm_scale: as of
     shares_of_answers, for the answer at once: the other two follow what was written.
     """
     prompt = tokens_of(example.prompt) + tokens_of(PROMPT_TAIL)
@@ -124,12 +125,28 @@ def sequence_of(example, tokens_of, end_token, answer_weight, rng, harm_scale=0.
         raise Problem(f"{example.record}: want a tokeniser in which the answer is a token of its own")
     made = Sequence(list(prompt), [0] * len(prompt), list(range(len(prompt))), [0.0] * len(prompt),
                     list(range(-1, len(prompt) - 1)), rng.randint(1, max(1, len(reply) - len(stem) - 1)))
-    _add_branch(made, 1, len(prompt), len(prompt) - 1, reply + [end_token], [1.0] * (len(reply) - 1) + [answer_weight, 1.0])
+    weights = [1.0] * (len(reply) - 1) + [answer_weight, 1.0]
+    named = _conclusion(example.reply)
+    begin, end = (len(tokens_of(example.reply[:place])) for place in named)
+    if tokens_of(example.reply[:named[1]]) == reply[:end]:
+        weights[begin:end] = [answer_weight] * (end - begin)
+    else:
+        raise Problem(f"{example.record}: want a tokeniser that ends a token where the choice's name ends, in {example.reply!r}")
+    _add_branch(made, 1, len(prompt), len(prompt) - 1, reply + [end_token], weights)
     _add_branch(made, 2, len(prompt), len(prompt) - 1, stem + digit, [0.0] * len(stem) + [answer_weight])
     made.at_once, made.shares = len(made.tokens) - 1, shares_of_answers(example, harm_scale)
     _add_branch(made, 3, len(prompt) + made.cut, len(prompt) + made.cut - 1, stem + digit,
                 [0.0] * len(stem) + [answer_weight])
     return made
+
+
+def _conclusion(reply):
+    """From where to where the last statement names what is chosen: "So AEB" of "3. So AEB: it alone is possible."."""
+    said = reply.rfind("\n")
+    last = reply.rfind("\n", 0, max(said, 0)) + 1
+    begin = reply.find(". ", last) + 1
+    end = reply.find(":", last)
+    return (begin, end) if 0 < begin < end < said else (0, 0)
 
 
 def _add_branch(made, number, position, source, tokens, weights):

@@ -41,7 +41,7 @@ def options(arguments):
     parser.add_argument("--alpha", type=int, default=32)
     parser.add_argument("--rate", type=float, default=8e-4, help="of learning, at its highest")
     parser.add_argument("--warm-up", type=int, default=25, help="steps until then")
-    parser.add_argument("--answer-weight", type=float, default=5.0, help="of an answer's digit; of other tokens 1")
+    parser.add_argument("--answer-weight", type=float, default=5.0, help="of an answer's digit, and of its name in the last statement; of other tokens 1")
     parser.add_argument("--harm-scale", type=float, default=0.0,
                         help="above 0: the answer at once is taught as exp(-harm / this) over what is admissible")
     parser.add_argument("--twin-share", type=float, default=0.5, help="of the scenes without risk")

@@ -173,7 +173,8 @@ std::optional<ReplyExample> reply_example(ReplyExample example, const preview::S
   example.set = set_of_record(example.record);
   example.prompt = reason::scene_part(situation, nearest, told ? told->similarity : 0.0);
   example.choice = reason::expert_choice(situation.facts, example.known);
-  example.reply = reason::expert_reply(situation, example.prompt, nearest, example.choice, random);
+  example.reply = reason::expert_reply(situation, example.prompt, nearest, example.choice,
+                                       reason::most_taught_tokens, random);
   return example;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "saca/core/contract.h"
 #include "saca/outcome/ordering.h"
 #include "saca/reason/prompt.h"
+#include "saca/reason/token_bound.h"
 #include "saca/world/scene.h"
 
 namespace saca::reason {
@@ -96,6 +98,36 @@ ActorLine read_actor_line(std::string_view line) {
   return read;
 }
 
+/// What may be left out of a reply.
+enum class Piece : std::uint8_t {
+  cue,
+  beside,
+  how_sure,
+  unprotected,
+  ends,
+  harm,
+  margin,
+  reason,
+  address
+};
+constexpr std::size_t num_pieces = 9;
+
+/// What a reply is put together from. Empty: does not apply.
+struct Arguments {
+  std::string address;      ///< "The danger is "
+  std::string who;          ///< "truck1, 16.0 m ahead"
+  std::string beside;       ///< ", 6.4 m left"
+  std::string how_sure;     ///< ", maintain 0.94"
+  std::string unprotected;  ///< ", unprotected"
+  std::string ends;         ///< "NI hits it", or whom else it hits
+  bool of_whom = false;     ///< that is about who threatens, and always told
+  std::string harm;         ///< ", harm 0.5943"
+  std::string cue;          ///< a statement
+  std::string reason;       ///< a statement
+  std::string conclusion;   ///< a statement
+  std::string margin;       ///< ", harm 0.0724", of the next best
+};
+
 /// Puts arguments together and words them.
 class Speaker {
  public:
@@ -108,21 +140,24 @@ class Speaker {
         choice_(choice),
         random_(random) {}
 
-  std::string reply() {
-    std::vector<std::string> statements = opening();
-    const std::vector<std::string> more = reasons();
-    if (const world::Cue* const cue = next_cue()) {
-      statements.push_back(warning(*cue));
-    } else if (!more.empty() && perhaps()) {
-      statements.push_back(
-          more.at(std::uniform_int_distribution<std::size_t>(0, more.size() - 1)(random_)));
+  std::string reply(int most_tokens) {
+    const Arguments arguments = this->arguments();
+    std::array<Piece, num_pieces> order{Piece::cue,    Piece::beside, Piece::how_sure,
+                                        Piece::ends,   Piece::harm,   Piece::unprotected,
+                                        Piece::margin, Piece::reason, Piece::address};
+    std::shuffle(order.begin() + 1, order.end() - 1, random_);
+    std::bitset<num_pieces> told;
+    std::string text = composed(arguments, told);
+    for (const Piece piece : order) {
+      std::bitset<num_pieces> more = told;
+      more.set(static_cast<std::size_t>(piece));
+      std::string longer = composed(arguments, more);
+      if (tokens_at_most(longer) <= most_tokens) {
+        told = more;
+        text = std::move(longer);
+      }
     }
-    statements.push_back(conclusion());
-    std::string text = "Scenario Analysis\n";
-    for (std::size_t i = 0; i < statements.size(); ++i) {
-      text += fmt::format("{}. {}.\n", i + 1, statements[i]);
-    }
-    return text + fmt::format("Response to user: {}", manoeuvre::index(choice_));
+    return text;
   }
 
  private:
@@ -134,7 +169,7 @@ class Speaker {
   bool perhaps() { return std::uniform_int_distribution<int>(0, 1)(random_) == 1; }
 
   [[nodiscard]] static std::string called(PolicyId policy) { return std::string(name(policy)); }
-  /// "is clear by 0.6 m", "hits car1, harm 0.0125": what the prompt has of it, in short.
+  /// "is clear by 0.6 m", "hits car1": what the prompt has of it, in short.
   [[nodiscard]] std::string end_of(PolicyId policy) const {
     const PolicyFacts& facts = of(facts_, policy);
     if (!facts.drivable()) {
@@ -142,30 +177,73 @@ class Speaker {
     }
     const std::string_view told = rest_of_line(prompt_, manoeuvre::plan_text(facts.plan) + ": ");
     const std::string how(told.substr(0, std::min(told.find(','), told.find(" with "))));
-    return how.starts_with("clear") ? "is " + how : how + ", " + harm_of(policy);
+    return how.starts_with("clear") ? "is " + how : how;
+  }
+  /// ", harm 0.0125" of what is not clear; empty: it is.
+  [[nodiscard]] std::string with_harm(PolicyId policy) const {
+    const PolicyFacts& facts = of(facts_, policy);
+    return facts.drivable() && facts.outcome().contact ? ", " + harm_of(policy) : "";
   }
   [[nodiscard]] std::string harm_of(PolicyId policy) const {
     return harm_text(of(facts_, policy).outcome().harm);
   }
 
-  // The beginning: who threatens, and what comes of doing nothing or of braking.
-  std::vector<std::string> opening() {
+  /// The reply with these details.
+  [[nodiscard]] std::string composed(const Arguments& all,
+                                     const std::bitset<num_pieces>& told) const {
+    const auto with = [&](Piece piece, const std::string& text) {
+      return told.test(static_cast<std::size_t>(piece)) ? text : "";
+    };
     std::vector<std::string> statements;
+    const std::string ends = all.ends + with(Piece::harm, all.harm);
+    if (!all.who.empty()) {
+      statements.push_back(with(Piece::address, all.address) + all.who +
+                           with(Piece::beside, all.beside) + with(Piece::how_sure, all.how_sure) +
+                           with(Piece::unprotected, all.unprotected) +
+                           (all.of_whom ? ": " + ends : ""));
+    }
+    statements.push_back(all.of_whom || all.ends.empty() ? "" : with(Piece::ends, ends));
+    statements.push_back(with(Piece::cue, all.cue));
+    statements.push_back(with(Piece::reason, all.reason));
+    statements.push_back(all.conclusion + with(Piece::margin, all.margin));
+    std::erase(statements, "");
+    std::string text = "Scenario Analysis\n";
+    for (std::size_t i = 0; i < statements.size(); ++i) {
+      text += fmt::format("{}. {}.\n", i + 1, statements[i]);
+    }
+    return text + fmt::format("Response to user: {}", manoeuvre::index(choice_));
+  }
+
+  Arguments arguments() {
+    Arguments all;
     const PolicyFacts& nothing = of(facts_, PolicyId::no_intervention);
     const bool is_safe = nothing.drivable() && !may_touch(nothing);
     const std::optional<std::size_t> who = most_dangerous();
     if (who) {
-      statements.push_back(threat(*who, is_safe));
+      add_threat(*who, is_safe, all);
     }
+    // What comes of doing nothing or of braking.
     const bool braking = choice_ != PolicyId::aeb && !is_safe && (perhaps() || !nothing.drivable());
-    if (braking) {
-      statements.push_back(one_of("", "Braking alone, ") + called(PolicyId::aeb) + ' ' +
-                           end_of(PolicyId::aeb));
-    } else if (choice_ != PolicyId::no_intervention && nothing.drivable()) {
-      statements.push_back(one_of("", "Going on, ") + called(PolicyId::no_intervention) + ' ' +
-                           end_of(PolicyId::no_intervention));
+    if (braking || (choice_ != PolicyId::no_intervention && nothing.drivable())) {
+      const PolicyId tried = braking ? PolicyId::aeb : PolicyId::no_intervention;
+      const PolicyFacts& facts = of(facts_, tried);
+      const std::optional<outcome::Contact> contact =
+          facts.drivable() ? facts.outcome().contact : std::nullopt;
+      const bool hits_who = contact && contact->actor && contact->actor == who;
+      all.ends = called(tried) + ' ' + (hits_who ? "hits it" : end_of(tried));
+      all.of_whom = hits_who || (who && facts.drivable() && !contact);
+      all.harm = with_harm(tried);
     }
-    return statements;
+    if (const world::Cue* const cue = next_cue()) {
+      all.cue = warning(*cue);
+    } else if (const std::vector<std::string> more = reasons(); !more.empty()) {
+      all.reason = more.at(std::uniform_int_distribution<std::size_t>(0, more.size() - 1)(random_));
+    }
+    all.conclusion = conclusion();
+    if (const auto next = next_best(); next && admissible(facts_).count() == 1) {
+      all.margin = ", " + harm_of(*next);
+    }
+    return all;
   }
 
   [[nodiscard]] bool is_told(std::size_t actor) const {
@@ -192,23 +270,25 @@ class Speaker {
     return most;
   }
 
-  std::string threat(std::size_t who, bool is_safe) {
+  void add_threat(std::size_t who, bool is_safe, Arguments& all) {
     const Actor& actor = situation_.scene_at_trigger.actors[who];
     const std::string name = actor_name(actor);
     const ActorLine told = read_actor_line(rest_of_line(prompt_, name + ": "));
-    const std::string where = told.along + (beside(who) ? ", " + told.across : "");
+    all.who = name + ", " + told.along;
+    all.beside = beside(who) ? ", " + told.across : "";
     if (is_safe) {
-      return one_of("Nearest to danger is ", "Most to be watched is ") + name + ", " + where +
-             ", " + told.risk;
+      all.address = one_of("Nearest to danger is ", "Most to be watched is ");
+      all.how_sure = ", " + told.risk;
+      return;
     }
+    all.address = one_of("Most dangerous is ", "The danger is ");
     const bool in_time = !told.conflict.empty() && (told.intention.empty() || perhaps());
+    all.how_sure = ", " + (in_time                  ? told.conflict
+                           : told.intention.empty() ? told.risk
+                                                    : told.intention);
     const bool is_bare = actor.kind == ActorKind::pedestrian || actor.kind == ActorKind::bicycle ||
                          actor.kind == ActorKind::motorcycle;
-    return one_of("Most dangerous is ", "The danger is ") + name + ", " + where + ", " +
-           (in_time                  ? told.conflict
-            : told.intention.empty() ? told.risk
-                                     : told.intention) +
-           (is_bare ? ", unprotected" : "");
+    all.unprotected = is_bare ? ", unprotected" : "";
   }
 
   /// Whether where somebody is sideways says more than that he is ahead.
@@ -244,7 +324,7 @@ class Speaker {
                     (can_go(side) ? " is blocked" : " is not possible"));
     } else if (best && manoeuvre::side(choice_) != side) {
       all.push_back(one_of("To the " + word + " ", "On the " + word + " ") + called(*best) + ' ' +
-                    end_of(*best));
+                    end_of(*best) + with_harm(*best));
     }
     if ((side > 0 ? road.oncoming_left : road.oncoming_right) && best) {
       all.push_back("To the " + word + " is an oncoming lane");
@@ -302,18 +382,18 @@ class Speaker {
     });
   }
 
-  // Why this choice and not the next best.
+  // Why this choice and not the next best. It begins with its name, so that what is chosen is
+  // settled before it is reasoned why.
   std::string conclusion() {
-    const std::string chosen = one_of("The best is ", "So ", "I choose ") + called(choice_);
+    const std::string chosen = "So " + called(choice_) + ": ";
     const std::optional<PolicyId> other = next_best();
     if (!other) {
-      return chosen + ": it alone is possible";
+      return chosen + "it alone is possible";
     }
     if (admissible(facts_).count() == 1) {
-      return chosen + ": it has the least harm, " + called(*other) + ' ' +
-             one_of("has ", "comes next with ") + harm_of(*other);
+      return chosen + "least harm, next " + called(*other);
     }
-    return chosen + ": " + called(*other) + " harms about as little" +
+    return chosen + "as good as " + called(*other) +
            advantage(of(facts_, choice_), of(facts_, *other));
   }
 
@@ -327,7 +407,7 @@ class Speaker {
   [[nodiscard]] std::string advantage(const PolicyFacts& mine, const PolicyFacts& theirs) const {
     const PolicyId other = theirs.plan.policy;
     if (outcome::milder(choice_, other)) {
-      return ", and this is milder";
+      return ", and milder";
     }
     if (choice_ == PolicyId::aeb && other == PolicyId::no_intervention) {
       return ", and less speed harms less if a forecast errs";
@@ -335,14 +415,14 @@ class Speaker {
     const world::Cue* const cue = next_cue();
     if (cue != nullptr && side_of(*cue) != 0 && manoeuvre::side(other) == side_of(*cue) &&
         manoeuvre::side(choice_) != side_of(*cue)) {
-      return fmt::format(", and this keeps away from the {}", cue_text(cue->kind));
+      return fmt::format(", and keeps away from the {}", cue_text(cue->kind));
     }
     if (mine.contact_probability() + unlikely < theirs.contact_probability()) {
-      return ", and this touches somebody less often";
+      return ", and touches somebody less often";
     }
     const world::Road& road = situation_.scene_at_trigger.road;
     if (leads_into_oncoming(road, other) && !leads_into_oncoming(road, choice_)) {
-      return ", and this stays out of the oncoming lane";
+      return ", and stays out of the oncoming lane";
     }
     if (nearest_ && nearest_->best == choice_) {
       return ", and this was best in the most alike case";
@@ -396,9 +476,9 @@ PolicyId expert_choice(const AllFacts& facts, const memory::PolicyHarms& known) 
 
 std::string expert_reply(const preview::Situation& situation, std::string_view scene_part,
                          const std::optional<memory::Case>& nearest, PolicyId choice,
-                         std::mt19937_64& random) {
+                         int most_tokens, std::mt19937_64& random) {
   expects(admissible(situation.facts).test(manoeuvre::index(choice)), "an admissible choice");
-  return Speaker(situation, scene_part, nearest, choice, random).reply();
+  return Speaker(situation, scene_part, nearest, choice, random).reply(most_tokens);
 }
 
 }  // namespace saca::reason

@@ -26,10 +26,13 @@ preview::PolicyFacts& of(preview::Situation& situation, PolicyId policy) {
   return situation.facts[manoeuvre::index(policy)];
 }
 
+constexpr int ample = 170;  // tokens
+
 std::string replied(const preview::Situation& situation, PolicyId choice, unsigned seed,
-                    const std::optional<memory::Case>& nearest = std::nullopt) {
+                    int most_tokens = ample) {
   std::mt19937_64 random(seed);
-  return expert_reply(situation, scene_part(situation, nearest, 0.8), nearest, choice, random);
+  return expert_reply(situation, scene_part(situation, std::nullopt, 0.8), std::nullopt, choice,
+                      most_tokens, random);
 }
 
 /// Both ways of going left in reach: they harm little, braking and the right more.
@@ -87,8 +90,8 @@ TEST(Expert, SaysWhatThreatensWhatBrakingDoesAndWhy) {
   const std::string text = replied(situation, PolicyId::es_b_left, 3);
   EXPECT_THAT(text, testing::StartsWith("Scenario Analysis\n1. "));
   EXPECT_THAT(text, HasSubstr("truck1, 16.0 m ahead, 6.4 m left"));
-  EXPECT_THAT(text, HasSubstr("AEB hits truck1, harm 0.1000"));
-  EXPECT_THAT(text, HasSubstr("ES-B-L: AES-L harms about as little"));
+  EXPECT_THAT(text, HasSubstr(": AEB hits it, harm 0.1000"));
+  EXPECT_THAT(text, HasSubstr("So ES-B-L: as good as AES-L"));
   EXPECT_THAT(text, testing::EndsWith("\nResponse to user: 3"));
 }
 
@@ -105,7 +108,7 @@ TEST(Expert, NamesTheRunnerUpsHarm) {
   preview::Situation situation = left_is_open();
   of(situation, PolicyId::aes_left).outcome().harm = 0.02;
   const std::string text = replied(situation, PolicyId::es_b_left, 1);
-  EXPECT_THAT(text, HasSubstr("it has the least harm, NI"));
+  EXPECT_THAT(text, HasSubstr("So ES-B-L: least harm, next NI, harm 0.0125"));
 }
 
 // What it says holds, whatever the scene: it is true by construction.
@@ -126,7 +129,8 @@ TEST(Expert, SaysNothingFalse) {
     }
     const std::string prompt = scene_part(situation, nearest, 0.8);
     const PolicyId choice = expert_choice(situation.facts, known);
-    const std::string text = expert_reply(situation, prompt, nearest, choice, random);
+    const std::string text = expert_reply(situation, prompt, nearest, choice,
+                                          seed % 2 == 0 ? ample : most_taught_tokens, random);
     EXPECT_EQ(stated_policy(text), choice) << text;
     const Truth truth = truth_of(text, prompt, situation, choice);
     EXPECT_GE(truth.num_checked, 2) << text;
@@ -134,10 +138,28 @@ TEST(Expert, SaysNothingFalse) {
       ADD_FAILURE() << one.text << ": " << one.why << '\n' << prompt << text;
     }
     EXPECT_LE(std::count(text.begin(), text.end(), '\n'), most_statements + 1) << text;
-    EXPECT_LE(tokens_at_most(text), 170) << text;
+    EXPECT_LE(tokens_at_most(text), seed % 2 == 0 ? ample : most_taught_tokens) << text;
     conclusions.insert(text.substr(text.rfind('\n', text.rfind("\nResponse") - 1)));
   }
   EXPECT_GE(conclusions.size(), 50U);
+}
+
+// Where few tokens are allowed, details are left out, never who threatens or why this one.
+TEST(Expert, SaysLessWhereItHasLess) {
+  const preview::Situation situation = left_is_open();
+  std::set<std::string> texts;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    const std::string text = replied(situation, PolicyId::es_b_left, seed, most_taught_tokens);
+    EXPECT_LE(tokens_at_most(text), most_taught_tokens) << text;
+    EXPECT_THAT(text, HasSubstr("truck1, 16.0 m ahead")) << text;
+    EXPECT_THAT(text, HasSubstr(" hits it")) << text;
+    EXPECT_THAT(text, HasSubstr("So ES-B-L: as good as AES-L")) << text;
+    texts.insert(text);
+  }
+  EXPECT_GE(texts.size(), 3U);  // what is left out is drawn
+  const std::string least = replied(situation, PolicyId::es_b_left, 1, 0);
+  EXPECT_THAT(least, testing::StartsWith("Scenario Analysis\n1. truck1, 16.0 m ahead: "));
+  EXPECT_EQ(std::count(least.begin(), least.end(), '\n'), 3);
 }
 
 TEST(Expert, SameSeedSaysTheSame) {
@@ -147,7 +169,7 @@ TEST(Expert, SameSeedSaysTheSame) {
   for (unsigned seed = 0; seed < 50; ++seed) {
     texts.insert(replied(situation, PolicyId::aes_left, seed));
   }
-  EXPECT_GE(texts.size(), 30U);
+  EXPECT_GE(texts.size(), 10U);
 }
 
 TEST(Expert, DoesNothingWhereNothingThreatens) {
@@ -188,8 +210,7 @@ TEST(Expert, WarnsOfWhatIsNotSeen) {
     texts.insert(text);
   }
   EXPECT_TRUE(std::any_of(texts.begin(), texts.end(), [](const std::string& text) {
-    return text.find(
-               "ES-B-R harms about as little, and this keeps away from the row of parked vans") !=
+    return text.find("as good as ES-B-R, and keeps away from the row of parked vans") !=
            std::string::npos;
   }));
   // Of two alike the nearer one.

@@ -22,6 +22,9 @@ using manoeuvre::PolicyId;
 
 constexpr std::array<std::string_view, 3> from_names{"model", "model_in_part", "facts"};
 
+/// Of what is composed from facts: nobody waits for it, all that applies may be said.
+constexpr int most_shown_tokens = 170;
+
 /// The numbered statements of a reply, without numbers.
 std::vector<std::string_view> numbered_statements(std::string_view text) {
   std::vector<std::string_view> all;
@@ -102,7 +105,8 @@ Explanation explanation(std::string_view reasoning, std::string_view prompt,
   Fnv hash;  // the same words for the same prompt
   hash.add(prompt);
   std::mt19937_64 random(hash.value());
-  return {numbered(numbered_statements(expert_reply(situation, prompt, nearest, chosen, random))),
+  return {numbered(numbered_statements(
+              expert_reply(situation, prompt, nearest, chosen, most_shown_tokens, random))),
           Explanation::From::facts};
 }
 

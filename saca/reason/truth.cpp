@@ -503,7 +503,7 @@ void judge_beside(std::string_view low, PolicyId it, PolicyId other, const Situa
   const auto both = [&](std::string_view how) {
     return fmt::format("{} {} {}", name(it), how, name(other));
   };
-  if (has_phrase(low, "harms about as little")) {
+  if (has_phrase(low, "harms about as little") || has_phrase(low, "as good as")) {
     const auto may = admissible(situation.facts);
     must_be(may.test(manoeuvre::index(it)) && may.test(manoeuvre::index(other)),
             told(theirs, situation));

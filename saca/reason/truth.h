@@ -48,8 +48,9 @@ struct Truth {
 ///   its forecast; of a named side ("left is blocked") that of all policies to it, "clear" of one.
 ///   "Blocked" is what is not possible or forecast to hit.
 /// * The choice must not be what the text calls blocked or not possible. What is said of the
-///   policy that a sentence names first beside one other must be so: "harms about as little",
-///   "milder", "less often", "out of the oncoming lane"; that it "alone is possible" as well.
+///   policy that a sentence names first beside one other must be so: "as good as", "harms about
+///   as little", "milder", "less often", "out of the oncoming lane"; that it "alone is possible" as
+///   well.
 /// * What "was best" or "was carried out" in a like case must be what the prompt tells of it.
 /// What is said about the policy or the side that was chosen is load-bearing. What says nothing of
 /// this kind, or denies or excepts in another way ("not blocked", "all but AEB"), is not judged.

@@ -185,8 +185,13 @@ TEST(Truth, ComparisonsAreSo) {
   EXPECT_THAT(why(little, PolicyId::aeb), testing::StartsWith("2 AES-R: hits truck1"));
   situation.facts[2].outcome().harm = situation.facts[0].outcome().harm;
   EXPECT_EQ(why(little, PolicyId::aeb), "");
+  EXPECT_EQ(why("So AEB: as good as AES-R, and milder", PolicyId::aeb), "");
   EXPECT_EQ(why("So AES-R: AEB harms about as little, and this is milder", PolicyId::aes_right),
             "AES-R is not milder than AEB");
+  EXPECT_EQ(why("So AES-R: as good as AEB, and milder", PolicyId::aes_right),
+            "AES-R is not milder than AEB");
+  EXPECT_EQ(why("So AES-R: as good as AES-L", PolicyId::aes_right),
+            "1 AES-L: hits truck1 with its front at 9.0 m/s");
   EXPECT_EQ(why("So AES-R: AES-L harms about as little, and this is milder", PolicyId::aes_right),
             "1 AES-L: hits truck1 with its front at 9.0 m/s");
   situation.scene_at_trigger.road.oncoming_left = true;

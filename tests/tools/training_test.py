@@ -81,6 +81,14 @@ def test_only_replies_are_learnt_and_the_answer_weighs_more():
         assert [made.weight[i] for i in branch(made, number)] == [0.0] * (len(branch(made, number)) - 1) + [5.0]
 
 
+def test_where_the_choice_is_named_weighs_as_much_as_the_answer():
+    reply = "Scenario Analysis\n1. AEB: car1.\n2. So ES-B-L: as good as AEB.\nResponse to user: 3"
+    one = examples.read_set_line(json.dumps(dict(EXAMPLE, reply=reply)), "place")
+    made = examples.sequence_of(one, letters, END, 5.0, random.Random(1))
+    heavy = [i for i in branch(made, 1) if made.weight[i] == 5.0]
+    assert "".join(chr(made.tokens[i]) for i in heavy) == " So ES-B-L3" and len({made.weight[i] for i in branch(made, 1)}) == 2
+
+
 def test_tokens_are_predicted_from_those_before_them():
     for seed in range(20):
         made = sequence(seed)
