@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "saca/decide/event.h"
+
 namespace saca::app {
 namespace {
 
@@ -51,6 +53,9 @@ Result<FirstQuestion> first_question(const ScenarioInputs& inputs,
   const auto& all = asked.record.previews;  // numbered as they were asked about
   asked.previews.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(
                                                        std::min(all.size(), taker.num_first())));
+  for (decide::Preview& preview : asked.previews) {  // forecast anew since then
+    preview.prompt = decide::prompt_of(preview);
+  }
   return asked;
 }
 

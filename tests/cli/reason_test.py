@@ -2,6 +2,7 @@
 import json
 import os
 import pathlib
+import re
 import sys
 
 import pytest
@@ -21,11 +22,14 @@ def key_of(prompt):
 
 @pytest.fixture(scope="module")
 def replies(tmp_path_factory):
-    """Replies to the first questions of intersection_t1, one for each forecast, written by hand for the prompts that are asked."""
-    folder = tmp_path_factory.mktemp("reason")
+    return replies_to("intersection_t1", tmp_path_factory.mktemp("reason"))
+
+
+def replies_to(scenario, folder):
+    """Replies to the first questions of a scenario, one for each forecast, written by hand for the prompts that are asked."""
     nobody = folder / "nobody.json"
     nobody.write_text(json.dumps({"schema": "saca.replies/1", "model": "by hand", "replies": {}}))
-    run = saca("reason", "intersection_t1", "--llm", f"replay:{nobody}", cwd=folder)
+    run = saca("reason", scenario, "--llm", f"replay:{nobody}", cwd=folder)
     assert run.returncode == BAD_INPUT  # it knows no prompt; the question is told all the same
     prompts = [forecast.split("---\n", 1)[1].split("\n--- Forecast", 1)[0].rstrip("\n") + "\n" for forecast in run.stdout.split("trigger at")[1:]]
     assert prompts and all(one.startswith("# Collision avoidance scenario") and "## Manoeuvres:" in one for one in prompts)
@@ -58,6 +62,14 @@ def test_for_programs(replies, tmp_path):
     assert forecast["truth"]["score"] == 0.5 and forecast["truth"]["checked"] == 2
     assert [one["load_bearing"] for one in forecast["truth"]["false"]] == [False]
     assert forecast["check"]["passed"] is True and 0.0 < forecast["probability"] <= 1.0
+
+
+def test_reasons_by_the_figures_are_those_of_the_prompt(tmp_path):
+    told = json.loads(saca("reason", "lead_brakes_follower", "--llm", f"replay:{replies_to('lead_brakes_follower', tmp_path)}", "--json", cwd=tmp_path).stdout)
+    (forecast,) = told["forecasts"]
+    assert forecast["explanation"]["from"] == "facts"
+    harms = re.findall(r"harm \d\.\d{4}", forecast["explanation"]["text"])
+    assert harms and all(harm in forecast["prompt"] for harm in harms)
 
 
 def test_nothing_is_asked_where_nothing_threatens(replies, tmp_path):
