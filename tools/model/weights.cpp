@@ -28,7 +28,7 @@ using saca::model_host::AskFigures;
 using saca::model_host::Engine;
 
 constexpr int rounds = 2;         // the best of them counts: the machine may be busy
-constexpr int reply_tokens = 80;  // per scene and round: as many as replies have
+constexpr int reply_tokens = 60;  // per scene and round: as many as replies have
 // A round that takes longer than this measures how busy the machine is, not the weights [s].
 constexpr auto longest_round = std::chrono::seconds(30);
 constexpr std::string_view too_busy = "machine too busy to measure";
