@@ -9,6 +9,7 @@
 #include "saca/eval/trigger_case.h"
 #include "saca/preview/preview.h"
 #include "saca/reason/expert.h"
+#include "saca/reason/expert_choice.h"
 #include "saca/reason/prompt.h"
 
 namespace saca::eval {

@@ -13,6 +13,7 @@
 #include "saca/core/contract.h"
 #include "saca/outcome/ordering.h"
 #include "saca/reason/prompt.h"
+#include "saca/reason/prompt_lines.h"
 #include "saca/reason/token_bound.h"
 #include "saca/world/scene.h"
 
@@ -49,53 +50,6 @@ std::optional<PolicyId> best_where(const AllFacts& facts, const Wanted& wanted) 
 
 bool may_touch(const PolicyFacts& facts) {
   return facts.outcome().contact.has_value() || facts.contact_probability() > unlikely;
-}
-
-/// What stands in a prompt behind this beginning of a line, to the line's end; empty: it is not
-/// there.
-std::string_view rest_of_line(std::string_view text, const std::string& beginning) {
-  for (std::size_t at = text.find(beginning); at != std::string_view::npos;
-       at = text.find(beginning, at + 1)) {
-    if (at == 0 || text[at - 1] == '\n') {
-      const std::string_view rest = text.substr(at + beginning.size());
-      return rest.substr(0, rest.find('\n'));
-    }
-  }
-  return {};
-}
-
-/// What a road user's line says, piece by piece. Empty pieces are not told.
-struct ActorLine {
-  std::string along;      ///< "16.0 m ahead"
-  std::string across;     ///< "6.4 m left"
-  std::string intention;  ///< "lane change right 0.88"
-  std::string conflict;   ///< "TTC 0.9 s"
-  std::string risk;       ///< "risk 0.94"
-};
-
-ActorLine read_actor_line(std::string_view line) {
-  std::vector<std::string> parts;
-  while (!line.empty()) {
-    const std::size_t end = std::min(line.find(", "), line.size());
-    parts.emplace_back(line.substr(0, end));
-    line.remove_prefix(std::min(end + 2, line.size()));
-  }
-  ActorLine read;
-  std::string last;
-  for (std::string& part : parts) {
-    if (part.ends_with("m ahead") || part.ends_with("m behind")) {
-      read.along = part;
-    } else if (part.ends_with("m left") || part.ends_with("m right")) {
-      read.across = part;
-    } else if (part.starts_with("TTC ")) {
-      read.intention = last;
-      read.conflict = part == "TTC none" ? "" : part;
-    } else if (part.starts_with("risk ")) {
-      read.risk = part;
-    }
-    last = std::move(part);
-  }
-  return read;
 }
 
 /// What may be left out of a reply.
@@ -439,40 +393,6 @@ class Speaker {
 };
 
 }  // namespace
-
-PolicyId expert_choice(const AllFacts& facts, const memory::PolicyHarms& known) {
-  const memory::Policies may = admissible(facts);
-  expects(may.any(), "something can be driven");
-  if (may.test(manoeuvre::index(PolicyId::no_intervention))) {
-    return PolicyId::no_intervention;
-  }
-  bool is_known = true;
-  for (std::size_t k = 0; k < may.size(); ++k) {
-    is_known = is_known && (!may.test(k) || known.at(k).has_value());
-  }
-  const auto harm_of = [&](PolicyId policy) {
-    return is_known ? *known.at(manoeuvre::index(policy)) : of(facts, policy).outcome().harm;
-  };
-  double least = std::numeric_limits<double>::infinity();
-  for (const PolicyId policy : manoeuvre::all_policies) {
-    if (may.test(manoeuvre::index(policy))) {
-      least = std::min(least, harm_of(policy));
-    }
-  }
-  std::optional<PolicyId> best;
-  for (const PolicyId policy : manoeuvre::all_policies) {
-    if (!may.test(manoeuvre::index(policy)) || harm_of(policy) > least + memory::as_good) {
-      continue;
-    }
-    const bool equally_mild =
-        best && !outcome::milder(*best, policy) && !outcome::milder(policy, *best);
-    if (!best || outcome::milder(policy, *best) ||
-        (equally_mild && preview::better(of(facts, policy), of(facts, *best)))) {
-      best = policy;
-    }
-  }
-  return *best;
-}
 
 std::string expert_reply(const preview::Situation& situation, std::string_view scene_part,
                          const std::optional<memory::Case>& nearest, PolicyId choice,

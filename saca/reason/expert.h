@@ -7,22 +7,9 @@
 
 #include "saca/manoeuvre/plan.h"
 #include "saca/memory/case.h"
-#include "saca/memory/experience.h"
 #include "saca/preview/situation.h"
 
 namespace saca::reason {
-
-/// What somebody would choose who knows how it ends on average, but takes nothing that is
-/// knowingly worse than the best: doing nothing, where that is admissible (it is looked at again
-/// every moment, and no prompt tells whether it will stay so); else of the admissible policies that
-/// of the least known harm; of those within memory::as_good of it the mildest (outcome::milder); of
-/// equally mild ones the better by forecast.
-///
-/// @param known  harm by PolicyId [-], a mean over draws; where it is not known of some admissible
-///               policy, the forecast decides in its place, for all
-/// @throws ContractViolation  if nothing can be driven
-[[nodiscard]] manoeuvre::PolicyId expert_choice(const preview::AllFacts& facts,
-                                                const memory::PolicyHarms& known);
 
 /// How an expert argues for a choice, in the form that prompts ask for: what models are taught
 /// with.

@@ -10,6 +10,8 @@
 
 #include "saca/core/contract.h"
 #include "saca/reason/crowded_situation_for_test.h"
+#include "saca/reason/expert_choice.h"
+#include "saca/reason/left_is_open_for_test.h"
 #include "saca/reason/prompt.h"
 #include "saca/reason/reply.h"
 #include "saca/reason/token_bound.h"
@@ -22,10 +24,6 @@ using manoeuvre::PolicyId;
 using testing::HasSubstr;
 using testing::Not;
 
-preview::PolicyFacts& of(preview::Situation& situation, PolicyId policy) {
-  return situation.facts[manoeuvre::index(policy)];
-}
-
 constexpr int ample = 170;  // tokens
 
 std::string replied(const preview::Situation& situation, PolicyId choice, unsigned seed,
@@ -33,56 +31,6 @@ std::string replied(const preview::Situation& situation, PolicyId choice, unsign
   std::mt19937_64 random(seed);
   return expert_reply(situation, scene_part(situation, std::nullopt, 0.8), std::nullopt, choice,
                       most_tokens, random);
-}
-
-/// Both ways of going left in reach: they harm little, braking and the right more.
-preview::Situation left_is_open() {
-  preview::Situation situation = example_situation();
-  for (const PolicyId policy : {PolicyId::aes_left, PolicyId::es_b_left}) {
-    auto& end = of(situation, policy).end.emplace<preview::ExpectedOutcome>();
-    end.outcome.clearance = 1.5;
-    end.contact_probability = 0.02;
-  }
-  of(situation, PolicyId::aeb).outcome().harm = 0.1;
-  of(situation, PolicyId::aeb).outcome().contact =
-      of(situation, PolicyId::aes_right).outcome().contact;
-  return situation;
-}
-
-TEST(Expert, AdmitsWhatForecastsCannotTellFromTheBest) {
-  preview::Situation situation = left_is_open();
-  of(situation, PolicyId::aes_left).outcome().harm = 0.001;
-  // Braking has 0.1 above the best, 3 % of which are 0.003.
-  of(situation, PolicyId::es_b_right).outcome().harm = 0.0029;
-  of(situation, PolicyId::aes_right).outcome().harm = 0.0031;
-  const memory::Policies may = admissible(situation.facts);
-  EXPECT_EQ(may, memory::Policies("00011010"));  // 1, 3 and 4
-}
-
-TEST(Expert, ChoosesByWhatIsKnownAmongTheAdmissible) {
-  preview::Situation situation = left_is_open();
-  memory::PolicyHarms known;
-  known[1] = 0.01;
-  known[3] = 0.05;
-  known[0] = 0.0;  // not admissible by what was forecast
-  EXPECT_EQ(expert_choice(situation.facts, known), PolicyId::aes_left);
-  known[3] = 0.011;  // as good, and milder
-  EXPECT_EQ(expert_choice(situation.facts, known), PolicyId::es_b_left);
-}
-
-TEST(Expert, ChoosesByForecastWhereSomethingIsNotKnown) {
-  preview::Situation situation = left_is_open();
-  of(situation, PolicyId::es_b_left).outcome().harm = 0.0005;
-  memory::PolicyHarms known;
-  known[3] = 0.5;
-  EXPECT_EQ(expert_choice(situation.facts, known), PolicyId::es_b_left);
-}
-
-TEST(Expert, ChoosesTheBetterForecastOfEquallyMild) {
-  preview::Situation situation = left_is_open();
-  auto& end = of(situation, PolicyId::es_b_right).end.emplace<preview::ExpectedOutcome>();
-  end.outcome.clearance = 2.5;
-  EXPECT_EQ(expert_choice(situation.facts, {}), PolicyId::es_b_right);
 }
 
 TEST(Expert, SaysWhatThreatensWhatBrakingDoesAndWhy) {
@@ -180,18 +128,6 @@ TEST(Expert, DoesNothingWhereNothingThreatens) {
   const std::string text = replied(situation, PolicyId::no_intervention, 1);
   EXPECT_THAT(text, Not(HasSubstr("threatens is")));
   EXPECT_THAT(text, testing::EndsWith("Response to user: 7"));
-}
-
-// One draw in which it ends badly does not tell another prompt from this one; what is begun is
-// looked at again.
-TEST(Expert, DoesNothingWhereThatCannotBeToldFromTheBest) {
-  preview::Situation situation = left_is_open();
-  auto& end = of(situation, PolicyId::no_intervention).end.emplace<preview::ExpectedOutcome>();
-  end.outcome.clearance = 0.2;
-  memory::PolicyHarms known;
-  known[1] = known[3] = known[4] = 0.0;
-  known[7] = 0.5;
-  EXPECT_EQ(expert_choice(situation.facts, known), PolicyId::no_intervention);
 }
 
 // Vans on the right: what may step out speaks against going there.

@@ -10,6 +10,7 @@
 #include "saca/core/contract.h"
 #include "saca/core/fnv.h"
 #include "saca/core/names.h"
+#include "saca/preview/policy_facts.h"
 #include "saca/reason/conclusion.h"
 #include "saca/reason/expert.h"
 #include "saca/reason/prompt.h"
@@ -50,17 +51,13 @@ std::string numbered(const std::vector<std::string_view>& statements) {
 
 /// Of a policy that is not admissible.
 std::string facts_beside_the_best(const preview::Situation& situation, PolicyId chosen) {
-  const preview::PolicyFacts* best = nullptr;
-  for (const preview::PolicyFacts& one : situation.facts) {
-    if (one.drivable() && (best == nullptr || preview::better(one, *best))) {
-      best = &one;
-    }
-  }
   const auto line = [&](const preview::PolicyFacts& facts) {
     return policy_line(facts, situation.scene_at_trigger);
   };
-  return fmt::format("1. {}\n2. The best forecast is that of {}\n",
-                     line(situation.facts[manoeuvre::index(chosen)]), line(*best));
+  return fmt::format(
+      "1. {}\n2. The best forecast is that of {}\n",
+      line(situation.facts[manoeuvre::index(chosen)]),
+      line(situation.facts[manoeuvre::index(preview::best_by_forecast(situation.facts))]));
 }
 
 }  // namespace
