@@ -118,7 +118,7 @@ class RecentCost {
 };
 
 // One scene while it is thought about.
-struct Thought {
+struct SceneProgress {
   std::size_t scene = 0;
   llama_pos position = 0;  // of the next token in its sequence
   llama_token next = 0;    // greedy choice, not yet evaluated
@@ -216,7 +216,7 @@ struct Engine::State {
   }
 
   // What is asked after the text so far: nothing but the space where the text asks it itself.
-  [[nodiscard]] Tokens question(const Thought& thought) const {
+  [[nodiscard]] Tokens question(const SceneProgress& thought) const {
     return thought.end == AnswerKind::ended && thought.text.ends_with(stated_answer)
                ? Tokens{stem.back()}
                : stem;
@@ -224,15 +224,15 @@ struct Engine::State {
 
   // Looks at the answers of some scenes, all in one step, and forgets that it asked.
   // @return  false when the deadline came first
-  bool read_answers(const std::vector<Thought*>& thoughts, AnswerKind kind, Clock::Time deadline,
-                    const EngineEvents& events) {
+  bool read_answers(const std::vector<SceneProgress*>& thoughts, AnswerKind kind,
+                    Clock::Time deadline, const EngineEvents& events) {
     if (thoughts.empty()) {
       return true;
     }
     const Clock::Time begin = clock->now();
     batch.clear();
     std::vector<int> at;
-    for (const Thought* thought : thoughts) {
+    for (const SceneProgress* thought : thoughts) {
       const Tokens tokens = question(*thought);
       for (std::size_t i = 0; i < tokens.size(); ++i) {
         at.push_back(batch.add(tokens[i], thought->position + static_cast<llama_pos>(i),
@@ -244,7 +244,7 @@ struct Engine::State {
     for (std::size_t i = 0; done && i < thoughts.size(); ++i) {
       events.answer(thoughts[i]->scene, kind, digit_logits(at[i]));
     }
-    for (const Thought* thought : thoughts) {
+    for (const SceneProgress* thought : thoughts) {
       forget_from(thought->scene, thought->position);
     }
     answer_cost.add(to_seconds(clock->now() - begin) / static_cast<double>(thoughts.size()));
@@ -258,7 +258,7 @@ struct Engine::State {
   }
 
   // Takes the chosen token into the text. Sets `reasoning` to false when the reply ends here.
-  void take(Thought& thought, int max_tokens, const EngineEvents& events) const {
+  void take(SceneProgress& thought, int max_tokens, const EngineEvents& events) const {
     if (llama_vocab_is_eog(vocab, thought.next)) {
       thought.reasoning = false;
       thought.end = AnswerKind::ended;
@@ -281,7 +281,7 @@ struct Engine::State {
 
   // One token for each scene that still reasons.
   // @return  false when the deadline leaves time for the final answers only
-  bool reason_on(std::vector<Thought>& thoughts, int max_tokens, Clock::Time deadline,
+  bool reason_on(std::vector<SceneProgress>& thoughts, int max_tokens, Clock::Time deadline,
                  AskFigures& figures, const EngineEvents& events) {
     const Clock::Time stop = reserved(deadline, thoughts.size());
     const Clock::Time begin = clock->now();
@@ -289,8 +289,8 @@ struct Engine::State {
       return false;
     }
     batch.clear();
-    std::vector<std::pair<Thought*, int>> running;
-    for (Thought& thought : thoughts) {
+    std::vector<std::pair<SceneProgress*, int>> running;
+    for (SceneProgress& thought : thoughts) {
       if (!thought.reasoning) {
         continue;
       }
@@ -327,10 +327,10 @@ struct Engine::State {
   }
 
   // The last answers of those whose reply came to its end in this way.
-  bool conclude(std::vector<Thought>& thoughts, AnswerKind kind, Clock::Time deadline,
+  bool conclude(std::vector<SceneProgress>& thoughts, AnswerKind kind, Clock::Time deadline,
                 const EngineEvents& events) {
-    std::vector<Thought*> these;
-    for (Thought& thought : thoughts) {
+    std::vector<SceneProgress*> these;
+    for (SceneProgress& thought : thoughts) {
       const bool ended = thought.end == AnswerKind::ended && !thought.reasoning;
       // Without any text the first answer is the last.
       const bool open = thought.tokens > 0 && !thought.answered;
@@ -343,7 +343,7 @@ struct Engine::State {
   }
 
   // Evaluates a scene's prompt and reads its first answer. False when the deadline came first.
-  bool begin_scene(Thought& thought, const Tokens& prompt, Clock::Time deadline,
+  bool begin_scene(SceneProgress& thought, const Tokens& prompt, Clock::Time deadline,
                    AskFigures& figures, const EngineEvents& events) {
     const Clock::Time begin = clock->now();
     const double computed_before = processor_seconds();
@@ -410,21 +410,21 @@ struct Engine::State {
     is_cancelled = events.is_cancelled;
     AskFigures figures;
     figures.prompt_tokens.resize(scenes.size());
-    std::vector<Thought> thoughts(scenes.size());
+    std::vector<SceneProgress> thoughts(scenes.size());
     bool in_time = true;
     for (std::size_t i = 0; in_time && i < scenes.size(); ++i) {
       thoughts[i].scene = i;
       in_time = begin_scene(thoughts[i], scenes[i], deadline, figures, events);
     }
     figures.overran = !in_time;
-    const auto reasons = [](const Thought& thought) { return thought.reasoning; };
+    const auto reasons = [](const SceneProgress& thought) { return thought.reasoning; };
     while (in_time && std::any_of(thoughts.begin(), thoughts.end(), reasons)) {
       in_time = reason_on(thoughts, max_tokens, deadline, figures, events);
       // Who has ended says so at once: the others may still take long.
       figures.overran |= !conclude(thoughts, AnswerKind::ended, deadline, events);
     }
     figures.overran |= !conclude(thoughts, AnswerKind::forced, deadline, events);
-    for (const Thought& thought : thoughts) {
+    for (const SceneProgress& thought : thoughts) {
       figures.reply_tokens.push_back(thought.tokens);
       forget_from(thought.scene, system_tokens);
     }

@@ -47,7 +47,7 @@ class Service {
   bool load() {
     const auto loaded = Engine::load(settings_);
     if (!loaded.has_value()) {
-      say(protocol::Failed{std::nullopt, loaded.error().message});
+      say(protocol::FailureMessage{std::nullopt, loaded.error().message});
       return false;
     }
     engine_ = loaded.value();
@@ -57,7 +57,7 @@ class Service {
   void handle(const protocol::Start& start) {
     const auto tokens = engine_->set_system(start.system, clock_);
     if (!tokens.has_value()) {
-      say(protocol::Failed{std::nullopt, tokens.error().message});
+      say(protocol::FailureMessage{std::nullopt, tokens.error().message});
       return;
     }
     say(protocol::Ready{engine_->description(), tokens.value(), to_seconds(clock_.now() - begin_)});
@@ -66,7 +66,7 @@ class Service {
   void handle(const protocol::Ask& ask) {
     const Clock::Time arrival = clock_.now();
     if (ask.scenes.empty() || ask.scenes.size() > max_scenes || ask.max_tokens > 4096) {
-      say(protocol::Failed{ask.id, "ask: want 1 to 3 scenes and at most 4096 tokens each"});
+      say(protocol::FailureMessage{ask.id, "ask: want 1 to 3 scenes and at most 4096 tokens each"});
       return;
     }
     const EngineEvents events{
@@ -77,7 +77,7 @@ class Service {
           say(protocol::Text{ask.id, scene, std::string(text)});
         },
         [&](std::size_t scene, AnswerKind kind, const std::vector<double>& logits) {
-          say(protocol::Answered{ask.id, scene, kind, softmax(logits, settings_.temperature)});
+          say(protocol::AnswerMessage{ask.id, scene, kind, softmax(logits, settings_.temperature)});
         },
         [&, next_look = arrival, cancelled = false]() mutable {
           if (const Clock::Time now = clock_.now(); !cancelled && now >= next_look) {
@@ -90,8 +90,8 @@ class Service {
     const auto budget = from_seconds(std::min(ask.budget, longest));
     const auto figures = engine_->ask(ask.scenes, arrival + budget, ask.max_tokens, clock_, events);
     if (!figures.has_value()) {
-      say(protocol::Failed{ask.id, figures.error().message,
-                           figures.error().code == Error::Code::too_late});
+      say(protocol::FailureMessage{ask.id, figures.error().message,
+                                   figures.error().code == Error::Code::too_late});
       return;
     }
     say(protocol::Done{ask.id, figures.value().reply_tokens, figures.value().prompt_seconds,
@@ -136,7 +136,7 @@ int serve(const EngineSettings& settings, int in, std::ostream& out) {
   while (const auto line = inbox.take()) {
     const auto request = protocol::request_from(*line);
     if (!request.has_value()) {
-      service.say(protocol::Failed{std::nullopt, request.error().message});
+      service.say(protocol::FailureMessage{std::nullopt, request.error().message});
       continue;
     }
     std::visit([&](const auto& r) { service.handle(r); }, request.value());

@@ -19,14 +19,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Made {
+struct NewAtlas {
   manoeuvre::Atlas atlas;
   std::optional<Error> not_written;
 };
 
 /// nullopt: interrupted, which it is only when that is watched for. Errors are the journal's.
-Result<std::optional<Made>> made(const Inputs& inputs, const fs::path& file, int threads,
-                                 const fs::path& journal) {
+Result<std::optional<NewAtlas>> made(const Inputs& inputs, const fs::path& file, int threads,
+                                     const fs::path& journal) {
   SteadyClock clock;
   const auto grid = manoeuvre::default_atlas_grid();
   ProgressLine line("atlas", static_cast<int>(num_nodes(grid)), clock);
@@ -40,13 +40,13 @@ Result<std::optional<Made>> made(const Inputs& inputs, const fs::path& file, int
     return nodes.error();
   }
   if (nodes.value() == nullptr) {
-    return std::optional<Made>();
+    return std::optional<NewAtlas>();
   }
   auto problem = make_folder_of(file);
   if (!problem) {
     problem = write_file(file, manoeuvre::atlas_bytes(inputs.car, grid, *nodes.value()));
   }
-  return std::optional(Made{{grid, inputs.car.tuning.domain, nodes.value()}, problem});
+  return std::optional(NewAtlas{{grid, inputs.car.tuning.domain, nodes.value()}, problem});
 }
 
 }  // namespace

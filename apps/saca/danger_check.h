@@ -34,11 +34,11 @@ struct DangerWeights {
 
 /// So many situations from one on, in parallel; each has the seed of its number.
 /// @param name  what they are for: others are others
-template <class Checked>
-[[nodiscard]] std::vector<Checked> checked_situations(
+template <class Case>
+[[nodiscard]] std::vector<Case> checked_situations(
     const std::string& name, int first, int count, int threads, std::uint64_t seed,
-    const std::function<Checked(std::uint64_t seed)>& check) {
-  std::vector<Checked> all(static_cast<std::size_t>(count));
+    const std::function<Case(std::uint64_t seed)>& check) {
+  std::vector<Case> all(static_cast<std::size_t>(count));
   in_parallel(all.size(), threads, [&](std::size_t i) {
     Fnv hash;
     hash.add(fmt::format("{} {} {}", name, seed, static_cast<std::size_t>(first) + i));

@@ -27,7 +27,7 @@
 namespace saca::app {
 namespace {
 
-using danger::Checked;
+using danger::CheckedCase;
 using danger::CheckFigures;
 using danger::Share;
 using nlohmann::json;
@@ -40,9 +40,9 @@ struct DangerCheckOptions {
   bool as_json = false;
 };
 
-std::vector<Checked> in_bin(const std::vector<Checked>& all, std::size_t bin) {
-  std::vector<Checked> some;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(some), [&](const Checked& one) {
+std::vector<CheckedCase> in_bin(const std::vector<CheckedCase>& all, std::size_t bin) {
+  std::vector<CheckedCase> some;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(some), [&](const CheckedCase& one) {
     return danger::bin_of(one.is_straight, one.speed, one.grip, one.num_obstacles) == bin;
   });
   return some;
@@ -105,12 +105,12 @@ void tell_head() {
              "[%]", "[%]", "[%]", "[%]", "[%]", "[%]", "[m]", "[m]", "[m]");
 }
 
-void tell(const std::vector<Checked>& situations, const std::optional<danger::Margins>& margins,
+void tell(const std::vector<CheckedCase>& situations, const std::optional<danger::Margins>& margins,
           bool as_json, json all) {
   if (!as_json) {
     tell_head();
   }
-  const auto margin_of = [&](const Checked& one) {
+  const auto margin_of = [&](const CheckedCase& one) {
     return margins ? margins->at(one.is_straight, one.speed, one.grip, one.num_obstacles) : 0.0;
   };
   const auto add = [&](const std::string& name, const std::string& place, const std::string& margin,
@@ -122,10 +122,10 @@ void tell(const std::vector<Checked>& situations, const std::optional<danger::Ma
     return figures;
   };
   add("all, no margin", "danger.net.plain.", "0",
-      danger::figures_of(situations, [](const Checked&) { return 0.0; }));
+      danger::figures_of(situations, [](const CheckedCase&) { return 0.0; }));
   if (margins) {
     for (std::size_t bin = 0; bin < danger::num_bins; ++bin) {
-      const std::vector<Checked> some = in_bin(situations, bin);
+      const std::vector<CheckedCase> some = in_bin(situations, bin);
       const std::string& name = danger::bin_names()[bin];
       const double margin = margins->metres()[bin];
       all["danger.net." + name + ".margin_m"] = margin;
@@ -137,9 +137,10 @@ void tell(const std::vector<Checked>& situations, const std::optional<danger::Ma
   }
   for (const auto& [name, place, is_one] :
        {std::tuple{"one obstacle", "one", true}, {"several obstacles", "several", false}}) {
-    std::vector<Checked> some;
-    std::copy_if(situations.begin(), situations.end(), std::back_inserter(some),
-                 [one = is_one](const Checked& each) { return (each.num_obstacles == 1) == one; });
+    std::vector<CheckedCase> some;
+    std::copy_if(
+        situations.begin(), situations.end(), std::back_inserter(some),
+        [one = is_one](const CheckedCase& each) { return (each.num_obstacles == 1) == one; });
     add(name, fmt::format("danger.net.{}.", place), "", danger::figures_of(some, margin_of));
   }
   if (as_json) {
@@ -167,12 +168,12 @@ int check_danger(const DangerCheckOptions& options) {
     return refused(margins.error());
   }
   SteadyClock clock;
-  std::vector<Checked> all;
+  std::vector<CheckedCase> all;
   {
     ProgressLine line("danger check", options.situations, clock);
     while (std::ssize(all) < options.situations) {
       const int done = static_cast<int>(all.size());
-      const auto more = checked_situations<Checked>(
+      const auto more = checked_situations<CheckedCase>(
           "check", done, std::min(situations_at_once, options.situations - done), options.threads,
           options.seed, [&](std::uint64_t seed) {
             return danger::checked(weights.inputs.car, weights.body, weights.network, seed);

@@ -34,7 +34,7 @@ namespace saca::app {
 namespace {
 
 namespace fs = std::filesystem;
-using reach::Solved;
+using reach::Solution;
 
 constexpr double table_grip = 0.9;  // dry: all others follow by scaling
 
@@ -64,12 +64,12 @@ std::vector<reach::ObstacleKind> to_be_judged(const sim::Scenario& scenario,
   return found;
 }
 
-std::optional<Solved> kept_table(const fs::path& file, const reach::DangerCase& wanted) {
+std::optional<Solution> kept_table(const fs::path& file, const reach::DangerCase& wanted) {
   auto there = reach::read_solved(file);
   if (!there.has_value()) {
     return std::nullopt;
   }
-  const Solved& kept = there.value();
+  const Solution& kept = there.value();
   const bool right = kept.complete && !kept.error.empty() && kept.problem == wanted.asked.text &&
                      kept.scheme == reach::described(reach::danger_scheme(usual_threads()));
   return right ? std::optional(std::move(there).value()) : std::nullopt;
@@ -100,7 +100,7 @@ class FolderHold {
   int folder_;
 };
 
-Result<Solved> solved_now(const reach::DangerCase& wanted) {
+Result<Solution> solved_now(const reach::DangerCase& wanted) {
   const reach::Problem problem = reach::avoidance_problem(wanted.asked);
   SteadyClock clock;
   constexpr int permille = 1'000;
@@ -194,7 +194,7 @@ Result<std::vector<reach::DangerTable>> ready_tables(const Inputs& inputs,
     if (const auto& problem = ready.value().not_kept) {
       complain(problem->message + "; the table is used, and solved again next time");
     }
-    const Solved& solved = ready.value().table;
+    const Solution& solved = ready.value().table;
     tables.push_back({*wanted.asked.obstacle, wanted.asked.system.obstacle_speed, wanted.asked.view,
                       std::make_shared<reach::ValueTable>(
                           solved.grid, snapshot(solved, solved.times.size() - 1), solved.error)});

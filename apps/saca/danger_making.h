@@ -22,7 +22,7 @@ namespace saca::app {
 [[nodiscard]] Result<std::vector<reach::DangerCase>> needed_tables(const ScenarioInputs& inputs);
 
 struct ReadyTable {
-  reach::Solved table;
+  reach::Solution table;
   std::filesystem::path file;     ///< its `danger_place`
   bool was_there = false;         ///< and right for this car; else it was solved
   std::optional<Error> not_kept;  ///< why it could not be written

@@ -101,14 +101,14 @@ std::optional<Error> count_for_margins(const MarginOptions& options, const Dange
     std::array<bool, danger::num_bins> wanted{};
     std::transform(count.told.begin(), count.told.end(), wanted.begin(),
                    [](const danger::ToldSafe& told) { return told.may_have_margin(); });
-    const auto some = checked_situations<danger::ToldAndDriven>(
+    const auto some = checked_situations<danger::MarginSample>(
         "margins", count.situations,
         std::min(at_once_for_margins, options.situations - count.situations), options.threads,
         options.seed, [&](std::uint64_t seed) {
           return danger::driven_by_evasion(weights.inputs.car, weights.body, weights.network, seed,
                                            wanted);
         });
-    for (const danger::ToldAndDriven& one : some) {
+    for (const danger::MarginSample& one : some) {
       if (one.acted) {
         count.told[one.bin].add(one.told, *one.acted >= 0.0);
       }

@@ -48,7 +48,7 @@ int show_danger(const DangerShowOptions& options) {
   const danger::PointMass& problem = exact.value().problem;
   const auto learnt = [&](const reach::State& at) {
     const std::array<danger::SeenByNet, 1> seen{danger::seen_by_net(problem, at)};
-    return reach::Looked{weights.value().joint_value(seen), 0.0, true};
+    return reach::LookupResult{weights.value().joint_value(seen), 0.0, true};
   };
   const std::string& text = exact.value().text;
   const auto picture =

@@ -43,13 +43,13 @@ struct EvalOptions {
 };
 
 /// Sequences that are scored together.
-struct Scored {
+struct ScoredSet {
   std::vector<Sequence> sequences;
   std::vector<std::string> splits;
 };
 
-Scored chosen(const learn::SequenceSet& set, bool simulated, const std::string& site = "") {
-  Scored found;
+ScoredSet chosen(const learn::SequenceSet& set, bool simulated, const std::string& site = "") {
+  ScoredSet found;
   for (std::size_t i = 0; i < set.sequences.size(); ++i) {
     const Sequence& sequence = set.sequences[i];
     const bool is_test = simulated ? set.splits[i] == "test" : !sequence.simulated;
@@ -64,7 +64,7 @@ Scored chosen(const learn::SequenceSet& set, bool simulated, const std::string& 
 /// Everything that is compared on the same sequences; ours comes first.
 class Comparison {
  public:
-  Comparison(std::string title, const Scored& scored, std::span<const std::size_t> classes,
+  Comparison(std::string title, const ScoredSet& scored, std::span<const std::size_t> classes,
              std::uint64_t seed)
       : title_(std::move(title)), scored_(scored), classes_(classes), seed_(seed) {}
 
@@ -118,7 +118,7 @@ class Comparison {
 
  private:
   std::string title_;
-  const Scored& scored_;
+  const ScoredSet& scored_;
   std::span<const std::size_t> classes_;
   std::uint64_t seed_;
   std::vector<Forecasts> ours_;
@@ -126,7 +126,7 @@ class Comparison {
 };
 
 /// The same without what the vehicles tell of their controls: no pedals, no steering.
-Scored nothing_shared(Scored scored) {
+ScoredSet nothing_shared(ScoredSet scored) {
   for (Sequence& sequence : scored.sequences) {
     for (intent::Observation& seen : sequence.observations) {
       seen.steering = seen.throttle = seen.brake = intent::not_known;
@@ -144,7 +144,7 @@ ModelsByLeftOut without_chains(ModelsByLeftOut models) {
 }
 
 std::optional<Error> add_unseen(Comparison& comparison, const std::string& method,
-                                const ModelsByLeftOut& models, const Scored& scored) {
+                                const ModelsByLeftOut& models, const ScoredSet& scored) {
   auto forecasts =
       learn::predicted_unseen(models, scored.sequences, scored.splits, usual_threads());
   if (!forecasts.has_value()) {
@@ -156,11 +156,11 @@ std::optional<Error> add_unseen(Comparison& comparison, const std::string& metho
 
 /// What was recorded, each by models that have not seen it, beside all baselines.
 std::optional<Error> compare_recorded(const EvalOptions& options, const ModelsByLeftOut& models,
-                                      const Scored& scored, Comparison& comparison) {
+                                      const ScoredSet& scored, Comparison& comparison) {
   if (auto problem = add_unseen(comparison, "LSTM-CRF", models, scored)) {
     return problem;
   }
-  const Scored closed = nothing_shared(scored);
+  const ScoredSet closed = nothing_shared(scored);
   auto of_closed =
       learn::predicted_unseen(models, closed.sequences, closed.splits, usual_threads());
   if (!of_closed.has_value()) {
@@ -220,11 +220,11 @@ std::optional<Error> compare_recorded(const EvalOptions& options, const ModelsBy
 /// Sites that some model has never seen: by that model, and by those of the cross-validation.
 std::vector<Comparison> compare_transfer(const ModelsByLeftOut& models,
                                          const learn::SequenceSet& set,
-                                         std::vector<std::unique_ptr<Scored>>& kept,
+                                         std::vector<std::unique_ptr<ScoredSet>>& kept,
                                          std::uint64_t seed) {
   std::vector<Comparison> all;
   for (const auto& [left_out, model] : models) {
-    auto scored = std::make_unique<Scored>(chosen(set, false, left_out));
+    auto scored = std::make_unique<ScoredSet>(chosen(set, false, left_out));
     if (scored->sequences.empty()) {
       continue;
     }
@@ -258,7 +258,7 @@ int evaluate(EvalOptions options) {
   if (!models.has_value()) {
     return refused(models.error());
   }
-  const Scored recorded = chosen(set.value(), false);
+  const ScoredSet recorded = chosen(set.value(), false);
   std::vector<Comparison> comparisons;
   comparisons.emplace_back("Recorded vehicles, by models that have not seen them (M, LC, RC, FB)",
                            recorded, learn::recorded_classes, options.seed);
@@ -272,7 +272,7 @@ int evaluate(EvalOptions options) {
     }
   }
   const learn::Displacements moved = comparisons.front().displacements(intent::MotionLaw());
-  const Scored simulated = chosen(set.value(), true);
+  const ScoredSet simulated = chosen(set.value(), true);
   const auto whole = models.value().find("nothing");
   if (whole != models.value().end() && !simulated.sequences.empty()) {
     comparisons.emplace_back("Simulated vehicles (LB, RB)", simulated, learn::simulated_classes,
@@ -280,7 +280,7 @@ int evaluate(EvalOptions options) {
     comparisons.back().add("LSTM-CRF",
                            learn::predicted(whole->second, simulated.sequences, usual_threads()));
   }
-  std::vector<std::unique_ptr<Scored>> kept;
+  std::vector<std::unique_ptr<ScoredSet>> kept;
   for (Comparison& each : compare_transfer(models.value(), set.value(), kept, options.seed)) {
     comparisons.push_back(std::move(each));
   }

@@ -30,21 +30,21 @@ struct MotionOptions {
 };
 
 /// What is measured of positive quantities, in words, and its name in JSON.
-struct Measured {
+struct MeasuredQuantity {
   std::string_view words;
   const char* key;
   LogNormal MotionFit::*fit;
 };
-constexpr std::array<Measured, 4> measured{
+constexpr std::array<MeasuredQuantity, 4> measured{
     {{"deceleration of a braking [m/s2]", "braking_mps2", &MotionFit::braking},
      {"its rise [s]", "rise_s", &MotionFit::rise},
      {"deceleration 1 s on over that of now", "held", &MotionFit::held},
      {"a lane's change [s]", "lane_change_s", &MotionFit::lane_change}}};
 
 nlohmann::json fit_json(const MotionFit& fit) {
-  nlohmann::json document = {{"acceleration_sd_mps2", fit.wavering.sd},
-                             {"acceleration_time_s", fit.wavering.time}};
-  for (const Measured& each : measured) {
+  nlohmann::json document = {{"acceleration_sd_mps2", fit.acceleration.sd},
+                             {"acceleration_time_s", fit.acceleration.time}};
+  for (const MeasuredQuantity& each : measured) {
     const LogNormal& one = fit.*each.fit;
     document[each.key] = {{"num", one.num}, {"median", one.median}, {"log_sd", one.log_sd}};
   }
@@ -53,8 +53,8 @@ nlohmann::json fit_json(const MotionFit& fit) {
 
 void tell_fit(const std::string& site, const MotionFit& fit) {
   app::print("{}: maintaining, acceleration wavers by {:.2f} m/s2 over {:.1f} s\n", site,
-             fit.wavering.sd, fit.wavering.time);
-  for (const Measured& each : measured) {
+             fit.acceleration.sd, fit.acceleration.time);
+  for (const MeasuredQuantity& each : measured) {
     const LogNormal& one = fit.*each.fit;
     app::print("  {:38} median {:5.2f}, sd of the logarithm {:.2f} ({} measured)\n", each.words,
                one.median, one.log_sd, one.num);

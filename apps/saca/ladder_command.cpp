@@ -90,21 +90,21 @@ std::vector<std::string> names_of(const std::vector<Rung>& rungs) {
 }
 
 /// Regret of a rung and what its step costs.
-struct Climbed {
+struct RungFigures {
   Rung rung;
   eval::MethodFigures figures;
   std::optional<Estimate> step;
 };
 
-std::vector<Climbed> climb(const SuiteRun& run, const std::vector<Rung>& rungs,
-                           std::uint64_t seed) {
+std::vector<RungFigures> climb(const SuiteRun& run, const std::vector<Rung>& rungs,
+                               std::uint64_t seed) {
   std::vector<const eval::SuiteRow*> all;
   for (const eval::SuiteRow& row : run.rows) {
     all.push_back(&row);
   }
   const auto at = [&](const char* name) { return index_of(run.methods, name).value(); };
   auto figures = eval::suite_figures(all, run.methods, at("aeb"), seed);
-  std::vector<Climbed> climbed;
+  std::vector<RungFigures> climbed;
   for (std::size_t i = 0; i < figures.size(); ++i) {
     climbed.push_back({rungs[i], std::move(figures[i]), std::nullopt});
     if (rungs[i].above != nullptr) {
@@ -114,7 +114,7 @@ std::vector<Climbed> climb(const SuiteRun& run, const std::vector<Rung>& rungs,
   return climbed;
 }
 
-std::string step_text(const Climbed& one) {
+std::string step_text(const RungFigures& one) {
   if (!one.step) {
     return one.rung.step;
   }
@@ -123,10 +123,11 @@ std::string step_text(const Climbed& one) {
                      one.step->low, one.step->high, sure ? "" : ", which may be chance");
 }
 
-json json_of(const SuiteRun& run, const std::vector<Climbed>& climbed, const std::string& name) {
+json json_of(const SuiteRun& run, const std::vector<RungFigures>& climbed,
+             const std::string& name) {
   json out = run.meta;
   const std::string head = "ladder." + name + ".";
-  for (const Climbed& one : climbed) {
+  for (const RungFigures& one : climbed) {
     const std::string place = head + one.rung.method;
     add_estimate(out, place, one.figures.regret);
     add_estimate(out, place + ".materially_worse_than_aeb", one.figures.worse_than_aeb);
@@ -140,7 +141,7 @@ json json_of(const SuiteRun& run, const std::vector<Climbed>& climbed, const std
   return out;
 }
 
-report::SuitePage page_of(const SuiteRun& run, const std::vector<Climbed>& climbed,
+report::SuitePage page_of(const SuiteRun& run, const std::vector<RungFigures>& climbed,
                           const std::string& name) {
   report::SuitePage page;
   page.title = fmt::format("Where regret comes from: {}, {} encounters", name, run.rows.size());
@@ -158,7 +159,7 @@ report::SuitePage page_of(const SuiteRun& run, const std::vector<Climbed>& climb
           {"Paired differences of harm in the same encounters; a step that saves is negative."},
       .columns = {"regret", "step", "against", "materially worse than AEB, %", "in words"},
       .rows = {}};
-  for (const Climbed& one : climbed) {
+  for (const RungFigures& one : climbed) {
     const eval::MethodInfo& info = *eval::find_method(one.rung.method);
     const Estimate& regret = one.figures.regret;
     chart.rows.push_back({.name = std::string(info.title),
@@ -180,7 +181,7 @@ report::SuitePage page_of(const SuiteRun& run, const std::vector<Climbed>& climb
   }
   page.chart = std::move(chart);
   page.tables.push_back(std::move(table));
-  for (const Climbed& one : climbed) {
+  for (const RungFigures& one : climbed) {
     if (one.figures.thinking) {
       page.tables.push_back(decisions_table(one.figures));
     }
@@ -228,7 +229,7 @@ int run(LadderCommand options) {
   } else {
     app::print("{}: {} encounters; regret, and what each step adds to it, with 95 % intervals\n\n",
                suite.name, climbed.front().figures.regret.n);
-    for (const Climbed& one : climbed) {
+    for (const RungFigures& one : climbed) {
       app::print("{:22} {:28} {}\n", one.rung.method, with_interval(one.figures.regret, 4),
                  step_text(one));
     }

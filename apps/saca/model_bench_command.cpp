@@ -43,7 +43,7 @@ std::vector<std::string> example_scenes() {
 }
 
 /// What one question took.
-struct Asked {
+struct QuestionTiming {
   double first = 0.0;  ///< until each scene had its first answer [s]
   double whole = 0.0;  ///< until the call returned [s]
   int missing = 0;     ///< scenes without any answer
@@ -53,9 +53,9 @@ struct Asked {
   reason::ChildModelFigures figures;  ///< where the model is a child process
 };
 
-Asked ask(LanguageModel& model, const std::vector<std::string>& scenes, double budget,
-          Clock& clock) {
-  Asked asked;
+QuestionTiming ask(LanguageModel& model, const std::vector<std::string>& scenes, double budget,
+                   Clock& clock) {
+  QuestionTiming asked;
   std::vector<bool> answered(scenes.size());
   const Clock::Time begin = clock.now();
   const auto replies =
@@ -119,9 +119,9 @@ class BenchFigures {
 };
 
 // Of the questions that had all their answers.
-std::vector<double> of(const std::vector<Asked>& all, double Asked::*what) {
+std::vector<double> of(const std::vector<QuestionTiming>& all, double QuestionTiming::*what) {
   std::vector<double> values;
-  for (const Asked& asked : all) {
+  for (const QuestionTiming& asked : all) {
     if (asked.missing == 0) {
       values.push_back(asked.*what);
     }
@@ -130,11 +130,11 @@ std::vector<double> of(const std::vector<Asked>& all, double Asked::*what) {
 }
 
 // Sum over all questions of prompt or reply tokens per second of the model's own time.
-double rate(const std::vector<Asked>& all, int Reply::*tokens,
+double rate(const std::vector<QuestionTiming>& all, int Reply::*tokens,
             double reason::ChildModelFigures::*time) {
   double sum_tokens = 0.0;
   double sum_time = 0.0;
-  for (const Asked& asked : all) {
+  for (const QuestionTiming& asked : all) {
     for (const Reply& reply : asked.replies) {
       sum_tokens += reply.*tokens;
     }
@@ -145,8 +145,9 @@ double rate(const std::vector<Asked>& all, int Reply::*tokens,
 
 /// The model's own part of each question, and what is left for answers and the way between the
 /// processes.
-void put_child_figures(ChildModel& child, double load, const std::vector<Asked>& one,
-                       const std::vector<Asked>& three, const Clock& clock, BenchFigures& figures) {
+void put_child_figures(ChildModel& child, double load, const std::vector<QuestionTiming>& one,
+                       const std::vector<QuestionTiming>& three, const Clock& clock,
+                       BenchFigures& figures) {
   using Parts = reason::ChildModelFigures;
   figures.put("load_s", load);
   figures.put("system_tokens", child.figures().system_tokens);
@@ -155,7 +156,7 @@ void put_child_figures(ChildModel& child, double load, const std::vector<Asked>&
   figures.put("reply_tokens_per_s", rate(one, &Reply::reply_tokens, &Parts::reply_time));
   figures.put("three_reply_tokens_per_s", rate(three, &Reply::reply_tokens, &Parts::reply_time));
   std::vector<double> rest(one.size());
-  std::transform(one.begin(), one.end(), rest.begin(), [](const Asked& asked) {
+  std::transform(one.begin(), one.end(), rest.begin(), [](const QuestionTiming& asked) {
     return asked.whole - asked.figures.prompt_time - asked.figures.reply_time;
   });
   figures.put("answers_and_process_s", percentile(rest, 0.5));
@@ -184,10 +185,10 @@ int model_bench(const ModelBenchOptions& options) {
   auto* const child = dynamic_cast<ChildModel*>(&model);
   const double load = child == nullptr ? 0.0 : child->figures().load_time;
   const std::vector<std::string> scenes = example_scenes();
-  std::vector<Asked> one;
-  std::vector<Asked> three;
+  std::vector<QuestionTiming> one;
+  std::vector<QuestionTiming> three;
   const auto ask_about = [&](const std::vector<std::string>& some, double budget) {
-    Asked asked = ask(model, some, budget, clock);
+    QuestionTiming asked = ask(model, some, budget, clock);
     if (child != nullptr && !asked.error) {
       asked.figures = child->figures();
     }
@@ -201,24 +202,24 @@ int model_bench(const ModelBenchOptions& options) {
     three.push_back(ask_about(scenes, preview_time));
   }
   // Where three at a time never have all their answers in time, that is a figure, too.
-  const bool some_in_time = !of(three, &Asked::whole).empty();
+  const bool some_in_time = !of(three, &QuestionTiming::whole).empty();
   BenchFigures figures;
   figures.put_text("model", model.description());
   figures.put("prompt_tokens", one.front().replies[0].prompt_tokens);
-  figures.put_times("first_answer_s", of(one, &Asked::first));
-  figures.put_times("full_answer_s", of(one, &Asked::whole));
+  figures.put_times("first_answer_s", of(one, &QuestionTiming::first));
+  figures.put_times("full_answer_s", of(one, &QuestionTiming::whole));
   if (some_in_time) {
-    figures.put_times("three_first_answers_s", of(three, &Asked::first));
-    figures.put_times("three_previews_s", of(three, &Asked::whole));
+    figures.put_times("three_first_answers_s", of(three, &QuestionTiming::first));
+    figures.put_times("three_previews_s", of(three, &QuestionTiming::whole));
   }
-  const auto misses = std::count_if(three.begin(), three.end(), [](const Asked& asked) {
+  const auto misses = std::count_if(three.begin(), three.end(), [](const QuestionTiming& asked) {
     return asked.missing > 0 || asked.whole > preview_time;
   });
-  const auto overruns = std::count_if(three.begin(), three.end(),
-                                      [](const Asked& a) { return a.whole > preview_time; });
+  const auto overruns = std::count_if(
+      three.begin(), three.end(), [](const QuestionTiming& a) { return a.whole > preview_time; });
   figures.put("deadline_misses", static_cast<double>(misses));
   figures.put("returned_after_deadline", static_cast<double>(overruns));
-  const auto forced = [](int sum, const Asked& asked) { return sum + asked.forced; };
+  const auto forced = [](int sum, const QuestionTiming& asked) { return sum + asked.forced; };
   figures.put("forced_share", std::accumulate(three.begin(), three.end(), 0, forced) /
                                   static_cast<double>(3 * three.size()));
   if (child != nullptr) {

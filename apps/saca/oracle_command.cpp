@@ -71,7 +71,7 @@ json json_of(const eval::Verdict& verdict, const world::Scene& scene) {
 
 std::string row_of(const eval::Verdict& verdict, const world::Scene& scene) {
   const preview::PolicyFacts& facts = verdict.written.facts;
-  const outcome::Expected& expected = verdict.expected;
+  const outcome::MeanOutcome& expected = verdict.expected;
   return fmt::format("{:26}  {:.4f} ({:.4f} to {:.4f})  {:5.2f}  {:3.0f} %   {}",
                      manoeuvre::plan_text(facts.plan), expected.harm.value, expected.harm.low,
                      expected.harm.high, expected.collision_loss.value,

@@ -61,24 +61,24 @@ ModelChoice find_model_choice(const Places& places) {
 namespace {
 
 /// What is found by name, and how it is told.
-struct Shipped {
+struct ShippedFile {
   const char* what;
   const char* folder;                      ///< below the root
   std::array<std::string_view, 3> others;  ///< files of the folder that are something else
   const char* listed_by;  ///< the command that lists them; nullptr: the names are few
 };
 
-constexpr Shipped of_scenarios{"scenario", "scenarios", {"splits"}, "saca scenarios"};
-constexpr Shipped of_families{
+constexpr ShippedFile of_scenarios{"scenario", "scenarios", {"splits"}, "saca scenarios"};
+constexpr ShippedFile of_families{
     "family", "scenarios/families", {"suites", "surroundings", "cues"}, nullptr};
-constexpr Shipped of_cars{"car", "data/vehicles", {}, nullptr};
-constexpr Shipped of_reach_cases{"case", "data/reach", {}, nullptr};
+constexpr ShippedFile of_cars{"car", "data/vehicles", {}, nullptr};
+constexpr ShippedFile of_reach_cases{"case", "data/reach", {}, nullptr};
 
-bool is_other(const Shipped& shipped, std::string_view name) {
+bool is_other(const ShippedFile& shipped, std::string_view name) {
   return std::find(shipped.others.begin(), shipped.others.end(), name) != shipped.others.end();
 }
 
-std::vector<fs::path> files_of(const Places& places, const Shipped& shipped) {
+std::vector<fs::path> files_of(const Places& places, const ShippedFile& shipped) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(places.root / shipped.folder)) {
     const std::string stem = entry.path().stem().string();
@@ -91,7 +91,7 @@ std::vector<fs::path> files_of(const Places& places, const Shipped& shipped) {
   return files;
 }
 
-Error not_there(const Places& places, const Shipped& shipped, const std::string& name) {
+Error not_there(const Places& places, const ShippedFile& shipped, const std::string& name) {
   std::vector<std::string> names;
   std::vector<std::string> begin_so;
   for (const fs::path& file : files_of(places, shipped)) {
@@ -110,7 +110,7 @@ Error not_there(const Places& places, const Shipped& shipped, const std::string&
                       shipped.what, other)};
 }
 
-Result<fs::path> find_shipped(const Places& places, const Shipped& shipped,
+Result<fs::path> find_shipped(const Places& places, const ShippedFile& shipped,
                               const std::string& name) {
   std::error_code problem;
   if (fs::exists(name, problem) && !fs::is_directory(name, problem)) {

@@ -219,8 +219,8 @@ Result<reach::AvoidanceCase> parked_car_with_more_points(const fs::path& root) {
 }
 
 /// @return  the solution
-Result<reach::Solved> bench_avoid4d(const reach::AvoidanceCase& parked, Clock& clock,
-                                    json& figures) {
+Result<reach::Solution> bench_avoid4d(const reach::AvoidanceCase& parked, Clock& clock,
+                                      json& figures) {
   const reach::Problem problem = avoidance_problem(parked);
   const reach::Scheme scheme{
       .steps = reach::Steps::tvd_rk2, .cfl = avoid4d_cfl, .threads = usual_threads()};
@@ -298,7 +298,7 @@ void bench_calls(const std::string& name, const Call& call, Clock& clock, json& 
 /// Every call somewhere else: what the memory takes is in it.
 constexpr std::size_t num_look_ups = std::size_t{1} << 16;
 
-void bench_look_up(const reach::Solved& solved, Clock& clock, json& figures) {
+void bench_look_up(const reach::Solution& solved, Clock& clock, json& figures) {
   note_progress("look-ups");
   const reach::ValueTable table(solved.grid, snapshot(solved, 0), solved.error);
   std::mt19937 rng(1);

@@ -40,7 +40,7 @@ struct CompareOptions {
 };
 
 /// The network knows of one obstacle and of no motion of it.
-std::optional<Error> not_comparable(const std::string& file, const reach::Solved& solved) {
+std::optional<Error> not_comparable(const std::string& file, const reach::Solution& solved) {
   const auto problem = reach::parse_avoidance_case(solved.problem, file);
   if (!problem.has_value()) {
     return Error{Error::Code::malformed,

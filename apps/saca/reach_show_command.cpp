@@ -29,7 +29,7 @@ namespace saca::app {
 namespace {
 
 namespace fs = std::filesystem;
-using reach::Solved;
+using reach::Solution;
 using report::ReadUnit;
 
 struct ReachShowOptions {
@@ -136,7 +136,7 @@ Result<reach::State> other_coordinates(const std::vector<reach::Axis>& axes,
   return others;
 }
 
-Result<std::size_t> chosen_snapshot(const Solved& solved, std::optional<double> time,
+Result<std::size_t> chosen_snapshot(const Solution& solved, std::optional<double> time,
                                     const std::string& file) {
   if (!time) {
     return solved.times.size() - 1;
@@ -163,7 +163,7 @@ report::PlotAxis plot_axis_of(const reach::Axis& axis, const report::MapRange& r
 }
 
 /// "V over x and y at course 0 deg, speed 12 m/s, horizon 4 s"
-std::string what_is_shown(const Solved& solved, const report::ValueView& view) {
+std::string what_is_shown(const Solution& solved, const report::ValueView& view) {
   const std::vector<reach::Axis> axes = report::shown_axes(solved, view.others[2]);
   std::string words = fmt::format("V over {} and {}", axes[0].name, axes[1].name);
   for (std::size_t d = 2; d < axes.size(); ++d) {
@@ -175,7 +175,7 @@ std::string what_is_shown(const Solved& solved, const report::ValueView& view) {
 }
 
 /// The snapshot's values over the plane.
-report::ValueMap map_of(const Solved& solved, const report::ValueView& view,
+report::ValueMap map_of(const Solution& solved, const report::ValueView& view,
                         const report::MapRange& x, const report::MapRange& y,
                         const report::RasterSize& size) {
   const reach::ValueTable table(solved.grid, reach::snapshot(solved, view.time));
@@ -186,7 +186,7 @@ report::ValueMap map_of(const Solved& solved, const report::ValueView& view,
   return report::value_map(table, x, y, size.columns, size.rows, view.others);
 }
 
-double usual_zoom(const Solved& solved, const report::ValueView& view) {
+double usual_zoom(const Solution& solved, const report::ValueView& view) {
   constexpr report::RasterSize coarse{160, 160};
   const std::vector<reach::Axis> axes = report::shown_axes(solved, view.others[2]);
   const report::MapRange x = shown_range(axes[0]);
@@ -194,7 +194,7 @@ double usual_zoom(const Solved& solved, const report::ValueView& view) {
   return report::zoom_on_danger(map_of(solved, view, x, y, coarse), report::zoom_middle(x, y));
 }
 
-Result<std::string> png_of(const Solved& solved, const report::ValueView& view) {
+Result<std::string> png_of(const Solution& solved, const report::ValueView& view) {
   const std::vector<reach::Axis> axes = report::shown_axes(solved, view.others[2]);
   const report::MapRange all_x = shown_range(axes[0]);
   const report::MapRange all_y = shown_range(axes[1]);
@@ -234,7 +234,7 @@ int show(const ReachShowOptions& options) {
   if (const auto problem = why_outputs_unwritable({options.output})) {
     return refused(*problem);
   }
-  const Solved& solved = read.value();
+  const Solution& solved = read.value();
   if (solved.grid.axes.size() < 2) {
     complain(fmt::format("{}: want a grid of at least two axes to show, got one", options.file));
     return bad_input;

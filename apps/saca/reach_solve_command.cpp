@@ -32,7 +32,7 @@ namespace {
 namespace fs = std::filesystem;
 using reach::Problem;
 using reach::Scheme;
-using reach::Solved;
+using reach::Solution;
 
 struct SolveOptions {
   std::string name;
@@ -75,10 +75,10 @@ std::optional<Error> too_little_memory(const Problem& problem, const SolveOption
 }
 
 /// What an earlier, stopped run of the same command left.
-Result<std::optional<Solved>> begun(const fs::path& part) {
+Result<std::optional<Solution>> begun(const fs::path& part) {
   std::error_code none;
   if (!fs::exists(part, none)) {
-    return std::optional<Solved>();
+    return std::optional<Solution>();
   }
   auto there = reach::read_solved(part);
   if (!there.has_value()) {
@@ -87,7 +87,7 @@ Result<std::optional<Solved>> begun(const fs::path& part) {
   return std::optional(std::move(there).value());
 }
 
-void tell(const SolveOptions& options, const Solved& solved, double seconds) {
+void tell(const SolveOptions& options, const Solution& solved, double seconds) {
   const std::vector<float> values = snapshot(solved, solved.times.size() - 1);
   const auto unsafe =
       std::count_if(values.begin(), values.end(), [](float v) { return v >= 0.0F; });
@@ -148,7 +148,7 @@ int solve_case(const SolveOptions& options) {
              line.show(static_cast<int>(permille * tau / horizon), remembered, " per mille");
              return !interrupted();
            },
-       .keep = [&](const Solved& so_far) { return reach::write_solved(part, so_far); }});
+       .keep = [&](const Solution& so_far) { return reach::write_solved(part, so_far); }});
   if (!solved.has_value()) {
     return refused({solved.error().code, options.name + ": " + solved.error().message});
   }

@@ -83,7 +83,7 @@ class Stream {
 };
 
 /// One forecast, and what was said of it.
-struct Considered {
+struct ForecastReply {
   const Preview* preview = nullptr;
   Reply reply;
   reason::Truth truth;
@@ -91,7 +91,7 @@ struct Considered {
   std::optional<reason::Explanation> explanation;  ///< of that, where it can be driven
 };
 
-json considered_json(const Considered& one) {
+json considered_json(const ForecastReply& one) {
   json answers = json::array();
   for (const Answer& answer : one.reply.answers) {
     answers.push_back({{"after_ms", milliseconds(answer.time)},
@@ -112,7 +112,7 @@ json considered_json(const Considered& one) {
            one.check ? json{{"passed", one.check->passed}, {"text", one.check->text}} : json()}};
 }
 
-void tell_considered(std::size_t number, const Considered& one, bool with_text) {
+void tell_considered(std::size_t number, const ForecastReply& one, bool with_text) {
   app::print("--- Forecast {} ---\n", number);
   if (with_text) {
     app::print("{}\n", one.reply.reasoning);
@@ -224,7 +224,7 @@ int reason_about(const ReasonOptions& options) {
                model.value()->description());
     tell_question(previews);
   }
-  std::vector<Considered> all;
+  std::vector<ForecastReply> all;
   if (!previews.empty()) {
     auto replies = ask(*model.value(), previews, options, clock);
     if (!replies.has_value()) {
@@ -232,7 +232,7 @@ int reason_about(const ReasonOptions& options) {
     }
     std::vector<Reply> said = std::move(replies).value();
     for (std::size_t i = 0; i < said.size(); ++i) {
-      Considered one{.preview = &previews[i], .reply = std::move(said[i])};
+      ForecastReply one{.preview = &previews[i], .reply = std::move(said[i])};
       const preview::Situation& situation = one.preview->situation;
       if (!one.reply.answers.empty()) {
         const PolicyId chosen = likeliest_policy(one.reply.answers.back());
@@ -252,7 +252,7 @@ int reason_about(const ReasonOptions& options) {
                      {"deadline_ms", options.deadline},
                      {"system", reason::system_part(inputs.value().harm)},
                      {"forecasts", json::array()}};
-    for (const Considered& one : all) {
+    for (const ForecastReply& one : all) {
       document["forecasts"].push_back(considered_json(one));
     }
     app::print_json(document);

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-void add(json& out, const std::string& place, const Passed& sum) {
+void add(json& out, const std::string& place, const PassCount& sum) {
   out[place + "passed"] = sum.passed;
   out[place + "passed.n"] = sum.all;
   out[place + "passed_share"] = static_cast<double>(sum.passed) / sum.all;
@@ -67,7 +67,7 @@ json json_of(const RegulationRun& run) {
   json cells = json::array();
   for (std::size_t m = 0; m < run.methods.size(); ++m) {
     const std::string place = head + run.methods[m] + ".";
-    const Passed all = passed_by(run, {.method = m});
+    const PassCount all = passed_by(run, {.method = m});
     add(out, place, all);
     out[place + "faults"] = all.faults;
     out[place + "worst_impact_mps"] = all.worst;
@@ -103,7 +103,7 @@ void print(const RegulationRun& run) {
                         std::optional<std::size_t> row) {
     app::print("{:22}", name);
     for (std::size_t m = 0; m < run.methods.size(); ++m) {
-      const Passed sum = passed_by(run, {.method = m, .car = car, .row = row});
+      const PassCount sum = passed_by(run, {.method = m, .car = car, .row = row});
       app::print(" {:>20}", fmt::format("{} of {}", sum.passed, sum.all));
     }
     app::print("\n");

@@ -110,7 +110,7 @@ report::PageTable table_of(const RegulationRun& run, std::size_t row) {
   return table;
 }
 
-std::string share_of(const Passed& sum) {
+std::string share_of(const PassCount& sum) {
   return fmt::format("{} of {}", sum.passed, sum.all);
 }
 
@@ -128,7 +128,7 @@ report::PageTable summary_of(const RegulationRun& run) {
                                 .shades = {},
                                 .faded = info.knows_truth};
     for (std::size_t k = 0; k <= run.cars.size(); ++k) {
-      const Passed sum = passed_by(
+      const PassCount sum = passed_by(
           run, {.method = m, .car = k < run.cars.size() ? std::optional(k) : std::nullopt});
       line.cells.push_back(share_of(sum));
       line.shades.emplace_back(static_cast<double>(sum.failed()) / sum.all);
@@ -141,7 +141,7 @@ report::PageTable summary_of(const RegulationRun& run) {
 /// How one car fails a row: how often, and where worst.
 std::string failures_of(const RegulationRun& run, std::size_t row, std::size_t car,
                         std::size_t method) {
-  const Passed sum = passed_by(run, {.method = method, .car = car, .row = row});
+  const PassCount sum = passed_by(run, {.method = method, .car = car, .row = row});
   if (sum.passed == sum.all) {
     return "";
   }
@@ -158,7 +158,7 @@ std::string failures_of(const RegulationRun& run, std::size_t row, std::size_t c
                      failure_of(run.at(car, *worst, method).judged));
 }
 
-std::string failed_in_words(const Passed& sum) {
+std::string failed_in_words(const PassCount& sum) {
   return sum.failed() == 0
              ? fmt::format("passes all {} tests", sum.all)
              : fmt::format("fails {} of {} tests, at worst with an impact of {:.1f} m/s",
@@ -170,7 +170,7 @@ std::string elsewhere_in_words(const RegulationRun& run) {
   const eval::TestSurface& surface = run.regulation.surfaces[run.regulation.surface];
   std::string cars;
   for (std::size_t k = 0; k < run.cars.size(); ++k) {
-    const Passed alone = passed_by(run, {.method = 0, .car = k, .manual_braking = false});
+    const PassCount alone = passed_by(run, {.method = 0, .car = k, .manual_braking = false});
     cars += fmt::format("{}{} {}", k == 0 ? "" : "; ", run.cars[k], failed_in_words(alone));
   }
   return fmt::format(
@@ -185,8 +185,8 @@ std::vector<std::string> constant_in_words(const RegulationRun& run) {
   if (!method) {
     return {};
   }
-  const Passed alone = passed_by(run, {.method = *method, .manual_braking = false});
-  const Passed helped = passed_by(run, {.method = *method, .manual_braking = true});
+  const PassCount alone = passed_by(run, {.method = *method, .manual_braking = false});
+  const PassCount helped = passed_by(run, {.method = *method, .manual_braking = true});
   if (alone.failed() + helped.failed() == 0) {
     return {fmt::format("Full braking at the paper's T1 = 1.3 s passes all {} tests that were run.",
                         alone.all + helped.all)};

@@ -142,8 +142,8 @@ Result<RegulationRun> prepare(const RegulationOptions& options,
 
 }  // namespace
 
-Passed passed_by(const RegulationRun& run, const Chosen& chosen) {
-  Passed sum;
+PassCount passed_by(const RegulationRun& run, const TestSelection& chosen) {
+  PassCount sum;
   for (std::size_t k = 0; k < run.cars.size(); ++k) {
     for (std::size_t i = 0; i < run.cells.size(); ++i) {
       if (k != chosen.car.value_or(k) ||

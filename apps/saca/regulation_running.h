@@ -52,7 +52,7 @@ struct RegulationRun {
 };
 
 /// Which tests are counted; what is not given is all.
-struct Chosen {
+struct TestSelection {
   std::size_t method = 0;
   std::optional<std::size_t> car;
   std::optional<std::size_t> row;
@@ -60,7 +60,7 @@ struct Chosen {
 };
 
 /// How many of them were passed.
-struct Passed {
+struct PassCount {
   int passed = 0;
   int all = 0;
   int faults = 0;
@@ -68,7 +68,7 @@ struct Passed {
 
   [[nodiscard]] int failed() const { return all - passed; }
 };
-[[nodiscard]] Passed passed_by(const RegulationRun& run, const Chosen& chosen);
+[[nodiscard]] PassCount passed_by(const RegulationRun& run, const TestSelection& chosen);
 
 /// Where the file of a regulation would be.
 [[nodiscard]] std::filesystem::path regulation_path(const Places& places, const std::string& name);

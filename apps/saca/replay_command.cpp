@@ -38,7 +38,7 @@ Result<std::optional<manoeuvre::Atlas>> open_atlas(const ReplayOptions& options,
   return atlas.has_value() ? Result(std::optional(std::move(atlas).value())) : atlas.error();
 }
 
-json reproduced_json(const runtime::Reproduced& of) {
+json reproduced_json(const runtime::Reproduction& of) {
   return {{"recorded", of.recorded}, {"same", of.same}};
 }
 
@@ -70,7 +70,7 @@ void print(const runtime::TapeFile& tape, const runtime::Replay& replay) {
   app::print("Recorded{}{}: {} steps at pace {}, car {}, language model {}.\n",
              header.scenario.empty() ? "" : " in ", header.scenario, tape.content.steps.size(),
              name(header.pace), header.car, header.model);
-  const auto row = [](const char* what, const runtime::Reproduced& of) {
+  const auto row = [](const char* what, const runtime::Reproduction& of) {
     app::print("  {:<34} {:>6} of {:>6}\n", what, of.same, of.recorded);
   };
   app::print("Worked out again, the same to the last bit:\n");

@@ -38,7 +38,7 @@ int wanted(PolicyId policy) {
   return policy == PolicyId::no_intervention ? 3 : 1;
 }
 
-struct Shown {
+struct ShowcasePage {
   sim::Scenario scenario;
   eval::Oracle oracle;
 
@@ -49,7 +49,7 @@ struct Shown {
 };
 
 /// A sample as a scenario of its own.
-void give_name(Shown& one, PolicyId policy, std::size_t index) {
+void give_name(ShowcasePage& one, PolicyId policy, std::size_t index) {
   sim::Scenario& scenario = one.scenario;
   scenario.name = fmt::format("showcase_{}", manoeuvre::index(policy));
   if (wanted(policy) > 1) {
@@ -61,11 +61,12 @@ void give_name(Shown& one, PolicyId policy, std::size_t index) {
 
 /// Of the first candidates those that convince, and of these the ones in which the right policy
 /// meets somebody least often; fewer than wanted where too few do. nullopt: interrupted.
-Result<std::optional<std::vector<Shown>>> shown(const DrawnSuite& suite,
-                                                const std::vector<eval::Finding>& findings,
-                                                PolicyId policy, const ShowcaseCommand& options) {
+Result<std::optional<std::vector<ShowcasePage>>> shown(const DrawnSuite& suite,
+                                                       const std::vector<eval::Finding>& findings,
+                                                       PolicyId policy,
+                                                       const ShowcaseCommand& options) {
   constexpr double hardly_ever = 0.02;
-  std::vector<Shown> found;
+  std::vector<ShowcasePage> found;
   const auto all = eval::candidates(findings, policy);
   const auto count = std::min(all.size(), static_cast<std::size_t>(options.tries));
   SteadyClock clock;
@@ -74,19 +75,19 @@ Result<std::optional<std::vector<Shown>>> shown(const DrawnSuite& suite,
   int good = 0;
   for (std::size_t i = 0; i < count && good < wanted(policy); ++i) {
     if (interrupted()) {
-      return std::optional<std::vector<Shown>>();
+      return std::optional<std::vector<ShowcasePage>>();
     }
     const auto sample = suite.source.sample(all[i].number);
     if (!sample.has_value()) {
       return sample.error();
     }
     const sim::Scenario& scenario = sample.value().scenario;
-    Shown one{scenario, eval::oracle(scenario, suite.inputs.car, suite.inputs.harm,
-                                     {.time = *all[i].time,
-                                      .draws = options.rule.draws,
-                                      .seed = options.seed,
-                                      .threads = options.survey.threads,
-                                      .only_defaults = true})};
+    ShowcasePage one{scenario, eval::oracle(scenario, suite.inputs.car, suite.inputs.harm,
+                                            {.time = *all[i].time,
+                                             .draws = options.rule.draws,
+                                             .seed = options.seed,
+                                             .threads = options.survey.threads,
+                                             .only_defaults = true})};
     if (convinces(one.oracle, policy, options.rule)) {
       good += one.contact_share() <= hardly_ever ? 1 : 0;
       found.push_back(std::move(one));
@@ -94,7 +95,7 @@ Result<std::optional<std::vector<Shown>>> shown(const DrawnSuite& suite,
     progress.show(static_cast<int>(i) + 1, 0,
                   fmt::format(" candidates, {} convince", found.size()));
   }
-  std::stable_sort(found.begin(), found.end(), [](const Shown& a, const Shown& b) {
+  std::stable_sort(found.begin(), found.end(), [](const ShowcasePage& a, const ShowcasePage& b) {
     return a.contact_share() < b.contact_share();
   });
   found.resize(std::min(found.size(), static_cast<std::size_t>(wanted(policy))));
@@ -104,7 +105,7 @@ Result<std::optional<std::vector<Shown>>> shown(const DrawnSuite& suite,
   return std::optional(std::move(found));
 }
 
-std::optional<Error> write(const Shown& one, const std::string& output) {
+std::optional<Error> write(const ShowcasePage& one, const std::string& output) {
   const fs::path file = fs::path(output) / (one.scenario.name + ".toml");
   if (auto problem = write_output(file, sim::write_scenario(one.scenario))) {
     return problem;
@@ -141,7 +142,7 @@ int run(const ShowcaseCommand& options) {
       break;
     }
     missing += wanted(policy) - static_cast<int>(found.value()->size());
-    for (const Shown& one : *found.value()) {
+    for (const ShowcasePage& one : *found.value()) {
       if (const auto problem = write(one, options.output)) {
         return refused(*problem);
       }

@@ -18,14 +18,14 @@ int total_of(const std::map<std::string, int>& counts) {
 }
 
 /// One thing that is counted of what was thought.
-struct Counted {
+struct ThoughtCount {
   const char* key;    ///< of the figure
   const char* words;  ///< for readers
   int ThinkingFigures::*count;
   int ThinkingFigures::*of;  ///< what its share is of
 };
 
-constexpr std::array<Counted, 10> thinking_counts{
+constexpr std::array<ThoughtCount, 10> thinking_counts{
     {{"forecasts", "forecasts for which a plan was sought", &ThinkingFigures::forecasts,
       &ThinkingFigures::forecasts},
      {"memory_hits", "of these, where memory is at least 70 % sure", &ThinkingFigures::recalled,
@@ -73,7 +73,7 @@ report::PageTable decisions_table(const MethodFigures& figures) {
     }
   }
   if (figures.thinking) {
-    for (const Counted& one : thinking_counts) {
+    for (const ThoughtCount& one : thinking_counts) {
       if ((*figures.thinking).*one.of > 0) {
         add(one.words, (*figures.thinking).*one.count, (*figures.thinking).*one.of);
       }
@@ -102,7 +102,7 @@ void add_decisions(nlohmann::json& out, const std::string& place, const MethodFi
     out[place + "cache_hit_rate"] = static_cast<double>(times("memory") + times("model")) / decided;
   }
   const ThinkingFigures& thinking = *figures.thinking;
-  for (const Counted& one : thinking_counts) {
+  for (const ThoughtCount& one : thinking_counts) {
     out[place + one.key] = thinking.*one.count;
   }
   if (thinking.forecasts > 0) {

@@ -21,8 +21,8 @@ namespace saca::app {
 namespace {
 
 namespace fs = std::filesystem;
-using traffic::Packed;
 using traffic::PackProgress;
+using traffic::PackResult;
 using traffic::RecordedSet;
 using traffic::SetCounts;
 
@@ -75,7 +75,7 @@ struct PackSource {
   std::string name;
   std::string about;
   std::string ending;
-  std::function<Result<Packed>(const std::vector<fs::path>&, const PackProgress&)> pack;
+  std::function<Result<PackResult>(const std::vector<fs::path>&, const PackProgress&)> pack;
 };
 
 int pack(const PackSource& source, const TrafficPackOptions& options) {
@@ -94,7 +94,7 @@ int pack(const PackSource& source, const TrafficPackOptions& options) {
   watch_for_interrupt();
   SteadyClock clock;
   ProgressLine line("traffic " + source.name, static_cast<int>(files.value().size()), clock);
-  const Result<Packed> packed = source.pack(files.value(), [&](std::size_t done, std::size_t) {
+  const Result<PackResult> packed = source.pack(files.value(), [&](std::size_t done, std::size_t) {
     line.show(static_cast<int>(done), 0, "");
     return !interrupted();
   });

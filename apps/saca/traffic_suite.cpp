@@ -147,7 +147,7 @@ std::string needed_text(const std::optional<double>& deceleration) {
 }
 
 /// A trigger, or SACA begins to act.
-struct Triggered {
+struct TriggerRow {
   const ShadowTrigger* trigger = nullptr;
   const eval::ShadowIntervention* begun = nullptr;  ///< nullptr: a trigger alone
   const DriveToWatch* drive = nullptr;
@@ -160,8 +160,8 @@ struct Triggered {
 };
 
 /// Those that count against SACA first, and of these its own actions.
-std::vector<Triggered> triggers_of(const WatchedTraffic& traffic) {
-  std::vector<Triggered> all;
+std::vector<TriggerRow> triggers_of(const WatchedTraffic& traffic) {
+  std::vector<TriggerRow> all;
   for (std::size_t k = 0; k < traffic.rows.size(); ++k) {
     for (const eval::ShadowIntervention& begun : traffic.rows[k].watched.interventions) {
       all.push_back({&begun.trigger, &begun, &traffic.drives[k]});
@@ -172,8 +172,8 @@ std::vector<Triggered> triggers_of(const WatchedTraffic& traffic) {
       all.push_back({&trigger, nullptr, &traffic.drives[k]});
     }
   }
-  std::stable_sort(all.begin(), all.end(), [](const Triggered& a, const Triggered& b) {
-    const auto rank = [](const Triggered& one) {
+  std::stable_sort(all.begin(), all.end(), [](const TriggerRow& a, const TriggerRow& b) {
+    const auto rank = [](const TriggerRow& one) {
       const ShadowReason reason = one.trigger->judgement.reason;
       const bool unsure =
           reason == ShadowReason::bodies_touch || reason == ShadowReason::track_ends;
@@ -230,14 +230,14 @@ report::PageTable figures_table(const WatchedTraffic& traffic) {
   return table;
 }
 
-report::PageTable triggers_table(const std::vector<Triggered>& triggers) {
+report::PageTable triggers_table(const std::vector<TriggerRow>& triggers) {
   report::PageTable table{.heading = "Every trigger, and every time that SACA acts",
                           .lines = {},
                           .columns = {"what", "at, s", "threat", "time to conflict, s", "ego, m/s",
                                       "judged", "driver braked, m/s^2", "other braked, m/s^2",
                                       "driver steered, m/s^2", "needed, m/s^2", "least gap, m"},
                           .rows = {}};
-  for (const Triggered& one : triggers) {
+  for (const TriggerRow& one : triggers) {
     const ShadowTrigger& trigger = *one.trigger;
     const eval::ShadowJudgement& told = trigger.judgement;
     table.rows.push_back(
@@ -256,7 +256,7 @@ report::PageTable triggers_table(const std::vector<Triggered>& triggers) {
   return table;
 }
 
-std::optional<report::GalleryCard> card_of_trigger(const Triggered& one, const Inputs& inputs) {
+std::optional<report::GalleryCard> card_of_trigger(const TriggerRow& one, const Inputs& inputs) {
   const auto ego = one.drive->open();
   if (!ego.has_value()) {
     return std::nullopt;
@@ -308,7 +308,7 @@ std::string rate_sentence(const WatchedTraffic& traffic) {
 }
 
 report::SuitePage traffic_page(const WatchedTraffic& traffic, const json& figures) {
-  const std::vector<Triggered> triggers = triggers_of(traffic);
+  const std::vector<TriggerRow> triggers = triggers_of(traffic);
   report::SuitePage page;
   page.title = "Normal driving, in shadow";
   page.lines = {
@@ -324,7 +324,7 @@ report::SuitePage traffic_page(const WatchedTraffic& traffic, const json& figure
       triggers.size() > most_cards
           ? fmt::format("The first {} of {}, false ones first", most_cards, triggers.size())
           : "Each of them, false ones first";
-  for (const Triggered& one : triggers) {
+  for (const TriggerRow& one : triggers) {
     if (page.gallery.size() == most_cards) {
       break;
     }

@@ -28,7 +28,7 @@ struct VerifyOptions {
 };
 
 /// One thing that a record depends on: as it was recorded, and as it is here.
-struct Compared {
+struct Dependency {
   std::string what;
   std::string name;
   json recorded;
@@ -61,7 +61,7 @@ const json* input_called(const json& inputs, std::string_view what) {
 }
 
 /// @param made  of a record
-Result<std::vector<Compared>> compared(const json& made) {
+Result<std::vector<Dependency>> compared(const json& made) {
   const auto places = find_places();
   if (!places.has_value()) {
     return places.error();
@@ -71,13 +71,13 @@ Result<std::vector<Compared>> compared(const json& made) {
   const json* const atlas = input_called(inputs, "atlas");
   const auto now = read_now(car == nullptr ? "" : car->at("name").get<std::string>(),
                             atlas != nullptr && !atlas->at("digest").is_null());
-  std::vector<Compared> all;
+  std::vector<Dependency> all;
   for (const json& one : inputs) {
-    Compared& told = all.emplace_back(Compared{.what = one.at("what").get<std::string>(),
-                                               .name = one.at("name").get<std::string>(),
-                                               .recorded = one.at("digest"),
-                                               .here = nullptr,
-                                               .lacks = ""});
+    Dependency& told = all.emplace_back(Dependency{.what = one.at("what").get<std::string>(),
+                                                   .name = one.at("name").get<std::string>(),
+                                                   .recorded = one.at("digest"),
+                                                   .here = nullptr,
+                                                   .lacks = ""});
     if (told.what == "scenario") {
       const auto digest = scenario_digest(places.value(), told.name);
       told.here = digest.has_value() ? json(digest.value()) : json(nullptr);
@@ -117,7 +117,7 @@ int verify(const VerifyOptions& options) {
     }
     bool same = recorded == content;
     json inputs = json::array();
-    for (const Compared& one : all.value()) {
+    for (const Dependency& one : all.value()) {
       same = same && one.recorded == one.here;
       inputs.push_back({{"what", one.what},
                         {"name", one.name},
@@ -143,7 +143,7 @@ int verify(const VerifyOptions& options) {
                words("command"));
     app::print("  {:<12} {}\n", "content",
                recorded == content ? "as it was written" : "has been changed since");
-    for (const Compared& one : all.value()) {
+    for (const Dependency& one : all.value()) {
       const std::string state = one.recorded == one.here ? "the same here"
                                 : one.here.is_null()     ? "not here: " + one.lacks
                                                          : "another one here";

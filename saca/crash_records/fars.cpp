@@ -22,14 +22,14 @@ using Crashes = std::map<CrashId, FarsCrash>;
 
 /// A coded column, and which of its codes say that nothing is known. Source: the manual.
 template <class Row>
-struct Coded {
+struct CodedColumn {
   std::string_view name;
   Code Row::*field;
   int unknown_from;              ///< this and all above
   bool zero_is_unknown = false;  ///< 0: no trafficway, no driver, no limit
 };
 
-constexpr std::array<Coded<FarsCrash>, 3> crash_columns{{
+constexpr std::array<CodedColumn<FarsCrash>, 3> crash_columns{{
     {"LGT_COND", &FarsCrash::light, 8},
     {"RELJCT2", &FarsCrash::junction, 98},
     {"TYP_INT", &FarsCrash::intersection, 98},
@@ -37,7 +37,7 @@ constexpr std::array<Coded<FarsCrash>, 3> crash_columns{{
 
 // TRAV_SP has 997 for more than 151 mph; VSPD_LIM 98 and 99; VNUM_LAN 8 and 9 after "seven or
 // more".
-constexpr std::array<Coded<FarsVehicle>, 12> vehicle_columns{{
+constexpr std::array<CodedColumn<FarsVehicle>, 12> vehicle_columns{{
     {"BODY_TYP", &FarsVehicle::body, 98},
     {"TRAV_SP", &FarsVehicle::travel_speed, 997},
     {"VSPD_LIM", &FarsVehicle::speed_limit, 98, true},
@@ -52,7 +52,7 @@ constexpr std::array<Coded<FarsVehicle>, 12> vehicle_columns{{
     {"IMPACT1", &FarsVehicle::impact, 98, true},
 }};
 
-constexpr std::array<Coded<FarsPerson>, 4> person_columns{{
+constexpr std::array<CodedColumn<FarsPerson>, 4> person_columns{{
     {"PER_TYP", &FarsPerson::type, 88},
     {"AGE", &FarsPerson::age, 998},
     {"STR_VEH", &FarsPerson::struck_by, 1000, true},
@@ -72,10 +72,10 @@ std::optional<int> whole(const std::string& field) {
 /// Reads the coded columns of a row, which begin at `first`.
 template <class Row, std::size_t count>
 std::optional<std::string> read_codes(const CsvRow& from, std::size_t first,
-                                      const std::array<Coded<Row>, count>& columns, Row& to) {
+                                      const std::array<CodedColumn<Row>, count>& columns, Row& to) {
   for (std::size_t i = 0; i < count; ++i) {
     const std::string& field = from.fields[first + i];
-    const Coded<Row>& column = columns[i];
+    const CodedColumn<Row>& column = columns[i];
     if (field.empty() || field == ".") {
       continue;
     }
@@ -92,8 +92,8 @@ std::optional<std::string> read_codes(const CsvRow& from, std::size_t first,
 
 template <class Row, std::size_t count>
 std::vector<CsvColumn> with_codes(std::vector<CsvColumn> keys,
-                                  const std::array<Coded<Row>, count>& columns) {
-  for (const Coded<Row>& column : columns) {
+                                  const std::array<CodedColumn<Row>, count>& columns) {
+  for (const CodedColumn<Row>& column : columns) {
     keys.push_back({column.name});
   }
   return keys;

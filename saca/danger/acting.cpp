@@ -89,7 +89,7 @@ State state_of(const manoeuvre::Car& car, const Situation& situation) {
 double highest_h(const manoeuvre::Car& car, const world::Footprint& body,
                  const Situation& situation, const Policy& policy) {
   constexpr double between = look_step / static_cast<double>(poses_per_look);
-  Driven driven(car, situation.car, situation.grip);
+  DemandDrivenCar driven(car, situation.car, situation.grip);
   State state = state_of(car, situation);
   double highest = intrusion(body, state);
   for (int look = 0; look < horizon_looks && !is_settled(body, state); ++look) {

@@ -112,8 +112,8 @@ class Trials {
   const Situation& situation_;
 };
 
-Checked told_of(const manoeuvre::Car& car, const Network& network, const world::Footprint& body,
-                const State& state) {
+CheckedCase told_of(const manoeuvre::Car& car, const Network& network, const world::Footprint& body,
+                    const State& state) {
   return {.speed = norm(state.ego.v_B),
           .grip = state.grip,
           .num_obstacles = state.obstacles.size(),
@@ -124,12 +124,12 @@ Checked told_of(const manoeuvre::Car& car, const Network& network, const world::
 
 }  // namespace
 
-Checked checked(const manoeuvre::Car& car, const world::Footprint& body, const Network& network,
-                std::uint64_t seed) {
+CheckedCase checked(const manoeuvre::Car& car, const world::Footprint& body, const Network& network,
+                    std::uint64_t seed) {
   Random random(seed);
   const Situation situation = drawn_situation(car, body, random);
   const Trials trials(car, body, network, situation);
-  Checked result = told_of(car, network, body, state_of(car, situation));
+  CheckedCase result = told_of(car, network, body, state_of(car, situation));
   result.acted = trials.by_evasion();
   result.best = std::min(result.acted, trials.best_of_all());
   result.is_pincer =
@@ -137,23 +137,23 @@ Checked checked(const manoeuvre::Car& car, const world::Footprint& body, const N
   return result;
 }
 
-ToldAndDriven driven_by_evasion(const manoeuvre::Car& car, const world::Footprint& body,
-                                const Network& network, std::uint64_t seed,
-                                const std::array<bool, num_bins>& wanted) {
+MarginSample driven_by_evasion(const manoeuvre::Car& car, const world::Footprint& body,
+                               const Network& network, std::uint64_t seed,
+                               const std::array<bool, num_bins>& wanted) {
   Random random(seed);
   const Situation situation = drawn_situation(car, body, random);
-  const Checked told = told_of(car, network, body, state_of(car, situation));
-  ToldAndDriven result{.bin = bin_of(told.is_straight, told.speed, told.grip, told.num_obstacles),
-                       .told = told.told,
-                       .acted = std::nullopt};
+  const CheckedCase told = told_of(car, network, body, state_of(car, situation));
+  MarginSample result{.bin = bin_of(told.is_straight, told.speed, told.grip, told.num_obstacles),
+                      .told = told.told,
+                      .acted = std::nullopt};
   if (result.told < 0.0 && wanted[result.bin]) {
     result.acted = Trials(car, body, network, situation).by_evasion();
   }
   return result;
 }
 
-CheckFigures figures_of(const std::vector<Checked>& all,
-                        const std::function<double(const Checked&)>& margin) {
+CheckFigures figures_of(const std::vector<CheckedCase>& all,
+                        const std::function<double(const CheckedCase&)>& margin) {
   constexpr double near = 2.0;       // [m]
   constexpr double just_safe = 1.0;  // [m]
   CheckFigures figures;
@@ -162,7 +162,7 @@ CheckFigures figures_of(const std::vector<Checked>& all,
     ++share.of;
     share.count += counts ? 1 : 0;
   };
-  for (const Checked& one : all) {
+  for (const CheckedCase& one : all) {
     const double told = one.told + margin(one);
     const bool told_safe = told < 0.0;
     const bool is_safe = one.best < 0.0;

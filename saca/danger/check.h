@@ -16,7 +16,7 @@
 namespace saca::danger {
 
 /// One situation, what V_h was told of it, and what came of it.
-struct Checked {
+struct CheckedCase {
   double speed = 0.0;  ///< of the ego at the start [m/s]
   double grip = 0.0;
   std::size_t num_obstacles = 1;
@@ -35,11 +35,11 @@ struct Checked {
 /// and sequences of them that drivers and controllers give. One in two starts within 2 m of the
 /// boundary as arcs see it.
 /// @param body  of the ego, about its centre of mass
-[[nodiscard]] Checked checked(const manoeuvre::Car& car, const world::Footprint& body,
-                              const Network& network, std::uint64_t seed);
+[[nodiscard]] CheckedCase checked(const manoeuvre::Car& car, const world::Footprint& body,
+                                  const Network& network, std::uint64_t seed);
 
 /// What a margin is counted from: one situation, what V_h was told of it, and what came of it.
-struct ToldAndDriven {
+struct MarginSample {
   std::size_t bin = 0;          ///< bin_of
   double told = 0.0;            ///< V_h at the start, by the network [m]
   std::optional<double> acted;  ///< highest h when driven by `evasion` [m]; nullopt: it was not
@@ -47,10 +47,10 @@ struct ToldAndDriven {
 
 /// A situation as `checked` has them, driven by `evasion` alone, and only if it is told safe.
 /// @param wanted  by bin: what lies in others is not driven
-[[nodiscard]] ToldAndDriven driven_by_evasion(const manoeuvre::Car& car,
-                                              const world::Footprint& body, const Network& network,
-                                              std::uint64_t seed,
-                                              const std::array<bool, num_bins>& wanted);
+[[nodiscard]] MarginSample driven_by_evasion(const manoeuvre::Car& car,
+                                             const world::Footprint& body, const Network& network,
+                                             std::uint64_t seed,
+                                             const std::array<bool, num_bins>& wanted);
 
 /// What the network is worth where what V tells, with each bin's margin added, is taken for true:
 /// safe is less than 0.
@@ -69,7 +69,7 @@ struct CheckFigures {
   Share told_alone_of_pincers;   ///< likewise by the highest of single values
 };
 /// @param margin  of a situation [m]
-[[nodiscard]] CheckFigures figures_of(const std::vector<Checked>& all,
-                                      const std::function<double(const Checked&)>& margin);
+[[nodiscard]] CheckFigures figures_of(const std::vector<CheckedCase>& all,
+                                      const std::function<double(const CheckedCase&)>& margin);
 
 }  // namespace saca::danger

@@ -13,20 +13,20 @@
 namespace saca::danger::check_test {
 namespace {
 
-Checked one(double told, double acted, double best) {
+CheckedCase one(double told, double acted, double best) {
   return {.speed = 10.0, .grip = 0.9, .told = told, .acted = acted, .best = best};
 }
 
-const auto no_margin = [](const Checked&) { return 0.0; };
+const auto no_margin = [](const CheckedCase&) { return 0.0; };
 
 // Six situations that can be counted by hand.
 TEST(CheckFigures, AreSharesOfWhatTheySay) {
-  const std::vector<Checked> all{one(-1.5, -1.2, -1.2),  // told safe, is
-                                 one(-0.5, 0.1, -0.1),   // told safe, evaded by others, hit by Q
-                                 one(-0.2, 0.4, 0.4),    // told safe, hit by all
-                                 one(0.5, 0.6, 0.6),     // told unsafe, is
-                                 one(0.3, -0.7, -0.7),   // false alarm
-                                 one(-15.0, -30.0, -30.0)};  // far
+  const std::vector<CheckedCase> all{one(-1.5, -1.2, -1.2),  // told safe, is
+                                     one(-0.5, 0.1, -0.1),  // told safe, evaded by others, hit by Q
+                                     one(-0.2, 0.4, 0.4),   // told safe, hit by all
+                                     one(0.5, 0.6, 0.6),    // told unsafe, is
+                                     one(0.3, -0.7, -0.7),  // false alarm
+                                     one(-15.0, -30.0, -30.0)};  // far
   const CheckFigures figures = figures_of(all, no_margin);
   EXPECT_EQ(figures.hit_given_told_safe.count, 2);
   EXPECT_EQ(figures.hit_given_told_safe.of, 4);
@@ -44,7 +44,7 @@ TEST(CheckFigures, AreSharesOfWhatTheySay) {
   EXPECT_NEAR(figures.lost_near, 0.2 / 5.0, 1e-12);
   EXPECT_EQ(figures.pincers.of, 0);
 
-  const CheckFigures careful = figures_of(all, [](const Checked&) { return 0.6; });
+  const CheckFigures careful = figures_of(all, [](const CheckedCase&) { return 0.6; });
   EXPECT_EQ(careful.hit_given_told_safe.count, 0);
   EXPECT_EQ(careful.hit_given_told_safe.of, 2);
   EXPECT_EQ(careful.false_alarms.count, 2);
@@ -52,11 +52,11 @@ TEST(CheckFigures, AreSharesOfWhatTheySay) {
 }
 
 TEST(CheckFigures, CountPincers) {
-  Checked pincer = one(0.5, 0.4, 0.3);
+  CheckedCase pincer = one(0.5, 0.4, 0.3);
   pincer.num_obstacles = 2;
   pincer.told_alone = -0.5;
   pincer.is_pincer = true;
-  Checked apart = one(-3.0, -3.0, -3.0);
+  CheckedCase apart = one(-3.0, -3.0, -3.0);
   apart.num_obstacles = 3;
   const CheckFigures figures = figures_of({pincer, apart, one(0.1, 0.1, 0.1)}, no_margin);
   EXPECT_EQ(figures.pincers.count, 1);

@@ -35,7 +35,7 @@ struct DiscBeforeDisc {
     return value(30.0 * number(9), 15.0 * number(10), 20.0 * number(0));
   }
   [[nodiscard]] reach::ValueAt exact() const {
-    return [this](const reach::State& at) { return reach::Looked{value(at), 0.0, true}; };
+    return [this](const reach::State& at) { return reach::LookupResult{value(at), 0.0, true}; };
   }
 };
 

@@ -71,7 +71,7 @@ vehicle::VehicleState drawn_start(const manoeuvre::Car& car, double grip, Random
   constexpr double fastest = 40.0;  // [m/s]
   constexpr int most_looks = 10;
   const world::EgoState ego{.v_B = {uniform(random, 0.0, fastest), 0.0}};
-  Driven driven(car, manoeuvre::rolling_state(car, ego, grip), grip);
+  DemandDrivenCar driven(car, manoeuvre::rolling_state(car, ego, grip), grip);
   Driver driver(Behaviour::held, random());
   const int looks = std::uniform_int_distribution<int>(0, most_looks)(random);
   for (int i = 0; i < looks; ++i) {

@@ -24,12 +24,13 @@ Ego ego_of(const vehicle::Vehicle& car, const vehicle::VehicleState& state) {
           .driving = per_torque * state.motor_torque};
 }
 
-Driven::Driven(const manoeuvre::Car& car, const vehicle::VehicleState& state, double grip)
+DemandDrivenCar::DemandDrivenCar(const manoeuvre::Car& car, const vehicle::VehicleState& state,
+                                 double grip)
     : car_(&car), state_(state), grip_(grip), abs_(vehicle::begin_abs(state.v_B.x)) {
   expects(grip >= 0.2 && grip <= 1.0, "grip in [0.2, 1.0]");
 }
 
-PosesOnTheWay Driven::hold(const manoeuvre::Demand& demand) {
+PosesOnTheWay DemandDrivenCar::hold(const manoeuvre::Demand& demand) {
   constexpr double dt = vehicle::usual_step;
   const int steps = static_cast<int>(std::lround(look_step / dt / poses_per_look));
   const manoeuvre::Demand held = manoeuvre::admissible(demand);

@@ -35,11 +35,11 @@ struct Ego {
 [[nodiscard]] Ego ego_of(const vehicle::Vehicle& car, const vehicle::VehicleState& state);
 
 /// A car that is driven by one demand after another. Grip is known to whoever drives.
-class Driven {
+class DemandDrivenCar {
  public:
   /// @param state  at the start
   /// @param grip   [-], in [0.2, 1.0]
-  Driven(const manoeuvre::Car& car, const vehicle::VehicleState& state, double grip);
+  DemandDrivenCar(const manoeuvre::Car& car, const vehicle::VehicleState& state, double grip);
 
   /// Holds the demand, moved onto the unit disc, for `look_step`. Allocates nothing.
   PosesOnTheWay hold(const manoeuvre::Demand& demand);

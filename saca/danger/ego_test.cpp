@@ -16,7 +16,7 @@ namespace {
 
 class DrivenCar : public testing::Test {
  protected:
-  [[nodiscard]] Driven rolling(double speed, double grip) const {
+  [[nodiscard]] DemandDrivenCar rolling(double speed, double grip) const {
     return {car_, manoeuvre::rolling_state(car_, test::ego_alone(speed, grip).ego, grip), grip};
   }
   const manoeuvre::Car car_ = manoeuvre::default_car();
@@ -25,7 +25,7 @@ class DrivenCar : public testing::Test {
 // From 20 m/s on grip 0.8 a constant 7.85 m/s^2 needs 25.5 m; what passes until the brakes grip and
 // the anti-lock brake finds the peak comes on top.
 TEST_F(DrivenCar, StopsAsTheGripSays) {
-  Driven driven = rolling(20.0, 0.8);
+  DemandDrivenCar driven = rolling(20.0, 0.8);
   const double start = driven.ego().X_WB.p.x;
   for (int i = 0; i < 50; ++i) {
     driven.hold({-1.0, 0.0});
@@ -37,8 +37,8 @@ TEST_F(DrivenCar, StopsAsTheGripSays) {
 }
 
 TEST_F(DrivenCar, TellsWhatBrakesAndMotorDo) {
-  Driven braked = rolling(20.0, 0.8);
-  Driven driven = rolling(20.0, 0.8);
+  DemandDrivenCar braked = rolling(20.0, 0.8);
+  DemandDrivenCar driven = rolling(20.0, 0.8);
   for (int i = 0; i < 5; ++i) {
     braked.hold({-0.5, 0.0});
     driven.hold({0.3, 0.0});
@@ -50,8 +50,8 @@ TEST_F(DrivenCar, TellsWhatBrakesAndMotorDo) {
 }
 
 TEST_F(DrivenCar, NoDemandIsBeyondTheDisc) {
-  Driven beyond = rolling(20.0, 0.8);
-  Driven at_edge = rolling(20.0, 0.8);
+  DemandDrivenCar beyond = rolling(20.0, 0.8);
+  DemandDrivenCar at_edge = rolling(20.0, 0.8);
   beyond.hold({-3.0, 4.0});
   at_edge.hold({-0.6, 0.8});
   EXPECT_EQ(beyond.ego().X_WB, at_edge.ego().X_WB);
@@ -59,7 +59,7 @@ TEST_F(DrivenCar, NoDemandIsBeyondTheDisc) {
 
 // 20 m/s, nothing asked for: 0.4 m every 20 ms.
 TEST_F(DrivenCar, TellsWhereItIsOnTheWay) {
-  Driven driven = rolling(20.0, 0.8);
+  DemandDrivenCar driven = rolling(20.0, 0.8);
   const double start = driven.ego().X_WB.p.x;
   const PosesOnTheWay poses = driven.hold({});
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -69,11 +69,11 @@ TEST_F(DrivenCar, TellsWhereItIsOnTheWay) {
 }
 
 TEST_F(DrivenCar, AllocatesNothingAndRefusesWhatIsNoGrip) {
-  Driven driven = rolling(15.0, 0.5);
+  DemandDrivenCar driven = rolling(15.0, 0.5);
   const std::size_t before = num_allocations;
   driven.hold({0.0, 1.0});
   EXPECT_EQ(num_allocations - before, 0U);
-  EXPECT_THROW(std::ignore = Driven(car_, driven.state(), 0.1), ContractViolation);
+  EXPECT_THROW(std::ignore = DemandDrivenCar(car_, driven.state(), 0.1), ContractViolation);
 }
 
 }  // namespace

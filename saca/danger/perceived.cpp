@@ -41,12 +41,12 @@ Obstacle perceived_obstacle(const reach::Meeting& meeting, const reach::Motion& 
 
 State most_dangerous(const Network& network, const manoeuvre::Car& car, const world::Scene& scene) {
   State state{.ego = perceived_ego(car, scene.ego), .grip = scene.grip, .obstacles = {}};
-  struct Judged {
+  struct Candidate {
     double v = 0.0;
     double distance = 0.0;
     Obstacle obstacle;
   };
-  StaticVector<Judged, world::max_actors> all;
+  StaticVector<Candidate, world::max_actors> all;
   for (const world::Actor& actor : scene.actors) {
     State alone = state;
     alone.obstacles.push_back(perceived_obstacle(reach::meeting_of(scene, actor),
@@ -55,9 +55,9 @@ State most_dangerous(const Network& network, const manoeuvre::Car& car, const wo
     all.push_back({highest_single_v(network, scene.ego_footprint, alone),
                    norm(actor.X_WA.p - scene.ego.X_WB.p), alone.obstacles[0]});
   }
-  const auto key = [](const Judged& one) { return std::pair(-one.v, one.distance); };
+  const auto key = [](const Candidate& one) { return std::pair(-one.v, one.distance); };
   std::stable_sort(all.begin(), all.end(),
-                   [&](const Judged& a, const Judged& b) { return key(a) < key(b); });
+                   [&](const Candidate& a, const Candidate& b) { return key(a) < key(b); });
   for (std::size_t i = 0; i < std::min(all.size(), most_obstacles); ++i) {
     state.obstacles.push_back(all[i].obstacle);
   }

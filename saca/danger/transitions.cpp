@@ -45,7 +45,7 @@ class Maker {
 
   void add_drive() {
     const double grip = uniform(random_, 0.2, 1.0);
-    const Driven driven(car_, drawn_start(car_, grip, random_), grip);
+    const DemandDrivenCar driven(car_, drawn_start(car_, grip, random_), grip);
     const State start{.ego = driven.ego(), .grip = grip};
     const Obstacles first = drawn_obstacles(start);
     const Drive drive = driven_by(drawn_behaviour(), driven, grip, first);
@@ -100,7 +100,8 @@ class Maker {
     };
   }
 
-  Drive driven_by(Behaviour behaviour, Driven driven, double grip, const Obstacles& obstacles) {
+  Drive driven_by(Behaviour behaviour, DemandDrivenCar driven, double grip,
+                  const Obstacles& obstacles) {
     const Driver::Evasion evasion = evasion_from(obstacles, grip);
     Driver driver(behaviour, random_(), evasion);
     Drive drive{.grip = grip};

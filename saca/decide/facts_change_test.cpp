@@ -26,7 +26,7 @@ TEST(Regret, IsWhatAPolicyHarmsMoreThanTheLeast) {
   EXPECT_NEAR(regret(all, PolicyId::aeb), 0.03, 1e-12);
   EXPECT_EQ(regret(all, PolicyId::aes_left), 0.0);
   // What cannot be driven is no measure for others.
-  all[manoeuvre::index(PolicyId::aes_left)].end = preview::Refused{"too fast"};
+  all[manoeuvre::index(PolicyId::aes_left)].end = preview::Refusal{"too fast"};
   EXPECT_EQ(regret(all, PolicyId::aeb), 0.0);
   EXPECT_TRUE(std::isinf(regret(all, PolicyId::aes_left)));
 }
@@ -36,7 +36,7 @@ TEST(ChangedPolicy, IsOneThatWasAsGoodAsTheBestAndIsMateriallyWorse) {
   EXPECT_EQ(changed_policy(facts(0.061), facts(0.0505)), PolicyId::aes_left);  // and back
   EXPECT_EQ(changed_policy(facts(0.05), facts(0.03)), PolicyId::aeb);  // braking is worse now
   AllFacts refused = facts(0.05);
-  refused[manoeuvre::index(PolicyId::aes_left)].end = preview::Refused{"too fast"};
+  refused[manoeuvre::index(PolicyId::aes_left)].end = preview::Refusal{"too fast"};
   EXPECT_EQ(changed_policy(facts(0.05), refused), PolicyId::aes_left);
 }
 

@@ -19,7 +19,7 @@ bool is_nearer(CrashEnd a, CrashEnd b) {
   return a == CrashEnd::happens || (b != CrashEnd::happens && a > b);
 }
 
-CrashEnd end_of(const std::optional<TriggerAsWritten>& as_written,
+CrashEnd end_of(const std::optional<WrittenTrigger>& as_written,
                 std::optional<outcome::Face> struck) {
   if (!as_written) {
     return CrashEnd::never_triggers;
@@ -51,7 +51,7 @@ CrashFound find_crash(const sim::Family& family, std::optional<outcome::Face> st
     }
     found.scenario = std::move(sample).value().scenario;
     const auto as_written = trigger_as_written(found.scenario, car, harm);
-    found.as_written = as_written.value_or(TriggerAsWritten{});
+    found.as_written = as_written.value_or(WrittenTrigger{});
     const CrashEnd end = end_of(as_written, struck);
     found.end = is_nearer(end, found.end) ? end : found.end;
   }

@@ -23,9 +23,9 @@ constexpr std::size_t num_crash_ends = 4;
 
 struct CrashFound {
   CrashEnd end = CrashEnd::cannot_be_drawn;
-  std::uint64_t sample = 0;     ///< the last that was tried; where it happens, that one
-  sim::Scenario scenario;       ///< of that sample
-  TriggerAsWritten as_written;  ///< of it; without meaning where nothing triggers
+  std::uint64_t sample = 0;   ///< the last that was tried; where it happens, that one
+  sim::Scenario scenario;     ///< of that sample
+  WrittenTrigger as_written;  ///< of it; without meaning where nothing triggers
 };
 
 /// Tries samples 0, 1, 2, ... of a record's family until without avoidance its first actor is met,

@@ -47,9 +47,9 @@ void take_oracle(const Oracle& told, int draws, JudgedEncounter& judged) {
 
 }  // namespace
 
-std::optional<TriggerAsWritten> trigger_as_written(const sim::Scenario& scenario,
-                                                   const manoeuvre::Car& car,
-                                                   const outcome::HarmModel& harm) {
+std::optional<WrittenTrigger> trigger_as_written(const sim::Scenario& scenario,
+                                                 const manoeuvre::Car& car,
+                                                 const outcome::HarmModel& harm) {
   const auto time = trigger_time(scenario, car);
   if (!time) {
     return std::nullopt;
@@ -58,7 +58,7 @@ std::optional<TriggerAsWritten> trigger_as_written(const sim::Scenario& scenario
   const outcome::Attempt nothing{manoeuvre::doing_nothing, &point.scene, &point.others, point.grip,
                                  point.perturbation};
   const preview::RolledOut tried = std::move(preview::tried(car, {&nothing, 1}, harm).front());
-  TriggerAsWritten found{.time = *time, .contact = std::nullopt};
+  WrittenTrigger found{.time = *time, .contact = std::nullopt};
   if (!tried.facts.drivable() || !tried.facts.outcome().contact) {
     return found;
   }

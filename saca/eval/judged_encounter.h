@@ -29,14 +29,14 @@ struct WithoutAvoidance {
 
 /// What happens in an encounter as it is written, nothing being left to chance, when from SACA's
 /// trigger on lane and speed are kept.
-struct TriggerAsWritten {
+struct WrittenTrigger {
   double time = 0.0;                        ///< of the trigger [s]
   std::optional<WithoutAvoidance> contact;  ///< nullopt: none
 };
 /// @return  nullopt: the trigger never fires
-[[nodiscard]] std::optional<TriggerAsWritten> trigger_as_written(const sim::Scenario& scenario,
-                                                                 const manoeuvre::Car& car,
-                                                                 const outcome::HarmModel& harm);
+[[nodiscard]] std::optional<WrittenTrigger> trigger_as_written(const sim::Scenario& scenario,
+                                                               const manoeuvre::Car& car,
+                                                               const outcome::HarmModel& harm);
 
 /// One plan as the verdict at the trigger judges it.
 struct VerdictPlan {

@@ -124,7 +124,7 @@ void MixturePredictor::look(const Scene& scene) {
     if (actor.kind == world::ActorKind::obstacle || intent::is_vru(actor.kind)) {
       continue;
     }
-    auto found = std::find_if(watched_.begin(), watched_.end(), [&](const Watched& one) {
+    auto found = std::find_if(watched_.begin(), watched_.end(), [&](const RoadUser& one) {
       return one.kind == actor.kind && one.id == actor.id;
     });
     if (found == watched_.end()) {
@@ -137,11 +137,11 @@ void MixturePredictor::look(const Scene& scene) {
     found->outputs = model_->step(found->memory.features(), found->state);
   }
   std::erase_if(watched_,
-                [&](const Watched& one) { return one.seen < scene.time - forgotten_after_gap; });
+                [&](const RoadUser& one) { return one.seen < scene.time - forgotten_after_gap; });
 }
 
 LikelyPlaces MixturePredictor::places_of(const Scene& scene, const Actor& actor) const {
-  const auto found = std::find_if(watched_.begin(), watched_.end(), [&](const Watched& one) {
+  const auto found = std::find_if(watched_.begin(), watched_.end(), [&](const RoadUser& one) {
     return one.kind == actor.kind && one.id == actor.id;
   });
   if (found == watched_.end() || !is_learnt_of(actor)) {

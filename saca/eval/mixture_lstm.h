@@ -85,7 +85,7 @@ class MixturePredictor {
   [[nodiscard]] LikelyPlaces places_of(const world::Scene& scene, const world::Actor& actor) const;
 
  private:
-  struct Watched {
+  struct RoadUser {
     world::ActorKind kind = world::ActorKind::car;
     std::uint8_t id = 0;
     double seen = 0.0;  ///< [s]
@@ -95,7 +95,7 @@ class MixturePredictor {
   };
 
   const MixtureModel* model_;
-  std::vector<Watched> watched_;
+  std::vector<RoadUser> watched_;
   double due_ = 0.0;  ///< the next look that counts [s]
 };
 

@@ -59,7 +59,7 @@ std::vector<Tried> all_draws(const sim::Scenario& scenario, const manoeuvre::Car
 }
 
 /// What is sure: one outcome, without an interval.
-outcome::Expected sure(const outcome::Outcome& outcome) {
+outcome::MeanOutcome sure(const outcome::Outcome& outcome) {
   const double hit = outcome.contact ? 1.0 : 0.0;
   return {
       .harm = {outcome.harm, outcome.harm, outcome.harm},

@@ -21,9 +21,9 @@ struct OracleOptions {
 
 /// What one policy ends in, by the plan `written.facts.plan`.
 struct Verdict {
-  loop::Hindsight written;     ///< with nothing left to chance
-  outcome::Expected expected;  ///< over the draws; without draws that of `written` alone
-  outcome::Mean behind;        ///< harm above that of the best, draw by draw [-]
+  loop::Hindsight written;        ///< with nothing left to chance
+  outcome::MeanOutcome expected;  ///< over the draws; without draws that of `written` alone
+  outcome::Mean behind;           ///< harm above that of the best, draw by draw [-]
 };
 
 /// All eight, each with the plan of its own that is best (all target speeds, all strengths), and

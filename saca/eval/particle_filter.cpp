@@ -72,15 +72,15 @@ ParticleFilter::ParticleFilter(const sim::PerceptionModel& errors, std::uint64_t
                                const DriverPrior& prior)
     : errors_(errors), seed_(seed), prior_(prior) {}
 
-ParticleFilter::Watched* ParticleFilter::find(const Actor& actor) {
-  const auto found = std::find_if(watched_.begin(), watched_.end(), [&](const Watched& one) {
+ParticleFilter::RoadUser* ParticleFilter::find(const Actor& actor) {
+  const auto found = std::find_if(watched_.begin(), watched_.end(), [&](const RoadUser& one) {
     return one.kind == actor.kind && one.id == actor.id;
   });
   return found == watched_.end() ? nullptr : &*found;
 }
 
-const ParticleFilter::Watched* ParticleFilter::find(const Actor& actor) const {
-  const auto found = std::find_if(watched_.begin(), watched_.end(), [&](const Watched& one) {
+const ParticleFilter::RoadUser* ParticleFilter::find(const Actor& actor) const {
+  const auto found = std::find_if(watched_.begin(), watched_.end(), [&](const RoadUser& one) {
     return one.kind == actor.kind && one.id == actor.id;
   });
   return found == watched_.end() ? nullptr : &*found;
@@ -108,8 +108,8 @@ std::vector<ParticleFilter::Body> ParticleFilter::bodies_about(const Scene& scen
   return bodies;
 }
 
-ParticleFilter::Measured ParticleFilter::measured_of(const Scene& scene, const Actor& actor,
-                                                     double direction) {
+ParticleFilter::Measurement ParticleFilter::measured_of(const Scene& scene, const Actor& actor,
+                                                        double direction) {
   // What is perceived was carried on from its measurement at constant velocity and turning rate.
   const double turned = actor.yaw_rate * actor.age;
   const Vec2 v_W = rotated(actor.v_W, -turned);
@@ -153,9 +153,9 @@ void ParticleFilter::begin_aside(Particle& particle, const Road& road, double di
   }
 }
 
-std::vector<ParticleFilter::Particle> ParticleFilter::at_sight(Watched& watched, const Road& road,
+std::vector<ParticleFilter::Particle> ParticleFilter::at_sight(RoadUser& watched, const Road& road,
                                                                const std::vector<Body>& bodies,
-                                                               const Measured& measured,
+                                                               const Measurement& measured,
                                                                std::size_t count) const {
   std::mt19937_64& rng = watched.rng;
   const double place_sd = std::hypot(errors_.position_sd, least_place_sd);
@@ -200,7 +200,7 @@ std::vector<ParticleFilter::Particle> ParticleFilter::at_sight(Watched& watched,
   return particles;
 }
 
-intent::Ahead ParticleFilter::ahead_of(const Particle& particle, const Watched& watched,
+intent::Ahead ParticleFilter::ahead_of(const Particle& particle, const RoadUser& watched,
                                        const std::vector<Body>& bodies) {
   const double here = particle.d();
   const double end = particle.keeps + particle.aside;
@@ -218,7 +218,7 @@ intent::Ahead ParticleFilter::ahead_of(const Particle& particle, const Watched& 
   return ahead;
 }
 
-void ParticleFilter::drive(Particle& particle, const Watched& watched, const Road& road,
+void ParticleFilter::drive(Particle& particle, const RoadUser& watched, const Road& road,
                            const std::vector<Body>& bodies, double dt, std::mt19937_64& rng) const {
   const intent::Ahead ahead = ahead_of(particle, watched, bodies);
   const double kept = std::exp(-dt / prior_.beyond.time);
@@ -255,7 +255,7 @@ void ParticleFilter::drive(Particle& particle, const Watched& watched, const Roa
   }
 }
 
-bool ParticleFilter::weigh(Watched& watched, const Measured& measured, double dt) const {
+bool ParticleFilter::weigh(RoadUser& watched, const Measurement& measured, double dt) const {
   const double kept =
       errors_.correlation_time > 0.0 ? std::exp(-dt / errors_.correlation_time) : 0.0;
   const double fresh = std::sqrt(1.0 - kept * kept);
@@ -288,7 +288,7 @@ bool ParticleFilter::weigh(Watched& watched, const Measured& measured, double dt
   return true;
 }
 
-bool ParticleFilter::is_gathered(const Watched& watched) {
+bool ParticleFilter::is_gathered(const RoadUser& watched) {
   double squares = 0.0;
   for (const Particle& one : watched.particles) {
     squares += one.weight * one.weight;
@@ -296,7 +296,7 @@ bool ParticleFilter::is_gathered(const Watched& watched) {
   return squares * num_particles >= 2.0;  // they count for half of their number or less
 }
 
-void ParticleFilter::resample(Watched& watched, const std::vector<Particle>& fresh) const {
+void ParticleFilter::resample(RoadUser& watched, const std::vector<Particle>& fresh) const {
   constexpr double jitter = 0.05;        // of the logarithm of a parameter
   constexpr double aside_jitter = 0.05;  // [m]
   constexpr double place_jitter = 0.03;  // [m]
@@ -358,7 +358,7 @@ void ParticleFilter::look(const Scene& scene) {
       continue;
     }
     const double direction = direction_of(scene, actor);
-    Watched* watched = find(actor);
+    RoadUser* watched = find(actor);
     if (watched == nullptr) {
       const std::uint64_t name = (static_cast<std::uint64_t>(actor.kind) << 8U) | actor.id;
       const Vec2 half = world::half_axes(actor.footprint);
@@ -371,7 +371,7 @@ void ParticleFilter::look(const Scene& scene) {
       watched = &watched_.back();
     }
     watched->seen = scene.time;
-    const Measured measured = measured_of(scene, actor, direction);
+    const Measurement measured = measured_of(scene, actor, direction);
     const std::vector<Body> bodies = bodies_about(scene, actor, direction);
     if (watched->particles.empty() || watched->direction != direction) {
       watched->direction = direction;
@@ -395,11 +395,11 @@ void ParticleFilter::look(const Scene& scene) {
     }
   }
   std::erase_if(watched_,
-                [&](const Watched& one) { return one.seen < scene.time - forgotten_after; });
+                [&](const RoadUser& one) { return one.seen < scene.time - forgotten_after; });
 }
 
 LikelyPlaces ParticleFilter::places_of(const Scene& scene, const Actor& actor) const {
-  const Watched* const watched = find(actor);
+  const RoadUser* const watched = find(actor);
   if (watched == nullptr || watched->seen < scene.time - step - time_rounding ||
       !follows_a_lane(scene, actor)) {
     return going_straight(actor);

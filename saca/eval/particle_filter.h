@@ -123,13 +123,13 @@ class ParticleFilter {
     double half_length = 0.0, half_width = 0.0;
   };
   /// What was measured, without having been carried on to now.
-  struct Measured {
+  struct Measurement {
     double time = 0.0;
     Vec2 p;  ///< s and d in the driver's direction [m]
     Vec2 v;  ///< along and to the left [m/s]
   };
   /// One road user under watch.
-  struct Watched {
+  struct RoadUser {
     world::ActorKind kind = world::ActorKind::car;
     std::uint8_t id = 0;
     double direction = 1.0;  ///< along the road, or -1 against it
@@ -140,35 +140,36 @@ class ParticleFilter {
     std::vector<Particle> particles;
   };
 
-  [[nodiscard]] Watched* find(const world::Actor& actor);
-  [[nodiscard]] const Watched* find(const world::Actor& actor) const;
+  [[nodiscard]] RoadUser* find(const world::Actor& actor);
+  [[nodiscard]] const RoadUser* find(const world::Actor& actor) const;
   [[nodiscard]] static std::vector<Body> bodies_about(const world::Scene& scene,
                                                       const world::Actor& actor, double direction);
-  [[nodiscard]] static Measured measured_of(const world::Scene& scene, const world::Actor& actor,
-                                            double direction);
+  [[nodiscard]] static Measurement measured_of(const world::Scene& scene, const world::Actor& actor,
+                                               double direction);
   [[nodiscard]] intent::DriverLaw drawn_law(double speed, std::mt19937_64& rng) const;
   void begin_aside(Particle& particle, const world::Road& road, double direction,
                    std::mt19937_64& rng) const;
   /// Drivers as they may be when somebody is first seen; their weights sum to 1.
-  [[nodiscard]] std::vector<Particle> at_sight(Watched& watched, const world::Road& road,
+  [[nodiscard]] std::vector<Particle> at_sight(RoadUser& watched, const world::Road& road,
                                                const std::vector<Body>& bodies,
-                                               const Measured& measured, std::size_t count) const;
+                                               const Measurement& measured,
+                                               std::size_t count) const;
   /// What a particle follows: the nearest body in the lanes that it sweeps.
-  [[nodiscard]] static intent::Ahead ahead_of(const Particle& particle, const Watched& watched,
+  [[nodiscard]] static intent::Ahead ahead_of(const Particle& particle, const RoadUser& watched,
                                               const std::vector<Body>& bodies);
-  void drive(Particle& particle, const Watched& watched, const world::Road& road,
+  void drive(Particle& particle, const RoadUser& watched, const world::Road& road,
              const std::vector<Body>& bodies, double dt, std::mt19937_64& rng) const;
   /// @return  whether any particle is near what was measured
-  [[nodiscard]] bool weigh(Watched& watched, const Measured& measured, double dt) const;
+  [[nodiscard]] bool weigh(RoadUser& watched, const Measurement& measured, double dt) const;
   /// Have the weights gathered on few particles?
-  [[nodiscard]] static bool is_gathered(const Watched& watched);
+  [[nodiscard]] static bool is_gathered(const RoadUser& watched);
   /// @param fresh  as at_sight: they take the place of as many
-  void resample(Watched& watched, const std::vector<Particle>& fresh) const;
+  void resample(RoadUser& watched, const std::vector<Particle>& fresh) const;
 
   sim::PerceptionModel errors_;
   std::uint64_t seed_;
   DriverPrior prior_;
-  std::vector<Watched> watched_;
+  std::vector<RoadUser> watched_;
   double due_ = 0.0;  ///< the next look that counts [s]
 };
 

@@ -61,15 +61,15 @@ Result<std::vector<std::vector<PlaceExample>>> place_examples(const loop::Stage&
     }
     loop.advance();
   }
-  struct Watched {
+  struct RoadUser {
     intent::ObservationHistory memory;
     std::size_t last = 0;
     std::vector<PlaceExample> examples;
   };
   constexpr std::size_t forgotten_after_looks = 20;  // as MixturePredictor
-  std::map<std::pair<world::ActorKind, std::uint8_t>, Watched> watched;
+  std::map<std::pair<world::ActorKind, std::uint8_t>, RoadUser> watched;
   std::vector<std::vector<PlaceExample>> all;
-  const auto keep = [&all](Watched& one) {
+  const auto keep = [&all](RoadUser& one) {
     if (std::any_of(one.examples.begin(), one.examples.end(),
                     [](const PlaceExample& each) { return each.known; })) {
       all.push_back(std::move(one.examples));
@@ -83,7 +83,7 @@ Result<std::vector<std::vector<PlaceExample>>> place_examples(const loop::Stage&
       if (actor.kind == world::ActorKind::obstacle || intent::is_vru(actor.kind)) {
         continue;
       }
-      Watched& one = watched[{actor.kind, actor.id}];
+      RoadUser& one = watched[{actor.kind, actor.id}];
       if (!one.examples.empty() && n > one.last + forgotten_after_looks) {
         keep(one);
       }

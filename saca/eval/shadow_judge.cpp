@@ -125,7 +125,7 @@ class RecordedWay {
 };
 
 /// Everybody over the time that is judged.
-struct Judged {
+struct TimeWindow {
   const world::Footprint& ego;
   const world::Footprint& other;
   std::vector<Pose> X_WO;  ///< of the other, judged_step apart
@@ -133,7 +133,7 @@ struct Judged {
   double speed = 0.0;  ///< of the ego at the trigger [m/s]
 };
 
-bool is_avoided_by(double deceleration, const Judged& judged) {
+bool is_avoided_by(double deceleration, const TimeWindow& judged) {
   for (std::size_t k = 0; k < judged.X_WO.size(); ++k) {
     const double t = static_cast<double>(k) * judged_step;
     const double braked = deceleration > 0.0 ? std::min(t, judged.speed / deceleration) : t;
@@ -146,7 +146,7 @@ bool is_avoided_by(double deceleration, const Judged& judged) {
   return true;
 }
 
-std::optional<double> needed_deceleration(const Judged& judged) {
+std::optional<double> needed_deceleration(const TimeWindow& judged) {
   const auto most = static_cast<int>(std::lround(hardest_tried / deceleration_step));
   for (int k = 0; k <= most; ++k) {
     if (is_avoided_by(k * deceleration_step, judged)) {
@@ -162,7 +162,8 @@ struct Nearest {
   std::optional<double> touch;                           ///< when they first do [s]
 };
 
-Nearest nearest_of(const sim::Scenario& scenario, const Judged& judged, double time, double last) {
+Nearest nearest_of(const sim::Scenario& scenario, const TimeWindow& judged, double time,
+                   double last) {
   Nearest nearest;
   for (std::size_t k = 0; k < judged.X_WO.size(); ++k) {
     const double t = time + static_cast<double>(k) * judged_step;
@@ -249,11 +250,11 @@ ShadowJudgement judged(const sim::Scenario& scenario, const world::Footprint& eg
   const sim::Recording& drive = *recorded;
   const sim::ScenarioActor& other = scenario.actors[actor];
   const double end = std::max(time, std::min(time + judged_for, drive.back().time));
-  Judged around{ego,
-                other.footprint,
-                {},
-                RecordedWay(scenario, time, end),
-                sim::ego_at(scenario, time).v_B.x};
+  TimeWindow around{ego,
+                    other.footprint,
+                    {},
+                    RecordedWay(scenario, time, end),
+                    sim::ego_at(scenario, time).v_B.x};
   const auto num_steps = static_cast<int>(std::lround(judged_for / judged_step));
   for (int k = 0; k <= num_steps; ++k) {
     around.X_WO.push_back(sim::actor_pose(scenario, actor, time + k * judged_step, {}));

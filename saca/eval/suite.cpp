@@ -20,13 +20,13 @@ using nlohmann::json;
 
 // --- one encounter
 
-struct Played {
+struct PlayResult {
   std::optional<Comparison> comparison;
   std::string fault;
 };
 
-Played play(const sim::Scenario& scenario, std::uint64_t number, const SuiteOptions& options,
-            const runtime::PlanesSetup& saca, const intent::Model& intent) {
+PlayResult play(const sim::Scenario& scenario, std::uint64_t number, const SuiteOptions& options,
+                const runtime::PlanesSetup& saca, const intent::Model& intent) {
   const sim::Scenario world = as_played(scenario, options);
   const loop::Stage stage = stage_of(world, number, options, saca, intent);
   try {
@@ -270,7 +270,7 @@ SuiteRow run_encounter(const SuiteEncounter& encounter, const SuiteOptions& opti
                .risk = {},
                .twin = {},
                .driver = {}};
-  Played risk = play(encounter.scenario, encounter.number, options, saca, intent);
+  PlayResult risk = play(encounter.scenario, encounter.number, options, saca, intent);
   row.fault = risk.fault;
   if (!risk.comparison) {
     return row;
@@ -278,7 +278,7 @@ SuiteRow run_encounter(const SuiteEncounter& encounter, const SuiteOptions& opti
   row.risk = std::move(*risk.comparison);
   row.driver = driver_of(encounter.scenario, row.risk, saca);
   if (encounter.twin) {
-    Played twin = play(*encounter.twin, encounter.number, options, saca, intent);
+    PlayResult twin = play(*encounter.twin, encounter.number, options, saca, intent);
     row.fault = twin.fault;
     row.twin = std::move(twin.comparison);
   }

@@ -11,14 +11,14 @@ namespace saca::intent {
 namespace {
 
 /// A hypothesis as the rank of what each road user does among its own choices, likeliest first.
-struct Ranked {
+struct RankedHypothesis {
   double probability = 1.0;
   std::vector<std::uint8_t> ranks;
   std::size_t last = 0;  ///< the last road user whose rank is not 0
 };
 
 /// Less likely, or as likely and later.
-bool comes_after(const Ranked& a, const Ranked& b) {
+bool comes_after(const RankedHypothesis& a, const RankedHypothesis& b) {
   if (a.probability != b.probability) {
     return a.probability < b.probability;
   }
@@ -67,13 +67,14 @@ std::vector<Hypothesis> likeliest_hypotheses(std::span<const Choices> choices, s
       return a.probability > b.probability;
     });
   }
-  std::priority_queue<Ranked, std::vector<Ranked>, decltype(&comes_after)> queue(&comes_after);
-  Ranked first{.ranks = std::vector<std::uint8_t>(sorted.size(), 0)};
+  std::priority_queue<RankedHypothesis, std::vector<RankedHypothesis>, decltype(&comes_after)>
+      queue(&comes_after);
+  RankedHypothesis first{.ranks = std::vector<std::uint8_t>(sorted.size(), 0)};
   first.probability = probability_of(sorted, first.ranks);
   queue.push(std::move(first));
   std::vector<Hypothesis> found;
   while (!queue.empty() && found.size() < most) {
-    const Ranked next = queue.top();
+    const RankedHypothesis next = queue.top();
     queue.pop();
     Hypothesis hypothesis{next.probability, {}};
     for (std::size_t i = 0; i < sorted.size(); ++i) {
@@ -82,7 +83,7 @@ std::vector<Hypothesis> likeliest_hypotheses(std::span<const Choices> choices, s
     found.push_back(std::move(hypothesis));
     for (std::size_t i = next.last; i < sorted.size(); ++i) {
       if (next.ranks[i] + std::size_t{1} < sorted[i].size()) {
-        Ranked child{.ranks = next.ranks, .last = i};
+        RankedHypothesis child{.ranks = next.ranks, .last = i};
         ++child.ranks[i];
         child.probability = probability_of(sorted, child.ranks);
         queue.push(std::move(child));

@@ -205,13 +205,13 @@ Forecast at_rest(const Scene& scene, const Actor& actor, double horizon) {
 }  // namespace
 
 // The correlation of an Ornstein-Uhlenbeck process, integrated twice over both times.
-double ornstein_uhlenbeck_sd(const OrnsteinUhlenbeck& wavering, double time) {
-  const double x = time / wavering.time;
+double ornstein_uhlenbeck_sd(const OrnsteinUhlenbeck& process, double time) {
+  const double x = time / process.time;
   constexpr double small = 0.05;  // below it the sum loses its digits; the next term is x^6 / 72
   const double variance =
       x < small ? x * x * x * x * (0.25 - x / 15.0)
                 : 2.0 / 3.0 * x * x * x - x * x + 2.0 - 2.0 * std::exp(-x) * (1.0 + x);
-  return wavering.sd * wavering.time * wavering.time * std::sqrt(variance);
+  return process.sd * process.time * process.time * std::sqrt(variance);
 }
 
 Forecast motion_under(const Scene& scene, const Actor& actor, Intention intention, double horizon,
@@ -231,7 +231,7 @@ Forecast motion_under(const Scene& scene, const Actor& actor, Intention intentio
   const bool brakes = is_braking(intention);
   const Slowing slowed = slowing(line, actor.kind, intention, law);
   const double log_sd = is_held(line, law) ? law.held_log_sd : law.braking_log_sd;
-  const OrnsteinUhlenbeck& wavering = is_vru(actor.kind) ? law.walking : law.driving;
+  const OrnsteinUhlenbeck& process = is_vru(actor.kind) ? law.walking : law.driving;
   const Aside moved = is_vru(actor.kind) ? Aside{} : aside(line, side_of(intention), law);
 
   Forecast forecast{
@@ -256,7 +256,7 @@ Forecast motion_under(const Scene& scene, const Actor& actor, Intention intentio
 
     const double perceived = std::hypot(actor.position_sd, actor.velocity_sd * slowed.moving(t));
     const double of_speed =
-        brakes ? log_sd * slowed.way_per_log(t) : ornstein_uhlenbeck_sd(wavering, t);
+        brakes ? log_sd * slowed.way_per_log(t) : ornstein_uhlenbeck_sd(process, t);
     const double of_change = law.lane_change_log_sd * moved.way_per_log(driven);
     const double aside_sd = is_vru(actor.kind) && !brakes ? of_speed : of_change;
     forecast.spread.at.push_back(

@@ -47,7 +47,7 @@ struct Forecast {
 constexpr double motion_step = 0.05;
 
 /// Standard deviation of the way made in `time`: sd t^2 / 2 at first [m].
-[[nodiscard]] double ornstein_uhlenbeck_sd(const OrnsteinUhlenbeck& wavering, double time);
+[[nodiscard]] double ornstein_uhlenbeck_sd(const OrnsteinUhlenbeck& process, double time);
 
 /// Deceleration from which on somebody counts as braking [m/s^2]: the project's own mark.
 constexpr double braking_mark = 2.0;

@@ -49,15 +49,15 @@ const Beliefs& Observer::look(const world::Scene& scene) {
   forget_before(time_ - memory);
   // First who is known, so that nobody who is here makes room for somebody new.
   for (const world::Actor& actor : scene.actors) {
-    if (Known* const known = find(actor)) {
+    if (RoadUser* const known = find(actor)) {
       known->seen = time_;
     }
   }
   beliefs_.clear();
   for (std::size_t i = 0; i < scene.actors.size(); ++i) {
     const world::Actor& actor = scene.actors[i];
-    Known* const found = find(actor);
-    Known& known = found != nullptr ? *found : begin(actor, time_);
+    RoadUser* const found = find(actor);
+    RoadUser& known = found != nullptr ? *found : begin(actor, time_);
     if (time_ >= known.due - rounding) {
       known.belief = judged(scene, i, known.stream);
       // On a grid, however the looks fall; steps that were missed are not made up for.
@@ -84,33 +84,34 @@ Belief Observer::judged(const world::Scene& scene, std::size_t i, Stream& stream
   return norm(actor.v_W) < rest_speed ? of_who_goes_on() : of_vehicle(told);
 }
 
-Observer::Known* Observer::find(const world::Actor& actor) {
-  Known* const found = std::find_if(known_.begin(), known_.end(), [&](const Known& known) {
+Observer::RoadUser* Observer::find(const world::Actor& actor) {
+  RoadUser* const found = std::find_if(known_.begin(), known_.end(), [&](const RoadUser& known) {
     return known.kind == actor.kind && known.id == actor.id;
   });
   return found != known_.end() ? found : nullptr;
 }
 
-Observer::Known& Observer::begin(const world::Actor& actor, double time) {
-  const Known fresh{
+Observer::RoadUser& Observer::begin(const world::Actor& actor, double time) {
+  const RoadUser fresh{
       .kind = actor.kind, .id = actor.id, .seen = time, .due = time, .stream = {}, .belief = {}};
   if (!known_.full()) {
     known_.push_back(fresh);
     return known_[known_.size() - 1];
   }
   // A scene has no more actors than there are places: one of these is not in it.
-  Known* const longest_gone = std::min_element(
-      known_.begin(), known_.end(), [](const Known& a, const Known& b) { return a.seen < b.seen; });
+  RoadUser* const longest_gone =
+      std::min_element(known_.begin(), known_.end(),
+                       [](const RoadUser& a, const RoadUser& b) { return a.seen < b.seen; });
   return *longest_gone = fresh;
 }
 
 void Observer::forget_before(double time) {
-  const auto is_gone = [&](const Known& known) { return known.seen <= time + rounding; };
+  const auto is_gone = [&](const RoadUser& known) { return known.seen <= time + rounding; };
   if (std::none_of(known_.begin(), known_.end(), is_gone)) {
     return;
   }
-  StaticVector<Known, world::max_actors> kept;
-  for (const Known& known : known_) {
+  StaticVector<RoadUser, world::max_actors> kept;
+  for (const RoadUser& known : known_) {
     if (!is_gone(known)) {
       kept.push_back(known);
     }

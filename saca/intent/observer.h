@@ -52,7 +52,7 @@ class Observer {
 
  private:
   /// One road user.
-  struct Known {
+  struct RoadUser {
     world::ActorKind kind = world::ActorKind::car;
     std::uint8_t id = 0;
     double seen = 0.0;  ///< last [s]
@@ -63,12 +63,12 @@ class Observer {
 
   /// @param i  index into scene.actors
   [[nodiscard]] Belief judged(const world::Scene& scene, std::size_t i, Stream& stream) const;
-  [[nodiscard]] Known* find(const world::Actor& actor);
-  [[nodiscard]] Known& begin(const world::Actor& actor, double time);
+  [[nodiscard]] RoadUser* find(const world::Actor& actor);
+  [[nodiscard]] RoadUser& begin(const world::Actor& actor, double time);
   void forget_before(double time);
 
   const Model* model_;
-  StaticVector<Known, world::max_actors> known_;
+  StaticVector<RoadUser, world::max_actors> known_;
   Beliefs beliefs_;
   double time_ = 0.0;  ///< of the last look [s]
 };

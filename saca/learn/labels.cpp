@@ -13,7 +13,7 @@ namespace {
 
 using intent::Intention;
 
-enum class Judged : std::uint8_t { no, doubtful, yes };
+enum class Membership : std::uint8_t { no, doubtful, yes };
 
 std::size_t frames_of(double time) {
   return static_cast<std::size_t>(std::lround(time / frame_step));
@@ -42,9 +42,9 @@ std::vector<Span> spans_where(std::size_t size, Holds&& holds) {
 }
 
 /// Per frame: is it in an act of this kind?
-using Verdicts = std::vector<Judged>;
+using Verdicts = std::vector<Membership>;
 
-void mark(Verdicts& verdicts, const Span& span, Judged judged) {
+void mark(Verdicts& verdicts, const Span& span, Membership judged) {
   for (std::size_t i = span.first; i < span.last; ++i) {
     verdicts[i] = std::max(verdicts[i], judged);
   }
@@ -86,22 +86,23 @@ bool is_manoeuvre(const TrueMotion& motion, const LabelRule& rule, double side, 
   return false;
 }
 
-Judged judge_move(const TrueMotion& motion, const LabelRule& rule, double side, const Span& move) {
+Membership judge_move(const TrueMotion& motion, const LabelRule& rule, double side,
+                      const Span& move) {
   const double way = side * (motion.lateral[move.last - 1] - motion.lateral[move.first]);
   const bool cut = move.first == 0 || move.last == motion.lateral.size() ||
                    std::isnan(motion.lateral_speed[move.first - 1]) ||
                    std::isnan(motion.lateral_speed[move.last]);
   if (way >= rule.least_way) {
     return is_manoeuvre(motion, rule, side, move) && !is_undone(motion, rule, side, move)
-               ? Judged::yes
-               : Judged::doubtful;
+               ? Membership::yes
+               : Membership::doubtful;
   }
-  return way >= rule.doubtful_way || cut ? Judged::doubtful : Judged::no;
+  return way >= rule.doubtful_way || cut ? Membership::doubtful : Membership::no;
 }
 
 /// @param side  1 to the left, -1 to the right
 Verdicts moves(const TrueMotion& motion, const LabelRule& rule, double side) {
-  Verdicts verdicts(motion.lateral.size(), Judged::no);
+  Verdicts verdicts(motion.lateral.size(), Membership::no);
   const auto speed = [&](std::size_t i) { return side * motion.lateral_speed[i]; };
   for (const Span& whole : spans_where(motion.lateral.size(),
                                        [&](std::size_t i) { return speed(i) > rule.aside_end; })) {
@@ -109,14 +110,15 @@ Verdicts moves(const TrueMotion& motion, const LabelRule& rule, double side) {
     while (begin < whole.last && !(speed(begin) > rule.aside_begin)) {
       ++begin;
     }
-    const Judged judged = judge_move(motion, rule, side, whole);
-    mark(verdicts, {whole.first, begin}, judged == Judged::no ? Judged::no : Judged::doubtful);
+    const Membership judged = judge_move(motion, rule, side, whole);
+    mark(verdicts, {whole.first, begin},
+         judged == Membership::no ? Membership::no : Membership::doubtful);
     mark(verdicts, {begin, whole.last}, judged);
   }
   return verdicts;
 }
 
-Judged judge_braking(const TrueMotion& motion, const LabelRule& rule, const Span& span) {
+Membership judge_braking(const TrueMotion& motion, const LabelRule& rule, const Span& span) {
   std::size_t longest = 0;
   std::size_t longest_doubtful = 0;
   std::size_t now = 0;
@@ -130,19 +132,20 @@ Judged judge_braking(const TrueMotion& motion, const LabelRule& rule, const Span
     loss -= motion.acceleration[i] * frame_step;
   }
   if (longest >= frames_of(rule.least_braking) && loss >= rule.least_loss) {
-    return Judged::yes;
+    return Membership::yes;
   }
   const bool cut = span.first == 0 || span.last == motion.acceleration.size();
-  return longest_doubtful >= frames_of(rule.least_braking) || cut ? Judged::doubtful : Judged::no;
+  return longest_doubtful >= frames_of(rule.least_braking) || cut ? Membership::doubtful
+                                                                  : Membership::no;
 }
 
 Verdicts brakings(const TrueMotion& motion, const LabelRule& rule, std::vector<double>& times) {
-  Verdicts verdicts(motion.acceleration.size(), Judged::no);
+  Verdicts verdicts(motion.acceleration.size(), Membership::no);
   for (const Span& span : spans_where(motion.acceleration.size(), [&](std::size_t i) {
          return motion.acceleration[i] < rule.braking_end;
        })) {
-    const Judged judged = judge_braking(motion, rule, span);
-    if (judged != Judged::yes) {
+    const Membership judged = judge_braking(motion, rule, span);
+    if (judged != Membership::yes) {
       mark(verdicts, span, judged);
       continue;
     }
@@ -150,8 +153,8 @@ Verdicts brakings(const TrueMotion& motion, const LabelRule& rule, std::vector<d
     while (motion.acceleration[begin] > rule.braking) {
       ++begin;
     }
-    mark(verdicts, {span.first, begin}, Judged::doubtful);
-    mark(verdicts, {begin, span.last}, Judged::yes);
+    mark(verdicts, {span.first, begin}, Membership::doubtful);
+    mark(verdicts, {begin, span.last}, Membership::yes);
     times.push_back(static_cast<double>(begin) * frame_step);
   }
   return verdicts;
@@ -180,10 +183,10 @@ Labels labels_of(const TrueMotion& motion, const LabelRule& rule) {
   const Verdicts right = moves(motion, rule, -1.0);
   const Verdicts braking = brakings(motion, rule, labels.braking_times);
   for (std::size_t i = 0; i < size; ++i) {
-    labels.classes[i] = static_cast<std::uint8_t>(
-        class_of(left[i] == Judged::yes, right[i] == Judged::yes, braking[i] == Judged::yes));
+    labels.classes[i] = static_cast<std::uint8_t>(class_of(
+        left[i] == Membership::yes, right[i] == Membership::yes, braking[i] == Membership::yes));
     for (const Verdicts* each : {&left, &right, &braking}) {
-      if ((*each)[i] == Judged::doubtful) {
+      if ((*each)[i] == Membership::doubtful) {
         labels.scored[i] = false;
       }
     }

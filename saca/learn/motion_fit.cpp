@@ -12,19 +12,19 @@ namespace {
 
 using intent::Intention;
 
-constexpr std::size_t one_second = 10;        // frames
-constexpr std::size_t wavering_end = 30;      // frames over which wavering is measured
-constexpr double longest_correlation = 50.0;  // [s]: beyond it an acceleration is constant
-constexpr double peak_of_quintic = 1.875;     // highest speed over mean speed of a 5th-order change
+constexpr std::size_t one_second = 10;           // frames
+constexpr std::size_t acceleration_frames = 30;  // frames over which acceleration is measured
+constexpr double longest_correlation = 50.0;     // [s]: beyond it an acceleration is constant
+constexpr double peak_of_quintic = 1.875;  // highest speed over mean speed of a 5th-order change
 
 /// What is gathered of all motions.
-struct Gathered {
+struct MotionSamples {
   std::vector<double> braking;
   std::vector<double> rise;
   std::vector<double> held;
   std::vector<double> lane_change;
-  /// Of those who maintain for `wavering_end`: sums of squares of the way beyond that at the speed
-  /// of the beginning [m^2].
+  /// Of those who maintain for `acceleration_frames`: sums of squares of the way beyond that at the
+  /// speed of the beginning [m^2].
   double after_one_second = 0.0;
   double after_all = 0.0;
   std::size_t num_maintaining = 0;
@@ -36,7 +36,7 @@ bool brakes(std::uint8_t label) {
 
 /// Frames [first, last) of one braking.
 void gather_braking(const TrueMotion& motion, std::size_t first, std::size_t last,
-                    Gathered& gathered) {
+                    MotionSamples& gathered) {
   const auto begin = motion.acceleration.begin();
   const auto hardest = std::min_element(begin + static_cast<std::ptrdiff_t>(first),
                                         begin + static_cast<std::ptrdiff_t>(last));
@@ -65,7 +65,7 @@ void gather_braking(const TrueMotion& motion, std::size_t first, std::size_t las
 }
 
 void gather_lane_change(const TrueMotion& motion, std::size_t first, std::size_t last,
-                        double lane_width, Gathered& gathered) {
+                        double lane_width, MotionSamples& gathered) {
   double fastest = 0.0;
   for (std::size_t i = first; i < last; ++i) {
     fastest = std::max(fastest, std::abs(motion.lateral_speed[i]));
@@ -76,17 +76,17 @@ void gather_lane_change(const TrueMotion& motion, std::size_t first, std::size_t
   }
 }
 
-void gather_wavering(const TrueMotion& motion, const Labels& labels, Gathered& gathered) {
+void gather_acceleration(const TrueMotion& motion, const Labels& labels, MotionSamples& gathered) {
   std::size_t maintained = 0;  // frames until now
   for (std::size_t end = 0; end < labels.classes.size(); ++end) {
     maintained = labels.classes[end] == 0 && labels.scored[end] ? maintained + 1 : 0;
-    if (maintained <= wavering_end) {
+    if (maintained <= acceleration_frames) {
       continue;
     }
     double speed = 0.0;  // gained
     double way = 0.0;
-    for (std::size_t i = 1; i <= wavering_end; ++i) {
-      const double now = motion.acceleration[end - wavering_end + i];
+    for (std::size_t i = 1; i <= acceleration_frames; ++i) {
+      const double now = motion.acceleration[end - acceleration_frames + i];
       way += frame_step * (speed + 0.5 * frame_step * now);
       speed += frame_step * now;
       if (i == one_second) {
@@ -98,8 +98,8 @@ void gather_wavering(const TrueMotion& motion, const Labels& labels, Gathered& g
   }
 }
 
-/// The wavering that carries as far after 1 s and after all as was measured.
-intent::OrnsteinUhlenbeck wavering_of(const Gathered& gathered) {
+/// The process of acceleration that carries as far after 1 s and after all as was measured.
+intent::OrnsteinUhlenbeck acceleration_of(const MotionSamples& gathered) {
   if (!(gathered.after_one_second > 0.0)) {
     return {};
   }
@@ -111,13 +111,13 @@ intent::OrnsteinUhlenbeck wavering_of(const Gathered& gathered) {
   double high = longest_correlation;
   for (int i = 0; i < 40; ++i) {  // the longer it is correlated, the greater is the ratio
     const double middle = std::sqrt(low * high);
-    (unit(middle, wavering_end) < wanted * unit(middle, one_second) ? low : high) = middle;
+    (unit(middle, acceleration_frames) < wanted * unit(middle, one_second) ? low : high) = middle;
   }
   const auto num = static_cast<double>(gathered.num_maintaining);
-  return {std::sqrt(gathered.after_all / num) / unit(low, wavering_end), low};
+  return {std::sqrt(gathered.after_all / num) / unit(low, acceleration_frames), low};
 }
 
-void gather(const TrueMotion& motion, double lane_width, Gathered& gathered) {
+void gather(const TrueMotion& motion, double lane_width, MotionSamples& gathered) {
   const Labels labels = labels_of(motion);
   const auto for_each_run = [&](auto&& belongs, auto&& found) {
     for (std::size_t i = 0; i < labels.classes.size(); ++i) {
@@ -144,7 +144,7 @@ void gather(const TrueMotion& motion, double lane_width, Gathered& gathered) {
           gather_lane_change(motion, first, last, lane_width, gathered);
         });
   }
-  gather_wavering(motion, labels, gathered);
+  gather_acceleration(motion, labels, gathered);
 }
 
 }  // namespace
@@ -171,7 +171,7 @@ LogNormal log_normal(const std::vector<double>& values) {
 
 MotionFit motion_fit(const std::vector<TrueMotion>& motions, double lane_width) {
   expects(lane_width > 0.0, "lane_width > 0");
-  Gathered gathered;
+  MotionSamples gathered;
   for (const TrueMotion& motion : motions) {
     gather(motion, lane_width, gathered);
   }
@@ -179,7 +179,7 @@ MotionFit motion_fit(const std::vector<TrueMotion>& motions, double lane_width) 
           .rise = log_normal(gathered.rise),
           .held = log_normal(gathered.held),
           .lane_change = log_normal(gathered.lane_change),
-          .wavering = wavering_of(gathered)};
+          .acceleration = acceleration_of(gathered)};
 }
 
 }  // namespace saca::learn

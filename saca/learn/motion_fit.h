@@ -26,7 +26,7 @@ struct MotionFit {
                           ///< order would take [s]
   /// Of those who maintain, beyond doubt: by how far their way after 1 s and after 3 s differs from
   /// that at a constant speed; sd 0: nobody was measured.
-  intent::OrnsteinUhlenbeck wavering;
+  intent::OrnsteinUhlenbeck acceleration;
 };
 
 /// @param motions  smoothed or simulated, at steps of `frame_step`

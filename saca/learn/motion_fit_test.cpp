@@ -77,14 +77,14 @@ TEST(MotionFit, MeasuresHowThoseWaverWhoMaintain) {
     motions.push_back(motion);
   }
   const MotionFit fit = motion_fit(motions, 3.5);
-  EXPECT_NEAR(fit.wavering.sd, 0.3, 0.02);
-  EXPECT_NEAR(fit.wavering.time, 0.8, 0.15);
+  EXPECT_NEAR(fit.acceleration.sd, 0.3, 0.02);
+  EXPECT_NEAR(fit.acceleration.time, 0.8, 0.15);
 }
 
 TEST(MotionFit, OfNothingIsNothing) {
   const MotionFit fit = motion_fit({}, 3.5);
   EXPECT_EQ(fit.braking.num, 0U);
-  EXPECT_EQ(fit.wavering.sd, 0.0);
+  EXPECT_EQ(fit.acceleration.sd, 0.0);
 }
 
 }  // namespace

@@ -115,13 +115,13 @@ bool sensible(const AtlasNode& node) {
 
 // In memory that nobody else can cut or write: a file mapped into it would change under the reader,
 // and end the program where it became shorter.
-struct Opened {
+struct OpenAtlas {
   std::shared_ptr<const std::string> bytes;
   std::shared_ptr<const Header> header;
   std::span<const AtlasNode> nodes;  ///< in `bytes`
 };
 
-Result<Opened> open_whole(const std::filesystem::path& path) {
+Result<OpenAtlas> open_whole(const std::filesystem::path& path) {
   auto read = read_file(path, many_bytes);
   if (!read.has_value()) {
     return read.error();
@@ -147,7 +147,7 @@ Result<Opened> open_whole(const std::filesystem::path& path) {
     return broken(path, "node " + std::to_string(wrong - nodes.begin()) +
                             ": want finite scales and times of 0 s or more");
   }
-  return Opened{bytes, header, nodes};
+  return OpenAtlas{bytes, header, nodes};
 }
 
 }  // namespace

@@ -45,14 +45,14 @@ EndsWith end_of(const Plan& plan, const ControllerState& memory) {
 }
 
 // A drive before its first step.
-struct Prepared {
+struct DriveStart {
   LaneImage image;
   Pose X_WS;  // the frame it moves in, S: on its lane, abreast of where it starts
   EndsWith ends_with;
   int num_poses;  // beyond the first
 };
 
-Prepared prepared(const Drive& drive, EgoMotion& motion, double horizon) {
+DriveStart prepared(const Drive& drive, EgoMotion& motion, double horizon) {
   constexpr int usual_poses = 255;  // most drives that end are over before
 
   expects(drive.car != nullptr, "a drive has a car");
@@ -89,9 +89,9 @@ Prepared prepared(const Drive& drive, EgoMotion& motion, double horizon) {
 }
 
 // The lanes of one pack, and the drives in them.
-class Packed {
+class DrivePack {
  public:
-  Packed(const lanes::Kernel& kernel, double horizon)
+  DrivePack(const lanes::Kernel& kernel, double horizon)
       : kernel_(kernel), horizon_(horizon), memory_(numbers_per_lane * kernel.num_lanes + 16) {
     void* start = memory_.data();
     std::size_t space = memory_.size() * sizeof(float);
@@ -149,7 +149,7 @@ class Packed {
     while (next_ < queue.size()) {
       const std::size_t index = queue[next_++];
       EgoMotion& motion = motions[index];
-      const Prepared start = prepared(drives[index], motion, horizon_);
+      const DriveStart start = prepared(drives[index], motion, horizon_);
       if (motion.ended || start.num_poses == 0) {
         continue;
       }
@@ -304,7 +304,7 @@ void drive_all(std::span<const Drive> drives, double horizon, std::vector<EgoMot
   motions.resize(drives.size());
   in_parallel(queues.size(), threads, [&](std::size_t i) {
     const QueueKey& key = keys[queues[i].front()];
-    Packed(kernel, horizon).drive(drives, queues[i], motions, key.kind, key.late);
+    DrivePack(kernel, horizon).drive(drives, queues[i], motions, key.kind, key.late);
   });
 }
 

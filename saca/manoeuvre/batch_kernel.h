@@ -8,7 +8,7 @@ namespace saca::manoeuvre::lanes {
 
 /// As `VehicleState`, as far as a controller sees it.
 template <class T>
-struct Seen {
+struct ControllerInput {
   Pair<T> v_B, a_B;
   T yaw_rate, steering, motor_torque;
   Wheelwise<T> brake_torque, wheel_speed;
@@ -22,7 +22,8 @@ struct ActuatorCommand {
 };
 
 template <class T>
-inline Seen<T> seen(const vehicle::equations::StateVector<T>& state_vector, const Pair<T>& a_B) {
+inline ControllerInput<T> seen(const vehicle::equations::StateVector<T>& state_vector,
+                               const Pair<T>& a_B) {
   using F = vehicle::equations::StateVector<T>;
   return {.v_B = {state_vector[F::vx], state_vector[F::vy]},
           .a_B = a_B,
@@ -60,28 +61,28 @@ inline InLane<T> in_lane(const T& curvature, const T& x, const T& y, const T& ya
 }
 
 template <Kind kind, class T>
-inline ActuatorCommand<T> drift_told(const FixedLane<T>& fixed, const Seen<T>& state,
-                                     const InLane<T>& place, MemoryLane<T>& memory) {
+inline ActuatorCommand<T> drift_command(const FixedLane<T>& fixed, const ControllerInput<T>& state,
+                                        const InLane<T>& place, MemoryLane<T>& memory) {
   const T& side = fixed.side;
-  ActuatorCommand<T> told;
+  ActuatorCommand<T> command;
   equations::drift<T>(
       fixed.known, fixed.known.tuning.drift, fixed.known_grip,
       equations::Drifting<T>{side * place.heading, state.v_B.x, side * state.v_B.y,
                              side * state.yaw_rate, state.a_B.x, side * state.a_B.y},
-      step_of(kind), memory.drift, told);
+      step_of(kind), memory.drift, command);
   const auto left = side > 0.0;
-  const Wheelwise<T> torque = told.brake_torque;
+  const Wheelwise<T> torque = command.brake_torque;
   for (std::size_t i = 0; i < num_wheels; ++i) {
-    told.brake_torque[i] = select(left, torque[i], torque[i ^ 1U]);
+    command.brake_torque[i] = select(left, torque[i], torque[i ^ 1U]);
   }
-  told.steering = side * told.steering;
-  return told;
+  command.steering = side * command.steering;
+  return command;
 }
 
 template <Kind kind, class T>
-inline ActuatorCommand<T> path_told(const FixedLane<T>& fixed, const Seen<T>& state, const T& x,
-                                    const T& y, const T& yaw, const Turn<T>& heading,
-                                    MemoryLane<T>& memory) {
+inline ActuatorCommand<T> path_command(const FixedLane<T>& fixed, const ControllerInput<T>& state,
+                                       const T& x, const T& y, const T& yaw, const Turn<T>& heading,
+                                       MemoryLane<T>& memory) {
   const T& arm = fixed.known.percussion_arm;
   const InLane<T> place =
       in_lane<T>(fixed.curvature, x + arm * heading.cosine, y + arm * heading.sine, yaw);
@@ -101,26 +102,26 @@ inline ActuatorCommand<T> path_told(const FixedLane<T>& fixed, const Seen<T>& st
   const auto slower = fixed.slower > 0.5;
   const equations::Wants<T, std::remove_const_t<decltype(slower)>, kind == Kind::brakes> wants{
       fixed.rest > 0.5, slower, fixed.strength};
-  ActuatorCommand<T> told;
+  ActuatorCommand<T> command;
   equations::follow_path<T>(fixed.known, wants, fixed.curvature, fixed.known_grip, state, point,
-                            step_of(kind), memory, told);
-  return told;
+                            step_of(kind), memory, command);
+  return command;
 }
 
 /// `control`, for plans of one kind.
 template <Kind kind, class T>
-inline ActuatorCommand<T> told(const FixedLane<T>& fixed, const Seen<T>& state,
-                               const vehicle::equations::StateVector<T>& state_vector,
-                               const Turn<T>& heading, MemoryLane<T>& memory) {
+inline ActuatorCommand<T> control(const FixedLane<T>& fixed, const ControllerInput<T>& state,
+                                  const vehicle::equations::StateVector<T>& state_vector,
+                                  const Turn<T>& heading, MemoryLane<T>& memory) {
   using F = vehicle::equations::StateVector<T>;
   ActuatorCommand<T> result;
   if constexpr (kind == Kind::drifts) {
     const InLane<T> place =
         in_lane<T>(fixed.curvature, state_vector[F::x], state_vector[F::y], state_vector[F::yaw]);
-    result = drift_told<kind, T>(fixed, state, place, memory);
+    result = drift_command<kind, T>(fixed, state, place, memory);
   } else {
-    result = path_told<kind, T>(fixed, state, state_vector[F::x], state_vector[F::y],
-                                state_vector[F::yaw], heading, memory);
+    result = path_command<kind, T>(fixed, state, state_vector[F::x], state_vector[F::y],
+                                   state_vector[F::yaw], heading, memory);
   }
   memory.time = memory.time + step_of(kind);
   return result;
@@ -128,7 +129,7 @@ inline ActuatorCommand<T> told(const FixedLane<T>& fixed, const Seen<T>& state,
 
 /// Actuators under a held command: Heun's scheme.
 template <Kind kind, class T>
-inline void move_actuators(const CarLane<T>& car, const ActuatorCommand<T>& told,
+inline void move_actuators(const CarLane<T>& car, const ActuatorCommand<T>& command,
                            const vehicle::equations::StateVector<T>& now,
                            vehicle::equations::StateVector<T>& next) {
   using F = vehicle::equations::StateVector<T>;
@@ -141,11 +142,12 @@ inline void move_actuators(const CarLane<T>& car, const ActuatorCommand<T>& told
   const T braked = share(car.brake_lag);
   for (std::size_t i = 0; i < num_wheels; ++i) {
     const T& torque = now[F::brake + i];
-    next[F::brake + i] = torque + braked * (told.brake_torque[i] - torque);
+    next[F::brake + i] = torque + braked * (command.brake_torque[i] - torque);
   }
-  next[F::motor] = now[F::motor] + share(car.motor_lag) * (told.motor_torque - now[F::motor]);
+  next[F::motor] = now[F::motor] + share(car.motor_lag) * (command.motor_torque - now[F::motor]);
   const auto rate = [&](const T& angle) {
-    return clamp((told.steering - angle) / car.steering_lag, -car.steering_rate, car.steering_rate);
+    return clamp((command.steering - angle) / car.steering_lag, -car.steering_rate,
+                 car.steering_rate);
   };
   const T first = rate(now[F::steering]);
   const T second = rate(now[F::steering] + step * first);
@@ -274,18 +276,18 @@ inline void advance(const FixedLane<T>& fixed, MovingLane<T>& moving, std::size_
   const auto first = moving.first > 0.5;
   const Pair<T> a{force.x / fixed.real.mass, force.y / fixed.real.mass};
   constexpr double ago = 1.0 - newer(step_of(kind));
-  const Pair<T> told_a{select(first, moving.ax, a.x + ago * (moving.ax - a.x)),
-                       select(first, moving.ay, a.y + ago * (moving.ay - a.y))};
+  const Pair<T> sensed_a{select(first, moving.ax, a.x + ago * (moving.ax - a.x)),
+                         select(first, moving.ay, a.y + ago * (moving.ay - a.y))};
   moving.ax = a.x;
   moving.ay = a.y;
-  ActuatorCommand<T> command =
-      told<kind, T>(fixed, seen<T>(state_vector, told_a), state_vector, heading, moving.memory);
+  ActuatorCommand<T> command = control<kind, T>(fixed, seen<T>(state_vector, sensed_a),
+                                                state_vector, heading, moving.memory);
   command.steering = clamp(command.steering, -fixed.real.steering_limit, fixed.real.steering_limit);
   command.motor_torque =
       clamp(command.motor_torque, -fixed.real.motor_limit, fixed.real.motor_limit);
   // Likewise for the steering, which follows at once: what will be told in the step's middle.
-  const T turned = command.steering - moving.told_steering;
-  moving.told_steering = command.steering;
+  const T turned = command.steering - moving.command_steering;
+  moving.command_steering = command.steering;
   command.steering = command.steering + select(first, T(0.0), newer(step_of(kind)) * turned);
   hold<kind>(moving, now, command.brake_torque, first);
   command.brake_torque = delayed<T>(fixed, moving, now, late);

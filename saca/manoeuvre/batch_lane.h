@@ -278,7 +278,7 @@ struct MovingLane {
   T lost_x, lost_y;                                 ///< what rounding has left out of x and y
   std::array<T, 8> rate;  ///< of the last step: x, y, yaw, v_x, v_y, yaw rate, a_x, a_y
   T ax, ay;               ///< acceleration at the last step
-  T told_steering;
+  T command_steering;
   T first;  ///< 1 before the first step, then 0
   MemoryLane<T> memory;
   std::array<std::array<T, vehicle::num_wheels>, num_slots> brake_line;

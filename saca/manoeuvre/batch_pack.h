@@ -100,11 +100,11 @@ inline Product<Arch> operator/(const Pack<Arch>& a, const Divisor<Pack<Arch>>& b
 // An angle within a quarter turn of zero, and whether sine and cosine there are those of `angle`
 // (1) or their opposites (-1).
 template <class Arch>
-struct Reduced {
+struct ReducedAngle {
   Pack<Arch> angle, sign;
 };
 template <class Arch>
-inline Reduced<Arch> reduced(const Pack<Arch>& angle) {
+inline ReducedAngle<Arch> reduced(const Pack<Arch>& angle) {
   // pi in two parts, the first of which is exact times any small number of half turns.
   constexpr double first = 3.140625;
   constexpr double second = std::numbers::pi - first;
@@ -129,12 +129,12 @@ inline Pack<Arch> near_cos(const Pack<Arch>& angle) {
 
 template <class Arch>
 inline Pack<Arch> sin(const Pack<Arch>& angle) {
-  const Reduced<Arch> r = reduced(angle);
+  const ReducedAngle<Arch> r = reduced(angle);
   return r.sign * near_sin(r.angle);
 }
 template <class Arch>
 inline Pack<Arch> cos(const Pack<Arch>& angle) {
-  const Reduced<Arch> r = reduced(angle);
+  const ReducedAngle<Arch> r = reduced(angle);
   return r.sign * near_cos(r.angle);
 }
 /// @param angle  within a quarter turn of zero

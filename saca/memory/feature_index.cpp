@@ -44,7 +44,7 @@ constexpr Steps grips{-21.0F, 24};
 
 }  // namespace
 
-FeatureIndex::Wanted::Wanted(const Features& features) noexcept
+FeatureIndex::Query::Query(const Features& features) noexcept
     : ego(scaled<float>(features.ego)),
       actors(scaled<float>(std::span(features.actors.begin(), features.actors.size()))) {}
 
@@ -61,7 +61,7 @@ void FeatureIndex::add(CaseId id, const world::Scene& scene) {
   expects(id > last_id(), "id > last_id()");
   const Features known = features(scene);
   expects(known.ego.usable, "the scene breaks no rule");
-  const Wanted packed(known);
+  const Query packed(known);
   const auto place = static_cast<std::uint32_t>(ids_.size());
   ids_.push_back(id);
   entries_.push_back({.ego = packed.ego});
@@ -134,7 +134,7 @@ std::size_t FeatureIndex::bytes() const noexcept {
 }
 
 template <class Farthest, class Take>
-void FeatureIndex::search(const Kind& kind, float apart2, const Wanted& wanted,
+void FeatureIndex::search(const Kind& kind, float apart2, const Query& wanted,
                           const Farthest& farthest2, const Take& take) const noexcept {
   const std::span<const ScaledActor<float>> actors(wanted.actors.begin(), wanted.actors.size());
   const auto look = [&](const Places& places) {
@@ -179,7 +179,7 @@ void FeatureIndex::search(const Kind& kind, float apart2, const Wanted& wanted,
 }
 
 template <class Farthest, class Take>
-void FeatureIndex::search(const Wanted& wanted, const Farthest& farthest2,
+void FeatureIndex::search(const Query& wanted, const Farthest& farthest2,
                           const Take& take) const noexcept {
   for (const bool same : {true, false}) {  // its own kind of road first
     for (const Kind& kind : kinds_) {
@@ -207,11 +207,11 @@ std::size_t FeatureIndex::nearest(const Features& wanted, std::span<Hit> hits) c
   if (hits.empty() || !wanted.ego.usable) {
     return 0;
   }
-  const Wanted packed(wanted);
+  const Query packed(wanted);
   return graph_.size() == 0 ? nearest_in_cells(packed, hits) : nearest_in_graph(packed, hits);
 }
 
-std::size_t FeatureIndex::nearest_in_cells(const Wanted& wanted,
+std::size_t FeatureIndex::nearest_in_cells(const Query& wanted,
                                            std::span<Hit> hits) const noexcept {
   std::size_t found = 0;  // a heap, the farthest first; differences are squares
   const auto end = [&] { return hits.begin() + static_cast<std::ptrdiff_t>(found); };
@@ -240,9 +240,9 @@ std::size_t FeatureIndex::nearest_in_cells(const Wanted& wanted,
   return found;
 }
 
-std::size_t FeatureIndex::nearest_in_graph(const Wanted& wanted,
+std::size_t FeatureIndex::nearest_in_graph(const Query& wanted,
                                            std::span<Hit> hits) const noexcept {
-  std::array<NeighbourGraph::Found, NeighbourGraph::most_found> room;
+  std::array<NeighbourGraph::Neighbour, NeighbourGraph::most_found> room;
   const std::size_t wanted_size =
       std::min(room.size(), hits.size() + std::min(num_passed_over_, room.size()));
   const std::span<const ScaledActor<float>> actors(wanted.actors.begin(), wanted.actors.size());

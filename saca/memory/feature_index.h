@@ -73,8 +73,8 @@ class FeatureIndex {
     ScaledEgo<float> road;      ///< one of them
     std::vector<Places> cells;  ///< by speed, then by grip
   };
-  struct Wanted {
-    explicit Wanted(const Features& features) noexcept;
+  struct Query {
+    explicit Query(const Features& features) noexcept;
     ScaledEgo<float> ego;
     ScaledActors<float> actors;
   };
@@ -91,13 +91,13 @@ class FeatureIndex {
   /// Looks at all whose squared difference may be less than `farthest2()`, which may shrink
   /// meanwhile.
   template <class Farthest, class Take>
-  void search(const Wanted& wanted, const Farthest& farthest2, const Take& take) const noexcept;
+  void search(const Query& wanted, const Farthest& farthest2, const Take& take) const noexcept;
   template <class Farthest, class Take>
-  void search(const Kind& kind, float apart2, const Wanted& wanted, const Farthest& farthest2,
+  void search(const Kind& kind, float apart2, const Query& wanted, const Farthest& farthest2,
               const Take& take) const noexcept;
-  [[nodiscard]] std::size_t nearest_in_cells(const Wanted& wanted,
+  [[nodiscard]] std::size_t nearest_in_cells(const Query& wanted,
                                              std::span<Hit> hits) const noexcept;
-  [[nodiscard]] std::size_t nearest_in_graph(const Wanted& wanted,
+  [[nodiscard]] std::size_t nearest_in_graph(const Query& wanted,
                                              std::span<Hit> hits) const noexcept;
 
   std::size_t most_exact_;

@@ -22,12 +22,12 @@ namespace saca::memory {
 /// searching allocates nothing and waits for nothing, and looks at a bounded number of places.
 class NeighbourGraph {
  public:
-  struct Found {
+  struct Neighbour {
     float distance = 0.0F;
     std::uint32_t place = 0;
 
-    bool operator==(const Found&) const = default;
-    auto operator<=>(const Found&) const = default;
+    bool operator==(const Neighbour&) const = default;
+    auto operator<=>(const Neighbour&) const = default;
   };
 
   static constexpr std::size_t most_found = 256;   ///< that a search keeps in view
@@ -47,7 +47,7 @@ class NeighbourGraph {
   /// @return    how many were found: as many as there are places, or `found` has room for, or
   ///            most_found
   template <class To>
-  [[nodiscard]] std::size_t search(const To& to, std::span<Found> found) const noexcept;
+  [[nodiscard]] std::size_t search(const To& to, std::span<Neighbour> found) const noexcept;
 
   /// Memory of the graph alone [byte].
   [[nodiscard]] std::size_t bytes() const noexcept {
@@ -69,9 +69,9 @@ class NeighbourGraph {
   };
 
   /// Places that a search has seen: a table in which nobody is looked for twice.
-  class Seen {
+  class VisitedSet {
    public:
-    Seen() { table_.fill(nobody); }
+    VisitedSet() { table_.fill(nobody); }
     /// @return  false: it was there, or the table is full
     bool add(std::uint32_t place) noexcept {
       if (count_ == most_seen) {
@@ -106,9 +106,9 @@ class NeighbourGraph {
 
   /// Of one level: goes on while anything comes nearer.
   template <class To>
-  [[nodiscard]] Found descend(const To& to, Found from, int level) const noexcept {
+  [[nodiscard]] Neighbour descend(const To& to, Neighbour from, int level) const noexcept {
     while (true) {
-      Found nearest = from;
+      Neighbour nearest = from;
       for (const std::uint32_t place : neighbours(from.place, level)) {
         nearest = std::min(nearest, {to(place, nearest.distance), place});
       }
@@ -121,15 +121,15 @@ class NeighbourGraph {
 
   /// Of one level: the nearest `room.size()`, in order.
   template <class To>
-  [[nodiscard]] std::size_t look_around(const To& to, Found from, int level,
-                                        std::span<Found> room) const noexcept;
+  [[nodiscard]] std::size_t look_around(const To& to, Neighbour from, int level,
+                                        std::span<Neighbour> room) const noexcept;
 
   /// Of `all`, sorted, those that no one chosen before stands in front of.
   template <class Apart, std::size_t N>
-  static void choose(const Apart& apart, std::span<const Found> all, std::size_t most,
+  static void choose(const Apart& apart, std::span<const Neighbour> all, std::size_t most,
                      Links<N>& chosen) {
     chosen.count = 0;
-    for (const Found& one : all) {
+    for (const Neighbour& one : all) {
       const bool hidden =
           std::any_of(chosen.to.begin(), chosen.to.begin() + chosen.count,
                       [&](std::uint32_t other) { return apart(other, one.place) < one.distance; });
@@ -145,7 +145,7 @@ class NeighbourGraph {
       of.to[of.count++] = to;
       return;
     }
-    std::array<Found, N + 1> all;
+    std::array<Neighbour, N + 1> all;
     for (std::size_t i = 0; i < N; ++i) {
       all[i] = {apart(from, of.to[i]), of.to[i]};
     }
@@ -188,14 +188,14 @@ void NeighbourGraph::add(const Apart& apart) {
   };
   const ToNew to{apart, place};
   if (highest >= 0) {
-    Found from{to(top_, 0.0F), top_};
+    Neighbour from{to(top_, 0.0F), top_};
     for (int at = highest; at > level; --at) {
       from = descend(to, from, at);
     }
     for (int at = std::min(level, highest); at >= 0; --at) {
-      std::array<Found, when_added> room;
+      std::array<Neighbour, when_added> room;
       const std::size_t count = look_around(to, from, at, room);
-      const std::span<const Found> around(room.data(), count);
+      const std::span<const Neighbour> around(room.data(), count);
       const auto join = [&](auto& all, auto index_of) {
         auto& own = all[index_of(place)];
         choose(apart, around, links, own);
@@ -219,23 +219,23 @@ void NeighbourGraph::add(const Apart& apart) {
 }
 
 template <class To>
-std::size_t NeighbourGraph::look_around(const To& to, Found from, int level,
-                                        std::span<Found> room) const noexcept {
-  Seen seen;
+std::size_t NeighbourGraph::look_around(const To& to, Neighbour from, int level,
+                                        std::span<Neighbour> room) const noexcept {
+  VisitedSet seen;
   seen.add(from.place);
   // Whose neighbours are still to be looked at: a heap, the nearest first.
-  std::array<Found, most_seen> waiting;
+  std::array<Neighbour, most_seen> waiting;
   waiting[0] = from;
   std::size_t num_waiting = 1;
   room[0] = from;  // a heap, the farthest first
   std::size_t count = 1;
-  constexpr auto nearest_first = [](const Found& a, const Found& b) { return b < a; };
+  constexpr auto nearest_first = [](const Neighbour& a, const Neighbour& b) { return b < a; };
   const auto end_of = [](auto& all, std::size_t size) {
     return all.begin() + static_cast<std::ptrdiff_t>(size);
   };
   while (num_waiting > 0) {
     std::pop_heap(waiting.begin(), end_of(waiting, num_waiting), nearest_first);
-    const Found next = waiting[--num_waiting];
+    const Neighbour next = waiting[--num_waiting];
     if (count == room.size() && room.front() < next) {
       break;
     }
@@ -251,7 +251,7 @@ std::size_t NeighbourGraph::look_around(const To& to, Found from, int level,
     for (const std::uint32_t place : std::span(unseen).first(num_unseen)) {
       const float limit =
           count == room.size() ? room.front().distance : std::numeric_limits<float>::infinity();
-      const Found one{to(place, limit), place};
+      const Neighbour one{to(place, limit), place};
       if (count == room.size()) {
         if (!(one < room.front())) {
           continue;
@@ -270,16 +270,16 @@ std::size_t NeighbourGraph::look_around(const To& to, Found from, int level,
 }
 
 template <class To>
-std::size_t NeighbourGraph::search(const To& to, std::span<Found> found) const noexcept {
+std::size_t NeighbourGraph::search(const To& to, std::span<Neighbour> found) const noexcept {
   if (size() == 0 || found.empty()) {
     return 0;
   }
   constexpr float no_limit = std::numeric_limits<float>::infinity();
-  Found from{to(top_, no_limit), top_};
+  Neighbour from{to(top_, no_limit), top_};
   for (int level = level_of_[top_]; level > 0; --level) {
     from = descend(to, from, level);
   }
-  std::array<Found, most_found> room;
+  std::array<Neighbour, most_found> room;
   const std::size_t kept = std::clamp(found.size(), in_view, most_found);
   const std::size_t count =
       std::min(look_around(to, from, 0, std::span(room).first(kept)), found.size());

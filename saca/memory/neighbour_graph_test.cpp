@@ -9,7 +9,7 @@
 namespace saca::memory::neighbour_graph_test {
 namespace {
 
-using Found = NeighbourGraph::Found;
+using Neighbour = NeighbourGraph::Neighbour;
 using Point = std::array<float, 6>;
 
 float between(const Point& a, const Point& b) {
@@ -59,8 +59,8 @@ NeighbourGraph graph_of(const std::vector<Point>& points) {
   return graph;
 }
 
-std::vector<Found> by_comparing_all(const std::vector<Point>& points, const Point& wanted) {
-  std::vector<Found> all;
+std::vector<Neighbour> by_comparing_all(const std::vector<Point>& points, const Point& wanted) {
+  std::vector<Neighbour> all;
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     all.push_back({between(points[i], wanted), i});
   }
@@ -70,7 +70,7 @@ std::vector<Found> by_comparing_all(const std::vector<Point>& points, const Poin
 
 TEST(NeighbourGraph, OfNothingNothingIsFound) {
   const NeighbourGraph graph;
-  std::array<Found, 3> found;
+  std::array<Neighbour, 3> found;
   const std::vector<Point> none;
   EXPECT_EQ(graph.search(To{none, {}}, found), 0U);
 }
@@ -82,9 +82,9 @@ TEST(NeighbourGraph, OfFewAllAreFoundInOrder) {
     points.push_back(somewhere(rng));
     const NeighbourGraph graph = graph_of(points);
     const Point wanted = somewhere(rng);
-    std::array<Found, 60> found;
+    std::array<Neighbour, 60> found;
     ASSERT_EQ(graph.search(To{points, wanted}, found), points.size());
-    const std::vector<Found> all = by_comparing_all(points, wanted);
+    const std::vector<Neighbour> all = by_comparing_all(points, wanted);
     EXPECT_TRUE(std::equal(all.begin(), all.end(), found.begin()));
     EXPECT_EQ(graph.search(To{points, wanted}, std::span(found).first(0)), 0U);
   }
@@ -99,14 +99,14 @@ TEST(NeighbourGraph, OfManyNearlyAllOfTheNearestAreFound) {
   constexpr int queries = 200;
   for (int i = 0; i < queries; ++i) {
     const Point wanted = somewhere(rng);
-    std::array<Found, 50> found;
+    std::array<Neighbour, 50> found;
     ASSERT_EQ(graph.search(To{points, wanted}, found), 50U);
     EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
-    const std::vector<Found> all = by_comparing_all(points, wanted);
+    const std::vector<Neighbour> all = by_comparing_all(points, wanted);
     nearest_found += found[0] == all[0] ? 1 : 0;
-    const std::set<Found> right(all.begin(), all.begin() + 50);
+    const std::set<Neighbour> right(all.begin(), all.begin() + 50);
     found_of_50 += static_cast<int>(std::count_if(
-        found.begin(), found.end(), [&](const Found& one) { return right.contains(one); }));
+        found.begin(), found.end(), [&](const Neighbour& one) { return right.contains(one); }));
   }
   EXPECT_GE(nearest_found, 0.99 * queries);
   EXPECT_GE(found_of_50, 0.98 * 50 * queries);
@@ -115,10 +115,10 @@ TEST(NeighbourGraph, OfManyNearlyAllOfTheNearestAreFound) {
 TEST(NeighbourGraph, TheSameAreFoundEachByItself) {
   const std::vector<Point> points(300, Point{1.0F, 2.0F});
   const NeighbourGraph graph = graph_of(points);
-  std::array<Found, 10> found;
+  std::array<Neighbour, 10> found;
   ASSERT_EQ(graph.search(To{points, points[0]}, found), 10U);
   std::set<std::uint32_t> places;
-  for (const Found& one : found) {
+  for (const Neighbour& one : found) {
     EXPECT_EQ(one.distance, 0.0F);
     places.insert(one.place);
   }
@@ -132,8 +132,8 @@ TEST(NeighbourGraph, OfTheSamePointsIsTheSame) {
   const NeighbourGraph other = graph_of(points);
   for (int i = 0; i < 20; ++i) {
     const To to{points, somewhere(rng)};
-    std::array<Found, 20> a;
-    std::array<Found, 20> b;
+    std::array<Neighbour, 20> a;
+    std::array<Neighbour, 20> b;
     ASSERT_EQ(one.search(to, a), one.search(to, a));
     ASSERT_EQ(other.search(to, b), 20U);
     EXPECT_EQ(a, b);

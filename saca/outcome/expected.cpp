@@ -45,7 +45,7 @@ Mean mean(std::span<const double> values) {
   return {middle, middle - half, middle + half};
 }
 
-Expected expected(std::span<const Outcome> outcomes) {
+MeanOutcome expected(std::span<const Outcome> outcomes) {
   std::vector<double> harm;
   std::vector<double> loss;
   int contacts = 0;

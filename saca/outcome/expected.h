@@ -26,14 +26,14 @@ struct Mean {
 [[nodiscard]] double student_t(int freedom);
 
 /// What a policy leads to over draws of what is not known.
-struct Expected {
+struct MeanOutcome {
   Mean harm;
   Mean collision_loss;
   Proportion contact;  ///< share of draws, Wilson's interval
 };
 
 /// @param outcomes  one per draw, two at least
-[[nodiscard]] Expected expected(std::span<const Outcome> outcomes);
+[[nodiscard]] MeanOutcome expected(std::span<const Outcome> outcomes);
 
 /// Mean of the harm of `a` minus that of `b`, draw by draw. With the same draws for both, what both
 /// suffer alike falls out, and the interval is narrower than those of the two means.

@@ -58,8 +58,8 @@ std::vector<Outcome> outcomes(const std::vector<double>& harms) {
   return all;
 }
 
-TEST(Expected, TellsHarmLossAndShareOfContacts) {
-  const Expected found = expected(outcomes({0.0, 0.0, 1.0, 3.0}));
+TEST(MeanOutcome, TellsHarmLossAndShareOfContacts) {
+  const MeanOutcome found = expected(outcomes({0.0, 0.0, 1.0, 3.0}));
   EXPECT_DOUBLE_EQ(found.harm.value, 1.0);
   EXPECT_DOUBLE_EQ(found.collision_loss.value, 2.0);
   EXPECT_DOUBLE_EQ(found.contact.share, 0.5);
@@ -77,7 +77,7 @@ TEST(HarmDifference, OfCommonDrawsLosesTheLuck) {
   EXPECT_NEAR(harm_difference(b, a).value, -0.1, 1e-12);
 }
 
-TEST(Expected, RefusesTooFewAndWhatDoesNotPair) {
+TEST(MeanOutcome, RefusesTooFewAndWhatDoesNotPair) {
   EXPECT_THROW((void)expected(outcomes({1.0})), ContractViolation);
   EXPECT_THROW((void)harm_difference(outcomes({1.0, 2.0}), outcomes({1.0})), ContractViolation);
   EXPECT_THROW((void)mean(std::vector<double>{1.0, std::numeric_limits<double>::quiet_NaN()}),

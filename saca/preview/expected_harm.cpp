@@ -96,7 +96,7 @@ class HeldWay {
   static constexpr double reacting_step = 1.0 / 16.0;  // [s]
 
   /// A follower where it is drawn to be.
-  struct Answered {
+  struct FollowerMotion {
     Track X_WA;
     std::optional<Mover> mover;
   };
@@ -124,7 +124,7 @@ class HeldWay {
         continue;
       }
       const Vec2 off = drawn[i].track().X_WA.front().p - scene_.actors[i].X_WA.p;
-      Answered& answered = answered_[k];
+      FollowerMotion& answered = answered_[k];
       answered.X_WA = tracks[k];
       for (Pose& pose : answered.X_WA.X_WA) {
         pose.p = pose.p + off;
@@ -138,7 +138,7 @@ class HeldWay {
   EgoMotion way_;
   outcome::PreparedMotion motion_;
   FollowerAnswers answers_;
-  std::vector<Answered> answered_;
+  std::vector<FollowerMotion> answered_;
   bool has_steps_ = false;  ///< remembered is also what answers the steps of a struck ego
 };
 

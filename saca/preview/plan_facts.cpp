@@ -42,7 +42,7 @@ bool better(const RolledOutcome& a, PolicyId policy_a, const RolledOutcome& b, P
 }
 
 const std::string& PolicyFacts::refusal() const {
-  const auto* const refused = std::get_if<Refused>(&end);
+  const auto* const refused = std::get_if<Refusal>(&end);
   expects(refused != nullptr, "the plan cannot be driven");
   return refused->why;
 }

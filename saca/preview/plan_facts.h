@@ -23,7 +23,7 @@ struct RolledOutcome {
 };
 
 /// The plan cannot be driven.
-struct Refused {
+struct Refusal {
   std::string why;
 };
 
@@ -41,9 +41,9 @@ bool better(const RolledOutcome& a, manoeuvre::PolicyId policy_a, const Expected
 /// What one policy is forecast to end in; why it cannot be driven, where it cannot.
 struct PolicyFacts {
   manoeuvre::Plan plan;
-  std::variant<ExpectedOutcome, RolledOutcome, Refused> end;
+  std::variant<ExpectedOutcome, RolledOutcome, Refusal> end;
 
-  [[nodiscard]] bool drivable() const { return !std::holds_alternative<Refused>(end); }
+  [[nodiscard]] bool drivable() const { return !std::holds_alternative<Refusal>(end); }
   /// Why it cannot be driven.
   /// @throws ContractViolation  if it can
   [[nodiscard]] const std::string& refusal() const;

@@ -20,8 +20,8 @@ static_assert(Comparable<ExpectedOutcome, ExpectedOutcome>);
 static_assert(Comparable<RolledOutcome, RolledOutcome>);
 static_assert(!Comparable<ExpectedOutcome, RolledOutcome>);
 static_assert(!Comparable<RolledOutcome, ExpectedOutcome>);
-static_assert(!Comparable<ExpectedOutcome, Refused>);
-static_assert(!Comparable<Refused, Refused>);
+static_assert(!Comparable<ExpectedOutcome, Refusal>);
+static_assert(!Comparable<Refusal, Refusal>);
 
 PolicyFacts expected(PolicyId policy, double harm) {
   return {.plan = {policy, std::nullopt},
@@ -31,7 +31,7 @@ PolicyFacts rolled(PolicyId policy, double harm) {
   return {.plan = {policy, std::nullopt}, .end = RolledOutcome{.outcome = {.harm = harm}}};
 }
 PolicyFacts refused(PolicyId policy) {
-  return {.plan = {policy, std::nullopt}, .end = Refused{"too fast"}};
+  return {.plan = {policy, std::nullopt}, .end = Refusal{"too fast"}};
 }
 
 TEST(PlanFacts, HaveWhatTheirKindHas) {
@@ -84,7 +84,7 @@ TEST(AllFacts, TheLeastHarmIsOfWhatCanBeDriven) {
     facts[0] = refused(PolicyId::aeb);
     EXPECT_EQ(least_harm(facts), 0.2);
     for (PolicyFacts& fact : facts) {
-      fact.end = Refused{};
+      fact.end = Refusal{};
     }
     EXPECT_TRUE(std::isinf(least_harm(facts)));
   }

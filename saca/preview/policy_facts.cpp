@@ -95,7 +95,7 @@ outcome::Futures read(const Scene& scene, const std::vector<Track>& tracks,
 std::optional<PolicyFacts> facts_of(const outcome::Future& future, const Scene& scene,
                                     const ForecastTools& tools) {
   if (auto refusal = manoeuvre::refusal(*tools.car, future.plan, scene)) {
-    return PolicyFacts{future.plan, Refused{*std::move(refusal)}};
+    return PolicyFacts{future.plan, Refusal{*std::move(refusal)}};
   }
   if (future.outside) {
     return std::nullopt;
@@ -169,7 +169,7 @@ std::vector<RolledOut> tried(const manoeuvre::Car& car, std::span<const outcome:
     expects(attempt.scene != nullptr, "an attempt has a scene");
     all[i].facts.plan = attempt.plan;
     if (auto refusal = manoeuvre::refusal(car, attempt.plan, *attempt.scene)) {
-      all[i].facts.end = Refused{*std::move(refusal)};
+      all[i].facts.end = Refusal{*std::move(refusal)};
     } else {
       driven.push_back(attempt);
     }

@@ -57,7 +57,7 @@ AuthorsComparison compare_with_authors(
     const std::vector<AuthorsState> states = lattice_at(here.speed);
     const std::vector<double> values = network(states);
     for (std::size_t i = 0; i < states.size(); ++i) {
-      const Looked found = solved({states[i].x, states[i].y, states[i].yaw, states[i].speed});
+      const LookupResult found = solved({states[i].x, states[i].y, states[i].yaw, states[i].speed});
       if (!found.inside) {
         ++all.outside;
         continue;

@@ -72,11 +72,11 @@ Acceleration best_input(const Avoidance& car, double speed, const std::array<dou
   return {along, std::copysign(across, -gradient[2])};
 }
 
-Scaled scaled_to(const Avoidance& system, double grip) {
+ScaledAvoidance scaled_to(const Avoidance& system, double grip) {
   expects(grip > 0.0 && std::isfinite(grip), "grip > 0");
   expects(system.grip > 0.0 && std::isfinite(system.grip), "grip > 0");
   const double factor = std::sqrt(grip / system.grip);
-  Scaled scaled{system, factor, 1.0 / factor};
+  ScaledAvoidance scaled{system, factor, 1.0 / factor};
   scaled.system.grip = grip;
   scaled.system.obstacle_speed *= factor;
   return scaled;

@@ -79,12 +79,12 @@ struct EdgeAvoidance {
 /// the other grip with speeds v / c, traversed in c times the time: curvature and the shares stay.
 /// So V at `grip`, speed v and horizon T is V of `system` at speed x `speed_factor` and horizon T x
 /// `time_factor`; x, y and course are the same.
-struct Scaled {
+struct ScaledAvoidance {
   Avoidance system;
   double speed_factor = 1.0;
   double time_factor = 1.0;
 };
-[[nodiscard]] Scaled scaled_to(const Avoidance& system, double grip);
+[[nodiscard]] ScaledAvoidance scaled_to(const Avoidance& system, double grip);
 
 struct Avoidance::Row {
   double x_rate = 0.0;  ///< [m/s]

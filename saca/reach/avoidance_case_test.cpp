@@ -291,7 +291,7 @@ TEST(AvoidanceCase, SolvedAtAnotherGripIsTheSameValueAtScaledSpeeds) {
   const AvoidanceCase problem = parsed(small_case);
   const auto values = solved(problem, problem.system, 1.0);
   AvoidanceCase other = problem;
-  const Scaled scaled = scaled_to(problem.system, 0.9);
+  const ScaledAvoidance scaled = scaled_to(problem.system, 0.9);
   other.system = scaled.system;
   other.grid.axes[3].last *= scaled.speed_factor;
   const auto there = solved(other, other.system, scaled.time_factor);

@@ -189,7 +189,7 @@ TEST(Avoidance, AnotherGripIsTheSameProblemAtAnotherPace) {
     const Avoidance system = draws.system();
     const State state = draws.state();
     const State p = draws.gradient();
-    const Scaled scaled = scaled_to(system, 0.9);
+    const ScaledAvoidance scaled = scaled_to(system, 0.9);
     State there = state;
     there[3] *= scaled.speed_factor;
     State slopes = p;
@@ -199,7 +199,7 @@ TEST(Avoidance, AnotherGripIsTheSameProblemAtAnotherPace) {
         << i;
   }
   // By hand: grip 0.4 is 0.9 at 1.5 times the speed, in two thirds of the time.
-  const Scaled scaled = scaled_to({.grip = 0.4, .obstacle_speed = 8.0}, 0.9);
+  const ScaledAvoidance scaled = scaled_to({.grip = 0.4, .obstacle_speed = 8.0}, 0.9);
   EXPECT_NEAR(scaled.speed_factor, 1.5, 1e-12);
   EXPECT_NEAR(scaled.time_factor, 2.0 / 3.0, 1e-12);
   EXPECT_NEAR(scaled.system.obstacle_speed, 12.0, 1e-12);

@@ -15,7 +15,7 @@ namespace saca::reach {
 namespace {
 
 /// A problem with a known answer.
-struct Known {
+struct ReferenceProblem {
   std::string name;
   std::function<Grid(int points)> grid;
   std::function<Flow<double>(const Grid&)> flow;
@@ -33,7 +33,7 @@ Grid square_of(double half, int points, Edge edge) {
   return grid;
 }
 
-double error_on(const Known& known, const Grid& grid) {
+double error_on(const ReferenceProblem& known, const Grid& grid) {
   Solver<double> solver(grid, known.flow(grid),
                         sampled<double>(grid, known.h, known.settings.threads), known.settings);
   while (solver.time() < known.horizon) {
@@ -51,7 +51,7 @@ double error_on(const Known& known, const Grid& grid) {
   return sum / count;
 }
 
-Known carried(std::string_view name, Differences differences) {
+ReferenceProblem carried(std::string_view name, Differences differences) {
   const ConstantMotion motion{1.0, -0.5};
   // Its extrema wander over the grid; the steps are short beside the differences of fifth order.
   const auto value = [](double x, double y) { return std::sin(x) * std::cos(y); };
@@ -66,7 +66,7 @@ Known carried(std::string_view name, Differences differences) {
       .settings = {.tube = Tube::set, .cfl = 0.1}};
 }
 
-Known disc_that(std::string_view does, double speed) {
+ReferenceProblem disc_that(std::string_view does, double speed) {
   const auto radius = [](double x, double y) { return std::hypot(x, y); };
   return {
       .name = "a disc that " + std::string(does) + ", WENO5",
@@ -83,7 +83,7 @@ Known disc_that(std::string_view does, double speed) {
       .settings = {.tube = Tube::set}};
 }
 
-Known braking_before_a_wall() {
+ReferenceProblem braking_before_a_wall() {
   const auto answer = [](const State& x) {
     const double v = std::max(0.0, x[1]);
     return x[0] + 0.5 * v * v;
@@ -120,15 +120,15 @@ std::vector<double> orders(const Refinement& refinement) {
 
 std::vector<Refinement> refinements(int grids, int threads) {
   expects(grids >= 2 && grids <= 5, "2 to 5 grids");
-  std::vector<Known> problems{carried("upwind", Differences::upwind1),
-                              carried("ENO2", Differences::eno2),
-                              carried("ENO3", Differences::eno3),
-                              carried("WENO5", Differences::weno5),
-                              disc_that("grows", 1.0),
-                              disc_that("shrinks", -1.0),
-                              braking_before_a_wall()};
+  std::vector<ReferenceProblem> problems{carried("upwind", Differences::upwind1),
+                                         carried("ENO2", Differences::eno2),
+                                         carried("ENO3", Differences::eno3),
+                                         carried("WENO5", Differences::weno5),
+                                         disc_that("grows", 1.0),
+                                         disc_that("shrinks", -1.0),
+                                         braking_before_a_wall()};
   std::vector<Refinement> all;
-  for (Known& known : problems) {
+  for (ReferenceProblem& known : problems) {
     known.settings.threads = threads;
     Refinement one{known.name, {}, {}};
     for (int i = 0, cells = 20; i < grids; ++i, cells *= 2) {

@@ -100,7 +100,7 @@ double time_to_align(const State& state, double obstacle_speed) {
 }
 
 /// Between two tables; what their values, brought together, still differ by is part of the error.
-Looked looked(const Around& tables, const State& state, double obstacle_speed) {
+LookupResult looked(const Around& tables, const State& state, double obstacle_speed) {
   if (tables.share <= 0.0) {
     return tables.low->values->at(grid_state(tables.low->view, state));
   }
@@ -110,8 +110,8 @@ Looked looked(const Around& tables, const State& state, double obstacle_speed) {
     there[0] += (table.obstacle_speed - obstacle_speed) * time;
     return table.values->at(grid_state(table.view, there));
   };
-  const Looked low = by(*tables.low);
-  const Looked high = by(*tables.high);
+  const LookupResult low = by(*tables.low);
+  const LookupResult high = by(*tables.high);
   const double step = high.value - low.value;
   return {low.value + tables.share * step,
           std::max(low.error, high.error) + tables.share * (1.0 - tables.share) * std::abs(step),
@@ -128,7 +128,7 @@ struct LookUp {
   /// nullopt: beyond the tables' ends.
   [[nodiscard]] std::optional<double> at(State state) const {
     state[3] *= speed_factor;
-    const Looked found = looked(tables, state, obstacle_speed);
+    const LookupResult found = looked(tables, state, obstacle_speed);
     return found.inside ? std::optional(found.value + found.error + grown) : std::nullopt;
   }
 };
@@ -136,7 +136,7 @@ struct LookUp {
 /// nullopt: the obstacle is faster than any table's.
 std::optional<LookUp> look_up(const std::vector<DangerTable>& family, const Avoidance& car,
                               const Footprint& ego, const Meeting& meeting) {
-  const Scaled scaled = scaled_to(system_of(car, meeting), car.grip);
+  const ScaledAvoidance scaled = scaled_to(system_of(car, meeting), car.grip);
   const double obstacle_speed = meeting.obstacle_speed * scaled.speed_factor;
   const auto tables = around(family, obstacle_speed);
   if (!tables) {
@@ -148,8 +148,8 @@ std::optional<LookUp> look_up(const std::vector<DangerTable>& family, const Avoi
 }
 
 /// One step of an evasion, or all of it.
-Followed driven_by(const Avoidance& system, const Meeting& meeting, const State& state,
-                   const Acceleration& input, double longest) {
+EvasionPath driven_by(const Avoidance& system, const Meeting& meeting, const State& state,
+                      const Acceleration& input, double longest) {
   return follow(
       system, [&](const State& at) { return intrusion_of(meeting, at); },
       world::bounding_radius(meeting.ego), [&](const State&) { return input; }, state, input_step,
@@ -162,7 +162,7 @@ double until_a_table(const LookUp& values, const Avoidance& system, const Meetin
   State state = meeting.state;
   double highest = -std::numeric_limits<double>::infinity();
   for (int k = 0; k * input_step < look_ahead; ++k) {
-    const Followed way = driven_by(system, meeting, state, input, input_step);
+    const EvasionPath way = driven_by(system, meeting, state, input, input_step);
     highest = std::max(highest, way.highest);
     if (way.is_settled) {
       break;

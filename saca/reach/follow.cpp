@@ -15,7 +15,7 @@ constexpr double longest_part = 0.1;   // [s] of a Runge-Kutta step
 constexpr double between_looks = 0.1;  // [m] of way between two looks at the intrusion
 
 /// What is held over a step: a speed's change and either a curvature or an acceleration across.
-struct Held {
+struct HeldInput {
   double along = 0.0;
   double across = 0.0;
   double curvature = 0.0;  ///< in place of `across` while braking
@@ -35,7 +35,7 @@ Acceleration admissible_input(const Limits& limits, Acceleration input) {
   return {std::clamp(input.along, -rest, std::min(rest, limits.drive)), across};
 }
 
-State rate_of_state(const Avoidance& system, const State& state, const Held& held) {
+State rate_of_state(const Avoidance& system, const State& state, const HeldInput& held) {
   const double speed = std::max(0.0, state[3]);
   return {speed * std::cos(state[2]) - system.obstacle_speed, speed * std::sin(state[2]),
           held.course_rate(speed), held.along};
@@ -49,7 +49,7 @@ State moved(const State& state, const State& rate, double dt) {
   return next;
 }
 
-State runge_kutta(const Avoidance& system, const State& state, const Held& held, double dt) {
+State runge_kutta(const Avoidance& system, const State& state, const HeldInput& held, double dt) {
   const State k1 = rate_of_state(system, state, held);
   const State k2 = rate_of_state(system, moved(state, k1, 0.5 * dt), held);
   const State k3 = rate_of_state(system, moved(state, k2, 0.5 * dt), held);
@@ -61,7 +61,7 @@ State runge_kutta(const Avoidance& system, const State& state, const Held& held,
   return next;
 }
 
-State driven_for(const Avoidance& system, State state, const Held& held, double duration) {
+State driven_for(const Avoidance& system, State state, const HeldInput& held, double duration) {
   const int parts = std::max(1, static_cast<int>(std::ceil(duration / longest_part)));
   for (int i = 0; i < parts; ++i) {
     state = runge_kutta(system, state, held, duration / parts);
@@ -85,7 +85,7 @@ State driven(const Avoidance& system, const State& state, Acceleration input, do
     return moved(state, {-system.obstacle_speed, 0.0, 0.0, 0.0}, duration);
   }
   const Acceleration taken = admissible_input(limits, input);
-  const Held held{taken.along, taken.across, taken.across / (speed * speed)};
+  const HeldInput held{taken.along, taken.across, taken.across / (speed * speed)};
   const double until_stopped = taken.along < 0.0 ? speed / -taken.along : duration;
   if (until_stopped > duration) {
     return driven_for(system, state, held, duration);
@@ -125,14 +125,14 @@ Steering by_look_ahead(const Avoidance& system, std::function<double(const State
   };
 }
 
-Followed follow(const Avoidance& system, const std::function<double(const State&)>& intrusion,
-                double reach, const Steering& steering, const State& start, double step,
-                double longest) {
+EvasionPath follow(const Avoidance& system, const std::function<double(const State&)>& intrusion,
+                   double reach, const Steering& steering, const State& start, double step,
+                   double longest) {
   expects(reach > 0.0, "reach > 0");
   expects(step > 0.0, "step > 0");
   expects(longest > 0.0, "longest > 0");
   double h = intrusion(start);
-  Followed way{.highest = h, .last = start};
+  EvasionPath way{.highest = h, .last = start};
   const int steps = static_cast<int>(std::ceil(longest / step));
   for (int k = 0; k < steps; ++k) {
     const State& state = way.last;

@@ -32,7 +32,7 @@ using Steering = std::function<Acceleration(const State&)>;
 [[nodiscard]] State driven(const Avoidance& system, const State& state, Acceleration input,
                            double duration);
 
-struct Followed {
+struct EvasionPath {
   double highest = 0.0;   ///< intrusion met on the way [m]; h >= 0: the obstacle was hit
   double duration = 0.0;  ///< [s]
   State last{};
@@ -50,9 +50,9 @@ struct Followed {
 /// @param reach      of the ego's outermost point from its centre of mass [m], > 0
 /// @param step       for which each input is held [s], > 0
 /// @param longest    [s], > 0
-[[nodiscard]] Followed follow(const Avoidance& system,
-                              const std::function<double(const State&)>& intrusion, double reach,
-                              const Steering& steering, const State& start, double step,
-                              double longest);
+[[nodiscard]] EvasionPath follow(const Avoidance& system,
+                                 const std::function<double(const State&)>& intrusion, double reach,
+                                 const Steering& steering, const State& start, double step,
+                                 double longest);
 
 }  // namespace saca::reach

@@ -71,22 +71,22 @@ struct Agreement {
 /// What promises, and what is driven.
 struct Promise {
   Avoidance system;
-  double reach;                              ///< of the ego [m]
-  std::function<double(const State&)> h;     ///< in the obstacle's frame, as `look`
-  std::function<Looked(const State&)> look;  ///< `inside`: it is promised
+  double reach;                                    ///< of the ego [m]
+  std::function<double(const State&)> h;           ///< in the obstacle's frame, as `look`
+  std::function<LookupResult(const State&)> look;  ///< `inside`: it is promised
 };
 
 /// By looking 0.2 s ahead. Where that hits though it should not, the fault may be the steering's:
 /// then what other views ahead, and all-out inputs held, lead to counts if it is better.
-Followed best_drive(const Promise& promise, const State& state, bool should_miss) {
+EvasionPath best_drive(const Promise& promise, const State& state, bool should_miss) {
   const auto drive = [&](const Steering& steering) {
     return follow(promise.system, promise.h, promise.reach, steering, state, 0.1, 12.0);
   };
   const auto look = [&](const State& at) { return promise.look(at).value; };
-  Followed best = drive(by_look_ahead(promise.system, look, 0.2));
+  EvasionPath best = drive(by_look_ahead(promise.system, look, 0.2));
   const auto try_too = [&](const Steering& steering) {
     if (should_miss && best.highest >= 0.0) {
-      const Followed other = drive(steering);
+      const EvasionPath other = drive(steering);
       best = other.highest < best.highest ? other : best;
     }
   };
@@ -114,11 +114,11 @@ Agreement agreement(const Promise& promise, int num_states) {
   while (found.differences.size() < static_cast<std::size_t>(num_states)) {
     State state{in(-45.0, 45.0), in(-45.0, 45.0), 0.0, in(0.0, 25.0)};
     state[2] = wrap_angle(std::atan2(-state[1], -state[0]) + in(-0.4, 0.4));
-    const Looked looked = promise.look(state);
+    const LookupResult looked = promise.look(state);
     if (!looked.inside || looked.value < -4.0 || looked.value > 3.0 || promise.h(state) >= 0.0) {
       continue;
     }
-    const Followed way = best_drive(promise, state, looked.value < 0.0);
+    const EvasionPath way = best_drive(promise, state, looked.value < 0.0);
     const bool hit = way.highest >= 0.0;
     found.differences.push_back(way.highest - looked.value);
     found.num_hit += hit ? 1 : 0;
@@ -145,7 +145,7 @@ Agreement agreement(const AvoidanceCase& problem, const ValueTable& table, int n
                         },
                     .look =
                         [&](const State& state) {
-                          Looked looked = table.at(grid_state(problem.view, state));
+                          LookupResult looked = table.at(grid_state(problem.view, state));
                           looked.inside = true;
                           return looked;
                         }},
@@ -239,7 +239,7 @@ TEST(FollowAgreement, OfTheTablesOfARun) {
     promise.look = [&](const State& state) {
       meeting.state = state;
       const auto told = model.exact(meeting);
-      return Looked{told.value_or(promise.h(state)), 0.0, told.has_value()};
+      return LookupResult{told.value_or(promise.h(state)), 0.0, told.has_value()};
     };
     const Agreement found = agreement(promise, 3'000);
     print(fmt::format("tables of a run, {:.1f} m/s", obstacle_speed).c_str(), found);

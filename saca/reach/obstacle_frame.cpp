@@ -23,7 +23,7 @@ Axis spanning(const std::string& name, const Grid& grid, double per_ahead, doubl
 
 }  // namespace
 
-std::optional<View> view_of(const Solved& solved) {
+std::optional<View> view_of(const Solution& solved) {
   const auto problem = parse_avoidance_case(solved.problem, "problem");
   if (!problem.has_value()) {
     return std::nullopt;

@@ -13,7 +13,7 @@ namespace saca::reach {
 
 /// The view in which a case was solved.
 /// @return  nullopt: the file's problem is no avoidance case, or its grid has other axes
-[[nodiscard]] std::optional<View> view_of(const Solved& solved);
+[[nodiscard]] std::optional<View> view_of(const Solution& solved);
 
 /// The value of a state: x, y, course and speed in the obstacle's frame.
 /// @param table  of that view's axes; must outlive what is returned

@@ -36,8 +36,9 @@ std::string case_text(bool seen_from_ego) {
 }
 
 /// Values of a function of x, y, course and speed, in the case's own view.
-Solved solved_case(bool seen_from_ego, double (*value)(const State&)) {
-  Solved solved{.grid = {}, .problem = case_text(seen_from_ego), .complete = true, .times = {1.0}};
+Solution solved_case(bool seen_from_ego, double (*value)(const State&)) {
+  Solution solved{
+      .grid = {}, .problem = case_text(seen_from_ego), .complete = true, .times = {1.0}};
   solved.grid = parse_avoidance_case(solved.problem, "made here").value().grid;
   const auto of_cell = [&](std::span<const double> s) {
     if (!seen_from_ego) {
@@ -62,7 +63,7 @@ TEST(ViewOf, IsToldByTheFilesProblem) {
 }
 
 TEST(ViewOf, IsNoneOfOtherProblemsAndOtherGrids) {
-  Solved solved = solved_case(true, leaning);
+  Solution solved = solved_case(true, leaning);
   solved.grid.axes.pop_back();
   EXPECT_EQ(view_of(solved), std::nullopt);
   solved = solved_case(true, leaning);
@@ -74,8 +75,8 @@ TEST(ViewOf, IsNoneOfOtherProblemsAndOtherGrids) {
 }
 
 TEST(InObstacleFrame, BothViewsGiveTheSameValue) {
-  const Solved by_ego = solved_case(true, leaning);
-  const Solved by_obstacle = solved_case(false, leaning);
+  const Solution by_ego = solved_case(true, leaning);
+  const Solution by_obstacle = solved_case(false, leaning);
   const ValueTable ego_table(by_ego.grid, snapshot(by_ego, 0));
   const ValueTable obstacle_table(by_obstacle.grid, snapshot(by_obstacle, 0));
   const ValueAt from_ego = in_obstacle_frame(ego_table, View::ego);
@@ -84,8 +85,8 @@ TEST(InObstacleFrame, BothViewsGiveTheSameValue) {
     for (const double x : {-21.0, -12.3, -4.0}) {
       for (const double y : {-0.9, 0.0, 0.4}) {
         const State state{x, y, course, 13.0};
-        const Looked one = from_ego(state);
-        const Looked other = from_obstacle(state);
+        const LookupResult one = from_ego(state);
+        const LookupResult other = from_obstacle(state);
         ASSERT_TRUE(one.inside && other.inside) << x << ' ' << y << ' ' << course;
         EXPECT_NEAR(one.value, leaning(state), 0.03);  // spacing^2 / 8 / distance
         EXPECT_NEAR(other.value, leaning(state), 0.03);
@@ -101,11 +102,11 @@ TEST(InObstacleFrame, TellsLeftFromRightAndTheDirectionOfTheCourse) {
       [](const State& s) { return s[1] * std::sin(s[2]); },  // unchanged by the mirror
       [](const State& s) { return std::cos(s[2]); }};
   for (const auto& function : functions) {
-    const Solved solved = solved_case(true, function);
+    const Solution solved = solved_case(true, function);
     const ValueTable table(solved.grid, snapshot(solved, 0));
     for (const State& state : {State{-20.0, 3.0, 0.0, 5.0}, State{3.0, -20.0, 0.5 * pi, 5.0},
                                State{-3.0, 20.0, -0.5 * pi, 10.0}, State{20.0, -4.0, -pi, 10.0}}) {
-      const Looked found = in_obstacle_frame(table, View::ego)(state);
+      const LookupResult found = in_obstacle_frame(table, View::ego)(state);
       EXPECT_TRUE(found.inside);
       EXPECT_NEAR(found.value, function(state), 1e-5);
     }
@@ -113,7 +114,7 @@ TEST(InObstacleFrame, TellsLeftFromRightAndTheDirectionOfTheCourse) {
 }
 
 TEST(InObstacleFrame, WhatTheGridDoesNotHoldIsOutside) {
-  const Solved solved = solved_case(true, leaning);
+  const Solution solved = solved_case(true, leaning);
   const ValueTable table(solved.grid, snapshot(solved, 0));
   const ValueAt value = in_obstacle_frame(table, View::ego);
   EXPECT_TRUE(value({-29.0, 7.0, 0.0, 5.0}).inside);
@@ -152,7 +153,7 @@ TEST(AxesInObstacleFrame, AreNamedAsAnObstaclesAre) {
 }
 
 TEST(InObstacleFrame, RefusesWhatHasNoObstacle) {
-  const Solved solved = solved_case(true, leaning);
+  const Solution solved = solved_case(true, leaning);
   const ValueTable table(solved.grid, snapshot(solved, 0));
   EXPECT_THROW((void)in_obstacle_frame(table, View::edge), ContractViolation);
   EXPECT_THROW((void)axes_in_obstacle_frame({{solved.grid.axes[0]}}, 0.0), ContractViolation);

@@ -77,7 +77,7 @@ bool are_first_of(const std::vector<double>& begun, const std::vector<double>& w
          (left + 1 == begun.end() && right != wanted.end() && *left < *right);
 }
 
-bool fits_itself(const Solved& begun) {
+bool fits_itself(const Solution& begun) {
   return !begun.times.empty() &&
          std::visit(
              [&](const auto& snapshots) {
@@ -91,7 +91,7 @@ bool fits_itself(const Solved& begun) {
 
 /// Why `begun` cannot be gone on with.
 std::optional<Error> other_problem(const Problem& problem, const Scheme& scheme,
-                                   const Solved& begun) {
+                                   const Solution& begun) {
   if (begun.problem != problem.text) {
     return Error{Error::Code::malformed, "it was begun for another problem"};
   }
@@ -116,7 +116,7 @@ std::optional<Error> other_problem(const Problem& problem, const Scheme& scheme,
 template <class Real>
 class March {
  public:
-  March(const Problem& problem, const Scheme& scheme, std::optional<Solved> begun)
+  March(const Problem& problem, const Scheme& scheme, std::optional<Solution> begun)
       : problem_(problem),
         solver_(
             problem.grid, flow_for<Real>(problem, problem.grid, scheme.differences),
@@ -161,7 +161,7 @@ class March {
     return true;
   }
 
-  [[nodiscard]] Solved& solved() { return solved_; }
+  [[nodiscard]] Solution& solved() { return solved_; }
 
  private:
   Snapshots<Real>& kept() { return std::get<Snapshots<Real>>(solved_.values); }
@@ -172,14 +172,14 @@ class March {
 
   const Problem& problem_;
   Solver<Real> solver_;
-  Solved solved_;
+  Solution solved_;
 };
 
 /// Solves it on another grid, to the last time only.
 /// @return  nullopt: stopped
 template <class Real>
-Result<std::optional<Solved>> solved_on(const Grid& grid, Problem problem, const Scheme& scheme,
-                                        const Onlooker& onlooker) {
+Result<std::optional<Solution>> solved_on(const Grid& grid, Problem problem, const Scheme& scheme,
+                                          const Onlooker& onlooker) {
   problem.grid = grid;
   problem.times = {problem.times.back()};
   March<Real> march(problem, scheme, std::nullopt);
@@ -221,7 +221,7 @@ std::vector<float> distances(const Grid& grid, const std::vector<Real>& values,
 /// @return  nullopt: stopped
 template <class Real>
 Result<std::optional<std::vector<float>>> error_of(const Problem& problem, const Scheme& scheme,
-                                                   const Solved& fine, const Onlooker& onlooker) {
+                                                   const Solution& fine, const Onlooker& onlooker) {
   const auto grid = coarser(problem.grid);
   if (!grid) {
     return std::optional<std::vector<float>>(std::in_place);
@@ -240,8 +240,8 @@ Result<std::optional<std::vector<float>>> error_of(const Problem& problem, const
 
 /// @return  as far as it came, and whether that is the end
 template <class Real>
-Result<std::pair<Solved, bool>> marched(const Problem& problem, const Scheme& scheme,
-                                        std::optional<Solved> begun, const Onlooker& onlooker) {
+Result<std::pair<Solution, bool>> marched(const Problem& problem, const Scheme& scheme,
+                                          std::optional<Solution> begun, const Onlooker& onlooker) {
   March<Real> march(problem, scheme, std::move(begun));
   const auto done = march.to_the_end(onlooker);
   if (!done.has_value()) {
@@ -251,8 +251,8 @@ Result<std::pair<Solved, bool>> marched(const Problem& problem, const Scheme& sc
 }
 
 template <class Real>
-Result<Solved> solve_in(const Problem& problem, const Scheme& scheme, std::optional<Solved> begun,
-                        const Onlooker& onlooker) {
+Result<Solution> solve_in(const Problem& problem, const Scheme& scheme,
+                          std::optional<Solution> begun, const Onlooker& onlooker) {
   auto there = marched<Real>(problem, scheme, std::move(begun), onlooker);  // its solver has gone
   if (!there.has_value()) {
     return there.error();
@@ -279,7 +279,7 @@ Result<Solved> solve_in(const Problem& problem, const Scheme& scheme, std::optio
 }
 
 /// Whether nothing is left to be done.
-bool is_all(const Problem& problem, const Scheme& scheme, const Solved& begun) {
+bool is_all(const Problem& problem, const Scheme& scheme, const Solution& begun) {
   return begun.complete && begun.times == problem.times &&
          (!scheme.with_error || !begun.error.empty() || !coarser(problem.grid));
 }
@@ -371,8 +371,8 @@ std::size_t memory_needed(const Problem& problem, const Scheme& scheme) {
   return snapshots + std::max({marching, comparing, keeping}) + around;
 }
 
-Result<Solved> solve(const Problem& problem, const Scheme& scheme, std::optional<Solved> begun,
-                     const Onlooker& onlooker) {
+Result<Solution> solve(const Problem& problem, const Scheme& scheme, std::optional<Solution> begun,
+                       const Onlooker& onlooker) {
   expects(!problem.times.empty() && problem.times.front() > 0.0 &&
               std::is_sorted(problem.times.begin(), problem.times.end()) &&
               std::isfinite(problem.times.back()),

@@ -59,7 +59,7 @@ struct Onlooker {
   /// After each step: how far it is, of the horizon [s]; false stops it.
   std::function<bool(double tau)> step = [](double) { return true; };
   /// After each snapshot and when stopped: what there is so far, to be kept.
-  std::function<std::optional<Error>(const Solved&)> keep = [](const Solved&) {
+  std::function<std::optional<Error>(const Solution&)> keep = [](const Solution&) {
     return std::optional<Error>();
   };
 };
@@ -77,7 +77,7 @@ struct Onlooker {
 /// @return       not complete when stopped; an error when a value is no number (it names the cell),
 ///               when `begun` is of something else (it names both), or `keep` had one
 /// @throws       what the system or `unsafe` throws
-[[nodiscard]] Result<Solved> solve(const Problem& problem, const Scheme& scheme,
-                                   std::optional<Solved> begun, const Onlooker& onlooker);
+[[nodiscard]] Result<Solution> solve(const Problem& problem, const Scheme& scheme,
+                                     std::optional<Solution> begun, const Onlooker& onlooker);
 
 }  // namespace saca::reach

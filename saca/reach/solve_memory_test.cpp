@@ -87,14 +87,14 @@ class Memory : public testing::Test {
   /// Solves and keeps all, from what an earlier one left; stops at a time.
   void solve_and_keep(const Problem& problem, const Scheme& scheme, double stop) const {
     const fs::path file = folder_ / "a.h5";
-    std::optional<Solved> begun;
+    std::optional<Solution> begun;
     if (fs::exists(file)) {
       begun = read_solved(file).value();
     }
     const auto solved =
         solve(problem, scheme, std::move(begun),
               {.step = [stop](double tau) { return tau < stop; },
-               .keep = [&](const Solved& so_far) { return write_solved(file, so_far); }});
+               .keep = [&](const Solution& so_far) { return write_solved(file, so_far); }});
     if (!solved.has_value() || solved.value().complete == (stop < 1.0)) {
       std::_Exit(2);
     }

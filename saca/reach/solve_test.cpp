@@ -61,10 +61,10 @@ TEST(Solve, StoppedAndGoneOnWithItIsTheSame) {
   const auto whole = solve(problem, {}, std::nullopt, {});
   ASSERT_TRUE(whole.has_value());
   for (const double stop : {0.3, 1.0, 1.7, 3.9}) {
-    std::optional<Solved> kept;
+    std::optional<Solution> kept;
     const Onlooker impatient{.step = [&](double tau) { return tau < stop; },
                              .keep =
-                                 [&](const Solved& so_far) {
+                                 [&](const Solution& so_far) {
                                    kept = so_far;
                                    return std::optional<Error>();
                                  }};
@@ -98,12 +98,12 @@ TEST(Solve, RefusesToGoOnWithSomethingElse) {
 }
 
 /// Braking as it is kept when stopped after 1.5 of 4 s.
-Solved stopped(const Problem& problem, const Scheme& scheme) {
-  Solved kept;
+Solution stopped(const Problem& problem, const Scheme& scheme) {
+  Solution kept;
   const auto part = solve(problem, scheme, std::nullopt,
                           {.step = [](double tau) { return tau < 1.5; },
                            .keep =
-                               [&](const Solved& so_far) {
+                               [&](const Solution& so_far) {
                                  kept = so_far;
                                  return std::optional<Error>();
                                }});
@@ -111,14 +111,14 @@ Solved stopped(const Problem& problem, const Scheme& scheme) {
   return kept;
 }
 
-std::string refusal(const Problem& problem, const Scheme& scheme, const Solved& begun) {
+std::string refusal(const Problem& problem, const Scheme& scheme, const Solution& begun) {
   const auto solved = solve(problem, scheme, begun, {});
   return solved.has_value() ? "" : solved.error().message;
 }
 
 TEST(Solve, RefusesToGoOnByAnotherScheme) {
   const Problem problem = braking(21);
-  const Solved begun = stopped(problem, {});
+  const Solution begun = stopped(problem, {});
   EXPECT_EQ(refusal(problem, {.threads = 2, .with_error = false}, begun), "");
   const auto by = [](const std::string& wanted) {
     return "it was begun by weno5, rk3, cfl 0.75, floats, solver 1, wanted " + wanted;
@@ -132,14 +132,14 @@ TEST(Solve, RefusesToGoOnByAnotherScheme) {
   EXPECT_EQ(refusal(problem, {.cfl = 0.8}, begun), by("weno5, rk3, cfl 0.8, floats, solver 1"));
   EXPECT_EQ(refusal(problem, {.doubles = true}, begun),
             by("weno5, rk3, cfl 0.75, doubles, solver 1"));
-  Solved untold = begun;
+  Solution untold = begun;
   untold.scheme.clear();
   EXPECT_THAT(refusal(problem, {}, untold),
               testing::HasSubstr("begun by a scheme that is not told"));
 }
 
 TEST(Solve, RefusesToGoOnOnAnotherGrid) {
-  const Solved begun = stopped(braking(21), {});
+  const Solution begun = stopped(braking(21), {});
   EXPECT_EQ(refusal(braking(31), {}, begun),
             "it was begun on another grid: with x in [-6, 2], 21 points, open, stretch 0, wanted x "
             "in [-6, 2], 31 points, open, stretch 0");
@@ -149,16 +149,16 @@ TEST(Solve, RefusesToGoOnOnAnotherGrid) {
   other = braking(21);
   other.grid.axes.pop_back();
   EXPECT_THAT(refusal(other, {}, begun), testing::HasSubstr("2 axes, wanted 1"));
-  Solved damaged = begun;
+  Solution damaged = begun;
   std::get<Snapshots<float>>(damaged.values).back().pop_back();
   EXPECT_THAT(refusal(braking(21), {}, damaged), testing::HasSubstr("one value per time and cell"));
 }
 
 TEST(Solve, RefusesToGoOnToOtherTimes) {
   const Problem problem = braking(21);
-  const Solved begun = stopped(problem, {});
+  const Solution begun = stopped(problem, {});
   ASSERT_EQ(begun.times.size(), 2U);  // 1 s, and where it was stopped
-  const auto asked_for = [&](std::vector<double> times, const Solved& from) {
+  const auto asked_for = [&](std::vector<double> times, const Solution& from) {
     Problem other = problem;
     other.times = std::move(times);
     return refusal(other, {}, from);
@@ -225,7 +225,7 @@ TEST(Solve, BesideAnObstacleAtRestFourSecondsAreEnough) {
 }
 
 TEST(Solve, HandsOnWhatKeepHadToSay) {
-  const auto failed = solve(braking(21), {}, std::nullopt, {.keep = [](const Solved&) {
+  const auto failed = solve(braking(21), {}, std::nullopt, {.keep = [](const Solution&) {
                               return std::optional(Error{Error::Code::unwritable, "disk full"});
                             }});
   ASSERT_FALSE(failed.has_value());

@@ -72,14 +72,14 @@ void write_axis(config::Hdf5Writer& writer, const std::string& where, const Axis
 }
 
 /// Bytes of a file that cannot be compressed, and a little more.
-std::size_t largest_size(const Solved& solved) {
+std::size_t largest_size(const Solution& solved) {
   const std::size_t bytes = solved.doubles() ? sizeof(double) : sizeof(float);
   const std::size_t numbers = solved.times.size() * num_cells(solved.grid) * bytes +
                               solved.error.size() * sizeof(float) + solved.problem.size();
   return numbers + numbers / 32 + (std::size_t{1} << 18);
 }
 
-void write_parts(config::Hdf5Writer& writer, const Solved& solved) {
+void write_parts(config::Hdf5Writer& writer, const Solution& solved) {
   writer.attribute(".", "format", std::string(file_format));
   writer.attribute(".", "complete", std::int32_t{solved.complete});
   writer.attribute(".", "scheme", solved.scheme);
@@ -168,7 +168,7 @@ std::vector<double> read_times(config::Hdf5Reader& reader) {
 }
 
 template <class Real>
-Snapshots<Real> read_snapshots(config::Hdf5Reader& reader, const Solved& solved) {
+Snapshots<Real> read_snapshots(config::Hdf5Reader& reader, const Solution& solved) {
   const std::vector<std::size_t> wanted = extents_of(solved.grid, solved.times.size());
   reader.want_numbers<Real>("values", wanted);
   if (reader.problem()) {
@@ -196,8 +196,8 @@ std::vector<float> read_error(config::Hdf5Reader& reader, const Grid& grid) {
 }
 
 /// What `reader` has no problem with.
-Solved read_parts(config::Hdf5Reader& reader) {
-  Solved solved;
+Solution read_parts(config::Hdf5Reader& reader) {
+  Solution solved;
   const std::string format = reader.text_attribute(".", "format");
   if (!reader.problem() && format != file_format) {
     reader.reject("attribute format", std::string(file_format), format);
@@ -221,7 +221,7 @@ Solved read_parts(config::Hdf5Reader& reader) {
 
 }  // namespace
 
-std::vector<float> snapshot(const Solved& solved, std::size_t time) {
+std::vector<float> snapshot(const Solution& solved, std::size_t time) {
   return std::visit(
       [&](const auto& snapshots) {
         expects(time < snapshots.size(), "there is such a snapshot");
@@ -233,7 +233,7 @@ std::vector<float> snapshot(const Solved& solved, std::size_t time) {
       solved.values);
 }
 
-std::size_t nearest_snapshot(const Solved& solved, double time) {
+std::size_t nearest_snapshot(const Solution& solved, double time) {
   expects(!solved.times.empty(), "there is a snapshot");
   const auto nearest = std::min_element(
       solved.times.begin(), solved.times.end(),
@@ -241,7 +241,7 @@ std::size_t nearest_snapshot(const Solved& solved, double time) {
   return static_cast<std::size_t>(nearest - solved.times.begin());
 }
 
-std::optional<Error> write_solved(const fs::path& path, const Solved& solved) {
+std::optional<Error> write_solved(const fs::path& path, const Solution& solved) {
   expects(!broken_rule(solved.grid), "the grid breaks no rule");
   expects(!wrong_times(solved.times), "times are finite, >= 0 and increase");
   const std::size_t cells = num_cells(solved.grid);
@@ -265,13 +265,13 @@ std::optional<Error> write_solved(const fs::path& path, const Solved& solved) {
   return config::write_checksummed(path, file_format, *body);
 }
 
-Result<Solved> read_solved(const fs::path& path) {
+Result<Solution> read_solved(const fs::path& path) {
   if (const auto problem = config::verify_checksum(path, file_format)) {
     return *problem;
   }
   try {
     config::Hdf5Reader reader(path.string(), path);
-    Solved solved = read_parts(reader);
+    Solution solved = read_parts(reader);
     if (reader.problem()) {
       return *reader.problem();
     }

@@ -46,12 +46,12 @@ std::vector<Real> any_values(std::size_t size, unsigned seed) {
 }
 
 template <class Real>
-Solved small_solved() {
-  Solved solved{.grid = small_grid(),
-                .problem = "[obstacle]\nshape = \"ellipse\"  # \xc3\xa4\n",
-                .scheme = "weno5, in words",
-                .complete = true,
-                .times = {0.0, 0.5, 2.0}};
+Solution small_solved() {
+  Solution solved{.grid = small_grid(),
+                  .problem = "[obstacle]\nshape = \"ellipse\"  # \xc3\xa4\n",
+                  .scheme = "weno5, in words",
+                  .complete = true,
+                  .times = {0.0, 0.5, 2.0}};
   Snapshots<Real> values;
   for (unsigned time = 0; time < 3; ++time) {
     values.push_back(any_values<Real>(num_cells(solved.grid), time));
@@ -131,7 +131,7 @@ void put_set(hid_t file, const char* name, hid_t type, const std::vector<hsize_t
 }
 
 template <class Real>
-void expect_same(const Solved& came, const Solved& wanted) {
+void expect_same(const Solution& came, const Solution& wanted) {
   ASSERT_EQ(came.grid.axes.size(), wanted.grid.axes.size());
   for (std::size_t d = 0; d < wanted.grid.axes.size(); ++d) {
     const Axis& a = came.grid.axes[d];
@@ -148,7 +148,7 @@ void expect_same(const Solved& came, const Solved& wanted) {
 }
 
 TEST_F(ValueFile, GivesBackEveryBitInBothPrecisions) {
-  Solved solved = small_solved<float>();
+  Solution solved = small_solved<float>();
   solved.error = std::vector<float>(num_cells(solved.grid), 0.25F);
   ASSERT_FALSE(write_solved(path_, solved));
   expect_same<float>(read_solved(path_).value(), solved);
@@ -161,7 +161,7 @@ TEST_F(ValueFile, GivesBackEveryBitInBothPrecisions) {
 }
 
 TEST_F(ValueFile, IsPlainHdf5ForOthersWithTheFastestAxisLast) {
-  const Solved solved = small_solved<float>();
+  const Solution solved = small_solved<float>();
   ASSERT_FALSE(write_solved(path_, solved));
   const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   ASSERT_GE(file, 0);
@@ -187,7 +187,7 @@ TEST_F(ValueFile, TheSameValuesMakeTheSameBytes) {
 }
 
 TEST_F(ValueFile, ASnapshotIsFloatInBothPrecisions) {
-  const Solved solved = small_solved<double>();
+  const Solution solved = small_solved<double>();
   const std::vector<float> values = snapshot(solved, 2);
   EXPECT_EQ(values[5], static_cast<float>(std::get<Snapshots<double>>(solved.values)[2][5]));
   EXPECT_TRUE(solved.doubles());
@@ -313,17 +313,17 @@ TEST_F(ValueFile, SaysWhenItCannotBeWritten) {
 }
 
 TEST_F(ValueFile, WritesNothingThatItWouldNotRead) {
-  const auto refuses = [&](const std::function<void(Solved&)>& change) {
-    Solved solved = small_solved<float>();
+  const auto refuses = [&](const std::function<void(Solution&)>& change) {
+    Solution solved = small_solved<float>();
     change(solved);
     EXPECT_THROW((void)write_solved(path_, solved), ContractViolation);
   };
-  refuses([](Solved& s) { s.grid.axes.clear(); });
-  refuses([](Solved& s) { s.times = {0.0, 0.0, 1.0}; });
-  refuses([](Solved& s) { s.times.pop_back(); });
-  refuses([](Solved& s) { std::get<0>(s.values)[1].pop_back(); });
-  refuses([](Solved& s) { std::get<0>(s.values)[1][4] = std::nanf(""); });
-  refuses([](Solved& s) { s.error = {1.0F}; });
+  refuses([](Solution& s) { s.grid.axes.clear(); });
+  refuses([](Solution& s) { s.times = {0.0, 0.0, 1.0}; });
+  refuses([](Solution& s) { s.times.pop_back(); });
+  refuses([](Solution& s) { std::get<0>(s.values)[1].pop_back(); });
+  refuses([](Solution& s) { std::get<0>(s.values)[1][4] = std::nanf(""); });
+  refuses([](Solution& s) { s.error = {1.0F}; });
   EXPECT_FALSE(fs::exists(path_));
 }
 

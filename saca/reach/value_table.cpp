@@ -147,7 +147,7 @@ ValueTable::Between ValueTable::between(const Ruler& ruler, double coordinate) n
 }
 
 template <std::size_t dimensions>
-Looked ValueTable::look(const State& state) const noexcept {
+LookupResult ValueTable::look(const State& state) const noexcept {
   constexpr std::size_t corners = std::size_t{1} << dimensions;
   std::array<double, dimensions> share;  // NOLINT: set below, as are the others
   std::array<std::uint32_t, corners> at;
@@ -181,7 +181,7 @@ Looked ValueTable::look(const State& state) const noexcept {
   return {.value = blend[0], .error = static_cast<double>(error), .inside = inside};
 }
 
-Looked ValueTable::at(const State& state) const noexcept {
+LookupResult ValueTable::at(const State& state) const noexcept {
   double sum = 0.0;  // no finite number as soon as an entry is none
   for (std::size_t d = 0; d < dimensions_; ++d) {
     sum += 0.0 * state[d];

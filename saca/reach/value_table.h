@@ -12,14 +12,14 @@
 namespace saca::reach {
 
 /// A value between the points of a grid.
-struct Looked {
+struct LookupResult {
   double value = 0.0;
   double error = 0.0;   ///< greatest of the cells read; 0 where none are known
   bool inside = false;  ///< within all open ends; else `value` is that of the nearest state inside
 };
 
 /// The value of a state, however it is kept.
-using ValueAt = std::function<Looked(const State&)>;
+using ValueAt = std::function<LookupResult(const State&)>;
 
 /// A solved value, made ready to be asked for at any state.
 ///
@@ -39,7 +39,7 @@ class ValueTable {
   /// Bytes of the values and errors of one.
   [[nodiscard]] static std::size_t memory_needed(const Grid& grid);
 
-  [[nodiscard]] Looked at(const State& state) const noexcept;
+  [[nodiscard]] LookupResult at(const State& state) const noexcept;
 
   /// Change of the value per unit of each coordinate: the difference of the interpolated values
   /// half a spacing to either side; one-sided at an open end. It is the mean slope over one
@@ -82,7 +82,7 @@ class ValueTable {
   [[nodiscard]] State turned_over(State state) const noexcept;
   [[nodiscard]] double slope(const State& state, std::size_t axis) const noexcept;
   template <std::size_t dimensions>
-  [[nodiscard]] Looked look(const State& state) const noexcept;
+  [[nodiscard]] LookupResult look(const State& state) const noexcept;
 
   Grid grid_;
   std::size_t dimensions_ = 0;

@@ -205,8 +205,8 @@ TEST(ValueTable, GradientOfASmoothFunctionIsItsSlope) {
 TEST(ValueTable, BeyondAnOpenEndIsTheNearestStateAndSaysSo) {
   const Grid grid = avoidance_grid();
   const ValueTable table(grid, noise(num_cells(grid), 29));
-  const Looked edge = table.at({25.0, 3.0, 1.0, 30.0});
-  const Looked beyond = table.at({31.0, 3.0, 1.0, 44.0});
+  const LookupResult edge = table.at({25.0, 3.0, 1.0, 30.0});
+  const LookupResult beyond = table.at({31.0, 3.0, 1.0, 44.0});
   EXPECT_TRUE(edge.inside);
   EXPECT_FALSE(beyond.inside);
   EXPECT_EQ(beyond.value, edge.value);

@@ -80,7 +80,7 @@ std::optional<Error> ChildModel::wait_until_ready(Clock::Time deadline,
       }
       return event.error();
     }
-    if (const auto* failed = std::get_if<protocol::Failed>(&event.value())) {
+    if (const auto* failed = std::get_if<protocol::FailureMessage>(&event.value())) {
       give_up();
       return Error{Error::Code::unreadable, "model process: " + one_line(failed->message)};
     }
@@ -110,7 +110,8 @@ std::optional<Error> ChildModel::take(Exchange& exchange, const protocol::Event&
     }
     r->reasoning += text->text;
     exchange.progress({.prompt = text->scene, .text = text->text, .answer = nullptr});
-  } else if (const auto* said = std::get_if<protocol::Answered>(&event); said && is_ours(*said)) {
+  } else if (const auto* said = std::get_if<protocol::AnswerMessage>(&event);
+             said && is_ours(*said)) {
     Reply* r = reply(said->scene);
     if (r == nullptr || r->answers.size() == most_answers) {
       return malformed(fmt::format("want answers to one of the scenes, at most {}", most_answers));
@@ -128,7 +129,7 @@ std::optional<Error> ChildModel::take(Exchange& exchange, const protocol::Event&
     if (done->overran) {
       return Error{Error::Code::too_late, "model process: want answers in time, got none"};
     }
-  } else if (const auto* failed = std::get_if<protocol::Failed>(&event);
+  } else if (const auto* failed = std::get_if<protocol::FailureMessage>(&event);
              failed && failed->id.value_or(exchange.id) == exchange.id) {
     exchange.done = true;
     return Error{failed->late ? Error::Code::too_late : Error::Code::unreadable,

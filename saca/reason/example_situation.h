@@ -58,9 +58,9 @@ inline preview::Situation example_situation() {
   aeb.outcome() = {};
   aeb.outcome().clearance = 0.62;
   situation.facts[manoeuvre::index(manoeuvre::PolicyId::t_drift_left)].end =
-      preview::Refused{"the road is too slippery"};
+      preview::Refusal{"the road is too slippery"};
   situation.facts[manoeuvre::index(manoeuvre::PolicyId::t_drift_right)].end =
-      preview::Refused{"the road is too slippery"};
+      preview::Refusal{"the road is too slippery"};
   return situation;
 }
 

@@ -82,10 +82,10 @@ TEST(Prompt, TellsWhatCannotBeToldFromTheBest) {
   EXPECT_THAT(prompt(situation),
               HasSubstr("\nLeast harm: 4 ES-B-R, 3 ES-B-L, 1 AES-L; next 2 AES-R\n"));
   for (const std::size_t k : {0U, 1U, 2U, 4U, 7U}) {
-    situation.facts[k].end = preview::Refused{"no"};
+    situation.facts[k].end = preview::Refusal{"no"};
   }
   EXPECT_THAT(prompt(situation), HasSubstr("\nLeast harm: 3 ES-B-L\n"));
-  situation.facts[3].end = preview::Refused{"no"};
+  situation.facts[3].end = preview::Refusal{"no"};
   EXPECT_THAT(prompt(situation), testing::Not(HasSubstr("\nLeast harm")));
 }
 

@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 constexpr double probability_rounding = 1e-3;  // of a sum of eight
 
 // Thrown and caught in this file alone: reading is easier to follow without a check per key.
-struct Malformed {
+struct ParseFailure {
   std::string message;
 };
 
@@ -25,13 +25,13 @@ struct Malformed {
   if (text.size() > 60) {
     text = text.substr(0, 60) + "...";
   }
-  throw Malformed{key + ": want " + want + ", got " + text};
+  throw ParseFailure{key + ": want " + want + ", got " + text};
 }
 
 const Json& at(const Json& object, const std::string& key, const std::string& want) {
   const auto found = object.find(key);
   if (found == object.end()) {
-    throw Malformed{key + ": want " + want + ", got nothing"};
+    throw ParseFailure{key + ": want " + want + ", got nothing"};
   }
   return *found;
 }
@@ -78,7 +78,7 @@ const Json& list_at(const Json& object, const std::string& key) {
 Json parsed(std::string_view line) {
   auto read = config::parse_json(line);
   if (!read.has_value()) {
-    throw Malformed{"line: " + read.error().message};
+    throw ParseFailure{"line: " + read.error().message};
   }
   Json json = std::move(read).value();
   if (!json.is_object()) {
@@ -123,7 +123,7 @@ Json json_of(const PromptRead& read) {
 Json json_of(const Text& text) {
   return {{"event", "text"}, {"id", text.id}, {"scene", text.scene}, {"text", text.text}};
 }
-Json json_of(const Answered& answer) {
+Json json_of(const AnswerMessage& answer) {
   return {{"event", "answer"},
           {"id", answer.id},
           {"scene", answer.scene},
@@ -146,7 +146,7 @@ Json json_of(const Info& info) {
           {"resident_bytes", info.resident_bytes},
           {"threads", info.threads}};
 }
-Json json_of(const Failed& failed) {
+Json json_of(const FailureMessage& failed) {
   Json json{{"event", "error"}, {"message", failed.message}};
   if (failed.id) {
     json["id"] = *failed.id;
@@ -179,8 +179,9 @@ bool flag_at(const Json& json, const std::string& key) {
   return flag.get<bool>();
 }
 
-Answered answer_from(const Json& json) {
-  Answered answer{.id = count_at<int>(json, "id"), .scene = count_at<std::size_t>(json, "scene")};
+AnswerMessage answer_from(const Json& json) {
+  AnswerMessage answer{.id = count_at<int>(json, "id"),
+                       .scene = count_at<std::size_t>(json, "scene")};
   const std::string kind = text_at(json, "kind");
   const auto found = answer_kind_from(kind);
   if (!found) {
@@ -240,7 +241,7 @@ Event read_event(const Json& json) {
                 count_at<std::uint64_t>(json, "resident_bytes"), count_at<int>(json, "threads")};
   }
   if (event == "error") {
-    Failed failed{.id = std::nullopt, .message = text_at(json, "message")};
+    FailureMessage failed{.id = std::nullopt, .message = text_at(json, "message")};
     if (json.contains("id")) {
       failed.id = count_at<int>(json, "id");
     }
@@ -282,7 +283,7 @@ std::string line(const Event& event) {
 Result<Request> request_from(std::string_view line) {
   try {
     return read_request(parsed(line));
-  } catch (const Malformed& bad) {
+  } catch (const ParseFailure& bad) {
     return Error{Error::Code::malformed, "request: " + bad.message};
   }
 }
@@ -290,7 +291,7 @@ Result<Request> request_from(std::string_view line) {
 Result<Event> event_from(std::string_view line) {
   try {
     return read_event(parsed(line));
-  } catch (const Malformed& bad) {
+  } catch (const ParseFailure& bad) {
     return Error{Error::Code::malformed, "event: " + bad.message};
   }
 }

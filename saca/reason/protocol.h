@@ -53,7 +53,7 @@ struct Text {
   std::size_t scene = 0;
   std::string text;
 };
-struct Answered {
+struct AnswerMessage {
   int id = 0;
   std::size_t scene = 0;
   Answer::Kind kind = Answer::Kind::first;
@@ -75,12 +75,12 @@ struct Info {
   int threads = 0;
 };
 /// A request could not be carried out; the program lives on.
-struct Failed {
+struct FailureMessage {
   std::optional<int> id;
   std::string message;
   bool late = false;  ///< for want of time
 };
-using Event = std::variant<Ready, PromptRead, Text, Answered, Done, Info, Failed>;
+using Event = std::variant<Ready, PromptRead, Text, AnswerMessage, Done, Info, FailureMessage>;
 
 /// One line, without its end.
 [[nodiscard]] std::string line(const Request& request);

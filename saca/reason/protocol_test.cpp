@@ -45,7 +45,7 @@ TEST(Protocol, BrokenUtf8IsReplacedNotThrown) {
 TEST(Protocol, AnswerIsReadAsWritten) {
   const auto read = event_from(answer_line);
   ASSERT_TRUE(read.has_value()) << read.error().message;
-  const auto& answer = std::get<Answered>(read.value());
+  const auto& answer = std::get<AnswerMessage>(read.value());
   EXPECT_EQ(answer.id, 3);
   EXPECT_EQ(answer.scene, 1U);
   EXPECT_EQ(answer.kind, Answer::Kind::forced);
@@ -59,9 +59,9 @@ TEST(Protocol, EveryEventComesBackAsItself) {
                                   Text{1, 0, "text"},
                                   Done{1, {80, 0}, 0.75, 1.5, true},
                                   Info{"model", "file.gguf", 5000000000U, 1U << 30U, 2},
-                                  Failed{std::nullopt, "no"},
-                                  Failed{4, "no"},
-                                  Failed{4, "no time", true}};
+                                  FailureMessage{std::nullopt, "no"},
+                                  FailureMessage{4, "no"},
+                                  FailureMessage{4, "no time", true}};
   for (const Event& event : events) {
     const auto read = event_from(line(event));
     ASSERT_TRUE(read.has_value()) << read.error().message;

@@ -8,7 +8,9 @@ namespace saca::report::beside_exact_test {
 namespace {
 
 reach::ValueAt plane(double off) {
-  return [off](const reach::State& at) { return reach::Looked{-at[0] - at[3] + off, 0.0, true}; };
+  return [off](const reach::State& at) {
+    return reach::LookupResult{-at[0] - at[3] + off, 0.0, true};
+  };
 }
 
 TEST(BesideExact, IsAPictureThatShowsDifferences) {

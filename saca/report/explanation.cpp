@@ -50,7 +50,7 @@ std::string percent(double probability) {
 }
 
 /// What became of one plan of a verdict.
-struct Judged {
+struct PlanVerdict {
   std::string name;
   std::string short_name;  ///< of its policy
   std::string policy;      ///< in words
@@ -75,10 +75,10 @@ class Story {
                 ? std::nullopt
                 : std::optional(verdict.at("admissible_harm").get<double>());
     for (const json& plan : verdict.at("plans")) {
-      Judged judged{.name = plan_name(plan),
-                    .short_name = plan.at("name").get<std::string>(),
-                    .policy = meaning(plan.at("name").get<std::string>()),
-                    .chosen = is_same_plan(plan, decision_)};
+      PlanVerdict judged{.name = plan_name(plan),
+                         .short_name = plan.at("name").get<std::string>(),
+                         .policy = meaning(plan.at("name").get<std::string>()),
+                         .chosen = is_same_plan(plan, decision_)};
       judged.is_braking = plan.at("policy") == manoeuvre::index(manoeuvre::PolicyId::aeb);
       judged.drivable = !plan.at("harm").is_null();
       if (judged.drivable) {
@@ -167,22 +167,22 @@ class Story {
   [[nodiscard]] std::string considered() const;
   [[nodiscard]] std::string because() const;
   [[nodiscard]] const json* last_frame() const;
-  [[nodiscard]] std::string why_not(const Judged& plan) const;
+  [[nodiscard]] std::string why_not(const PlanVerdict& plan) const;
   [[nodiscard]] bool nothing_harms_nobody() const {
-    return std::any_of(judged_.begin(), judged_.end(), [](const Judged& plan) {
+    return std::any_of(judged_.begin(), judged_.end(), [](const PlanVerdict& plan) {
       return plan.name == "NI" && plan.drivable && plan.contact == 0.0 && plan.harm == 0.0;
     });
   }
 
   [[nodiscard]] bool is_choice_admissible() const {
     return std::any_of(judged_.begin(), judged_.end(),
-                       [](const Judged& plan) { return plan.chosen && plan.admissible; });
+                       [](const PlanVerdict& plan) { return plan.chosen && plan.admissible; });
   }
 
   const json& record_;
   const json& decision_;
-  std::vector<Judged> judged_;  ///< of the verdict that was decided by
-  std::optional<double> most_;  ///< admissible harm
+  std::vector<PlanVerdict> judged_;  ///< of the verdict that was decided by
+  std::optional<double> most_;       ///< admissible harm
 };
 
 /// The last picture before what was decided; nullptr: there is none.
@@ -275,11 +275,11 @@ Story::Sentences Story::expected() const {
                                  : "the forecaster drove every plan against draws of what the "
                                    "others may do")};
   if (std::any_of(judged_.begin(), judged_.end(),
-                  [](const Judged& plan) { return plan.harm_as_seen.has_value(); })) {
+                  [](const PlanVerdict& plan) { return plan.harm_as_seen.has_value(); })) {
     told.push_back(fmt::format(
         "Reckoned with was also what is not seen but likelier here than elsewhere: {}.", cues()));
   }
-  for (const Judged& plan : judged_) {
+  for (const PlanVerdict& plan : judged_) {
     told.push_back(
         plan.drivable
             ? fmt::format("{}, {}: expected harm {:.4f}{}, chance of contact {}.", plan.name,
@@ -298,7 +298,7 @@ Story::Sentences Story::admissible() const {
     return {"None could be held against the others."};
   }
   std::string names;
-  for (const Judged& plan : judged_) {
+  for (const PlanVerdict& plan : judged_) {
     names += plan.admissible ? (names.empty() ? "" : ", ") + plan.name : "";
   }
   return {
@@ -372,9 +372,9 @@ std::string Story::considered() const {
     return "No plan could be judged.";
   }
   // Of each policy the plan that harms least; one that may be chosen first.
-  std::vector<const Judged*> best;
-  for (const Judged& plan : judged_) {
-    const auto same = std::find_if(best.begin(), best.end(), [&](const Judged* one) {
+  std::vector<const PlanVerdict*> best;
+  for (const PlanVerdict& plan : judged_) {
+    const auto same = std::find_if(best.begin(), best.end(), [&](const PlanVerdict* one) {
       return one->short_name == plan.short_name;
     });
     if (same == best.end()) {
@@ -385,7 +385,7 @@ std::string Story::considered() const {
   }
   std::string admissible;
   std::string rejected;
-  for (const Judged* const one : best) {
+  for (const PlanVerdict* const one : best) {
     std::string& list = one->admissible ? admissible : rejected;
     list += (list.empty() ? "" : ", ") + one->policy;
     list += one->drivable ? fmt::format(" ({:.4f})", one->harm) : " (cannot be driven)";
@@ -425,7 +425,7 @@ Story::Sentences Story::chosen() const {
   return told;
 }
 
-std::string Story::why_not(const Judged& plan) const {
+std::string Story::why_not(const PlanVerdict& plan) const {
   if (!plan.drivable) {
     return fmt::format("{}: it cannot be driven.", plan.name);
   }
@@ -466,7 +466,7 @@ std::string Story::why_not(const Judged& plan) const {
 
 Story::Sentences Story::not_chosen() const {
   Sentences told;
-  for (const Judged& plan : judged_) {
+  for (const PlanVerdict& plan : judged_) {
     if (!plan.chosen) {
       told.push_back(why_not(plan));
     }

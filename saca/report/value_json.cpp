@@ -153,13 +153,13 @@ ReadUnit read_unit(std::string_view axis_name) {
   return {axis_name == "speed" || axis_name == "v" ? "m/s" : "", 1.0};
 }
 
-std::vector<reach::Axis> shown_axes(const reach::Solved& solved, double course) {
+std::vector<reach::Axis> shown_axes(const reach::Solution& solved, double course) {
   return reach::view_of(solved) == reach::View::ego
              ? reach::axes_in_obstacle_frame(solved.grid, course)
              : solved.grid.axes;
 }
 
-std::string value_json(const reach::Solved& solved, const ValueView& view,
+std::string value_json(const reach::Solution& solved, const ValueView& view,
                        std::size_t most_values) {
   const reach::Grid& grid = solved.grid;
   expects(grid.axes.size() >= 2, "the grid has at least two axes");

@@ -22,7 +22,7 @@ struct ReadUnit {
 /// The coordinates in which a solution is shown: those of its grid; of what was solved as seen from
 /// the ego, x, y, course and speed in the obstacle's frame.
 /// @param course  at which x and y just span what the grid holds [rad]
-[[nodiscard]] std::vector<reach::Axis> shown_axes(const reach::Solved& solved, double course);
+[[nodiscard]] std::vector<reach::Axis> shown_axes(const reach::Solution& solved, double course);
 
 /// What a page shows first.
 struct ValueView {
@@ -39,7 +39,7 @@ constexpr std::size_t most_page_values = 4'200'000;
 /// per value. Snapshots, then points of the longest axes, are left out evenly where there are too
 /// many.
 /// @throws ContractViolation  if the grid has fewer than two axes or there is no such snapshot
-[[nodiscard]] std::string value_json(const reach::Solved& solved, const ValueView& view,
+[[nodiscard]] std::string value_json(const reach::Solution& solved, const ValueView& view,
                                      std::size_t most_values = most_page_values);
 
 }  // namespace saca::report

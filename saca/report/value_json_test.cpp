@@ -18,7 +18,7 @@ using nlohmann::json;
 using reach::Edge;
 using reach::Grid;
 using reach::Snapshots;
-using reach::Solved;
+using reach::Solution;
 
 constexpr double pi = std::numbers::pi;
 
@@ -30,10 +30,11 @@ Grid small_grid() {
        {.name = "speed", .first = 0.0, .last = 30.0, .points = 4}}};
 }
 
-Solved solved_on(const Grid& grid, std::size_t times) {
-  Solved solved{.grid = grid,
-                .problem = "name = \"a\"\n[obstacle]\nshape = \"box\"\nlength_m = 4\nwidth_m = 2\n",
-                .complete = true};
+Solution solved_on(const Grid& grid, std::size_t times) {
+  Solution solved{
+      .grid = grid,
+      .problem = "name = \"a\"\n[obstacle]\nshape = \"box\"\nlength_m = 4\nwidth_m = 2\n",
+      .complete = true};
   Snapshots<float> values;
   for (std::size_t time = 0; time < times; ++time) {
     solved.times.push_back(0.5 * static_cast<double>(time));
@@ -80,7 +81,7 @@ double meant(int byte, const json& page) {
 }
 
 TEST(ValueJson, HoldsEveryValueWithinItsRoundingAndWithItsSign) {
-  const Solved solved = solved_on(small_grid(), 3);
+  const Solution solved = solved_on(small_grid(), 3);
   const json page =
       json::parse(value_json(solved, {.title = "a", .others = {}, .time = 1, .zoom = 2.5}));
   const std::vector<int> bytes = decoded(page["values"]);
@@ -100,7 +101,7 @@ TEST(ValueJson, HoldsEveryValueWithinItsRoundingAndWithItsSign) {
 }
 
 TEST(ValueJson, IsFinestAboutZero) {
-  Solved solved = solved_on(small_grid(), 1);
+  Solution solved = solved_on(small_grid(), 1);
   for (float& value : std::get<0>(solved.values)[0]) {
     value = std::fmod(value, 0.3F);
   }
@@ -117,7 +118,7 @@ TEST(ValueJson, IsFinestAboutZero) {
 TEST(ValueJson, LeavesOutPointsEvenlyButNoEnd) {
   Grid grid = small_grid();
   grid.axes[0].points = 61;
-  const Solved solved = solved_on(grid, 2);
+  const Solution solved = solved_on(grid, 2);
   const json page = json::parse(value_json(solved, {}, 4000));
   std::size_t cells = 1;
   for (std::size_t d = 0; d < 4; ++d) {
@@ -158,7 +159,7 @@ TEST(ValueJson, ReadsAnglesInDegrees) {
 }
 
 TEST(ValueJson, ShowsTheGridsOwnAxes) {
-  const Solved solved = solved_on(small_grid(), 1);
+  const Solution solved = solved_on(small_grid(), 1);
   EXPECT_TRUE(json::parse(value_json(solved, {}))["shown"].is_null());
   EXPECT_EQ(shown_axes(solved, 1.0)[0].first, -9.0);
 }
@@ -168,7 +169,7 @@ TEST(ValueJson, ShowsWhatTheEgoSeesInTheObstaclesFrame) {
   grid.axes[0] = {.name = "ahead", .first = -6.0, .last = 9.0, .points = 9};
   grid.axes[1].name = "left";
   grid.axes[2].name = "turned";
-  Solved solved = solved_on(grid, 1);
+  Solution solved = solved_on(grid, 1);
   solved.problem =
       "schema = \"saca.avoidance/1\"\nname = \"a\"\nseen_from = \"ego\"\nsnapshots_s = [1.0]\n"
       "[car]\ngrip = 0.9\ntightest_curvature_1pm = 0.2\ndrive_share = 0.5\n"
@@ -194,7 +195,7 @@ TEST(ValueJson, ShowsWhatTheEgoSeesInTheObstaclesFrame) {
 }
 
 TEST(ValueJson, RefusesWhatItCannotShow) {
-  const Solved solved = solved_on({{small_grid().axes[3]}}, 1);
+  const Solution solved = solved_on({{small_grid().axes[3]}}, 1);
   EXPECT_THROW((void)value_json(solved, {}), ContractViolation);
   EXPECT_THROW((void)value_json(solved_on(small_grid(), 1), {.title = "", .others = {}, .time = 1}),
                ContractViolation);

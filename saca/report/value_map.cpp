@@ -100,7 +100,7 @@ ValueMap value_map(const reach::ValueAt& value, const MapRange& x, const MapRang
       const Vec2 at = map.middle(column, row);
       state[0] = at.x;
       state[1] = at.y;
-      const reach::Looked looked = value(state);
+      const reach::LookupResult looked = value(state);
       map.values.push_back(static_cast<float>(looked.value));
       map.inside.push_back(looked.inside ? 1 : 0);
     }

@@ -33,7 +33,7 @@ Answer Avoider::step(double now, Clock::Time at) {
   return answer(intake_.carry_on(now), at);
 }
 
-Answer Avoider::answer(const runtime::Taken& taken, Clock::Time at) {
+Answer Avoider::answer(const runtime::IntakeResult& taken, Clock::Time at) {
   Answer answer{.plan = plan(), .degraded = taken.degraded};
   remark_on(taken);
   if (!taken.usable) {
@@ -42,7 +42,7 @@ Answer Avoider::answer(const runtime::Taken& taken, Clock::Time at) {
   const world::Scene& scene = intake_.scene();
   if (taken.new_drive) {
     observer_ = intent::Observer(*setup_.intent);
-    begin_anew(runtime::Forgotten::drive);
+    begin_anew(runtime::Reset::drive);
   }
   const intent::Beliefs& beliefs = observer_.look(scene);
   grip_ = scene.grip;
@@ -64,7 +64,7 @@ Answer Avoider::answer(const runtime::Taken& taken, Clock::Time at) {
   return answer;
 }
 
-void Avoider::remark_on(const runtime::Taken& taken) {
+void Avoider::remark_on(const runtime::IntakeResult& taken) {
   using runtime::Remark;
   const double time = intake_.scene().time;
   if (taken.new_drive && watches_) {
@@ -106,7 +106,7 @@ void Avoider::look_for_the_end(const world::Scene& scene, const Answer& answer) 
 }
 
 void Avoider::end_encounter() {
-  begin_anew(runtime::Forgotten::encounter);
+  begin_anew(runtime::Reset::encounter);
   ++num_encounters_;
   events_.remark(intake_.scene().time, runtime::Remark::encounter_over);
 }
@@ -117,7 +117,7 @@ void Avoider::stand_down() {
   }
 }
 
-void Avoider::begin_anew(runtime::Forgotten forgotten) {
+void Avoider::begin_anew(runtime::Reset forgotten) {
   planes_.begin_anew(forgotten);
   execution_.reset();
   quiet_.reset();

@@ -116,10 +116,10 @@ class Avoider {
   std::string finish() { return planes_.finish(); }
 
  private:
-  [[nodiscard]] Answer answer(const runtime::Taken& taken, Clock::Time at);
-  void remark_on(const runtime::Taken& taken);
+  [[nodiscard]] Answer answer(const runtime::IntakeResult& taken, Clock::Time at);
+  void remark_on(const runtime::IntakeResult& taken);
   void begin(const manoeuvre::Plan& plan, const world::Scene& scene);
-  void begin_anew(runtime::Forgotten forgotten);
+  void begin_anew(runtime::Reset forgotten);
   void look_for_the_end(const world::Scene& scene, const Answer& answer);
   void end_encounter();
 

@@ -34,7 +34,7 @@ EventLog::EventLog(std::size_t capacity) : notices_(capacity), thoughts_(capacit
 
 void EventLog::triggered(const decide::Decision& decision, const world::Actor& by,
                          double left) noexcept {
-  notices_.push({decision.time, Triggered{decision, by, left}});
+  notices_.push({decision.time, TriggerEntry{decision, by, left}});
 }
 
 void EventLog::switched(double time, const decide::Switch& change) noexcept {
@@ -79,7 +79,7 @@ void EventLog::add_events_of(const Notice& notice) {
   } else if (const auto* const change = std::get_if<decide::Switch>(&notice.what)) {
     add(EventKind::switched, fmt::format("{}: {}", name(change->reason), switch_text(*change)));
   } else {
-    const auto& trigger = std::get<Triggered>(notice.what);
+    const auto& trigger = std::get<TriggerEntry>(notice.what);
     add(EventKind::trigger,
         decide::trigger_text(trigger.by, trigger.left, trigger.decision.waiting_cost));
     add(trigger.decision.refused ? EventKind::fault : EventKind::match,

@@ -51,14 +51,14 @@ class EventLog {
   [[nodiscard]] std::optional<decide::Event> next();
 
  private:
-  struct Triggered {
+  struct TriggerEntry {
     decide::Decision decision;
     world::Actor by;
     double left = 0.0;  ///< [s]
   };
   struct Notice {
     double time = 0.0;  ///< [s]
-    std::variant<Remark, Triggered, decide::Switch> what;
+    std::variant<Remark, TriggerEntry, decide::Switch> what;
   };
   static_assert(std::is_trivially_copyable_v<Notice>);
 

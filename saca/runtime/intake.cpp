@@ -53,7 +53,7 @@ EgoState moved_on(EgoState ego, double dt) {
 
 }  // namespace
 
-Taken Intake::take(const Scene& scene) noexcept {
+IntakeResult Intake::take(const Scene& scene) noexcept {
   Scene frame = scene;
   frame.time = 0.0;
   frame.actors.clear();
@@ -61,7 +61,7 @@ Taken Intake::take(const Scene& scene) noexcept {
   if (!has_time || world::broken_rule(frame)) {
     return carry_on(has_time ? scene.time : began_ + delivered_);
   }
-  Taken taken{.usable = true};
+  IntakeResult taken{.usable = true};
   frame.time = scene.time - began_;
   taken.new_drive =
       !seen_at_ || std::abs(frame.time - delivered_) > longest_gap || frame.time > longest_drive;
@@ -94,7 +94,7 @@ Taken Intake::take(const Scene& scene) noexcept {
   return taken;
 }
 
-Taken Intake::carry_on(double now) noexcept {
+IntakeResult Intake::carry_on(double now) noexcept {
   const double time = now - began_;
   const bool follows = time >= scene_.time && seen_at_ && time <= *seen_at_ + longest_carried;
   if (!follows) {

@@ -7,7 +7,7 @@
 namespace saca::runtime {
 
 /// What an intake made of what came.
-struct Taken {
+struct IntakeResult {
   bool usable = false;     ///< `Intake::scene()` can be decided by
   bool degraded = false;   ///< somebody or everything in it is carried on instead of seen
   bool new_drive = false;  ///< the first scene, or time jumped: what was known says nothing
@@ -33,9 +33,9 @@ class Intake {
   static constexpr double latest = 1e10;          ///< no scene has a later time, or is older [s]
 
   /// A scene came.
-  Taken take(const world::Scene& scene) noexcept;
+  IntakeResult take(const world::Scene& scene) noexcept;
   /// None came until `now` [s], in the scenes' time.
-  Taken carry_on(double now) noexcept;
+  IntakeResult carry_on(double now) noexcept;
 
   /// When this drive began [s], in perception's time.
   [[nodiscard]] double began() const noexcept { return began_; }

@@ -37,7 +37,7 @@ const Actor& named(const Scene& scene, std::uint8_t id) {
 
 TEST(Intake, LeavesAGoodSceneAsItIs) {
   Intake intake;
-  const Taken taken = intake.take(road_at(1.0));
+  const IntakeResult taken = intake.take(road_at(1.0));
   EXPECT_TRUE(taken.usable);
   EXPECT_TRUE(taken.new_drive);
   EXPECT_FALSE(taken.degraded);
@@ -52,7 +52,7 @@ TEST(Intake, DropsWhoBreaksARuleAndCarriesItOn) {
   (void)intake.take(road_at(1.0));
   Scene broken = road_at(1.1);
   broken.actors[0].v_W.x = nan;
-  const Taken taken = intake.take(broken);
+  const IntakeResult taken = intake.take(broken);
   EXPECT_TRUE(taken.usable);
   EXPECT_TRUE(taken.degraded);
   EXPECT_FALSE(world::broken_rule(intake.scene()));
@@ -89,7 +89,7 @@ TEST(Intake, OfTwoOfOneNameTheFirstCounts) {
   Intake intake;
   Scene twice = road_at(0.0);
   twice.actors[1].id = 1;
-  const Taken taken = intake.take(twice);
+  const IntakeResult taken = intake.take(twice);
   EXPECT_TRUE(taken.usable);
   EXPECT_TRUE(taken.degraded);
   ASSERT_EQ(intake.scene().actors.size(), 1U);
@@ -104,7 +104,7 @@ TEST(Intake, AStreamThatStallsIsCarriedOnAsEverybodyMoves) {
   braking.ego.a_B.x = -5.0;
   (void)intake.take(braking);
   for (int k = 1; k <= 40; ++k) {
-    const Taken taken = intake.carry_on(2.0 + 0.01 * k);
+    const IntakeResult taken = intake.carry_on(2.0 + 0.01 * k);
     EXPECT_TRUE(taken.usable && taken.degraded);
   }
   const Scene& scene = intake.scene();
@@ -132,7 +132,7 @@ TEST(Intake, AnEgoThatBreaksARuleIsCarriedOn) {
   (void)intake.take(road_at(0.0));
   Scene broken = road_at(0.1);
   broken.ego.v_B.x = infinity;
-  const Taken taken = intake.take(broken);
+  const IntakeResult taken = intake.take(broken);
   EXPECT_TRUE(taken.usable && taken.degraded);
   EXPECT_NEAR(intake.scene().ego.X_WB.p.x, 2.0, 1e-9);
 }
@@ -149,7 +149,7 @@ TEST(Intake, TimeThatJumpsBeginsANewDrive) {
 TEST(Intake, ASceneThatComesLateIsLeftAside) {
   Intake intake;
   (void)intake.take(road_at(10.0));
-  const Taken late = intake.take(road_at(9.9));
+  const IntakeResult late = intake.take(road_at(9.9));
   EXPECT_FALSE(late.usable);
   EXPECT_FALSE(late.new_drive);
   EXPECT_EQ(intake.scene().time, 0.0);
@@ -166,8 +166,8 @@ TEST(Intake, WhateverTheClockCountsFrom) {
     Scene there = road_at(time);
     there.time += day;
     const bool comes = k < 100 || k > 140;
-    const Taken a = comes ? near.take(road_at(time)) : near.carry_on(time);
-    const Taken b = comes ? far.take(there) : far.carry_on(day + time);
+    const IntakeResult a = comes ? near.take(road_at(time)) : near.carry_on(time);
+    const IntakeResult b = comes ? far.take(there) : far.carry_on(day + time);
     ASSERT_TRUE(a.usable && b.usable) << k;
     EXPECT_EQ(a.new_drive, b.new_drive) << k;
     EXPECT_NEAR(near.scene().time, far.scene().time, 1e-6) << k;
@@ -181,7 +181,7 @@ TEST(Intake, TimeThatNobodyCountsIsNoTime) {
   (void)intake.take(road_at(0.0));
   Scene absurd = road_at(0.1);
   absurd.time = 1e12;  // milliseconds since 1970
-  const Taken taken = intake.take(absurd);
+  const IntakeResult taken = intake.take(absurd);
   EXPECT_FALSE(taken.new_drive) << "what is under way goes on";
   EXPECT_TRUE(taken.degraded);
   EXPECT_EQ(intake.scene().time, 0.0);

@@ -101,7 +101,7 @@ decide::ThinkingOutput Planes::output() {
 
 void Planes::begin_entry(const world::Scene& scene, const intent::Beliefs& beliefs) {
   entry_->number = num_scenes_++;
-  entry_->forgotten = std::exchange(forgotten_, Forgotten::nothing);
+  entry_->forgotten = std::exchange(forgotten_, Reset::nothing);
   if (tape_.records()) {
     entry_->scene = scene;
     entry_->beliefs = beliefs;
@@ -174,13 +174,13 @@ void Planes::hand_over(const world::Scene& scene, bool finished) {
   }
 }
 
-void Planes::begin_anew(Forgotten forgotten) {
+void Planes::begin_anew(Reset forgotten) {
   forgotten_ = std::max(forgotten_, forgotten);
   ++encounter_;
   first_scene_ = num_scenes_;
   threatened_ = false;
   reflex_.begin_anew();
-  if (forgotten == Forgotten::drive) {
+  if (forgotten == Reset::drive) {
     charged_forecasts_.begin_anew();
     charged_.begin_anew();
   } else {

@@ -102,7 +102,7 @@ class Planes {
   /// at its next scene. Waits for nobody.
   /// @param forgotten  whether the drive is over, too: who observes the road users begins anew, and
   ///                   time jumps
-  void begin_anew(Forgotten forgotten = Forgotten::encounter);
+  void begin_anew(Reset forgotten = Reset::encounter);
 
   /// The encounter under way, counted.
   [[nodiscard]] std::uint32_t encounter() const { return encounter_; }
@@ -158,7 +158,7 @@ class Planes {
   Tape tape_;
   std::unique_ptr<TapeStep> entry_ = std::make_unique<TapeStep>();  ///< the newest
   std::uint64_t num_scenes_ = 0;
-  Forgotten forgotten_ = Forgotten::drive;  ///< before the next step
+  Reset forgotten_ = Reset::drive;  ///< before the next step
   std::uint32_t encounter_ = 0;
   std::uint64_t first_scene_ = 0;  ///< of the encounter under way
   bool threatened_ = false;        ///< somebody has, in this encounter; in lockstep

@@ -332,7 +332,7 @@ TEST_F(PlanesTest, ANewDriveIsThoughtAboutAsTheFirst) {
   const decide::Decision first = met(planes, 600.0);
   EXPECT_EQ(first.source, decide::Source::model);
   ASSERT_TRUE(first.verdict.has_value());
-  planes.begin_anew(Forgotten::drive);
+  planes.begin_anew(Reset::drive);
   const decide::Decision second = met(planes);
   EXPECT_EQ(second.source, decide::Source::model);
   ASSERT_TRUE(second.verdict.has_value());

@@ -225,7 +225,7 @@ void read_beliefs(JsonReader& from, intent::Beliefs& beliefs) {
 TapeStep read_step(JsonReader& from) {
   TapeStep step;
   step.number = from.integer("number");
-  step.forgotten = from.word("forgotten", named<Forgotten, 3>, "nothing, encounter or drive");
+  step.forgotten = from.word("forgotten", named<Reset, 3>, "nothing, encounter or drive");
   const bool usable = from.has_value("scene");
   if (usable) {
     const auto scene = memory::scene_from_json(from.any("scene"));

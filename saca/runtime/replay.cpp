@@ -49,7 +49,7 @@ class Player {
   void judge(const TapeStep& step);
   void answer(const TapeStep& step);
   void compare(const TapeStep& step, const char* what, const json& recorded, const json& got,
-               Reproduced& of);
+               Reproduction& of);
 
   const TapeContent& tape_;
   const intent::Model& intent_;
@@ -69,7 +69,7 @@ Replay Player::play() {
     reflex_.receive(*tape_.verdict);
   }
   for (const TapeStep& step : tape_.steps) {
-    if (step.forgotten != Forgotten::nothing) {
+    if (step.forgotten != Reset::nothing) {
       reflex_.begin_anew();
       under_way_.reset();
     }
@@ -86,7 +86,7 @@ Replay Player::play() {
 
 void Player::observe(const TapeStep& step) {
   const bool follows = last_ && *last_ + 1 == step.number;
-  if (step.forgotten == Forgotten::drive) {
+  if (step.forgotten == Reset::drive) {
     observer_ = intent::Observer(intent_);
     is_observed_ = true;
   } else if (!follows) {
@@ -152,7 +152,7 @@ void Player::answer(const TapeStep& step) {
 }
 
 void Player::compare(const TapeStep& step, const char* what, const json& recorded, const json& got,
-                     Reproduced& of) {
+                     Reproduction& of) {
   ++of.recorded;
   // By their texts, in which numbers have all their digits: -0 and 0 are not the same.
   if (recorded.dump() == got.dump()) {

@@ -12,7 +12,7 @@
 namespace saca::runtime {
 
 /// How many results of one kind stand on a tape, and how many of them came back to the last bit.
-struct Reproduced {
+struct Reproduction {
   std::size_t recorded = 0;
   std::size_t same = 0;
 };
@@ -28,11 +28,11 @@ struct Difference {
 
 /// What came of a replay.
 struct Replay {
-  Reproduced beliefs;                     ///< of all road users of one scene
-  Reproduced verdicts;                    ///< handed over to the reflex plane
-  Reproduced answers;                     ///< of the reflex plane: plan, threat, trigger
-  Reproduced decisions;                   ///< at triggers
-  Reproduced switches;                    ///< from one plan to another
+  Reproduction beliefs;                   ///< of all road users of one scene
+  Reproduction verdicts;                  ///< handed over to the reflex plane
+  Reproduction answers;                   ///< of the reflex plane: plan, threat, trigger
+  Reproduction decisions;                 ///< at triggers
+  Reproduction switches;                  ///< from one plan to another
   std::size_t beliefs_not_compared = 0;   ///< the tape does not reach back to where they come from
   std::size_t verdicts_not_compared = 0;  ///< the scene that was judged is not on the tape
   std::optional<Difference> first;        ///< nullopt: everything is the same

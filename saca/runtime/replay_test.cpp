@@ -15,7 +15,7 @@ using testing::StartsWith;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-void expect_all(const Reproduced& of, std::size_t least) {
+void expect_all(const Reproduction& of, std::size_t least) {
   EXPECT_GE(of.recorded, least);
   EXPECT_EQ(of.same, of.recorded);
 }

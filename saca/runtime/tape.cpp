@@ -114,7 +114,7 @@ void pass(Packing& packing, Step& step) {
 
 }  // namespace
 
-std::string_view name(Forgotten forgotten) {
+std::string_view name(Reset forgotten) {
   return name_of(forgotten, forgotten_names);
 }
 
@@ -135,7 +135,7 @@ void Tape::add(const TapeStep& step) noexcept {
   if (!records()) {
     return;
   }
-  if (step.forgotten != Forgotten::nothing) {
+  if (step.forgotten != Reset::nothing) {
     newest_begin_ = step.number;
     stopped_ = false;
   }
@@ -201,7 +201,7 @@ bool Tape::make_room(std::size_t size) noexcept {
     drop_oldest();
     while (decides && used_ > 0) {
       unpack_at(first_, *oldest_);
-      if (oldest_->forgotten != Forgotten::nothing) {
+      if (oldest_->forgotten != Reset::nothing) {
         break;
       }
       drop_oldest();
@@ -211,7 +211,7 @@ bool Tape::make_room(std::size_t size) noexcept {
 }
 
 void Tape::drop_oldest() noexcept {
-  if (oldest_->forgotten != Forgotten::nothing) {
+  if (oldest_->forgotten != Reset::nothing) {
     before_.plans.clear();
     before_.verdict.reset();
   }

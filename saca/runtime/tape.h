@@ -17,23 +17,23 @@
 namespace saca::runtime {
 
 /// What is forgotten before a step.
-enum class Forgotten : std::uint8_t {
+enum class Reset : std::uint8_t {
   nothing,
   encounter,  ///< decision, plans and verdicts
   drive,      ///< also what was observed of the road users
 };
-[[nodiscard]] std::string_view name(Forgotten forgotten);
+[[nodiscard]] std::string_view name(Reset forgotten);
 
 /// One instant of a drive: what went into the planes, and what came out.
 struct TapeStep {
-  std::uint64_t number = 0;  ///< of the scene, counted from the first of the drive on
-  Forgotten forgotten = Forgotten::nothing;  ///< before this step
-  world::Scene scene;                        ///< as it was perceived
-  intent::Beliefs beliefs;                   ///< one per actor
-  bool finished = false;                     ///< what was carried out had reached its safe end
-  std::optional<decide::PlanCache> plans;    ///< of the thinking plane, handed over in this step
-  std::optional<NumberedVerdict> verdict;    ///< of the forecaster, likewise
-  decide::Reflex reflex;                     ///< what the reflex plane answered
+  std::uint64_t number = 0;                ///< of the scene, counted from the first of the drive on
+  Reset forgotten = Reset::nothing;        ///< before this step
+  world::Scene scene;                      ///< as it was perceived
+  intent::Beliefs beliefs;                 ///< one per actor
+  bool finished = false;                   ///< what was carried out had reached its safe end
+  std::optional<decide::PlanCache> plans;  ///< of the thinking plane, handed over in this step
+  std::optional<NumberedVerdict> verdict;  ///< of the forecaster, likewise
+  decide::Reflex reflex;                   ///< what the reflex plane answered
   std::optional<decide::Decision> decision;  ///< where it was triggered in this step
 };
 

@@ -134,7 +134,7 @@ TEST(Tape, TheNextEncounterTakesTheRoomOfTheLastOne) {
   Tape tape(20 * Tape::step_size(2));
   for (std::uint64_t k = 0; k < 200; ++k) {
     TapeStep step = k == 5 || k == 103 ? triggered(full_step(k, 2)) : full_step(k, 2);
-    step.forgotten = k == 100 ? Forgotten::encounter : Forgotten::nothing;
+    step.forgotten = k == 100 ? Reset::encounter : Reset::nothing;
     tape.add(step);
   }
   const TapeContent content = tape.content();

@@ -213,7 +213,7 @@ HundredCarRefusal no_lead(const HundredCarRequest& request, const std::string& w
 }
 
 /// The scenario's rows, and the ego's motion along the lane that fits the time before the conflict.
-struct LaneFound {
+struct LaneBeforeEvent {
   RowRange window;
   RowRange kept;
   EgoMotion ego;
@@ -221,7 +221,7 @@ struct LaneFound {
 
 /// Tries the longest time before the conflict first. Where the car's body does not stay in a lane
 /// for so long, it came from elsewhere, and the scenario begins later.
-std::variant<LaneFound, HundredCarRefusal> lane_before(
+std::variant<LaneBeforeEvent, HundredCarRefusal> lane_before(
     const std::vector<traffic::HundredCarRow>& rows, const traffic::HundredCarEvent& event,
     const HundredCarRequest& request, const RowRange& window) {
   const std::size_t conflict = std::min(row_at(rows, event.start_sync), window.last);
@@ -240,7 +240,7 @@ std::variant<LaneFound, HundredCarRefusal> lane_before(
     const RowRange part{std::max(window.first, kept.first), window.last};
     std::optional<EgoMotion> ego = ego_motion(rows, kept, part, curved);
     if (ego && ego->largest_offset <= body_in_lane) {
-      return LaneFound{part, kept, *std::move(ego)};
+      return LaneBeforeEvent{part, kept, *std::move(ego)};
     }
     offset = ego ? ego->largest_offset : offset;
   }
@@ -258,7 +258,8 @@ std::variant<LaneFound, HundredCarRefusal> lane_before(
 /// All bodies and words of the scenario.
 HundredCarImport assembled(const std::vector<traffic::HundredCarRow>& rows,
                            const traffic::HundredCarEvent& event, const HundredCarRequest& request,
-                           const traffic::RadarTrack& lead, const LaneFound& found, int num_right) {
+                           const traffic::RadarTrack& lead, const LaneBeforeEvent& found,
+                           int num_right) {
   const RowRange& window = found.window;
   const EgoMotion& ego = found.ego;
   HundredCarImport made;
@@ -309,7 +310,7 @@ Attempt attempt(const RowRange& window, int num_right,
   if (const auto* problem = std::get_if<HundredCarRefusal>(&lane)) {
     return {*problem};
   }
-  const auto& found = std::get<LaneFound>(lane);
+  const auto& found = std::get<LaneBeforeEvent>(lane);
   if (!overlap_for(lead, found.window, fewest_lead_rows)) {
     return {no_lead(request, "one seen for less than 2 s while the lane is kept and after")};
   }

@@ -31,12 +31,12 @@ std::string shown_name(const fs::path& file) {
   return name;
 }
 
-void refuse(const Error& error, Packed& packed) {
+void refuse(const Error& error, PackResult& packed) {
   ++packed.set.skipped["file or event: cannot be read"];
   packed.refused.push_back(error.message);
 }
 
-void keep(Recording recording, Packed& packed) {
+void keep(Recording recording, PackResult& packed) {
   if (recording.vehicles.empty()) {
     ++packed.set.skipped["file or event: no vehicle with enough samples"];
     return;
@@ -44,7 +44,7 @@ void keep(Recording recording, Packed& packed) {
   packed.set.recordings.push_back(std::move(recording));
 }
 
-void pack_map(const fs::path& path, Packed& packed) {
+void pack_map(const fs::path& path, PackResult& packed) {
   const Result<std::string> text = read_file(path, many_bytes);
   if (!text.has_value()) {
     refuse(text.error(), packed);
@@ -64,9 +64,9 @@ void pack_map(const fs::path& path, Packed& packed) {
 
 /// Hands each file on; what there is then.
 template <class PackFile>
-Result<Packed> pack_each(const std::vector<fs::path>& files, const PackProgress& progress,
-                         const PackFile& pack_file) {
-  Packed packed;
+Result<PackResult> pack_each(const std::vector<fs::path>& files, const PackProgress& progress,
+                             const PackFile& pack_file) {
+  PackResult packed;
   for (std::size_t k = 0; k < files.size(); ++k) {
     pack_file(files[k], packed);
     if (progress && !progress(k + 1, files.size())) {
@@ -83,7 +83,7 @@ Result<Packed> pack_each(const std::vector<fs::path>& files, const PackProgress&
 }
 
 void pack_event(const fs::path& path, std::string_view rows_text, const fs::path& table_path,
-                std::string_view table, Packed& packed) {
+                std::string_view table, PackResult& packed) {
   const std::string_view field = trimmed(rows_text.substr(0, rows_text.find_first_of(",\r\n")));
   if (field.empty()) {  // an empty line
     return;
@@ -134,18 +134,20 @@ Result<std::vector<fs::path>> files_in(const std::vector<fs::path>& places,
   return files;
 }
 
-Result<Packed> pack_commonroad(const std::vector<fs::path>& files, const PackProgress& progress) {
-  Result<Packed> made = pack_each(files, progress, pack_map);
+Result<PackResult> pack_commonroad(const std::vector<fs::path>& files,
+                                   const PackProgress& progress) {
+  Result<PackResult> made = pack_each(files, progress, pack_map);
   if (!made.has_value()) {
     return made.error();
   }
-  Packed packed = std::move(made).value();
+  PackResult packed = std::move(made).value();
   name_groups(packed.set);
   packed.repeats = drop_repeats(packed.set);
   return packed;
 }
 
-Result<Packed> pack_hundred_car(const std::vector<fs::path>& files, const PackProgress& progress) {
+Result<PackResult> pack_hundred_car(const std::vector<fs::path>& files,
+                                    const PackProgress& progress) {
   const auto table = std::find_if(files.begin(), files.end(), [](const fs::path& path) {
     return path.filename() == hundred_car_table;
   });
@@ -162,7 +164,7 @@ Result<Packed> pack_hundred_car(const std::vector<fs::path>& files, const PackPr
   std::copy_if(files.begin(), files.end(), std::back_inserter(series), [](const fs::path& path) {
     return is_hundred_car_series(path.filename().string());
   });
-  return pack_each(series, progress, [&](const fs::path& path, Packed& packed) {
+  return pack_each(series, progress, [&](const fs::path& path, PackResult& packed) {
     const Result<std::string> bytes = read_file(path, many_bytes);
     if (!bytes.has_value()) {
       refuse(bytes.error(), packed);
@@ -174,7 +176,7 @@ Result<Packed> pack_hundred_car(const std::vector<fs::path>& files, const PackPr
   });
 }
 
-Result<Packed> pack_ngsim(const std::vector<fs::path>& files, const PackProgress& progress) {
+Result<PackResult> pack_ngsim(const std::vector<fs::path>& files, const PackProgress& progress) {
   NgsimTable table;
   for (std::size_t k = 0; k < files.size(); ++k) {
     NgsimReader reader(files[k].string(), table);
@@ -189,7 +191,7 @@ Result<Packed> pack_ngsim(const std::vector<fs::path>& files, const PackProgress
       return Error{Error::Code::too_late, "stopped"};
     }
   }
-  Packed packed;
+  PackResult packed;
   packed.set = set_of_ngsim(table, files.size() == 1 ? shown_name(files[0]) : "files");
   if (packed.set.recordings.empty()) {
     return Error{Error::Code::malformed, "want recorded vehicles of freeways, got none in " +

@@ -16,7 +16,7 @@ namespace saca::traffic {
 using PackProgress = std::function<bool(std::size_t done, std::size_t all)>;
 
 /// A set, and what could not go into it.
-struct Packed {
+struct PackResult {
   RecordedSet set;
   std::vector<std::string> refused;  ///< messages of files that no reader takes, one line each
   Repeats repeats;
@@ -32,21 +32,21 @@ struct Packed {
 /// files that cannot be read are counted in `skipped`; the latter are told in `refused`.
 ///
 /// @return  Error::Code::malformed when no file gave a vehicle, Error::Code::too_late when stopped
-[[nodiscard]] Result<Packed> pack_commonroad(const std::vector<std::filesystem::path>& files,
-                                             const PackProgress& progress);
+[[nodiscard]] Result<PackResult> pack_commonroad(const std::vector<std::filesystem::path>& files,
+                                                 const PackProgress& progress);
 
 /// Events of the 100-Car study as a set, the car of each (hundred_car_set.h).
 /// @param files  of the release: the table of events (100CarEventVideoReducedData_v1_5.txt) and the
 ///               series (HundredCar_*.txt), one event's or many events' rows; others are passed
 ///               over
 /// @return       as above; Error::Code::malformed also without a table
-[[nodiscard]] Result<Packed> pack_hundred_car(const std::vector<std::filesystem::path>& files,
-                                              const PackProgress& progress);
+[[nodiscard]] Result<PackResult> pack_hundred_car(const std::vector<std::filesystem::path>& files,
+                                                  const PackProgress& progress);
 
 /// NGSIM's own files as a set (ngsim_csv.h, ngsim_set.h); what several files hold of one recording
 /// goes together.
 /// @return  as above; also the first error of a file: who packs a gigabyte wants it whole
-[[nodiscard]] Result<Packed> pack_ngsim(const std::vector<std::filesystem::path>& files,
-                                        const PackProgress& progress);
+[[nodiscard]] Result<PackResult> pack_ngsim(const std::vector<std::filesystem::path>& files,
+                                            const PackProgress& progress);
 
 }  // namespace saca::traffic

@@ -63,7 +63,7 @@ class Pack : public ::testing::Test {
   void put(const std::string& name, const std::string& text) const {
     ASSERT_EQ(write_file(folder_ / name, text), std::nullopt);
   }
-  [[nodiscard]] Result<Packed> packed() const {
+  [[nodiscard]] Result<PackResult> packed() const {
     return pack_commonroad(files_in({folder_}, ".xml").value(), {});
   }
 

@@ -17,7 +17,7 @@ constexpr double longest_body = 25.0;     // [m]: how far beyond the reach a lea
 constexpr double remembered_place = 1.0;  // [s] on no lane
 
 /// One state of an obstacle in the lanes.
-struct Sighted {
+struct LaneState {
   Pose X_WA;
   std::optional<LanePlace> place;
   int lane_step = 0;
@@ -25,20 +25,20 @@ struct Sighted {
 };
 
 /// An obstacle's states in the lanes, and who was there at the same time.
-struct Followed {
+struct ObstacleHistory {
   const Obstacle* obstacle = nullptr;
-  std::vector<Sighted> states;
+  std::vector<LaneState> states;
 };
 
-Followed followed_in(const LaneMap& lanes, const Obstacle& obstacle, double step) {
-  Followed made{&obstacle, {}};
+ObstacleHistory followed_in(const LaneMap& lanes, const Obstacle& obstacle, double step) {
+  ObstacleHistory made{&obstacle, {}};
   std::optional<LanePlace> last;
   std::int64_t seen_last = 0;
   for (const ObstacleState& state : obstacle.states) {
     if (static_cast<double>(state.step - seen_last) * step > remembered_place) {
       last.reset();
     }
-    Sighted sighted{state.X_WO * obstacle.X_OA, {}, 0, {}};
+    LaneState sighted{state.X_WO * obstacle.X_OA, {}, 0, {}};
     const LaneSighting now = lanes.follow(last, sighted.X_WA);
     sighted.place = now.place;
     sighted.lane_step = now.lane_step;
@@ -55,7 +55,7 @@ Followed followed_in(const LaneMap& lanes, const Obstacle& obstacle, double step
 /// Who is there at a step: index of the obstacle, and of its state.
 using Present = std::vector<std::pair<std::size_t, std::size_t>>;
 
-std::map<std::int64_t, Present> present_at_steps(const std::vector<Followed>& all) {
+std::map<std::int64_t, Present> present_at_steps(const std::vector<ObstacleHistory>& all) {
   std::map<std::int64_t, Present> steps;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const std::vector<ObstacleState>& states = all[i].obstacle->states;
@@ -67,7 +67,7 @@ std::map<std::int64_t, Present> present_at_steps(const std::vector<Followed>& al
 }
 
 /// Way from the lane's beginning to a body's centre, if it is on that lane ahead.
-std::optional<double> way_to(const Sighted& other, const LaneMap::Way& way) {
+std::optional<double> way_to(const LaneState& other, const LaneMap::Way& way) {
   std::optional<double> nearest;
   for (const LanePlace& held : other.held_by) {
     for (const LaneMap::Ahead& ahead : way.lanelets) {
@@ -80,7 +80,7 @@ std::optional<double> way_to(const Sighted& other, const LaneMap::Way& way) {
   return nearest;
 }
 
-void set_lead(const LaneMap& lanes, const std::vector<Followed>& all, const Present& present,
+void set_lead(const LaneMap& lanes, const std::vector<ObstacleHistory>& all, const Present& present,
               std::size_t self, const LanePlace& place, Sample& sample) {
   const LaneMap::Way way = lanes.way_ahead(place, lead_reach + longest_body);
   const double half = 0.5 * all[self].obstacle->footprint.length;
@@ -100,7 +100,7 @@ void set_lead(const LaneMap& lanes, const std::vector<Followed>& all, const Pres
   }
 }
 
-Sample sample_of(const LaneMap& lanes, const Sighted& sighted, double speed) {
+Sample sample_of(const LaneMap& lanes, const LaneState& sighted, double speed) {
   Sample sample;
   sample.X_WA = sighted.X_WA;
   sample.speed = speed;
@@ -162,7 +162,7 @@ std::string site_of(std::string_view benchmark) {
 Recording recording_of_map(const CommonRoad& file, std::string name,
                            std::map<std::string, std::size_t>& skipped) {
   const LaneMap lanes(file);
-  std::vector<Followed> all;
+  std::vector<ObstacleHistory> all;
   for (const Obstacle& obstacle : file.obstacles) {
     if (obstacle.dynamic) {
       all.push_back(followed_in(lanes, obstacle, file.time_step));
@@ -176,7 +176,7 @@ Recording recording_of_map(const CommonRoad& file, std::string name,
     const Obstacle& obstacle = *all[i].obstacle;
     std::vector<Sample> samples;
     for (std::size_t k = 0; k < all[i].states.size(); ++k) {
-      const Sighted& sighted = all[i].states[k];
+      const LaneState& sighted = all[i].states[k];
       samples.push_back(sample_of(lanes, sighted, obstacle.states[k].speed));
       if (sighted.place) {
         set_lead(lanes, all, present.at(obstacle.states[k].step), i, *sighted.place,

@@ -18,10 +18,10 @@ std::pair<std::size_t, std::size_t> around(std::size_t i, std::size_t half, std:
 
 }  // namespace
 
-Filled filled(const std::vector<double>& series) {
+FilledSeries filled(const std::vector<double>& series) {
   const auto seen = [](double value) { return !std::isnan(value); };
   expects(std::any_of(series.begin(), series.end(), seen), "not all values are missing");
-  Filled result{series, 0};
+  FilledSeries result{series, 0};
   std::optional<std::size_t> last;
   for (std::size_t i = 0; i < series.size(); ++i) {
     if (!seen(series[i])) {

@@ -13,7 +13,7 @@ namespace saca::traffic {
 /// A value that is missing.
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
-struct Filled {
+struct FilledSeries {
   std::vector<double> values;  ///< none missing
   std::size_t num_filled = 0;  ///< how many were missing
 };
@@ -21,7 +21,7 @@ struct Filled {
 /// Missing values on the straight line between their neighbours; before the first and after the
 /// last one seen, that one.
 /// @throws ContractViolation  if all are missing
-[[nodiscard]] Filled filled(const std::vector<double>& series);
+[[nodiscard]] FilledSeries filled(const std::vector<double>& series);
 
 /// Removes (makes NaN) each value farther than `bound` from what its neighbours within `half` steps
 /// predict: the median of their values, each moved along its own measured slope.

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-TEST(Filled, DrawsStraightLinesAcrossGapsAndHoldsTheEnds) {
-  const Filled result = filled({none, 2.0, none, none, 5.0, none});
+TEST(FilledSeries, DrawsStraightLinesAcrossGapsAndHoldsTheEnds) {
+  const FilledSeries result = filled({none, 2.0, none, none, 5.0, none});
   EXPECT_EQ(result.values, (std::vector<double>{2.0, 2.0, 3.0, 4.0, 5.0, 5.0}));
   EXPECT_EQ(result.num_filled, 4U);
   EXPECT_THROW((void)filled({none, none}), ContractViolation);

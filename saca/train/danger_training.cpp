@@ -141,13 +141,13 @@ struct Losses {
 };
 
 /// What changes during a training.
-struct Annealed {
+struct StepSettings {
   double expectile;
   double discount;
   double step;
 };
 
-Annealed annealed(const DangerPlan& plan, int step) {
+StepSettings annealed(const DangerPlan& plan, int step) {
   const double done = static_cast<double>(step) / plan.steps;
   const double share = std::min(1.0, done / plan.annealed);
   const auto towards = [&](double first, double last) { return first + share * (last - first); };
@@ -179,7 +179,7 @@ Tensor squared(const Tensor& off) {
 }
 
 /// What networks say of a sample; but for `v` and `q` without slopes.
-struct Said {
+struct NetworkValues {
   Tensor v;                 ///< (B), like all
   std::array<Tensor, 2> q;  ///< of what was done
   Tensor slow_q;            ///< of two the larger
@@ -188,19 +188,19 @@ struct Said {
 };
 
 /// Of both Q from what they are to be.
-Tensor q_loss(const Said& said, const Tensor& target, const Tensor& weight) {
+Tensor q_loss(const NetworkValues& said, const Tensor& target, const Tensor& weight) {
   const auto of = [&](const Tensor& q) { return (weight * squared(q - target)).mean(); };
   return of(said.q[0]) + of(said.q[1]);
 }
 
 /// What the curve tells of V.
-DangerProgress told_of_v(const Said& said, const Sample& sample) {
+DangerProgress told_of_v(const NetworkValues& said, const Sample& sample) {
   const torch::NoGradGuard none;
   return {.mean_v = mean_that_matters(said.v),
           .above = (said.v > sample.reached + 0.2).to(torch::kFloat32).mean().item<double>()};
 }
 
-Losses losses_of(const Said& said, const Sample& sample, const Annealed& now) {
+Losses losses_of(const NetworkValues& said, const Sample& sample, const StepSettings& now) {
   Tensor target_q;
   Tensor slow_q;
   {
@@ -224,11 +224,11 @@ Losses losses_of(const Said& said, const Sample& sample, const Annealed& now) {
 }
 
 /// Of one obstacle.
-Said said_by(DangerNets& nets, const Sample& sample) {
+NetworkValues said_by(DangerNets& nets, const Sample& sample) {
   const Tensor with_action = torch::cat({sample.inputs, sample.actions}, 1);
-  Said said{.v = nets->v(sample.inputs, sample.h_at),
-            .q = {nets->q1(with_action, sample.h_at), nets->q2(with_action, sample.h_at)},
-            .next_h = sample.next_h_at};
+  NetworkValues said{.v = nets->v(sample.inputs, sample.h_at),
+                     .q = {nets->q1(with_action, sample.h_at), nets->q2(with_action, sample.h_at)},
+                     .next_h = sample.next_h_at};
   const torch::NoGradGuard none;
   said.slow_q = torch::maximum(nets->slow_q1(with_action, sample.h_at),
                                nets->slow_q2(with_action, sample.h_at));
@@ -237,13 +237,13 @@ Said said_by(DangerNets& nets, const Sample& sample) {
 }
 
 /// What two obstacles look like to the networks of pairs, and what they are by themselves.
-struct PairSeen {
+struct PairInputs {
   Tensor inputs;  ///< (B x num_pair_inputs)
   Tensor v;       ///< (B), the higher one [m]
   Tensor share;   ///< (B), pair_share
 };
 
-PairSeen seen_as_pair(DangerNets& singles, const Tensor& inputs, const Tensor& h_at) {
+PairInputs seen_as_pair(DangerNets& singles, const Tensor& inputs, const Tensor& h_at) {
   const torch::NoGradGuard none;
   const Tensor both = singles->v(inputs, h_at).view({-1, 2});
   const Tensor first_is_other = both.select(1, 0) < both.select(1, 1);
@@ -258,18 +258,18 @@ PairSeen seen_as_pair(DangerNets& singles, const Tensor& inputs, const Tensor& h
 }
 
 /// Of two obstacles: what they are by themselves, and what the networks of pairs add.
-Said said_by(DangerNets& pairs, DangerNets& singles, const Sample& sample) {
-  const PairSeen now = seen_as_pair(singles, sample.inputs, sample.h_at);
+NetworkValues said_by(DangerNets& pairs, DangerNets& singles, const Sample& sample) {
+  const PairInputs now = seen_as_pair(singles, sample.inputs, sample.h_at);
   const Tensor with_action = torch::cat({now.inputs, sample.actions}, 1);
   Tensor single_q;
-  Said said;
+  NetworkValues said;
   {
     const torch::NoGradGuard none;
     const Tensor each = torch::cat({sample.inputs, sample.actions.repeat_interleave(2, 0)}, 1);
     const Tensor q = torch::maximum(singles->q1(each, sample.h_at), singles->q2(each, sample.h_at));
     single_q = std::get<0>(q.view({-1, 2}).max(1));
     said.next_h = std::get<0>(sample.next_h_at.view({-1, 2}).max(1));
-    const PairSeen next = seen_as_pair(singles, sample.next_inputs, sample.next_h_at);
+    const PairInputs next = seen_as_pair(singles, sample.next_inputs, sample.next_h_at);
     said.next_v = next.v + next.share * pairs->v->added(next.inputs);
     said.slow_q = single_q + now.share * torch::maximum(pairs->slow_q1->added(with_action),
                                                         pairs->slow_q2->added(with_action));
@@ -280,7 +280,7 @@ Said said_by(DangerNets& pairs, DangerNets& singles, const Sample& sample) {
   return said;
 }
 
-Losses fitted_losses(FittedNets& nets, const SampleOfOutcomes& sample, const Annealed& now) {
+Losses fitted_losses(FittedNets& nets, const SampleOfOutcomes& sample, const StepSettings& now) {
   Tensor target;
   {
     const torch::NoGradGuard none;
@@ -342,7 +342,7 @@ void expects_sound(const DangerPlan& plan) {
 struct Learner {
   std::shared_ptr<torch::nn::Module> networks;  ///< those that only follow included
   std::vector<Tensor> parameters;               ///< of those that are learnt
-  std::function<Losses(int count, std::mt19937_64& random, const Annealed& now)> losses;
+  std::function<Losses(int count, std::mt19937_64& random, const StepSettings& now)> losses;
   std::function<void()> after_step;
   std::string fingerprint;  ///< of plan, data and the networks that are learnt from
 };
@@ -398,7 +398,7 @@ class DangerTraining {
 
   /// The halves of a batch by themselves: their gradients are added in a fixed order.
   DangerProgress one_step() {
-    const Annealed now = annealed(plan_, done_);
+    const StepSettings now = annealed(plan_, done_);
     for (auto& group : optimiser_.param_groups()) {
       static_cast<torch::optim::AdamOptions&>(group.options()).lr(now.step);
     }
@@ -556,7 +556,7 @@ void DangerNetsImpl::add_to(config::Tensors& tensors, const std::string& prefix)
 
 namespace {
 
-using SaidBy = std::function<Said(DangerNets&, const Sample&)>;
+using SaidBy = std::function<NetworkValues(DangerNets&, const Sample&)>;
 
 /// @param singles  nullptr: of one obstacle
 SaidBy said_of(DangerNets* singles) {
@@ -578,11 +578,11 @@ std::optional<Error> train_on(
     const Experience& experience, DangerNets& nets, const std::vector<DangerNet*>& learnt,
     const DangerPlan& plan, int threads, const std::filesystem::path& state,
     const std::string& earlier, const SaidBy& said,
-    const std::function<Losses(const Said&, const Sample&, const Annealed&)>& losses,
+    const std::function<Losses(const NetworkValues&, const Sample&, const StepSettings&)>& losses,
     const std::function<bool(const DangerProgress&)>& on_point) {
   Learner learner{.networks = nets.ptr(),
                   .losses =
-                      [&](int count, std::mt19937_64& random, const Annealed& now) {
+                      [&](int count, std::mt19937_64& random, const StepSettings& now) {
                         const Sample sample = drawn(experience, count, random);
                         return losses(said(nets, sample), sample, now);
                       },
@@ -601,7 +601,8 @@ std::optional<Error> train_on(
 }
 
 /// Of V from what was reached, wherever the end was seen.
-Losses outcome_losses(const Said& said, const Sample& sample, const Annealed& /*now*/) {
+Losses outcome_losses(const NetworkValues& said, const Sample& sample,
+                      const StepSettings& /*now*/) {
   const Tensor is_seen = torch::isfinite(sample.reached);
   const Tensor off = torch::where(is_seen, said.v - sample.reached, torch::zeros_like(said.v));
   const Tensor loss = (weight_of(said.v.detach()) * squared(off)).mean();
@@ -611,7 +612,8 @@ Losses outcome_losses(const Said& said, const Sample& sample, const Annealed& /*
 }
 
 /// Of Q from what V has of x'.
-Losses improving_losses(const Said& said, const Sample& sample, const Annealed& /*now*/) {
+Losses improving_losses(const NetworkValues& said, const Sample& sample,
+                        const StepSettings& /*now*/) {
   Tensor target;
   {
     const torch::NoGradGuard none;
@@ -687,7 +689,7 @@ Result<DangerNets> improved_q(const Experience& experience, const DangerNet& v,
 
 double joint_value(DangerNets& singles, DangerNets pairs, const Tensor& inputs, const Tensor& h) {
   const torch::NoGradGuard none;
-  const PairSeen seen = seen_as_pair(singles, inputs, h);
+  const PairInputs seen = seen_as_pair(singles, inputs, h);
   return (seen.v + seen.share * pairs->v->added(seen.inputs)).item<double>();
 }
 
@@ -701,7 +703,7 @@ Result<DangerNet> fitted_values(const danger::Outcomes& outcomes, const DangerPl
   const Learner learner{.networks = nets.ptr(),
                         .parameters = nets->v->parameters(),
                         .losses =
-                            [&](int count, std::mt19937_64& random, const Annealed& now) {
+                            [&](int count, std::mt19937_64& random, const StepSettings& now) {
                               return fitted_losses(nets, drawn(outcomes, count, random), now);
                             },
                         .after_step = [&] { follow(nets->slow_v, nets->v, plan.polyak); },

@@ -33,10 +33,10 @@ Result<std::vector<double>> costs_of(const Journal& journal, const fs::path& pat
 }
 
 /// The cost as the optimiser sees it: remembered, or worked out and remembered.
-class Watched {
+class MemoisedCost {
  public:
-  Watched(const Problem& problem, const Journal& journal, std::vector<double> known,
-          const std::function<bool(const Progress&)>& look)
+  MemoisedCost(const Problem& problem, const Journal& journal, std::vector<double> known,
+               const std::function<bool(const Progress&)>& look)
       : problem_(problem), journal_(journal), known_(std::move(known)), look_(look) {}
 
   double operator()(const std::vector<double>& x) {
@@ -87,11 +87,11 @@ std::uint64_t digest(const Problem& problem) {
 }
 
 double evaluate(const std::vector<double>& x, std::vector<double>& /*gradient*/, void* watched) {
-  return (*static_cast<Watched*>(watched))(x);
+  return (*static_cast<MemoisedCost*>(watched))(x);
 }
 
 void search(nlopt::algorithm algorithm, const Problem& problem, std::vector<double> start,
-            int evaluations, Watched& watched) {
+            int evaluations, MemoisedCost& watched) {
   nlopt::opt optimiser(algorithm, static_cast<unsigned>(start.size()));
   optimiser.set_lower_bounds(problem.low);
   optimiser.set_upper_bounds(problem.high);
@@ -127,7 +127,7 @@ Result<std::optional<Minimum>> minimise(const Problem& problem, const Effort& ef
   if (!known.has_value()) {
     return known.error();
   }
-  Watched watched(problem, written, std::move(known).value(), look);
+  MemoisedCost watched(problem, written, std::move(known).value(), look);
   nlopt::srand(effort.seed);
   search(nlopt::GN_CRS2_LM, problem, problem.start, effort.evaluations - effort.evaluations / 5,
          watched);

@@ -78,7 +78,7 @@ inline Turn turned(Turn start, double angle) {
 }
 
 // What does not change within a step.
-struct Held {
+struct StepConstants {
   Command command;  // limited, the brakes' part delayed
   PerWheel grip;
   Turn heading;   // at the step's start, with its yaw
@@ -89,7 +89,7 @@ struct Held {
   bool at_rest = false;
 };
 
-Held held_from(const StateVector& start, const Command& command, const PerWheel& grip) {
+StepConstants held_from(const StateVector& start, const Command& command, const PerWheel& grip) {
   return {.command = command,
           .grip = grip,
           .heading = turn_by(start[StateVector::yaw]),
@@ -98,13 +98,13 @@ Held held_from(const StateVector& start, const Command& command, const PerWheel&
           .steering_angle = start[StateVector::steering]};
 }
 
-Wheels wheels_of(const Vehicle& car, const StateVector& state_vector, const Held& held) {
+Wheels wheels_of(const Vehicle& car, const StateVector& state_vector, const StepConstants& held) {
   const Turn middle =
       turned(held.steering, state_vector[StateVector::steering] - held.steering_angle);
   return wheels_of(car, state_vector, middle, held.grip);
 }
 
-StateVector rates(const Vehicle& car, const StateVector& state_vector, const Held& held) {
+StateVector rates(const Vehicle& car, const StateVector& state_vector, const StepConstants& held) {
   StateVector rate;
   actuator_rates(car, state_vector, held.command, rate);
   equations::Pair<double> force;
@@ -151,7 +151,7 @@ void stop_all(VehicleState& state) {
 
 // A wheel that its brake would stop within 1 ms, and whose brake holds more than the road and the
 // motor turn, is locked.
-void lock_wheels(const Vehicle& car, StateVector& state_vector, Held& held) {
+void lock_wheels(const Vehicle& car, StateVector& state_vector, StepConstants& held) {
   PerWheel locked{};
   bool any = false;
   StateVector stopped = state_vector;
@@ -270,7 +270,7 @@ VehicleState step(const Vehicle& car, const VehicleState& state, const Command& 
     stop_all(next);
   }
   StateVector start = state_vector_of(next);
-  Held held = held_from(start, limited, grip);
+  StepConstants held = held_from(start, limited, grip);
   held.at_rest = holds;
   if (!holds) {
     lock_wheels(car, start, held);
