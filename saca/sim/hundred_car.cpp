@@ -401,7 +401,7 @@ Result<HundredCarImport> import_hundred_car(const fs::path& path,
   if (!event.has_value()) {
     return event.error();
   }
-  std::optional<Error> problem;
+  Error problem{Error::Code::unreadable, path.string() + ": holds no series of the event"};
   for (const fs::path& file : files.series) {
     const Result<std::string> text = read_file(file, many_bytes);
     if (!text.has_value()) {
@@ -413,7 +413,7 @@ Result<HundredCarImport> import_hundred_car(const fs::path& path,
     }
     problem = rows.error();
   }
-  return *problem;
+  return problem;
 }
 
 }  // namespace saca::sim
