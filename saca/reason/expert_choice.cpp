@@ -7,13 +7,13 @@
 
 #include "saca/core/contract.h"
 #include "saca/outcome/ordering.h"
-#include "saca/preview/policy_facts.h"
+#include "saca/reason/prompt.h"
 
 namespace saca::reason {
 
 using manoeuvre::PolicyId;
 
-PolicyId expert_choice(const AllFacts& facts, const memory::PolicyHarms& known) {
+PolicyId expert_choice(const preview::AllFacts& facts, const memory::PolicyHarms& known) {
   const memory::Policies may = admissible(facts);
   expects(may.any(), "something can be driven");
   if (may.test(manoeuvre::index(PolicyId::no_intervention))) {
