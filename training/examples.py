@@ -114,8 +114,7 @@ def sequence_of(example, tokens_of, end_token, answer_weight, rng, harm_scale=0.
     """One example's prompt and its three branches.
 
     tokens_of: text to tokens; end_token: that a reply ends with; answer_weight: of an answer, and of the words that
-    name it in the last statement; rng: where the reasoning is cut; harm_scale: as of
-    shares_of_answers, for the answer at once: the other two follow what was written.
+    name it in the last statement; rng: where the reasoning is cut; harm_scale: as of shares_of_answers, for the answer at once: the other two follow what was written.
     """
     prompt = tokens_of(example.prompt) + tokens_of(PROMPT_TAIL)
     stem = tokens_of(ANSWER_STEM) + tokens_of(" ")
@@ -126,12 +125,10 @@ def sequence_of(example, tokens_of, end_token, answer_weight, rng, harm_scale=0.
     made = Sequence(list(prompt), [0] * len(prompt), list(range(len(prompt))), [0.0] * len(prompt),
                     list(range(-1, len(prompt) - 1)), rng.randint(1, max(1, len(reply) - len(stem) - 1)))
     weights = [1.0] * (len(reply) - 1) + [answer_weight, 1.0]
-    named = _conclusion(example.reply)
-    begin, end = (len(tokens_of(example.reply[:place])) for place in named)
-    if tokens_of(example.reply[:named[1]]) == reply[:end]:
-        weights[begin:end] = [answer_weight] * (end - begin)
-    else:
+    before, named = (tokens_of(example.reply[:place]) for place in _conclusion(example.reply))
+    if named != reply[:len(named)]:
         raise Problem(f"{example.record}: want a tokeniser that ends a token where the choice's name ends, in {example.reply!r}")
+    weights[len(before):len(named)] = [answer_weight] * (len(named) - len(before))
     _add_branch(made, 1, len(prompt), len(prompt) - 1, reply + [end_token], weights)
     _add_branch(made, 2, len(prompt), len(prompt) - 1, stem + digit, [0.0] * len(stem) + [answer_weight])
     made.at_once, made.shares = len(made.tokens) - 1, shares_of_answers(example, harm_scale)

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "saca/core/contract.h"
+#include "saca/outcome/harm.h"
 #include "saca/outcome/ordering.h"
 #include "saca/reason/prompt.h"
 #include "saca/reason/prompt_lines.h"
@@ -24,7 +25,6 @@ using manoeuvre::PolicyId;
 using preview::AllFacts;
 using preview::PolicyFacts;
 using world::Actor;
-using world::ActorKind;
 
 /// A contact less likely than this is no threat.
 constexpr double unlikely = 0.05;
@@ -54,32 +54,26 @@ bool may_touch(const PolicyFacts& facts) {
 
 /// What may be left out of a reply.
 enum class Piece : std::uint8_t {
-  cue,
-  beside,
-  how_sure,
-  unprotected,
-  ends,
-  harm,
-  margin,
-  reason,
-  address
+  cue,          ///< a statement
+  beside,       ///< ", 6.4 m left"
+  how_sure,     ///< ", maintain 0.94"
+  unprotected,  ///< ", unprotected"
+  ends,         ///< "AEB hits car2": how somebody else fares than who threatens
+  harm,         ///< ", harm 0.5943"
+  margin,       ///< ", harm 0.0724", of the next best
+  reason,       ///< a statement
+  address       ///< "The danger is "
 };
 constexpr std::size_t num_pieces = 9;
 
 /// What a reply is put together from. Empty: does not apply.
 struct Arguments {
-  std::string address;      ///< "The danger is "
-  std::string who;          ///< "truck1, 16.0 m ahead"
-  std::string beside;       ///< ", 6.4 m left"
-  std::string how_sure;     ///< ", maintain 0.94"
-  std::string unprotected;  ///< ", unprotected"
-  std::string ends;         ///< "NI hits it", or whom else it hits
-  bool of_whom = false;     ///< that is about who threatens, and always told
-  std::string harm;         ///< ", harm 0.5943"
-  std::string cue;          ///< a statement
-  std::string reason;       ///< a statement
-  std::string conclusion;   ///< a statement
-  std::string margin;       ///< ", harm 0.0724", of the next best
+  std::string who;         ///< "truck1, 16.0 m ahead"
+  std::string end;         ///< ": NI hits it"
+  std::string conclusion;  ///< a statement
+  std::array<std::string, num_pieces> pieces;
+
+  std::string& operator[](Piece piece) { return pieces.at(static_cast<std::size_t>(piece)); }
 };
 
 /// Puts arguments together and words them.
@@ -142,24 +136,24 @@ class Speaker {
     return harm_text(of(facts_, policy).outcome().harm);
   }
 
-  /// The reply with these details.
+  /// The reply with these pieces.
   [[nodiscard]] std::string composed(const Arguments& all,
                                      const std::bitset<num_pieces>& told) const {
-    const auto with = [&](Piece piece, const std::string& text) {
-      return told.test(static_cast<std::size_t>(piece)) ? text : "";
+    const auto with = [&](Piece piece) {
+      const auto place = static_cast<std::size_t>(piece);
+      return told.test(place) ? all.pieces.at(place) : "";
     };
+    const std::string ends = with(Piece::ends);
     std::vector<std::string> statements;
-    const std::string ends = all.ends + with(Piece::harm, all.harm);
     if (!all.who.empty()) {
-      statements.push_back(with(Piece::address, all.address) + all.who +
-                           with(Piece::beside, all.beside) + with(Piece::how_sure, all.how_sure) +
-                           with(Piece::unprotected, all.unprotected) +
-                           (all.of_whom ? ": " + ends : ""));
+      statements.push_back(with(Piece::address) + all.who + with(Piece::beside) +
+                           with(Piece::how_sure) + with(Piece::unprotected) + all.end +
+                           (all.end.empty() ? "" : with(Piece::harm)));
     }
-    statements.push_back(all.of_whom || all.ends.empty() ? "" : with(Piece::ends, ends));
-    statements.push_back(with(Piece::cue, all.cue));
-    statements.push_back(with(Piece::reason, all.reason));
-    statements.push_back(all.conclusion + with(Piece::margin, all.margin));
+    statements.push_back(ends.empty() ? "" : ends + with(Piece::harm));
+    statements.push_back(with(Piece::cue));
+    statements.push_back(with(Piece::reason));
+    statements.push_back(all.conclusion + with(Piece::margin));
     std::erase(statements, "");
     std::string text = "Scenario Analysis\n";
     for (std::size_t i = 0; i < statements.size(); ++i) {
@@ -184,19 +178,18 @@ class Speaker {
       const std::optional<outcome::Contact> contact =
           facts.drivable() ? facts.outcome().contact : std::nullopt;
       const bool hits_who = contact && contact->actor && contact->actor == who;
-      all.ends = called(tried) + ' ' + (hits_who ? "hits it" : end_of(tried));
-      all.of_whom = hits_who || (who && facts.drivable() && !contact);
-      all.harm = with_harm(tried);
+      const std::string how = called(tried) + ' ' + (hits_who ? "hits it" : end_of(tried));
+      const bool of_whom = hits_who || (who && facts.drivable() && !contact);
+      (of_whom ? all.end : all[Piece::ends]) = of_whom ? ": " + how : how;
+      all[Piece::harm] = with_harm(tried);
     }
     if (const world::Cue* const cue = next_cue()) {
-      all.cue = warning(*cue);
+      all[Piece::cue] = warning(*cue);
     } else if (const std::vector<std::string> more = reasons(); !more.empty()) {
-      all.reason = more.at(std::uniform_int_distribution<std::size_t>(0, more.size() - 1)(random_));
+      all[Piece::reason] =
+          more.at(std::uniform_int_distribution<std::size_t>(0, more.size() - 1)(random_));
     }
-    all.conclusion = conclusion();
-    if (const auto next = next_best(); next && admissible(facts_).count() == 1) {
-      all.margin = ", " + harm_of(*next);
-    }
+    conclude(all);
     return all;
   }
 
@@ -229,20 +222,18 @@ class Speaker {
     const std::string name = actor_name(actor);
     const ActorLine told = read_actor_line(rest_of_line(prompt_, name + ": "));
     all.who = name + ", " + told.along;
-    all.beside = beside(who) ? ", " + told.across : "";
+    all[Piece::beside] = beside(who) ? ", " + told.across : "";
     if (is_safe) {
-      all.address = one_of("Nearest to danger is ", "Most to be watched is ");
-      all.how_sure = ", " + told.risk;
+      all[Piece::address] = one_of("Nearest to danger is ", "Most to be watched is ");
+      all[Piece::how_sure] = ", " + told.risk;
       return;
     }
-    all.address = one_of("Most dangerous is ", "The danger is ");
+    all[Piece::address] = one_of("Most dangerous is ", "The danger is ");
     const bool in_time = !told.conflict.empty() && (told.intention.empty() || perhaps());
-    all.how_sure = ", " + (in_time                  ? told.conflict
-                           : told.intention.empty() ? told.risk
-                                                    : told.intention);
-    const bool is_bare = actor.kind == ActorKind::pedestrian || actor.kind == ActorKind::bicycle ||
-                         actor.kind == ActorKind::motorcycle;
-    all.unprotected = is_bare ? ", unprotected" : "";
+    all[Piece::how_sure] = ", " + (in_time                  ? told.conflict
+                                   : told.intention.empty() ? told.risk
+                                                            : told.intention);
+    all[Piece::unprotected] = outcome::unprotected(actor.kind) ? ", unprotected" : "";
   }
 
   /// Whether where somebody is sideways says more than that he is ahead.
@@ -338,17 +329,18 @@ class Speaker {
 
   // Why this choice and not the next best. It begins with its name, so that what is chosen is
   // settled before it is reasoned why.
-  std::string conclusion() {
+  void conclude(Arguments& all) const {
     const std::string chosen = "So " + called(choice_) + ": ";
     const std::optional<PolicyId> other = next_best();
     if (!other) {
-      return chosen + "it alone is possible";
+      all.conclusion = chosen + "it alone is possible";
+    } else if (admissible(facts_).count() == 1) {
+      all.conclusion = chosen + "least harm, next " + called(*other);
+      all[Piece::margin] = ", " + harm_of(*other);
+    } else {
+      all.conclusion = chosen + "as good as " + called(*other) +
+                       advantage(of(facts_, choice_), of(facts_, *other));
     }
-    if (admissible(facts_).count() == 1) {
-      return chosen + "least harm, next " + called(*other);
-    }
-    return chosen + "as good as " + called(*other) +
-           advantage(of(facts_, choice_), of(facts_, *other));
   }
 
   /// The best by forecast of the others.

@@ -9,8 +9,8 @@ namespace saca::reason {
 /// there.
 [[nodiscard]] std::string_view rest_of_line(std::string_view prompt, std::string_view beginning);
 
-/// What a prompt's line about a road user says, piece by piece, as it is written there. Empty
-/// pieces are not told.
+/// What a prompt's line about a road user says, piece by piece, as it is written there. A piece is
+/// empty where the line has none.
 struct ActorLine {
   std::string along;      ///< "16.0 m ahead"
   std::string across;     ///< "6.4 m left"
