@@ -8,7 +8,7 @@
 
 #include "saca/core/contract.h"
 #include "saca/core/names.h"
-#include "saca/manoeuvre/batch.h"
+#include "saca/core/simd_level.h"
 #include "saca/vehicle/vehicle.h"
 #include "saca/world/road.h"
 

@@ -15,81 +15,19 @@
 #include "saca/core/fnv.h"
 #include "saca/core/journal.h"
 #include "saca/core/parallel.h"
+#include "saca/manoeuvre/atlas_identity.h"
+#include "saca/manoeuvre/atlas_point.h"
 #include "saca/manoeuvre/batch.h"
-#include "saca/manoeuvre/drive.h"
-#include "saca/manoeuvre/ego.h"
 
 namespace saca::manoeuvre {
 namespace {
 
-constexpr double least_width = 2.0;  // lanes that `refusal` allows [m]
-constexpr double most_width = 6.0;
-constexpr double longest_stop = 120.0;  // [s]
-constexpr double keep_time = 20.0;      // of what never ends [s]
+constexpr double keep_time = 20.0;  // of what never ends [s]
 constexpr std::size_t nodes_at_once = 32;
-
-// Where on the grid.
-struct Point {
-  AtlasKind kind = AtlasKind::stop;
-  double speed = 0.0;
-  double grip = 0.0;
-  double way = 0.0;
-  double share = 0.0;
-};
-
-Point point_of(const AtlasGrid& grid, std::size_t number) {
-  std::size_t kind = 0;
-  while (number >= grid[kind].num_nodes()) {
-    number -= grid[kind].num_nodes();
-    ++kind;
-    expects(kind < num_atlas_kinds, "number < num_nodes(grid)");
-  }
-  const AtlasAxes& axes = grid[kind];
-  Point point{.kind = static_cast<AtlasKind>(kind)};
-  point.share = axes.shares[number % axes.shares.size()];
-  number /= axes.shares.size();
-  point.way = axes.ways[number % axes.ways.size()];
-  number /= axes.ways.size();
-  point.grip = axes.grips[number % axes.grips.size()];
-  point.speed = axes.speeds[number / axes.grips.size()];
-  return point;
-}
-
-Plan plan_of(const Point& point) {
-  switch (point.kind) {
-    case AtlasKind::stop:
-      return {.policy = PolicyId::aeb, .strength = point.share};
-    case AtlasKind::keep:
-      return {PolicyId::no_intervention, std::nullopt};
-    case AtlasKind::swerve:
-      return {PolicyId::aes_left, std::nullopt};
-    case AtlasKind::braked_swerve:
-      return {PolicyId::es_b_left, point.share * point.speed};
-    case AtlasKind::swerve_stop:
-      return {PolicyId::es_b_left, 0.0};
-    case AtlasKind::drift:
-      break;
-  }
-  return {PolicyId::t_drift_left, std::nullopt};
-}
-
-// Straight along the lane; a way that no lane is wide enough for begins beside the middle.
-world::Scene scene_of(const Car& car, const Point& point) {
-  world::Scene scene;
-  scene.grip = point.grip;
-  scene.ego.v_B = {point.speed, 0.0};
-  scene.ego_footprint = footprint(car);
-  scene.ego_mass = car.mass;
-  if (point.way > 0.0) {
-    scene.road.lane_width = std::clamp(point.way, least_width, most_width);
-    scene.ego.X_WB.p.y = scene.road.lane_width - point.way;
-  }
-  return scene;
-}
 
 // How long to follow what does not stop: past its end, and smooth over the grid, so that equal
 // shares of it are alike on neighbouring nodes.
-double span_of(const Point& point) {
+double span_of(const AtlasPoint& point) {
   if (point.kind == AtlasKind::keep) {
     return keep_time;
   }
@@ -100,34 +38,8 @@ double span_of(const Point& point) {
          (1.0 - share) * point.speed / (0.72 * point.grip * g);
 }
 
-// A drive as it was: six numbers every `step`, of the lane's frame at the start.
-struct Trace {
-  double step = 0.01;                       ///< [s]
-  std::vector<std::array<double, 6>> look;  ///< x, y, heading, and their rates
-  double end = 0.0;                         ///< [s]
-  bool ended = false;
-};
-
-// @param longest  what comes later is left out, and the drive has then not ended
-Trace trace_of(const EgoMotion& motion, double longest) {
-  const std::vector<Pose>& X_LB = motion.track.X_WA;
-  Trace trace{.step = motion.track.step};
-  const auto most = static_cast<std::size_t>(std::ceil(longest / trace.step - 1e-9)) + 1;
-  const std::size_t count = std::min(X_LB.size(), most);
-  double heading = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    heading += wrap_angle(X_LB[i].yaw - heading);
-    const Vec2 v_L = rotated(motion.v_B[i], X_LB[i].yaw);
-    trace.look.push_back(
-        {X_LB[i].p.x, X_LB[i].p.y - X_LB[0].p.y, heading, v_L.x, v_L.y, motion.yaw_rate[i]});
-  }
-  trace.ended = motion.ended && count == X_LB.size();
-  trace.end = static_cast<double>(count - 1) * trace.step;
-  return trace;
-}
-
 // All six numbers at a time. Beyond its end a drive stays where it is, or keeps to its lane.
-std::array<double, 6> at(const Trace& trace, double time) {
+std::array<double, 6> at(const AtlasTrace& trace, double time) {
   const double place = std::max(0.0, time / trace.step);
   const auto i = static_cast<std::size_t>(place);
   if (i + 1 >= trace.look.size()) {
@@ -158,7 +70,7 @@ float quantise(const std::array<double, n>& values, std::array<std::int16_t, n>&
   return scale;
 }
 
-void store_path(const Trace& trace, AtlasNode& node) {
+void store_path(const AtlasTrace& trace, AtlasNode& node) {
   constexpr double last = atlas_samples - 1;
   const double span = static_cast<double>(node.span);
   std::array<std::array<double, atlas_samples>, 6> channel{};
@@ -173,7 +85,7 @@ void store_path(const Trace& trace, AtlasNode& node) {
   }
 }
 
-void store_sensitivity(const Trace& middle, const Trace& other, std::size_t first,
+void store_sensitivity(const AtlasTrace& middle, const AtlasTrace& other, std::size_t first,
                        AtlasNode& node) {
   constexpr double last = sensitivity_samples - 1;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -187,29 +99,22 @@ void store_sensitivity(const Trace& middle, const Trace& other, std::size_t firs
   }
 }
 
-// The builder drives just beyond the domain too, so that every cell which touches it has corners.
-Car unbounded(Car car) {
-  car.tuning.domain.slowest.fill(0.0);
-  car.tuning.domain.fastest.fill(fastest);
-  return car;
-}
-
 // A point of the grid, and its drives on the grip of `grip_factors`.
 constexpr std::array grip_factors{1.0, 1.0 - sensitivity_grip_step, 1.0 + sensitivity_grip_step};
 struct Node {
-  Point point;
-  std::array<Trace, grip_factors.size()> traces;
+  AtlasPoint point;
+  std::array<AtlasTrace, grip_factors.size()> traces;
 };
 
 // How long it is followed: what stops, to rest.
-double longest_of(const Point& point) {
+double longest_of(const AtlasPoint& point) {
   return ends_at_rest(point.kind) ? longest_stop : span_of(point);
 }
 
 void drive_nodes(const Car& driven, std::vector<Node>& nodes) {
   std::vector<Drive> drives;
   for (const Node& node : nodes) {
-    const Point& point = node.point;
+    const AtlasPoint& point = node.point;
     const world::Scene scene = scene_of(driven, point);
     for (const double factor : grip_factors) {
       drives.push_back({.car = &driven,
@@ -309,61 +214,6 @@ std::string title_of(const Car& car, const AtlasGrid& grid) {
 }
 
 }  // namespace
-
-std::uint64_t car_hash(const Car& car) {
-  Fnv hash;
-  hash.add_doubles(static_cast<const vehicle::Vehicle&>(car));
-  hash.add_doubles(car.tuning.swerve);
-  hash.add_doubles(car.tuning.drift);
-  hash.add_doubles(car.tuning.domain);
-  return hash.value();
-}
-
-std::uint64_t grid_hash(const AtlasGrid& grid) {
-  Fnv hash;
-  for (const AtlasAxes& axes : grid) {
-    for (const AtlasAxes::Axis* axis : {&axes.speeds, &axes.grips, &axes.ways, &axes.shares}) {
-      hash.add(axis->size());
-      for (const double value : *axis) {
-        hash.add(std::bit_cast<std::uint64_t>(value));
-      }
-    }
-  }
-  return hash.value();
-}
-
-Behaviour behaviour(const Car& car) {
-  constexpr double a_while = 1.5;  // [s] of what does not stop
-  const Car driven = unbounded(car);
-  Behaviour all{};
-  auto out = all.begin();
-  for (std::size_t i = 0; i <= num_atlas_kinds; ++i) {
-    const auto kind = i < num_atlas_kinds ? static_cast<AtlasKind>(i) : AtlasKind::stop;
-    const bool in_full = i == static_cast<std::size_t>(AtlasKind::stop);
-    const bool turns = kind >= AtlasKind::swerve && kind != AtlasKind::drift;
-    for (const double speed : {9.0, 15.0}) {
-      const Point point{kind, speed, 0.8, turns ? 3.4 : 0.0, in_full ? 1.0 : 0.5};
-      const double longest = ends_at_rest(point.kind) ? longest_stop : a_while;
-      const Trace trace = trace_of(
-          drive(driven, plan_of(point), scene_of(car, point), 0.9 * point.grip, longest), longest);
-      const auto last = trace.look.back();
-      for (const double number : {last[0], last[1], last[2], trace.end}) {
-        *out++ = number;
-      }
-    }
-  }
-  return all;
-}
-
-bool alike(const Behaviour& a, const Behaviour& b) {
-  constexpr double tolerance = 1.5e-3;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (!(std::abs(a[i] - b[i]) <= tolerance)) {
-      return false;
-    }
-  }
-  return true;
-}
 
 std::vector<AtlasNode> atlas_nodes(const Car& car, const AtlasGrid& grid,
                                    std::span<const std::size_t> numbers) {

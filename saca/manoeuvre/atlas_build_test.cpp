@@ -129,35 +129,5 @@ TEST_F(AtlasBuild, WhoStandsStaysAtOnce) {
   EXPECT_EQ(node.ended, 1U);
 }
 
-TEST_F(AtlasBuild, HashesTellCarsTuningsAndGridsApart) {
-  const Car car = small_atlas_car();
-  Car heavier = car;
-  heavier.mass *= 1.0 + 1e-15;
-  Car tuned = car;
-  tuned.tuning.swerve.damping += 0.01;
-  Car bounded = car;
-  bounded.tuning.domain.slowest[3] += 0.5;
-  EXPECT_EQ(car_hash(car), car_hash(Car(car)));
-  EXPECT_NE(car_hash(car), car_hash(heavier));
-  EXPECT_NE(car_hash(car), car_hash(tuned));
-  EXPECT_NE(car_hash(car), car_hash(bounded));
-  EXPECT_NE(grid_hash(small_grid()), grid_hash(tiny_grid()));
-}
-
-// A controller that steers a little otherwise is another one, whoever forgot to say so.
-TEST_F(AtlasBuild, BehaviourShowsAControllerThatDrivesOtherwise) {
-  const Behaviour now = behaviour(small_atlas_car());
-  EXPECT_TRUE(alike(now, behaviour(small_atlas_car())));
-  Car swerves = small_atlas_car();
-  swerves.tuning.swerve.damping *= 0.97;
-  EXPECT_FALSE(alike(now, behaviour(swerves)));
-  Car drifts_on = small_atlas_car();
-  drifts_on.tuning.drift.gain *= 0.97;
-  EXPECT_FALSE(alike(now, behaviour(drifts_on)));
-  Car brakes = small_atlas_car();
-  brakes.brake_lag += 0.005;
-  EXPECT_FALSE(alike(now, behaviour(brakes)));
-}
-
 }  // namespace
 }  // namespace saca::manoeuvre::atlas_build_test

@@ -6,7 +6,7 @@
 
 #include "saca/core/result.h"
 #include "saca/manoeuvre/atlas.h"
-#include "saca/manoeuvre/atlas_build.h"
+#include "saca/manoeuvre/atlas_identity.h"
 
 namespace saca::manoeuvre {
 

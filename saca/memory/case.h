@@ -11,11 +11,10 @@
 
 #include "saca/intent/intention.h"
 #include "saca/manoeuvre/plan.h"
+#include "saca/memory/case_id.h"
 #include "saca/world/scene.h"
 
 namespace saca::memory {
-
-using CaseId = std::int64_t;
 
 /// Where what a case says comes from.
 enum class Origin : std::uint8_t {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "saca/memory/case.h"
+#include "saca/memory/case_id.h"
 #include "saca/memory/neighbour_graph.h"
 #include "saca/memory/similarity.h"
 

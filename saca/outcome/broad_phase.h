@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "saca/manoeuvre/batch.h"
+#include "saca/core/simd_level.h"
 #include "saca/world/footprint.h"
 #include "saca/world/track.h"
 

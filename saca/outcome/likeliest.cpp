@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "saca/manoeuvre/batch.h"
+#include "saca/core/simd_level.h"
 
 namespace saca::outcome {
 namespace {

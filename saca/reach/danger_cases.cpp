@@ -102,8 +102,4 @@ Result<std::vector<DangerCase>> danger_cases(const Avoidance& car, const Footpri
   return cases;
 }
 
-Scheme danger_scheme(int threads) {
-  return {.steps = Steps::tvd_rk2, .cfl = 0.9, .threads = threads};
-}
-
 }  // namespace saca::reach

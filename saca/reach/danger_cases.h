@@ -7,7 +7,6 @@
 #include "saca/core/result.h"
 #include "saca/reach/avoidance_case.h"
 #include "saca/reach/danger.h"
-#include "saca/reach/solve.h"
 
 namespace saca::reach {
 
@@ -38,8 +37,5 @@ struct DangerCase {
 [[nodiscard]] Result<std::vector<DangerCase>> danger_cases(const Avoidance& car,
                                                            const world::Footprint& ego, double grip,
                                                            std::span<const ObstacleKind> wanted);
-
-/// By which they are solved for runs.
-[[nodiscard]] Scheme danger_scheme(int threads);
 
 }  // namespace saca::reach

@@ -342,6 +342,10 @@ Problem avoidance_problem(const AvoidanceCase& asked) {
   return problem;
 }
 
+Scheme danger_scheme(int threads) {
+  return {.steps = Steps::tvd_rk2, .cfl = 0.9, .threads = threads};
+}
+
 std::string described(const Scheme& scheme) {
   constexpr int solver = 1;
   return fmt::format("{}, {}, cfl {}, {}, solver {}", name_of(scheme.differences, difference_names),

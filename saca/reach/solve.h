@@ -46,6 +46,9 @@ struct Scheme {
   bool with_error = true;  ///< solve on half as many points as well: the difference is the error
 };
 
+/// By which tables of danger (danger_cases.h) are solved for runs.
+[[nodiscard]] Scheme danger_scheme(int threads);
+
 /// "weno5, rk3, cfl 0.75, floats, solver 1": all on which the values depend but for rounding. The
 /// last number rises with each change of the solver that changes values by more than that.
 [[nodiscard]] std::string described(const Scheme& scheme);

@@ -9,7 +9,7 @@
 
 #include "saca/core/simd_level.h"
 #include "saca/decide/forecaster.h"
-#include "saca/manoeuvre/atlas_build.h"
+#include "saca/manoeuvre/atlas_identity.h"
 
 namespace saca::runtime {
 namespace {
