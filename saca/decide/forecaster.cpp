@@ -230,6 +230,11 @@ Verdict Forecaster::judge_as_seen(const Scene& scene, const intent::Beliefs& bel
   return verdict;
 }
 
+JudgedPlan judged(const preview::ExpectedHarm& one) {
+  return {
+      .plan = one.plan, .drivable = one.refusal.empty(), .harm = one.harm, .contact = one.contact};
+}
+
 Judge judge_with(const preview::ForecastTools& tools) {
   return
       [forecaster = Forecaster(tools)](const auto&... seen) { return forecaster.judge(seen...); };

@@ -5,33 +5,15 @@
 #include <optional>
 #include <vector>
 
+#include "saca/decide/under_way.h"
 #include "saca/decide/verdict.h"
 #include "saca/intent/observer.h"
 #include "saca/manoeuvre/plan.h"
 #include "saca/preview/expected_harm.h"
 #include "saca/preview/policy_facts.h"
-#include "saca/world/road.h"
 #include "saca/world/scene.h"
 
 namespace saca::decide {
-
-/// Does it matter for the rest of a plan when and where it began? Of braking, however hard, and of
-/// doing nothing, what is left is what begins now.
-[[nodiscard]] constexpr bool has_past(const manoeuvre::Plan& plan) {
-  return plan.policy != manoeuvre::PolicyId::aeb &&
-         plan.policy != manoeuvre::PolicyId::no_intervention;
-}
-
-/// A plan that is being carried out. Trivially copyable.
-struct UnderWay {
-  manoeuvre::Plan plan;
-  double begun = 0.0;   ///< [s], in the scene's time
-  world::EgoState ego;  ///< then
-  world::Road road;     ///< likewise
-  double grip = 0.9;    ///< as it was believed then [-]
-
-  bool operator==(const UnderWay&) const = default;
-};
 
 /// What makes verdicts: as Forecaster::judge. May throw.
 using Judge = std::function<Verdict(const world::Scene&, const intent::Beliefs&,
@@ -104,6 +86,8 @@ class Forecaster {
   preview::ForecastTools tools_;
   std::size_t num_draws_;
 };
+
+[[nodiscard]] JudgedPlan judged(const preview::ExpectedHarm& one);
 
 /// A Forecaster as a judge.
 [[nodiscard]] Judge judge_with(const preview::ForecastTools& tools);

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "saca/decide/atlas_judge.h"
-#include "saca/decide/forecaster.h"
 #include "saca/decide/plan_cache.h"
 #include "saca/decide/supervisor.h"
 #include "saca/decide/track_confirmation.h"
+#include "saca/decide/under_way.h"
 #include "saca/decide/verdict.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/manoeuvre/plan.h"

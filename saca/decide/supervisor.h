@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "saca/core/static_vector.h"
-#include "saca/decide/forecaster.h"
+#include "saca/decide/under_way.h"
 #include "saca/decide/verdict.h"
 #include "saca/manoeuvre/car.h"
 #include "saca/manoeuvre/plan.h"

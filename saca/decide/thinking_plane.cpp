@@ -11,6 +11,7 @@
 #include "saca/decide/facts_change.h"
 #include "saca/decide/reflex_plane.h"
 #include "saca/memory/similarity.h"
+#include "saca/preview/previewed_threat.h"
 #include "saca/reason/prompt.h"
 #include "saca/reason/reply.h"
 #include "saca/reason/truth.h"

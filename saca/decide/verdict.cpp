@@ -35,11 +35,6 @@ bool is_admissible(const JudgedPlan& plan, std::optional<double> admissible) {
 
 }  // namespace
 
-JudgedPlan judged(const preview::ExpectedHarm& one) {
-  return {
-      .plan = one.plan, .drivable = one.refusal.empty(), .harm = one.harm, .contact = one.contact};
-}
-
 void spread_over_strengths(Verdict& verdict) noexcept {
   constexpr double weight = 0.25;  // of each neighbour
   const Verdict told = verdict;

@@ -5,8 +5,7 @@
 
 #include "saca/core/static_vector.h"
 #include "saca/manoeuvre/plan.h"
-#include "saca/preview/expected_harm.h"
-#include "saca/preview/policy_facts.h"
+#include "saca/preview/plans.h"
 
 namespace saca::decide {
 
@@ -20,8 +19,6 @@ struct JudgedPlan {
   std::optional<double> as_seen;  ///< the harm without what is only supposed, by cues of the
                                   ///< scene; nullopt: nothing was
 };
-
-[[nodiscard]] JudgedPlan judged(const preview::ExpectedHarm& one);
 
 /// What every plan is expected to end in, from one scene on. Trivially copyable: it crosses from
 /// the forecaster to the reflex plane by value.

@@ -13,6 +13,7 @@
 #include "saca/loop/closed_loop.h"
 #include "saca/manoeuvre/ego.h"
 #include "saca/preview/caution.h"
+#include "saca/preview/previewed_threat.h"
 #include "saca/runtime/avoider.h"
 #include "saca/sim/motion.h"
 #include "saca/sim/stepper.h"

@@ -9,6 +9,7 @@
 #include "saca/core/contract.h"
 #include "saca/manoeuvre/drive.h"
 #include "saca/preview/caution.h"
+#include "saca/preview/previewed_threat.h"
 #include "saca/world/time_to_conflict.h"
 
 namespace saca::loop {

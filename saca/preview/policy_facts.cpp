@@ -65,10 +65,6 @@ class FollowedFutures {
   std::vector<SpreadOverTime> spreads_;
 };
 
-std::span<const double> strengths_of(Braking braking) {
-  return braking == Braking::full ? std::span<const double>() : manoeuvre::braking_strengths;
-}
-
 /// What the atlas has of each policy: of 3 and 4 of the best of their target speeds, of 0 of the
 /// best of its strengths.
 outcome::Futures read(const Scene& scene, const std::vector<Track>& tracks,
@@ -120,25 +116,6 @@ std::optional<AllFacts> read_facts(const Scene& scene, const std::vector<Track>&
 }
 
 }  // namespace
-
-Plans all_plans(double speed, Braking braking) {
-  Plans plans;
-  for (const PolicyId policy : manoeuvre::all_policies) {
-    if (!manoeuvre::brakes_to_speed(policy)) {
-      plans.push_back({policy, std::nullopt});
-      if (manoeuvre::takes_strength(policy)) {
-        for (const double strength : strengths_of(braking)) {
-          plans.push_back({policy, std::nullopt, strength});
-        }
-      }
-      continue;
-    }
-    for (const double share : outcome::target_shares) {
-      plans.push_back({policy, share * speed});
-    }
-  }
-  return plans;
-}
 
 std::optional<std::vector<PolicyFacts>> read_plans(const Scene& scene,
                                                    const std::vector<Track>& tracks,

@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "saca/core/static_vector.h"
 #include "saca/intent/cue_law.h"
 #include "saca/intent/motion.h"
 #include "saca/manoeuvre/atlas.h"
@@ -15,16 +14,11 @@
 #include "saca/outcome/harm.h"
 #include "saca/outcome/roll_out.h"
 #include "saca/preview/caution.h"
+#include "saca/preview/plans.h"
 #include "saca/preview/situation.h"
 #include "saca/reach/danger.h"
 
 namespace saca::preview {
-
-/// How policy 0 may brake.
-enum class Braking : std::uint8_t {
-  any_strength,  ///< with all the grip, or one of manoeuvre::braking_strengths of it
-  full,          ///< with all of it, as the paper has it
-};
 
 /// What futures are forecast with. What it points to outlives the forecasts.
 struct ForecastTools {
@@ -36,14 +30,6 @@ struct ForecastTools {
   Braking braking = Braking::any_strength;     ///< which plans there are
   const intent::CueLaw* cues = nullptr;        ///< what cues of a scene stand for; nullptr: nothing
 };
-
-/// Every plan that can be chosen at `speed` [m/s]: each policy, 3 and 4 once for each of
-/// outcome::target_shares of it, and 0 once more for each of manoeuvre::braking_strengths; of each
-/// the default (manoeuvre::default_plan) first. Allocates nothing.
-using Plans =
-    StaticVector<manoeuvre::Plan, manoeuvre::num_policies + 2 * outcome::target_shares.size() +
-                                      manoeuvre::braking_strengths.size()>;
-[[nodiscard]] Plans all_plans(double speed, Braking braking = Braking::any_strength);
 
 /// What each policy ends in when it begins in `scene` and the actors follow their tracks, those
 /// behind the ego but react to it: see with_reacting_followers. 3 and 4 brake to whichever of

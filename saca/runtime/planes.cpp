@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "saca/core/names.h"
+#include "saca/preview/previewed_threat.h"
 
 namespace saca::runtime {
 namespace {
