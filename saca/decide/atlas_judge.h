@@ -9,7 +9,7 @@
 #include "saca/manoeuvre/plan.h"
 #include "saca/outcome/harm.h"
 #include "saca/preview/followers.h"
-#include "saca/preview/policy_facts.h"
+#include "saca/preview/plans.h"
 #include "saca/world/scene.h"
 #include "saca/world/track.h"
 
